@@ -1,0 +1,60 @@
+// Bounds: which values the coefficients of an impact can take, whatever its restitution.
+//
+// Mirrors ricochet.v1.BoundsResponse field by field. With x = mu |b|/a < 1 and r = (1-x)/(1+x), Lubarda (2009):
+//   sharp        0 <= Newton <= sqrt(r), 0 <= Poisson <= 1/sqrt(r), 0 <= eta <= 1          [29], [30]
+//                tau0 <= tau1 <= (1 + 1/sqrt(r)) tau0                                      [31]
+//                -(a/|b|)(1 - sqrt(1 - x^2)) <= mu_hat <= mu                               [55]
+//   energy only  Newton <= 1, Poisson <= 1/r, from E+ <= E- alone                          [27], [28]
+//   first order  Newton <= 1 - x, Poisson <= 1 + x, mu_hat >= -mu x/2                      [57], [58], [60]
+
+#ifndef RICOCHET_CORE_BOUNDS_H_
+#define RICOCHET_CORE_BOUNDS_H_
+
+#include <optional>
+
+#include "core/outcome.h"
+
+namespace ricochet {
+
+// A closed interval.
+struct Range {
+  double lower = 0.0;
+  double upper = 0.0;
+  friend bool operator==(const Range&, const Range&) = default;
+};
+
+struct CoefficientBounds {
+  Range newton;
+  Range poisson;
+  Range energetic;
+  Range tangential;        // Brach's mu_hat, mirrored for b < 0.
+  Range normal_total_n_s;  // tau1; [0, 0] where the contact separates.
+  friend bool operator==(const CoefficientBounds&, const CoefficientBounds&) = default;
+};
+
+// The forms for a nearly vertical impact, first order in x, and how far from the exact value each may lie.
+// The errors hold for every x < 1 and are derived in core/laws/nearly_vertical.h.
+struct NearlyVertical {
+  CoefficientBounds bounds;                  // [57], [58], [60]
+  double newton_error = 0.0;                 // |bounds.newton.upper - exact| <= this, and so on.
+  double poisson_error = 0.0;
+  double tangential_error = 0.0;
+  double normal_total_error_n_s = 0.0;
+  std::optional<Coefficients> coefficients;  // [56], [59] at the scene's restitution; absent where it states none.
+  Coefficients coefficient_errors;           // |coefficients - exact| <= these.
+  friend bool operator==(const NearlyVertical&, const NearlyVertical&) = default;
+};
+
+struct Bounds {
+  Regime regime = Regime::kUnspecified;  // kFrictionless, kRebound, kLocked or kSeparating.
+  double friction_ratio = 0.0;           // x = mu |b|/a, the energy ratio of [42].
+  double slope_ratio = 0.0;              // r = (a - mu|b|)/(a + mu|b|), negative above the locking threshold.
+  CoefficientBounds sharp;               // Fed back to Solve, each end is admissible.
+  CoefficientBounds energy_only;         // Weaker: what kinetic energy alone allows.
+  std::optional<NearlyVertical> nearly_vertical;  // Absent where locked.
+  friend bool operator==(const Bounds&, const Bounds&) = default;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_BOUNDS_H_

@@ -1,0 +1,19 @@
+// A pendulum's impact as an Outcome: contact velocities, ledger, timeline, limits broken.
+
+#ifndef RICOCHET_CORE_MODELS_PENDULUM_OUTCOME_H_
+#define RICOCHET_CORE_MODELS_PENDULUM_OUTCOME_H_
+
+#include "absl/status/statusor.h"
+#include "absl/types/span.h"
+#include "core/models/pendulum.h"
+#include "core/outcome.h"
+
+namespace ricochet::pendulum {
+
+// Errors: OUT_OF_RANGE naming the first output that exceeds the largest double; INVALID_ARGUMENT for each
+// history_at_n_s that is not in [0, tau1].
+absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s);
+
+}  // namespace ricochet::pendulum
+
+#endif  // RICOCHET_CORE_MODELS_PENDULUM_OUTCOME_H_

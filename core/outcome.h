@@ -1,0 +1,123 @@
+// Outcome: what is answered. Velocities, impulses, coefficients, works, events and limits broken by one impact.
+//
+// Mirrors ricochet.v1.Outcome field by field. SI units and radians. Tangential quantities are along t, normal ones
+// along n (core/scene/scene.h); impulses act on the striking body. `energy_change_j` is E+ - E-, negative for a loss.
+
+#ifndef RICOCHET_CORE_OUTCOME_H_
+#define RICOCHET_CORE_OUTCOME_H_
+
+#include <vector>
+
+namespace ricochet {
+
+// What the contact point did. The numbers are those of ricochet.v1.Regime.
+enum class Regime {
+  kUnspecified = 0,
+  kFrictionless = 1,  // x = mu |b|/a = 0: no tangential coupling, the three coefficients are equal.
+  kRebound = 2,       // Pendulum, 0 < x < 1: slip reverses where compression ends.
+  kSliding = 3,
+  kStickInCompression = 4,
+  kStickInRestitution = 5,
+  kReversalInCompression = 6,
+  kReversalInRestitution = 7,
+  kLocked = 8,      // The pin and friction hold the body: no restitution, velocities 0, coefficients 0.
+  kWedged = 9,      // A compliant contact that never ends.
+  kSeparating = 10,  // The contact does not approach: nothing changes.
+  kInvalid = 11,     // Sweeps and batches only: a point that breaks a rule or overflows; its columns are quiet NaN.
+};
+inline constexpr int kRegimeCount = 12;
+
+struct Coefficients {
+  double newton = 0.0;
+  double poisson = 0.0;
+  double energetic = 0.0;
+  double tangential = 0.0;  // Brach's mu_hat = tangential / normal impulse, signed. Lubarda Eq. (49).
+  friend bool operator==(const Coefficients&, const Coefficients&) = default;
+};
+
+// Lists are by tangential direction: one entry in a plane, two in space.
+struct ContactVelocity {
+  std::vector<double> tangential_m_s;
+  double normal_m_s = 0.0;
+  friend bool operator==(const ContactVelocity&, const ContactVelocity&) = default;
+};
+
+struct Impulse {
+  double normal_compression_n_s = 0.0;      // tau0
+  double normal_total_n_s = 0.0;            // tau1
+  std::vector<double> tangential_n_s;       // f1
+  friend bool operator==(const Impulse&, const Impulse&) = default;
+};
+
+// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j.
+struct WorkLedger {
+  double normal_compression_j = 0.0;
+  double normal_restitution_j = 0.0;
+  double tangential_compression_j = 0.0;
+  double tangential_restitution_j = 0.0;
+  double normal_total_j = 0.0;      // -(energy lost to irreversible deformation), Lubarda Eq. (37).
+  double tangential_total_j = 0.0;  // -(energy lost to friction), Lubarda Eq. (35).
+  double residual_j = 0.0;          // Sum of the four works minus energy_change_j: rounding only.
+  friend bool operator==(const WorkLedger&, const WorkLedger&) = default;
+};
+
+// An instant of the impact. Between two events every quantity is linear in the normal impulse.
+// The numbers are those of ricochet.v1.Event.Kind.
+enum class EventKind {
+  kUnspecified = 0,
+  kStart = 1,
+  kSlipStops = 2,
+  kCompressionEnds = 3,
+  kRestitutionEnds = 4,
+};
+
+// The state of the contact once the normal impulse has reached `normal_impulse_n_s`.
+struct State {
+  double normal_impulse_n_s = 0.0;              // tau, the paper's independent variable, Eq. (3).
+  std::vector<double> tangential_impulse_n_s;   // f(tau), Eq. (48).
+  ContactVelocity contact_velocity;             // u(tau), v(tau).
+  std::vector<double> rates_rad_s;              // w(tau), Eq. (9).
+  friend bool operator==(const State&, const State&) = default;
+};
+
+struct Event {
+  EventKind kind = EventKind::kUnspecified;
+  State state;
+  friend bool operator==(const Event&, const Event&) = default;
+};
+
+// The numbers are those of ricochet.v1.BrokenLimit.Kind.
+enum class LimitKind {
+  kUnspecified = 0,
+  kSharp = 1,   // Implied energetic coefficient > 1: the spring gives back more than it stored. Eq. (29).
+  kEnergy = 2,  // Kinetic energy is created: E+ > E-. Eqs. (27), (28).
+};
+
+// Why an outcome is inadmissible.
+struct BrokenLimit {
+  LimitKind kind = LimitKind::kUnspecified;
+  double value = 0.0;   // kSharp: the implied energetic coefficient; kEnergy: E+ - E- in J.
+  double limit = 0.0;   // kSharp: 1; kEnergy: 0.
+  double excess = 0.0;  // value - limit, without cancellation.
+  friend bool operator==(const BrokenLimit&, const BrokenLimit&) = default;
+};
+
+struct Outcome {
+  Regime regime = Regime::kUnspecified;
+  bool admissible = true;                   // False exactly if broken_limits is not empty.
+  std::vector<BrokenLimit> broken_limits;
+  int w_rank = 0;                           // Rank of the contact-space inverse inertia W; 1 for a pendulum.
+  Coefficients coefficients;                // All 0 where separating or locked, but the tangential one.
+  std::vector<double> rates_after_rad_s;    // Pendulum: one, w+.
+  ContactVelocity contact_velocity_after;
+  Impulse impulse;
+  WorkLedger work;
+  double energy_change_j = 0.0;
+  std::vector<Event> timeline;              // In order of normal impulse; empty where separating.
+  std::vector<State> history;               // One for each SolveRequest.history_at_n_s, in that order.
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_OUTCOME_H_

@@ -1,0 +1,19 @@
+// Validate: the door. Every rule that a scene must keep, all violations at once.
+
+#ifndef RICOCHET_CORE_SCENE_VALIDATE_H_
+#define RICOCHET_CORE_SCENE_VALIDATE_H_
+
+#include <vector>
+
+#include "core/error.h"
+#include "core/scene/scene.h"
+
+namespace ricochet {
+
+// Every violation of the rules in core/scene/scene.h, in field order; empty if the scene is valid. Paths start at the
+// scene: "pendulum.a_m", "friction.kinetic_coefficient", "restitution.energetic".
+std::vector<Violation> Validate(const Scene& scene);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_SCENE_VALIDATE_H_

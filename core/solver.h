@@ -1,0 +1,69 @@
+// Solver: the one interface. LocalSolver answers in this process, Client asks a server; both give the same bits.
+//
+// Thread safety: every method may be called from several threads at once.
+// Errors: INVALID_ARGUMENT with all violations (core/error.h) for a bad request; OUT_OF_RANGE for an exact result above
+// the largest double; a Client adds those of the network. Numerical outcomes are fields of the answer, not errors.
+
+#ifndef RICOCHET_CORE_SOLVER_H_
+#define RICOCHET_CORE_SOLVER_H_
+
+#include <stop_token>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/bounds.h"
+#include "core/engine.h"
+#include "core/outcome.h"
+#include "core/result_stream.h"
+#include "core/scene/scene.h"
+#include "core/sweep/sweep.h"
+
+namespace ricochet {
+
+struct SolveRequest {
+  Scene scene;
+  // Normal impulses tau at which the state is asked for (Outcome::history), each in [0, tau1]; at most 65,536.
+  std::vector<double> history_at_n_s;
+  // Turns an outcome with admissible = false into FAILED_PRECONDITION.
+  bool inadmissible_is_error = false;
+  friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
+};
+
+struct SolveResponse {
+  Outcome outcome;
+  EngineInfo engine;
+  friend bool operator==(const SolveResponse&, const SolveResponse&) = default;
+};
+
+struct BoundsRequest {
+  Scene scene;  // Its restitution may be left unset.
+  friend bool operator==(const BoundsRequest&, const BoundsRequest&) = default;
+};
+
+struct BoundsResponse {
+  Bounds bounds;
+  EngineInfo engine;
+  friend bool operator==(const BoundsResponse&, const BoundsResponse&) = default;
+};
+
+using SweepStream = ResultStream<SweepChunk>;
+
+class Solver {
+ public:
+  virtual ~Solver() = default;
+
+  // One impact.
+  virtual absl::StatusOr<SolveResponse> Solve(const SolveRequest& request) const = 0;
+
+  // The values that the coefficients can take.
+  virtual absl::StatusOr<BoundsResponse> Bounds(const BoundsRequest& request) const = 0;
+
+  // Many impacts, streamed; points in index order, none twice, none left out. Ends with CANCELLED at most 1024 points
+  // after `stop` was requested. A request that is invalid gives a stream of that one error.
+  virtual SweepStream Sweep(const SweepRequest& request, std::stop_token stop) const = 0;
+  SweepStream Sweep(const SweepRequest& request) const { return Sweep(request, std::stop_token()); }
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_SOLVER_H_

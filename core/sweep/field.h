@@ -1,0 +1,55 @@
+// Fields: what an axis can drive, by path. A field is resolved once for a scene, then set once a point.
+//
+// Scalar fields are spelled as in the proto: pendulum.inertia_kg_m2, pendulum.a_m, pendulum.b_m,
+// pendulum.omega_minus_rad_s, friction.kinetic_coefficient, friction.static_coefficient, restitution.newton,
+// restitution.poisson, restitution.energetic. Derived: pendulum.phi_rad, the paper's angle phi = arctan(a/b) (Fig. 4)
+// at the base scene's distance R = sqrt(a^2 + b^2) from the pin: a = R sin(phi), b = R cos(phi).
+
+#ifndef RICOCHET_CORE_SWEEP_FIELD_H_
+#define RICOCHET_CORE_SWEEP_FIELD_H_
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/scene/scene.h"
+
+namespace ricochet {
+
+// Sets one field of the scene it was resolved for; that scene must outlive it and keep its system and law.
+class Field {
+ public:
+  void Set(double value) const;
+
+  // The paths of the scene's own fields that it sets: one, or for phi_rad two.
+  const std::vector<std::string>& sets() const { return sets_; }
+
+ private:
+  friend absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
+
+  struct Scalar {
+    double* target;
+  };
+  struct Phi {
+    double* a;
+    double* b;
+    double distance;
+  };
+  Field(std::variant<Scalar, Phi> driver, std::vector<std::string> sets)
+      : driver_(driver), sets_(std::move(sets)) {}
+
+  std::variant<Scalar, Phi> driver_;
+  std::vector<std::string> sets_;
+};
+
+// The field at `path`. A restitution path switches the scene to that definition, static_coefficient makes it present.
+// Errors: INVALID_ARGUMENT whose message says what would be right, for an unknown path or one of another system.
+absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
+
+// Every path that an axis may drive.
+const std::vector<std::string>& FieldPaths();
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_SWEEP_FIELD_H_

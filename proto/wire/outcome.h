@@ -1,0 +1,22 @@
+// Outcome <-> ricochet.v1.Outcome. An enum number that this build does not know becomes kUnspecified.
+
+#ifndef RICOCHET_PROTO_WIRE_OUTCOME_H_
+#define RICOCHET_PROTO_WIRE_OUTCOME_H_
+
+#include "core/outcome.h"
+#include "ricochet/v1/outcome.pb.h"
+
+namespace ricochet {
+
+v1::Outcome ToProto(const Outcome& outcome);
+Outcome FromProto(const v1::Outcome& proto);
+
+v1::Coefficients ToProto(const Coefficients& coefficients);
+Coefficients FromProto(const v1::Coefficients& proto);
+
+v1::Regime ToProto(Regime regime);
+Regime FromProto(v1::Regime proto);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_PROTO_WIRE_OUTCOME_H_
