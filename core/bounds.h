@@ -35,8 +35,8 @@ struct CoefficientBounds {
 // The forms for a nearly vertical impact, first order in x, and how far from the exact value each may lie.
 // The errors hold for every x < 1 and are derived in core/laws/nearly_vertical.h.
 struct NearlyVertical {
-  CoefficientBounds bounds;                  // [57], [58], [60]
-  double newton_error = 0.0;                 // |bounds.newton.upper - exact| <= this, and so on.
+  CoefficientBounds bounds;   // [57], [58], [60]
+  double newton_error = 0.0;  // |bounds.newton.upper - exact| <= this, and so on.
   double poisson_error = 0.0;
   double tangential_error = 0.0;
   double normal_total_error_n_s = 0.0;
@@ -46,11 +46,11 @@ struct NearlyVertical {
 };
 
 struct Bounds {
-  Regime regime = Regime::kUnspecified;  // kFrictionless, kRebound, kLocked or kSeparating.
-  double friction_ratio = 0.0;           // x = mu |b|/a, the energy ratio of [42].
-  double slope_ratio = 0.0;              // r = (a - mu|b|)/(a + mu|b|), negative above the locking threshold.
-  CoefficientBounds sharp;               // Fed back to Solve, each end is admissible.
-  CoefficientBounds energy_only;         // Weaker: what kinetic energy alone allows.
+  Regime regime = Regime::kUnspecified;           // kFrictionless, kRebound, kLocked or kSeparating.
+  double friction_ratio = 0.0;                    // x = mu |b|/a, the energy ratio of [42].
+  double slope_ratio = 0.0;                       // r = (a - mu|b|)/(a + mu|b|), negative above the locking threshold.
+  CoefficientBounds sharp;                        // Fed back to Solve, each end is admissible.
+  CoefficientBounds energy_only;                  // Weaker: what kinetic energy alone allows.
   std::optional<NearlyVertical> nearly_vertical;  // Absent where locked.
   friend bool operator==(const Bounds&, const Bounds&) = default;
 };

@@ -1,6 +1,7 @@
 #include "core/error.h"
 
 #include <cassert>
+#include <limits>
 #include <utility>
 
 #include "absl/strings/cord.h"
@@ -42,19 +43,23 @@ absl::Status MakeError(absl::StatusCode code, ErrorReason reason, const std::str
 
 absl::Status InvalidRequest(const std::vector<Violation>& violations) {
   assert(!violations.empty());
-  const std::string message =
-      absl::StrJoin(violations, "; ", [](std::string* out, const Violation& violation) {
-        absl::StrAppend(out, violation.field, " ", violation.description);
-      });
+  const std::string message = absl::StrJoin(violations, "; ", [](std::string* out, const Violation& violation) {
+    absl::StrAppend(out, violation.field, " ", violation.description);
+  });
   std::string data;
   for (const Violation& violation : violations) {
     absl::StrAppend(&data, violation.field, std::string(1, kFieldEnd), violation.description,
                     std::string(1, kEntryEnd));
   }
-  absl::Status status =
-      MakeError(absl::StatusCode::kInvalidArgument, ErrorReason::kInvalidRequest, message);
+  absl::Status status = MakeError(absl::StatusCode::kInvalidArgument, ErrorReason::kInvalidRequest, message);
   status.SetPayload(kViolationsUrl, absl::Cord(data));
   return status;
+}
+
+absl::Status OutputOverflow(const std::string& path) {
+  return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kOutputOverflow,
+                   absl::StrCat(path, ": the exact value exceeds the largest double, ",
+                                ShortestDecimal(std::numeric_limits<double>::max())));
 }
 
 ErrorReason ReasonOf(const absl::Status& status) {
@@ -69,8 +74,7 @@ std::vector<Violation> ViolationsOf(const absl::Status& status) {
   const auto data = Payload(status, kViolationsUrl);
   if (!data.has_value()) return violations;
   for (absl::string_view entry : absl::StrSplit(*data, kEntryEnd, absl::SkipEmpty())) {
-    const std::pair<std::string, std::string> parts =
-        absl::StrSplit(entry, absl::MaxSplits(kFieldEnd, 1));
+    const std::pair<std::string, std::string> parts = absl::StrSplit(entry, absl::MaxSplits(kFieldEnd, 1));
     violations.push_back({parts.first, parts.second});
   }
   return violations;

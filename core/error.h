@@ -46,6 +46,9 @@ absl::Status MakeError(absl::StatusCode code, ErrorReason reason, const std::str
 // INVALID_ARGUMENT that lists every violation, in the message and as data. `violations` must not be empty.
 absl::Status InvalidRequest(const std::vector<Violation>& violations);
 
+// OUT_OF_RANGE naming the output, a path such as "outcome.work.normal_compression_j".
+absl::Status OutputOverflow(const std::string& path);
+
 // What the functions above put into a status; empty or kUnspecified where there is none.
 ErrorReason ReasonOf(const absl::Status& status);
 std::vector<Violation> ViolationsOf(const absl::Status& status);

@@ -1,0 +1,98 @@
+#include "core/local_solver.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "core/error.h"
+#include "core/laws/nearly_vertical.h"
+#include "core/models/pendulum.h"
+#include "core/models/pendulum_bounds.h"
+#include "core/models/pendulum_outcome.h"
+#include "core/numerics/decimal.h"
+#include "core/scene/validate.h"
+#include "core/sweep/sweep_run.h"
+
+namespace ricochet {
+namespace {
+
+absl::Status Inadmissible(const Outcome& outcome) {
+  std::string message = "the outcome is inadmissible:";
+  for (const BrokenLimit& limit : outcome.broken_limits) {
+    message += limit.kind == LimitKind::kSharp
+                   ? " its energetic coefficient " + ShortestDecimal(limit.value) + " exceeds 1;"
+                   : " it creates " + ShortestDecimal(limit.value) + " J of kinetic energy;";
+  }
+  message.pop_back();
+  return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
+}
+
+absl::Status CheckFinite(const CoefficientBounds& bounds, const std::string& path) {
+  const std::pair<const char*, Range> ranges[] = {{"poisson", bounds.poisson},
+                                                  {"normal_total_n_s", bounds.normal_total_n_s}};
+  for (const auto& [name, range] : ranges) {
+    if (!std::isfinite(range.upper)) return OutputOverflow(path + name + ".upper");
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckFinite(const Bounds& bounds) {
+  if (!std::isfinite(bounds.friction_ratio)) return OutputOverflow("bounds.friction_ratio");
+  absl::Status status = CheckFinite(bounds.sharp, "bounds.sharp.");
+  status.Update(CheckFinite(bounds.energy_only, "bounds.energy_only."));
+  if (!bounds.nearly_vertical.has_value()) return status;
+  status.Update(CheckFinite(bounds.nearly_vertical->bounds, "bounds.nearly_vertical.bounds."));
+  return status;
+}
+
+}  // namespace
+
+absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) const {
+  const auto violations = Validate(request.scene);
+  if (!violations.empty()) return InvalidRequest(violations);
+  absl::StatusOr<Outcome> outcome = pendulum::MakeOutcome(pendulum::MakeProblem(request.scene), request.history_at_n_s);
+  if (!outcome.ok()) return outcome.status();
+  if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
+  return SolveResponse{.outcome = *std::move(outcome), .engine = ThisEngine()};
+}
+
+absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request) const {
+  const auto violations = Validate(request.scene, RestitutionIs::kOptional);
+  if (!violations.empty()) return InvalidRequest(violations);
+  const pendulum::Problem problem = pendulum::MakeProblem(request.scene);
+  ricochet::Bounds bounds = pendulum::SolveBounds(problem);
+  if (bounds.slope_ratio > 0.0 && bounds.regime != Regime::kLocked) {
+    const bool has_restitution = !std::holds_alternative<std::monostate>(request.scene.restitution);
+    bounds.nearly_vertical = pendulum::SolveNearlyVertical(problem, has_restitution);
+  }
+  const absl::Status finite = CheckFinite(bounds);
+  if (!finite.ok()) return finite;
+  return BoundsResponse{.bounds = std::move(bounds), .engine = ThisEngine()};
+}
+
+SweepStream LocalSolver::Sweep(const SweepRequest& request, std::stop_token stop) const {
+  absl::StatusOr<SweepRun> made = SweepRun::Make(request);
+  if (!made.ok()) return SweepStream(made.status());
+  auto next = [run = *std::move(made), stop = std::move(stop), with_regime = request.with_regime,
+               summary_sent = false]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
+    if (summary_sent) return std::nullopt;
+    const SweepRun::Extent extent = run.Next();
+    SweepChunk chunk = {.first_index = extent.first_index, .count = extent.count};
+    chunk.values.resize(static_cast<size_t>(extent.count * run.column_count()));
+    if (with_regime) chunk.regimes.resize(static_cast<size_t>(extent.count));
+    if (!run.Compute(extent, absl::MakeSpan(chunk.values), absl::MakeSpan(chunk.regimes),
+                     [&stop] { return stop.stop_requested(); })) {
+      return absl::CancelledError("the sweep was stopped by its caller");
+    }
+    chunk.points_done = run.points_done();
+    chunk.points_total = run.points_total();
+    chunk.engine = ThisEngine();
+    summary_sent = run.done();
+    if (run.done()) chunk.summary = run.summary();
+    return chunk;
+  };
+  return SweepStream(std::move(next));
+}
+
+}  // namespace ricochet

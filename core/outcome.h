@@ -20,8 +20,8 @@ enum class Regime {
   kStickInRestitution = 5,
   kReversalInCompression = 6,
   kReversalInRestitution = 7,
-  kLocked = 8,      // The pin and friction hold the body: no restitution, velocities 0, coefficients 0.
-  kWedged = 9,      // A compliant contact that never ends.
+  kLocked = 8,       // The pin and friction hold the body: no restitution, velocities 0, coefficients 0.
+  kWedged = 9,       // A compliant contact that never ends.
   kSeparating = 10,  // The contact does not approach: nothing changes.
   kInvalid = 11,     // Sweeps and batches only: a point that breaks a rule or overflows; its columns are quiet NaN.
 };
@@ -43,9 +43,9 @@ struct ContactVelocity {
 };
 
 struct Impulse {
-  double normal_compression_n_s = 0.0;      // tau0
-  double normal_total_n_s = 0.0;            // tau1
-  std::vector<double> tangential_n_s;       // f1
+  double normal_compression_n_s = 0.0;  // tau0
+  double normal_total_n_s = 0.0;        // tau1
+  std::vector<double> tangential_n_s;   // f1
   friend bool operator==(const Impulse&, const Impulse&) = default;
 };
 
@@ -73,10 +73,10 @@ enum class EventKind {
 
 // The state of the contact once the normal impulse has reached `normal_impulse_n_s`.
 struct State {
-  double normal_impulse_n_s = 0.0;              // tau, the paper's independent variable, Eq. (3).
-  std::vector<double> tangential_impulse_n_s;   // f(tau), Eq. (48).
-  ContactVelocity contact_velocity;             // u(tau), v(tau).
-  std::vector<double> rates_rad_s;              // w(tau), Eq. (9).
+  double normal_impulse_n_s = 0.0;             // tau, the paper's independent variable, Eq. (3).
+  std::vector<double> tangential_impulse_n_s;  // f(tau), Eq. (48).
+  ContactVelocity contact_velocity;            // u(tau), v(tau).
+  std::vector<double> rates_rad_s;             // w(tau), Eq. (9).
   friend bool operator==(const State&, const State&) = default;
 };
 
@@ -104,17 +104,17 @@ struct BrokenLimit {
 
 struct Outcome {
   Regime regime = Regime::kUnspecified;
-  bool admissible = true;                   // False exactly if broken_limits is not empty.
+  bool admissible = true;  // False exactly if broken_limits is not empty.
   std::vector<BrokenLimit> broken_limits;
-  int w_rank = 0;                           // Rank of the contact-space inverse inertia W; 1 for a pendulum.
-  Coefficients coefficients;                // All 0 where separating or locked, but the tangential one.
-  std::vector<double> rates_after_rad_s;    // Pendulum: one, w+.
+  int w_rank = 0;                         // Rank of the contact-space inverse inertia W; 1 for a pendulum.
+  Coefficients coefficients;              // All 0 where separating or locked, but the tangential one.
+  std::vector<double> rates_after_rad_s;  // Pendulum: one, w+.
   ContactVelocity contact_velocity_after;
   Impulse impulse;
   WorkLedger work;
   double energy_change_j = 0.0;
-  std::vector<Event> timeline;              // In order of normal impulse; empty where separating.
-  std::vector<State> history;               // One for each SolveRequest.history_at_n_s, in that order.
+  std::vector<Event> timeline;  // In order of normal impulse; empty where separating.
+  std::vector<State> history;   // One for each SolveRequest.history_at_n_s, in that order.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 

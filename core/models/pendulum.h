@@ -37,12 +37,12 @@ namespace ricochet::pendulum {
 enum class Law { kNewton, kPoisson, kEnergetic };
 
 struct Problem {
-  double inertia = 0.0;      // J
+  double inertia = 0.0;  // J
   double a = 0.0;
   double b = 0.0;
   double omega_minus = 0.0;  // w-
   double mu = 0.0;
-  double mu_static = 0.0;    // mu_s
+  double mu_static = 0.0;  // mu_s
   Law law = Law::kEnergetic;
   double coefficient = 0.0;  // kappa_hat, kappa or eta
 };
@@ -55,22 +55,22 @@ enum class Output {
   kNewton,
   kPoisson,
   kEnergetic,
-  kTangentialCoefficient,           // mu_hat
+  kTangentialCoefficient,  // mu_hat
   kOmegaPlus,
-  kTangentialVelocityAfter,         // b w+
-  kNormalVelocityAfter,             // a w+
-  kNormalImpulseCompression,        // tau0
-  kNormalImpulse,                   // tau1
-  kTangentialImpulse,               // f1
-  kTangentialImpulseCompression,    // sgn(b) mu tau0
+  kTangentialVelocityAfter,       // b w+
+  kNormalVelocityAfter,           // a w+
+  kNormalImpulseCompression,      // tau0
+  kNormalImpulse,                 // tau1
+  kTangentialImpulse,             // f1
+  kTangentialImpulseCompression,  // sgn(b) mu tau0
   kWorkNormalCompression,
   kWorkNormalRestitution,
   kWorkTangentialCompression,
   kWorkTangentialRestitution,
-  kWorkNormal,                      // Wc_n + Wr_n = Wc_n (1 - eta^2), [36], [37]
-  kWorkTangential,                  // Wc_t + Wr_t = Wc_t (1 + eta^2), [35]
-  kEnergyChange,                    // -dE
-  kEnergeticExcess,                 // eta - 1, free of cancellation; > 0 exactly if the sharp limit is broken
+  kWorkNormal,       // Wc_n + Wr_n = Wc_n (1 - eta^2), [36], [37]
+  kWorkTangential,   // Wc_t + Wr_t = Wc_t (1 + eta^2), [35]
+  kEnergyChange,     // -dE
+  kEnergeticExcess,  // eta - 1, free of cancellation; > 0 exactly if the sharp limit is broken
 };
 inline constexpr int kOutputCount = 19;
 

@@ -48,8 +48,7 @@ struct EnergeticCoefficient {
 
 // std::monostate: the request left the choice open, which Validate reports.
 using System = std::variant<std::monostate, Pendulum>;
-using Restitution =
-    std::variant<std::monostate, NewtonCoefficient, PoissonCoefficient, EnergeticCoefficient>;
+using Restitution = std::variant<std::monostate, NewtonCoefficient, PoissonCoefficient, EnergeticCoefficient>;
 
 struct Scene {
   System system;

@@ -10,9 +10,15 @@
 
 namespace ricochet {
 
+// Whether a scene may leave its restitution open: bounds do not need it.
+enum class RestitutionIs { kRequired, kOptional };
+
 // Every violation of the rules in core/scene/scene.h, in field order; empty if the scene is valid. Paths start at the
 // scene: "pendulum.a_m", "friction.kinetic_coefficient", "restitution.energetic".
-std::vector<Violation> Validate(const Scene& scene);
+std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution = RestitutionIs::kRequired);
+
+// Whether Validate(scene) finds nothing, without the cost of saying what.
+bool IsValid(const Scene& scene);
 
 }  // namespace ricochet
 

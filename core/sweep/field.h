@@ -36,8 +36,7 @@ class Field {
     double* b;
     double distance;
   };
-  Field(std::variant<Scalar, Phi> driver, std::vector<std::string> sets)
-      : driver_(driver), sets_(std::move(sets)) {}
+  Field(std::variant<Scalar, Phi> driver, std::vector<std::string> sets) : driver_(driver), sets_(std::move(sets)) {}
 
   std::variant<Scalar, Phi> driver_;
   std::vector<std::string> sets_;

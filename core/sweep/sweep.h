@@ -19,10 +19,11 @@ namespace ricochet {
 
 struct SweepRequest {
   Grid grid;
-  std::vector<std::string> columns;   // Paths into the outcome, core/sweep/column.h lists them. At least one, no doubles.
-  bool with_regime = false;           // Send every point's regime too.
-  int64_t first_index = 0;            // Points [first_index, end_index) of the grid, with the same bits as in
-  std::optional<int64_t> end_index;   // the whole; absent means all to the end.
+  std::vector<std::string>
+      columns;               // Paths into the outcome, core/sweep/column.h lists them. At least one, no doubles.
+  bool with_regime = false;  // Send every point's regime too.
+  int64_t first_index = 0;   // Points [first_index, end_index) of the grid, with the same bits as in
+  std::optional<int64_t> end_index;  // the whole; absent means all to the end.
   friend bool operator==(const SweepRequest&, const SweepRequest&) = default;
 };
 
@@ -42,12 +43,12 @@ struct SweepSummary {
 };
 
 struct SweepChunk {
-  int64_t first_index = 0;          // Grid index of the chunk's first point.
-  int64_t count = 0;                // Points in this chunk.
-  std::vector<double> values;       // Column after column, `count` values each; quiet NaN for an INVALID point.
-  std::vector<Regime> regimes;      // One a point if asked for, else empty.
-  int64_t points_done = 0;          // Progress, this chunk included,
-  int64_t points_total = 0;         // of the range asked for.
+  int64_t first_index = 0;              // Grid index of the chunk's first point.
+  int64_t count = 0;                    // Points in this chunk.
+  std::vector<double> values;           // Column after column, `count` values each; quiet NaN for an INVALID point.
+  std::vector<Regime> regimes;          // One a point if asked for, else empty.
+  int64_t points_done = 0;              // Progress, this chunk included,
+  int64_t points_total = 0;             // of the range asked for.
   std::optional<SweepSummary> summary;  // In the last chunk only.
   EngineInfo engine;
   friend bool operator==(const SweepChunk&, const SweepChunk&) = default;

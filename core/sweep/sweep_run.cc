@@ -1,0 +1,280 @@
+#include "core/sweep/sweep_run.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "core/models/pendulum.h"
+#include "core/scene/validate.h"
+#include "core/sweep/column.h"
+#include "core/sweep/field.h"
+
+namespace ricochet {
+namespace {
+
+constexpr int64_t kFirstChunkPoints = 1024;
+constexpr int64_t kChunkBytes = int64_t{512} << 10;
+
+void Add(int64_t index, Tally& tally) {
+  if (tally.count++ == 0) tally.first_index = index;
+}
+
+std::vector<Violation> CheckColumns(const std::vector<std::string>& columns) {
+  std::vector<Violation> violations;
+  if (columns.empty()) violations.push_back({"columns", "is empty: must name at least one"});
+  std::set<std::string> seen;
+  for (size_t i = 0; i < columns.size(); ++i) {
+    const std::string path = absl::StrCat("columns[", i, "]");
+    const std::string found = absl::StrCat("= \"", columns[i], "\": must be ");
+    if (!PendulumColumn(columns[i]).has_value()) {
+      violations.push_back({path, absl::StrCat(found, "one of ", absl::StrJoin(PendulumColumns(), ", "))});
+    } else if (!seen.insert(columns[i]).second) {
+      violations.push_back({path, found + "named once"});
+    }
+  }
+  return violations;
+}
+
+std::vector<Violation> CheckRange(const SweepRequest& request) {
+  const int64_t points = PointCount(request.grid);
+  const int64_t end = request.end_index.value_or(points);
+  std::vector<Violation> violations;
+  if (end < 0 || end > points) {
+    violations.push_back({"end_index", absl::StrCat("= ", end, ": must be in [0, ", points, "], the grid's points")});
+  } else if (request.first_index < 0 || request.first_index > end) {
+    violations.push_back(
+        {"first_index", absl::StrCat("= ", request.first_index, ": must be in [0, end_index = ", end, "]")});
+  }
+  return violations;
+}
+
+// The fields that the axes drive, resolved in `scene`.
+struct Drivers {
+  std::vector<Field> fields;
+  std::vector<Violation> violations;
+  std::set<std::string> driven;  // Fields of the scene whose base value does not matter.
+};
+
+Drivers ResolveAxes(const std::vector<Axis>& axes, Scene& scene) {
+  Drivers drivers;
+  std::map<std::string, size_t> driven_by;
+  for (size_t i = 0; i < axes.size(); ++i) {
+    const std::string path = absl::StrCat("axes[", i, "].path");
+    absl::StatusOr<Field> field = ResolveField(axes[i].path, scene);
+    if (!field.ok()) {
+      drivers.violations.push_back({path, std::string(field.status().message())});
+      continue;
+    }
+    for (const std::string& target : field->sets()) {
+      const auto [other, is_new] = driven_by.emplace(target, i);
+      if (is_new) continue;
+      drivers.violations.push_back({path, absl::StrCat("= \"", axes[i].path, "\": must not drive ", target,
+                                                       ", which axes[", other->second, "] drives")});
+    }
+    // An angle needs the base scene's distance, so a and b must be right there.
+    if (field->sets().size() == 1) drivers.driven.insert(field->sets().front());
+    drivers.fields.push_back(*std::move(field));
+  }
+  return drivers;
+}
+
+// The violations of the base scene that no axis cures.
+std::vector<Violation> CheckBaseScene(const Scene& scene, const std::set<std::string>& driven) {
+  std::vector<Violation> violations = Validate(scene);
+  std::erase_if(violations, [&](const Violation& violation) {
+    if (violation.field.rfind("restitution.", 0) == 0) {
+      return driven.contains("restitution.coefficient");
+    }
+    // Whether static >= kinetic is a matter of each point.
+    if (violation.field == "friction.static_coefficient" && driven.contains("friction.kinetic_coefficient")) {
+      return true;
+    }
+    return driven.contains(violation.field);
+  });
+  return violations;
+}
+
+void Append(std::vector<Violation> more, std::vector<Violation>& violations) {
+  std::move(more.begin(), more.end(), std::back_inserter(violations));
+}
+
+}  // namespace
+
+class SweepRun::Impl {
+ public:
+  explicit Impl(const SweepRequest& request) : grid_(request.grid), scene_(request.grid.scene) {}
+
+  absl::Status Prepare(const SweepRequest& request);
+
+  int64_t column_count() const { return static_cast<int64_t>(outputs_.size()); }
+  int64_t points_total() const { return end_ - first_; }
+  int64_t points_done() const { return next_ - first_; }
+  const SweepSummary& summary() const { return summary_; }
+
+  Extent Next() const;
+  bool Compute(Extent extent, absl::Span<double> values, absl::Span<Regime> regimes, absl::FunctionRef<bool()> stopped);
+
+ private:
+  void SetPoint(int64_t index);
+  void AdvancePoint();
+  void GatherProblems(int64_t count);
+  void ComputeBlock(int64_t count);
+  void FinishBlock(int64_t count);
+
+  Grid grid_;
+  Scene scene_;  // The current point; the fields point into it.
+  std::vector<Field> fields_;
+  std::vector<int64_t> counts_;
+  std::vector<int64_t> positions_;
+  std::vector<pendulum::Output> outputs_;
+  int64_t first_ = 0;
+  int64_t end_ = 0;
+  int64_t next_ = 0;
+  SweepSummary summary_;
+
+  // One block of points.
+  std::vector<pendulum::Problem> problems_;
+  std::vector<Regime> regimes_;
+  std::unique_ptr<bool[]> valid_;
+  std::unique_ptr<bool[]> inadmissible_;
+  std::vector<double*> columns_;
+};
+
+absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
+  std::vector<Violation> violations;
+  Drivers drivers;
+  if (!std::holds_alternative<std::monostate>(scene_.system)) {
+    drivers = ResolveAxes(grid_.axes, scene_);
+  }
+  Append(CheckBaseScene(scene_, drivers.driven), violations);
+  Append(std::move(drivers.violations), violations);
+  const std::vector<Violation> axes = ValidateAxes(grid_);
+  Append(axes, violations);
+  Append(CheckColumns(request.columns), violations);
+  if (axes.empty()) Append(CheckRange(request), violations);
+  if (!violations.empty()) return InvalidRequest(violations);
+
+  fields_ = std::move(drivers.fields);
+  for (const Axis& axis : grid_.axes) counts_.push_back(AxisCount(axis));
+  positions_.resize(grid_.axes.size());
+  for (const std::string& column : request.columns) outputs_.push_back(*PendulumColumn(column));
+  first_ = request.first_index;
+  end_ = request.end_index.value_or(PointCount(grid_));
+  next_ = first_;
+  problems_.resize(kPointsBetweenStops);
+  regimes_.resize(kPointsBetweenStops);
+  valid_ = std::make_unique<bool[]>(kPointsBetweenStops);
+  inadmissible_ = std::make_unique<bool[]>(kPointsBetweenStops);
+  columns_.resize(outputs_.size());
+  if (first_ < end_) SetPoint(first_);
+  return absl::OkStatus();
+}
+
+void SweepRun::Impl::SetPoint(int64_t index) {
+  AxisPositions(grid_, index, absl::MakeSpan(positions_));
+  for (size_t k = 0; k < fields_.size(); ++k) {
+    fields_[k].Set(AxisValue(grid_.axes[k], positions_[k]));
+  }
+}
+
+// To the next point, setting only what changes.
+void SweepRun::Impl::AdvancePoint() {
+  for (size_t k = fields_.size(); k-- > 0;) {
+    const bool wraps = ++positions_[k] == counts_[k];
+    if (wraps) positions_[k] = 0;
+    fields_[k].Set(AxisValue(grid_.axes[k], positions_[k]));
+    if (!wraps && grid_.combination != Combination::kZip) return;
+  }
+}
+
+SweepRun::Extent SweepRun::Impl::Next() const {
+  const int64_t wanted = next_ == first_ ? kFirstChunkPoints : kChunkBytes / (column_count() * int64_t{sizeof(double)});
+  return {next_, std::min(wanted, end_ - next_)};
+}
+
+void SweepRun::Impl::GatherProblems(int64_t count) {
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    valid_[i] = IsValid(scene_);
+    problems_[i] = valid_[i] ? pendulum::MakeProblem(scene_) : pendulum::Problem{};
+    if (!valid_[i]) problems_[i].omega_minus = 1.0;  // Separating: the cheapest to solve.
+    AdvancePoint();
+  }
+}
+
+// Overwrites bad points and tallies all of them.
+void SweepRun::Impl::FinishBlock(int64_t count) {
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    const bool finite =
+        std::all_of(columns_.begin(), columns_.end(), [i](const double* column) { return std::isfinite(column[i]); });
+    if (!valid_[i] || !finite) {
+      regimes_[i] = Regime::kInvalid;
+      inadmissible_[i] = false;
+      for (double* column : columns_) column[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+    const int64_t index = next_ + static_cast<int64_t>(i);
+    Add(index, summary_.by_regime[static_cast<size_t>(regimes_[i])]);
+    if (inadmissible_[i]) Add(index, summary_.inadmissible);
+  }
+}
+
+void SweepRun::Impl::ComputeBlock(int64_t count) {
+  const auto size = static_cast<size_t>(count);
+  GatherProblems(count);
+  pendulum::SolveColumns(absl::MakeConstSpan(problems_).first(size), outputs_, columns_,
+                         absl::MakeSpan(regimes_).first(size), absl::MakeSpan(inadmissible_.get(), size));
+  FinishBlock(count);
+  next_ += count;
+  summary_.points += count;
+}
+
+bool SweepRun::Impl::Compute(Extent extent, absl::Span<double> values, absl::Span<Regime> regimes,
+                             absl::FunctionRef<bool()> stopped) {
+  assert(extent.first_index == next_);
+  assert(static_cast<int64_t>(values.size()) == extent.count * column_count());
+  for (int64_t done = 0; done < extent.count;) {
+    if (stopped()) return false;
+    const int64_t count = std::min(kPointsBetweenStops, extent.count - done);
+    for (int64_t c = 0; c < column_count(); ++c) {
+      columns_[static_cast<size_t>(c)] = values.data() + c * extent.count + done;
+    }
+    ComputeBlock(count);
+    if (!regimes.empty()) {
+      std::copy_n(regimes_.begin(), count, regimes.begin() + done);
+    }
+    done += count;
+  }
+  return true;
+}
+
+absl::StatusOr<SweepRun> SweepRun::Make(const SweepRequest& request) {
+  auto impl = std::make_unique<Impl>(request);
+  const absl::Status status = impl->Prepare(request);
+  if (!status.ok()) return status;
+  return SweepRun(std::move(impl));
+}
+
+SweepRun::SweepRun(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+SweepRun::SweepRun(SweepRun&&) noexcept = default;
+SweepRun& SweepRun::operator=(SweepRun&&) noexcept = default;
+SweepRun::~SweepRun() = default;
+
+int64_t SweepRun::column_count() const { return impl_->column_count(); }
+int64_t SweepRun::points_total() const { return impl_->points_total(); }
+int64_t SweepRun::points_done() const { return impl_->points_done(); }
+SweepRun::Extent SweepRun::Next() const { return impl_->Next(); }
+const SweepSummary& SweepRun::summary() const { return impl_->summary(); }
+
+bool SweepRun::Compute(Extent extent, absl::Span<double> values, absl::Span<Regime> regimes,
+                       absl::FunctionRef<bool()> stopped) {
+  return impl_->Compute(extent, values, regimes, stopped);
+}
+
+}  // namespace ricochet

@@ -1,10 +1,11 @@
 // SweepRun: a sweep being computed. What LocalSolver and the service share: chunk sizes, the points, the tallies.
 //
 //   absl::StatusOr<SweepRun> run = SweepRun::Make(request);
-//   while (const auto extent = run->Next()) {
-//     if (!run->Compute(*extent, values, regimes, stopped)) return cancelled;
-//     send(values, run->Progress(), run->Next() ? nothing : run->Summary());
-//   }
+//   do {
+//     const SweepRun::Extent extent = run->Next();
+//     if (!run->Compute(extent, values, regimes, stopped)) return cancelled;
+//     send(values, run->points_done(), run->done() ? run->summary() : nothing);
+//   } while (!run->done());
 //
 // Each point goes through the model that a Solve of its scene would use, so both give the same bits. Memory does not
 // depend on the number of points.
@@ -14,7 +15,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
@@ -45,14 +45,15 @@ class SweepRun {
   int64_t points_total() const;  // Of the range asked for.
   int64_t points_done() const;
 
-  // The next chunk: a small first one, then up to 512 KiB of values. Nothing when all points are done.
-  std::optional<Extent> Next() const;
+  bool done() const { return points_done() == points_total(); }
+
+  // The next chunk: a small first one, then up to 512 KiB of values. Empty when all points are done.
+  Extent Next() const;
 
   // Computes the points of `extent`, which must be Next(): column c of point i to values[c * count + i], its regime to
   // regimes[i] unless `regimes` is empty. Looks at `stopped` before every kPointsBetweenStops points; once it holds,
   // returns false and the run is over.
-  bool Compute(Extent extent, absl::Span<double> values, absl::Span<Regime> regimes,
-               absl::FunctionRef<bool()> stopped);
+  bool Compute(Extent extent, absl::Span<double> values, absl::Span<Regime> regimes, absl::FunctionRef<bool()> stopped);
 
   // Of the points done so far.
   const SweepSummary& summary() const;
