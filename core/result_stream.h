@@ -56,9 +56,7 @@ class ResultStream {
     }
     void operator++(int) { ++*this; }
 
-    friend bool operator==(const Iterator& it, std::default_sentinel_t /*end*/) {
-      return !it.stream_->current_.has_value();
-    }
+    bool operator==(std::default_sentinel_t /*end*/) const { return !stream_->current_.has_value(); }
 
    private:
     ResultStream* stream_ = nullptr;
