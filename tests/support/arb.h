@@ -1,0 +1,146 @@
+// Ball: a real number enclosed by Arb, as a C++ value.
+//
+// Every operation encloses the exact result; exponents have no limit, so nothing overflows or underflows. A ball carries
+// the precision it is computed with, and an operation uses the larger of its operands' two: constants written as doubles
+// take on the other side's. With kExact, sums, differences and products are exact (and / and Sqrt must not be used).
+
+#ifndef RICOCHET_TESTS_SUPPORT_ARB_H_
+#define RICOCHET_TESTS_SUPPORT_ARB_H_
+
+#include <arb.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <string>
+
+namespace ricochet {
+
+class Ball {
+ public:
+  static constexpr slong kExact = ARF_PREC_EXACT;
+
+  Ball() { arb_init(value_); }
+  // Implicit, so that formulas read like formulas. `exact` must be finite.
+  Ball(double exact, slong bits = 53) : bits_(bits) {
+    assert(std::isfinite(exact));
+    arb_init(value_);
+    arb_set_d(value_, exact);
+  }
+  Ball(const Ball& other) : bits_(other.bits_) {
+    arb_init(value_);
+    arb_set(value_, other.value_);
+  }
+  Ball(Ball&& other) noexcept : bits_(other.bits_) {
+    arb_init(value_);
+    arb_swap(value_, other.value_);
+  }
+  Ball& operator=(Ball other) noexcept {
+    arb_swap(value_, other.value_);
+    bits_ = other.bits_;
+    return *this;
+  }
+  ~Ball() { arb_clear(value_); }
+
+  // The ball around a decimal, as narrow as `bits` allow.
+  static Ball Parse(const std::string& decimal, slong bits) {
+    Ball ball(0.0, bits);
+    [[maybe_unused]] const int failed = arb_set_str(ball.value_, decimal.c_str(), bits);
+    assert(!failed);
+    return ball;
+  }
+  // 2^exponent.
+  static Ball PowerOfTwo(slong exponent) {
+    Ball ball(1.0);
+    arb_mul_2exp_si(ball.value_, ball.value_, exponent);
+    return ball;
+  }
+
+  friend Ball operator+(const Ball& x, const Ball& y) { return Apply(arb_add, x, y); }
+  friend Ball operator-(const Ball& x, const Ball& y) { return Apply(arb_sub, x, y); }
+  friend Ball operator*(const Ball& x, const Ball& y) { return Apply(arb_mul, x, y); }
+  friend Ball operator/(const Ball& x, const Ball& y) { return Apply(arb_div, x, y); }
+  friend Ball operator-(Ball x) {
+    arb_neg(x.value_, x.value_);
+    return x;
+  }
+  friend Ball Abs(Ball x) {
+    arb_abs(x.value_, x.value_);
+    return x;
+  }
+  friend Ball Sqrt(const Ball& x) {
+    Ball root(0.0, x.bits_);
+    arb_sqrt(root.value_, x.value_, x.bits_);
+    return root;
+  }
+
+  // True only where every point of one ball compares so with every point of the other. Exact balls are never in doubt.
+  friend bool operator<(const Ball& x, const Ball& y) { return arb_lt(x.value_, y.value_); }
+  friend bool operator<=(const Ball& x, const Ball& y) { return arb_le(x.value_, y.value_); }
+  friend bool operator>(const Ball& x, const Ball& y) { return arb_gt(x.value_, y.value_); }
+  friend bool operator>=(const Ball& x, const Ball& y) { return arb_ge(x.value_, y.value_); }
+
+  bool IsExact() const { return arb_is_exact(value_); }
+  bool ContainsZero() const { return arb_contains_zero(value_); }
+  slong RelativeAccuracyBits() const { return arb_rel_accuracy_bits(value_); }
+  // |x| < 2^this for the ball's centre.
+  slong Exponent() const { return arf_abs_bound_lt_2exp_si(arb_midref(value_)); }
+  Ball Radius() const {
+    Ball radius;
+    arf_set_mag(arb_midref(radius.value_), arb_radref(value_));
+    return radius;
+  }
+
+  // The double nearest to the centre; infinite above the largest one.
+  double Nearest() const { return arf_get_d(arb_midref(value_), ARF_RND_NEAR); }
+  // A double that no point of the ball exceeds.
+  double UpperBound() const {
+    arf_t bound;
+    arf_init(bound);
+    arb_get_ubound_arf(bound, value_, 64);
+    const double upper = arf_get_d(bound, ARF_RND_UP);
+    arf_clear(bound);
+    return upper;
+  }
+  std::string ToString() const {
+    char* text = arb_get_str(value_, 25, 0);
+    std::string copy(text);
+    flint_free(text);
+    return copy;
+  }
+
+ private:
+  template <typename Operation>
+  static Ball Apply(Operation operation, const Ball& x, const Ball& y) {
+    Ball result(0.0, std::max(x.bits_, y.bits_));
+    operation(result.value_, x.value_, y.value_, result.bits_);
+    return result;
+  }
+
+  arb_t value_;
+  slong bits_ = 53;
+};
+
+// How far `computed` lies from `exact`, beyond what `allowance` grants, in units in the last place of the exact value
+// (never smaller than 2^-1074). An infinity stands for 2^1024, the double that would follow the largest one; exact
+// values from there on demand it. NaN is infinitely far away.
+inline double ErrorInUlps(double computed, const Ball& exact, const Ball& allowance = Ball(0.0)) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (std::isnan(computed)) return kNever;
+  const Ball limit = Ball::PowerOfTwo(1024);
+  if (Abs(exact) >= limit) {
+    const bool same_sign = (exact > Ball(0.0)) == (computed > 0.0);
+    return std::isinf(computed) && same_sign ? 0.0 : kNever;
+  }
+  const Ball value = std::isinf(computed) ? (computed > 0.0 ? limit : -limit) : Ball(computed);
+  const slong exponent =
+      exact.ContainsZero() ? -1074 : std::max<slong>(exact.Exponent() - 53, -1074);
+  const Ball wide(0.0, 512);
+  const Ball error = (Abs(wide + value - exact) - allowance) / Ball::PowerOfTwo(exponent);
+  return std::max(0.0, error.UpperBound());
+}
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_TESTS_SUPPORT_ARB_H_
