@@ -1,0 +1,276 @@
+#include "proto/wire/outcome.h"
+
+#include "proto/wire/repeated.h"
+
+namespace ricochet {
+
+// The switches over enums have no default branch, so that a new enumerator does not compile until it is mapped; the
+// protobuf compiler's sentinels are therefore listed.
+
+v1::Regime ToProto(Regime regime) {
+  switch (regime) {
+    case Regime::kUnspecified:
+      return v1::REGIME_UNSPECIFIED;
+    case Regime::kFrictionless:
+      return v1::REGIME_FRICTIONLESS;
+    case Regime::kRebound:
+      return v1::REGIME_REBOUND;
+    case Regime::kSliding:
+      return v1::REGIME_SLIDING;
+    case Regime::kStickInCompression:
+      return v1::REGIME_STICK_IN_COMPRESSION;
+    case Regime::kStickInRestitution:
+      return v1::REGIME_STICK_IN_RESTITUTION;
+    case Regime::kReversalInCompression:
+      return v1::REGIME_REVERSAL_IN_COMPRESSION;
+    case Regime::kReversalInRestitution:
+      return v1::REGIME_REVERSAL_IN_RESTITUTION;
+    case Regime::kLocked:
+      return v1::REGIME_LOCKED;
+    case Regime::kWedged:
+      return v1::REGIME_WEDGED;
+    case Regime::kSeparating:
+      return v1::REGIME_SEPARATING;
+    case Regime::kInvalid:
+      return v1::REGIME_INVALID;
+  }
+  return v1::REGIME_UNSPECIFIED;
+}
+
+Regime FromProto(v1::Regime proto) {
+  switch (proto) {
+    case v1::REGIME_FRICTIONLESS:
+      return Regime::kFrictionless;
+    case v1::REGIME_REBOUND:
+      return Regime::kRebound;
+    case v1::REGIME_SLIDING:
+      return Regime::kSliding;
+    case v1::REGIME_STICK_IN_COMPRESSION:
+      return Regime::kStickInCompression;
+    case v1::REGIME_STICK_IN_RESTITUTION:
+      return Regime::kStickInRestitution;
+    case v1::REGIME_REVERSAL_IN_COMPRESSION:
+      return Regime::kReversalInCompression;
+    case v1::REGIME_REVERSAL_IN_RESTITUTION:
+      return Regime::kReversalInRestitution;
+    case v1::REGIME_LOCKED:
+      return Regime::kLocked;
+    case v1::REGIME_WEDGED:
+      return Regime::kWedged;
+    case v1::REGIME_SEPARATING:
+      return Regime::kSeparating;
+    case v1::REGIME_INVALID:
+      return Regime::kInvalid;
+    case v1::REGIME_UNSPECIFIED:
+    case v1::Regime_INT_MIN_SENTINEL_DO_NOT_USE_:
+    case v1::Regime_INT_MAX_SENTINEL_DO_NOT_USE_:
+      break;
+  }
+  return Regime::kUnspecified;
+}
+
+v1::Event::Kind ToProto(EventKind kind) {
+  switch (kind) {
+    case EventKind::kUnspecified:
+      return v1::Event::KIND_UNSPECIFIED;
+    case EventKind::kStart:
+      return v1::Event::KIND_START;
+    case EventKind::kSlipStops:
+      return v1::Event::KIND_SLIP_STOPS;
+    case EventKind::kCompressionEnds:
+      return v1::Event::KIND_COMPRESSION_ENDS;
+    case EventKind::kRestitutionEnds:
+      return v1::Event::KIND_RESTITUTION_ENDS;
+  }
+  return v1::Event::KIND_UNSPECIFIED;
+}
+
+EventKind FromProto(v1::Event::Kind proto) {
+  switch (proto) {
+    case v1::Event::KIND_START:
+      return EventKind::kStart;
+    case v1::Event::KIND_SLIP_STOPS:
+      return EventKind::kSlipStops;
+    case v1::Event::KIND_COMPRESSION_ENDS:
+      return EventKind::kCompressionEnds;
+    case v1::Event::KIND_RESTITUTION_ENDS:
+      return EventKind::kRestitutionEnds;
+    case v1::Event::KIND_UNSPECIFIED:
+    case v1::Event_Kind_Event_Kind_INT_MIN_SENTINEL_DO_NOT_USE_:
+    case v1::Event_Kind_Event_Kind_INT_MAX_SENTINEL_DO_NOT_USE_:
+      break;
+  }
+  return EventKind::kUnspecified;
+}
+
+v1::BrokenLimit::Kind ToProto(LimitKind kind) {
+  switch (kind) {
+    case LimitKind::kUnspecified:
+      return v1::BrokenLimit::KIND_UNSPECIFIED;
+    case LimitKind::kSharp:
+      return v1::BrokenLimit::KIND_SHARP;
+    case LimitKind::kEnergy:
+      return v1::BrokenLimit::KIND_ENERGY;
+  }
+  return v1::BrokenLimit::KIND_UNSPECIFIED;
+}
+
+LimitKind FromProto(v1::BrokenLimit::Kind proto) {
+  switch (proto) {
+    case v1::BrokenLimit::KIND_SHARP:
+      return LimitKind::kSharp;
+    case v1::BrokenLimit::KIND_ENERGY:
+      return LimitKind::kEnergy;
+    case v1::BrokenLimit::KIND_UNSPECIFIED:
+    case v1::BrokenLimit_Kind_BrokenLimit_Kind_INT_MIN_SENTINEL_DO_NOT_USE_:
+    case v1::BrokenLimit_Kind_BrokenLimit_Kind_INT_MAX_SENTINEL_DO_NOT_USE_:
+      break;
+  }
+  return LimitKind::kUnspecified;
+}
+
+v1::Coefficients ToProto(const Coefficients& coefficients) {
+  v1::Coefficients proto;
+  proto.set_newton(coefficients.newton);
+  proto.set_poisson(coefficients.poisson);
+  proto.set_energetic(coefficients.energetic);
+  proto.set_tangential(coefficients.tangential);
+  return proto;
+}
+
+Coefficients FromProto(const v1::Coefficients& proto) {
+  return {.newton = proto.newton(),
+          .poisson = proto.poisson(),
+          .energetic = proto.energetic(),
+          .tangential = proto.tangential()};
+}
+
+static v1::ContactVelocity ToProto(const ContactVelocity& velocity) {
+  v1::ContactVelocity proto;
+  AssignDoubles(velocity.tangential_m_s, *proto.mutable_tangential_m_s());
+  proto.set_normal_m_s(velocity.normal_m_s);
+  return proto;
+}
+
+static ContactVelocity FromProto(const v1::ContactVelocity& proto) {
+  return {.tangential_m_s = ToVector(proto.tangential_m_s()), .normal_m_s = proto.normal_m_s()};
+}
+
+static v1::Impulse ToProto(const Impulse& impulse) {
+  v1::Impulse proto;
+  proto.set_normal_compression_n_s(impulse.normal_compression_n_s);
+  proto.set_normal_total_n_s(impulse.normal_total_n_s);
+  AssignDoubles(impulse.tangential_n_s, *proto.mutable_tangential_n_s());
+  return proto;
+}
+
+static Impulse FromProto(const v1::Impulse& proto) {
+  return {.normal_compression_n_s = proto.normal_compression_n_s(),
+          .normal_total_n_s = proto.normal_total_n_s(),
+          .tangential_n_s = ToVector(proto.tangential_n_s())};
+}
+
+static v1::WorkLedger ToProto(const WorkLedger& work) {
+  v1::WorkLedger proto;
+  proto.set_normal_compression_j(work.normal_compression_j);
+  proto.set_normal_restitution_j(work.normal_restitution_j);
+  proto.set_tangential_compression_j(work.tangential_compression_j);
+  proto.set_tangential_restitution_j(work.tangential_restitution_j);
+  proto.set_normal_total_j(work.normal_total_j);
+  proto.set_tangential_total_j(work.tangential_total_j);
+  proto.set_residual_j(work.residual_j);
+  return proto;
+}
+
+static WorkLedger FromProto(const v1::WorkLedger& proto) {
+  return {.normal_compression_j = proto.normal_compression_j(),
+          .normal_restitution_j = proto.normal_restitution_j(),
+          .tangential_compression_j = proto.tangential_compression_j(),
+          .tangential_restitution_j = proto.tangential_restitution_j(),
+          .normal_total_j = proto.normal_total_j(),
+          .tangential_total_j = proto.tangential_total_j(),
+          .residual_j = proto.residual_j()};
+}
+
+static v1::State ToProto(const State& state) {
+  v1::State proto;
+  proto.set_normal_impulse_n_s(state.normal_impulse_n_s);
+  AssignDoubles(state.tangential_impulse_n_s, *proto.mutable_tangential_impulse_n_s());
+  *proto.mutable_contact_velocity() = ToProto(state.contact_velocity);
+  AssignDoubles(state.rates_rad_s, *proto.mutable_rates_rad_s());
+  return proto;
+}
+
+static State FromProto(const v1::State& proto) {
+  return {.normal_impulse_n_s = proto.normal_impulse_n_s(),
+          .tangential_impulse_n_s = ToVector(proto.tangential_impulse_n_s()),
+          .contact_velocity = FromProto(proto.contact_velocity()),
+          .rates_rad_s = ToVector(proto.rates_rad_s())};
+}
+
+static v1::Event ToProto(const Event& event) {
+  v1::Event proto;
+  proto.set_kind(ToProto(event.kind));
+  *proto.mutable_state() = ToProto(event.state);
+  return proto;
+}
+
+static Event FromProto(const v1::Event& proto) {
+  return {.kind = FromProto(proto.kind()), .state = FromProto(proto.state())};
+}
+
+static v1::BrokenLimit ToProto(const BrokenLimit& broken) {
+  v1::BrokenLimit proto;
+  proto.set_kind(ToProto(broken.kind));
+  proto.set_value(broken.value);
+  proto.set_limit(broken.limit);
+  proto.set_excess(broken.excess);
+  return proto;
+}
+
+static BrokenLimit FromProto(const v1::BrokenLimit& proto) {
+  return {.kind = FromProto(proto.kind()),
+          .value = proto.value(),
+          .limit = proto.limit(),
+          .excess = proto.excess()};
+}
+
+v1::Outcome ToProto(const Outcome& outcome) {
+  v1::Outcome proto;
+  proto.set_regime(ToProto(outcome.regime));
+  proto.set_admissible(outcome.admissible);
+  for (const BrokenLimit& broken : outcome.broken_limits) {
+    *proto.add_broken_limits() = ToProto(broken);
+  }
+  proto.set_w_rank(outcome.w_rank);
+  *proto.mutable_coefficients() = ToProto(outcome.coefficients);
+  AssignDoubles(outcome.rates_after_rad_s, *proto.mutable_rates_after_rad_s());
+  *proto.mutable_contact_velocity_after() = ToProto(outcome.contact_velocity_after);
+  *proto.mutable_impulse() = ToProto(outcome.impulse);
+  *proto.mutable_work() = ToProto(outcome.work);
+  proto.set_energy_change_j(outcome.energy_change_j);
+  for (const Event& event : outcome.timeline) *proto.add_timeline() = ToProto(event);
+  for (const State& state : outcome.history) *proto.add_history() = ToProto(state);
+  return proto;
+}
+
+Outcome FromProto(const v1::Outcome& proto) {
+  Outcome outcome;
+  outcome.regime = FromProto(proto.regime());
+  outcome.admissible = proto.admissible();
+  for (const v1::BrokenLimit& broken : proto.broken_limits()) {
+    outcome.broken_limits.push_back(FromProto(broken));
+  }
+  outcome.w_rank = proto.w_rank();
+  outcome.coefficients = FromProto(proto.coefficients());
+  outcome.rates_after_rad_s = ToVector(proto.rates_after_rad_s());
+  outcome.contact_velocity_after = FromProto(proto.contact_velocity_after());
+  outcome.impulse = FromProto(proto.impulse());
+  outcome.work = FromProto(proto.work());
+  outcome.energy_change_j = proto.energy_change_j();
+  for (const v1::Event& event : proto.timeline()) outcome.timeline.push_back(FromProto(event));
+  for (const v1::State& state : proto.history()) outcome.history.push_back(FromProto(state));
+  return outcome;
+}
+
+}  // namespace ricochet

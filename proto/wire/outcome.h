@@ -17,6 +17,12 @@ Coefficients FromProto(const v1::Coefficients& proto);
 v1::Regime ToProto(Regime regime);
 Regime FromProto(v1::Regime proto);
 
+v1::Event::Kind ToProto(EventKind kind);
+EventKind FromProto(v1::Event::Kind proto);
+
+v1::BrokenLimit::Kind ToProto(LimitKind kind);
+LimitKind FromProto(v1::BrokenLimit::Kind proto);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_PROTO_WIRE_OUTCOME_H_

@@ -1,0 +1,188 @@
+#include "proto/wire/sweep.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <variant>
+
+#include "proto/wire/engine.h"
+#include "proto/wire/outcome.h"
+#include "proto/wire/overloaded.h"
+#include "proto/wire/repeated.h"
+#include "proto/wire/scene.h"
+
+namespace ricochet {
+
+static_assert(kRegimeCount == v1::Regime_ARRAYSIZE,
+              "SweepSummary::by_regime has one entry a regime");
+
+// Linspace and Logspace have the same fields.
+template <typename Space, typename SpaceProto>
+static void SetSpace(const Space& space, SpaceProto& proto) {
+  proto.set_start(space.start);
+  proto.set_stop(space.stop);
+  proto.set_count(space.count);
+}
+
+template <typename Space, typename SpaceProto>
+static Space SpaceOf(const SpaceProto& proto) {
+  return {.start = proto.start(), .stop = proto.stop(), .count = proto.count()};
+}
+
+static v1::Axis ToProto(const Axis& axis) {
+  v1::Axis proto;
+  proto.set_path(axis.path);
+  std::visit(Overloaded{
+                 [](std::monostate) {},
+                 [&](const ListValues& list) {
+                   AssignDoubles(list.values, *proto.mutable_list()->mutable_values());
+                 },
+                 [&](const Linspace& linspace) { SetSpace(linspace, *proto.mutable_linspace()); },
+                 [&](const Logspace& logspace) { SetSpace(logspace, *proto.mutable_logspace()); },
+             },
+             axis.values);
+  return proto;
+}
+
+static decltype(Axis::values) ValuesOf(const v1::Axis& proto) {
+  switch (proto.values_case()) {
+    case v1::Axis::kList:
+      return ListValues{ToVector(proto.list().values())};
+    case v1::Axis::kLinspace:
+      return SpaceOf<Linspace>(proto.linspace());
+    case v1::Axis::kLogspace:
+      return SpaceOf<Logspace>(proto.logspace());
+    case v1::Axis::VALUES_NOT_SET:
+      break;
+  }
+  return std::monostate();
+}
+
+static Axis FromProto(const v1::Axis& proto) {
+  return {.path = proto.path(), .values = ValuesOf(proto)};
+}
+
+v1::SweepRequest::Combination ToProto(Combination combination) {
+  switch (combination) {
+    case Combination::kUnspecified:
+      return v1::SweepRequest::COMBINATION_UNSPECIFIED;
+    case Combination::kProduct:
+      return v1::SweepRequest::COMBINATION_PRODUCT;
+    case Combination::kZip:
+      return v1::SweepRequest::COMBINATION_ZIP;
+  }
+  return static_cast<v1::SweepRequest::Combination>(combination);
+}
+
+Combination FromProto(v1::SweepRequest::Combination proto) {
+  switch (proto) {
+    case v1::SweepRequest::COMBINATION_UNSPECIFIED:
+      return Combination::kUnspecified;
+    case v1::SweepRequest::COMBINATION_PRODUCT:
+      return Combination::kProduct;
+    case v1::SweepRequest::COMBINATION_ZIP:
+      return Combination::kZip;
+    case v1::SweepRequest_Combination_SweepRequest_Combination_INT_MIN_SENTINEL_DO_NOT_USE_:
+    case v1::SweepRequest_Combination_SweepRequest_Combination_INT_MAX_SENTINEL_DO_NOT_USE_:
+      break;
+  }
+  return static_cast<Combination>(proto);
+}
+
+v1::SweepRequest ToProto(const SweepRequest& request) {
+  v1::SweepRequest proto;
+  *proto.mutable_scene() = ToProto(request.grid.scene);
+  for (const Axis& axis : request.grid.axes) *proto.add_axes() = ToProto(axis);
+  proto.set_combination(ToProto(request.grid.combination));
+  proto.mutable_columns()->Assign(request.columns.begin(), request.columns.end());
+  proto.set_with_regime(request.with_regime);
+  proto.set_first_index(request.first_index);
+  if (request.end_index.has_value()) proto.set_end_index(*request.end_index);
+  return proto;
+}
+
+SweepRequest FromProto(const v1::SweepRequest& proto) {
+  SweepRequest request;
+  request.grid.scene = FromProto(proto.scene());
+  for (const v1::Axis& axis : proto.axes()) request.grid.axes.push_back(FromProto(axis));
+  request.grid.combination = FromProto(proto.combination());
+  request.columns.assign(proto.columns().begin(), proto.columns().end());
+  request.with_regime = proto.with_regime();
+  request.first_index = proto.first_index();
+  if (proto.has_end_index()) request.end_index = proto.end_index();
+  return request;
+}
+
+static v1::Tally ToProto(const Tally& tally) {
+  v1::Tally proto;
+  proto.set_count(tally.count);
+  proto.set_first_index(tally.first_index);
+  return proto;
+}
+
+static Tally FromProto(const v1::Tally& proto) { return {proto.count(), proto.first_index()}; }
+
+static Tally Sum(const Tally& a, const Tally& b) {
+  if (a.count == 0) return b;
+  if (b.count == 0) return a;
+  return {a.count + b.count, std::min(a.first_index, b.first_index)};
+}
+
+v1::SweepSummary ToProto(const SweepSummary& summary) {
+  v1::SweepSummary proto;
+  proto.set_points(summary.points);
+  for (size_t number = 0; number < summary.by_regime.size(); ++number) {
+    const Tally& tally = summary.by_regime[number];
+    if (tally.count == 0) continue;
+    v1::RegimeTally& entry = *proto.add_by_regime();
+    entry.set_regime(ToProto(static_cast<Regime>(number)));
+    *entry.mutable_tally() = ToProto(tally);
+  }
+  *proto.mutable_inadmissible() = ToProto(summary.inadmissible);
+  if (summary.elapsed_s.has_value()) proto.set_elapsed_s(*summary.elapsed_s);
+  return proto;
+}
+
+SweepSummary FromProto(const v1::SweepSummary& proto) {
+  SweepSummary summary;
+  summary.points = proto.points();
+  for (const v1::RegimeTally& entry : proto.by_regime()) {
+    if (!entry.has_tally()) continue;
+    Tally& tally = summary.by_regime[static_cast<size_t>(FromProto(entry.regime()))];
+    tally = Sum(tally, FromProto(entry.tally()));
+  }
+  if (proto.has_inadmissible()) summary.inadmissible = FromProto(proto.inadmissible());
+  if (proto.has_elapsed_s()) summary.elapsed_s = proto.elapsed_s();
+  return summary;
+}
+
+void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto) {
+  proto.set_first_index(chunk.first_index);
+  proto.set_count(chunk.count);
+  AssignDoubles(chunk.values, *proto.mutable_values());
+  proto.mutable_regimes()->Resize(static_cast<int>(chunk.regimes.size()), 0);
+  std::transform(chunk.regimes.begin(), chunk.regimes.end(),
+                 proto.mutable_regimes()->mutable_data(),
+                 [](Regime regime) { return static_cast<int>(ToProto(regime)); });
+  proto.set_points_done(chunk.points_done);
+  proto.set_points_total(chunk.points_total);
+  proto.clear_summary();
+  if (chunk.summary.has_value()) *proto.mutable_summary() = ToProto(*chunk.summary);
+  *proto.mutable_engine() = ToProto(chunk.engine);
+}
+
+SweepChunk FromProto(const v1::SweepResponse& proto) {
+  SweepChunk chunk;
+  chunk.first_index = proto.first_index();
+  chunk.count = proto.count();
+  chunk.values = ToVector(proto.values());
+  chunk.regimes.resize(static_cast<size_t>(proto.regimes_size()));
+  std::transform(proto.regimes().begin(), proto.regimes().end(), chunk.regimes.begin(),
+                 [](int number) { return FromProto(static_cast<v1::Regime>(number)); });
+  chunk.points_done = proto.points_done();
+  chunk.points_total = proto.points_total();
+  if (proto.has_summary()) chunk.summary = FromProto(proto.summary());
+  chunk.engine = FromProto(proto.engine());
+  return chunk;
+}
+
+}  // namespace ricochet

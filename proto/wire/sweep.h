@@ -9,13 +9,17 @@
 namespace ricochet {
 
 v1::SweepRequest ToProto(const SweepRequest& request);
-// An unknown Combination keeps its number, for ValidateAxes to report.
 SweepRequest FromProto(const v1::SweepRequest& proto);
 
+// An unknown Combination keeps its number both ways, for ValidateAxes to report.
+v1::SweepRequest::Combination ToProto(Combination combination);
+Combination FromProto(v1::SweepRequest::Combination proto);
+
+// Points of regimes that this build does not know are counted together as kUnspecified.
 v1::SweepSummary ToProto(const SweepSummary& summary);
 SweepSummary FromProto(const v1::SweepSummary& proto);
 
-// `proto` is reused: its capacity is kept.
+// `proto` is reused: every field is set or cleared, its capacity is kept.
 void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto);
 SweepChunk FromProto(const v1::SweepResponse& proto);
 

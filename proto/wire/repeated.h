@@ -1,0 +1,25 @@
+// Lists of doubles <-> packed fields, one memcpy each way.
+
+#ifndef RICOCHET_PROTO_WIRE_REPEATED_H_
+#define RICOCHET_PROTO_WIRE_REPEATED_H_
+
+#include <google/protobuf/repeated_field.h>
+
+#include <vector>
+
+namespace ricochet {
+
+// Keeps the capacity of `field`.
+inline void AssignDoubles(const std::vector<double>& values,
+                          google::protobuf::RepeatedField<double>& field) {
+  field.Assign(values.begin(), values.end());
+}
+
+inline std::vector<double> ToVector(const google::protobuf::RepeatedField<double>& field) {
+  // Pointers, since the library's iterators do not let the copy become a memcpy.
+  return {field.data(), field.data() + field.size()};
+}
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_PROTO_WIRE_REPEATED_H_
