@@ -65,7 +65,8 @@ FirstOrderCoefficients Coefficients(const Problem& problem, const Wide& x, const
 }  // namespace
 
 NearlyVertical SolveNearlyVertical(const Problem& problem, bool with_coefficients) {
-  const auto geometry = SolveGeometry<Wide>(problem);
+  Solution<Wide> geometry;
+  SolveGeometry(problem, geometry);
   const Wide x = geometry.q / geometry.a;
   const Wide one_minus_x = geometry.d / geometry.a;
   const Wide one_plus_x = geometry.s / geometry.a;

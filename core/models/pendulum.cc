@@ -55,10 +55,7 @@ unsigned PartsOf(absl::Span<const Output> outputs) {
 }
 
 // Adding 0 turns -0 into 0: an impulse or velocity that vanishes has no sign.
-template <typename N>
-RICOCHET_INLINE double Rounded(const N& x) {
-  return ToDouble(x) + 0.0;
-}
+RICOCHET_INLINE double Unsigned0(double value) { return value + 0.0; }
 
 // What a block of problems writes to, and which outputs.
 struct Target {
@@ -75,7 +72,7 @@ RICOCHET_INLINE void SolveBlock(absl::Span<const Problem> problems, int64_t firs
   std::array<Solution<N>, kBlock> solutions;
   for (size_t i = 0; i < problems.size(); ++i) {
     const size_t point = static_cast<size_t>(first) + i;
-    solutions[i] = SolveParts<N>(problems[i], parts);
+    SolveParts<N>(problems[i], parts, solutions[i]);
     target.regimes[point] = solutions[i].regime;
     target.inadmissible[point] = Sign(solutions[i].one_minus_eta_squared) < 0;
   }
@@ -83,7 +80,7 @@ RICOCHET_INLINE void SolveBlock(absl::Span<const Problem> problems, int64_t firs
     double* const column = target.columns[c] + first;
     const Output output = target.outputs[c];
     for (size_t i = 0; i < problems.size(); ++i) {
-      column[i] = Rounded(Evaluate(solutions[i], output));
+      column[i] = Unsigned0(Evaluate(solutions[i], output));
     }
   }
 }
@@ -113,13 +110,14 @@ void SolveSeparating(const Problem& problem, int64_t i, const Target& target) {
 
 template <typename N>
 RICOCHET_INLINE Impact SolveOne(const Problem& problem) {
-  const Solution<N> solution = SolveParts<N>(problem, ~0U);
+  Solution<N> solution;
+  SolveParts<N>(problem, kPartAll, solution);
   Impact impact;
   impact.regime = solution.regime;
   impact.sharp_limit_broken = Sign(solution.one_minus_eta_squared) < 0;
   impact.energy_limit_broken = solution.energy_limit_broken;
   for (int i = 0; i < kOutputCount; ++i) {
-    impact.values[static_cast<size_t>(i)] = Rounded(Evaluate(solution, static_cast<Output>(i)));
+    impact.values[static_cast<size_t>(i)] = Unsigned0(Evaluate(solution, static_cast<Output>(i)));
   }
   return impact;
 }
@@ -192,16 +190,18 @@ void SolveColumns(absl::Span<const Problem> problems, absl::Span<const Output> o
 }
 
 Instant At(const Problem& problem, double tau) {
-  const auto x = SolveGeometry<Wide>(problem);
+  Solution<Wide> x;
+  SolveGeometry(problem, x);
   const Wide momentum = x.inertia * x.omega;
   const Wide impulse(tau);
   // J w(tau) of compression; from compression's end on, the slope is d instead of s.
   const Wide compression = momentum + x.s * impulse;
   if (Sign(compression) <= 0) {
-    return {Rounded(compression / x.inertia), Rounded(x.mu * impulse)};
+    return {Unsigned0(ToDouble(compression / x.inertia)), Unsigned0(ToDouble(x.mu * impulse))};
   }
   const Wide two(2.0);
-  return {Rounded(x.d / x.s * compression / x.inertia), Rounded(-x.mu * (two * momentum + x.s * impulse) / x.s)};
+  return {Unsigned0(ToDouble(x.d / x.s * compression / x.inertia)),
+          Unsigned0(ToDouble(-x.mu * (two * momentum + x.s * impulse) / x.s))};
 }
 
 }  // namespace ricochet::pendulum

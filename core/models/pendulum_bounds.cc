@@ -65,7 +65,8 @@ CoefficientBounds EnergyOnlyBounds(const Problem& problem, const Solution<Wide>&
 }  // namespace
 
 Bounds SolveBounds(const Problem& problem) {
-  const auto x = SolveGeometry<Wide>(problem);
+  Solution<Wide> x;
+  SolveGeometry(problem, x);
   const bool separating = problem.omega_minus >= 0.0;
   const Wide tau0 = separating ? Wide() : x.inertia * -x.omega / x.s;
   Bounds bounds;

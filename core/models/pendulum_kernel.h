@@ -29,6 +29,8 @@ enum Part : unsigned {
   kPartEtaSquared = 1U << 4,
   kPartEnergyLoss = 1U << 5,
   kPartTau0 = 1U << 6,
+  kPartWork = 1U << 7,
+  kPartAll = (1U << 8) - 1,
 };
 
 // The parts behind an output.
@@ -52,14 +54,15 @@ inline unsigned PartsOf(Output output) {
       return kPartKappa | kPartOneMinusKappa | kPartTau0;
     case Output::kNormalImpulseCompression:
     case Output::kTangentialImpulseCompression:
+      return kPartTau0;
     case Output::kWorkNormalCompression:
     case Output::kWorkTangentialCompression:
     case Output::kWorkNormal:
-      return kPartTau0;
+      return kPartTau0 | kPartWork;
     case Output::kWorkNormalRestitution:
     case Output::kWorkTangentialRestitution:
     case Output::kWorkTangential:
-      return kPartTau0 | kPartEtaSquared;
+      return kPartTau0 | kPartWork | kPartEtaSquared;
     case Output::kEnergyChange:
       return kPartEnergyLoss;
   }
@@ -70,13 +73,15 @@ inline unsigned PartsOf(Output output) {
 template <typename N>
 struct Solution {
   Regime regime = Regime::kUnspecified;
+  bool energy_limit_broken = false;
   N inertia, a, b, mu, omega;  // mu carries the sign of b; omega is w-
   N q, s, d;                   // mu |b|, a + q, a - q
+  N inverse_s, inverse_d;      // inverse_d is not set where locked
   N kappa, kappa_hat, eta, eta_squared;
-  N one_minus_kappa, one_minus_eta_squared;
+  N one_minus_kappa, inverse_one_plus_kappa, one_minus_eta_squared;
   N energy_loss;  // 1 - kappa_hat^2
   N tau0;
-  bool energy_limit_broken = false;
+  N half_omega_tau0;
 };
 
 template <typename N>
@@ -101,6 +106,12 @@ RICOCHET_INLINE N Numerator(const Solution<N>& x, Lead lead, double coefficient,
   return lead == Lead::kD ? x.a * complement - friction : x.a * complement + friction;
 }
 
+// 1/(1 + kappa), which both outputs of 1 - kappa use.
+template <typename N>
+RICOCHET_INLINE void SolveInverse(unsigned parts, Solution<N>& x) {
+  if (parts & kPartOneMinusKappa) x.inverse_one_plus_kappa = Inverse(N(1.0) + x.kappa);
+}
+
 template <typename N>
 RICOCHET_INLINE void SolveEnergetic(double coefficient, unsigned parts, Solution<N>& x) {
   const N one(1.0);
@@ -108,12 +119,19 @@ RICOCHET_INLINE void SolveEnergetic(double coefficient, unsigned parts, Solution
   x.eta = eta;
   x.eta_squared = SquareOf(eta);
   x.one_minus_eta_squared = (one - eta) * (one + eta);
-  if (parts & (kPartKappa | kPartOneMinusKappa)) x.kappa = eta * Sqrt(x.s / x.d);
-  if (parts & kPartKappaHat) x.kappa_hat = eta * Sqrt(x.d / x.s);
-  if (parts & kPartOneMinusKappa) {
-    x.one_minus_kappa = Numerator(x, Lead::kD, coefficient, Power::kTwo, coefficient <= 0.5) / (x.d * (one + x.kappa));
+  if (parts & (kPartKappa | kPartKappaHat)) {
+    const N scaled_root = eta * Sqrt(x.s * x.d);
+    x.kappa = scaled_root * x.inverse_d;
+    x.kappa_hat = scaled_root * x.inverse_s;
   }
-  if (parts & kPartEnergyLoss) x.energy_loss = Numerator(x, Lead::kS, coefficient, Power::kTwo, false) / x.s;
+  SolveInverse(parts, x);
+  if (parts & kPartOneMinusKappa) {
+    x.one_minus_kappa =
+        Numerator(x, Lead::kD, coefficient, Power::kTwo, coefficient <= 0.5) * x.inverse_d * x.inverse_one_plus_kappa;
+  }
+  if (parts & kPartEnergyLoss) {
+    x.energy_loss = Numerator(x, Lead::kS, coefficient, Power::kTwo, false) * x.inverse_s;
+  }
 }
 
 template <typename N>
@@ -122,13 +140,15 @@ RICOCHET_INLINE void SolveNewton(double coefficient, unsigned parts, Solution<N>
   const N e(coefficient);
   const bool first_form = coefficient <= 0.5;
   x.kappa_hat = e;
-  x.one_minus_eta_squared = Numerator(x, Lead::kD, coefficient, Power::kTwo, first_form) / x.d;
+  x.one_minus_eta_squared = Numerator(x, Lead::kD, coefficient, Power::kTwo, first_form) * x.inverse_d;
   x.energy_limit_broken = coefficient > 1.0;
-  if (parts & kPartKappa) x.kappa = e * x.s / x.d;
-  if (parts & kPartOneMinusKappa)
-    x.one_minus_kappa = Numerator(x, Lead::kD, coefficient, Power::kOne, first_form) / x.d;
-  if (parts & kPartEta) x.eta = e * Sqrt(x.s / x.d);
-  if (parts & kPartEtaSquared) x.eta_squared = SquareOf(e) * x.s / x.d;
+  if (parts & (kPartKappa | kPartEtaSquared)) x.kappa = e * x.s * x.inverse_d;
+  SolveInverse(parts, x);
+  if (parts & kPartOneMinusKappa) {
+    x.one_minus_kappa = Numerator(x, Lead::kD, coefficient, Power::kOne, first_form) * x.inverse_d;
+  }
+  if (parts & kPartEta) x.eta = e * Sqrt(x.s * x.d) * x.inverse_d;
+  if (parts & kPartEtaSquared) x.eta_squared = e * x.kappa;
   if (parts & kPartEnergyLoss) x.energy_loss = (one - e) * (one + e);
 }
 
@@ -137,30 +157,30 @@ RICOCHET_INLINE void SolvePoisson(double coefficient, unsigned parts, Solution<N
   const N one(1.0);
   const N k(coefficient);
   const bool first_form = coefficient >= 2.0;
-  const N kappa_hat_complement = Numerator(x, Lead::kS, coefficient, Power::kOne, first_form) / x.s;
+  const N one_minus_kappa_hat = Numerator(x, Lead::kS, coefficient, Power::kOne, first_form) * x.inverse_s;
   x.kappa = k;
   x.one_minus_kappa = one - k;
-  x.one_minus_eta_squared = Numerator(x, Lead::kS, coefficient, Power::kTwo, first_form) / x.s;
-  x.energy_limit_broken = Sign(kappa_hat_complement) < 0;
-  if (parts & (kPartKappaHat | kPartEnergyLoss)) x.kappa_hat = k * x.d / x.s;
-  if (parts & kPartEta) x.eta = k * Sqrt(x.d / x.s);
-  if (parts & kPartEtaSquared) x.eta_squared = SquareOf(k) * x.d / x.s;
-  if (parts & kPartEnergyLoss) x.energy_loss = kappa_hat_complement * (one + x.kappa_hat);
+  x.one_minus_eta_squared = Numerator(x, Lead::kS, coefficient, Power::kTwo, first_form) * x.inverse_s;
+  x.energy_limit_broken = Sign(one_minus_kappa_hat) < 0;
+  SolveInverse(parts, x);
+  if (parts & (kPartKappaHat | kPartEnergyLoss | kPartEtaSquared)) x.kappa_hat = k * x.d * x.inverse_s;
+  if (parts & kPartEta) x.eta = k * Sqrt(x.s * x.d) * x.inverse_s;
+  if (parts & kPartEtaSquared) x.eta_squared = k * x.kappa_hat;
+  if (parts & kPartEnergyLoss) x.energy_loss = one_minus_kappa_hat * (one + x.kappa_hat);
 }
 
 // Locked: no restitution, whatever the law and the coefficient.
 template <typename N>
 RICOCHET_INLINE void SolveLocked(Solution<N>& x) {
+  const N zero;
   const N one(1.0);
-  x.one_minus_kappa = one;
-  x.one_minus_eta_squared = one;
-  x.energy_loss = one;
+  x.kappa = x.kappa_hat = x.eta = x.eta_squared = zero;
+  x.one_minus_kappa = x.inverse_one_plus_kappa = x.one_minus_eta_squared = x.energy_loss = one;
 }
 
 // Geometry and regime. The problem must not be separating.
 template <typename N>
-RICOCHET_INLINE Solution<N> SolveGeometry(const Problem& problem) {
-  Solution<N> x;
+RICOCHET_INLINE void SolveGeometry(const Problem& problem, Solution<N>& x) {
   const bool smooth = problem.mu == 0.0 || problem.b == 0.0;
   x.inertia = N(problem.inertia);
   x.a = N(problem.a);
@@ -177,17 +197,21 @@ RICOCHET_INLINE Solution<N> SolveGeometry(const Problem& problem) {
   } else {
     x.regime = smooth ? Regime::kFrictionless : Regime::kRebound;
   }
-  return x;
 }
 
+// Everything behind `parts`. `x` may hold the solution of another problem.
 template <typename N>
-RICOCHET_INLINE Solution<N> SolveParts(const Problem& problem, unsigned parts) {
-  Solution<N> x = SolveGeometry<N>(problem);
-  if (parts & kPartTau0) x.tau0 = x.inertia * -x.omega / x.s;
+RICOCHET_INLINE void SolveParts(const Problem& problem, unsigned parts, Solution<N>& x) {
+  SolveGeometry(problem, x);
+  x.inverse_s = Inverse(x.s);
+  if (parts & kPartTau0) x.tau0 = x.inertia * -x.omega * x.inverse_s;
+  if (parts & kPartWork) x.half_omega_tau0 = N(0.5) * x.omega * x.tau0;
+  x.energy_limit_broken = false;
   if (x.regime == Regime::kLocked) {
     SolveLocked(x);
-    return x;
+    return;
   }
+  x.inverse_d = Inverse(x.d);
   switch (problem.law) {
     case Law::kNewton:
       SolveNewton(problem.coefficient, parts, x);
@@ -199,55 +223,53 @@ RICOCHET_INLINE Solution<N> SolveParts(const Problem& problem, unsigned parts) {
       SolveEnergetic(problem.coefficient, parts, x);
       break;
   }
-  return x;
 }
 
-// One output; its parts must have been solved.
+// One output, rounded; its parts must have been solved.
 template <typename N>
-RICOCHET_INLINE N Evaluate(const Solution<N>& x, Output output) {
+RICOCHET_INLINE double Evaluate(const Solution<N>& x, Output output) {
   const N one(1.0);
-  const N half(0.5);
   switch (output) {
     case Output::kNewton:
-      return x.kappa_hat;
+      return ToDouble(x.kappa_hat);
     case Output::kPoisson:
-      return x.kappa;
+      return ToDouble(x.kappa);
     case Output::kEnergetic:
-      return x.eta;
+      return ToDouble(x.eta);
     case Output::kTangentialCoefficient:
-      return x.mu * x.one_minus_kappa / (one + x.kappa);
+      return RoundedProduct(x.mu * x.one_minus_kappa, x.inverse_one_plus_kappa);
     case Output::kOmegaPlus:
-      return -x.kappa_hat * x.omega;
+      return RoundedProduct(-x.kappa_hat, x.omega);
     case Output::kTangentialVelocityAfter:
-      return -x.kappa_hat * x.omega * x.b;
+      return RoundedProduct(-x.kappa_hat * x.omega, x.b);
     case Output::kNormalVelocityAfter:
-      return -x.kappa_hat * x.omega * x.a;
+      return RoundedProduct(-x.kappa_hat * x.omega, x.a);
     case Output::kNormalImpulseCompression:
-      return x.tau0;
+      return ToDouble(x.tau0);
     case Output::kNormalImpulse:
-      return (one + x.kappa) * x.tau0;
+      return RoundedProduct(one + x.kappa, x.tau0);
     case Output::kTangentialImpulse:
-      return x.mu * x.one_minus_kappa * x.tau0;
+      return RoundedProduct(x.mu * x.one_minus_kappa, x.tau0);
     case Output::kTangentialImpulseCompression:
-      return x.mu * x.tau0;
+      return RoundedProduct(x.mu, x.tau0);
     case Output::kWorkNormalCompression:
-      return half * x.a * x.tau0 * x.omega;
+      return RoundedProduct(x.a, x.half_omega_tau0);
     case Output::kWorkNormalRestitution:
-      return -(half * x.a * x.tau0 * x.omega * x.eta_squared);
+      return RoundedProduct(-x.a * x.half_omega_tau0, x.eta_squared);
     case Output::kWorkTangentialCompression:
-      return half * x.q * x.tau0 * x.omega;
+      return RoundedProduct(x.q, x.half_omega_tau0);
     case Output::kWorkTangentialRestitution:
-      return half * x.q * x.tau0 * x.omega * x.eta_squared;
+      return RoundedProduct(x.q * x.half_omega_tau0, x.eta_squared);
     case Output::kWorkNormal:
-      return half * x.a * x.tau0 * x.omega * x.one_minus_eta_squared;
+      return RoundedProduct(x.a * x.half_omega_tau0, x.one_minus_eta_squared);
     case Output::kWorkTangential:
-      return half * x.q * x.tau0 * x.omega * (one + x.eta_squared);
+      return RoundedProduct(x.q * x.half_omega_tau0, one + x.eta_squared);
     case Output::kEnergyChange:
-      return -(half * x.inertia * x.omega * x.omega * x.energy_loss);
+      return RoundedProduct(N(-0.5) * x.inertia * x.omega * x.omega, x.energy_loss);
     case Output::kEnergeticExcess:
-      return -x.one_minus_eta_squared / (one + x.eta);
+      return ToDouble(-x.one_minus_eta_squared / (one + x.eta));
   }
-  return N();
+  return 0.0;
 }
 
 }  // namespace ricochet::pendulum

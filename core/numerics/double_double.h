@@ -61,15 +61,14 @@ RICOCHET_INLINE DoubleDouble operator*(DoubleDouble x, DoubleDouble y) {
   return QuickTwoSum(product.hi, product.lo + cross);
 }
 
-RICOCHET_INLINE DoubleDouble operator/(DoubleDouble x, DoubleDouble y) {
-  // One Newton step on 1/y in double-double, then one product.
-  const double inverse = 1.0 / y.hi;
-  const double high_rest = std::fma(-y.hi, inverse, 1.0);
-  const double low_rest = -(y.lo * inverse);
-  const DoubleDouble rest = QuickTwoSum(high_rest, low_rest);
-  const DoubleDouble correction = rest * DoubleDouble(inverse);
-  return x * (DoubleDouble(inverse) + correction);
+// 1/x, one Newton step in double-double on the double's.
+RICOCHET_INLINE DoubleDouble Inverse(DoubleDouble x) {
+  const double inverse = 1.0 / x.hi;
+  const DoubleDouble rest = QuickTwoSum(std::fma(-x.hi, inverse, 1.0), -(x.lo * inverse));
+  return DoubleDouble(inverse) + DoubleDouble(inverse) * rest;
 }
+
+RICOCHET_INLINE DoubleDouble operator/(DoubleDouble x, DoubleDouble y) { return x * Inverse(y); }
 
 // x >= 0.
 RICOCHET_INLINE DoubleDouble Sqrt(DoubleDouble x) {
@@ -83,6 +82,11 @@ RICOCHET_INLINE DoubleDouble Sqrt(DoubleDouble x) {
 RICOCHET_INLINE int Sign(DoubleDouble x) { return (x.hi > 0.0) - (x.hi < 0.0); }
 
 RICOCHET_INLINE double ToDouble(DoubleDouble x) { return x.hi; }
+
+// ToDouble(x y) up to 2^-50 ulp, for a third of the work.
+RICOCHET_INLINE double RoundedProduct(DoubleDouble x, DoubleDouble y) {
+  return std::fma(x.hi, y.hi, std::fma(x.hi, y.lo, x.lo * y.hi));
+}
 
 }  // namespace ricochet
 

@@ -20,7 +20,8 @@ class Wide {
 
   friend Wide operator-(const Wide& x) { return {-x.mantissa_, x.exponent_}; }
   friend Wide operator*(const Wide& x, const Wide& y) { return {x.mantissa_ * y.mantissa_, x.exponent_ + y.exponent_}; }
-  friend Wide operator/(const Wide& x, const Wide& y) { return {x.mantissa_ / y.mantissa_, x.exponent_ - y.exponent_}; }
+  friend Wide Inverse(const Wide& x) { return {Inverse(x.mantissa_), -x.exponent_}; }
+  friend Wide operator/(const Wide& x, const Wide& y) { return x * Inverse(y); }
   friend Wide operator+(const Wide& x, const Wide& y) {
     if (x.mantissa_.hi == 0.0) return y;
     if (y.mantissa_.hi == 0.0) return x;
@@ -44,6 +45,7 @@ class Wide {
 
   // The nearest double; infinite above the largest one.
   friend double ToDouble(const Wide& x) { return std::ldexp(x.mantissa_.hi, x.exponent_); }
+  friend double RoundedProduct(const Wide& x, const Wide& y) { return ToDouble(x * y); }
 
  private:
   Wide(DoubleDouble mantissa, int exponent) : mantissa_(mantissa), exponent_(exponent) {
