@@ -1,0 +1,49 @@
+// ImpactService: the handlers of ricochet.v1.ImpactService. They convert, call the core and map the status.
+
+#ifndef RICOCHET_SERVER_IMPACT_SERVICE_H_
+#define RICOCHET_SERVER_IMPACT_SERVICE_H_
+
+#include <grpcpp/server_context.h>
+#include <grpcpp/support/status.h>
+#include <grpcpp/support/sync_stream.h>
+
+#include <cstdint>
+#include <stop_token>
+
+#include "core/solver.h"
+#include "ricochet/v1/impact_service.grpc.pb.h"
+#include "server/admission.h"
+#include "server/call.h"
+#include "server/log.h"
+
+namespace ricochet::server {
+
+// Thread safety: gRPC calls every handler from several threads at once.
+class ImpactService final : public v1::ImpactService::Service {
+ public:
+  // All arguments by reference must outlive the service. Once `drain` was requested, sweeps end with UNAVAILABLE and
+  // kDraining. A sweep over more than `max_points_per_sweep` points is refused with kSweepTooLarge.
+  ImpactService(const Solver& solver, int64_t max_points_per_sweep, std::stop_token drain, Admission& admission,
+                const Log& log);
+
+  grpc::Status Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
+                     v1::SolveResponse* response) override;
+  grpc::Status Bounds(grpc::ServerContext* context, const v1::BoundsRequest* request,
+                      v1::BoundsResponse* response) override;
+  grpc::Status Sweep(grpc::ServerContext* context, const v1::SweepRequest* request,
+                     grpc::ServerWriter<v1::SweepResponse>* writer) override;
+
+ private:
+  absl::Status StreamSweep(const SweepRequest& request, const grpc::ServerContext& context,
+                           grpc::ServerWriter<v1::SweepResponse>& writer, Call& call) const;
+
+  const Solver& solver_;
+  const int64_t max_points_per_sweep_;
+  const std::stop_token drain_;
+  Admission& admission_;
+  const Log& log_;
+};
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_SERVER_IMPACT_SERVICE_H_

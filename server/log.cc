@@ -1,0 +1,137 @@
+#include "server/log.h"
+
+#include <grpc/support/log.h>
+#include <spdlog/fmt/fmt.h>
+#include <spdlog/logger.h>
+#include <spdlog/pattern_formatter.h>
+#include <spdlog/sinks/ostream_sink.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+
+namespace ricochet::server {
+namespace {
+
+constexpr char kTextPattern[] = "%Y-%m-%dT%H:%M:%S.%eZ %l %v";
+constexpr char kJsonPattern[] = R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l",%v})";
+
+spdlog::level::level_enum ToSpdlog(LogLevel level) {
+  switch (level) {
+    case LogLevel::kDebug:
+      return spdlog::level::debug;
+    case LogLevel::kInfo:
+      return spdlog::level::info;
+    case LogLevel::kWarning:
+      return spdlog::level::warn;
+    case LogLevel::kError:
+      break;
+  }
+  return spdlog::level::err;
+}
+
+bool IsContinuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+// Bytes of the UTF-8 character that starts at `i`; 0 where none does.
+size_t Utf8Length(const std::string& text, size_t i) {
+  const auto byte = [&text](size_t at) { return static_cast<unsigned char>(text[at]); };
+  const unsigned char lead = byte(i);
+  const size_t length = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
+  if (length == 0 || i + length > text.size()) return 0;
+  for (size_t k = 1; k < length; ++k) {
+    if (!IsContinuation(text[i + k])) return 0;
+  }
+  // The second byte bars longer spellings than needed, surrogates and what lies above U+10FFFF.
+  const bool barred = (lead == 0xE0 && byte(i + 1) < 0xA0) || (lead == 0xED && byte(i + 1) >= 0xA0) ||
+                      (lead == 0xF0 && byte(i + 1) < 0x90) || (lead == 0xF4 && byte(i + 1) >= 0x90);
+  return barred ? 0 : length;
+}
+
+// A JSON string. Bytes that are not UTF-8 become U+FFFD.
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (size_t i = 0; i < text.size();) {
+    const char c = text[i];
+    const size_t length = Utf8Length(text, i);
+    if (length == 0) {
+      quoted += "\xEF\xBF\xBD";
+    } else if (c == '"' || c == '\\') {
+      quoted += {'\\', c};
+    } else if (c == '\n') {
+      quoted += "\\n";
+    } else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) {
+      quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
+    } else {
+      quoted.append(text, i, length);
+    }
+    i += std::max<size_t>(length, 1);
+  }
+  return quoted + "\"";
+}
+
+// For a text line: bare where nothing in it could be mistaken.
+std::string QuotedIfNeeded(const std::string& text) {
+  const bool bare = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+    return c > ' ' && c < 0x7F && c != '"' && c != '\\' && c != '=';
+  });
+  return bare ? text : Quoted(text);
+}
+
+std::string ToText(const LogField& field, LogFormat format) {
+  return std::visit(
+      [format](const auto& value) -> std::string {
+        using Value = std::decay_t<decltype(value)>;
+        if constexpr (std::is_same_v<Value, std::string>) {
+          return format == LogFormat::kJson ? Quoted(value) : QuotedIfNeeded(value);
+        } else if constexpr (std::is_same_v<Value, double>) {
+          return std::isfinite(value) ? fmt::format("{:.3f}", value) : "null";
+        } else {
+          return fmt::format("{}", value);
+        }
+      },
+      field.value);
+}
+
+// The log that gRPC's own messages go to.
+std::atomic<const Log*> grpc_log = nullptr;
+
+void WriteGrpcMessage(gpr_log_func_args* message) {
+  const Log* const log = grpc_log;
+  if (log == nullptr) return;
+  const LogLevel level = message->severity == GPR_LOG_SEVERITY_ERROR  ? LogLevel::kError
+                         : message->severity == GPR_LOG_SEVERITY_INFO ? LogLevel::kInfo
+                                                                      : LogLevel::kDebug;
+  log->Write(level, "grpc", {{"message", message->message}});
+}
+
+}  // namespace
+
+Log::Log(LogFormat format, LogLevel level, std::ostream& out)
+    : format_(format),
+      logger_(std::make_unique<spdlog::logger>(
+          "ricochetd", std::make_shared<spdlog::sinks::ostream_sink_mt>(out, /*force_flush=*/true))) {
+  logger_->set_formatter(std::make_unique<spdlog::pattern_formatter>(
+      format == LogFormat::kJson ? kJsonPattern : kTextPattern, spdlog::pattern_time_type::utc));
+  logger_->set_level(ToSpdlog(level));
+  grpc_log = this;
+  gpr_set_log_function(WriteGrpcMessage);
+}
+
+Log::~Log() {
+  const Log* self = this;
+  grpc_log.compare_exchange_strong(self, nullptr);
+}
+
+void Log::Write(LogLevel level, const std::string& event, const std::vector<LogField>& fields) const {
+  if (!logger_->should_log(ToSpdlog(level))) return;
+  std::string record = format_ == LogFormat::kJson ? "\"event\":" + Quoted(event) : event;
+  for (const LogField& field : fields) {
+    record += format_ == LogFormat::kJson ? ",\"" + field.name + "\":" : " " + field.name + "=";
+    record += ToText(field, format_);
+  }
+  logger_->log(ToSpdlog(level), spdlog::string_view_t(record));
+}
+
+}  // namespace ricochet::server

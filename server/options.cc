@@ -1,0 +1,254 @@
+#include "server/options.h"
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/str_replace.h"
+#include "core/engine.h"
+
+namespace ricochet::server {
+namespace {
+
+// The rule that a value breaks, "must …"; nothing for a good value.
+using BrokenRule = std::optional<std::string>;
+
+constexpr char kAddressRule[] = "must be HOST:PORT with a port from 0 to 65535, an IPv6 host in brackets";
+
+template <typename Number>
+std::optional<Number> ParseNumber(const std::string& text) {
+  Number number = {};
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, number);
+  if (result.ec != std::errc() || result.ptr != end) return std::nullopt;
+  return number;
+}
+
+template <typename Integer>
+BrokenRule ReadInteger(const std::string& text, Integer most, Integer& integer) {
+  const auto value = ParseNumber<Integer>(text);
+  if (!value.has_value() || *value < 1 || *value > most) {
+    return absl::StrCat("must be an integer from 1 to ", most);
+  }
+  integer = *value;
+  return std::nullopt;
+}
+
+BrokenRule ReadSeconds(const std::string& text, std::chrono::milliseconds& time) {
+  const auto seconds = ParseNumber<double>(text);
+  if (!seconds.has_value() || !(*seconds >= 0.0 && *seconds <= 3600.0)) {
+    return "must be a number of seconds from 0 to 3600";
+  }
+  time = std::chrono::milliseconds(std::llround(*seconds * 1e3));
+  return std::nullopt;
+}
+
+template <typename Value>
+using Names = std::vector<std::pair<std::string, Value>>;
+
+template <typename Value>
+BrokenRule ReadName(const std::string& text, const Names<Value>& names, Value& value) {
+  for (const auto& [name, named] : names) {
+    if (text == name) {
+      value = named;
+      return std::nullopt;
+    }
+  }
+  return "must be one of " +
+         absl::StrJoin(names, ", ", [](std::string* out, const auto& entry) { *out += entry.first; });
+}
+
+BrokenRule ReadAddress(const std::string& text, ListenAddress& listen) {
+  const auto address = ParseListenAddress(text);
+  if (!address.has_value()) return kAddressRule;
+  listen = *address;
+  return std::nullopt;
+}
+
+struct Setting {
+  std::string name;
+  std::string value_name;  // Empty for a flag, which may stand without a value.
+  std::string help;
+  std::function<BrokenRule(const std::string&, Options&)> read;
+};
+
+std::vector<Setting> NetworkSettings() {
+  return {
+      {"listen", "HOST:PORT", "Where to take connections; port 0 lets the system choose [127.0.0.1:50051]",
+       [](const std::string& text, Options& to) { return ReadAddress(text, to.listen); }},
+      {"port-file", "FILE", "Write the bound port there once calls are taken",
+       [](const std::string& text, Options& to) -> BrokenRule {
+         to.port_file = text;
+         if (text.empty()) return "must not be empty";
+         return std::nullopt;
+       }},
+      {"insecure", "", "Allow a --listen address that is not loopback, without encryption",
+       [](const std::string& text, Options& to) {
+         return ReadName<bool>(text, {{"true", true}, {"1", true}, {"false", false}, {"0", false}}, to.insecure);
+       }},
+  };
+}
+
+std::vector<Setting> LimitSettings() {
+  return {
+      {"max-live-calls", "N", "Calls that may run at once [256]",
+       [](const std::string& text, Options& to) { return ReadInteger(text, 65536, to.max_live_calls); }},
+      {"max-threads", "N", absl::StrCat("Threads [max-live-calls + ", Options::kSpareThreads, "]"),
+       [](const std::string& text, Options& to) { return ReadInteger(text, 1 << 20, to.max_threads); }},
+      {"max-points-per-sweep", "N", "Points that one sweep may ask for [10000000000]",
+       [](const std::string& text, Options& to) {
+         return ReadInteger(text, int64_t{1} << 53, to.max_points_per_sweep);
+       }},
+      {"drain-grace", "SECONDS", "After a stop signal, announce NOT_SERVING for so long before sweeps are ended [3]",
+       [](const std::string& text, Options& to) { return ReadSeconds(text, to.drain_grace); }},
+      {"drain-timeout", "SECONDS", "Then wait for so long for calls to end [20]",
+       [](const std::string& text, Options& to) { return ReadSeconds(text, to.drain_timeout); }},
+  };
+}
+
+std::vector<Setting> LogSettings() {
+  return {
+      {"log-format", "FORMAT", "text or json: one record a line, on standard error [text]",
+       [](const std::string& text, Options& to) {
+         return ReadName<LogFormat>(text, {{"text", LogFormat::kText}, {"json", LogFormat::kJson}}, to.log_format);
+       }},
+      {"log-level", "LEVEL", "debug, info, warning or error; calls are logged at info [info]",
+       [](const std::string& text, Options& to) {
+         return ReadName<LogLevel>(text,
+                                   {{"debug", LogLevel::kDebug},
+                                    {"info", LogLevel::kInfo},
+                                    {"warning", LogLevel::kWarning},
+                                    {"error", LogLevel::kError}},
+                                   to.log_level);
+       }},
+  };
+}
+
+std::string EnvironmentName(const std::string& name) {
+  return "RICOCHETD_" + absl::AsciiStrToUpper(absl::StrReplaceAll(name, {{"-", "_"}}));
+}
+
+std::string FromEnvironment(const std::string& name) {
+  const char* const value = std::getenv(EnvironmentName(name).c_str());
+  return value == nullptr ? "" : value;
+}
+
+// CLI11 ranks the file above the environment; this leaves out of the file what the environment sets.
+class BelowEnvironment : public CLI::ConfigTOML {
+ public:
+  std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
+    std::vector<CLI::ConfigItem> entries = CLI::ConfigTOML::from_config(input);
+    std::erase_if(entries, [](const auto& entry) { return !FromEnvironment(entry.name).empty(); });
+    return entries;
+  }
+};
+
+// An option given by flag, environment or file, its value still text.
+struct Given {
+  const Setting* setting;
+  CLI::Option* option;
+};
+
+std::vector<Given> AddOptions(const std::vector<Setting>& settings, const std::string& group, CLI::App& app) {
+  std::vector<Given> added;
+  for (const Setting& setting : settings) {
+    const std::string flag = "--" + setting.name;
+    CLI::Option* const option =
+        setting.value_name.empty() ? app.add_flag(flag, setting.help) : app.add_option(flag, setting.help);
+    option->group(group)->envname(EnvironmentName(setting.name));
+    option->option_text(setting.value_name.empty() ? " " : setting.value_name);
+    added.push_back({&setting, option});
+  }
+  return added;
+}
+
+std::string Violated(const std::string& name, const std::string& value, const std::string& rule) {
+  return absl::StrCat("--", name, " = ", value, ": ", rule);
+}
+
+void Read(const std::vector<Given>& given, Options& options, std::vector<std::string>& violations) {
+  for (const auto& [setting, option] : given) {
+    if (option->count() == 0) continue;
+    const std::string& text = option->results().back();
+    const BrokenRule broken = setting->read(text, options);
+    if (broken.has_value()) violations.push_back(Violated(setting->name, text, *broken));
+  }
+}
+
+void CheckTogether(const Options& options, std::vector<std::string>& violations) {
+  if (!options.insecure && !IsLoopback(options.listen)) {
+    violations.push_back(Violated("listen", ToString(options.listen),
+                                  "must be a loopback address (localhost, 127.0.0.0/8, [::1]) "
+                                  "without --insecure; nothing would be encrypted"));
+  }
+  const int threads = options.max_live_calls + Options::kSpareThreads;
+  if (options.max_threads < threads) {
+    violations.push_back(
+        Violated("max-threads", absl::StrCat(options.max_threads),
+                 absl::StrCat("must be >= ", threads, ", --max-live-calls + ", Options::kSpareThreads)));
+  }
+}
+
+absl::StatusOr<std::variant<Options, Notice>> Parse(CLI::App& app, int argc, const char* const* argv) {
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    return Notice{app.help()};
+  } catch (const CLI::CallForVersion& version) {
+    return Notice{absl::StrCat(version.what(), "\n")};
+  } catch (const CLI::ParseError& error) {
+    return absl::InvalidArgumentError(absl::StrCat(error.what(), "\nRun with --help for more."));
+  }
+  return Options();
+}
+
+}  // namespace
+
+absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const char* const* argv) {
+  CLI::App app(
+      "ricochetd: answers what happens when something hits a surface with friction.\n"
+      "Each option can also be set in the environment, as RICOCHETD_MAX_LIVE_CALLS=10, "
+      "or in the file of --config, as max-live-calls = 10; the flag goes first, then the "
+      "environment.\n\nExample: ricochetd --listen 127.0.0.1:50051 --log-format json\n",
+      "ricochetd");
+  app.set_help_flag("--help", "Print this and end");
+  app.set_version_flag("--version",
+                       absl::StrCat("ricochetd ", ThisEngine().version, " (engine ", ThisEngine().fingerprint, ")"));
+  app.config_formatter(std::make_shared<BelowEnvironment>());
+  app.allow_config_extras(CLI::config_extras_mode::error);
+  const std::string file = FromEnvironment("config");
+  app.set_config("--config", file, "Read options from there (RICOCHETD_CONFIG)", !file.empty())->option_text("FILE");
+
+  const std::vector<Setting> settings[] = {NetworkSettings(), LimitSettings(), LogSettings()};
+  const char* const groups[] = {"Network", "Limits", "Log"};
+  std::vector<Given> given;
+  for (size_t i = 0; i < std::size(settings); ++i) {
+    const std::vector<Given> added = AddOptions(settings[i], groups[i], app);
+    given.insert(given.end(), added.begin(), added.end());
+  }
+
+  auto parsed = Parse(app, argc, argv);
+  if (!parsed.ok() || std::holds_alternative<Notice>(*parsed)) return parsed;
+  auto& options = std::get<Options>(*parsed);
+  std::vector<std::string> violations;
+  Read(given, options, violations);
+  if (app.count("--max-threads") == 0) {
+    options.max_threads = options.max_live_calls + Options::kSpareThreads;
+  }
+  CheckTogether(options, violations);
+  if (!violations.empty()) return absl::InvalidArgumentError(absl::StrJoin(violations, "\n"));
+  return parsed;
+}
+
+}  // namespace ricochet::server

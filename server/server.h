@@ -1,0 +1,59 @@
+// Server: the impact service with health and reflection, its limits, and how it ends.
+//
+// Drain: health says NOT_SERVING, so that load balancers look elsewhere; after the grace the running sweeps end at their
+// next chunk with UNAVAILABLE and a retry delay; then all calls have the drain timeout to end.
+
+#ifndef RICOCHET_SERVER_SERVER_H_
+#define RICOCHET_SERVER_SERVER_H_
+
+#include <grpcpp/server.h>
+
+#include <memory>
+#include <stop_token>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/local_solver.h"
+#include "server/admission.h"
+#include "server/impact_service.h"
+#include "server/listen_address.h"
+#include "server/log.h"
+#include "server/options.h"
+#include "server/stop_signals.h"
+
+namespace ricochet::server {
+
+class Server {
+ public:
+  // A server that takes calls. `log` must outlive it.
+  // Errors: UNAVAILABLE if it cannot listen, those of the file system if it cannot write the port file.
+  static absl::StatusOr<std::unique_ptr<Server>> Start(const Options& options, const Log& log);
+
+  // Cancels the calls that still run.
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  // Where it listens, with the port that the system chose.
+  const ListenAddress& address() const { return address_; }
+
+  // Serves until a signal comes, then drains. A second signal skips the rest of the grace. Call it once.
+  void ServeUntil(const StopSignals& signals);
+
+ private:
+  Server(const Options& options, const Log& log);
+  absl::Status Listen();
+
+  const Options options_;
+  const Log& log_;
+  ListenAddress address_;
+  std::stop_source drain_;
+  LocalSolver solver_;
+  Admission admission_;
+  ImpactService service_;
+  std::unique_ptr<grpc::Server> server_;
+};
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_SERVER_SERVER_H_
