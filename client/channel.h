@@ -1,0 +1,21 @@
+// The gRPC channel behind a ClientOptions.
+
+#ifndef RICOCHET_CLIENT_CHANNEL_H_
+#define RICOCHET_CLIENT_CHANNEL_H_
+
+#include <grpcpp/channel.h>
+
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "client/options.h"
+
+namespace ricochet {
+
+// A channel that connects at its first call, without encryption.
+// Errors: INVALID_ARGUMENT for invalid options.
+absl::StatusOr<std::shared_ptr<grpc::Channel>> MakeChannel(const ClientOptions& options);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CLIENT_CHANNEL_H_

@@ -1,0 +1,84 @@
+#include "client/cli/axis_input.h"
+
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/number_input.h"
+
+namespace ricochet::cli {
+namespace {
+
+using Values = decltype(Axis::values);
+
+std::vector<std::string> Split(const std::string& text, char separator) { return absl::StrSplit(text, separator); }
+
+// START, STOP and COUNT of a Linspace or a Logspace.
+template <typename Space>
+absl::StatusOr<Values> ParseSpace(const std::vector<std::string>& parts, const std::string& what) {
+  if (parts.size() != 4) {
+    return InputError(what, absl::StrCat(parts[0], " with ", parts.size() - 1, " parts"),
+                      absl::StrCat("be ", parts[0], ":START:STOP:COUNT"));
+  }
+  const absl::StatusOr<double> start = ParseNumber(parts[1], absl::StrCat(what, ", START"));
+  if (!start.ok()) return start.status();
+  const absl::StatusOr<double> stop = ParseNumber(parts[2], absl::StrCat(what, ", STOP"));
+  if (!stop.ok()) return stop.status();
+  const absl::StatusOr<int64_t> count = ParseCount(parts[3], absl::StrCat(what, ", COUNT"));
+  if (!count.ok()) return count.status();
+  return Values(Space{*start, *stop, *count});
+}
+
+absl::StatusOr<Values> ParseList(const std::string& text, const std::string& what) {
+  ListValues list;
+  for (const std::string& part : Split(text, ',')) {
+    const absl::StatusOr<double> value = ParseNumber(part, what);
+    if (!value.ok()) return value.status();
+    list.values.push_back(*value);
+  }
+  return Values(std::move(list));
+}
+
+absl::StatusOr<Values> ParseValues(const std::string& text, const std::string& what) {
+  const std::vector<std::string> parts = Split(text, ':');
+  if (parts[0] == "lin") return ParseSpace<Linspace>(parts, what);
+  if (parts[0] == "log") return ParseSpace<Logspace>(parts, what);
+  if (parts.size() > 1) {
+    return InputError(what, text, "be a list such as 0.1,1/3 or lin:START:STOP:COUNT or log:START:STOP:COUNT");
+  }
+  return ParseList(text, what);
+}
+
+}  // namespace
+
+absl::StatusOr<Axis> ParseAxis(const std::string& text) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    return InputError("--axis", text, "be PATH=VALUES, such as friction.kinetic_coefficient=0.1,1/3");
+  }
+  Axis axis{.path = text.substr(0, equals), .values = {}};
+  absl::StatusOr<Values> values = ParseValues(text.substr(equals + 1), absl::StrCat("--axis ", axis.path));
+  if (!values.ok()) return values.status();
+  axis.values = *std::move(values);
+  return axis;
+}
+
+absl::StatusOr<IndexRange> ParseRange(const std::string& text) {
+  const std::vector<std::string> parts = Split(text, ':');
+  if (parts.size() != 2) return InputError("--range", text, "be FIRST:END");
+  IndexRange range;
+  if (!parts[0].empty()) {
+    const absl::StatusOr<int64_t> first = ParseCount(parts[0], "--range, FIRST");
+    if (!first.ok()) return first.status();
+    range.first = *first;
+  }
+  if (!parts[1].empty()) {
+    const absl::StatusOr<int64_t> end = ParseCount(parts[1], "--range, END");
+    if (!end.ok()) return end.status();
+    range.end = *end;
+  }
+  return range;
+}
+
+}  // namespace ricochet::cli

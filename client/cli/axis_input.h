@@ -1,0 +1,29 @@
+// Axes and ranges of a sweep as a user types them.
+
+#ifndef RICOCHET_CLIENT_CLI_AXIS_INPUT_H_
+#define RICOCHET_CLIENT_CLI_AXIS_INPUT_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "core/sweep/grid.h"
+
+namespace ricochet::cli {
+
+// "PATH=0.1,1/3,0.5", "PATH=lin:START:STOP:COUNT" or "PATH=log:START:STOP:COUNT".
+// Errors: INVALID_ARGUMENT. Whether the path exists and the values make sense is for the solver to say.
+absl::StatusOr<Axis> ParseAxis(const std::string& text);
+
+struct IndexRange {
+  int64_t first = 0;
+  std::optional<int64_t> end;
+};
+
+// "FIRST:END"; an empty FIRST is 0, an empty END the end of the grid.
+absl::StatusOr<IndexRange> ParseRange(const std::string& text);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_AXIS_INPUT_H_

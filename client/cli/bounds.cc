@@ -1,0 +1,155 @@
+#include "client/cli/bounds.h"
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/scene_input.h"
+#include "client/cli/table.h"
+#include "core/numerics/decimal.h"
+#include "proto/wire/requests.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] = R"(Example: what friction leaves of the coefficients of a pendulum, whatever it is made of.
+  $ ricochet bounds --a 0.3 --b 1 --mu 0.1
+  Rebound: x = mu |b|/a = 0.333333, r = (1 - x)/(1 + x) = 0.5.
+
+               sharp (spring)   energy only   first order in x   error <=
+  Newton      0 ... 0.707107       0 ... 1     0 ... 0.666667 ...
+  Poisson      0 ... 1.41421       0 ... 2      0 ... 1.33333 ...
+  ...
+CSV has one row a quantity, at full precision. Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+
+struct BoundsOptions {
+  CommonOptions common;
+  SceneOptions scene;
+};
+
+// One quantity: its name, its unit, where its range and its first-order error stand.
+struct Quantity {
+  const char* name;
+  const char* title;
+  Range CoefficientBounds::*range;
+  double NearlyVertical::*error;      // Null where the first order is exact.
+  double Coefficients::*coefficient;  // Null for what is not a coefficient.
+};
+
+constexpr std::array kQuantities = {
+    Quantity{"newton", "Newton", &CoefficientBounds::newton, &NearlyVertical::newton_error, &Coefficients::newton},
+    Quantity{"poisson", "Poisson", &CoefficientBounds::poisson, &NearlyVertical::poisson_error, &Coefficients::poisson},
+    Quantity{"energetic", "energetic", &CoefficientBounds::energetic, nullptr, &Coefficients::energetic},
+    Quantity{"tangential", "tangential (Brach)", &CoefficientBounds::tangential, &NearlyVertical::tangential_error,
+             &Coefficients::tangential},
+    Quantity{"normal_total_n_s", "normal impulse [N s]", &CoefficientBounds::normal_total_n_s,
+             &NearlyVertical::normal_total_error_n_s, nullptr},
+};
+
+std::string Interval(const Range& range) { return absl::StrCat(Rounded(range.lower), " ... ", Rounded(range.upper)); }
+
+std::string Heading(const Bounds& bounds) {
+  std::string regime = RegimeText(bounds.regime);
+  regime[0] = static_cast<char>(regime[0] - 'a' + 'A');
+  return absl::StrCat(regime, ": x = mu |b|/a = ", Rounded(bounds.friction_ratio),
+                      ", r = (1 - x)/(1 + x) = ", Rounded(bounds.slope_ratio), ".\n");
+}
+
+std::string RangesText(const Bounds& bounds) {
+  Table table;
+  std::vector<std::string> header = {"", "sharp (spring)", "energy only"};
+  if (bounds.nearly_vertical.has_value()) {
+    header.insert(header.end(), {"first order in x", "error <="});
+  }
+  table.Add(header);
+  for (const Quantity& quantity : kQuantities) {
+    std::vector<std::string> row = {quantity.title, Interval(bounds.sharp.*quantity.range),
+                                    Interval(bounds.energy_only.*quantity.range)};
+    if (bounds.nearly_vertical.has_value()) {
+      row.push_back(Interval(bounds.nearly_vertical->bounds.*quantity.range));
+      row.push_back(quantity.error == nullptr ? "0" : Rounded((*bounds.nearly_vertical).*quantity.error));
+    }
+    table.Add(row);
+  }
+  return table.Render(0);
+}
+
+std::string BoundsText(const Bounds& bounds) {
+  std::string text = absl::StrCat(Heading(bounds), "\n", RangesText(bounds));
+  if (!bounds.nearly_vertical.has_value() || !bounds.nearly_vertical->coefficients.has_value()) return text;
+  const NearlyVertical& vertical = *bounds.nearly_vertical;
+  Table table;
+  table.Add({"", "first order in x", "error <="});
+  for (const Quantity& quantity : kQuantities) {
+    if (quantity.coefficient == nullptr) continue;
+    table.Add({quantity.title, Rounded((*vertical.coefficients).*quantity.coefficient),
+               Rounded(vertical.coefficient_errors.*quantity.coefficient)});
+  }
+  return absl::StrCat(text, "\nAt the scene's restitution\n", table.Render(2));
+}
+
+// The cells of `range`, empty where there is none.
+void AddCells(const std::optional<Range>& range, std::vector<std::string>& row) {
+  row.push_back(range.has_value() ? ShortestDecimal(range->lower) : "");
+  row.push_back(range.has_value() ? ShortestDecimal(range->upper) : "");
+}
+
+std::string BoundsCsv(const Bounds& bounds) {
+  std::string text =
+      "quantity,regime,friction_ratio,slope_ratio,sharp.lower,sharp.upper,energy_only.lower,energy_only.upper,"
+      "nearly_vertical.lower,nearly_vertical.upper,nearly_vertical.error\n";
+  for (const Quantity& quantity : kQuantities) {
+    std::vector<std::string> row = {quantity.name, RegimeName(bounds.regime), ShortestDecimal(bounds.friction_ratio),
+                                    ShortestDecimal(bounds.slope_ratio)};
+    AddCells(bounds.sharp.*quantity.range, row);
+    AddCells(bounds.energy_only.*quantity.range, row);
+    const bool vertical = bounds.nearly_vertical.has_value();
+    AddCells(vertical ? std::optional(bounds.nearly_vertical->bounds.*quantity.range) : std::nullopt, row);
+    const double error = vertical && quantity.error != nullptr ? (*bounds.nearly_vertical).*quantity.error : 0.0;
+    row.push_back(vertical ? ShortestDecimal(error) : "");
+    absl::StrAppend(&text, absl::StrJoin(row, ","), "\n");
+  }
+  return text;
+}
+
+absl::StatusOr<std::string> Render(const BoundsResponse& response, Format format) {
+  switch (format) {
+    case Format::kText:
+      return BoundsText(response.bounds);
+    case Format::kJson:
+      return Json(ToProto(response));
+    case Format::kCsv:
+      break;
+  }
+  return BoundsCsv(response.bounds);
+}
+
+absl::Status RunBounds(const BoundsOptions& options) {
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+  if (!solver.ok()) return solver.status();
+  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  if (!scene.ok()) return scene.status();
+  const absl::StatusOr<BoundsResponse> response = (*solver)->Bounds({.scene = *scene});
+  if (!response.ok()) return response.status();
+  const absl::StatusOr<std::string> text = Render(*response, options.common.format);
+  return text.ok() ? WriteOutput(options.common, *text) : text.status();
+}
+
+}  // namespace
+
+void AddBounds(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("bounds", "The values that the coefficients of an impact can take");
+  const auto options = std::make_shared<BoundsOptions>();
+  AddSceneOptions(*sub, options->scene);
+  AddServerOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunBounds(*options); }; });
+}
+
+}  // namespace ricochet::cli

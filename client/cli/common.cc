@@ -1,0 +1,98 @@
+#include "client/cli/common.h"
+
+#include <google/protobuf/util/json_util.h>
+
+#include <array>
+#include <map>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "absl/strings/strip.h"
+#include "client/cli/number_input.h"
+#include "client/cli/output.h"
+#include "client/client.h"
+#include "core/engine.h"
+#include "core/local_solver.h"
+#include "proto/wire/outcome.h"
+
+namespace ricochet::cli {
+
+void AddServerOptions(CLI::App& app, CommonOptions& options) {
+  app.add_option("--server", options.server, "Ask the ricochetd at this address instead of computing here")
+      ->type_name("HOST:PORT");
+  app.add_option("--deadline", options.deadline, "Give up after this time (250ms, 30s, 5m); needs --server")
+      ->type_name("TIME");
+}
+
+void AddOutputOptions(CLI::App& app, CommonOptions& options) {
+  const std::map<std::string, Format> formats = {
+      {"text", Format::kText}, {"json", Format::kJson}, {"csv", Format::kCsv}};
+  app.add_option_function<std::string>(
+         "--format", [&options, formats](const std::string& name) { options.format = formats.at(name); },
+         "text: tables; json: the response of the call; csv: full precision")
+      ->check(CLI::IsMember({"text", "json", "csv"}))
+      ->type_name("text|json|csv");
+  app.add_option("-o,--output", options.output, "Write to this file, which appears whole or not at all")
+      ->type_name("FILE");
+}
+
+absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {
+  ClientOptions client{.target = options.server, .user_agent = absl::StrCat("ricochet-cli/", ThisEngine().version)};
+  if (!options.deadline.empty()) {
+    const auto deadline = ParseDuration(options.deadline, "--deadline");
+    if (!deadline.ok()) return deadline.status();
+    client.deadline = *deadline;
+    client.sweep_deadline = *deadline;
+  }
+  return client;
+}
+
+absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options) {
+  if (options.server.empty()) {
+    if (!options.deadline.empty()) {
+      return absl::InvalidArgumentError("--deadline needs --server: computing here has no deadline");
+    }
+    return std::make_unique<LocalSolver>();
+  }
+  const absl::StatusOr<ClientOptions> client_options = MakeClientOptions(options);
+  if (!client_options.ok()) return client_options.status();
+  absl::StatusOr<Client> client = Client::Connect(*client_options);
+  if (!client.ok()) return client.status();
+  return std::make_unique<Client>(*std::move(client));
+}
+
+absl::Status WriteOutput(const CommonOptions& options, const std::string& text) {
+  absl::StatusOr<Output> output = Output::Open(options.output);
+  if (!output.ok()) return output.status();
+  if (absl::Status status = output->Write(text); !status.ok()) return status;
+  return output->Commit();
+}
+
+absl::StatusOr<std::string> Json(const google::protobuf::Message& message) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.always_print_primitive_fields = true;
+  std::string text;
+  const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
+  if (!status.ok()) return absl::InternalError(status.ToString());
+  text.push_back('\n');
+  return text;
+}
+
+const std::string& RegimeName(Regime regime) {
+  static const auto names = [] {
+    std::array<std::string, kRegimeCount> all;
+    for (int i = 0; i < kRegimeCount; ++i) {
+      const std::string full = v1::Regime_Name(ToProto(static_cast<Regime>(i)));
+      all[static_cast<size_t>(i)] = std::string(absl::StripPrefix(full, "REGIME_"));
+    }
+    return all;
+  }();
+  return names.at(static_cast<size_t>(regime));
+}
+
+std::string RegimeText(Regime regime) {
+  return absl::StrReplaceAll(absl::AsciiStrToLower(RegimeName(regime)), {{"_", " "}});
+}
+
+}  // namespace ricochet::cli

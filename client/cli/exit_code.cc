@@ -1,0 +1,40 @@
+#include "client/cli/exit_code.h"
+
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "client/cli/output.h"
+#include "core/error.h"
+
+namespace ricochet::cli {
+
+ExitCode ExitCodeOf(const absl::Status& status) {
+  if (status.ok() || IsReaderGone(status)) return kOk;
+  switch (status.code()) {
+    case absl::StatusCode::kInvalidArgument:
+      return kUsage;
+    case absl::StatusCode::kResourceExhausted:
+      return ReasonOf(status) == ErrorReason::kSweepTooLarge ? kFailed : kTryAgain;
+    case absl::StatusCode::kUnavailable:
+    case absl::StatusCode::kDeadlineExceeded:
+    case absl::StatusCode::kAborted:
+      return kTryAgain;
+    default:
+      return kFailed;
+  }
+}
+
+void PrintError(const absl::Status& status) {
+  if (status.ok() || IsReaderGone(status)) return;
+  const std::vector<Violation> violations = ViolationsOf(status);
+  for (const Violation& violation : violations) {
+    std::fprintf(stderr, "%s %s\n", violation.field.c_str(), violation.description.c_str());
+  }
+  if (violations.empty()) {
+    std::fprintf(stderr, "ricochet: %s: %s\n", absl::StatusCodeToString(status.code()).c_str(),
+                 std::string(status.message()).c_str());
+  }
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,62 @@
+#include "client/cli/health.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "absl/strings/str_cat.h"
+#include "client/health.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] = R"(Example: a container's probe.
+  $ ricochet health --server 127.0.0.1:50051
+  SERVING
+Exit codes: 0 serving, 75 any other state or no answer, 2 wrong input.)";
+
+struct HealthOptions {
+  CommonOptions common;
+  std::string service = "ricochet.v1.ImpactService";
+};
+
+const char* Name(Health health) {
+  switch (health) {
+    case Health::kServing:
+      return "SERVING";
+    case Health::kNotServing:
+      return "NOT_SERVING";
+    case Health::kUnknown:
+      break;
+  }
+  return "UNKNOWN";
+}
+
+absl::Status RunHealth(const HealthOptions& options) {
+  const absl::StatusOr<ClientOptions> client_options = MakeClientOptions(options.common);
+  if (!client_options.ok()) return client_options.status();
+  const absl::StatusOr<Health> health = CheckHealth(*client_options, options.service);
+  if (!health.ok()) {
+    // A probe knows two answers only; a service that is not there yet may come.
+    if (health.status().code() == absl::StatusCode::kInvalidArgument) return health.status();
+    return absl::UnavailableError(std::string(health.status().message()));
+  }
+  std::printf("%s\n", Name(*health));
+  if (*health == Health::kServing) return absl::OkStatus();
+  return absl::UnavailableError(absl::StrCat(options.service, " is ", Name(*health)));
+}
+
+}  // namespace
+
+void AddHealth(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("health", "Whether a server takes calls");
+  const auto options = std::make_shared<HealthOptions>();
+  AddServerOptions(*sub, options->common);
+  sub->get_option("--server")->required();
+  sub->add_option("--service", options->service, "Full name of the service; empty for the server as a whole")
+      ->capture_default_str()
+      ->type_name("NAME");
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunHealth(*options); }; });
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,54 @@
+// ricochet: the command line.
+
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
+#include <csignal>
+
+#include "absl/strings/str_cat.h"
+#include "absl/synchronization/mutex.h"
+#include "client/cli/bounds.h"
+#include "client/cli/common.h"
+#include "client/cli/exit_code.h"
+#include "client/cli/health.h"
+#include "client/cli/solve.h"
+#include "client/cli/sweep.h"
+#include "core/engine.h"
+
+namespace {
+
+using ricochet::ThisEngine;
+
+void AddSubcommands(CLI::App& app, ricochet::cli::Command& command) {
+  app.set_version_flag("--version", [] {
+    return absl::StrCat("ricochet ", ThisEngine().version, ", engine ", ThisEngine().fingerprint);
+  });
+  app.require_subcommand(1);
+  ricochet::cli::AddSolve(app, command);
+  ricochet::cli::AddBounds(app, command);
+  ricochet::cli::AddSweep(app, command);
+  ricochet::cli::AddHealth(app, command);
+  app.footer(
+      "ricochet SUBCOMMAND --help shows a worked example.\n"
+      "Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  // A closed pipe and a full quota come back as errors of write, so that temporary files are removed.
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  CLI::App app("What happens when a thing hits a surface, with friction? SI units and radians.", "ricochet");
+  ricochet::cli::Command command;
+  AddSubcommands(app, command);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ricochet::cli::kOk : ricochet::cli::kUsage;
+  }
+  const absl::Status status = command();
+  ricochet::cli::PrintError(status);
+  return ricochet::cli::ExitCodeOf(status);
+}

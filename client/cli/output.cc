@@ -1,0 +1,127 @@
+#include "client/cli/output.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <system_error>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/strings/cord.h"
+#include "absl/strings/str_cat.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kReaderGoneUrl[] = "ricochet/reader_gone";
+
+absl::Status SystemError(const std::string& what) { return absl::ErrnoToStatus(errno, what); }
+
+mode_t DefaultMode() {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+// A rename is on disk only once its directory is.
+absl::Status SyncDirectory(const std::filesystem::path& directory) {
+  const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) return SystemError(absl::StrCat("cannot open ", directory.string()));
+  const bool synced = fsync(descriptor) == 0 || errno == EINVAL;
+  close(descriptor);
+  return synced ? absl::OkStatus() : SystemError(absl::StrCat("cannot sync ", directory.string()));
+}
+
+}  // namespace
+
+absl::StatusOr<AtomicFile> AtomicFile::Create(const std::string& path) {
+  // A link stays one: what it points to is replaced.
+  std::error_code failure;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(path, failure);
+  if (failure || !target.has_filename() || std::filesystem::is_directory(target, failure)) {
+    return absl::FailedPreconditionError(absl::StrCat("cannot write ", path, ": not a file"));
+  }
+  std::string name = absl::StrCat(target.parent_path().string(), "/.", target.filename().string(), ".XXXXXX");
+  AtomicFile file;
+  file.descriptor_ = mkostemp(name.data(), O_CLOEXEC);
+  if (file.descriptor_ < 0) return SystemError(absl::StrCat("cannot write ", path));
+  file.path_ = target.string();
+  file.temporary_path_ = std::move(name);
+  if (fchmod(file.descriptor_, DefaultMode()) != 0) return SystemError(absl::StrCat("cannot write ", path));
+  return file;
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      temporary_path_(std::exchange(other.temporary_path_, "")),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(temporary_path_, other.temporary_path_);
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+  if (!temporary_path_.empty()) unlink(temporary_path_.c_str());
+}
+
+absl::Status AtomicFile::Commit() {
+  if (fsync(descriptor_) != 0) return SystemError(absl::StrCat("cannot write ", path_));
+  if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0) {
+    return SystemError(absl::StrCat("cannot replace ", path_));
+  }
+  temporary_path_.clear();
+  return SyncDirectory(std::filesystem::path(path_).parent_path());
+}
+
+absl::StatusOr<Output> Output::Open(const std::string& path) {
+  const absl::Status none = absl::NotFoundError("no file");
+  if (path.empty()) return Output(none, STDOUT_FILENO, false);
+  struct stat info;
+  if (stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)) {
+    const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) return SystemError(absl::StrCat("cannot write ", path));
+    return Output(none, descriptor, true);
+  }
+  absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
+  if (!file.ok()) return file.status();
+  const int descriptor = file->descriptor();
+  return Output(std::move(file), descriptor, false);
+}
+
+Output::Output(Output&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(other.descriptor_), owned_(std::exchange(other.owned_, false)) {}
+
+Output::~Output() {
+  if (owned_) close(descriptor_);
+}
+
+absl::Status Output::Write(const std::string& text) {
+  for (size_t done = 0; done < text.size();) {
+    const ssize_t count = write(descriptor_, text.data() + done, text.size() - done);
+    if (count >= 0) {
+      done += static_cast<size_t>(count);
+    } else if (errno == EPIPE) {
+      absl::Status status = absl::CancelledError("nobody reads the output any more");
+      status.SetPayload(kReaderGoneUrl, absl::Cord());
+      return status;
+    } else if (errno != EINTR) {
+      return SystemError("cannot write the output");
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::Status Output::Commit() { return file_.ok() ? file_->Commit() : absl::OkStatus(); }
+
+bool IsReaderGone(const absl::Status& status) { return status.GetPayload(kReaderGoneUrl).has_value(); }
+
+}  // namespace ricochet::cli

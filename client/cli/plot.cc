@@ -1,0 +1,151 @@
+#include "client/cli/plot.h"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+
+#include "absl/status/status.h"
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "client/cli/output.h"
+#include "core/numerics/decimal.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr int kPanelWidth = 900;
+constexpr int kHeight = 620;
+
+// A gnuplot string, in which nothing is special but the quote.
+std::string Quoted(const std::string& text) {
+  return absl::StrCat("'", absl::StrReplaceAll(text, {{"'", "''"}, {"\n", " "}}), "'");
+}
+
+std::string Terminal(const std::string& terminal, size_t panels) {
+  const std::string size = absl::StrCat(kPanelWidth * static_cast<int>(panels), ",", kHeight);
+  return terminal == "svg" ? absl::StrCat("svg size ", size, " font 'DejaVu Sans,15' background 'white'")
+                           : absl::StrCat("pngcairo size ", size, " font 'DejaVu Sans,13'");
+}
+
+void AppendData(const std::string& name, const Curve& curve, std::string& script) {
+  absl::StrAppend(&script, "$", name, " << EOD\n");
+  for (const auto& [x, y] : curve.points) {
+    absl::StrAppend(&script, ShortestDecimal(x), " ", ShortestDecimal(y), "\n");
+  }
+  absl::StrAppend(&script, "EOD\n");
+}
+
+void AppendPanel(size_t number, const Panel& panel, std::string& script) {
+  for (size_t i = 0; i < panel.curves.size(); ++i) {
+    AppendData(absl::StrCat("p", number, "c", i), panel.curves[i], script);
+  }
+  const bool right = !panel.right_label.empty();
+  absl::StrAppend(&script, "set title ", Quoted(panel.title), "\nset xlabel ", Quoted(panel.x_label), "\nset ylabel ",
+                  Quoted(panel.y_label), "\n");
+  absl::StrAppend(&script, panel.log_x ? "set logscale x\n" : "unset logscale x\n");
+  absl::StrAppend(&script,
+                  right ? absl::StrCat("set ytics nomirror\nset y2tics\nset y2label ", Quoted(panel.right_label), "\n")
+                        : "set ytics mirror\nunset y2tics\nunset y2label\n");
+  absl::StrAppend(&script, "unset arrow\n");
+  for (const double mark : panel.x_marks) {
+    const std::string x = ShortestDecimal(mark);
+    absl::StrAppend(&script, "set arrow from ", x, ", graph 0 to ", x,
+                    ", graph 1 nohead dashtype 2 linecolor 'gray40'\n");
+  }
+  for (size_t i = 0; i < panel.curves.size(); ++i) {
+    const Curve& curve = panel.curves[i];
+    absl::StrAppend(&script, i == 0 ? "plot " : ", ", "$p", number, "c", i, " using 1:2",
+                    curve.right_axis ? " axes x1y2" : "", curve.points.size() == 1 ? " with points" : " with lines",
+                    " linewidth 2 title ", Quoted(curve.title));
+  }
+  absl::StrAppend(&script, "\n");
+}
+
+// Writes all of `text` to the pipe and closes it. False if the reader went away.
+bool Feed(int pipe, const std::string& text) {
+  size_t done = 0;
+  while (done < text.size()) {
+    const ssize_t count = write(pipe, text.data() + done, text.size() - done);
+    if (count < 0 && errno != EINTR) break;
+    if (count > 0) done += static_cast<size_t>(count);
+  }
+  close(pipe);
+  return done == text.size();
+}
+
+// Starts gnuplot with `input` as its standard input, no signal blocked or ignored. Returns 0 or an errno.
+int SpawnGnuplot(int input, pid_t& child) {
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t none;
+  sigemptyset(&none);
+  sigset_t broken_pipe = none;
+  sigaddset(&broken_pipe, SIGPIPE);
+  posix_spawnattr_setsigmask(&attributes, &none);
+  posix_spawnattr_setsigdefault(&attributes, &broken_pipe);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+  std::string name = "gnuplot";
+  char* const arguments[] = {name.data(), nullptr};
+  const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&actions);
+  return error;
+}
+
+absl::Status RunGnuplot(const std::string& script) {
+  int ends[2];
+  if (pipe2(ends, O_CLOEXEC) != 0) return absl::ErrnoToStatus(errno, "cannot start gnuplot");
+  pid_t child = -1;
+  const int error = SpawnGnuplot(ends[0], child);
+  close(ends[0]);
+  if (error != 0) {
+    close(ends[1]);
+    if (error != ENOENT) return absl::ErrnoToStatus(error, "cannot start gnuplot");
+    return absl::FailedPreconditionError("--plot needs gnuplot, which is not installed (Debian: gnuplot-nox)");
+  }
+  const bool fed = Feed(ends[1], script);
+  int result = 0;
+  while (waitpid(child, &result, 0) < 0 && errno == EINTR) {
+  }
+  if (fed && WIFEXITED(result) && WEXITSTATUS(result) == 0) return absl::OkStatus();
+  return absl::InternalError("gnuplot failed");
+}
+
+}  // namespace
+
+absl::Status CheckPlotPath(const std::string& path) {
+  if (absl::EndsWith(path, ".svg") || absl::EndsWith(path, ".png")) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat("--plot ", path, ": must end in .svg or .png"));
+}
+
+std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path) {
+  std::string script =
+      absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, plot.panels.size()),
+                   "\nset termoption noenhanced\nset output ", Quoted(path),
+                   "\nset grid linecolor 'gray80'\nset key outside below maxrows 6\nset colorsequence podo\n",
+                   "set multiplot layout 1,", plot.panels.size(), " title ", Quoted(plot.title), "\n");
+  for (size_t i = 0; i < plot.panels.size(); ++i) AppendPanel(i, plot.panels[i], script);
+  absl::StrAppend(&script, "unset multiplot\nunset output\n");
+  return script;
+}
+
+absl::Status Draw(const Plot& plot, const std::string& path) {
+  absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
+  if (!file.ok()) return file.status();
+  const std::string terminal = absl::EndsWith(path, ".svg") ? "svg" : "png";
+  if (absl::Status status = RunGnuplot(PlotScript(plot, terminal, file->temporary_path())); !status.ok()) {
+    return status;
+  }
+  return file->Commit();
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,47 @@
+// Plots: curves in panels side by side, drawn by gnuplot as a child process.
+
+#ifndef RICOCHET_CLIENT_CLI_PLOT_H_
+#define RICOCHET_CLIENT_CLI_PLOT_H_
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/status/status.h"
+
+namespace ricochet::cli {
+
+struct Curve {
+  std::string title;
+  std::vector<std::pair<double, double>> points;  // NaN leaves a gap.
+  bool right_axis = false;
+};
+
+struct Panel {
+  std::string title;
+  std::string x_label;
+  std::string y_label;
+  std::string right_label;  // Empty: no axis on the right.
+  bool log_x = false;
+  std::vector<double> x_marks;  // Where a vertical dashed line is drawn.
+  std::vector<Curve> curves;
+};
+
+struct Plot {
+  std::string title;
+  std::vector<Panel> panels;
+};
+
+// INVALID_ARGUMENT unless the name ends in .svg or .png.
+absl::Status CheckPlotPath(const std::string& path);
+
+// What gnuplot is told; `terminal` is "svg" or "png".
+std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path);
+
+// Draws to `path`, which appears whole or not at all.
+// Errors: FAILED_PRECONDITION if gnuplot is not installed, INTERNAL if it fails.
+absl::Status Draw(const Plot& plot, const std::string& path);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_PLOT_H_

@@ -1,0 +1,36 @@
+// Progress: a bar on the terminal with rate and time left.
+
+#ifndef RICOCHET_CLIENT_CLI_PROGRESS_H_
+#define RICOCHET_CLIENT_CLI_PROGRESS_H_
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace ricochet::cli {
+
+// "[#####     ]  50 %   2.5e+06 points/s   3 s left".
+std::string ProgressLine(int64_t done, int64_t total, double seconds);
+
+// Draws on stderr if that is a terminal, at most ten times a second; else does nothing. Wipes itself at the end.
+class Progress {
+ public:
+  Progress();
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void Update(int64_t done, int64_t total);
+  double Seconds() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point drawn_ = start_;
+  bool terminal_;
+  bool visible_ = false;
+};
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_PROGRESS_H_

@@ -1,0 +1,165 @@
+#include "client/cli/scene_input.h"
+
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "client/cli/number_input.h"
+#include "core/error.h"
+#include "proto/wire/scene.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr double kDefaultInertia = 1.0;
+constexpr double kDefaultOmega = -1.0;
+
+// Keeps the first complaint of the textproto parser.
+class FirstError final : public google::protobuf::io::ErrorCollector {
+ public:
+  void AddError(int line, google::protobuf::io::ColumnNumber column, const std::string& message) override {
+    if (text.empty()) text = absl::StrCat("line ", line + 1, ", column ", column + 1, ": ", message);
+  }
+  std::string text;
+};
+
+absl::StatusOr<std::string> ReadAll(const std::string& path) {
+  if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  // An empty file sets the failbit of the text alone.
+  if (!file) {
+    return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": ", std::strerror(errno)));
+  }
+  return text.str();
+}
+
+bool IsJson(const std::string& path, const std::string& text) {
+  if (absl::EndsWith(path, ".json")) return true;
+  for (const char* ending : {".textproto", ".txtpb", ".pbtxt"}) {
+    if (absl::EndsWith(path, ending)) return false;
+  }
+  const size_t start = text.find_first_not_of(" \t\r\n");
+  return start != std::string::npos && text[start] == '{';
+}
+
+// Reads numbers and keeps every complaint, so that all of them are reported at once.
+class NumberReader {
+ public:
+  void Read(const std::optional<std::string>& text, const char* flag, double& value) {
+    if (!text.has_value()) return;
+    const absl::StatusOr<double> number = ParseNumber(*text, flag);
+    if (number.ok()) {
+      value = *number;
+    } else {
+      for (Violation& violation : ViolationsOf(number.status())) violations_.push_back(std::move(violation));
+    }
+  }
+  absl::Status status() const { return violations_.empty() ? absl::OkStatus() : InvalidRequest(violations_); }
+
+ private:
+  std::vector<Violation> violations_;
+};
+
+absl::StatusOr<Scene> PendulumFromFlags(const SceneOptions& options) {
+  NumberReader reader;
+  Pendulum pendulum{.inertia_kg_m2 = kDefaultInertia, .omega_minus_rad_s = kDefaultOmega};
+  reader.Read(options.a, "--a", pendulum.a_m);
+  reader.Read(options.b, "--b", pendulum.b_m);
+  reader.Read(options.inertia, "--inertia", pendulum.inertia_kg_m2);
+  reader.Read(options.omega, "--omega", pendulum.omega_minus_rad_s);
+  Scene scene;
+  reader.Read(options.mu, "--mu", scene.friction.kinetic_coefficient);
+  if (options.mu_static.has_value()) {
+    reader.Read(options.mu_static, "--mu-static", scene.friction.static_coefficient.emplace());
+  }
+  double coefficient = 0.0;
+  reader.Read(options.newton, "--newton", coefficient);
+  reader.Read(options.poisson, "--poisson", coefficient);
+  reader.Read(options.energetic, "--energetic", coefficient);
+  if (options.newton.has_value()) scene.restitution = NewtonCoefficient{coefficient};
+  if (options.poisson.has_value()) scene.restitution = PoissonCoefficient{coefficient};
+  if (options.energetic.has_value()) scene.restitution = EnergeticCoefficient{coefficient};
+  scene.system = pendulum;
+  if (absl::Status status = reader.status(); !status.ok()) return status;
+  return scene;
+}
+
+bool AnyFlag(const SceneOptions& options) {
+  for (const auto& flag : {options.a, options.b, options.inertia, options.omega, options.mu, options.mu_static,
+                           options.newton, options.poisson, options.energetic}) {
+    if (flag.has_value()) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+bool SceneOptions::any() const { return !file.empty() || AnyFlag(*this); }
+
+void AddSceneOptions(CLI::App& app, SceneOptions& options) {
+  app.add_option("--scene", options.file, "A ricochet.v1.Scene as JSON or textproto; - for standard input")
+      ->type_name("FILE")
+      ->group("Scene");
+  const auto add = [&app](const char* name, std::optional<std::string>& value, const char* text) {
+    return app.add_option(name, value, text)->type_name("X")->group("Scene");
+  };
+  add("--a", options.a, "Horizontal distance from the pin to the contact, m");
+  add("--b", options.b, "Depth of the contact below the pin, m [0]");
+  add("--inertia", options.inertia, "Moment of inertia about the pin, kg m² [1]");
+  add("--omega", options.omega, "Angular velocity before, rad/s; < 0 approaches [-1]");
+  add("--mu", options.mu, "Coefficient of kinetic friction [0]");
+  add("--mu-static", options.mu_static, "Coefficient of static friction [that of --mu]");
+  CLI::Option* newton = add("--newton", options.newton, "Coefficient of restitution by Newton: -v+/v-");
+  CLI::Option* poisson = add("--poisson", options.poisson, "The same by Poisson: ratio of normal impulses");
+  CLI::Option* energetic =
+      add("--energetic", options.energetic, "The same by Stronge: root of the ratio of normal works");
+  newton->excludes(poisson)->excludes(energetic);
+  poisson->excludes(energetic);
+}
+
+absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
+  if (options.file.empty()) {
+    if (AnyFlag(options)) return PendulumFromFlags(options);
+    return absl::InvalidArgumentError("no scene: give --scene FILE, or a pendulum by --a, --b, --mu, --energetic ...");
+  }
+  if (AnyFlag(options)) {
+    return absl::InvalidArgumentError(
+        "--scene does not go with the flags of a pendulum: put the values into the file, or leave --scene out");
+  }
+  v1::Scene proto;
+  if (absl::Status status = ReadMessage(options.file, proto); !status.ok()) return status;
+  return FromProto(proto);
+}
+
+absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message) {
+  const absl::StatusOr<std::string> text = ReadAll(path);
+  if (!text.ok()) return text.status();
+  const std::string name = path == "-" ? "standard input" : path;
+  const std::string type = message.GetTypeName();
+  if (IsJson(path, *text)) {
+    const auto status = google::protobuf::util::JsonStringToMessage(*text, &message);
+    if (status.ok()) return absl::OkStatus();
+    return absl::InvalidArgumentError(
+        absl::StrCat(name, " is not a ", type, " in JSON: ", status.message().ToString()));
+  }
+  FirstError error;
+  google::protobuf::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&error);
+  if (parser.ParseFromString(*text, &message)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(name, " is not a ", type, " in textproto: ", error.text));
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,104 @@
+#include "client/cli/solve.h"
+
+#include <memory>
+#include <utility>
+
+#include "client/cli/number_input.h"
+#include "client/cli/plot.h"
+#include "client/cli/scene_input.h"
+#include "client/cli/solve_report.h"
+#include "core/sweep/grid.h"
+#include "proto/wire/requests.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr int64_t kMostHistory = 65535;
+
+constexpr char kExample[] = R"(Example: the pendulum of the paper's sec. 4, elastic.
+  $ ricochet solve --a 0.3 --b 1 --mu 0.1 --energetic 1
+  Rebound: the contact slips, reverses where compression ends, and parts.
+  Admissible.
+
+  Coefficients
+    Newton      (velocities, -v+/v-)     0.707107
+    Poisson     (normal impulses)         1.41421
+  ...
+CSV has one row: every number of the outcome by its path; with --history, one row a state instead.
+Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+
+struct SolveOptions {
+  CommonOptions common;
+  SceneOptions scene;
+  std::string history;
+  bool strict = false;
+  std::string plot;
+};
+
+// N + 1 evenly spaced impulses of [0, tau1]. What tau1 is, a first solve tells.
+absl::Status AddHistory(const Solver& solver, const std::string& intervals, SolveRequest& request) {
+  const absl::StatusOr<int64_t> count = ParseCount(intervals, "--history");
+  if (!count.ok()) return count.status();
+  if (*count < 1 || *count > kMostHistory) return InputError("--history", intervals, "be in [1, 65535]");
+  const absl::StatusOr<SolveResponse> response = solver.Solve(request);
+  if (!response.ok()) return response.status();
+  const Axis axis{.path = "", .values = Linspace{0.0, response->outcome.impulse.normal_total_n_s, *count + 1}};
+  for (int64_t i = 0; i <= *count; ++i) request.history_at_n_s.push_back(AxisValue(axis, i));
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::string> Render(const SolveResponse& response, const SolveOptions& options) {
+  switch (options.common.format) {
+    case Format::kText:
+      return SolveText(response.outcome);
+    case Format::kJson:
+      return Json(ToProto(response));
+    case Format::kCsv:
+      break;
+  }
+  return options.history.empty() ? SolveCsv(response.outcome) : HistoryCsv(response.outcome);
+}
+
+absl::Status DrawOutcome(const Outcome& outcome, const std::string& path) {
+  const absl::StatusOr<Plot> plot = SolvePlot(outcome);
+  return plot.ok() ? Draw(*plot, path) : plot.status();
+}
+
+absl::Status RunSolve(const SolveOptions& options) {
+  if (!options.plot.empty()) {
+    if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
+  }
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+  if (!solver.ok()) return solver.status();
+  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  if (!scene.ok()) return scene.status();
+  SolveRequest request{.scene = *scene, .history_at_n_s = {}, .inadmissible_is_error = options.strict};
+  if (!options.history.empty()) {
+    if (absl::Status status = AddHistory(**solver, options.history, request); !status.ok()) return status;
+  }
+  const absl::StatusOr<SolveResponse> response = (*solver)->Solve(request);
+  if (!response.ok()) return response.status();
+  if (!options.plot.empty()) {
+    if (absl::Status status = DrawOutcome(response->outcome, options.plot); !status.ok()) return status;
+  }
+  const absl::StatusOr<std::string> text = Render(*response, options);
+  return text.ok() ? WriteOutput(options.common, *text) : text.status();
+}
+
+}  // namespace
+
+void AddSolve(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("solve", "One impact: velocities, impulses, coefficients, works");
+  const auto options = std::make_shared<SolveOptions>();
+  AddSceneOptions(*sub, options->scene);
+  sub->add_option("--history", options->history, "Also the states at N + 1 evenly spaced normal impulses")
+      ->type_name("N");
+  sub->add_flag("--strict", options->strict, "Fail if the outcome is inadmissible");
+  sub->add_option("--plot", options->plot, "Draw w(tau), F/N(tau) and f(tau) by gnuplot")->type_name("FILE.svg|.png");
+  AddServerOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunSolve(*options); }; });
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,276 @@
+#include "client/cli/solve_report.h"
+
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/common.h"
+#include "client/cli/table.h"
+#include "core/numerics/decimal.h"
+#include "proto/wire/outcome.h"
+
+namespace ricochet::cli {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+
+const char* Sentence(Regime regime) {
+  switch (regime) {
+    case Regime::kFrictionless:
+      return "Frictionless: nothing couples normal and tangential motion.";
+    case Regime::kRebound:
+      return "Rebound: the contact slips, reverses where compression ends, and parts.";
+    case Regime::kSliding:
+      return "Sliding: slip keeps its direction.";
+    case Regime::kStickInCompression:
+      return "Slip stops in compression and the contact sticks.";
+    case Regime::kStickInRestitution:
+      return "Slip stops in restitution and the contact sticks.";
+    case Regime::kReversalInCompression:
+      return "Slip reverses in compression.";
+    case Regime::kReversalInRestitution:
+      return "Slip reverses in restitution.";
+    case Regime::kLocked:
+      return "Locked: friction and the pin hold the body; it does not rebound.";
+    case Regime::kWedged:
+      return "Wedged: the contact never ends.";
+    case Regime::kSeparating:
+      return "Separating: the contact does not approach; nothing happens.";
+    case Regime::kUnspecified:
+    case Regime::kInvalid:
+      break;
+  }
+  return "The server answered with a regime that this build does not know.";
+}
+
+const char* EventText(EventKind kind) {
+  switch (kind) {
+    case EventKind::kStart:
+      return "contact starts";
+    case EventKind::kSlipStops:
+      return "slip stops";
+    case EventKind::kCompressionEnds:
+      return "compression ends";
+    case EventKind::kRestitutionEnds:
+      return "restitution ends";
+    case EventKind::kUnspecified:
+      break;
+  }
+  return "?";
+}
+
+std::string Verdict(const Outcome& outcome) {
+  if (outcome.admissible) return "Admissible.\n";
+  std::string text = "INADMISSIBLE: the coefficient asks for energy that the impact never stored.\n";
+  Table table;
+  table.Add({"broken limit", "value", "limit", "excess"});
+  for (const BrokenLimit& broken : outcome.broken_limits) {
+    const bool sharp = broken.kind == LimitKind::kSharp;
+    table.Add({sharp ? "energetic coefficient" : "kinetic energy created [J]", Rounded(broken.value),
+               Rounded(broken.limit), Rounded(broken.excess)});
+  }
+  return absl::StrCat(text, table.Render(2));
+}
+
+std::string CoefficientsText(const Coefficients& coefficients) {
+  Table table;
+  table.Add({"Newton      (velocities, -v+/v-)", Rounded(coefficients.newton)});
+  table.Add({"Poisson     (normal impulses)", Rounded(coefficients.poisson)});
+  table.Add({"energetic   (normal works)", Rounded(coefficients.energetic)});
+  table.Add({"tangential  (Brach, f/tau)", Rounded(coefficients.tangential)});
+  return absl::StrCat("Coefficients\n", table.Render(2));
+}
+
+// Appends the entries of a list, one a tangential direction or a rate, as cells.
+void AppendCells(const std::vector<double>& values, std::vector<std::string>& cells) {
+  for (const double value : values) cells.push_back(Rounded(value));
+}
+
+void AddMotion(const std::string& name, const std::vector<double>& before, const std::vector<double>& after,
+               Table& table) {
+  for (size_t i = 0; i < after.size(); ++i) {
+    const std::string number = after.size() == 1 ? "" : absl::StrCat(" ", i + 1);
+    table.Add({absl::StrCat(name, number), Rounded(i < before.size() ? before[i] : after[i]), Rounded(after[i])});
+  }
+}
+
+std::string MotionText(const Outcome& outcome) {
+  // Where the contact separates there is no timeline, and nothing changes.
+  State before{.contact_velocity = outcome.contact_velocity_after, .rates_rad_s = outcome.rates_after_rad_s};
+  if (!outcome.timeline.empty()) before = outcome.timeline.front().state;
+  Table table;
+  table.Add({"", "before", "after"});
+  AddMotion("angular velocity [rad/s]", before.rates_rad_s, outcome.rates_after_rad_s, table);
+  AddMotion("contact, tangential [m/s]", before.contact_velocity.tangential_m_s,
+            outcome.contact_velocity_after.tangential_m_s, table);
+  AddMotion("contact, normal [m/s]", {before.contact_velocity.normal_m_s}, {outcome.contact_velocity_after.normal_m_s},
+            table);
+  return absl::StrCat("Motion\n", table.Render(2));
+}
+
+std::string ImpulseText(const Impulse& impulse) {
+  Table table;
+  table.Add({"normal, of compression [N s]", Rounded(impulse.normal_compression_n_s)});
+  table.Add({"normal, whole [N s]", Rounded(impulse.normal_total_n_s)});
+  for (const double tangential : impulse.tangential_n_s) {
+    table.Add({"tangential, whole [N s]", Rounded(tangential)});
+  }
+  return absl::StrCat("Impulse on the body\n", table.Render(2));
+}
+
+std::string WorkText(const Outcome& outcome) {
+  const WorkLedger& work = outcome.work;
+  Table table;
+  table.Add({"[J]", "compression", "restitution", "total"});
+  table.Add(
+      {"normal", Rounded(work.normal_compression_j), Rounded(work.normal_restitution_j), Rounded(work.normal_total_j)});
+  table.Add({"tangential", Rounded(work.tangential_compression_j), Rounded(work.tangential_restitution_j),
+             Rounded(work.tangential_total_j)});
+  table.Add({"change of kinetic energy", "", "", Rounded(outcome.energy_change_j)});
+  return absl::StrCat("Work on the body\n", table.Render(2));
+}
+
+std::vector<std::string> StateCells(const std::string& name, const State& state) {
+  std::vector<std::string> cells = {name, Rounded(state.normal_impulse_n_s)};
+  AppendCells(state.tangential_impulse_n_s, cells);
+  AppendCells(state.contact_velocity.tangential_m_s, cells);
+  cells.push_back(Rounded(state.contact_velocity.normal_m_s));
+  AppendCells(state.rates_rad_s, cells);
+  return cells;
+}
+
+std::string StatesText(const char* title, const Table& table) {
+  return absl::StrCat("\n", title, "\n", table.Render(2));
+}
+
+Table StateTable() {
+  Table table;
+  table.Add({"", "tau [N s]", "f [N s]", "u [m/s]", "v [m/s]", "w [rad/s]"});
+  return table;
+}
+
+// --- CSV: the outcome's proto, walked by reflection, so that a new field gets its column by itself. ---
+
+struct Row {
+  std::vector<std::string> names;
+  std::vector<std::string> values;
+
+  void Add(std::string name, std::string value) {
+    names.push_back(std::move(name));
+    values.push_back(std::move(value));
+  }
+  std::string Header() const { return absl::StrCat(absl::StrJoin(names, ","), "\n"); }
+  std::string Values() const { return absl::StrCat(absl::StrJoin(values, ","), "\n"); }
+};
+
+void AppendFields(const Message& message, const std::string& prefix, Row& row);
+
+void AppendSingle(const Message& message, const FieldDescriptor* field, const std::string& path, Row& row) {
+  const Reflection& reflection = *message.GetReflection();
+  switch (field->cpp_type()) {
+    case FieldDescriptor::CPPTYPE_MESSAGE:
+      return AppendFields(reflection.GetMessage(message, field), absl::StrCat(path, "."), row);
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return row.Add(path, ShortestDecimal(reflection.GetDouble(message, field)));
+    case FieldDescriptor::CPPTYPE_BOOL:
+      return row.Add(path, reflection.GetBool(message, field) ? "true" : "false");
+    case FieldDescriptor::CPPTYPE_INT32:
+      return row.Add(path, absl::StrCat(reflection.GetInt32(message, field)));
+    default:
+      return row.Add(path, reflection.GetEnum(message, field)->name());
+  }
+}
+
+void AppendFields(const Message& message, const std::string& prefix, Row& row) {
+  const Reflection& reflection = *message.GetReflection();
+  for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
+    const FieldDescriptor* field = message.GetDescriptor()->field(i);
+    const std::string path = absl::StrCat(prefix, field->name());
+    if (!field->is_repeated()) {
+      AppendSingle(message, field, path, row);
+    } else if (field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE) {
+      for (int j = 0; j < reflection.FieldSize(message, field); ++j) {
+        row.Add(absl::StrCat(path, "[", j, "]"), ShortestDecimal(reflection.GetRepeatedDouble(message, field, j)));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+std::string SolveText(const Outcome& outcome) {
+  std::string text =
+      absl::StrCat(Sentence(outcome.regime), "\n", Verdict(outcome), "\n", CoefficientsText(outcome.coefficients), "\n",
+                   MotionText(outcome), "\n", ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+  if (!outcome.timeline.empty()) {
+    Table table = StateTable();
+    for (const Event& event : outcome.timeline) table.Add(StateCells(EventText(event.kind), event.state));
+    absl::StrAppend(&text, StatesText("Timeline (linear between events)", table));
+  }
+  if (!outcome.history.empty()) {
+    Table table = StateTable();
+    for (const State& state : outcome.history) table.Add(StateCells("", state));
+    absl::StrAppend(&text, StatesText("History", table));
+  }
+  return text;
+}
+
+std::string SolveCsv(const Outcome& outcome) {
+  Row row;
+  AppendFields(ToProto(outcome), "", row);
+  return absl::StrCat(row.Header(), row.Values());
+}
+
+std::string HistoryCsv(const Outcome& outcome) {
+  std::string text;
+  const v1::Outcome proto = ToProto(outcome);
+  for (const v1::State& state : proto.history()) {
+    Row row;
+    AppendFields(state, "", row);
+    if (text.empty()) text = row.Header();
+    absl::StrAppend(&text, row.Values());
+  }
+  return text;
+}
+
+absl::StatusOr<Plot> SolvePlot(const Outcome& outcome) {
+  if (outcome.timeline.size() < 2) {
+    return absl::FailedPreconditionError("--plot: the contact separates at once; there is nothing to draw");
+  }
+  Curve rate{.title = "ω(τ)", .points = {}};
+  Curve impulse{.title = "f(τ)", .points = {}, .right_axis = true};
+  Curve ratio{.title = "F/N", .points = {}};
+  const State* previous = nullptr;
+  for (const Event& event : outcome.timeline) {
+    const State& state = event.state;
+    const double tau = state.normal_impulse_n_s;
+    const double f = state.tangential_impulse_n_s.at(0);
+    rate.points.emplace_back(tau, state.rates_rad_s.at(0));
+    impulse.points.emplace_back(tau, f);
+    if (previous != nullptr && tau > previous->normal_impulse_n_s) {
+      const double force = (f - previous->tangential_impulse_n_s[0]) / (tau - previous->normal_impulse_n_s);
+      ratio.points.emplace_back(previous->normal_impulse_n_s, force);
+      ratio.points.emplace_back(tau, force);
+    }
+    previous = &state;
+  }
+  const std::vector<double> marks = {outcome.impulse.normal_compression_n_s};
+  const std::string x_label = "normal impulse τ [N s]  (dashed: end of compression, τ0)";
+  Panel motion{.title = "Angular velocity",
+               .x_label = x_label,
+               .y_label = "ω [rad/s]",
+               .right_label = "",
+               .x_marks = marks,
+               .curves = {rate}};
+  Panel forces{.title = "Friction force and impulse",
+               .x_label = x_label,
+               .y_label = "F/N",
+               .right_label = "f [N s]",
+               .x_marks = marks,
+               .curves = {ratio, impulse}};
+  return Plot{.title = absl::StrCat("Impact: ", RegimeText(outcome.regime)), .panels = {motion, forces}};
+}
+
+}  // namespace ricochet::cli

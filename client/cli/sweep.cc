@@ -1,0 +1,194 @@
+#include "client/cli/sweep.h"
+
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "client/cli/axis_input.h"
+#include "client/cli/interrupt.h"
+#include "client/cli/output.h"
+#include "client/cli/progress.h"
+#include "client/cli/scene_input.h"
+#include "client/cli/sweep_plot.h"
+#include "client/cli/sweep_writer.h"
+#include "core/sweep/column.h"
+#include "core/sweep/field.h"
+#include "proto/wire/sweep.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] = R"(Example: Fig. 4 of the paper, Newton's coefficient over the angle for five frictions.
+  $ ricochet sweep --a 0.6 --b 0.8 --energetic 1 \
+      --axis friction.kinetic_coefficient=0.1,1/3,0.5,2/3,1 \
+      --axis pendulum.phi_rad=lin:0.01:1.5707963267948966:400 \
+      --column coefficients.newton --plot fig4.svg
+  index   friction.kinetic_coefficient   pendulum.phi_rad   coefficients.newton
+  0                                0.1               0.01                     0
+  ...
+The last axis runs fastest. --axis ? and --column ? list what there is.
+Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+
+struct SweepOptions {
+  CommonOptions common;
+  SceneOptions scene;
+  std::string request;
+  std::vector<std::string> axes;
+  std::vector<std::string> columns;
+  std::string range;
+  bool zip = false;
+  bool regime = false;
+  bool summary_only = false;
+  std::string plot;
+};
+
+absl::StatusOr<SweepRequest> RequestFromFile(const SweepOptions& options) {
+  if (options.scene.any() || !options.axes.empty() || !options.columns.empty() || !options.range.empty() ||
+      options.zip || options.regime) {
+    return absl::InvalidArgumentError(
+        "--request does not go with the flags of a scene, --axis, --column, --range, --zip or --regime: put them into "
+        "the file");
+  }
+  v1::SweepRequest proto;
+  if (absl::Status status = ReadMessage(options.request, proto); !status.ok()) return status;
+  return FromProto(proto);
+}
+
+absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
+  SweepRequest request;
+  absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  if (!scene.ok()) return scene.status();
+  request.grid.scene = *std::move(scene);
+  for (const std::string& text : options.axes) {
+    absl::StatusOr<Axis> axis = ParseAxis(text);
+    if (!axis.ok()) return axis.status();
+    request.grid.axes.push_back(*std::move(axis));
+  }
+  request.grid.combination = options.zip ? Combination::kZip : Combination::kProduct;
+  request.columns = options.columns;
+  if (request.columns.empty()) {
+    request.columns = {"coefficients.newton", "coefficients.poisson", "coefficients.energetic", "rates_after_rad_s[0]"};
+  }
+  request.with_regime = options.regime;
+  if (options.range.empty()) return request;
+  const absl::StatusOr<IndexRange> range = ParseRange(options.range);
+  if (!range.ok()) return range.status();
+  request.first_index = range->first;
+  request.end_index = range->end;
+  return request;
+}
+
+// Where the chunks of one sweep go: text, picture, bar.
+class Receiver {
+ public:
+  Receiver(const SweepRequest& request, const SweepOptions& options, Output output)
+      : options_(&options),
+        output_(std::move(output)),
+        writer_(MakeSweepWriter(request, options.common.format, options.summary_only)) {
+    if (!options.plot.empty()) plot_.emplace(request);
+  }
+
+  absl::Status Add(SweepChunk& chunk) {
+    progress_.Update(chunk.points_done, chunk.points_total);
+    if (chunk.summary.has_value() && !chunk.summary->elapsed_s.has_value()) {
+      chunk.summary->elapsed_s = progress_.Seconds();
+    }
+    if (plot_.has_value()) {
+      if (absl::Status status = plot_->Add(chunk); !status.ok()) return status;
+    }
+    const absl::StatusOr<std::string> text = writer_(chunk);
+    return text.ok() ? output_.Write(*text) : text.status();
+  }
+
+  absl::Status Finish() {
+    if (plot_.has_value()) {
+      if (absl::Status status = Draw(plot_->Make(), options_->plot); !status.ok()) return status;
+    }
+    return output_.Commit();
+  }
+
+ private:
+  const SweepOptions* options_;
+  Output output_;
+  SweepWriter writer_;
+  std::optional<SweepPlot> plot_;
+  Progress progress_;
+};
+
+absl::Status Receive(const Solver& solver, const SweepRequest& request, const SweepOptions& options,
+                     std::stop_token stop) {
+  absl::StatusOr<Output> output = Output::Open(options.common.output);
+  if (!output.ok()) return output.status();
+  Receiver receiver(request, options, *std::move(output));
+  for (absl::StatusOr<SweepChunk>& chunk : solver.Sweep(request, std::move(stop))) {
+    if (!chunk.ok()) return chunk.status();
+    if (absl::Status status = receiver.Add(*chunk); !status.ok()) return status;
+  }
+  return receiver.Finish();
+}
+
+bool Asks(const std::vector<std::string>& values) { return values == std::vector<std::string>{"?"}; }
+
+absl::Status List(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) absl::StrAppend(&text, name, "\n");
+  return WriteOutput({}, text);
+}
+
+absl::Status RunSweep(const SweepOptions& options) {
+  if (Asks(options.axes)) return List(FieldPaths());
+  if (Asks(options.columns)) return List(PendulumColumns());
+  if (!options.plot.empty()) {
+    if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
+  }
+  // Before the solver, whose connection starts threads.
+  const Interrupt interrupt;
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+  if (!solver.ok()) return solver.status();
+  const absl::StatusOr<SweepRequest> request =
+      options.request.empty() ? RequestFromFlags(options) : RequestFromFile(options);
+  if (!request.ok()) return request.status();
+  return Receive(**solver, *request, options, interrupt.token());
+}
+
+void AddGridOptions(CLI::App& sub, SweepOptions& options) {
+  sub.add_option("--axis", options.axes,
+                 "What varies: a list 0.1,1/3,0.5 or lin:START:STOP:COUNT or log:START:STOP:COUNT; repeat for more")
+      ->type_name("PATH=VALUES")
+      ->allow_extra_args(false)
+      ->group("Grid");
+  sub.add_flag("--zip", options.zip, "Advance the axes together instead of combining them")->group("Grid");
+  sub.add_option("--column", options.columns,
+                 "Fields of the outcome to compute; default: the three coefficients and rates_after_rad_s[0]")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group("Grid");
+  sub.add_flag("--regime", options.regime, "Also the regime of every point")->group("Grid");
+  sub.add_option("--range", options.range, "Only the points FIRST <= index < END")
+      ->type_name("FIRST:END")
+      ->group("Grid");
+  sub.add_option("--request", options.request,
+                 "A whole ricochet.v1.SweepRequest as JSON or textproto; - for standard input")
+      ->type_name("FILE")
+      ->group("Grid");
+}
+
+}  // namespace
+
+void AddSweep(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("sweep", "Many impacts over a grid, streamed");
+  const auto options = std::make_shared<SweepOptions>();
+  AddSceneOptions(*sub, options->scene);
+  AddGridOptions(*sub, *options);
+  sub->add_flag("--summary-only", options->summary_only, "Receive every point, print the summary alone");
+  sub->add_option("--plot", options->plot, "Draw curves over the last axis by gnuplot")->type_name("FILE.svg|.png");
+  AddServerOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunSweep(*options); }; });
+}
+
+}  // namespace ricochet::cli

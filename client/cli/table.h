@@ -1,0 +1,28 @@
+// Table: rows of text in aligned columns, the first to the left, the others to the right.
+
+#ifndef RICOCHET_CLIENT_CLI_TABLE_H_
+#define RICOCHET_CLIENT_CLI_TABLE_H_
+
+#include <string>
+#include <vector>
+
+namespace ricochet::cli {
+
+class Table {
+ public:
+  // A row may have fewer cells than others.
+  void Add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
+
+  // Each row on a line of its own after `indent` spaces.
+  std::string Render(size_t indent) const;
+
+ private:
+  std::vector<std::vector<std::string>> rows_;
+};
+
+// Six significant digits; -0 as 0.
+std::string Rounded(double value);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_TABLE_H_

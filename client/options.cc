@@ -1,0 +1,80 @@
+#include "client/options.h"
+
+#include <cmath>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "core/error.h"
+#include "core/numerics/decimal.h"
+
+namespace ricochet {
+namespace {
+
+constexpr int kMostAttempts = 5;  // gRPC treats a larger number as this one.
+
+std::string Seconds(std::chrono::milliseconds time) {
+  return absl::StrFormat("%d.%03ds", time.count() / 1000, time.count() % 1000);
+}
+
+std::string Found(std::chrono::milliseconds time, const char* rule) {
+  return absl::StrCat("= ", time.count(), " ms: must ", rule);
+}
+
+std::string TargetRule(const std::string& target) {
+  if (target.empty()) return "is empty: must be \"host:port\"";
+  if (target.find_first_of(" \t\r\n") != std::string::npos) {
+    return absl::StrCat("= \"", target, "\": must not contain white space");
+  }
+  return "";
+}
+
+std::vector<Violation> RetryViolations(const RetryPolicy& retry) {
+  std::vector<Violation> violations;
+  if (retry.max_attempts < 1 || retry.max_attempts > kMostAttempts) {
+    violations.push_back({"retry.max_attempts", absl::StrCat("= ", retry.max_attempts, ": must be in [1, 5]")});
+  }
+  if (retry.initial_backoff.count() <= 0) {
+    violations.push_back({"retry.initial_backoff", Found(retry.initial_backoff, "be > 0")});
+  }
+  if (retry.max_backoff < retry.initial_backoff) {
+    violations.push_back({"retry.max_backoff", Found(retry.max_backoff, "be >= retry.initial_backoff")});
+  }
+  if (!(retry.multiplier >= 1.0) || std::isinf(retry.multiplier)) {
+    violations.push_back(MakeViolation("retry.multiplier", retry.multiplier, "be finite and >= 1"));
+  }
+  return violations;
+}
+
+}  // namespace
+
+absl::Status ValidateOptions(const ClientOptions& options) {
+  std::vector<Violation> violations;
+  if (const std::string wrong = TargetRule(options.target); !wrong.empty()) {
+    violations.push_back({"target", wrong});
+  }
+  if (options.deadline.count() <= 0) {
+    violations.push_back({"deadline", Found(options.deadline, "be > 0")});
+  }
+  if (options.sweep_deadline.has_value() && options.sweep_deadline->count() <= 0) {
+    violations.push_back({"sweep_deadline", Found(*options.sweep_deadline, "be > 0")});
+  }
+  for (Violation& violation : RetryViolations(options.retry)) {
+    violations.push_back(std::move(violation));
+  }
+  return violations.empty() ? absl::OkStatus() : InvalidRequest(violations);
+}
+
+std::string ServiceConfig(const ClientOptions& options) {
+  const RetryPolicy& retry = options.retry;
+  // A policy of one attempt is an error to gRPC; no policy says the same.
+  if (retry.max_attempts == 1) return "{}";
+  return absl::StrCat(R"({"methodConfig":[{"name":[{"service":"ricochet.v1.ImpactService"}],"retryPolicy":{)",
+                      R"("maxAttempts":)", retry.max_attempts,                         //
+                      R"(,"initialBackoff":")", Seconds(retry.initial_backoff),        //
+                      R"(","maxBackoff":")", Seconds(retry.max_backoff),               //
+                      R"(","backoffMultiplier":)", ShortestDecimal(retry.multiplier),  //
+                      R"(,"retryableStatusCodes":["UNAVAILABLE"]}}]})");
+}
+
+}  // namespace ricochet

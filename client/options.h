@@ -1,0 +1,39 @@
+// ClientOptions: how a Client reaches its server, how long it waits and how often it tries.
+
+#ifndef RICOCHET_CLIENT_OPTIONS_H_
+#define RICOCHET_CLIENT_OPTIONS_H_
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+
+namespace ricochet {
+
+// Tries a call again that failed with UNAVAILABLE before its first response. The wait before try n is random between 0
+// and min(initial_backoff * multiplier^(n-2), max_backoff).
+struct RetryPolicy {
+  int max_attempts = 3;                            // In [1, 5], the first one included; 1 never tries again.
+  std::chrono::milliseconds initial_backoff{100};  // > 0.
+  std::chrono::milliseconds max_backoff{2000};     // >= initial_backoff.
+  double multiplier = 2.0;                         // >= 1.
+};
+
+struct ClientOptions {
+  std::string target;                         // "host:port" or another gRPC target, such as "unix:PATH". Required.
+  std::chrono::milliseconds deadline{10000};  // For Solve, Bounds and CheckHealth, tries included. > 0.
+  std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole sweep; absent means none. > 0.
+  RetryPolicy retry;
+  std::string user_agent;  // Put before gRPC's own in every call; the server's log shows it.
+};
+
+// INVALID_ARGUMENT that names every option that breaks a rule above.
+absl::Status ValidateOptions(const ClientOptions& options);
+
+// The retry policy as a gRPC service config, in JSON. The options must be valid.
+std::string ServiceConfig(const ClientOptions& options);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CLIENT_OPTIONS_H_

@@ -1,0 +1,100 @@
+#include "client/sweep_reader.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/sweep/grid.h"
+#include "proto/wire/status.h"
+#include "proto/wire/sweep.h"
+
+namespace ricochet {
+namespace {
+
+std::optional<int64_t> EndIndex(const SweepRequest& request) {
+  if (request.end_index.has_value()) return request.end_index;
+  if (!ValidateAxes(request.grid).empty()) return std::nullopt;
+  return PointCount(request.grid);
+}
+
+}  // namespace
+
+ChunkChecker::ChunkChecker(const SweepRequest& request)
+    : columns_(static_cast<int64_t>(request.columns.size())),
+      with_regime_(request.with_regime),
+      next_index_(request.first_index),
+      end_index_(EndIndex(request)) {}
+
+absl::Status ChunkChecker::Check(const SweepChunk& chunk) {
+  if (chunk.first_index != next_index_) {
+    return absl::DataLossError(absl::StrCat("the sweep's next chunk should start at point ", next_index_,
+                                            " but starts at ", chunk.first_index));
+  }
+  if (!end_index_.has_value()) end_index_ = next_index_ + chunk.points_total;
+  // A division, because a hostile count times the columns may overflow.
+  const auto values = static_cast<int64_t>(chunk.values.size());
+  const bool fits = chunk.count >= 0 && chunk.count <= *end_index_ - next_index_ &&
+                    (columns_ == 0 ? values == 0 : values % columns_ == 0 && values / columns_ == chunk.count);
+  if (!fits) {
+    return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", next_index_, " has ", values, " values for ",
+                                            chunk.count, " points of ", columns_, " columns, in a range that ends at ",
+                                            *end_index_));
+  }
+  const int64_t regimes = with_regime_ ? chunk.count : 0;
+  if (static_cast<int64_t>(chunk.regimes.size()) != regimes) {
+    return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", next_index_, " has ", chunk.regimes.size(),
+                                            " regimes instead of ", regimes));
+  }
+  next_index_ += chunk.count;
+  if (chunk.summary.has_value() != (next_index_ == *end_index_)) {
+    return absl::DataLossError(absl::StrCat("the sweep's summary is ", chunk.summary.has_value() ? "early" : "missing",
+                                            " at point ", next_index_, " of ", *end_index_));
+  }
+  summarised_ = chunk.summary.has_value();
+  return absl::OkStatus();
+}
+
+absl::Status ChunkChecker::CheckEnd() const {
+  if (summarised_) return absl::OkStatus();
+  return absl::DataLossError(absl::StrCat("the sweep ended at point ", next_index_, " of ",
+                                          end_index_.has_value() ? absl::StrCat(*end_index_) : "?"));
+}
+
+SweepReader::SweepReader(v1::ImpactService::StubInterface& stub, const SweepRequest& request,
+                         std::optional<std::chrono::milliseconds> deadline, std::stop_token stop)
+    : checker_(request), stop_(std::move(stop)), cancel_(stop_, [this] { context_.TryCancel(); }) {
+  if (deadline.has_value()) context_.set_deadline(std::chrono::system_clock::now() + *deadline);
+  reader_ = stub.Sweep(&context_, ToProto(request));
+}
+
+SweepReader::~SweepReader() {
+  if (finished_) return;
+  context_.TryCancel();
+  static_cast<void>(Finish());
+}
+
+std::optional<absl::StatusOr<SweepChunk>> SweepReader::Next() {
+  // What has already arrived does not count as an answer once the caller has asked to stop.
+  if (!reader_->Read(&message_) || (stop_.stop_requested() && !message_.has_summary())) return End();
+  SweepChunk chunk = FromProto(message_);
+  if (absl::Status status = checker_.Check(chunk); !status.ok()) return status;
+  return chunk;
+}
+
+std::optional<absl::StatusOr<SweepChunk>> SweepReader::End() {
+  const absl::Status status = Finish();
+  const absl::Status complete = checker_.CheckEnd();
+  if (stop_.stop_requested() && !complete.ok()) return absl::CancelledError("the sweep was stopped by its caller");
+  if (!status.ok() && !stop_.stop_requested()) return status;
+  if (!complete.ok()) return complete;
+  return std::nullopt;
+}
+
+// Finish may be asked only once all messages were read; after a cancellation few are left.
+absl::Status SweepReader::Finish() {
+  finished_ = true;
+  while (reader_->Read(&message_)) {
+  }
+  return FromGrpcStatus(reader_->Finish());
+}
+
+}  // namespace ricochet
