@@ -12,7 +12,7 @@ protoc -I "$proto" --python_out="$work/stubs" "$proto"/ricochet/v1/*.proto "$pro
 protoc -I "$proto" --grpc_out="$work/stubs" --plugin=protoc-gen-grpc="$(command -v grpc_python_plugin)" \
   "$proto/ricochet/v1/impact_service.proto"
 
-"$ricochetd" --listen 127.0.0.1:0 --port-file "$work/port" >"$work/server.log" 2>&1 &
+"$ricochetd" --listen 127.0.0.1:0 --port-file "$work/port" --drain-grace 0 >"$work/server.log" 2>&1 &
 server_pid=$!
 trap 'kill "$server_pid" 2>/dev/null || true' EXIT
 for _ in {1..100}; do
