@@ -5,8 +5,8 @@
 // without details.
 //
 // gRPC clients drop a call whose trailers exceed 8 KiB, so a status that does not fit is cut: the details stay within
-// 4 KiB, the message, percent-encoded, within 2 KiB. Violations are dropped from the end, the last one kept says how many, and the
-// message lists what was kept; any other message ends with the number of bytes that were cut.
+// 4 KiB and the message, percent-encoded, within 2 KiB. Violations are dropped from the end, the last one kept says how
+// many, and the message lists those kept; any other message ends with the number of bytes that were cut.
 
 #ifndef RICOCHET_PROTO_WIRE_STATUS_H_
 #define RICOCHET_PROTO_WIRE_STATUS_H_

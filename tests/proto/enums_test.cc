@@ -1,0 +1,57 @@
+// Every enum value, both ways.
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/generated_enum_reflection.h>
+#include <gtest/gtest.h>
+
+#include "proto/wire/outcome.h"
+#include "proto/wire/sweep.h"
+
+namespace ricochet {
+namespace {
+
+using google::protobuf::EnumDescriptor;
+
+template <typename ProtoEnum>
+class EnumTest : public testing::Test {};
+
+using Enums = testing::Types<v1::Regime, v1::Event::Kind, v1::BrokenLimit::Kind, v1::SweepRequest::Combination>;
+TYPED_TEST_SUITE(EnumTest, Enums);
+
+TYPED_TEST(EnumTest, EveryValueOfTheProtoIsTheCoresOfTheSameNumber) {
+  const EnumDescriptor& type = *google::protobuf::GetEnumDescriptor<TypeParam>();
+  ASSERT_GE(type.value_count(), 3);
+  for (int i = 0; i < type.value_count(); ++i) {
+    const auto proto = static_cast<TypeParam>(type.value(i)->number());
+    EXPECT_EQ(static_cast<int>(FromProto(proto)), type.value(i)->number()) << type.value(i)->name();
+    EXPECT_EQ(ToProto(FromProto(proto)), proto) << type.value(i)->name();
+  }
+}
+
+TEST(EnumTest, RegimeOfAnUnknownNumberIsUnspecified) {
+  EXPECT_EQ(FromProto(static_cast<v1::Regime>(999)), Regime::kUnspecified);
+  EXPECT_EQ(FromProto(static_cast<v1::Regime>(-1)), Regime::kUnspecified);
+  EXPECT_EQ(ToProto(static_cast<Regime>(999)), v1::REGIME_UNSPECIFIED);
+}
+
+TEST(EnumTest, EventKindOfAnUnknownNumberIsUnspecified) {
+  EXPECT_EQ(FromProto(static_cast<v1::Event::Kind>(999)), EventKind::kUnspecified);
+  EXPECT_EQ(ToProto(static_cast<EventKind>(999)), v1::Event::KIND_UNSPECIFIED);
+}
+
+TEST(EnumTest, LimitKindOfAnUnknownNumberIsUnspecified) {
+  EXPECT_EQ(FromProto(static_cast<v1::BrokenLimit::Kind>(999)), LimitKind::kUnspecified);
+  EXPECT_EQ(ToProto(static_cast<LimitKind>(999)), v1::BrokenLimit::KIND_UNSPECIFIED);
+}
+
+TEST(EnumTest, CombinationOfAnUnknownNumberKeepsIt) {
+  EXPECT_EQ(static_cast<int>(FromProto(static_cast<v1::SweepRequest::Combination>(999))), 999);
+  EXPECT_EQ(static_cast<int>(ToProto(static_cast<Combination>(999))), 999);
+}
+
+TEST(EnumTest, ProtoHasOneRegimeForEachTallyOfTheCore) {
+  EXPECT_EQ(v1::Regime_descriptor()->value_count(), kRegimeCount);
+}
+
+}  // namespace
+}  // namespace ricochet

@@ -1,0 +1,79 @@
+// No conversion forgets, swaps or invents a field.
+
+#include <google/protobuf/util/message_differencer.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "fill.h"
+#include "proto/wire/requests.h"
+#include "proto/wire/sweep.h"
+#include "ricochet/v1/impact_service.pb.h"
+
+namespace ricochet {
+namespace {
+
+// Restitution and Axis.values have three members, the most that any oneof has.
+constexpr int kChoices = 3;
+
+template <typename Message>
+Message ThroughCore(const Message& proto) {
+  return ToProto(FromProto(proto));
+}
+
+v1::SweepResponse ThroughCore(const v1::SweepResponse& proto) {
+  v1::SweepResponse back;
+  ToProto(FromProto(proto), back);
+  return back;
+}
+
+template <typename Message>
+class EveryFieldTest : public testing::Test {};
+
+using Messages = testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse,
+                                v1::SweepRequest, v1::SweepResponse>;
+TYPED_TEST_SUITE(EveryFieldTest, Messages);
+
+TYPED_TEST(EveryFieldTest, SurvivesTheCore) {
+  for (int choice = 0; choice < kChoices; ++choice) {
+    TypeParam proto;
+    Fill(choice, proto);
+    google::protobuf::util::MessageDifferencer differencer;
+    std::string differences;
+    differencer.ReportDifferencesToString(&differences);
+    EXPECT_TRUE(differencer.Compare(proto, ThroughCore(proto))) << differences;
+  }
+}
+
+TYPED_TEST(EveryFieldTest, SurvivesTheCoreByteForByte) {
+  TypeParam proto;
+  Fill(0, proto);
+  EXPECT_EQ(ThroughCore(proto).SerializeAsString(), proto.SerializeAsString());
+}
+
+// The messages above are all that the service speaks, so that no message goes untested.
+TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
+  const auto& service = *v1::SolveRequest::descriptor()->file()->FindServiceByName("ImpactService");
+  ASSERT_EQ(service.method_count(), 3);
+  EXPECT_EQ(service.method(0)->input_type(), v1::SolveRequest::descriptor());
+  EXPECT_EQ(service.method(0)->output_type(), v1::SolveResponse::descriptor());
+  EXPECT_EQ(service.method(1)->input_type(), v1::BoundsRequest::descriptor());
+  EXPECT_EQ(service.method(1)->output_type(), v1::BoundsResponse::descriptor());
+  EXPECT_EQ(service.method(2)->input_type(), v1::SweepRequest::descriptor());
+  EXPECT_EQ(service.method(2)->output_type(), v1::SweepResponse::descriptor());
+}
+
+TEST(FillTest, SetsEveryFieldButTheOtherMembersOfAOneof) {
+  v1::SweepRequest request;
+  Fill(1, request);
+  EXPECT_EQ(request.scene().restitution().coefficient_case(), v1::Restitution::kPoisson);
+  ASSERT_EQ(request.axes_size(), 2);
+  EXPECT_EQ(request.axes(1).values_case(), v1::Axis::kLinspace);
+  EXPECT_NE(request.axes(0).linspace().start(), request.axes(1).linspace().start());
+  EXPECT_EQ(request.columns_size(), 2);
+  EXPECT_TRUE(request.has_end_index());
+  EXPECT_NE(request.combination(), v1::SweepRequest::COMBINATION_UNSPECIFIED);
+}
+
+}  // namespace
+}  // namespace ricochet

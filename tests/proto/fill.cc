@@ -1,0 +1,99 @@
+#include "fill.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+
+namespace ricochet {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::EnumDescriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::OneofDescriptor;
+using google::protobuf::Reflection;
+
+class Filler {
+ public:
+  explicit Filler(int choice) : choice_(choice) {}
+
+  void FillMessage(Message& message) {
+    const Descriptor& type = *message.GetDescriptor();
+    for (int i = 0; i < type.field_count(); ++i) {
+      const FieldDescriptor& field = *type.field(i);
+      if (IsWanted(field)) FillField(field, message);
+    }
+  }
+
+ private:
+  bool IsWanted(const FieldDescriptor& field) const {
+    const OneofDescriptor* oneof = field.real_containing_oneof();
+    return oneof == nullptr || field.index_in_oneof() == choice_ % oneof->field_count();
+  }
+
+  void FillField(const FieldDescriptor& field, Message& message) {
+    if (!field.is_repeated()) return SetSingular(field, message);
+    AddEntry(field, message);
+    AddEntry(field, message);
+  }
+
+  void SetSingular(const FieldDescriptor& field, Message& message) {
+    const Reflection& reflection = *message.GetReflection();
+    switch (field.cpp_type()) {
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+        return reflection.SetDouble(&message, &field, NextNumber() + 0.5);
+      case FieldDescriptor::CPPTYPE_INT32:
+        return reflection.SetInt32(&message, &field, NextNumber());
+      case FieldDescriptor::CPPTYPE_INT64:
+        return reflection.SetInt64(&message, &field, (int64_t{1} << 40) + NextNumber());
+      case FieldDescriptor::CPPTYPE_BOOL:
+        return reflection.SetBool(&message, &field, true);
+      case FieldDescriptor::CPPTYPE_STRING:
+        return reflection.SetString(&message, &field, absl::StrCat("text ", NextNumber()));
+      case FieldDescriptor::CPPTYPE_ENUM:
+        return reflection.SetEnumValue(&message, &field, NextValue(*field.enum_type()));
+      case FieldDescriptor::CPPTYPE_MESSAGE:
+        return FillMessage(*reflection.MutableMessage(&message, &field));
+      default:
+        ADD_FAILURE() << field.full_name() << ": Fill has no value of this type";
+    }
+  }
+
+  void AddEntry(const FieldDescriptor& field, Message& message) {
+    const Reflection& reflection = *message.GetReflection();
+    switch (field.cpp_type()) {
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+        return reflection.AddDouble(&message, &field, NextNumber() + 0.5);
+      case FieldDescriptor::CPPTYPE_STRING:
+        return reflection.AddString(&message, &field, absl::StrCat("text ", NextNumber()));
+      case FieldDescriptor::CPPTYPE_ENUM:
+        return reflection.AddEnumValue(&message, &field, NextValue(*field.enum_type()));
+      case FieldDescriptor::CPPTYPE_MESSAGE:
+        return FillMessage(*reflection.AddMessage(&message, &field));
+      default:
+        ADD_FAILURE() << field.full_name() << ": Fill has no list of this type";
+    }
+  }
+
+  int NextNumber() { return ++number_; }
+
+  int NextValue(const EnumDescriptor& type) {
+    int& index = values_[type.full_name()];
+    index = index % (type.value_count() - 1) + 1;
+    return type.value(index)->number();
+  }
+
+  const int choice_;
+  int number_ = 0;
+  std::map<std::string, int> values_;
+};
+
+}  // namespace
+
+void Fill(int choice, google::protobuf::Message& message) { Filler(choice).FillMessage(message); }
+
+}  // namespace ricochet
