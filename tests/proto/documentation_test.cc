@@ -89,7 +89,8 @@ TEST(DocumentationTest, EveryElementHasAComment) {
 }
 
 TEST(DocumentationTest, EveryFileOpensWithAComment) {
-  for (const FileDescriptorProto& proto : ProtosWithComments().file()) {
+  const FileDescriptorSet files = ProtosWithComments();
+  for (const FileDescriptorProto& proto : files.file()) {
     bool opens_with_comment = false;
     for (const auto& location : proto.source_code_info().location()) {
       const bool is_syntax = location.path_size() == 1 && location.path(0) == FileDescriptorProto::kSyntaxFieldNumber;
