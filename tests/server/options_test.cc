@@ -1,0 +1,250 @@
+#include "server/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <functional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/engine.h"
+
+namespace ricochet::server {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+// What a server is started with.
+struct Given {
+  std::vector<std::string> flags;
+  std::vector<std::pair<std::string, std::string>> environment;
+  std::string file;  // Contents of the file of --config; empty: no such flag.
+};
+
+class Environment {
+ public:
+  explicit Environment(const std::vector<std::pair<std::string, std::string>>& variables) {
+    for (const auto& [name, value] : variables) {
+      names_.push_back(name);
+      setenv(name.c_str(), value.c_str(), 1);
+    }
+  }
+  ~Environment() {
+    for (const std::string& name : names_) unsetenv(name.c_str());
+  }
+  Environment(const Environment&) = delete;
+  Environment& operator=(const Environment&) = delete;
+
+ private:
+  std::vector<std::string> names_;
+};
+
+std::string WriteConfig(const std::string& name, const std::string& contents) {
+  const std::string path = testing::TempDir() + "ricochetd_" + name + ".toml";
+  std::ofstream(path) << contents;
+  return path;
+}
+
+absl::StatusOr<std::variant<Options, Notice>> Parse(const std::string& name, const Given& given) {
+  const Environment environment(given.environment);
+  std::vector<std::string> arguments = {"ricochetd"};
+  if (!given.file.empty()) {
+    arguments.insert(arguments.end(), {"--config", WriteConfig(name, given.file)});
+  }
+  arguments.insert(arguments.end(), given.flags.begin(), given.flags.end());
+  std::vector<const char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  return ParseCommandLine(static_cast<int>(argv.size()), argv.data());
+}
+
+struct GoodCase {
+  std::string name;
+  Given given;
+  std::function<void(Options&)> expect;  // Changes the defaults to what is expected.
+};
+
+class GoodOptions : public testing::TestWithParam<GoodCase> {};
+
+TEST_P(GoodOptions, AreTaken) {
+  Options expected;
+  GetParam().expect(expected);
+  const auto parsed = Parse(GetParam().name, GetParam().given);
+  ASSERT_TRUE(parsed.ok()) << parsed.status();
+  ASSERT_TRUE(std::holds_alternative<Options>(*parsed));
+  EXPECT_TRUE(std::get<Options>(*parsed) == expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, GoodOptions,
+    testing::Values(
+        GoodCase{"Defaults", {}, [](Options&) {}},
+        GoodCase{"Listen",
+                 {.flags = {"--listen", "localhost:0"}},
+                 [](Options& o) { o.listen = {.host = "localhost", .port = 0}; }},
+        GoodCase{
+            "ListenIpv6", {.flags = {"--listen=[::1]:7"}}, [](Options& o) { o.listen = {.host = "::1", .port = 7}; }},
+        GoodCase{"OpenIfInsecure",
+                 {.flags = {"--listen", "0.0.0.0:65535", "--insecure"}},
+                 [](Options& o) {
+                   o.listen = {.host = "0.0.0.0", .port = 65535};
+                   o.insecure = true;
+                 }},
+        GoodCase{"InsecureByEnvironment",
+                 {.flags = {"--listen", "[::]:1"}, .environment = {{"RICOCHETD_INSECURE", "1"}}},
+                 [](Options& o) {
+                   o.listen = {.host = "::", .port = 1};
+                   o.insecure = true;
+                 }},
+        GoodCase{"InsecureByFile",
+                 {.file = "insecure = true\nlisten = \"ricochet.example:1\"\n"},
+                 [](Options& o) {
+                   o.listen = {.host = "ricochet.example", .port = 1};
+                   o.insecure = true;
+                 }},
+        GoodCase{"PortFile", {.flags = {"--port-file", "/run/a b"}}, [](Options& o) { o.port_file = "/run/a b"; }},
+        GoodCase{"ThreadsFollowCalls",
+                 {.flags = {"--max-live-calls", "1"}},
+                 [](Options& o) {
+                   o.max_live_calls = 1;
+                   o.max_threads = 33;
+                 }},
+        GoodCase{"FewestThreads",
+                 {.flags = {"--max-live-calls", "10", "--max-threads", "42"}},
+                 [](Options& o) {
+                   o.max_live_calls = 10;
+                   o.max_threads = 42;
+                 }},
+        GoodCase{"MostPoints",
+                 {.flags = {"--max-points-per-sweep", "9007199254740992"}},
+                 [](Options& o) { o.max_points_per_sweep = int64_t{1} << 53; }},
+        GoodCase{"Log",
+                 {.flags = {"--log-format", "json", "--log-level", "debug"}},
+                 [](Options& o) {
+                   o.log_format = LogFormat::kJson;
+                   o.log_level = LogLevel::kDebug;
+                 }},
+        GoodCase{"Drain",
+                 {.flags = {"--drain-grace", "0", "--drain-timeout", "0.25"}},
+                 [](Options& o) {
+                   o.drain_grace = milliseconds(0);
+                   o.drain_timeout = milliseconds(250);
+                 }},
+        GoodCase{"Environment",
+                 {.environment = {{"RICOCHETD_DRAIN_GRACE", "7"}}},
+                 [](Options& o) { o.drain_grace = milliseconds(7000); }},
+        GoodCase{"File",
+                 {.file = "# comment\ndrain-grace = 6.5\nlog-level = \"error\"\n"},
+                 [](Options& o) {
+                   o.drain_grace = milliseconds(6500);
+                   o.log_level = LogLevel::kError;
+                 }},
+        GoodCase{"FlagBeforeEnvironmentBeforeFile",
+                 {.flags = {"--drain-grace", "1"},
+                  .environment = {{"RICOCHETD_DRAIN_GRACE", "2"}, {"RICOCHETD_DRAIN_TIMEOUT", "2"}},
+                  .file = "drain-grace = 3\ndrain-timeout = 3\nlog-level = \"error\"\n"},
+                 [](Options& o) {
+                   o.drain_grace = milliseconds(1000);
+                   o.drain_timeout = milliseconds(2000);
+                   o.log_level = LogLevel::kError;
+                 }},
+        GoodCase{"EmptyEnvironmentIsUnset",
+                 {.environment = {{"RICOCHETD_DRAIN_GRACE", ""}}, .file = "drain-grace = 3.5\n"},
+                 [](Options& o) { o.drain_grace = milliseconds(3500); }}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(Options, ConfigFileIsNamedByTheEnvironmentToo) {
+  const std::string path = WriteConfig("environment", "max-live-calls = 5\n");
+  const auto parsed = Parse("", {.environment = {{"RICOCHETD_CONFIG", path}}});
+  ASSERT_TRUE(parsed.ok()) << parsed.status();
+  EXPECT_EQ(std::get<Options>(*parsed).max_live_calls, 5);
+}
+
+struct BadCase {
+  std::string name;
+  Given given;
+  std::vector<std::string> message;  // Each is part of it.
+};
+
+class BadOptions : public testing::TestWithParam<BadCase> {};
+
+TEST_P(BadOptions, AreNamedWithValueAndRule) {
+  const auto parsed = Parse(GetParam().name, GetParam().given);
+  ASSERT_EQ(parsed.status().code(), absl::StatusCode::kInvalidArgument);
+  for (const std::string& part : GetParam().message) {
+    EXPECT_THAT(std::string(parsed.status().message()), HasSubstr(part));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Table, BadOptions,
+    testing::Values(
+        BadCase{"NoPort", {.flags = {"--listen", "localhost"}}, {"--listen = localhost: must be HOST:PORT"}},
+        BadCase{"PortTooLarge", {.flags = {"--listen", "localhost:65536"}}, {"--listen = localhost:65536: must"}},
+        BadCase{"NegativePort", {.flags = {"--listen=localhost:-1"}}, {"--listen = localhost:-1: must"}},
+        BadCase{"NoHost", {.flags = {"--listen", ":1"}}, {"--listen = :1: must be HOST:PORT"}},
+        BadCase{"BareIpv6", {.flags = {"--listen", "::1:1"}}, {"--listen = ::1:1: must", "in brackets"}},
+        BadCase{"NotIpv6", {.flags = {"--listen", "[1]:1"}}, {"--listen = [1]:1: must"}},
+        BadCase{"OpenButNotInsecure",
+                {.flags = {"--listen", "0.0.0.0:1"}},
+                {"--listen = 0.0.0.0:1: must be a loopback address", "--insecure"}},
+        BadCase{"NameButNotInsecure",
+                {.flags = {"--listen", "localhost.example:1"}},
+                {"--listen = localhost.example:1: must be a loopback address"}},
+        BadCase{"InsecureNoBoolean",
+                {.environment = {{"RICOCHETD_INSECURE", "maybe"}}},
+                {"--insecure = maybe: must be one of true"}},
+        BadCase{"NoCalls",
+                {.flags = {"--max-live-calls", "0"}},
+                {"--max-live-calls = 0: must be an integer from 1 to 65536"}},
+        BadCase{"CallsNoNumber", {.flags = {"--max-live-calls", "10x"}}, {"--max-live-calls = 10x: must"}},
+        BadCase{
+            "CallsOverflow", {.flags = {"--max-live-calls", "4294967297"}}, {"--max-live-calls = 4294967297: must"}},
+        BadCase{"TooFewThreads", {.flags = {"--max-threads", "287"}}, {"--max-threads = 287: must be >= 288"}},
+        BadCase{"PointsNoInteger",
+                {.flags = {"--max-points-per-sweep", "1e6"}},
+                {"--max-points-per-sweep = 1e6: must be an integer from 1 to 9007199254740992"}},
+        BadCase{"NegativeGrace", {.flags = {"--drain-grace=-1"}}, {"--drain-grace = -1: must be a number of seconds"}},
+        BadCase{"GraceNan", {.flags = {"--drain-grace", "nan"}}, {"--drain-grace = nan: must"}},
+        BadCase{"TimeoutTooLong", {.flags = {"--drain-timeout", "3601"}}, {"--drain-timeout = 3601: must"}},
+        BadCase{"LogFormat", {.flags = {"--log-format", "xml"}}, {"--log-format = xml: must be one of text, json"}},
+        BadCase{"LogLevelInFile", {.file = "log-level = loud\n"}, {"--log-level = loud: must be one of debug"}},
+        BadCase{"EmptyPortFile", {.flags = {"--port-file", ""}}, {"--port-file = : must not be empty"}},
+        BadCase{"AllAtOnce",
+                {.flags = {"--listen", "nowhere"},
+                 .environment = {{"RICOCHETD_MAX_LIVE_CALLS", "many"}},
+                 .file = "drain-grace = soon\n"},
+                {"--listen = nowhere", "\n--max-live-calls = many", "\n--drain-grace = soon"}},
+        BadCase{"UnknownFlag", {.flags = {"--max-speed", "1"}}, {"--max-speed"}},
+        BadCase{"UnknownKey", {.file = "max_live_calls = 1\n"}, {"max_live_calls"}},
+        BadCase{"Positional", {.flags = {"localhost:1"}}, {"localhost:1"}},
+        BadCase{"Twice", {.flags = {"--drain-grace", "1", "--drain-grace", "2"}}, {"--drain-grace"}},
+        BadCase{"NoSuchFile", {.flags = {"--config", "/nonexistent.toml"}}, {"/nonexistent.toml"}},
+        BadCase{"NoSuchFileByEnvironment",
+                {.environment = {{"RICOCHETD_CONFIG", "/nonexistent.toml"}}},
+                {"/nonexistent.toml"}}),
+    [](const auto& tested) { return tested.param.name; });
+
+TEST(Options, HelpNamesEveryOption) {
+  const auto parsed = Parse("", {.flags = {"--help"}});
+  ASSERT_TRUE(parsed.ok() && std::holds_alternative<Notice>(*parsed));
+  for (const char* option :
+       {"--config", "--listen", "--port-file", "--insecure", "--max-live-calls", "--max-threads",
+        "--max-points-per-sweep", "--drain-grace", "--drain-timeout", "--log-format", "--log-level", "--version"}) {
+    EXPECT_THAT(std::get<Notice>(*parsed).text, HasSubstr(option));
+  }
+}
+
+TEST(Options, VersionIsThatOfTheEngine) {
+  const auto parsed = Parse("", {.flags = {"--version"}});
+  ASSERT_TRUE(parsed.ok() && std::holds_alternative<Notice>(*parsed));
+  EXPECT_THAT(std::get<Notice>(*parsed).text, StartsWith("ricochetd " + ThisEngine().version));
+}
+
+}  // namespace
+}  // namespace ricochet::server

@@ -1,0 +1,151 @@
+#include "tests/support/server_process.h"
+
+#include <fcntl.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+#include <thread>
+
+namespace ricochet {
+namespace {
+
+using std::chrono::steady_clock;
+
+std::filesystem::path MakeDirectory() {
+  std::string pattern = std::filesystem::temp_directory_path() / "ricochet_test.XXXXXX";
+  if (mkdtemp(pattern.data()) == nullptr) {
+    throw std::system_error(errno, std::generic_category(), pattern);
+  }
+  return pattern;
+}
+
+// Between fork and exec only what is safe in the child of a process with threads.
+[[noreturn]] void Exec(char* const* arguments, const char* output) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  const int descriptor = open(output, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0600);
+  dup2(descriptor, STDOUT_FILENO);
+  dup2(descriptor, STDERR_FILENO);
+  execv(arguments[0], arguments);
+  _exit(127);
+}
+
+pid_t Spawn(std::vector<std::string> command, const std::string& output) {
+  std::vector<char*> arguments;
+  for (std::string& argument : command) arguments.push_back(argument.data());
+  arguments.push_back(nullptr);
+  const pid_t pid = fork();
+  if (pid == 0) Exec(arguments.data(), output.c_str());
+  if (pid < 0) throw std::system_error(errno, std::generic_category(), "fork");
+  return pid;
+}
+
+int ExitStatus(int wait_status) { return WIFEXITED(wait_status) ? WEXITSTATUS(wait_status) : -WTERMSIG(wait_status); }
+
+std::string ReadFile(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  std::ostringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+// Looks at `condition` until it holds or `time` is over; whether it held.
+template <typename Condition>
+bool WaitUntil(std::chrono::seconds time, Condition condition) {
+  const auto end = steady_clock::now() + time;
+  while (!condition()) {
+    if (steady_clock::now() > end) return false;
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  }
+  return true;
+}
+
+std::vector<std::string> ServerCommand(std::vector<std::string> arguments, const std::filesystem::path& port_file) {
+  std::vector<std::string> command = {RICOCHETD_PATH, "--listen", "127.0.0.1:0", "--port-file", port_file};
+  if (std::find(arguments.begin(), arguments.end(), "--drain-grace") == arguments.end()) {
+    command.insert(command.end(), {"--drain-grace", "0"});
+  }
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return command;
+}
+
+}  // namespace
+
+ChildProcess::ChildProcess(const std::vector<std::string>& command)
+    : directory_(MakeDirectory()), pid_(Spawn(command, directory_ / "output")) {}
+
+ChildProcess::~ChildProcess() {
+  if (!ended_) {
+    Signal(SIGKILL);
+    Wait();
+  }
+  std::error_code ignored;
+  std::filesystem::remove_all(directory_, ignored);
+}
+
+void ChildProcess::Signal(int signal) const {
+  if (!ended_) kill(pid_, signal);
+}
+
+int ChildProcess::Wait() {
+  int status = 0;
+  while (!ended_ && waitpid(pid_, &status, 0) < 0 && errno == EINTR) {
+  }
+  if (!ended_) exit_status_ = ExitStatus(status);
+  ended_ = true;
+  return exit_status_;
+}
+
+bool ChildProcess::running() {
+  int status = 0;
+  if (!ended_ && waitpid(pid_, &status, WNOHANG) == pid_) {
+    ended_ = true;
+    exit_status_ = ExitStatus(status);
+  }
+  return !ended_;
+}
+
+std::string ChildProcess::output() const { return ReadFile(directory_ / "output"); }
+
+ServerProcess::ServerProcess(std::vector<std::string> arguments)
+    : port_file_(MakeDirectory() / "port"), process_(ServerCommand(arguments, port_file_)) {
+  WaitUntil(std::chrono::seconds(20), [this] { return std::filesystem::exists(port_file_) || !process_.running(); });
+  std::ifstream(port_file_) >> port_;
+  std::error_code ignored;
+  std::filesystem::remove_all(port_file_.parent_path(), ignored);
+  if (port_ == 0) throw std::runtime_error("ricochetd does not take calls:\n" + log());
+}
+
+void ServerProcess::Terminate() const { process_.Signal(SIGTERM); }
+
+int ServerProcess::Stop() {
+  Terminate();
+  return Wait();
+}
+
+std::string ServerProcess::WaitForLog(const std::string& text) const {
+  std::string found;
+  WaitUntil(std::chrono::seconds(10), [&] {
+    found = log();
+    return found.find(text) != std::string::npos;
+  });
+  return found;
+}
+
+Ending RunServerToEnd(const std::vector<std::string>& arguments) {
+  std::vector<std::string> command = {RICOCHETD_PATH};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  ChildProcess process(command);
+  const int exit_status = process.Wait();
+  return {.exit_status = exit_status, .output = process.output()};
+}
+
+}  // namespace ricochet

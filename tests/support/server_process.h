@@ -1,0 +1,84 @@
+// ServerProcess: a real ricochetd on a free loopback port, for tests and benchmarks.
+
+#ifndef RICOCHET_TESTS_SUPPORT_SERVER_PROCESS_H_
+#define RICOCHET_TESTS_SUPPORT_SERVER_PROCESS_H_
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace ricochet {
+
+// A program in a directory of its own, its output in a file there. Both end with this object.
+class ChildProcess {
+ public:
+  explicit ChildProcess(const std::vector<std::string>& command);
+  ~ChildProcess();  // Kills it if it still runs.
+  ChildProcess(const ChildProcess&) = delete;
+  ChildProcess& operator=(const ChildProcess&) = delete;
+
+  pid_t pid() const { return pid_; }
+  void Signal(int signal) const;
+
+  // Waits for its end. The exit status, or minus the signal that killed it.
+  int Wait();
+
+  // Whether it still runs.
+  bool running();
+
+  // Standard output and error so far.
+  std::string output() const;
+
+ private:
+  std::filesystem::path directory_;
+  pid_t pid_ = -1;
+  bool ended_ = false;
+  int exit_status_ = 0;
+};
+
+class ServerProcess {
+ public:
+  // Starts ricochetd with `arguments` beside --listen and --port-file and waits until it takes calls. The drain grace
+  // is 0 unless they set it.
+  // Throws std::runtime_error with the log if it does not start within 20 s.
+  explicit ServerProcess(std::vector<std::string> arguments = {});
+
+  // "127.0.0.1:PORT".
+  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+  int port() const { return port_; }
+  pid_t pid() const { return process_.pid(); }
+
+  // Sends SIGTERM and returns at once.
+  void Terminate() const;
+
+  // Waits for the end. The exit status, or minus the signal that killed it.
+  int Wait() { return process_.Wait(); }
+
+  // Terminate and Wait.
+  int Stop();
+
+  std::string log() const { return process_.output(); }
+
+  // The log once it contains `text`; what it is after 10 s without it.
+  std::string WaitForLog(const std::string& text) const;
+
+ private:
+  std::filesystem::path port_file_;
+  ChildProcess process_;
+  int port_ = 0;
+};
+
+// How a ricochetd that ends by itself did.
+struct Ending {
+  int exit_status = 0;
+  std::string output;
+};
+
+// Runs ricochetd with exactly `arguments` to its end.
+Ending RunServerToEnd(const std::vector<std::string>& arguments);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_TESTS_SUPPORT_SERVER_PROCESS_H_
