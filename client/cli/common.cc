@@ -32,7 +32,7 @@ void AddOutputOptions(CLI::App& app, CommonOptions& options) {
          "--format", [&options, formats](const std::string& name) { options.format = formats.at(name); },
          "text: tables; json: the response of the call; csv: full precision")
       ->check(CLI::IsMember({"text", "json", "csv"}))
-      ->type_name("text|json|csv");
+      ->option_text("text|json|csv");
   app.add_option("-o,--output", options.output, "Write to this file, which appears whole or not at all")
       ->type_name("FILE");
 }

@@ -42,7 +42,7 @@ absl::Status SyncDirectory(const std::filesystem::path& directory) {
 absl::StatusOr<AtomicFile> AtomicFile::Create(const std::string& path) {
   // A link stays one: what it points to is replaced.
   std::error_code failure;
-  const std::filesystem::path target = std::filesystem::weakly_canonical(path, failure);
+  const std::filesystem::path target = std::filesystem::weakly_canonical(std::filesystem::absolute(path), failure);
   if (failure || !target.has_filename() || std::filesystem::is_directory(target, failure)) {
     return absl::FailedPreconditionError(absl::StrCat("cannot write ", path, ": not a file"));
   }

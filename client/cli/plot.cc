@@ -18,8 +18,20 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr int kPanelWidth = 900;
 constexpr int kHeight = 620;
+
+// Okabe and Ito's colours, which the colour-blind can tell apart, without the yellow.
+constexpr char kStyle[] = R"(set linetype 1 linecolor rgb '#0072B2'
+set linetype 2 linecolor rgb '#D55E00'
+set linetype 3 linecolor rgb '#009E73'
+set linetype 4 linecolor rgb '#CC79A7'
+set linetype 5 linecolor rgb '#56B4E9'
+set linetype 6 linecolor rgb '#E69F00'
+set linetype 7 linecolor rgb '#000000'
+set linetype cycle 7
+set grid linetype 1 linecolor rgb '#d8d8d8' linewidth 1
+set offsets graph 0, graph 0, graph 0.04, graph 0.04
+)";
 
 // A gnuplot string, in which nothing is special but the quote.
 std::string Quoted(const std::string& text) {
@@ -27,7 +39,7 @@ std::string Quoted(const std::string& text) {
 }
 
 std::string Terminal(const std::string& terminal, size_t panels) {
-  const std::string size = absl::StrCat(kPanelWidth * static_cast<int>(panels), ",", kHeight);
+  const std::string size = absl::StrCat(panels == 1 ? 960 : 640 * panels, ",", kHeight);
   return terminal == "svg" ? absl::StrCat("svg size ", size, " font 'DejaVu Sans,15' background 'white'")
                            : absl::StrCat("pngcairo size ", size, " font 'DejaVu Sans,13'");
 }
@@ -44,24 +56,20 @@ void AppendPanel(size_t number, const Panel& panel, std::string& script) {
   for (size_t i = 0; i < panel.curves.size(); ++i) {
     AppendData(absl::StrCat("p", number, "c", i), panel.curves[i], script);
   }
-  const bool right = !panel.right_label.empty();
   absl::StrAppend(&script, "set title ", Quoted(panel.title), "\nset xlabel ", Quoted(panel.x_label), "\nset ylabel ",
                   Quoted(panel.y_label), "\n");
-  absl::StrAppend(&script, panel.log_x ? "set logscale x\n" : "unset logscale x\n");
-  absl::StrAppend(&script,
-                  right ? absl::StrCat("set ytics nomirror\nset y2tics\nset y2label ", Quoted(panel.right_label), "\n")
-                        : "set ytics mirror\nunset y2tics\nunset y2label\n");
+  absl::StrAppend(&script, panel.log_x ? "set" : "unset", " logscale x\n");
+  absl::StrAppend(&script, panel.curves.size() > 1 ? "set key outside right center reverse Left\n" : "unset key\n");
   absl::StrAppend(&script, "unset arrow\n");
   for (const double mark : panel.x_marks) {
     const std::string x = ShortestDecimal(mark);
     absl::StrAppend(&script, "set arrow from ", x, ", graph 0 to ", x,
-                    ", graph 1 nohead dashtype 2 linecolor 'gray40'\n");
+                    ", graph 1 nohead dashtype 2 linecolor rgb 'gray40'\n");
   }
   for (size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    absl::StrAppend(&script, i == 0 ? "plot " : ", ", "$p", number, "c", i, " using 1:2",
-                    curve.right_axis ? " axes x1y2" : "", curve.points.size() == 1 ? " with points" : " with lines",
-                    " linewidth 2 title ", Quoted(curve.title));
+    absl::StrAppend(&script, i == 0 ? "plot " : ", ", "$p", number, "c", i, " using 1:2 with ",
+                    curve.points.size() == 1 ? "points" : "lines", " linewidth 2 title ", Quoted(curve.title));
   }
   absl::StrAppend(&script, "\n");
 }
@@ -128,11 +136,9 @@ absl::Status CheckPlotPath(const std::string& path) {
 }
 
 std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path) {
-  std::string script =
-      absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, plot.panels.size()),
-                   "\nset termoption noenhanced\nset output ", Quoted(path),
-                   "\nset grid linecolor 'gray80'\nset key outside below maxrows 6\nset colorsequence podo\n",
-                   "set multiplot layout 1,", plot.panels.size(), " title ", Quoted(plot.title), "\n");
+  std::string script = absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, plot.panels.size()),
+                                    "\nset termoption noenhanced\nset output ", Quoted(path), "\n", kStyle,
+                                    "set multiplot layout 1,", plot.panels.size(), " title ", Quoted(plot.title), "\n");
   for (size_t i = 0; i < plot.panels.size(); ++i) AppendPanel(i, plot.panels[i], script);
   absl::StrAppend(&script, "unset multiplot\nunset output\n");
   return script;

@@ -14,14 +14,12 @@ namespace ricochet::cli {
 struct Curve {
   std::string title;
   std::vector<std::pair<double, double>> points;  // NaN leaves a gap.
-  bool right_axis = false;
 };
 
 struct Panel {
   std::string title;
   std::string x_label;
   std::string y_label;
-  std::string right_label;  // Empty: no axis on the right.
   bool log_x = false;
   std::vector<double> x_marks;  // Where a vertical dashed line is drawn.
   std::vector<Curve> curves;

@@ -1,9 +1,11 @@
 #include "client/cli/solve_report.h"
 
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/strip.h"
 #include "client/cli/common.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
@@ -179,7 +181,7 @@ void AppendSingle(const Message& message, const FieldDescriptor* field, const st
     case FieldDescriptor::CPPTYPE_INT32:
       return row.Add(path, absl::StrCat(reflection.GetInt32(message, field)));
     default:
-      return row.Add(path, reflection.GetEnum(message, field)->name());
+      return row.Add(path, std::string(absl::StripPrefix(reflection.GetEnum(message, field)->name(), "REGIME_")));
   }
 }
 
@@ -239,9 +241,7 @@ absl::StatusOr<Plot> SolvePlot(const Outcome& outcome) {
   if (outcome.timeline.size() < 2) {
     return absl::FailedPreconditionError("--plot: the contact separates at once; there is nothing to draw");
   }
-  Curve rate{.title = "ω(τ)", .points = {}};
-  Curve impulse{.title = "f(τ)", .points = {}, .right_axis = true};
-  Curve ratio{.title = "F/N", .points = {}};
+  Curve rate, ratio, impulse;
   const State* previous = nullptr;
   for (const Event& event : outcome.timeline) {
     const State& state = event.state;
@@ -256,21 +256,17 @@ absl::StatusOr<Plot> SolvePlot(const Outcome& outcome) {
     }
     previous = &state;
   }
-  const std::vector<double> marks = {outcome.impulse.normal_compression_n_s};
-  const std::string x_label = "normal impulse τ [N s]  (dashed: end of compression, τ0)";
-  Panel motion{.title = "Angular velocity",
-               .x_label = x_label,
-               .y_label = "ω [rad/s]",
-               .right_label = "",
-               .x_marks = marks,
-               .curves = {rate}};
-  Panel forces{.title = "Friction force and impulse",
-               .x_label = x_label,
-               .y_label = "F/N",
-               .right_label = "f [N s]",
-               .x_marks = marks,
-               .curves = {ratio, impulse}};
-  return Plot{.title = absl::StrCat("Impact: ", RegimeText(outcome.regime)), .panels = {motion, forces}};
+  const auto panel = [&outcome](const char* title, const char* y_label, Curve curve) {
+    return Panel{.title = title,
+                 .x_label = "normal impulse τ [N s]",
+                 .y_label = y_label,
+                 .x_marks = {outcome.impulse.normal_compression_n_s},
+                 .curves = {std::move(curve)}};
+  };
+  return Plot{.title = absl::StrCat("Impact: ", RegimeText(outcome.regime), " (dashed: compression ends)"),
+              .panels = {panel("Angular velocity ω(τ)", "ω [rad/s]", std::move(rate)),
+                         panel("Friction force to normal force", "F/N", std::move(ratio)),
+                         panel("Friction impulse f(τ)", "f [N s]", std::move(impulse))}};
 }
 
 }  // namespace ricochet::cli

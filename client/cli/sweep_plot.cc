@@ -79,7 +79,6 @@ Plot SweepPlot::Make() const {
   Panel panel{.title = "",
               .x_label = WithUnit(LabelOf(last.path)),
               .y_label = y_label,
-              .right_label = "",
               .log_x = std::holds_alternative<Logspace>(last.values),
               .x_marks = {},
               .curves = {}};

@@ -1,0 +1,154 @@
+// LocalSolver and Client give the same bits: a NaN is the same NaN, a -0 stays one.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "proto/wire/requests.h"
+#include "proto/wire/sweep.h"
+#include "tests/contract/solvers.h"
+#include "tests/support/pendulum_scenes.h"
+
+namespace ricochet {
+namespace {
+
+constexpr int kScenes = 2000;
+
+// The bytes of a message hold the bits of its doubles.
+std::string Bytes(const SolveResponse& response) { return ToProto(response).SerializeAsString(); }
+std::string Bytes(const BoundsResponse& response) { return ToProto(response).SerializeAsString(); }
+std::string Bytes(SweepChunk chunk) {
+  // A clock's time is no result.
+  if (chunk.summary.has_value()) chunk.summary->elapsed_s.reset();
+  v1::SweepResponse proto;
+  ToProto(chunk, proto);
+  return proto.SerializeAsString();
+}
+
+template <typename Response>
+void ExpectSame(const absl::StatusOr<Response>& local, const absl::StatusOr<Response>& remote) {
+  ExpectSameStatus(local.status(), remote.status());
+  if (local.ok() && remote.ok()) EXPECT_EQ(Bytes(*local), Bytes(*remote));
+}
+
+// Chunks may be cut differently; the points, the regimes and the tallies may not differ.
+struct Points {
+  std::vector<std::string> values;  // By column.
+  std::vector<Regime> regimes;
+  std::string summary;
+};
+
+Points Join(const std::vector<absl::StatusOr<SweepChunk>>& chunks, size_t columns) {
+  Points points;
+  points.values.resize(columns);
+  for (const auto& chunk : chunks) {
+    const auto count = static_cast<size_t>(chunk->count);
+    for (size_t c = 0; c < columns; ++c) {
+      points.values[c].append(reinterpret_cast<const char*>(chunk->values.data() + c * count), count * sizeof(double));
+    }
+    points.regimes.insert(points.regimes.end(), chunk->regimes.begin(), chunk->regimes.end());
+    if (!chunk->summary.has_value()) continue;
+    points.summary = Bytes({.values = {}, .regimes = {}, .summary = chunk->summary, .engine = {}});
+  }
+  return points;
+}
+
+void ExpectSameSweep(const SweepRequest& request) {
+  const auto local = Collect(Local().Sweep(request));
+  const auto remote = Collect(Remote().Sweep(request));
+  ASSERT_TRUE(local.back().ok()) << local.back().status();
+  ASSERT_TRUE(remote.back().ok()) << remote.back().status();
+  const Points here = Join(local, request.columns.size());
+  const Points there = Join(remote, request.columns.size());
+  EXPECT_TRUE(here.values == there.values);
+  EXPECT_TRUE(here.regimes == there.regimes);
+  EXPECT_EQ(here.summary, there.summary);
+  EXPECT_FALSE(here.summary.empty());
+}
+
+SweepRequest Request(std::vector<Axis> axes) {
+  SweepRequest request;
+  request.grid.scene = PaperScene();
+  request.grid.axes = std::move(axes);
+  request.columns = {"coefficients.newton", "rates_after_rad_s[0]", "impulse.tangential_n_s[0]",
+                     "work.tangential_total_j", "energy_change_j"};
+  request.with_regime = true;
+  return request;
+}
+
+TEST(SameBits, OfSolvesOverAllDoublesAndLaws) {
+  pendulum::SceneSource source(7);
+  for (int i = 0; i < kScenes; ++i) {
+    const pendulum::Problem problem = source.Any();
+    SCOPED_TRACE(ToString(problem));
+    SolveRequest request{.scene = MakeScene(problem), .history_at_n_s = {}, .inadmissible_is_error = i % 4 == 0};
+    const auto local = Local().Solve(request);
+    ExpectSame(local, Remote().Solve(request));
+    if (!local.ok() || i % 8 != 0) continue;
+    const double total = local->outcome.impulse.normal_total_n_s;
+    request.history_at_n_s = {0.0, 0.3 * total, total, std::nextafter(total, 2.0 * total)};
+    ExpectSame(Local().Solve(request), Remote().Solve(request));
+  }
+}
+
+TEST(SameBits, OfBoundsOverAllDoubles) {
+  pendulum::SceneSource source(8);
+  for (int i = 0; i < kScenes; ++i) {
+    const pendulum::Problem problem = source.Any();
+    SCOPED_TRACE(ToString(problem));
+    BoundsRequest request{.scene = MakeScene(problem)};
+    if (i % 2 == 0) request.scene.restitution = std::monostate();
+    ExpectSame(Local().Bounds(request), Remote().Bounds(request));
+  }
+}
+
+TEST(SameBits, OfScenesThatBreakRules) {
+  pendulum::SceneSource source(9);
+  constexpr double kBad[] = {-1.0, 0.0, -0.0, std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::quiet_NaN()};
+  for (int i = 0; i < 500; ++i) {
+    pendulum::Problem problem = source.Any();
+    double* const fields[] = {&problem.inertia, &problem.a,         &problem.b,          &problem.omega_minus,
+                              &problem.mu,      &problem.mu_static, &problem.coefficient};
+    for (int j = 0; j < 2; ++j) *fields[source.Below(7)] = kBad[source.Below(5)];
+    SCOPED_TRACE(ToString(problem));
+    const Scene scene = MakeScene(problem);
+    ExpectSame(Local().Solve({.scene = scene, .history_at_n_s = {}}),
+               Remote().Solve({.scene = scene, .history_at_n_s = {}}));
+    ExpectSame(Local().Bounds({.scene = scene}), Remote().Bounds({.scene = scene}));
+  }
+}
+
+TEST(SameBits, OfASweepOverAProductOfAList_ALinspaceAndALogspace) {
+  ExpectSameSweep(Request({{"friction.kinetic_coefficient", ListValues{{0.1, 1.0 / 3.0, 0.5, 2.0 / 3.0, 1.0}}},
+                           {"pendulum.b_m", Linspace{-2.0, 2.0, 41}},
+                           {"pendulum.inertia_kg_m2", Logspace{1e-300, 1e300, 31}}}));
+}
+
+TEST(SameBits, OfASweepOverTheAngle) {
+  ExpectSameSweep(Request({{"friction.kinetic_coefficient", ListValues{{0.1, 1.0}}},
+                           {"pendulum.phi_rad", Linspace{0.01, 1.5707963267948966, 30000}}}));
+}
+
+TEST(SameBits, OfAZippedSweep) {
+  SweepRequest request = Request(
+      {{"restitution.newton", Linspace{0.0, 2.0, 5000}}, {"pendulum.omega_minus_rad_s", Linspace{-1.0, 0.1, 5000}}});
+  request.grid.combination = Combination::kZip;
+  ExpectSameSweep(request);
+}
+
+TEST(SameBits, OfPointsThatBreakRules) { ExpectSameSweep(Request({{"pendulum.a_m", Linspace{-1.0, 1.0, 20001}}})); }
+
+TEST(SameBits, OfASubRange) {
+  SweepRequest request = Request(
+      {{"restitution.poisson", Linspace{0.0, 2.0, 300}}, {"friction.kinetic_coefficient", Logspace{1e-9, 1.0, 300}}});
+  request.first_index = 12'345;
+  request.end_index = 78'901;
+  ExpectSameSweep(request);
+}
+
+}  // namespace
+}  // namespace ricochet
