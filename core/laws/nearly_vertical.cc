@@ -3,8 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/models/pendulum_kernel.h"
-#include "core/numerics/wide.h"
+#include "core/models/pendulum_wide.h"
 
 namespace ricochet::pendulum {
 namespace {
@@ -12,7 +11,7 @@ namespace {
 // An error bound that also covers the rounding of the value it belongs to, and its own.
 double Enclosing(const Wide& error, double value) {
   constexpr double kUlp = std::numeric_limits<double>::epsilon();
-  return ToDouble(error) * (1.0 + 4.0 * kUlp) + 8.0 * kUlp * std::fabs(value);
+  return Rounded(error) * (1.0 + 4.0 * kUlp) + 8.0 * kUlp * std::fabs(value);
 }
 
 struct FirstOrder {
@@ -27,17 +26,17 @@ struct FirstOrderCoefficients {
 
 // (1 - c)/(1 + c) - g x 2c/(1 + c)^2, the expansion of mu_hat/mu where kappa = c ((1 + x)/(1 - x))^(g/2).
 Wide TangentialForm(const Wide& c, const Wide& x, double g) {
-  const Wide one(1.0);
+  const Wide one = Wide::Exactly(1.0);
   const Wide sum = one + c;
-  return (one - c) / sum - Wide(2.0 * g) * x * c / (sum * sum);
+  return (one - c) / sum - Wide::Exactly(2.0 * g) * x * c / (sum * sum);
 }
 
 FirstOrderCoefficients Coefficients(const Problem& problem, const Wide& x, const Wide& one_minus_x,
                                     const Wide& one_plus_x) {
-  const Wide c(problem.coefficient);
+  const Wide c = Wide::Exactly(problem.coefficient);
   const Wide square = x * x;
-  const Wide half(0.5);
-  const Wide two(2.0);
+  const Wide half = Wide::Exactly(0.5);
+  const Wide two = Wide::Exactly(2.0);
   const Wide product = one_minus_x * one_plus_x;
   const Wide denominator = product * product;
   const Wide lowered = c * square * half;                // of (1 - x) c
@@ -47,12 +46,13 @@ FirstOrderCoefficients Coefficients(const Problem& problem, const Wide& x, const
       return {.newton = {one_minus_x * c, lowered},
               .poisson = {one_plus_x * c, raised},
               .energetic = {c, Wide()},
-              .tangential = {TangentialForm(c, x, 1.0), square * (Wide(1.0) / Wide(10.0) + half * x) / denominator}};
+              .tangential = {TangentialForm(c, x, 1.0),
+                             square * (Wide::Exactly(1.0) / Wide::Exactly(10.0) + half * x) / denominator}};
     case Law::kNewton:
       return {.newton = {c, Wide()},
               .poisson = {(one_plus_x + x) * c, two * square * c / one_minus_x},
               .energetic = {one_plus_x * c, raised},
-              .tangential = {TangentialForm(c, x, 2.0), square * (two / Wide(5.0) + x) / denominator}};
+              .tangential = {TangentialForm(c, x, 2.0), square * (two / Wide::Exactly(5.0) + x) / denominator}};
     case Law::kPoisson:
       return {.newton = {(one_minus_x - x) * c, two * square * c},
               .poisson = {c, Wide()},
@@ -65,41 +65,41 @@ FirstOrderCoefficients Coefficients(const Problem& problem, const Wide& x, const
 }  // namespace
 
 NearlyVertical SolveNearlyVertical(const Problem& problem, bool with_coefficients) {
-  Solution<Wide> geometry;
-  SolveGeometry(problem, geometry);
+  const WideSolution geometry = SolveGeometry(problem);
   const Wide x = geometry.q / geometry.a;
   const Wide one_minus_x = geometry.d / geometry.a;
   const Wide one_plus_x = geometry.s / geometry.a;
   const Wide tau0 = problem.omega_minus >= 0.0 ? Wide() : geometry.inertia * -geometry.omega / geometry.s;
   const Wide mu = geometry.mu;  // Carries the sign of b.
-  const double mu_size = std::fabs(ToDouble(mu));
-  const Wide half(0.5);
+  const double mu_size = std::fabs(Rounded(mu));
+  const Wide half = Wide::Exactly(0.5);
   const Wide square = x * x;
   const Wide poisson_error = square * half / one_minus_x;
 
   NearlyVertical result;
-  result.bounds.newton.upper = ToDouble(one_minus_x);
-  result.bounds.poisson.upper = ToDouble(one_plus_x);
+  result.bounds.newton.upper = Rounded(one_minus_x);
+  result.bounds.poisson.upper = Rounded(one_plus_x);
   result.bounds.energetic.upper = 1.0;
-  const double tangential = ToDouble(Wide(mu_size) * x * half);
+  const double tangential = Rounded(Wide::Exactly(mu_size) * x * half);
   result.bounds.tangential = problem.b < 0.0 ? Range{0.0 - mu_size, tangential} : Range{0.0 - tangential, mu_size};
-  result.bounds.normal_total_n_s = {ToDouble(tau0), ToDouble((one_plus_x + Wide(1.0)) * tau0)};
+  result.bounds.normal_total_n_s = {Rounded(tau0), Rounded((one_plus_x + Wide::Exactly(1.0)) * tau0)};
   result.newton_error = Enclosing(square * half, result.bounds.newton.upper);
   result.poisson_error = Enclosing(poisson_error, result.bounds.poisson.upper);
-  result.tangential_error = Enclosing(Wide(mu_size) * square * x * half, tangential);
+  result.tangential_error = Enclosing(Wide::Exactly(mu_size) * square * x * half, tangential);
   result.normal_total_error_n_s = Enclosing(poisson_error * tau0, result.bounds.normal_total_n_s.upper);
   if (!with_coefficients) return result;
 
   const auto form = Coefficients(problem, x, one_minus_x, one_plus_x);
   const Wide mu_hat = mu * form.tangential.value;
-  result.coefficients = {.newton = ToDouble(form.newton.value) + 0.0,
-                         .poisson = ToDouble(form.poisson.value),
-                         .energetic = ToDouble(form.energetic.value),
-                         .tangential = ToDouble(mu_hat) + 0.0};
-  result.coefficient_errors = {.newton = Enclosing(form.newton.error, ToDouble(form.newton.value)),
-                               .poisson = Enclosing(form.poisson.error, ToDouble(form.poisson.value)),
-                               .energetic = Enclosing(form.energetic.error, ToDouble(form.energetic.value)),
-                               .tangential = Enclosing(Wide(mu_size) * form.tangential.error, ToDouble(mu_hat))};
+  result.coefficients = {.newton = Rounded(form.newton.value) + 0.0,
+                         .poisson = Rounded(form.poisson.value),
+                         .energetic = Rounded(form.energetic.value),
+                         .tangential = Rounded(mu_hat) + 0.0};
+  result.coefficient_errors = {
+      .newton = Enclosing(form.newton.error, Rounded(form.newton.value)),
+      .poisson = Enclosing(form.poisson.error, Rounded(form.poisson.value)),
+      .energetic = Enclosing(form.energetic.error, Rounded(form.energetic.value)),
+      .tangential = Enclosing(Wide::Exactly(mu_size) * form.tangential.error, Rounded(mu_hat))};
   return result;
 }
 

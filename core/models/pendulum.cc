@@ -1,36 +1,168 @@
+// Compiled once for each SIMD target (foreach_target.h includes this file again), then dispatched at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/models/pendulum.cc"
 #include "core/models/pendulum.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
 #include <variant>
+#include <vector>
 
-#include "core/models/pendulum_kernel.h"
-#include "core/numerics/double_double.h"
-#include "core/numerics/wide.h"
+#include "core/models/pendulum_parts.h"
+// The order is Highway's.
+// clang-format off
+#include "hwy/foreach_target.h"
+#include "core/models/pendulum_kernel-inl.h"
+#include "core/numerics/lanes-inl.h"
+// clang-format on
 
+#ifndef RICOCHET_CORE_MODELS_PENDULUM_CC_
+#define RICOCHET_CORE_MODELS_PENDULUM_CC_
 namespace ricochet::pendulum {
-namespace {
 
-constexpr int64_t kBlock = 64;  // Solutions of a block stay in the first-level cache.
+// Problems of one law column by column, as vectors load them.
+struct Block {
+  static constexpr size_t kCapacity = 64;
 
-// Zero or of moderate size.
-bool Moderate(double value, double limit) {
-  const double size = std::fabs(value);
-  return size == 0.0 || (size >= 1.0 / limit && size <= limit);
+  Law law = Law::kEnergetic;
+  size_t size = 0;
+  std::array<double, kCapacity> inertia, a, b, omega, mu, mu_static, coefficient;
+  std::array<double, kCapacity> locked;        // Written: 1 where locked, else 0.
+  std::array<double, kCapacity> inadmissible;  // Written: 1 where eta > 1, else 0.
+
+  void Append(const Problem& problem) {
+    assert(size < kCapacity);
+    inertia[size] = problem.inertia;
+    a[size] = problem.a;
+    b[size] = problem.b;
+    omega[size] = problem.omega_minus;
+    mu[size] = SignedFriction(problem);
+    mu_static[size] = std::copysign(problem.mu_static, problem.b);
+    coefficient[size] = problem.coefficient;
+    ++size;
+  }
+
+  // Repeats the last problem, so that whole vectors can be loaded.
+  void PadTo(size_t padded) {
+    for (auto* column : {&inertia, &a, &b, &omega, &mu, &mu_static, &coefficient}) {
+      std::fill(column->begin() + static_cast<int64_t>(size), column->begin() + static_cast<int64_t>(padded),
+                (*column)[size - 1]);
+    }
+  }
+};
+
+}  // namespace ricochet::pendulum
+#endif  // RICOCHET_CORE_MODELS_PENDULUM_CC_
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::pendulum::HWY_NAMESPACE {
+
+using ricochet::HWY_NAMESPACE::Select;
+
+// The target's widest lanes.
+using V = ricochet::HWY_NAMESPACE::Vector;
+using N = ricochet::HWY_NAMESPACE::DoubleDouble<V>;
+using VLanes = ricochet::HWY_NAMESPACE::Lanes<V>;
+using Mask = decltype(IsPositive(N()));
+
+// Adding 0 turns -0 into 0: an impulse or velocity that vanishes has no sign.
+template <typename T>
+HWY_INLINE T Unsigned0(T value) {
+  return value + ricochet::HWY_NAMESPACE::Lanes<T>::Fill(0.0);
 }
 
+HWY_INLINE Inputs<N, Mask> LoadInputs(const Block& block, size_t i) {
+  const auto exactly = [i](const auto& column) { return N::Exactly(VLanes::Load(column.data() + i)); };
+  const V coefficient = VLanes::Load(block.coefficient.data() + i);
+  Inputs<N, Mask> in;
+  in.inertia = exactly(block.inertia);
+  in.a = exactly(block.a);
+  in.b = exactly(block.b);
+  in.omega = exactly(block.omega);
+  in.mu = exactly(block.mu);
+  in.static_grip = exactly(block.mu_static) * in.b;
+  in.coefficient = N::Exactly(coefficient);
+  in.near_one = block.law == Law::kPoisson ? coefficient < VLanes::Fill(2.0) : VLanes::Fill(0.5) < coefficient;
+  return in;
+}
+
+// The first `count` lanes of `value` to `to`.
+HWY_INLINE void StoreFirst(V value, size_t count, double* to) {
+  if (count >= VLanes::Count()) {
+    VLanes::Store(value, to);
+    return;
+  }
+  double lanes[Block::kCapacity];
+  VLanes::Store(value, lanes);
+  std::copy_n(lanes, count, to);
+}
+
+void SolveBlock(Block& block, unsigned parts, absl::Span<const Output> outputs, absl::Span<double* const> columns) {
+  block.PadTo((block.size + VLanes::Count() - 1) / VLanes::Count() * VLanes::Count());
+  const V zero = VLanes::Fill(0.0);
+  const V one = VLanes::Fill(1.0);
+  for (size_t i = 0; i < block.size; i += VLanes::Count()) {
+    Solution<N, Mask> x;
+    SolveParts(block.law, LoadInputs(block, i), parts, x);
+    VLanes::Store(Select(x.locked, one, zero), block.locked.data() + i);
+    VLanes::Store(Select(IsNegative(x.one_minus_eta_squared), one, zero), block.inadmissible.data() + i);
+    for (size_t c = 0; c < outputs.size(); ++c) {
+      StoreFirst(Unsigned0(Evaluate(x, outputs[c])), block.size - i, columns[c] + i);
+    }
+  }
+}
+
+template <typename T>
+HWY_INLINE Impact SolveOne(const Problem& problem) {
+  Solution<T, bool> x;
+  SolveParts(problem.law, MakeInputs<T>(problem), kPartAll, x);
+  Impact impact;
+  impact.regime = RegimeOf(problem, x.locked);
+  impact.sharp_limit_broken = IsNegative(x.one_minus_eta_squared);
+  impact.energy_limit_broken = IsNegative(x.one_minus_kappa_hat);
+  for (int i = 0; i < kOutputCount; ++i) {
+    impact.values[static_cast<size_t>(i)] = Unsigned0(Evaluate(x, static_cast<Output>(i)));
+  }
+  return impact;
+}
+
+Impact SolveModerate(const Problem& problem) {
+  return SolveOne<ricochet::HWY_NAMESPACE::DoubleDouble<double>>(problem);
+}
+
+}  // namespace ricochet::pendulum::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include "core/models/pendulum_wide.h"
+
+namespace ricochet::pendulum {
+
+HWY_EXPORT(SolveBlock);
+HWY_EXPORT(SolveModerate);
+
+namespace {
+
 // Whether no product of the kernel can leave the range in which DoubleDouble is exact: the largest is below 2^700, the
-// smallest above 2^-890, its low half 2^-106 of that.
+// smallest above 2^-890, its low half 2^-106 of that. Without branches, for it is asked of every point.
 bool FitsDoubleDouble(const Problem& problem) {
+  const auto moderate = [](double value, double limit) {
+    const double size = std::fabs(value);
+    return static_cast<unsigned>(size == 0.0) | static_cast<unsigned>((size >= 1.0 / limit) & (size <= limit));
+  };
   constexpr double kLimit = 0x1p100;
   constexpr double kCoefficientLimit = 0x1p40;
-  return Moderate(problem.inertia, kLimit) && Moderate(problem.a, kLimit) && Moderate(problem.b, kLimit) &&
-         Moderate(problem.omega_minus, kLimit) && Moderate(problem.mu, kLimit) && Moderate(problem.mu_static, kLimit) &&
-         Moderate(problem.coefficient, kCoefficientLimit);
+  return (moderate(problem.inertia, kLimit) & moderate(problem.a, kLimit) & moderate(problem.b, kLimit) &
+          moderate(problem.omega_minus, kLimit) & moderate(problem.mu, kLimit) & moderate(problem.mu_static, kLimit) &
+          moderate(problem.coefficient, kCoefficientLimit)) != 0;
 }
 
 bool Separating(const Problem& problem) { return problem.omega_minus >= 0.0; }
+
+bool FitsBlock(const Problem& problem) { return !Separating(problem) && FitsDoubleDouble(problem); }
 
 // A contact that does not approach: velocities as before, all else 0.
 double SeparatingOutput(const Problem& problem, Output output) {
@@ -48,90 +180,19 @@ double SeparatingOutput(const Problem& problem, Output output) {
   }
 }
 
-unsigned PartsOf(absl::Span<const Output> outputs) {
-  unsigned parts = 0;
-  for (const Output output : outputs) parts |= PartsOf(output);
-  return parts;
-}
-
-// Adding 0 turns -0 into 0: an impulse or velocity that vanishes has no sign.
-RICOCHET_INLINE double Unsigned0(double value) { return value + 0.0; }
-
-// What a block of problems writes to, and which outputs.
-struct Target {
-  absl::Span<const Output> outputs;
-  absl::Span<double* const> columns;
-  absl::Span<Regime> regimes;
-  absl::Span<bool> inadmissible;
-};
-
-template <typename N>
-RICOCHET_INLINE void SolveBlock(absl::Span<const Problem> problems, int64_t first, unsigned parts,
-                                const Target& target) {
-  assert(static_cast<int64_t>(problems.size()) <= kBlock);
-  std::array<Solution<N>, kBlock> solutions;
-  for (size_t i = 0; i < problems.size(); ++i) {
-    const size_t point = static_cast<size_t>(first) + i;
-    SolveParts<N>(problems[i], parts, solutions[i]);
-    target.regimes[point] = solutions[i].regime;
-    target.inadmissible[point] = Sign(solutions[i].one_minus_eta_squared) < 0;
-  }
-  for (size_t c = 0; c < target.outputs.size(); ++c) {
-    double* const column = target.columns[c] + first;
-    const Output output = target.outputs[c];
-    for (size_t i = 0; i < problems.size(); ++i) {
-      column[i] = Unsigned0(Evaluate(solutions[i], output));
-    }
-  }
-}
-
-// The same code for machines with a hardware fma and without; the bits are the same.
-[[gnu::target("avx2,fma")]] void SolveBlockFma(absl::Span<const Problem> problems, int64_t first, unsigned parts,
-                                               const Target& target) {
-  SolveBlock<DoubleDouble>(problems, first, parts, target);
-}
-
-void SolveBlockPortable(absl::Span<const Problem> problems, int64_t first, unsigned parts, const Target& target) {
-  SolveBlock<DoubleDouble>(problems, first, parts, target);
-}
-
-void SolveModerateBlock(absl::Span<const Problem> problems, int64_t first, unsigned parts, const Target& target) {
-  static const bool has_fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2");
-  (has_fma ? SolveBlockFma : SolveBlockPortable)(problems, first, parts, target);
-}
-
-void SolveSeparating(const Problem& problem, int64_t i, const Target& target) {
-  target.regimes[static_cast<size_t>(i)] = Regime::kSeparating;
-  target.inadmissible[static_cast<size_t>(i)] = false;
-  for (size_t c = 0; c < target.outputs.size(); ++c) {
-    target.columns[c][i] = SeparatingOutput(problem, target.outputs[c]);
-  }
-}
-
-template <typename N>
-RICOCHET_INLINE Impact SolveOne(const Problem& problem) {
-  Solution<N> solution;
-  SolveParts<N>(problem, kPartAll, solution);
-  Impact impact;
-  impact.regime = solution.regime;
-  impact.sharp_limit_broken = Sign(solution.one_minus_eta_squared) < 0;
-  impact.energy_limit_broken = solution.energy_limit_broken;
-  for (int i = 0; i < kOutputCount; ++i) {
-    impact.values[static_cast<size_t>(i)] = Unsigned0(Evaluate(solution, static_cast<Output>(i)));
-  }
-  return impact;
-}
-
-[[gnu::target("avx2,fma")]] Impact SolveOneFma(const Problem& problem) { return SolveOne<DoubleDouble>(problem); }
-Impact SolveOnePortable(const Problem& problem) { return SolveOne<DoubleDouble>(problem); }
-
-Impact SolveOneSeparating(const Problem& problem) {
+Impact SolveSeparating(const Problem& problem) {
   Impact impact;
   impact.regime = Regime::kSeparating;
   for (int i = 0; i < kOutputCount; ++i) {
     impact.values[static_cast<size_t>(i)] = SeparatingOutput(problem, static_cast<Output>(i));
   }
   return impact;
+}
+
+unsigned PartsOf(absl::Span<const Output> outputs) {
+  unsigned parts = 0;
+  for (const Output output : outputs) parts |= PartsOf(output);
+  return parts;
 }
 
 }  // namespace
@@ -158,50 +219,55 @@ Problem MakeProblem(const Scene& scene) {
 }
 
 Impact Solve(const Problem& problem) {
-  if (Separating(problem)) return SolveOneSeparating(problem);
-  if (!FitsDoubleDouble(problem)) return SolveOne<Wide>(problem);
-  static const bool has_fma = __builtin_cpu_supports("fma") && __builtin_cpu_supports("avx2");
-  return has_fma ? SolveOneFma(problem) : SolveOnePortable(problem);
+  if (Separating(problem)) return SolveSeparating(problem);
+  if (!FitsDoubleDouble(problem)) return HWY_NAMESPACE::SolveOne<Wide>(problem);
+  return HWY_DYNAMIC_DISPATCH(SolveModerate)(problem);
 }
 
 void SolveColumns(absl::Span<const Problem> problems, absl::Span<const Output> outputs,
                   absl::Span<double* const> columns, absl::Span<Regime> regimes, absl::Span<bool> inadmissible) {
   assert(outputs.size() == columns.size());
-  const Target target = {outputs, columns, regimes, inadmissible};
   const unsigned parts = PartsOf(outputs);
-  const auto count = static_cast<int64_t>(problems.size());
-  for (int64_t first = 0; first < count;) {
-    const Problem& problem = problems[static_cast<size_t>(first)];
-    int64_t run = 1;
-    if (Separating(problem)) {
-      SolveSeparating(problem, first, target);
-    } else if (!FitsDoubleDouble(problem)) {
-      SolveBlock<Wide>(problems.subspan(static_cast<size_t>(first), 1), first, parts, target);
-    } else {
-      const auto moderate = [&](int64_t i) {
-        const Problem& next = problems[static_cast<size_t>(i)];
-        return !Separating(next) && FitsDoubleDouble(next);
-      };
-      while (run < kBlock && first + run < count && moderate(first + run)) ++run;
-      SolveModerateBlock(problems.subspan(static_cast<size_t>(first), static_cast<size_t>(run)), first, parts, target);
+  std::vector<double*> ends(columns.begin(), columns.end());
+  for (size_t first = 0; first < problems.size();) {
+    if (!FitsBlock(problems[first])) {
+      const Impact impact = Solve(problems[first]);
+      regimes[first] = impact.regime;
+      inadmissible[first] = impact.sharp_limit_broken;
+      for (size_t c = 0; c < outputs.size(); ++c) *ends[c]++ = impact[outputs[c]];
+      ++first;
+      continue;
     }
-    first += run;
+    Block block;
+    block.law = problems[first].law;
+    for (size_t i = first; i < problems.size() && block.size < Block::kCapacity; ++i) {
+      if (problems[i].law != block.law || !FitsBlock(problems[i])) break;
+      block.Append(problems[i]);
+    }
+    HWY_DYNAMIC_DISPATCH(SolveBlock)(block, parts, outputs, ends);
+    for (size_t i = 0; i < block.size; ++i) {
+      regimes[first + i] = RegimeOf(problems[first + i], block.locked[i] != 0.0);
+      inadmissible[first + i] = block.inadmissible[i] != 0.0;
+    }
+    for (double*& end : ends) end += block.size;
+    first += block.size;
   }
 }
 
 Instant At(const Problem& problem, double tau) {
-  Solution<Wide> x;
-  SolveGeometry(problem, x);
+  const WideSolution x = SolveGeometry(problem);
   const Wide momentum = x.inertia * x.omega;
-  const Wide impulse(tau);
+  const Wide impulse = Wide::Exactly(tau);
   // J w(tau) of compression; from compression's end on, the slope is d instead of s.
   const Wide compression = momentum + x.s * impulse;
-  if (Sign(compression) <= 0) {
-    return {Unsigned0(ToDouble(compression / x.inertia)), Unsigned0(ToDouble(x.mu * impulse))};
+  if (!IsPositive(compression)) {
+    return {Rounded(compression / x.inertia) + 0.0, Rounded(x.mu * impulse) + 0.0};
   }
-  const Wide two(2.0);
-  return {Unsigned0(ToDouble(x.d / x.s * compression / x.inertia)),
-          Unsigned0(ToDouble(-x.mu * (two * momentum + x.s * impulse) / x.s))};
+  const Wide two = Wide::Constant(2.0);
+  return {Rounded(x.d / x.s * compression / x.inertia) + 0.0,
+          Rounded(-x.mu * (two * momentum + x.s * impulse) / x.s) + 0.0};
 }
 
 }  // namespace ricochet::pendulum
+
+#endif  // HWY_ONCE

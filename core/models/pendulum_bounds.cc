@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "core/models/pendulum_kernel.h"
-#include "core/numerics/wide.h"
+#include "core/models/pendulum_wide.h"
 
 namespace ricochet::pendulum {
 namespace {
@@ -34,47 +33,46 @@ CoefficientBounds LockedBounds(const Problem& problem, double tau0) {
   return bounds;
 }
 
-CoefficientBounds SharpBounds(const Problem& problem, const Solution<Wide>& x, const Wide& tau0) {
-  const Wide one(1.0);
+CoefficientBounds SharpBounds(const Problem& problem, const WideSolution& x, const Wide& tau0) {
+  const Wide one = Wide::Exactly(1.0);
   const Wide root = Sqrt(x.d / x.s);
   // (1 - x)(1 + x) = d s/a^2
   const Wide cosine = Sqrt(x.d * x.s) / x.a;
-  const double mu = std::fabs(ToDouble(x.mu));
-  const double tangential = ToDouble(Wide(mu) * (x.q / x.a) / (one + cosine));
+  const double mu = std::fabs(Rounded(x.mu));
+  const double tangential = Rounded(Wide::Exactly(mu) * (x.q / x.a) / (one + cosine));
   CoefficientBounds bounds;
-  bounds.newton.upper = LargestAdmissible(problem, Law::kNewton, ToDouble(root));
-  bounds.poisson.upper = LargestAdmissible(problem, Law::kPoisson, ToDouble(one / root));
+  bounds.newton.upper = LargestAdmissible(problem, Law::kNewton, Rounded(root));
+  bounds.poisson.upper = LargestAdmissible(problem, Law::kPoisson, Rounded(one / root));
   bounds.energetic.upper = 1.0;
   bounds.tangential = Signed(0.0 - tangential, mu, problem.b);
-  bounds.normal_total_n_s = {ToDouble(tau0), ToDouble((one + one / root) * tau0)};
+  bounds.normal_total_n_s = {Rounded(tau0), Rounded((one + one / root) * tau0)};
   return bounds;
 }
 
-CoefficientBounds EnergyOnlyBounds(const Problem& problem, const Solution<Wide>& x, const Wide& tau0) {
-  const Wide two(2.0);
-  const double mu = std::fabs(ToDouble(x.mu));
+CoefficientBounds EnergyOnlyBounds(const Problem& problem, const WideSolution& x, const Wide& tau0) {
+  const Wide two = Wide::Exactly(2.0);
+  const double mu = std::fabs(Rounded(x.mu));
   CoefficientBounds bounds;
   bounds.newton.upper = 1.0;
-  bounds.poisson.upper = ToDouble(x.s / x.d);
-  bounds.energetic.upper = ToDouble(Sqrt(x.s / x.d));
-  bounds.tangential = Signed(0.0 - ToDouble(Wide(mu) * x.q / x.a), mu, problem.b);
-  bounds.normal_total_n_s = {ToDouble(tau0), ToDouble(two * x.a / x.d * tau0)};
+  bounds.poisson.upper = Rounded(x.s / x.d);
+  bounds.energetic.upper = Rounded(Sqrt(x.s / x.d));
+  bounds.tangential = Signed(0.0 - Rounded(Wide::Exactly(mu) * x.q / x.a), mu, problem.b);
+  bounds.normal_total_n_s = {Rounded(tau0), Rounded(two * x.a / x.d * tau0)};
   return bounds;
 }
 
 }  // namespace
 
 Bounds SolveBounds(const Problem& problem) {
-  Solution<Wide> x;
-  SolveGeometry(problem, x);
+  const WideSolution x = SolveGeometry(problem);
   const bool separating = problem.omega_minus >= 0.0;
   const Wide tau0 = separating ? Wide() : x.inertia * -x.omega / x.s;
   Bounds bounds;
-  bounds.regime = separating ? Regime::kSeparating : x.regime;
-  bounds.friction_ratio = ToDouble(x.q / x.a);
-  bounds.slope_ratio = ToDouble(x.d / x.s);
-  if (x.regime == Regime::kLocked) {
-    bounds.sharp = LockedBounds(problem, ToDouble(tau0));
+  bounds.regime = separating ? Regime::kSeparating : RegimeOf(problem, x.locked);
+  bounds.friction_ratio = Rounded(x.q / x.a);
+  bounds.slope_ratio = Rounded(x.d / x.s);
+  if (x.locked) {
+    bounds.sharp = LockedBounds(problem, Rounded(tau0));
     bounds.energy_only = bounds.sharp;
     return bounds;
   }

@@ -7,16 +7,16 @@
 #define RICOCHET_CORE_NUMERICS_WIDE_H_
 
 #include <cmath>
-#include <utility>
 
-#include "core/numerics/double_double.h"
+#include "core/numerics/double_double-inl.h"
 
 namespace ricochet {
 
 class Wide {
  public:
   Wide() = default;
-  explicit Wide(double value) : Wide(DoubleDouble(value), 0) {}
+  static Wide Exactly(double value) { return {Mantissa::Exactly(value), 0}; }
+  static Wide Constant(double value) { return Exactly(value); }
 
   friend Wide operator-(const Wide& x) { return {-x.mantissa_, x.exponent_}; }
   friend Wide operator*(const Wide& x, const Wide& y) { return {x.mantissa_ * y.mantissa_, x.exponent_ + y.exponent_}; }
@@ -35,31 +35,33 @@ class Wide {
   }
   friend Wide operator-(const Wide& x, const Wide& y) { return x + -y; }
 
-  // x >= 0.
+  // x > 0.
   friend Wide Sqrt(const Wide& x) {
     const int odd = x.exponent_ & 1;
     return {Sqrt(Scaled(x.mantissa_, odd)), (x.exponent_ - odd) / 2};
   }
 
-  friend int Sign(const Wide& x) { return Sign(x.mantissa_); }
+  friend bool IsNegative(const Wide& x) { return x.mantissa_.hi < 0.0; }
+  friend bool IsPositive(const Wide& x) { return x.mantissa_.hi > 0.0; }
+  friend Wide Select(bool condition, const Wide& yes, const Wide& no) { return condition ? yes : no; }
 
   // The nearest double; infinite above the largest one.
-  friend double ToDouble(const Wide& x) { return std::ldexp(x.mantissa_.hi, x.exponent_); }
-  friend double RoundedProduct(const Wide& x, const Wide& y) { return ToDouble(x * y); }
+  friend double Rounded(const Wide& x) { return std::ldexp(x.mantissa_.hi, x.exponent_); }
+  friend double RoundedProduct(const Wide& x, const Wide& y) { return Rounded(x * y); }
 
  private:
-  Wide(DoubleDouble mantissa, int exponent) : mantissa_(mantissa), exponent_(exponent) {
+  using Mantissa = HWY_NAMESPACE::DoubleDouble<double>;
+
+  Wide(Mantissa mantissa, int exponent) : mantissa_(mantissa), exponent_(exponent) {
     int shift = 0;
     (void)std::frexp(mantissa_.hi, &shift);
     mantissa_ = Scaled(mantissa_, -shift);
     exponent_ = mantissa_.hi == 0.0 ? 0 : exponent_ + shift;
   }
 
-  static DoubleDouble Scaled(DoubleDouble x, int exponent) {
-    return {std::ldexp(x.hi, exponent), std::ldexp(x.lo, exponent)};
-  }
+  static Mantissa Scaled(Mantissa x, int exponent) { return {std::ldexp(x.hi, exponent), std::ldexp(x.lo, exponent)}; }
 
-  DoubleDouble mantissa_;
+  Mantissa mantissa_ = Mantissa::Constant(0.0);
   int exponent_ = 0;
 };
 
