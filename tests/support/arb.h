@@ -134,8 +134,7 @@ inline double ErrorInUlps(double computed, const Ball& exact, const Ball& allowa
     return std::isinf(computed) && same_sign ? 0.0 : kNever;
   }
   const Ball value = std::isinf(computed) ? (computed > 0.0 ? limit : -limit) : Ball(computed);
-  const slong exponent =
-      exact.ContainsZero() ? -1074 : std::max<slong>(exact.Exponent() - 53, -1074);
+  const slong exponent = exact.ContainsZero() ? -1074 : std::max<slong>(exact.Exponent() - 53, -1074);
   const Ball wide(0.0, 512);
   const Ball error = (Abs(wide + value - exact) - allowance) / Ball::PowerOfTwo(exponent);
   return std::max(0.0, error.UpperBound());

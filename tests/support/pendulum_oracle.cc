@@ -139,9 +139,7 @@ bool IsGranted(const Problem& problem, Output output) {
 
 // Separating: nothing happens.
 void SetUnchanged(const Problem& problem, ExactImpact& impact) {
-  const auto set = [&impact](Output output, const Ball& value) {
-    impact.values[static_cast<size_t>(output)] = value;
-  };
+  const auto set = [&impact](Output output, const Ball& value) { impact.values[static_cast<size_t>(output)] = value; };
   const Ball omega(problem.omega_minus, Ball::kExact);
   set(Output::kOmegaPlus, omega);
   set(Output::kTangentialVelocityAfter, Ball(problem.b) * omega);
@@ -170,8 +168,8 @@ ExactImpact SolveExactly(const Problem& problem) {
   }
   for (size_t i = 0; i < kOutputCount; ++i) {
     // No difference of these inputs is that small without being 0.
-    const bool is_zero = impact.values[i].ContainsZero() &&
-                         impact.values[i].Radius() <= Ball::PowerOfTwo(-6000) * impact.scales[i];
+    const bool is_zero =
+        impact.values[i].ContainsZero() && impact.values[i].Radius() <= Ball::PowerOfTwo(-6000) * impact.scales[i];
     if (is_zero) impact.values[i] = Ball(0.0);
     if (!IsGranted(problem, static_cast<Output>(i))) impact.scales[i] = Ball(0.0);
   }
@@ -202,9 +200,8 @@ ExactInstant ExactlyAt(const Problem& problem, double tau) {
   return instant;
 }
 
-ExactBounds SolveBoundsExactly(const Problem& problem) {
-  constexpr slong kBits = 8192;
-  const Geometry g(problem, kBits);
+ExactBounds SolveBoundsExactly(const Problem& problem, slong bits) {
+  const Geometry g(problem, bits);
   const Ball one(1.0);
   const double sign = SignOf(problem.b);
   ExactBounds bounds;
@@ -213,7 +210,7 @@ ExactBounds SolveBoundsExactly(const Problem& problem) {
   bounds.slope_ratio = g.difference / g.sum;
   if (bounds.regime == Regime::kSeparating) return bounds;
 
-  const Ball tau0 = -(Ball(problem.inertia) * problem.omega_minus) / g.sum;
+  const Ball tau0 = -(Ball(problem.inertia, bits) * problem.omega_minus) / g.sum;
   const auto tangential = [&](const Ball& least) {
     if (sign == 0.0) return ExactRange();
     return sign > 0.0 ? ExactRange{least, g.mu} : ExactRange{-g.mu, -least};
@@ -228,10 +225,8 @@ ExactBounds SolveBoundsExactly(const Problem& problem) {
   const Ball& x = bounds.friction_ratio;
   const Ball kappa = Sqrt(1.0 / r);
   // [55], with its quotient by |b| only where there is one.
-  const Ball least =
-      sign == 0.0 ? Ball(0.0) : -(g.a / std::fabs(problem.b) * (1.0 - Sqrt(1.0 - x * x)));
-  bounds.sharp = {
-      {0.0, Sqrt(r)}, {0.0, kappa}, {0.0, one}, tangential(least), {tau0, (1.0 + kappa) * tau0}};
+  const Ball least = sign == 0.0 ? Ball(0.0) : -(g.a / std::fabs(problem.b) * (1.0 - Sqrt(1.0 - x * x)));
+  bounds.sharp = {{0.0, Sqrt(r)}, {0.0, kappa}, {0.0, one}, tangential(least), {tau0, (1.0 + kappa) * tau0}};
   // [27], [28]; the others follow from Poisson's by [24], [51] and [10].
   const Ball weak = 1.0 / r;
   bounds.energy_only = {{0.0, one},

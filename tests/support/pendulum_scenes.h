@@ -46,13 +46,10 @@ class SceneSource {
 
   // Every bit pattern of a finite double is as likely as any other.
   Problem OverAllDoubles() {
-    Problem problem = {.inertia = Positive(),
-                       .a = Positive(),
-                       .b = Sign() * Bits(),
-                       .omega_minus = -Positive(),
-                       .mu = Bits()};
+    Problem problem = {
+        .inertia = Positive(), .a = Positive(), .b = Sign() * Bits(), .omega_minus = -Positive(), .mu = Bits()};
     problem.mu_static = Below(4) == 0 ? std::max(problem.mu, Bits()) : problem.mu;
-    SetCoefficient(problem);
+    SetCoefficient(problem, /*any_size=*/true);
     // A slope of chance locks half the time or is all but 0; half of the time it is set between.
     if (Below(2) == 0) AimSlope(problem, std::exp2(-Uniform(0.0, 60.0)) * Uniform(0.5, 1.0));
     return problem;
@@ -65,7 +62,7 @@ class SceneSource {
                        .omega_minus = -Uniform(0.1, 10.0),
                        .mu = Uniform(0.0, 1.0)};
     problem.mu_static = Below(4) == 0 ? problem.mu * Uniform(1.0, 1.5) : problem.mu;
-    SetCoefficient(problem);
+    SetCoefficient(problem, /*any_size=*/false);
     return problem;
   }
 
@@ -74,8 +71,7 @@ class SceneSource {
     Problem problem = Below(2) == 0 ? Everyday() : OverAllDoubles();
     AimSlope(problem, 1.0);
     problem.mu = Steps(problem.mu, Near(4));
-    problem.mu_static =
-        Below(4) == 0 ? Steps(problem.mu, static_cast<int64_t>(Below(4))) : problem.mu;
+    problem.mu_static = Below(4) == 0 ? Steps(problem.mu, static_cast<int64_t>(Below(4))) : problem.mu;
     return problem;
   }
 
@@ -86,13 +82,10 @@ class SceneSource {
     const double x = problem.mu * std::fabs(problem.b) / problem.a;
     const double root = std::sqrt((1.0 - x) / (1.0 + x));
     problem.law = AnyLaw();
-    problem.coefficient = problem.law == Law::kNewton    ? root
-                          : problem.law == Law::kPoisson ? 1.0 / root
-                                                         : 1.0;
+    problem.coefficient = problem.law == Law::kNewton ? root : problem.law == Law::kPoisson ? 1.0 / root : 1.0;
     if (Below(3) == 0) problem.coefficient = 1.0;
-    if (Below(6) == 0) problem.coefficient = root * root;  // Newton's that makes mu_hat vanish,
-    if (Below(6) == 0)
-      problem.coefficient = 1.0 / root / root;  // Poisson's that creates no energy.
+    if (Below(6) == 0) problem.coefficient = root * root;        // Newton's that makes mu_hat vanish,
+    if (Below(6) == 0) problem.coefficient = 1.0 / root / root;  // Poisson's that creates no energy.
     problem.coefficient = Steps(problem.coefficient, Near(3));
     Admit(problem);
     return problem;
@@ -105,9 +98,7 @@ class SceneSource {
     const double x = problem.mu * std::fabs(problem.b) / problem.a;
     const double r = (1.0 - x) / (1.0 + x);
     problem.law = AnyLaw();
-    problem.coefficient = problem.law == Law::kNewton    ? r
-                          : problem.law == Law::kPoisson ? 1.0
-                                                         : std::sqrt(r);
+    problem.coefficient = problem.law == Law::kNewton ? r : problem.law == Law::kPoisson ? 1.0 : std::sqrt(r);
     problem.coefficient = Steps(problem.coefficient, Near(3));
     Admit(problem);
     return problem;
@@ -128,21 +119,16 @@ class SceneSource {
     return std::exp2(-Uniform(0.0, kind < 5 ? 4.0 : 60.0));
   }
 
-  double Uniform(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(random_);
-  }
+  double Uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   uint64_t Below(uint64_t bound) { return random_() % bound; }
   double Sign() { return Below(2) == 0 ? 1.0 : -1.0; }
   Law AnyLaw() { return static_cast<Law>(Below(3)); }
 
  private:
   static double Steps(double x, int64_t steps) {
-    return std::fabs(
-        std::bit_cast<double>(std::bit_cast<int64_t>(x) + (x == 0.0 ? std::abs(steps) : steps)));
+    return std::fabs(std::bit_cast<double>(std::bit_cast<int64_t>(x) + (x == 0.0 ? std::abs(steps) : steps)));
   }
-  int64_t Near(int64_t steps) {
-    return static_cast<int64_t>(Below(static_cast<uint64_t>(2 * steps + 1))) - steps;
-  }
+  int64_t Near(int64_t steps) { return static_cast<int64_t>(Below(static_cast<uint64_t>(2 * steps + 1))) - steps; }
   double Bits() { return std::bit_cast<double>(Below(uint64_t{0x7ff} << 52)); }
   double Positive() {
     const double x = Bits();
@@ -160,13 +146,13 @@ class SceneSource {
     if (std::isfinite(b)) problem.b = std::copysign(b, problem.b);
   }
 
-  void SetCoefficient(Problem& problem) {
+  void SetCoefficient(Problem& problem, bool any_size) {
     problem.law = AnyLaw();
     const uint64_t kind = Below(8);
     if (problem.law == Law::kEnergetic) {
       problem.coefficient = kind == 0 ? 1.0 : UnitByExponent();
     } else {
-      problem.coefficient = kind == 0 ? Bits() : kind == 1 ? Uniform(0.0, 3.0) : UnitByExponent();
+      problem.coefficient = kind == 0 && any_size ? Bits() : kind < 2 ? Uniform(0.0, 3.0) : UnitByExponent();
     }
   }
   // Keeps the one rule that depends on the law.
@@ -180,9 +166,9 @@ class SceneSource {
 // A problem as hexadecimal floats, to be pasted into a test.
 inline std::string ToString(const Problem& problem) {
   std::ostringstream text;
-  text << std::hexfloat << "J " << problem.inertia << " a " << problem.a << " b " << problem.b
-       << " w " << problem.omega_minus << " mu " << problem.mu << " mu_s " << problem.mu_static
-       << " law " << static_cast<int>(problem.law) << " c " << problem.coefficient;
+  text << std::hexfloat << "J " << problem.inertia << " a " << problem.a << " b " << problem.b << " w "
+       << problem.omega_minus << " mu " << problem.mu << " mu_s " << problem.mu_static << " law "
+       << static_cast<int>(problem.law) << " c " << problem.coefficient;
   return text.str();
 }
 

@@ -74,8 +74,7 @@ TEST(PendulumArbTest, ExcessIsPositiveExactlyWhereTheSharpLimitIsBroken) {
   for (int i = 0; i < 100'000; ++i) {
     const Problem problem = source.Any();
     const Impact impact = Solve(problem);
-    ASSERT_EQ(impact[Output::kEnergeticExcess] > 0.0, impact.sharp_limit_broken)
-        << ToString(problem);
+    ASSERT_EQ(impact[Output::kEnergeticExcess] > 0.0, impact.sharp_limit_broken) << ToString(problem);
   }
 }
 
@@ -88,16 +87,13 @@ TEST(PendulumArbTest, HistoriesKeepTheirPromiseAllAlongTheImpact) {
     const double tau0 = impact[Output::kNormalImpulseCompression];
     const double tau1 = impact[Output::kNormalImpulse];
     if (!std::isfinite(tau1)) continue;
-    for (const double tau :
-         {0.0, 0.3 * tau0, tau0, std::nextafter(tau0, 0.0), 0.5 * tau0 + 0.5 * tau1, tau1}) {
+    for (const double tau : {0.0, 0.3 * tau0, tau0, std::nextafter(tau0, 0.0), 0.5 * tau0 + 0.5 * tau1, tau1}) {
       const ExactInstant exact = ExactlyAt(problem, tau);
       const Instant instant = At(problem, tau);
       const Ball allowance = Ball::PowerOfTwo(-100);
-      ASSERT_LE(ErrorInUlps(instant.omega, exact.omega, allowance * exact.omega_scale),
-                kPromisedUlps)
+      ASSERT_LE(ErrorInUlps(instant.omega, exact.omega, allowance * exact.omega_scale), kPromisedUlps)
           << ToString(problem) << " tau " << tau;
-      ASSERT_LE(ErrorInUlps(instant.tangential_impulse, exact.tangential_impulse,
-                            allowance * exact.impulse_scale),
+      ASSERT_LE(ErrorInUlps(instant.tangential_impulse, exact.tangential_impulse, allowance * exact.impulse_scale),
                 kPromisedUlps)
           << ToString(problem) << " tau " << tau;
     }

@@ -1,0 +1,157 @@
+// Rooms: who may look into whom, by the #include lines of every source file.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace ricochet {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Our own folders and the libraries of others that a room may include. Standard headers are free to all but the core.
+struct Room {
+  std::string folder;
+  std::vector<std::string> prefixes;
+};
+
+const std::vector<Room>& Rooms() {
+  static const std::vector<Room> rooms = {
+      {"core", {"core/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/"}},
+      {"proto/wire", {"proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
+      {"client", {"client/", "proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
+      {"client/cli",
+       {"client/", "proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/"}},
+      {"server",
+       {"server/", "proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/"}},
+  };
+  return rooms;
+}
+
+// The standard headers that the core does without: no stream, file, environment, process, thread or clock.
+const std::set<std::string>& BarredFromCore() {
+  static const std::set<std::string> barred = {"iostream", "istream",  "ostream",      "fstream",
+                                               "sstream",  "cstdio",   "filesystem",   "thread",
+                                               "mutex",    "future",   "ctime",        "csignal",
+                                               "stdio.h",  "time.h",   "unistd.h",     "locale",
+                                               "random",   "regex",    "atomic",       "condition_variable",
+                                               "cstdlib",  "stdlib.h", "shared_mutex", "syncstream"};
+  return barred;
+}
+
+struct Include {
+  std::string file;
+  std::string header;
+};
+
+fs::path Root() { return fs::path(RICOCHET_TEST_DATA_DIR).parent_path().parent_path(); }
+
+std::string RelativePath(const fs::path& path) { return fs::relative(path, Root()).generic_string(); }
+
+bool IsSource(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cc"; }
+
+std::vector<fs::path> SourcesOf(const std::string& folder) {
+  std::vector<fs::path> sources;
+  for (const auto& entry : fs::recursive_directory_iterator(Root() / folder)) {
+    if (entry.is_regular_file() && IsSource(entry.path())) sources.push_back(entry.path());
+  }
+  std::sort(sources.begin(), sources.end());
+  return sources;
+}
+
+std::vector<Include> IncludesOf(const std::string& folder) {
+  static const std::regex pattern(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"])");
+  std::vector<Include> includes;
+  for (const fs::path& path : SourcesOf(folder)) {
+    std::ifstream file(path);
+    std::smatch match;
+    for (std::string line; std::getline(file, line);) {
+      if (std::regex_search(line, match, pattern)) includes.push_back({RelativePath(path), match[1]});
+    }
+  }
+  return includes;
+}
+
+// Standard C++ and POSIX headers have no folder of their own.
+bool IsSystemHeader(const std::string& header) {
+  return header.find('/') == std::string::npos || header.rfind("sys/", 0) == 0;
+}
+
+bool StartsWithAny(const std::string& text, const std::vector<std::string>& prefixes) {
+  return std::any_of(prefixes.begin(), prefixes.end(),
+                     [&](const std::string& prefix) { return text.rfind(prefix, 0) == 0; });
+}
+
+// The innermost room that a file lies in.
+const Room& RoomOf(const std::string& file) {
+  const Room* innermost = nullptr;
+  for (const Room& room : Rooms()) {
+    const bool inside = file.rfind(room.folder + "/", 0) == 0;
+    if (inside && (innermost == nullptr || room.folder.size() > innermost->folder.size())) innermost = &room;
+  }
+  return *innermost;
+}
+
+TEST(RoomsTest, NoRoomIncludesWhatItsDoorsDoNotAllow) {
+  for (const std::string folder : {"core", "proto/wire", "client", "server"}) {
+    for (const Include& include : IncludesOf(folder)) {
+      const Room& room = RoomOf(include.file);
+      EXPECT_TRUE(IsSystemHeader(include.header) || StartsWithAny(include.header, room.prefixes))
+          << include.file << " includes " << include.header << ", which " << room.folder << "/ may not";
+    }
+  }
+}
+
+TEST(RoomsTest, TheCoreKnowsNoStreamFileEnvironmentThreadOrClock) {
+  for (const Include& include : IncludesOf("core")) {
+    EXPECT_FALSE(BarredFromCore().contains(include.header)) << include.file << " includes " << include.header;
+  }
+}
+
+TEST(RoomsTest, TheCoreAsksNoClockAndNoEnvironment) {
+  const std::regex calls(R"(\b(getenv|system_clock|steady_clock|high_resolution_clock|printf|cout|cerr)\b)");
+  for (const fs::path& path : SourcesOf("core")) {
+    std::ifstream file(path);
+    std::string line;
+    for (int number = 1; std::getline(file, line); ++number) {
+      EXPECT_FALSE(std::regex_search(line, calls)) << RelativePath(path) << ":" << number << ": " << line;
+    }
+  }
+}
+
+// Each of these libraries has one door.
+TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
+  struct Library {
+    std::string prefix;
+    std::vector<std::string> doors;
+  };
+  const std::vector<Library> libraries = {
+      {"spdlog/", {"server/", "client/cli/"}},
+      {"CLI/", {"server/", "client/cli/"}},
+      {"grpcpp/", {"proto/wire/", "server/", "client/"}},
+      {"ricochet/v1/", {"proto/wire/", "server/", "client/"}},
+  };
+  for (const std::string folder : {"core", "proto/wire", "client", "server"}) {
+    for (const Include& include : IncludesOf(folder)) {
+      for (const Library& library : libraries) {
+        if (include.header.rfind(library.prefix, 0) != 0) continue;
+        EXPECT_TRUE(StartsWithAny(include.file, library.doors)) << include.file << " includes " << include.header;
+      }
+    }
+  }
+}
+
+TEST(RoomsTest, TheTestSeesTheRoomsItSpeaksOf) {
+  for (const std::string folder : {"core", "proto/wire", "client", "server"}) {
+    EXPECT_FALSE(IncludesOf(folder).empty()) << folder;
+  }
+}
+
+}  // namespace
+}  // namespace ricochet

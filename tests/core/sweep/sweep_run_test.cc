@@ -1,0 +1,433 @@
+// Sweeps as they are computed: the same bits whatever the range and the chunks, bad points kept apart, stops honoured.
+
+#include "core/sweep/sweep_run.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/local_solver.h"
+#include "core/sweep/column.h"
+
+namespace ricochet {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+Scene BaseScene() {
+  return {.system = Pendulum{.inertia_kg_m2 = 2.0, .a_m = 0.3, .b_m = 1.0, .omega_minus_rad_s = -3.0},
+          .friction = {.kinetic_coefficient = 0.1, .static_coefficient = std::nullopt},
+          .restitution = EnergeticCoefficient{0.5}};
+}
+
+Axis Lin(const std::string& path, double start, double stop, int64_t count) {
+  return {path, Linspace{start, stop, count}};
+}
+Axis List(const std::string& path, std::vector<double> values) { return {path, ListValues{std::move(values)}}; }
+
+SweepRequest MakeRequest(std::vector<Axis> axes, std::vector<std::string> columns = {"coefficients.newton"}) {
+  return {.grid = {.scene = BaseScene(), .axes = std::move(axes)}, .columns = std::move(columns)};
+}
+
+// Every regime, bad points and inadmissible ones: 60 x 51 points, more than three blocks.
+SweepRequest MixedRequest() {
+  std::vector<double> frictions = {-0.02};
+  while (frictions.size() < 60) frictions.push_back(0.01 * static_cast<double>(frictions.size() - 1));
+  SweepRequest request =
+      MakeRequest({List("friction.kinetic_coefficient", frictions), Lin("pendulum.omega_minus_rad_s", -4.0, 1.0, 51)},
+                  PendulumColumns());
+  request.grid.scene.restitution = NewtonCoefficient{0.5};
+  return request;
+}
+
+bool Never() { return false; }
+
+// All points of a run, point after point.
+struct Points {
+  std::vector<std::vector<double>> values;
+  std::vector<Regime> regimes;
+  SweepSummary summary;
+};
+
+Points RunAll(const SweepRequest& request) {
+  absl::StatusOr<SweepRun> run = SweepRun::Make(request);
+  EXPECT_TRUE(run.ok()) << run.status();
+  Points points;
+  if (!run.ok()) return points;
+  while (!run->done()) {
+    const SweepRun::Extent extent = run->Next();
+    std::vector<double> values(static_cast<size_t>(extent.count * run->column_count()));
+    std::vector<Regime> regimes(static_cast<size_t>(extent.count));
+    EXPECT_TRUE(run->Compute(extent, absl::MakeSpan(values), absl::MakeSpan(regimes), Never));
+    for (int64_t i = 0; i < extent.count; ++i) {
+      std::vector<double>& point = points.values.emplace_back();
+      for (int64_t c = 0; c < run->column_count(); ++c) {
+        point.push_back(values[static_cast<size_t>(c * extent.count + i)]);
+      }
+      points.regimes.push_back(regimes[static_cast<size_t>(i)]);
+    }
+  }
+  points.summary = run->summary();
+  return points;
+}
+
+bool SameBits(const std::vector<double>& x, const std::vector<double>& y) {
+  return std::equal(x.begin(), x.end(), y.begin(), y.end(), [](double left, double right) {
+    return std::bit_cast<uint64_t>(left) == std::bit_cast<uint64_t>(right);
+  });
+}
+
+// The scene of point `index`, set by hand.
+Scene SceneAt(const SweepRequest& request, int64_t index) {
+  Scene scene = request.grid.scene;
+  std::vector<int64_t> positions(request.grid.axes.size());
+  AxisPositions(request.grid, index, absl::MakeSpan(positions));
+  scene.friction.kinetic_coefficient = AxisValue(request.grid.axes[0], positions[0]);
+  std::get<Pendulum>(scene.system).omega_minus_rad_s = AxisValue(request.grid.axes[1], positions[1]);
+  return scene;
+}
+
+std::vector<double> ColumnsOf(const Outcome& outcome) {
+  return {outcome.coefficients.newton,
+          outcome.coefficients.poisson,
+          outcome.coefficients.energetic,
+          outcome.coefficients.tangential,
+          outcome.rates_after_rad_s[0],
+          outcome.contact_velocity_after.tangential_m_s[0],
+          outcome.contact_velocity_after.normal_m_s,
+          outcome.impulse.normal_compression_n_s,
+          outcome.impulse.normal_total_n_s,
+          outcome.impulse.tangential_n_s[0],
+          outcome.work.normal_compression_j,
+          outcome.work.normal_restitution_j,
+          outcome.work.tangential_compression_j,
+          outcome.work.tangential_restitution_j,
+          outcome.work.normal_total_j,
+          outcome.work.tangential_total_j,
+          outcome.energy_change_j};
+}
+
+std::vector<std::string> FieldsOf(const absl::Status& status) {
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  std::vector<std::string> fields;
+  for (const Violation& violation : ViolationsOf(status)) fields.push_back(violation.field);
+  return fields;
+}
+
+std::vector<std::string> ErrorFields(const SweepRequest& request) { return FieldsOf(SweepRun::Make(request).status()); }
+
+// ---- Points ----
+
+TEST(SweepRunTest, EveryPointHasTheBitsThatSolveGivesItsScene) {
+  const SweepRequest request = MixedRequest();
+  const Points points = RunAll(request);
+  ASSERT_EQ(points.values.size(), 3060U);
+  const LocalSolver solver;
+  for (size_t i = 0; i < points.values.size(); ++i) {
+    const auto response = solver.Solve({.scene = SceneAt(request, static_cast<int64_t>(i))});
+    ASSERT_EQ(response.ok(), points.regimes[i] != Regime::kInvalid) << i;
+    if (!response.ok()) continue;
+    ASSERT_EQ(points.regimes[i], response->outcome.regime) << i;
+    ASSERT_TRUE(SameBits(points.values[i], ColumnsOf(response->outcome))) << i;
+  }
+}
+
+TEST(SweepRunTest, AnySubRangeHasTheBitsOfTheWhole) {
+  SweepRequest request = MixedRequest();
+  const Points whole = RunAll(request);
+  const std::pair<int64_t, int64_t> ranges[] = {{0, 1},    {7, 8},       {50, 53},   {1023, 1026},
+                                                {1, 3060}, {3059, 3060}, {500, 2700}};
+  for (const auto& [first, end] : ranges) {
+    request.first_index = first;
+    request.end_index = end;
+    const Points part = RunAll(request);
+    ASSERT_EQ(part.values.size(), static_cast<size_t>(end - first));
+    for (size_t i = 0; i < part.values.size(); ++i) {
+      ASSERT_TRUE(SameBits(part.values[i], whole.values[i + static_cast<size_t>(first)])) << first << " + " << i;
+      ASSERT_EQ(part.regimes[i], whole.regimes[i + static_cast<size_t>(first)]);
+    }
+  }
+}
+
+TEST(SweepRunTest, ColumnsDoNotDependOnWhichOthersAreAskedFor) {
+  SweepRequest request = MixedRequest();
+  const Points whole = RunAll(request);
+  for (size_t c = 0; c < PendulumColumns().size(); ++c) {
+    request.columns = {PendulumColumns()[c]};
+    const Points one = RunAll(request);
+    for (size_t i = 0; i < one.values.size(); ++i) {
+      ASSERT_TRUE(SameBits({whole.values[i][c]}, one.values[i])) << request.columns[0] << " " << i;
+    }
+  }
+}
+
+TEST(SweepRunTest, ZippedAxesAdvanceTogether) {
+  SweepRequest request =
+      MakeRequest({List("pendulum.a_m", {1.0, 2.0, 3.0}), List("restitution.newton", {0.1, 0.2, 0.3})},
+                  {"coefficients.newton", "contact_velocity_after.normal_m_s"});
+  request.grid.combination = Combination::kZip;
+  EXPECT_THAT(RunAll(request).values, ElementsAre(ElementsAre(0.1, 3.0 * 0.1), ElementsAre(0.2, testing::DoubleEq(1.2)),
+                                                  ElementsAre(0.3, testing::DoubleEq(2.7))));
+}
+
+TEST(SweepRunTest, ASweepWithoutAxesIsTheBaseScene) {
+  const Points points = RunAll(MakeRequest({}, {"coefficients.energetic"}));
+  EXPECT_THAT(points.values, ElementsAre(ElementsAre(0.5)));
+  EXPECT_EQ(points.summary.points, 1);
+}
+
+TEST(SweepRunTest, AnEmptyRangeIsDoneAtOnce) {
+  SweepRequest request = MixedRequest();
+  request.first_index = 17;
+  request.end_index = 17;
+  const Points points = RunAll(request);
+  EXPECT_TRUE(points.values.empty());
+  EXPECT_EQ(points.summary, SweepSummary());
+}
+
+// ---- Bad points ----
+
+TEST(SweepRunTest, BadPointsAreNanAndInvalidAndCountedWithTheFirstIndex) {
+  const Points points = RunAll(MakeRequest({List("pendulum.a_m", {1.0, -1.0, 2.0, 0.0, 3.0})}, PendulumColumns()));
+  EXPECT_THAT(points.regimes,
+              ElementsAre(Regime::kRebound, Regime::kInvalid, Regime::kRebound, Regime::kInvalid, Regime::kRebound));
+  for (const size_t i : {1U, 3U}) {
+    for (const double value : points.values[i]) EXPECT_TRUE(std::isnan(value));
+  }
+  EXPECT_EQ(points.summary.by_regime[static_cast<size_t>(Regime::kInvalid)], (Tally{.count = 2, .first_index = 1}));
+  EXPECT_EQ(points.summary.by_regime[static_cast<size_t>(Regime::kRebound)], (Tally{.count = 3, .first_index = 0}));
+}
+
+TEST(SweepRunTest, NanInBadPointsIsQuiet) {
+  const Points points = RunAll(MakeRequest({List("pendulum.a_m", {-1.0})}));
+  EXPECT_EQ(std::bit_cast<uint64_t>(points.values[0][0]) & (uint64_t{1} << 51), uint64_t{1} << 51);
+}
+
+// A bad point must not leave its mark on the next: the axis leaves the bad value behind.
+TEST(SweepRunTest, PointsAfterABadOneAreAsIfItWereNotThere) {
+  const Points with = RunAll(MakeRequest({List("friction.kinetic_coefficient", {-0.1, 0.1})}, PendulumColumns()));
+  const Points without = RunAll(MakeRequest({List("friction.kinetic_coefficient", {0.1})}, PendulumColumns()));
+  EXPECT_TRUE(SameBits(with.values[1], without.values[0]));
+}
+
+TEST(SweepRunTest, ARequestedOutputThatOverflowsMakesItsPointInvalid) {
+  SweepRequest request = MakeRequest({List("pendulum.inertia_kg_m2", {2.0, 1e308})}, {"energy_change_j"});
+  EXPECT_THAT(RunAll(request).regimes, ElementsAre(Regime::kRebound, Regime::kInvalid));
+  request.columns = {"coefficients.newton"};  // The same point is fine where the energy is not asked for.
+  EXPECT_THAT(RunAll(request).regimes, ElementsAre(Regime::kRebound, Regime::kRebound));
+}
+
+TEST(SweepRunTest, StaticBelowKineticFrictionIsABadPointWhereverItOccurs) {
+  SweepRequest request = MakeRequest({List("friction.kinetic_coefficient", {0.05, 0.15, 0.25})});
+  request.grid.scene.friction.static_coefficient = 0.2;
+  EXPECT_THAT(RunAll(request).regimes, ElementsAre(Regime::kRebound, Regime::kRebound, Regime::kInvalid));
+}
+
+TEST(SweepRunTest, TheSummaryTalliesEveryRegimeAndInadmissiblePoints) {
+  const SweepRequest request = MixedRequest();
+  const Points points = RunAll(request);
+  const LocalSolver solver;
+  SweepSummary expected;
+  const auto add = [](int64_t index, Tally& tally) {
+    if (tally.count == 0) tally.first_index = index;
+    ++tally.count;
+  };
+  for (int64_t i = 0; i < 3060; ++i) {
+    const auto response = solver.Solve({.scene = SceneAt(request, i)});
+    const Regime regime = response.ok() ? response->outcome.regime : Regime::kInvalid;
+    add(i, expected.by_regime[static_cast<size_t>(regime)]);
+    if (response.ok() && !response->outcome.admissible) add(i, expected.inadmissible);
+    ++expected.points;
+  }
+  EXPECT_EQ(points.summary, expected);
+  for (const Regime regime :
+       {Regime::kInvalid, Regime::kFrictionless, Regime::kRebound, Regime::kLocked, Regime::kSeparating}) {
+    EXPECT_GT(expected.by_regime[static_cast<size_t>(regime)].count, 0) << static_cast<int>(regime);
+  }
+  EXPECT_GT(expected.inadmissible.count, 0);
+}
+
+TEST(SweepRunTest, FirstIndicesOfASubRangeAreThoseOfTheGrid) {
+  SweepRequest request = MakeRequest({List("pendulum.a_m", {1.0, 1.0, -1.0, 1.0})});
+  request.first_index = 1;
+  const SweepSummary summary = RunAll(request).summary;
+  EXPECT_EQ(summary.points, 3);
+  EXPECT_EQ(summary.by_regime[static_cast<size_t>(Regime::kRebound)], (Tally{.count = 2, .first_index = 1}));
+  EXPECT_EQ(summary.by_regime[static_cast<size_t>(Regime::kInvalid)], (Tally{.count = 1, .first_index = 2}));
+}
+
+// Fig. 4 as a sweep: Newton over phi.
+TEST(SweepRunTest, PhiSweepsTheAngleOfFigure4) {
+  SweepRequest request = MakeRequest({Lin("pendulum.phi_rad", 0.2, 1.5, 14)});
+  request.grid.scene.restitution = EnergeticCoefficient{1.0};
+  const Points points = RunAll(request);
+  for (int i = 0; i < 14; ++i) {
+    const double tangent = std::tan(0.2 + 0.1 * i);
+    EXPECT_NEAR(points.values[static_cast<size_t>(i)][0], std::sqrt((tangent - 0.1) / (tangent + 0.1)), 1e-14);
+  }
+}
+
+// ---- Chunks and stops ----
+
+TEST(SweepRunTest, ChunksStartSmallAndHoldAtMost512KiB) {
+  for (const size_t columns : {size_t{1}, size_t{8}, PendulumColumns().size()}) {
+    SweepRequest request = MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 1'000'000'000)});
+    request.columns.assign(PendulumColumns().begin(), PendulumColumns().begin() + static_cast<std::ptrdiff_t>(columns));
+    absl::StatusOr<SweepRun> run = SweepRun::Make(request);
+    ASSERT_TRUE(run.ok());
+    EXPECT_EQ(run->points_total(), 1'000'000'000);
+    const SweepRun::Extent first = run->Next();
+    EXPECT_EQ(first.first_index, 0);
+    EXPECT_LE(first.count * static_cast<int64_t>(columns * sizeof(double)), 256 << 10);
+    std::vector<double> values(static_cast<size_t>(first.count) * columns);
+    ASSERT_TRUE(run->Compute(first, absl::MakeSpan(values), {}, Never));
+    const SweepRun::Extent second = run->Next();
+    EXPECT_EQ(second.first_index, first.count);
+    const int64_t bytes = second.count * static_cast<int64_t>(columns * sizeof(double));
+    EXPECT_GE(bytes, 256 << 10);
+    EXPECT_LE(bytes, 512 << 10);
+  }
+}
+
+TEST(SweepRunTest, ExtentsTileTheRangeWithoutGapOrOverlap) {
+  SweepRequest request = MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 300'000)});
+  request.first_index = 5;
+  request.end_index = 250'000;
+  absl::StatusOr<SweepRun> run = SweepRun::Make(request);
+  ASSERT_TRUE(run.ok());
+  int64_t next = 5;
+  std::vector<double> values;
+  while (!run->done()) {
+    const SweepRun::Extent extent = run->Next();
+    ASSERT_EQ(extent.first_index, next);
+    ASSERT_GT(extent.count, 0);
+    values.resize(static_cast<size_t>(extent.count));
+    ASSERT_TRUE(run->Compute(extent, absl::MakeSpan(values), {}, Never));
+    next += extent.count;
+    EXPECT_EQ(run->points_done(), next - 5);
+  }
+  EXPECT_EQ(next, 250'000);
+  EXPECT_EQ(run->Next().count, 0);
+}
+
+TEST(SweepRunTest, AStopIsLookedForBeforeEvery1024Points) {
+  absl::StatusOr<SweepRun> run = SweepRun::Make(MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 60'000)}));
+  ASSERT_TRUE(run.ok());
+  std::vector<double> values;
+  int64_t looks = 0;
+  while (!run->done()) {
+    const SweepRun::Extent extent = run->Next();
+    values.resize(static_cast<size_t>(extent.count));
+    const int64_t looks_before = looks;
+    ASSERT_TRUE(run->Compute(extent, absl::MakeSpan(values), {}, [&looks] {
+      ++looks;
+      return false;
+    }));
+    EXPECT_GE((looks - looks_before) * SweepRun::kPointsBetweenStops, extent.count);
+  }
+}
+
+TEST(SweepRunTest, AfterAStopNoMoreThan1024PointsAreComputed) {
+  absl::StatusOr<SweepRun> run = SweepRun::Make(MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 60'000)}));
+  ASSERT_TRUE(run.ok());
+  std::vector<double> values(static_cast<size_t>(run->Next().count));
+  ASSERT_TRUE(run->Compute(run->Next(), absl::MakeSpan(values), {}, Never));
+  const SweepRun::Extent extent = run->Next();
+  ASSERT_GT(extent.count, 10'000);
+  values.assign(static_cast<size_t>(extent.count), -7.0);
+  int looks = 0;
+  EXPECT_FALSE(run->Compute(extent, absl::MakeSpan(values), {}, [&looks] { return ++looks == 4; }));
+  EXPECT_EQ(looks, 4);
+  EXPECT_EQ(std::count(values.begin(), values.end(), -7.0), extent.count - 3 * SweepRun::kPointsBetweenStops);
+}
+
+// ---- Bad requests ----
+
+TEST(SweepRunTest, ColumnsMustBeNamedKnownAndDifferent) {
+  EXPECT_THAT(ErrorFields(MakeRequest({}, {})), ElementsAre("columns"));
+  EXPECT_THAT(ErrorFields(MakeRequest({}, {"coefficients.newton", "coefficients.nwton", ""})),
+              ElementsAre("columns[1]", "columns[2]"));
+  EXPECT_THAT(ErrorFields(MakeRequest({}, {"energy_change_j", "coefficients.newton", "energy_change_j"})),
+              ElementsAre("columns[2]"));
+  EXPECT_THAT(std::string(SweepRun::Make(MakeRequest({}, {"nonsense"})).status().message()),
+              HasSubstr("coefficients.newton"));
+}
+
+TEST(SweepRunTest, UnknownPathsOfAxesAreRefused) {
+  EXPECT_THAT(ErrorFields(MakeRequest({Lin("pendulum.c_m", 0, 1, 2), Lin("pendulum.b_m", 0, 1, 2)})),
+              ElementsAre("axes[0].path"));
+}
+
+TEST(SweepRunTest, TwoAxesMustNotDriveTheSameField) {
+  const std::pair<const char*, const char*> clashes[] = {{"pendulum.a_m", "pendulum.a_m"},
+                                                         {"pendulum.phi_rad", "pendulum.a_m"},
+                                                         {"pendulum.b_m", "pendulum.phi_rad"},
+                                                         {"restitution.newton", "restitution.poisson"}};
+  for (const auto& [first, second] : clashes) {
+    const absl::Status status = SweepRun::Make(MakeRequest({Lin(first, 0.1, 1, 2), Lin(second, 0.1, 1, 2)})).status();
+    EXPECT_THAT(FieldsOf(status), Contains("axes[1].path")) << first << " " << second;
+    EXPECT_THAT(std::string(status.message()), HasSubstr("axes[0]"));
+  }
+}
+
+TEST(SweepRunTest, TheRangeMustLieInTheGrid) {
+  const auto with_range = [](int64_t first, std::optional<int64_t> end) {
+    SweepRequest request = MakeRequest({Lin("pendulum.b_m", 0, 1, 10)});
+    request.first_index = first;
+    request.end_index = end;
+    return request;
+  };
+  EXPECT_THAT(ErrorFields(with_range(-1, std::nullopt)), ElementsAre("first_index"));
+  EXPECT_THAT(ErrorFields(with_range(11, std::nullopt)), ElementsAre("first_index"));
+  EXPECT_THAT(ErrorFields(with_range(6, 5)), ElementsAre("first_index"));
+  EXPECT_THAT(ErrorFields(with_range(0, 11)), ElementsAre("end_index"));
+  EXPECT_THAT(ErrorFields(with_range(0, -1)), ElementsAre("end_index"));
+  EXPECT_TRUE(SweepRun::Make(with_range(10, std::nullopt)).ok());
+}
+
+TEST(SweepRunTest, TheBaseSceneMustBeValidWhereNoAxisDrivesIt) {
+  SweepRequest request = MakeRequest({Lin("pendulum.b_m", 0, 1, 10)});
+  std::get<Pendulum>(request.grid.scene.system).a_m = 0.0;
+  request.grid.scene.friction.kinetic_coefficient = kNan;
+  EXPECT_THAT(ErrorFields(request), ElementsAre("pendulum.a_m", "friction.kinetic_coefficient"));
+}
+
+TEST(SweepRunTest, AFieldThatAnAxisDrivesNeedsNoBaseValue) {
+  SweepRequest request = MakeRequest({List("restitution.newton", {0.25}), List("pendulum.a_m", {1.0})});
+  request.grid.scene.restitution = std::monostate();
+  std::get<Pendulum>(request.grid.scene.system).a_m = kNan;
+  EXPECT_THAT(RunAll(request).values, ElementsAre(ElementsAre(0.25)));
+}
+
+TEST(SweepRunTest, AnAngleNeedsTheBaseScenesDistance) {
+  SweepRequest request = MakeRequest({Lin("pendulum.phi_rad", 0.1, 1, 10)});
+  std::get<Pendulum>(request.grid.scene.system).b_m = kNan;
+  EXPECT_THAT(ErrorFields(request), ElementsAre("pendulum.b_m"));
+}
+
+TEST(SweepRunTest, AllThatIsWrongIsReportedAtOnce) {
+  SweepRequest request = MakeRequest({Lin("pendulum.c_m", 0, 1, 2), Lin("pendulum.b_m", 0, kNan, 0)}, {"x"});
+  request.grid.scene.friction.kinetic_coefficient = -1.0;
+  EXPECT_THAT(ErrorFields(request),
+              testing::UnorderedElementsAre("friction.kinetic_coefficient", "axes[0].path", "axes[1].linspace.stop",
+                                            "axes[1].linspace.count", "columns[0]"));
+}
+
+TEST(SweepRunTest, ASweepWithoutASystemSaysSo) {
+  SweepRequest request = MakeRequest({Lin("pendulum.b_m", 0, 1, 2)});
+  request.grid.scene.system = std::monostate();
+  EXPECT_THAT(ErrorFields(request), Contains("system"));
+}
+
+}  // namespace
+}  // namespace ricochet
