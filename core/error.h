@@ -31,7 +31,7 @@ struct Violation {
   // Path of the field as the proto spells it: fields of the scene from the scene on ("friction.kinetic_coefficient"),
   // all others from the request on ("axes[0].linspace.count").
   std::string field;
-  // The value found and the rule it breaks: "= -0.1: must be >= 0".
+  // The value found and the rule it breaks: "= -0.1: must be >= 0". Text of the caller's in it is escaped.
   std::string description;
 
   friend bool operator==(const Violation&, const Violation&) = default;

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 
@@ -64,7 +65,7 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   double* const target = FindScalar(path, scene);
   if (target == nullptr) {
     return absl::InvalidArgumentError(
-        absl::StrCat("= \"", path, "\": must be one of ", absl::StrJoin(FieldPaths(), ", ")));
+        absl::StrCat("= \"", absl::CEscape(path), "\": must be one of ", absl::StrJoin(FieldPaths(), ", ")));
   }
   return Field(Field::Scalar{target}, {Storage(path)});
 }

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/models/pendulum.h"
@@ -33,7 +34,7 @@ std::vector<Violation> CheckColumns(const std::vector<std::string>& columns) {
   std::set<std::string> seen;
   for (size_t i = 0; i < columns.size(); ++i) {
     const std::string path = absl::StrCat("columns[", i, "]");
-    const std::string found = absl::StrCat("= \"", columns[i], "\": must be ");
+    const std::string found = absl::StrCat("= \"", absl::CEscape(columns[i]), "\": must be ");
     if (!PendulumColumn(columns[i]).has_value()) {
       violations.push_back({path, absl::StrCat(found, "one of ", absl::StrJoin(PendulumColumns(), ", "))});
     } else if (!seen.insert(columns[i]).second) {
@@ -76,7 +77,7 @@ Drivers ResolveAxes(const std::vector<Axis>& axes, Scene& scene) {
     for (const std::string& target : field->sets()) {
       const auto [other, is_new] = driven_by.emplace(target, i);
       if (is_new) continue;
-      drivers.violations.push_back({path, absl::StrCat("= \"", axes[i].path, "\": must not drive ", target,
+      drivers.violations.push_back({path, absl::StrCat("= \"", absl::CEscape(axes[i].path), "\": must not drive ", target,
                                                        ", which axes[", other->second, "] drives")});
     }
     // An angle needs the base scene's distance, so a and b must be right there.
