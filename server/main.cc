@@ -1,6 +1,8 @@
 // ricochetd: the impact service as a daemon. Exit codes: 0 drained after a signal, 1 cannot start, 2 bad options.
 
+#include <cstdlib>
 #include <iostream>
+#include <string>
 #include <variant>
 
 #include "absl/synchronization/mutex.h"
@@ -32,7 +34,8 @@ int Run(int argc, const char* const* argv) {
     log.Write(server::LogLevel::kError, "cannot start", {{"reason", std::string(running.status().message())}});
     return 1;
   }
-  (*running)->ServeUntil(signals);
+  // A call that cannot be ended has been given its time; nothing may be destroyed under it.
+  if (!(*running)->ServeUntil(signals)) std::_Exit(0);
   return 0;
 }
 

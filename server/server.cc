@@ -7,7 +7,9 @@
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
+#include <future>
 #include <string>
+#include <thread>
 
 #include "absl/strings/str_cat.h"
 #include "server/port_file.h"
@@ -18,6 +20,9 @@ namespace {
 constexpr int kMaxReceiveBytes = 1 << 20;
 constexpr int kMaxMetadataBytes = 8 << 10;
 constexpr int kMaxStreamsPerConnection = 128;
+
+// What the connections get to close once their calls were cancelled.
+constexpr std::chrono::seconds kTimeToClose(1);
 
 constexpr int Milliseconds(std::chrono::milliseconds time) { return static_cast<int>(time.count()); }
 
@@ -79,14 +84,25 @@ absl::Status Server::Listen() {
   return absl::OkStatus();
 }
 
-void Server::ServeUntil(const StopSignals& signals) {
+bool Server::ServeUntil(const StopSignals& signals) {
   const std::string signal = signals.Wait();
   log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", admission_.live()}});
   server_->GetHealthCheckService()->SetServingStatus(false);
   signals.WaitFor(options_.drain_grace);
   drain_.request_stop();
-  server_->Shutdown(std::chrono::system_clock::now() + options_.drain_timeout);
-  log_.Write(LogLevel::kInfo, "stopped", {});
+  const bool ended = Shutdown();
+  log_.Write(LogLevel::kInfo, "stopped", {{"live_calls", admission_.live()}});
+  return ended;
+}
+
+bool Server::Shutdown() {
+  const auto deadline = std::chrono::system_clock::now() + options_.drain_timeout;
+  const auto ended = std::make_shared<std::promise<void>>();
+  std::thread([this, deadline, ended] {
+    server_->Shutdown(deadline);
+    ended->set_value();
+  }).detach();
+  return ended->get_future().wait_until(deadline + kTimeToClose) == std::future_status::ready;
 }
 
 Server::~Server() {

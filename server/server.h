@@ -38,11 +38,14 @@ class Server {
   const ListenAddress& address() const { return address_; }
 
   // Serves until a signal comes, then drains. A second signal skips the rest of the grace. Call it once.
-  void ServeUntil(const StopSignals& signals);
+  // Returns whether every call ended. If not, a thread still uses this object and the process can only exit: gRPC
+  // closes a connection after the write in flight, which a client that has stopped reading holds up for ever.
+  bool ServeUntil(const StopSignals& signals);
 
  private:
   Server(const Options& options, const Log& log);
   absl::Status Listen();
+  bool Shutdown();
 
   const Options options_;
   const Log& log_;

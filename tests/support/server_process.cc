@@ -14,6 +14,7 @@
 #include <stdexcept>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace ricochet {
 namespace {
@@ -70,8 +71,12 @@ bool WaitUntil(std::chrono::seconds time, Condition condition) {
 
 std::vector<std::string> ServerCommand(std::vector<std::string> arguments, const std::filesystem::path& port_file) {
   std::vector<std::string> command = {RICOCHETD_PATH, "--listen", "127.0.0.1:0", "--port-file", port_file};
-  if (std::find(arguments.begin(), arguments.end(), "--drain-grace") == arguments.end()) {
-    command.insert(command.end(), {"--drain-grace", "0"});
+  // A client that is idle does not notice the drain at once; a test need not wait for it.
+  const std::pair<std::string, std::string> defaults[] = {{"--drain-grace", "0"}, {"--drain-timeout", "1"}};
+  for (const auto& [flag, value] : defaults) {
+    if (std::find(arguments.begin(), arguments.end(), flag) == arguments.end()) {
+      command.insert(command.end(), {flag, value});
+    }
   }
   command.insert(command.end(), arguments.begin(), arguments.end());
   return command;

@@ -41,7 +41,7 @@ class ChildProcess {
 class ServerProcess {
  public:
   // Starts ricochetd with `arguments` beside --listen and --port-file and waits until it takes calls. The drain grace
-  // is 0 unless they set it.
+  // is 0 and its timeout 1 s unless they set them.
   // Throws std::runtime_error with the log if it does not start within 20 s.
   explicit ServerProcess(std::vector<std::string> arguments = {});
 

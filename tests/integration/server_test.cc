@@ -1,0 +1,438 @@
+// What a real ricochetd does over real sockets.
+
+#include <gmock/gmock.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+#include <grpcpp/create_channel.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/engine.h"
+#include "core/error.h"
+#include "core/numerics/ulp.h"
+#include "core/sweep/sweep_run.h"
+#include "grpc/health/v1/health.grpc.pb.h"
+#include "proto/wire/engine.h"
+#include "proto/wire/status.h"
+#include "ricochet/v1/impact_service.grpc.pb.h"
+#include "tests/support/server_process.h"
+
+namespace ricochet {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using std::chrono::steady_clock;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+constexpr int64_t kHuge = 8'000'000'000;
+
+std::shared_ptr<grpc::Channel> MakeChannel(const std::string& address) {
+  grpc::ChannelArguments arguments;
+  // Else channels to one address share a connection, and so the death of one test's server.
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
+}
+
+std::unique_ptr<v1::ImpactService::Stub> MakeStub(const ServerProcess& server) {
+  return v1::ImpactService::NewStub(MakeChannel(server.address()));
+}
+
+v1::Scene PaperScene() {
+  v1::Scene scene;
+  scene.mutable_pendulum()->set_inertia_kg_m2(1.0);
+  scene.mutable_pendulum()->set_a_m(0.3);
+  scene.mutable_pendulum()->set_b_m(1.0);
+  scene.mutable_pendulum()->set_omega_minus_rad_s(-1.0);
+  scene.mutable_friction()->set_kinetic_coefficient(0.1);
+  scene.mutable_restitution()->set_energetic(1.0);
+  return scene;
+}
+
+v1::SweepRequest SweepOf(int64_t points) {
+  v1::SweepRequest request;
+  *request.mutable_scene() = PaperScene();
+  v1::Axis& axis = *request.add_axes();
+  axis.set_path("friction.kinetic_coefficient");
+  axis.mutable_linspace()->set_start(0.0);
+  axis.mutable_linspace()->set_stop(0.5);
+  axis.mutable_linspace()->set_count(points);
+  request.add_columns("coefficients.newton");
+  return request;
+}
+
+absl::Status Solve(v1::ImpactService::Stub& stub, const v1::Scene& scene, v1::SolveResponse* response) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + seconds(10));
+  v1::SolveRequest request;
+  *request.mutable_scene() = scene;
+  return FromGrpcStatus(stub.Solve(&context, request, response));
+}
+
+absl::Status Solve(v1::ImpactService::Stub& stub, const v1::Scene& scene = PaperScene()) {
+  v1::SolveResponse response;
+  return Solve(stub, scene, &response);
+}
+
+// A sweep that a test reads chunk by chunk.
+class RunningSweep {
+ public:
+  RunningSweep(v1::ImpactService::Stub& stub, const v1::SweepRequest& request,
+               std::optional<milliseconds> deadline = std::nullopt) {
+    if (deadline) context_.set_deadline(std::chrono::system_clock::now() + *deadline);
+    reader_ = stub.Sweep(&context_, request);
+  }
+
+  bool Read(v1::SweepResponse* chunk) { return reader_->Read(chunk); }
+  void Cancel() { context_.TryCancel(); }
+
+  // Reads to the end and returns the status.
+  absl::Status Drain() {
+    v1::SweepResponse chunk;
+    while (reader_->Read(&chunk)) {
+    }
+    return FromGrpcStatus(reader_->Finish());
+  }
+
+ private:
+  grpc::ClientContext context_;
+  std::unique_ptr<grpc::ClientReader<v1::SweepResponse>> reader_;
+};
+
+// The fields of the last log record of the method's calls, from a log in JSON.
+google::protobuf::Struct LastCall(const std::string& log, const std::string& method) {
+  google::protobuf::Struct last;
+  std::istringstream lines(log);
+  for (std::string line; std::getline(lines, line);) {
+    google::protobuf::Struct record;
+    const auto status = google::protobuf::util::JsonStringToMessage(line, &record);
+    EXPECT_TRUE(status.ok()) << line;
+    const auto found = record.fields().find("method");
+    if (found != record.fields().end() && found->second.string_value() == method) last = record;
+  }
+  return last;
+}
+
+constexpr char kSolveMethod[] = "/ricochet.v1.ImpactService/Solve";
+constexpr char kSweepMethod[] = "/ricochet.v1.ImpactService/Sweep";
+
+TEST(Server, SolveGivesThePapersNumber) {
+  const ServerProcess server;
+  v1::SolveResponse response;
+  ASSERT_TRUE(Solve(*MakeStub(server), PaperScene(), &response).ok());
+  // Newton = eta sqrt((a - mu b)/(a + mu b)) = sqrt(0.2/0.4) for the scene's decimal numbers; the doubles 0.1 and 0.3
+  // move it by a few ulp. [30]
+  EXPECT_LE(UlpDistance(response.outcome().coefficients().newton(), std::sqrt(0.5)), 4U);
+  EXPECT_EQ(response.outcome().regime(), v1::REGIME_REBOUND);
+  EXPECT_EQ(response.engine().fingerprint(), ThisEngine().fingerprint);
+  EXPECT_EQ(response.engine().version(), ThisEngine().version);
+}
+
+TEST(Server, BoundsAreAnswered) {
+  const ServerProcess server;
+  grpc::ClientContext context;
+  v1::BoundsRequest request;
+  v1::BoundsResponse response;
+  *request.mutable_scene() = PaperScene();
+  request.mutable_scene()->clear_restitution();
+  ASSERT_TRUE(MakeStub(server)->Bounds(&context, request, &response).ok());
+  EXPECT_LE(UlpDistance(response.bounds().sharp().newton().upper(), std::sqrt(0.5)), 4U);
+  EXPECT_EQ(response.engine().fingerprint(), ThisEngine().fingerprint);
+}
+
+TEST(Server, SweepArrivesInOrderAndComplete) {
+  const ServerProcess server;
+  const auto stub = MakeStub(server);
+  v1::SweepRequest request = SweepOf(200'001);
+  request.add_columns("coefficients.poisson");
+  request.set_with_regime(true);
+  RunningSweep sweep(*stub, request);
+  v1::SweepResponse chunk;
+  v1::SweepResponse last;
+  int64_t next = 0;
+  std::vector<int64_t> counts;
+  while (sweep.Read(&chunk)) {
+    ASSERT_EQ(chunk.first_index(), next);
+    ASSERT_EQ(chunk.values_size(), 2 * chunk.count());
+    ASSERT_EQ(chunk.regimes_size(), chunk.count());
+    ASSERT_EQ(chunk.engine().fingerprint(), ThisEngine().fingerprint);
+    ASSERT_LE(chunk.ByteSizeLong(), size_t{1} << 20);
+    next += chunk.count();
+    ASSERT_EQ(chunk.points_done(), next);
+    ASSERT_EQ(chunk.points_total(), 200'001);
+    counts.push_back(chunk.count());
+    last = chunk;
+  }
+  EXPECT_TRUE(sweep.Drain().ok());
+  EXPECT_EQ(next, 200'001);
+  EXPECT_LT(counts.front(), counts[1]);
+  ASSERT_TRUE(last.has_summary());
+  EXPECT_EQ(last.summary().points(), 200'001);
+  EXPECT_GT(last.summary().elapsed_s(), 0.0);
+}
+
+TEST(Server, EmptyRangeIsOneChunkWithItsSummary) {
+  const ServerProcess server;
+  const auto stub = MakeStub(server);
+  v1::SweepRequest request = SweepOf(10);
+  request.set_first_index(10);
+  RunningSweep sweep(*stub, request);
+  v1::SweepResponse chunk;
+  ASSERT_TRUE(sweep.Read(&chunk));
+  EXPECT_EQ(chunk.count(), 0);
+  EXPECT_TRUE(chunk.has_summary());
+  EXPECT_FALSE(sweep.Read(&chunk));
+  EXPECT_TRUE(sweep.Drain().ok());
+}
+
+TEST(Server, EveryViolationArrivesWithItsPath) {
+  const ServerProcess server;
+  v1::Scene scene = PaperScene();
+  scene.mutable_pendulum()->set_a_m(-1.0);
+  scene.mutable_friction()->set_kinetic_coefficient(-0.1);
+  const absl::Status status = Solve(*MakeStub(server), scene);
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kInvalidRequest);
+  EXPECT_THAT(ViolationsOf(status), ElementsAre(testing::Field(&Violation::field, "pendulum.a_m"),
+                                                testing::Field(&Violation::field, "friction.kinetic_coefficient")));
+}
+
+TEST(Server, BadGridFailsTheCallBeforeAnyChunk) {
+  const ServerProcess server;
+  const auto stub = MakeStub(server);
+  v1::SweepRequest request = SweepOf(0);
+  request.add_columns("coefficients.speed");
+  RunningSweep sweep(*stub, request);
+  v1::SweepResponse chunk;
+  EXPECT_FALSE(sweep.Read(&chunk));
+  const absl::Status status = sweep.Drain();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(ViolationsOf(status).size(), 2U);
+}
+
+TEST(Server, RequestAboveOneMebibyteIsRefused) {
+  const ServerProcess server;
+  const auto stub = MakeStub(server);
+  v1::SweepRequest request = SweepOf(1);
+  for (int i = 0; i < (1 << 17) + 1; ++i) {
+    request.mutable_axes(0)->mutable_list()->add_values(0.25);
+  }
+  RunningSweep sweep(*stub, request);
+  EXPECT_EQ(sweep.Drain().code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_TRUE(Solve(*stub).ok());
+}
+
+TEST(Server, CallIsOneLogLineThatParses) {
+  const ServerProcess server({"--log-format", "json"});
+  const auto stub = MakeStub(server);
+  ASSERT_TRUE(Solve(*stub).ok());
+  v1::Scene bad = PaperScene();
+  bad.clear_restitution();
+  ASSERT_FALSE(Solve(*stub, bad).ok());
+  const auto record = LastCall(server.WaitForLog("INVALID_ARGUMENT"), kSolveMethod);
+  EXPECT_EQ(record.fields().at("event").string_value(), "call");
+  EXPECT_EQ(record.fields().at("status").string_value(), "INVALID_ARGUMENT");
+  EXPECT_THAT(record.fields().at("peer").string_value(), HasSubstr("127.0.0.1:"));
+  EXPECT_GT(record.fields().at("duration_ms").number_value(), 0.0);
+  EXPECT_EQ(record.fields().count("points"), 0U);
+}
+
+TEST(Server, ReflectionListsTheService) {
+  const ServerProcess server;
+  grpc::GenericStub stub(MakeChannel(server.address()));
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + seconds(10));
+  grpc::CompletionQueue queue;
+  const auto wait = [&queue] {
+    void* tag = nullptr;
+    bool ok = false;
+    return queue.Next(&tag, &ok) && ok;
+  };
+  auto call = stub.PrepareCall(&context, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", &queue);
+  call->StartCall(nullptr);
+  ASSERT_TRUE(wait());
+  // ServerReflectionRequest {list_services: "*"}; Debian ships no generated code for it.
+  grpc::Slice request("\x3a\x01*");
+  call->WriteLast(grpc::ByteBuffer(&request, 1), grpc::WriteOptions(), nullptr);
+  ASSERT_TRUE(wait());
+  grpc::ByteBuffer response;
+  call->Read(&response, nullptr);
+  ASSERT_TRUE(wait());
+  grpc::Slice answer;
+  ASSERT_TRUE(response.DumpToSingleSlice(&answer).ok());
+  const std::string services(reinterpret_cast<const char*>(answer.begin()), answer.size());
+  EXPECT_THAT(services, HasSubstr("ricochet.v1.ImpactService"));
+  EXPECT_THAT(services, HasSubstr("grpc.health.v1.Health"));
+  context.TryCancel();
+  grpc::Status status;
+  call->Finish(&status, nullptr);
+  wait();
+}
+
+using HealthStatus = grpc::health::v1::HealthCheckResponse;
+
+HealthStatus::ServingStatus CheckHealth(const ServerProcess& server, const std::string& service) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + seconds(10));
+  grpc::health::v1::HealthCheckRequest request;
+  request.set_service(service);
+  HealthStatus response;
+  const auto status =
+      grpc::health::v1::Health::NewStub(MakeChannel(server.address()))->Check(&context, request, &response);
+  EXPECT_TRUE(status.ok()) << status.error_message();
+  return response.status();
+}
+
+TEST(Server, HealthIsServingAndInTheDrainsGraceNotServing) {
+  ServerProcess server({"--drain-grace", "30"});
+  const auto stub = MakeStub(server);
+  EXPECT_EQ(CheckHealth(server, ""), HealthStatus::SERVING);
+  EXPECT_EQ(CheckHealth(server, "ricochet.v1.ImpactService"), HealthStatus::SERVING);
+  server.Terminate();
+  server.WaitForLog("draining");
+  EXPECT_EQ(CheckHealth(server, ""), HealthStatus::NOT_SERVING);
+  EXPECT_EQ(CheckHealth(server, "ricochet.v1.ImpactService"), HealthStatus::NOT_SERVING);
+  EXPECT_TRUE(Solve(*stub).ok()) << "the grace is for clients that have not noticed yet";
+  // A second signal ends the grace.
+  const auto before = steady_clock::now();
+  EXPECT_EQ(server.Stop(), 0);
+  EXPECT_LT(steady_clock::now() - before, seconds(10));
+}
+
+TEST(Server, IdleServerEndsWithZeroOnSigterm) {
+  ServerProcess server;
+  EXPECT_EQ(server.Stop(), 0);
+  EXPECT_THAT(server.log(), HasSubstr("stopped"));
+}
+
+TEST(Server, DrainEndsARunningSweepWithRetryInfo) {
+  ServerProcess server({"--log-format", "json"});
+  const auto stub = MakeStub(server);
+  RunningSweep sweep(*stub, SweepOf(kHuge));
+  v1::SweepResponse chunk;
+  ASSERT_TRUE(sweep.Read(&chunk));
+  const auto before = steady_clock::now();
+  server.Terminate();
+  const absl::Status status = sweep.Drain();
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kDraining);
+  EXPECT_EQ(RetryDelayOf(status), seconds(1));
+  EXPECT_EQ(server.Wait(), 0);
+  EXPECT_LT(steady_clock::now() - before, seconds(10));
+  const auto record = LastCall(server.log(), kSweepMethod);
+  EXPECT_EQ(record.fields().at("status").string_value(), "UNAVAILABLE");
+}
+
+TEST(Server, DrainTimeoutEndsASweepThatNobodyReads) {
+  ServerProcess server({"--drain-timeout", "0.5"});
+  const auto stub = MakeStub(server);
+  RunningSweep sweep(*stub, SweepOf(kHuge));
+  v1::SweepResponse chunk;
+  ASSERT_TRUE(sweep.Read(&chunk));
+  // Time to fill the connection's window, so that the server waits in a write.
+  std::this_thread::sleep_for(milliseconds(300));
+  const auto before = steady_clock::now();
+  EXPECT_EQ(server.Stop(), 0);
+  EXPECT_LT(steady_clock::now() - before, seconds(5));
+  EXPECT_FALSE(sweep.Drain().ok());
+}
+
+TEST(Server, CancelledSweepStopsWorkingAndFreesTheServer) {
+  const ServerProcess server({"--log-format", "json", "--max-live-calls", "1"});
+  const auto stub = MakeStub(server);
+  RunningSweep sweep(*stub, SweepOf(kHuge));
+  v1::SweepResponse chunk;
+  for (int i = 0; i < 3; ++i) ASSERT_TRUE(sweep.Read(&chunk));
+  sweep.Cancel();
+  EXPECT_EQ(sweep.Drain().code(), absl::StatusCode::kCancelled);
+  const auto record = LastCall(server.WaitForLog("CANCELLED"), kSweepMethod);
+  ASSERT_EQ(record.fields().count("points"), 1U);
+  EXPECT_EQ(record.fields().at("status").string_value(), "CANCELLED");
+  EXPECT_LT(record.fields().at("points").number_value(), 0.01 * kHuge);
+  EXPECT_TRUE(Solve(*stub).ok());
+}
+
+TEST(Server, DeadlineEndsASweepPromptly) {
+  const ServerProcess server({"--log-format", "json"});
+  const auto stub = MakeStub(server);
+  const auto before = steady_clock::now();
+  RunningSweep sweep(*stub, SweepOf(kHuge), milliseconds(200));
+  EXPECT_EQ(sweep.Drain().code(), absl::StatusCode::kDeadlineExceeded);
+  EXPECT_LT(steady_clock::now() - before, seconds(5));
+  const auto record = LastCall(server.WaitForLog("points"), kSweepMethod);
+  ASSERT_EQ(record.fields().count("points"), 1U);
+  EXPECT_LT(record.fields().at("points").number_value(), 0.1 * kHuge);
+  // The client's own clock may cancel first.
+  EXPECT_THAT(record.fields().at("status").string_value(), testing::AnyOf("DEADLINE_EXCEEDED", "CANCELLED"));
+}
+
+TEST(Server, CallAboveTheLimitIsRefusedAndLaterTaken) {
+  const ServerProcess server({"--log-format", "json", "--max-live-calls", "1"});
+  const auto stub = MakeStub(server);
+  RunningSweep sweep(*stub, SweepOf(kHuge));
+  v1::SweepResponse chunk;
+  ASSERT_TRUE(sweep.Read(&chunk));
+  const absl::Status refused = Solve(*stub);
+  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(ReasonOf(refused), ErrorReason::kTooManyCalls);
+  EXPECT_EQ(RetryDelayOf(refused), seconds(1));
+  sweep.Cancel();
+  EXPECT_EQ(sweep.Drain().code(), absl::StatusCode::kCancelled);
+  server.WaitForLog("CANCELLED");
+  EXPECT_TRUE(Solve(*stub).ok());
+}
+
+TEST(Server, SweepAboveTheLimitOfPointsIsRefusedButItsSubRangeIsNot) {
+  const ServerProcess server({"--max-points-per-sweep", "1000"});
+  const auto stub = MakeStub(server);
+  v1::SweepRequest request = SweepOf(1001);
+  const absl::Status refused = RunningSweep(*stub, request).Drain();
+  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(ReasonOf(refused), ErrorReason::kSweepTooLarge);
+  EXPECT_EQ(RetryDelayOf(refused), milliseconds(0));
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("1001 points"));
+  request.set_first_index(1);
+  EXPECT_TRUE(RunningSweep(*stub, request).Drain().ok());
+}
+
+TEST(Server, TakenPortIsAClearError) {
+  const ServerProcess server;
+  const Ending ending = RunServerToEnd({"--listen", server.address()});
+  EXPECT_EQ(ending.exit_status, 1);
+  EXPECT_THAT(ending.output, HasSubstr("cannot listen on " + server.address() + ": Address already in use"));
+}
+
+TEST(Server, UnwritablePortFileIsAClearError) {
+  const Ending ending = RunServerToEnd({"--listen", "127.0.0.1:0", "--port-file", "/nonexistent/port"});
+  EXPECT_EQ(ending.exit_status, 1);
+  EXPECT_THAT(ending.output, HasSubstr("cannot write /nonexistent/port"));
+}
+
+TEST(Server, BadOptionsExitWithTwo) {
+  const Ending ending = RunServerToEnd({"--listen", "0.0.0.0:0", "--max-live-calls", "0"});
+  EXPECT_EQ(ending.exit_status, 2);
+  EXPECT_THAT(ending.output, HasSubstr("--listen = 0.0.0.0:0: must be a loopback address"));
+  EXPECT_THAT(ending.output, HasSubstr("--max-live-calls = 0: must be an integer"));
+}
+
+TEST(Server, VersionExitsWithZero) {
+  const Ending ending = RunServerToEnd({"--version"});
+  EXPECT_EQ(ending.exit_status, 0);
+  EXPECT_THAT(ending.output, HasSubstr("ricochetd " + ThisEngine().version));
+}
+
+}  // namespace
+}  // namespace ricochet
