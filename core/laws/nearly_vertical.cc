@@ -9,9 +9,14 @@ namespace ricochet::pendulum {
 namespace {
 
 // An error bound that also covers the rounding of the value it belongs to, and its own.
-double Enclosing(const Wide& error, double value) {
+double Enclosing(const Wide& error, const Wide& value) {
   constexpr double kUlp = std::numeric_limits<double>::epsilon();
-  return Rounded(error) * (1.0 + 4.0 * kUlp) + 8.0 * kUlp * std::fabs(value);
+  const Wide size = IsNegative(value) ? -value : value;
+  const Wide padded = error * Wide::Exactly(1.0 + 4.0 * kUlp) + size * Wide::Exactly(8.0 * kUlp);
+  const double bound = Rounded(padded);
+  // Below the normal doubles an ulp is no fraction of the value.
+  const bool subnormal = IsPositive(padded) && bound < std::numeric_limits<double>::min();
+  return subnormal ? bound + 2.0 * std::numeric_limits<double>::denorm_min() : bound;
 }
 
 struct FirstOrder {
@@ -80,13 +85,15 @@ NearlyVertical SolveNearlyVertical(const Problem& problem, bool with_coefficient
   result.bounds.newton.upper = Rounded(one_minus_x);
   result.bounds.poisson.upper = Rounded(one_plus_x);
   result.bounds.energetic.upper = 1.0;
-  const double tangential = Rounded(Wide::Exactly(mu_size) * x * half);
+  const Wide least = Wide::Exactly(mu_size) * x * half;  // -mu_hat
+  const double tangential = Rounded(least);
   result.bounds.tangential = problem.b < 0.0 ? Range{0.0 - mu_size, tangential} : Range{0.0 - tangential, mu_size};
-  result.bounds.normal_total_n_s = {Rounded(tau0), Rounded((one_plus_x + Wide::Exactly(1.0)) * tau0)};
-  result.newton_error = Enclosing(square * half, result.bounds.newton.upper);
-  result.poisson_error = Enclosing(poisson_error, result.bounds.poisson.upper);
-  result.tangential_error = Enclosing(Wide::Exactly(mu_size) * square * x * half, tangential);
-  result.normal_total_error_n_s = Enclosing(poisson_error * tau0, result.bounds.normal_total_n_s.upper);
+  const Wide normal_total = (one_plus_x + Wide::Exactly(1.0)) * tau0;
+  result.bounds.normal_total_n_s = {Rounded(tau0), Rounded(normal_total)};
+  result.newton_error = Enclosing(square * half, one_minus_x);
+  result.poisson_error = Enclosing(poisson_error, one_plus_x);
+  result.tangential_error = Enclosing(Wide::Exactly(mu_size) * square * x * half, least);
+  result.normal_total_error_n_s = Enclosing(poisson_error * tau0, normal_total);
   if (!with_coefficients) return result;
 
   const auto form = Coefficients(problem, x, one_minus_x, one_plus_x);
@@ -95,11 +102,10 @@ NearlyVertical SolveNearlyVertical(const Problem& problem, bool with_coefficient
                          .poisson = Rounded(form.poisson.value),
                          .energetic = Rounded(form.energetic.value),
                          .tangential = Rounded(mu_hat) + 0.0};
-  result.coefficient_errors = {
-      .newton = Enclosing(form.newton.error, Rounded(form.newton.value)),
-      .poisson = Enclosing(form.poisson.error, Rounded(form.poisson.value)),
-      .energetic = Enclosing(form.energetic.error, Rounded(form.energetic.value)),
-      .tangential = Enclosing(Wide::Exactly(mu_size) * form.tangential.error, Rounded(mu_hat))};
+  result.coefficient_errors = {.newton = Enclosing(form.newton.error, form.newton.value),
+                               .poisson = Enclosing(form.poisson.error, form.poisson.value),
+                               .energetic = Enclosing(form.energetic.error, form.energetic.value),
+                               .tangential = Enclosing(Wide::Exactly(mu_size) * form.tangential.error, mu_hat)};
   return result;
 }
 

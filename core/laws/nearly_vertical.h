@@ -28,7 +28,7 @@ namespace ricochet::pendulum {
 
 // First-order bounds and their errors; with `with_coefficients` also the coefficients at the problem's coefficient.
 // The problem must have x < 1. Values carry a few ulp of rounding; the errors are rounded up by 8 ulp of the value
-// they belong to, so that they enclose it.
+// they belong to (by 2 units of 2^-1074 where that is subnormal), so that they enclose it.
 NearlyVertical SolveNearlyVertical(const Problem& problem, bool with_coefficients);
 
 }  // namespace ricochet::pendulum
