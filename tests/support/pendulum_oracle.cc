@@ -147,6 +147,43 @@ void SetUnchanged(const Problem& problem, ExactImpact& impact) {
   set(Output::kEnergeticExcess, Ball(-1.0));
 }
 
+ExactBounds EvaluateBounds(const Problem& problem, slong bits) {
+  const Geometry g(problem, bits);
+  const Ball one(1.0);
+  const double sign = SignOf(problem.b);
+  ExactBounds bounds;
+  bounds.regime = RegimeOf(problem);
+  bounds.friction_ratio = g.q / g.a;
+  bounds.slope_ratio = g.difference / g.sum;
+  if (bounds.regime == Regime::kSeparating) return bounds;
+
+  const Ball tau0 = -(Ball(problem.inertia, bits) * problem.omega_minus) / g.sum;
+  const auto tangential = [&](const Ball& least) {
+    if (sign == 0.0) return ExactRange();
+    return sign > 0.0 ? ExactRange{least, g.mu} : ExactRange{-g.mu, -least};
+  };
+  if (bounds.regime == Regime::kLocked) {
+    bounds.sharp.tangential = tangential(g.mu);
+    bounds.sharp.normal_total = {tau0, tau0};
+    bounds.energy_only = bounds.sharp;
+    return bounds;
+  }
+  const Ball& r = bounds.slope_ratio;
+  const Ball& x = bounds.friction_ratio;
+  const Ball kappa = Sqrt(1.0 / r);
+  // [55], with its quotient by |b| only where there is one.
+  const Ball least = sign == 0.0 ? Ball(0.0) : -(g.a / std::fabs(problem.b) * (1.0 - Sqrt(1.0 - x * x)));
+  bounds.sharp = {{0.0, Sqrt(r)}, {0.0, kappa}, {0.0, one}, tangential(least), {tau0, (1.0 + kappa) * tau0}};
+  // [27], [28]; the others follow from Poisson's by [24], [51] and [10].
+  const Ball weak = 1.0 / r;
+  bounds.energy_only = {{0.0, one},
+                        {0.0, weak},
+                        {0.0, Sqrt(weak)},
+                        tangential(g.mu * (1.0 - weak) / (1.0 + weak)),
+                        {tau0, (1.0 + weak) * tau0}};
+  return bounds;
+}
+
 }  // namespace
 
 ExactImpact SolveExactly(const Problem& problem) {
@@ -200,40 +237,15 @@ ExactInstant ExactlyAt(const Problem& problem, double tau) {
   return instant;
 }
 
-ExactBounds SolveBoundsExactly(const Problem& problem, slong bits) {
-  const Geometry g(problem, bits);
-  const Ball one(1.0);
-  const double sign = SignOf(problem.b);
+ExactBounds SolveBoundsExactly(const Problem& problem) {
   ExactBounds bounds;
-  bounds.regime = RegimeOf(problem);
-  bounds.friction_ratio = g.q / g.a;
-  bounds.slope_ratio = g.difference / g.sum;
-  if (bounds.regime == Regime::kSeparating) return bounds;
-
-  const Ball tau0 = -(Ball(problem.inertia, bits) * problem.omega_minus) / g.sum;
-  const auto tangential = [&](const Ball& least) {
-    if (sign == 0.0) return ExactRange();
-    return sign > 0.0 ? ExactRange{least, g.mu} : ExactRange{-g.mu, -least};
-  };
-  if (bounds.regime == Regime::kLocked) {
-    bounds.sharp.tangential = tangential(g.mu);
-    bounds.sharp.normal_total = {tau0, tau0};
-    bounds.energy_only = bounds.sharp;
-    return bounds;
+  for (const slong bits : kPrecisions) {
+    bounds = EvaluateBounds(problem, bits);
+    // 1 - sqrt(1 - x^2) and a - mu |b| are what cancels.
+    const auto known = [](const Ball& ball) { return ball.IsExact() || ball.RelativeAccuracyBits() >= 100; };
+    const ExactRange& tangential = bounds.sharp.tangential;
+    if (known(tangential.lower) && known(tangential.upper) && known(bounds.slope_ratio)) break;
   }
-  const Ball& r = bounds.slope_ratio;
-  const Ball& x = bounds.friction_ratio;
-  const Ball kappa = Sqrt(1.0 / r);
-  // [55], with its quotient by |b| only where there is one.
-  const Ball least = sign == 0.0 ? Ball(0.0) : -(g.a / std::fabs(problem.b) * (1.0 - Sqrt(1.0 - x * x)));
-  bounds.sharp = {{0.0, Sqrt(r)}, {0.0, kappa}, {0.0, one}, tangential(least), {tau0, (1.0 + kappa) * tau0}};
-  // [27], [28]; the others follow from Poisson's by [24], [51] and [10].
-  const Ball weak = 1.0 / r;
-  bounds.energy_only = {{0.0, one},
-                        {0.0, weak},
-                        {0.0, Sqrt(weak)},
-                        tangential(g.mu * (1.0 - weak) / (1.0 + weak)),
-                        {tau0, (1.0 + weak) * tau0}};
   return bounds;
 }
 

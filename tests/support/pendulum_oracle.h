@@ -61,8 +61,7 @@ struct ExactBounds {
   ExactCoefficientBounds energy_only;
 };
 
-// 8192 bits are enough for any doubles; fewer are faster and serve where cancellation is slight.
-ExactBounds SolveBoundsExactly(const Problem& problem, slong bits = 8192);
+ExactBounds SolveBoundsExactly(const Problem& problem);
 
 // Names of the outputs for messages, in the order of the enumeration.
 const std::array<const char*, kOutputCount>& OutputNames();

@@ -83,7 +83,7 @@ TEST(GridTest, LinspaceAcrossTheWholeRangeOfDoublesDoesNotOverflow) {
   EXPECT_EQ(AxisValue(axis, 0), -kLargest);
   EXPECT_EQ(AxisValue(axis, 2), 0.0);
   EXPECT_EQ(AxisValue(axis, 4), kLargest);
-  EXPECT_EQ(AxisValue(axis, 3), kLargest / 2);
+  EXPECT_DOUBLE_EQ(AxisValue(axis, 3), kLargest / 2);
 }
 
 TEST(GridTest, LogspaceHasExactEndsAndEvenRatios) {
