@@ -30,6 +30,7 @@ set linetype 6 linecolor rgb '#E69F00'
 set linetype 7 linecolor rgb '#000000'
 set linetype cycle 7
 set grid linetype 1 linecolor rgb '#d8d8d8' linewidth 1
+set autoscale fix
 set offsets graph 0, graph 0, graph 0.04, graph 0.04
 )";
 

@@ -123,7 +123,7 @@ TEST_P(SolverContract, SweepsEveryPointOnceInOrderAndEndsWithTheSummary) {
     EXPECT_EQ(chunk->points_done, next);
     EXPECT_EQ(chunk->points_total, kPoints);
     summarised = chunk->summary.has_value();
-    if (summarised) EXPECT_EQ(chunk->summary->points, kPoints);
+    EXPECT_EQ(chunk->summary.value_or(SweepSummary{.points = kPoints}).points, kPoints);
   }
   EXPECT_TRUE(summarised);
   EXPECT_EQ(next, kPoints);

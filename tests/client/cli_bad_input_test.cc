@@ -1,0 +1,153 @@
+// Wrong input: each row ends with exit code 2, prints nothing on standard output and says what would be right.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/client/cli_run.h"
+
+namespace ricochet::cli {
+namespace {
+
+using testing::HasSubstr;
+
+struct BadInput {
+  Arguments arguments;
+  std::string message;  // Part of standard error.
+  std::string input;    // Standard input.
+};
+
+const Arguments kSolve = {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1"};
+const Arguments kSweep = {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1"};
+
+Arguments Plus(Arguments arguments, const Arguments& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+Arguments Axis(const std::string& text) { return Plus(kSweep, {"--axis", text}); }
+
+const Arguments kSolveInput = {"solve", "--scene", "-"};
+const Arguments kSweepInput = {"sweep", "--request", "-"};
+
+std::vector<BadInput> Flags() {
+  return {
+      {{}, "subcommand is required", ""},
+      {{"solve"}, "no scene: give --scene FILE, or a pendulum by --a", ""},
+      {{"bounds"}, "no scene", ""},
+      {{"solve", "--depth", "1"}, "--depth", ""},
+      {Plus(kSolve, {"extra"}), "extra", ""},
+      {Plus(kSolve, {"--format", "xml"}), "--format", ""},
+      {Plus(kSolve, {"--newton", "1"}), "--newton excludes --energetic", ""},
+      {Plus(kSolve, {"--scene", "x.json"}), "--scene does not go with the flags of a pendulum", ""},
+      {Plus(kSolve, {"--plot", "picture.pdf"}), "--plot picture.pdf: must end in .svg or .png", ""},
+      {Plus(kSolve, {"--history", "0"}), "--history = 0: must be in [1, 65535]", ""},
+      {Plus(kSolve, {"--history", "65536"}), "--history = 65536: must be in [1, 65535]", ""},
+      {Plus(kSolve, {"--history", "2.5"}), "--history = 2.5: must be a whole number", ""},
+      {Plus(kSolve, {"--deadline", "1s"}), "--deadline needs --server", ""},
+      {Plus(kSolve, {"--server", "localhost:1", "--deadline", "soon"}), "--deadline = soon: must be a time", ""},
+      {Plus(kSolve, {"--server", "localhost:1", "--deadline", "0"}), "--deadline = 0: must be a time", ""},
+      {Plus(kSolve, {"--server", "two words"}), "target = \"two words\": must not contain white space", ""},
+      {{"health"}, "--server is required", ""},
+      {{"solve", "--a", "long"}, "--a = long: must be a number such as 0.1", ""},
+      {{"solve", "--a", ""}, "--a = : must be a number", ""},
+      {{"solve", "--a", "1e999"}, "--a = 1e999: must be a number", ""},
+      {{"solve", "--a", "1", "--mu", "1/0"}, "--mu = 1/0: must have a denominator other than 0", ""},
+      {{"solve", "--a", "1", "--mu", "1/2/3"}, "--mu = 1/2/3: must be a number", ""},
+  };
+}
+
+std::vector<BadInput> Scenes() {
+  return {
+      {{"solve", "--b", "1", "--energetic", "1"}, "pendulum.a_m = 0: must be > 0", ""},
+      {{"solve", "--a", "1"}, "restitution.coefficient is not set: must be one of newton, poisson, energetic", ""},
+      {{"solve", "--a", "-0.3", "--energetic", "1"}, "pendulum.a_m = -0.3: must be > 0", ""},
+      {{"solve", "--a", "inf", "--energetic", "1"}, "pendulum.a_m = inf: must be finite", ""},
+      {{"solve", "--a", "1", "--b", "nan", "--energetic", "1"}, "pendulum.b_m = nan: must be finite", ""},
+      {{"solve", "--a", "1", "--inertia", "0", "--energetic", "1"}, "pendulum.inertia_kg_m2 = 0: must be > 0", ""},
+      {{"solve", "--a", "1", "--omega", "-inf", "--energetic", "1"}, "pendulum.omega_minus_rad_s = -inf: must be", ""},
+      {{"bounds", "--a", "1", "--mu", "-0.1"}, "friction.kinetic_coefficient = -0.1: must be >= 0", ""},
+      {{"bounds", "--a", "1", "--mu", "0.2", "--mu-static", "0.1"},
+       "friction.static_coefficient = 0.1: must be >= friction.kinetic_coefficient = 0.2",
+       ""},
+      {{"solve", "--a", "1", "--newton", "-0.5"}, "restitution.newton = -0.5: must be >= 0", ""},
+      {{"solve", "--a", "1", "--poisson", "-0.5"}, "restitution.poisson = -0.5: must be >= 0", ""},
+      {{"solve", "--a", "1", "--energetic", "1.5"}, "restitution.energetic = 1.5: must be in [0, 1]", ""},
+      {{"solve", "--scene", "no/such/file"}, "cannot read no/such/file: No such file", ""},
+      {{"solve", "--scene", "."}, "cannot read .", ""},
+      {kSolveInput, "system is not set: must be one of pendulum", ""},
+      {kSolveInput, "standard input is not a ricochet.v1.Scene in JSON", "{\"pendulum\": {"},
+      {kSolveInput, "mass", R"({"pendulum": {"mass": 1}})"},
+      {kSolveInput, "a_m", R"({"pendulum": {"a_m": "wide"}})"},
+      {kSolveInput, "is not a ricochet.v1.Scene in textproto: line 2, column 3", "pendulum {\n  mass: 1\n}"},
+      {kSolveInput, "restitution.energetic = 2: must be in [0, 1]",
+       "pendulum { inertia_kg_m2: 1 a_m: 1 } restitution { energetic: 2 }"},
+  };
+}
+
+std::vector<BadInput> Sweeps() {
+  const Arguments request_and_axis = Plus(kSweepInput, {"--axis", "pendulum.a_m=1"});
+  return {
+      {Axis("pendulum.a_m"), "--axis = pendulum.a_m: must be PATH=VALUES", ""},
+      {Axis("=1,2"), "must be PATH=VALUES", ""},
+      {Axis("pendulum.a_m="), "must be a number", ""},
+      {Axis("pendulum.a_m=1,,2"), "must be a number", ""},
+      {Axis("pendulum.a_m=1:2:3"), "must be a list such as 0.1,1/3 or lin:START:STOP:COUNT", ""},
+      {Axis("pendulum.a_m=lin:1:2"), "lin with 2 parts: must be lin:START:STOP:COUNT", ""},
+      {Axis("pendulum.a_m=lin:x:2:3"), "--axis pendulum.a_m, START = x: must be a number", ""},
+      {Axis("pendulum.a_m=lin:1:2:3.5"), "--axis pendulum.a_m, COUNT = 3.5: must be a whole number", ""},
+      {Axis("pendulum.a_m=lin:1:2:0"), "axes[0].linspace.count = 0: must be in [1, 2^53]", ""},
+      {Axis("pendulum.a_m=lin:1:inf:3"), "axes[0].linspace.stop = inf: must be finite", ""},
+      {Axis("pendulum.a_m=log:0:1:3"), "axes[0].logspace.start = 0: must be finite and > 0", ""},
+      {Axis("pendulum.mass_kg=1"), "axes[0].path = \"pendulum.mass_kg\": must be one of pendulum.inertia_kg_m2", ""},
+      {Plus(Axis("pendulum.a_m=1"), {"--axis", "pendulum.phi_rad=1"}), "axes[1].path", ""},
+      {Plus(Axis("pendulum.a_m=lin:1:2:1e9"), {"--axis", "pendulum.b_m=lin:1:2:1e9"}), "more than 2^53 points", ""},
+      {Plus(Axis("pendulum.a_m=1,2"), {"--zip", "--axis", "pendulum.b_m=1,2,3"}), "2 and 3 values", ""},
+      {Plus(kSweep, {"--column", "coefficients.elastic"}), "columns[0] = \"coefficients.elastic\": must be one of", ""},
+      {Plus(kSweep, {"--column", "energy_change_j,energy_change_j"}), "columns[1]", ""},
+      {Plus(kSweep, {"--range", "5"}), "--range = 5: must be FIRST:END", ""},
+      {Plus(kSweep, {"--range", "0:2"}), "end_index = 2: must be in [0, 1]", ""},
+      {Plus(kSweep, {"--range", "-1:1"}), "first_index = -1: must be in [0,", ""},
+      {{"sweep", "--a", "0.3", "--axis", "pendulum.b_m=1"}, "restitution.coefficient is not set", ""},
+      {request_and_axis, "--request does not go with the flags", ""},
+      {kSweepInput, "is not a ricochet.v1.SweepRequest in JSON", R"({"axis": []})"},
+      {kSweepInput, "columns is empty: must name at least one",
+       "scene { pendulum { inertia_kg_m2: 1 a_m: 1 } restitution { newton: 1 } }"},
+  };
+}
+
+class CliBadInput : public CliTest, public testing::WithParamInterface<BadInput> {};
+
+INSTANTIATE_TEST_SUITE_P(Flags, CliBadInput, testing::ValuesIn(Flags()));
+INSTANTIATE_TEST_SUITE_P(Scenes, CliBadInput, testing::ValuesIn(Scenes()));
+INSTANTIATE_TEST_SUITE_P(Sweeps, CliBadInput, testing::ValuesIn(Sweeps()));
+
+TEST_P(CliBadInput, IsNamedWithWhatWouldBeRight) {
+  const CliResult result = Run(GetParam().arguments, GetParam().input);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr(GetParam().message));
+}
+
+class CliBadInputLines : public CliTest {};
+
+TEST_F(CliBadInputLines, ThereIsOneForEachViolation) {
+  const CliResult result = Run({"solve", "--a", "-1", "--mu", "-0.1", "--newton", "-2"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err,
+            "pendulum.a_m = -1: must be > 0\n"
+            "friction.kinetic_coefficient = -0.1: must be >= 0\n"
+            "restitution.newton = -2: must be >= 0\n");
+}
+
+TEST_F(CliBadInputLines, AllUnreadableNumbersAreReportedAtOnce) {
+  const CliResult result = Run({"solve", "--a", "x", "--mu", "y"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--a = x"));
+  EXPECT_THAT(result.err, HasSubstr("--mu = y"));
+}
+
+}  // namespace
+}  // namespace ricochet::cli

@@ -1,0 +1,101 @@
+// What the command line prints, word for word, computed here and by a server.
+//
+// RICOCHET_UPDATE_GOLDEN=1 writes the files anew.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <ostream>
+#include <regex>
+#include <string>
+
+#include "tests/client/cli_run.h"
+#include "tests/support/paths.h"
+#include "tests/support/server_process.h"
+
+namespace ricochet::cli {
+namespace {
+
+struct Golden {
+  const char* name;
+  Arguments arguments;
+};
+
+void PrintTo(const Golden& golden, std::ostream* stream) { *stream << golden.name; }
+
+const Golden kGolden[] = {
+    {"solve_paper.txt", {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--history", "4"}},
+    {"solve_inadmissible.txt", {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--newton", "1.1"}},
+    {"solve_locked.txt", {"solve", "--a", "0.3", "--b", "-1", "--mu", "0.5", "--poisson", "0.5"}},
+    {"solve_separating.txt", {"solve", "--a", "0.3", "--b", "1", "--omega", "1", "--mu", "0.1", "--energetic", "1"}},
+    {"solve_frictionless.txt", {"solve", "--a", "0.3", "--b", "1", "--inertia", "2", "--newton", "1/2"}},
+    {"solve_paper.json", {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--format", "json"}},
+    {"solve_paper.csv", {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--format", "csv"}},
+    {"solve_history.csv",
+     {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--history", "2", "--format", "csv"}},
+    {"bounds_paper.txt", {"bounds", "--a", "4", "--b", "1", "--mu", "0.4", "--energetic", "1"}},
+    {"bounds_locked.txt", {"bounds", "--a", "1", "--b", "1", "--mu", "1"}},
+    {"bounds_paper.json", {"bounds", "--a", "4", "--b", "1", "--mu", "0.4", "--format", "json"}},
+    {"bounds_paper.csv", {"bounds", "--a", "4", "--b", "1", "--mu", "0.4", "--format", "csv"}},
+    {"sweep_friction.txt",
+     {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", "friction.kinetic_coefficient=lin:0:0.4:5",
+      "--regime"}},
+    {"sweep_long.txt",
+     {"sweep", "--a", "0.3", "--b", "1", "--mu", "0.1", "--axis", "restitution.newton=lin:0:1:1000", "--column",
+      "coefficients.energetic"}},
+    {"sweep_friction.csv",
+     {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", "friction.kinetic_coefficient=lin:-0.1:0.4:6",
+      "--axis", "pendulum.b_m=-1,1/3", "--regime", "--column", "coefficients.newton,coefficients.tangential",
+      "--format", "csv"}},
+    {"sweep_zip.csv",
+     {"sweep", "--a", "0.3", "--b", "1", "--zip", "--axis", "friction.kinetic_coefficient=log:1e-4:0.1:4", "--axis",
+      "restitution.poisson=lin:0:1:4", "--range", "1:3", "--column", "energy_change_j", "--format", "csv"}},
+    {"sweep_friction.json",
+     {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", "friction.kinetic_coefficient=0,0.1,-1",
+      "--regime", "--format", "json"}},
+    {"sweep_summary.txt",
+     {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis",
+      "friction.kinetic_coefficient=lin:-0.1:0.4:100001", "--summary-only"}},
+    {"sweep_summary.csv",
+     {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis",
+      "friction.kinetic_coefficient=lin:-0.1:0.4:100001", "--summary-only", "--format", "csv"}},
+};
+
+// Times and the engine's identity differ from run to run and from release to release.
+std::string Normalised(const std::string& text) {
+  std::string result = std::regex_replace(text, std::regex(R"("version":"[0-9.]+","fingerprint":"[0-9a-f]{16}")"),
+                                          R"("version":"VERSION","fingerprint":"FINGERPRINT")");
+  result = std::regex_replace(result, std::regex(R"("elapsedS":[0-9.e+-]+)"), R"("elapsedS":ELAPSED)");
+  return std::regex_replace(result, std::regex(R"( in [0-9.e+-]+ s\n)"), " in ELAPSED s\n");
+}
+
+class CliGolden : public CliTest, public testing::WithParamInterface<Golden> {
+ protected:
+  std::string path() const { return TestDataPath("golden/" + std::string(GetParam().name)); }
+};
+
+INSTANTIATE_TEST_SUITE_P(Outputs, CliGolden, testing::ValuesIn(kGolden), [](const auto& parameter) {
+  return std::regex_replace(parameter.param.name, std::regex("[^a-zA-Z0-9]"), "_");
+});
+
+TEST_P(CliGolden, IsPrintedWordForWord) {
+  const CliResult result = Run(GetParam().arguments);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  if (std::getenv("RICOCHET_UPDATE_GOLDEN") != nullptr) std::ofstream(path()) << Normalised(result.out);
+  EXPECT_EQ(Normalised(result.out), ReadFile(path()));
+}
+
+TEST_P(CliGolden, IsTheSameFromAServer) {
+  static const ServerProcess server;
+  Arguments arguments = GetParam().arguments;
+  arguments.insert(arguments.end(), {"--server", server.address(), "--deadline", "30s"});
+  const CliResult result = Run(arguments);
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(Normalised(result.out), ReadFile(path()));
+}
+
+}  // namespace
+}  // namespace ricochet::cli

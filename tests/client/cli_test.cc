@@ -1,0 +1,254 @@
+// Files, pictures, exit codes and signals of the command line.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/client/cli_run.h"
+#include "tests/support/server_process.h"
+
+namespace ricochet::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::EndsWith;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::StartsWith;
+
+constexpr char kSolve[] = "\"$R\" solve --a 0.3 --b 1 --mu 0.1 --energetic 1";
+constexpr char kSweep[] = "\"$R\" sweep --a 0.3 --b 1 --energetic 1 --axis friction.kinetic_coefficient=lin:0:0.4:";
+
+std::string Solve(const std::string& options) { return std::string(kSolve) + " " + options; }
+std::string Sweep(const std::string& points, const std::string& options) { return kSweep + points + " " + options; }
+
+class Cli : public CliTest {};
+
+// --- What goes in ---
+
+TEST_F(Cli, ReadsASceneAsJsonOrTextprotoFromAFileOrStandardInput) {
+  const std::string json = R"({"pendulum": {"inertiaKgM2": 1, "a_m": 0.3, "bM": 1, "omegaMinusRadS": -1},)"
+                           R"( "friction": {"kineticCoefficient": 0.1}, "restitution": {"energetic": 1}})";
+  const std::string text =
+      "# The paper's pendulum.\npendulum { inertia_kg_m2: 1 a_m: 0.3 b_m: 1 omega_minus_rad_s: -1 }\n"
+      "friction { kinetic_coefficient: 0.1 } restitution { energetic: 1 }";
+  Write("scene.json", json);
+  Write("scene.textproto", text);
+  const std::string expected = RunShell(kSolve).out;
+  EXPECT_THAT(expected, HasSubstr("0.707107"));
+  EXPECT_EQ(Run({"solve", "--scene", "scene.json"}).out, expected);
+  EXPECT_EQ(Run({"solve", "--scene", "scene.textproto"}).out, expected);
+  EXPECT_EQ(Run({"solve", "--scene", "-"}, json).out, expected);
+  EXPECT_EQ(Run({"solve", "--scene", "-"}, text).out, expected);
+}
+
+TEST_F(Cli, ReadsAWholeSweepRequest) {
+  const CliResult result = Run({"sweep", "--request", "-", "--format", "csv"},
+                               "scene { pendulum { inertia_kg_m2: 1 a_m: 1 omega_minus_rad_s: -1 } }\n"
+                               "axes { path: 'restitution.newton' list { values: [0.25, 0.5] } }\n"
+                               "columns: 'rates_after_rad_s[0]'");
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(result.out, "index,restitution.newton,rates_after_rad_s[0]\n0,0.25,0.25\n1,0.5,0.5\n");
+}
+
+TEST_F(Cli, ReadsEveryNumberAsTheNearestDouble) {
+  // Half-way cases that a detour over a longer format would round the wrong way.
+  const CliResult result = Run({"sweep", "--a", "1", "--newton", "0", "--axis",
+                                "pendulum.b_m=0.1,1/3,9007199254740993,1.00000000000000011102230246251565404",
+                                "--column", "coefficients.newton", "--format", "csv"});
+  EXPECT_EQ(result.out,
+            "index,pendulum.b_m,coefficients.newton\n0,0.1,0\n1,0.3333333333333333,0\n2,9007199254740992,0\n3,1,0\n");
+}
+
+TEST_F(Cli, ListsTheAxesAndColumnsThereAre) {
+  EXPECT_THAT(Run({"sweep", "--axis", "?"}).out, HasSubstr("pendulum.phi_rad\n"));
+  EXPECT_THAT(Run({"sweep", "--column", "?"}).out, HasSubstr("coefficients.newton\n"));
+}
+
+TEST_F(Cli, TellsItsVersionAndEngine) {
+  EXPECT_THAT(Run({"--version"}).out, testing::MatchesRegex("ricochet [0-9.]+, engine [0-9a-f]+\n"));
+}
+
+TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
+  for (const std::string subcommand : {"solve", "bounds", "sweep"}) {
+    const CliResult help = Run({subcommand, "--help"});
+    EXPECT_EQ(help.exit_code, 0);
+    const size_t start = help.out.find("$ ricochet ");
+    ASSERT_NE(start, std::string::npos) << subcommand;
+    std::string example = help.out.substr(start + 2);
+    size_t end = example.find('\n');
+    while (end > 0 && example[end - 1] == '\\') end = example.find('\n', end + 1);
+    const std::string command = example.substr(0, end);
+    const CliResult result = RunShell("\"$R\"" + command.substr(std::string("ricochet").size()));
+    EXPECT_EQ(result.exit_code, 0) << command << result.err;
+    const std::string shown = example.substr(end + 3, example.find('\n', end + 1) - end - 3);
+    EXPECT_THAT(result.out, HasSubstr(shown)) << command;
+  }
+}
+
+// --- Files ---
+
+TEST_F(Cli, WritesAFileWholeAndNothingBesideIt) {
+  const CliResult result = RunShell(Solve("--format csv -o result.csv"));
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(result.out, "");
+  EXPECT_EQ(Read("result.csv"), RunShell(Solve("--format csv")).out);
+  EXPECT_THAT(Files(), ElementsAre("result.csv"));
+}
+
+TEST_F(Cli, AFileHasTheUsualModeAndALinkStaysOne) {
+  const CliResult result =
+      RunShell("umask 027; echo old > target; ln -s target link\n" + Solve("-o link") + "\nstat -c '%A' target; ls");
+  EXPECT_EQ(result.out, "-rw-r-----\nlink\ntarget\n");
+  EXPECT_THAT(Read("target"), HasSubstr("Rebound"));
+}
+
+TEST_F(Cli, WritesToADeviceInPlace) {
+  EXPECT_THAT(RunShell(Solve("-o /dev/stdout") + " | cat").out, HasSubstr("Rebound"));
+  EXPECT_EQ(RunShell(Solve("-o /dev/null") + " && test -c /dev/null").exit_code, 0);
+}
+
+TEST_F(Cli, AFailureHalfWayLeavesTheOldFileAndNothingElse) {
+  Write("result.csv", "old\n");
+  const CliResult result = RunShell("ulimit -f 100\n" + Sweep("100000", "--format csv -o result.csv"));
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("cannot write the output"));
+  EXPECT_EQ(Read("result.csv"), "old\n");
+  EXPECT_THAT(Files(), ElementsAre("result.csv"));
+}
+
+TEST_F(Cli, ABadRequestLeavesTheOldFileAndNothingElse) {
+  Write("result.csv", "old\n");
+  EXPECT_EQ(RunShell(Sweep("0", "-o result.csv")).exit_code, 2);
+  EXPECT_EQ(Read("result.csv"), "old\n");
+  EXPECT_THAT(Files(), ElementsAre("result.csv"));
+}
+
+TEST_F(Cli, AnInterruptedSweepLeavesNoFile) {
+  for (const std::string signal : {"INT", "TERM"}) {
+    const CliResult result = RunShell("timeout --preserve-status -s " + signal + " 0.5 " +
+                                      Sweep("1e12", "--column coefficients.newton --format csv -o result.csv"));
+    EXPECT_EQ(result.exit_code, 42);
+    EXPECT_THAT(result.err, HasSubstr("CANCELLED"));
+    EXPECT_THAT(Files(), IsEmpty());
+  }
+}
+
+TEST_F(Cli, AnUnwritableFileIsAnError) {
+  const CliResult result = RunShell(Solve("-o no/such/directory/result.txt"));
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("cannot write no/such/directory/result.txt"));
+  EXPECT_EQ(RunShell(Solve("-o .")).exit_code, 42);
+}
+
+TEST_F(Cli, EndsQuietlyWhenItsReaderHasEnough) {
+  const CliResult result = RunShell("{ " + Sweep("1e12", "--format csv") + "; echo $? > code; } | head -n 2");
+  EXPECT_THAT(result.out, StartsWith("index,friction.kinetic_coefficient,"));
+  EXPECT_EQ(result.err, "");
+  EXPECT_EQ(Read("code"), "0\n");
+}
+
+// --- Pictures ---
+
+TEST_F(Cli, DrawsFigure4) {
+  const CliResult result = Run({"sweep", "--a", "0.6", "--b", "0.8", "--energetic", "1", "--axis",
+                                "friction.kinetic_coefficient=0.1,1/3,0.5,2/3,1", "--axis",
+                                "pendulum.phi_rad=lin:0.01:1.5707963267948966:400", "--column", "coefficients.newton",
+                                "--plot", "fig4.svg"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const std::string svg = Read("fig4.svg");
+  EXPECT_THAT(svg, StartsWith("<?xml"));
+  EXPECT_THAT(svg, EndsWith("</svg>\n\n"));
+  EXPECT_THAT(svg, HasSubstr("angle φ = arctan(a/b) [rad]"));
+  EXPECT_THAT(svg, HasSubstr("Newton&apos;s coefficient of restitution"));
+  for (const std::string curve : {"μ = 0.1", "μ = 0.333333", "μ = 0.5", "μ = 0.666667", "μ = 1"}) {
+    EXPECT_THAT(svg, HasSubstr(curve));
+  }
+  EXPECT_THAT(Files(), ElementsAre("fig4.svg"));
+}
+
+TEST_F(Cli, DrawsFigures3And5) {
+  EXPECT_EQ(RunShell(Solve("--plot impact.svg")).exit_code, 0);
+  const std::string svg = Read("impact.svg");
+  for (const std::string label : {"ω [rad/s]", "F/N", "f [N s]", "normal impulse τ [N s]"}) {
+    EXPECT_THAT(svg, HasSubstr(label));
+  }
+}
+
+TEST_F(Cli, DrawsPng) {
+  EXPECT_EQ(RunShell(Solve("--plot impact.png")).exit_code, 0);
+  EXPECT_THAT(Read("impact.png"), StartsWith("\x89PNG"));
+}
+
+TEST_F(Cli, SaysThatGnuplotIsMissing) {
+  const CliResult result = RunShell("PATH=/nonexistent\n" + Solve("--plot impact.svg -o result.txt"));
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("--plot needs gnuplot, which is not installed"));
+  EXPECT_THAT(Files(), IsEmpty());
+}
+
+TEST_F(Cli, ARefusedPictureLeavesNoFile) {
+  EXPECT_THAT(RunShell(Sweep("1000001", "--plot p.svg -o r.txt")).err, HasSubstr("more than a picture can show"));
+  EXPECT_THAT(RunShell(Sweep("100", "--axis pendulum.b_m=1 --plot p.svg")).err, HasSubstr("more than 48 curves"));
+  EXPECT_THAT(Run({"sweep", "--a", "1", "--newton", "1", "--plot", "p.svg"}).err, HasSubstr("without an axis"));
+  EXPECT_THAT(Run({"solve", "--a", "1", "--omega", "1", "--newton", "1", "--plot", "p.svg"}).err,
+              HasSubstr("nothing to draw"));
+  EXPECT_THAT(Files(), IsEmpty());
+}
+
+// --- Exit codes ---
+
+TEST_F(Cli, AnInadmissibleOutcomeFailsOnlyUnderStrict) {
+  const Arguments inadmissible = {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--newton", "0.9"};
+  EXPECT_EQ(Run(inadmissible).exit_code, 0);
+  Arguments strict = inadmissible;
+  strict.push_back("--strict");
+  const CliResult result = Run(strict);
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("the outcome is inadmissible: its energetic coefficient 1.27"));
+}
+
+TEST_F(Cli, AResultAboveTheLargestDoubleFails) {
+  const CliResult result = Run({"solve", "--a", "1", "--inertia", "1e308", "--omega", "-1e10", "--newton", "1"});
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("OUT_OF_RANGE"));
+}
+
+TEST_F(Cli, AnAbsentServerMeansTryAgain) {
+  const std::string absent = "--server 127.0.0.1:1 --deadline 2s";
+  for (const std::string& command : {Solve(absent), Sweep("3", absent), "\"$R\" health " + absent}) {
+    const CliResult result = RunShell(command);
+    EXPECT_EQ(result.exit_code, 75) << command;
+    EXPECT_THAT(result.err, HasSubstr("UNAVAILABLE"));
+    EXPECT_EQ(result.out, "");
+  }
+}
+
+TEST_F(Cli, ALateServerMeansTryAgain) {
+  const ServerProcess server;
+  const CliResult result = RunShell(Sweep("1e9", "--summary-only --deadline 200ms --server " + server.address()));
+  EXPECT_EQ(result.exit_code, 75);
+  EXPECT_THAT(result.err, HasSubstr("DEADLINE_EXCEEDED"));
+}
+
+TEST_F(Cli, ASweepAboveTheServersLimitFails) {
+  const ServerProcess server({"--max-points-per-sweep", "1000"});
+  EXPECT_EQ(RunShell(Sweep("1000", "--server " + server.address())).exit_code, 0);
+  const CliResult result = RunShell(Sweep("1001", "--server " + server.address()));
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("RESOURCE_EXHAUSTED"));
+}
+
+TEST_F(Cli, HealthIsZeroOnlyWhereServing) {
+  const ServerProcess server;
+  const CliResult serving = Run({"health", "--server", server.address()});
+  EXPECT_EQ(serving.exit_code, 0) << serving.err;
+  EXPECT_EQ(serving.out, "SERVING\n");
+  EXPECT_EQ(Run({"health", "--server", server.address(), "--service", ""}).exit_code, 0);
+  EXPECT_EQ(Run({"health", "--server", server.address(), "--service", "no.such.Service"}).exit_code, 75);
+}
+
+}  // namespace
+}  // namespace ricochet::cli

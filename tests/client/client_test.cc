@@ -1,0 +1,224 @@
+// The client's own rules: its options, its retries, a network that fails, chunks that do not fit.
+
+#include "client/client.h"
+
+#include <gmock/gmock.h>
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "client/health.h"
+#include "client/sweep_reader.h"
+#include "tests/support/server_process.h"
+
+namespace ricochet {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+using testing::ElementsAre;
+
+Scene AnyScene() {
+  Scene scene;
+  scene.system = Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.3, .b_m = 1.0, .omega_minus_rad_s = -1.0};
+  scene.restitution = EnergeticCoefficient{1.0};
+  return scene;
+}
+
+SweepRequest Sweep(int64_t points) {
+  SweepRequest request;
+  request.grid.scene = AnyScene();
+  request.grid.axes = {{"friction.kinetic_coefficient", Linspace{0.0, 0.4, points}}};
+  request.columns = {"coefficients.newton", "coefficients.poisson"};
+  return request;
+}
+
+TEST(ClientOptions, AreRefusedAllAtOnceByName) {
+  ClientOptions options{.target = "", .deadline = milliseconds(0), .sweep_deadline = milliseconds(-5)};
+  options.retry = {
+      .max_attempts = 6, .initial_backoff = milliseconds(0), .max_backoff = milliseconds(-1), .multiplier = 0.5};
+  const absl::Status status = Client::Connect(options).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kInvalidRequest);
+  EXPECT_THAT(
+      ViolationsOf(status),
+      ElementsAre(Violation{"target", "is empty: must be \"host:port\""}, Violation{"deadline", "= 0 ms: must be > 0"},
+                  Violation{"sweep_deadline", "= -5 ms: must be > 0"},
+                  Violation{"retry.max_attempts", "= 6: must be in [1, 5]"},
+                  Violation{"retry.initial_backoff", "= 0 ms: must be > 0"},
+                  Violation{"retry.max_backoff", "= -1 ms: must be >= retry.initial_backoff"},
+                  Violation{"retry.multiplier", "= 0.5: must be finite and >= 1"}));
+}
+
+TEST(ServiceConfig, IsTheJsonThatGrpcReads) {
+  ClientOptions options{.target = "localhost:1"};
+  options.retry = {
+      .max_attempts = 4, .initial_backoff = milliseconds(50), .max_backoff = milliseconds(1500), .multiplier = 1.5};
+  const std::string config = ServiceConfig(options);
+  EXPECT_EQ(config,
+            R"({"methodConfig":[{"name":[{"service":"ricochet.v1.ImpactService"}],"retryPolicy":{"maxAttempts":4,)"
+            R"("initialBackoff":"0.050s","maxBackoff":"1.500s","backoffMultiplier":1.5,)"
+            R"("retryableStatusCodes":["UNAVAILABLE"]}}]})");
+  google::protobuf::Struct parsed;
+  EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(config, &parsed).ok());
+}
+
+TEST(ServiceConfig, OfOneAttemptHasNoPolicy) {
+  ClientOptions options{.target = "localhost:1"};
+  options.retry.max_attempts = 1;
+  EXPECT_EQ(ServiceConfig(options), "{}");
+}
+
+TEST(Client, FailsAtTheFirstCallWhereNoServerIs) {
+  const auto client = Client::Connect({.target = "127.0.0.1:1"});
+  ASSERT_TRUE(client.ok());
+  EXPECT_EQ(client->Solve({.scene = AnyScene(), .history_at_n_s = {}}).status().code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(client->Bounds({.scene = AnyScene()}).status().code(), absl::StatusCode::kUnavailable);
+  std::vector<absl::StatusCode> codes;
+  for (const auto& chunk : client->Sweep(Sweep(10))) codes.push_back(chunk.status().code());
+  EXPECT_THAT(codes, ElementsAre(absl::StatusCode::kUnavailable));
+}
+
+TEST(Client, TriesAgainAsOftenAsTheOptionsSay) {
+  ClientOptions options{.target = "127.0.0.1:1"};
+  options.retry = {.max_attempts = 1};
+  const auto time = [](const ClientOptions& asked) {
+    const auto start = steady_clock::now();
+    EXPECT_FALSE(Client::Connect(asked)->Solve({.scene = AnyScene(), .history_at_n_s = {}}).ok());
+    return steady_clock::now() - start;
+  };
+  EXPECT_LT(time(options), milliseconds(1000));
+  // Four waits, each random up to 2 s: all of them below 25 ms together is not to be expected in this world.
+  options.retry = {.max_attempts = 5, .initial_backoff = milliseconds(2000), .multiplier = 1.0};
+  EXPECT_GT(time(options), milliseconds(25));
+}
+
+TEST(Client, SurvivesARestartOfItsServer) {
+  std::optional<ServerProcess> server(std::in_place);
+  const std::string address = server->address();
+  ClientOptions options{.target = address};
+  options.retry = {.max_attempts = 5, .initial_backoff = milliseconds(500), .multiplier = 2.0};
+  const Client client = Client::Connect(options).value();
+  EXPECT_TRUE(client.Solve({.scene = AnyScene(), .history_at_n_s = {}}).ok());
+  server->Stop();
+  EXPECT_EQ(Client::Connect({.target = address, .retry = {.max_attempts = 1}})
+                ->Solve({.scene = AnyScene(), .history_at_n_s = {}})
+                .status()
+                .code(),
+            absl::StatusCode::kUnavailable);
+}
+
+TEST(Client, ADeadlineEndsASweep) {
+  const ServerProcess server;
+  const Client client = Client::Connect({.target = server.address(), .sweep_deadline = milliseconds(100)}).value();
+  absl::Status last;
+  for (const auto& chunk : client.Sweep(Sweep(10'000'000'000))) last = chunk.status();
+  EXPECT_EQ(last.code(), absl::StatusCode::kDeadlineExceeded) << last;
+}
+
+TEST(Client, AStreamOutlivesTheClientThatMadeIt) {
+  const ServerProcess server;
+  std::optional<Client> client = Client::Connect({.target = server.address()}).value();
+  SweepStream stream = client->Sweep(Sweep(500'000));
+  client.reset();
+  int64_t points = 0;
+  for (const auto& chunk : stream) {
+    ASSERT_TRUE(chunk.ok()) << chunk.status();
+    points += chunk->count;
+  }
+  EXPECT_EQ(points, 500'000);
+}
+
+TEST(Client, AServerThatDiesInASweepIsAnErrorAndNeverAShortAnswer) {
+  ServerProcess server;
+  const Client client = Client::Connect({.target = server.address()}).value();
+  absl::Status last;
+  for (const auto& chunk : client.Sweep(Sweep(10'000'000'000))) {
+    last = chunk.status();
+    if (chunk.ok() && chunk->first_index == 0) kill(server.pid(), SIGKILL);
+  }
+  EXPECT_EQ(last.code(), absl::StatusCode::kUnavailable) << last;
+}
+
+TEST(CheckHealth, TellsServingFromUnknownServices) {
+  const ServerProcess server;
+  EXPECT_EQ(CheckHealth({.target = server.address()}, "ricochet.v1.ImpactService").value(), Health::kServing);
+  EXPECT_EQ(CheckHealth({.target = server.address()}, "no.such.Service").status().code(), absl::StatusCode::kNotFound);
+  EXPECT_EQ(CheckHealth({.target = ""}, "").status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+// --- Chunks that do not fit: what a broken server or proxy would have to get past ---
+
+SweepChunk Chunk(int64_t first, int64_t count, bool last) {
+  SweepChunk chunk{.first_index = first, .count = count, .values = {}, .regimes = {}, .points_total = 100};
+  chunk.values.resize(static_cast<size_t>(2 * count));
+  if (last) chunk.summary.emplace();
+  return chunk;
+}
+
+struct BadSecondChunk {
+  const char* name;
+  std::function<void(SweepChunk&)> damage;
+};
+
+class ChunkCheckerRefuses : public testing::TestWithParam<BadSecondChunk> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Chunks, ChunkCheckerRefuses,
+    testing::Values(BadSecondChunk{"AGap", [](SweepChunk& chunk) { chunk.first_index = 41; }},
+                    BadSecondChunk{"ARepeat", [](SweepChunk& chunk) { chunk.first_index = 0; }},
+                    BadSecondChunk{"TooFewValues", [](SweepChunk& chunk) { chunk.values.pop_back(); }},
+                    BadSecondChunk{"TooManyValues", [](SweepChunk& chunk) { chunk.values.resize(124); }},
+                    BadSecondChunk{"ANegativeCount", [](SweepChunk& chunk) { chunk.count = -60; }},
+                    BadSecondChunk{"PointsBeyondTheEnd", [](SweepChunk& chunk) { chunk = Chunk(40, 61, true); }},
+                    BadSecondChunk{"ACountThatOverflows", [](SweepChunk& chunk) { chunk.count = int64_t{1} << 62; }},
+                    BadSecondChunk{"RegimesNotAskedFor", [](SweepChunk& chunk) { chunk.regimes.resize(60); }},
+                    BadSecondChunk{"NoSummaryAtTheEnd", [](SweepChunk& chunk) { chunk.summary.reset(); }},
+                    BadSecondChunk{"ASummaryTooEarly", [](SweepChunk& chunk) { chunk = Chunk(40, 10, true); }}),
+    [](const auto& parameter) { return std::string(parameter.param.name); });
+
+TEST_P(ChunkCheckerRefuses, AsDataLoss) {
+  ChunkChecker checker(Sweep(100));
+  ASSERT_TRUE(checker.Check(Chunk(0, 40, false)).ok());
+  SweepChunk second = Chunk(40, 60, true);
+  ASSERT_TRUE(ChunkChecker(checker).Check(second).ok());
+  GetParam().damage(second);
+  EXPECT_EQ(checker.Check(second).code(), absl::StatusCode::kDataLoss);
+}
+
+TEST(ChunkChecker, RefusesAnEndBeforeTheLastPoint) {
+  ChunkChecker checker(Sweep(100));
+  EXPECT_EQ(checker.CheckEnd().code(), absl::StatusCode::kDataLoss);
+  ASSERT_TRUE(checker.Check(Chunk(0, 40, false)).ok());
+  EXPECT_EQ(checker.CheckEnd().code(), absl::StatusCode::kDataLoss);
+  ASSERT_TRUE(checker.Check(Chunk(40, 60, true)).ok());
+  EXPECT_TRUE(checker.CheckEnd().ok());
+}
+
+TEST(ChunkChecker, HoldsASubRangeToItsOwnEnds) {
+  SweepRequest request = Sweep(100);
+  request.first_index = 10;
+  request.end_index = 30;
+  ChunkChecker checker(request);
+  EXPECT_EQ(ChunkChecker(request).Check(Chunk(0, 20, true)).code(), absl::StatusCode::kDataLoss);
+  EXPECT_TRUE(checker.Check(Chunk(10, 20, true)).ok());
+}
+
+TEST(ChunkChecker, AsksForARegimeOfEveryPointWhereTheRequestDid) {
+  SweepRequest request = Sweep(100);
+  request.with_regime = true;
+  SweepChunk chunk = Chunk(0, 100, true);
+  EXPECT_EQ(ChunkChecker(request).Check(chunk).code(), absl::StatusCode::kDataLoss);
+  chunk.regimes.resize(100);
+  EXPECT_TRUE(ChunkChecker(request).Check(chunk).ok());
+}
+
+}  // namespace
+}  // namespace ricochet
