@@ -27,7 +27,7 @@ class SceneSource {
   }
 
   Problem AnyImpact() {
-    switch (Below(8)) {
+    switch (Below(9)) {
       case 0:
       case 1:
         return Everyday();
@@ -39,9 +39,22 @@ class SceneSource {
         return NearUnitPoisson();
       case 5:
         return NearlyVertical();
+      case 6:
+        return LargeAndSmall();
       default:
         return OverAllDoubles();
     }
+  }
+
+  // Exponents up to and a little beyond those that plain double-double arithmetic can take.
+  Problem LargeAndSmall() {
+    const auto any = [this] { return std::exp2(Uniform(-101.0, 101.0)); };
+    Problem problem = {.inertia = any(), .a = any(), .b = Sign() * any(), .omega_minus = -any(), .mu = any()};
+    problem.mu_static = problem.mu;
+    SetCoefficient(problem, /*any_size=*/false);
+    if (problem.law != Law::kEnergetic && Below(2) == 0) problem.coefficient = std::exp2(Uniform(-41.0, 41.0));
+    if (Below(4) != 0) AimSlope(problem, std::exp2(-Uniform(0.0, 60.0)) * Uniform(0.5, 1.0));
+    return problem;
   }
 
   // Every bit pattern of a finite double is as likely as any other.
