@@ -149,6 +149,8 @@ Ending RunServerToEnd(const std::vector<std::string>& arguments) {
   std::vector<std::string> command = {RICOCHETD_PATH};
   command.insert(command.end(), arguments.begin(), arguments.end());
   ChildProcess process(command);
+  const bool ended = WaitUntil(std::chrono::seconds(20), [&process] { return !process.running(); });
+  if (!ended) process.Signal(SIGKILL);
   const int exit_status = process.Wait();
   return {.exit_status = exit_status, .output = process.output()};
 }

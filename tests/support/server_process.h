@@ -76,7 +76,7 @@ struct Ending {
   std::string output;
 };
 
-// Runs ricochetd with exactly `arguments` to its end.
+// Runs ricochetd with exactly `arguments` to its end; kills it after 20 s.
 Ending RunServerToEnd(const std::vector<std::string>& arguments);
 
 }  // namespace ricochet
