@@ -67,11 +67,13 @@ struct Count {
   Tally tally;
 };
 
-std::vector<Count> Counts(const SweepSummary& summary) {
+// The regimes that occurred, named by `name`, and the inadmissible points.
+template <typename Name>
+std::vector<Count> Counts(const SweepSummary& summary, Name name) {
   std::vector<Count> counts;
   for (size_t i = 0; i < summary.by_regime.size(); ++i) {
     if (summary.by_regime[i].count > 0) {
-      counts.push_back({RegimeName(static_cast<Regime>(i)), summary.by_regime[i]});
+      counts.push_back({name(static_cast<Regime>(i)), summary.by_regime[i]});
     }
   }
   counts.push_back({"inadmissible", summary.inadmissible});
@@ -83,7 +85,7 @@ std::string SummaryText(const SweepSummary& summary) {
   if (summary.elapsed_s.has_value()) absl::StrAppend(&text, " in ", Rounded(*summary.elapsed_s), " s");
   Table table;
   table.Add({"", "points", "first at index"});
-  for (const Count& count : Counts(summary)) {
+  for (const Count& count : Counts(summary, RegimeText)) {
     table.Add({count.name, absl::StrCat(count.tally.count),
                count.tally.count > 0 ? absl::StrCat(count.tally.first_index) : "-"});
   }
@@ -92,7 +94,7 @@ std::string SummaryText(const SweepSummary& summary) {
 
 std::string SummaryCsv(const SweepSummary& summary) {
   std::string text = absl::StrCat("kind,points,first_index\nall,", summary.points, ",\n");
-  for (const Count& count : Counts(summary)) {
+  for (const Count& count : Counts(summary, RegimeName)) {
     absl::StrAppend(&text, count.name, ",", count.tally.count, ",",
                     count.tally.count > 0 ? absl::StrCat(count.tally.first_index) : "", "\n");
   }

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,8 @@ struct BadInput {
   std::string message;  // Part of standard error.
   std::string input;    // Standard input.
 };
+
+void PrintTo(const BadInput& bad, std::ostream* stream) { *stream << bad.message; }
 
 const Arguments kSolve = {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1"};
 const Arguments kSweep = {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1"};
@@ -81,7 +84,7 @@ std::vector<BadInput> Scenes() {
       {kSolveInput, "standard input is not a ricochet.v1.Scene in JSON", "{\"pendulum\": {"},
       {kSolveInput, "mass", R"({"pendulum": {"mass": 1}})"},
       {kSolveInput, "a_m", R"({"pendulum": {"a_m": "wide"}})"},
-      {kSolveInput, "is not a ricochet.v1.Scene in textproto: line 2, column 3", "pendulum {\n  mass: 1\n}"},
+      {kSolveInput, "is not a ricochet.v1.Scene in textproto: line 2, column 7", "pendulum {\n  mass: 1\n}"},
       {kSolveInput, "restitution.energetic = 2: must be in [0, 1]",
        "pendulum { inertia_kg_m2: 1 a_m: 1 } restitution { energetic: 2 }"},
   };

@@ -162,7 +162,7 @@ TEST_F(Cli, DrawsFigure4) {
   EXPECT_THAT(svg, StartsWith("<?xml"));
   EXPECT_THAT(svg, EndsWith("</svg>\n\n"));
   EXPECT_THAT(svg, HasSubstr("angle φ = arctan(a/b) [rad]"));
-  EXPECT_THAT(svg, HasSubstr("Newton&apos;s coefficient of restitution"));
+  EXPECT_THAT(svg, HasSubstr("Newton's coefficient of restitution"));
   for (const std::string curve : {"μ = 0.1", "μ = 0.333333", "μ = 0.5", "μ = 0.666667", "μ = 1"}) {
     EXPECT_THAT(svg, HasSubstr(curve));
   }
