@@ -25,7 +25,7 @@ class StableHash {
 
 // 64 impacts that between them reach every law and regime.
 pendulum::Problem Probe(int i) {
-  const double step = i / 8;  // 0 ... 7
+  const int step = i / 8;  // 0 ... 7
   return {.inertia = 1.0 + 0.1 * i,
           .a = 0.3 + 0.07 * step,
           .b = i % 5 == 0 ? 0.0 : 1.0 - 0.25 * step,

@@ -68,7 +68,7 @@ absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request)
   }
   const absl::Status finite = CheckFinite(bounds);
   if (!finite.ok()) return finite;
-  return BoundsResponse{.bounds = std::move(bounds), .engine = ThisEngine()};
+  return BoundsResponse{.bounds = bounds, .engine = ThisEngine()};
 }
 
 SweepStream LocalSolver::Sweep(const SweepRequest& request, std::stop_token stop) const {

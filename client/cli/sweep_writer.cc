@@ -56,7 +56,7 @@ std::vector<std::string> Header(const SweepRequest& request) {
   std::vector<std::string> header = {"index"};
   for (const Axis& axis : request.grid.axes) header.push_back(axis.path);
   header.insert(header.end(), request.columns.begin(), request.columns.end());
-  if (request.with_regime) header.push_back("regime");
+  if (request.with_regime) header.emplace_back("regime");
   return header;
 }
 

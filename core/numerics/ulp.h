@@ -21,8 +21,8 @@ constexpr uint64_t UlpDistance(double x, double y) {
   if (x_is_nan || y_is_nan) return x_is_nan && y_is_nan ? 0 : kNotComparable;
 
   constexpr uint64_t kSign = uint64_t{1} << 63;
-  const uint64_t x_bits = std::bit_cast<uint64_t>(x);
-  const uint64_t y_bits = std::bit_cast<uint64_t>(y);
+  const auto x_bits = std::bit_cast<uint64_t>(x);
+  const auto y_bits = std::bit_cast<uint64_t>(y);
   const uint64_t x_steps = x_bits & ~kSign;  // From zero, because the bits of doubles of one sign are in order.
   const uint64_t y_steps = y_bits & ~kSign;
   if ((x_bits ^ y_bits) & kSign) return x_steps + y_steps;

@@ -1,5 +1,6 @@
 #include "core/sweep/grid.h"
 
+#include <cassert>
 #include <cmath>
 #include <optional>
 
@@ -134,6 +135,7 @@ void AxisPositions(const Grid& grid, int64_t index, absl::Span<int64_t> position
       continue;
     }
     const int64_t count = AxisCount(grid.axes[k]);
+    assert(count > 0);
     positions[k] = index % count;
     index /= count;
   }

@@ -69,7 +69,8 @@ bool WaitUntil(std::chrono::seconds time, Condition condition) {
   return true;
 }
 
-std::vector<std::string> ServerCommand(std::vector<std::string> arguments, const std::filesystem::path& port_file) {
+std::vector<std::string> ServerCommand(const std::vector<std::string>& arguments,
+                                       const std::filesystem::path& port_file) {
   std::vector<std::string> command = {RICOCHETD_PATH, "--listen", "127.0.0.1:0", "--port-file", port_file};
   // A client that is idle does not notice the drain at once; a test need not wait for it.
   const std::pair<std::string, std::string> defaults[] = {{"--drain-grace", "0"}, {"--drain-timeout", "1"}};
@@ -120,8 +121,8 @@ bool ChildProcess::running() {
 
 std::string ChildProcess::output() const { return ReadFile(directory_ / "output"); }
 
-ServerProcess::ServerProcess(std::vector<std::string> arguments)
-    : port_file_(MakeDirectory() / "port"), process_(ServerCommand(arguments, port_file_)) {
+ServerProcess::ServerProcess(const std::vector<std::string>& arguments)
+    : port_file_(MakeDirectory() / "port"), process_(ServerCommand(std::move(arguments), port_file_)) {
   WaitUntil(std::chrono::seconds(20), [this] { return std::filesystem::exists(port_file_) || !process_.running(); });
   std::ifstream(port_file_) >> port_;
   std::error_code ignored;
