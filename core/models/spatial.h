@@ -1,0 +1,72 @@
+// Spatial: one frictional impact at one point in space, slip that turns, stops, sticks and starts again.
+//
+// W is 3x3 (t1, t2, n), symmetric positive semidefinite; slip s = |(u1, u2)|, direction phi. With the normal impulse
+// tau as the independent variable (Keller 1986) and e(phi) = (cos phi, sin phi), the components of
+// -mu Wtt e(phi) + wtn along and across e(phi) are h(phi) and g(phi):
+//
+//   ds/dtau = h(phi),   s dphi/dtau = g(phi),   dv/dtau = Wnn - mu wtn . e(phi)
+//
+// It is singular as s -> 0; with dtau = s dxi it is smooth, and slip stops only as xi -> infinity along an invariant
+// direction (g = 0, h < 0). After that: stick if mu_s >= |Wtt^-1 wtn|, else slip restarts along the one invariant
+// direction with h > 0. Compression and restitution end as in core/models/planar.h.
+
+#ifndef RICOCHET_CORE_MODELS_SPATIAL_H_
+#define RICOCHET_CORE_MODELS_SPATIAL_H_
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "core/models/pendulum.h"
+#include "core/outcome.h"
+
+namespace ricochet::spatial {
+
+using Law = pendulum::Law;
+
+struct Problem {
+  double w11 = 0.0, w12 = 0.0, w13 = 0.0, w22 = 0.0, w23 = 0.0, w33 = 0.0;  // 1/kg; n is the third direction
+  std::array<double, 2> u0 = {};  // m/s
+  double v0 = 0.0;                // m/s; >= 0 is separating
+  double mu = 0.0;
+  double mu_static = 0.0;  // >= mu
+  Law law = Law::kEnergetic;
+  double coefficient = 0.0;
+  double tolerance = 1e-10;  // Of each velocity after the impact over max(|u0|, |v0|); in [1e-12, 1e-4].
+};
+
+struct Instant {
+  EventKind kind = EventKind::kUnspecified;
+  double tau = 0.0;
+  std::array<double, 2> f = {};
+  std::array<double, 2> u = {};
+  double v = 0.0;
+};
+
+struct Impact {
+  Regime regime = Regime::kUnspecified;
+  int w_rank = 0;
+  bool sharp_limit_broken = false;
+  bool energy_limit_broken = false;
+  double newton = 0.0, poisson = 0.0, energetic = 0.0;
+  double tangential = 0.0;  // |f1|/tau1
+  double energetic_excess = 0.0;
+  std::array<double, 2> u1 = {};
+  double v1 = 0.0;
+  double tau_compression = 0.0, tau1 = 0.0;
+  std::array<double, 2> f1 = {};
+  double work_normal_compression = 0.0, work_normal_restitution = 0.0;
+  double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
+  double energy_change = 0.0;
+  double error_estimate = 0.0;  // Never below the true error of the velocities over max(|u0|, |v0|).
+  bool closed_form = false;     // Slip never turns: no integration was needed.
+  int64_t steps = 0;
+  int64_t right_hand_sides = 0;
+  std::vector<Instant> events;
+};
+
+Impact Solve(const Problem& problem);
+
+}  // namespace ricochet::spatial
+
+#endif  // RICOCHET_CORE_MODELS_SPATIAL_H_
