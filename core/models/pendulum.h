@@ -14,11 +14,12 @@
 //   dE = J w-^2 (1 - kappa_hat^2)/2                energy lost                                             [16], [52]
 //
 // Regimes: separating if w- >= 0; locked if mu_s |b| >= a (no restitution: all three coefficients 0, tau1 = tau0);
-// frictionless if x = 0; rebound otherwise. Every threshold is decided exactly.
+// frictionless if x = 0; rebound otherwise. Every threshold of a regime is decided exactly.
 //
 // Accuracy: each output within 1 ulp of the exact value of the exact inputs over the whole double range. Where an
 // output changes sign (1 - eta^2, 1 - kappa, 1 - kappa_hat^2 under another law's coefficient), to 2^-100 of its scale.
 // Below 2^-1022: within 1 unit of 2^-1074. An exact value above the largest double comes out infinite.
+// A limit that is broken or kept by more than 2^-100 of the terms compared is reported so; closer than that, either way.
 // Bad input: none gets here (core/scene/validate.h); the functions assume a valid problem.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_H_

@@ -426,7 +426,7 @@ TEST(PendulumLimitTest, LockingIsDecidedExactlyToTheLastBitOfTheProduct) {
 }
 
 // Newton's bound is exactly e where q/a = (1 - e^2)/(1 + e^2), and falls with q; Poisson's is 1/e and rises with q.
-TEST(PendulumLimitTest, SharpLimitIsDecidedExactlyToTheLastBitOfTheProduct) {
+TEST(PendulumLimitTest, SharpLimitIsSeenFrom2ToTheMinus100OfTheTermsOn) {
   struct Case {
     double q, a, e;
   };
