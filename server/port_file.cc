@@ -17,7 +17,7 @@ absl::Status WritePortFile(const std::string& path, int port) {
   file << port << '\n';
   file.close();
   if (file.good() && std::rename(temporary.c_str(), path.c_str()) == 0) return absl::OkStatus();
-  const absl::Status status = absl::ErrnoToStatus(errno, absl::StrCat("cannot write ", path));
+  absl::Status status = absl::ErrnoToStatus(errno, absl::StrCat("cannot write ", path));
   std::remove(temporary.c_str());
   return status;
 }

@@ -46,7 +46,7 @@ class Environment {
 };
 
 std::string WriteConfig(const std::string& name, const std::string& contents) {
-  const std::string path = testing::TempDir() + "ricochetd_" + name + ".toml";
+  std::string path = testing::TempDir() + "ricochetd_" + name + ".toml";
   std::ofstream(path) << contents;
   return path;
 }

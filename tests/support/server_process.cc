@@ -122,7 +122,7 @@ bool ChildProcess::running() {
 std::string ChildProcess::output() const { return ReadFile(directory_ / "output"); }
 
 ServerProcess::ServerProcess(const std::vector<std::string>& arguments)
-    : port_file_(MakeDirectory() / "port"), process_(ServerCommand(std::move(arguments), port_file_)) {
+    : port_file_(MakeDirectory() / "port"), process_(ServerCommand(arguments, port_file_)) {
   WaitUntil(std::chrono::seconds(20), [this] { return std::filesystem::exists(port_file_) || !process_.running(); });
   std::ifstream(port_file_) >> port_;
   std::error_code ignored;

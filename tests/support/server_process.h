@@ -43,7 +43,7 @@ class ServerProcess {
   // Starts ricochetd with `arguments` beside --listen and --port-file and waits until it takes calls. The drain grace
   // is 0 and its timeout 1 s unless they set them.
   // Throws std::runtime_error with the log if it does not start within 20 s.
-  explicit ServerProcess(std::vector<std::string> arguments = {});
+  explicit ServerProcess(const std::vector<std::string>& arguments = {});
 
   // "127.0.0.1:PORT".
   std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
