@@ -18,6 +18,13 @@ inline WideSolution SolveGeometry(const Problem& problem) {
   return x;
 }
 
+// Everything. The problem must not be separating.
+inline WideSolution SolveAll(const Problem& problem) {
+  WideSolution x;
+  HWY_NAMESPACE::SolveParts(problem.law, HWY_NAMESPACE::MakeInputs<Wide>(problem), kPartAll, x);
+  return x;
+}
+
 }  // namespace ricochet::pendulum
 
 #endif  // RICOCHET_CORE_MODELS_PENDULUM_WIDE_H_
