@@ -55,7 +55,7 @@ TEST(Log, TextValueThatCouldMisleadIsQuoted) {
 TEST(Log, EveryJsonLineParsesToWhatWasWritten) {
   const std::string values[] = {"",
                                 "plain",
-                                "say \"hi\" \\ %v {}",
+                                R"(say "hi" \ %v {})",
                                 "line\nbreak\r\ttab",
                                 std::string("nul\0bell\a\x1f\x7f", 11),
                                 "\xC3\xA9\xE2\x82\xAC\xF0\x9F\x98\x80"};
