@@ -87,6 +87,25 @@ bool Feed(int pipe, const std::string& text) {
   return done == text.size();
 }
 
+// This process's environment in a UTF-8 locale: gnuplot warns of the signs it cannot write in others.
+class Utf8Environment {
+ public:
+  Utf8Environment() {
+    for (char** variable = environ; *variable != nullptr; ++variable) {
+      const std::string text = *variable;
+      if (text.rfind("LC_", 0) != 0 && text.rfind("LANG=", 0) != 0) texts_.push_back(text);
+    }
+    texts_.emplace_back("LC_ALL=C.UTF-8");
+    for (std::string& text : texts_) pointers_.push_back(text.data());
+    pointers_.push_back(nullptr);
+  }
+  char* const* get() const { return pointers_.data(); }
+
+ private:
+  std::vector<std::string> texts_;
+  std::vector<char*> pointers_;
+};
+
 // Starts gnuplot with `input` as its standard input, no signal blocked or ignored. Returns 0 or an errno.
 int SpawnGnuplot(int input, pid_t& child) {
   posix_spawn_file_actions_t actions;
@@ -104,7 +123,8 @@ int SpawnGnuplot(int input, pid_t& child) {
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
   std::string name = "gnuplot";
   char* const arguments[] = {name.data(), nullptr};
-  const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environ);
+  const Utf8Environment environment;
+  const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environment.get());
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   return error;
