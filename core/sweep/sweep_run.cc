@@ -77,8 +77,8 @@ Drivers ResolveAxes(const std::vector<Axis>& axes, Scene& scene) {
     for (const std::string& target : field->sets()) {
       const auto [other, is_new] = driven_by.emplace(target, i);
       if (is_new) continue;
-      drivers.violations.push_back({path, absl::StrCat("= \"", absl::CEscape(axes[i].path), "\": must not drive ", target,
-                                                       ", which axes[", other->second, "] drives")});
+      drivers.violations.push_back({path, absl::StrCat("= \"", absl::CEscape(axes[i].path), "\": must not drive ",
+                                                       target, ", which axes[", other->second, "] drives")});
     }
     // An angle needs the base scene's distance, so a and b must be right there.
     if (field->sets().size() == 1) drivers.driven.insert(field->sets().front());

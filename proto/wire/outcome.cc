@@ -229,10 +229,7 @@ static v1::BrokenLimit ToProto(const BrokenLimit& broken) {
 }
 
 static BrokenLimit FromProto(const v1::BrokenLimit& proto) {
-  return {.kind = FromProto(proto.kind()),
-          .value = proto.value(),
-          .limit = proto.limit(),
-          .excess = proto.excess()};
+  return {.kind = FromProto(proto.kind()), .value = proto.value(), .limit = proto.limit(), .excess = proto.excess()};
 }
 
 v1::Outcome ToProto(const Outcome& outcome) {

@@ -10,8 +10,7 @@
 namespace ricochet {
 
 // Keeps the capacity of `field`.
-inline void AssignDoubles(const std::vector<double>& values,
-                          google::protobuf::RepeatedField<double>& field) {
+inline void AssignDoubles(const std::vector<double>& values, google::protobuf::RepeatedField<double>& field) {
   field.Assign(values.begin(), values.end());
 }
 

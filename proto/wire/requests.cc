@@ -39,9 +39,7 @@ v1::BoundsRequest ToProto(const BoundsRequest& request) {
   return proto;
 }
 
-BoundsRequest FromProto(const v1::BoundsRequest& proto) {
-  return {.scene = FromProto(proto.scene())};
-}
+BoundsRequest FromProto(const v1::BoundsRequest& proto) { return {.scene = FromProto(proto.scene())}; }
 
 v1::BoundsResponse ToProto(const BoundsResponse& response) {
   v1::BoundsResponse proto;

@@ -57,18 +57,13 @@ static System SystemOf(const v1::Scene& proto) {
 }
 
 static void SetRestitution(const Restitution& restitution, v1::Scene& proto) {
-  std::visit(
-      Overloaded{
-          [](std::monostate) {},
-          [&](NewtonCoefficient newton) { proto.mutable_restitution()->set_newton(newton.value); },
-          [&](PoissonCoefficient poisson) {
-            proto.mutable_restitution()->set_poisson(poisson.value);
-          },
-          [&](EnergeticCoefficient energetic) {
-            proto.mutable_restitution()->set_energetic(energetic.value);
-          },
-      },
-      restitution);
+  std::visit(Overloaded{
+                 [](std::monostate) {},
+                 [&](NewtonCoefficient newton) { proto.mutable_restitution()->set_newton(newton.value); },
+                 [&](PoissonCoefficient poisson) { proto.mutable_restitution()->set_poisson(poisson.value); },
+                 [&](EnergeticCoefficient energetic) { proto.mutable_restitution()->set_energetic(energetic.value); },
+             },
+             restitution);
 }
 
 static Restitution FromProto(const v1::Restitution& proto) {

@@ -156,8 +156,7 @@ size_t PercentEncodedSize(const std::string& text) {
 }
 
 bool Fits(const Error& error) {
-  return PercentEncodedSize(error.message) <= kMessageLimit &&
-         SerializedDetails(error).size() <= kDetailsLimit;
+  return PercentEncodedSize(error.message) <= kMessageLimit && SerializedDetails(error).size() <= kDetailsLimit;
 }
 
 // The first `size` bytes or fewer: no UTF-8 sequence is cut in two, which would make a proto unreadable.
@@ -179,12 +178,10 @@ Error WithViolations(const Error& error, size_t count) {
   Error cut = error;
   cut.violations.resize(count);
   for (Violation& violation : cut.violations) {
-    violation = {Clipped(violation.field, kFieldLimit),
-                 Clipped(violation.description, kDescriptionLimit)};
+    violation = {Clipped(violation.field, kFieldLimit), Clipped(violation.description, kDescriptionLimit)};
   }
   if (count < error.violations.size()) {
-    absl::StrAppend(&cut.violations.back().description, " (and ", error.violations.size() - count,
-                    " more violations)");
+    absl::StrAppend(&cut.violations.back().description, " (and ", error.violations.size() - count, " more violations)");
   }
   cut.message = std::string(InvalidRequest(cut.violations).message());
   return cut;
@@ -212,8 +209,7 @@ Error Fitted(const Error& error) {
 }
 
 void CopyPayloads(const absl::Status& from, absl::Status& to) {
-  from.ForEachPayload(
-      [&](absl::string_view url, const absl::Cord& payload) { to.SetPayload(url, payload); });
+  from.ForEachPayload([&](absl::string_view url, const absl::Cord& payload) { to.SetPayload(url, payload); });
 }
 
 }  // namespace

@@ -12,8 +12,7 @@
 
 namespace ricochet {
 
-static_assert(kRegimeCount == v1::Regime_ARRAYSIZE,
-              "SweepSummary::by_regime has one entry a regime");
+static_assert(kRegimeCount == v1::Regime_ARRAYSIZE, "SweepSummary::by_regime has one entry a regime");
 
 // Linspace and Logspace have the same fields.
 template <typename Space, typename SpaceProto>
@@ -33,9 +32,7 @@ static v1::Axis ToProto(const Axis& axis) {
   proto.set_path(axis.path);
   std::visit(Overloaded{
                  [](std::monostate) {},
-                 [&](const ListValues& list) {
-                   AssignDoubles(list.values, *proto.mutable_list()->mutable_values());
-                 },
+                 [&](const ListValues& list) { AssignDoubles(list.values, *proto.mutable_list()->mutable_values()); },
                  [&](const Linspace& linspace) { SetSpace(linspace, *proto.mutable_linspace()); },
                  [&](const Logspace& logspace) { SetSpace(logspace, *proto.mutable_logspace()); },
              },
@@ -57,9 +54,7 @@ static decltype(Axis::values) ValuesOf(const v1::Axis& proto) {
   return std::monostate();
 }
 
-static Axis FromProto(const v1::Axis& proto) {
-  return {.path = proto.path(), .values = ValuesOf(proto)};
-}
+static Axis FromProto(const v1::Axis& proto) { return {.path = proto.path(), .values = ValuesOf(proto)}; }
 
 v1::SweepRequest::Combination ToProto(Combination combination) {
   switch (combination) {
@@ -160,8 +155,7 @@ void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto) {
   proto.set_count(chunk.count);
   AssignDoubles(chunk.values, *proto.mutable_values());
   proto.mutable_regimes()->Resize(static_cast<int>(chunk.regimes.size()), 0);
-  std::transform(chunk.regimes.begin(), chunk.regimes.end(),
-                 proto.mutable_regimes()->mutable_data(),
+  std::transform(chunk.regimes.begin(), chunk.regimes.end(), proto.mutable_regimes()->mutable_data(),
                  [](Regime regime) { return static_cast<int>(ToProto(regime)); });
   proto.set_points_done(chunk.points_done);
   proto.set_points_total(chunk.points_total);

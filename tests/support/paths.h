@@ -8,9 +8,7 @@
 namespace ricochet {
 
 // The absolute path of the file `name` in tests/data.
-inline std::string TestDataPath(const std::string& name) {
-  return std::string(RICOCHET_TEST_DATA_DIR) + "/" + name;
-}
+inline std::string TestDataPath(const std::string& name) { return std::string(RICOCHET_TEST_DATA_DIR) + "/" + name; }
 
 }  // namespace ricochet
 
