@@ -51,10 +51,10 @@ absl::StatusOr<BoundsResponse> Client::Bounds(const BoundsRequest& request) cons
 }
 
 SweepStream Client::Sweep(const SweepRequest& request, std::stop_token stop) const {
+  auto reader =
+      std::make_shared<SweepReader>(*connection_->stub, request, connection_->options.sweep_deadline, std::move(stop));
   // The stream keeps the connection, so it may outlive the Client that made it.
-  return SweepStream([connection = connection_, reader = std::make_unique<SweepReader>(
-                                                    *connection_->stub, request, connection_->options.sweep_deadline,
-                                                    std::move(stop))] { return reader->Next(); });
+  return SweepStream([connection = connection_, reader = std::move(reader)] { return reader->Next(); });
 }
 
 }  // namespace ricochet

@@ -1,6 +1,5 @@
 #include "tests/client/cli_run.h"
 
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <algorithm>
