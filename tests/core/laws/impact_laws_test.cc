@@ -365,14 +365,14 @@ TEST(ImpactLawsTest, KaneLevinsonHasExactlyOneCoulombSolutionAtRandom) {
   EXPECT_GT(gained, kCases / 100);
 }
 
-struct TextbookImpulse {
+struct VectorFormImpulse {
   long double f = 0.0L;
   long double tau1 = 0.0L;
   bool on_cone = false;
 };
 
-// The three displayed equations of Chatterjee and Ruina, as written.
-TextbookImpulse ChatterjeeRuinaAsPrinted(const PlanarImpactInput& in, double e, double e_t) {
+// The law in its vector form, from P_I, P_II and kappa, in more digits.
+VectorFormImpulse ChatterjeeRuinaInVectorForm(const PlanarImpactInput& in, double e, double e_t) {
   const long double det = static_cast<long double>(in.wtt) * in.wnn - static_cast<long double>(in.wtn) * in.wtn;
   const long double first_n = -static_cast<long double>(in.v0) / in.wnn;
   const long double second_t =
@@ -380,16 +380,17 @@ TextbookImpulse ChatterjeeRuinaAsPrinted(const PlanarImpactInput& in, double e, 
   const long double second_n =
       -(static_cast<long double>(in.wtt) * in.v0 - static_cast<long double>(in.wtn) * in.u0) / det;
   const auto weighted = [&](long double k) {
-    return TextbookImpulse{.f = k * second_t, .tau1 = (1.0L + e) * first_n + k * (second_n - first_n)};
+    return VectorFormImpulse{.f = k * second_t, .tau1 = (1.0L + e) * first_n + k * (second_n - first_n)};
   };
-  const TextbookImpulse candidate = weighted(1.0L + e_t);
+  const VectorFormImpulse candidate = weighted(1.0L + e_t);
   if (std::abs(candidate.f) <= in.mu * candidate.tau1) return candidate;
-  TextbookImpulse result = weighted(in.mu * (1.0L + e) * first_n / (std::abs(second_t) - in.mu * (second_n - first_n)));
+  VectorFormImpulse result =
+      weighted(in.mu * (1.0L + e) * first_n / (std::abs(second_t) - in.mu * (second_n - first_n)));
   result.on_cone = true;
   return result;
 }
 
-TEST(ImpactLawsTest, ChatterjeeRuinaAgreesWithThePrintedEquationsAndNeverCreatesEnergyAtRandom) {
+TEST(ImpactLawsTest, ChatterjeeRuinaAgreesWithItsVectorFormAndNeverCreatesEnergyAtRandom) {
   Cases cases;
   int on_cone = 0;
   for (int i = 0; i < kCases; ++i) {
@@ -401,16 +402,17 @@ TEST(ImpactLawsTest, ChatterjeeRuinaAgreesWithThePrintedEquationsAndNeverCreates
     const ImpactSolution& s = result.solutions.front();
     ExpectConsistent(in, e, s);
     ExpectInCone(in, s);
-    const TextbookImpulse printed = ChatterjeeRuinaAsPrinted(in, e, e_t);
+    const VectorFormImpulse reference = ChatterjeeRuinaInVectorForm(in, e, e_t);
     const double impulse = std::max(std::abs(s.f) * std::max(1.0, std::abs(in.wtn) / in.wnn), s.tau1);
     const long double conditioning = in.wtt * in.wnn / std::fma(in.wtt, in.wnn, -in.wtn * in.wtn);
     const double reference_error =
         static_cast<double>(64.0L * std::numeric_limits<long double>::epsilon() * conditioning);
-    EXPECT_NEAR(static_cast<double>(printed.f), s.f, (16.0 * kEpsilon + reference_error) * impulse) << Print(in);
-    EXPECT_NEAR(static_cast<double>(printed.tau1), s.tau1, (16.0 * kEpsilon + reference_error) * impulse) << Print(in);
+    EXPECT_NEAR(static_cast<double>(reference.f), s.f, (16.0 * kEpsilon + reference_error) * impulse) << Print(in);
+    EXPECT_NEAR(static_cast<double>(reference.tau1), s.tau1, (16.0 * kEpsilon + reference_error) * impulse)
+        << Print(in);
     EXPECT_LE(s.energy_change, 8.0 * kEpsilon * impulse * (std::abs(in.u0) + std::abs(in.v0) + std::abs(s.u1)))
         << Print(in);
-    on_cone += printed.on_cone ? 1 : 0;
+    on_cone += reference.on_cone ? 1 : 0;
   }
   EXPECT_GT(on_cone, kCases / 10);
   EXPECT_GT(kCases - on_cone, kCases / 10);
