@@ -7,12 +7,30 @@
 //   d(u, v)/dtau = W (f', 1),   f' = -mu sgn(u) while the contact slips, |f'| <= mu_s while it sticks
 //
 // At u = 0 the contact sticks, f' = -Wtn/Wtt, if |Wtn| <= mu_s Wtt; else slip starts towards sgn(Wtn). u and v are
-// piecewise linear in tau. Compression ends at v = 0. v may grow at first (self-locking): then compression goes on until
+// piecewise linear in tau. Compression ends at v = 0. v may fall at first (self-locking): then compression goes on until
 // slip has stopped. Restitution ends at
 //   Newton     v = -e v0
 //   Poisson    tau1 = (1 + k) tau_c
 //   energetic  normal work of restitution = -eta^2 times that of compression
-// Rank one (det W = 0 within 4 eps Wtt Wnn) and stick is locked: u and v vanish together, no restitution.
+// Newton's and Poisson's laws may ask for energy that was never stored: computed as asked, and flagged.
+//
+// Regimes, the first that applies:
+//   separating    v0 >= 0: nothing changes
+//   locked        W has rank one and the contact sticks: u and v vanish together, no restitution, coefficients 0
+//   frictionless  no friction impulse is possible: mu_s = 0, or Wtt = 0, or mu = 0 and the contact never sticks
+//   stick / reversal in compression   slip stops (or u0 = 0 and the contact sticks) before v = 0
+//   stick / reversal in restitution   slip stops later; also where it stops exactly at v = 0, as that of every pendulum
+//                                     does, or exactly where restitution ends
+//   sliding       slip never stops, or u0 = 0 and slip starts
+//
+// Rank one: |det W| <= 4 eps Wtt Wnn, eps = 2^-52, which is how far rounding takes the W of a pendulum. Wnn and Wtn are
+// then taken at their word, Wtt as Wtn^2/Wnn and u as v Wtn/Wnn, so that u and v vanish together whatever the rounding;
+// the contact sticks if Wnn <= mu_s |Wtn|. Wtt = 0 (then Wtn = 0): f' = 0 and u = u0.
+//
+// Accuracy: signs that decide the path are exact. Let c = max(1, Wnn/v', |Wtn|/|u'|, |u0 Wtn/(v0 Wtt)|... ) be the
+// conditioning stated in tests/core/models/planar_arb_test.cc.
+// An exact value above the largest double comes out infinite.
+// Bad input: none gets here (core/scene/validate.h). That includes a rank-one W whose range (u0, v0) is not in.
 
 #ifndef RICOCHET_CORE_MODELS_PLANAR_H_
 #define RICOCHET_CORE_MODELS_PLANAR_H_
@@ -34,9 +52,9 @@ struct Problem {
   double u0 = 0.0;   // m/s
   double v0 = 0.0;   // m/s; >= 0 is separating
   double mu = 0.0;
-  double mu_static = 0.0;  // >= mu
+  double mu_static = 0.0;  // mu_s >= mu
   Law law = Law::kEnergetic;
-  double coefficient = 0.0;
+  double coefficient = 0.0;  // e, k or eta
 };
 
 // The contact at an event, and what ends or begins there.
@@ -48,23 +66,32 @@ struct Instant {
   double v = 0.0;
 };
 
+// The start, the stop of slip, the ends of compression and of restitution.
+inline constexpr int kMaxEvents = 4;
+
 struct Impact {
   Regime regime = Regime::kUnspecified;
   int w_rank = 0;
   bool sharp_limit_broken = false;   // Implied energetic coefficient > 1.
   bool energy_limit_broken = false;  // E+ > E-.
-  double newton = 0.0, poisson = 0.0, energetic = 0.0, tangential = 0.0;
-  double energetic_excess = 0.0;  // energetic - 1, free of cancellation
+  double newton = 0.0, poisson = 0.0, energetic = 0.0;
+  double tangential = 0.0;        // f1/tau1
+  double energetic_excess = 0.0;  // energetic - 1, free of cancellation; > 0 exactly if the sharp limit is broken
   double u1 = 0.0, v1 = 0.0;
-  double tau_compression = 0.0, tau1 = 0.0, f1 = 0.0;
+  double tau_compression = 0.0, tau1 = 0.0;
+  double f_compression = 0.0, f1 = 0.0;
   double work_normal_compression = 0.0, work_normal_restitution = 0.0;
   double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
-  double energy_change = 0.0;  // p . (v- + v+)/2, never through an inverse of W
-  std::array<Instant, 8> events;
-  int event_count = 0;
+  double energy_change = 0.0;              // p . (v- + v+)/2, never through an inverse of W
+  std::array<Instant, kMaxEvents> events;  // In order of tau; u is linear between them, and so are v and f.
+  int event_count = 0;                     // 0 where separating.
 };
 
 Impact Solve(const Problem& problem);
+
+// The contact at normal impulse tau in [0, tau1] of `impact`, which must be that of `problem`; kind is unspecified.
+// Accuracy: 4 ulp of the larger value at the two events around it. Separating: nothing has changed.
+Instant At(const Problem& problem, const Impact& impact, double tau);
 
 }  // namespace ricochet::planar
 
