@@ -3,17 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "core/numerics/products.h"
+
 namespace ricochet::laws {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-
-// a b - c d to 1.5 ulp (Jeannerod, Louvet and Muller, 2013).
-double DifferenceOfProducts(double a, double b, double c, double d) {
-  const double cd = c * d;
-  const double error = std::fma(-c, d, cd);
-  return std::fma(a, b, -cd) + error;
-}
 
 double Determinant(const PlanarImpactInput& in) {
   const double det = DifferenceOfProducts(in.wtt, in.wnn, in.wtn, in.wtn);
