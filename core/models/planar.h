@@ -27,8 +27,12 @@
 // then taken at their word, Wtt as Wtn^2/Wnn and u as v Wtn/Wnn, so that u and v vanish together whatever the rounding;
 // the contact sticks if Wnn <= mu_s |Wtn|. Wtt = 0 (then Wtn = 0): f' = 0 and u = u0.
 //
-// Accuracy: signs that decide the path are exact. Let c = max(1, Wnn/v', |Wtn|/|u'|, |u0 Wtn/(v0 Wtt)|... ) be the
-// conditioning stated in tests/core/models/planar_arb_test.cc.
+// Accuracy: each output within 1 ulp of the exact value of the exact inputs over the whole double range, or 2^-94 c of
+// its scale where that is more: max(|u0|, |v0|) for velocities, tau1 for normal impulses, tau1 times the largest |f'|
+// for tangential ones, the largest work for works and energy. The sign of every slope is exact. v where slip stops is
+// right to 2^-100 of v0; the stick that follows divides by v' = det W/Wtt, hence
+// c = (Wtt Wnn/det W) (1 + mu |Wtn|/Wnn), at rank one 1. Slip that stops closer than that to where a phase ends may be
+// given to either phase. A gain of energy, or an excess over the sharp limit, below 2^-96 of its terms counts as 0.
 // An exact value above the largest double comes out infinite.
 // Bad input: none gets here (core/scene/validate.h). That includes a rank-one W whose range (u0, v0) is not in.
 
@@ -90,7 +94,7 @@ struct Impact {
 Impact Solve(const Problem& problem);
 
 // The contact at normal impulse tau in [0, tau1] of `impact`, which must be that of `problem`; kind is unspecified.
-// Accuracy: 4 ulp of the larger value at the two events around it. Separating: nothing has changed.
+// Accuracy: 4 ulp of the largest value at the events, and what an ulp of tau makes. Separating: nothing has changed.
 Instant At(const Problem& problem, const Impact& impact, double tau);
 
 }  // namespace ricochet::planar

@@ -291,11 +291,12 @@ HWY_INLINE void WriteEvents(const Problem& problem, const Solution<N>& x, bool s
   };
   const bool locked = impact.regime == Regime::kLocked;
   add({.kind = EventKind::kStart, .tau = 0.0, .f = 0.0, .u = problem.u0, .v = problem.v0});
-  const bool stops_first = x.stops_in_compression && slips_first;
-  if (stops_first || locked) add(MakeInstant(EventKind::kSlipStops, x.stop));
+  const bool stops_at_rest = x.stops_in_restitution && !IsPositive(x.stop.v);
+  const bool stops_before = (x.stops_in_compression && slips_first) || stops_at_rest || locked;
+  if (stops_before) add(MakeInstant(EventKind::kSlipStops, x.stop));
   add(MakeInstant(EventKind::kCompressionEnds, x.rest));
   if (locked) return;
-  if (x.stops_in_restitution) add(MakeInstant(EventKind::kSlipStops, x.stop));
+  if (x.stops_in_restitution && !stops_at_rest) add(MakeInstant(EventKind::kSlipStops, x.stop));
   add(MakeInstant(EventKind::kRestitutionEnds, x.end));
 }
 

@@ -10,25 +10,11 @@
 
 #include "core/models/pendulum.h"
 #include "hwy/targets.h"
+#include "tests/support/only_target.h"
 #include "tests/support/pendulum_scenes.h"
 
 namespace ricochet::pendulum {
 namespace {
-
-// Restricts dispatch to one target; to all again when it goes.
-class OnlyTarget {
- public:
-  explicit OnlyTarget(int64_t target) { Set(target); }
-  OnlyTarget(const OnlyTarget&) = delete;
-  OnlyTarget& operator=(const OnlyTarget&) = delete;
-  ~OnlyTarget() { Set(0); }
-
- private:
-  static void Set(int64_t targets) {
-    hwy::SetSupportedTargetsForTest(targets);
-    hwy::GetChosenTarget().DeInit();  // The next dispatch chooses anew.
-  }
-};
 
 std::vector<Problem> MixedProblems() {
   SceneSource source(1);

@@ -2,44 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "core/models/pendulum.h"
 #include "tests/support/arb.h"
-#include "tests/support/paths.h"
+#include "tests/support/vectors.h"
 
 namespace ricochet::pendulum {
 namespace {
 
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> Split(const std::string& line) {
-  std::vector<std::string> cells;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
-  return cells;
-}
-
-std::vector<Row> ReadRows() {
-  std::ifstream file(TestDataPath("pendulum.csv"));
-  std::string line;
-  std::getline(file, line);
-  const std::vector<std::string> names = Split(line);
-  std::vector<Row> rows;
-  while (std::getline(file, line)) {
-    const std::vector<std::string> cells = Split(line);
-    Row& row = rows.emplace_back();
-    for (size_t i = 0; i < names.size(); ++i) row[names[i]] = cells.at(i);
-  }
-  return rows;
-}
-
-double Number(const Row& row, const char* column) { return std::strtod(row.at(column).c_str(), nullptr); }
+using Row = VectorRow;
 
 Problem ProblemOf(const Row& row) {
   const std::map<std::string, Law> laws = {
@@ -93,7 +67,7 @@ Ball Allowance(const Ball& expected, const Problem& problem, const Impact& impac
 }
 
 TEST(PendulumVectorsTest, EveryColumnOfEveryRowIsWithinOneUlp) {
-  const std::vector<Row> rows = ReadRows();
+  const std::vector<Row> rows = ReadVectors("pendulum.csv");
   ASSERT_EQ(rows.size(), 240U);
   double worst = 0.0;
   for (size_t i = 0; i < rows.size(); ++i) {
@@ -112,7 +86,7 @@ TEST(PendulumVectorsTest, EveryColumnOfEveryRowIsWithinOneUlp) {
 }
 
 TEST(PendulumVectorsTest, OneUlpOfErrorWouldBeSeen) {
-  const Row row = ReadRows()[1];
+  const Row row = ReadVectors("pendulum.csv")[1];
   const double tau0 = Solve(ProblemOf(row))[Output::kNormalImpulseCompression];
   const Ball expected = Ball::Parse(row.at("tau0"), 200);
   EXPECT_GT(ErrorInUlps(std::nextafter(std::nextafter(tau0, 2.0), 2.0), expected), 1.0);

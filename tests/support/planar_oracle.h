@@ -1,0 +1,58 @@
+// A planar impact by simulating its events in ball arithmetic: the oracle of core/models/planar.
+//
+// A state (tau, f, u, v) is advanced to the next of: slip stops, v vanishes, restitution ends; whichever comes first, by
+// the naive formulas. Precision grows with the spread of the inputs' exponents, so that no difference of these inputs
+// can be so small as a ball without being 0: a ball around 0 is 0, two that overlap are equal. Shares no code with core/.
+
+#ifndef RICOCHET_TESTS_SUPPORT_PLANAR_ORACLE_H_
+#define RICOCHET_TESTS_SUPPORT_PLANAR_ORACLE_H_
+
+#include <string>
+#include <vector>
+
+#include "core/models/planar.h"
+#include "tests/support/arb.h"
+
+namespace ricochet::planar {
+
+struct ExactInstant {
+  EventKind kind = EventKind::kUnspecified;
+  Ball tau, f, u, v;
+};
+
+struct ExactImpact {
+  Regime regime = Regime::kUnspecified;
+  int w_rank = 0;
+  std::vector<ExactInstant> events;
+  Ball tau_compression, f_compression;
+  Ball work_normal_compression, work_normal_restitution;
+  Ball work_tangential_compression, work_tangential_restitution;
+  Ball newton, poisson, energetic;
+  Ball energy_change;      // Sum of the works.
+  Ball steepest_friction;  // Largest |df/dtau| of the path.
+  Ball conditioning;       // c of ErrorsOf.
+
+  const ExactInstant& end() const { return events.back(); }
+};
+
+// The problem must not be separating.
+ExactImpact SolveExactly(const Problem& problem);
+
+// The largest error over the outputs of each kind in ulp of the exact value, beyond 2^-94 c of its scale, with
+// c = (Wtt Wnn/det W) (1 + mu |Wtn|/Wnn), at rank one 1. Scales: max(|u0|, |v0|) for velocities, tau1 for normal
+// impulses, the largest |f'| tau1 for tangential ones, the largest work for works, 1 for coefficients of restitution, the
+// largest |f'| for the tangential one; the value itself where that is larger.
+struct Errors {
+  double velocity = 0.0;
+  double impulse = 0.0;
+  double work = 0.0;
+  double coefficient = 0.0;
+};
+Errors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact);
+
+// A problem as hexadecimal floats, to be pasted into a test.
+std::string ToString(const Problem& problem);
+
+}  // namespace ricochet::planar
+
+#endif  // RICOCHET_TESTS_SUPPORT_PLANAR_ORACLE_H_

@@ -1,0 +1,226 @@
+// Random planar impacts: of everyday size, near rank one, close to every threshold of the path, over all doubles.
+
+#ifndef RICOCHET_TESTS_SUPPORT_PLANAR_SCENES_H_
+#define RICOCHET_TESTS_SUPPORT_PLANAR_SCENES_H_
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "core/models/planar.h"
+
+namespace ricochet::planar {
+
+class SceneSource {
+ public:
+  explicit SceneSource(uint64_t seed) : random_(seed) {}
+
+  // Any of those below that have everyday exponents.
+  Problem Any() {
+    switch (Below(10)) {
+      case 0:
+        return NearRankOne();
+      case 1:
+        return RankOne();
+      case 2:
+        return NearStick();
+      case 3:
+        return NearJam();
+      case 4:
+        return NearStopAtRest();
+      case 5:
+        return NearStopAtEnd();
+      case 6:
+        return SmallIntegers();
+      case 7:
+        return NoSlip();
+      default:
+        return Everyday();
+    }
+  }
+
+  Problem Everyday() {
+    const double t = Uniform(0.1, 3.0);
+    const double n = Uniform(0.1, 3.0);
+    Problem problem = {.wtt = t * t,
+                       .wtn = t * n * Uniform(-1.0, 1.0),
+                       .wnn = n * n,
+                       .u0 = Uniform(-3.0, 3.0),
+                       .v0 = -Uniform(0.1, 3.0),
+                       .mu = Uniform(0.0, 1.5)};
+    if (Below(4) == 0) problem.mu *= 10.0;
+    SetRest(problem);
+    return problem;
+  }
+
+  // det W from 1e-3 down to some 8 eps of Wtt Wnn, and below.
+  Problem NearRankOne() {
+    Problem problem = Everyday();
+    const double cosine = std::sqrt(1.0 - std::exp2(-Uniform(10.0, 54.0)));
+    problem.wtn = Sign() * cosine * std::sqrt(problem.wtt * problem.wnn);
+    if (Below(2) == 0) problem.u0 = problem.v0 * problem.wtn / problem.wnn * (1.0 + Uniform(-0.1, 0.1));
+    return Admitted(problem);
+  }
+
+  // The W of a pendulum, rounded.
+  Problem RankOne() {
+    const double inertia = Uniform(0.1, 10.0);
+    const double a = Uniform(0.1, 10.0);
+    const double b = Uniform(-10.0, 10.0);
+    Problem problem = Everyday();
+    problem.wtt = b * b / inertia;
+    problem.wtn = a * b / inertia;
+    problem.wnn = a * a / inertia;
+    return Admitted(problem);
+  }
+
+  // mu Wtt within a few ulp of |Wtn|.
+  Problem NearStick() {
+    Problem problem = Below(3) == 0 ? NearRankOne() : Everyday();
+    if (problem.wtn == 0.0) return problem;
+    problem.mu = Steps(std::fabs(problem.wtn) / problem.wtt, Near(3));
+    problem.mu_static = Below(2) == 0 ? problem.mu : Steps(problem.mu, static_cast<int64_t>(Below(3)));
+    return Admitted(problem);
+  }
+
+  // mu |Wtn| near Wnn, on the side where v falls at first, or all but does.
+  Problem NearJam() {
+    Problem problem = Everyday();
+    if (problem.wtn == 0.0) return problem;
+    problem.mu = problem.wnn / std::fabs(problem.wtn) * (1.0 + Uniform(-1.0, 1.0) * std::exp2(-Uniform(0.0, 54.0)));
+    problem.mu_static = problem.mu;
+    problem.u0 = std::copysign(problem.u0, problem.wtn);
+    return problem;
+  }
+
+  // Slip stops within a few ulp of where compression ends.
+  Problem NearStopAtRest() {
+    Problem problem = Everyday();
+    const double sign = Sign();
+    const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
+    const double v_slope = problem.wnn - sign * problem.mu * problem.wtn;
+    if (u_slope < 0.0 && v_slope > 0.0) problem.u0 = sign * Steps(problem.v0 * u_slope / v_slope, Near(3));
+    return problem;
+  }
+
+  // Slip stops near where restitution ends.
+  Problem NearStopAtEnd() {
+    Problem problem = Everyday();
+    const double sign = Sign();
+    const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
+    const double v_slope = problem.wnn - sign * problem.mu * problem.wtn;
+    if (u_slope < 0.0 && v_slope > 0.0) {
+      // On one piece the three laws agree.
+      problem.u0 = sign * Steps(problem.v0 * u_slope / v_slope * (1.0 + problem.coefficient), Near(3));
+    }
+    return problem;
+  }
+
+  // Numbers of a few bits, so that events coincide exactly.
+  Problem SmallIntegers() {
+    Problem problem = {.wtt = Integer(1, 6),
+                       .wtn = Integer(-6, 6),
+                       .wnn = Integer(1, 6),
+                       .u0 = Integer(-4, 4),
+                       .v0 = -Integer(1, 4),
+                       .mu = Integer(0, 8) / 4.0};
+    problem.mu_static = problem.mu + (Below(3) == 0 ? Integer(0, 4) / 4.0 : 0.0);
+    problem.law = static_cast<Law>(Below(3));
+    problem.coefficient = Integer(0, 4) / 4.0;
+    return Admitted(problem);
+  }
+
+  Problem NoSlip() {
+    Problem problem = Below(4) == 0 ? NearStick() : Everyday();
+    problem.u0 = 0.0;
+    return Admitted(problem);
+  }
+
+  // Every exponent is as likely as any other.
+  Problem OverAllDoubles() {
+    Problem problem = {.u0 = Sign() * Bits(), .v0 = -Positive(), .mu = Bits()};
+    problem.mu_static = Below(4) == 0 ? std::max(problem.mu, Bits()) : problem.mu;
+    const double t = Uniform(0.5, 1.0);
+    const double n = Uniform(0.5, 1.0);
+    const int t_exponent = static_cast<int>(Below(1000)) - 500;
+    const int n_exponent = static_cast<int>(Below(1000)) - 500;
+    problem.wtt = std::ldexp(t * t, 2 * t_exponent);
+    problem.wnn = std::ldexp(n * n, 2 * n_exponent);
+    problem.wtn = Sign() * std::ldexp(t * n * (Below(4) == 0 ? 1.0 : Uniform(0.0, 1.0)), t_exponent + n_exponent);
+    // A friction that matters, half of the time.
+    if (Below(2) == 0) problem.mu = std::ldexp(Uniform(0.1, 3.0), n_exponent - t_exponent);
+    problem.mu_static = std::max(problem.mu, problem.mu_static);
+    SetCoefficient(problem);
+    problem = Admitted(problem);
+    return std::isfinite(problem.u0) ? problem : OverAllDoubles();
+  }
+
+  // Coefficients that every law allows, the ends now and then.
+  double UnitCoefficient() {
+    const uint64_t kind = Below(8);
+    return kind == 0 ? 0.0 : kind == 1 ? 1.0 : Uniform(0.0, 1.0);
+  }
+
+  double Uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  uint64_t Below(uint64_t bound) { return random_() % bound; }
+  double Sign() { return Below(2) == 0 ? 1.0 : -1.0; }
+
+  // Within 4 eps of rank one: then (u0, v0) is in the range of W.
+  static bool IsRankOne(const Problem& problem) {
+    int t = 0;
+    int n = 0;
+    int c = 0;
+    const double tt = std::frexp(problem.wtt, &t);
+    const double nn = std::frexp(problem.wnn, &n);
+    const double tn = std::frexp(problem.wtn, &c);
+    if (problem.wtn == 0.0 || t + n - 2 * c > 60) return problem.wtt == 0.0;
+    // tt nn - tn^2 as a difference of products with one rounding each.
+    const double square = std::ldexp(tt, t + n - 2 * c) * nn;
+    const double low = std::fma(std::ldexp(tt, t + n - 2 * c), nn, -square);
+    const double other = tn * tn;
+    const double det = (square - other) + (low - std::fma(tn, tn, -other));
+    return det <= 0x1p-50 * square;
+  }
+
+ private:
+  static double Steps(double x, int64_t steps) {
+    return std::fabs(std::bit_cast<double>(std::bit_cast<int64_t>(x) + (x == 0.0 ? std::abs(steps) : steps)));
+  }
+  int64_t Near(int64_t steps) { return static_cast<int64_t>(Below(static_cast<uint64_t>(2 * steps + 1))) - steps; }
+  double Bits() { return std::bit_cast<double>(Below(uint64_t{0x7ff} << 52)); }
+  double Positive() {
+    const double x = Bits();
+    return x == 0.0 ? 1.0 : x;
+  }
+  double Integer(int low, int high) { return low + static_cast<double>(Below(static_cast<uint64_t>(high - low + 1))); }
+
+  void SetCoefficient(Problem& problem) {
+    problem.law = static_cast<Law>(Below(3));
+    problem.coefficient = UnitCoefficient();
+    if (problem.law != Law::kEnergetic && Below(8) == 0) problem.coefficient = Uniform(1.0, 3.0);
+  }
+  void SetRest(Problem& problem) {
+    SetCoefficient(problem);
+    problem.mu_static = Below(4) == 0 ? problem.mu * Uniform(1.0, 1.5) : problem.mu;
+    if (Below(64) == 0) problem.mu = 0.0;
+    if (Below(64) == 0) problem.wtn = 0.0;
+    if (Below(64) == 0) problem.u0 *= 0x1p-40;
+  }
+
+  // What is not positive definite is made rank one; velocities outside its range are put there.
+  static Problem Admitted(Problem problem) {
+    if (!IsRankOne(problem)) return problem;
+    if (problem.wtn == 0.0) problem.wtn = problem.wtt = 0.0;
+    problem.wtt = problem.wtn * (problem.wtn / problem.wnn);
+    problem.u0 = problem.v0 * (problem.wtn / problem.wnn);
+    return problem;
+  }
+
+  std::mt19937_64 random_;
+};
+
+}  // namespace ricochet::planar
+
+#endif  // RICOCHET_TESTS_SUPPORT_PLANAR_SCENES_H_
