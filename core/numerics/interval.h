@@ -1,0 +1,154 @@
+// Interval: the reals between two doubles, and operations whose result contains every result of the operands' members.
+//
+// Each end is the one that rounding down or up would give: the nearest double, or its neighbour where the sign of the
+// rounding error, which is itself exact (TwoSum, fma), says that the nearest lies on the wrong side. Exact results get
+// no wider, so intervals of one member stay so as long as arithmetic is exact. Within underflow the neighbour is taken
+// unasked. The rounding mode is never touched, unlike in Boost.Interval, which needs -frounding-math for that.
+//
+// Members are finite; an infinite end says that there is no bound. Operations on an empty interval (lower > upper) are
+// not defined, but for IsEmpty and Intersect.
+
+#ifndef RICOCHET_CORE_NUMERICS_INTERVAL_H_
+#define RICOCHET_CORE_NUMERICS_INTERVAL_H_
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace ricochet {
+
+namespace rounding {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+// Above this a product's, quotient's or root's rounding error is a double.
+inline constexpr double kErrorIsExact = 0x1p-960;
+
+inline double Down(double value, double error) { return error >= 0.0 ? value : std::nextafter(value, -kInfinity); }
+inline double Up(double value, double error) { return error <= 0.0 ? value : std::nextafter(value, kInfinity); }
+
+struct Rounded {
+  double value;
+  double error;  // Has the sign of (exact - value); NaN where that is not known.
+};
+
+inline Rounded Add(double a, double b) {
+  const double sum = a + b;
+  const double b_part = sum - a;
+  return {sum, (a - (sum - b_part)) + (b - b_part)};
+}
+
+inline Rounded Multiply(double a, double b) {
+  // An infinite end is a bound, not a member: 0 times it is 0.
+  if (a == 0.0 || b == 0.0) return {0.0, 0.0};
+  const double product = a * b;
+  const bool known = std::fabs(product) >= kErrorIsExact;
+  return {product, known ? std::fma(a, b, -product) : std::numeric_limits<double>::quiet_NaN()};
+}
+
+// b is not 0.
+inline Rounded Divide(double a, double b) {
+  if (a == 0.0 || std::isinf(b)) return {0.0, 0.0};
+  const double quotient = a / b;
+  const bool known = std::fabs(a) >= kErrorIsExact && std::fabs(quotient) >= kErrorIsExact;
+  const double rest = std::fma(-quotient, b, a);
+  return {quotient, known ? (b > 0.0 ? rest : -rest) : std::numeric_limits<double>::quiet_NaN()};
+}
+
+inline Rounded SquareRoot(double x) {
+  if (x <= 0.0) return {0.0, 0.0};
+  const double root = std::sqrt(x);
+  return {root, x >= kErrorIsExact ? std::fma(-root, root, x) : std::numeric_limits<double>::quiet_NaN()};
+}
+
+}  // namespace rounding
+
+struct Interval {
+  double lower = 0.0;
+  double upper = 0.0;
+
+  constexpr Interval() = default;
+  // A number is the interval that holds it alone.
+  constexpr Interval(double value) : lower(value), upper(value) {}  // NOLINT(google-explicit-constructor)
+  constexpr Interval(double low, double high) : lower(low), upper(high) {}
+
+  friend bool operator==(const Interval&, const Interval&) = default;
+};
+
+inline bool IsEmpty(const Interval& x) { return !(x.lower <= x.upper); }
+inline bool Contains(const Interval& x, double value) { return x.lower <= value && value <= x.upper; }
+inline bool IsPoint(const Interval& x) { return x.lower == x.upper; }
+
+// Within the interval; finite where an end is.
+inline double Midpoint(const Interval& x) { return std::clamp(0.5 * x.lower + 0.5 * x.upper, x.lower, x.upper); }
+
+inline Interval Intersect(const Interval& x, const Interval& y) {
+  return {std::max(x.lower, y.lower), std::min(x.upper, y.upper)};
+}
+
+// The smallest interval that contains both.
+inline Interval Hull(const Interval& x, const Interval& y) {
+  return {std::min(x.lower, y.lower), std::max(x.upper, y.upper)};
+}
+
+inline Interval AtLeast(const Interval& x, double bound) { return {std::max(x.lower, bound), x.upper}; }
+inline Interval AtMost(const Interval& x, double bound) { return {x.lower, std::min(x.upper, bound)}; }
+
+inline Interval operator-(const Interval& x) { return {-x.upper, -x.lower}; }
+
+inline Interval operator+(const Interval& x, const Interval& y) {
+  const rounding::Rounded low = rounding::Add(x.lower, y.lower);
+  const rounding::Rounded high = rounding::Add(x.upper, y.upper);
+  return {rounding::Down(low.value, low.error), rounding::Up(high.value, high.error)};
+}
+
+inline Interval operator-(const Interval& x, const Interval& y) { return x + -y; }
+
+inline Interval operator*(const Interval& x, const Interval& y) {
+  const rounding::Rounded products[] = {rounding::Multiply(x.lower, y.lower), rounding::Multiply(x.lower, y.upper),
+                                        rounding::Multiply(x.upper, y.lower), rounding::Multiply(x.upper, y.upper)};
+  Interval hull(rounding::kInfinity, -rounding::kInfinity);
+  for (const rounding::Rounded& product : products) {
+    hull.lower = std::min(hull.lower, rounding::Down(product.value, product.error));
+    hull.upper = std::max(hull.upper, rounding::Up(product.value, product.error));
+  }
+  return hull;
+}
+
+// By the members of y other than 0; unbounded where they come near it.
+inline Interval operator/(const Interval& x, const Interval& y) {
+  if (y.lower < 0.0 && y.upper > 0.0) return {-rounding::kInfinity, rounding::kInfinity};
+  if (y.upper <= 0.0 && y.lower < 0.0) return -x / -y;
+  if (y.upper == 0.0) return {-rounding::kInfinity, rounding::kInfinity};
+  const auto end = [](double a, double b) {
+    return b == 0.0 ? rounding::Rounded{a == 0.0 ? 0.0 : std::copysign(rounding::kInfinity, a), 0.0}
+                    : rounding::Divide(a, b);
+  };
+  const rounding::Rounded low = end(x.lower, x.lower < 0.0 ? y.lower : y.upper);
+  const rounding::Rounded high = end(x.upper, x.upper < 0.0 ? y.upper : y.lower);
+  return {rounding::Down(low.value, low.error), rounding::Up(high.value, high.error)};
+}
+
+inline Interval Square(const Interval& x) {
+  const double far = std::max(std::fabs(x.lower), std::fabs(x.upper));
+  const double near = Contains(x, 0.0) ? 0.0 : std::min(std::fabs(x.lower), std::fabs(x.upper));
+  const rounding::Rounded low = rounding::Multiply(near, near);
+  const rounding::Rounded high = rounding::Multiply(far, far);
+  return {rounding::Down(low.value, low.error), rounding::Up(high.value, high.error)};
+}
+
+// Of the members that are not negative.
+inline Interval Sqrt(const Interval& x) {
+  const rounding::Rounded low = rounding::SquareRoot(x.lower);
+  const rounding::Rounded high = rounding::SquareRoot(x.upper);
+  return {rounding::Down(low.value, low.error), rounding::Up(high.value, high.error)};
+}
+
+inline Interval Abs(const Interval& x) {
+  if (x.lower >= 0.0) return x;
+  if (x.upper <= 0.0) return -x;
+  return {0.0, std::max(-x.lower, x.upper)};
+}
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_NUMERICS_INTERVAL_H_
