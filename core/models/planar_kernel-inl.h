@@ -99,9 +99,10 @@ HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
                   .coefficient = N::Exactly(problem.coefficient),
                   .det = Zero<N>(),
                   .rank_one = false};
+  constexpr double kFourEps = 0x1p-50;
   const N square = in.wtt * in.wnn;
   in.det = square - in.wtn * in.wtn;
-  in.rank_one = !IsPositive(Abs(in.det) - N::Constant(0x1p-50) * square);
+  in.rank_one = !IsPositive(Abs(in.det) - N::Constant(kFourEps) * square);
   return in;
 }
 
@@ -138,7 +139,7 @@ HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
   return path;
 }
 
-// u = v Wtn/Wnn all along, which also replaces the given u0.
+// u = v Wtn/Wnn all along, in place of the given u0 too. Without friction to feel (Wtt = 0) there is one piece.
 template <typename N>
 HWY_INLINE Path<N> RankOnePath(Inputs<N>& in) {
   Path<N> path;
