@@ -24,8 +24,9 @@ using pendulum::Problem;
 
 constexpr int kRounds = 21;
 
-// The paper's formulas for a given energetic coefficient, as one would first write them.
-Impact PlainSolve(const Problem& p) {
+// The paper's formulas for a given energetic coefficient, as one would first write them. Not inlined: a caller that
+// uses one output must not spare the others.
+[[gnu::noinline]] Impact PlainSolve(const Problem& p) {
   Impact impact;
   const auto set = [&](Output output, double value) { impact.values[static_cast<size_t>(output)] = value; };
   const double b = std::fabs(p.b);
