@@ -5,8 +5,9 @@
 #include <cstdlib>
 #include <initializer_list>
 #include <limits>
-#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace ricochet::planar {
 namespace {
@@ -237,8 +238,8 @@ double Error(double computed, const Ball& exact, const Ball& allowance) {
 // The worst error of values of one scale.
 class WorstError {
  public:
-  WorstError(const Ball& scale, const Ball& conditioning)
-      : scale_(scale), allowance_(conditioning * Ball::PowerOfTwo(-94)) {}
+  WorstError(Ball scale, const Ball& conditioning)
+      : scale_(std::move(scale)), allowance_(conditioning * Ball::PowerOfTwo(-94)) {}
   void Add(double computed, const Ball& exact) {
     worst_ = std::max(worst_, Error(computed, exact, Larger(Abs(exact), scale_) * allowance_));
   }

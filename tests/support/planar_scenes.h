@@ -194,7 +194,9 @@ class SceneSource {
     const double x = Bits();
     return x == 0.0 ? 1.0 : x;
   }
-  double Integer(int low, int high) { return low + static_cast<double>(Below(static_cast<uint64_t>(high - low + 1))); }
+  double Integer(int64_t low, int64_t high) {
+    return static_cast<double>(low + static_cast<int64_t>(Below(static_cast<uint64_t>(high - low + 1))));
+  }
 
   void SetCoefficient(Problem& problem) {
     problem.law = static_cast<Law>(Below(3));
