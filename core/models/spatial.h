@@ -15,7 +15,6 @@
 
 #include <array>
 #include <cstdint>
-#include <vector>
 
 #include "core/models/pendulum.h"
 #include "core/outcome.h"
@@ -26,8 +25,8 @@ using Law = pendulum::Law;
 
 struct Problem {
   double w11 = 0.0, w12 = 0.0, w13 = 0.0, w22 = 0.0, w23 = 0.0, w33 = 0.0;  // 1/kg; n is the third direction
-  std::array<double, 2> u0 = {};  // m/s
-  double v0 = 0.0;                // m/s; >= 0 is separating
+  std::array<double, 2> u0 = {};                                            // m/s
+  double v0 = 0.0;                                                          // m/s; >= 0 is separating
   double mu = 0.0;
   double mu_static = 0.0;  // >= mu
   Law law = Law::kEnergetic;
@@ -35,10 +34,11 @@ struct Problem {
   double tolerance = 1e-10;  // Of each velocity after the impact over max(|u0|, |v0|); in [1e-12, 1e-4].
 };
 
+// The contact at an event, and what ends or begins there.
 struct Instant {
   EventKind kind = EventKind::kUnspecified;
-  double tau = 0.0;
-  std::array<double, 2> f = {};
+  double tau = 0.0;              // Normal impulse so far.
+  std::array<double, 2> f = {};  // Tangential impulse so far.
   std::array<double, 2> u = {};
   double v = 0.0;
 };
@@ -46,23 +46,25 @@ struct Instant {
 struct Impact {
   Regime regime = Regime::kUnspecified;
   int w_rank = 0;
-  bool sharp_limit_broken = false;
-  bool energy_limit_broken = false;
+  bool sharp_limit_broken = false;   // Implied energetic coefficient > 1, by more than the estimated error.
+  bool energy_limit_broken = false;  // E+ > E-, by more than the estimated error.
   double newton = 0.0, poisson = 0.0, energetic = 0.0;
-  double tangential = 0.0;  // |f1|/tau1
-  double energetic_excess = 0.0;
+  double tangential = 0.0;        // |f1|/tau1
+  double energetic_excess = 0.0;  // energetic - 1
   std::array<double, 2> u1 = {};
   double v1 = 0.0;
   double tau_compression = 0.0, tau1 = 0.0;
   std::array<double, 2> f1 = {};
   double work_normal_compression = 0.0, work_normal_restitution = 0.0;
   double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
-  double energy_change = 0.0;
-  double error_estimate = 0.0;  // Never below the true error of the velocities over max(|u0|, |v0|).
-  bool closed_form = false;     // Slip never turns: no integration was needed.
-  int64_t steps = 0;
-  int64_t right_hand_sides = 0;
-  std::vector<Instant> events;
+  double energy_change = 0.0;    // p . (v- + v+)/2, never through an inverse of W
+  double error_estimate = 0.0;   // Not below the true error of the velocities over max(|u0|, |v0|).
+  bool converged = true;         // False: a budget ran out, the state is that reached, the error estimate infinite.
+  bool closed_form = false;      // Slip never turns: no integration was needed.
+  int64_t steps = 0;             // Series expanded.
+  int64_t right_hand_sides = 0;  // Terms of them: what a Runge-Kutta method would call right-hand sides.
+  std::array<Instant, 4> events;
+  int event_count = 0;
 };
 
 Impact Solve(const Problem& problem);

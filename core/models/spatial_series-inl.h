@@ -1,0 +1,204 @@
+// Slip's Taylor series: one step of Keller's equations as power series in xi, d tau = s d xi.
+//
+// With u the tangential velocity, s = |u| and A = -mu Wtt, slip obeys du/dxi = A u + s wtn. That is homogeneous: the
+// series starts from u = (1, 0) in the frame of its own direction, with no sine and no angle, and
+//
+//   (k + 1) u_{k+1} = A u_k + s_k wtn,   (s s)_k = (x x)_k + (y y)_k
+//
+// All else is an integral of u or s: normal impulse int s, friction impulse -mu int u, its work -mu int s^2. A slip of
+// 1e-14 that turns round costs as much as one of 1. Sums and products only: the same bits on every machine.
+
+// Per-target include guard.
+#if defined(RICOCHET_CORE_MODELS_SPATIAL_SERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_SPATIAL_SERIES_INL_H_
+#undef RICOCHET_CORE_MODELS_SPATIAL_SERIES_INL_H_
+#else
+#define RICOCHET_CORE_MODELS_SPATIAL_SERIES_INL_H_
+#endif
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "hwy/highway.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::spatial::HWY_NAMESPACE {
+
+inline constexpr int kMinOrder = 9;
+inline constexpr int kMaxOrder = 32;
+
+namespace internal {
+
+template <typename T>
+constexpr auto MakeInverses() {
+  std::array<T, kMaxOrder + 2> inverses = {};
+  for (int k = 1; k < kMaxOrder + 2; ++k) inverses[static_cast<size_t>(k)] = T{1} / static_cast<T>(k);
+  return inverses;
+}
+template <typename T>
+inline constexpr auto kInverses = MakeInverses<T>();
+
+// x^(1/k) within 10 %, at most: a step size needs no more, and libm's pow has not the same bits everywhere. The bits of
+// a double are its logarithm, piecewise linear.
+inline double RoughRoot(double x, int k) {
+  constexpr auto kOne = std::bit_cast<int64_t>(1.0);
+  const double logarithm =
+      static_cast<double>(std::bit_cast<int64_t>(x) - kOne) * kInverses<double>[static_cast<size_t>(k)];
+  return 0.94 * std::bit_cast<double>(kOne + static_cast<int64_t>(logarithm));
+}
+
+template <typename T>
+T Power(T x, int k) {
+  T power{1};
+  for (; k > 0; k >>= 1) {
+    if (k & 1) power *= x;
+    x *= x;
+  }
+  return power;
+}
+
+}  // namespace internal
+
+// The contact seen from a direction e = (c, s) of slip: A and wtn by components along and across e.
+template <typename T>
+struct Frame {
+  T c, s;
+  T a11, a12, a22;
+  T w1, w2;
+
+  T Growth() const { return a11 + w1; }           // h: ds/dxi = h s
+  T Turn() const { return a12 + w2; }             // g: dphi/dxi = g
+  T TurnSlope() const { return a22 - a11 - w1; }  // dg/dphi
+};
+
+// Integrals over xi, for a slip that starts as 1, and the slip itself.
+template <typename T>
+struct SeriesValues {
+  T x_integral, y_integral;  // int u
+  T s_integral;              // int s
+  T square_integral;         // int s^2
+  T x, y;                    // u
+};
+
+template <typename T>
+class SlipSeries {
+ public:
+  void Expand(const Frame<T>& frame, int order);
+  SeriesValues<T> At(T xi) const;
+
+  // The largest xi at which neither of the last two terms exceeds `bound` in an integral of u or s, `square_bound` in
+  // that of s^2, which converges more slowly.
+  T Reach(T bound, T square_bound) const;
+  // What the integrals of u and s lack at xi, and that of s^2: a bound, for the sums have the terms that it is made of.
+  T Remainder(T xi) const {
+    return Tail([this](int k) { return Size(k); }, xi);
+  }
+  T SquareRemainder(T xi) const {
+    return Tail([this](int k) { return std::fabs(square_integral_[Index(k)]); }, xi);
+  }
+
+ private:
+  T Size(int k) const {
+    return std::fabs(x_integral_[Index(k)]) + std::fabs(y_integral_[Index(k)]) + std::fabs(s_integral_[Index(k)]);
+  }
+  // What follows the last term: no more than a multiple of it or of the one before, nor than three times a geometric
+  // series that goes on as the last four or eight terms do, from the largest of what the last three lead to. All of
+  // that, because a complex pair of singularities makes terms oscillate and some small by chance.
+  template <typename Sizes>
+  T Tail(const Sizes& sizes, T xi) const {
+    constexpr T kSmallest{1e-290};
+    constexpr T kLargestRatio{0.8};
+    const T last = sizes(order_ + 1) + kSmallest;
+    const T fourth_root = std::sqrt(std::sqrt(last / (sizes(order_ - 3) + kSmallest)));
+    const T eighth_root = std::sqrt(std::sqrt(std::sqrt(last / (sizes(order_ - 7) + kSmallest))));
+    const T slope = std::max(fourth_root, eighth_root);
+    const T ratio = std::min(slope * xi, kLargestRatio);
+    const T start = std::max(std::max(last, slope * sizes(order_)), slope * slope * sizes(order_ - 1));
+    const T geometric = T{3} * start * xi * ratio / (T{1} - ratio);
+    const T nearest = std::max(T{0.25} * sizes(order_), T{2} * last * xi);
+    return internal::Power(xi, order_) * std::max(geometric, nearest);
+  }
+  static size_t Index(int k) { return static_cast<size_t>(k); }
+
+  using Coefficients = std::array<T, kMaxOrder + 2>;
+  Frame<T> frame_;
+  int order_ = 0;
+  Coefficients x_, y_, s_;
+  Coefficients x_integral_, y_integral_, s_integral_, square_integral_;
+};
+
+template <typename T>
+HWY_INLINE void SlipSeries<T>::Expand(const Frame<T>& frame, int order) {
+  frame_ = frame;
+  order_ = order;
+  x_[0] = s_[0] = T{1};
+  y_[0] = T{0};
+  T square{1};
+  for (size_t k = 0;; ++k) {
+    const T inverse = internal::kInverses<T>[k + 1];
+    const T x = x_integral_[k + 1] = x_[k] * inverse;
+    const T y = y_integral_[k + 1] = y_[k] * inverse;
+    const T s = s_integral_[k + 1] = s_[k] * inverse;
+    square_integral_[k + 1] = square * inverse;
+    if (k == Index(order)) break;
+    x_[k + 1] = frame.a11 * x + frame.a12 * y + frame.w1 * s;
+    y_[k + 1] = frame.a12 * x + frame.a22 * y + frame.w2 * s;
+    // Half of the terms i + j = k + 1 but the two ends; the newest coefficients come last.
+    T u_terms{0};
+    T s_terms{0};
+    const size_t m = k + 1;
+    size_t i = m / 2;
+    if (m % 2 == 0) {
+      u_terms = T{0.5} * (x_[i] * x_[i] + y_[i] * y_[i]);
+      s_terms = T{0.5} * s_[i] * s_[i];
+      --i;
+    }
+    for (; i >= 1; --i) {
+      u_terms += x_[i] * x_[m - i] + y_[i] * y_[m - i];
+      s_terms += s_[i] * s_[m - i];
+    }
+    s_[m] = x_[m] + (u_terms - s_terms);
+    square = T{2} * (x_[m] + u_terms);
+  }
+}
+
+template <typename T>
+HWY_INLINE SeriesValues<T> SlipSeries<T>::At(T xi) const {
+  T x{0};
+  T y{0};
+  T s{0};
+  T square{0};
+  for (size_t k = Index(order_ + 1); k >= 1; --k) {
+    x = x * xi + x_integral_[k];
+    y = y * xi + y_integral_[k];
+    s = s * xi + s_integral_[k];
+    square = square * xi + square_integral_[k];
+  }
+  x *= xi;
+  y *= xi;
+  s *= xi;
+  return {.x_integral = x,
+          .y_integral = y,
+          .s_integral = s,
+          .square_integral = square * xi,
+          .x = T{1} + (frame_.a11 * x + frame_.a12 * y + frame_.w1 * s),
+          .y = frame_.a12 * x + frame_.a22 * y + frame_.w2 * s};
+}
+
+template <typename T>
+HWY_INLINE T SlipSeries<T>::Reach(T bound, T square_bound) const {
+  constexpr T kSmallest{1e-300};
+  const auto reach = [&](int k) {
+    const T size = std::max(Size(k) / bound, std::fabs(square_integral_[Index(k)]) / square_bound);
+    return internal::RoughRoot(static_cast<double>(T{1} / (size + kSmallest)), k);
+  };
+  return static_cast<T>(std::min(reach(order_), reach(order_ + 1)));
+}
+
+}  // namespace ricochet::spatial::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
