@@ -19,9 +19,11 @@ using Box = std::vector<Interval>;
 
 Range ToRange(const Interval& x) { return {x.lower, x.upper}; }
 
-// What `outer` is wider than `attained`, relative to the latter. A few ulp are rounding.
+// By how much `outer` is wider than `attained`, relative to the latter. A few ulp are rounding.
 double ExcessOf(const Range& outer, const Range& attained) {
   const double excess = std::max(attained.lower - outer.lower, 0.0) + std::max(outer.upper - attained.upper, 0.0);
+  if (outer.lower > outer.upper) return 0.0;
+  if (attained.lower > attained.upper) return kInfinity;
   const double rounding = 0x1p-40 * std::max(std::fabs(outer.lower), std::fabs(outer.upper));
   if (std::isinf(outer.lower) || std::isinf(outer.upper)) return kInfinity;
   return excess <= rounding ? 0.0 : excess / (attained.upper - attained.lower);
@@ -31,6 +33,13 @@ double ExcessOf(const CoefficientBounds& outer, const CoefficientBounds& attaine
   return std::max({ExcessOf(outer.newton, attained.newton), ExcessOf(outer.poisson, attained.poisson),
                    ExcessOf(outer.tangential, attained.tangential),
                    ExcessOf(outer.normal_total_n_s, attained.normal_total_n_s)});
+}
+
+// Leaves out what no valid scene has: static friction below kinetic.
+void KeepValidFriction(Interval& mu, std::optional<Interval>& mu_static) {
+  if (!mu_static) return;
+  mu = AtMost(mu, mu_static->upper);
+  mu_static = AtLeast(*mu_static, mu.lower);
 }
 
 // ---- Branch and bound ----
@@ -277,7 +286,7 @@ Pendulums MakePendulums(const PendulumBox& box) {
                    .arm = Abs(box.b),
                    .speed = AtLeast(-box.omega_minus, 0.0),
                    .mu = box.mu,
-                   .mu_static = AtLeast(box.mu_static.value_or(box.mu), box.mu.lower)};
+                   .mu_static = box.mu_static.value_or(box.mu)};
   const Interval hold = all.mu_static * all.arm - all.a;
   all.may_slip = hold.lower < 0.0;
   all.may_lock = hold.upper >= 0.0;
@@ -295,9 +304,11 @@ Slipping MostSlip(const Pendulums& all) {
   const Interval free = slope.lower > 0.0 ? Interval(1.0) / Interval(slope.lower) : Interval(kInfinity);
   const double mu = std::min(all.mu.upper, free.upper);
   const double held = std::max(all.mu_static.lower, mu);
-  const Interval most = mu * Interval(all.arm.upper) / Interval(all.a.lower);
+  Interval most = mu * Interval(all.arm.upper) / Interval(all.a.lower);
   if (!all.may_lock) return {most, mu};
-  return {AtMost(most, held > 0.0 ? std::min((Interval(mu) / Interval(held)).upper, 1.0) : 0.0), mu};
+  const double cap = held > 0.0 ? std::min((Interval(mu) / Interval(held)).upper, 1.0) : 0.0;
+  if (most.upper > cap) most = cap;
+  return {most, mu};
 }
 
 // An upper bound of J |w-| (1/(a + q) + 1/sqrt((a - q)(a + q))), convex in q.
@@ -402,8 +413,15 @@ std::vector<pendulum::Problem> CornersOf(const PendulumBox& box) {
 
 }  // namespace
 
-Enclosure Enclose(const PendulumBox& box) {
+Enclosure Enclose(const PendulumBox& whole) {
   Enclosure enclosure;
+  PendulumBox box = whole;
+  KeepValidFriction(box.mu, box.mu_static);
+  if (IsEmpty(box.mu)) {
+    const Range none = ToRange(kNothing);
+    enclosure.outer = enclosure.attained = {none, none, none, none, none};
+    return enclosure;
+  }
   enclosure.outer = OuterBounds(box);
   const std::vector<pendulum::Problem> corners = CornersOf(box);
   enclosure.attained = pendulum::SolveBounds(corners.front()).sharp;
@@ -419,7 +437,9 @@ Enclosure Enclose(absl::Span<const Interval> ranges, ToPlanar to_planar, const E
   return BranchAndBound(ranges, to_planar, options).Run();
 }
 
-Enclosure Enclose(const PlanarBox& box, const EnclosureOptions& options) {
+Enclosure Enclose(const PlanarBox& whole, const EnclosureOptions& options) {
+  PlanarBox box = whole;
+  KeepValidFriction(box.mu, box.mu_static);
   std::vector<Interval> ranges = {box.wtt, box.wtn, box.wnn, box.u0, box.v0, box.mu};
   if (box.mu_static) ranges.push_back(*box.mu_static);
   const auto to_planar = [](absl::Span<const Interval> x) {

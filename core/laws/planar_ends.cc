@@ -98,12 +98,14 @@ class OneWay {
 
   // Wtn drives slip on, and the contact in: q >= 0.
   void AddDriving(const Interval& q) {
+    if (wtt_.upper == 0.0) return AddSliding(wnn_);
     const Interval determinant = wtt_ * wnn_ - Square(q);
     const Interval full = RankTolerance();
     if (determinant.upper <= full.lower && wtt_.lower > 0.0) return;
     const Interval first = wnn_ - mu_ * q;
     const Interval braking = mu_ * wtt_ - q;
     const Interval stuck = StuckSlope(q);
+    if (IsEmpty(stuck)) return;
     // A scene with B <= 0 has A1 >= det W/Wtt.
     if (braking.lower <= 0.0) AddSliding(AtLeast(first, stuck.lower));
     if (braking.upper > 0.0)
@@ -118,6 +120,7 @@ class OneWay {
 
   // Wtn brakes slip: q = -r <= 0.
   void AddOpposing(const Interval& r) {
+    if (wtt_.upper == 0.0) return;
     const Interval determinant = wtt_ * wnn_ - Square(r);
     const Interval tolerance = RankTolerance();
     if (determinant.lower <= tolerance.upper && determinant.upper >= -tolerance.upper) AddRankOne(r);
@@ -125,13 +128,14 @@ class OneWay {
     const Interval first = wnn_ + mu_ * r;
     const Interval braking = mu_ * wtt_ + r;
     const Interval stuck = StuckSlope(r);
+    if (IsEmpty(stuck)) return;
     const Interval hold = mu_static_ * wtt_ - r;
     if (braking.lower <= 0.0) AddSliding(first);
     if (hold.upper >= 0.0) AddStop({-r, first, braking, stuck, StuckRatio(-r, first, braking), true}, slip_);
     if (hold.lower < 0.0) {
       // Where slip reverses, mu r < r^2/Wtt.
       const Interval second = AtLeast(wnn_ - mu_ * r, stuck.lower);
-      AddStop({-r, first, braking, second, ReversedRatio(r), false}, slip_);
+      if (!IsEmpty(second)) AddStop({-r, first, braking, second, ReversedRatio(r), false}, slip_);
     }
   }
 
@@ -309,6 +313,7 @@ class OneWay {
 
 PlanarEnds EncloseEnds(const PlanarBox& box) {
   PlanarEnds ends;
+  if (box.mu_static && box.mu_static->upper < box.mu.lower) return ends;
   if (box.v0.upper >= 0.0) ends.normal_dead = ends.normal_elastic = 0.0;
   if (box.v0.lower >= 0.0) return ends;
   for (const bool backwards : {false, true}) {
