@@ -28,7 +28,7 @@ HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
 inline constexpr int kMinOrder = 9;
-inline constexpr int kMaxOrder = 32;
+inline constexpr int kMaxOrder = 26;
 
 namespace internal {
 
@@ -86,6 +86,7 @@ struct SeriesValues {
 template <typename T>
 class SlipSeries {
  public:
+  // `order` is one of those for which Expand has code: 9, 11, 14, 17, 20; kMaxOrder stands for any other.
   void Expand(const Frame<T>& frame, int order);
   SeriesValues<T> At(T xi) const;
 
@@ -111,9 +112,14 @@ class SlipSeries {
   T Tail(const Sizes& sizes, T xi) const {
     constexpr T kSmallest{1e-290};
     constexpr T kLargestRatio{0.8};
+    constexpr double kRoughness = 1.1;
     const T last = sizes(order_ + 1) + kSmallest;
-    const T fourth_root = std::sqrt(std::sqrt(last / (sizes(order_ - 3) + kSmallest)));
-    const T eighth_root = std::sqrt(std::sqrt(std::sqrt(last / (sizes(order_ - 7) + kSmallest))));
+    const auto root = [&](int k, int before) {
+      const double fall = static_cast<double>(last / (sizes(before) + kSmallest));
+      return static_cast<T>(kRoughness * internal::RoughRoot(fall, k));
+    };
+    const T fourth_root = root(4, order_ - 3);
+    const T eighth_root = root(8, order_ - 7);
     const T slope = std::max(fourth_root, eighth_root);
     const T ratio = std::min(slope * xi, kLargestRatio);
     const T start = std::max(std::max(last, slope * sizes(order_)), slope * slope * sizes(order_ - 1));
@@ -124,44 +130,76 @@ class SlipSeries {
   static size_t Index(int k) { return static_cast<size_t>(k); }
 
   using Coefficients = std::array<T, kMaxOrder + 2>;
+  template <size_t kOrder, size_t k>
+  void Terms();
+  template <size_t m, size_t i>
+  void Products(T& u_terms, T& s_terms) const;
+
   Frame<T> frame_;
   int order_ = 0;
+  T square_;  // The last coefficient of s^2.
   Coefficients x_, y_, s_;
   Coefficients x_integral_, y_integral_, s_integral_, square_integral_;
 };
 
 template <typename T>
-HWY_INLINE void SlipSeries<T>::Expand(const Frame<T>& frame, int order) {
+void SlipSeries<T>::Expand(const Frame<T>& frame, int order) {
   frame_ = frame;
   order_ = order;
-  x_[0] = s_[0] = T{1};
+  x_[0] = s_[0] = square_ = T{1};
   y_[0] = T{0};
-  T square{1};
-  for (size_t k = 0;; ++k) {
-    const T inverse = internal::kInverses<T>[k + 1];
-    const T x = x_integral_[k + 1] = x_[k] * inverse;
-    const T y = y_integral_[k + 1] = y_[k] * inverse;
-    const T s = s_integral_[k + 1] = s_[k] * inverse;
-    square_integral_[k + 1] = square * inverse;
-    if (k == Index(order)) break;
-    x_[k + 1] = frame.a11 * x + frame.a12 * y + frame.w1 * s;
-    y_[k + 1] = frame.a12 * x + frame.a22 * y + frame.w2 * s;
-    // Half of the terms i + j = k + 1 but the two ends; the newest coefficients come last.
+  switch (order) {
+    case 9:
+      return Terms<9, 0>();
+    case 11:
+      return Terms<11, 0>();
+    case 14:
+      return Terms<14, 0>();
+    case 17:
+      return Terms<17, 0>();
+    case 20:
+      return Terms<20, 0>();
+    default:
+      order_ = kMaxOrder;
+      return Terms<kMaxOrder, 0>();
+  }
+}
+
+// Without loops: their counts would keep the processor guessing.
+template <typename T>
+template <size_t kOrder, size_t k>
+HWY_INLINE void SlipSeries<T>::Terms() {
+  const T inverse = internal::kInverses<T>[k + 1];
+  const T x = x_integral_[k + 1] = x_[k] * inverse;
+  const T y = y_integral_[k + 1] = y_[k] * inverse;
+  const T s = s_integral_[k + 1] = s_[k] * inverse;
+  square_integral_[k + 1] = square_ * inverse;
+  if constexpr (k < kOrder) {
+    constexpr size_t kNext = k + 1;
+    x_[kNext] = frame_.a11 * x + frame_.a12 * y + frame_.w1 * s;
+    y_[kNext] = frame_.a12 * x + frame_.a22 * y + frame_.w2 * s;
     T u_terms{0};
     T s_terms{0};
-    const size_t m = k + 1;
-    size_t i = m / 2;
-    if (m % 2 == 0) {
-      u_terms = T{0.5} * (x_[i] * x_[i] + y_[i] * y_[i]);
-      s_terms = T{0.5} * s_[i] * s_[i];
-      --i;
+    if constexpr (kNext % 2 == 0) {
+      constexpr size_t kHalf = kNext / 2;
+      u_terms = T{0.5} * (x_[kHalf] * x_[kHalf] + y_[kHalf] * y_[kHalf]);
+      s_terms = T{0.5} * s_[kHalf] * s_[kHalf];
     }
-    for (; i >= 1; --i) {
-      u_terms += x_[i] * x_[m - i] + y_[i] * y_[m - i];
-      s_terms += s_[i] * s_[m - i];
-    }
-    s_[m] = x_[m] + (u_terms - s_terms);
-    square = T{2} * (x_[m] + u_terms);
+    Products<kNext, (kNext - 1) / 2>(u_terms, s_terms);
+    s_[kNext] = x_[kNext] + (u_terms - s_terms);
+    square_ = T{2} * (x_[kNext] + u_terms);
+    Terms<kOrder, kNext>();
+  }
+}
+
+// The terms i + j = m with 0 < i < j, the newest coefficients last.
+template <typename T>
+template <size_t m, size_t i>
+HWY_INLINE void SlipSeries<T>::Products(T& u_terms, T& s_terms) const {
+  if constexpr (i > 0) {
+    u_terms += x_[i] * x_[m - i] + y_[i] * y_[m - i];
+    s_terms += s_[i] * s_[m - i];
+    Products<m, i - 1>(u_terms, s_terms);
   }
 }
 

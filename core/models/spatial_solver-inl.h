@@ -204,7 +204,7 @@ int OrderFor(T tolerance) {
   if (tolerance >= T{1e-7}) return 11;
   if (tolerance >= T{1e-9}) return 14;
   if (tolerance >= T{1e-11}) return 17;
-  return tolerance >= T{1e-14} ? 20 : 26;
+  return tolerance >= T{1e-14} ? 20 : kMaxOrder;
 }
 
 }  // namespace internal
