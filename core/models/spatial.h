@@ -8,7 +8,14 @@
 //
 // It is singular as s -> 0; with dtau = s dxi it is smooth, and slip stops only as xi -> infinity along an invariant
 // direction (g = 0, h < 0). After that: stick if mu_s >= |Wtt^-1 wtn|, else slip restarts along the one invariant
-// direction with h > 0. Compression and restitution end as in core/models/planar.h.
+// direction with h > 0. Where Wtt is singular the stick force is that of the smallest norm and slip is along a line.
+// Compression ends at the first v = 0, restitution as in core/models/planar.h, which also has the regimes. Slip that
+// turns can press the bodies together again in restitution: its net work counts then, and Poisson's impulse, once it is
+// spent, is followed until v >= 0.
+//
+// Method: core/models/spatial_series-inl.h. Accuracy: `tolerance`, as far as double precision has it; error_estimate
+// says what was reached (core/models/spatial_solver-inl.h derives it).
+// Bad input: none gets here (core/scene/validate.h). That includes (u0, v0) outside the range of a singular W.
 
 #ifndef RICOCHET_CORE_MODELS_SPATIAL_H_
 #define RICOCHET_CORE_MODELS_SPATIAL_H_
