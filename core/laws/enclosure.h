@@ -61,8 +61,10 @@ struct EnclosureOptions {
 };
 
 struct Enclosure {
-  CoefficientBounds outer;     // Proved to contain.
-  CoefficientBounds attained;  // Reached by scenes of the box. Both are empty (lower > upper) if no scene is valid.
+  CoefficientBounds outer;  // Proved to contain.
+  // Reached by scenes of the box; but for `energetic`, which is as in `outer`. Both are empty (lower > upper) if no scene
+  // is valid.
+  CoefficientBounds attained;
   // The largest of (width of outer - width of attained)/(width of attained) over the coefficients; an end that rounding
   // alone moves counts as 0, and a range that is infinite as infinite.
   double excess = 0.0;

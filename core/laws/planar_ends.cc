@@ -108,14 +108,10 @@ class OneWay {
     if (IsEmpty(stuck)) return;
     // A scene with B <= 0 has A1 >= det W/Wtt.
     if (braking.lower <= 0.0) AddSliding(AtLeast(first, stuck.lower));
-    if (braking.upper > 0.0)
+    if (braking.upper > 0.0) {
       AddStop({q, first, AtLeast(braking, 0.0), stuck, StuckRatio(q, first, braking), true}, slip_);
-    const bool held = own_static_ && slip_.lower <= 0.0 && (mu_static_ * wtt_ - q).upper >= 0.0;
-    if (held && braking.lower <= 0.0) {
-      AddStop(
-          {q, AtLeast(first, 0.0), Interval(0.0, rounding::kInfinity), stuck, Interval(0.0, rounding::kInfinity), true},
-          Interval(0.0));
     }
+    if (own_static_ && braking.lower <= 0.0) AddHeld(q, stuck);
   }
 
   // Wtn brakes slip: q = -r <= 0.
@@ -193,6 +189,13 @@ class OneWay {
     ends_.tangential_elastic = Join(ends_.tangential_elastic, Along(tangential_elastic));
     ends_.normal_dead = Join(ends_.normal_dead, normal_dead);
     ends_.normal_elastic = Join(ends_.normal_elastic, normal_elastic);
+  }
+
+  // u0 = 0 and static friction holds what kinetic friction could not stop: mu Wtt <= q <= mu_s Wtt.
+  void AddHeld(const Interval& q, const Interval& stuck) {
+    if (slip_.lower > 0.0 || (mu_static_ * wtt_ - q).upper < 0.0) return;
+    const Interval unknown(0.0, rounding::kInfinity);
+    AddStop({q, unknown, unknown, stuck, unknown, true}, 0.0);
   }
 
   // Slip does not stop.
