@@ -1,11 +1,13 @@
 // Outcome: what is answered. Velocities, impulses, coefficients, works, events and limits broken by one impact.
 //
 // Mirrors ricochet.v1.Outcome field by field. SI units and radians. Tangential quantities are along t, normal ones
-// along n (core/scene/scene.h); impulses act on the striking body. `energy_change_j` is E+ - E-, negative for a loss.
+// along n (core/scene/scene.h); impulses act on the striking body; contact velocities are relative to the surface.
+// `energy_change_j` is E+ - E-, negative for a loss.
 
 #ifndef RICOCHET_CORE_OUTCOME_H_
 #define RICOCHET_CORE_OUTCOME_H_
 
+#include <cstdint>
 #include <vector>
 
 namespace ricochet {
@@ -24,8 +26,10 @@ enum class Regime {
   kWedged = 9,       // A compliant contact that never ends.
   kSeparating = 10,  // The contact does not approach: nothing changes.
   kInvalid = 11,     // Sweeps and batches only: a point that breaks a rule or overflows; its columns are quiet NaN.
+  kByLaw = 12,       // An impact law says how the impact ends, not how it goes on: nothing is known by phases.
+  kNoSolution = 13,  // An impact law contradicts itself: no impulse, nothing changes.
 };
-inline constexpr int kRegimeCount = 12;
+inline constexpr int kRegimeCount = 14;
 
 struct Coefficients {
   double newton = 0.0;
@@ -49,7 +53,8 @@ struct Impulse {
   friend bool operator==(const Impulse&, const Impulse&) = default;
 };
 
-// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j.
+// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j. An impact
+// law knows no phases: all four are 0, the residual is that of the two totals.
 struct WorkLedger {
   double normal_compression_j = 0.0;
   double normal_restitution_j = 0.0;
@@ -61,7 +66,7 @@ struct WorkLedger {
   friend bool operator==(const WorkLedger&, const WorkLedger&) = default;
 };
 
-// An instant of the impact. Between two events every quantity is linear in the normal impulse.
+// An instant of the impact. In a plane, every quantity is linear in the normal impulse between two events.
 // The numbers are those of ricochet.v1.Event.Kind.
 enum class EventKind {
   kUnspecified = 0,
@@ -69,6 +74,8 @@ enum class EventKind {
   kSlipStops = 2,
   kCompressionEnds = 3,
   kRestitutionEnds = 4,
+  kSlipStarts = 5,
+  kStickStarts = 6,
 };
 
 // The state of the contact once the normal impulse has reached `normal_impulse_n_s`.
@@ -76,7 +83,7 @@ struct State {
   double normal_impulse_n_s = 0.0;             // tau, the paper's independent variable, Eq. (3).
   std::vector<double> tangential_impulse_n_s;  // f(tau), Eq. (48).
   ContactVelocity contact_velocity;            // u(tau), v(tau).
-  std::vector<double> rates_rad_s;             // w(tau), Eq. (9).
+  std::vector<double> rates_rad_s;             // w(tau), Eq. (9): one a link; empty for systems without joints.
   friend bool operator==(const State&, const State&) = default;
 };
 
@@ -102,19 +109,61 @@ struct BrokenLimit {
   friend bool operator==(const BrokenLimit&, const BrokenLimit&) = default;
 };
 
+// A free body, moving. Along and about t1, t2, n in space; in a plane along t and n, and counter-clockwise.
+struct BodyVelocity {
+  std::vector<double> linear_m_s;
+  std::vector<double> angular_rad_s;
+  friend bool operator==(const BodyVelocity&, const BodyVelocity&) = default;
+};
+
+// The coefficients that the impact was computed with: those of the scene at its approach speed.
+struct EffectiveCoefficients {
+  double kinetic_friction = 0.0;
+  double static_friction = 0.0;
+  double restitution = 0.0;  // By the scene's definition; e of an impact law.
+  friend bool operator==(const EffectiveCoefficients&, const EffectiveCoefficients&) = default;
+};
+
+// The numbers are those of ricochet.v1.Accuracy.Kind.
+enum class AccuracyKind {
+  kUnspecified = 0,
+  kBound = 1,     // Proved.
+  kEstimate = 2,  // Testing has not found it below the true error.
+};
+
+// How exact the contact velocity after the impact is, taking W and the one before as exact, and what that took.
+struct Accuracy {
+  double relative_error = 0.0;  // Of each component over max(|u0|, |v0|).
+  AccuracyKind kind = AccuracyKind::kUnspecified;
+  int64_t steps = 0;             // 0 for a closed form.
+  int64_t right_hand_sides = 0;  // 0 for a closed form.
+  friend bool operator==(const Accuracy&, const Accuracy&) = default;
+};
+
+// One of several ends that an impact law allows.
+struct ImpactSolution {
+  ContactVelocity contact_velocity_after;
+  Impulse impulse;
+  friend bool operator==(const ImpactSolution&, const ImpactSolution&) = default;
+};
+
 struct Outcome {
   Regime regime = Regime::kUnspecified;
   bool admissible = true;  // False exactly if broken_limits is not empty.
   std::vector<BrokenLimit> broken_limits;
   int w_rank = 0;                         // Rank of the contact-space inverse inertia W; 1 for a pendulum.
   Coefficients coefficients;              // All 0 where separating or locked, but the tangential one.
-  std::vector<double> rates_after_rad_s;  // Pendulum: one, w+.
+  std::vector<double> rates_after_rad_s;  // One a link; pendulum: one, w+. Empty for systems without joints.
   ContactVelocity contact_velocity_after;
   Impulse impulse;
   WorkLedger work;
   double energy_change_j = 0.0;
-  std::vector<Event> timeline;  // In order of normal impulse; empty where separating.
-  std::vector<State> history;   // One for each SolveRequest.history_at_n_s, in that order.
+  std::vector<Event> timeline;             // In order of normal impulse; empty where separating.
+  std::vector<State> history;              // One for each SolveRequest.history_at_n_s, in that order.
+  std::vector<BodyVelocity> bodies_after;  // Body 1 first. Empty for systems that are no free bodies.
+  EffectiveCoefficients effective;
+  Accuracy accuracy;
+  std::vector<ImpactSolution> alternatives;  // Of a Kane-Levinson law with several solutions or none.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 

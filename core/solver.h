@@ -7,6 +7,7 @@
 #ifndef RICOCHET_CORE_SOLVER_H_
 #define RICOCHET_CORE_SOLVER_H_
 
+#include <optional>
 #include <stop_token>
 #include <vector>
 
@@ -20,12 +21,19 @@
 
 namespace ricochet {
 
+inline constexpr double kDefaultTolerance = 1e-10;
+inline constexpr double kLeastTolerance = 1e-12;
+inline constexpr double kMostTolerance = 1e-4;
+
 struct SolveRequest {
   Scene scene;
   // Normal impulses tau at which the state is asked for (Outcome::history), each in [0, tau1]; at most 65,536.
   std::vector<double> history_at_n_s;
   // Turns an outcome with admissible = false into FAILED_PRECONDITION.
   bool inadmissible_is_error = false;
+  // What Accuracy::relative_error must not exceed, for impacts in space, which are integrated. In [1e-12, 1e-4]; absent
+  // means kDefaultTolerance.
+  std::optional<double> relative_tolerance;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };
 

@@ -9,25 +9,32 @@
 
 #include <optional>
 #include <variant>
+#include <vector>
+
+#include "core/scene/system.h"
 
 namespace ricochet {
 
-// A rigid body that turns about a fixed frictionless pin O and strikes a fixed horizontal surface at the point
-// (a, -b) seen from O. t points to the right, n up; counter-clockwise turns are positive. Contact velocity: u = b w
-// along t, v = a w along n. Lubarda (2009), Fig. 1 and Eq. (1).
-struct Pendulum {
-  double inertia_kg_m2 = 0.0;      // J0 about the pin, > 0.
-  double a_m = 0.0;                // Horizontal distance pin to contact, > 0.
-  double b_m = 0.0;                // Depth of the contact below the pin, of either sign.
-  double omega_minus_rad_s = 0.0;  // w-, the angular velocity of incidence; >= 0 means separating: nothing happens.
-
-  friend bool operator==(const Pendulum&, const Pendulum&) = default;
+// What a coefficient is multiplied by, as a function of the approach speed |v0|: of the contact, along n, relative to
+// the surface; 0 where the contact separates. A product that the coefficient may not be is refused.
+struct PowerLaw {
+  double alpha = 0.0;     // factor = 1 - alpha |v0|^exponent
+  double exponent = 0.0;  // >= 0
+  friend bool operator==(const PowerLaw&, const PowerLaw&) = default;
 };
+struct SpeedTable {
+  std::vector<double> speed_m_s;  // >= 0, strictly rising, at least one.
+  std::vector<double> factor;     // One a speed; linear in between, constant outside.
+  friend bool operator==(const SpeedTable&, const SpeedTable&) = default;
+};
+// std::monostate: the request left the choice open, which Validate reports.
+using SpeedDependence = std::variant<std::monostate, PowerLaw, SpeedTable>;
 
 // Dry (Amontons-Coulomb) friction, |F| <= mu N.
 struct Friction {
   double kinetic_coefficient = 0.0;          // mu of sliding, >= 0. 0 is a smooth surface.
   std::optional<double> static_coefficient;  // mu_s of sticking, >= mu; absent means mu.
+  std::optional<SpeedDependence> by_speed;   // Of both; absent means constant.
 
   friend bool operator==(const Friction&, const Friction&) = default;
 };
@@ -46,14 +53,46 @@ struct EnergeticCoefficient {
   friend bool operator==(const EnergeticCoefficient&, const EnergeticCoefficient&) = default;
 };
 
+// A moving surface; contact velocities are those relative to it. Not for a body pair.
+struct SurfaceVelocity {
+  std::vector<double> tangential_m_s;  // One entry in a plane, two in space.
+  double normal_m_s = 0.0;
+
+  friend bool operator==(const SurfaceVelocity&, const SurfaceVelocity&) = default;
+};
+
+// Laws to compare with, in place of Coulomb friction at every instant and restitution. Planar systems only.
+struct WhittakerLaw {
+  double e = 0.0;  // >= 0
+  friend bool operator==(const WhittakerLaw&, const WhittakerLaw&) = default;
+};
+struct KaneLevinsonLaw {
+  double e = 0.0;  // >= 0
+  friend bool operator==(const KaneLevinsonLaw&, const KaneLevinsonLaw&) = default;
+};
+struct BrachLaw {
+  double e = 0.0;       // >= 0
+  double mu_hat = 0.0;  // Tangential / normal impulse, signed.
+  friend bool operator==(const BrachLaw&, const BrachLaw&) = default;
+};
+struct ChatterjeeRuinaLaw {
+  double e = 0.0;    // >= 0
+  double e_t = 0.0;  // In [-1, 1].
+  friend bool operator==(const ChatterjeeRuinaLaw&, const ChatterjeeRuinaLaw&) = default;
+};
+
 // std::monostate: the request left the choice open, which Validate reports.
-using System = std::variant<std::monostate, Pendulum>;
 using Restitution = std::variant<std::monostate, NewtonCoefficient, PoissonCoefficient, EnergeticCoefficient>;
+// std::monostate: Coulomb friction and the scene's restitution.
+using ImpactLaw = std::variant<std::monostate, WhittakerLaw, KaneLevinsonLaw, BrachLaw, ChatterjeeRuinaLaw>;
 
 struct Scene {
   System system;
   Friction friction;
-  Restitution restitution;
+  Restitution restitution;                              // Unset exactly if impact_law is set; bounds need neither.
+  std::optional<SpeedDependence> restitution_by_speed;  // Absent means constant.
+  std::optional<SurfaceVelocity> surface_velocity;      // Absent means at rest.
+  ImpactLaw impact_law;
 
   friend bool operator==(const Scene&, const Scene&) = default;
 };

@@ -33,6 +33,10 @@ v1::Regime ToProto(Regime regime) {
       return v1::REGIME_SEPARATING;
     case Regime::kInvalid:
       return v1::REGIME_INVALID;
+    case Regime::kByLaw:
+      return v1::REGIME_BY_LAW;
+    case Regime::kNoSolution:
+      return v1::REGIME_NO_SOLUTION;
   }
   return v1::REGIME_UNSPECIFIED;
 }
@@ -61,6 +65,10 @@ Regime FromProto(v1::Regime proto) {
       return Regime::kSeparating;
     case v1::REGIME_INVALID:
       return Regime::kInvalid;
+    case v1::REGIME_BY_LAW:
+      return Regime::kByLaw;
+    case v1::REGIME_NO_SOLUTION:
+      return Regime::kNoSolution;
     case v1::REGIME_UNSPECIFIED:
     case v1::Regime_INT_MIN_SENTINEL_DO_NOT_USE_:
     case v1::Regime_INT_MAX_SENTINEL_DO_NOT_USE_:
@@ -81,6 +89,10 @@ v1::Event::Kind ToProto(EventKind kind) {
       return v1::Event::KIND_COMPRESSION_ENDS;
     case EventKind::kRestitutionEnds:
       return v1::Event::KIND_RESTITUTION_ENDS;
+    case EventKind::kSlipStarts:
+      return v1::Event::KIND_SLIP_STARTS;
+    case EventKind::kStickStarts:
+      return v1::Event::KIND_STICK_STARTS;
   }
   return v1::Event::KIND_UNSPECIFIED;
 }
@@ -95,12 +107,42 @@ EventKind FromProto(v1::Event::Kind proto) {
       return EventKind::kCompressionEnds;
     case v1::Event::KIND_RESTITUTION_ENDS:
       return EventKind::kRestitutionEnds;
+    case v1::Event::KIND_SLIP_STARTS:
+      return EventKind::kSlipStarts;
+    case v1::Event::KIND_STICK_STARTS:
+      return EventKind::kStickStarts;
     case v1::Event::KIND_UNSPECIFIED:
     case v1::Event_Kind_Event_Kind_INT_MIN_SENTINEL_DO_NOT_USE_:
     case v1::Event_Kind_Event_Kind_INT_MAX_SENTINEL_DO_NOT_USE_:
       break;
   }
   return EventKind::kUnspecified;
+}
+
+v1::Accuracy::Kind ToProto(AccuracyKind kind) {
+  switch (kind) {
+    case AccuracyKind::kUnspecified:
+      return v1::Accuracy::KIND_UNSPECIFIED;
+    case AccuracyKind::kBound:
+      return v1::Accuracy::KIND_BOUND;
+    case AccuracyKind::kEstimate:
+      return v1::Accuracy::KIND_ESTIMATE;
+  }
+  return v1::Accuracy::KIND_UNSPECIFIED;
+}
+
+AccuracyKind FromProto(v1::Accuracy::Kind proto) {
+  switch (proto) {
+    case v1::Accuracy::KIND_BOUND:
+      return AccuracyKind::kBound;
+    case v1::Accuracy::KIND_ESTIMATE:
+      return AccuracyKind::kEstimate;
+    case v1::Accuracy::KIND_UNSPECIFIED:
+    case v1::Accuracy_Kind_Accuracy_Kind_INT_MIN_SENTINEL_DO_NOT_USE_:
+    case v1::Accuracy_Kind_Accuracy_Kind_INT_MAX_SENTINEL_DO_NOT_USE_:
+      break;
+  }
+  return AccuracyKind::kUnspecified;
 }
 
 v1::BrokenLimit::Kind ToProto(LimitKind kind) {
@@ -232,6 +274,56 @@ static BrokenLimit FromProto(const v1::BrokenLimit& proto) {
   return {.kind = FromProto(proto.kind()), .value = proto.value(), .limit = proto.limit(), .excess = proto.excess()};
 }
 
+static v1::BodyVelocity ToProto(const BodyVelocity& body) {
+  v1::BodyVelocity proto;
+  AssignDoubles(body.linear_m_s, *proto.mutable_linear_m_s());
+  AssignDoubles(body.angular_rad_s, *proto.mutable_angular_rad_s());
+  return proto;
+}
+
+static BodyVelocity FromProto(const v1::BodyVelocity& proto) {
+  return {.linear_m_s = ToVector(proto.linear_m_s()), .angular_rad_s = ToVector(proto.angular_rad_s())};
+}
+
+static v1::EffectiveCoefficients ToProto(const EffectiveCoefficients& effective) {
+  v1::EffectiveCoefficients proto;
+  proto.set_kinetic(effective.kinetic_friction);
+  proto.set_static_(effective.static_friction);
+  proto.set_restitution(effective.restitution);
+  return proto;
+}
+
+static EffectiveCoefficients FromProto(const v1::EffectiveCoefficients& proto) {
+  return {.kinetic_friction = proto.kinetic(), .static_friction = proto.static_(), .restitution = proto.restitution()};
+}
+
+static v1::Accuracy ToProto(const Accuracy& accuracy) {
+  v1::Accuracy proto;
+  proto.set_relative_error(accuracy.relative_error);
+  proto.set_kind(ToProto(accuracy.kind));
+  proto.set_steps(accuracy.steps);
+  proto.set_right_hand_sides(accuracy.right_hand_sides);
+  return proto;
+}
+
+static Accuracy FromProto(const v1::Accuracy& proto) {
+  return {.relative_error = proto.relative_error(),
+          .kind = FromProto(proto.kind()),
+          .steps = proto.steps(),
+          .right_hand_sides = proto.right_hand_sides()};
+}
+
+static v1::ImpactSolution ToProto(const ImpactSolution& solution) {
+  v1::ImpactSolution proto;
+  *proto.mutable_contact_velocity_after() = ToProto(solution.contact_velocity_after);
+  *proto.mutable_impulse() = ToProto(solution.impulse);
+  return proto;
+}
+
+static ImpactSolution FromProto(const v1::ImpactSolution& proto) {
+  return {.contact_velocity_after = FromProto(proto.contact_velocity_after()), .impulse = FromProto(proto.impulse())};
+}
+
 v1::Outcome ToProto(const Outcome& outcome) {
   v1::Outcome proto;
   proto.set_regime(ToProto(outcome.regime));
@@ -248,6 +340,10 @@ v1::Outcome ToProto(const Outcome& outcome) {
   proto.set_energy_change_j(outcome.energy_change_j);
   for (const Event& event : outcome.timeline) *proto.add_timeline() = ToProto(event);
   for (const State& state : outcome.history) *proto.add_history() = ToProto(state);
+  for (const BodyVelocity& body : outcome.bodies_after) *proto.add_bodies_after() = ToProto(body);
+  *proto.mutable_effective() = ToProto(outcome.effective);
+  *proto.mutable_accuracy() = ToProto(outcome.accuracy);
+  for (const ImpactSolution& solution : outcome.alternatives) *proto.add_alternatives() = ToProto(solution);
   return proto;
 }
 
@@ -267,6 +363,12 @@ Outcome FromProto(const v1::Outcome& proto) {
   outcome.energy_change_j = proto.energy_change_j();
   for (const v1::Event& event : proto.timeline()) outcome.timeline.push_back(FromProto(event));
   for (const v1::State& state : proto.history()) outcome.history.push_back(FromProto(state));
+  for (const v1::BodyVelocity& body : proto.bodies_after()) outcome.bodies_after.push_back(FromProto(body));
+  outcome.effective = FromProto(proto.effective());
+  outcome.accuracy = FromProto(proto.accuracy());
+  for (const v1::ImpactSolution& solution : proto.alternatives()) {
+    outcome.alternatives.push_back(FromProto(solution));
+  }
   return outcome;
 }
 

@@ -20,6 +20,9 @@ Regime FromProto(v1::Regime proto);
 v1::Event::Kind ToProto(EventKind kind);
 EventKind FromProto(v1::Event::Kind proto);
 
+v1::Accuracy::Kind ToProto(AccuracyKind kind);
+AccuracyKind FromProto(v1::Accuracy::Kind proto);
+
 v1::BrokenLimit::Kind ToProto(LimitKind kind);
 LimitKind FromProto(v1::BrokenLimit::Kind proto);
 

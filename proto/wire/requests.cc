@@ -13,13 +13,16 @@ v1::SolveRequest ToProto(const SolveRequest& request) {
   *proto.mutable_scene() = ToProto(request.scene);
   AssignDoubles(request.history_at_n_s, *proto.mutable_history_at_n_s());
   proto.set_inadmissible_is_error(request.inadmissible_is_error);
+  if (request.relative_tolerance.has_value()) proto.set_relative_tolerance(*request.relative_tolerance);
   return proto;
 }
 
 SolveRequest FromProto(const v1::SolveRequest& proto) {
-  return {.scene = FromProto(proto.scene()),
-          .history_at_n_s = ToVector(proto.history_at_n_s()),
-          .inadmissible_is_error = proto.inadmissible_is_error()};
+  SolveRequest request{.scene = FromProto(proto.scene()),
+                       .history_at_n_s = ToVector(proto.history_at_n_s()),
+                       .inadmissible_is_error = proto.inadmissible_is_error()};
+  if (proto.has_relative_tolerance()) request.relative_tolerance = proto.relative_tolerance();
+  return request;
 }
 
 v1::SolveResponse ToProto(const SolveResponse& response) {

@@ -15,7 +15,8 @@ using google::protobuf::EnumDescriptor;
 template <typename ProtoEnum>
 class EnumTest : public testing::Test {};
 
-using Enums = testing::Types<v1::Regime, v1::Event::Kind, v1::BrokenLimit::Kind, v1::SweepRequest::Combination>;
+using Enums = testing::Types<v1::Regime, v1::Event::Kind, v1::BrokenLimit::Kind, v1::Accuracy::Kind,
+                             v1::SweepRequest::Combination>;
 TYPED_TEST_SUITE(EnumTest, Enums);
 
 TYPED_TEST(EnumTest, EveryValueOfTheProtoIsTheCoresOfTheSameNumber) {
@@ -42,6 +43,11 @@ TEST(EnumTest, EventKindOfAnUnknownNumberIsUnspecified) {
 TEST(EnumTest, LimitKindOfAnUnknownNumberIsUnspecified) {
   EXPECT_EQ(FromProto(static_cast<v1::BrokenLimit::Kind>(999)), LimitKind::kUnspecified);
   EXPECT_EQ(ToProto(static_cast<LimitKind>(999)), v1::BrokenLimit::KIND_UNSPECIFIED);
+}
+
+TEST(EnumTest, AccuracyKindOfAnUnknownNumberIsUnspecified) {
+  EXPECT_EQ(FromProto(static_cast<v1::Accuracy::Kind>(999)), AccuracyKind::kUnspecified);
+  EXPECT_EQ(ToProto(static_cast<AccuracyKind>(999)), v1::Accuracy::KIND_UNSPECIFIED);
 }
 
 TEST(EnumTest, CombinationOfAnUnknownNumberKeepsIt) {

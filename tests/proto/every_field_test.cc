@@ -3,6 +3,7 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
+#include <set>
 #include <string>
 
 #include "fill.h"
@@ -13,8 +14,8 @@
 namespace ricochet {
 namespace {
 
-// Restitution and Axis.values have three members, the most that any oneof has.
-constexpr int kChoices = 3;
+// A multiple of the number of members of every oneof but Scene.system's seven, which sees every one of its own too.
+constexpr int kChoices = 12;
 
 template <typename Message>
 Message ThroughCore(const Message& proto) {
@@ -61,6 +62,21 @@ TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   EXPECT_EQ(service.method(1)->output_type(), v1::BoundsResponse::descriptor());
   EXPECT_EQ(service.method(2)->input_type(), v1::SweepRequest::descriptor());
   EXPECT_EQ(service.method(2)->output_type(), v1::SweepResponse::descriptor());
+}
+
+TEST(FillTest, ReachesEveryMemberOfEveryOneof) {
+  std::set<const google::protobuf::FieldDescriptor*> reached;
+  std::set<const google::protobuf::FieldDescriptor*> all;
+  for (const auto* message : {v1::Scene::descriptor(), v1::BodyPair::descriptor(), v1::SpeedDependence::descriptor(),
+                              v1::Restitution::descriptor()}) {
+    for (int i = 0; i < message->real_oneof_decl_count(); ++i) {
+      const auto* oneof = message->oneof_decl(i);
+      for (int k = 0; k < oneof->field_count(); ++k) all.insert(oneof->field(k));
+      for (int choice = 0; choice < kChoices; ++choice) reached.insert(oneof->field(choice % oneof->field_count()));
+    }
+  }
+  EXPECT_EQ(reached, all);
+  EXPECT_EQ(all.size(), 7U + 4U + 2U + 2U + 3U);
 }
 
 TEST(FillTest, SetsEveryFieldButTheOtherMembersOfAOneof) {

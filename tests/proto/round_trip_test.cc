@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -69,7 +70,11 @@ Outcome SomeOutcome() {
           .work = {-1.0, 0.36, -0.5, -0.25, -0.64, -0.75, kSubnormal},
           .energy_change_j = -1.39,
           .timeline = {{EventKind::kStart, start}, {EventKind::kCompressionEnds, start}},
-          .history = {start, start, start}};
+          .history = {start, start, start},
+          .bodies_after = {{{1.0, 2.0}, {3.0}}, {{4.0, 5.0, 6.0}, {7.0, 8.0, 9.0}}},
+          .effective = {0.1, 0.2, 0.3},
+          .accuracy = {1e-12, AccuracyKind::kEstimate, 7, 8},
+          .alternatives = {{start.contact_velocity, {0.0, 1.0, {2.0}}}}};
 }
 
 TEST(SceneTest, SurvivesWithEachDefinitionOfRestitution) {
@@ -79,6 +84,51 @@ TEST(SceneTest, SurvivesWithEachDefinitionOfRestitution) {
     scene.restitution = restitution;
     EXPECT_EQ(ThroughWire(scene), scene) << "definition " << restitution.index();
   }
+}
+
+TEST(SceneTest, SurvivesWithEachSystem) {
+  const PlanarBody flat = {1.0, 0.1, 0.2, -0.3, 1.0, -2.0, 0.5};
+  const SpatialBody body = {1.0, {0.3, 0.1, 0.0, 0.2, 0.0, 0.4}, {0.1, 0.2, -0.3}, {1, 2, -3}, {0, 0, 1}};
+  Scene scene = PaperScene();
+  for (const System& system :
+       {System(std::monostate()), System(flat), System(body), System(BodyPair()),
+        System(BodyPair{PlanarPair{flat, {2.0, 0.2}}}), System(BodyPair{SpatialPair{body, {2.0}}}), System(Linkage()),
+        System(Linkage{{{1.0, 2.0, 0.5, 0.1, 0.3, -1.0}, {1.5}}}), System(PlanarContact{2.0, 0.5, 1.0, 1.0, -1.0}),
+        System(SpatialContact{{1, 2, 3, 4, 5, 6}, {7, 8}, -9}), System(SpatialContact{{1.0}, {}, 0.0})}) {
+    scene.system = system;
+    EXPECT_EQ(ThroughWire(scene), scene) << "system " << system.index();
+  }
+}
+
+TEST(SceneTest, SurvivesWithEachImpactLaw) {
+  Scene scene = PaperScene();
+  scene.restitution = std::monostate();
+  for (const ImpactLaw& law : {ImpactLaw(WhittakerLaw{0.5}), ImpactLaw(KaneLevinsonLaw{0.0}),
+                               ImpactLaw(BrachLaw{0.5, -0.2}), ImpactLaw(ChatterjeeRuinaLaw{0.5, 0.25})}) {
+    scene.impact_law = law;
+    EXPECT_EQ(ThroughWire(scene), scene) << "law " << law.index();
+  }
+}
+
+TEST(SceneTest, SpeedDependenceSurvivesAndItsAbsenceToo) {
+  Scene scene = PaperScene();
+  for (const SpeedDependence& form :
+       {SpeedDependence(), SpeedDependence(PowerLaw{0.1, 0.5}), SpeedDependence(PowerLaw()),
+        SpeedDependence(SpeedTable{{0.0, 1.0}, {1.0, 0.5}}), SpeedDependence(SpeedTable())}) {
+    scene.friction.by_speed = form;
+    scene.restitution_by_speed.reset();
+    EXPECT_EQ(ThroughWire(scene), scene) << "form " << form.index();
+    std::swap(scene.friction.by_speed, scene.restitution_by_speed);
+    EXPECT_EQ(ThroughWire(scene), scene) << "form " << form.index();
+  }
+}
+
+TEST(SceneTest, SurfaceAtRestIsNotUnset) {
+  Scene scene = PaperScene();
+  scene.surface_velocity = SurfaceVelocity();
+  EXPECT_EQ(ThroughWire(scene), scene);
+  scene.surface_velocity = SurfaceVelocity{{1.0, 2.0}, 3.0};
+  EXPECT_EQ(ThroughWire(scene), scene);
 }
 
 TEST(SceneTest, RestitutionOfZeroIsNotUnset) {
@@ -139,6 +189,7 @@ TEST(SolveTest, RequestSurvives) {
       .scene = PaperScene(), .history_at_n_s = {0.0, 1.5, kSubnormal, 1e308}, .inadmissible_is_error = true};
   EXPECT_EQ(ThroughWire(request), request);
   EXPECT_EQ(ThroughWire(SolveRequest()), SolveRequest());
+  EXPECT_EQ(ThroughWire(SolveRequest{.relative_tolerance = 0.0}), SolveRequest{.relative_tolerance = 0.0});
 }
 
 TEST(SolveTest, ResponseSurvives) {
