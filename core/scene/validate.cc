@@ -1,125 +1,120 @@
 #include "core/scene/validate.h"
 
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/numerics/decimal.h"
+#include "core/scene/check.h"
+#include "core/scene/effective.h"
+#include "core/scene/numbers.h"
+#include "core/scene/reduction.h"
 
 namespace ricochet {
 namespace {
 
-// Lists what is wrong.
-class Listing {
- public:
-  // A value that is not finite breaks every rule. `rule` is a function, called only when it is broken.
-  template <typename Rule>
-  void Require(bool holds, const char* field, double value, const Rule& rule) {
-    if (!std::isfinite(value)) {
-      violations_.push_back(MakeViolation(field, value, "be finite"));
-    } else if (!holds) {
-      violations_.push_back(MakeViolation(field, value, rule()));
-    }
-  }
-  void Missing(const char* field, const char* rule) {
-    violations_.push_back({field, absl::StrCat("is not set: must ", rule)});
-  }
-  std::vector<Violation> violations() && { return std::move(violations_); }
-
- private:
-  std::vector<Violation> violations_;
-};
-
-// Says only whether something is.
-class Verdict {
- public:
-  template <typename Rule>
-  void Require(bool holds, const char* /*field*/, double value, const Rule& /*rule*/) {
-    valid_ = valid_ && holds && std::isfinite(value);
-  }
-  void Missing(const char* /*field*/, const char* /*rule*/) { valid_ = false; }
-  bool valid() const { return valid_; }
-
- private:
-  bool valid_ = true;
-};
-
-const char* Positive() { return "be > 0"; }
-const char* NotNegative() { return "be >= 0"; }
-const char* Finite() { return "be finite"; }
-const char* UnitInterval() { return "be in [0, 1]"; }
-
-template <typename Check>
-void CheckSystem(std::monostate /*unset*/, Check& check) {
-  check.Missing("system", "be one of pendulum");
-}
-
-template <typename Check>
-void CheckSystem(const Pendulum& pendulum, Check& check) {
-  check.Require(pendulum.inertia_kg_m2 > 0.0, "pendulum.inertia_kg_m2", pendulum.inertia_kg_m2, Positive);
-  check.Require(pendulum.a_m > 0.0, "pendulum.a_m", pendulum.a_m, Positive);
-  check.Require(true, "pendulum.b_m", pendulum.b_m, Finite);
-  check.Require(true, "pendulum.omega_minus_rad_s", pendulum.omega_minus_rad_s, Finite);
-}
-
-template <typename Check>
-void CheckFriction(const Friction& friction, Check& check) {
+// The static coefficient against a kinetic one that is right itself.
+void CheckStatic(const Friction& friction, Check& check) {
   const double kinetic = friction.kinetic_coefficient;
-  check.Require(kinetic >= 0.0, "friction.kinetic_coefficient", kinetic, NotNegative);
-  if (!friction.static_coefficient.has_value()) return;
-  // Against a kinetic coefficient that is itself wrong there is nothing to compare.
-  const bool comparable = kinetic >= 0.0 && std::isfinite(kinetic);
-  check.Require(*friction.static_coefficient >= (comparable ? kinetic : 0.0), "friction.static_coefficient",
-                *friction.static_coefficient, [&] {
-                  return comparable ? absl::StrCat("be >= friction.kinetic_coefficient = ", ShortestDecimal(kinetic))
-                                    : std::string(NotNegative());
-                });
+  if (!friction.static_coefficient.has_value() || !(kinetic >= 0.0) || !std::isfinite(kinetic)) return;
+  const double value = *friction.static_coefficient;
+  if (!std::isfinite(value) || value < 0.0) return;
+  check.Require(value >= kinetic, [&] {
+    return MakeViolation("friction.static_coefficient", value,
+                         absl::StrCat("be >= friction.kinetic_coefficient = ", ShortestDecimal(kinetic)));
+  });
 }
 
-template <typename Check>
-void CheckRestitution(std::monostate /*unset*/, Check& check) {
-  check.Missing("restitution.coefficient", "be one of newton, poisson, energetic");
+void CheckForm(const std::string& field, const SpeedDependence& dependence, Check& check) {
+  check.RequireSet(!std::holds_alternative<std::monostate>(dependence), (field + ".form").c_str(),
+                   "be one of power_law, table");
+  const auto* table = std::get_if<SpeedTable>(&dependence);
+  if (table == nullptr) return;
+  const std::vector<double>& speeds = table->speed_m_s;
+  check.Require(!speeds.empty(), [&] {
+    return Violation{field + ".table.speed_m_s", "has 0 entries: must have at least one"};
+  });
+  check.Length(field + ".table.factor", table->factor.size(), speeds.size());
+  for (size_t i = 1; i < speeds.size(); ++i) {
+    check.Require(speeds[i] > speeds[i - 1], [&] {
+      return MakeViolation(absl::StrCat(field, ".table.speed_m_s[", i, "]"), speeds[i],
+                           absl::StrCat("be > the speed before it, ", ShortestDecimal(speeds[i - 1])));
+    });
+  }
 }
 
-template <typename Check>
-void CheckRestitution(NewtonCoefficient newton, Check& check) {
-  check.Require(newton.value >= 0.0, "restitution.newton", newton.value, NotNegative);
+void CheckRestitution(const Scene& scene, RestitutionIs restitution, Check& check) {
+  const bool has_law = !std::holds_alternative<std::monostate>(scene.impact_law);
+  const bool is_set = !std::holds_alternative<std::monostate>(scene.restitution);
+  if (has_law) {
+    check.Require(!is_set && !scene.restitution_by_speed.has_value(), [] {
+      return Violation{"restitution", "is set beside an impact law: must not be, the law states its own coefficient"};
+    });
+  } else if (restitution == RestitutionIs::kRequired) {
+    check.RequireSet(is_set, "restitution.coefficient", "be one of newton, poisson, energetic");
+  }
 }
 
-template <typename Check>
-void CheckRestitution(PoissonCoefficient poisson, Check& check) {
-  check.Require(poisson.value >= 0.0, "restitution.poisson", poisson.value, NotNegative);
+const char* NameOf(const ImpactLaw& law) {
+  struct Namer {
+    const char* operator()(std::monostate) const { return ""; }
+    const char* operator()(WhittakerLaw) const { return "whittaker"; }
+    const char* operator()(KaneLevinsonLaw) const { return "kane_levinson"; }
+    const char* operator()(BrachLaw) const { return "brach"; }
+    const char* operator()(ChatterjeeRuinaLaw) const { return "chatterjee_ruina"; }
+  };
+  return std::visit(Namer(), law);
 }
 
-template <typename Check>
-void CheckRestitution(EnergeticCoefficient energetic, Check& check) {
-  check.Require(energetic.value >= 0.0 && energetic.value <= 1.0, "restitution.energetic", energetic.value,
-                UnitInterval);
+// What goes with which system.
+void CheckTogether(const Scene& scene, Check& check) {
+  if (std::holds_alternative<std::monostate>(scene.system)) return;
+  const size_t directions = TangentialDirections(scene.system);
+  if (scene.surface_velocity.has_value()) {
+    check.Require(!std::holds_alternative<BodyPair>(scene.system), [] {
+      return Violation{"surface_velocity", "is set: must not be for body_pair, whose body 2 is the surface"};
+    });
+    check.Length("surface_velocity.tangential_m_s", scene.surface_velocity->tangential_m_s.size(), directions);
+  }
+  check.Require(std::holds_alternative<std::monostate>(scene.impact_law) || directions == 1, [&] {
+    return Violation{NameOf(scene.impact_law), "is set: must not be for a system in space"};
+  });
 }
 
-template <typename Check>
+// The rules that the fields decide. Every path that Verdict takes is free of allocation for a pendulum.
+void CheckFields(const Scene& scene, RestitutionIs restitution, Check& check) {
+  if (!std::holds_alternative<Pendulum>(scene.system)) CheckShape(scene.system, check);
+  VisitNumbers(scene, [&](const NumberPath& path, double value, NumberRule rule) { check.Number(path, value, rule); });
+  CheckStatic(scene.friction, check);
+  if (scene.friction.by_speed.has_value()) CheckForm("friction.by_speed", *scene.friction.by_speed, check);
+  CheckRestitution(scene, restitution, check);
+  if (scene.restitution_by_speed.has_value()) CheckForm("restitution.by_speed", *scene.restitution_by_speed, check);
+  CheckTogether(scene, check);
+}
+
 void CheckScene(const Scene& scene, RestitutionIs restitution, Check& check) {
-  std::visit([&](const auto& system) { CheckSystem(system, check); }, scene.system);
-  CheckFriction(scene.friction, check);
-  const bool unset = std::holds_alternative<std::monostate>(scene.restitution);
-  if (unset && restitution == RestitutionIs::kOptional) return;
-  std::visit([&](const auto& coefficient) { CheckRestitution(coefficient, check); }, scene.restitution);
+  CheckFields(scene, restitution, check);
+  // Spares the sweeps of a pendulum a call that finds nothing to do.
+  const bool plain =
+      std::holds_alternative<Pendulum>(scene.system) && !scene.surface_velocity.has_value() && !DependsOnSpeed(scene);
+  if (!plain && !check.failed()) CheckContact(scene, check);
 }
 
 }  // namespace
 
 std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution) {
-  Listing listing;
-  CheckScene(scene, restitution, listing);
-  return std::move(listing).violations();
+  Check check(Check::Mode::kListing);
+  CheckScene(scene, restitution, check);
+  return std::move(check).violations();
 }
 
 bool IsValid(const Scene& scene) {
-  Verdict verdict;
-  CheckScene(scene, RestitutionIs::kRequired, verdict);
-  return verdict.valid();
+  Check check(Check::Mode::kVerdict);
+  CheckScene(scene, RestitutionIs::kRequired, check);
+  return !check.failed();
 }
 
 }  // namespace ricochet

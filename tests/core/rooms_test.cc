@@ -24,7 +24,7 @@ struct Room {
 
 const std::vector<Room>& Rooms() {
   static const std::vector<Room> rooms = {
-      {"core", {"core/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/", "hwy/"}},
+      {"core", {"core/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/", "hwy/", "Eigen/"}},
       {"proto/wire", {"proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
       {"client", {"client/", "proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
       {"client/cli",
@@ -138,6 +138,7 @@ TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
       {"spdlog/", {"server/", "client/cli/"}},
       {"CLI/", {"server/", "client/cli/"}},
       {"hwy/", {"core/models/", "core/numerics/"}},
+      {"Eigen/", {"core/scene/"}},
       {"grpcpp/", {"proto/wire/", "server/", "client/"}},
       {"ricochet/v1/", {"proto/wire/", "server/", "client/"}},
   };

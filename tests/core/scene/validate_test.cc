@@ -23,6 +23,10 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 
+constexpr char kOneOfTheSystems[] =
+    "is not set: must be one of pendulum, planar_body, spatial_body, body_pair, linkage, planar_contact, "
+    "spatial_contact";
+
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
@@ -91,7 +95,7 @@ std::vector<BadScene> NotFinite() {
 
 std::vector<BadScene> BrokenRules() {
   return {
-      {"NoSystem", [](Scene& s) { s.system = std::monostate(); }, "system", "is not set: must be one of pendulum"},
+      {"NoSystem", [](Scene& s) { s.system = std::monostate(); }, "system", kOneOfTheSystems},
       {"NoRestitution", [](Scene& s) { s.restitution = std::monostate(); }, "restitution.coefficient",
        "is not set: must be one of newton, poisson, energetic"},
       {"ZeroInertia", [](Scene& s) { PendulumOf(s).inertia_kg_m2 = 0.0; }, "pendulum.inertia_kg_m2",
@@ -157,7 +161,7 @@ TEST(ValidateTest, AllViolationsAreReportedAtOnceInFieldOrder) {
 }
 
 TEST(ValidateTest, AnEmptySceneMissesItsSystemAndItsRestitution) {
-  EXPECT_THAT(Validate(Scene()), ElementsAre(Violation{"system", "is not set: must be one of pendulum"},
+  EXPECT_THAT(Validate(Scene()), ElementsAre(Violation{"system", kOneOfTheSystems},
                                              Violation{"restitution.coefficient",
                                                        "is not set: must be one of newton, poisson, energetic"}));
 }

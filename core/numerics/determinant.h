@@ -1,0 +1,27 @@
+// The determinant of a symmetric 2 x 2 matrix, relative to its diagonal.
+
+#ifndef RICOCHET_CORE_NUMERICS_DETERMINANT_H_
+#define RICOCHET_CORE_NUMERICS_DETERMINANT_H_
+
+#include <cmath>
+#include <limits>
+
+#include "core/numerics/products.h"
+
+namespace ricochet {
+
+// (x z - y^2)/(x z) for x, z >= 0: 1 where y = 0, 0 for rank one, negative for a matrix that is not semidefinite.
+// Where x z = 0: 0, or -infinity if y is not 0. Scaling by powers of two keeps it right over the whole double range.
+inline double RelativeDeterminant(double x, double y, double z) {
+  if (x == 0.0 || z == 0.0) return y == 0.0 ? 0.0 : -std::numeric_limits<double>::infinity();
+  const int i = std::ilogb(x) / 2;
+  const int j = std::ilogb(z) / 2;
+  const double sx = std::scalbn(x, -2 * i);
+  const double sz = std::scalbn(z, -2 * j);
+  const double sy = std::scalbn(y, -i - j);
+  return DifferenceOfProducts(sx, sz, sy, sy) / (sx * sz);
+}
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_NUMERICS_DETERMINANT_H_

@@ -1,0 +1,106 @@
+// Check: collects what is wrong, or only whether something is.
+
+#ifndef RICOCHET_CORE_SCENE_CHECK_H_
+#define RICOCHET_CORE_SCENE_CHECK_H_
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/error.h"
+#include "core/scene/numbers.h"
+
+namespace ricochet {
+
+class Check {
+ public:
+  // With kVerdict nothing is spelt out: a sweep asks this of every point.
+  enum class Mode { kListing, kVerdict };
+  explicit Check(Mode mode) : mode_(mode) {}
+
+  // `violation()` is called only to list it.
+  template <typename MakesViolation>
+  void Require(bool holds, const MakesViolation& violation) {
+    if (holds) return;
+    failed_ = true;
+    if (mode_ == Mode::kListing) violations_.push_back(violation());
+  }
+
+  // A value that is not finite breaks every rule. Inline, because a sweep comes here for every number of every point.
+  [[gnu::always_inline]] void Number(const NumberPath& path, double value, NumberRule rule) {
+    if (!Holds(value, rule)) Report(path, value, rule);
+  }
+
+  void RequireSet(bool is_set, const char* field, const char* rule) {
+    Require(is_set, [&] { return Violation{field, absl::StrCat("is not set: must ", rule)}; });
+  }
+
+  // Whether the list has `wanted` entries.
+  bool Length(const std::string& field, size_t found, size_t wanted) {
+    Require(found == wanted, [&] {
+      return Violation{field, absl::StrCat("has ", found, found == 1 ? " entry" : " entries", ": must have ", wanted)};
+    });
+    return found == wanted;
+  }
+
+  bool failed() const { return failed_; }
+  std::vector<Violation> violations() && { return std::move(violations_); }
+
+ private:
+  // One comparison a side: no rule lets a NaN or an infinity pass.
+  [[gnu::always_inline]] static bool Holds(double value, NumberRule rule) {
+    constexpr double kMost = std::numeric_limits<double>::max();
+    switch (rule) {
+      case NumberRule::kFinite:
+        return std::abs(value) <= kMost;
+      case NumberRule::kPositive:
+        return value > 0.0 && value <= kMost;
+      case NumberRule::kNotNegative:
+        return value >= 0.0 && value <= kMost;
+      case NumberRule::kUnitInterval:
+        return value >= 0.0 && value <= 1.0;
+      case NumberRule::kPlusMinusOne:
+        return value >= -1.0 && value <= 1.0;
+    }
+    return false;
+  }
+
+  [[gnu::noinline]] void Report(const NumberPath& path, double value, NumberRule rule) {
+    Require(false, [&] { return MakeViolation(path.Text(), value, std::isfinite(value) ? Text(rule) : "be finite"); });
+  }
+
+  static const char* Text(NumberRule rule) {
+    switch (rule) {
+      case NumberRule::kFinite:
+        return "be finite";
+      case NumberRule::kPositive:
+        return "be > 0";
+      case NumberRule::kNotNegative:
+        return "be >= 0";
+      case NumberRule::kUnitInterval:
+        return "be in [0, 1]";
+      case NumberRule::kPlusMinusOne:
+        return "be in [-1, 1]";
+    }
+    return "";
+  }
+
+  Mode mode_;
+  bool failed_ = false;
+  std::vector<Violation> violations_;
+};
+
+// The rules of a system beyond those of its single numbers: what is set, lengths of lists, definite matrices.
+void CheckShape(const System& system, Check& check);
+
+// The rules that take the contact to decide: the velocity lies in the range of W, and the coefficients are what they
+// may be at the approach speed. All others hold.
+void CheckContact(const Scene& scene, Check& check);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_SCENE_CHECK_H_

@@ -1,0 +1,97 @@
+#include <cmath>
+#include <limits>
+#include <string>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+#include "core/numerics/decimal.h"
+#include "core/numerics/determinant.h"
+#include "core/numerics/products.h"
+#include "core/scene/check.h"
+#include "core/scene/effective.h"
+#include "core/scene/reduction.h"
+
+namespace ricochet {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// The velocity's field, which a W of less than full rank restricts.
+std::string VelocityField(const Scene& scene) {
+  if (scene.surface_velocity.has_value()) return "surface_velocity";
+  if (std::holds_alternative<PlanarContact>(scene.system)) return "planar_contact.tangential_m_s";
+  if (std::holds_alternative<SpatialContact>(scene.system)) return "spatial_contact.tangential_m_s";
+  return "system";
+}
+
+bool InRange(const PlanarReduction& reduction) {
+  const auto& [tt, tn, nn] = reduction.w;
+  if (std::abs(RelativeDeterminant(tt, tn, nn)) > 4.0 * kEpsilon) return true;
+  if (nn == 0.0) return false;  // The contact approaches, and no impulse could stop it.
+  const double u = reduction.u0[0];
+  const double v = reduction.v0;
+  return std::abs(DifferenceOfProducts(u, nn, v, tn)) <= 8.0 * kEpsilon * (std::abs(u) * nn + std::abs(v * tn));
+}
+
+bool InRange(const SpatialReduction& reduction) { return ShareOutsideRange(reduction) <= 64.0 * kEpsilon; }
+
+std::string TangentialText(const PlanarReduction& reduction) { return ShortestDecimal(reduction.u0[0]); }
+std::string TangentialText(const SpatialReduction& reduction) {
+  return absl::StrCat("(", ShortestDecimal(reduction.u0[0]), ", ", ShortestDecimal(reduction.u0[1]), ")");
+}
+
+// A contact that does not approach is answered whatever its velocity.
+void CheckRange(const Scene& scene, const AnyReduction& any, Check& check) {
+  std::visit(
+      [&](const auto& reduction) {
+        check.Require(reduction.v0 >= 0.0 || InRange(reduction), [&] {
+          return Violation{VelocityField(scene), absl::StrCat("makes u0 = ", TangentialText(reduction),
+                                                              ", v0 = ", ShortestDecimal(reduction.v0),
+                                                              ": must lie in the range of W, whose rank is not full")};
+        });
+      },
+      any);
+}
+
+// `product` = the coefficient times its factor at `speed`.
+void CheckProduct(const char* field, double product, double speed, double most, Check& check) {
+  check.Require(product >= 0.0 && product <= most && std::isfinite(product), [&] {
+    const std::string rule = std::isfinite(most) ? "be in [0, 1]" : "be finite and >= 0";
+    return Violation{field, absl::StrCat("makes the coefficient ", ShortestDecimal(product), " at the approach speed ",
+                                         ShortestDecimal(speed), " m/s: must ", rule)};
+  });
+}
+
+void CheckEffective(const Scene& scene, double speed, Check& check) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const EffectiveCoefficients effective = EffectiveAt(scene, speed);
+  if (scene.friction.by_speed.has_value()) {
+    CheckProduct("friction.by_speed", effective.kinetic_friction, speed, kInfinity, check);
+    // A factor that is right for the kinetic coefficient may overflow the static one.
+    if (std::isfinite(effective.kinetic_friction) && effective.kinetic_friction >= 0.0) {
+      CheckProduct("friction.by_speed", effective.static_friction, speed, kInfinity, check);
+    }
+  }
+  if (scene.restitution_by_speed.has_value()) {
+    const bool energetic = std::holds_alternative<EnergeticCoefficient>(scene.restitution);
+    CheckProduct("restitution.by_speed", effective.restitution, speed, energetic ? 1.0 : kInfinity, check);
+  }
+}
+
+// Whether the system's own velocities lie in the range of W by their nature.
+bool RangeIsSure(const Scene& scene) {
+  if (scene.surface_velocity.has_value()) return false;
+  return std::holds_alternative<Pendulum>(scene.system) || std::holds_alternative<Linkage>(scene.system);
+}
+
+}  // namespace
+
+void CheckContact(const Scene& scene, Check& check) {
+  if (RangeIsSure(scene) && !DependsOnSpeed(scene)) return;
+  const AnyReduction reduction = Reduce(scene);
+  if (!IsFinite(reduction)) return;  // The outcome overflows, which is no fault of a single field.
+  if (!RangeIsSure(scene)) CheckRange(scene, reduction, check);
+  if (DependsOnSpeed(scene)) CheckEffective(scene, ApproachSpeed(reduction), check);
+}
+
+}  // namespace ricochet

@@ -1,0 +1,94 @@
+#include <algorithm>
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "core/numerics/decimal.h"
+#include "core/numerics/determinant.h"
+#include "core/scene/check.h"
+#include "core/scene/reduction.h"
+
+namespace ricochet {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+bool AllFinite(const std::vector<double>& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+}
+
+std::string ListText(const std::vector<double>& values) {
+  return absl::StrCat("[", absl::StrJoin(values, ", ", [](std::string* out, double x) { *out += ShortestDecimal(x); }),
+                      "]");
+}
+
+// `least` is what the smallest eigenvalue, scaled to a unit diagonal, must exceed.
+void CheckMatrix(const std::string& field, const std::vector<double>& upper, double least, const char* rule,
+                 Check& check) {
+  if (!check.Length(field, upper.size(), 6) || !AllFinite(upper)) return;
+  check.Require(SmallestScaledEigenvalue(upper) > least, [&] {
+    return Violation{field, absl::StrCat("= ", ListText(upper), ": must be ", rule)};
+  });
+}
+
+void CheckOne(std::monostate /*unset*/, Check& check) {
+  check.RequireSet(
+      false, "system",
+      "be one of pendulum, planar_body, spatial_body, body_pair, linkage, planar_contact, spatial_contact");
+}
+
+void CheckOne(const Pendulum& /*pendulum*/, Check& /*check*/) {}
+void CheckOne(const PlanarBody& /*body*/, Check& /*check*/) {}
+
+void CheckBody(const SpatialBody& body, const std::string& prefix, Check& check) {
+  CheckMatrix(prefix + ".inertia_com_kg_m2", body.inertia_com_kg_m2, 16.0 * kEpsilon, "positive definite", check);
+  check.Length(prefix + ".offset_m", body.offset_m.size(), 3);
+  check.Length(prefix + ".linear_m_s", body.linear_m_s.size(), 3);
+  check.Length(prefix + ".angular_rad_s", body.angular_rad_s.size(), 3);
+}
+
+void CheckOne(const SpatialBody& body, Check& check) { CheckBody(body, "spatial_body", check); }
+
+void CheckOne(const BodyPair& pair, Check& check) {
+  check.RequireSet(!std::holds_alternative<std::monostate>(pair.bodies), "body_pair.bodies",
+                   "be one of planar, spatial");
+  if (const auto* spatial = std::get_if<SpatialPair>(&pair.bodies)) {
+    CheckBody(spatial->body_1, "body_pair.spatial.body_1", check);
+    CheckBody(spatial->body_2, "body_pair.spatial.body_2", check);
+  }
+}
+
+void CheckOne(const Linkage& linkage, Check& check) {
+  check.Require(!linkage.links.empty(), [] {
+    return Violation{"linkage.links", "has 0 entries: must have at least one"};
+  });
+}
+
+void CheckOne(const PlanarContact& contact, Check& check) {
+  const double tt = contact.w_tt_per_kg;
+  const double nn = contact.w_nn_per_kg;
+  const double tn = contact.w_tn_per_kg;
+  if (!AllFinite({tt, tn, nn}) || tt < 0.0 || nn < 0.0) return;
+  check.Require(RelativeDeterminant(tt, tn, nn) >= -4.0 * kEpsilon, [&] {
+    return MakeViolation("planar_contact.w_tn_per_kg", tn,
+                         absl::StrCat("leave W positive semidefinite: w_tn^2 <= w_tt w_nn = ", ShortestDecimal(tt),
+                                      " * ", ShortestDecimal(nn)));
+  });
+}
+
+void CheckOne(const SpatialContact& contact, Check& check) {
+  CheckMatrix("spatial_contact.w_per_kg", contact.w_per_kg, -16.0 * kEpsilon, "positive semidefinite", check);
+  check.Length("spatial_contact.tangential_m_s", contact.tangential_m_s.size(), 2);
+}
+
+}  // namespace
+
+void CheckShape(const System& system, Check& check) {
+  std::visit([&check](const auto& one) { CheckOne(one, check); }, system);
+}
+
+}  // namespace ricochet

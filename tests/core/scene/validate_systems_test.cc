@@ -1,0 +1,282 @@
+// The door for every system but the pendulum, and for what goes beside a system.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "core/scene/numbers.h"
+#include "core/scene/validate.h"
+#include "tests/support/system_scenes.h"
+
+namespace ricochet {
+
+// Found by the test framework.
+static void PrintTo(const Violation& violation, std::ostream* out) {
+  *out << violation.field << " " << violation.description;
+}
+
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+struct BadScene {
+  std::string name;
+  std::function<Scene()> make;
+  std::string field;
+  std::string description;
+};
+
+void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.name; }
+
+template <typename T>
+std::function<Scene()> Spoil(T system, const std::function<void(T&)>& spoil) {
+  return [=] {
+    T spoilt = system;
+    spoil(spoilt);
+    return With(spoilt);
+  };
+}
+
+std::function<Scene()> Beside(const std::function<void(Scene&)>& spoil) {
+  return [=] {
+    Scene scene = With(Contact());
+    spoil(scene);
+    return scene;
+  };
+}
+
+std::vector<BadScene> BadSystems() {
+  return {
+      {"BodyWithoutMass", Spoil<PlanarBody>(Flat(), [](auto& b) { b.mass_kg = 0.0; }), "planar_body.mass_kg",
+       "= 0: must be > 0"},
+      {"BodyWithoutInertia", Spoil<PlanarBody>(Flat(), [](auto& b) { b.inertia_com_kg_m2 = -1.0; }),
+       "planar_body.inertia_com_kg_m2", "= -1: must be > 0"},
+      {"BodyThatIsNowhere", Spoil<PlanarBody>(Flat(), [](auto& b) { b.offset_n_m = kNan; }), "planar_body.offset_n_m",
+       "= nan: must be finite"},
+      {"BodyInSpaceWithoutMass", Spoil<SpatialBody>(Body(), [](auto& b) { b.mass_kg = -2.0; }), "spatial_body.mass_kg",
+       "= -2: must be > 0"},
+      {"ShortInertia", Spoil<SpatialBody>(Body(), [](auto& b) { b.inertia_com_kg_m2.pop_back(); }),
+       "spatial_body.inertia_com_kg_m2", "has 5 entries: must have 6"},
+      {"IndefiniteInertia", Spoil<SpatialBody>(Body(), [](auto& b) { b.inertia_com_kg_m2 = {1, 2, 0, 1, 0, 1}; }),
+       "spatial_body.inertia_com_kg_m2", "= [1, 2, 0, 1, 0, 1]: must be positive definite"},
+      {"SingularInertia", Spoil<SpatialBody>(Body(), [](auto& b) { b.inertia_com_kg_m2 = {1, 0, 0, 1, 0, 0}; }),
+       "spatial_body.inertia_com_kg_m2", "= [1, 0, 0, 1, 0, 0]: must be positive definite"},
+      {"LongOffset", Spoil<SpatialBody>(Body(), [](auto& b) { b.offset_m.push_back(1.0); }), "spatial_body.offset_m",
+       "has 4 entries: must have 3"},
+      {"NoVelocity", Spoil<SpatialBody>(Body(), [](auto& b) { b.linear_m_s.clear(); }), "spatial_body.linear_m_s",
+       "has 0 entries: must have 3"},
+      {"OneRate", Spoil<SpatialBody>(Body(), [](auto& b) { b.angular_rad_s = {1.0}; }), "spatial_body.angular_rad_s",
+       "has 1 entry: must have 3"},
+      {"InfiniteRate", Spoil<SpatialBody>(Body(), [](auto& b) { b.angular_rad_s[2] = INFINITY; }),
+       "spatial_body.angular_rad_s[2]", "= inf: must be finite"},
+      {"PairOfNothing", [] { return With(BodyPair()); }, "body_pair.bodies",
+       "is not set: must be one of planar, spatial"},
+      {"SecondBodyWithoutMass",
+       Spoil<BodyPair>({PlanarPair{Flat(), Flat()}},
+                       [](auto& p) { std::get<PlanarPair>(p.bodies).body_2.mass_kg = 0.0; }),
+       "body_pair.planar.body_2.mass_kg", "= 0: must be > 0"},
+      {"SecondBodyInSpaceWithoutOffset",
+       Spoil<BodyPair>({SpatialPair{Body(), Body()}},
+                       [](auto& p) { std::get<SpatialPair>(p.bodies).body_2.offset_m.clear(); }),
+       "body_pair.spatial.body_2.offset_m", "has 0 entries: must have 3"},
+      {"ChainWithoutLinks", [] { return With(Linkage()); }, "linkage.links", "has 0 entries: must have at least one"},
+      {"LinkWithoutLength", Spoil<Linkage>(Chain(), [](auto& l) { l.links[1].length_m = 0.0; }),
+       "linkage.links[1].length_m", "= 0: must be > 0"},
+      {"LinkWithoutMass", Spoil<Linkage>(Chain(), [](auto& l) { l.links[0].mass_kg = 0.0; }),
+       "linkage.links[0].mass_kg", "= 0: must be > 0"},
+      {"LinkWithoutInertia", Spoil<Linkage>(Chain(), [](auto& l) { l.links[0].inertia_com_kg_m2 = 0.0; }),
+       "linkage.links[0].inertia_com_kg_m2", "= 0: must be > 0"},
+      {"LinkAtNoAngle", Spoil<Linkage>(Chain(), [](auto& l) { l.links[1].theta_rad = kNan; }),
+       "linkage.links[1].theta_rad", "= nan: must be finite"},
+      {"NegativeW", Spoil<PlanarContact>(Contact(), [](auto& c) { c.w_nn_per_kg = -1.0; }),
+       "planar_contact.w_nn_per_kg", "= -1: must be >= 0"},
+      {"IndefiniteW", Spoil<PlanarContact>(Contact(), [](auto& c) { c.w_tn_per_kg = 1.5; }),
+       "planar_contact.w_tn_per_kg", "= 1.5: must leave W positive semidefinite: w_tn^2 <= w_tt w_nn = 2 * 1"},
+      {"CouplingWithoutTangentialW", Spoil<PlanarContact>(Contact(), [](auto& c) { c.w_tt_per_kg = 0.0; }),
+       "planar_contact.w_tn_per_kg", "= 0.5: must leave W positive semidefinite: w_tn^2 <= w_tt w_nn = 0 * 1"},
+      {"IndefiniteWInSpace", Spoil<SpatialContact>(ContactInSpace(), [](auto& c) { c.w_per_kg = {1, 0, 2, 1, 0, 1}; }),
+       "spatial_contact.w_per_kg", "= [1, 0, 2, 1, 0, 1]: must be positive semidefinite"},
+      {"ShortWInSpace", Spoil<SpatialContact>(ContactInSpace(), [](auto& c) { c.w_per_kg = {1.0}; }),
+       "spatial_contact.w_per_kg", "has 1 entry: must have 6"},
+      {"OneTangentialVelocityInSpace", Spoil<SpatialContact>(ContactInSpace(), [](auto& c) { c.tangential_m_s = {1}; }),
+       "spatial_contact.tangential_m_s", "has 1 entry: must have 2"},
+      {"VelocityOutsideTheRange",
+       [] {
+         return With(PlanarContact{4.0, 2.0, 1.0, 1.0, -1.0});
+       },
+       "planar_contact.tangential_m_s", "makes u0 = 1, v0 = -1: must lie in the range of W, whose rank is not full"},
+      {"NothingThatCouldStopIt",
+       [] {
+         return With(PlanarContact{1.0, 0.0, 0.0, 1.0, -1.0});
+       },
+       "planar_contact.tangential_m_s", "makes u0 = 1, v0 = -1: must lie in the range of W, whose rank is not full"},
+      {"VelocityOutsideTheRangeInSpace",
+       [] {
+         return With(SpatialContact{{1, 0, 0, 0, 0, 1}, {1.0, 0.5}, -1.0});
+       },
+       "spatial_contact.tangential_m_s",
+       "makes u0 = (1, 0.5), v0 = -1: must lie in the range of W, whose rank is not full"},
+  };
+}
+
+std::vector<BadScene> BadCompanions() {
+  const SpeedTable table = {{1.0, 2.0}, {1.0, 0.5}};
+  return {
+      {"LongSurface", Beside([](Scene& s) {
+         s.surface_velocity = SurfaceVelocity{{1.0, 2.0}, 0.0};
+       }),
+       "surface_velocity.tangential_m_s", "has 2 entries: must have 1"},
+      {"InfiniteSurface", Beside([](Scene& s) {
+         s.surface_velocity = SurfaceVelocity{{1.0}, INFINITY};
+       }),
+       "surface_velocity.normal_m_s", "= inf: must be finite"},
+      {"PairOnASurface",
+       [] {
+         Scene scene = With(BodyPair{PlanarPair{Flat(), Flat()}});
+         scene.surface_velocity = SurfaceVelocity{{1.0}, 0.0};
+         return scene;
+       },
+       "surface_velocity", "is set: must not be for body_pair, whose body 2 is the surface"},
+      {"PendulumOnASurfaceItCannotFollow",
+       [] {
+         Scene scene = With(Pendulum{1.0, 1.0, 1.0, -1.0});
+         scene.surface_velocity = SurfaceVelocity{{0.5}, 0.0};
+         return scene;
+       },
+       "surface_velocity", "makes u0 = -1.5, v0 = -1: must lie in the range of W, whose rank is not full"},
+      {"LawBesideRestitution", Beside([](Scene& s) { s.impact_law = WhittakerLaw{0.5}; }), "restitution",
+       "is set beside an impact law: must not be, the law states its own coefficient"},
+      {"LawInSpace",
+       [] {
+         Scene scene = With(ContactInSpace());
+         scene.restitution = std::monostate();
+         scene.impact_law = BrachLaw{0.5, 0.1};
+         return scene;
+       },
+       "brach", "is set: must not be for a system in space"},
+      {"TangentialCoefficientBeyondOne", Beside([](Scene& s) {
+         s.restitution = std::monostate();
+         s.impact_law = ChatterjeeRuinaLaw{0.5, -1.5};
+       }),
+       "chatterjee_ruina.e_t", "= -1.5: must be in [-1, 1]"},
+      {"NegativeWhittaker", Beside([](Scene& s) {
+         s.restitution = std::monostate();
+         s.impact_law = WhittakerLaw{-0.5};
+       }),
+       "whittaker.e", "= -0.5: must be >= 0"},
+      {"DependenceOfNoForm", Beside([](Scene& s) { s.friction.by_speed = SpeedDependence(); }),
+       "friction.by_speed.form", "is not set: must be one of power_law, table"},
+      {"NegativeExponent", Beside([](Scene& s) {
+         s.friction.by_speed = PowerLaw{0.1, -1.0};
+       }),
+       "friction.by_speed.power_law.exponent", "= -1: must be >= 0"},
+      {"EmptyTable", Beside([](Scene& s) { s.restitution_by_speed = SpeedTable(); }),
+       "restitution.by_speed.table.speed_m_s", "has 0 entries: must have at least one"},
+      {"SpeedsThatDoNotRise", Beside([=](Scene& s) {
+         SpeedTable falling = table;
+         falling.speed_m_s[1] = 1.0;
+         s.friction.by_speed = falling;
+       }),
+       "friction.by_speed.table.speed_m_s[1]", "= 1: must be > the speed before it, 1"},
+      {"FactorsThatAreMissing", Beside([=](Scene& s) {
+         SpeedTable short_table = table;
+         short_table.factor.pop_back();
+         s.friction.by_speed = short_table;
+       }),
+       "friction.by_speed.table.factor", "has 1 entry: must have 2"},
+      {"FactorThatMakesFrictionNegative", Beside([](Scene& s) {
+         s.friction.by_speed = PowerLaw{3.0, 1.0};
+       }),
+       "friction.by_speed", "makes the coefficient -1 at the approach speed 1 m/s: must be finite and >= 0"},
+      {"FactorThatMakesRestitutionAboveOne", Beside([](Scene& s) {
+         s.restitution_by_speed = PowerLaw{-2.0, 0.5};
+       }),
+       "restitution.by_speed", "makes the coefficient 1.5 at the approach speed 1 m/s: must be in [0, 1]"},
+  };
+}
+
+class BadSystemTest : public testing::TestWithParam<BadScene> {};
+
+TEST_P(BadSystemTest, IsReportedWithFieldValueAndRule) {
+  const Scene scene = GetParam().make();
+  EXPECT_THAT(Validate(scene), ElementsAre(Violation{GetParam().field, GetParam().description}));
+  EXPECT_FALSE(IsValid(scene));
+}
+
+std::string NameOf(const testing::TestParamInfo<BadScene>& info) { return info.param.name; }
+INSTANTIATE_TEST_SUITE_P(Systems, BadSystemTest, testing::ValuesIn(BadSystems()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Companions, BadSystemTest, testing::ValuesIn(BadCompanions()), NameOf);
+
+TEST(ValidateSystemsTest, EverySystemHasAValidScene) {
+  for (const System& system : Systems()) {
+    EXPECT_THAT(Validate(With(system)), IsEmpty()) << system.index();
+    EXPECT_TRUE(IsValid(With(system))) << system.index();
+  }
+}
+
+// 2 eps Wtt Wnn short of semidefinite is rounding, 8 is not.
+TEST(ValidateSystemsTest, ADeterminantWithinRoundingIsZero) {
+  const double tn = 1.0 + kEpsilon;
+  EXPECT_THAT(Validate(With(PlanarContact{1.0, tn, 1.0, -1.0, -1.0})), IsEmpty());
+  EXPECT_FALSE(IsValid(With(PlanarContact{1.0, 1.0 + 4.0 * kEpsilon, 1.0, -1.0, -1.0})));
+}
+
+TEST(ValidateSystemsTest, ContactsThatDoNotApproachNeedNoRange) {
+  EXPECT_TRUE(IsValid(With(PlanarContact{4.0, 2.0, 1.0, 1.0, 1.0})));
+  EXPECT_TRUE(IsValid(With(PlanarContact{1.0, 0.0, 0.0, 1.0, 0.0})));
+  EXPECT_TRUE(IsValid(With(SpatialContact{{1, 0, 0, 0, 0, 1}, {1.0, 0.5}, 0.0})));
+}
+
+TEST(ValidateSystemsTest, RankOneWithItsVelocityInTheRangeIsValid) {
+  EXPECT_TRUE(IsValid(With(PlanarContact{4.0, 2.0, 1.0, -2.0, -1.0})));
+  EXPECT_TRUE(IsValid(With(SpatialContact{{1, 2, 1, 4, 2, 1}, {-1.0, -2.0}, -1.0})));
+}
+
+TEST(ValidateSystemsTest, ASurfaceThatMovesWithThePendulumIsValid) {
+  Scene scene = With(Pendulum{1.0, 1.0, 2.0, -1.0});
+  scene.surface_velocity = SurfaceVelocity{{1.0}, 0.5};
+  EXPECT_THAT(Validate(scene), IsEmpty());
+}
+
+TEST(ValidateSystemsTest, AnImpactLawReplacesTheRestitution) {
+  Scene scene = With(Contact());
+  scene.restitution = std::monostate();
+  for (const ImpactLaw& law : {ImpactLaw(WhittakerLaw{0.5}), ImpactLaw(KaneLevinsonLaw{0.5}),
+                               ImpactLaw(BrachLaw{0.5, -0.2}), ImpactLaw(ChatterjeeRuinaLaw{0.5, -0.2})}) {
+    scene.impact_law = law;
+    EXPECT_THAT(Validate(scene), IsEmpty()) << law.index();
+  }
+}
+
+TEST(ValidateSystemsTest, EveryNumberOfEverySystemMustBeFinite) {
+  for (const System& system : Systems()) {
+    const Scene base = With(system);
+    int count = 0;
+    VisitNumbers(base, [&](const NumberPath&, const double&, NumberRule) { ++count; });
+    EXPECT_GE(count, 7);
+    for (int wanted = 0; wanted < count; ++wanted) {
+      Scene scene = base;
+      std::string path;
+      int i = 0;
+      VisitNumbers(scene, [&](const NumberPath& number_path, double& number, NumberRule) {
+        if (i++ != wanted) return;
+        number = kNan;
+        path = number_path.Text();
+      });
+      EXPECT_THAT(Validate(scene), ElementsAre(Violation{path, "= nan: must be finite"}));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ricochet
