@@ -5,6 +5,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/models/pendulum.h"
+#include "core/models/planar.h"
+#include "core/models/spatial.h"
 
 namespace ricochet {
 namespace {
@@ -36,8 +38,49 @@ pendulum::Problem Probe(int i) {
           .coefficient = (i % 11) / 10.0};
 }
 
+// 16 impacts of planar contacts and 16 in space: every law, slip that goes on, turns, reverses and stops.
+planar::Problem PlanarProbe(int i) {
+  return {.wtt = 2.5,
+          .wtn = -1.5 + 0.2 * i,
+          .wnn = 2.5,
+          .u0 = i % 4 == 3 ? 0.0 : -1.0 + 0.1 * i,
+          .v0 = -1.0,
+          .mu = 0.1 * (i % 9),
+          .mu_static = 0.1 * (i % 9),
+          .law = static_cast<pendulum::Law>(i % 3),
+          .coefficient = (i % 11) / 10.0};
+}
+
+spatial::Problem SpatialProbe(int i) {
+  return {.w11 = 1.96,
+          .w12 = 0.24,
+          .w13 = 0.6,
+          .w22 = 2.96,
+          .w23 = -0.8,
+          .w33 = 1.85,
+          .u0 = {1.0 - 0.2 * i, 0.6},
+          .v0 = -1.0,
+          .mu = 0.1 * (i % 10),
+          .mu_static = 0.1 * (i % 10),
+          .law = static_cast<pendulum::Law>(i % 3),
+          .coefficient = (i % 11) / 10.0};
+}
+
+template <typename Impact>
+void Add(const Impact& impact, StableHash& hash) {
+  hash.Add(static_cast<uint64_t>(impact.regime));
+  for (const double value : {impact.v1, impact.tau_compression, impact.tau1, impact.work_normal_compression,
+                             impact.work_normal_restitution, impact.energy_change}) {
+    hash.Add(std::bit_cast<uint64_t>(value));
+  }
+}
+
 std::string Fingerprint() {
   StableHash hash;
+  for (int i = 0; i < 16; ++i) {
+    Add(planar::Solve(PlanarProbe(i)), hash);
+    Add(spatial::Solve(SpatialProbe(i)), hash);
+  }
   for (int i = 0; i < 64; ++i) {
     const pendulum::Impact impact = pendulum::Solve(Probe(i));
     hash.Add(static_cast<uint64_t>(impact.regime));

@@ -9,7 +9,7 @@
 #include "core/laws/nearly_vertical.h"
 #include "core/models/pendulum.h"
 #include "core/models/pendulum_bounds.h"
-#include "core/models/pendulum_outcome.h"
+#include "core/models/scene_outcome.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/validate.h"
 #include "core/sweep/sweep_run.h"
@@ -26,6 +26,12 @@ absl::Status Inadmissible(const Outcome& outcome) {
   }
   message.pop_back();
   return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
+}
+
+Violation NoBounds(const Scene& scene) {
+  if (!std::holds_alternative<Pendulum>(scene.system)) return {"system", "has no bounds: must be pendulum"};
+  if (scene.surface_velocity.has_value()) return {"surface_velocity", "is set: must not be, for bounds"};
+  return {"impact_law", "is set: must not be, for bounds"};
 }
 
 absl::Status CheckFinite(const CoefficientBounds& bounds, const std::string& path) {
@@ -49,18 +55,24 @@ absl::Status CheckFinite(const Bounds& bounds) {
 }  // namespace
 
 absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) const {
-  const auto violations = Validate(request.scene);
+  auto violations = Validate(request.scene);
+  const double tolerance = request.relative_tolerance.value_or(kDefaultTolerance);
+  if (!(tolerance >= kLeastTolerance && tolerance <= kMostTolerance)) {
+    violations.push_back(MakeViolation("relative_tolerance", tolerance, "be in [1e-12, 1e-4]"));
+  }
   if (!violations.empty()) return InvalidRequest(violations);
-  absl::StatusOr<Outcome> outcome = pendulum::MakeOutcome(pendulum::MakeProblem(request.scene), request.history_at_n_s);
+  absl::StatusOr<Outcome> outcome =
+      SolveScene(request.scene, {.history_at_n_s = request.history_at_n_s, .tolerance = tolerance});
   if (!outcome.ok()) return outcome.status();
   if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
   return SolveResponse{.outcome = *std::move(outcome), .engine = ThisEngine()};
 }
 
 absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request) const {
-  const auto violations = Validate(request.scene, RestitutionIs::kOptional);
+  auto violations = Validate(request.scene, RestitutionIs::kOptional);
+  if (violations.empty() && !HasClosedForm(request.scene)) violations.push_back(NoBounds(request.scene));
   if (!violations.empty()) return InvalidRequest(violations);
-  const pendulum::Problem problem = pendulum::MakeProblem(request.scene);
+  const pendulum::Problem problem = ClosedFormProblem(request.scene);
   ricochet::Bounds bounds = pendulum::SolveBounds(problem);
   if (bounds.slope_ratio > 0.0 && bounds.regime != Regime::kLocked) {
     const bool has_restitution = !std::holds_alternative<std::monostate>(request.scene.restitution);

@@ -1,15 +1,16 @@
 #include "core/models/pendulum_outcome.h"
 
-#include <cmath>
+#include <algorithm>
 #include <utility>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
 #include "core/error.h"
-#include "core/numerics/decimal.h"
 
 namespace ricochet::pendulum {
 namespace {
+
+// 4 ulp of a velocity whose size is at most 1.
+constexpr double kUlps = 0x1p-50;
 
 // The state of the contact at angular velocity `omega`; one rounding a product.
 State MakeState(const Problem& problem, double tau, double omega, double tangential_impulse) {
@@ -34,63 +35,13 @@ std::vector<Event> MakeTimeline(const Problem& problem, const Impact& impact) {
   return timeline;
 }
 
-std::vector<BrokenLimit> BrokenLimits(const Impact& impact) {
-  std::vector<BrokenLimit> broken;
-  if (impact.sharp_limit_broken) {
-    broken.push_back({.kind = LimitKind::kSharp,
-                      .value = impact[Output::kEnergetic],
-                      .limit = 1.0,
-                      .excess = impact[Output::kEnergeticExcess]});
-  }
-  if (impact.energy_limit_broken) {
-    broken.push_back({.kind = LimitKind::kEnergy,
-                      .value = impact[Output::kEnergyChange],
-                      .limit = 0.0,
-                      .excess = impact[Output::kEnergyChange]});
-  }
-  return broken;
-}
-
 WorkLedger MakeLedger(const Impact& impact) {
-  WorkLedger work = {.normal_compression_j = impact[Output::kWorkNormalCompression],
-                     .normal_restitution_j = impact[Output::kWorkNormalRestitution],
-                     .tangential_compression_j = impact[Output::kWorkTangentialCompression],
-                     .tangential_restitution_j = impact[Output::kWorkTangentialRestitution],
-                     .normal_total_j = impact[Output::kWorkNormal],
-                     .tangential_total_j = impact[Output::kWorkTangential]};
-  work.residual_j = work.normal_compression_j + work.normal_restitution_j + work.tangential_compression_j +
-                    work.tangential_restitution_j - impact[Output::kEnergyChange];
+  WorkLedger work = ricochet::MakeLedger(impact[Output::kWorkNormalCompression], impact[Output::kWorkNormalRestitution],
+                                         impact[Output::kWorkTangentialCompression],
+                                         impact[Output::kWorkTangentialRestitution], impact[Output::kEnergyChange]);
+  work.normal_total_j = impact[Output::kWorkNormal];
+  work.tangential_total_j = impact[Output::kWorkTangential];
   return work;
-}
-
-absl::Status CheckFinite(const Impact& impact, const std::vector<Event>& timeline) {
-  for (int i = 0; i < kOutputCount; ++i) {
-    const auto output = static_cast<Output>(i);
-    const std::string path = OutputPath(output);
-    if (!path.empty() && !std::isfinite(impact[output])) return OutputOverflow("outcome." + path);
-  }
-  for (size_t i = 0; i < timeline.size(); ++i) {
-    const ContactVelocity& velocity = timeline[i].state.contact_velocity;
-    const std::string path = absl::StrCat("outcome.timeline[", i, "].state.contact_velocity.");
-    if (!std::isfinite(velocity.normal_m_s)) return OutputOverflow(path + "normal_m_s");
-    if (!std::isfinite(velocity.tangential_m_s[0])) return OutputOverflow(path + "tangential_m_s[0]");
-  }
-  return absl::OkStatus();
-}
-
-std::vector<Violation> CheckHistory(absl::Span<const double> taus, double tau1) {
-  std::vector<Violation> violations;
-  if (taus.size() > kMaxHistory) {
-    violations.push_back(
-        {"history_at_n_s", absl::StrCat("has ", taus.size(), " entries: must have ", "at most ", kMaxHistory)});
-    return violations;
-  }
-  for (size_t i = 0; i < taus.size(); ++i) {
-    if (taus[i] >= 0.0 && taus[i] <= tau1) continue;
-    violations.push_back(MakeViolation(absl::StrCat("history_at_n_s[", i, "]"), taus[i],
-                                       absl::StrCat("be in [0, tau1 = ", ShortestDecimal(tau1), "]")));
-  }
-  return violations;
 }
 
 State StateAt(const Problem& problem, double tau) {
@@ -144,19 +95,15 @@ std::string OutputPath(Output output) {
   return "";
 }
 
-absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s) {
+absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s, Detail detail) {
   const Impact impact = Solve(problem);
-  const bool separating = impact.regime == Regime::kSeparating;
-  std::vector<Event> timeline;
-  if (!separating) timeline = MakeTimeline(problem, impact);
-  const absl::Status finite = CheckFinite(impact, timeline);
-  if (!finite.ok()) return finite;
-  const auto violations = CheckHistory(history_at_n_s, impact[Output::kNormalImpulse]);
-  if (!violations.empty()) return InvalidRequest(violations);
-
   Outcome outcome;
   outcome.regime = impact.regime;
-  outcome.broken_limits = BrokenLimits(impact);
+  outcome.broken_limits = BrokenLimits({.sharp_broken = impact.sharp_limit_broken,
+                                        .energetic = impact[Output::kEnergetic],
+                                        .energetic_excess = impact[Output::kEnergeticExcess],
+                                        .energy_broken = impact.energy_limit_broken,
+                                        .energy_change = impact[Output::kEnergyChange]});
   outcome.admissible = outcome.broken_limits.empty();
   outcome.w_rank = 1;
   outcome.coefficients = {.newton = impact[Output::kNewton],
@@ -171,7 +118,16 @@ absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const dou
                      .tangential_n_s = {impact[Output::kTangentialImpulse]}};
   outcome.work = MakeLedger(impact);
   outcome.energy_change_j = impact[Output::kEnergyChange];
-  outcome.timeline = std::move(timeline);
+  outcome.accuracy.kind = AccuracyKind::kBound;
+  if (impact.regime != Regime::kSeparating) {
+    outcome.accuracy.relative_error = kUlps * std::max(1.0, impact[Output::kNewton]);
+    outcome.timeline = detail == Detail::kAll ? MakeTimeline(problem, impact) : std::vector<Event>();
+  }
+  if (detail == Detail::kNumbers) return outcome;
+  const absl::Status finite = CheckFinite(outcome);
+  if (!finite.ok()) return finite;
+  const auto violations = CheckHistory(history_at_n_s, impact[Output::kNormalImpulse]);
+  if (!violations.empty()) return InvalidRequest(violations);
   for (const double tau : history_at_n_s) outcome.history.push_back(StateAt(problem, tau));
   return outcome;
 }

@@ -7,6 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
+#include "core/models/outcome_parts.h"
 #include "core/models/pendulum.h"
 #include "core/outcome.h"
 
@@ -15,12 +16,10 @@ namespace ricochet::pendulum {
 // Where an output stands in ricochet.v1.Outcome: "coefficients.newton". Empty for those that stand nowhere.
 std::string OutputPath(Output output);
 
-// The most history points of one request.
-inline constexpr size_t kMaxHistory = 65536;
-
 // Errors: OUT_OF_RANGE naming the first output that exceeds the largest double; INVALID_ARGUMENT for each
 // history_at_n_s that is not in [0, tau1].
-absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s);
+absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s,
+                                    Detail detail = Detail::kAll);
 
 }  // namespace ricochet::pendulum
 

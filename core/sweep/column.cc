@@ -1,8 +1,52 @@
 #include "core/sweep/column.h"
 
+#include <variant>
+
 #include "core/models/pendulum_outcome.h"
+#include "core/outcome_numbers.h"
+#include "core/scene/reduction.h"
 
 namespace ricochet {
+namespace {
+
+// How many entries the system's lists have.
+struct Shape {
+  size_t rates = 0;
+  size_t bodies = 0;
+};
+
+Shape ShapeOf(std::monostate /*unset*/) { return {}; }
+Shape ShapeOf(const Pendulum& /*pendulum*/) { return {.rates = 1}; }
+Shape ShapeOf(const PlanarBody& /*body*/) { return {.bodies = 1}; }
+Shape ShapeOf(const SpatialBody& /*body*/) { return {.bodies = 1}; }
+Shape ShapeOf(const BodyPair& /*pair*/) { return {.bodies = 2}; }
+Shape ShapeOf(const Linkage& linkage) { return {.rates = linkage.links.size()}; }
+Shape ShapeOf(const PlanarContact& /*contact*/) { return {}; }
+Shape ShapeOf(const SpatialContact& /*contact*/) { return {}; }
+
+}  // namespace
+
+std::vector<std::string> Columns(const Scene& scene) {
+  const Shape shape = std::visit([](const auto& system) { return ShapeOf(system); }, scene.system);
+  const size_t tangential = TangentialDirections(scene.system);
+  Outcome outcome;
+  outcome.rates_after_rad_s.resize(shape.rates);
+  outcome.bodies_after.resize(shape.bodies);
+  for (BodyVelocity& body : outcome.bodies_after) {
+    body.linear_m_s.resize(tangential + 1);
+    body.angular_rad_s.resize(tangential == 1 ? 1 : 3);
+  }
+  outcome.contact_velocity_after.tangential_m_s.resize(tangential);
+  outcome.impulse.tangential_n_s.resize(tangential);
+  std::vector<std::string> columns;
+  VisitOutcomeNumbers(outcome, [&](const NumberPath& path, double /*number*/) { columns.push_back(path.Text()); });
+  return columns;
+}
+
+void ReadColumns(const Outcome& outcome, std::vector<double>& numbers) {
+  numbers.clear();
+  VisitOutcomeNumbers(outcome, [&](const NumberPath& /*path*/, double number) { numbers.push_back(number); });
+}
 
 const std::vector<std::string>& PendulumColumns() {
   static const std::vector<std::string> columns = [] {

@@ -8,10 +8,19 @@
 #include <vector>
 
 #include "core/models/pendulum.h"
+#include "core/outcome.h"
+#include "core/scene/scene.h"
 
 namespace ricochet {
 
-// Every column of a pendulum sweep, as ricochet.v1.Outcome spells it: "coefficients.newton", "rates_after_rad_s[0]".
+// Every column of a sweep over the scene, as ricochet.v1.Outcome spells it: "coefficients.newton",
+// "rates_after_rad_s[0]". Which there are depends on the system: its links, its bodies, plane or space.
+std::vector<std::string> Columns(const Scene& scene);
+
+// The number behind each of Columns(scene), in that order, for an outcome of that scene. `numbers` is reused.
+void ReadColumns(const Outcome& outcome, std::vector<double>& numbers);
+
+// Those of a pendulum that its closed form gives in SIMD lanes.
 const std::vector<std::string>& PendulumColumns();
 
 // The output behind a column; nothing for an unknown name.

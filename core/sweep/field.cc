@@ -1,47 +1,57 @@
 #include "core/sweep/field.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/scene/numbers.h"
+#include "core/scene/reduction.h"
 
 namespace ricochet {
 namespace {
 
 constexpr char kPhi[] = "pendulum.phi_rad";
 
-// The restitution's value, switched to the definition `T`.
+// Switches the restitution to the definition `T`.
 template <typename T>
-double* Switch(Scene& scene) {
+void Switch(Scene& scene) {
   if (!std::holds_alternative<T>(scene.restitution)) scene.restitution = T{};
-  return &std::get<T>(scene.restitution).value;
 }
+
+// The surface's velocity, at rest if the scene states none. A pair's body 2 is its surface.
+void MakeSurface(Scene& scene) {
+  if (scene.surface_velocity.has_value() || std::holds_alternative<BodyPair>(scene.system)) return;
+  scene.surface_velocity = SurfaceVelocity{std::vector<double>(TangentialDirections(scene.system), 0.0), 0.0};
+}
+
+bool StartsWith(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
 
 // The scalar field at `path`; null if there is none.
 double* FindScalar(const std::string& path, Scene& scene) {
-  if (path == "friction.kinetic_coefficient") return &scene.friction.kinetic_coefficient;
-  if (path == "friction.static_coefficient") {
-    auto& coefficient = scene.friction.static_coefficient;
-    if (!coefficient.has_value()) coefficient = 0.0;
-    return &*coefficient;
-  }
-  if (path == "restitution.newton") return Switch<NewtonCoefficient>(scene);
-  if (path == "restitution.poisson") return Switch<PoissonCoefficient>(scene);
-  if (path == "restitution.energetic") return Switch<EnergeticCoefficient>(scene);
-  auto* const pendulum = std::get_if<Pendulum>(&scene.system);
-  if (pendulum == nullptr) return nullptr;
-  if (path == "pendulum.inertia_kg_m2") return &pendulum->inertia_kg_m2;
-  if (path == "pendulum.a_m") return &pendulum->a_m;
-  if (path == "pendulum.b_m") return &pendulum->b_m;
-  if (path == "pendulum.omega_minus_rad_s") return &pendulum->omega_minus_rad_s;
-  return nullptr;
+  double* found = nullptr;
+  VisitNumbers(scene, [&](const NumberPath& number_path, double& number, NumberRule /*rule*/) {
+    if (number_path.Text() == path) found = &number;
+  });
+  return found;
+}
+
+// Makes present what an axis on `path` needs and the scene leaves out.
+void MakePresent(const std::string& path, Scene& scene) {
+  auto& static_coefficient = scene.friction.static_coefficient;
+  if (path == "friction.static_coefficient" && !static_coefficient.has_value()) static_coefficient = 0.0;
+  if (path == "restitution.newton") Switch<NewtonCoefficient>(scene);
+  if (path == "restitution.poisson") Switch<PoissonCoefficient>(scene);
+  if (path == "restitution.energetic") Switch<EnergeticCoefficient>(scene);
+  if (StartsWith(path, "surface_velocity.")) MakeSurface(scene);
 }
 
 // The scene's own field behind a scalar path: the three definitions of restitution share one.
 std::string Storage(const std::string& path) {
-  return path.rfind("restitution.", 0) == 0 ? "restitution.coefficient" : path;
+  const bool is_definition = StartsWith(path, "restitution.") && !StartsWith(path, "restitution.by_speed.");
+  return is_definition ? "restitution.coefficient" : path;
 }
 
 }  // namespace
@@ -62,25 +72,28 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
     const double distance = std::hypot(pendulum->a_m, pendulum->b_m);
     return Field(Field::Phi{&pendulum->a_m, &pendulum->b_m, distance}, {"pendulum.a_m", "pendulum.b_m"});
   }
-  double* const target = FindScalar(path, scene);
-  if (target == nullptr) {
+  const std::vector<std::string> paths = FieldPaths(scene);
+  if (std::find(paths.begin(), paths.end(), path) == paths.end()) {
     return absl::InvalidArgumentError(
-        absl::StrCat("= \"", absl::CEscape(path), "\": must be one of ", absl::StrJoin(FieldPaths(), ", ")));
+        absl::StrCat("= \"", absl::CEscape(path), "\": must be one of ", absl::StrJoin(paths, ", ")));
   }
-  return Field(Field::Scalar{target}, {Storage(path)});
+  MakePresent(path, scene);
+  return Field(Field::Scalar{FindScalar(path, scene)}, {Storage(path)});
 }
 
-const std::vector<std::string>& FieldPaths() {
-  static const std::vector<std::string> paths = {"pendulum.inertia_kg_m2",
-                                                 "pendulum.a_m",
-                                                 "pendulum.b_m",
-                                                 "pendulum.omega_minus_rad_s",
-                                                 kPhi,
-                                                 "friction.kinetic_coefficient",
-                                                 "friction.static_coefficient",
-                                                 "restitution.newton",
-                                                 "restitution.poisson",
-                                                 "restitution.energetic"};
+std::vector<std::string> FieldPaths(const Scene& scene) {
+  Scene all = scene;
+  MakePresent("friction.static_coefficient", all);
+  MakeSurface(all);
+  all.restitution = std::monostate();
+  std::vector<std::string> paths;
+  VisitNumbers(all,
+               [&](const NumberPath& path, double& /*number*/, NumberRule /*rule*/) { paths.push_back(path.Text()); });
+  if (std::holds_alternative<Pendulum>(scene.system)) paths.emplace_back(kPhi);
+  if (!std::holds_alternative<std::monostate>(scene.impact_law)) return paths;
+  for (const char* definition : {"newton", "poisson", "energetic"}) {
+    paths.push_back(absl::StrCat("restitution.", definition));
+  }
   return paths;
 }
 

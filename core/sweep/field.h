@@ -1,9 +1,11 @@
 // Fields: what an axis can drive, by path. A field is resolved once for a scene, then set once a point.
 //
-// Scalar fields are spelled as in the proto: pendulum.inertia_kg_m2, pendulum.a_m, pendulum.b_m,
-// pendulum.omega_minus_rad_s, friction.kinetic_coefficient, friction.static_coefficient, restitution.newton,
-// restitution.poisson, restitution.energetic. Derived: pendulum.phi_rad, the paper's angle phi = arctan(a/b) (Fig. 4)
-// at the base scene's distance R = sqrt(a^2 + b^2) from the pin: a = R sin(phi), b = R cos(phi).
+// Fields are spelled as in the proto: "friction.kinetic_coefficient", "linkage.links[1].theta_rad",
+// "spatial_contact.w_per_kg[3]"; core/scene/numbers.h knows them all. Which there are depends on the scene: its system,
+// its lists. Beyond those that the scene states, an axis may drive friction.static_coefficient, each definition of
+// restitution, and surface_velocity, which it makes present.
+// Derived: pendulum.phi_rad, the paper's angle phi = arctan(a/b) (Fig. 4) at the base scene's distance
+// R = sqrt(a^2 + b^2) from the pin: a = R sin(phi), b = R cos(phi).
 
 #ifndef RICOCHET_CORE_SWEEP_FIELD_H_
 #define RICOCHET_CORE_SWEEP_FIELD_H_
@@ -17,7 +19,7 @@
 
 namespace ricochet {
 
-// Sets one field of the scene it was resolved for; that scene must outlive it and keep its system and law.
+// Sets one field of the scene it was resolved for; that scene must outlive it and keep its system, law and lists.
 class Field {
  public:
   void Set(double value) const;
@@ -42,12 +44,13 @@ class Field {
   std::vector<std::string> sets_;
 };
 
-// The field at `path`. A restitution path switches the scene to that definition, static_coefficient makes it present.
+// The field at `path`. A restitution path switches the scene to that definition; a static_coefficient or surface_velocity
+// path makes it present.
 // Errors: INVALID_ARGUMENT whose message says what would be right, for an unknown path or one of another system.
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
 
-// Every path that an axis may drive.
-const std::vector<std::string>& FieldPaths();
+// Every path that an axis may drive in the scene.
+std::vector<std::string> FieldPaths(const Scene& scene);
 
 }  // namespace ricochet
 

@@ -11,9 +11,12 @@
 #include <vector>
 
 #include "absl/strings/escaping.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/models/pendulum.h"
+#include "core/models/scene_outcome.h"
+#include "core/scene/reduction.h"
 #include "core/scene/validate.h"
 #include "core/sweep/column.h"
 #include "core/sweep/field.h"
@@ -28,15 +31,15 @@ void Add(int64_t index, Tally& tally) {
   if (tally.count++ == 0) tally.first_index = index;
 }
 
-std::vector<Violation> CheckColumns(const std::vector<std::string>& columns) {
+std::vector<Violation> CheckColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known) {
   std::vector<Violation> violations;
   if (columns.empty()) violations.push_back({"columns", "is empty: must name at least one"});
   std::set<std::string> seen;
   for (size_t i = 0; i < columns.size(); ++i) {
     const std::string path = absl::StrCat("columns[", i, "]");
     const std::string found = absl::StrCat("= \"", absl::CEscape(columns[i]), "\": must be ");
-    if (!PendulumColumn(columns[i]).has_value()) {
-      violations.push_back({path, absl::StrCat(found, "one of ", absl::StrJoin(PendulumColumns(), ", "))});
+    if (std::find(known.begin(), known.end(), columns[i]) == known.end()) {
+      violations.push_back({path, absl::StrCat(found, "one of ", absl::StrJoin(known, ", "))});
     } else if (!seen.insert(columns[i]).second) {
       violations.push_back({path, found + "named once"});
     }
@@ -87,19 +90,34 @@ Drivers ResolveAxes(const std::vector<Axis>& axes, Scene& scene) {
   return drivers;
 }
 
+// "spatial_contact.w_per_kg[3]" -> "spatial_contact.w_per_kg".
+std::string ListOf(const std::string& path) { return path.substr(0, path.rfind('[')); }
+
+// Whether the rule that `violation` breaks is one between the field at `path` and others.
+bool Concerns(const Violation& violation, const std::string& path) {
+  const std::string& field = violation.field;
+  if (field == "friction.static_coefficient") return path == "friction.kinetic_coefficient";
+  if (field == "planar_contact.w_tn_per_kg") return absl::StartsWith(path, "planar_contact.w_");
+  if (absl::StrContains(field, ".table.speed_m_s[")) return ListOf(field) == ListOf(path);
+  return field == ListOf(path);  // A matrix.
+}
+
+// Whether a point may keep the rule that the base scene breaks, because axes drive what it is about.
+bool IsAMatterOfEachPoint(const Violation& violation, const std::set<std::string>& driven) {
+  if (driven.contains(violation.field)) return true;
+  const std::set<std::string> definitions = {"restitution.newton", "restitution.poisson", "restitution.energetic"};
+  if (definitions.contains(violation.field)) return driven.contains("restitution.coefficient");
+  // What follows from the contact as a whole follows from every field.
+  if (absl::StartsWith(violation.description, "makes ")) return !driven.empty();
+  // Values may change; what is set and how long lists are may not.
+  if (!absl::StartsWith(violation.description, "= ")) return false;
+  return std::any_of(driven.begin(), driven.end(), [&](const std::string& path) { return Concerns(violation, path); });
+}
+
 // The violations of the base scene that no axis cures.
 std::vector<Violation> CheckBaseScene(const Scene& scene, const std::set<std::string>& driven) {
   std::vector<Violation> violations = Validate(scene);
-  std::erase_if(violations, [&](const Violation& violation) {
-    if (violation.field.rfind("restitution.", 0) == 0) {
-      return driven.contains("restitution.coefficient");
-    }
-    // Whether static >= kinetic is a matter of each point.
-    if (violation.field == "friction.static_coefficient" && driven.contains("friction.kinetic_coefficient")) {
-      return true;
-    }
-    return driven.contains(violation.field);
-  });
+  std::erase_if(violations, [&](const Violation& violation) { return IsAMatterOfEachPoint(violation, driven); });
   return violations;
 }
 
@@ -115,7 +133,7 @@ class SweepRun::Impl {
 
   absl::Status Prepare(const SweepRequest& request);
 
-  int64_t column_count() const { return static_cast<int64_t>(outputs_.size()); }
+  int64_t column_count() const { return static_cast<int64_t>(columns_.size()); }
   int64_t points_total() const { return end_ - first_; }
   int64_t points_done() const { return next_ - first_; }
   const SweepSummary& summary() const { return summary_; }
@@ -126,8 +144,12 @@ class SweepRun::Impl {
  private:
   void SetPoint(int64_t index);
   void AdvancePoint();
+  void ResolveColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known);
   void GatherProblems(int64_t count);
-  void ComputeBlock(int64_t count);
+  void SolveLanes(int64_t count);
+  bool SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped);
+  void SolvePoint(size_t i);
+  bool ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped);
   void FinishBlock(int64_t count);
 
   Grid grid_;
@@ -135,7 +157,11 @@ class SweepRun::Impl {
   std::vector<Field> fields_;
   std::vector<int64_t> counts_;
   std::vector<int64_t> positions_;
-  std::vector<pendulum::Output> outputs_;
+  bool in_lanes_ = false;                  // Whether the pendulum's SIMD lanes give every column.
+  bool in_space_ = false;                  // Whether each point is integrated.
+  std::vector<pendulum::Output> outputs_;  // The columns, if they do.
+  std::vector<size_t> positions_of_;       // The columns' positions in Columns(scene_), if they do not.
+  std::vector<double> numbers_;            // One point's.
   int64_t first_ = 0;
   int64_t end_ = 0;
   int64_t next_ = 0;
@@ -159,14 +185,15 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   Append(std::move(drivers.violations), violations);
   const std::vector<Violation> axes = ValidateAxes(grid_);
   Append(axes, violations);
-  Append(CheckColumns(request.columns), violations);
+  const std::vector<std::string> known = Columns(scene_);
+  Append(CheckColumns(request.columns, known), violations);
   if (axes.empty()) Append(CheckRange(request), violations);
   if (!violations.empty()) return InvalidRequest(violations);
 
   fields_ = std::move(drivers.fields);
   for (const Axis& axis : grid_.axes) counts_.push_back(AxisCount(axis));
   positions_.resize(grid_.axes.size());
-  for (const std::string& column : request.columns) outputs_.push_back(*PendulumColumn(column));
+  ResolveColumns(request.columns, known);
   first_ = request.first_index;
   end_ = request.end_index.value_or(PointCount(grid_));
   next_ = first_;
@@ -174,9 +201,23 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   regimes_.resize(kPointsBetweenStops);
   valid_ = std::make_unique<bool[]>(kPointsBetweenStops);
   inadmissible_ = std::make_unique<bool[]>(kPointsBetweenStops);
-  columns_.resize(outputs_.size());
+  columns_.resize(request.columns.size());
   if (first_ < end_) SetPoint(first_);
   return absl::OkStatus();
+}
+
+void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known) {
+  in_lanes_ = HasClosedForm(scene_) && std::all_of(columns.begin(), columns.end(), [](const std::string& column) {
+                return PendulumColumn(column).has_value();
+              });
+  in_space_ = TangentialDirections(scene_.system) == 2;
+  for (const std::string& column : columns) {
+    if (in_lanes_) {
+      outputs_.push_back(*PendulumColumn(column));
+    } else {
+      positions_of_.push_back(static_cast<size_t>(std::find(known.begin(), known.end(), column) - known.begin()));
+    }
+  }
 }
 
 void SweepRun::Impl::SetPoint(int64_t index) {
@@ -204,7 +245,7 @@ SweepRun::Extent SweepRun::Impl::Next() const {
 void SweepRun::Impl::GatherProblems(int64_t count) {
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
     valid_[i] = IsValid(scene_);
-    problems_[i] = valid_[i] ? pendulum::MakeProblem(scene_) : pendulum::Problem{};
+    problems_[i] = valid_[i] ? ClosedFormProblem(scene_) : pendulum::Problem{};
     if (!valid_[i]) problems_[i].omega_minus = 1.0;  // Separating: the cheapest to solve.
     AdvancePoint();
   }
@@ -213,9 +254,8 @@ void SweepRun::Impl::GatherProblems(int64_t count) {
 // Overwrites bad points and tallies all of them.
 void SweepRun::Impl::FinishBlock(int64_t count) {
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    const bool finite =
-        std::all_of(columns_.begin(), columns_.end(), [i](const double* column) { return std::isfinite(column[i]); });
-    if (!valid_[i] || !finite) {
+    const auto is_finite = [i](const double* column) { return std::isfinite(column[i]); };
+    if (!valid_[i] || !std::all_of(columns_.begin(), columns_.end(), is_finite)) {
       regimes_[i] = Regime::kInvalid;
       inadmissible_[i] = false;
       for (double* column : columns_) column[i] = std::numeric_limits<double>::quiet_NaN();
@@ -226,14 +266,45 @@ void SweepRun::Impl::FinishBlock(int64_t count) {
   }
 }
 
-void SweepRun::Impl::ComputeBlock(int64_t count) {
+void SweepRun::Impl::SolveLanes(int64_t count) {
   const auto size = static_cast<size_t>(count);
   GatherProblems(count);
   pendulum::SolveColumns(absl::MakeConstSpan(problems_).first(size), outputs_, columns_,
                          absl::MakeSpan(regimes_).first(size), absl::MakeSpan(inadmissible_.get(), size));
+}
+
+void SweepRun::Impl::SolvePoint(size_t i) {
+  valid_[i] = IsValid(scene_);
+  if (!valid_[i]) return;
+  const absl::StatusOr<Outcome> outcome = SolveScene(scene_, {.detail = Detail::kNumbers});
+  valid_[i] = outcome.ok();
+  if (!valid_[i]) return;
+  regimes_[i] = outcome->regime;
+  inadmissible_[i] = !outcome->admissible;
+  ReadColumns(*outcome, numbers_);
+  for (size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = numbers_[positions_of_[c]];
+}
+
+// False if it was stopped.
+bool SweepRun::Impl::SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped) {
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    if (in_space_ && stopped()) return false;
+    SolvePoint(i);
+    AdvancePoint();
+  }
+  return true;
+}
+
+bool SweepRun::Impl::ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped) {
+  if (in_lanes_) {
+    SolveLanes(count);
+  } else if (!SolvePoints(count, stopped)) {
+    return false;
+  }
   FinishBlock(count);
   next_ += count;
   summary_.points += count;
+  return true;
 }
 
 bool SweepRun::Impl::Compute(Extent extent, absl::Span<double> values, absl::Span<Regime> regimes,
@@ -246,7 +317,7 @@ bool SweepRun::Impl::Compute(Extent extent, absl::Span<double> values, absl::Spa
     for (int64_t c = 0; c < column_count(); ++c) {
       columns_[static_cast<size_t>(c)] = values.data() + c * extent.count + done;
     }
-    ComputeBlock(count);
+    if (!ComputeBlock(count, stopped)) return false;
     if (!regimes.empty()) {
       std::copy_n(regimes_.begin(), count, regimes.begin() + done);
     }

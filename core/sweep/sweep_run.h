@@ -51,8 +51,8 @@ class SweepRun {
   Extent Next() const;
 
   // Computes the points of `extent`, which must be Next(): column c of point i to values[c * count + i], its regime to
-  // regimes[i] unless `regimes` is empty. Looks at `stopped` before every kPointsBetweenStops points; once it holds,
-  // returns false and the run is over.
+  // regimes[i] unless `regimes` is empty. Looks at `stopped` before every kPointsBetweenStops points, and before each
+  // that has to be integrated; once it holds, returns false and the run is over.
   bool Compute(Extent extent, absl::Span<double> values, absl::Span<Regime> regimes, absl::FunctionRef<bool()> stopped);
 
   // Of the points done so far.

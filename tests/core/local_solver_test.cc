@@ -217,7 +217,7 @@ TEST(LocalSolverTest, SeparatingContactHasAHistoryOfOneInstant) {
 
 TEST(LocalSolverTest, HistoriesLongerThan65536AreRefused) {
   SolveRequest request = {.scene = ExactScene()};
-  request.history_at_n_s.assign(pendulum::kMaxHistory, 1.0);
+  request.history_at_n_s.assign(kMaxHistory, 1.0);
   EXPECT_TRUE(LocalSolver().Solve(request).ok());
   request.history_at_n_s.push_back(1.0);
   const absl::Status status = LocalSolver().Solve(request).status();

@@ -70,7 +70,7 @@ TEST(FieldTest, PhiKeepsTheDistanceOfTheBaseSceneHoweverOftenItIsSet) {
 }
 
 TEST(FieldTest, EveryListedPathCanBeDriven) {
-  for (const std::string& path : FieldPaths()) {
+  for (const std::string& path : FieldPaths(BaseScene())) {
     Scene scene = BaseScene();
     EXPECT_TRUE(ResolveField(path, scene).ok()) << path;
   }

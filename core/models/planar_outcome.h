@@ -1,0 +1,28 @@
+// A planar impact as an Outcome: contact velocities, ledger, timeline, limits broken, velocities of the system.
+
+#ifndef RICOCHET_CORE_MODELS_PLANAR_OUTCOME_H_
+#define RICOCHET_CORE_MODELS_PLANAR_OUTCOME_H_
+
+#include "absl/status/statusor.h"
+#include "absl/types/span.h"
+#include "core/models/outcome_parts.h"
+#include "core/models/planar.h"
+#include "core/outcome.h"
+#include "core/scene/reduction.h"
+#include "core/scene/scene.h"
+
+namespace ricochet::planar {
+
+// The impact of a reduced system. `effective` holds the coefficients, `restitution` says by which law.
+Problem MakeProblem(const PlanarReduction& reduction, const Restitution& restitution,
+                    const EffectiveCoefficients& effective);
+
+// `problem` is of `reduction`.
+// Errors: OUT_OF_RANGE naming the first output that exceeds the largest double; INVALID_ARGUMENT for each
+// history_at_n_s that is not in [0, tau1].
+absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
+                                    absl::Span<const double> history_at_n_s, Detail detail = Detail::kAll);
+
+}  // namespace ricochet::planar
+
+#endif  // RICOCHET_CORE_MODELS_PLANAR_OUTCOME_H_
