@@ -40,6 +40,10 @@ const char* Sentence(Regime regime) {
       return "Wedged: the contact never ends.";
     case Regime::kSeparating:
       return "Separating: the contact does not approach; nothing happens.";
+    case Regime::kByLaw:
+      return "By an impact law: it says how the impact ends, not how it goes on.";
+    case Regime::kNoSolution:
+      return "No solution: the impact law contradicts itself here.";
     case Regime::kUnspecified:
     case Regime::kInvalid:
       break;
@@ -57,6 +61,10 @@ const char* EventText(EventKind kind) {
       return "compression ends";
     case EventKind::kRestitutionEnds:
       return "restitution ends";
+    case EventKind::kSlipStarts:
+      return "slip starts";
+    case EventKind::kStickStarts:
+      return "stick starts";
     case EventKind::kUnspecified:
       break;
   }
@@ -76,13 +84,17 @@ std::string Verdict(const Outcome& outcome) {
   return absl::StrCat(text, table.Render(2));
 }
 
-std::string CoefficientsText(const Coefficients& coefficients) {
+std::string CoefficientsText(const Outcome& outcome) {
+  const Coefficients& coefficients = outcome.coefficients;
+  const EffectiveCoefficients& effective = outcome.effective;
   Table table;
   table.Add({"Newton      (velocities, -v+/v-)", Rounded(coefficients.newton)});
   table.Add({"Poisson     (normal impulses)", Rounded(coefficients.poisson)});
   table.Add({"energetic   (normal works)", Rounded(coefficients.energetic)});
   table.Add({"tangential  (Brach, f/tau)", Rounded(coefficients.tangential)});
-  return absl::StrCat("Coefficients\n", table.Render(2));
+  return absl::StrCat("Coefficients\n", table.Render(2), "  computed with friction ",
+                      Rounded(effective.kinetic_friction), " (static ", Rounded(effective.static_friction),
+                      "), restitution ", Rounded(effective.restitution), "\n");
 }
 
 // Appends the entries of a list, one a tangential direction or a rate, as cells.
@@ -98,6 +110,14 @@ void AddMotion(const std::string& name, const std::vector<double>& before, const
   }
 }
 
+std::string AccuracyText(const Accuracy& accuracy) {
+  std::string text =
+      absl::StrCat("  contact velocity exact to ", Rounded(accuracy.relative_error), " of the one before",
+                   accuracy.kind == AccuracyKind::kBound ? " (proved)" : " (estimated)");
+  if (accuracy.steps > 0) absl::StrAppend(&text, ", ", accuracy.steps, " steps");
+  return text + "\n";
+}
+
 std::string MotionText(const Outcome& outcome) {
   // Where the contact separates there is no timeline, and nothing changes.
   State before{.contact_velocity = outcome.contact_velocity_after, .rates_rad_s = outcome.rates_after_rad_s};
@@ -109,15 +129,49 @@ std::string MotionText(const Outcome& outcome) {
             outcome.contact_velocity_after.tangential_m_s, table);
   AddMotion("contact, normal [m/s]", {before.contact_velocity.normal_m_s}, {outcome.contact_velocity_after.normal_m_s},
             table);
-  return absl::StrCat("Motion\n", table.Render(2));
+  return absl::StrCat("Motion\n", table.Render(2), AccuracyText(outcome.accuracy));
+}
+
+std::string BodiesText(const std::vector<BodyVelocity>& bodies) {
+  if (bodies.empty()) return "";
+  const bool in_space = bodies.front().linear_m_s.size() == 3;
+  Table table;
+  table.Add(in_space ? std::vector<std::string>{"", "v1 [m/s]", "v2 [m/s]", "vn [m/s]", "w1 [rad/s]", "w2 [rad/s]",
+                                                "wn [rad/s]"}
+                     : std::vector<std::string>{"", "vt [m/s]", "vn [m/s]", "w [rad/s]"});
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    std::vector<std::string> cells = {absl::StrCat("body ", i + 1)};
+    AppendCells(bodies[i].linear_m_s, cells);
+    AppendCells(bodies[i].angular_rad_s, cells);
+    table.Add(cells);
+  }
+  return absl::StrCat("\nBodies after\n", table.Render(2));
+}
+
+// Every solution of an impact law that has several.
+std::string AlternativesText(const std::vector<ImpactSolution>& alternatives) {
+  if (alternatives.empty()) return "";
+  Table table;
+  table.Add({"", "u [m/s]", "v [m/s]", "f [N s]", "tau [N s]"});
+  for (size_t i = 0; i < alternatives.size(); ++i) {
+    std::vector<std::string> cells = {absl::StrCat(i + 1)};
+    AppendCells(alternatives[i].contact_velocity_after.tangential_m_s, cells);
+    cells.push_back(Rounded(alternatives[i].contact_velocity_after.normal_m_s));
+    AppendCells(alternatives[i].impulse.tangential_n_s, cells);
+    cells.push_back(Rounded(alternatives[i].impulse.normal_total_n_s));
+    table.Add(cells);
+  }
+  return absl::StrCat("\nAll solutions of the law\n", table.Render(2));
 }
 
 std::string ImpulseText(const Impulse& impulse) {
   Table table;
   table.Add({"normal, of compression [N s]", Rounded(impulse.normal_compression_n_s)});
   table.Add({"normal, whole [N s]", Rounded(impulse.normal_total_n_s)});
-  for (const double tangential : impulse.tangential_n_s) {
-    table.Add({"tangential, whole [N s]", Rounded(tangential)});
+  const std::vector<double>& tangential = impulse.tangential_n_s;
+  for (size_t i = 0; i < tangential.size(); ++i) {
+    const std::string number = tangential.size() == 1 ? "" : absl::StrCat(" ", i + 1);
+    table.Add({absl::StrCat("tangential, whole [N s]", number), Rounded(tangential[i])});
   }
   return absl::StrCat("Impulse on the body\n", table.Render(2));
 }
@@ -143,13 +197,28 @@ std::vector<std::string> StateCells(const std::string& name, const State& state)
   return cells;
 }
 
+bool IsPlanar(const State& state) { return state.tangential_impulse_n_s.size() == 1; }
+
 std::string StatesText(const char* title, const Table& table) {
   return absl::StrCat("\n", title, "\n", table.Render(2));
 }
 
-Table StateTable() {
+// The names of a list's entries: "u [m/s]" for one, "u1 [m/s]", "u2 [m/s]" for two.
+void AppendNames(const std::string& symbol, const std::string& unit, size_t count, std::vector<std::string>& names) {
+  for (size_t i = 0; i < count; ++i) {
+    names.push_back(absl::StrCat(symbol, count == 1 ? "" : absl::StrCat(i + 1), " [", unit, "]"));
+  }
+}
+
+// With the header for states like `state`.
+Table StateTable(const State& state) {
+  std::vector<std::string> names = {"", "tau [N s]"};
+  AppendNames("f", "N s", state.tangential_impulse_n_s.size(), names);
+  AppendNames("u", "m/s", state.contact_velocity.tangential_m_s.size(), names);
+  names.emplace_back("v [m/s]");
+  AppendNames("w", "rad/s", state.rates_rad_s.size(), names);
   Table table;
-  table.Add({"", "tau [N s]", "f [N s]", "u [m/s]", "v [m/s]", "w [rad/s]"});
+  table.Add(names);
   return table;
 }
 
@@ -180,8 +249,11 @@ void AppendSingle(const Message& message, const FieldDescriptor* field, const st
       return row.Add(path, reflection.GetBool(message, field) ? "true" : "false");
     case FieldDescriptor::CPPTYPE_INT32:
       return row.Add(path, absl::StrCat(reflection.GetInt32(message, field)));
+    case FieldDescriptor::CPPTYPE_INT64:
+      return row.Add(path, absl::StrCat(reflection.GetInt64(message, field)));
     default:
-      return row.Add(path, std::string(absl::StripPrefix(reflection.GetEnum(message, field)->name(), "REGIME_")));
+      return row.Add(path, std::string(absl::StripPrefix(
+                               absl::StripPrefix(reflection.GetEnum(message, field)->name(), "REGIME_"), "KIND_")));
   }
 }
 
@@ -196,6 +268,11 @@ void AppendFields(const Message& message, const std::string& prefix, Row& row) {
       for (int j = 0; j < reflection.FieldSize(message, field); ++j) {
         row.Add(absl::StrCat(path, "[", j, "]"), ShortestDecimal(reflection.GetRepeatedDouble(message, field, j)));
       }
+    } else if (field->message_type() == v1::BodyVelocity::descriptor()) {
+      // The other lists of messages have as many entries as the impact has events.
+      for (int j = 0; j < reflection.FieldSize(message, field); ++j) {
+        AppendFields(reflection.GetRepeatedMessage(message, field, j), absl::StrCat(path, "[", j, "]."), row);
+      }
     }
   }
 }
@@ -203,16 +280,18 @@ void AppendFields(const Message& message, const std::string& prefix, Row& row) {
 }  // namespace
 
 std::string SolveText(const Outcome& outcome) {
-  std::string text =
-      absl::StrCat(Sentence(outcome.regime), "\n", Verdict(outcome), "\n", CoefficientsText(outcome.coefficients), "\n",
-                   MotionText(outcome), "\n", ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+  std::string text = absl::StrCat(Sentence(outcome.regime), "\n", Verdict(outcome), "\n", CoefficientsText(outcome),
+                                  "\n", MotionText(outcome), BodiesText(outcome.bodies_after), "\n",
+                                  ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+  text += AlternativesText(outcome.alternatives);
   if (!outcome.timeline.empty()) {
-    Table table = StateTable();
+    const State& start = outcome.timeline.front().state;
+    Table table = StateTable(start);
     for (const Event& event : outcome.timeline) table.Add(StateCells(EventText(event.kind), event.state));
-    absl::StrAppend(&text, StatesText("Timeline (linear between events)", table));
+    absl::StrAppend(&text, StatesText(IsPlanar(start) ? "Timeline (linear between events)" : "Timeline", table));
   }
   if (!outcome.history.empty()) {
-    Table table = StateTable();
+    Table table = StateTable(outcome.history.front());
     for (const State& state : outcome.history) table.Add(StateCells("", state));
     absl::StrAppend(&text, StatesText("History", table));
   }
@@ -241,13 +320,17 @@ absl::StatusOr<Plot> SolvePlot(const Outcome& outcome) {
   if (outcome.timeline.size() < 2) {
     return absl::FailedPreconditionError("--plot: the contact separates at once; there is nothing to draw");
   }
-  Curve rate, ratio, impulse;
+  if (!IsPlanar(outcome.timeline.front().state)) {
+    return absl::FailedPreconditionError("--plot: the path of an impact in space is not kept between its events");
+  }
+  const bool has_rates = !outcome.rates_after_rad_s.empty();
+  Curve motion, ratio, impulse;
   const State* previous = nullptr;
   for (const Event& event : outcome.timeline) {
     const State& state = event.state;
     const double tau = state.normal_impulse_n_s;
     const double f = state.tangential_impulse_n_s.at(0);
-    rate.points.emplace_back(tau, state.rates_rad_s.at(0));
+    motion.points.emplace_back(tau, has_rates ? state.rates_rad_s.at(0) : state.contact_velocity.normal_m_s);
     impulse.points.emplace_back(tau, f);
     if (previous != nullptr && tau > previous->normal_impulse_n_s) {
       const double force = (f - previous->tangential_impulse_n_s[0]) / (tau - previous->normal_impulse_n_s);
@@ -264,7 +347,8 @@ absl::StatusOr<Plot> SolvePlot(const Outcome& outcome) {
                  .curves = {std::move(curve)}};
   };
   return Plot{.title = absl::StrCat("Impact: ", RegimeText(outcome.regime), " (dashed: compression ends)"),
-              .panels = {panel("Angular velocity ω(τ)", "ω [rad/s]", std::move(rate)),
+              .panels = {has_rates ? panel("Angular velocity ω(τ)", "ω [rad/s]", std::move(motion))
+                                   : panel("Normal velocity v(τ)", "v [m/s]", std::move(motion)),
                          panel("Friction force to normal force", "F/N", std::move(ratio)),
                          panel("Friction impulse f(τ)", "f [N s]", std::move(impulse))}};
 }

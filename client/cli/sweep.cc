@@ -1,5 +1,6 @@
 #include "client/cli/sweep.h"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -28,7 +29,7 @@ constexpr char kExample[] = R"(Example: Fig. 4 of the paper, Newton's coefficien
   index   friction.kinetic_coefficient   pendulum.phi_rad   coefficients.newton
   0                                0.1               0.01                     0
   ...
-The last axis runs fastest. --axis ? and --column ? list what there is.
+The last axis runs fastest. --axis ? and --column ? list what there is, for the scene if one is given.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct SweepOptions {
@@ -56,6 +57,19 @@ absl::StatusOr<SweepRequest> RequestFromFile(const SweepOptions& options) {
   return FromProto(proto);
 }
 
+// The three coefficients and the first of the system's own velocities, or the contact's where it has none.
+std::vector<std::string> DefaultColumns(const Scene& scene) {
+  const std::vector<std::string> known = Columns(scene);
+  std::vector<std::string> columns = {"coefficients.newton", "coefficients.poisson", "coefficients.energetic"};
+  for (const char* motion :
+       {"rates_after_rad_s[0]", "bodies_after[0].linear_m_s[0]", "contact_velocity_after.normal_m_s"}) {
+    if (std::find(known.begin(), known.end(), motion) == known.end()) continue;
+    columns.emplace_back(motion);
+    break;
+  }
+  return columns;
+}
+
 absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   SweepRequest request;
   absl::StatusOr<Scene> scene = ReadScene(options.scene);
@@ -67,10 +81,7 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
     request.grid.axes.push_back(*std::move(axis));
   }
   request.grid.combination = options.zip ? Combination::kZip : Combination::kProduct;
-  request.columns = options.columns;
-  if (request.columns.empty()) {
-    request.columns = {"coefficients.newton", "coefficients.poisson", "coefficients.energetic", "rates_after_rad_s[0]"};
-  }
+  request.columns = options.columns.empty() ? DefaultColumns(request.grid.scene) : options.columns;
   request.with_regime = options.regime;
   if (options.range.empty()) return request;
   const absl::StatusOr<IndexRange> range = ParseRange(options.range);
@@ -137,9 +148,16 @@ absl::Status List(const std::vector<std::string>& names) {
   return WriteOutput({}, text);
 }
 
+// What axes and columns there are depends on the scene; without one they are those of a pendulum.
+absl::Status ListFor(const SceneOptions& options, std::vector<std::string> (*names)(const Scene&)) {
+  if (!options.any()) return List(names({.system = Pendulum()}));
+  const absl::StatusOr<Scene> scene = ReadScene(options);
+  return scene.ok() ? List(names(*scene)) : scene.status();
+}
+
 absl::Status RunSweep(const SweepOptions& options) {
-  if (Asks(options.axes)) return List(FieldPaths());
-  if (Asks(options.columns)) return List(PendulumColumns());
+  if (Asks(options.axes)) return ListFor(options.scene, FieldPaths);
+  if (Asks(options.columns)) return ListFor(options.scene, Columns);
   if (!options.plot.empty()) {
     if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
   }

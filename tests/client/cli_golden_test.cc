@@ -24,6 +24,8 @@ struct Golden {
 
 void PrintTo(const Golden& golden, std::ostream* stream) { *stream << golden.name; }
 
+std::string Scenes(const std::string& name) { return TestDataPath("scenes/" + name); }
+
 const Golden kGolden[] = {
     {"solve_paper.txt", {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--history", "4"}},
     {"solve_inadmissible.txt", {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--newton", "1.1"}},
@@ -34,6 +36,13 @@ const Golden kGolden[] = {
     {"solve_paper.csv", {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--format", "csv"}},
     {"solve_history.csv",
      {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--history", "2", "--format", "csv"}},
+    {"solve_chain.txt", {"solve", "--scene", Scenes("double_pendulum.textproto"), "--history", "2"}},
+    {"solve_pair.txt", {"solve", "--scene", Scenes("body_pair.textproto")}},
+    {"solve_pair.csv", {"solve", "--scene", Scenes("body_pair.textproto"), "--format", "csv"}},
+    {"solve_law.txt", {"solve", "--scene", Scenes("kane_levinson.textproto")}},
+    {"sweep_chain.csv",
+     {"sweep", "--scene", Scenes("double_pendulum.textproto"), "--axis", "linkage.links[1].theta_rad=lin:0.1:1:5",
+      "--column", "rates_after_rad_s[1],energy_change_j", "--regime", "--format", "csv"}},
     {"bounds_paper.txt", {"bounds", "--a", "4", "--b", "1", "--mu", "0.4", "--energetic", "1"}},
     {"bounds_locked.txt", {"bounds", "--a", "1", "--b", "1", "--mu", "1"}},
     {"bounds_paper.json", {"bounds", "--a", "4", "--b", "1", "--mu", "0.4", "--format", "json"}},

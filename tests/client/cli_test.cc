@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tests/client/cli_run.h"
+#include "tests/support/paths.h"
 #include "tests/support/server_process.h"
 
 namespace ricochet::cli {
@@ -64,6 +65,26 @@ TEST_F(Cli, ReadsEveryNumberAsTheNearestDouble) {
 TEST_F(Cli, ListsTheAxesAndColumnsThereAre) {
   EXPECT_THAT(Run({"sweep", "--axis", "?"}).out, HasSubstr("pendulum.phi_rad\n"));
   EXPECT_THAT(Run({"sweep", "--column", "?"}).out, HasSubstr("coefficients.newton\n"));
+}
+
+TEST_F(Cli, ListsTheAxesAndColumnsOfTheSceneGiven) {
+  const std::string scene = TestDataPath("scenes/double_pendulum.textproto");
+  EXPECT_THAT(Run({"sweep", "--scene", scene, "--axis", "?"}).out, HasSubstr("linkage.links[1].theta_rad\n"));
+  EXPECT_THAT(Run({"sweep", "--scene", scene, "--column", "?"}).out, HasSubstr("rates_after_rad_s[1]\n"));
+}
+
+TEST_F(Cli, ShowsBothDirectionsOfAnImpactInSpace) {
+  const CliResult result = Run({"solve", "--scene", TestDataPath("scenes/spatial_body.json")});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, testing::ContainsRegex("u1 .m/s. +u2 .m/s. +v .m/s."));
+  EXPECT_THAT(result.out, HasSubstr("Bodies after"));
+  EXPECT_THAT(result.out, HasSubstr("v1 [m/s]"));
+}
+
+TEST_F(Cli, BoundsOfASystemThatHasNoneNameTheSystem) {
+  const CliResult result = Run({"bounds", "--scene", TestDataPath("scenes/double_pendulum.textproto")});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("system has no bounds: must be pendulum"));
 }
 
 TEST_F(Cli, TellsItsVersionAndEngine) {

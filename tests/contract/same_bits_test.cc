@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include "core/sweep/column.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "tests/contract/solvers.h"
 #include "tests/support/pendulum_scenes.h"
+#include "tests/support/system_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -149,6 +151,43 @@ TEST(SameBits, OfASubRange) {
   request.first_index = 12'345;
   request.end_index = 78'901;
   ExpectSameSweep(request);
+}
+
+TEST(SameBits, OfSolvesOfEverySystem) {
+  for (const System& system : Systems()) {
+    for (const double mu : {0.0, 0.2, 0.9}) {
+      SolveRequest request{.scene = With(system), .relative_tolerance = 1e-8};
+      request.scene.friction.kinetic_coefficient = mu;
+      ExpectSame(Local().Solve(request), Remote().Solve(request));
+    }
+  }
+}
+
+TEST(SameBits, OfSweepsOverEverySystem) {
+  for (const System& system : Systems()) {
+    SweepRequest request;
+    request.grid.scene = With(system);
+    request.grid.axes = {{"friction.kinetic_coefficient", Linspace{-0.1, 1.0, 23}},
+                         {"restitution.newton", ListValues{{0.0, 0.5, 1.0}}}};
+    request.columns = Columns(request.grid.scene);
+    request.with_regime = true;
+    ExpectSameSweep(request);
+  }
+}
+
+TEST(SameBits, OfImpactLawsAndSpeedDependence) {
+  Scene law = With(Flat());
+  law.restitution = std::monostate();
+  law.impact_law = ChatterjeeRuinaLaw{0.5, 0.25};
+  Scene by_speed = With(Chain());
+  by_speed.friction.by_speed = SpeedTable{{0.0, 2.0}, {1.0, 0.5}};
+  by_speed.restitution_by_speed = PowerLaw{0.1, 0.2};
+  by_speed.surface_velocity = SurfaceVelocity{{0.1}, 0.0};
+  for (const Scene& scene : {law, by_speed}) {
+    const auto local = Local().Solve({.scene = scene});
+    ASSERT_TRUE(local.ok()) << local.status();
+    ExpectSame(local, Remote().Solve({.scene = scene}));
+  }
 }
 
 }  // namespace
