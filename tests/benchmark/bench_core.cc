@@ -1,4 +1,5 @@
-// What accuracy costs: the pendulum's closed form against the same formulas written down plainly, in time and in ulp.
+// What accuracy costs: the pendulum's closed form against the same formulas written down plainly, in time and in ulp;
+// and what generality does: the planar model against the pendulum's closed form.
 
 #include <cmath>
 #include <cstdio>
@@ -11,8 +12,10 @@
 #include "absl/synchronization/mutex.h"
 #include "core/local_solver.h"
 #include "core/models/pendulum.h"
+#include "core/models/planar.h"
 #include "core/numerics/ulp.h"
 #include "tests/benchmark/measure.h"
+#include "tests/support/planar_scenes.h"
 
 namespace ricochet::bench {
 namespace {
@@ -163,6 +166,55 @@ void Columns() {
         absl::StrFormat("%.2f x eight columns: only what is asked for is computed", one.ratio));
 }
 
+planar::Problem AsContact(const Problem& p) {
+  return {.wtt = p.b * p.b / p.inertia,
+          .wtn = p.a * p.b / p.inertia,
+          .wnn = p.a * p.a / p.inertia,
+          .u0 = p.b * p.omega_minus,
+          .v0 = p.a * p.omega_minus,
+          .mu = p.mu,
+          .mu_static = p.mu_static,
+          .law = p.law,
+          .coefficient = p.coefficient};
+}
+
+void ComparePlanar(const std::string& what, const std::vector<planar::Problem>& contacts,
+                   const std::vector<Problem>& pendulums) {
+  const Comparison time = Compare(
+      kRounds,
+      [&] {
+        double sum = 0.0;
+        for (const planar::Problem& contact : contacts) sum += planar::Solve(contact).v1;
+        Keep(sum);
+      },
+      [&] {
+        double sum = 0.0;
+        for (const Problem& pendulum : pendulums) sum += pendulum::Solve(pendulum)[Output::kOmegaPlus];
+        Keep(sum);
+      });
+  Print(what, absl::StrFormat("%.1f ns", time.seconds_a / static_cast<double>(contacts.size()) * 1e9),
+        absl::StrFormat("%.2f x the pendulum's closed form, %.1f ns", time.ratio,
+                        time.seconds_b / static_cast<double>(pendulums.size()) * 1e9));
+}
+
+void PlanarSolve() {
+  constexpr size_t kCount = 4096;
+  const std::vector<Problem> pendulums = TypicalProblems(kCount);
+  std::vector<planar::Problem> as_contacts;
+  for (const Problem& pendulum : pendulums) as_contacts.push_back(AsContact(pendulum));
+  std::vector<planar::Problem> everyday;
+  std::vector<planar::Problem> hard;
+  planar::SceneSource source(1);
+  for (size_t i = 0; i < kCount; ++i) {
+    everyday.push_back(source.Everyday());
+    hard.push_back(source.Any());
+  }
+  std::printf("Planar contact, one solve with its events and works\n");
+  ComparePlanar("everyday contacts, W of full rank", everyday, pendulums);
+  ComparePlanar("everyday contacts and ones near thresholds", hard, pendulums);
+  ComparePlanar("the same pendulums, W of rank one", as_contacts, pendulums);
+}
+
 SweepRequest EndlessSweep() {
   return {
       .grid = {.scene = {.system = Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.3, .b_m = 1.0, .omega_minus_rad_s = -1.0},
@@ -196,6 +248,7 @@ void RunAll() {
   std::printf("ricochet core, engine %s\n", ThisEngine().fingerprint.c_str());
   ScalarSolve();
   Columns();
+  PlanarSolve();
   CancellationLatency();
 }
 

@@ -1,0 +1,315 @@
+// Random impacts by the million, planar and in space, each under all three laws: does every one end, with finite
+// numbers, no energy gained under the energetic law, friction inside its cone and works that add up?
+//
+// usage: ricochet_soak [CASES]    of each model; exit code 1 if any impact fails, which is then printed
+
+#include <algorithm>
+#include <array>
+#include <cinttypes>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "absl/functional/function_ref.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_format.h"
+#include "absl/synchronization/mutex.h"
+#include "core/models/planar.h"
+#include "core/models/spatial.h"
+#include "tests/support/planar_scenes.h"
+#include "tests/support/spatial_scenes.h"
+
+namespace ricochet {
+namespace {
+
+using pendulum::Law;
+
+constexpr std::array kLaws = {Law::kNewton, Law::kPoisson, Law::kEnergetic};
+
+const char* NameOf(Regime regime) {
+  static constexpr std::array<const char*, kRegimeCount> kNames = {"unspecified",
+                                                                   "frictionless",
+                                                                   "rebound",
+                                                                   "sliding",
+                                                                   "stick in compression",
+                                                                   "stick in restitution",
+                                                                   "reversal in compression",
+                                                                   "reversal in restitution",
+                                                                   "locked",
+                                                                   "wedged",
+                                                                   "separating",
+                                                                   "invalid"};
+  return kNames[static_cast<size_t>(regime)];
+}
+
+std::string ToString(const planar::Problem& p) {
+  return absl::StrFormat("W %a %a %a u0 %a v0 %a mu %a mu_s %a law %d coefficient %a", p.wtt, p.wtn, p.wnn, p.u0, p.v0,
+                         p.mu, p.mu_static, static_cast<int>(p.law), p.coefficient);
+}
+
+std::string ToString(const spatial::Problem& p) {
+  return absl::StrFormat("W %a %a %a %a %a %a u0 %a %a v0 %a mu %a mu_s %a law %d coefficient %a tolerance %a", p.w11,
+                         p.w12, p.w13, p.w22, p.w23, p.w33, p.u0[0], p.u0[1], p.v0, p.mu, p.mu_static,
+                         static_cast<int>(p.law), p.coefficient, p.tolerance);
+}
+
+template <typename Impact>
+std::vector<double> WorksOf(const Impact& impact) {
+  return {impact.work_normal_compression, impact.work_normal_restitution, impact.work_tangential_compression,
+          impact.work_tangential_restitution};
+}
+
+template <typename Impact>
+std::vector<double> CommonNumbersOf(const Impact& impact) {
+  std::vector<double> numbers = WorksOf(impact);
+  numbers.insert(numbers.end(),
+                 {impact.newton, impact.poisson, impact.energetic, impact.tangential, impact.energetic_excess,
+                  impact.v1, impact.tau_compression, impact.tau1, impact.energy_change});
+  return numbers;
+}
+
+std::vector<double> NumbersOf(const planar::Impact& impact) {
+  std::vector<double> numbers = CommonNumbersOf(impact);
+  numbers.insert(numbers.end(), {impact.u1, impact.f_compression, impact.f1});
+  for (size_t i = 0; i < static_cast<size_t>(impact.event_count); ++i) {
+    const planar::Instant& event = impact.events[i];
+    numbers.insert(numbers.end(), {event.tau, event.f, event.u, event.v});
+  }
+  return numbers;
+}
+
+std::vector<double> NumbersOf(const spatial::Impact& impact) {
+  std::vector<double> numbers = CommonNumbersOf(impact);
+  numbers.insert(numbers.end(), {impact.u1[0], impact.u1[1], impact.f1[0], impact.f1[1], impact.error_estimate});
+  for (size_t i = 0; i < static_cast<size_t>(impact.event_count); ++i) {
+    const spatial::Instant& event = impact.events[i];
+    numbers.insert(numbers.end(), {event.tau, event.f[0], event.f[1], event.u[0], event.u[1], event.v});
+  }
+  return numbers;
+}
+
+// The last event is the end of restitution; a locked body has none.
+template <typename Impact>
+bool Ended(const Impact& impact) {
+  if (impact.event_count < 2) return false;
+  const EventKind last = impact.events[static_cast<size_t>(impact.event_count - 1)].kind;
+  return last == (impact.regime == Regime::kLocked ? EventKind::kCompressionEnds : EventKind::kRestitutionEnds);
+}
+
+template <typename Impact>
+double LedgerResidual(const Impact& impact) {
+  double sum = -impact.energy_change;
+  for (const double work : WorksOf(impact)) sum += work;
+  return std::fabs(sum);
+}
+
+template <typename Impact>
+double LargestWork(const Impact& impact) {
+  double largest = 0.0;
+  for (const double work : WorksOf(impact)) largest = std::max(largest, std::fabs(work));
+  return largest;
+}
+
+// What one model's impacts came to.
+struct Tally {
+  std::array<int64_t, kRegimeCount> regimes = {};
+  int64_t solves = 0;
+  int64_t failures = 0;
+  int64_t beyond_doubles = 0;  // An exact value above the largest double: infinite, as promised.
+  int64_t gains = 0;           // Newton's and Poisson's laws asked for energy that was not there, and it was flagged.
+  int64_t most_steps = 0;
+  double largest_residual = 0.0;  // Of the ledger, in units of what it may be.
+
+  void Fail(const std::string& what, const std::string& problem) {
+    constexpr int64_t kPrinted = 20;
+    if (++failures <= kPrinted) std::printf("FAILED: %s: %s\n", what.c_str(), problem.c_str());
+  }
+};
+
+// The limits of one impact, in its own units.
+struct Limits {
+  double friction;     // Of |f1|.
+  double energy_gain;  // Under the energetic law.
+  double ledger;       // Of |sum of works - change of energy|.
+};
+
+Limits LimitsOf(const planar::Problem& problem, const planar::Impact& impact) {
+  // tau1 and the works may lie below 2^-1022, where an ulp is that of no more than this.
+  constexpr double kSmallest = 0x1p-1074;
+  return {.friction = problem.mu_static * (impact.tau1 * (1.0 + 0x1p-50) + kSmallest) + kSmallest,
+          .energy_gain = 0.0,
+          .ledger = 0x1p-50 * LargestWork(impact) + 4.0 * kSmallest};
+}
+
+Limits LimitsOf(const spatial::Problem& problem, const spatial::Impact& impact) {
+  const double speed = std::max(std::hypot(problem.u0[0], problem.u0[1]), std::fabs(problem.v0));
+  const double impulse = impact.tau1 + std::hypot(impact.f1[0], impact.f1[1]);
+  const double work = speed * impulse;
+  // An error df of friction's impulse is an error Wtt df of u, whose size is at most the estimate; the solver bounds it
+  // through sqrt(df Wtt df). Where Wtt is singular f itself may be anything.
+  const double det = std::max(problem.w11 * problem.w22 - problem.w12 * problem.w12, 0.0);
+  const double friction_error = impact.error_estimate * speed / std::sqrt(det);
+  // Near rank two W times large impulses cancels to the velocities: an ulp of its terms.
+  const double cancelled = 0x1p-52 * (problem.w11 + problem.w22 + problem.w33) * impulse;
+  constexpr double kRounding = 1e-13;
+  return {.friction = problem.mu_static * impact.tau1 * (1.0 + kRounding) + friction_error,
+          .energy_gain = impact.error_estimate * work,
+          .ledger = kRounding * work + cancelled * impulse};
+}
+
+double Friction(const planar::Impact& impact) { return std::fabs(impact.f1); }
+double Friction(const spatial::Impact& impact) { return std::hypot(impact.f1[0], impact.f1[1]); }
+
+bool GaveUp(const planar::Impact& /*impact*/) { return false; }
+bool GaveUp(const spatial::Impact& impact) { return !impact.converged; }
+
+int64_t Steps(const planar::Impact& impact) { return impact.event_count; }
+int64_t Steps(const spatial::Impact& impact) { return impact.steps; }
+
+// Why this impact is not what it must be; empty if it is.
+template <typename Problem, typename Impact>
+std::string Complaint(const Problem& problem, const Impact& impact, const Limits& limits) {
+  if (GaveUp(impact) || !Ended(impact)) return "did not end";
+  if (Friction(impact) > limits.friction) return "friction outside its cone";
+  if (LedgerResidual(impact) > limits.ledger) {
+    return absl::StrFormat("the ledger is open by %.2g of its limit", LedgerResidual(impact) / limits.ledger);
+  }
+  if (problem.law != Law::kEnergetic) return "";
+  if (impact.energy_change > limits.energy_gain) return absl::StrFormat("gains %.2g J", impact.energy_change);
+  if (impact.sharp_limit_broken || impact.energy_limit_broken) return "flagged as inadmissible";
+  return "";
+}
+
+template <typename Problem>
+void Check(const Problem& problem, bool any_exponent, Tally& tally) {
+  const auto impact = Solve(problem);
+  ++tally.solves;
+  ++tally.regimes[static_cast<size_t>(impact.regime)];
+  tally.most_steps = std::max(tally.most_steps, Steps(impact));
+  tally.gains += impact.energy_limit_broken ? 1 : 0;
+  bool infinite = false;
+  for (const double number : NumbersOf(impact)) {
+    if (std::isnan(number)) return tally.Fail("not a number", ToString(problem));
+    infinite |= std::isinf(number);
+  }
+  if (infinite && any_exponent) {
+    ++tally.beyond_doubles;
+    return;
+  }
+  if (infinite) return tally.Fail("infinite", ToString(problem));
+  const Limits limits = LimitsOf(problem, impact);
+  tally.largest_residual = std::max(tally.largest_residual, LedgerResidual(impact) / limits.ledger);
+  if (const std::string complaint = Complaint(problem, impact, limits); !complaint.empty()) {
+    tally.Fail(complaint, ToString(problem));
+  }
+}
+
+template <typename Problem>
+void CheckUnderAllLaws(Problem problem, bool any_exponent, Tally& tally) {
+  const double given = problem.coefficient;
+  for (const Law law : kLaws) {
+    problem.law = law;
+    problem.coefficient = law == Law::kEnergetic ? std::min(given, 1.0) : given;
+    Check(problem, any_exponent, tally);
+  }
+}
+
+// Every fourth over all doubles; the others typical, near rank one and near every threshold of the path.
+Tally PlanarCases(int64_t cases) {
+  Tally tally;
+  planar::SceneSource source(101);
+  for (int64_t i = 0; i < cases; ++i) {
+    const bool any_exponent = i % 4 == 0;
+    CheckUnderAllLaws(any_exponent ? source.OverAllDoubles() : source.Any(), any_exponent, tally);
+  }
+  return tally;
+}
+
+// A contact of a mechanism with fewer than three degrees of freedom: W = sum of g g^T, velocity = sum of g times a rate.
+spatial::Problem WithDegreesOfFreedom(int count, spatial::SceneSource& source) {
+  spatial::Problem problem = source.Typical();
+  problem.w11 = problem.w12 = problem.w13 = problem.w22 = problem.w23 = problem.w33 = 0.0;
+  problem.u0 = {};
+  problem.v0 = 0.0;
+  for (int i = 0; i < count; ++i) {
+    const double g1 = source.Uniform(-1.0, 1.0);
+    const double g2 = source.Uniform(-1.0, 1.0);
+    const double g3 = source.Uniform(0.1, 1.0);
+    const double rate = -source.Uniform(0.1, 1.0);
+    problem.w11 += g1 * g1;
+    problem.w12 += g1 * g2;
+    problem.w13 += g1 * g3;
+    problem.w22 += g2 * g2;
+    problem.w23 += g2 * g3;
+    problem.w33 += g3 * g3;
+    problem.u0[0] += g1 * rate;
+    problem.u0[1] += g2 * rate;
+    problem.v0 += g3 * rate;
+  }
+  return problem;
+}
+
+spatial::Problem AnySpatial(spatial::SceneSource& source) {
+  switch (source.Below(16)) {
+    case 0:
+      return WithDegreesOfFreedom(1, source);
+    case 1:
+      return WithDegreesOfFreedom(2, source);
+    case 2: {
+      spatial::Problem problem = source.Below(2) == 0 ? source.Typical() : source.NearSingular();
+      problem.u0 = {};
+      return problem;
+    }
+    default:
+      return source.Below(2) == 0 ? source.Typical() : source.NearSingular();
+  }
+}
+
+// Typical, near what is singular, without slip at first and of rank one and two, at tolerances from 1e-4 to 1e-12.
+Tally SpatialCases(int64_t cases) {
+  Tally tally;
+  spatial::SceneSource source(102);
+  for (int64_t i = 0; i < cases; ++i) {
+    spatial::Problem problem = AnySpatial(source);
+    problem.tolerance = std::pow(10.0, -source.Uniform(4.0, 12.0));
+    if (source.Below(4) == 0) problem.mu_static *= source.Uniform(1.0, 1.5);
+    CheckUnderAllLaws(problem, false, tally);
+  }
+  return tally;
+}
+
+void Report(const char* model, const char* step, int64_t cases, const Tally& tally) {
+  std::printf("%s: %" PRId64 " cases under three laws, %" PRId64 " impacts\n", model, cases, tally.solves);
+  for (size_t i = 0; i < tally.regimes.size(); ++i) {
+    if (tally.regimes[i] == 0) continue;
+    std::printf("  %-38s %" PRId64 "\n", NameOf(static_cast<Regime>(i)), tally.regimes[i]);
+  }
+  std::printf("  energy gained as asked, and flagged    %" PRId64 "\n", tally.gains);
+  std::printf("  with numbers beyond the largest double %" PRId64 "\n", tally.beyond_doubles);
+  std::printf("  most %-33s %" PRId64 "\n", step, tally.most_steps);
+  std::printf("  largest residual of the ledger         %.2g of its limit\n", tally.largest_residual);
+  std::printf("  failures                               %" PRId64 "\n", tally.failures);
+}
+
+int Main(const std::vector<std::string>& arguments) {
+  int64_t cases = 1'000'000;
+  if (arguments.size() > 1 || (arguments.size() == 1 && (!absl::SimpleAtoi(arguments[0], &cases) || cases < 1))) {
+    std::fprintf(stderr, "usage: ricochet_soak [CASES]    a number >= 1, of each model\n");
+    return 2;
+  }
+  const Tally planar = PlanarCases(cases);
+  Report("Planar", "events", cases, planar);
+  const Tally spatial = SpatialCases(cases);
+  Report("Spatial", "steps", cases, spatial);
+  return planar.failures + spatial.failures == 0 ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace ricochet
+
+int main(int argc, char** argv) {
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  return ricochet::Main({argv + 1, argv + argc});
+}
