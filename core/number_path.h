@@ -17,7 +17,7 @@ struct NumberPath {
 
   std::string Text() const {
     const auto indexed = [](const char* word, int i) {
-      return i < 0 ? std::string(word) : word + ("[" + std::to_string(i) + "]");
+      return i < 0 ? std::string(word) : std::string(word) + "[" + std::to_string(i) + "]";
     };
     return (*prefix == '\0' ? "" : indexed(prefix, entry) + ".") + indexed(name, index);
   }
