@@ -27,22 +27,10 @@
 #ifndef RICOCHET_CORE_LAWS_CONTACT_BOUNDS_H_
 #define RICOCHET_CORE_LAWS_CONTACT_BOUNDS_H_
 
-#include <optional>
-
 #include "core/bounds.h"
 #include "core/models/planar.h"
 
 namespace ricochet::planar {
-
-// A coefficient is absent where no friction does that. Static and kinetic friction are taken equal.
-struct CriticalFriction {
-  double stick = 0.0;
-  std::optional<double> stop_compression;
-  std::optional<double> stop;
-  std::optional<double> reversal;
-  std::optional<double> jam;
-  friend bool operator==(const CriticalFriction&, const CriticalFriction&) = default;
-};
 
 struct ContactBounds {
   Regime regime = Regime::kUnspecified;  // Of the elastic impact, which goes through all that the others do.

@@ -250,7 +250,7 @@ TEST(ContactBoundsTest, SlipReversesBetweenTheCriticalFrictions) {
     const CriticalFriction critical = SolveBounds(problem).critical;
     if (!critical.reversal) continue;
     ++reversals;
-    problem.mu = problem.mu_static = 0.5 * (*critical.reversal + critical.stick);
+    problem.mu = problem.mu_static = 0.5 * (*critical.reversal + *critical.stick);
     const Regime regime = SolveBounds(problem).regime;
     ASSERT_TRUE(regime == Regime::kReversalInCompression || regime == Regime::kReversalInRestitution)
         << ToString(problem);
