@@ -84,8 +84,8 @@ absl::Status CheckFinite(const CoefficientBounds& bounds, const std::string& pat
                                                   {"tangential", bounds.tangential},
                                                   {"normal_total_n_s", bounds.normal_total_n_s}};
   for (const auto& [name, range] : ranges) {
-    if (!std::isfinite(range.lower)) return OutputOverflow(absl::StrCat(path, name, ".lower"));
     if (!std::isfinite(range.upper)) return OutputOverflow(absl::StrCat(path, name, ".upper"));
+    if (!std::isfinite(range.lower)) return OutputOverflow(absl::StrCat(path, name, ".lower"));
   }
   return absl::OkStatus();
 }

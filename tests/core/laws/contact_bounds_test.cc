@@ -123,7 +123,13 @@ TEST(ContactBoundsTest, RankOneIsThePendulum) {
     ASSERT_EQ(got.regime == Regime::kLocked, want.regime == Regime::kLocked) << ToString(problem);
     const double tolerance = 1e-13 / std::fabs(1.0 - want.friction_ratio);
     ExpectNear(got.sharp, want.sharp, tolerance);
-    ExpectNear(got.energy_only, want.energy_only, tolerance);
+    ExpectNear(got.energy_only, want.energy_only.value(), tolerance);
+    const CriticalFriction& critical = want.critical;
+    EXPECT_NEAR(got.critical.stick.value_or(0.0), critical.stick.value_or(0.0), 1e-13 * critical.stick.value_or(1.0));
+    EXPECT_EQ(got.critical.stop_compression, critical.stop_compression);
+    EXPECT_EQ(got.critical.stop, critical.stop);
+    EXPECT_EQ(got.critical.reversal, critical.reversal);
+    EXPECT_EQ(got.critical.jam, critical.jam);
     ASSERT_FALSE(::testing::Test::HasFailure()) << ToString(problem);
     slipping += want.regime != Regime::kLocked ? 1 : 0;
   }
