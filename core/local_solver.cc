@@ -1,14 +1,12 @@
 #include "core/local_solver.h"
 
-#include <cmath>
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include "core/error.h"
-#include "core/laws/nearly_vertical.h"
-#include "core/models/pendulum.h"
-#include "core/models/pendulum_bounds.h"
+#include "core/models/scene_bounds.h"
 #include "core/models/scene_outcome.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/validate.h"
@@ -26,30 +24,6 @@ absl::Status Inadmissible(const Outcome& outcome) {
   }
   message.pop_back();
   return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
-}
-
-Violation NoBounds(const Scene& scene) {
-  if (!std::holds_alternative<Pendulum>(scene.system)) return {"system", "has no bounds: must be pendulum"};
-  if (scene.surface_velocity.has_value()) return {"surface_velocity", "is set: must not be, for bounds"};
-  return {"impact_law", "is set: must not be, for bounds"};
-}
-
-absl::Status CheckFinite(const CoefficientBounds& bounds, const std::string& path) {
-  const std::pair<const char*, Range> ranges[] = {{"poisson", bounds.poisson},
-                                                  {"normal_total_n_s", bounds.normal_total_n_s}};
-  for (const auto& [name, range] : ranges) {
-    if (!std::isfinite(range.upper)) return OutputOverflow(path + name + ".upper");
-  }
-  return absl::OkStatus();
-}
-
-absl::Status CheckFinite(const Bounds& bounds) {
-  if (!std::isfinite(bounds.friction_ratio)) return OutputOverflow("bounds.friction_ratio");
-  absl::Status status = CheckFinite(bounds.sharp, "bounds.sharp.");
-  status.Update(CheckFinite(bounds.energy_only, "bounds.energy_only."));
-  if (!bounds.nearly_vertical.has_value()) return status;
-  status.Update(CheckFinite(bounds.nearly_vertical->bounds, "bounds.nearly_vertical.bounds."));
-  return status;
 }
 
 }  // namespace
@@ -70,17 +44,19 @@ absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) co
 
 absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request) const {
   auto violations = Validate(request.scene, RestitutionIs::kOptional);
-  if (violations.empty() && !HasClosedForm(request.scene)) violations.push_back(NoBounds(request.scene));
-  if (!violations.empty()) return InvalidRequest(violations);
-  const pendulum::Problem problem = ClosedFormProblem(request.scene);
-  ricochet::Bounds bounds = pendulum::SolveBounds(problem);
-  if (bounds.slope_ratio > 0.0 && bounds.regime != Regime::kLocked) {
-    const bool has_restitution = !std::holds_alternative<std::monostate>(request.scene.restitution);
-    bounds.nearly_vertical = pendulum::SolveNearlyVertical(problem, has_restitution);
+  if (!std::holds_alternative<std::monostate>(request.scene.impact_law)) {
+    violations.push_back({"impact_law", "is set: must not be, for bounds"});
   }
-  const absl::Status finite = CheckFinite(bounds);
-  if (!finite.ok()) return finite;
-  return BoundsResponse{.bounds = bounds, .engine = ThisEngine()};
+  for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
+  if (!violations.empty()) return InvalidRequest(violations);
+  const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene);
+  if (!bounds.ok()) return bounds.status();
+  BoundsResponse response{.bounds = *bounds, .engine = ThisEngine(), .enclosure = std::nullopt};
+  if (request.ranges.empty()) return response;
+  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges);
+  if (!enclosure.ok()) return enclosure.status();
+  response.enclosure = *enclosure;
+  return response;
 }
 
 SweepStream LocalSolver::Sweep(const SweepRequest& request, std::stop_token stop) const {

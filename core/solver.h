@@ -9,6 +9,7 @@
 
 #include <optional>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -43,14 +44,25 @@ struct SolveResponse {
   friend bool operator==(const SolveResponse&, const SolveResponse&) = default;
 };
 
+// What a field of an uncertain scene lies between.
+struct FieldRange {
+  std::string path;  // As an axis of a sweep spells it (core/sweep/field.h).
+  double low = 0.0;
+  double high = 0.0;
+  friend bool operator==(const FieldRange&, const FieldRange&) = default;
+};
+
 struct BoundsRequest {
   Scene scene;  // Its restitution may be left unset.
+  // Asks for an enclosure. Of a pendulum's or a planar contact's own fields and of friction, on a surface at rest.
+  std::vector<FieldRange> ranges;
   friend bool operator==(const BoundsRequest&, const BoundsRequest&) = default;
 };
 
 struct BoundsResponse {
-  Bounds bounds;
+  Bounds bounds;  // Of the scene as it stands.
   EngineInfo engine;
+  std::optional<Enclosure> enclosure;  // Over all scenes whose fields lie in the ranges; absent if there are none.
   friend bool operator==(const BoundsResponse&, const BoundsResponse&) = default;
 };
 

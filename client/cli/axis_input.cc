@@ -64,6 +64,24 @@ absl::StatusOr<Axis> ParseAxis(const std::string& text) {
   return axis;
 }
 
+absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text) {
+  const size_t equals = text.find('=');
+  const size_t colon = text.find(':', equals == std::string::npos ? 0 : equals);
+  if (equals == std::string::npos || equals == 0 || colon == std::string::npos) {
+    return InputError("--range", text, "be PATH=LOW:HIGH, such as friction.kinetic_coefficient=0.09:0.11");
+  }
+  FieldRange range{.path = text.substr(0, equals)};
+  const absl::StatusOr<double> low =
+      ParseNumber(text.substr(equals + 1, colon - equals - 1), absl::StrCat("--range ", range.path, ", LOW"));
+  if (!low.ok()) return low.status();
+  const absl::StatusOr<double> high =
+      ParseNumber(text.substr(colon + 1), absl::StrCat("--range ", range.path, ", HIGH"));
+  if (!high.ok()) return high.status();
+  range.low = *low;
+  range.high = *high;
+  return range;
+}
+
 absl::StatusOr<IndexRange> ParseRange(const std::string& text) {
   const std::vector<std::string> parts = Split(text, ':');
   if (parts.size() != 2) return InputError("--range", text, "be FIRST:END");

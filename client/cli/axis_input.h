@@ -1,4 +1,4 @@
-// Axes and ranges of a sweep as a user types them.
+// Axes and ranges of a sweep, and ranges of fields, as a user types them.
 
 #ifndef RICOCHET_CLIENT_CLI_AXIS_INPUT_H_
 #define RICOCHET_CLIENT_CLI_AXIS_INPUT_H_
@@ -8,6 +8,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "core/solver.h"
 #include "core/sweep/grid.h"
 
 namespace ricochet::cli {
@@ -23,6 +24,10 @@ struct IndexRange {
 
 // "FIRST:END"; an empty FIRST is 0, an empty END the end of the grid.
 absl::StatusOr<IndexRange> ParseRange(const std::string& text);
+
+// "PATH=LOW:HIGH".
+// Errors: INVALID_ARGUMENT. Whether the path exists and the values make sense is for the solver to say.
+absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text);
 
 }  // namespace ricochet::cli
 

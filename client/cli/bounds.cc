@@ -9,8 +9,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "client/cli/axis_input.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/table.h"
+#include "core/models/scene_outcome.h"
 #include "core/numerics/decimal.h"
 #include "proto/wire/requests.h"
 
@@ -25,11 +27,13 @@ constexpr char kExample[] = R"(Example: what friction leaves of the coefficients
   Newton      0 ... 0.707107       0 ... 1     0 ... 0.666667 ...
   Poisson      0 ... 1.41421       0 ... 2      0 ... 1.33333 ...
   ...
+With --range, which may be repeated, also what they can be over all scenes whose fields lie in the ranges.
 CSV has one row a quantity, at full precision. Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct BoundsOptions {
   CommonOptions common;
   SceneOptions scene;
+  std::vector<std::string> ranges;
 };
 
 // One quantity: its name, its unit, where its range and its first-order error stand.
@@ -53,23 +57,25 @@ constexpr std::array kQuantities = {
 
 std::string Interval(const Range& range) { return absl::StrCat(Rounded(range.lower), " ... ", Rounded(range.upper)); }
 
-std::string Heading(const Bounds& bounds) {
+std::string Heading(const Bounds& bounds, bool closed_form) {
   std::string regime = RegimeText(bounds.regime);
   regime[0] = static_cast<char>(regime[0] - 'a' + 'A');
+  if (!closed_form) return absl::StrCat(regime, ", if the impact is elastic.\n");
   return absl::StrCat(regime, ": x = mu |b|/a = ", Rounded(bounds.friction_ratio),
                       ", r = (1 - x)/(1 + x) = ", Rounded(bounds.slope_ratio), ".\n");
 }
 
 std::string RangesText(const Bounds& bounds) {
   Table table;
-  std::vector<std::string> header = {"", "sharp (spring)", "energy only"};
+  std::vector<std::string> header = {"", bounds.sampled ? "reached by a sample" : "sharp (spring)"};
+  if (bounds.energy_only.has_value()) header.emplace_back("energy only");
   if (bounds.nearly_vertical.has_value()) {
     header.insert(header.end(), {"first order in x", "error <="});
   }
   table.Add(header);
   for (const Quantity& quantity : kQuantities) {
-    std::vector<std::string> row = {quantity.title, Interval(bounds.sharp.*quantity.range),
-                                    Interval(bounds.energy_only.*quantity.range)};
+    std::vector<std::string> row = {quantity.title, Interval(bounds.sharp.*quantity.range)};
+    if (bounds.energy_only.has_value()) row.push_back(Interval((*bounds.energy_only).*quantity.range));
     if (bounds.nearly_vertical.has_value()) {
       row.push_back(Interval(bounds.nearly_vertical->bounds.*quantity.range));
       row.push_back(quantity.error == nullptr ? "0" : Rounded((*bounds.nearly_vertical).*quantity.error));
@@ -79,10 +85,24 @@ std::string RangesText(const Bounds& bounds) {
   return table.Render(0);
 }
 
-std::string BoundsText(const Bounds& bounds) {
-  std::string text = absl::StrCat(Heading(bounds), "\n", RangesText(bounds));
-  if (!bounds.nearly_vertical.has_value() || !bounds.nearly_vertical->coefficients.has_value()) return text;
-  const NearlyVertical& vertical = *bounds.nearly_vertical;
+// Empty where no coefficient is critical.
+std::string CriticalText(const CriticalFriction& critical) {
+  const std::pair<const char*, std::optional<double>> rows[] = {
+      {"contact that has stopped sticks", critical.stick},
+      {"slip stops before compression ends", critical.stop_compression},
+      {"slip stops before an elastic impact ends", critical.stop},
+      {"slip reverses, until contact sticks", critical.reversal},
+      {"sliding drives the contact in (jams)", critical.jam},
+  };
+  Table table;
+  for (const auto& [title, value] : rows) {
+    if (value.has_value()) table.Add({title, Rounded(*value)});
+  }
+  const std::string text = table.Render(2);
+  return text.empty() ? "" : absl::StrCat("\nFrom which friction on\n", text);
+}
+
+std::string FirstOrderText(const NearlyVertical& vertical) {
   Table table;
   table.Add({"", "first order in x", "error <="});
   for (const Quantity& quantity : kQuantities) {
@@ -90,7 +110,36 @@ std::string BoundsText(const Bounds& bounds) {
     table.Add({quantity.title, Rounded((*vertical.coefficients).*quantity.coefficient),
                Rounded(vertical.coefficient_errors.*quantity.coefficient)});
   }
-  return absl::StrCat(text, "\nAt the scene's restitution\n", table.Render(2));
+  return absl::StrCat("\nAt the scene's restitution\n", table.Render(2));
+}
+
+std::string EnclosureText(const Enclosure& enclosure, const std::vector<FieldRange>& ranges) {
+  std::string text = "\nOver all scenes with\n";
+  for (const FieldRange& range : ranges) {
+    absl::StrAppend(&text, "  ", range.path, " in ", Interval({range.low, range.high}), "\n");
+  }
+  Table table;
+  table.Add({"", "proved to contain", "reached"});
+  for (const Quantity& quantity : kQuantities) {
+    table.Add(
+        {quantity.title, Interval(enclosure.outer.*quantity.range), Interval(enclosure.attained.*quantity.range)});
+  }
+  const std::string excess = std::isinf(enclosure.excess)
+                                 ? "A range has no end: friction may lock the contact, or W comes near to singular"
+                                 : absl::StrCat("At most ", Rounded(100.0 * enclosure.excess), " % too wide");
+  return absl::StrCat(text, "\n", table.Render(0), excess, "; ", enclosure.boxes,
+                      enclosure.boxes == 1 ? " box.\n" : " boxes.\n");
+}
+
+std::string BoundsText(const BoundsRequest& request, const BoundsResponse& response) {
+  const Bounds& bounds = response.bounds;
+  std::string text = absl::StrCat(Heading(bounds, HasClosedForm(request.scene)), "\n", RangesText(bounds),
+                                  CriticalText(bounds.critical));
+  if (bounds.nearly_vertical.has_value() && bounds.nearly_vertical->coefficients.has_value()) {
+    absl::StrAppend(&text, FirstOrderText(*bounds.nearly_vertical));
+  }
+  if (response.enclosure.has_value()) absl::StrAppend(&text, EnclosureText(*response.enclosure, request.ranges));
+  return text;
 }
 
 // The cells of `range`, empty where there is none.
@@ -99,44 +148,64 @@ void AddCells(const std::optional<Range>& range, std::vector<std::string>& row) 
   row.push_back(range.has_value() ? ShortestDecimal(range->upper) : "");
 }
 
-std::string BoundsCsv(const Bounds& bounds) {
+std::string BoundsCsv(const BoundsResponse& response) {
+  const Bounds& bounds = response.bounds;
+  const auto range_of = [](const auto& limits, const Quantity& quantity) {
+    return limits.has_value() ? std::optional((*limits).*quantity.range) : std::nullopt;
+  };
+  const std::optional<Enclosure>& enclosure = response.enclosure;
   std::string text =
       "quantity,regime,friction_ratio,slope_ratio,sharp.lower,sharp.upper,energy_only.lower,energy_only.upper,"
-      "nearly_vertical.lower,nearly_vertical.upper,nearly_vertical.error\n";
+      "nearly_vertical.lower,nearly_vertical.upper,nearly_vertical.error,"
+      "enclosure.outer.lower,enclosure.outer.upper,enclosure.attained.lower,enclosure.attained.upper\n";
   for (const Quantity& quantity : kQuantities) {
     std::vector<std::string> row = {quantity.name, RegimeName(bounds.regime), ShortestDecimal(bounds.friction_ratio),
                                     ShortestDecimal(bounds.slope_ratio)};
     AddCells(bounds.sharp.*quantity.range, row);
-    AddCells(bounds.energy_only.*quantity.range, row);
+    AddCells(range_of(bounds.energy_only, quantity), row);
     const bool vertical = bounds.nearly_vertical.has_value();
     AddCells(vertical ? std::optional(bounds.nearly_vertical->bounds.*quantity.range) : std::nullopt, row);
     const double error = vertical && quantity.error != nullptr ? (*bounds.nearly_vertical).*quantity.error : 0.0;
     row.push_back(vertical ? ShortestDecimal(error) : "");
+    AddCells(range_of(enclosure.has_value() ? std::optional(enclosure->outer) : std::nullopt, quantity), row);
+    AddCells(range_of(enclosure.has_value() ? std::optional(enclosure->attained) : std::nullopt, quantity), row);
     absl::StrAppend(&text, absl::StrJoin(row, ","), "\n");
   }
   return text;
 }
 
-absl::StatusOr<std::string> Render(const BoundsResponse& response, Format format) {
+absl::StatusOr<std::string> Render(const BoundsRequest& request, const BoundsResponse& response, Format format) {
   switch (format) {
     case Format::kText:
-      return BoundsText(response.bounds);
+      return BoundsText(request, response);
     case Format::kJson:
       return Json(ToProto(response));
     case Format::kCsv:
       break;
   }
-  return BoundsCsv(response.bounds);
+  return BoundsCsv(response);
+}
+
+absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
+  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  if (!scene.ok()) return scene.status();
+  BoundsRequest request{.scene = *scene, .ranges = {}};
+  for (const std::string& text : options.ranges) {
+    const absl::StatusOr<FieldRange> range = ParseFieldRange(text);
+    if (!range.ok()) return range.status();
+    request.ranges.push_back(*range);
+  }
+  return request;
 }
 
 absl::Status RunBounds(const BoundsOptions& options) {
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
   if (!solver.ok()) return solver.status();
-  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
-  if (!scene.ok()) return scene.status();
-  const absl::StatusOr<BoundsResponse> response = (*solver)->Bounds({.scene = *scene});
+  const absl::StatusOr<BoundsRequest> request = ReadRequest(options);
+  if (!request.ok()) return request.status();
+  const absl::StatusOr<BoundsResponse> response = (*solver)->Bounds(*request);
   if (!response.ok()) return response.status();
-  const absl::StatusOr<std::string> text = Render(*response, options.common.format);
+  const absl::StatusOr<std::string> text = Render(*request, *response, options.common.format);
   return text.ok() ? WriteOutput(options.common, *text) : text.status();
 }
 
@@ -146,6 +215,10 @@ void AddBounds(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("bounds", "The values that the coefficients of an impact can take");
   const auto options = std::make_shared<BoundsOptions>();
   AddSceneOptions(*sub, options->scene);
+  sub->add_option("--range", options->ranges,
+                  "What is uncertain: a field of a pendulum, of planar_contact or of friction; repeat for more")
+      ->type_name("PATH=LOW:HIGH")
+      ->allow_extra_args(false);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);
   sub->footer(kExample);

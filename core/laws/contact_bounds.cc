@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace ricochet::planar {
 namespace {
@@ -130,17 +131,30 @@ std::optional<double> LeastFriction(double n, double d) {
   return std::max(n / d, 0.0);
 }
 
-CriticalFriction FindCriticalFriction(const Problem& problem) {
+CriticalFriction FindCriticalFriction(const Problem& problem, int w_rank) {
   const double p = std::fabs(problem.u0);
   const double w = -problem.v0;
   const double q = std::signbit(problem.u0) ? -problem.wtn : problem.wtn;
   CriticalFriction critical;
-  critical.stick = problem.wtt > 0.0 ? std::fabs(problem.wtn) / problem.wtt : 0.0;
-  if (problem.u0 == 0.0 || problem.wtt == 0.0) return critical;
-  critical.stop_compression = LeastFriction(problem.wnn * p + w * q, w * problem.wtt + q * p);
+  if (problem.wtt == 0.0) return critical;
+  critical.stick = std::fabs(problem.wtn) / problem.wtt;
+  if (problem.u0 == 0.0) return critical;
+  // At rank one slip stops just where compression ends, and what is left of these differences is rounding.
+  if (w_rank == 2) {
+    critical.stop_compression = LeastFriction(problem.wnn * p + w * q, w * problem.wtt + q * p);
+  }
   critical.stop = LeastFriction(problem.wnn * p + 2.0 * w * q, 2.0 * w * problem.wtt + q * p);
-  if (q < 0.0 && critical.stop.has_value() && *critical.stop < critical.stick) critical.reversal = critical.stop;
+  if (q < 0.0 && critical.stop.has_value() && *critical.stop < *critical.stick) critical.reversal = critical.stop;
   if (q > 0.0) critical.jam = problem.wnn / q;
+  return critical;
+}
+
+// An infinite coefficient of friction is none.
+CriticalFriction OnlyFinite(CriticalFriction critical) {
+  for (auto* const one :
+       {&critical.stick, &critical.stop_compression, &critical.stop, &critical.reversal, &critical.jam}) {
+    if (one->has_value() && !std::isfinite(**one)) one->reset();
+  }
   return critical;
 }
 
@@ -153,7 +167,7 @@ ContactBounds SolveBounds(const Problem& problem) {
   bounds.regime = elastic.regime;
   bounds.w_rank = elastic.w_rank;
   if (bounds.regime == Regime::kSeparating) return bounds;
-  bounds.critical = FindCriticalFriction(problem);
+  bounds.critical = OnlyFinite(FindCriticalFriction(problem, bounds.w_rank));
   bounds.sharp = SharpBounds(problem, dead, elastic);
   bounds.energy_only = bounds.regime == Regime::kLocked ? bounds.sharp : EnergyOnlyBounds(problem, dead, elastic);
   return bounds;

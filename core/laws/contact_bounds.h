@@ -18,6 +18,8 @@
 //   stop                (Wnn p + 2 w q)/(2 w Wtt + q p)    above: slip stops before an elastic impact ends
 //   reversal            stop, if q < 0 and stop < stick    from here to `stick`, slip reverses in an elastic impact
 //   jam                 Wnn/|Wtn|, if q > 0                above: sliding drives the contact in at first, v' < 0
+// At rank one slip stops where compression ends, whatever the friction: there is no stop_compression. Where Wtt = 0
+// friction moves nothing and none is critical.
 // Wang and Mason (1992) draw these as lines of an impulse plane.
 //
 // Accuracy: `sharp` is that of planar::Solve, but that a bound which rounding would push past what Solve accepts as
@@ -27,22 +29,10 @@
 #ifndef RICOCHET_CORE_LAWS_CONTACT_BOUNDS_H_
 #define RICOCHET_CORE_LAWS_CONTACT_BOUNDS_H_
 
-#include <optional>
-
 #include "core/bounds.h"
 #include "core/models/planar.h"
 
 namespace ricochet::planar {
-
-// A coefficient is absent where no friction does that. Static and kinetic friction are taken equal.
-struct CriticalFriction {
-  double stick = 0.0;
-  std::optional<double> stop_compression;
-  std::optional<double> stop;
-  std::optional<double> reversal;
-  std::optional<double> jam;
-  friend bool operator==(const CriticalFriction&, const CriticalFriction&) = default;
-};
 
 struct ContactBounds {
   Regime regime = Regime::kUnspecified;  // Of the elastic impact, which goes through all that the others do.

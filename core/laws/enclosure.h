@@ -60,17 +60,6 @@ struct EnclosureOptions {
   int64_t budget = 200'000;  // Boxes evaluated, at the most (but one is in any case); some 3 us each.
 };
 
-struct Enclosure {
-  CoefficientBounds outer;  // Proved to contain.
-  // Reached by scenes of the box; but for `energetic`, which is as in `outer`. Both are empty (lower > upper) if no scene
-  // is valid.
-  CoefficientBounds attained;
-  // The largest of (width of outer - width of attained)/(width of attained) over the coefficients; an end that rounding
-  // alone moves counts as 0, and a range that is infinite as infinite.
-  double excess = 0.0;
-  int64_t boxes = 0;  // Evaluated.
-};
-
 Enclosure Enclose(const PendulumBox& box);
 
 Enclosure Enclose(const PlanarBox& box, const EnclosureOptions& options);

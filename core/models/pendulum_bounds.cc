@@ -61,6 +61,17 @@ CoefficientBounds EnergyOnlyBounds(const Problem& problem, const WideSolution& x
   return bounds;
 }
 
+// The planar formulas (core/laws/contact_bounds.h) at rank one: slip stops where compression ends, by any friction, and
+// reverses unless the contact locks.
+CriticalFriction FindCriticalFriction(const Problem& problem) {
+  const double lock = problem.a / std::fabs(problem.b);
+  CriticalFriction critical;
+  if (!std::isfinite(lock)) return critical;
+  critical.stick = lock;
+  critical.stop = critical.reversal = 0.0;
+  return critical;
+}
+
 }  // namespace
 
 Bounds SolveBounds(const Problem& problem) {
@@ -71,6 +82,7 @@ Bounds SolveBounds(const Problem& problem) {
   bounds.regime = separating ? Regime::kSeparating : RegimeOf(problem, x.locked);
   bounds.friction_ratio = Rounded(x.q / x.a);
   bounds.slope_ratio = Rounded(x.d / x.s);
+  if (!separating) bounds.critical = FindCriticalFriction(problem);
   if (x.locked) {
     bounds.sharp = LockedBounds(problem, Rounded(tau0));
     bounds.energy_only = bounds.sharp;

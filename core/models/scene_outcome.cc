@@ -35,6 +35,11 @@ absl::StatusOr<Outcome> SolveReduced(const Scene& scene, const EffectiveCoeffici
 
 }  // namespace
 
+absl::Status ContactOverflow() {
+  return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kOutputOverflow,
+                   "the contact-space inverse inertia or the contact velocity exceeds the largest double");
+}
+
 bool HasClosedForm(const Scene& scene) {
   return std::holds_alternative<Pendulum>(scene.system) && !scene.surface_velocity.has_value() &&
          std::holds_alternative<std::monostate>(scene.impact_law);
@@ -60,10 +65,7 @@ absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& optio
     return outcome;
   }
   const AnyReduction any = Reduce(scene);
-  if (!IsFinite(any)) {
-    return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kOutputOverflow,
-                     "the contact-space inverse inertia or the contact velocity exceeds the largest double");
-  }
+  if (!IsFinite(any)) return ContactOverflow();
   const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
   absl::StatusOr<Outcome> outcome =
       std::visit([&](const auto& reduction) { return SolveReduced(scene, effective, options, reduction); }, any);

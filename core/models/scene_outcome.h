@@ -8,6 +8,7 @@
 #ifndef RICOCHET_CORE_MODELS_SCENE_OUTCOME_H_
 #define RICOCHET_CORE_MODELS_SCENE_OUTCOME_H_
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
 #include "core/models/outcome_parts.h"
@@ -27,6 +28,9 @@ struct SolveOptions {
 // `scene` is valid.
 // Errors: those of the models' MakeOutcome; OUT_OF_RANGE if W or the contact velocity exceeds the largest double.
 absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& options);
+
+// OUT_OF_RANGE: W or the contact velocity exceeds the largest double.
+absl::Status ContactOverflow();
 
 // Whether the closed form of the pendulum answers the scene.
 bool HasClosedForm(const Scene& scene);

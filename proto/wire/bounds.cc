@@ -59,16 +59,38 @@ static NearlyVertical FromProto(const v1::NearlyVertical& proto) {
   return nearly;
 }
 
+static v1::CriticalFriction ToProto(const CriticalFriction& critical) {
+  v1::CriticalFriction proto;
+  if (critical.stick.has_value()) proto.set_stick(*critical.stick);
+  if (critical.stop_compression.has_value()) proto.set_stop_compression(*critical.stop_compression);
+  if (critical.stop.has_value()) proto.set_stop(*critical.stop);
+  if (critical.reversal.has_value()) proto.set_reversal(*critical.reversal);
+  if (critical.jam.has_value()) proto.set_jam(*critical.jam);
+  return proto;
+}
+
+static CriticalFriction FromProto(const v1::CriticalFriction& proto) {
+  CriticalFriction critical;
+  if (proto.has_stick()) critical.stick = proto.stick();
+  if (proto.has_stop_compression()) critical.stop_compression = proto.stop_compression();
+  if (proto.has_stop()) critical.stop = proto.stop();
+  if (proto.has_reversal()) critical.reversal = proto.reversal();
+  if (proto.has_jam()) critical.jam = proto.jam();
+  return critical;
+}
+
 v1::Bounds ToProto(const Bounds& bounds) {
   v1::Bounds proto;
   proto.set_regime(ToProto(bounds.regime));
   proto.set_friction_ratio(bounds.friction_ratio);
   proto.set_slope_ratio(bounds.slope_ratio);
   *proto.mutable_sharp() = ToProto(bounds.sharp);
-  *proto.mutable_energy_only() = ToProto(bounds.energy_only);
+  if (bounds.energy_only.has_value()) *proto.mutable_energy_only() = ToProto(*bounds.energy_only);
   if (bounds.nearly_vertical.has_value()) {
     *proto.mutable_nearly_vertical() = ToProto(*bounds.nearly_vertical);
   }
+  *proto.mutable_critical() = ToProto(bounds.critical);
+  proto.set_sampled(bounds.sampled);
   return proto;
 }
 
@@ -78,9 +100,27 @@ Bounds FromProto(const v1::Bounds& proto) {
   bounds.friction_ratio = proto.friction_ratio();
   bounds.slope_ratio = proto.slope_ratio();
   bounds.sharp = FromProto(proto.sharp());
-  bounds.energy_only = FromProto(proto.energy_only());
+  if (proto.has_energy_only()) bounds.energy_only = FromProto(proto.energy_only());
   if (proto.has_nearly_vertical()) bounds.nearly_vertical = FromProto(proto.nearly_vertical());
+  bounds.critical = FromProto(proto.critical());
+  bounds.sampled = proto.sampled();
   return bounds;
+}
+
+v1::Enclosure ToProto(const Enclosure& enclosure) {
+  v1::Enclosure proto;
+  *proto.mutable_outer() = ToProto(enclosure.outer);
+  *proto.mutable_attained() = ToProto(enclosure.attained);
+  proto.set_excess(enclosure.excess);
+  proto.set_boxes(enclosure.boxes);
+  return proto;
+}
+
+Enclosure FromProto(const v1::Enclosure& proto) {
+  return {.outer = FromProto(proto.outer()),
+          .attained = FromProto(proto.attained()),
+          .excess = proto.excess(),
+          .boxes = proto.boxes()};
 }
 
 }  // namespace ricochet

@@ -1,4 +1,4 @@
-// Bounds <-> ricochet.v1.Bounds.
+// Bounds <-> ricochet.v1.Bounds; Enclosure <-> ricochet.v1.Enclosure.
 
 #ifndef RICOCHET_PROTO_WIRE_BOUNDS_H_
 #define RICOCHET_PROTO_WIRE_BOUNDS_H_
@@ -10,6 +10,9 @@ namespace ricochet {
 
 v1::Bounds ToProto(const Bounds& bounds);
 Bounds FromProto(const v1::Bounds& proto);
+
+v1::Enclosure ToProto(const Enclosure& enclosure);
+Enclosure FromProto(const v1::Enclosure& proto);
 
 }  // namespace ricochet
 

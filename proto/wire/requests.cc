@@ -1,5 +1,7 @@
 #include "proto/wire/requests.h"
 
+#include <optional>
+
 #include "proto/wire/bounds.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/outcome.h"
@@ -39,20 +41,36 @@ SolveResponse FromProto(const v1::SolveResponse& proto) {
 v1::BoundsRequest ToProto(const BoundsRequest& request) {
   v1::BoundsRequest proto;
   *proto.mutable_scene() = ToProto(request.scene);
+  for (const FieldRange& range : request.ranges) {
+    v1::FieldRange& added = *proto.add_ranges();
+    added.set_path(range.path);
+    added.set_low(range.low);
+    added.set_high(range.high);
+  }
   return proto;
 }
 
-BoundsRequest FromProto(const v1::BoundsRequest& proto) { return {.scene = FromProto(proto.scene())}; }
+BoundsRequest FromProto(const v1::BoundsRequest& proto) {
+  BoundsRequest request{.scene = FromProto(proto.scene()), .ranges = {}};
+  for (const v1::FieldRange& range : proto.ranges()) {
+    request.ranges.push_back({.path = range.path(), .low = range.low(), .high = range.high()});
+  }
+  return request;
+}
 
 v1::BoundsResponse ToProto(const BoundsResponse& response) {
   v1::BoundsResponse proto;
   *proto.mutable_bounds() = ToProto(response.bounds);
   *proto.mutable_engine() = ToProto(response.engine);
+  if (response.enclosure.has_value()) *proto.mutable_enclosure() = ToProto(*response.enclosure);
   return proto;
 }
 
 BoundsResponse FromProto(const v1::BoundsResponse& proto) {
-  return {.bounds = FromProto(proto.bounds()), .engine = FromProto(proto.engine())};
+  BoundsResponse response{
+      .bounds = FromProto(proto.bounds()), .engine = FromProto(proto.engine()), .enclosure = std::nullopt};
+  if (proto.has_enclosure()) response.enclosure = FromProto(proto.enclosure());
+  return response;
 }
 
 }  // namespace ricochet

@@ -75,6 +75,8 @@ std::vector<BadInput> Scenes() {
       {{"bounds", "--a", "1", "--mu", "0.2", "--mu-static", "0.1"},
        "friction.static_coefficient = 0.1: must be >= friction.kinetic_coefficient = 0.2",
        ""},
+      {{"bounds", "--a", "1", "--range", "pendulum.a_m"}, "--range = pendulum.a_m: must be PATH=LOW:HIGH", ""},
+      {{"bounds", "--a", "1", "--range", "pendulum.a_m=0:1"}, "ranges[0].low = 0: must be > 0", ""},
       {{"solve", "--a", "1", "--newton", "-0.5"}, "restitution.newton = -0.5: must be >= 0", ""},
       {{"solve", "--a", "1", "--poisson", "-0.5"}, "restitution.poisson = -0.5: must be >= 0", ""},
       {{"solve", "--a", "1", "--energetic", "1.5"}, "restitution.energetic = 1.5: must be in [0, 1]", ""},

@@ -59,6 +59,13 @@ TEST(ParseRange, MayLeaveEitherEndOpen) {
   EXPECT_EQ(ParseRange("3:").value().end, std::nullopt);
 }
 
+TEST(ParseFieldRange, TakesAPathAndTwoNumbers) {
+  EXPECT_EQ(ParseFieldRange("pendulum.b_m=-1/2:1e-3").value(), (FieldRange{"pendulum.b_m", -0.5, 1e-3}));
+  for (const char* text : {"", "pendulum.b_m", "=1:2", "pendulum.b_m=1", "pendulum.b_m=:1", "pendulum.b_m=1:2:3"}) {
+    EXPECT_FALSE(ParseFieldRange(text).ok()) << text;
+  }
+}
+
 TEST(ProgressLine, TellsPartRateAndTimeLeft) {
   EXPECT_EQ(ProgressLine(500, 1000, 2.0), "[####################                    ]  50 %   250 points/s   2 s left");
   EXPECT_EQ(ProgressLine(0, 0, 0.0), "[########################################] 100 %   0 points/s   0 s left");

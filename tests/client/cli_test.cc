@@ -81,10 +81,11 @@ TEST_F(Cli, ShowsBothDirectionsOfAnImpactInSpace) {
   EXPECT_THAT(result.out, HasSubstr("v1 [m/s]"));
 }
 
-TEST_F(Cli, BoundsOfASystemThatHasNoneNameTheSystem) {
-  const CliResult result = Run({"bounds", "--scene", TestDataPath("scenes/double_pendulum.textproto")});
+TEST_F(Cli, RangesOfASystemThatHasNoEnclosureNameTheSystem) {
+  const CliResult result = Run({"bounds", "--scene", TestDataPath("scenes/double_pendulum.textproto"), "--range",
+                                "friction.kinetic_coefficient=0.1:0.2"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("system has no bounds: must be pendulum"));
+  EXPECT_THAT(result.err, HasSubstr("system has no enclosure: must be pendulum or planar_contact"));
 }
 
 TEST_F(Cli, TellsItsVersionAndEngine) {

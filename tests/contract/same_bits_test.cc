@@ -163,6 +163,18 @@ TEST(SameBits, OfSolvesOfEverySystem) {
   }
 }
 
+TEST(SameBits, OfBoundsOfEverySystemAndOfEnclosures) {
+  for (const System& system : Systems()) {
+    for (const double mu : {0.0, 0.2, 0.9}) {
+      BoundsRequest request{.scene = With(system), .ranges = {}};
+      request.scene.friction.kinetic_coefficient = mu;
+      ExpectSame(Local().Bounds(request), Remote().Bounds(request));
+      request.ranges = {{"friction.kinetic_coefficient", 0.5 * mu, mu}};
+      ExpectSame(Local().Bounds(request), Remote().Bounds(request));
+    }
+  }
+}
+
 TEST(SameBits, OfSweepsOverEverySystem) {
   for (const System& system : Systems()) {
     SweepRequest request;

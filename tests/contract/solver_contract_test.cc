@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "tests/contract/solvers.h"
+#include "tests/support/system_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -59,6 +60,39 @@ TEST_P(SolverContract, BoundsNeedNoRestitution) {
   ASSERT_TRUE(response.ok()) << response.status();
   EXPECT_NEAR(response->bounds.sharp.newton.upper, std::sqrt(0.5), 1e-15);
   EXPECT_EQ(solver().Solve({.scene = scene, .history_at_n_s = {}}).status().code(), absl::StatusCode::kInvalidArgument);
+}
+
+TEST_P(SolverContract, BoundsHoldForEverySystem) {
+  for (const System& system : Systems()) {
+    const auto response = solver().Bounds({.scene = With(system)});
+    ASSERT_TRUE(response.ok()) << response.status();
+    EXPECT_EQ(response->bounds.sharp.energetic, (Range{0.0, 1.0}));
+    EXPECT_EQ(response->bounds.energy_only.has_value(), !response->bounds.sampled);
+    EXPECT_FALSE(response->enclosure.has_value());
+  }
+}
+
+TEST_P(SolverContract, EnclosesAnUncertainScene) {
+  const auto response =
+      solver().Bounds({.scene = PaperScene(), .ranges = {{"friction.kinetic_coefficient", 0.09, 0.11}}});
+  ASSERT_TRUE(response.ok()) << response.status();
+  ASSERT_TRUE(response->enclosure.has_value());
+  EXPECT_NEAR(response->enclosure->outer.newton.upper, std::sqrt(0.21 / 0.39), 1e-15);
+  EXPECT_NEAR(response->enclosure->outer.poisson.upper, std::sqrt(0.41 / 0.19), 1e-15);
+}
+
+TEST_P(SolverContract, EnclosesUpToInfinityWhereFrictionMayLock) {
+  const auto response =
+      solver().Bounds({.scene = PaperScene(), .ranges = {{"friction.kinetic_coefficient", 0.1, 0.4}}});
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_TRUE(std::isinf(response->enclosure->outer.poisson.upper));
+}
+
+TEST_P(SolverContract, RefusesRangesOfFieldsThatItCannotEnclose) {
+  const absl::Status status =
+      solver().Bounds({.scene = PaperScene(), .ranges = {{"restitution.energetic", 0.5, 0.6}}}).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(ViolationsOf(status), ElementsAre(Field(&Violation::field, "ranges[0].path")));
 }
 
 TEST_P(SolverContract, ReportsEveryViolationOfAScene) {

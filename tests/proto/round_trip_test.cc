@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -207,7 +208,42 @@ TEST(SolveTest, SignOfZeroSurvives) {
   EXPECT_EQ(Bits(back.outcome.rates_after_rad_s), Bits({-0.0, 0.0}));
 }
 
-TEST(BoundsTest, RequestSurvives) { EXPECT_EQ(ThroughWire(BoundsRequest{PaperScene()}), BoundsRequest{PaperScene()}); }
+TEST(BoundsTest, RequestSurvives) {
+  EXPECT_EQ(ThroughWire(BoundsRequest{PaperScene(), {}}), (BoundsRequest{PaperScene(), {}}));
+  const BoundsRequest request = {PaperScene(), {{"pendulum.a_m", 0.2, 0.3}, {"", -0.0, kSubnormal}}};
+  EXPECT_EQ(ThroughWire(request), request);
+}
+
+TEST(BoundsTest, CriticalFrictionOfZeroIsNotUnset) {
+  BoundsResponse response;
+  using Critical = std::optional<double> CriticalFriction::*;
+  for (const Critical member : {&CriticalFriction::stick, &CriticalFriction::stop_compression, &CriticalFriction::stop,
+                                &CriticalFriction::reversal, &CriticalFriction::jam}) {
+    response.bounds.critical.*member = 0.0;
+    EXPECT_EQ(ThroughWire(response), response);
+  }
+}
+
+TEST(BoundsTest, BoundsByEnergyAloneThatAreAbsentStayAbsent) {
+  BoundsResponse response;
+  response.bounds.sampled = true;
+  EXPECT_EQ(ThroughWire(response), response);
+  response.bounds.energy_only.emplace();
+  EXPECT_EQ(ThroughWire(response), response);
+}
+
+TEST(BoundsTest, EnclosureSurvivesWithInfiniteEnds) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  BoundsResponse response;
+  response.enclosure = Enclosure{.outer = {{0.0, 0.7}, {0.0, kInfinity}, {0.0, 1.0}, {-kInfinity, 0.3}, {2.0, 5.0}},
+                                 .attained = {{0.1, 0.6}, {0.2, 1.3}, {0.0, 1.0}, {-0.1, 0.2}, {2.1, 4.0}},
+                                 .excess = kInfinity,
+                                 .boxes = 123};
+  EXPECT_EQ(ThroughWire(response), response);
+  std::string json;
+  ASSERT_TRUE(google::protobuf::util::MessageToJsonString(ToProto(response), &json).ok());
+  EXPECT_THAT(json, testing::HasSubstr(R"("excess":"Infinity")"));
+}
 
 TEST(BoundsTest, ResponseSurvivesWithAndWithoutFirstOrderForms) {
   const CoefficientBounds limits = {{0.0, 0.7}, {0.0, 1.4}, {0.0, 1.0}, {-0.1, 0.3}, {2.0, 5.0}};

@@ -123,7 +123,13 @@ TEST(ContactBoundsTest, RankOneIsThePendulum) {
     ASSERT_EQ(got.regime == Regime::kLocked, want.regime == Regime::kLocked) << ToString(problem);
     const double tolerance = 1e-13 / std::fabs(1.0 - want.friction_ratio);
     ExpectNear(got.sharp, want.sharp, tolerance);
-    ExpectNear(got.energy_only, want.energy_only, tolerance);
+    ExpectNear(got.energy_only, want.energy_only.value(), tolerance);
+    const CriticalFriction& critical = want.critical;
+    EXPECT_NEAR(got.critical.stick.value_or(0.0), critical.stick.value_or(0.0), 1e-13 * critical.stick.value_or(1.0));
+    EXPECT_EQ(got.critical.stop_compression, critical.stop_compression);
+    EXPECT_EQ(got.critical.stop, critical.stop);
+    EXPECT_EQ(got.critical.reversal, critical.reversal);
+    EXPECT_EQ(got.critical.jam, critical.jam);
     ASSERT_FALSE(::testing::Test::HasFailure()) << ToString(problem);
     slipping += want.regime != Regime::kLocked ? 1 : 0;
   }
@@ -250,7 +256,7 @@ TEST(ContactBoundsTest, SlipReversesBetweenTheCriticalFrictions) {
     const CriticalFriction critical = SolveBounds(problem).critical;
     if (!critical.reversal) continue;
     ++reversals;
-    problem.mu = problem.mu_static = 0.5 * (*critical.reversal + critical.stick);
+    problem.mu = problem.mu_static = 0.5 * (*critical.reversal + *critical.stick);
     const Regime regime = SolveBounds(problem).regime;
     ASSERT_TRUE(regime == Regime::kReversalInCompression || regime == Regime::kReversalInRestitution)
         << ToString(problem);

@@ -1,0 +1,44 @@
+// SolveSceneBounds, EncloseScene: the bounds of any scene, and of an uncertain one.
+//
+//   a pendulum over a surface at rest   closed form                           core/models/pendulum_bounds.h
+//   any other planar system             ends of the path's restitution        core/laws/contact_bounds.h
+//   a system in space                   a sample of impacts, Bounds::sampled
+//
+// In space the path does not depend on restitution either, but slip that turns can press the bodies together again, and
+// friction's share of the impulse may turn anywhere on the way: nothing proves that the ends are the extremes. What is
+// answered is the hull of kSpatialImpacts impacts, the energetic coefficient at equal steps from 0 to 1, each solved to
+// kDefaultTolerance: it lies within the true range, to that tolerance. There are no bounds by energy alone and no
+// critical coefficients.
+
+#ifndef RICOCHET_CORE_MODELS_SCENE_BOUNDS_H_
+#define RICOCHET_CORE_MODELS_SCENE_BOUNDS_H_
+
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "absl/types/span.h"
+#include "core/bounds.h"
+#include "core/error.h"
+#include "core/scene/scene.h"
+#include "core/solver.h"
+
+namespace ricochet {
+
+inline constexpr int kSpatialImpacts = 65;
+
+// `scene` is valid, its restitution set or not, and has no impact law.
+// Errors: OUT_OF_RANGE if W, the contact velocity or a bound, which is named, exceeds the largest double.
+absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene);
+
+// What is wrong with the ranges for this scene; `scene` need not be valid.
+std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRange> ranges);
+
+// The enclosure over all scenes that differ from `scene` in fields within the ranges alone. `scene` is valid and
+// CheckRanges finds nothing.
+// Errors: INVALID_ARGUMENT naming `ranges` if no scene of the box is valid, and planar_contact if its W is of rank one
+// and no range is of W: next to none of the velocities in the ranges could be its.
+absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const FieldRange> ranges);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_MODELS_SCENE_BOUNDS_H_
