@@ -12,6 +12,7 @@
 #include "core/models/scene_outcome.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/validate.h"
+#include "core/study/audit_scene.h"
 #include "core/sweep/sweep_run.h"
 
 namespace ricochet {
@@ -81,6 +82,18 @@ absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request)
   const absl::Status finite = CheckFinite(bounds);
   if (!finite.ok()) return finite;
   return BoundsResponse{.bounds = bounds, .engine = ThisEngine()};
+}
+
+absl::StatusOr<AuditResponse> LocalSolver::Audit(const AuditRequest& request) const {
+  absl::StatusOr<AuditResponse> response = AuditScene(request);
+  if (response.ok()) response->engine = ThisEngine();
+  return response;
+}
+
+absl::StatusOr<AuditBatchResponse> LocalSolver::AuditBatch(const AuditBatchRequest& request) const {
+  absl::StatusOr<AuditBatchResponse> response = AuditScene(request);
+  if (response.ok()) response->engine = ThisEngine();
+  return response;
 }
 
 SweepStream LocalSolver::Sweep(const SweepRequest& request, std::stop_token stop) const {
