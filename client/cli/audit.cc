@@ -24,7 +24,7 @@ namespace {
 constexpr char kExample[] = R"(Example: a pendulum that is said to rebound at 0.9 of its rate, which friction forbids.
   $ ricochet audit --a 0.3 --b 1 --mu 0.1 --observed-rate 0.9
   Inadmissible:
-    it returns more than was stored: energetic - 1 = 0.272792
+    more is returned than was stored: energetic coefficient above 1 by 0.272792
   ...
 Many impacts at one contact: --data FILE.csv, whose header names its columns: tangential_m_s, normal_m_s (before;
 without them the scene's own), tangential_after_m_s, normal_after_m_s, friction (else the scene's) and

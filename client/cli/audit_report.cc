@@ -17,16 +17,18 @@ struct LimitName {
   AuditLimit limit;
   const char* column;
   const char* title;
-  const char* broken;  // What went wrong, in words.
+  const char* broken;  // What went wrong, in words, up to by how much.
   const char* unit;
 };
 
 constexpr LimitName kLimits[] = {
-    {AuditLimit::kEnergy, "energy", "kinetic energy gained <= 0 [J]", "it gains kinetic energy", " J"},
-    {AuditLimit::kSharp, "sharp", "energetic coefficient <= 1", "it returns more than was stored: energetic - 1", ""},
-    {AuditLimit::kNormalImpulse, "normal_impulse", "normal impulse >= 0 [N s]", "the surface pulls", " N s"},
-    {AuditLimit::kPenetration, "penetration", "normal velocity after >= 0 [m/s]", "the bodies still approach", " m/s"},
-    {AuditLimit::kCone, "cone", "tangential impulse <= mu normal [N s]", "friction leaves its cone", " N s"},
+    {AuditLimit::kEnergy, "energy", "kinetic energy gained <= 0 [J]", "kinetic energy is gained: ", " J"},
+    {AuditLimit::kSharp, "sharp", "energetic coefficient <= 1",
+     "more is returned than was stored: energetic coefficient above 1 by ", ""},
+    {AuditLimit::kNormalImpulse, "normal_impulse", "normal impulse >= 0 [N s]", "the surface pulls by ", " N s"},
+    {AuditLimit::kPenetration, "penetration", "normal velocity after >= 0 [m/s]", "the bodies still approach at ",
+     " m/s"},
+    {AuditLimit::kCone, "cone", "tangential impulse <= mu normal [N s]", "friction leaves its cone by ", " N s"},
 };
 
 std::string VerdictText(Verdict verdict) {
@@ -50,7 +52,7 @@ std::string Heading(const AuditResponse& response) {
   for (const LimitName& name : kLimits) {
     const LimitCheck& check = report[name.limit];
     if (check.verdict != Verdict::kBroken) continue;
-    absl::StrAppend(&text, "  ", name.broken, " = ", Rounded(check.excess), name.unit);
+    absl::StrAppend(&text, "  ", name.broken, Rounded(check.excess), name.unit);
     if (name.limit == AuditLimit::kEnergy && response.contact_energy_j > 0.0) {
       absl::StrAppendFormat(&text, ", %+.4g %% of what the contact had",
                             100.0 * check.excess / response.contact_energy_j);
