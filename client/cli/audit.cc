@@ -121,11 +121,15 @@ absl::StatusOr<AuditSummary> AuditRows(const Solver& solver, const Scene& scene,
     const size_t end = std::min(rows, first + static_cast<size_t>(kMostAuditRows));
     const auto response = solver.AuditBatch({.scene = scene, .columns = SomeRows(columns, first, end)});
     if (!response.ok()) return response.status();
+    if (response->reports.size() != end - first) {
+      return absl::DataLossError(
+          absl::StrCat("the server answered ", response->reports.size(), " rows of ", end - first));
+    }
     const size_t directions = TangentialDirections(scene.system);
     std::string text = first == 0 ? absl::StrCat("index,", AuditCsvHeader(directions), "\n") : "";
     for (const AuditReport& report : response->reports) {
       audit::Add(static_cast<int64_t>(first), report, summary);
-      absl::StrAppend(&text, first, ",", AuditCsvRow(report, directions), "\n");
+      if (csv) absl::StrAppend(&text, first, ",", AuditCsvRow(report, directions), "\n");
       ++first;
     }
     if (!csv) continue;
