@@ -4,6 +4,7 @@
 
 #include "client/channel.h"
 #include "client/sweep_reader.h"
+#include "proto/wire/audit.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
@@ -48,6 +49,20 @@ absl::StatusOr<BoundsResponse> Client::Bounds(const BoundsRequest& request) cons
                                                  [this](auto* context, const auto& asked, auto* response) {
                                                    return connection_->stub->Bounds(context, asked, response);
                                                  });
+}
+
+absl::StatusOr<AuditResponse> Client::Audit(const AuditRequest& request) const {
+  return Ask<AuditResponse, v1::AuditResponse>(connection_->options, request,
+                                               [this](auto* context, const auto& asked, auto* response) {
+                                                 return connection_->stub->Audit(context, asked, response);
+                                               });
+}
+
+absl::StatusOr<AuditBatchResponse> Client::AuditBatch(const AuditBatchRequest& request) const {
+  return Ask<AuditBatchResponse, v1::AuditBatchResponse>(
+      connection_->options, request, [this](auto* context, const auto& asked, auto* response) {
+        return connection_->stub->AuditBatch(context, asked, response);
+      });
 }
 
 SweepStream Client::Sweep(const SweepRequest& request, std::stop_token stop) const {

@@ -38,6 +38,8 @@ class Client final : public Solver {
   using Solver::Sweep;
   absl::StatusOr<SolveResponse> Solve(const SolveRequest& request) const override;
   absl::StatusOr<BoundsResponse> Bounds(const BoundsRequest& request) const override;
+  absl::StatusOr<AuditResponse> Audit(const AuditRequest& request) const override;
+  absl::StatusOr<AuditBatchResponse> AuditBatch(const AuditBatchRequest& request) const override;
   SweepStream Sweep(const SweepRequest& request, std::stop_token stop) const override;
 
  private:

@@ -10,6 +10,7 @@
 #include "core/models/scene_outcome.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/validate.h"
+#include "core/study/audit_scene.h"
 #include "core/sweep/sweep_run.h"
 
 namespace ricochet {
@@ -56,6 +57,18 @@ absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request)
   const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges);
   if (!enclosure.ok()) return enclosure.status();
   response.enclosure = *enclosure;
+  return response;
+}
+
+absl::StatusOr<AuditResponse> LocalSolver::Audit(const AuditRequest& request) const {
+  absl::StatusOr<AuditResponse> response = AuditScene(request);
+  if (response.ok()) response->engine = ThisEngine();
+  return response;
+}
+
+absl::StatusOr<AuditBatchResponse> LocalSolver::AuditBatch(const AuditBatchRequest& request) const {
+  absl::StatusOr<AuditBatchResponse> response = AuditScene(request);
+  if (response.ok()) response->engine = ThisEngine();
   return response;
 }
 

@@ -12,6 +12,8 @@ class LocalSolver final : public Solver {
   using Solver::Sweep;
   absl::StatusOr<SolveResponse> Solve(const SolveRequest& request) const override;
   absl::StatusOr<BoundsResponse> Bounds(const BoundsRequest& request) const override;
+  absl::StatusOr<AuditResponse> Audit(const AuditRequest& request) const override;
+  absl::StatusOr<AuditBatchResponse> AuditBatch(const AuditBatchRequest& request) const override;
   SweepStream Sweep(const SweepRequest& request, std::stop_token stop) const override;
 };
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/audit.h"
 #include "core/bounds.h"
 #include "core/engine.h"
 #include "core/outcome.h"
@@ -66,6 +67,35 @@ struct BoundsResponse {
   friend bool operator==(const BoundsResponse&, const BoundsResponse&) = default;
 };
 
+struct AuditRequest {
+  Scene scene;  // Its restitution and impact law are not used and may be left unset.
+  Observed observed;
+  double velocity_uncertainty_m_s = 0.0;  // Of each component of the observed contact velocity, >= 0.
+  friend bool operator==(const AuditRequest&, const AuditRequest&) = default;
+};
+
+struct AuditResponse {
+  AuditReport report;
+  // 1/2 v-.W+ v- before the impact, to double precision times the condition of W: the least kinetic energy with this
+  // contact velocity, the most that an impact can take; all there is if the contact's motion is that of the system.
+  double contact_energy_j = 0.0;
+  EngineInfo engine;
+  friend bool operator==(const AuditResponse&, const AuditResponse&) = default;
+};
+
+struct AuditBatchRequest {
+  Scene scene;  // As in AuditRequest.
+  AuditColumns columns;
+  friend bool operator==(const AuditBatchRequest&, const AuditBatchRequest&) = default;
+};
+
+struct AuditBatchResponse {
+  std::vector<AuditReport> reports;  // One a row; of a row that breaks a rule: regime kInvalid, all else 0.
+  AuditSummary summary;
+  EngineInfo engine;
+  friend bool operator==(const AuditBatchResponse&, const AuditBatchResponse&) = default;
+};
+
 using SweepStream = ResultStream<SweepChunk>;
 
 class Solver {
@@ -77,6 +107,12 @@ class Solver {
 
   // The values that the coefficients can take.
   virtual absl::StatusOr<BoundsResponse> Bounds(const BoundsRequest& request) const = 0;
+
+  // What an impact that was observed implies, and which limits it breaks.
+  virtual absl::StatusOr<AuditResponse> Audit(const AuditRequest& request) const = 0;
+
+  // The same of many impacts at one contact. A bad row does not spoil the others.
+  virtual absl::StatusOr<AuditBatchResponse> AuditBatch(const AuditBatchRequest& request) const = 0;
 
   // Many impacts, streamed; points in index order, none twice, none left out. Ends with CANCELLED at most 1024 points
   // after `stop` was requested. A request that is invalid gives a stream of that one error.

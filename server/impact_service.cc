@@ -9,6 +9,7 @@
 #include "core/engine.h"
 #include "core/error.h"
 #include "core/sweep/sweep_run.h"
+#include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/requests.h"
@@ -85,6 +86,24 @@ grpc::Status ImpactService::Bounds(grpc::ServerContext* context, const v1::Bound
   Call call("Bounds", *context, admission_, log_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
   const absl::StatusOr<BoundsResponse> answer = solver_.Bounds(FromProto(*request));
+  if (answer.ok()) *response = ToProto(*answer);
+  return call.Finish(answer.status());
+}
+
+grpc::Status ImpactService::Audit(grpc::ServerContext* context, const v1::AuditRequest* request,
+                                  v1::AuditResponse* response) {
+  Call call("Audit", *context, admission_, log_);
+  if (!call.admitted().ok()) return call.Finish(call.admitted());
+  const absl::StatusOr<AuditResponse> answer = solver_.Audit(FromProto(*request));
+  if (answer.ok()) *response = ToProto(*answer);
+  return call.Finish(answer.status());
+}
+
+grpc::Status ImpactService::AuditBatch(grpc::ServerContext* context, const v1::AuditBatchRequest* request,
+                                       v1::AuditBatchResponse* response) {
+  Call call("AuditBatch", *context, admission_, log_);
+  if (!call.admitted().ok()) return call.Finish(call.admitted());
+  const absl::StatusOr<AuditBatchResponse> answer = solver_.AuditBatch(FromProto(*request));
   if (answer.ok()) *response = ToProto(*answer);
   return call.Finish(answer.status());
 }

@@ -30,6 +30,10 @@ class ImpactService final : public v1::ImpactService::Service {
                      v1::SolveResponse* response) override;
   grpc::Status Bounds(grpc::ServerContext* context, const v1::BoundsRequest* request,
                       v1::BoundsResponse* response) override;
+  grpc::Status Audit(grpc::ServerContext* context, const v1::AuditRequest* request,
+                     v1::AuditResponse* response) override;
+  grpc::Status AuditBatch(grpc::ServerContext* context, const v1::AuditBatchRequest* request,
+                          v1::AuditBatchResponse* response) override;
   grpc::Status Sweep(grpc::ServerContext* context, const v1::SweepRequest* request,
                      grpc::ServerWriter<v1::SweepResponse>* writer) override;
 

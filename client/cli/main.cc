@@ -7,6 +7,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
+#include "client/cli/audit.h"
 #include "client/cli/bounds.h"
 #include "client/cli/common.h"
 #include "client/cli/exit_code.h"
@@ -27,6 +28,7 @@ void AddSubcommands(CLI::App& app, ricochet::cli::Command& command) {
   ricochet::cli::AddSolve(app, command);
   ricochet::cli::AddBounds(app, command);
   ricochet::cli::AddSweep(app, command);
+  ricochet::cli::AddAudit(app, command);
   ricochet::cli::AddHealth(app, command);
   app.footer(
       "ricochet SUBCOMMAND --help shows a worked example.\n"

@@ -35,21 +35,6 @@ class FirstError final : public google::protobuf::io::ErrorCollector {
   std::string text;
 };
 
-absl::StatusOr<std::string> ReadAll(const std::string& path) {
-  if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
-  if (std::filesystem::is_directory(path)) {
-    return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": Is a directory"));
-  }
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file) text << file.rdbuf();
-  // An empty file sets the failbit of the text alone.
-  if (!file) {
-    return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": ", std::strerror(errno)));
-  }
-  return text.str();
-}
-
 bool IsJson(const std::string& path, const std::string& text) {
   if (absl::EndsWith(path, ".json")) return true;
   for (const char* ending : {".textproto", ".txtpb", ".pbtxt"}) {
@@ -148,8 +133,23 @@ absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
   return FromProto(proto);
 }
 
+absl::StatusOr<std::string> ReadText(const std::string& path) {
+  if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
+  if (std::filesystem::is_directory(path)) {
+    return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": Is a directory"));
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  // An empty file sets the failbit of the text alone.
+  if (!file) {
+    return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": ", std::strerror(errno)));
+  }
+  return text.str();
+}
+
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message) {
-  const absl::StatusOr<std::string> text = ReadAll(path);
+  const absl::StatusOr<std::string> text = ReadText(path);
   if (!text.ok()) return text.status();
   const std::string name = path == "-" ? "standard input" : path;
   const std::string type = message.GetTypeName();

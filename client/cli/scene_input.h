@@ -32,6 +32,9 @@ void AddSceneOptions(CLI::App& app, SceneOptions& options);
 // Errors: INVALID_ARGUMENT for neither or both of file and flags, a text that is not a number, an unreadable file.
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options);
 
+// The whole of a file, or of standard input for "-". Errors: INVALID_ARGUMENT that names the file.
+absl::StatusOr<std::string> ReadText(const std::string& path);
+
 // Reads a message of any type from a file, or from standard input for "-". *.json is JSON, *.textproto, *.txtpb and
 // *.pbtxt are textproto, anything else is JSON if it starts with a brace.
 // Errors: INVALID_ARGUMENT that names the file, and the line where the parser tells it.

@@ -290,6 +290,28 @@ double SmallestScaledEigenvalue(const std::vector<double>& upper) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
 }
 
+static double ContactEnergy(const SpatialReduction& reduction) {
+  const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
+  const Eigen::Vector3d scales = InverseScales(matrix);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scales.asDiagonal() * matrix * scales.asDiagonal());
+  const Eigen::Vector3d velocity =
+      scales.asDiagonal() * Eigen::Vector3d(reduction.u0[0], reduction.u0[1], reduction.v0);
+  double energy = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    if (solver.eigenvalues()(i) <= 16.0 * kEpsilon) continue;
+    const double along = solver.eigenvectors().col(i).dot(velocity);
+    energy += 0.5 * along * along / solver.eigenvalues()(i);
+  }
+  return energy;
+}
+
+double ContactEnergy(const AnyReduction& any) {
+  if (const auto* spatial = std::get_if<SpatialReduction>(&any); spatial != nullptr) return ContactEnergy(*spatial);
+  const auto& planar = std::get<PlanarReduction>(any);
+  const auto& [tt, tn, nn] = planar.w;
+  return ContactEnergy(SpatialReduction{.w = {tt, 0.0, tn, 0.0, 0.0, nn}, .u0 = {planar.u0[0], 0.0}, .v0 = planar.v0});
+}
+
 double ShareOutsideRange(const SpatialReduction& reduction) {
   const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
   const Eigen::Vector3d scales = InverseScales(matrix);

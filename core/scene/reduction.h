@@ -56,6 +56,9 @@ bool IsFinite(const AnyReduction& reduction);
 // How fast the contact approaches, >= 0.
 double ApproachSpeed(const AnyReduction& reduction);
 
+// 1/2 v.W+ v with the pseudo-inverse of W: the least kinetic energy that goes with the contact velocity.
+double ContactEnergy(const AnyReduction& reduction);
+
 // The number of tangential directions of a system that is set.
 size_t TangentialDirections(const System& system);
 

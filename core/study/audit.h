@@ -39,60 +39,12 @@
 
 #include <array>
 
+#include "core/audit.h"
 #include "core/models/pendulum.h"
 #include "core/models/planar.h"
 #include "core/models/spatial.h"
-#include "core/outcome.h"
 
 namespace ricochet::audit {
-
-// The first two have the numbers of ricochet::LimitKind.
-enum class AuditLimit { kUnspecified = 0, kSharp = 1, kEnergy = 2, kNormalImpulse = 3, kPenetration = 4, kCone = 5 };
-inline constexpr int kAuditLimitCount = 6;
-
-enum class Verdict {
-  kUnspecified = 0,
-  kKept = 1,
-  kWithinUncertainty = 2,  // Exceeded, but something within the uncertainty keeps it.
-  kBroken = 3,
-};
-
-struct LimitCheck {
-  double value = 0.0;      // p_n, v+_n, |p_t|, E+ - E-, energetic coefficient
-  double limit = 0.0;      // 0, 0, mu p_n, 0, 1
-  double excess = 0.0;     // By how much the value is on the wrong side; negative where kept. Free of cancellation.
-  double allowance = 0.0;  // What the uncertainty can make of it.
-  Verdict verdict = Verdict::kUnspecified;
-};
-
-// A plane uses the first tangential direction only; the other is 0.
-struct AuditReport {
-  Regime regime = Regime::kUnspecified;  // What the path has done up to the normal impulse.
-  int w_rank = 0;
-  bool admissible = false;  // Explained, and no limit broken.
-  bool unexplained = false;
-  double distance = 0.0;           // From v+ to the nearest point of the path; 0 where explained.
-  bool compression_ended = false;  // False: p_n < tau_c. Then Poisson's coefficient is negative, the energetic one 0.
-  double newton = 0.0;
-  double poisson = 0.0;
-  double energetic = 0.0;
-  double tangential = 0.0;  // p_t/p_n; in space |p_t|/p_n. 0 without a normal impulse.
-  double normal_impulse = 0.0;
-  double normal_impulse_compression = 0.0;  // tau_c of the path
-  std::array<double, 2> tangential_impulse = {};
-  std::array<double, 2> friction_mismatch = {};  // N s
-  double normal_impulse_uncertainty = 0.0;       // N s, as are the next
-  std::array<double, 2> tangential_impulse_uncertainty = {};
-  double work_normal_compression = 0.0, work_normal_restitution = 0.0;
-  double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
-  double energy_change = 0.0;
-  double residual = 0.0;
-  std::array<double, 2> path_tangential_velocity = {};  // Where the path is at that normal impulse.
-  double path_normal_velocity = 0.0;
-  std::array<LimitCheck, kAuditLimitCount> limits = {};  // By the number of the limit; [0] is not used.
-
-  const LimitCheck& operator[](AuditLimit limit) const { return limits[static_cast<size_t>(limit)]; }
-};
 
 struct PlanarObservation {
   double u1 = 0.0, v1 = 0.0;  // m/s

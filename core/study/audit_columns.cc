@@ -82,23 +82,9 @@ bool IsValid(const spatial::Problem& in, const SpatialObservation& seen) {
          in.mu >= 0.0 && in.mu_static >= in.mu && seen.uncertainty >= 0.0 && IsSemidefinite(in);
 }
 
-void Add(int64_t row, Tally& tally) {
+void Count(int64_t row, Tally& tally) {
   if (tally.count == 0) tally.first_index = row;
   ++tally.count;
-}
-
-void Add(int64_t row, const AuditReport& report, AuditSummary& summary) {
-  ++summary.rows;
-  if (report.regime == Regime::kInvalid) return Add(row, summary.invalid);
-  if (report.admissible) ++summary.admissible;
-  if (report.unexplained) Add(row, summary.unexplained);
-  for (size_t i = 0; i < report.limits.size(); ++i) {
-    const LimitCheck& check = report.limits[i];
-    if (check.verdict == Verdict::kWithinUncertainty) Add(row, summary.within_uncertainty[i]);
-    if (check.verdict != Verdict::kBroken) continue;
-    Add(row, summary.broken[i]);
-    summary.largest_excess[i] = std::max(summary.largest_excess[i], check.excess);
-  }
 }
 
 template <typename Problem, typename Observation>
@@ -114,6 +100,20 @@ void AuditRow(int64_t row, const Problem& problem, const Observation& seen, Rece
 }
 
 }  // namespace
+
+void Add(int64_t row, const AuditReport& report, AuditSummary& summary) {
+  ++summary.rows;
+  if (report.regime == Regime::kInvalid) return Count(row, summary.invalid);
+  if (report.admissible) ++summary.admissible;
+  if (report.unexplained) Count(row, summary.unexplained);
+  for (size_t i = 0; i < report.limits.size(); ++i) {
+    const LimitCheck& check = report.limits[i];
+    if (check.verdict == Verdict::kWithinUncertainty) Count(row, summary.within_uncertainty[i]);
+    if (check.verdict != Verdict::kBroken) continue;
+    Count(row, summary.broken[i]);
+    summary.largest_excess[i] = std::max(summary.largest_excess[i], check.excess);
+  }
+}
 
 absl::StatusOr<AuditSummary> AuditColumns(const PlanarColumns& columns, Receiver receive) {
   const PlanarColumns& in = columns;

@@ -10,7 +10,6 @@
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
 #include "core/study/audit.h"
-#include "core/sweep/sweep.h"
 
 namespace ricochet::audit {
 
@@ -35,15 +34,8 @@ struct SpatialColumns {
   double tolerance = 1e-10;              // Of the path, core/models/spatial.h.
 };
 
-struct AuditSummary {
-  int64_t rows = 0;
-  int64_t admissible = 0;
-  Tally invalid;  // Rows that break a rule; all else is not counted for them.
-  Tally unexplained;
-  std::array<Tally, kAuditLimitCount> broken = {};              // By the number of the limit.
-  std::array<Tally, kAuditLimitCount> within_uncertainty = {};  // Exceeded, but not broken.
-  std::array<double, kAuditLimitCount> largest_excess = {};     // Of the broken ones; 0 where none is.
-};
+// Counts a row's report.
+void Add(int64_t row, const AuditReport& report, AuditSummary& summary);
 
 // Audits row after row, in order, and hands each report to `receive`. A row that is not finite, or whose W is not
 // positive semidefinite with Wnn > 0, mu < 0, mu_s < mu, uncertainty < 0, or in a plane W of rank one with (u0, v0)

@@ -107,14 +107,14 @@ SweepRequest FromProto(const v1::SweepRequest& proto) {
   return request;
 }
 
-static v1::Tally ToProto(const Tally& tally) {
+v1::Tally ToProto(const Tally& tally) {
   v1::Tally proto;
   proto.set_count(tally.count);
   proto.set_first_index(tally.first_index);
   return proto;
 }
 
-static Tally FromProto(const v1::Tally& proto) { return {proto.count(), proto.first_index()}; }
+Tally FromProto(const v1::Tally& proto) { return {proto.count(), proto.first_index()}; }
 
 static Tally Sum(const Tally& a, const Tally& b) {
   if (a.count == 0) return b;

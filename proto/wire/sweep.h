@@ -15,6 +15,9 @@ SweepRequest FromProto(const v1::SweepRequest& proto);
 v1::SweepRequest::Combination ToProto(Combination combination);
 Combination FromProto(v1::SweepRequest::Combination proto);
 
+v1::Tally ToProto(const Tally& tally);
+Tally FromProto(const v1::Tally& proto);
+
 // Points of regimes that this build does not know are counted together as kUnspecified.
 v1::SweepSummary ToProto(const SweepSummary& summary);
 SweepSummary FromProto(const v1::SweepSummary& proto);

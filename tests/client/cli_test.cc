@@ -93,7 +93,7 @@ TEST_F(Cli, TellsItsVersionAndEngine) {
 }
 
 TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
-  for (const std::string subcommand : {"solve", "bounds", "sweep"}) {
+  for (const std::string subcommand : {"solve", "bounds", "sweep", "audit"}) {
     const CliResult help = Run({subcommand, "--help"});
     EXPECT_EQ(help.exit_code, 0);
     const size_t start = help.out.find("$ ricochet ");
@@ -107,6 +107,57 @@ TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
     const std::string shown = example.substr(end + 3, example.find('\n', end + 1) - end - 3);
     EXPECT_THAT(result.out, HasSubstr(shown)) << command;
   }
+}
+
+// --- Audits of tables ---
+
+constexpr char kKane[] =
+    "linkage { links { length_m: 1 mass_kg: 1 com_m: 0.5 inertia_com_kg_m2: 0.0833333333333333 "
+    "theta_rad: 0.349 rate_rad_s: -0.1 } links { length_m: 1 mass_kg: 1 com_m: 0.5 "
+    "inertia_com_kg_m2: 0.0833333333333333 theta_rad: 0.524 rate_rad_s: -0.2 } } "
+    "friction { kinetic_coefficient: 0.7 }";
+
+TEST_F(Cli, AuditsEveryRowOfATableAndFlagsTheBadOnes) {
+  Write("kane.textproto", kKane);
+  const CliResult result = RunShell("\"$R\" audit --scene kane.textproto --data - --format csv 2> summary",
+                                    "# seen\nid,normal_after_m_s,tangential_after_m_s\r\n"
+                                    "a,0.02,-0.1\r\nb,none,-0.1\n\nc,0.5\nd,5e-1,1\n");
+  EXPECT_EQ(result.exit_code, 0) << Read("summary");
+  EXPECT_THAT(result.out, StartsWith("index,admissible,regime,unexplained,distance_m_s,coefficients.newton,"));
+  EXPECT_THAT(result.out, HasSubstr("\n1,0,INVALID,"));
+  EXPECT_THAT(result.out, HasSubstr("\n2,0,INVALID,"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("\n3,0,[A-Z_]+,0,0,"));
+  EXPECT_THAT(Read("summary"), StartsWith("4 rows\n"));
+  EXPECT_THAT(Read("summary"), testing::ContainsRegex("invalid +2 +1\n"));
+}
+
+TEST_F(Cli, AuditsATableOfMoreRowsThanOneCallTakes) {
+  Write("kane.textproto", kKane);
+  std::string table = "tangential_after_m_s,normal_after_m_s\n";
+  for (int i = 0; i < 10'000; ++i) table += i == 9'000 ? "x,1\n" : "0.1,0.02\n";
+  const CliResult result = Run({"audit", "--scene", "kane.textproto", "--data", "-"}, table);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, StartsWith("10000 rows\n"));
+  EXPECT_THAT(result.out, testing::ContainsRegex("invalid +1 +9000\n"));
+}
+
+TEST_F(Cli, RefusesATableWithoutAKnownHeaderAndAnAuditOfNothing) {
+  Write("kane.textproto", kKane);
+  const Arguments audit = {"audit", "--scene", "kane.textproto"};
+  const auto with = [&audit](const Arguments& more) {
+    Arguments all = audit;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  EXPECT_EQ(Run(audit).exit_code, 2);
+  EXPECT_THAT(Run(audit).err, HasSubstr("nothing observed"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "1,2\n").err, HasSubstr("names no known column"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "").err, HasSubstr("has no header"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "friction,friction\n").err, HasSubstr("friction twice"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "normal_after_m_s\n1\n").err,
+              HasSubstr("columns.tangential_after_m_s is not set"));
+  EXPECT_THAT(Run(with({"--observed-rate", "1"})).err, HasSubstr("rates.rates_rad_s has 1 entry: must have 2"));
+  EXPECT_THAT(Run(with({"--observed-velocity", "1,x"})).err, HasSubstr("--observed-velocity = x"));
 }
 
 // --- Files ---

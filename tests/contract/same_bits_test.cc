@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/sweep/column.h"
+#include "proto/wire/audit.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "tests/contract/solvers.h"
@@ -22,6 +23,8 @@ constexpr int kScenes = 2000;
 // The bytes of a message hold the bits of its doubles.
 std::string Bytes(const SolveResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(const BoundsResponse& response) { return ToProto(response).SerializeAsString(); }
+std::string Bytes(const AuditResponse& response) { return ToProto(response).SerializeAsString(); }
+std::string Bytes(const AuditBatchResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(SweepChunk chunk) {
   // A clock's time is no result.
   if (chunk.summary.has_value()) chunk.summary->elapsed_s.reset();
@@ -200,6 +203,28 @@ TEST(SameBits, OfImpactLawsAndSpeedDependence) {
     ASSERT_TRUE(local.ok()) << local.status();
     ExpectSame(local, Remote().Solve({.scene = scene}));
   }
+}
+
+TEST(SameBits, OfAuditsOfEverySystemAndOfTheirErrors) {
+  for (const System& system : Systems()) {
+    const Scene scene = With(system);
+    const auto solved = Local().Solve({.scene = scene, .history_at_n_s = {}});
+    ASSERT_TRUE(solved.ok()) << solved.status();
+    ContactVelocity seen = solved->outcome.contact_velocity_after;
+    for (const double factor : {1.0, 0.3, -1.0, 7.0}) {
+      seen.normal_m_s = factor * solved->outcome.contact_velocity_after.normal_m_s;
+      const AuditRequest request = {.scene = scene, .observed = seen, .velocity_uncertainty_m_s = 1e-3};
+      ExpectSame(Local().Audit(request), Remote().Audit(request));
+      AuditBatchRequest batch = {.scene = scene, .columns = {}};
+      const bool in_space = seen.tangential_m_s.size() == 2;
+      batch.columns.tangential_after_m_s = {seen.tangential_m_s[0]};
+      if (in_space) batch.columns.tangential_2_after_m_s = {seen.tangential_m_s[1]};
+      batch.columns.normal_after_m_s = {seen.normal_m_s, 1.0, std::nan(""), -0.0};
+      ExpectSame(Local().AuditBatch(batch), Remote().AuditBatch(batch));
+    }
+  }
+  ExpectSame(Local().Audit({}), Remote().Audit({}));
+  ExpectSame(Local().AuditBatch({}), Remote().AuditBatch({}));
 }
 
 }  // namespace

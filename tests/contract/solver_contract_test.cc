@@ -143,6 +143,151 @@ TEST_P(SolverContract, RefusesAHistoryOutsideTheImpact) {
   EXPECT_THAT(ViolationsOf(status), ElementsAre(Field(&Violation::field, "history_at_n_s[1]")));
 }
 
+// Two rods of 1 m and 1 kg, hinged, at 20 and 30 degrees: Kane and Levinson (1985).
+Scene KanesScene() {
+  constexpr double kDegree = 0.017453292519943295;
+  const Link rod = {.length_m = 1.0, .mass_kg = 1.0, .com_m = 0.5, .inertia_com_kg_m2 = 1.0 / 12.0};
+  Linkage linkage{{rod, rod}};
+  linkage.links[0].theta_rad = 20.0 * kDegree;
+  linkage.links[0].rate_rad_s = -0.1;
+  linkage.links[1].theta_rad = 30.0 * kDegree;
+  linkage.links[1].rate_rad_s = -0.2;
+  return {.system = linkage, .friction = {.kinetic_coefficient = 0.7}, .restitution = NewtonCoefficient{1.0}};
+}
+
+TEST_P(SolverContract, AuditFindsKanesParadoxInRates) {
+  Scene scene = KanesScene();
+  const auto solved = solver().Solve({.scene = scene, .history_at_n_s = {}});
+  ASSERT_TRUE(solved.ok()) << solved.status();
+  scene.restitution = std::monostate();
+  const auto audit = solver().Audit({.scene = scene, .observed = ObservedRates{solved->outcome.rates_after_rad_s}});
+  ASSERT_TRUE(audit.ok()) << audit.status();
+  const AuditReport& report = audit->report;
+  EXPECT_NEAR(report.energy_change / audit->contact_energy_j, 5.35, 0.005);
+  // m l^2 (4/3 w1^2 + 1/3 w2^2 + w1 w2 cos 10 deg)/2: two links, two directions, so all of the kinetic energy.
+  EXPECT_NEAR(audit->contact_energy_j, 0.5 * (0.04 / 3.0 + 0.04 / 3.0 + 0.02 * std::cos(std::acos(-1.0) / 18.0)),
+              1e-15);
+  EXPECT_NEAR(report.newton, 1.0, 1e-12);
+  EXPECT_FALSE(report.admissible);
+  EXPECT_EQ(report[AuditLimit::kEnergy].verdict, Verdict::kBroken);
+  EXPECT_EQ(report[AuditLimit::kSharp].verdict, Verdict::kBroken);
+  EXPECT_EQ(report[AuditLimit::kCone].verdict, Verdict::kKept);
+}
+
+TEST_P(SolverContract, AuditOfAnAnswerGivesItsCoefficientBack) {
+  for (const System& system : Systems()) {
+    const Scene scene = With(system);
+    const auto solved = solver().Solve({.scene = scene, .history_at_n_s = {}});
+    ASSERT_TRUE(solved.ok()) << solved.status();
+    const auto audit = solver().Audit(
+        {.scene = scene, .observed = solved->outcome.contact_velocity_after, .velocity_uncertainty_m_s = 1e-8});
+    ASSERT_TRUE(audit.ok()) << audit.status();
+    EXPECT_TRUE(audit->report.admissible) << "system " << system.index();
+    EXPECT_NEAR(audit->report.energetic, 0.5, 1e-7) << "system " << system.index();
+    EXPECT_NEAR(audit->report.normal_impulse, solved->outcome.impulse.normal_total_n_s, 1e-7);
+    EXPECT_NEAR(audit->report.energy_change, solved->outcome.energy_change_j, 1e-7);
+  }
+}
+
+TEST_P(SolverContract, AuditsAPendulumByItsRateAndOnAMovingSurface) {
+  Scene scene = PaperScene();
+  scene.restitution = std::monostate();
+  const auto still = solver().Audit({.scene = scene, .observed = ObservedRates{{0.9}}});
+  ASSERT_TRUE(still.ok()) << still.status();
+  EXPECT_NEAR(still->report.newton, 0.9, 1e-15);
+  EXPECT_NEAR(still->report.energetic, 0.9 * std::sqrt(2.0), 1e-14);
+  EXPECT_EQ(still->report[AuditLimit::kSharp].verdict, Verdict::kBroken);
+  EXPECT_EQ(still->report[AuditLimit::kEnergy].verdict, Verdict::kKept);
+  EXPECT_NEAR(still->contact_energy_j, 0.5, 1e-14);
+  scene.surface_velocity = SurfaceVelocity{{1.0}, 0.3};
+  const auto moving = solver().Audit({.scene = scene, .observed = ObservedRates{{1.9}}});
+  ASSERT_TRUE(moving.ok()) << moving.status();
+  EXPECT_NEAR(moving->report.newton, 0.45, 1e-14);
+}
+
+TEST_P(SolverContract, AuditReportsEveryViolation) {
+  AuditRequest request = {.scene = PaperScene(), .observed = {}, .velocity_uncertainty_m_s = -1.0};
+  request.scene.friction.kinetic_coefficient = -0.1;
+  EXPECT_THAT(ViolationsOf(solver().Audit(request).status()),
+              ElementsAre(Violation{"friction.kinetic_coefficient", "= -0.1: must be >= 0"},
+                          Violation{"observed", "is not set: must be one of contact_velocity, rates"},
+                          Violation{"velocity_uncertainty_m_s", "= -1: must be finite and >= 0"}));
+  request = {.scene = PaperScene(), .observed = ObservedRates{{1.0, 2.0}}};
+  EXPECT_THAT(ViolationsOf(solver().Audit(request).status()),
+              ElementsAre(Violation{"rates.rates_rad_s", "has 2 entries: must have 1"}));
+  request = {.scene = With(ContactInSpace()), .observed = ContactVelocity{{std::nan("")}, 1.0}};
+  EXPECT_THAT(ViolationsOf(solver().Audit(request).status()),
+              ElementsAre(Violation{"contact_velocity.tangential_m_s", "has 1 entry: must have 2"},
+                          Field(&Violation::field, "contact_velocity.tangential_m_s[0]")));
+  request.observed = ObservedRates{{1.0}};
+  EXPECT_THAT(ViolationsOf(solver().Audit(request).status()), ElementsAre(Field(&Violation::field, "rates")));
+  request = {.scene = With(PlanarContact{1.0, 0.0, 0.0, 1.0, 1.0}), .observed = ContactVelocity{{1.0}, 1.0}};
+  EXPECT_THAT(ViolationsOf(solver().Audit(request).status()), ElementsAre(Field(&Violation::field, "system")));
+}
+
+TEST_P(SolverContract, AuditsOfABatchAreThoseOfItsRowsAndABadRowSpoilsNoOther) {
+  AuditBatchRequest request = {.scene = With(Contact()), .columns = {}};
+  request.columns.tangential_m_s = {1.0, 0.5, 0.5, -1.0};
+  request.columns.normal_m_s = {-1.0};
+  request.columns.tangential_after_m_s = {0.5, 0.4, 0.1, -0.5};
+  request.columns.normal_after_m_s = {0.5, std::nan(""), 3.0, 0.25};
+  request.columns.friction = {0.5, 0.5, 0.75, 0.25};
+  const auto batch = solver().AuditBatch(request);
+  ASSERT_TRUE(batch.ok()) << batch.status();
+  ASSERT_EQ(batch->reports.size(), 4);
+  for (const size_t row : {0, 2, 3}) {
+    PlanarContact contact = Contact();
+    contact.tangential_m_s = request.columns.tangential_m_s[row];
+    Scene scene = With(contact);
+    scene.friction.kinetic_coefficient = request.columns.friction[row];
+    const auto one = solver().Audit({.scene = scene,
+                                     .observed = ContactVelocity{{request.columns.tangential_after_m_s[row]},
+                                                                 request.columns.normal_after_m_s[row]}});
+    ASSERT_TRUE(one.ok()) << one.status();
+    EXPECT_EQ(batch->reports[row], one->report) << "row " << row;
+  }
+  EXPECT_EQ(batch->reports[1].regime, Regime::kInvalid);
+  EXPECT_EQ(batch->summary.rows, 4);
+  EXPECT_EQ(batch->summary.invalid, (Tally{1, 1}));
+  EXPECT_EQ(batch->summary.broken[static_cast<size_t>(AuditLimit::kEnergy)].first_index, 2);
+}
+
+TEST_P(SolverContract, AuditOfABatchTakesWhatItLeavesOutFromTheScene) {
+  AuditBatchRequest request = {.scene = With(Contact()), .columns = {}};
+  request.scene.friction.by_speed = PowerLaw{0.5, 1.0};
+  request.columns.tangential_after_m_s = {0.5};
+  request.columns.normal_after_m_s = {0.5};
+  const auto own = solver().AuditBatch(request);
+  ASSERT_TRUE(own.ok()) << own.status();
+  const auto one = solver().Audit({.scene = request.scene, .observed = ContactVelocity{{0.5}, 0.5}});
+  ASSERT_TRUE(one.ok()) << one.status();
+  EXPECT_EQ(own->reports[0], one->report);
+  request.columns.tangential_m_s = {1.0};
+  request.columns.normal_m_s = {-1.0};
+  const auto stated = solver().AuditBatch(request);
+  ASSERT_TRUE(stated.ok()) << stated.status();
+  EXPECT_EQ(stated->reports, own->reports);
+  EXPECT_EQ(solver().AuditBatch({.scene = request.scene, .columns = {}})->reports.size(), 0);
+}
+
+TEST_P(SolverContract, AuditOfABatchReportsEveryWrongColumn) {
+  AuditBatchRequest request = {.scene = With(Contact()), .columns = {}};
+  request.columns.normal_m_s = {-1.0};
+  request.columns.tangential_2_after_m_s = {1.0};
+  request.columns.normal_after_m_s = {0.5, 0.5, 0.5};
+  request.columns.friction = {0.5, 0.5};
+  EXPECT_THAT(ViolationsOf(solver().AuditBatch(request).status()),
+              ElementsAre(Field(&Violation::field, "columns.tangential_m_s"),
+                          Field(&Violation::field, "columns.tangential_after_m_s"),
+                          Violation{"columns.tangential_2_after_m_s", "is set: must not be for a planar system"},
+                          Violation{"columns.friction", "has 2 values: must have 1 or 3"}));
+  request = {.scene = With(Contact()), .columns = {}};
+  request.columns.tangential_after_m_s = {0.5};
+  request.columns.normal_after_m_s.assign(8193, 0.5);
+  EXPECT_THAT(ViolationsOf(solver().AuditBatch(request).status()),
+              ElementsAre(Violation{"columns", "has 8193 rows: must have at most 8192 in one call"}));
+}
+
 TEST_P(SolverContract, SweepsEveryPointOnceInOrderAndEndsWithTheSummary) {
   constexpr int64_t kPoints = 200'001;
   int64_t next = 0;

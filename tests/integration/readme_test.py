@@ -55,6 +55,7 @@ class ReadmeTest(unittest.TestCase):
         shutil.rmtree(WORK, ignore_errors=True)
         WORK.mkdir(parents=True)
         (WORK / "proto").symlink_to(SOURCE / "proto")
+        (WORK / "tests").symlink_to(SOURCE / "tests")
         port_file = WORK / "port"
         with open(WORK / "server.log", "w", encoding="utf-8") as log:
             server = subprocess.Popen(

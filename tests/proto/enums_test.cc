@@ -4,6 +4,7 @@
 #include <google/protobuf/generated_enum_reflection.h>
 #include <gtest/gtest.h>
 
+#include "proto/wire/audit.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/sweep.h"
 
@@ -16,7 +17,7 @@ template <typename ProtoEnum>
 class EnumTest : public testing::Test {};
 
 using Enums = testing::Types<v1::Regime, v1::Event::Kind, v1::BrokenLimit::Kind, v1::Accuracy::Kind,
-                             v1::SweepRequest::Combination>;
+                             v1::LimitCheck::Verdict, v1::SweepRequest::Combination>;
 TYPED_TEST_SUITE(EnumTest, Enums);
 
 TYPED_TEST(EnumTest, EveryValueOfTheProtoIsTheCoresOfTheSameNumber) {
@@ -48,6 +49,21 @@ TEST(EnumTest, LimitKindOfAnUnknownNumberIsUnspecified) {
 TEST(EnumTest, AccuracyKindOfAnUnknownNumberIsUnspecified) {
   EXPECT_EQ(FromProto(static_cast<v1::Accuracy::Kind>(999)), AccuracyKind::kUnspecified);
   EXPECT_EQ(ToProto(static_cast<AccuracyKind>(999)), v1::Accuracy::KIND_UNSPECIFIED);
+}
+
+TEST(EnumTest, VerdictOfAnUnknownNumberIsUnspecified) {
+  EXPECT_EQ(FromProto(static_cast<v1::LimitCheck::Verdict>(999)), Verdict::kUnspecified);
+  EXPECT_EQ(ToProto(static_cast<Verdict>(999)), v1::LimitCheck::VERDICT_UNSPECIFIED);
+}
+
+TEST(EnumTest, LimitsOfAnAuditHaveTheNumbersOfTheirFields) {
+  const auto& limits = *v1::AuditLimits::descriptor();
+  EXPECT_EQ(limits.field_count(), kAuditLimitCount - 1);
+  EXPECT_EQ(limits.FindFieldByName("sharp")->number(), static_cast<int>(AuditLimit::kSharp));
+  EXPECT_EQ(limits.FindFieldByName("energy")->number(), static_cast<int>(AuditLimit::kEnergy));
+  EXPECT_EQ(limits.FindFieldByName("normal_impulse")->number(), static_cast<int>(AuditLimit::kNormalImpulse));
+  EXPECT_EQ(limits.FindFieldByName("penetration")->number(), static_cast<int>(AuditLimit::kPenetration));
+  EXPECT_EQ(limits.FindFieldByName("cone")->number(), static_cast<int>(AuditLimit::kCone));
 }
 
 TEST(EnumTest, CombinationOfAnUnknownNumberKeepsIt) {

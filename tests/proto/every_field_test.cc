@@ -7,6 +7,7 @@
 #include <string>
 
 #include "fill.h"
+#include "proto/wire/audit.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/v1/impact_service.pb.h"
@@ -32,7 +33,8 @@ template <typename Message>
 class EveryFieldTest : public testing::Test {};
 
 using Messages = testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse,
-                                v1::SweepRequest, v1::SweepResponse>;
+                                v1::SweepRequest, v1::SweepResponse, v1::AuditRequest, v1::AuditResponse,
+                                v1::AuditBatchRequest, v1::AuditBatchResponse>;
 TYPED_TEST_SUITE(EveryFieldTest, Messages);
 
 TYPED_TEST(EveryFieldTest, SurvivesTheCore) {
@@ -55,20 +57,24 @@ TYPED_TEST(EveryFieldTest, SurvivesTheCoreByteForByte) {
 // The messages above are all that the service speaks, so that no message goes untested.
 TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   const auto& service = *v1::SolveRequest::descriptor()->file()->FindServiceByName("ImpactService");
-  ASSERT_EQ(service.method_count(), 3);
+  ASSERT_EQ(service.method_count(), 5);
   EXPECT_EQ(service.method(0)->input_type(), v1::SolveRequest::descriptor());
   EXPECT_EQ(service.method(0)->output_type(), v1::SolveResponse::descriptor());
   EXPECT_EQ(service.method(1)->input_type(), v1::BoundsRequest::descriptor());
   EXPECT_EQ(service.method(1)->output_type(), v1::BoundsResponse::descriptor());
   EXPECT_EQ(service.method(2)->input_type(), v1::SweepRequest::descriptor());
   EXPECT_EQ(service.method(2)->output_type(), v1::SweepResponse::descriptor());
+  EXPECT_EQ(service.method(3)->input_type(), v1::AuditRequest::descriptor());
+  EXPECT_EQ(service.method(3)->output_type(), v1::AuditResponse::descriptor());
+  EXPECT_EQ(service.method(4)->input_type(), v1::AuditBatchRequest::descriptor());
+  EXPECT_EQ(service.method(4)->output_type(), v1::AuditBatchResponse::descriptor());
 }
 
 TEST(FillTest, ReachesEveryMemberOfEveryOneof) {
   std::set<const google::protobuf::FieldDescriptor*> reached;
   std::set<const google::protobuf::FieldDescriptor*> all;
   for (const auto* message : {v1::Scene::descriptor(), v1::BodyPair::descriptor(), v1::SpeedDependence::descriptor(),
-                              v1::Restitution::descriptor()}) {
+                              v1::Restitution::descriptor(), v1::AuditRequest::descriptor()}) {
     for (int i = 0; i < message->real_oneof_decl_count(); ++i) {
       const auto* oneof = message->oneof_decl(i);
       for (int k = 0; k < oneof->field_count(); ++k) all.insert(oneof->field(k));
@@ -76,7 +82,7 @@ TEST(FillTest, ReachesEveryMemberOfEveryOneof) {
     }
   }
   EXPECT_EQ(reached, all);
-  EXPECT_EQ(all.size(), 7U + 4U + 2U + 2U + 3U);
+  EXPECT_EQ(all.size(), 7U + 4U + 2U + 2U + 3U + 2U);
 }
 
 TEST(FillTest, SetsEveryFieldButTheOtherMembersOfAOneof) {

@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "proto/wire/audit.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/scene.h"
 #include "proto/wire/sweep.h"
@@ -268,6 +269,37 @@ TEST(BoundsTest, CoefficientErrorsAreSentOnlyWithCoefficients) {
   response.bounds.nearly_vertical->coefficients.emplace();
   EXPECT_TRUE(ToProto(response).bounds().nearly_vertical().has_coefficients());
   EXPECT_TRUE(ToProto(response).bounds().nearly_vertical().has_coefficient_errors());
+}
+
+TEST(AuditTest, RequestSurvivesWithEachKindOfObservation) {
+  AuditRequest request = {.scene = PaperScene(), .observed = {}, .velocity_uncertainty_m_s = 0.125};
+  for (const Observed& observed : {Observed(), Observed(ContactVelocity{{1.0, 2.0}, 3.0}), Observed(ContactVelocity()),
+                                   Observed(ObservedRates{{0.5, -0.25}}), Observed(ObservedRates())}) {
+    request.observed = observed;
+    EXPECT_EQ(ThroughWire(request), request) << "observation " << observed.index();
+  }
+}
+
+TEST(AuditTest, ResponsesSurvive) {
+  AuditReport report = {.regime = Regime::kSliding, .w_rank = 3, .admissible = true, .distance = kSubnormal};
+  report.tangential_impulse = {1.0, -0.0};
+  report.limits[static_cast<size_t>(AuditLimit::kCone)] = {1.0, 2.0, -1.0, 0.5, Verdict::kKept};
+  const AuditResponse response = {.report = report, .contact_energy_j = 0.5, .engine = {"1.2.3", "0123456789abcdef"}};
+  EXPECT_EQ(ThroughWire(response), response);
+  EXPECT_EQ(ThroughWire(AuditResponse()), AuditResponse());
+  AuditBatchResponse batch = {
+      .reports = {report, AuditReport()}, .summary = {.rows = 2, .admissible = 1}, .engine = {}};
+  batch.summary.broken[static_cast<size_t>(AuditLimit::kEnergy)] = {1, 0};
+  EXPECT_EQ(ThroughWire(batch), batch);
+  EXPECT_EQ(ThroughWire(AuditBatchResponse()), AuditBatchResponse());
+}
+
+TEST(AuditTest, EmptySummaryHasNoFirstIndices) { EXPECT_EQ(FromProto(v1::AuditBatchResponse()), AuditBatchResponse()); }
+
+TEST(AuditTest, ColumnsSurvive) {
+  const AuditBatchRequest request = {.scene = PaperScene(),
+                                     .columns = {{1.0}, {2.0}, {3.0}, {4.0, 5.0}, {6.0}, {7.0, kSubnormal}, {}, {0.5}}};
+  EXPECT_EQ(ThroughWire(request), request);
 }
 
 SweepRequest SomeSweep() {

@@ -1,0 +1,192 @@
+#include "client/cli/audit.h"
+
+#include <algorithm>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/audit_data.h"
+#include "client/cli/audit_report.h"
+#include "client/cli/number_input.h"
+#include "client/cli/output.h"
+#include "client/cli/scene_input.h"
+#include "core/scene/reduction.h"
+#include "core/study/audit_columns.h"
+#include "proto/wire/audit.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] = R"(Example: a pendulum that is said to rebound at 0.9 of its rate, which friction forbids.
+  $ ricochet audit --a 0.3 --b 1 --mu 0.1 --observed-rate 0.9
+  Inadmissible:
+    more is returned than was stored: energetic coefficient above 1 by 0.272792
+  ...
+Many impacts at one contact: --data FILE.csv, whose header names its columns: tangential_m_s, normal_m_s (before;
+without them the scene's own), tangential_after_m_s, normal_after_m_s, friction (else the scene's) and
+velocity_uncertainty_m_s; in space also tangential_2_m_s and tangential_2_after_m_s. Text is a summary; csv has a row
+an impact, and the summary goes to standard error. A bad row is flagged INVALID and ends nothing.
+Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+
+struct AuditOptions {
+  CommonOptions common;
+  SceneOptions scene;
+  std::optional<std::string> rate, velocity, uncertainty;
+  std::string data;
+};
+
+absl::StatusOr<std::vector<double>> ParseNumbers(const std::string& text, const std::string& what) {
+  std::vector<double> numbers;
+  for (const auto part : absl::StrSplit(text, ',')) {
+    const absl::StatusOr<double> number = ParseNumber(std::string(part), what);
+    if (!number.ok()) return number.status();
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+absl::StatusOr<Observed> ReadObserved(const AuditOptions& options) {
+  if (options.rate.has_value()) {
+    absl::StatusOr<std::vector<double>> rates = ParseNumbers(*options.rate, "--observed-rate");
+    if (!rates.ok()) return rates.status();
+    return Observed(ObservedRates{*std::move(rates)});
+  }
+  if (!options.velocity.has_value()) {
+    return absl::InvalidArgumentError(
+        "nothing observed: give --observed-velocity T,N, --observed-rate X or --data FILE.csv");
+  }
+  absl::StatusOr<std::vector<double>> numbers = ParseNumbers(*options.velocity, "--observed-velocity");
+  if (!numbers.ok()) return numbers.status();
+  const double normal = numbers->back();
+  numbers->pop_back();
+  return Observed(ContactVelocity{.tangential_m_s = *std::move(numbers), .normal_m_s = normal});
+}
+
+absl::StatusOr<double> ReadUncertainty(const AuditOptions& options) {
+  return options.uncertainty.has_value() ? ParseNumber(*options.uncertainty, "--uncertainty") : 0.0;
+}
+
+absl::Status AuditOne(const AuditOptions& options, const Solver& solver, const Scene& scene) {
+  const absl::StatusOr<Observed> observed = ReadObserved(options);
+  if (!observed.ok()) return observed.status();
+  const absl::StatusOr<double> uncertainty = ReadUncertainty(options);
+  if (!uncertainty.ok()) return uncertainty.status();
+  const absl::StatusOr<AuditResponse> response =
+      solver.Audit({.scene = scene, .observed = *observed, .velocity_uncertainty_m_s = *uncertainty});
+  if (!response.ok()) return response.status();
+  const size_t directions = TangentialDirections(scene.system);
+  switch (options.common.format) {
+    case Format::kText:
+      return WriteOutput(options.common, AuditText(*response, directions));
+    case Format::kJson: {
+      const absl::StatusOr<std::string> json = Json(ToProto(*response));
+      return json.ok() ? WriteOutput(options.common, *json) : json.status();
+    }
+    case Format::kCsv:
+      break;
+  }
+  return WriteOutput(options.common,
+                     absl::StrCat(AuditCsvHeader(directions), "\n", AuditCsvRow(response->report, directions), "\n"));
+}
+
+absl::StatusOr<AuditColumns> ReadData(const AuditOptions& options) {
+  if (options.rate.has_value() || options.velocity.has_value()) {
+    return absl::InvalidArgumentError("--data does not go with --observed-rate or --observed-velocity");
+  }
+  const absl::StatusOr<std::string> text = ReadText(options.data);
+  if (!text.ok()) return text.status();
+  absl::StatusOr<AuditColumns> columns =
+      ParseAuditData(*text, options.data == "-" ? std::string("standard input") : options.data);
+  if (!columns.ok() || !options.uncertainty.has_value()) return columns;
+  const absl::StatusOr<double> uncertainty = ReadUncertainty(options);
+  if (!uncertainty.ok()) return uncertainty.status();
+  if (!columns->velocity_uncertainty_m_s.empty()) {
+    return absl::InvalidArgumentError("--uncertainty does not go with a column velocity_uncertainty_m_s");
+  }
+  columns->velocity_uncertainty_m_s.assign(RowCount(*columns), *uncertainty);
+  return columns;
+}
+
+// Audits `columns`, of which a server answers some rows at a time; as CSV also writes a line a row to `output`.
+absl::StatusOr<AuditSummary> AuditRows(const Solver& solver, const Scene& scene, const AuditColumns& columns, bool csv,
+                                       Output& output) {
+  AuditSummary summary;
+  const size_t rows = RowCount(columns);
+  size_t first = 0;
+  do {  // At least once, for the errors of the scene.
+    const size_t end = std::min(rows, first + static_cast<size_t>(kMostAuditRows));
+    const auto response = solver.AuditBatch({.scene = scene, .columns = SomeRows(columns, first, end)});
+    if (!response.ok()) return response.status();
+    if (response->reports.size() != end - first) {
+      return absl::DataLossError(
+          absl::StrCat("the server answered ", response->reports.size(), " rows of ", end - first));
+    }
+    const size_t directions = TangentialDirections(scene.system);
+    std::string text = first == 0 ? absl::StrCat("index,", AuditCsvHeader(directions), "\n") : "";
+    for (const AuditReport& report : response->reports) {
+      audit::Add(static_cast<int64_t>(first), report, summary);
+      if (csv) absl::StrAppend(&text, first, ",", AuditCsvRow(report, directions), "\n");
+      ++first;
+    }
+    if (!csv) continue;
+    if (absl::Status status = output.Write(text); !status.ok()) return status;
+  } while (first < rows);
+  return summary;
+}
+
+absl::Status AuditMany(const AuditOptions& options, const Solver& solver, const Scene& scene) {
+  if (options.common.format == Format::kJson) {
+    return absl::InvalidArgumentError("--data is answered as text or csv, not as json");
+  }
+  const absl::StatusOr<AuditColumns> columns = ReadData(options);
+  if (!columns.ok()) return columns.status();
+  absl::StatusOr<Output> output = Output::Open(options.common.output);
+  if (!output.ok()) return output.status();
+  const bool csv = options.common.format == Format::kCsv;
+  const absl::StatusOr<AuditSummary> summary = AuditRows(solver, scene, *columns, csv, *output);
+  if (!summary.ok()) return summary.status();
+  if (csv) {
+    std::cerr << AuditSummaryText(*summary);
+  } else if (absl::Status status = output->Write(AuditSummaryText(*summary)); !status.ok()) {
+    return status;
+  }
+  return output->Commit();
+}
+
+absl::Status RunAudit(const AuditOptions& options) {
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+  if (!solver.ok()) return solver.status();
+  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  if (!scene.ok()) return scene.status();
+  return options.data.empty() ? AuditOne(options, **solver, *scene) : AuditMany(options, **solver, *scene);
+}
+
+}  // namespace
+
+void AddAudit(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("audit", "What observed impacts imply, and which limits they break");
+  const auto options = std::make_shared<AuditOptions>();
+  AddSceneOptions(*sub, options->scene);
+  CLI::Option* rate =
+      sub->add_option("--observed-rate", options->rate,
+                      "Angular velocity after, rad/s: of a pendulum, or of each link of a linkage, with commas")
+          ->type_name("X[,X...]");
+  sub->add_option("--observed-velocity", options->velocity,
+                  "Contact velocity after, m/s: tangential (two in space), then normal")
+      ->type_name("T[,T2],N")
+      ->excludes(rate);
+  sub->add_option("--uncertainty", options->uncertainty, "How far each component of it may be off, m/s [0]")
+      ->type_name("X");
+  sub->add_option("--data", options->data, "Many impacts, one a line, columns by header; - for standard input")
+      ->type_name("FILE.csv");
+  AddServerOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunAudit(*options); }; });
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,29 @@
+// Audits, their requests and responses <-> their protos. A verdict that this build does not know becomes kUnspecified.
+
+#ifndef RICOCHET_PROTO_WIRE_AUDIT_H_
+#define RICOCHET_PROTO_WIRE_AUDIT_H_
+
+#include "core/solver.h"
+#include "ricochet/v1/impact_service.pb.h"
+
+namespace ricochet {
+
+v1::AuditRequest ToProto(const AuditRequest& request);
+AuditRequest FromProto(const v1::AuditRequest& proto);
+v1::AuditResponse ToProto(const AuditResponse& response);
+AuditResponse FromProto(const v1::AuditResponse& proto);
+
+v1::AuditBatchRequest ToProto(const AuditBatchRequest& request);
+AuditBatchRequest FromProto(const v1::AuditBatchRequest& proto);
+v1::AuditBatchResponse ToProto(const AuditBatchResponse& response);
+AuditBatchResponse FromProto(const v1::AuditBatchResponse& proto);
+
+v1::AuditReport ToProto(const AuditReport& report);
+AuditReport FromProto(const v1::AuditReport& proto);
+
+v1::LimitCheck::Verdict ToProto(Verdict verdict);
+Verdict FromProto(v1::LimitCheck::Verdict proto);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_PROTO_WIRE_AUDIT_H_
