@@ -34,9 +34,9 @@ int Run(int argc, const char* const* argv) {
     log.Write(server::LogLevel::kError, "cannot start", {{"reason", std::string(running.status().message())}});
     return 1;
   }
-  // A call that cannot be ended has been given its time; nothing may be destroyed under it.
-  if (!(*running)->ServeUntil(signals)) std::_Exit(0);
-  return 0;
+  (*running)->ServeUntil(signals);
+  // Every call has had its time. Destroying the server would wait for clients that have stopped reading.
+  std::_Exit(0);
 }
 
 }  // namespace

@@ -84,25 +84,24 @@ absl::Status Server::Listen() {
   return absl::OkStatus();
 }
 
-bool Server::ServeUntil(const StopSignals& signals) {
+void Server::ServeUntil(const StopSignals& signals) {
   const std::string signal = signals.Wait();
   log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", admission_.live()}});
   server_->GetHealthCheckService()->SetServingStatus(false);
   signals.WaitFor(options_.drain_grace);
   drain_.request_stop();
-  const bool ended = Shutdown();
+  Shutdown();
   log_.Write(LogLevel::kInfo, "stopped", {{"live_calls", admission_.live()}});
-  return ended;
 }
 
-bool Server::Shutdown() {
+void Server::Shutdown() {
   const auto deadline = std::chrono::system_clock::now() + options_.drain_timeout;
   const auto ended = std::make_shared<std::promise<void>>();
   std::thread([this, deadline, ended] {
     server_->Shutdown(deadline);
     ended->set_value();
   }).detach();
-  return ended->get_future().wait_until(deadline + kTimeToClose) == std::future_status::ready;
+  ended->get_future().wait_until(deadline + kTimeToClose);
 }
 
 Server::~Server() {

@@ -37,15 +37,15 @@ class Server {
   // Where it listens, with the port that the system chose.
   const ListenAddress& address() const { return address_; }
 
-  // Serves until a signal comes, then drains. A second signal skips the rest of the grace. Call it once.
-  // Returns whether every call ended. If not, a thread still uses this object and the process can only exit: gRPC
-  // closes a connection after the write in flight, which a client that has stopped reading holds up for ever.
-  bool ServeUntil(const StopSignals& signals);
+  // Serves until a signal comes, then drains. A second signal skips the rest of the grace. Call it once; afterwards the
+  // process can only exit: gRPC closes a connection after the write in flight, which a client that has stopped reading
+  // holds up for ever, so that a thread may still use this object and its destruction may wait.
+  void ServeUntil(const StopSignals& signals);
 
  private:
   Server(const Options& options, const Log& log);
   absl::Status Listen();
-  bool Shutdown();
+  void Shutdown();
 
   const Options options_;
   const Log& log_;
