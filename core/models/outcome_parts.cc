@@ -97,8 +97,7 @@ absl::Status CheckFinite(const Outcome& outcome) {
   });
   if (wrong.has_value()) return OutputOverflow("outcome." + wrong->Text());
   for (size_t i = 0; i < outcome.timeline.size(); ++i) {
-    const absl::Status status =
-        CheckFinite(outcome.timeline[i].state, absl::StrCat("outcome.timeline[", i, "].state."));
+    absl::Status status = CheckFinite(outcome.timeline[i].state, absl::StrCat("outcome.timeline[", i, "].state."));
     if (!status.ok()) return status;
   }
   return absl::OkStatus();
