@@ -8,7 +8,10 @@
 #define RICOCHET_CORE_OUTCOME_H_
 
 #include <cstdint>
+#include <optional>
 #include <vector>
+
+#include "core/plan/plan.h"
 
 namespace ricochet {
 
@@ -60,9 +63,11 @@ struct WorkLedger {
   double normal_restitution_j = 0.0;
   double tangential_compression_j = 0.0;
   double tangential_restitution_j = 0.0;
-  double normal_total_j = 0.0;      // -(energy lost to irreversible deformation), Lubarda Eq. (37).
-  double tangential_total_j = 0.0;  // -(energy lost to friction), Lubarda Eq. (35).
-  double residual_j = 0.0;          // Sum of the four works minus energy_change_j: rounding only.
+  double normal_total_j = 0.0;          // -(energy lost to irreversible deformation), Lubarda Eq. (37).
+  double tangential_total_j = 0.0;      // -(energy lost to friction and left in a tangential spring), Lubarda Eq. (35).
+  double friction_dissipation_j = 0.0;  // >= 0
+  double tangential_spring_j = 0.0;     // Left in the tangential spring of a compliant contact, and lost. >= 0.
+  double residual_j = 0.0;              // Sum of the four works minus energy_change_j: rounding only.
   friend bool operator==(const WorkLedger&, const WorkLedger&) = default;
 };
 
@@ -140,6 +145,27 @@ struct Accuracy {
   friend bool operator==(const Accuracy&, const Accuracy&) = default;
 };
 
+// The forces at one instant of an impact that takes time, and the contact's state.
+struct ForceSample {
+  double time_s = 0.0;
+  double tangential_n = 0.0;
+  double normal_n = 0.0;
+  double indentation_m = 0.0;
+  double tangential_m_s = 0.0;
+  double normal_m_s = 0.0;
+  friend bool operator==(const ForceSample&, const ForceSample&) = default;
+};
+
+// An impact that takes time.
+struct ContactDuration {
+  double duration_s = 0.0;
+  double peak_normal_n = 0.0;
+  double peak_tangential_n = 0.0;    // Largest |F|.
+  double indentation_m = 0.0;        // The largest.
+  std::vector<ForceSample> history;  // At equal steps of time from first to last touch; SolveRequest::force_intervals.
+  friend bool operator==(const ContactDuration&, const ContactDuration&) = default;
+};
+
 // One of several ends that an impact law allows.
 struct ImpactSolution {
   ContactVelocity contact_velocity_after;
@@ -164,6 +190,8 @@ struct Outcome {
   EffectiveCoefficients effective;
   Accuracy accuracy;
   std::vector<ImpactSolution> alternatives;  // Of a Kane-Levinson law with several solutions or none.
+  Plan plan;
+  std::optional<ContactDuration> contact;  // Present exactly if the model is that of finite duration.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 

@@ -61,6 +61,52 @@ struct SurfaceVelocity {
   friend bool operator==(const SurfaceVelocity&, const SurfaceVelocity&) = default;
 };
 
+// How the contact gives way. Planar systems with the energetic coefficient, or with Hunt and Crossley's damping.
+struct LinearSpring {
+  double stiffness_n_m = 0.0;  // k of N = k d, > 0
+  friend bool operator==(const LinearSpring&, const LinearSpring&) = default;
+};
+struct HertzSpring {
+  double stiffness_n_m1_5 = 0.0;  // k of N = k d^(3/2), > 0
+  friend bool operator==(const HertzSpring&, const HertzSpring&) = default;
+};
+// Hunt and Crossley (1975). The damping stands for the coefficient of restitution, which must then be unset.
+struct HuntCrossleySpring {
+  double stiffness_n_m_p = 0.0;  // k of N = k d^p (1 + c d'), N/m^p, > 0
+  double exponent = 0.0;         // p, in [1, 4]
+  double damping_s_m = 0.0;      // c, >= 0
+  friend bool operator==(const HuntCrossleySpring&, const HuntCrossleySpring&) = default;
+};
+// std::monostate: of a stiffness that is not stated. The impact takes no time.
+using NormalSpring = std::variant<std::monostate, LinearSpring, HertzSpring, HuntCrossleySpring>;
+
+struct Compliance {
+  // Tangential over normal compliance, > 0; (2 - nu)/(2 (1 - nu)) for spheres of Poisson's ratio nu. Absent means rigid
+  // along the surface. Not with HertzSpring or HuntCrossleySpring, nor with static above kinetic friction.
+  std::optional<double> tangential_ratio_squared;
+  NormalSpring normal;
+  friend bool operator==(const Compliance&, const Compliance&) = default;
+};
+
+// Forces that act all the while, an impact or not. They count for as long as the contact lasts, so that a scene without
+// a normal spring knows no effect of theirs. What depends on velocities squared is left out: W is held constant too.
+struct Gravity {  // On planar bodies, pairs and linkages.
+  double tangential_m_s2 = 0.0;
+  double normal_m_s2 = 0.0;
+  friend bool operator==(const Gravity&, const Gravity&) = default;
+};
+struct PinMoment {  // On a pendulum, counter-clockwise about the pin.
+  double moment_n_m = 0.0;
+  friend bool operator==(const PinMoment&, const PinMoment&) = default;
+};
+struct ContactAcceleration {  // On a planar contact: what the finite forces alone would give it.
+  double tangential_m_s2 = 0.0;
+  double normal_m_s2 = 0.0;
+  friend bool operator==(const ContactAcceleration&, const ContactAcceleration&) = default;
+};
+// std::monostate: none.
+using FiniteForces = std::variant<std::monostate, Gravity, PinMoment, ContactAcceleration>;
+
 // Laws to compare with, in place of Coulomb friction at every instant and restitution. Planar systems only.
 struct WhittakerLaw {
   double e = 0.0;  // >= 0
@@ -93,6 +139,8 @@ struct Scene {
   std::optional<SpeedDependence> restitution_by_speed;  // Absent means constant.
   std::optional<SurfaceVelocity> surface_velocity;      // Absent means at rest.
   ImpactLaw impact_law;
+  std::optional<Compliance> compliance;  // Absent means rigid. Not with an impact law.
+  FiniteForces finite_forces;            // Not with an impact law.
 
   friend bool operator==(const Scene&, const Scene&) = default;
 };
