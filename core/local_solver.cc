@@ -31,9 +31,9 @@ absl::Status Inadmissible(const Outcome& outcome) {
 
 absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) const {
   auto violations = Validate(request.scene);
-  const double tolerance = request.relative_tolerance.value_or(kDefaultTolerance);
-  if (!(tolerance >= kLeastTolerance && tolerance <= kMostTolerance)) {
-    violations.push_back(MakeViolation("relative_tolerance", tolerance, "be in [1e-12, 1e-4]"));
+  const double tolerance = request.demand.relative_tolerance.value_or(kDefaultTolerance);
+  if (!(tolerance >= 0.0 && tolerance <= kMostTolerance)) {
+    violations.push_back(MakeViolation("relative_tolerance", tolerance, "be in [0, 0.1]"));
   }
   if (!violations.empty()) return InvalidRequest(violations);
   absl::StatusOr<Outcome> outcome =

@@ -45,11 +45,19 @@ void VisitOutcomeNumbers(const Outcome& outcome, const Visitor& visit) {
   one("work", "tangential_restitution_j", outcome.work.tangential_restitution_j);
   one("work", "normal_total_j", outcome.work.normal_total_j);
   one("work", "tangential_total_j", outcome.work.tangential_total_j);
+  one("work", "friction_dissipation_j", outcome.work.friction_dissipation_j);
+  one("work", "tangential_spring_j", outcome.work.tangential_spring_j);
   one("", "energy_change_j", outcome.energy_change_j);
   one("effective", "kinetic", outcome.effective.kinetic_friction);
   one("effective", "static", outcome.effective.static_friction);
   one("effective", "restitution", outcome.effective.restitution);
   one("accuracy", "relative_error", outcome.accuracy.relative_error);
+  const ContactDuration none;
+  const ContactDuration& contact = outcome.contact.has_value() ? *outcome.contact : none;
+  one("contact", "duration_s", contact.duration_s);
+  one("contact", "peak_normal_n", contact.peak_normal_n);
+  one("contact", "peak_tangential_n", contact.peak_tangential_n);
+  one("contact", "indentation_m", contact.indentation_m);
 }
 
 }  // namespace ricochet

@@ -17,15 +17,15 @@
 #include "core/bounds.h"
 #include "core/engine.h"
 #include "core/outcome.h"
+#include "core/plan/demand.h"
 #include "core/result_stream.h"
 #include "core/scene/scene.h"
 #include "core/sweep/sweep.h"
 
 namespace ricochet {
 
-inline constexpr double kDefaultTolerance = 1e-10;
-inline constexpr double kLeastTolerance = 1e-12;
-inline constexpr double kMostTolerance = 1e-4;
+// The most forces of one request's history.
+inline constexpr int64_t kMostForceIntervals = 65535;
 
 struct SolveRequest {
   Scene scene;
@@ -33,9 +33,11 @@ struct SolveRequest {
   std::vector<double> history_at_n_s;
   // Turns an outcome with admissible = false into FAILED_PRECONDITION.
   bool inadmissible_is_error = false;
-  // What Accuracy::relative_error must not exceed, for impacts in space, which are integrated. In [1e-12, 1e-4]; absent
-  // means kDefaultTolerance.
-  std::optional<double> relative_tolerance;
+  Demand demand;
+  bool plan_only = false;  // Answers Outcome::plan alone.
+  // > 0: ContactDuration::history at so many equal steps of time, which requires Effect::kFiniteDuration. At most
+  // kMostForceIntervals.
+  int64_t force_intervals = 0;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };
 

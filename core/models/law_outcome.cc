@@ -49,6 +49,7 @@ WorkLedger LedgerOf(const PlanarReduction& reduction, const laws::ImpactSolution
   WorkLedger work;
   work.normal_total_j = solution.tau1 * (0.5 * (reduction.v0 + solution.v1));
   work.tangential_total_j = solution.f * (0.5 * (reduction.u0[0] + solution.u1));
+  work.friction_dissipation_j = 0.0 - work.tangential_total_j;
   work.residual_j = work.normal_total_j + work.tangential_total_j - solution.energy_change;
   return work;
 }

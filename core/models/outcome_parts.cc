@@ -54,6 +54,7 @@ WorkLedger MakeLedger(double normal_compression, double normal_restitution, doub
           .tangential_restitution_j = tangential_restitution,
           .normal_total_j = normal_compression + normal_restitution,
           .tangential_total_j = tangential_compression + tangential_restitution,
+          .friction_dissipation_j = 0.0 - (tangential_compression + tangential_restitution),
           .residual_j = normal_compression + normal_restitution + tangential_compression + tangential_restitution -
                         energy_change};
 }

@@ -41,6 +41,7 @@ WorkLedger MakeLedger(const Impact& impact) {
                                          impact[Output::kWorkTangentialRestitution], impact[Output::kEnergyChange]);
   work.normal_total_j = impact[Output::kWorkNormal];
   work.tangential_total_j = impact[Output::kWorkTangential];
+  work.friction_dissipation_j = 0.0 - work.tangential_total_j;
   return work;
 }
 

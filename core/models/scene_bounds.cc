@@ -52,7 +52,8 @@ void Include(double value, Range& range) {
 }
 
 Bounds ReducedBounds(const SpatialReduction& reduction, const EffectiveCoefficients& effective) {
-  spatial::Problem problem = spatial::MakeProblem(reduction, EnergeticCoefficient{}, effective, kDefaultTolerance);
+  spatial::Problem problem =
+      spatial::MakeProblem(reduction, EnergeticCoefficient{}, effective, spatial::kStudyTolerance);
   problem.coefficient = 0.0;
   const spatial::Impact dead = spatial::Solve(problem);
   Bounds bounds;

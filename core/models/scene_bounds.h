@@ -7,7 +7,7 @@
 // In space the path does not depend on restitution either, but slip that turns can press the bodies together again, and
 // friction's share of the impulse may turn anywhere on the way: nothing proves that the ends are the extremes. What is
 // answered is the hull of kSpatialImpacts impacts, the energetic coefficient at equal steps from 0 to 1, each solved to
-// kDefaultTolerance: it lies within the true range, to that tolerance. There are no bounds by energy alone and no
+// spatial::kStudyTolerance: it lies within the true range, to that tolerance. There are no bounds by energy alone and no
 // critical coefficients.
 
 #ifndef RICOCHET_CORE_MODELS_SCENE_BOUNDS_H_

@@ -29,8 +29,10 @@ absl::StatusOr<Outcome> SolveReduced(const Scene& scene, const EffectiveCoeffici
 
 absl::StatusOr<Outcome> SolveReduced(const Scene& scene, const EffectiveCoefficients& effective,
                                      const SolveOptions& options, const SpatialReduction& reduction) {
-  return spatial::MakeOutcome(spatial::MakeProblem(reduction, scene.restitution, effective, options.tolerance),
-                              reduction, options.history_at_n_s, options.detail);
+  return spatial::MakeOutcome(
+      spatial::MakeProblem(reduction, scene.restitution, effective,
+                           std::clamp(options.tolerance, spatial::kLeastTolerance, spatial::kMostTolerance)),
+      reduction, options.history_at_n_s, options.detail);
 }
 
 }  // namespace

@@ -30,6 +30,12 @@ namespace ricochet::spatial {
 
 using Law = pendulum::Law;
 
+// What impacts are integrated to where no request says how exactly: bounds and audits.
+inline constexpr double kStudyTolerance = 1e-10;
+// What the integration can be asked for.
+inline constexpr double kLeastTolerance = 1e-12;
+inline constexpr double kMostTolerance = 1e-4;
+
 struct Problem {
   double w11 = 0.0, w12 = 0.0, w13 = 0.0, w22 = 0.0, w23 = 0.0, w33 = 0.0;  // 1/kg; n is the third direction
   std::array<double, 2> u0 = {};                                            // m/s

@@ -65,6 +65,8 @@ class Check {
         return value >= 0.0 && value <= 1.0;
       case NumberRule::kPlusMinusOne:
         return value >= -1.0 && value <= 1.0;
+      case NumberRule::kOneToFour:
+        return value >= 1.0 && value <= 4.0;
     }
     return false;
   }
@@ -85,6 +87,8 @@ class Check {
         return "be in [0, 1]";
       case NumberRule::kPlusMinusOne:
         return "be in [-1, 1]";
+      case NumberRule::kOneToFour:
+        return "be in [1, 4]";
     }
     return "";
   }
@@ -96,6 +100,12 @@ class Check {
 
 // The rules of a system beyond those of its single numbers: what is set, lengths of lists, definite matrices.
 void CheckShape(const System& system, Check& check);
+
+// Whether a spring's damping stands for the coefficient of restitution.
+bool HasDamping(const Scene& scene);
+
+// What compliance and finite forces go with.
+void CheckEffects(const Scene& scene, Check& check);
 
 // The rules that take the contact to decide: the velocity lies in the range of W, and the coefficients are what they
 // may be at the approach speed. All others hold.

@@ -78,6 +78,26 @@ void CheckEffective(const Scene& scene, double speed, Check& check) {
   }
 }
 
+// A spring returns energy, which the energetic coefficient measures; without coupling all three are the same.
+void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const EffectiveCoefficients& effective,
+                 Check& check) {
+  const auto& [tt, tn, nn] = reduction.w;
+  if (!std::holds_alternative<EnergeticCoefficient>(scene.restitution) && !HasDamping(scene)) {
+    check.Require(tn == 0.0, [] {
+      return Violation{"restitution.coefficient", "is not energetic: must be, with compliance, unless W_tn is 0"};
+    });
+    check.Require(effective.restitution <= 1.0,
+                  [&] { return MakeViolation("restitution", effective.restitution, "be in [0, 1], with compliance"); });
+  }
+  const bool pushed_back = effective.kinetic_friction * std::abs(tn) >= nn;
+  check.Require(!(scene.compliance->tangential_ratio_squared.has_value() && effective.restitution == 0.0 &&
+                  !HasDamping(scene) && pushed_back && reduction.v0 < 0.0),
+                [] {
+                  return Violation{"restitution.energetic",
+                                   "= 0: must be > 0, with a tangential compliance and mu |W_tn| >= W_nn"};
+                });
+}
+
 // Whether the system's own velocities lie in the range of W by their nature.
 bool RangeIsSure(const Scene& scene) {
   if (scene.surface_velocity.has_value()) return false;
@@ -87,11 +107,16 @@ bool RangeIsSure(const Scene& scene) {
 }  // namespace
 
 void CheckContact(const Scene& scene, Check& check) {
-  if (RangeIsSure(scene) && !DependsOnSpeed(scene)) return;
+  const bool with_spring = scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.restitution);
+  if (RangeIsSure(scene) && !DependsOnSpeed(scene) && !with_spring) return;
   const AnyReduction reduction = Reduce(scene);
   if (!IsFinite(reduction)) return;  // The outcome overflows, which is no fault of a single field.
   if (!RangeIsSure(scene)) CheckRange(scene, reduction, check);
   if (DependsOnSpeed(scene)) CheckEffective(scene, ApproachSpeed(reduction), check);
+  if (with_spring) {
+    const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(reduction));
+    CheckSpring(scene, std::get<PlanarReduction>(reduction), effective, check);
+  }
 }
 
 }  // namespace ricochet

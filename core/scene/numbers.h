@@ -16,7 +16,7 @@
 namespace ricochet {
 
 // Every number must be finite.
-enum class NumberRule { kFinite, kPositive, kNotNegative, kUnitInterval, kPlusMinusOne };
+enum class NumberRule { kFinite, kPositive, kNotNegative, kUnitInterval, kPlusMinusOne, kOneToFour };
 
 // Implementation of VisitNumbers, below.
 namespace numbers {
@@ -201,6 +201,52 @@ void Visit(Law& law, Visitor& visit) {
   part.One("e_t", law.e_t, NumberRule::kPlusMinusOne);
 }
 
+template <Is<LinearSpring> Spring, typename Visitor>
+void Visit(Spring& spring, Visitor& visit) {
+  Part<Visitor>{"compliance.linear", -1, visit}.One("stiffness_n_m", spring.stiffness_n_m, NumberRule::kPositive);
+}
+
+template <Is<HertzSpring> Spring, typename Visitor>
+void Visit(Spring& spring, Visitor& visit) {
+  Part<Visitor>{"compliance.hertz", -1, visit}.One("stiffness_n_m1_5", spring.stiffness_n_m1_5, NumberRule::kPositive);
+}
+
+template <Is<HuntCrossleySpring> Spring, typename Visitor>
+void Visit(Spring& spring, Visitor& visit) {
+  const Part<Visitor> part{"compliance.hunt_crossley", -1, visit};
+  part.One("stiffness_n_m_p", spring.stiffness_n_m_p, NumberRule::kPositive);
+  part.One("exponent", spring.exponent, NumberRule::kOneToFour);
+  part.One("damping_s_m", spring.damping_s_m, NumberRule::kNotNegative);
+}
+
+template <Is<Compliance> SomeCompliance, typename Visitor>
+void Visit(SomeCompliance& compliance, Visitor& visit) {
+  if (compliance.tangential_ratio_squared.has_value()) {
+    const Part<Visitor> part{"compliance", -1, visit};
+    part.One("tangential_ratio_squared", *compliance.tangential_ratio_squared, NumberRule::kPositive);
+  }
+  std::visit([&visit](auto& spring) { Visit(spring, visit); }, compliance.normal);
+}
+
+template <Is<Gravity> SomeGravity, typename Visitor>
+void Visit(SomeGravity& gravity, Visitor& visit) {
+  const Part<Visitor> part{"gravity", -1, visit};
+  part.One("tangential_m_s2", gravity.tangential_m_s2);
+  part.One("normal_m_s2", gravity.normal_m_s2);
+}
+
+template <Is<PinMoment> Moment, typename Visitor>
+void Visit(Moment& moment, Visitor& visit) {
+  Part<Visitor>{"pin_moment", -1, visit}.One("moment_n_m", moment.moment_n_m);
+}
+
+template <Is<ContactAcceleration> Acceleration, typename Visitor>
+void Visit(Acceleration& acceleration, Visitor& visit) {
+  const Part<Visitor> part{"contact_acceleration", -1, visit};
+  part.One("tangential_m_s2", acceleration.tangential_m_s2);
+  part.One("normal_m_s2", acceleration.normal_m_s2);
+}
+
 }  // namespace numbers
 
 // Calls visit(path, number, rule) for every number of the scene, a reference to const if the scene is; in the order of
@@ -221,6 +267,8 @@ void VisitNumbers(SomeScene& scene, Visitor visit) {
   visit_by_speed(scene.restitution_by_speed, false);
   if (scene.surface_velocity.has_value()) numbers::Visit(*scene.surface_velocity, visit);
   visit_one_of(scene.impact_law);
+  if (scene.compliance.has_value()) numbers::Visit(*scene.compliance, visit);
+  visit_one_of(scene.finite_forces);
 }
 
 }  // namespace ricochet

@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "core/numerics/determinant.h"
+#include "core/scene/finite_forces.h"
+#include "core/scene/linkage_matrices.h"
 
 namespace ricochet {
 namespace {
@@ -75,37 +77,11 @@ PlanarReduction ReduceOne(const Pendulum& pendulum) {
   return reduction;
 }
 
-// M_ij = cos(theta_i - theta_j) sum over links k of m_k a_ki a_kj, with a_ki = length_i for links i before k, com_k for
-// k itself, 0 after; and the inertias on the diagonal.
-Eigen::MatrixXd MassMatrix(const std::vector<Link>& links) {
-  const auto n = static_cast<Eigen::Index>(links.size());
-  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);
-  double beyond = 0.0;  // Mass of the links after k, from the tip on.
-  for (Eigen::Index k = n - 1; k >= 0; --k) {
-    const Link& link = links[static_cast<size_t>(k)];
-    const double moment = link.mass_kg * link.com_m + beyond * link.length_m;
-    mass(k, k) =
-        link.inertia_com_kg_m2 + link.mass_kg * link.com_m * link.com_m + beyond * link.length_m * link.length_m;
-    for (Eigen::Index i = 0; i < k; ++i) {
-      const Link& before = links[static_cast<size_t>(i)];
-      mass(i, k) = mass(k, i) = moment * before.length_m * std::cos(before.theta_rad - link.theta_rad);
-    }
-    beyond += link.mass_kg;
-  }
-  return mass;
-}
-
 PlanarReduction ReduceOne(const Linkage& linkage) {
-  const auto n = static_cast<Eigen::Index>(linkage.links.size());
-  Eigen::MatrixXd jt(n, 2);
-  Eigen::VectorXd rates(n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    const Link& link = linkage.links[static_cast<size_t>(i)];
-    jt(i, 0) = link.length_m * std::cos(link.theta_rad);
-    jt(i, 1) = link.length_m * std::sin(link.theta_rad);
-    rates(i) = link.rate_rad_s;
-  }
-  PlanarReduction reduction = FromMechanism<1>(MassMatrix(linkage.links), jt, rates);
+  Eigen::VectorXd rates(static_cast<Eigen::Index>(linkage.links.size()));
+  std::transform(linkage.links.begin(), linkage.links.end(), rates.begin(),
+                 [](const Link& link) { return link.rate_rad_s; });
+  PlanarReduction reduction = FromMechanism<1>(MassMatrix(linkage), TransposedJacobian(linkage), rates);
   reduction.coordinates = Coordinates::kRates;
   SettleRank(reduction);
   SettleVelocity(reduction);
@@ -230,9 +206,10 @@ Eigen::Vector3d InverseScales(const Eigen::Matrix3d& matrix) {
 }  // namespace
 
 template <size_t kTangential>
-std::vector<double> Reduction<kTangential>::After(const std::array<double, kTangential>& tangential,
-                                                  double normal) const {
+std::vector<double> Reduction<kTangential>::After(const std::array<double, kTangential>& tangential, double normal,
+                                                  double duration) const {
   std::vector<double> after = before;
+  for (size_t i = 0; i < drift.size(); ++i) after[i] += drift[i] * duration;
   const double* row = response.data();
   for (double& velocity : after) {
     double change = row[kTangential] * normal;
@@ -249,6 +226,7 @@ template struct Reduction<2>;
 AnyReduction Reduce(const Scene& scene) {
   AnyReduction reduction =
       std::visit([](const auto& system) -> AnyReduction { return ReduceOne(system); }, scene.system);
+  if (auto* planar = std::get_if<PlanarReduction>(&reduction)) AddFiniteForces(scene, *planar);
   if (!scene.surface_velocity.has_value()) return reduction;
   std::visit(
       [&surface = *scene.surface_velocity](auto& reduced) {

@@ -38,9 +38,14 @@ struct Reduction {
   Coordinates coordinates = Coordinates::kNone;
   std::vector<double> before;    // q'
   std::vector<double> response;  // M^-1 J^T, row by row.
+  // What finite forces alone give the contact and the system: (a_t, a_n) and q'' = M^-1 Q. The latter is empty where
+  // there are none.
+  std::array<double, kDirections> acceleration = {};
+  std::vector<double> drift;
 
-  // q' once the contact has received the impulse.
-  std::vector<double> After(const std::array<double, kTangential>& tangential, double normal) const;
+  // q' once the contact has received the impulse, and finite forces have acted for `duration`.
+  std::vector<double> After(const std::array<double, kTangential>& tangential, double normal,
+                            double duration = 0.0) const;
 };
 
 using PlanarReduction = Reduction<1>;   // w: tt, tn, nn

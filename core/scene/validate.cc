@@ -49,7 +49,11 @@ void CheckForm(const std::string& field, const SpeedDependence& dependence, Chec
 void CheckRestitution(const Scene& scene, RestitutionIs restitution, Check& check) {
   const bool has_law = !std::holds_alternative<std::monostate>(scene.impact_law);
   const bool is_set = !std::holds_alternative<std::monostate>(scene.restitution);
-  if (has_law) {
+  if (HasDamping(scene)) {
+    check.Require(!is_set && !scene.restitution_by_speed.has_value(), [] {
+      return Violation{"restitution", "is set beside compliance.hunt_crossley: must not be, the damping stands for it"};
+    });
+  } else if (has_law) {
     check.Require(!is_set && !scene.restitution_by_speed.has_value(), [] {
       return Violation{"restitution", "is set beside an impact law: must not be, the law states its own coefficient"};
     });
@@ -93,13 +97,14 @@ void CheckFields(const Scene& scene, RestitutionIs restitution, Check& check) {
   CheckRestitution(scene, restitution, check);
   if (scene.restitution_by_speed.has_value()) CheckForm("restitution.by_speed", *scene.restitution_by_speed, check);
   CheckTogether(scene, check);
+  CheckEffects(scene, check);
 }
 
 void CheckScene(const Scene& scene, RestitutionIs restitution, Check& check) {
   CheckFields(scene, restitution, check);
   // Spares the sweeps of a pendulum a call that finds nothing to do.
-  const bool plain =
-      std::holds_alternative<Pendulum>(scene.system) && !scene.surface_velocity.has_value() && !DependsOnSpeed(scene);
+  const bool plain = std::holds_alternative<Pendulum>(scene.system) && !scene.surface_velocity.has_value() &&
+                     !DependsOnSpeed(scene) && !scene.compliance.has_value();
   if (!plain && !check.failed()) CheckContact(scene, check);
 }
 

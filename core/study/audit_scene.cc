@@ -123,7 +123,7 @@ AuditReport Audited(const PlanarReduction& reduction, const EffectiveCoefficient
 AuditReport Audited(const SpatialReduction& reduction, const EffectiveCoefficients& effective,
                     const ContactVelocity& seen, double uncertainty) {
   return audit::Audit(
-      spatial::MakeProblem(reduction, EnergeticCoefficient(), effective, kDefaultTolerance),
+      spatial::MakeProblem(reduction, EnergeticCoefficient(), effective, spatial::kStudyTolerance),
       audit::SpatialObservation{{seen.tangential_m_s[0], seen.tangential_m_s[1]}, seen.normal_m_s, uncertainty});
 }
 
@@ -252,7 +252,7 @@ absl::StatusOr<AuditSummary> Audited(const SpatialReduction& reduction, const Au
                             .v0 = Or(in.normal_m_s, reduction.v0),
                             .v1 = in.normal_after_m_s,
                             .uncertainty = in.velocity_uncertainty_m_s,
-                            .tolerance = kDefaultTolerance},
+                            .tolerance = spatial::kStudyTolerance},
       receive);
 }
 

@@ -13,6 +13,7 @@
 
 #include "core/engine.h"
 #include "core/outcome.h"
+#include "core/plan/demand.h"
 #include "core/sweep/grid.h"
 
 namespace ricochet {
@@ -24,6 +25,7 @@ struct SweepRequest {
   bool with_regime = false;  // Send every point's regime too.
   int64_t first_index = 0;   // Points [first_index, end_index) of the grid, with the same bits as in
   std::optional<int64_t> end_index;  // the whole; absent means all to the end.
+  Demand demand;                     // Of every point: each gets its own plan.
   friend bool operator==(const SweepRequest&, const SweepRequest&) = default;
 };
 
@@ -37,6 +39,7 @@ struct Tally {
 struct SweepSummary {
   int64_t points = 0;
   std::array<Tally, kRegimeCount> by_regime = {};  // By the number of the regime.
+  std::array<Tally, kModelCount> by_model = {};    // By the number of the model; points that are valid.
   Tally inadmissible;                              // Points whose outcome breaks a limit.
   std::optional<double> elapsed_s;                 // Filled in by the server or the command line, not by the core.
   friend bool operator==(const SweepSummary&, const SweepSummary&) = default;

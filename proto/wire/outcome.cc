@@ -1,5 +1,6 @@
 #include "proto/wire/outcome.h"
 
+#include "proto/wire/plan.h"
 #include "proto/wire/repeated.h"
 
 namespace ricochet {
@@ -220,6 +221,8 @@ static v1::WorkLedger ToProto(const WorkLedger& work) {
   proto.set_tangential_restitution_j(work.tangential_restitution_j);
   proto.set_normal_total_j(work.normal_total_j);
   proto.set_tangential_total_j(work.tangential_total_j);
+  proto.set_friction_dissipation_j(work.friction_dissipation_j);
+  proto.set_tangential_spring_j(work.tangential_spring_j);
   proto.set_residual_j(work.residual_j);
   return proto;
 }
@@ -231,6 +234,8 @@ static WorkLedger FromProto(const v1::WorkLedger& proto) {
           .tangential_restitution_j = proto.tangential_restitution_j(),
           .normal_total_j = proto.normal_total_j(),
           .tangential_total_j = proto.tangential_total_j(),
+          .friction_dissipation_j = proto.friction_dissipation_j(),
+          .tangential_spring_j = proto.tangential_spring_j(),
           .residual_j = proto.residual_j()};
 }
 
@@ -324,6 +329,46 @@ static ImpactSolution FromProto(const v1::ImpactSolution& proto) {
   return {.contact_velocity_after = FromProto(proto.contact_velocity_after()), .impulse = FromProto(proto.impulse())};
 }
 
+static v1::ForceSample ToProto(const ForceSample& sample) {
+  v1::ForceSample proto;
+  proto.set_time_s(sample.time_s);
+  proto.set_tangential_n(sample.tangential_n);
+  proto.set_normal_n(sample.normal_n);
+  proto.set_indentation_m(sample.indentation_m);
+  proto.set_tangential_m_s(sample.tangential_m_s);
+  proto.set_normal_m_s(sample.normal_m_s);
+  return proto;
+}
+
+static ForceSample FromProto(const v1::ForceSample& proto) {
+  return {.time_s = proto.time_s(),
+          .tangential_n = proto.tangential_n(),
+          .normal_n = proto.normal_n(),
+          .indentation_m = proto.indentation_m(),
+          .tangential_m_s = proto.tangential_m_s(),
+          .normal_m_s = proto.normal_m_s()};
+}
+
+static v1::ContactDuration ToProto(const ContactDuration& contact) {
+  v1::ContactDuration proto;
+  proto.set_duration_s(contact.duration_s);
+  proto.set_peak_normal_n(contact.peak_normal_n);
+  proto.set_peak_tangential_n(contact.peak_tangential_n);
+  proto.set_indentation_m(contact.indentation_m);
+  for (const ForceSample& sample : contact.history) *proto.add_history() = ToProto(sample);
+  return proto;
+}
+
+static ContactDuration FromProto(const v1::ContactDuration& proto) {
+  ContactDuration contact{.duration_s = proto.duration_s(),
+                          .peak_normal_n = proto.peak_normal_n(),
+                          .peak_tangential_n = proto.peak_tangential_n(),
+                          .indentation_m = proto.indentation_m(),
+                          .history = {}};
+  for (const v1::ForceSample& sample : proto.history()) contact.history.push_back(FromProto(sample));
+  return contact;
+}
+
 v1::Outcome ToProto(const Outcome& outcome) {
   v1::Outcome proto;
   proto.set_regime(ToProto(outcome.regime));
@@ -344,6 +389,8 @@ v1::Outcome ToProto(const Outcome& outcome) {
   *proto.mutable_effective() = ToProto(outcome.effective);
   *proto.mutable_accuracy() = ToProto(outcome.accuracy);
   for (const ImpactSolution& solution : outcome.alternatives) *proto.add_alternatives() = ToProto(solution);
+  *proto.mutable_plan() = ToProto(outcome.plan);
+  if (outcome.contact.has_value()) *proto.mutable_contact() = ToProto(*outcome.contact);
   return proto;
 }
 
@@ -369,6 +416,8 @@ Outcome FromProto(const v1::Outcome& proto) {
   for (const v1::ImpactSolution& solution : proto.alternatives()) {
     outcome.alternatives.push_back(FromProto(solution));
   }
+  outcome.plan = FromProto(proto.plan());
+  if (proto.has_contact()) outcome.contact = FromProto(proto.contact());
   return outcome;
 }
 

@@ -5,6 +5,7 @@
 #include "proto/wire/bounds.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/outcome.h"
+#include "proto/wire/plan.h"
 #include "proto/wire/repeated.h"
 #include "proto/wire/scene.h"
 
@@ -15,16 +16,19 @@ v1::SolveRequest ToProto(const SolveRequest& request) {
   *proto.mutable_scene() = ToProto(request.scene);
   AssignDoubles(request.history_at_n_s, *proto.mutable_history_at_n_s());
   proto.set_inadmissible_is_error(request.inadmissible_is_error);
-  if (request.relative_tolerance.has_value()) proto.set_relative_tolerance(*request.relative_tolerance);
+  SetDemand(request.demand, proto);
+  proto.set_plan_only(request.plan_only);
+  proto.set_force_intervals(request.force_intervals);
   return proto;
 }
 
 SolveRequest FromProto(const v1::SolveRequest& proto) {
-  SolveRequest request{.scene = FromProto(proto.scene()),
-                       .history_at_n_s = ToVector(proto.history_at_n_s()),
-                       .inadmissible_is_error = proto.inadmissible_is_error()};
-  if (proto.has_relative_tolerance()) request.relative_tolerance = proto.relative_tolerance();
-  return request;
+  return {.scene = FromProto(proto.scene()),
+          .history_at_n_s = ToVector(proto.history_at_n_s()),
+          .inadmissible_is_error = proto.inadmissible_is_error(),
+          .demand = DemandOf(proto),
+          .plan_only = proto.plan_only(),
+          .force_intervals = proto.force_intervals()};
 }
 
 v1::SolveResponse ToProto(const SolveResponse& response) {

@@ -281,6 +281,85 @@ static ImpactLaw ImpactLawOf(const v1::Scene& proto) {
   return std::monostate();
 }
 
+static v1::Compliance ToProto(const Compliance& compliance) {
+  v1::Compliance proto;
+  if (compliance.tangential_ratio_squared.has_value()) {
+    proto.set_tangential_ratio_squared(*compliance.tangential_ratio_squared);
+  }
+  std::visit(Overloaded{
+                 [](std::monostate) {},
+                 [&](LinearSpring spring) { proto.mutable_linear()->set_stiffness_n_m(spring.stiffness_n_m); },
+                 [&](HertzSpring spring) { proto.mutable_hertz()->set_stiffness_n_m1_5(spring.stiffness_n_m1_5); },
+                 [&](const HuntCrossleySpring& spring) {
+                   proto.mutable_hunt_crossley()->set_stiffness_n_m_p(spring.stiffness_n_m_p);
+                   proto.mutable_hunt_crossley()->set_exponent(spring.exponent);
+                   proto.mutable_hunt_crossley()->set_damping_s_m(spring.damping_s_m);
+                 },
+             },
+             compliance.normal);
+  return proto;
+}
+
+static NormalSpring SpringOf(const v1::Compliance& proto) {
+  switch (proto.normal_case()) {
+    case v1::Compliance::kLinear:
+      return LinearSpring{proto.linear().stiffness_n_m()};
+    case v1::Compliance::kHertz:
+      return HertzSpring{proto.hertz().stiffness_n_m1_5()};
+    case v1::Compliance::kHuntCrossley:
+      return HuntCrossleySpring{.stiffness_n_m_p = proto.hunt_crossley().stiffness_n_m_p(),
+                                .exponent = proto.hunt_crossley().exponent(),
+                                .damping_s_m = proto.hunt_crossley().damping_s_m()};
+    case v1::Compliance::NORMAL_NOT_SET:
+      break;
+  }
+  return std::monostate();
+}
+
+static Compliance FromProto(const v1::Compliance& proto) {
+  Compliance compliance{.tangential_ratio_squared = std::nullopt, .normal = SpringOf(proto)};
+  if (proto.has_tangential_ratio_squared()) compliance.tangential_ratio_squared = proto.tangential_ratio_squared();
+  return compliance;
+}
+
+// Gravity and ContactAcceleration have the same fields.
+template <typename Acceleration, typename AccelerationProto>
+static void SetAcceleration(const Acceleration& acceleration, AccelerationProto& proto) {
+  proto.set_tangential_m_s2(acceleration.tangential_m_s2);
+  proto.set_normal_m_s2(acceleration.normal_m_s2);
+}
+
+template <typename Acceleration, typename AccelerationProto>
+static Acceleration AccelerationOf(const AccelerationProto& proto) {
+  return {.tangential_m_s2 = proto.tangential_m_s2(), .normal_m_s2 = proto.normal_m_s2()};
+}
+
+static void SetFiniteForces(const FiniteForces& forces, v1::Scene& proto) {
+  std::visit(Overloaded{
+                 [](std::monostate) {},
+                 [&](const Gravity& gravity) { SetAcceleration(gravity, *proto.mutable_gravity()); },
+                 [&](PinMoment moment) { proto.mutable_pin_moment()->set_moment_n_m(moment.moment_n_m); },
+                 [&](const ContactAcceleration& acceleration) {
+                   SetAcceleration(acceleration, *proto.mutable_contact_acceleration());
+                 },
+             },
+             forces);
+}
+
+static FiniteForces FiniteForcesOf(const v1::Scene& proto) {
+  switch (proto.finite_forces_case()) {
+    case v1::Scene::kGravity:
+      return AccelerationOf<Gravity>(proto.gravity());
+    case v1::Scene::kPinMoment:
+      return PinMoment{proto.pin_moment().moment_n_m()};
+    case v1::Scene::kContactAcceleration:
+      return AccelerationOf<ContactAcceleration>(proto.contact_acceleration());
+    case v1::Scene::FINITE_FORCES_NOT_SET:
+      break;
+  }
+  return std::monostate();
+}
+
 static void SetRestitution(const Restitution& restitution, v1::Scene& proto) {
   std::visit(Overloaded{
                  [](std::monostate) {},
@@ -315,6 +394,8 @@ v1::Scene ToProto(const Scene& scene) {
   }
   if (scene.surface_velocity.has_value()) *proto.mutable_surface_velocity() = ToProto(*scene.surface_velocity);
   SetImpactLaw(scene.impact_law, proto);
+  if (scene.compliance.has_value()) *proto.mutable_compliance() = ToProto(*scene.compliance);
+  SetFiniteForces(scene.finite_forces, proto);
   return proto;
 }
 
@@ -322,8 +403,10 @@ Scene FromProto(const v1::Scene& proto) {
   Scene scene{.system = SystemOf(proto),
               .friction = FromProto(proto.friction()),
               .restitution = FromProto(proto.restitution()),
-              .impact_law = ImpactLawOf(proto)};
+              .impact_law = ImpactLawOf(proto),
+              .finite_forces = FiniteForcesOf(proto)};
   if (proto.restitution().has_by_speed()) scene.restitution_by_speed = FromProto(proto.restitution().by_speed());
+  if (proto.has_compliance()) scene.compliance = FromProto(proto.compliance());
   if (proto.has_surface_velocity()) scene.surface_velocity = FromProto(proto.surface_velocity());
   return scene;
 }

@@ -7,12 +7,15 @@
 #include "proto/wire/engine.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/overloaded.h"
+#include "proto/wire/plan.h"
 #include "proto/wire/repeated.h"
 #include "proto/wire/scene.h"
 
 namespace ricochet {
 
 static_assert(kRegimeCount == v1::Regime_ARRAYSIZE, "SweepSummary::by_regime has one entry a regime");
+static_assert(kModelCount == v1::Model_ARRAYSIZE, "SweepSummary::by_model has one entry a model");
+static_assert(kEffectCount == v1::Effect_ARRAYSIZE);
 
 // Linspace and Logspace have the same fields.
 template <typename Space, typename SpaceProto>
@@ -92,6 +95,7 @@ v1::SweepRequest ToProto(const SweepRequest& request) {
   proto.set_with_regime(request.with_regime);
   proto.set_first_index(request.first_index);
   if (request.end_index.has_value()) proto.set_end_index(*request.end_index);
+  SetDemand(request.demand, proto);
   return proto;
 }
 
@@ -104,6 +108,7 @@ SweepRequest FromProto(const v1::SweepRequest& proto) {
   request.with_regime = proto.with_regime();
   request.first_index = proto.first_index();
   if (proto.has_end_index()) request.end_index = proto.end_index();
+  request.demand = DemandOf(proto);
   return request;
 }
 
@@ -132,6 +137,13 @@ v1::SweepSummary ToProto(const SweepSummary& summary) {
     entry.set_regime(ToProto(static_cast<Regime>(number)));
     *entry.mutable_tally() = ToProto(tally);
   }
+  for (size_t number = 0; number < summary.by_model.size(); ++number) {
+    const Tally& tally = summary.by_model[number];
+    if (tally.count == 0) continue;
+    v1::ModelTally& entry = *proto.add_by_model();
+    entry.set_model(ToProto(static_cast<Model>(number)));
+    *entry.mutable_tally() = ToProto(tally);
+  }
   *proto.mutable_inadmissible() = ToProto(summary.inadmissible);
   if (summary.elapsed_s.has_value()) proto.set_elapsed_s(*summary.elapsed_s);
   return proto;
@@ -143,6 +155,11 @@ SweepSummary FromProto(const v1::SweepSummary& proto) {
   for (const v1::RegimeTally& entry : proto.by_regime()) {
     if (!entry.has_tally()) continue;
     Tally& tally = summary.by_regime[static_cast<size_t>(FromProto(entry.regime()))];
+    tally = Sum(tally, FromProto(entry.tally()));
+  }
+  for (const v1::ModelTally& entry : proto.by_model()) {
+    if (!entry.has_tally()) continue;
+    Tally& tally = summary.by_model[static_cast<size_t>(FromProto(entry.model()))];
     tally = Sum(tally, FromProto(entry.tally()));
   }
   if (proto.has_inadmissible()) summary.inadmissible = FromProto(proto.inadmissible());
