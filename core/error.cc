@@ -30,8 +30,9 @@ std::optional<std::string> Payload(const absl::Status& status, const char* url) 
 
 }  // namespace
 
-Violation MakeViolation(std::string field, double value, const std::string& rule) {
-  return {std::move(field), absl::StrCat("= ", ShortestDecimal(value), ": must ", rule)};
+Violation MakeViolation(std::string field, double value, const std::string& rule, std::vector<std::string> tied_to) {
+  return {std::move(field), absl::StrCat("= ", ShortestDecimal(value), ": must ", rule), ViolationKind::kValue,
+          std::move(tied_to)};
 }
 
 absl::Status MakeError(absl::StatusCode code, ErrorReason reason, const std::string& message) {

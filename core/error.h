@@ -26,6 +26,13 @@ enum class ErrorReason {
   kDraining = 6,             // UNAVAILABLE: the server is shutting down; another one, or a later try, will do.
 };
 
+// What could make a violation good.
+enum class ViolationKind {
+  kShape,    // Setting or leaving out a field, or another length of a list.
+  kValue,    // Another number in the field, or in one that the rule ties it to.
+  kContact,  // Another number in any field that shapes the contact or its velocity.
+};
+
 // One wrong field of a request.
 struct Violation {
   // Path of the field as the proto spells it: fields of the scene from the scene on ("friction.kinetic_coefficient"),
@@ -34,11 +41,18 @@ struct Violation {
   // The value found and the rule it breaks: "= -0.1: must be >= 0". Text of the caller's in it is escaped.
   std::string description;
 
-  friend bool operator==(const Violation&, const Violation&) = default;
+  // For the core alone: neither a status nor a comparison has them.
+  ViolationKind kind = ViolationKind::kShape;
+  std::vector<std::string> tied_to = {};  // kValue: the other numbers that the rule takes in, by path.
+
+  friend bool operator==(const Violation& a, const Violation& b) {
+    return a.field == b.field && a.description == b.description;
+  }
 };
 
-// "= VALUE: must RULE", VALUE in the shortest form that reads back as the same double.
-Violation MakeViolation(std::string field, double value, const std::string& rule);
+// "= VALUE: must RULE", VALUE in the shortest form that reads back as the same double; of kind kValue.
+Violation MakeViolation(std::string field, double value, const std::string& rule,
+                        std::vector<std::string> tied_to = {});
 
 // A status with a reason. `code` must not be OK.
 absl::Status MakeError(absl::StatusCode code, ErrorReason reason, const std::string& message);

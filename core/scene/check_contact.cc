@@ -45,9 +45,11 @@ void CheckRange(const Scene& scene, const AnyReduction& any, Check& check) {
   std::visit(
       [&](const auto& reduction) {
         check.Require(reduction.v0 >= 0.0 || InRange(reduction), [&] {
-          return Violation{VelocityField(scene), absl::StrCat("makes u0 = ", TangentialText(reduction),
-                                                              ", v0 = ", ShortestDecimal(reduction.v0),
-                                                              ": must lie in the range of W, whose rank is not full")};
+          return Violation{
+              VelocityField(scene),
+              absl::StrCat("makes u0 = ", TangentialText(reduction), ", v0 = ", ShortestDecimal(reduction.v0),
+                           ": must lie in the range of W, whose rank is not full"),
+              ViolationKind::kContact};
         });
       },
       any);
@@ -57,8 +59,10 @@ void CheckRange(const Scene& scene, const AnyReduction& any, Check& check) {
 void CheckProduct(const char* field, double product, double speed, double most, Check& check) {
   check.Require(product >= 0.0 && product <= most && std::isfinite(product), [&] {
     const std::string rule = std::isfinite(most) ? "be in [0, 1]" : "be finite and >= 0";
-    return Violation{field, absl::StrCat("makes the coefficient ", ShortestDecimal(product), " at the approach speed ",
-                                         ShortestDecimal(speed), " m/s: must ", rule)};
+    return Violation{field,
+                     absl::StrCat("makes the coefficient ", ShortestDecimal(product), " at the approach speed ",
+                                  ShortestDecimal(speed), " m/s: must ", rule),
+                     ViolationKind::kContact};
   });
 }
 

@@ -26,12 +26,19 @@ std::string ListText(const std::vector<double>& values) {
                       "]");
 }
 
+std::vector<std::string> EntriesOf(const std::string& field, size_t count) {
+  std::vector<std::string> entries;
+  for (size_t i = 0; i < count; ++i) entries.push_back(absl::StrCat(field, "[", i, "]"));
+  return entries;
+}
+
 // `least` is what the smallest eigenvalue, scaled to a unit diagonal, must exceed.
 void CheckMatrix(const std::string& field, const std::vector<double>& upper, double least, const char* rule,
                  Check& check) {
   if (!check.Length(field, upper.size(), 6) || !AllFinite(upper)) return;
   check.Require(SmallestScaledEigenvalue(upper) > least, [&] {
-    return Violation{field, absl::StrCat("= ", ListText(upper), ": must be ", rule)};
+    return Violation{field, absl::StrCat("= ", ListText(upper), ": must be ", rule), ViolationKind::kValue,
+                     EntriesOf(field, upper.size())};
   });
 }
 
@@ -76,7 +83,8 @@ void CheckOne(const PlanarContact& contact, Check& check) {
   check.Require(RelativeDeterminant(tt, tn, nn) >= -4.0 * kEpsilon, [&] {
     return MakeViolation("planar_contact.w_tn_per_kg", tn,
                          absl::StrCat("leave W positive semidefinite: w_tn^2 <= w_tt w_nn = ", ShortestDecimal(tt),
-                                      " * ", ShortestDecimal(nn)));
+                                      " * ", ShortestDecimal(nn)),
+                         {"planar_contact.w_tt_per_kg", "planar_contact.w_nn_per_kg"});
   });
 }
 

@@ -24,7 +24,8 @@ void CheckStatic(const Friction& friction, Check& check) {
   if (!std::isfinite(value) || value < 0.0) return;
   check.Require(value >= kinetic, [&] {
     return MakeViolation("friction.static_coefficient", value,
-                         absl::StrCat("be >= friction.kinetic_coefficient = ", ShortestDecimal(kinetic)));
+                         absl::StrCat("be >= friction.kinetic_coefficient = ", ShortestDecimal(kinetic)),
+                         {"friction.kinetic_coefficient"});
   });
 }
 
@@ -40,8 +41,9 @@ void CheckForm(const std::string& field, const SpeedDependence& dependence, Chec
   check.Length(field + ".table.factor", table->factor.size(), speeds.size());
   for (size_t i = 1; i < speeds.size(); ++i) {
     check.Require(speeds[i] > speeds[i - 1], [&] {
-      return MakeViolation(absl::StrCat(field, ".table.speed_m_s[", i, "]"), speeds[i],
-                           absl::StrCat("be > the speed before it, ", ShortestDecimal(speeds[i - 1])));
+      const auto path = [&](size_t entry) { return absl::StrCat(field, ".table.speed_m_s[", entry, "]"); };
+      return MakeViolation(path(i), speeds[i],
+                           absl::StrCat("be > the speed before it, ", ShortestDecimal(speeds[i - 1])), {path(i - 1)});
     });
   }
 }

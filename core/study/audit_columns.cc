@@ -88,15 +88,78 @@ void Count(int64_t row, Tally& tally) {
 }
 
 template <typename Problem, typename Observation>
-void AuditRow(int64_t row, const Problem& problem, const Observation& seen, Receiver receive, AuditSummary& summary) {
-  AuditReport report;
-  if (IsValid(problem, seen)) {
-    report = Audit(problem, seen);
-  } else {
-    report.regime = Regime::kInvalid;
+AuditReport AuditRow(const Problem& problem, const Observation& seen) {
+  return IsValid(problem, seen) ? Audit(problem, seen) : AuditReport{.regime = Regime::kInvalid};
+}
+
+std::vector<Column> ListOf(const PlanarColumns& in) {
+  return {{"wtt", in.wtt}, {"wtn", in.wtn}, {"wnn", in.wnn}, {"mu", in.mu}, {"mu_static", in.mu_static, true},
+          {"u0", in.u0},   {"v0", in.v0},   {"u1", in.u1},   {"v1", in.v1}, {"uncertainty", in.uncertainty, true}};
+}
+
+std::vector<Column> ListOf(const SpatialColumns& in) {
+  return {{"w11", in.w11},
+          {"w12", in.w12},
+          {"w13", in.w13},
+          {"w22", in.w22},
+          {"w23", in.w23},
+          {"w33", in.w33},
+          {"mu", in.mu},
+          {"mu_static", in.mu_static, true},
+          {"u0[0]", in.u0[0]},
+          {"u0[1]", in.u0[1]},
+          {"v0", in.v0},
+          {"u1[0]", in.u1[0]},
+          {"u1[1]", in.u1[1]},
+          {"v1", in.v1},
+          {"uncertainty", in.uncertainty, true}};
+}
+
+planar::Problem ProblemAt(const PlanarColumns& in, int64_t row) {
+  const double mu = ValueAt(in.mu, row);
+  return {.wtt = ValueAt(in.wtt, row),
+          .wtn = ValueAt(in.wtn, row),
+          .wnn = ValueAt(in.wnn, row),
+          .u0 = ValueAt(in.u0, row),
+          .v0 = ValueAt(in.v0, row),
+          .mu = mu,
+          .mu_static = ValueAt(in.mu_static, row, mu)};
+}
+
+spatial::Problem ProblemAt(const SpatialColumns& in, int64_t row) {
+  const double mu = ValueAt(in.mu, row);
+  return {.w11 = ValueAt(in.w11, row),
+          .w12 = ValueAt(in.w12, row),
+          .w13 = ValueAt(in.w13, row),
+          .w22 = ValueAt(in.w22, row),
+          .w23 = ValueAt(in.w23, row),
+          .w33 = ValueAt(in.w33, row),
+          .u0 = {ValueAt(in.u0[0], row), ValueAt(in.u0[1], row)},
+          .v0 = ValueAt(in.v0, row),
+          .mu = mu,
+          .mu_static = ValueAt(in.mu_static, row, mu),
+          .tolerance = in.tolerance};
+}
+
+PlanarObservation ObservationAt(const PlanarColumns& in, int64_t row) {
+  return {ValueAt(in.u1, row), ValueAt(in.v1, row), ValueAt(in.uncertainty, row)};
+}
+
+SpatialObservation ObservationAt(const SpatialColumns& in, int64_t row) {
+  return {{ValueAt(in.u1[0], row), ValueAt(in.u1[1], row)}, ValueAt(in.v1, row), ValueAt(in.uncertainty, row)};
+}
+
+template <typename Columns>
+absl::StatusOr<AuditSummary> AuditRows(const Columns& in, Receiver receive) {
+  AuditSummary summary;
+  if (in.rows == 0) return summary;
+  if (absl::Status status = CheckLengths(ListOf(in), in.rows); !status.ok()) return status;
+  for (int64_t row = 0; row < in.rows; ++row) {
+    AuditReport report = AuditRow(ProblemAt(in, row), ObservationAt(in, row));
+    Add(row, report, summary);
+    receive(row, report);
   }
-  Add(row, report, summary);
-  receive(row, report);
+  return summary;
 }
 
 }  // namespace
@@ -116,80 +179,11 @@ void Add(int64_t row, const AuditReport& report, AuditSummary& summary) {
 }
 
 absl::StatusOr<AuditSummary> AuditColumns(const PlanarColumns& columns, Receiver receive) {
-  const PlanarColumns& in = columns;
-  AuditSummary summary;
-  if (in.rows == 0) return summary;
-  if (absl::Status status = CheckLengths({{"wtt", in.wtt},
-                                          {"wtn", in.wtn},
-                                          {"wnn", in.wnn},
-                                          {"mu", in.mu},
-                                          {"mu_static", in.mu_static, true},
-                                          {"u0", in.u0},
-                                          {"v0", in.v0},
-                                          {"u1", in.u1},
-                                          {"v1", in.v1},
-                                          {"uncertainty", in.uncertainty, true}},
-                                         in.rows);
-      !status.ok()) {
-    return status;
-  }
-  for (int64_t row = 0; row < in.rows; ++row) {
-    const double mu = ValueAt(in.mu, row);
-    const planar::Problem problem{.wtt = ValueAt(in.wtt, row),
-                                  .wtn = ValueAt(in.wtn, row),
-                                  .wnn = ValueAt(in.wnn, row),
-                                  .u0 = ValueAt(in.u0, row),
-                                  .v0 = ValueAt(in.v0, row),
-                                  .mu = mu,
-                                  .mu_static = ValueAt(in.mu_static, row, mu)};
-    AuditRow(row, problem, PlanarObservation{ValueAt(in.u1, row), ValueAt(in.v1, row), ValueAt(in.uncertainty, row)},
-             receive, summary);
-  }
-  return summary;
+  return AuditRows(columns, receive);
 }
 
 absl::StatusOr<AuditSummary> AuditColumns(const SpatialColumns& columns, Receiver receive) {
-  const SpatialColumns& in = columns;
-  AuditSummary summary;
-  if (in.rows == 0) return summary;
-  if (absl::Status status = CheckLengths({{"w11", in.w11},
-                                          {"w12", in.w12},
-                                          {"w13", in.w13},
-                                          {"w22", in.w22},
-                                          {"w23", in.w23},
-                                          {"w33", in.w33},
-                                          {"mu", in.mu},
-                                          {"mu_static", in.mu_static, true},
-                                          {"u0[0]", in.u0[0]},
-                                          {"u0[1]", in.u0[1]},
-                                          {"v0", in.v0},
-                                          {"u1[0]", in.u1[0]},
-                                          {"u1[1]", in.u1[1]},
-                                          {"v1", in.v1},
-                                          {"uncertainty", in.uncertainty, true}},
-                                         in.rows);
-      !status.ok()) {
-    return status;
-  }
-  for (int64_t row = 0; row < in.rows; ++row) {
-    const double mu = ValueAt(in.mu, row);
-    const spatial::Problem problem{.w11 = ValueAt(in.w11, row),
-                                   .w12 = ValueAt(in.w12, row),
-                                   .w13 = ValueAt(in.w13, row),
-                                   .w22 = ValueAt(in.w22, row),
-                                   .w23 = ValueAt(in.w23, row),
-                                   .w33 = ValueAt(in.w33, row),
-                                   .u0 = {ValueAt(in.u0[0], row), ValueAt(in.u0[1], row)},
-                                   .v0 = ValueAt(in.v0, row),
-                                   .mu = mu,
-                                   .mu_static = ValueAt(in.mu_static, row, mu),
-                                   .tolerance = in.tolerance};
-    AuditRow(row, problem,
-             SpatialObservation{
-                 {ValueAt(in.u1[0], row), ValueAt(in.u1[1], row)}, ValueAt(in.v1, row), ValueAt(in.uncertainty, row)},
-             receive, summary);
-  }
-  return summary;
+  return AuditRows(columns, receive);
 }
 
 }  // namespace ricochet::audit

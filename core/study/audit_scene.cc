@@ -40,7 +40,8 @@ std::vector<Violation> ValidateScene(const Scene& scene) {
   if (!violations.empty()) return violations;
   const AnyReduction any = Reduce(scene);
   if (std::visit([](const auto& reduction) { return reduction.w.back() == 0.0; }, any)) {
-    violations.push_back({"system", "makes Wnn = 0: must be > 0 for an audit, no normal impulse moves the contact"});
+    violations.push_back({"system", "makes Wnn = 0: must be > 0 for an audit, no normal impulse moves the contact",
+                          ViolationKind::kContact});
   }
   return violations;
 }

@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "absl/strings/escaping.h"
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/models/pendulum.h"
@@ -64,7 +63,7 @@ std::vector<Violation> CheckRange(const SweepRequest& request) {
 struct Drivers {
   std::vector<Field> fields;
   std::vector<Violation> violations;
-  std::set<std::string> driven;  // Fields of the scene whose base value does not matter.
+  std::set<std::string> driven;  // Numbers of the scene whose base value does not matter, by path.
 };
 
 Drivers ResolveAxes(const std::vector<Axis>& axes, Scene& scene) {
@@ -84,40 +83,31 @@ Drivers ResolveAxes(const std::vector<Axis>& axes, Scene& scene) {
                                                        target, ", which axes[", other->second, "] drives")});
     }
     // An angle needs the base scene's distance, so a and b must be right there.
-    if (field->sets().size() == 1) drivers.driven.insert(field->sets().front());
+    if (field->sets().size() == 1) drivers.driven.insert(axes[i].path);
     drivers.fields.push_back(*std::move(field));
   }
   return drivers;
 }
 
-// "spatial_contact.w_per_kg[3]" -> "spatial_contact.w_per_kg".
-std::string ListOf(const std::string& path) { return path.substr(0, path.rfind('[')); }
-
-// Whether the rule that `violation` breaks is one between the field at `path` and others.
-bool Concerns(const Violation& violation, const std::string& path) {
-  const std::string& field = violation.field;
-  if (field == "friction.static_coefficient") return path == "friction.kinetic_coefficient";
-  if (field == "planar_contact.w_tn_per_kg") return absl::StartsWith(path, "planar_contact.w_");
-  if (absl::StrContains(field, ".table.speed_m_s[")) return ListOf(field) == ListOf(path);
-  return field == ListOf(path);  // A matrix.
-}
-
 // Whether a point may keep the rule that the base scene breaks, because axes drive what it is about.
-bool IsAMatterOfEachPoint(const Violation& violation, const std::set<std::string>& driven) {
-  if (driven.contains(violation.field)) return true;
-  const std::set<std::string> definitions = {"restitution.newton", "restitution.poisson", "restitution.energetic"};
-  if (definitions.contains(violation.field)) return driven.contains("restitution.coefficient");
-  // What follows from the contact as a whole follows from every field.
-  if (absl::StartsWith(violation.description, "makes ")) return !driven.empty();
-  // Values may change; what is set and how long lists are may not.
-  if (!absl::StartsWith(violation.description, "= ")) return false;
-  return std::any_of(driven.begin(), driven.end(), [&](const std::string& path) { return Concerns(violation, path); });
+bool IsAMatterOfEachPoint(const Violation& violation, const Drivers& drivers) {
+  switch (violation.kind) {
+    case ViolationKind::kShape:
+      return false;
+    case ViolationKind::kValue:
+      return drivers.driven.contains(violation.field) ||
+             std::any_of(violation.tied_to.begin(), violation.tied_to.end(),
+                         [&](const std::string& path) { return drivers.driven.contains(path); });
+    case ViolationKind::kContact:
+      return !drivers.fields.empty();
+  }
+  return false;
 }
 
 // The violations of the base scene that no axis cures.
-std::vector<Violation> CheckBaseScene(const Scene& scene, const std::set<std::string>& driven) {
+std::vector<Violation> CheckBaseScene(const Scene& scene, const Drivers& drivers) {
   std::vector<Violation> violations = Validate(scene);
-  std::erase_if(violations, [&](const Violation& violation) { return IsAMatterOfEachPoint(violation, driven); });
+  std::erase_if(violations, [&](const Violation& violation) { return IsAMatterOfEachPoint(violation, drivers); });
   return violations;
 }
 
@@ -181,7 +171,7 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   if (!std::holds_alternative<std::monostate>(scene_.system)) {
     drivers = ResolveAxes(grid_.axes, scene_);
   }
-  Append(CheckBaseScene(scene_, drivers.driven), violations);
+  Append(CheckBaseScene(scene_, drivers), violations);
   Append(std::move(drivers.violations), violations);
   const std::vector<Violation> axes = ValidateAxes(grid_);
   Append(axes, violations);

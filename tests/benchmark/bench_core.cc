@@ -15,6 +15,7 @@
 #include "core/models/planar.h"
 #include "core/numerics/ulp.h"
 #include "tests/benchmark/measure.h"
+#include "tests/support/known_contacts.h"
 #include "tests/support/planar_scenes.h"
 
 namespace ricochet::bench {
@@ -166,18 +167,6 @@ void Columns() {
         absl::StrFormat("%.2f x eight columns: only what is asked for is computed", one.ratio));
 }
 
-planar::Problem AsContact(const Problem& p) {
-  return {.wtt = p.b * p.b / p.inertia,
-          .wtn = p.a * p.b / p.inertia,
-          .wnn = p.a * p.a / p.inertia,
-          .u0 = p.b * p.omega_minus,
-          .v0 = p.a * p.omega_minus,
-          .mu = p.mu,
-          .mu_static = p.mu_static,
-          .law = p.law,
-          .coefficient = p.coefficient};
-}
-
 void ComparePlanar(const std::string& what, const std::vector<planar::Problem>& contacts,
                    const std::vector<Problem>& pendulums) {
   const Comparison time = Compare(
@@ -201,7 +190,7 @@ void PlanarSolve() {
   constexpr size_t kCount = 4096;
   const std::vector<Problem> pendulums = TypicalProblems(kCount);
   std::vector<planar::Problem> as_contacts;
-  for (const Problem& pendulum : pendulums) as_contacts.push_back(AsContact(pendulum));
+  for (const Problem& pendulum : pendulums) as_contacts.push_back(ContactOf(pendulum));
   std::vector<planar::Problem> everyday;
   std::vector<planar::Problem> hard;
   planar::SceneSource source(1);

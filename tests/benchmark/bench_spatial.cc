@@ -10,6 +10,7 @@
 #include "core/models/planar.h"
 #include "core/models/spatial.h"
 #include "tests/benchmark/measure.h"
+#include "tests/support/known_contacts.h"
 #include "tests/support/spatial_scenes.h"
 
 namespace ricochet::bench {
@@ -28,19 +29,6 @@ std::vector<Problem> Problems(double tolerance, const Next& next) {
     problem.tolerance = tolerance;
   }
   return problems;
-}
-
-// The same contact with its second direction left out.
-planar::Problem PlanarOf(const Problem& p) {
-  return {.wtt = p.w11,
-          .wtn = p.w13,
-          .wnn = p.w33,
-          .u0 = p.u0[0],
-          .v0 = p.v0,
-          .mu = p.mu,
-          .mu_static = p.mu_static,
-          .law = p.law,
-          .coefficient = p.coefficient};
 }
 
 // Median and largest error over max(|u0|, |v0|), against the tightest tolerance on offer.
@@ -62,7 +50,7 @@ Errors ErrorsOf(const std::vector<Problem>& problems) {
 
 void Measure(const char* what, const std::vector<Problem>& problems) {
   std::vector<planar::Problem> planar_problems;
-  for (const Problem& problem : problems) planar_problems.push_back(PlanarOf(problem));
+  for (const Problem& problem : problems) planar_problems.push_back(InPlane(problem));
   const Comparison time = Compare(
       kRounds,
       [&] {

@@ -96,26 +96,12 @@ class SceneSource {
   }
 
   // Slip stops within a few ulp of where compression ends.
-  Problem NearStopAtRest() {
-    Problem problem = Everyday();
-    const double sign = Sign();
-    const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
-    const double v_slope = problem.wnn - sign * problem.mu * problem.wtn;
-    if (u_slope < 0.0 && v_slope > 0.0) problem.u0 = sign * Steps(problem.v0 * u_slope / v_slope, Near(3));
-    return problem;
-  }
+  Problem NearStopAtRest() { return NearStop(Everyday(), 0.0); }
 
-  // Slip stops near where restitution ends.
+  // Slip stops near where restitution ends; on one piece the three laws agree.
   Problem NearStopAtEnd() {
-    Problem problem = Everyday();
-    const double sign = Sign();
-    const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
-    const double v_slope = problem.wnn - sign * problem.mu * problem.wtn;
-    if (u_slope < 0.0 && v_slope > 0.0) {
-      // On one piece the three laws agree.
-      problem.u0 = sign * Steps(problem.v0 * u_slope / v_slope * (1.0 + problem.coefficient), Near(3));
-    }
-    return problem;
+    const Problem problem = Everyday();
+    return NearStop(problem, problem.coefficient);
   }
 
   // Numbers of a few bits, so that events coincide exactly.
@@ -187,6 +173,16 @@ class SceneSource {
  private:
   static double Steps(double x, int64_t steps) {
     return std::fabs(std::bit_cast<double>(std::bit_cast<int64_t>(x) + (x == 0.0 ? std::abs(steps) : steps)));
+  }
+  // Slip stops within a few ulp of where 1 + `k` times the normal impulse of compression has been spent.
+  Problem NearStop(Problem problem, double k) {
+    const double sign = Sign();
+    const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
+    const double v_slope = problem.wnn - sign * problem.mu * problem.wtn;
+    if (u_slope < 0.0 && v_slope > 0.0) {
+      problem.u0 = sign * Steps(problem.v0 * u_slope / v_slope * (1.0 + k), Near(3));
+    }
+    return problem;
   }
   int64_t Near(int64_t steps) { return static_cast<int64_t>(Below(static_cast<uint64_t>(2 * steps + 1))) - steps; }
   double Bits() { return std::bit_cast<double>(Below(uint64_t{0x7ff} << 52)); }

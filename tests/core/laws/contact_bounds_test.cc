@@ -11,6 +11,7 @@
 #include <string>
 
 #include "core/models/pendulum_bounds.h"
+#include "tests/support/known_contacts.h"
 #include "tests/support/pendulum_scenes.h"
 #include "tests/support/planar_scenes.h"
 
@@ -18,7 +19,7 @@ namespace ricochet::planar {
 namespace {
 
 // A rod at 45 degrees, W = [[2.5, 1.5], [1.5, 2.5]], (u, v) = (-1, -1), mu = 0.7.
-const Problem kRod = {.wtt = 2.5, .wtn = 1.5, .wnn = 2.5, .u0 = -1.0, .v0 = -1.0, .mu = 0.7, .mu_static = 0.7};
+const Problem kRod = FortyFiveDegreeRod();
 // Wtn drives slip on: u and Wtn have one sign.
 const Problem kDriven = {.wtt = 1.0, .wtn = 0.8, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0, .mu = 1.0, .mu_static = 1.0};
 
@@ -87,16 +88,6 @@ TEST(ContactBoundsTest, NewtonAndPoissonMayExceedOneInAnAdmissibleImpact) {
 
 // ---- Rank one: the pendulum ----
 
-Problem ToPlanar(const pendulum::Problem& p) {
-  return {.wtt = p.b * p.b / p.inertia,
-          .wtn = p.a * p.b / p.inertia,
-          .wnn = p.a * p.a / p.inertia,
-          .u0 = p.b * p.omega_minus,
-          .v0 = p.a * p.omega_minus,
-          .mu = p.mu,
-          .mu_static = p.mu_static};
-}
-
 void ExpectNear(const Range& got, const Range& want, double tolerance) {
   EXPECT_NEAR(got.lower, want.lower, tolerance * std::max(1e-3, std::fabs(want.lower)));
   EXPECT_NEAR(got.upper, want.upper, tolerance * std::max(1e-3, std::fabs(want.upper)));
@@ -118,7 +109,7 @@ TEST(ContactBoundsTest, RankOneIsThePendulum) {
     const Bounds want = pendulum::SolveBounds(problem);
     // Between the thresholds of the two frictions rounding of W decides nothing; near x = 1 it decides much.
     if (std::fabs(1.0 - want.friction_ratio) < 1e-3) continue;
-    const ContactBounds got = SolveBounds(ToPlanar(problem));
+    const ContactBounds got = SolveBounds(ContactOf(problem));
     ASSERT_EQ(got.w_rank, 1);
     ASSERT_EQ(got.regime == Regime::kLocked, want.regime == Regime::kLocked) << ToString(problem);
     const double tolerance = 1e-13 / std::fabs(1.0 - want.friction_ratio);

@@ -16,6 +16,7 @@
 #include "core/models/pendulum.h"
 #include "core/numerics/ulp.h"
 #include "hwy/targets.h"
+#include "tests/support/known_contacts.h"
 #include "tests/support/only_target.h"
 #include "tests/support/planar_oracle.h"
 #include "tests/support/planar_scenes.h"
@@ -24,19 +25,6 @@ namespace ricochet::planar {
 namespace {
 
 constexpr int kScenes = 100'000;
-
-// A uniform rod at 45 degrees that strikes with its end, m = l = 1; mu = 0.7.
-Problem Rod(Law law, double coefficient) {
-  return {.wtt = 2.5,
-          .wtn = 1.5,
-          .wnn = 2.5,
-          .u0 = -1.0,
-          .v0 = -1.0,
-          .mu = 0.7,
-          .mu_static = 0.7,
-          .law = law,
-          .coefficient = coefficient};
-}
 
 Problem Contact(double wtt, double wtn, double wnn, double u0, double mu, double mu_static, Law law,
                 double coefficient) {
@@ -96,7 +84,7 @@ double LargestWork(const Impact& impact) {
 // Slip -1 + 3.25 tau and v = -1 + 3.55 tau: compression ends at 20/71, slip stops at 4/13 with v = 6/65, and sticks, for
 // 1.5 < 0.7 2.5; then v' = 4/2.5 = 1.6.
 TEST(PlanarRodTest, NewtonsLawCreatesASixteenthOfAJoule) {
-  const Impact impact = Solve(Rod(Law::kNewton, 1.0));
+  const Impact impact = Solve(FortyFiveDegreeRod(Law::kNewton, 1.0));
   EXPECT_EQ(impact.regime, Regime::kStickInRestitution);
   EXPECT_EQ(impact.w_rank, 2);
   EXPECT_EQ(impact.v1, 1.0);
@@ -112,7 +100,7 @@ TEST(PlanarRodTest, NewtonsLawCreatesASixteenthOfAJoule) {
 }
 
 TEST(PlanarRodTest, PoissonsLawDoublesTheImpulseOfCompression) {
-  const Impact impact = Solve(Rod(Law::kPoisson, 1.0));
+  const Impact impact = Solve(FortyFiveDegreeRod(Law::kPoisson, 1.0));
   EXPECT_NEAR(impact.tau1, 40.0 / 71.0, 1e-15);
   EXPECT_NEAR(impact.v1, 6.0 / 65.0 + 1.6 * (40.0 / 71.0 - 4.0 / 13.0), 1e-15);
   EXPECT_LT(impact.energy_change, 0.0);
@@ -122,7 +110,7 @@ TEST(PlanarRodTest, PoissonsLawDoublesTheImpulseOfCompression) {
 
 // All that is lost is what friction takes: 0.7/2 4/13.
 TEST(PlanarRodTest, EnergeticLawLosesSevenSixtyFifthsOfAJoule) {
-  const Impact impact = Solve(Rod(Law::kEnergetic, 1.0));
+  const Impact impact = Solve(FortyFiveDegreeRod(Law::kEnergetic, 1.0));
   EXPECT_NEAR(impact.energy_change, -7.0 / 65.0, 1e-15);
   EXPECT_NEAR(impact.work_tangential_compression + impact.work_tangential_restitution, -7.0 / 65.0, 1e-15);
   EXPECT_NEAR(impact.work_normal_compression, -10.0 / 71.0, 1e-15);
@@ -168,7 +156,7 @@ TEST(PlanarLawsTest, PoissonsLawMayImplyASpringThatGivesBackMoreThanItStoredWith
 
 TEST(PlanarLawsTest, NoLawRestoresAnythingIfItsCoefficientIsZero) {
   for (const Law law : {Law::kNewton, Law::kPoisson, Law::kEnergetic}) {
-    const Impact impact = Solve(Rod(law, 0.0));
+    const Impact impact = Solve(FortyFiveDegreeRod(law, 0.0));
     EXPECT_EQ(impact.v1, 0.0);
     EXPECT_EQ(impact.tau1, impact.tau_compression);
     EXPECT_EQ(impact.newton, 0.0);
@@ -201,9 +189,9 @@ struct RegimeCase {
 
 std::vector<RegimeCase> RegimeCases() {
   const Law law = Law::kEnergetic;
-  Problem separating = Rod(law, 0.5);
+  Problem separating = FortyFiveDegreeRod(law, 0.5);
   separating.v0 = 1.0;
-  Problem grazing = Rod(law, 0.5);
+  Problem grazing = FortyFiveDegreeRod(law, 0.5);
   grazing.v0 = 0.0;
   return {
       {"v0 > 0", separating, Regime::kSeparating, 0},
@@ -214,7 +202,7 @@ std::vector<RegimeCase> RegimeCases() {
       {"slow slip, strong friction", Contact(3.0, 0.5, 1.0, 0.1, 0.9, 0.9, law, 0.5), Regime::kStickInCompression, 4},
       {"no slip, strong friction", Contact(3.0, 0.5, 1.0, 0.0, 0.9, 0.9, law, 0.5), Regime::kStickInCompression, 3},
       {"|Wtn| = mu Wtt holds", Contact(4.0, 1.0, 1.0, 0.0, 0.25, 0.25, law, 0.5), Regime::kStickInCompression, 3},
-      {"stops after v = 0", Rod(law, 1.0), Regime::kStickInRestitution, 4},
+      {"stops after v = 0", FortyFiveDegreeRod(law, 1.0), Regime::kStickInRestitution, 4},
       {"stops exactly at v = 0", Contact(4.0, 0.0, 1.0, 2.0, 0.5, 0.5, law, 0.5), Regime::kStickInRestitution, 4},
       {"stops exactly at the end", Contact(4.0, 0.0, 1.0, 3.0, 0.5, 0.5, law, 0.5), Regime::kStickInRestitution, 4},
       {"weak friction, slow", Contact(1.0, 0.8, 1.0, -0.2, 0.3, 0.3, law, 0.5), Regime::kReversalInCompression, 4},
@@ -243,7 +231,7 @@ TEST(PlanarRegimeTest, EveryRegimeIsReachedByItsCases) {
 
 TEST(PlanarRegimeTest, SeparatingContactsKeepTheirVelocitiesAndGetNoImpulse) {
   for (const double v0 : {0.0, 2.0}) {
-    Problem problem = Rod(Law::kNewton, 0.5);
+    Problem problem = FortyFiveDegreeRod(Law::kNewton, 0.5);
     problem.v0 = v0;
     const Impact impact = Solve(problem);
     EXPECT_EQ(impact.u1, -1.0);

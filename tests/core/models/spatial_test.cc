@@ -11,6 +11,7 @@
 
 #include "core/models/planar.h"
 #include "core/models/spatial_solver-inl.h"
+#include "tests/support/known_contacts.h"
 #include "tests/support/spatial_scenes.h"
 
 namespace ricochet::spatial {
@@ -30,19 +31,11 @@ double Distance(const Problem& problem, const Impact& a, const Impact& b) {
 
 // The contact of theory and its impacts, each computed independently at 25 digits.
 Problem Known(double u1, double u2, double mu) {
-  return {.w11 = 1.96,
-          .w12 = 0.24,
-          .w13 = 0.6,
-          .w22 = 2.96,
-          .w23 = -0.8,
-          .w33 = 1.85,
-          .u0 = {u1, u2},
-          .v0 = -1.0,
-          .mu = mu,
-          .mu_static = mu,
-          .law = Law::kEnergetic,
-          .coefficient = 0.6,
-          .tolerance = 1e-12};
+  Problem problem = TurningContact(u1, u2, mu);
+  problem.law = Law::kEnergetic;
+  problem.coefficient = 0.6;
+  problem.tolerance = 1e-12;
+  return problem;
 }
 
 struct KnownImpact {
@@ -262,15 +255,7 @@ TEST(SpatialTest, IsThePlanarModelWhereOneDirectionDecouples) {
     if (i % 10 == 0) p.u0[0] = 0.0;
     if (i % 3 == 0) p.mu_static = p.mu * 1.5;
     const Impact impact = Solve(p);
-    const planar::Impact planar = planar::Solve({.wtt = p.w11,
-                                                 .wtn = p.w13,
-                                                 .wnn = p.w33,
-                                                 .u0 = p.u0[0],
-                                                 .v0 = p.v0,
-                                                 .mu = p.mu,
-                                                 .mu_static = p.mu_static,
-                                                 .law = p.law,
-                                                 .coefficient = p.coefficient});
+    const planar::Impact planar = planar::Solve(InPlane(p));
     const double velocity = 1e-11 * Scale(p);
     ASSERT_TRUE(impact.closed_form) << i;
     ASSERT_EQ(impact.regime, planar.regime) << i;

@@ -13,6 +13,7 @@
 
 #include "core/study/audit_columns.h"
 #include "core/study/coulomb_path.h"
+#include "tests/support/known_contacts.h"
 
 namespace ricochet::audit {
 namespace {
@@ -21,17 +22,8 @@ using planar::Law;
 
 constexpr double kUlp = 0x1p-52;
 
-planar::Problem FortyFiveDegreeRod(Law law, double coefficient) {
-  return {.wtt = 2.5,
-          .wtn = 1.5,
-          .wnn = 2.5,
-          .u0 = -1.0,
-          .v0 = -1.0,
-          .mu = 0.7,
-          .mu_static = 0.7,
-          .law = law,
-          .coefficient = coefficient};
-}
+// W = I, v- = (1, -1), mu = 1/2: p = v+ - v- by hand, and compression ends at tau = 1.
+const planar::Problem kByHand = {.wtt = 1.0, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5};
 
 PlanarObservation Seen(const planar::Impact& impact, double uncertainty = 0.0) {
   return {impact.u1, impact.v1, uncertainty};
@@ -256,9 +248,7 @@ TEST(AuditTest, SeesASpringThatGivesBackMoreThanItStored) {
 }
 
 TEST(AuditTest, NamesEachLimitAnImpossibleRowBreaks) {
-  // W = I, v- = (1, -1), so p = v+ - v- by hand; mu = 1/2, and compression ends at tau = 1.
-  const planar::Problem problem{.wtt = 1.0, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5};
-  const AuditReport pulled = Audit(problem, {.u1 = 1.0, .v1 = -1.25});
+  const AuditReport pulled = Audit(kByHand, {.u1 = 1.0, .v1 = -1.25});
   EXPECT_EQ(pulled[AuditLimit::kNormalImpulse].verdict, Verdict::kBroken);
   EXPECT_EQ(pulled[AuditLimit::kNormalImpulse].excess, 0.25);
   EXPECT_EQ(pulled[AuditLimit::kPenetration].verdict, Verdict::kBroken);
@@ -266,7 +256,7 @@ TEST(AuditTest, NamesEachLimitAnImpossibleRowBreaks) {
   EXPECT_EQ(pulled.poisson, -1.25);
   EXPECT_FALSE(pulled.compression_ended);
 
-  const AuditReport grabbed = Audit(problem, {.u1 = 0.0, .v1 = 0.5});
+  const AuditReport grabbed = Audit(kByHand, {.u1 = 0.0, .v1 = 0.5});
   EXPECT_EQ(grabbed[AuditLimit::kCone].verdict, Verdict::kBroken);
   EXPECT_EQ(grabbed[AuditLimit::kCone].value, 1.0);
   EXPECT_EQ(grabbed[AuditLimit::kCone].limit, 0.75);
@@ -278,9 +268,8 @@ TEST(AuditTest, NamesEachLimitAnImpossibleRowBreaks) {
 }
 
 TEST(AuditTest, RunsThePathToAnImpulseWithinCompression) {
-  // As above, stopped half way: f = -1/4, v = -1/2, works -3/8 and -(1/4)(7/8).
-  const planar::Problem problem{.wtt = 1.0, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5};
-  const AuditReport report = Audit(problem, {.u1 = 0.75, .v1 = -0.5});
+  // Stopped half way: f = -1/4, v = -1/2, works -3/8 and -(1/4)(7/8).
+  const AuditReport report = Audit(kByHand, {.u1 = 0.75, .v1 = -0.5});
   EXPECT_FALSE(report.compression_ended);
   EXPECT_EQ(report.regime, Regime::kSliding);
   EXPECT_EQ(report.normal_impulse_compression, 1.0);
@@ -534,17 +523,8 @@ TEST(AuditTest, SeesTheSameInSpaceWhereWDecouples) {
 
 // The work of a turning slip before compression ends, by the trapezoids of a fine path.
 TEST(AuditTest, RunsASpatialPathToAnImpulseWithinCompression) {
-  const spatial::Problem problem{.w11 = 1.96,
-                                 .w12 = 0.24,
-                                 .w13 = 0.6,
-                                 .w22 = 2.96,
-                                 .w23 = -0.8,
-                                 .w33 = 1.85,
-                                 .u0 = {1.0, 0.6},
-                                 .v0 = -1.0,
-                                 .mu = 0.4,
-                                 .mu_static = 0.4,
-                                 .tolerance = 1e-11};
+  spatial::Problem problem = TurningContact(1.0, 0.6, 0.4);
+  problem.tolerance = 1e-11;
   const double tau = 0.6 * PathAt(problem, 0.0).tau_compression;
   const PathPoint point = PathAt(problem, tau);
   double normal = 0.0;
@@ -589,24 +569,33 @@ TEST(AuditTest, SearchesTheNearestPointOfARankDeficientSpatialPath) {
   EXPECT_NEAR(beside.energetic, 0.6, 1e-4);
 }
 
+// A column with one value for all rows.
+absl::Span<const double> Fixed(const double& value) { return {&value, 1}; }
+
+// `rows` rows at one contact, which must outlive them; the velocity after is left out.
+PlanarColumns RowsAt(const planar::Problem& contact, int64_t rows) {
+  return {.rows = rows,
+          .wtt = Fixed(contact.wtt),
+          .wtn = Fixed(contact.wtn),
+          .wnn = Fixed(contact.wnn),
+          .mu = Fixed(contact.mu),
+          .mu_static = {},
+          .u0 = Fixed(contact.u0),
+          .v0 = Fixed(contact.v0),
+          .u1 = {},
+          .v1 = {},
+          .uncertainty = {}};
+}
+
 TEST(AuditColumnsTest, CountsWhatARunBreaksAndWhereFirst) {
-  // W = I, v- = (1, -1), mu = 1/2: admissible, pulled, admissible, grabbed, NaN, energetic coefficients of 1.5 and of
-  // 1.05 +- .1.
+  // Admissible, pulled, admissible, grabbed, NaN, energetic coefficients of 1.5 and of 1.05 +- .1.
   const std::vector<double> u1 = {0.25, 1.0, 0.5, 0.0, std::nan(""), 0.0, 0.0};
   const std::vector<double> v1 = {0.5, -1.25, 0.0, 0.5, 0.0, 1.5, 1.05};
   const std::vector<double> uncertainty = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1};
-  const double one = 1.0, zero = 0.0, half = 0.5, minus_one = -1.0;
-  const PlanarColumns columns{.rows = 7,
-                              .wtt = {&one, 1},
-                              .wtn = {&zero, 1},
-                              .wnn = {&one, 1},
-                              .mu = {&half, 1},
-                              .mu_static = {},
-                              .u0 = {&one, 1},
-                              .v0 = {&minus_one, 1},
-                              .u1 = u1,
-                              .v1 = v1,
-                              .uncertainty = uncertainty};
+  PlanarColumns columns = RowsAt(kByHand, 7);
+  columns.u1 = u1;
+  columns.v1 = v1;
+  columns.uncertainty = uncertainty;
   std::vector<AuditReport> reports;
   const auto summary = AuditColumns(columns, [&](int64_t row, const AuditReport& report) {
     EXPECT_EQ(row, static_cast<int64_t>(reports.size()));
@@ -627,26 +616,16 @@ TEST(AuditColumnsTest, CountsWhatARunBreaksAndWhereFirst) {
   EXPECT_EQ(broken(AuditLimit::kEnergy), (Tally{2, 1}));
   EXPECT_EQ(summary->within_uncertainty[static_cast<size_t>(AuditLimit::kSharp)], (Tally{1, 6}));
   EXPECT_EQ(summary->largest_excess[static_cast<size_t>(AuditLimit::kSharp)], 0.5);
-  EXPECT_EQ(reports[3].friction_mismatch[0],
-            Audit(planar::Problem{.wtt = 1.0, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5},
-                  {.u1 = 0.0, .v1 = 0.5})
-                .friction_mismatch[0]);
+  EXPECT_EQ(reports[3].friction_mismatch[0], Audit(kByHand, {.u1 = 0.0, .v1 = 0.5}).friction_mismatch[0]);
 }
 
 TEST(AuditColumnsTest, NamesTheColumnWhoseLengthIsWrong) {
   const std::vector<double> two = {1.0, 1.0};
-  const double one = 1.0;
-  const PlanarColumns columns{.rows = 3,
-                              .wtt = two,
-                              .wtn = {&one, 1},
-                              .wnn = {&one, 1},
-                              .mu = {},
-                              .mu_static = {},
-                              .u0 = {&one, 1},
-                              .v0 = {&one, 1},
-                              .u1 = {&one, 1},
-                              .v1 = {&one, 1},
-                              .uncertainty = {}};
+  PlanarColumns columns = RowsAt(kByHand, 3);
+  columns.wtt = two;
+  columns.mu = {};
+  columns.u1 = Fixed(kByHand.u0);
+  columns.v1 = Fixed(kByHand.v0);
   const auto summary = AuditColumns(columns, [](int64_t, const AuditReport&) { FAIL(); });
   ASSERT_FALSE(summary.ok());
   EXPECT_EQ(summary.status().code(), absl::StatusCode::kInvalidArgument);
@@ -662,18 +641,14 @@ TEST(AuditColumnsTest, MarksRowsThatAreNoContact) {
   const std::vector<double> wnn = {1.0, 1.0, 1.0, 0.0, 1.0, 1.0};
   const std::vector<double> mu = {0.5, -0.1, 0.5, 0.5, 0.5, 0.5};
   const std::vector<double> mu_static = {0.5, 0.1, 0.4, 0.5, 0.5, 0.5};
-  const double one = 1.0, minus_one = -1.0, zero = 0.0;
-  const PlanarColumns columns{.rows = 6,
-                              .wtt = {&one, 1},
-                              .wtn = wtn,
-                              .wnn = wnn,
-                              .mu = mu,
-                              .mu_static = mu_static,
-                              .u0 = {&one, 1},
-                              .v0 = {&minus_one, 1},
-                              .u1 = {&one, 1},
-                              .v1 = {&zero, 1},
-                              .uncertainty = {}};
+  const double zero = 0.0;
+  PlanarColumns columns = RowsAt(kByHand, 6);
+  columns.wtn = wtn;
+  columns.wnn = wnn;
+  columns.mu = mu;
+  columns.mu_static = mu_static;
+  columns.u1 = Fixed(kByHand.u0);
+  columns.v1 = Fixed(zero);
   const auto summary = AuditColumns(columns, [](int64_t row, const AuditReport& report) {
     EXPECT_EQ(report.regime == Regime::kInvalid, row < 5) << row;
   });
@@ -682,31 +657,21 @@ TEST(AuditColumnsTest, MarksRowsThatAreNoContact) {
 }
 
 TEST(AuditColumnsTest, AuditsSpatialRowsAsItAuditsOne) {
-  const spatial::Problem problem{.w11 = 1.96,
-                                 .w12 = 0.24,
-                                 .w13 = 0.6,
-                                 .w22 = 2.96,
-                                 .w23 = -0.8,
-                                 .w33 = 1.85,
-                                 .u0 = {1.0, 0.6},
-                                 .v0 = -1.0,
-                                 .mu = 0.4,
-                                 .mu_static = 0.4};
-  const auto fixed = [](const double& value) { return absl::Span<const double>(&value, 1); };
+  const spatial::Problem problem = TurningContact(1.0, 0.6, 0.4);
   const std::vector<double> v1 = {0.5, 1.0};
   const double u1 = 0.8, u2 = -0.3;
   const SpatialColumns columns{.rows = 2,
-                               .w11 = fixed(problem.w11),
-                               .w12 = fixed(problem.w12),
-                               .w13 = fixed(problem.w13),
-                               .w22 = fixed(problem.w22),
-                               .w23 = fixed(problem.w23),
-                               .w33 = fixed(problem.w33),
-                               .mu = fixed(problem.mu),
+                               .w11 = Fixed(problem.w11),
+                               .w12 = Fixed(problem.w12),
+                               .w13 = Fixed(problem.w13),
+                               .w22 = Fixed(problem.w22),
+                               .w23 = Fixed(problem.w23),
+                               .w33 = Fixed(problem.w33),
+                               .mu = Fixed(problem.mu),
                                .mu_static = {},
-                               .u0 = {fixed(problem.u0[0]), fixed(problem.u0[1])},
-                               .u1 = {fixed(u1), fixed(u2)},
-                               .v0 = fixed(problem.v0),
+                               .u0 = {Fixed(problem.u0[0]), Fixed(problem.u0[1])},
+                               .u1 = {Fixed(u1), Fixed(u2)},
+                               .v0 = Fixed(problem.v0),
                                .v1 = v1,
                                .uncertainty = {}};
   const auto summary = AuditColumns(columns, [&](int64_t row, const AuditReport& report) {

@@ -163,6 +163,26 @@ TEST(SystemsSweepTest, ARuleBetweenFieldsIsAMatterOfEachPointWhereAnAxisDrivesOn
   EXPECT_FALSE(FailureOf({.grid = {.scene = With(matrix), .axes = {friction}}, .columns = {"energy_change_j"}}).ok());
 }
 
+TEST(SystemsSweepTest, ARuleBetweenFieldsDoesNotExcuseANumberThatBreaksItsOwn) {
+  PlanarContact contact = Contact();
+  contact.w_tn_per_kg = std::nan("");
+  const Axis tangential = {"planar_contact.w_tt_per_kg", ListValues{{2.0}}};
+  EXPECT_THAT(
+      std::string(FailureOf({.grid = {.scene = With(contact), .axes = {tangential}}, .columns = {"energy_change_j"}})
+                      .message()),
+      HasSubstr("planar_contact.w_tn_per_kg = nan: must be finite"));
+}
+
+TEST(SystemsSweepTest, WhatFollowsFromTheWholeContactIsAMatterOfEachPointWhateverAxisThereIs) {
+  Scene scene = With(Pendulum{.inertia_kg_m2 = 1.0, .a_m = 1.0, .b_m = 0.5, .omega_minus_rad_s = -2.0});
+  scene.friction.kinetic_coefficient = 0.1;
+  scene.restitution_by_speed = PowerLaw{.alpha = -1.0, .exponent = 1.0};  // Below 0 above 1 m/s.
+  EXPECT_FALSE(FailureOf({.grid = {.scene = scene}, .columns = {"energy_change_j"}}).ok());
+  const Axis angle = {"pendulum.phi_rad", ListValues{{1.0, 0.25}}};  // a = R sin phi
+  const Points points = RunAll({.grid = {.scene = scene, .axes = {angle}}, .columns = {"energy_change_j"}});
+  EXPECT_THAT(points.regimes, testing::ElementsAre(Regime::kInvalid, Regime::kRebound));
+}
+
 TEST(SystemsSweepTest, AListOfTheWrongLengthIsNotCuredByDrivingOneOfItsEntries) {
   SpatialContact contact = ContactInSpace();
   contact.w_per_kg.pop_back();

@@ -1,0 +1,67 @@
+// Contacts that several tests know the numbers of, and a contact seen as that of another model.
+
+#ifndef RICOCHET_TESTS_SUPPORT_KNOWN_CONTACTS_H_
+#define RICOCHET_TESTS_SUPPORT_KNOWN_CONTACTS_H_
+
+#include "core/models/pendulum.h"
+#include "core/models/planar.h"
+#include "core/models/spatial.h"
+
+namespace ricochet {
+
+// A uniform rod at 45 degrees that strikes with its end, m = l = 1; mu = 0.7.
+inline planar::Problem FortyFiveDegreeRod(pendulum::Law law = pendulum::Law::kEnergetic, double coefficient = 0.0) {
+  return {.wtt = 2.5,
+          .wtn = 1.5,
+          .wnn = 2.5,
+          .u0 = -1.0,
+          .v0 = -1.0,
+          .mu = 0.7,
+          .mu_static = 0.7,
+          .law = law,
+          .coefficient = coefficient};
+}
+
+// A contact whose slip turns: W positive definite, wtn along no axis.
+inline spatial::Problem TurningContact(double u1, double u2, double mu) {
+  return {.w11 = 1.96,
+          .w12 = 0.24,
+          .w13 = 0.6,
+          .w22 = 2.96,
+          .w23 = -0.8,
+          .w33 = 1.85,
+          .u0 = {u1, u2},
+          .v0 = -1.0,
+          .mu = mu,
+          .mu_static = mu};
+}
+
+// The contact of a pendulum, rank one but for the rounding of W.
+inline planar::Problem ContactOf(const pendulum::Problem& p) {
+  return {.wtt = p.b * p.b / p.inertia,
+          .wtn = p.a * p.b / p.inertia,
+          .wnn = p.a * p.a / p.inertia,
+          .u0 = p.b * p.omega_minus,
+          .v0 = p.a * p.omega_minus,
+          .mu = p.mu,
+          .mu_static = p.mu_static,
+          .law = p.law,
+          .coefficient = p.coefficient};
+}
+
+// A contact in space with its second direction left out.
+inline planar::Problem InPlane(const spatial::Problem& p) {
+  return {.wtt = p.w11,
+          .wtn = p.w13,
+          .wnn = p.w33,
+          .u0 = p.u0[0],
+          .v0 = p.v0,
+          .mu = p.mu,
+          .mu_static = p.mu_static,
+          .law = p.law,
+          .coefficient = p.coefficient};
+}
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_TESTS_SUPPORT_KNOWN_CONTACTS_H_
