@@ -85,21 +85,23 @@ void CheckEffective(const Scene& scene, double speed, Check& check) {
 // A spring returns energy, which the energetic coefficient measures; without coupling all three are the same.
 void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const EffectiveCoefficients& effective,
                  Check& check) {
-  const auto& [tt, tn, nn] = reduction.w;
-  if (!std::holds_alternative<EnergeticCoefficient>(scene.restitution) && !HasDamping(scene)) {
-    check.Require(tn == 0.0, [] {
-      return Violation{"restitution.coefficient", "is not energetic: must be, with compliance, unless W_tn is 0"};
+  const double tn = std::abs(reduction.w[1]);
+  const double nn = reduction.w[2];
+  const auto violation = [](const char* description) {
+    return Violation{"restitution.coefficient", description, ViolationKind::kContact};
+  };
+  if (!std::holds_alternative<EnergeticCoefficient>(scene.restitution)) {
+    check.Require(tn == 0.0, [&] {
+      return violation("is not energetic: must be, with compliance, unless W_tn is 0 and all three are the same");
     });
     check.Require(effective.restitution <= 1.0,
-                  [&] { return MakeViolation("restitution", effective.restitution, "be in [0, 1], with compliance"); });
+                  [&] { return violation("is above 1: must be in [0, 1], with compliance"); });
   }
-  const bool pushed_back = effective.kinetic_friction * std::abs(tn) >= nn;
-  check.Require(!(scene.compliance->tangential_ratio_squared.has_value() && effective.restitution == 0.0 &&
-                  !HasDamping(scene) && pushed_back && reduction.v0 < 0.0),
-                [] {
-                  return Violation{"restitution.energetic",
-                                   "= 0: must be > 0, with a tangential compliance and mu |W_tn| >= W_nn"};
-                });
+  const bool chatters = scene.compliance->tangential_ratio_squared.has_value() && effective.restitution == 0.0 &&
+                        effective.kinetic_friction * tn >= nn && reduction.v0 < 0.0;
+  check.Require(!chatters, [&] {
+    return violation("is 0: must be > 0, with a tangential compliance and friction that reaches W_nn/|W_tn|");
+  });
 }
 
 // Whether the system's own velocities lie in the range of W by their nature.

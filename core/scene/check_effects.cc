@@ -54,9 +54,10 @@ void CheckTangential(const Scene& scene, const Compliance& compliance, Check& ch
   });
   const double kinetic = scene.friction.kinetic_coefficient;
   check.Require(scene.friction.static_coefficient.value_or(kinetic) == kinetic, [] {
-    return Violation{
-        "friction.static_coefficient",
-        "is set beside compliance.tangential_ratio_squared: must be friction.kinetic_coefficient or unset"};
+    return Violation{"friction.static_coefficient",
+                     "is set beside compliance.tangential_ratio_squared: must be friction.kinetic_coefficient or unset",
+                     ViolationKind::kValue,
+                     {"friction.kinetic_coefficient"}};
   });
 }
 

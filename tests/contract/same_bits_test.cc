@@ -159,7 +159,7 @@ TEST(SameBits, OfASubRange) {
 TEST(SameBits, OfSolvesOfEverySystem) {
   for (const System& system : Systems()) {
     for (const double mu : {0.0, 0.2, 0.9}) {
-      SolveRequest request{.scene = With(system), .relative_tolerance = 1e-8};
+      SolveRequest request{.scene = With(system), .demand = {.relative_tolerance = 1e-8}};
       request.scene.friction.kinetic_coefficient = mu;
       ExpectSame(Local().Solve(request), Remote().Solve(request));
     }

@@ -191,7 +191,8 @@ TEST(SolveTest, RequestSurvives) {
       .scene = PaperScene(), .history_at_n_s = {0.0, 1.5, kSubnormal, 1e308}, .inadmissible_is_error = true};
   EXPECT_EQ(ThroughWire(request), request);
   EXPECT_EQ(ThroughWire(SolveRequest()), SolveRequest());
-  EXPECT_EQ(ThroughWire(SolveRequest{.relative_tolerance = 0.0}), SolveRequest{.relative_tolerance = 0.0});
+  const SolveRequest exact{.demand = {.relative_tolerance = 0.0}};
+  EXPECT_EQ(ThroughWire(exact), exact);
 }
 
 TEST(SolveTest, ResponseSurvives) {

@@ -205,6 +205,113 @@ std::vector<BadScene> BadCompanions() {
   };
 }
 
+Compliance Rigid() { return {}; }
+Compliance Ratio() { return {.tangential_ratio_squared = 1.2, .normal = {}}; }
+
+std::vector<BadScene> BadEffects() {
+  return {
+      {"EmptyCompliance", Beside([](Scene& s) { s.compliance = Rigid(); }), "compliance",
+       "is empty: must state tangential_ratio_squared or one of linear, hertz, hunt_crossley"},
+      {"NoRatio", Beside([](Scene& s) { s.compliance = {.tangential_ratio_squared = 0.0, .normal = {}}; }),
+       "compliance.tangential_ratio_squared", "= 0: must be > 0"},
+      {"NoStiffness", Beside([](Scene& s) { s.compliance = {.normal = LinearSpring{0.0}}; }),
+       "compliance.linear.stiffness_n_m", "= 0: must be > 0"},
+      {"NegativeHertz", Beside([](Scene& s) { s.compliance = {.normal = HertzSpring{-1.0}}; }),
+       "compliance.hertz.stiffness_n_m1_5", "= -1: must be > 0"},
+      {"SteepDamper", Beside([](Scene& s) {
+         s.restitution = std::monostate();
+         s.compliance = {.normal = HuntCrossleySpring{1.0, 4.5, 0.1}};
+       }),
+       "compliance.hunt_crossley.exponent", "= 4.5: must be in [1, 4]"},
+      {"DamperThatDrives", Beside([](Scene& s) {
+         s.restitution = std::monostate();
+         s.compliance = {.normal = HuntCrossleySpring{1.0, 1.5, -0.1}};
+       }),
+       "compliance.hunt_crossley.damping_s_m", "= -0.1: must be >= 0"},
+      {"DamperBesideRestitution", Beside([](Scene& s) {
+         s.compliance = {.normal = HuntCrossleySpring{1.0, 1.5, 0.1}};
+       }),
+       "restitution", "is set beside compliance.hunt_crossley: must not be, the damping stands for it"},
+      {"RatioOfAHertzSpring",
+       Beside([](Scene& s) { s.compliance = {.tangential_ratio_squared = 1.0, .normal = HertzSpring{1.0}}; }),
+       "compliance.tangential_ratio_squared",
+       "is set beside hertz or hunt_crossley: must not be, the ratio is one of constant stiffnesses"},
+      {"StaticFrictionOnSprings", Beside([](Scene& s) {
+         s.friction.static_coefficient = 0.6;
+         s.compliance = Ratio();
+       }),
+       "friction.static_coefficient",
+       "is set beside compliance.tangential_ratio_squared: must be friction.kinetic_coefficient or unset"},
+      {"ComplianceInSpace",
+       [] {
+         Scene scene = With(ContactInSpace());
+         scene.compliance = Ratio();
+         return scene;
+       },
+       "compliance", "is set: must not be for a system in space"},
+      {"ComplianceUnderALaw", Beside([](Scene& s) {
+         s.restitution = std::monostate();
+         s.impact_law = WhittakerLaw{0.5};
+         s.compliance = Ratio();
+       }),
+       "compliance", "is set beside an impact law: must not be, a law knows no springs"},
+      {"NewtonOnASpring", Beside([](Scene& s) {
+         s.restitution = NewtonCoefficient{0.5};
+         s.compliance = Ratio();
+       }),
+       "restitution.coefficient",
+       "is not energetic: must be, with compliance, unless W_tn is 0 and all three are the same"},
+      {"NewtonAboveOneOnASpring",
+       [] {
+         Scene scene = With(PlanarContact{2.0, 0.0, 1.0, 1.0, -1.0});
+         scene.restitution = NewtonCoefficient{1.5};
+         scene.compliance = Ratio();
+         return scene;
+       },
+       "restitution.coefficient", "is above 1: must be in [0, 1], with compliance"},
+      {"ChatterWithoutRestitution", Beside([](Scene& s) {
+         s.friction.kinetic_coefficient = 2.0;
+         s.restitution = EnergeticCoefficient{0.0};
+         s.compliance = Ratio();
+       }),
+       "restitution.coefficient",
+       "is 0: must be > 0, with a tangential compliance and friction that reaches W_nn/|W_tn|"},
+      {"GravityOnAContact", Beside([](Scene& s) {
+         s.finite_forces = Gravity{0.0, -9.81};
+       }),
+       "gravity", "is set: must only be for planar_body, body_pair.planar and linkage"},
+      {"GravityInSpace",
+       [] {
+         Scene scene = With(BodyPair{SpatialPair{Body(), Body()}});
+         scene.finite_forces = Gravity{0.0, -9.81};
+         return scene;
+       },
+       "gravity", "is set: must only be for planar_body, body_pair.planar and linkage"},
+      {"MomentOnAContact", Beside([](Scene& s) { s.finite_forces = PinMoment{1.0}; }), "pin_moment",
+       "is set: must only be for pendulum"},
+      {"AccelerationOfABody",
+       [] {
+         Scene scene = With(Flat());
+         scene.finite_forces = ContactAcceleration{0.0, 1.0};
+         return scene;
+       },
+       "contact_acceleration", "is set: must only be for planar_contact"},
+      {"InfiniteGravity",
+       [] {
+         Scene scene = With(Flat());
+         scene.finite_forces = Gravity{0.0, -INFINITY};
+         return scene;
+       },
+       "gravity.normal_m_s2", "= -inf: must be finite"},
+      {"ForcesUnderALaw", Beside([](Scene& s) {
+         s.restitution = std::monostate();
+         s.impact_law = WhittakerLaw{0.5};
+         s.finite_forces = ContactAcceleration{0.0, 1.0};
+       }),
+       "contact_acceleration", "is set beside an impact law: must not be, a law knows no time"},
+  };
+}
+
 class BadSystemTest : public testing::TestWithParam<BadScene> {};
 
 TEST_P(BadSystemTest, IsReportedWithFieldValueAndRule) {
@@ -215,6 +322,7 @@ TEST_P(BadSystemTest, IsReportedWithFieldValueAndRule) {
 
 std::string NameOf(const testing::TestParamInfo<BadScene>& info) { return info.param.name; }
 INSTANTIATE_TEST_SUITE_P(Systems, BadSystemTest, testing::ValuesIn(BadSystems()), NameOf);
+INSTANTIATE_TEST_SUITE_P(Effects, BadSystemTest, testing::ValuesIn(BadEffects()), NameOf);
 INSTANTIATE_TEST_SUITE_P(Companions, BadSystemTest, testing::ValuesIn(BadCompanions()), NameOf);
 
 TEST(ValidateSystemsTest, EverySystemHasAValidScene) {
@@ -256,6 +364,35 @@ TEST(ValidateSystemsTest, AnImpactLawReplacesTheRestitution) {
     scene.impact_law = law;
     EXPECT_THAT(Validate(scene), IsEmpty()) << law.index();
   }
+}
+
+TEST(ValidateSystemsTest, SpringsGoWithTheEnergeticCoefficientAndWithAnyWhereNothingCouples) {
+  Scene scene = With(Contact());
+  for (const NormalSpring& spring : {NormalSpring(), NormalSpring(LinearSpring{1e6})}) {
+    scene.compliance = {.tangential_ratio_squared = 1.2, .normal = spring};
+    EXPECT_THAT(Validate(scene), IsEmpty());
+  }
+  scene.compliance = {.normal = HertzSpring{1e9}};
+  EXPECT_THAT(Validate(scene), IsEmpty());
+  std::get<PlanarContact>(scene.system).w_tn_per_kg = 0.0;
+  scene.restitution = PoissonCoefficient{0.5};
+  EXPECT_THAT(Validate(scene), IsEmpty());
+  scene.restitution = std::monostate();
+  scene.compliance = {.normal = HuntCrossleySpring{1e9, 1.5, 0.1}};
+  EXPECT_THAT(Validate(scene), IsEmpty());
+}
+
+TEST(ValidateSystemsTest, FiniteForcesGoWithTheirSystems) {
+  const auto expect_valid = [](const System& system, const FiniteForces& forces) {
+    Scene scene = With(system);
+    scene.finite_forces = forces;
+    EXPECT_THAT(Validate(scene), IsEmpty()) << system.index();
+  };
+  expect_valid(Flat(), Gravity{0.0, -9.81});
+  expect_valid(Chain(), Gravity{0.0, -9.81});
+  expect_valid(BodyPair{PlanarPair{Flat(), Flat()}}, Gravity{0.0, -9.81});
+  expect_valid(Contact(), ContactAcceleration{1.0, -9.81});
+  expect_valid(Pendulum{1.0, 1.0, 1.0, -1.0}, PinMoment{-4.0});
 }
 
 TEST(ValidateSystemsTest, EveryNumberOfEverySystemMustBeFinite) {
