@@ -3,7 +3,10 @@
 #include <memory>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
+#include "client/cli/demand_input.h"
 #include "client/cli/number_input.h"
+#include "client/cli/plan_report.h"
 #include "client/cli/plot.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/solve_report.h"
@@ -24,22 +27,32 @@ constexpr char kExample[] = R"(Example: the pendulum of the paper's sec. 4, elas
     Newton      (velocities, -v+/v-)     0.707107
     Poisson     (normal impulses)         1.41421
   ...
-CSV has one row: every number of the outcome by its path; with --history, one row a state instead.
+CSV has one row: every number of the outcome by its path; with --history or --force-history, one row a state or sample
+instead; with --explain, one row an effect.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct SolveOptions {
   CommonOptions common;
   SceneOptions scene;
+  DemandOptions demand;
+  bool explain = false;
+  bool plan_only = false;
   std::string history;
+  std::string force_history;
   bool strict = false;
   std::string plot;
 };
 
+absl::StatusOr<int64_t> ParseIntervals(const std::string& text, const char* flag) {
+  absl::StatusOr<int64_t> count = ParseCount(text, flag);
+  if (count.ok() && (*count < 1 || *count > kMostHistory)) return InputError(flag, text, "be in [1, 65535]");
+  return count;
+}
+
 // N + 1 evenly spaced impulses of [0, tau1]. What tau1 is, a first solve tells.
 absl::Status AddHistory(const Solver& solver, const std::string& intervals, SolveRequest& request) {
-  const absl::StatusOr<int64_t> count = ParseCount(intervals, "--history");
+  const absl::StatusOr<int64_t> count = ParseIntervals(intervals, "--history");
   if (!count.ok()) return count.status();
-  if (*count < 1 || *count > kMostHistory) return InputError("--history", intervals, "be in [1, 65535]");
   const absl::StatusOr<SolveResponse> response = solver.Solve(request);
   if (!response.ok()) return response.status();
   const Axis axis{.path = "", .values = Linspace{0.0, response->outcome.impulse.normal_total_n_s, *count + 1}};
@@ -47,15 +60,24 @@ absl::Status AddHistory(const Solver& solver, const std::string& intervals, Solv
   return absl::OkStatus();
 }
 
+std::string Text(const Outcome& outcome, const SolveOptions& options) {
+  if (options.plan_only) return PlanText(outcome.plan);
+  std::string text = SolveText(outcome);
+  if (options.explain) absl::StrAppend(&text, "\n", PlanText(outcome.plan));
+  return text;
+}
+
 absl::StatusOr<std::string> Render(const SolveResponse& response, const SolveOptions& options) {
   switch (options.common.format) {
     case Format::kText:
-      return SolveText(response.outcome);
+      return Text(response.outcome, options);
     case Format::kJson:
       return Json(ToProto(response));
     case Format::kCsv:
       break;
   }
+  if (options.plan_only || options.explain) return PlanCsv(response.outcome.plan);
+  if (!options.force_history.empty()) return ForceHistoryCsv(response.outcome);
   return options.history.empty() ? SolveCsv(response.outcome) : HistoryCsv(response.outcome);
 }
 
@@ -72,7 +94,18 @@ absl::Status RunSolve(const SolveOptions& options) {
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<Scene> scene = ReadScene(options.scene);
   if (!scene.ok()) return scene.status();
-  SolveRequest request{.scene = *scene, .history_at_n_s = {}, .inadmissible_is_error = options.strict};
+  const absl::StatusOr<Demand> demand = ReadDemand(options.demand);
+  if (!demand.ok()) return demand.status();
+  SolveRequest request{.scene = *scene,
+                       .history_at_n_s = {},
+                       .inadmissible_is_error = options.strict,
+                       .demand = *demand,
+                       .plan_only = options.plan_only};
+  if (!options.force_history.empty()) {
+    const absl::StatusOr<int64_t> intervals = ParseIntervals(options.force_history, "--force-history");
+    if (!intervals.ok()) return intervals.status();
+    request.force_intervals = *intervals;
+  }
   if (!options.history.empty()) {
     if (absl::Status status = AddHistory(**solver, options.history, request); !status.ok()) return status;
   }
@@ -93,6 +126,12 @@ void AddSolve(CLI::App& app, Command& command) {
   AddSceneOptions(*sub, options->scene);
   sub->add_option("--history", options->history, "Also the states at N + 1 evenly spaced normal impulses")
       ->type_name("N");
+  sub->add_option("--force-history", options->force_history,
+                  "Also the forces at N + 1 evenly spaced times; needs a spring")
+      ->type_name("N");
+  sub->add_flag("--explain", options->explain, "Also the plan: which effects are in or out, and why");
+  sub->add_flag("--plan-only", options->plan_only, "The plan alone, without solving");
+  AddDemandOptions(*sub, options->demand);
   sub->add_flag("--strict", options->strict, "Fail if the outcome is inadmissible");
   sub->add_option("--plot", options->plot, "Draw w(tau), F/N(tau) and f(tau) by gnuplot")->type_name("FILE.svg|.png");
   AddServerOptions(*sub, options->common);

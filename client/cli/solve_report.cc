@@ -184,8 +184,29 @@ std::string WorkText(const Outcome& outcome) {
       {"normal", Rounded(work.normal_compression_j), Rounded(work.normal_restitution_j), Rounded(work.normal_total_j)});
   table.Add({"tangential", Rounded(work.tangential_compression_j), Rounded(work.tangential_restitution_j),
              Rounded(work.tangential_total_j)});
+  if (work.tangential_spring_j > 0.0) {
+    table.Add({"  left in the spring", "", "", Rounded(-work.tangential_spring_j)});
+    table.Add({"  lost to friction", "", "", Rounded(-work.friction_dissipation_j)});
+  }
   table.Add({"change of kinetic energy", "", "", Rounded(outcome.energy_change_j)});
   return absl::StrCat("Work on the body\n", table.Render(2));
+}
+
+std::string ContactText(const ContactDuration& contact) {
+  Table table;
+  table.Add({"duration [s]", Rounded(contact.duration_s)});
+  table.Add({"largest normal force [N]", Rounded(contact.peak_normal_n)});
+  table.Add({"largest tangential force [N]", Rounded(contact.peak_tangential_n)});
+  table.Add({"largest indentation [m]", Rounded(contact.indentation_m)});
+  std::string text = absl::StrCat("\nContact\n", table.Render(2));
+  if (contact.history.empty()) return text;
+  Table samples;
+  samples.Add({"t [s]", "F [N]", "N [N]", "d [m]", "u [m/s]", "v [m/s]"});
+  for (const ForceSample& sample : contact.history) {
+    samples.Add({Rounded(sample.time_s), Rounded(sample.tangential_n), Rounded(sample.normal_n),
+                 Rounded(sample.indentation_m), Rounded(sample.tangential_m_s), Rounded(sample.normal_m_s)});
+  }
+  return absl::StrCat(text, "\nForces\n", samples.Render(2));
 }
 
 std::vector<std::string> StateCells(const std::string& name, const State& state) {
@@ -195,6 +216,11 @@ std::vector<std::string> StateCells(const std::string& name, const State& state)
   cells.push_back(Rounded(state.contact_velocity.normal_m_s));
   AppendCells(state.rates_rad_s, cells);
   return cells;
+}
+
+// Whether every quantity is linear in the normal impulse from one event to the next.
+bool IsLinear(Model model) {
+  return model != Model::kSpatial && model != Model::kCompliant && model != Model::kFiniteDuration;
 }
 
 bool IsPlanar(const State& state) { return state.tangential_impulse_n_s.size() == 1; }
@@ -252,8 +278,11 @@ void AppendSingle(const Message& message, const FieldDescriptor* field, const st
     case FieldDescriptor::CPPTYPE_INT64:
       return row.Add(path, absl::StrCat(reflection.GetInt64(message, field)));
     default:
-      return row.Add(path, std::string(absl::StripPrefix(
-                               absl::StripPrefix(reflection.GetEnum(message, field)->name(), "REGIME_"), "KIND_")));
+      return row.Add(
+          path,
+          std::string(absl::StripPrefix(
+              absl::StripPrefix(absl::StripPrefix(reflection.GetEnum(message, field)->name(), "REGIME_"), "KIND_"),
+              "MODEL_")));
   }
 }
 
@@ -277,18 +306,33 @@ void AppendFields(const Message& message, const std::string& prefix, Row& row) {
   }
 }
 
+// A row a message, under one header.
+template <typename Messages>
+std::string RowsOf(const Messages& messages) {
+  std::string text;
+  for (const auto& message : messages) {
+    Row row;
+    AppendFields(message, "", row);
+    if (text.empty()) text = row.Header();
+    absl::StrAppend(&text, row.Values());
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string SolveText(const Outcome& outcome) {
   std::string text = absl::StrCat(Sentence(outcome.regime), "\n", Verdict(outcome), "\n", CoefficientsText(outcome),
                                   "\n", MotionText(outcome), BodiesText(outcome.bodies_after), "\n",
                                   ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+  if (outcome.contact.has_value()) text += ContactText(*outcome.contact);
   text += AlternativesText(outcome.alternatives);
   if (!outcome.timeline.empty()) {
     const State& start = outcome.timeline.front().state;
     Table table = StateTable(start);
     for (const Event& event : outcome.timeline) table.Add(StateCells(EventText(event.kind), event.state));
-    absl::StrAppend(&text, StatesText(IsPlanar(start) ? "Timeline (linear between events)" : "Timeline", table));
+    absl::StrAppend(&text,
+                    StatesText(IsLinear(outcome.plan.model) ? "Timeline (linear between events)" : "Timeline", table));
   }
   if (!outcome.history.empty()) {
     Table table = StateTable(outcome.history.front());
@@ -304,17 +348,9 @@ std::string SolveCsv(const Outcome& outcome) {
   return absl::StrCat(row.Header(), row.Values());
 }
 
-std::string HistoryCsv(const Outcome& outcome) {
-  std::string text;
-  const v1::Outcome proto = ToProto(outcome);
-  for (const v1::State& state : proto.history()) {
-    Row row;
-    AppendFields(state, "", row);
-    if (text.empty()) text = row.Header();
-    absl::StrAppend(&text, row.Values());
-  }
-  return text;
-}
+std::string HistoryCsv(const Outcome& outcome) { return RowsOf(ToProto(outcome).history()); }
+
+std::string ForceHistoryCsv(const Outcome& outcome) { return RowsOf(ToProto(outcome).contact().history()); }
 
 absl::StatusOr<Plot> SolvePlot(const Outcome& outcome) {
   if (outcome.timeline.size() < 2) {

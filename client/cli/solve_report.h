@@ -20,6 +20,9 @@ std::string SolveCsv(const Outcome& outcome);
 // A header and one row for each state of the history.
 std::string HistoryCsv(const Outcome& outcome);
 
+// A header and one row for each sample of the forces.
+std::string ForceHistoryCsv(const Outcome& outcome);
+
 // Fig. 3 and Fig. 5 of the paper: w(tau), F/N(tau) and f(tau) side by side.
 // Errors: FAILED_PRECONDITION where nothing happens, so that there is nothing to draw.
 absl::StatusOr<Plot> SolvePlot(const Outcome& outcome);

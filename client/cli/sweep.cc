@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/axis_input.h"
+#include "client/cli/demand_input.h"
 #include "client/cli/interrupt.h"
 #include "client/cli/output.h"
 #include "client/cli/progress.h"
@@ -39,6 +40,7 @@ struct SweepOptions {
   std::vector<std::string> axes;
   std::vector<std::string> columns;
   std::string range;
+  DemandOptions demand;
   bool zip = false;
   bool regime = false;
   bool summary_only = false;
@@ -47,10 +49,10 @@ struct SweepOptions {
 
 absl::StatusOr<SweepRequest> RequestFromFile(const SweepOptions& options) {
   if (options.scene.any() || !options.axes.empty() || !options.columns.empty() || !options.range.empty() ||
-      options.zip || options.regime) {
+      options.zip || options.regime || options.demand.any()) {
     return absl::InvalidArgumentError(
-        "--request does not go with the flags of a scene, --axis, --column, --range, --zip or --regime: put them into "
-        "the file");
+        "--request does not go with the flags of a scene, of accuracy and effects, --axis, --column, --range, --zip or "
+        "--regime: put them into the file");
   }
   v1::SweepRequest proto;
   if (absl::Status status = ReadMessage(options.request, proto); !status.ok()) return status;
@@ -83,6 +85,9 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   request.grid.combination = options.zip ? Combination::kZip : Combination::kProduct;
   request.columns = options.columns.empty() ? DefaultColumns(request.grid.scene) : options.columns;
   request.with_regime = options.regime;
+  const absl::StatusOr<Demand> demand = ReadDemand(options.demand);
+  if (!demand.ok()) return demand.status();
+  request.demand = *demand;
   if (options.range.empty()) return request;
   const absl::StatusOr<IndexRange> range = ParseRange(options.range);
   if (!range.ok()) return range.status();
@@ -201,6 +206,7 @@ void AddSweep(CLI::App& app, Command& command) {
   const auto options = std::make_shared<SweepOptions>();
   AddSceneOptions(*sub, options->scene);
   AddGridOptions(*sub, *options);
+  AddDemandOptions(*sub, options->demand);
   sub->add_flag("--summary-only", options->summary_only, "Receive every point, print the summary alone");
   sub->add_option("--plot", options->plot, "Draw curves over the last axis by gnuplot")->type_name("FILE.svg|.png");
   AddServerOptions(*sub, options->common);

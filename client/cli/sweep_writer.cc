@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/types/span.h"
+#include "client/cli/plan_report.h"
 #include "client/cli/table.h"
 #include "core/sweep/grid.h"
 #include "proto/wire/sweep.h"
@@ -67,9 +68,10 @@ struct Count {
   Tally tally;
 };
 
-// The regimes that occurred, named by `name`, and the inadmissible points.
-template <typename Name>
-std::vector<Count> Counts(const SweepSummary& summary, Name name) {
+// The regimes that occurred and the models that solved points, named by `name` and `model_name`, and the inadmissible
+// points.
+template <typename Name, typename NameOfModel>
+std::vector<Count> Counts(const SweepSummary& summary, Name name, NameOfModel model_name) {
   std::vector<Count> counts;
   for (size_t i = 0; i < summary.by_regime.size(); ++i) {
     if (summary.by_regime[i].count > 0) {
@@ -77,15 +79,19 @@ std::vector<Count> Counts(const SweepSummary& summary, Name name) {
     }
   }
   counts.push_back({"inadmissible", summary.inadmissible});
+  for (size_t i = 0; i < summary.by_model.size(); ++i) {
+    if (summary.by_model[i].count > 0) counts.push_back({model_name(static_cast<Model>(i)), summary.by_model[i]});
+  }
   return counts;
 }
 
 std::string SummaryText(const SweepSummary& summary) {
   std::string text = absl::StrCat(summary.points, summary.points == 1 ? " point" : " points");
   if (summary.elapsed_s.has_value()) absl::StrAppend(&text, " in ", Rounded(*summary.elapsed_s), " s");
+  const auto by_model = [](Model model) { return absl::StrCat("by model ", ModelText(model)); };
   Table table;
   table.Add({"", "points", "first at index"});
-  for (const Count& count : Counts(summary, RegimeText)) {
+  for (const Count& count : Counts(summary, RegimeText, by_model)) {
     table.Add({count.name, absl::StrCat(count.tally.count),
                count.tally.count > 0 ? absl::StrCat(count.tally.first_index) : "-"});
   }
@@ -93,8 +99,9 @@ std::string SummaryText(const SweepSummary& summary) {
 }
 
 std::string SummaryCsv(const SweepSummary& summary) {
+  const auto by_model = [](Model model) { return absl::StrCat("MODEL_", ModelName(model)); };
   std::string text = absl::StrCat("kind,points,first_index\nall,", summary.points, ",\n");
-  for (const Count& count : Counts(summary, RegimeName)) {
+  for (const Count& count : Counts(summary, RegimeName, by_model)) {
     absl::StrAppend(&text, count.name, ",", count.tally.count, ",",
                     count.tally.count > 0 ? absl::StrCat(count.tally.first_index) : "", "\n");
   }

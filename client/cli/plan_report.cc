@@ -1,0 +1,74 @@
+#include "client/cli/plan_report.h"
+
+#include <vector>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "absl/strings/str_split.h"
+#include "absl/strings/strip.h"
+#include "client/cli/table.h"
+#include "core/numerics/decimal.h"
+#include "proto/wire/plan.h"
+
+namespace ricochet::cli {
+namespace {
+
+std::string Words(const std::string& name, const char* prefix, const char* separator) {
+  const std::string bare(absl::StripPrefix(name, prefix));
+  return absl::StrReplaceAll(absl::AsciiStrToLower(bare), {{"_", separator}});
+}
+
+std::string DecisionText(Decision decision) {
+  switch (decision) {
+    case Decision::kAbsent:
+      return "absent";
+    case Decision::kSimulated:
+      return "simulated";
+    case Decision::kNegligible:
+      return "negligible";
+    case Decision::kRequired:
+      return "required by the caller";
+    case Decision::kExcluded:
+      return "left out by the caller";
+    case Decision::kUnspecified:
+      break;
+  }
+  return "?";
+}
+
+}  // namespace
+
+std::string EffectWord(Effect effect) { return Words(v1::Effect_Name(ToProto(effect)), "EFFECT_", "-"); }
+
+std::string ModelText(Model model) { return Words(v1::Model_Name(ToProto(model)), "MODEL_", " "); }
+
+std::string ModelName(Model model) { return std::string(absl::StripPrefix(v1::Model_Name(ToProto(model)), "MODEL_")); }
+
+std::string PlanText(const Plan& plan) {
+  std::string text =
+      absl::StrCat("Plan\n  model ", ModelText(plan.model), ", asked to ", Rounded(plan.relative_tolerance),
+                   "; what is left out changes at most ", Rounded(plan.neglected), "\n");
+  if (plan.effects.empty()) return text;
+  Table table;
+  table.Add({"effect", "size"});
+  for (const PlannedEffect& planned : plan.effects) table.Add({EffectWord(planned.effect), Rounded(planned.size)});
+  const std::vector<std::string> lines = absl::StrSplit(table.Render(2), '\n', absl::SkipEmpty());
+  absl::StrAppend(&text, lines[0], "   in or out, and why\n");
+  for (size_t i = 0; i < plan.effects.size(); ++i) {
+    const PlannedEffect& planned = plan.effects[i];
+    absl::StrAppend(&text, lines[i + 1], "   ", DecisionText(planned.decision), ": ", planned.reason, "\n");
+  }
+  return text;
+}
+
+std::string PlanCsv(const Plan& plan) {
+  std::string text = "effect,decision,size,reason\n";
+  for (const PlannedEffect& planned : plan.effects) {
+    absl::StrAppend(&text, EffectWord(planned.effect), ",", DecisionText(planned.decision), ",",
+                    ShortestDecimal(planned.size), ",\"", planned.reason, "\"\n");
+  }
+  return text;
+}
+
+}  // namespace ricochet::cli
