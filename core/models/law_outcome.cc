@@ -91,7 +91,7 @@ absl::StatusOr<Outcome> MakeLawOutcome(const ImpactLaw& law, double mu, const Pl
   }
   outcome.accuracy.kind = AccuracyKind::kEstimate;
   outcome.w_rank = RankOf(reduction);
-  SetVelocities<1>(reduction, {solution.f}, solution.tau1, outcome);
+  SetVelocities<1>(reduction, {solution.f}, solution.tau1, 0.0, outcome);
   const ImpactSolution first = ToOutcome(solution);
   outcome.contact_velocity_after = first.contact_velocity_after;
   outcome.impulse = first.impulse;

@@ -83,11 +83,11 @@ State MakeState(const Reduction<kTangential>& reduction, double tau, const std::
 // Sets what the system's own velocities are after the impulse: rates_after_rad_s or bodies_after.
 template <size_t kTangential>
 void SetVelocities(const Reduction<kTangential>& reduction, const std::array<double, kTangential>& f, double tau1,
-                   Outcome& outcome) {
+                   double duration, Outcome& outcome) {
   constexpr size_t kLinear = kTangential + 1;
   constexpr size_t kAngular = kTangential == 1 ? 1 : 3;
   if (reduction.coordinates == Coordinates::kNone) return;
-  std::vector<double> after = reduction.After(f, tau1);
+  std::vector<double> after = reduction.After(f, tau1, duration);
   if (reduction.coordinates == Coordinates::kRates) {
     outcome.rates_after_rad_s = std::move(after);
     return;
@@ -108,7 +108,7 @@ std::array<double, kTangential> ByDirection(const std::array<double, kTangential
 // What the path of an impact ends with: all of an outcome but its effective coefficients, accuracy, timeline and history.
 // SomeImpact has the members of planar::Impact or of spatial::Impact, u1 and f1 scalars or one entry a direction.
 template <size_t kTangential, typename SomeImpact>
-Outcome MakeEnd(const SomeImpact& impact, const Reduction<kTangential>& reduction) {
+Outcome MakeEnd(const SomeImpact& impact, const Reduction<kTangential>& reduction, double duration = 0.0) {
   const std::array<double, kTangential> u1 = ByDirection(impact.u1);
   const std::array<double, kTangential> f1 = ByDirection(impact.f1);
   Outcome outcome;
@@ -124,7 +124,7 @@ Outcome MakeEnd(const SomeImpact& impact, const Reduction<kTangential>& reductio
                           .poisson = impact.poisson,
                           .energetic = impact.energetic,
                           .tangential = impact.tangential};
-  SetVelocities<kTangential>(reduction, f1, impact.tau1, outcome);
+  SetVelocities<kTangential>(reduction, f1, impact.tau1, duration, outcome);
   outcome.contact_velocity_after = {.tangential_m_s = {u1.begin(), u1.end()}, .normal_m_s = impact.v1};
   outcome.impulse = {.normal_compression_n_s = impact.tau_compression,
                      .normal_total_n_s = impact.tau1,
