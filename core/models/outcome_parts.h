@@ -98,6 +98,61 @@ void SetVelocities(const Reduction<kTangential>& reduction, const std::array<dou
   }
 }
 
+// One entry a tangential direction, of a scalar too.
+inline std::array<double, 1> ByDirection(double t) { return {t}; }
+template <size_t kTangential>
+std::array<double, kTangential> ByDirection(const std::array<double, kTangential>& t) {
+  return t;
+}
+
+// What the path of an impact ends with: all of an outcome but its effective coefficients, accuracy, timeline and history.
+// SomeImpact has the members of planar::Impact or of spatial::Impact, u1 and f1 scalars or one entry a direction.
+template <size_t kTangential, typename SomeImpact>
+Outcome MakeEnd(const SomeImpact& impact, const Reduction<kTangential>& reduction) {
+  const std::array<double, kTangential> u1 = ByDirection(impact.u1);
+  const std::array<double, kTangential> f1 = ByDirection(impact.f1);
+  Outcome outcome;
+  outcome.regime = impact.regime;
+  outcome.broken_limits = BrokenLimits({.sharp_broken = impact.sharp_limit_broken,
+                                        .energetic = impact.energetic,
+                                        .energetic_excess = impact.energetic_excess,
+                                        .energy_broken = impact.energy_limit_broken,
+                                        .energy_change = impact.energy_change});
+  outcome.admissible = outcome.broken_limits.empty();
+  outcome.w_rank = impact.w_rank;
+  outcome.coefficients = {.newton = impact.newton,
+                          .poisson = impact.poisson,
+                          .energetic = impact.energetic,
+                          .tangential = impact.tangential};
+  SetVelocities<kTangential>(reduction, f1, impact.tau1, outcome);
+  outcome.contact_velocity_after = {.tangential_m_s = {u1.begin(), u1.end()}, .normal_m_s = impact.v1};
+  outcome.impulse = {.normal_compression_n_s = impact.tau_compression,
+                     .normal_total_n_s = impact.tau1,
+                     .tangential_n_s = {f1.begin(), f1.end()}};
+  outcome.work =
+      MakeLedger(impact.work_normal_compression, impact.work_normal_restitution, impact.work_tangential_compression,
+                 impact.work_tangential_restitution, impact.energy_change);
+  outcome.energy_change_j = impact.energy_change;
+  return outcome;
+}
+
+// The state at an instant, which has the members of planar::Instant or of spatial::Instant.
+template <size_t kTangential, typename SomeInstant>
+State MakeState(const Reduction<kTangential>& reduction, const SomeInstant& instant) {
+  return MakeState<kTangential>(reduction, instant.tau, ByDirection(instant.f), ByDirection(instant.u), instant.v);
+}
+
+// The events of an impact; none where separating.
+template <size_t kTangential, typename SomeImpact>
+std::vector<Event> MakeTimeline(const SomeImpact& impact, const Reduction<kTangential>& reduction) {
+  std::vector<Event> timeline;
+  if (impact.regime == Regime::kSeparating) return timeline;
+  for (size_t i = 0; i < static_cast<size_t>(impact.event_count); ++i) {
+    timeline.push_back({impact.events[i].kind, MakeState(reduction, impact.events[i])});
+  }
+  return timeline;
+}
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CORE_MODELS_OUTCOME_PARTS_H_
