@@ -4,11 +4,14 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
+#include "absl/strings/str_cat.h"
 #include "core/error.h"
 #include "core/models/scene_bounds.h"
 #include "core/models/scene_outcome.h"
 #include "core/numerics/decimal.h"
+#include "core/plan/demand_fields.h"
 #include "core/scene/validate.h"
 #include "core/study/audit_scene.h"
 #include "core/sweep/sweep_run.h"
@@ -27,17 +30,40 @@ absl::Status Inadmissible(const Outcome& outcome) {
   return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
 }
 
+// Forces have a history only where time has.
+Demand DemandOf(const SolveRequest& request) {
+  Demand demand = ToDemand(request.demand);
+  if (request.force_intervals > 0) demand.required.Add(Effect::kFiniteDuration);
+  return demand;
+}
+
+// What is wrong with a request whose scene is valid.
+std::vector<Violation> CheckSolve(const SolveRequest& request) {
+  std::vector<Violation> violations = CheckDemand(request.scene, request.demand);
+  const int64_t intervals = request.force_intervals;
+  if (intervals < 0 || intervals > kMostForceIntervals) {
+    violations.push_back(
+        {"force_intervals", absl::StrCat("= ", intervals, ": must be in [0, ", kMostForceIntervals, "]")});
+  } else if (intervals > 0 && violations.empty()) {
+    for (const Violation& violation : CheckDemand(request.scene, DemandOf(request))) {
+      const std::string rule = violation.description.substr(violation.description.find("must "));
+      violations.push_back({"force_intervals", absl::StrCat("= ", intervals, ": needs finite_duration, which ", rule)});
+    }
+  }
+  return violations;
+}
+
 }  // namespace
 
 absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) const {
   auto violations = Validate(request.scene);
-  const double tolerance = request.demand.relative_tolerance.value_or(kDefaultTolerance);
-  if (!(tolerance >= 0.0 && tolerance <= kMostTolerance)) {
-    violations.push_back(MakeViolation("relative_tolerance", tolerance, "be in [0, 0.1]"));
-  }
+  if (violations.empty()) violations = CheckSolve(request);
   if (!violations.empty()) return InvalidRequest(violations);
-  absl::StatusOr<Outcome> outcome =
-      SolveScene(request.scene, {.history_at_n_s = request.history_at_n_s, .tolerance = tolerance});
+  absl::StatusOr<Outcome> outcome = request.plan_only
+                                        ? PlanSceneOnly(request.scene, ToDemand(request.demand))
+                                        : SolveScene(request.scene, {.history_at_n_s = request.history_at_n_s,
+                                                                     .force_intervals = request.force_intervals,
+                                                                     .demand = DemandOf(request)});
   if (!outcome.ok()) return outcome.status();
   if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
   return SolveResponse{.outcome = *std::move(outcome), .engine = ThisEngine()};

@@ -17,7 +17,7 @@
 #include "core/bounds.h"
 #include "core/engine.h"
 #include "core/outcome.h"
-#include "core/plan/demand.h"
+#include "core/plan/demand_fields.h"
 #include "core/result_stream.h"
 #include "core/scene/scene.h"
 #include "core/sweep/sweep.h"
@@ -33,7 +33,7 @@ struct SolveRequest {
   std::vector<double> history_at_n_s;
   // Turns an outcome with admissible = false into FAILED_PRECONDITION.
   bool inadmissible_is_error = false;
-  Demand demand;
+  DemandFields demand;
   bool plan_only = false;  // Answers Outcome::plan alone.
   // > 0: ContactDuration::history at so many equal steps of time, which requires Effect::kFiniteDuration. At most
   // kMostForceIntervals.

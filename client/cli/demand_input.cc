@@ -47,8 +47,8 @@ void AddDemandOptions(CLI::App& app, DemandOptions& options) {
       ->group(group);
 }
 
-absl::StatusOr<Demand> ReadDemand(const DemandOptions& options) {
-  Demand demand;
+absl::StatusOr<DemandFields> ReadDemand(const DemandOptions& options) {
+  DemandFields demand;
   if (!options.tolerance.empty()) {
     const absl::StatusOr<double> tolerance = ParseNumber(options.tolerance, "--tolerance");
     if (!tolerance.ok()) return tolerance.status();

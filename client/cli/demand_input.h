@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/plan/demand.h"
+#include "core/plan/demand_fields.h"
 
 namespace ricochet::cli {
 
@@ -22,7 +22,7 @@ struct DemandOptions {
 void AddDemandOptions(CLI::App& app, DemandOptions& options);
 
 // Errors: INVALID_ARGUMENT for what is no number or no effect.
-absl::StatusOr<Demand> ReadDemand(const DemandOptions& options);
+absl::StatusOr<DemandFields> ReadDemand(const DemandOptions& options);
 
 }  // namespace ricochet::cli
 

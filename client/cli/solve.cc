@@ -94,7 +94,7 @@ absl::Status RunSolve(const SolveOptions& options) {
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<Scene> scene = ReadScene(options.scene);
   if (!scene.ok()) return scene.status();
-  const absl::StatusOr<Demand> demand = ReadDemand(options.demand);
+  const absl::StatusOr<DemandFields> demand = ReadDemand(options.demand);
   if (!demand.ok()) return demand.status();
   SolveRequest request{.scene = *scene,
                        .history_at_n_s = {},

@@ -85,7 +85,7 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   request.grid.combination = options.zip ? Combination::kZip : Combination::kProduct;
   request.columns = options.columns.empty() ? DefaultColumns(request.grid.scene) : options.columns;
   request.with_regime = options.regime;
-  const absl::StatusOr<Demand> demand = ReadDemand(options.demand);
+  const absl::StatusOr<DemandFields> demand = ReadDemand(options.demand);
   if (!demand.ok()) return demand.status();
   request.demand = *demand;
   if (options.range.empty()) return request;

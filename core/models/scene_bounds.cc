@@ -19,6 +19,7 @@
 #include "core/models/scene_outcome.h"
 #include "core/models/spatial_outcome.h"
 #include "core/numerics/decimal.h"
+#include "core/plan/planned_scene.h"
 #include "core/scene/check.h"
 #include "core/scene/effective.h"
 #include "core/scene/reduction.h"

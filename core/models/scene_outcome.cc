@@ -1,38 +1,141 @@
 #include "core/models/scene_outcome.h"
 
-#include <algorithm>
-#include <utility>
+#include <cassert>
 #include <variant>
 
 #include "core/error.h"
+#include "core/models/compliant_outcome.h"
+#include "core/models/finite_duration_outcome.h"
+#include "core/models/first_order_outcome.h"
 #include "core/models/law_outcome.h"
 #include "core/models/pendulum_outcome.h"
 #include "core/models/planar_outcome.h"
+#include "core/models/sliding_outcome.h"
 #include "core/models/spatial_outcome.h"
-#include "core/scene/effective.h"
-#include "core/scene/reduction.h"
+#include "core/plan/planned_scene.h"
 
 namespace ricochet {
 namespace {
 
-double PendulumSpeed(const Pendulum& pendulum) { return std::max(0.0, -pendulum.a_m * pendulum.omega_minus_rad_s); }
+// One scene on its way through the model that was chosen.
+struct Job {
+  const Scene& scene;
+  const SolveOptions& options;
+  const PlannedScene& planned;
 
-absl::StatusOr<Outcome> SolveReduced(const Scene& scene, const EffectiveCoefficients& effective,
-                                     const SolveOptions& options, const PlanarReduction& reduction) {
-  if (!std::holds_alternative<std::monostate>(scene.impact_law)) {
-    return MakeLawOutcome(scene.impact_law, effective.kinetic_friction, reduction, options.history_at_n_s,
-                          options.detail);
+  // The coefficients that the model is to use.
+  EffectiveCoefficients Effective() const {
+    EffectiveCoefficients effective = planned.effective;
+    if (planned.choice.LeavesOut(Effect::kFriction)) effective.kinetic_friction = effective.static_friction = 0.0;
+    if (planned.choice.LeavesOut(Effect::kStaticFriction)) effective.static_friction = effective.kinetic_friction;
+    return effective;
   }
-  return planar::MakeOutcome(planar::MakeProblem(reduction, scene.restitution, effective), reduction,
-                             options.history_at_n_s, options.detail);
+};
+
+absl::StatusOr<Outcome> SolveCompliant(const Job& job, const PlanarReduction& reduction) {
+  const EffectiveCoefficients effective = job.Effective();
+  const compliant::Problem problem = {.wtt = reduction.w[0],
+                                      .wtn = reduction.w[1],
+                                      .wnn = reduction.w[2],
+                                      .u0 = reduction.u0[0],
+                                      .v0 = reduction.v0,
+                                      .mu = effective.kinetic_friction,
+                                      .energetic = effective.restitution,
+                                      .ratio_squared = job.planned.physics.ratio_squared};
+  return compliant::MakeOutcome(problem, reduction, job.options.history_at_n_s, job.options.detail);
 }
 
-absl::StatusOr<Outcome> SolveReduced(const Scene& scene, const EffectiveCoefficients& effective,
-                                     const SolveOptions& options, const SpatialReduction& reduction) {
-  return spatial::MakeOutcome(
-      spatial::MakeProblem(reduction, scene.restitution, effective,
-                           std::clamp(options.tolerance, spatial::kLeastTolerance, spatial::kMostTolerance)),
-      reduction, options.history_at_n_s, options.detail);
+absl::StatusOr<Outcome> SolveFiniteDuration(const Job& job, const PlanarReduction& reduction) {
+  const EffectiveCoefficients effective = job.Effective();
+  const ContactPhysics physics = Without(job.planned.choice, job.planned.physics);
+  finite_duration::Problem problem = {.wtt = reduction.w[0],
+                                      .wtn = reduction.w[1],
+                                      .wnn = reduction.w[2],
+                                      .u0 = reduction.u0[0],
+                                      .v0 = reduction.v0,
+                                      .tangential_acceleration = physics.tangential_acceleration,
+                                      .normal_acceleration = physics.normal_acceleration,
+                                      .mu = effective.kinetic_friction,
+                                      .mu_static = effective.static_friction,
+                                      .spring = physics.spring,
+                                      .energetic = effective.restitution,
+                                      .tolerance = job.planned.choice.model_tolerance,
+                                      .intervals = job.options.force_intervals};
+  if (physics.ratio_squared > 0.0) problem.ratio_squared = physics.ratio_squared;
+  return finite_duration::MakeOutcome(problem, reduction, job.options.history_at_n_s, job.options.detail);
+}
+
+absl::StatusOr<Outcome> SolveContact(const Job& job, const PlanarReduction& reduction) {
+  const auto& [history, intervals, demand, detail] = job.options;
+  const EffectiveCoefficients effective = job.Effective();
+  switch (job.planned.choice.model) {
+    case Model::kImpactLaw:
+      return MakeLawOutcome(job.scene.impact_law, effective.kinetic_friction, reduction, history, detail);
+    case Model::kFrictionless:
+      return sliding::MakeFrictionlessOutcome(sliding::MakeProblem(reduction, effective), reduction, history, detail);
+    case Model::kSliding:
+      return sliding::MakeOutcome(sliding::MakeProblem(reduction, effective), reduction, history, detail);
+    case Model::kNone:
+    case Model::kPlanar:
+      return planar::MakeOutcome(planar::MakeProblem(reduction, job.scene.restitution, effective), reduction, history,
+                                 detail);
+    case Model::kCompliant:
+      return SolveCompliant(job, reduction);
+    case Model::kFiniteDuration:
+      return SolveFiniteDuration(job, reduction);
+    case Model::kFirstOrder:
+    case Model::kPendulum:
+    case Model::kSpatial:
+    case Model::kUnspecified:
+      break;
+  }
+  assert(false);
+  return ContactOverflow();
+}
+
+absl::StatusOr<Outcome> SolveContact(const Job& job, const SpatialReduction& reduction) {
+  const auto& [history, intervals, demand, detail] = job.options;
+  const EffectiveCoefficients effective = job.Effective();
+  if (job.planned.choice.model == Model::kFrictionless) {
+    return sliding::MakeFrictionlessOutcome(sliding::MakeProblem(reduction, effective), reduction, history, detail);
+  }
+  if (job.planned.choice.model == Model::kSliding) {
+    return sliding::MakeOutcome(sliding::MakeProblem(reduction, effective), reduction, history, detail);
+  }
+  const double tolerance =
+      job.planned.choice.model == Model::kNone ? spatial::kMostTolerance : job.planned.choice.model_tolerance;
+  return spatial::MakeOutcome(spatial::MakeProblem(reduction, job.scene.restitution, effective, tolerance), reduction,
+                              history, detail);
+}
+
+absl::StatusOr<Outcome> SolveContact(const Job& job, const pendulum::Problem& problem) {
+  const auto& [history, intervals, demand, detail] = job.options;
+  switch (job.planned.choice.model) {
+    case Model::kFrictionless:
+    case Model::kFirstOrder:
+      return first_order::MakeOutcome(Without(job.planned.choice, problem), history, detail);
+    case Model::kNone:
+    case Model::kPendulum:
+      return pendulum::MakeOutcome(Without(job.planned.choice, problem), history, detail);
+    case Model::kSliding:
+    case Model::kPlanar:
+    case Model::kSpatial:
+    case Model::kCompliant:
+    case Model::kFiniteDuration:
+    case Model::kImpactLaw:
+    case Model::kUnspecified:
+      break;
+  }
+  return SolveContact(job, std::get<PlanarReduction>(Reduce(job.scene)));
+}
+
+// What may be wrong with the answer to what was asked, effects that the caller excludes apart.
+double ErrorOfPlan(const Choice& choice) {
+  double error = 0.0;
+  for (const Effect effect : kEffects) {
+    if (choice.decisions[static_cast<size_t>(effect)] == Decision::kNegligible) error += choice.sizes[effect].value;
+  }
+  return error;
 }
 
 }  // namespace
@@ -42,36 +145,25 @@ absl::Status ContactOverflow() {
                    "the contact-space inverse inertia or the contact velocity exceeds the largest double");
 }
 
-bool HasClosedForm(const Scene& scene) {
-  return std::holds_alternative<Pendulum>(scene.system) && !scene.surface_velocity.has_value() &&
-         std::holds_alternative<std::monostate>(scene.impact_law);
-}
-
-pendulum::Problem ClosedFormProblem(const Scene& scene) {
-  pendulum::Problem problem = pendulum::MakeProblem(scene);
-  if (!DependsOnSpeed(scene)) return problem;
-  const EffectiveCoefficients effective = EffectiveAt(scene, PendulumSpeed(std::get<Pendulum>(scene.system)));
-  problem.mu = effective.kinetic_friction;
-  problem.mu_static = effective.static_friction;
-  problem.coefficient = effective.restitution;
-  return problem;
-}
-
 absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& options) {
-  if (HasClosedForm(scene)) {
-    const pendulum::Problem problem = ClosedFormProblem(scene);
-    absl::StatusOr<Outcome> outcome = pendulum::MakeOutcome(problem, options.history_at_n_s, options.detail);
-    if (!outcome.ok()) return outcome;
-    outcome->effective = {
-        .kinetic_friction = problem.mu, .static_friction = problem.mu_static, .restitution = problem.coefficient};
-    return outcome;
-  }
-  const AnyReduction any = Reduce(scene);
-  if (!IsFinite(any)) return ContactOverflow();
-  const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
+  const PlannedScene planned = PlanScene(scene, options.demand);
+  if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
+  const Job job = {.scene = scene, .options = options, .planned = planned};
   absl::StatusOr<Outcome> outcome =
-      std::visit([&](const auto& reduction) { return SolveReduced(scene, effective, options, reduction); }, any);
-  if (outcome.ok()) outcome->effective = effective;
+      std::visit([&job](const auto& contact) { return SolveContact(job, contact); }, planned.contact);
+  if (!outcome.ok()) return outcome;
+  outcome->effective = planned.effective;
+  outcome->accuracy.relative_error += ErrorOfPlan(planned.choice);
+  outcome->plan.model = planned.choice.model;
+  if (options.detail == Detail::kAll) outcome->plan = Explain(planned, options.demand);
+  return outcome;
+}
+
+absl::StatusOr<Outcome> PlanSceneOnly(const Scene& scene, const Demand& demand) {
+  const PlannedScene planned = PlanScene(scene, demand);
+  if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
+  Outcome outcome;
+  outcome.plan = Explain(planned, demand);
   return outcome;
 }
 

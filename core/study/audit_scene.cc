@@ -11,6 +11,7 @@
 #include "core/error.h"
 #include "core/models/planar_outcome.h"
 #include "core/models/scene_outcome.h"
+#include "core/plan/planned_scene.h"
 #include "core/models/spatial_outcome.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/effective.h"

@@ -15,6 +15,7 @@
 #include "absl/strings/str_join.h"
 #include "core/models/pendulum.h"
 #include "core/models/scene_outcome.h"
+#include "core/plan/planned_scene.h"
 #include "core/scene/reduction.h"
 #include "core/scene/validate.h"
 #include "core/sweep/column.h"

@@ -1,9 +1,9 @@
-// Plan and Demand to proto and back.
+// Plan and DemandFields to proto and back.
 
 #ifndef RICOCHET_PROTO_WIRE_PLAN_H_
 #define RICOCHET_PROTO_WIRE_PLAN_H_
 
-#include "core/plan/demand.h"
+#include "core/plan/demand_fields.h"
 #include "core/plan/plan.h"
 #include "ricochet/v1/plan.pb.h"
 
@@ -24,15 +24,15 @@ Plan FromProto(const v1::Plan& proto);
 
 // A demand is spread over the fields of a request.
 template <typename Request>
-void SetDemand(const Demand& demand, Request& proto) {
+void SetDemand(const DemandFields& demand, Request& proto) {
   if (demand.relative_tolerance.has_value()) proto.set_relative_tolerance(*demand.relative_tolerance);
   for (const Effect effect : demand.required) proto.add_required(ToProto(effect));
   for (const Effect effect : demand.excluded) proto.add_excluded(ToProto(effect));
 }
 
 template <typename Request>
-Demand DemandOf(const Request& proto) {
-  Demand demand;
+DemandFields DemandOf(const Request& proto) {
+  DemandFields demand;
   if (proto.has_relative_tolerance()) demand.relative_tolerance = proto.relative_tolerance();
   for (const int number : proto.required()) demand.required.push_back(FromProto(static_cast<v1::Effect>(number)));
   for (const int number : proto.excluded()) demand.excluded.push_back(FromProto(static_cast<v1::Effect>(number)));

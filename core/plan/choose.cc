@@ -1,0 +1,278 @@
+#include "core/plan/choose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "absl/types/span.h"
+#include "core/models/first_order.h"
+#include "core/models/sliding.h"
+#include "core/numerics/determinant.h"
+#include "core/plan/perturbed_path.h"
+
+namespace ricochet {
+namespace {
+
+constexpr EffectSet kOfPlanar = {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction, Effect::kHigherOrder};
+constexpr EffectSet kOfSpatial = {Effect::kFriction, Effect::kSlipStop, Effect::kSlipTurn, Effect::kStaticFriction};
+constexpr EffectSet kOfCompliant = kOfPlanar | EffectSet{Effect::kTangentialCompliance};
+constexpr EffectSet kOfDuration = kOfCompliant | EffectSet{Effect::kFiniteDuration, Effect::kFiniteForces};
+// What an input that is set to nothing leaves out of any model.
+constexpr EffectSet kSwitched = {Effect::kFriction, Effect::kStaticFriction, Effect::kTangentialCompliance,
+                                 Effect::kFiniteForces};
+
+struct Candidate {
+  Model model = Model::kUnspecified;
+  EffectSet simulates;
+  double error = 0.0;  // Its own, over V; infinite where it does not serve.
+};
+
+struct Context {
+  const Sizes& sizes;
+  const Demand& demand;
+  EffectSet excluded;  // With all that this implies.
+
+  // What a model may be asked to do without that it would do.
+  bool Allows(EffectSet simulates) const {
+    EffectSet fixed = excluded.Without(kSwitched);
+    if (excluded.Has(Effect::kFriction)) fixed = fixed.Without(kOnFriction);
+    return simulates.Contains(demand.required) && (simulates & fixed).IsEmpty();
+  }
+
+  // The price of what a model leaves out and nobody has excluded.
+  double Neglected(EffectSet simulates) const {
+    const bool smooth = !simulates.Has(Effect::kFriction) || excluded.Has(Effect::kFriction);
+    double sum = 0.0;
+    for (const Effect effect : kEffects) {
+      if (simulates.Has(effect) || excluded.Has(effect)) continue;
+      if (smooth && kOnFriction.Has(effect)) continue;
+      sum += SizeOf(effect, smooth);
+    }
+    return sum;
+  }
+
+  double SizeOf(Effect effect, bool smooth) const {
+    const bool beyond = smooth && effect == Effect::kFiniteForces && !excluded.Has(Effect::kFriction);
+    return beyond ? sizes.forces_beyond_friction : sizes[effect].value;
+  }
+};
+
+Decision DecisionOn(const Context& context, const Sizes& of_all, EffectSet simulates, Effect effect) {
+  if (context.demand.required.Has(effect)) return Decision::kRequired;
+  if (context.excluded.Has(effect)) return of_all[effect].IsAbsent() ? Decision::kAbsent : Decision::kExcluded;
+  if (context.sizes[effect].IsAbsent()) return Decision::kAbsent;
+  return simulates.Has(effect) ? Decision::kSimulated : Decision::kNegligible;
+}
+
+// The first candidate within the tolerance. Where the caller excludes what every exact model has, there may be none: then
+// the last that leaves out nothing else, as exact as it is.
+const Candidate* Cheapest(const Context& context, absl::Span<const Candidate> candidates) {
+  const Candidate* rest = nullptr;
+  for (const Candidate& candidate : candidates) {
+    if (!context.Allows(candidate.simulates) || !(candidate.error < kUnbounded)) continue;
+    const double neglected = context.Neglected(candidate.simulates);
+    if (neglected + candidate.error <= context.demand.relative_tolerance) return &candidate;
+    if (neglected == 0.0) rest = &candidate;
+  }
+  return rest;
+}
+
+void Decide(const Context& context, const Candidate& candidate, const Sizes& of_all, Choice& choice) {
+  choice.model = candidate.model;
+  const bool smooth = !candidate.simulates.Has(Effect::kFriction) || context.excluded.Has(Effect::kFriction);
+  for (const Effect effect : kEffects) {
+    Decision& decision = choice.decisions[static_cast<size_t>(effect)];
+    decision = DecisionOn(context, of_all, candidate.simulates, effect);
+    Size& size = choice.sizes[effect];
+    if (decision == Decision::kNegligible) size.value = context.SizeOf(effect, smooth);
+    if (context.excluded.Has(effect)) size = of_all[effect];
+    // Counted in what friction changes.
+    if (choice.LeavesOut(effect) && kOnFriction.Has(effect) && smooth) size.value = 0.0;
+    if (choice.LeavesOut(effect)) choice.neglected += size.value;
+  }
+}
+
+Choice ChooseAmong(const Sizes& sizes, const Sizes& of_all, const Demand& demand, EffectSet excluded,
+                   absl::Span<const Candidate> candidates) {
+  Choice choice;
+  choice.sizes = sizes;
+  const Context context = {.sizes = sizes, .demand = demand, .excluded = excluded};
+  const Candidate* candidate = Cheapest(context, candidates);
+  if (candidate != nullptr) Decide(context, *candidate, of_all, choice);
+  return choice;
+}
+
+Choice Separating() {
+  Choice choice;
+  choice.model = Model::kNone;
+  choice.decisions.fill(Decision::kAbsent);
+  return choice;
+}
+
+// What the models that take a tolerance are left of the budget, in [least, most].
+double Left(const Choice& choice, const Sizes& sizes, const Demand& demand, double least, double most) {
+  double spent = 0.0;
+  for (const Effect effect : kEffects) {
+    if (choice.decisions[static_cast<size_t>(effect)] == Decision::kNegligible) spent += sizes[effect].value;
+  }
+  return std::clamp(demand.relative_tolerance - spent, least, most);
+}
+
+ContactPhysics WithoutEffects(EffectSet effects, ContactPhysics physics) {
+  if (effects.Has(Effect::kTangentialCompliance)) physics.ratio_squared = 0.0;
+  if (effects.Has(Effect::kFiniteForces)) physics.tangential_acceleration = physics.normal_acceleration = 0.0;
+  return physics;
+}
+
+template <typename Problem>
+Problem WithoutEffects(EffectSet effects, Problem problem) {
+  if (effects.Has(Effect::kFriction)) problem.mu = problem.mu_static = 0.0;
+  if (effects.Has(Effect::kStaticFriction)) problem.mu_static = problem.mu;
+  return problem;
+}
+
+bool HasForces(const ContactPhysics& physics) {
+  return (physics.tangential_acceleration != 0.0 || physics.normal_acceleration != 0.0) &&
+         !std::holds_alternative<std::monostate>(physics.spring);
+}
+
+sliding::Problem<1> LineOf(const planar::Problem& problem) {
+  return {.w = {problem.wtt, problem.wtn, problem.wnn},
+          .u0 = {problem.u0},
+          .v0 = problem.v0,
+          .mu = problem.mu,
+          .coefficient = problem.coefficient};
+}
+
+sliding::Problem<2> LineOf(const spatial::Problem& problem) {
+  return {.w = {problem.w11, problem.w12, problem.w13, problem.w22, problem.w23, problem.w33},
+          .u0 = problem.u0,
+          .v0 = problem.v0,
+          .mu = problem.mu,
+          .coefficient = problem.coefficient};
+}
+
+double SmoothError(bool serves, const auto& line) {
+  return serves ? sliding::FrictionlessErrorsOf(line).Largest() : kUnbounded;
+}
+
+double LineError(bool serves, bool slips, const auto& line) {
+  return serves && slips && line.mu > 0.0 ? sliding::ErrorsOf(line).Largest() : kUnbounded;
+}
+
+bool LinesServe(const planar::Problem& problem) {
+  const bool full_rank = std::fabs(RelativeDeterminant(problem.wtt, problem.wtn, problem.wnn)) > 0x1p-40;
+  const double cone = problem.mu * std::fabs(problem.wtn) / problem.wnn;
+  return problem.coefficient <= 1.0 && (full_rank || problem.wtt == 0.0) && 1.0 - cone >= kLeastSlope;
+}
+
+// det W over the product of the diagonal is above 2^-40, which a W of less than full rank is far below.
+bool HasFullRank(const spatial::Problem& w) {
+  const double c12 = w.w12 / std::sqrt(w.w11 * w.w22);
+  const double c13 = w.w13 / std::sqrt(w.w11 * w.w33);
+  const double c23 = w.w23 / std::sqrt(w.w22 * w.w33);
+  return 1.0 + 2.0 * c12 * c13 * c23 - (c12 * c12 + c13 * c13 + c23 * c23) > 0x1p-40;
+}
+
+bool LinesServe(const spatial::Problem& problem) {
+  const double coupling = std::sqrt(problem.w13 * problem.w13 + problem.w23 * problem.w23);
+  return problem.coefficient <= 1.0 && HasFullRank(problem) && 1.0 - problem.mu * coupling / problem.w33 >= kLeastSlope;
+}
+
+Choice ChooseRigidOrCompliant(const Sizes& sizes, const Sizes& of_all, const ContactPhysics& physics,
+                              const Demand& demand, EffectSet excluded, absl::Span<const Candidate> rigid) {
+  std::array<Candidate, 5> candidates;
+  auto* end = std::copy(rigid.begin(), rigid.end(), candidates.begin());
+  if (physics.ratio_squared > 0.0) *end++ = {.model = Model::kCompliant, .simulates = kOfCompliant};
+  if (!std::holds_alternative<std::monostate>(physics.spring)) {
+    *end++ = {.model = Model::kFiniteDuration, .simulates = kOfDuration};
+  }
+  Choice choice = ChooseAmong(sizes, of_all, demand, excluded,
+                              absl::MakeConstSpan(candidates.data(), static_cast<size_t>(end - candidates.begin())));
+  if (choice.model == Model::kFiniteDuration) {
+    choice.model_tolerance = Left(choice, choice.sizes, demand, 1e-12, 1e-1);
+  }
+  return choice;
+}
+
+// An impact that only the model of finite duration can tell from none.
+Choice ForcedContact() {
+  Choice choice = Separating();
+  choice.model = Model::kFiniteDuration;
+  choice.model_tolerance = 1e-12;
+  choice.sizes[Effect::kFiniteDuration] = {.value = kUnbounded, .ground = Ground::kNoInequality};
+  choice.sizes[Effect::kFiniteForces] = {.value = kUnbounded, .ground = Ground::kNoInequality};
+  choice.decisions[static_cast<size_t>(Effect::kFiniteDuration)] = Decision::kSimulated;
+  choice.decisions[static_cast<size_t>(Effect::kFiniteForces)] = Decision::kSimulated;
+  return choice;
+}
+
+}  // namespace
+
+ContactPhysics Without(const Choice& choice, ContactPhysics physics) {
+  EffectSet left_out;
+  for (const Effect effect : kEffects) {
+    if (choice.LeavesOut(effect)) left_out.Add(effect);
+  }
+  return WithoutEffects(left_out, physics);
+}
+
+Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physics, const Demand& demand) {
+  const EffectSet excluded = WithImplied(demand.excluded, /*in_space=*/false);
+  const ContactPhysics kept_physics = WithoutEffects(excluded, physics);
+  if (problem.v0 >= 0.0) return HasForces(kept_physics) ? ForcedContact() : Separating();
+  const planar::Problem kept = WithoutEffects(excluded, problem);
+  const Sizes of_all = PlanarSizes(problem, physics);
+  const Sizes sizes = excluded.IsEmpty() ? of_all : PlanarSizes(kept, kept_physics, excluded.Has(Effect::kSlipStop));
+  const bool serves = LinesServe(kept);
+  const auto line = LineOf(kept);
+  const Candidate rigid[] = {
+      {.model = Model::kFrictionless, .simulates = {}, .error = SmoothError(serves, line)},
+      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = LineError(serves, kept.u0 != 0.0, line)},
+      {.model = Model::kPlanar, .simulates = kOfPlanar},
+  };
+  return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
+}
+
+Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& physics, const Demand& demand) {
+  const EffectSet excluded = WithImplied(demand.excluded, /*in_space=*/false);
+  const ContactPhysics kept_physics = WithoutEffects(excluded, physics);
+  if (problem.omega_minus >= 0.0) return HasForces(kept_physics) ? ForcedContact() : Separating();
+  const pendulum::Problem kept = WithoutEffects(excluded, problem);
+  const Sizes of_all = PendulumSizes(problem, physics);
+  const Sizes sizes = excluded.IsEmpty() ? of_all : PendulumSizes(kept, kept_physics);
+  // W and the velocities are rounded products of the pendulum's numbers.
+  constexpr double kReduction = 0x1p-49;
+  const Candidate rigid[] = {
+      {.model = Model::kFrictionless,
+       .simulates = {},
+       .error = kReduction + SmoothError(problem.coefficient <= 1.0, LineOf(PlanarOf(kept)))},
+      {.model = Model::kFirstOrder,
+       .simulates = {Effect::kFriction, Effect::kSlipStop},
+       .error = first_order::Serves(kept) ? 0.0 : kUnbounded},
+      {.model = Model::kPendulum, .simulates = kOfPlanar},
+  };
+  return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
+}
+
+Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
+  if (problem.v0 >= 0.0) return Separating();
+  const EffectSet excluded = WithImplied(demand.excluded, /*in_space=*/true);
+  const spatial::Problem kept = WithoutEffects(excluded, problem);
+  const Sizes of_all = SpatialSizes(problem);
+  const Sizes sizes = excluded.IsEmpty() ? of_all : SpatialSizes(kept);
+  const bool serves = LinesServe(kept);
+  const auto line = LineOf(kept);
+  const bool slips = kept.u0[0] != 0.0 || kept.u0[1] != 0.0;
+  const Candidate candidates[] = {
+      {.model = Model::kFrictionless, .simulates = {}, .error = SmoothError(serves, line)},
+      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = LineError(serves, slips, line)},
+      {.model = Model::kSpatial, .simulates = kOfSpatial},
+  };
+  Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);
+  if (choice.model == Model::kSpatial) choice.model_tolerance = Left(choice, choice.sizes, demand, 1e-12, 1e-4);
+  return choice;
+}
+
+}  // namespace ricochet

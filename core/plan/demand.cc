@@ -1,0 +1,227 @@
+#include "core/plan/demand.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+#include "core/models/planar_outcome.h"
+#include "core/models/spatial_outcome.h"
+#include "core/plan/choose.h"
+#include "core/plan/planned_scene.h"
+#include "core/scene/effective.h"
+#include "core/scene/reduction.h"
+
+namespace ricochet {
+namespace {
+
+constexpr double kLargestTolerance = 0.1;
+
+bool HasFriction(const Scene& scene) {
+  return std::max(scene.friction.kinetic_coefficient,
+                  scene.friction.static_coefficient.value_or(scene.friction.kinetic_coefficient)) > 0.0;
+}
+
+bool IsInSpace(const Scene& scene) { return TangentialDirections(scene.system) == 2; }
+
+// What the scene would have to have for the effect; empty if it has.
+std::string Lacking(const Scene& scene, Effect effect) {
+  const auto unless = [](bool holds, const char* lacking) { return std::string(holds ? "" : lacking); };
+  const bool rubs = HasFriction(scene);
+  switch (effect) {
+    case Effect::kUnspecified:
+      return "an effect that is named";
+    case Effect::kFriction:
+    case Effect::kSlipStop:
+      return unless(rubs, "friction.kinetic_coefficient > 0");
+    case Effect::kSlipTurn:
+      return !IsInSpace(scene) ? "a system in space" : unless(rubs, "friction.kinetic_coefficient > 0");
+    case Effect::kStaticFriction:
+      return unless(scene.friction.static_coefficient.value_or(0.0) > scene.friction.kinetic_coefficient,
+                    "friction.static_coefficient > friction.kinetic_coefficient");
+    case Effect::kTangentialCompliance:
+      return unless(scene.compliance.has_value() && scene.compliance->tangential_ratio_squared.has_value(),
+                    "compliance.tangential_ratio_squared");
+    case Effect::kFiniteForces:
+      if (std::holds_alternative<std::monostate>(scene.finite_forces)) return "finite forces";
+      [[fallthrough]];
+    case Effect::kFiniteDuration:
+      return unless(scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.compliance->normal),
+                    "a normal spring in compliance");
+    case Effect::kHigherOrder:
+      return unless(HasClosedForm(scene), "a pendulum over a surface at rest");
+  }
+  return "";
+}
+
+// Of the finite duration that the scene's spring gives it.
+bool HasFiniteForces(const Scene& scene) { return Lacking(scene, Effect::kFiniteForces).empty(); }
+
+bool IsDamped(const Scene& scene) {
+  return scene.compliance.has_value() && std::holds_alternative<HuntCrossleySpring>(scene.compliance->normal);
+}
+
+// Why the effect cannot be left out; empty if it can, as far as the contact's numbers do not decide.
+std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded) {
+  const bool rubs = !excluded.Has(Effect::kFriction);
+  switch (effect) {
+    case Effect::kUnspecified:
+      return "be an effect that is named";
+    case Effect::kSlipStop:
+    case Effect::kSlipTurn:
+      if (effect == Effect::kSlipTurn && !IsInSpace(scene)) return "be left in: in a plane slip has no way to turn";
+      if (!rubs) return "";
+      if (HasClosedForm(scene)) return "be left in: a pendulum's slip stops where compression ends; exclude friction";
+      if (IsDamped(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {
+        return "be left in: the model of finite duration has slip that stops; exclude friction";
+      }
+      return "";
+    case Effect::kFiniteDuration:
+      return IsDamped(scene) ? "be left in: the spring's damping is the restitution" : "";
+    case Effect::kHigherOrder:
+      if (!HasClosedForm(scene)) return "be left in: only a pendulum over a surface at rest has a first-order form";
+      if (!rubs) return "";
+      if (IsDamped(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {
+        return "be left in: the first-order form knows no duration; exclude finite_forces";
+      }
+      return "";
+    case Effect::kFriction:
+    case Effect::kStaticFriction:
+    case Effect::kTangentialCompliance:
+    case Effect::kFiniteForces:
+      break;
+  }
+  return "";
+}
+
+template <typename Visit>
+void ForEach(EffectSet effects, const char* field, const Visit& visit) {
+  int i = 0;
+  for (const Effect effect : kEffects) {
+    if (effects.Has(effect)) visit(effect, absl::StrCat(field, "[", i++, "]"));
+  }
+}
+
+Violation Refuse(std::string path, Effect effect, const std::string& rule) {
+  return {std::move(path), absl::StrCat("= ", NameOf(effect), ": must ", rule)};
+}
+
+// The excluded effect that leaves out `effect`.
+Effect CauseOf(Effect effect, EffectSet excluded, bool in_space) {
+  for (const Effect cause : kEffects) {
+    if (excluded.Has(cause) && WithImplied({cause}, in_space).Has(effect)) return cause;
+  }
+  return effect;
+}
+
+void CheckRequired(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {
+  const bool in_space = IsInSpace(scene);
+  const EffectSet excluded = WithImplied(demand.excluded, in_space);
+  ForEach(demand.required, "required", [&](Effect effect, std::string path) {
+    const std::string lacking = Lacking(scene, effect);
+    if (!lacking.empty()) {
+      violations.push_back(Refuse(std::move(path), effect, "not be required of a scene without " + lacking));
+    } else if (excluded.Has(effect)) {
+      const Effect cause = demand.excluded.Has(effect) ? effect : CauseOf(effect, demand.excluded, in_space);
+      const std::string rule = cause == effect ? "not be excluded too"
+                                               : absl::StrCat("not be required where ", NameOf(cause), " is excluded");
+      violations.push_back(Refuse(std::move(path), effect, rule));
+    }
+  });
+}
+
+bool CheckExcluded(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {
+  const EffectSet excluded = WithImplied(demand.excluded, IsInSpace(scene));
+  const size_t before = violations.size();
+  ForEach(demand.excluded, "excluded", [&](Effect effect, std::string path) {
+    const std::string reason = WhyNotExcluded(scene, effect, excluded);
+    if (!reason.empty()) violations.push_back(Refuse(std::move(path), effect, reason));
+  });
+  return violations.size() == before;
+}
+
+Choice ChooseFor(const Scene& scene, const Demand& demand) {
+  if (HasClosedForm(scene)) return ChoosePendulum(ClosedFormProblem(scene), {}, demand);
+  const AnyReduction any = Reduce(scene);
+  const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
+  if (const auto* planar = std::get_if<PlanarReduction>(&any)) {
+    return ChoosePlanar(planar::MakeProblem(*planar, scene.restitution, effective), {}, demand);
+  }
+  const auto& reduction = std::get<SpatialReduction>(any);
+  return ChooseSpatial(spatial::MakeProblem(reduction, scene.restitution, effective, 1e-12), demand);
+}
+
+// Straight slip and first order are forms that not every contact has.
+void CheckForms(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {
+  const EffectSet forms = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kHigherOrder};
+  const EffectSet asked = demand.excluded & forms;
+  if (asked.IsEmpty() || demand.excluded.Has(Effect::kFriction)) return;
+  if (ChooseFor(scene, demand).model != Model::kUnspecified) return;
+  const char* higher_order =
+      "be left in: the first-order form needs mu |b|/a <= 0.5, no lock, and a coefficient within its own bound";
+  const char* slip =
+      "be left in: slip in a straight line needs u0 != 0, mu |Wtn| < Wnn, a W of full rank and a coefficient of "
+      "restitution <= 1";
+  ForEach(demand.excluded, "excluded", [&](Effect effect, std::string path) {
+    if (!asked.Has(effect)) return;
+    violations.push_back(Refuse(std::move(path), effect, effect == Effect::kHigherOrder ? higher_order : slip));
+  });
+}
+
+}  // namespace
+
+EffectSet WithImplied(EffectSet excluded, bool in_space) {
+  EffectSet all = excluded;
+  if (all.Has(Effect::kFriction)) all = all | kOnFriction;
+  if (in_space && (all.Has(Effect::kSlipStop) || all.Has(Effect::kSlipTurn))) {
+    all = all | EffectSet{Effect::kSlipStop, Effect::kSlipTurn};
+  }
+  if (all.Has(Effect::kSlipStop)) all = all | EffectSet{Effect::kStaticFriction, Effect::kTangentialCompliance};
+  if (all.Has(Effect::kFiniteDuration)) all.Add(Effect::kFiniteForces);
+  return all;
+}
+
+std::vector<Violation> CheckDemand(const Scene& scene, const Demand& demand) {
+  std::vector<Violation> violations;
+  if (!(demand.relative_tolerance >= 0.0 && demand.relative_tolerance <= kLargestTolerance)) {
+    violations.push_back(MakeViolation("relative_tolerance", demand.relative_tolerance, "be in [0, 0.1]"));
+  }
+  if (!std::holds_alternative<std::monostate>(scene.impact_law)) {
+    const auto refuse = [&](Effect effect, std::string path) {
+      violations.push_back(Refuse(std::move(path), effect, "not be here: an impact law states its own effects"));
+    };
+    ForEach(demand.required, "required", refuse);
+    ForEach(demand.excluded, "excluded", refuse);
+    return violations;
+  }
+  CheckRequired(scene, demand, violations);
+  if (CheckExcluded(scene, demand, violations) && violations.empty()) CheckForms(scene, demand, violations);
+  return violations;
+}
+
+const char* NameOf(Effect effect) {
+  switch (effect) {
+    case Effect::kUnspecified:
+      return "unspecified";
+    case Effect::kFriction:
+      return "friction";
+    case Effect::kSlipStop:
+      return "slip_stop";
+    case Effect::kSlipTurn:
+      return "slip_turn";
+    case Effect::kStaticFriction:
+      return "static_friction";
+    case Effect::kTangentialCompliance:
+      return "tangential_compliance";
+    case Effect::kFiniteDuration:
+      return "finite_duration";
+    case Effect::kFiniteForces:
+      return "finite_forces";
+    case Effect::kHigherOrder:
+      return "higher_order";
+  }
+  return "unspecified";
+}
+
+}  // namespace ricochet

@@ -1,0 +1,47 @@
+#include "core/plan/demand_fields.h"
+
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+
+namespace ricochet {
+namespace {
+
+EffectSet ToSet(const std::vector<Effect>& effects) {
+  EffectSet set;
+  for (const Effect effect : effects) set.Add(effect);
+  return set;
+}
+
+// What a set cannot say: an effect that is none, or one twice.
+void CheckList(const std::vector<Effect>& effects, const char* field, std::vector<Violation>& violations) {
+  EffectSet seen;
+  for (size_t i = 0; i < effects.size(); ++i) {
+    const std::string path = absl::StrCat(field, "[", i, "]");
+    if (effects[i] == Effect::kUnspecified) {
+      violations.push_back({path, "= unspecified: must be an effect that is named"});
+    } else if (seen.Has(effects[i])) {
+      violations.push_back({path, absl::StrCat("= ", NameOf(effects[i]), ": must be named once")});
+    }
+    seen.Add(effects[i]);
+  }
+}
+
+}  // namespace
+
+Demand ToDemand(const DemandFields& fields) {
+  Demand demand = {.required = ToSet(fields.required), .excluded = ToSet(fields.excluded)};
+  if (fields.relative_tolerance.has_value()) demand.relative_tolerance = *fields.relative_tolerance;
+  return demand;
+}
+
+std::vector<Violation> CheckDemand(const Scene& scene, const DemandFields& fields) {
+  std::vector<Violation> violations;
+  CheckList(fields.required, "required", violations);
+  CheckList(fields.excluded, "excluded", violations);
+  if (!violations.empty()) return violations;
+  return CheckDemand(scene, ToDemand(fields));
+}
+
+}  // namespace ricochet

@@ -1,0 +1,18 @@
+// Explain: a choice in words.
+
+#ifndef RICOCHET_CORE_PLAN_EXPLAIN_H_
+#define RICOCHET_CORE_PLAN_EXPLAIN_H_
+
+#include "core/plan/choose.h"
+#include "core/plan/demand.h"
+#include "core/plan/plan.h"
+
+namespace ricochet {
+
+// The plan of a choice made on `demand`: every effect once, in order of their numbers, with one sentence that says where
+// its size comes from, numbers to three digits.
+Plan Explain(const Choice& choice, const Demand& demand);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_PLAN_EXPLAIN_H_

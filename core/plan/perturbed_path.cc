@@ -1,0 +1,159 @@
+#include "core/plan/perturbed_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ricochet {
+namespace {
+
+using pendulum::Law;
+
+// What both ends have in common: e_f, e_v and the reach of compression.
+class Comparison {
+ public:
+  Comparison(const Mobility& mobility, const ReferencePath& reference, const Perturbation& change)
+      : mobility_(mobility), reference_(reference), change_(change) {
+    jump_ = change.v + mobility.coupling * change.f_jump;
+    slope_ = mobility.coupling * change.f_slope;
+    const bool known = change.slope_low > 0.0;
+    growth_ = known ? std::min(reference.slope_low, change.slope_low) : reference.slope_low - slope_;
+    slack_ = known ? 0.0 : 2.0 * jump_;
+    latest_rest_ = 1.0 / reference.slope_low;
+    rest_shift_ = OfV(latest_rest_) / growth_;
+  }
+
+  double OfF(double tau) const { return change_.f_jump + change_.f_slope * Past(tau); }
+  double OfV(double tau) const { return jump_ + slope_ * Past(tau); }
+  double OfU(double tau) const { return mobility_.tangential * OfF(tau) + change_.u; }
+
+  // Integral of e_v.
+  double Area(double begin, double end) const {
+    const double before = Past(begin);
+    const double after = Past(end);
+    return jump_ * (end - begin) + 0.5 * slope_ * (after - before) * (after + before);
+  }
+
+  double growth() const { return growth_; }            // L
+  double slack() const { return slack_; }              // z
+  double latest_rest() const { return latest_rest_; }  // 1/lo
+  double rest_shift() const { return rest_shift_; }    // Dc
+  const ReferencePath& reference() const { return reference_; }
+
+ private:
+  double Past(double tau) const { return std::max(tau - change_.from, 0.0); }
+
+  const Mobility& mobility_;
+  const ReferencePath& reference_;
+  const Perturbation& change_;
+  double jump_, slope_, growth_, slack_, latest_rest_, rest_shift_;
+};
+
+struct EndShift {
+  double v1 = 0.0;
+  double tau1 = 0.0;
+  double last = 0.0;  // tau1_B at most.
+};
+
+EndShift NewtonShift(const Comparison& by, double e) {
+  const double tau1 = (1.0 + e) * by.latest_rest();
+  const double shift = by.OfV(tau1) / by.growth();
+  return {.v1 = 0.0, .tau1 = shift, .last = tau1 + shift};
+}
+
+EndShift PoissonShift(const Comparison& by, double k) {
+  const double shift = (1.0 + k) * by.rest_shift();
+  const double last = (1.0 + k) * by.latest_rest() + shift;
+  return {.v1 = by.OfV(last) + by.reference().slope_high * shift, .tau1 = shift, .last = last};
+}
+
+EndShift EnergeticShift(const Comparison& by, double eta) {
+  const double rest = by.latest_rest() + by.rest_shift();
+  if (eta == 0.0) return {.v1 = 0.0, .tau1 = by.rest_shift(), .last = rest};
+  const double low = by.reference().slope_low;
+  const double high = by.reference().slope_high;
+  const double square = eta * eta;
+  const double stored = by.Area(0.0, rest);
+  const double returned = square * (0.5 * by.latest_rest() + stored);
+  const double z = by.slack();
+  const double last = rest + (z + std::sqrt(z * z + 2.0 * by.growth() * returned)) / by.growth();
+  const double difference = square * stored + by.Area(std::max(1.0 / high - by.rest_shift(), 0.0), last);
+  const double of_square = 2.0 * high * difference * (1.0 + 0x1p-30);
+  const double least_square = square * low / high;
+  const double along = least_square > of_square
+                           ? of_square / (std::sqrt(least_square) + std::sqrt(least_square - of_square))
+                           : std::sqrt(of_square) + high * by.rest_shift();
+  return {.v1 = along + by.OfV(last), .tau1 = along / low, .last = last};
+}
+
+EndShift ShiftOf(const Comparison& by, const Restoring& restoring) {
+  switch (restoring.law) {
+    case Law::kNewton:
+      return NewtonShift(by, restoring.coefficient);
+    case Law::kPoisson:
+      return PoissonShift(by, restoring.coefficient);
+    case Law::kEnergetic:
+      break;
+  }
+  return EnergeticShift(by, restoring.coefficient);
+}
+
+struct EndRange {
+  double v_low, v_high;
+  double tau_low, tau_high;
+};
+
+// The ends that slopes in [low, high] allow.
+EndRange EndsBySlopes(const Restoring& restoring, double low, double high) {
+  const double c = restoring.coefficient;
+  const double ratio = high / low;
+  switch (restoring.law) {
+    case Law::kNewton:
+      return {c, c, (1.0 + c) / high, (1.0 + c) / low};
+    case Law::kPoisson:
+      return {c / ratio, c * ratio, (1.0 + c) / high, (1.0 + c) / low};
+    case Law::kEnergetic:
+      break;
+  }
+  const double root = std::sqrt(ratio);
+  return {c / root, c * root, (1.0 + c / root) / high, (1.0 + c * root) / low};
+}
+
+EndShift ShiftBySlopes(const Restoring& restoring, const ReferencePath& reference, const Perturbation& change) {
+  constexpr double kRounding = 0x1p-48;
+  const double low = std::min(change.slope_low, reference.slope_low);
+  const double high = std::max(change.slope_high, reference.slope_high);
+  const EndRange a = EndsBySlopes(restoring, reference.slope_low, reference.slope_high);
+  const EndRange b = EndsBySlopes(restoring, low, high);
+  const double v1 = restoring.law == Law::kNewton
+                        ? 0.0
+                        : std::max(b.v_high - a.v_low, a.v_high - b.v_low) + kRounding * (a.v_high + b.v_high);
+  return {.v1 = v1,
+          .tau1 = std::max(b.tau_high - a.tau_low, a.tau_high - b.tau_low) + kRounding * (a.tau_high + b.tau_high),
+          .last = b.tau_high};
+}
+
+}  // namespace
+
+double Padded(double bound) {
+  if (bound == 0.0) return 0.0;
+  const double padded = bound * (1.0 + 0x1p-20) + std::numeric_limits<double>::min();
+  return padded >= 0.0 ? padded : kUnbounded;
+}
+
+double LargestChange(const Mobility& mobility, const Restoring& restoring, const ReferencePath& reference,
+                     const Perturbation& change) {
+  const Comparison by(mobility, reference, change);
+  if (!(reference.slope_low >= kLeastSlope) || !(by.growth() >= kLeastSlope)) return kUnbounded;
+  EndShift shift = ShiftOf(by, restoring);
+  if (change.slope_low > 0.0) {
+    const EndShift other = ShiftBySlopes(restoring, reference, change);
+    shift = {.v1 = std::min(shift.v1, other.v1),
+             .tau1 = std::min(shift.tau1, other.tau1),
+             .last = std::min(shift.last, other.last)};
+  }
+  const double u1 = by.OfU(shift.last) + reference.u_slope * shift.tau1;
+  const double f1 = mobility.tangential * (by.OfF(shift.last) + reference.f_slope * shift.tau1);
+  return Padded(std::max({shift.v1, shift.tau1, u1, f1}));
+}
+
+}  // namespace ricochet

@@ -1,0 +1,94 @@
+#include "core/plan/planned_scene.h"
+
+#include <algorithm>
+
+#include "core/models/planar_outcome.h"
+#include "core/models/spatial_outcome.h"
+#include "core/plan/explain.h"
+#include "core/scene/effective.h"
+
+namespace ricochet {
+namespace {
+
+double PendulumSpeed(const Pendulum& pendulum) { return std::max(0.0, -pendulum.a_m * pendulum.omega_minus_rad_s); }
+
+ContactPhysics PhysicsOf(const Scene& scene, const PlanarReduction& reduction) {
+  ContactPhysics physics;
+  physics.tangential_acceleration = reduction.acceleration[0];
+  physics.normal_acceleration = reduction.acceleration[1];
+  if (!scene.compliance.has_value()) return physics;
+  physics.ratio_squared = scene.compliance->tangential_ratio_squared.value_or(0.0);
+  physics.spring = scene.compliance->normal;
+  return physics;
+}
+
+Choice ByLaw() {
+  Choice choice;
+  choice.model = Model::kImpactLaw;
+  return choice;
+}
+
+void PlanPendulum(const Scene& scene, const Demand& demand, PlannedScene& planned) {
+  const pendulum::Problem problem = ClosedFormProblem(scene);
+  planned.contact = problem;
+  planned.effective = {
+      .kinetic_friction = problem.mu, .static_friction = problem.mu_static, .restitution = problem.coefficient};
+  // Compliance alone gives finite forces time to act.
+  if (scene.compliance.has_value()) planned.physics = PhysicsOf(scene, std::get<PlanarReduction>(Reduce(scene)));
+  planned.choice = ChoosePendulum(problem, planned.physics, demand);
+}
+
+void PlanReduced(const Scene& scene, const Demand& demand, PlanarReduction reduction, PlannedScene& planned) {
+  planned.physics = PhysicsOf(scene, reduction);
+  if (std::holds_alternative<std::monostate>(scene.impact_law)) {
+    const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
+    planned.choice = ChoosePlanar(problem, planned.physics, demand);
+  } else {
+    planned.choice = ByLaw();
+  }
+  planned.contact = std::move(reduction);
+}
+
+void PlanReduced(const Scene& scene, const Demand& demand, SpatialReduction reduction, PlannedScene& planned) {
+  const spatial::Problem problem =
+      spatial::MakeProblem(reduction, scene.restitution, planned.effective, spatial::kLeastTolerance);
+  planned.choice = ChooseSpatial(problem, demand);
+  planned.contact = std::move(reduction);
+}
+
+}  // namespace
+
+bool HasClosedForm(const Scene& scene) {
+  return std::holds_alternative<Pendulum>(scene.system) && !scene.surface_velocity.has_value() &&
+         std::holds_alternative<std::monostate>(scene.impact_law);
+}
+
+pendulum::Problem ClosedFormProblem(const Scene& scene) {
+  pendulum::Problem problem = pendulum::MakeProblem(scene);
+  if (!DependsOnSpeed(scene)) return problem;
+  const EffectiveCoefficients effective = EffectiveAt(scene, PendulumSpeed(std::get<Pendulum>(scene.system)));
+  problem.mu = effective.kinetic_friction;
+  problem.mu_static = effective.static_friction;
+  problem.coefficient = effective.restitution;
+  return problem;
+}
+
+PlannedScene PlanScene(const Scene& scene, const Demand& demand) {
+  PlannedScene planned;
+  if (HasClosedForm(scene)) {
+    PlanPendulum(scene, demand, planned);
+    return planned;
+  }
+  AnyReduction any = Reduce(scene);
+  if (!IsFinite(any)) return planned;
+  planned.effective = EffectiveAt(scene, ApproachSpeed(any));
+  std::visit([&](auto& reduction) { PlanReduced(scene, demand, std::move(reduction), planned); }, any);
+  return planned;
+}
+
+Plan Explain(const PlannedScene& planned, const Demand& demand) {
+  if (planned.choice.model != Model::kImpactLaw) return Explain(planned.choice, demand);
+  return {.model = Model::kImpactLaw, .relative_tolerance = demand.relative_tolerance};
+}
+
+}  // namespace ricochet

@@ -1,0 +1,40 @@
+// PlannedScene: a scene as the models see it, and the one that is chosen for it.
+
+#ifndef RICOCHET_CORE_PLAN_PLANNED_SCENE_H_
+#define RICOCHET_CORE_PLAN_PLANNED_SCENE_H_
+
+#include <variant>
+
+#include "core/models/pendulum.h"
+#include "core/outcome.h"
+#include "core/plan/choose.h"
+#include "core/plan/demand.h"
+#include "core/scene/reduction.h"
+#include "core/scene/scene.h"
+
+namespace ricochet {
+
+struct PlannedScene {
+  // A pendulum over a surface at rest keeps its own numbers; everything else is reduced to its contact.
+  std::variant<pendulum::Problem, PlanarReduction, SpatialReduction> contact;
+  EffectiveCoefficients effective;
+  ContactPhysics physics;
+  Choice choice;
+};
+
+// Whether a pendulum's own models answer the scene: no surface that moves, no impact law.
+bool HasClosedForm(const Scene& scene);
+
+// The pendulum's problem with the coefficients at the approach speed. `scene` is valid and HasClosedForm.
+pendulum::Problem ClosedFormProblem(const Scene& scene);
+
+// `scene` is valid and CheckDemand finds nothing. Under an impact law the model is kImpactLaw and no effect is planned;
+// so it is, with kUnspecified, where W or the contact velocity is not finite.
+PlannedScene PlanScene(const Scene& scene, const Demand& demand);
+
+// The plan in words.
+Plan Explain(const PlannedScene& planned, const Demand& demand);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_PLAN_PLANNED_SCENE_H_

@@ -1,0 +1,368 @@
+#include "core/plan/sizes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "core/models/first_order.h"
+#include "core/plan/contact_time.h"
+#include "core/plan/perturbed_path.h"
+
+namespace ricochet {
+namespace {
+
+using pendulum::Law;
+
+constexpr double kRounding = 0x1p-48;  // Of sums of a few terms, over the terms.
+
+// A planar contact, scaled.
+struct Scaled {
+  Mobility mobility;   // W, w
+  double along = 0.0;  // s w
+  double slip = 0.0;   // |u0|
+  double mu = 0.0;
+  double friction = 0.0;   // m
+  bool may_stick = false;  // w <= mu_s W
+  bool may_slip = false;   // w > mu_s W; both within rounding of equality
+  double scale = 0.0;      // |v0|/V
+  Restoring restoring;
+
+  double Cone() const { return friction * mobility.coupling; }                    // c
+  double SlideSlope() const { return 1.0 - mu * along; }                          // v' of A
+  double StickSlope() const { return 1.0 - mobility.coupling * Holding(); }       // v' where the contact sticks
+  double Holding() const { return mobility.coupling / mobility.tangential; }      // |f'| there
+  double Braking() const { return mu * mobility.tangential - along; }             // -s u' of A
+  double UTerms() const { return mu * mobility.tangential + mobility.coupling; }  // What Braking is a difference of.
+  double SlideImpulse() const { return (1.0 + restoring.coefficient) / SlideSlope(); }  // tau1 of A
+  double LeastSlip(double tau) const {                                                  // s u of A, or a little less
+    return slip - Braking() * tau - kRounding * (slip + UTerms() * tau);
+  }
+  double EarliestStop() const { return slip / std::max(Braking() + kRounding * UTerms(), 0.0); }
+  double Change(const ReferencePath& reference, const Perturbation& change) const {
+    return Padded(scale * LargestChange(mobility, restoring, reference, change));
+  }
+};
+
+Scaled Scale(const planar::Problem& problem) {
+  Scaled contact;
+  const double speed = -problem.v0;
+  const double w = problem.wtn / problem.wnn;
+  contact.mobility = {.tangential = problem.wtt / problem.wnn, .coupling = std::fabs(w)};
+  contact.along = problem.u0 == 0.0 ? contact.mobility.coupling : std::copysign(1.0, problem.u0) * w;
+  contact.slip = std::fabs(problem.u0) / speed;
+  contact.mu = problem.mu;
+  const double held = problem.mu_static * contact.mobility.tangential;
+  contact.may_stick = contact.mobility.coupling <= held * (1.0 + kRounding);
+  contact.may_slip = contact.mobility.coupling >= held * (1.0 - kRounding);
+  contact.friction = contact.may_stick ? std::max(problem.mu, contact.Holding()) : problem.mu;
+  contact.scale = speed / std::max(speed, std::fabs(problem.u0));
+  contact.restoring = {.law = problem.law, .coefficient = problem.coefficient};
+  return contact;
+}
+
+// A straight path of sliding.
+ReferencePath Sliding(const Scaled& contact) {
+  return {.slope_low = contact.SlideSlope(),
+          .slope_high = contact.SlideSlope(),
+          .u_slope = std::fabs(contact.Braking()) + kRounding * contact.UTerms(),
+          .f_slope = contact.mu};
+}
+
+Size Locking(double cone) { return {.value = kUnbounded, .ground = Ground::kSelfLocking, .number = cone}; }
+
+Size FrictionSize(const Scaled& contact, const ContactPhysics& physics, bool slips_on) {
+  if (contact.friction == 0.0) return {};
+  const double cone = contact.Cone();
+  const ReferencePath smooth = {.u_slope = contact.mobility.coupling};
+  double size =
+      contact.Change(smooth, {.f_slope = contact.friction, .slope_low = 1.0 - cone, .slope_high = 1.0 + cone});
+  const double stop = contact.EarliestStop();
+  if (physics.ratio_squared == 0.0 && !slips_on && contact.may_stick && !contact.may_slip && std::isfinite(stop)) {
+    // Slip may stop earlier or later than that by rounding alone.
+    const double late = stop * (1.0 + kRounding) * (contact.Braking() + kRounding * contact.UTerms()) /
+                        std::max(contact.Braking() - kRounding * contact.UTerms(), 0.0);
+    const Perturbation brief = {.f_jump = contact.mu * (contact.slip == 0.0 ? 0.0 : late),
+                                .f_slope = contact.Holding(),
+                                .from = stop,
+                                .slope_low = std::min(contact.SlideSlope(), contact.StickSlope()),
+                                .slope_high = std::max(contact.SlideSlope(), contact.StickSlope())};
+    size = std::min(size, contact.Change(smooth, brief));
+  }
+  if (!(size < kUnbounded)) return Locking(cone);
+  return {.value = size, .ground = Ground::kInequality, .number = cone};
+}
+
+// Whether slip goes on to the end of the sliding path.
+bool SlidesThroughout(const Scaled& contact) {
+  if (!(contact.SlideSlope() >= kLeastSlope)) return false;
+  if (contact.slip == 0.0) return !contact.may_stick;
+  return contact.LeastSlip(contact.SlideImpulse()) > 0.0;
+}
+
+Size SlidingThroughout(const Scaled& contact, const planar::Problem& problem) {
+  const double end = contact.slip - contact.Braking() * contact.SlideImpulse();
+  return {.value = 0.0, .ground = Ground::kSlidesThroughout, .number = -problem.v0 * end};
+}
+
+// What a change of friction from the earliest stop on can do; `path` is A.
+Size AfterStop(const Scaled& contact, const ReferencePath& path, double f_slope, double low, double high) {
+  const double stop = contact.slip == 0.0 ? 0.0 : contact.EarliestStop() * (1.0 - kRounding);
+  const double size = contact.Change(path, {.f_slope = f_slope, .from = stop, .slope_low = low, .slope_high = high});
+  if (!(size < kUnbounded)) return Locking(contact.Cone());
+  return {.value = size,
+          .ground = Ground::kInequality,
+          .number = std::min(1.0, stop * path.slope_low / (1.0 + contact.restoring.coefficient))};
+}
+
+Size StopSize(const Scaled& contact, const planar::Problem& problem) {
+  if (contact.friction == 0.0) return {};
+  if (SlidesThroughout(contact)) return SlidingThroughout(contact, problem);
+  if (contact.slip == 0.0) return {.value = kUnbounded, .ground = Ground::kStaysAtRest};
+  if (!(contact.SlideSlope() >= kLeastSlope)) return Locking(contact.Cone());
+  double change = 0.0;
+  double low = kUnbounded;
+  double high = 0.0;
+  if (contact.may_stick) {
+    change = (contact.Braking() + kRounding * contact.UTerms()) / contact.mobility.tangential;
+    low = high = contact.StickSlope();
+  }
+  if (contact.may_slip) {
+    const double slope = 1.0 - contact.mu * contact.mobility.coupling;
+    change = std::max(change, 2.0 * contact.mu);
+    low = std::min(low, slope);
+    high = std::max(high, slope);
+  }
+  if (!(low >= kLeastSlope)) return Locking(contact.Cone());
+  return AfterStop(contact, Sliding(contact), change, low, high);
+}
+
+// Whether the contact sticks by one coefficient and slides by the other. W of rank one: core/models/planar.h.
+bool CoefficientsDisagree(const planar::Problem& problem, double relative_determinant) {
+  const bool rank_one = std::fabs(relative_determinant) <= 0x1p-50;
+  const double normal = std::fabs(problem.wtn);
+  const double from = rank_one ? normal : problem.wtt;
+  const double against = rank_one ? problem.wnn : normal;
+  return std::fma(problem.mu, from, -against) < 0.0 && std::fma(problem.mu_static, from, -against) >= 0.0;
+}
+
+Size StaticSize(const Scaled& contact, const planar::Problem& problem) {
+  if (!(problem.mu_static > problem.mu)) return {};
+  const double square = contact.mobility.coupling * contact.Holding();
+  if (!CoefficientsDisagree(problem, 1.0 - square)) return {.ground = Ground::kDecidesNothing};
+  if (contact.slip > 0.0 && SlidesThroughout(contact)) return SlidingThroughout(contact, problem);
+  const double cone = contact.mu * contact.mobility.coupling;
+  const double first = contact.slip == 0.0 ? 1.0 - cone : contact.SlideSlope();
+  const ReferencePath reversing = {.slope_low = std::min(first, 1.0 - cone),
+                                   .slope_high = std::max(first, 1.0 - cone),
+                                   .u_slope = contact.UTerms(),
+                                   .f_slope = contact.mu};
+  const double stick = contact.StickSlope();
+  if (!(stick >= kLeastSlope)) return Locking(contact.Cone());
+  const double change = contact.Holding() * (1.0 + kRounding) - contact.mu;
+  return AfterStop(contact, reversing, std::max(change, 0.0), stick, stick);
+}
+
+Size ComplianceSize(const Scaled& contact, const planar::Problem& problem, const ContactPhysics& physics,
+                    double friction) {
+  if (physics.ratio_squared == 0.0) return {};
+  if (contact.mu == 0.0) return {};
+  const double lag = contact.mu * physics.ratio_squared;
+  if (contact.slip > lag * (1.0 + kRounding) && SlidesThroughout(contact)) {
+    return SlidingThroughout(contact, problem);
+  }
+  if (!(friction < kUnbounded)) return Locking(contact.Cone());
+  return {.value = 2.0 * friction, .ground = Ground::kInequality, .number = contact.Cone()};
+}
+
+Size DurationSize(const ContactPhysics& physics) {
+  if (std::holds_alternative<std::monostate>(physics.spring)) return {};
+  if (std::holds_alternative<HuntCrossleySpring>(physics.spring)) {
+    return {.value = kUnbounded, .ground = Ground::kDamped};
+  }
+  return {.value = 0.0, .ground = Ground::kSameImpulses};
+}
+
+// Shifts of velocity by finite forces, scaled.
+struct Drift {
+  double seconds = 0.0;
+  double u = 0.0;
+  double v = 0.0;
+};
+
+Drift DriftOf(const planar::Problem& problem, const ContactPhysics& physics) {
+  const double cone = problem.mu_static * std::fabs(problem.wtn);
+  if (!(problem.wnn - cone >= kLeastSlope * problem.wnn)) return {.seconds = kUnbounded};
+  const double normal = std::fabs(physics.normal_acceleration);
+  const double time = LongestContact(physics.spring, {.slope_low = problem.wnn - cone,
+                                                      .slope_high = problem.wnn + cone,
+                                                      .v0 = problem.v0,
+                                                      .energetic = problem.coefficient,
+                                                      .acceleration = normal});
+  return {.seconds = time,
+          .u = std::fabs(physics.tangential_acceleration) * time / -problem.v0,
+          .v = normal * time / -problem.v0};
+}
+
+// Both slide on, whatever the forces do.
+double ForcesOnSlide(const Scaled& contact, const ContactPhysics& physics, const Drift& drift) {
+  if (contact.slip == 0.0 || !(contact.SlideSlope() >= kLeastSlope)) return kUnbounded;
+  const double end = contact.SlideImpulse();
+  const double rest = 1.0 / contact.SlideSlope();
+  const double lag = contact.mu * physics.ratio_squared;
+  const double least =
+      std::min({contact.slip - lag * (1.0 + kRounding), contact.LeastSlip(rest), contact.LeastSlip(1.25 * end)});
+  if (!(least > (drift.u + lag * drift.v) * (1.0 + kRounding))) return kUnbounded;
+  const double change =
+      LargestChange(contact.mobility, contact.restoring, Sliding(contact), {.u = drift.u, .v = drift.v});
+  return change <= 0.25 * end ? Padded(contact.scale * change) : kUnbounded;
+}
+
+double ForcesOnFriction(const Scaled& contact, const planar::Problem& problem, const ContactPhysics& physics,
+                        const Drift& drift) {
+  if (problem.mu_static > problem.mu || physics.ratio_squared > 0.0) return kUnbounded;
+  const double cone = contact.Cone();
+  const ReferencePath rigid = {.slope_low = 1.0 - cone,
+                               .slope_high = 1.0 + cone,
+                               .u_slope = contact.friction * contact.mobility.tangential + contact.mobility.coupling,
+                               .f_slope = contact.friction};
+  const double jump = drift.u == 0.0 ? 0.0 : 2.0 * drift.u / contact.mobility.tangential;
+  return contact.Change(rigid, {.f_jump = jump, .u = drift.u, .v = drift.v});
+}
+
+void SetForces(const Scaled& contact, const planar::Problem& problem, const ContactPhysics& physics, Sizes& sizes) {
+  Size& size = sizes[Effect::kFiniteForces];
+  if (physics.tangential_acceleration == 0.0 && physics.normal_acceleration == 0.0) return;
+  if (std::holds_alternative<std::monostate>(physics.spring)) {
+    size = {.value = 0.0, .ground = Ground::kNoSpring};
+    return;
+  }
+  if (std::holds_alternative<HuntCrossleySpring>(physics.spring)) {
+    size = {.value = kUnbounded, .ground = Ground::kDamped};
+    sizes.forces_beyond_friction = kUnbounded;
+    return;
+  }
+  const Drift drift = DriftOf(problem, physics);
+  const bool bounded = drift.seconds < kUnbounded;
+  const double without_friction = bounded ? contact.Change({.u_slope = contact.mobility.coupling},
+                                                           {.f_slope = problem.mu_static, .u = drift.u, .v = drift.v})
+                                          : kUnbounded;
+  const double friction = sizes[Effect::kFriction].value;
+  sizes.forces_beyond_friction =
+      without_friction < kUnbounded ? std::max(without_friction - friction, 0.0) : kUnbounded;
+  double with_friction = kUnbounded;
+  if (problem.mu_static == 0.0 || contact.mobility.tangential == 0.0) {
+    with_friction = without_friction;
+  } else if (bounded) {
+    with_friction =
+        std::min(ForcesOnSlide(contact, physics, drift), ForcesOnFriction(contact, problem, physics, drift));
+  }
+  size = {.value = with_friction,
+          .ground = with_friction < kUnbounded ? Ground::kInequality : Ground::kNoInequality,
+          .number = drift.seconds};
+}
+
+// x and the change that friction makes, exactly but for rounding.
+Size PendulumFriction(const pendulum::Problem& problem) {
+  const double b = std::fabs(problem.b);
+  const double x = problem.mu * b / problem.a;
+  if ((problem.mu == 0.0 || b == 0.0) && problem.mu_static * b < problem.a) return {};
+  if (!(1.0 - x >= kLeastSlope) || problem.mu_static * b >= problem.a * (1.0 - kRounding)) return Locking(x);
+  const double c = problem.coefficient;
+  const double ratio = (1.0 - x) / (1.0 + x);
+  const double twice = 2.0 * x / (1.0 + x);  // 1 - r
+  double v1 = 0.0;
+  double kappa = c;
+  double grown = 0.0;  // kappa - c
+  switch (problem.law) {
+    case Law::kEnergetic: {
+      const double root = std::sqrt(ratio);
+      v1 = c * twice / (1.0 + root);
+      kappa = c / root;
+      grown = kappa * twice / (1.0 + root);
+      break;
+    }
+    case Law::kPoisson:
+      v1 = c * twice;
+      break;
+    case Law::kNewton:
+      kappa = c / ratio;
+      grown = kappa * twice;
+      break;
+  }
+  // (1 + kappa)/(1 + x) - (1 + c)
+  const double tau1 = (std::fabs(grown - x * (1.0 + c)) + kRounding * (grown + x * (1.0 + c))) / (1.0 + x);
+  const double arm = b / problem.a;
+  const double f1 = arm * x * (std::fabs(1.0 - kappa) + kRounding * (1.0 + kappa)) / (1.0 + x);
+  const double largest = std::max({v1, arm * v1, tau1, f1}) / std::max(1.0, arm);
+  return {.value = Padded(largest + std::numeric_limits<double>::min()), .ground = Ground::kInequality, .number = x};
+}
+
+Size HigherOrderSize(const pendulum::Problem& problem) {
+  const double x = problem.mu * std::fabs(problem.b) / problem.a;
+  if (x == 0.0) return {};
+  if (!first_order::Serves(problem)) return {.value = kUnbounded, .ground = Ground::kNoInequality, .number = x};
+  return {.value = Padded(first_order::ErrorsOf(problem).Largest()), .ground = Ground::kInequality, .number = x};
+}
+
+}  // namespace
+
+Sizes PlanarSizes(const planar::Problem& problem, const ContactPhysics& physics, bool slips_on) {
+  Sizes sizes;
+  const Scaled contact = Scale(problem);
+  sizes[Effect::kFriction] = FrictionSize(contact, physics, slips_on);
+  sizes[Effect::kSlipStop] = StopSize(contact, problem);
+  sizes[Effect::kSlipTurn].ground = Ground::kNotOfSystem;
+  sizes[Effect::kStaticFriction] = StaticSize(contact, problem);
+  sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, problem, physics, sizes[Effect::kFriction].value);
+  if (problem.wtt == 0.0) {
+    for (const Effect effect : {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction}) {
+      sizes[effect] = {.ground = Ground::kImmobile};
+    }
+    if (physics.ratio_squared > 0.0) sizes[Effect::kTangentialCompliance] = {.ground = Ground::kImmobile};
+  }
+  sizes[Effect::kFiniteDuration] = DurationSize(physics);
+  SetForces(contact, problem, physics, sizes);
+  sizes[Effect::kHigherOrder].ground = Ground::kNotOfSystem;
+  return sizes;
+}
+
+planar::Problem PlanarOf(const pendulum::Problem& problem) {
+  const double per_inertia = 1.0 / problem.inertia;
+  return {.wtt = problem.b * problem.b * per_inertia,
+          .wtn = problem.a * problem.b * per_inertia,
+          .wnn = problem.a * problem.a * per_inertia,
+          .u0 = problem.b * problem.omega_minus,
+          .v0 = problem.a * problem.omega_minus,
+          .mu = problem.mu,
+          .mu_static = problem.mu_static,
+          .law = problem.law,
+          .coefficient = problem.coefficient};
+}
+
+Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& physics) {
+  Sizes sizes;
+  const planar::Problem planar = PlanarOf(problem);
+  const Scaled contact = Scale(planar);
+  const double b = std::fabs(problem.b);
+  sizes[Effect::kFriction] = PendulumFriction(problem);
+  const bool rubs = problem.mu_static > 0.0 && b > 0.0;
+  if (rubs && !sizes[Effect::kFriction].IsAbsent()) {
+    sizes[Effect::kSlipStop] = {.value = kUnbounded, .ground = Ground::kStopsAtRest};
+  }
+  sizes[Effect::kSlipTurn].ground = Ground::kNotOfSystem;
+  if (problem.mu_static > problem.mu) {
+    const bool disagree =
+        std::fma(problem.mu, b, -problem.a) < 0.0 && std::fma(problem.mu_static, b, -problem.a) >= 0.0;
+    sizes[Effect::kStaticFriction] =
+        disagree ? Locking(problem.mu_static * b / problem.a) : Size{.ground = Ground::kDecidesNothing};
+  }
+  const double friction = FrictionSize(contact, physics, false).value;
+  sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, planar, physics, friction);
+  sizes[Effect::kFiniteDuration] = DurationSize(physics);
+  SetForces(contact, planar, physics, sizes);
+  sizes[Effect::kHigherOrder] = HigherOrderSize(problem);
+  return sizes;
+}
+
+}  // namespace ricochet
