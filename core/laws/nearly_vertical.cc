@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/laws/nearly_vertical_forms.h"
 #include "core/models/pendulum_wide.h"
 
 namespace ricochet::pendulum {
@@ -17,54 +18,6 @@ double Enclosing(const Wide& error, const Wide& value) {
   // Below the normal doubles an ulp is no fraction of the value.
   const bool subnormal = IsPositive(padded) && bound < std::numeric_limits<double>::min();
   return subnormal ? bound + 2.0 * std::numeric_limits<double>::denorm_min() : bound;
-}
-
-struct FirstOrder {
-  Wide value;
-  Wide error;
-};
-
-// The three coefficients and mu_hat/mu, each to first order in x.
-struct FirstOrderCoefficients {
-  FirstOrder newton, poisson, energetic, tangential;
-};
-
-// (1 - c)/(1 + c) - g x 2c/(1 + c)^2, the expansion of mu_hat/mu where kappa = c ((1 + x)/(1 - x))^(g/2).
-Wide TangentialForm(const Wide& c, const Wide& x, double g) {
-  const Wide one = Wide::Exactly(1.0);
-  const Wide sum = one + c;
-  return (one - c) / sum - Wide::Exactly(2.0 * g) * x * c / (sum * sum);
-}
-
-FirstOrderCoefficients Coefficients(const Problem& problem, const Wide& x, const Wide& one_minus_x,
-                                    const Wide& one_plus_x) {
-  const Wide c = Wide::Exactly(problem.coefficient);
-  const Wide square = x * x;
-  const Wide half = Wide::Exactly(0.5);
-  const Wide two = Wide::Exactly(2.0);
-  const Wide product = one_minus_x * one_plus_x;
-  const Wide denominator = product * product;
-  const Wide lowered = c * square * half;                // of (1 - x) c
-  const Wide raised = c * square / (two * one_minus_x);  // of (1 + x) c
-  switch (problem.law) {
-    case Law::kEnergetic:
-      return {.newton = {one_minus_x * c, lowered},
-              .poisson = {one_plus_x * c, raised},
-              .energetic = {c, Wide()},
-              .tangential = {TangentialForm(c, x, 1.0),
-                             square * (Wide::Exactly(1.0) / Wide::Exactly(10.0) + half * x) / denominator}};
-    case Law::kNewton:
-      return {.newton = {c, Wide()},
-              .poisson = {(one_plus_x + x) * c, two * square * c / one_minus_x},
-              .energetic = {one_plus_x * c, raised},
-              .tangential = {TangentialForm(c, x, 2.0), square * (two / Wide::Exactly(5.0) + x) / denominator}};
-    case Law::kPoisson:
-      return {.newton = {(one_minus_x - x) * c, two * square * c},
-              .poisson = {c, Wide()},
-              .energetic = {one_minus_x * c, lowered},
-              .tangential = {TangentialForm(c, x, 0.0), Wide()}};
-  }
-  return {};
 }
 
 }  // namespace
@@ -96,7 +49,7 @@ NearlyVertical SolveNearlyVertical(const Problem& problem, bool with_coefficient
   result.normal_total_error_n_s = Enclosing(poisson_error * tau0, normal_total);
   if (!with_coefficients) return result;
 
-  const auto form = Coefficients(problem, x, one_minus_x, one_plus_x);
+  const auto form = CoefficientForms(problem.law, Wide::Exactly(problem.coefficient), x, one_minus_x, one_plus_x);
   const Wide mu_hat = mu * form.tangential.value;
   result.coefficients = {.newton = Rounded(form.newton.value) + 0.0,
                          .poisson = Rounded(form.poisson.value),

@@ -45,9 +45,9 @@ WorkLedger MakeLedger(const Impact& impact) {
   return work;
 }
 
-State StateAt(const Problem& problem, double tau) {
+State StateAt(const Problem& problem, const Findings& findings, double tau) {
   if (problem.omega_minus >= 0.0) return MakeState(problem, tau, problem.omega_minus, 0.0);
-  const Instant instant = At(problem, tau);
+  const Instant instant = findings.at(problem, tau);
   return MakeState(problem, tau, instant.omega, instant.tangential_impulse);
 }
 
@@ -96,8 +96,9 @@ std::string OutputPath(Output output) {
   return "";
 }
 
-absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s, Detail detail) {
-  const Impact impact = Solve(problem);
+absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const Findings& findings,
+                                    absl::Span<const double> history_at_n_s, Detail detail) {
+  const Impact& impact = findings.impact;
   Outcome outcome;
   outcome.regime = impact.regime;
   outcome.broken_limits = BrokenLimits({.sharp_broken = impact.sharp_limit_broken,
@@ -121,7 +122,7 @@ absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const dou
   outcome.energy_change_j = impact[Output::kEnergyChange];
   outcome.accuracy.kind = AccuracyKind::kBound;
   if (impact.regime != Regime::kSeparating) {
-    outcome.accuracy.relative_error = kUlps * std::max(1.0, impact[Output::kNewton]);
+    outcome.accuracy.relative_error = findings.error;
     outcome.timeline = detail == Detail::kAll ? MakeTimeline(problem, impact) : std::vector<Event>();
   }
   if (detail == Detail::kNumbers) return outcome;
@@ -129,8 +130,14 @@ absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const dou
   if (!finite.ok()) return finite;
   const auto violations = CheckHistory(history_at_n_s, impact[Output::kNormalImpulse]);
   if (!violations.empty()) return InvalidRequest(violations);
-  for (const double tau : history_at_n_s) outcome.history.push_back(StateAt(problem, tau));
+  for (const double tau : history_at_n_s) outcome.history.push_back(StateAt(problem, findings, tau));
   return outcome;
+}
+
+absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s, Detail detail) {
+  const Impact impact = Solve(problem);
+  const double error = kUlps * std::max(1.0, impact[Output::kNewton]);
+  return MakeOutcome(problem, {.impact = impact, .error = error, .at = At}, history_at_n_s, detail);
 }
 
 }  // namespace ricochet::pendulum

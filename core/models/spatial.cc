@@ -36,7 +36,7 @@ namespace {
 Impact SolveSeparating(const Problem& problem) {
   Impact impact;
   impact.regime = Regime::kSeparating;
-  impact.w_rank = HWY_DYNAMIC_DISPATCH(RankOf)(problem);
+  impact.w_rank = RankOf(problem);
   impact.energetic_excess = -1.0;
   impact.u1 = problem.u0;
   impact.v1 = problem.v0;
@@ -45,6 +45,8 @@ Impact SolveSeparating(const Problem& problem) {
 }
 
 }  // namespace
+
+int RankOf(const Problem& problem) { return HWY_DYNAMIC_DISPATCH(RankOf)(problem); }
 
 Impact Solve(const Problem& problem) {
   if (problem.v0 >= 0.0) return SolveSeparating(problem);

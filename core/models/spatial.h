@@ -82,6 +82,9 @@ struct Impact {
 
 Impact Solve(const Problem& problem);
 
+// The rank of W, as Impact::w_rank.
+int RankOf(const Problem& problem);
+
 }  // namespace ricochet::spatial
 
 #endif  // RICOCHET_CORE_MODELS_SPATIAL_H_

@@ -1,0 +1,42 @@
+// An impact of slip that neither stops nor turns, or without friction, as an Outcome, in a plane and in space.
+
+#ifndef RICOCHET_CORE_MODELS_SLIDING_OUTCOME_H_
+#define RICOCHET_CORE_MODELS_SLIDING_OUTCOME_H_
+
+#include <cstddef>
+
+#include "absl/status/statusor.h"
+#include "absl/types/span.h"
+#include "core/models/outcome_parts.h"
+#include "core/models/sliding.h"
+#include "core/outcome.h"
+#include "core/scene/reduction.h"
+
+namespace ricochet::sliding {
+
+// The impact of a reduced system.
+template <size_t kTangential>
+Problem<kTangential> MakeProblem(const Reduction<kTangential>& reduction, const EffectiveCoefficients& effective) {
+  return {.w = reduction.w,
+          .u0 = reduction.u0,
+          .v0 = reduction.v0,
+          .mu = effective.kinetic_friction,
+          .coefficient = effective.restitution};
+}
+
+// `problem` is of `reduction`. The path is a straight line, so that there is a history in space too.
+// Errors: OUT_OF_RANGE naming the first output that exceeds the largest double; INVALID_ARGUMENT for each
+// history_at_n_s that is not in [0, tau1].
+template <size_t kTangential>
+absl::StatusOr<Outcome> MakeOutcome(const Problem<kTangential>& problem, const Reduction<kTangential>& reduction,
+                                    absl::Span<const double> history_at_n_s, Detail detail = Detail::kAll);
+
+// The same without friction.
+template <size_t kTangential>
+absl::StatusOr<Outcome> MakeFrictionlessOutcome(const Problem<kTangential>& problem,
+                                                const Reduction<kTangential>& reduction,
+                                                absl::Span<const double> history_at_n_s, Detail detail = Detail::kAll);
+
+}  // namespace ricochet::sliding
+
+#endif  // RICOCHET_CORE_MODELS_SLIDING_OUTCOME_H_
