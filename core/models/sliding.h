@@ -92,7 +92,9 @@ struct End {
 // Slip along u0.
 template <size_t kTangential>
 Slopes<kTangential> SlidingSlopes(const Problem<kTangential>& problem) {
-  const auto& [w, u0, v0, mu, coefficient] = problem;
+  const auto& w = problem.w;
+  const Vector<kTangential>& u0 = problem.u0;
+  const double mu = problem.mu;
   if constexpr (kTangential == 1) {
     const double f = -std::copysign(mu, u0[0]);
     return {.u = {std::fma(f, w[0], w[1])}, .v = std::fma(f, w[1], w[2]), .f = {f}};
