@@ -21,10 +21,16 @@ int RankOf(const Problem<2>& problem) {
   return spatial::RankOf({.w11 = w11, .w12 = w12, .w13 = w13, .w22 = w22, .w23 = w23, .w33 = w33});
 }
 
+template <typename Values>
+bool AllModerate(const Values& values) {
+  return std::all_of(values.begin(), values.end(), internal::Moderate);
+}
+
+// All that the frictionless impact reads.
 template <size_t kTangential>
-bool AllModerate(const Problem<kTangential>& problem) {
-  const auto all = [](const auto& values) { return std::all_of(values.begin(), values.end(), internal::Moderate); };
-  return all(problem.w) && all(problem.u0) && internal::Moderate(problem.v0) && internal::Moderate(problem.coefficient);
+bool IsModerateWithoutFriction(const Problem<kTangential>& problem) {
+  return AllModerate(problem.Wtn()) && AllModerate(problem.u0) &&
+         AllModerate(std::array{problem.Wnn(), problem.v0, problem.coefficient});
 }
 
 template <size_t kTangential>
@@ -78,7 +84,8 @@ Impact<kTangential> MakeImpact(const Problem<kTangential>& problem, const End<kT
 template <size_t kTangential>
 RelativeErrors ErrorsOf(const Problem<kTangential>& problem) {
   constexpr double kDirectional = kTangential == 1 ? 0.0 : 6.0;
-  if (!AllModerate(problem) || !internal::Moderate(problem.mu)) return kNoBound;
+  if (!IsModerateWithoutFriction(problem) || !AllModerate(problem.w) || !internal::Moderate(problem.mu))
+    return kNoBound;
   const Slopes<kTangential> slopes = SlidingSlopes(problem);
   if (!(slopes.v > 0.0)) return kNoBound;
   const double conditioning = kDirectional * (std::fabs(slopes.v - problem.Wnn()) / slopes.v);
@@ -99,7 +106,7 @@ RelativeErrors ErrorsOf(const Problem<kTangential>& problem) {
 
 template <size_t kTangential>
 RelativeErrors FrictionlessErrorsOf(const Problem<kTangential>& problem) {
-  if (!AllModerate(problem)) return kNoBound;
+  if (!IsModerateWithoutFriction(problem)) return kNoBound;
   const End<kTangential> end = SolveFrictionlessEnd(problem);
   const double drift = internal::Largest(problem.Wtn()) * end.tau1;
   const double unit = kRounding / ScaleOf(problem);

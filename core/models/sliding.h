@@ -10,7 +10,8 @@
 //   Wc_n = tau_c v0/2,   Wr_n = -c^2 Wc_n,   works of friction: f (u at both ends)/2 of each phase
 //   dE = (f1 . (u0 + u1) + tau1 (v0 + v1))/2
 //
-// Without friction f = 0, u' = wtn and v' = Wnn: that has functions of its own, which read neither mu nor Wtt.
+// Without friction f = 0, u' = wtn and v' = Wnn: that has functions of its own, which read neither mu
+// nor, but for the rank of W, Wtt.
 // W is taken at its word: where it has rank one, core/models/planar.h puts v0 wtn/Wnn in place of a u0 that rounding
 // has moved from there, and these functions do not.
 //
@@ -91,7 +92,9 @@ struct End {
 // Slip along u0.
 template <size_t kTangential>
 Slopes<kTangential> SlidingSlopes(const Problem<kTangential>& problem) {
-  const auto& [w, u0, v0, mu, coefficient] = problem;
+  const auto& w = problem.w;
+  const Vector<kTangential>& u0 = problem.u0;
+  const double mu = problem.mu;
   if constexpr (kTangential == 1) {
     const double f = -std::copysign(mu, u0[0]);
     return {.u = {std::fma(f, w[0], w[1])}, .v = std::fma(f, w[1], w[2]), .f = {f}};
