@@ -7,7 +7,7 @@ namespace ricochet::first_order {
 Impact Solve(const Problem& problem) {
   const Approximation approximation = Approximate(problem);
   Impact impact;
-  impact.regime = problem.mu > 0.0 ? Regime::kRebound : Regime::kFrictionless;
+  impact.regime = RegimeOf(problem);
   for (int i = 0; i < pendulum::kOutputCount; ++i) {
     impact.values[static_cast<size_t>(i)] = Value(problem, approximation, static_cast<Output>(i));
   }

@@ -164,8 +164,11 @@ inline double Value(const Problem& problem, const Approximation& of, Output outp
 // Bounds on the errors of contact velocity and impulses; cheaper than an impact.
 inline RelativeErrors ErrorsOf(const Problem& problem) { return Approximate(problem).errors; }
 
-// Everything about one impact: regime kRebound, without friction kFrictionless, no limit broken.
+// Everything about one impact: no limit is broken.
 Impact Solve(const Problem& problem);
+
+// kRebound, without friction kFrictionless.
+inline Regime RegimeOf(const Problem& problem) { return problem.mu > 0.0 ? Regime::kRebound : Regime::kFrictionless; }
 
 // The contact at normal impulse tau in [0, tau1]: [7], [12], [48] through tau0, tau1 and w+ of the model.
 // Accuracy: 4 ulp of |w-| or of mu tau0.

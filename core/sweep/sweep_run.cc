@@ -13,6 +13,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/models/first_order.h"
 #include "core/models/pendulum.h"
 #include "core/models/scene_outcome.h"
 #include "core/plan/planned_scene.h"
@@ -105,9 +106,8 @@ bool IsAMatterOfEachPoint(const Violation& violation, const Drivers& drivers) {
   return false;
 }
 
-// The violations of the base scene that no axis cures.
-std::vector<Violation> CheckBaseScene(const Scene& scene, const Drivers& drivers) {
-  std::vector<Violation> violations = Validate(scene);
+// Those of the base scene that no axis cures.
+std::vector<Violation> Uncured(std::vector<Violation> violations, const Drivers& drivers) {
   std::erase_if(violations, [&](const Violation& violation) { return IsAMatterOfEachPoint(violation, drivers); });
   return violations;
 }
@@ -120,7 +120,8 @@ void Append(std::vector<Violation> more, std::vector<Violation>& violations) {
 
 class SweepRun::Impl {
  public:
-  explicit Impl(const SweepRequest& request) : grid_(request.grid), scene_(request.grid.scene) {}
+  explicit Impl(const SweepRequest& request)
+      : grid_(request.grid), demand_(ToDemand(request.demand)), scene_(request.grid.scene) {}
 
   absl::Status Prepare(const SweepRequest& request);
 
@@ -138,12 +139,15 @@ class SweepRun::Impl {
   void ResolveColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known);
   void GatherProblems(int64_t count);
   void SolveLanes(int64_t count);
+  void SolveInLanes(size_t first, size_t count);
+  void SolveToFirstOrder(size_t first, size_t count);
   bool SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped);
   void SolvePoint(size_t i);
   bool ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped);
   void FinishBlock(int64_t count);
 
   Grid grid_;
+  Demand demand_;
   Scene scene_;  // The current point; the fields point into it.
   std::vector<Field> fields_;
   std::vector<int64_t> counts_;
@@ -161,6 +165,7 @@ class SweepRun::Impl {
   // One block of points.
   std::vector<pendulum::Problem> problems_;
   std::vector<Regime> regimes_;
+  std::vector<Model> models_;
   std::unique_ptr<bool[]> valid_;
   std::unique_ptr<bool[]> inadmissible_;
   std::vector<double*> columns_;
@@ -172,7 +177,8 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   if (!std::holds_alternative<std::monostate>(scene_.system)) {
     drivers = ResolveAxes(grid_.axes, scene_);
   }
-  Append(CheckBaseScene(scene_, drivers), violations);
+  Append(Uncured(Validate(scene_), drivers), violations);
+  if (violations.empty()) Append(Uncured(CheckDemand(scene_, request.demand), drivers), violations);
   Append(std::move(drivers.violations), violations);
   const std::vector<Violation> axes = ValidateAxes(grid_);
   Append(axes, violations);
@@ -190,6 +196,7 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   next_ = first_;
   problems_.resize(kPointsBetweenStops);
   regimes_.resize(kPointsBetweenStops);
+  models_.resize(kPointsBetweenStops);
   valid_ = std::make_unique<bool[]>(kPointsBetweenStops);
   inadmissible_ = std::make_unique<bool[]>(kPointsBetweenStops);
   columns_.resize(request.columns.size());
@@ -198,9 +205,9 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
 }
 
 void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known) {
-  in_lanes_ = HasClosedForm(scene_) && std::all_of(columns.begin(), columns.end(), [](const std::string& column) {
-                return PendulumColumn(column).has_value();
-              });
+  in_lanes_ = HasClosedForm(scene_) && !scene_.compliance.has_value() &&
+              std::all_of(columns.begin(), columns.end(),
+                          [](const std::string& column) { return PendulumColumn(column).has_value(); });
   in_space_ = TangentialDirections(scene_.system) == 2;
   for (const std::string& column : columns) {
     if (in_lanes_) {
@@ -238,6 +245,9 @@ void SweepRun::Impl::GatherProblems(int64_t count) {
     valid_[i] = IsValid(scene_);
     problems_[i] = valid_[i] ? ClosedFormProblem(scene_) : pendulum::Problem{};
     if (!valid_[i]) problems_[i].omega_minus = 1.0;  // Separating: the cheapest to solve.
+    const Choice choice = ChoosePendulum(problems_[i], {}, demand_);
+    models_[i] = choice.model;
+    problems_[i] = Without(choice, problems_[i]);
     AdvancePoint();
   }
 }
@@ -254,23 +264,52 @@ void SweepRun::Impl::FinishBlock(int64_t count) {
     const int64_t index = next_ + static_cast<int64_t>(i);
     Add(index, summary_.by_regime[static_cast<size_t>(regimes_[i])]);
     if (inadmissible_[i]) Add(index, summary_.inadmissible);
+    if (regimes_[i] != Regime::kInvalid) Add(index, summary_.by_model[static_cast<size_t>(models_[i])]);
   }
 }
 
+void SweepRun::Impl::SolveInLanes(size_t first, size_t count) {
+  std::vector<double*> columns = columns_;
+  for (double*& column : columns) column += first;
+  pendulum::SolveColumns(absl::MakeConstSpan(problems_).subspan(first, count), outputs_, columns,
+                         absl::MakeSpan(regimes_).subspan(first, count),
+                         absl::MakeSpan(inadmissible_.get() + first, count));
+}
+
+void SweepRun::Impl::SolveToFirstOrder(size_t first, size_t count) {
+  for (size_t i = first; i < first + count; ++i) {
+    const first_order::Approximation approximation = first_order::Approximate(problems_[i]);
+    for (size_t c = 0; c < columns_.size(); ++c) {
+      columns_[c][i] = first_order::Value(problems_[i], approximation, outputs_[c]);
+    }
+    regimes_[i] = first_order::RegimeOf(problems_[i]);
+    inadmissible_[i] = false;
+  }
+}
+
+// Each run of points whose plans agree by the model that they call for.
 void SweepRun::Impl::SolveLanes(int64_t count) {
+  const auto is_exact = [this](size_t i) { return models_[i] == Model::kPendulum || models_[i] == Model::kNone; };
   const auto size = static_cast<size_t>(count);
   GatherProblems(count);
-  pendulum::SolveColumns(absl::MakeConstSpan(problems_).first(size), outputs_, columns_,
-                         absl::MakeSpan(regimes_).first(size), absl::MakeSpan(inadmissible_.get(), size));
+  for (size_t first = 0, end = 0; first < size; first = end) {
+    while (end < size && is_exact(end) == is_exact(first)) ++end;
+    if (is_exact(first)) {
+      SolveInLanes(first, end - first);
+    } else {
+      SolveToFirstOrder(first, end - first);
+    }
+  }
 }
 
 void SweepRun::Impl::SolvePoint(size_t i) {
   valid_[i] = IsValid(scene_);
   if (!valid_[i]) return;
-  const absl::StatusOr<Outcome> outcome = SolveScene(scene_, {.detail = Detail::kNumbers});
+  const absl::StatusOr<Outcome> outcome = SolveScene(scene_, {.demand = demand_, .detail = Detail::kNumbers});
   valid_[i] = outcome.ok();
   if (!valid_[i]) return;
   regimes_[i] = outcome->regime;
+  models_[i] = outcome->plan.model;
   inadmissible_[i] = !outcome->admissible;
   ReadColumns(*outcome, numbers_);
   for (size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = numbers_[positions_of_[c]];
