@@ -22,6 +22,11 @@
 #define RICOCHET_CORE_MODELS_PENDULUM_CC_
 namespace ricochet::pendulum {
 
+// No product of the kernel leaves the range in which DoubleDouble is exact if every number is 0 or has a size between
+// 1/kLimit and kLimit: the largest product is below 2^700, the smallest above 2^-890, its low half 2^-106 of that.
+inline constexpr double kLimit = 0x1p100;
+inline constexpr double kCoefficientLimit = 0x1p40;
+
 // Problems of one law column by column, as vectors load them.
 struct Block {
   static constexpr size_t kCapacity = 64;
@@ -29,6 +34,7 @@ struct Block {
   Law law = Law::kEnergetic;
   size_t size = 0;
   std::array<double, kCapacity> inertia, a, b, omega, mu, mu_static, coefficient;
+  std::array<double, kCapacity> friction;      // mu as it stands, also where nothing couples.
   std::array<double, kCapacity> locked;        // Written: 1 where locked, else 0.
   std::array<double, kCapacity> inadmissible;  // Written: 1 where eta > 1, else 0.
 
@@ -41,12 +47,13 @@ struct Block {
     mu[size] = SignedFriction(problem);
     mu_static[size] = std::copysign(problem.mu_static, problem.b);
     coefficient[size] = problem.coefficient;
+    friction[size] = problem.mu;
     ++size;
   }
 
   // Repeats the last problem, so that whole vectors can be loaded.
   void PadTo(size_t padded) {
-    for (auto* column : {&inertia, &a, &b, &omega, &mu, &mu_static, &coefficient}) {
+    for (auto* column : {&inertia, &a, &b, &omega, &mu, &mu_static, &coefficient, &friction}) {
       std::fill(column->begin() + static_cast<int64_t>(size), column->begin() + static_cast<int64_t>(padded),
                 (*column)[size - 1]);
     }
@@ -59,6 +66,7 @@ struct Block {
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::pendulum::HWY_NAMESPACE {
 
+using ricochet::HWY_NAMESPACE::Absolute;
 using ricochet::HWY_NAMESPACE::Select;
 
 // The target's widest lanes.
@@ -99,8 +107,46 @@ HWY_INLINE void StoreFirst(V value, size_t count, double* to) {
   std::copy_n(lanes, count, to);
 }
 
-void SolveBlock(Block& block, unsigned parts, absl::Span<const Output> outputs, absl::Span<double* const> columns) {
+// The sizes of what has been taken in, zeros left out; lane by lane.
+struct Sizes {
+  V least;  // 1 at first, as is the next.
+  V most;
+
+  HWY_INLINE void TakeIn(const double* from) {
+    const V x = Absolute(VLanes::Load(from));
+    const V size = Select(x == VLanes::Fill(0.0), VLanes::Fill(1.0), x);
+    least = Select(size < least, size, least);
+    most = Select(most < size, size, most);
+  }
+
+  HWY_INLINE bool AreWithin(double limit) const {
+    double low[Block::kCapacity];
+    double high[Block::kCapacity];
+    VLanes::Store(least, low);
+    VLanes::Store(most, high);
+    bool within = true;
+    for (size_t i = 0; i < VLanes::Count(); ++i) within = within && low[i] >= 1.0 / limit && high[i] <= limit;
+    return within;
+  }
+};
+
+HWY_INLINE bool FitsDoubleDouble(const Block& block) {
+  const V one = VLanes::Fill(1.0);
+  Sizes sizes = {one, one};
+  Sizes coefficients = {one, one};
+  for (size_t i = 0; i < block.size; i += VLanes::Count()) {
+    for (const auto* column : {&block.inertia, &block.a, &block.b, &block.omega, &block.friction, &block.mu_static}) {
+      sizes.TakeIn(column->data() + i);
+    }
+    coefficients.TakeIn(block.coefficient.data() + i);
+  }
+  return sizes.AreWithin(kLimit) && coefficients.AreWithin(kCoefficientLimit);
+}
+
+// False, with nothing written, if a number is beyond the limits.
+bool SolveBlock(Block& block, unsigned parts, absl::Span<const Output> outputs, absl::Span<double* const> columns) {
   block.PadTo((block.size + VLanes::Count() - 1) / VLanes::Count() * VLanes::Count());
+  if (!FitsDoubleDouble(block)) return false;
   const V zero = VLanes::Fill(0.0);
   const V one = VLanes::Fill(1.0);
   for (size_t i = 0; i < block.size; i += VLanes::Count()) {
@@ -112,6 +158,7 @@ void SolveBlock(Block& block, unsigned parts, absl::Span<const Output> outputs, 
       StoreFirst(Unsigned0(Evaluate(x, outputs[c])), block.size - i, columns[c] + i);
     }
   }
+  return true;
 }
 
 template <typename T>
@@ -146,23 +193,17 @@ HWY_EXPORT(SolveModerate);
 
 namespace {
 
-// Whether no product of the kernel can leave the range in which DoubleDouble is exact: the largest is below 2^700, the
-// smallest above 2^-890, its low half 2^-106 of that. Without branches, for it is asked of every point.
 bool FitsDoubleDouble(const Problem& problem) {
   const auto moderate = [](double value, double limit) {
     const double size = std::fabs(value);
-    return static_cast<unsigned>(size == 0.0) | static_cast<unsigned>((size >= 1.0 / limit) & (size <= limit));
+    return size == 0.0 || (size >= 1.0 / limit && size <= limit);
   };
-  constexpr double kLimit = 0x1p100;
-  constexpr double kCoefficientLimit = 0x1p40;
-  return (moderate(problem.inertia, kLimit) & moderate(problem.a, kLimit) & moderate(problem.b, kLimit) &
-          moderate(problem.omega_minus, kLimit) & moderate(problem.mu, kLimit) & moderate(problem.mu_static, kLimit) &
-          moderate(problem.coefficient, kCoefficientLimit)) != 0;
+  return moderate(problem.inertia, kLimit) && moderate(problem.a, kLimit) && moderate(problem.b, kLimit) &&
+         moderate(problem.omega_minus, kLimit) && moderate(problem.mu, kLimit) && moderate(problem.mu_static, kLimit) &&
+         moderate(problem.coefficient, kCoefficientLimit);
 }
 
 bool Separating(const Problem& problem) { return problem.omega_minus >= 0.0; }
-
-bool FitsBlock(const Problem& problem) { return !Separating(problem) && FitsDoubleDouble(problem); }
 
 // A contact that does not approach: velocities as before, all else 0.
 double SeparatingOutput(const Problem& problem, Output output) {
@@ -230,27 +271,28 @@ void SolveColumns(absl::Span<const Problem> problems, absl::Span<const Output> o
   const unsigned parts = PartsOf(outputs);
   std::vector<double*> ends(columns.begin(), columns.end());
   for (size_t first = 0; first < problems.size();) {
-    if (!FitsBlock(problems[first])) {
-      const Impact impact = Solve(problems[first]);
-      regimes[first] = impact.regime;
-      inadmissible[first] = impact.sharp_limit_broken;
-      for (size_t c = 0; c < outputs.size(); ++c) *ends[c]++ = impact[outputs[c]];
-      ++first;
-      continue;
-    }
     Block block;
     block.law = problems[first].law;
     for (size_t i = first; i < problems.size() && block.size < Block::kCapacity; ++i) {
-      if (problems[i].law != block.law || !FitsBlock(problems[i])) break;
+      if (problems[i].law != block.law || Separating(problems[i])) break;
       block.Append(problems[i]);
     }
-    HWY_DYNAMIC_DISPATCH(SolveBlock)(block, parts, outputs, ends);
-    for (size_t i = 0; i < block.size; ++i) {
-      regimes[first + i] = RegimeOf(problems[first + i], block.locked[i] != 0.0);
-      inadmissible[first + i] = block.inadmissible[i] != 0.0;
+    const bool in_lanes = block.size > 0 && HWY_DYNAMIC_DISPATCH(SolveBlock)(block, parts, outputs, ends);
+    const size_t count = std::max<size_t>(block.size, 1);
+    for (size_t i = 0; i < count; ++i) {
+      const Problem& problem = problems[first + i];
+      if (in_lanes) {
+        regimes[first + i] = RegimeOf(problem, block.locked[i] != 0.0);
+        inadmissible[first + i] = block.inadmissible[i] != 0.0;
+        continue;
+      }
+      const Impact impact = Solve(problem);
+      regimes[first + i] = impact.regime;
+      inadmissible[first + i] = impact.sharp_limit_broken;
+      for (size_t c = 0; c < outputs.size(); ++c) ends[c][i] = impact[outputs[c]];
     }
-    for (double*& end : ends) end += block.size;
-    first += block.size;
+    for (double*& end : ends) end += count;
+    first += count;
   }
 }
 

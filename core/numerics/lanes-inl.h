@@ -32,6 +32,7 @@ HWY_INLINE double Fma(double a, double b, double c) { return std::fma(a, b, c); 
 HWY_INLINE double FmaSubtract(double a, double b, double c) { return std::fma(a, b, -c); }
 HWY_INLINE double NegativeFma(double a, double b, double c) { return std::fma(-a, b, c); }
 HWY_INLINE double SquareRoot(double x) { return std::sqrt(x); }
+HWY_INLINE double Absolute(double x) { return std::fabs(x); }
 HWY_INLINE double Select(bool condition, double yes, double no) { return condition ? yes : no; }
 HWY_INLINE bool Not(bool x) { return !x; }
 
@@ -57,6 +58,7 @@ HWY_INLINE Vector Fma(Vector a, Vector b, Vector c) { return hn::MulAdd(a, b, c)
 HWY_INLINE Vector FmaSubtract(Vector a, Vector b, Vector c) { return hn::MulSub(a, b, c); }
 HWY_INLINE Vector NegativeFma(Vector a, Vector b, Vector c) { return hn::NegMulAdd(a, b, c); }
 HWY_INLINE Vector SquareRoot(Vector x) { return hn::Sqrt(x); }
+HWY_INLINE Vector Absolute(Vector x) { return hn::Abs(x); }
 HWY_INLINE Vector Select(VectorMask condition, Vector yes, Vector no) { return hn::IfThenElse(condition, yes, no); }
 HWY_INLINE VectorMask Not(VectorMask x) { return hn::Not(x); }
 

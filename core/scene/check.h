@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -30,9 +29,10 @@ class Check {
     if (mode_ == Mode::kListing) violations_.push_back(violation());
   }
 
-  // A value that is not finite breaks every rule. Inline, because a sweep comes here for every number of every point.
-  [[gnu::always_inline]] void Number(const NumberPath& path, double value, NumberRule rule) {
-    if (!Holds(value, rule)) Report(path, value, rule);
+  // A value that is not finite breaks every rule.
+  void Number(const NumberPath& path, double value, NumberRule rule) {
+    Require(Holds(value, rule),
+            [&] { return MakeViolation(path.Text(), value, std::isfinite(value) ? Text(rule) : "be finite"); });
   }
 
   void RequireSet(bool is_set, const char* field, const char* rule) {
@@ -51,30 +51,6 @@ class Check {
   std::vector<Violation> violations() && { return std::move(violations_); }
 
  private:
-  // One comparison a side: no rule lets a NaN or an infinity pass.
-  [[gnu::always_inline]] static bool Holds(double value, NumberRule rule) {
-    constexpr double kMost = std::numeric_limits<double>::max();
-    switch (rule) {
-      case NumberRule::kFinite:
-        return std::abs(value) <= kMost;
-      case NumberRule::kPositive:
-        return value > 0.0 && value <= kMost;
-      case NumberRule::kNotNegative:
-        return value >= 0.0 && value <= kMost;
-      case NumberRule::kUnitInterval:
-        return value >= 0.0 && value <= 1.0;
-      case NumberRule::kPlusMinusOne:
-        return value >= -1.0 && value <= 1.0;
-      case NumberRule::kOneToFour:
-        return value >= 1.0 && value <= 4.0;
-    }
-    return false;
-  }
-
-  [[gnu::noinline]] void Report(const NumberPath& path, double value, NumberRule rule) {
-    Require(false, [&] { return MakeViolation(path.Text(), value, std::isfinite(value) ? Text(rule) : "be finite"); });
-  }
-
   static const char* Text(NumberRule rule) {
     switch (rule) {
       case NumberRule::kFinite:

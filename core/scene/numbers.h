@@ -5,8 +5,10 @@
 #ifndef RICOCHET_CORE_SCENE_NUMBERS_H_
 #define RICOCHET_CORE_SCENE_NUMBERS_H_
 
+#include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 #include <variant>
 
@@ -17,6 +19,26 @@ namespace ricochet {
 
 // Every number must be finite.
 enum class NumberRule { kFinite, kPositive, kNotNegative, kUnitInterval, kPlusMinusOne, kOneToFour };
+
+// One comparison a side: no rule lets a NaN or an infinity pass.
+inline bool Holds(double value, NumberRule rule) {
+  constexpr double kMost = std::numeric_limits<double>::max();
+  switch (rule) {
+    case NumberRule::kFinite:
+      return std::abs(value) <= kMost;
+    case NumberRule::kPositive:
+      return value > 0.0 && value <= kMost;
+    case NumberRule::kNotNegative:
+      return value >= 0.0 && value <= kMost;
+    case NumberRule::kUnitInterval:
+      return value >= 0.0 && value <= 1.0;
+    case NumberRule::kPlusMinusOne:
+      return value >= -1.0 && value <= 1.0;
+    case NumberRule::kOneToFour:
+      return value >= 1.0 && value <= 4.0;
+  }
+  return false;
+}
 
 // Implementation of VisitNumbers, below.
 namespace numbers {

@@ -90,37 +90,53 @@ void CheckTogether(const Scene& scene, Check& check) {
   });
 }
 
-// The rules that the fields decide. Every path that Verdict takes is free of allocation for a pendulum.
-void CheckFields(const Scene& scene, RestitutionIs restitution, Check& check) {
-  if (!std::holds_alternative<Pendulum>(scene.system)) CheckShape(scene.system, check);
-  VisitNumbers(scene, [&](const NumberPath& path, double value, NumberRule rule) { check.Number(path, value, rule); });
+// What is to be checked.
+enum class Scope {
+  kAll,
+  kRelations,  // Only what another number may break: the scene was whole, and each number keeps its own rule.
+};
+
+// The rules that the fields decide.
+void CheckFields(const Scene& scene, RestitutionIs restitution, Scope scope, Check& check) {
+  CheckShape(scene.system, check);
+  if (scope == Scope::kAll) {
+    VisitNumbers(scene,
+                 [&](const NumberPath& path, double value, NumberRule rule) { check.Number(path, value, rule); });
+  }
   CheckStatic(scene.friction, check);
   if (scene.friction.by_speed.has_value()) CheckForm("friction.by_speed", *scene.friction.by_speed, check);
-  CheckRestitution(scene, restitution, check);
+  if (scope == Scope::kAll) CheckRestitution(scene, restitution, check);
   if (scene.restitution_by_speed.has_value()) CheckForm("restitution.by_speed", *scene.restitution_by_speed, check);
-  CheckTogether(scene, check);
+  if (scope == Scope::kAll) CheckTogether(scene, check);
   CheckEffects(scene, check);
 }
 
-void CheckScene(const Scene& scene, RestitutionIs restitution, Check& check) {
-  CheckFields(scene, restitution, check);
-  // Spares the sweeps of a pendulum a call that finds nothing to do.
-  const bool plain = std::holds_alternative<Pendulum>(scene.system) && !scene.surface_velocity.has_value() &&
-                     !DependsOnSpeed(scene) && !scene.compliance.has_value();
-  if (!plain && !check.failed()) CheckContact(scene, check);
+void CheckScene(const Scene& scene, RestitutionIs restitution, Scope scope, Check& check) {
+  CheckFields(scene, restitution, scope, check);
+  if (!check.failed()) CheckContact(scene, check);
 }
 
 }  // namespace
 
 std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution) {
   Check check(Check::Mode::kListing);
-  CheckScene(scene, restitution, check);
+  CheckScene(scene, restitution, Scope::kAll, check);
   return std::move(check).violations();
 }
 
-bool IsValid(const Scene& scene) {
+bool HasRelations(const Scene& scene) {
+  if (!std::holds_alternative<Pendulum>(scene.system)) return true;
+  // A pendulum by itself: whatever else a scene may state could bring a rule with it.
+  Scene plain;
+  plain.system = scene.system;
+  plain.friction.kinetic_coefficient = scene.friction.kinetic_coefficient;
+  plain.restitution = scene.restitution;
+  return scene != plain;
+}
+
+bool KeepsRelations(const Scene& scene) {
   Check check(Check::Mode::kVerdict);
-  CheckScene(scene, RestitutionIs::kRequired, check);
+  CheckScene(scene, RestitutionIs::kRequired, Scope::kRelations, check);
   return !check.failed();
 }
 

@@ -17,8 +17,12 @@ enum class RestitutionIs { kRequired, kOptional };
 // scene: "pendulum.a_m", "friction.kinetic_coefficient", "restitution.energetic".
 std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution = RestitutionIs::kRequired);
 
-// Whether Validate(scene) finds nothing, without the cost of saying what.
-bool IsValid(const Scene& scene);
+// Whether Validate(scene) finds nothing, without the cost of saying what, in a scene that differs only by numbers from
+// one in which it found nothing, if each of them keeps its own rule: Holds in core/scene/numbers.h.
+bool KeepsRelations(const Scene& scene);
+
+// Whether that can be false at all, whatever the numbers are.
+bool HasRelations(const Scene& scene);
 
 }  // namespace ricochet
 

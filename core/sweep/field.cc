@@ -1,13 +1,13 @@
 #include "core/sweep/field.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "core/scene/numbers.h"
 #include "core/scene/reduction.h"
 
 namespace ricochet {
@@ -29,15 +29,6 @@ void MakeSurface(Scene& scene) {
 
 bool StartsWith(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
 
-// The scalar field at `path`; null if there is none.
-double* FindScalar(const std::string& path, Scene& scene) {
-  double* found = nullptr;
-  VisitNumbers(scene, [&](const NumberPath& number_path, double& number, NumberRule /*rule*/) {
-    if (number_path.Text() == path) found = &number;
-  });
-  return found;
-}
-
 // Makes present what an axis on `path` needs and the scene leaves out.
 void MakePresent(const std::string& path, Scene& scene) {
   auto& static_coefficient = scene.friction.static_coefficient;
@@ -56,21 +47,29 @@ std::string Storage(const std::string& path) {
 
 }  // namespace
 
-void Field::Set(double value) const {
-  if (const auto* scalar = std::get_if<Scalar>(&driver_)) {
-    *scalar->target = value;
-    return;
-  }
+bool Field::Set(double value) const {
+  if (const auto* scalar = std::get_if<Scalar>(&driver_)) return scalar->Set(value);
   const auto& phi = std::get<Phi>(driver_);
-  *phi.a = phi.distance * std::sin(value);
-  *phi.b = phi.distance * std::cos(value);
+  const bool a_is_right = phi.a.Set(phi.distance * std::sin(value));
+  return phi.b.Set(phi.distance * std::cos(value)) && a_is_right;
+}
+
+// There must be one.
+Field::Scalar Field::Find(const std::string& path, Scene& scene) {
+  Scalar found = {.number = nullptr, .rule = NumberRule::kFinite};
+  VisitNumbers(scene, [&](const NumberPath& number_path, double& number, NumberRule rule) {
+    if (number_path.Text() == path) found = {.number = &number, .rule = rule};
+  });
+  assert(found.number != nullptr);
+  return found;
 }
 
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   auto* const pendulum = std::get_if<Pendulum>(&scene.system);
   if (path == kPhi && pendulum != nullptr) {
     const double distance = std::hypot(pendulum->a_m, pendulum->b_m);
-    return Field(Field::Phi{&pendulum->a_m, &pendulum->b_m, distance}, {"pendulum.a_m", "pendulum.b_m"});
+    return Field(Field::Phi{Field::Find("pendulum.a_m", scene), Field::Find("pendulum.b_m", scene), distance},
+                 {"pendulum.a_m", "pendulum.b_m"});
   }
   const std::vector<std::string> paths = FieldPaths(scene);
   if (std::find(paths.begin(), paths.end(), path) == paths.end()) {
@@ -78,7 +77,7 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
         absl::StrCat("= \"", absl::CEscape(path), "\": must be one of ", absl::StrJoin(paths, ", ")));
   }
   MakePresent(path, scene);
-  return Field(Field::Scalar{FindScalar(path, scene)}, {Storage(path)});
+  return Field(Field::Find(path, scene), {Storage(path)});
 }
 
 std::vector<std::string> FieldPaths(const Scene& scene) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "core/scene/numbers.h"
 #include "core/scene/scene.h"
 
 namespace ricochet {
@@ -22,7 +23,8 @@ namespace ricochet {
 // Sets one field of the scene it was resolved for; that scene must outlive it and keep its system, law and lists.
 class Field {
  public:
-  void Set(double value) const;
+  // Returns whether what it has set keeps the rule that each number has by itself.
+  bool Set(double value) const;
 
   // The paths of the scene's own fields that it sets: one, or for phi_rad two.
   const std::vector<std::string>& sets() const { return sets_; }
@@ -31,13 +33,18 @@ class Field {
   friend absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
 
   struct Scalar {
-    double* target;
+    double* number;
+    NumberRule rule;
+    bool Set(double value) const {
+      *number = value;
+      return Holds(value, rule);
+    }
   };
   struct Phi {
-    double* a;
-    double* b;
+    Scalar a, b;
     double distance;
   };
+  static Scalar Find(const std::string& path, Scene& scene);
   Field(std::variant<Scalar, Phi> driver, std::vector<std::string> sets) : driver_(driver), sets_(std::move(sets)) {}
 
   std::variant<Scalar, Phi> driver_;

@@ -136,6 +136,8 @@ class SweepRun::Impl {
  private:
   void SetPoint(int64_t index);
   void AdvancePoint();
+  void SetField(size_t k);
+  bool PointIsValid() const;
   void ResolveColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known);
   void GatherProblems(int64_t count);
   void SolveLanes(int64_t count);
@@ -150,6 +152,9 @@ class SweepRun::Impl {
   Demand demand_;
   Scene scene_;  // The current point; the fields point into it.
   std::vector<Field> fields_;
+  std::vector<uint8_t> is_bad_;  // Whether a field's value breaks its own rule.
+  int64_t bad_fields_ = 0;
+  bool has_relations_ = false;  // Whether there are rules beyond those.
   std::vector<int64_t> counts_;
   std::vector<int64_t> positions_;
   bool in_lanes_ = false;                  // Whether the pendulum's SIMD lanes give every column.
@@ -188,6 +193,8 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   if (!violations.empty()) return InvalidRequest(violations);
 
   fields_ = std::move(drivers.fields);
+  is_bad_.assign(fields_.size(), 0);
+  has_relations_ = HasRelations(scene_);
   for (const Axis& axis : grid_.axes) counts_.push_back(AxisCount(axis));
   positions_.resize(grid_.axes.size());
   ResolveColumns(request.columns, known);
@@ -220,9 +227,13 @@ void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, con
 
 void SweepRun::Impl::SetPoint(int64_t index) {
   AxisPositions(grid_, index, absl::MakeSpan(positions_));
-  for (size_t k = 0; k < fields_.size(); ++k) {
-    fields_[k].Set(AxisValue(grid_.axes[k], positions_[k]));
-  }
+  for (size_t k = 0; k < fields_.size(); ++k) SetField(k);
+}
+
+void SweepRun::Impl::SetField(size_t k) {
+  const bool is_bad = !fields_[k].Set(AxisValue(grid_.axes[k], positions_[k]));
+  bad_fields_ += static_cast<int64_t>(is_bad) - static_cast<int64_t>(is_bad_[k]);
+  is_bad_[k] = is_bad;
 }
 
 // To the next point, setting only what changes.
@@ -230,10 +241,13 @@ void SweepRun::Impl::AdvancePoint() {
   for (size_t k = fields_.size(); k-- > 0;) {
     const bool wraps = ++positions_[k] == counts_[k];
     if (wraps) positions_[k] = 0;
-    fields_[k].Set(AxisValue(grid_.axes[k], positions_[k]));
+    SetField(k);
     if (!wraps && grid_.combination != Combination::kZip) return;
   }
 }
+
+// As Validate would have it: Prepare has checked all that no axis drives.
+bool SweepRun::Impl::PointIsValid() const { return bad_fields_ == 0 && (!has_relations_ || KeepsRelations(scene_)); }
 
 SweepRun::Extent SweepRun::Impl::Next() const {
   const int64_t wanted = next_ == first_ ? kFirstChunkPoints : kChunkBytes / (column_count() * int64_t{sizeof(double)});
@@ -242,7 +256,7 @@ SweepRun::Extent SweepRun::Impl::Next() const {
 
 void SweepRun::Impl::GatherProblems(int64_t count) {
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    valid_[i] = IsValid(scene_);
+    valid_[i] = PointIsValid();
     problems_[i] = valid_[i] ? ClosedFormProblem(scene_) : pendulum::Problem{};
     if (!valid_[i]) problems_[i].omega_minus = 1.0;  // Separating: the cheapest to solve.
     const Choice choice = ChoosePendulum(problems_[i], {}, demand_);
@@ -303,7 +317,7 @@ void SweepRun::Impl::SolveLanes(int64_t count) {
 }
 
 void SweepRun::Impl::SolvePoint(size_t i) {
-  valid_[i] = IsValid(scene_);
+  valid_[i] = PointIsValid();
   if (!valid_[i]) return;
   const absl::StatusOr<Outcome> outcome = SolveScene(scene_, {.demand = demand_, .detail = Detail::kNumbers});
   valid_[i] = outcome.ok();

@@ -14,6 +14,7 @@
 #include "core/models/pendulum.h"
 #include "core/models/planar.h"
 #include "core/numerics/ulp.h"
+#include "core/sweep/sweep_run.h"
 #include "tests/benchmark/measure.h"
 #include "tests/support/known_contacts.h"
 #include "tests/support/planar_scenes.h"
@@ -167,6 +168,48 @@ void Columns() {
         absl::StrFormat("%.2f x eight columns: only what is asked for is computed", one.ratio));
 }
 
+// What a sweep adds to the columns of its problems: the grid, the door, the summary.
+void CompareSweep(const std::string& what, const std::vector<std::string>& names, const std::vector<Output>& outputs) {
+  constexpr int64_t kPoints = 65536;
+  const SweepRequest request = {
+      .grid = {.scene = {.system = Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.3, .b_m = 1.0, .omega_minus_rad_s = -1.0},
+                         .restitution = EnergeticCoefficient{1.0}},
+               .axes = {{"friction.kinetic_coefficient", Linspace{0.0, 0.25, 256}},
+                        {"restitution.energetic", Linspace{0.0, 1.0, 256}}}},
+      .columns = names};
+  std::vector<double> values;
+  const auto sweep = [&] {
+    absl::StatusOr<SweepRun> run = SweepRun::Make(request);
+    while (!run->done()) {
+      const SweepRun::Extent extent = run->Next();
+      values.resize(static_cast<size_t>(extent.count) * names.size());
+      Keep(run->Compute(extent, absl::MakeSpan(values), {}, [] { return false; }));
+    }
+  };
+  const std::vector<Problem> problems = TypicalProblems(kPoints);
+  std::vector<double> solved(problems.size() * outputs.size());
+  std::vector<double*> columns;
+  for (size_t c = 0; c < outputs.size(); ++c) columns.push_back(&solved[c * problems.size()]);
+  std::vector<Regime> regimes(problems.size());
+  const auto inadmissible = std::make_unique<bool[]>(problems.size());
+  const auto solve = [&] {
+    pendulum::SolveColumns(problems, outputs, columns, absl::MakeSpan(regimes),
+                           absl::MakeSpan(inadmissible.get(), problems.size()));
+  };
+  const Comparison time = Compare(kRounds, sweep, solve);
+  Print(what, absl::StrFormat("%.1f ns/point", time.seconds_a / kPoints * 1e9),
+        absl::StrFormat("%.2f x the columns of as many problems", time.ratio));
+}
+
+void Sweeps() {
+  std::printf("Pendulum, sweeps over two axes\n");
+  CompareSweep("8 columns",
+               {"coefficients.newton", "coefficients.poisson", "coefficients.tangential", "rates_after_rad_s[0]",
+                "impulse.normal_total_n_s", "impulse.tangential_n_s[0]", "work.normal_total_j", "energy_change_j"},
+               kEightOutputs);
+  CompareSweep("1 column", {"coefficients.newton"}, {Output::kNewton});
+}
+
 void ComparePlanar(const std::string& what, const std::vector<planar::Problem>& contacts,
                    const std::vector<Problem>& pendulums) {
   const Comparison time = Compare(
@@ -237,6 +280,7 @@ void RunAll() {
   std::printf("ricochet core, engine %s\n", ThisEngine().fingerprint.c_str());
   ScalarSolve();
   Columns();
+  Sweeps();
   PlanarSolve();
   CancellationLatency();
 }

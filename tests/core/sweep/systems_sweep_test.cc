@@ -11,6 +11,7 @@
 
 #include "core/local_solver.h"
 #include "core/outcome_numbers.h"
+#include "core/scene/validate.h"
 #include "core/sweep/column.h"
 #include "core/sweep/field.h"
 #include "core/sweep/sweep_run.h"
@@ -88,6 +89,33 @@ TEST(SystemsSweepTest, EveryFieldOfEverySystemCanBeDriven) {
       EXPECT_NE(scene, before) << path;
     }
   }
+}
+
+// Each number of each system driven across its rules, and across those that tie it to others.
+TEST(SystemsSweepTest, APointIsInvalidExactlyWhereSolveRefusesItsScene) {
+  const std::vector<double> values = {-2.0, -0.5, -0.0, 0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 4.0};
+  int valid = 0, invalid = 0;
+  for (const System& system : Systems()) {
+    Scene base = With(system);
+    base.friction.static_coefficient = 0.75;
+    base.friction.by_speed = SpeedTable{{0.5, 1.0}, {1.0, 0.5}};
+    base.restitution_by_speed = PowerLaw{-0.5, 1.0};
+    for (const std::string& path : FieldPaths(base)) {
+      const Points points = RunAll(
+          {.grid = {.scene = base, .axes = {{path, ListValues{values}}}}, .columns = {"impulse.normal_total_n_s"}});
+      ASSERT_EQ(points.regimes.size(), values.size()) << path;
+      Scene scene = base;
+      const absl::StatusOr<Field> field = ResolveField(path, scene);
+      for (size_t i = 0; i < values.size(); ++i) {
+        field->Set(values[i]);
+        const bool is_valid = Validate(scene).empty();
+        ASSERT_EQ(points.regimes[i] != Regime::kInvalid, is_valid) << path << " = " << values[i];
+        ++(is_valid ? valid : invalid);
+      }
+    }
+  }
+  EXPECT_GT(valid, 500);
+  EXPECT_GT(invalid, 100);
 }
 
 TEST(SystemsSweepTest, PathsAreSpelledAsInTheProto) {
