@@ -28,8 +28,9 @@ using Observed = std::variant<std::monostate, ContactVelocity, ObservedRates>;
 // At most this many rows a call.
 inline constexpr int64_t kMostAuditRows = 8192;
 
-// Many impacts of one scene, by columns: a value a row, or one for all rows; the longest has the number of rows. Columns of the second tangential direction
-// are for systems in space and only for them. Velocities are those of the contact relative to the surface.
+// Many impacts of one scene, by columns: a value a row, or one for all rows; the longest has the number of rows. Columns
+// of the second tangential direction are for systems in space and only for them. Velocities are those of the contact
+// relative to the surface; a pendulum or a linkage may have its rates after the impact in place of them.
 struct AuditColumns {
   std::vector<double> tangential_m_s;  // Before. Empty: the scene's own, all three.
   std::vector<double> tangential_2_m_s;
@@ -38,7 +39,8 @@ struct AuditColumns {
   std::vector<double> tangential_2_after_m_s;
   std::vector<double> normal_after_m_s;
   std::vector<double> friction;  // Kinetic and static. Empty: the scene's, at each row's approach speed.
-  std::vector<double> velocity_uncertainty_m_s;  // Empty: 0.
+  std::vector<double> velocity_uncertainty_m_s;        // Empty: 0.
+  std::vector<std::vector<double>> rates_after_rad_s;  // A column a link; of a pendulum, one.
   friend bool operator==(const AuditColumns&, const AuditColumns&) = default;
 };
 
@@ -95,7 +97,7 @@ struct AuditReport {
 struct AuditSummary {
   int64_t rows = 0;
   int64_t admissible = 0;
-  Tally invalid;  // Rows that break a rule; all else is not counted for them.
+  Tally invalid;  // Rows that break a rule or overflow; all else is not counted for them.
   Tally unexplained;
   std::array<Tally, kAuditLimitCount> broken = {};              // By the number of the limit.
   std::array<Tally, kAuditLimitCount> within_uncertainty = {};  // Exceeded, but not broken.

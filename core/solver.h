@@ -92,7 +92,7 @@ struct AuditBatchRequest {
 };
 
 struct AuditBatchResponse {
-  std::vector<AuditReport> reports;  // One a row; of a row that breaks a rule: regime kInvalid, all else 0.
+  std::vector<AuditReport> reports;  // One a row; of one that breaks a rule or overflows: kInvalid, all else 0.
   AuditSummary summary;
   EngineInfo engine;
   friend bool operator==(const AuditBatchResponse&, const AuditBatchResponse&) = default;

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <iostream>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/audit_data.h"
@@ -28,8 +30,9 @@ constexpr char kExample[] = R"(Example: a pendulum that is said to rebound at 0.
   ...
 Many impacts at one contact: --data FILE.csv, whose header names its columns: tangential_m_s, normal_m_s (before;
 without them the scene's own), tangential_after_m_s, normal_after_m_s, friction (else the scene's) and
-velocity_uncertainty_m_s; in space also tangential_2_m_s and tangential_2_after_m_s. Text is a summary; csv has a row
-an impact, and the summary goes to standard error. A bad row is flagged INVALID and ends nothing.
+velocity_uncertainty_m_s; in space also tangential_2_m_s and tangential_2_after_m_s. A pendulum or a linkage may have
+rates_after_rad_s[0], one a link, in place of the velocity after. Text is a summary; csv has a row an impact, and the
+summary goes to standard error; json has both. A bad row is flagged INVALID and ends nothing.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct AuditOptions {
@@ -111,49 +114,87 @@ absl::StatusOr<AuditColumns> ReadData(const AuditOptions& options) {
   return columns;
 }
 
-// Audits `columns`, of which a server answers some rows at a time; as CSV also writes a line a row to `output`.
-absl::StatusOr<AuditSummary> AuditRows(const Solver& solver, const Scene& scene, const AuditColumns& columns, bool csv,
-                                       Output& output) {
+using Receiver = absl::FunctionRef<absl::Status(size_t first, AuditBatchResponse& part)>;
+
+// Audits `columns`, of which a server answers some rows at a time, and hands each answer to `receive`.
+absl::StatusOr<AuditSummary> AuditRows(const Solver& solver, const Scene& scene, const AuditColumns& columns,
+                                       Receiver receive) {
   AuditSummary summary;
   const size_t rows = RowCount(columns);
   size_t first = 0;
   do {  // At least once, for the errors of the scene.
     const size_t end = std::min(rows, first + static_cast<size_t>(kMostAuditRows));
-    const auto response = solver.AuditBatch({.scene = scene, .columns = SomeRows(columns, first, end)});
+    absl::StatusOr<AuditBatchResponse> response =
+        solver.AuditBatch({.scene = scene, .columns = SomeRows(columns, first, end)});
     if (!response.ok()) return response.status();
     if (response->reports.size() != end - first) {
       return absl::DataLossError(
           absl::StrCat("the server answered ", response->reports.size(), " rows of ", end - first));
     }
-    const size_t directions = TangentialDirections(scene.system);
-    std::string text = first == 0 ? absl::StrCat("index,", AuditCsvHeader(directions), "\n") : "";
-    for (const AuditReport& report : response->reports) {
-      audit::Add(static_cast<int64_t>(first), report, summary);
-      if (csv) absl::StrAppend(&text, first, ",", AuditCsvRow(report, directions), "\n");
-      ++first;
+    for (size_t i = first; i < end; ++i) {
+      audit::Add(static_cast<int64_t>(i), response->reports[i - first], summary);
     }
-    if (!csv) continue;
-    if (absl::Status status = output.Write(text); !status.ok()) return status;
+    if (absl::Status status = receive(first, *response); !status.ok()) return status;
+    first = end;
   } while (first < rows);
   return summary;
 }
 
-absl::Status AuditMany(const AuditOptions& options, const Solver& solver, const Scene& scene) {
-  if (options.common.format == Format::kJson) {
-    return absl::InvalidArgumentError("--data is answered as text or csv, not as json");
+absl::Status WriteSummary(const Solver& solver, const Scene& scene, const AuditColumns& columns, Output& output) {
+  const absl::StatusOr<AuditSummary> summary =
+      AuditRows(solver, scene, columns, [](size_t, const AuditBatchResponse&) { return absl::OkStatus(); });
+  return summary.ok() ? output.Write(AuditSummaryText(*summary)) : summary.status();
+}
+
+// A line a row; the summary goes to standard error.
+absl::Status WriteCsv(const Solver& solver, const Scene& scene, const AuditColumns& columns, Output& output) {
+  const size_t directions = TangentialDirections(scene.system);
+  const absl::StatusOr<AuditSummary> summary =
+      AuditRows(solver, scene, columns, [&](size_t first, const AuditBatchResponse& part) {
+        std::string text = first == 0 ? absl::StrCat("index,", AuditCsvHeader(directions), "\n") : "";
+        for (const AuditReport& report : part.reports) {
+          absl::StrAppend(&text, first++, ",", AuditCsvRow(report, directions), "\n");
+        }
+        return output.Write(text);
+      });
+  if (summary.ok()) std::cerr << AuditSummaryText(*summary);
+  return summary.status();
+}
+
+// All rows as the response that one call would give.
+absl::Status WriteJson(const Solver& solver, const Scene& scene, const AuditColumns& columns, Output& output) {
+  AuditBatchResponse whole;
+  const absl::StatusOr<AuditSummary> summary =
+      AuditRows(solver, scene, columns, [&whole](size_t, AuditBatchResponse& part) {
+        std::move(part.reports.begin(), part.reports.end(), std::back_inserter(whole.reports));
+        whole.engine = std::move(part.engine);
+        return absl::OkStatus();
+      });
+  if (!summary.ok()) return summary.status();
+  whole.summary = *summary;
+  const absl::StatusOr<std::string> json = Json(ToProto(whole));
+  return json.ok() ? output.Write(*json) : json.status();
+}
+
+absl::Status WriteRows(const AuditOptions& options, const Solver& solver, const Scene& scene,
+                       const AuditColumns& columns, Output& output) {
+  switch (options.common.format) {
+    case Format::kText:
+      break;
+    case Format::kJson:
+      return WriteJson(solver, scene, columns, output);
+    case Format::kCsv:
+      return WriteCsv(solver, scene, columns, output);
   }
+  return WriteSummary(solver, scene, columns, output);
+}
+
+absl::Status AuditMany(const AuditOptions& options, const Solver& solver, const Scene& scene) {
   const absl::StatusOr<AuditColumns> columns = ReadData(options);
   if (!columns.ok()) return columns.status();
   absl::StatusOr<Output> output = Output::Open(options.common.output);
   if (!output.ok()) return output.status();
-  const bool csv = options.common.format == Format::kCsv;
-  const absl::StatusOr<AuditSummary> summary = AuditRows(solver, scene, *columns, csv, *output);
-  if (!summary.ok()) return summary.status();
-  if (csv) {
-    std::cerr << AuditSummaryText(*summary);
-  } else if (absl::Status status = output->Write(AuditSummaryText(*summary)); !status.ok()) {
-    return status;
-  }
+  if (absl::Status status = WriteRows(options, solver, scene, *columns, *output); !status.ok()) return status;
   return output->Commit();
 }
 

@@ -1,12 +1,15 @@
 #include "client/cli/audit_data.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "absl/strings/ascii.h"
-#include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "absl/strings/strip.h"
 #include "client/cli/number_input.h"
 
 namespace ricochet::cli {
@@ -26,8 +29,22 @@ constexpr Named kColumns[] = {{"tangential_m_s", &AuditColumns::tangential_m_s},
                               {"friction", &AuditColumns::friction},
                               {"velocity_uncertainty_m_s", &AuditColumns::velocity_uncertainty_m_s}};
 
-// Where each column of a file goes; null: nowhere.
-using Places = std::vector<std::vector<double> AuditColumns::*>;
+constexpr char kRates[] = "rates_after_rad_s";
+
+// Where a column of a file goes: to a named one, to the rates of a link, or, if neither, nowhere.
+struct Place {
+  std::vector<double> AuditColumns::*values = nullptr;
+  std::optional<size_t> link;
+
+  bool known() const { return values != nullptr || link.has_value(); }
+  friend bool operator==(const Place&, const Place&) = default;
+};
+using Places = std::vector<Place>;
+
+size_t LinkCount(const Places& places) {
+  return static_cast<size_t>(
+      std::count_if(places.begin(), places.end(), [](const Place& place) { return place.link.has_value(); }));
+}
 
 std::vector<std::string> Cells(const std::string& line) {
   std::vector<std::string> cells = absl::StrSplit(line, ',');
@@ -35,30 +52,55 @@ std::vector<std::string> Cells(const std::string& line) {
   return cells;
 }
 
+Place PlaceOf(const std::string& cell) {
+  for (const Named& known : kColumns) {
+    if (cell == known.name) return {.values = known.values, .link = {}};
+  }
+  absl::string_view index = cell;
+  uint32_t link = 0;
+  if (absl::ConsumePrefix(&index, absl::StrCat(kRates, "[")) && absl::ConsumeSuffix(&index, "]") &&
+      absl::SimpleAtoi(index, &link)) {
+    return {.values = nullptr, .link = link};
+  }
+  return {};
+}
+
+std::string KnownNames() {
+  std::string known;
+  for (const Named& column : kColumns) absl::StrAppend(&known, column.name, ", ");
+  return absl::StrCat(known, kRates, "[0]");
+}
+
 absl::StatusOr<Places> ParseHeader(const std::string& line, const std::string& name) {
   Places places;
   for (const std::string& cell : Cells(line)) {
-    const auto* found =
-        std::find_if(std::begin(kColumns), std::end(kColumns), [&](const Named& known) { return cell == known.name; });
-    places.push_back(found == std::end(kColumns) ? nullptr : found->values);
-    if (places.back() != nullptr && std::count(places.begin(), places.end(), places.back()) > 1) {
+    places.push_back(PlaceOf(cell));
+    if (places.back().known() && std::count(places.begin(), places.end(), places.back()) > 1) {
       return absl::InvalidArgumentError(absl::StrCat(name, " has the column ", cell, " twice"));
     }
   }
-  if (std::all_of(places.begin(), places.end(), [](const auto& place) { return place == nullptr; })) {
-    std::string known;
-    for (const Named& column : kColumns) absl::StrAppend(&known, known.empty() ? "" : ", ", column.name);
+  if (std::none_of(places.begin(), places.end(), [](const Place& place) { return place.known(); })) {
     return absl::InvalidArgumentError(
-        absl::StrCat(name, " names no known column in its first line: must name some of ", known));
+        absl::StrCat(name, " names no known column in its first line: must name some of ", KnownNames()));
+  }
+  const size_t links = LinkCount(places);
+  for (const Place& place : places) {
+    if (!place.link.has_value() || *place.link < links) continue;
+    return absl::InvalidArgumentError(
+        absl::StrCat(name, " has the column ", kRates, "[", *place.link, "] but not one for each link before it"));
   }
   return places;
 }
 
+std::vector<double>& ColumnAt(const Place& place, AuditColumns& columns) {
+  return place.link.has_value() ? columns.rates_after_rad_s[*place.link] : columns.*place.values;
+}
+
 void AddRow(const std::vector<std::string>& cells, const Places& places, AuditColumns& columns) {
   for (size_t i = 0; i < places.size(); ++i) {
-    if (places[i] == nullptr) continue;
+    if (!places[i].known()) continue;
     const absl::StatusOr<double> value = ParseNumber(i < cells.size() ? cells[i] : "", "");
-    (columns.*places[i]).push_back(value.ok() ? *value : std::numeric_limits<double>::quiet_NaN());
+    ColumnAt(places[i], columns).push_back(value.ok() ? *value : std::numeric_limits<double>::quiet_NaN());
   }
 }
 
@@ -75,6 +117,7 @@ absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::
     } else {
       places = ParseHeader(line, name);
       if (!places.ok()) return places.status();
+      columns.rates_after_rad_s.resize(LinkCount(*places));
     }
   }
   if (!places.ok()) return places.status();
@@ -82,18 +125,20 @@ absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::
 }
 
 AuditColumns SomeRows(const AuditColumns& columns, size_t first, size_t end) {
+  const auto some_of = [first, end](const std::vector<double>& all) {
+    if (all.empty()) return all;
+    return std::vector<double>(all.begin() + static_cast<ptrdiff_t>(first), all.begin() + static_cast<ptrdiff_t>(end));
+  };
   AuditColumns some;
-  for (const Named& column : kColumns) {
-    const std::vector<double>& all = columns.*column.values;
-    if (all.empty()) continue;
-    some.*column.values = {all.begin() + static_cast<ptrdiff_t>(first), all.begin() + static_cast<ptrdiff_t>(end)};
-  }
+  for (const Named& column : kColumns) some.*column.values = some_of(columns.*column.values);
+  for (const std::vector<double>& rates : columns.rates_after_rad_s) some.rates_after_rad_s.push_back(some_of(rates));
   return some;
 }
 
 size_t RowCount(const AuditColumns& columns) {
   size_t rows = 0;
   for (const Named& column : kColumns) rows = std::max(rows, (columns.*column.values).size());
+  for (const std::vector<double>& rates : columns.rates_after_rad_s) rows = std::max(rows, rates.size());
   return rows;
 }
 

@@ -11,10 +11,10 @@
 
 namespace ricochet::cli {
 
-// Columns are found by name, the fields of AuditColumns, in any order; a column of another name is left alone. What is
-// no number, or missing, becomes a NaN, which makes its row invalid and no other. Empty lines and those that start with
-// # are passed over.
-// Errors: INVALID_ARGUMENT for a header that names a column twice or none that is known.
+// Columns are found by name, the fields of AuditColumns (rates_after_rad_s[0], one a link), in any order; a column of
+// another name is left alone. What is no number, or missing, becomes a NaN, which makes its row invalid and no other.
+// Empty lines and those that start with # are passed over.
+// Errors: INVALID_ARGUMENT for a header that names a column twice, none that is known, or leaves out a link.
 absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::string& name);
 
 // Rows [first, end) of columns that all have a value a row or none.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "absl/functional/function_ref.h"
 #include "core/numerics/wide.h"
@@ -531,6 +532,31 @@ AuditReport AuditRate(const pendulum::Problem& problem, double omega_plus, doubl
   // |along| of the line moves by the sum of its parts.
   const double per_component = uncertainty * size * size / (problem.a + std::abs(problem.b));
   return Audit(problem, {problem.b * omega_plus, problem.a * omega_plus, per_component});
+}
+
+const char* OverflowIn(const AuditReport& report) {
+  const std::pair<const char*, double> numbers[] = {
+      {"report.normal_impulse_n_s", report.normal_impulse},
+      {"report.normal_compression_n_s", report.normal_impulse_compression},
+      {"report.tangential_impulse_n_s", report.tangential_impulse[0] + report.tangential_impulse[1]},
+      {"report.friction_mismatch_n_s", report.friction_mismatch[0] + report.friction_mismatch[1]},
+      {"report.distance_m_s", report.distance},
+      {"report.coefficients.newton", report.newton},
+      {"report.coefficients.poisson", report.poisson},
+      {"report.coefficients.energetic", report.energetic},
+      {"report.coefficients.tangential", report.tangential},
+      {"report.work_normal_compression_j", report.work_normal_compression},
+      {"report.work_normal_restitution_j", report.work_normal_restitution},
+      {"report.work_tangential_compression_j", report.work_tangential_compression},
+      {"report.work_tangential_restitution_j", report.work_tangential_restitution},
+      {"report.energy_change_j", report.energy_change},
+      {"report.residual_j", report.residual},
+      {"report.path_velocity",
+       report.path_tangential_velocity[0] + report.path_tangential_velocity[1] + report.path_normal_velocity}};
+  for (const auto& [path, value] : numbers) {
+    if (!std::isfinite(value)) return path;
+  }
+  return nullptr;
 }
 
 }  // namespace ricochet::audit

@@ -68,6 +68,10 @@ AuditReport Audit(const pendulum::Problem& problem, const PlanarObservation& obs
 // The same from the angular velocity after the impact and its uncertainty in rad/s.
 AuditReport AuditRate(const pendulum::Problem& problem, double omega_plus, double uncertainty);
 
+// The path, in ricochet.v1.AuditResponse, of the first number that exceeds the largest double; null if none does. What an
+// uncertainty can make of a number may be infinite.
+const char* OverflowIn(const AuditReport& report);
+
 }  // namespace ricochet::audit
 
 #endif  // RICOCHET_CORE_STUDY_AUDIT_H_

@@ -89,7 +89,11 @@ void Count(int64_t row, Tally& tally) {
 
 template <typename Problem, typename Observation>
 AuditReport AuditRow(const Problem& problem, const Observation& seen) {
-  return IsValid(problem, seen) ? Audit(problem, seen) : AuditReport{.regime = Regime::kInvalid};
+  if (IsValid(problem, seen)) {
+    const AuditReport report = Audit(problem, seen);
+    if (OverflowIn(report) == nullptr) return report;
+  }
+  return {.regime = Regime::kInvalid};
 }
 
 std::vector<Column> ListOf(const PlanarColumns& in) {

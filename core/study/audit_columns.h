@@ -39,7 +39,7 @@ void Add(int64_t row, const AuditReport& report, AuditSummary& summary);
 
 // Audits row after row, in order, and hands each report to `receive`. A row that is not finite, or whose W is not
 // positive semidefinite with Wnn > 0, mu < 0, mu_s < mu, uncertainty < 0, or in a plane W of rank one with (u0, v0)
-// outside its range, gets a report of regime kInvalid.
+// outside its range, gets a report of regime kInvalid; so does one with OverflowIn its report.
 // Errors: INVALID_ARGUMENT naming each column whose length is neither 1 nor `rows`, empty ones without a default
 // included. No rows: none.
 absl::StatusOr<AuditSummary> AuditColumns(const PlanarColumns& columns,

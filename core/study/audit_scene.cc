@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -14,6 +15,7 @@
 #include "core/models/spatial_outcome.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/effective.h"
+#include "core/scene/numbers.h"
 #include "core/scene/reduction.h"
 #include "core/scene/validate.h"
 #include "core/study/audit.h"
@@ -30,11 +32,6 @@ Scene ContactOf(Scene scene) {
   return scene;
 }
 
-absl::Status Overflow() {
-  return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kOutputOverflow,
-                   "the contact-space inverse inertia or the contact velocity exceeds the largest double");
-}
-
 std::vector<Violation> ValidateScene(const Scene& scene) {
   std::vector<Violation> violations = Validate(scene, RestitutionIs::kOptional);
   if (!violations.empty()) return violations;
@@ -46,12 +43,21 @@ std::vector<Violation> ValidateScene(const Scene& scene) {
   return violations;
 }
 
+// How many rates a pendulum or a linkage has.
+std::optional<size_t> RateCount(const System& system) {
+  if (const auto* linkage = std::get_if<Linkage>(&system); linkage != nullptr) return linkage->links.size();
+  if (std::holds_alternative<Pendulum>(system)) return 1;
+  return std::nullopt;
+}
+
+std::string CountText(size_t found, size_t wanted) {
+  return absl::StrCat("has ", found, found == 1 ? " entry" : " entries", ": must have ", wanted);
+}
+
 void CheckVelocity(const ContactVelocity& velocity, size_t directions, std::vector<Violation>& violations) {
   const std::vector<double>& tangential = velocity.tangential_m_s;
   if (tangential.size() != directions) {
-    violations.push_back({"contact_velocity.tangential_m_s",
-                          absl::StrCat("has ", tangential.size(), tangential.size() == 1 ? " entry" : " entries",
-                                       ": must have ", directions)});
+    violations.push_back({"contact_velocity.tangential_m_s", CountText(tangential.size(), directions)});
   }
   for (size_t i = 0; i < tangential.size(); ++i) {
     if (std::isfinite(tangential[i])) continue;
@@ -64,17 +70,12 @@ void CheckVelocity(const ContactVelocity& velocity, size_t directions, std::vect
 }
 
 void CheckRates(const std::vector<double>& rates, const System& system, std::vector<Violation>& violations) {
-  const auto* linkage = std::get_if<Linkage>(&system);
-  if (linkage == nullptr && !std::holds_alternative<Pendulum>(system)) {
+  const std::optional<size_t> wanted = RateCount(system);
+  if (!wanted.has_value()) {
     violations.push_back({"rates", "is set: must not be but for a pendulum or a linkage, give contact_velocity"});
     return;
   }
-  const size_t wanted = linkage == nullptr ? 1 : linkage->links.size();
-  if (rates.size() != wanted) {
-    violations.push_back(
-        {"rates.rates_rad_s",
-         absl::StrCat("has ", rates.size(), rates.size() == 1 ? " entry" : " entries", ": must have ", wanted)});
-  }
+  if (rates.size() != *wanted) violations.push_back({"rates.rates_rad_s", CountText(rates.size(), *wanted)});
   for (size_t i = 0; i < rates.size(); ++i) {
     if (std::isfinite(rates[i])) continue;
     violations.push_back(MakeViolation(absl::StrCat("rates.rates_rad_s[", i, "]"), rates[i], "be finite"));
@@ -129,14 +130,7 @@ AuditReport Audited(const SpatialReduction& reduction, const EffectiveCoefficien
 }
 
 absl::StatusOr<AuditResponse> Checked(const AuditReport& report, const AnyReduction& any) {
-  const std::pair<const char*, double> numbers[] = {
-      {"report.normal_impulse_n_s", report.normal_impulse},
-      {"report.tangential_impulse_n_s", report.tangential_impulse[0] + report.tangential_impulse[1]},
-      {"report.energy_change_j", report.energy_change},
-      {"report.residual_j", report.residual}};
-  for (const auto& [path, value] : numbers) {
-    if (!std::isfinite(value)) return OutputOverflow(path);
-  }
+  if (const char* path = audit::OverflowIn(report); path != nullptr) return OutputOverflow(path);
   return AuditResponse{.report = report, .contact_energy_j = ContactEnergy(any), .engine = {}};
 }
 
@@ -144,24 +138,47 @@ absl::StatusOr<AuditResponse> Checked(const AuditReport& report, const AnyReduct
 enum class Presence { kRequired, kOptional, kRefused };
 
 struct ColumnRule {
-  const char* name;
+  std::string name;
   const std::vector<double>& values;
   Presence presence;
+  const char* refused_for = "";
 };
 
 std::vector<ColumnRule> Rules(const AuditColumns& in, size_t directions) {
   const bool before = !in.tangential_m_s.empty() || !in.tangential_2_m_s.empty() || !in.normal_m_s.empty();
   const Presence first = before ? Presence::kRequired : Presence::kOptional;
+  const bool by_rates = !in.rates_after_rad_s.empty();
+  const Presence after = by_rates ? Presence::kRefused : Presence::kRequired;
   const bool planar = directions == 1;
-  return {
+  const char* const kPlanar = "for a planar system";
+  const char* const kByRates = "beside rates_after";
+  std::vector<ColumnRule> rules = {
       {"columns.tangential_m_s", in.tangential_m_s, first},
-      {"columns.tangential_2_m_s", in.tangential_2_m_s, planar ? Presence::kRefused : first},
+      {"columns.tangential_2_m_s", in.tangential_2_m_s, planar ? Presence::kRefused : first, kPlanar},
       {"columns.normal_m_s", in.normal_m_s, first},
-      {"columns.tangential_after_m_s", in.tangential_after_m_s, Presence::kRequired},
-      {"columns.tangential_2_after_m_s", in.tangential_2_after_m_s, planar ? Presence::kRefused : Presence::kRequired},
-      {"columns.normal_after_m_s", in.normal_after_m_s, Presence::kRequired},
+      {"columns.tangential_after_m_s", in.tangential_after_m_s, after, kByRates},
+      {"columns.tangential_2_after_m_s", in.tangential_2_after_m_s, planar ? Presence::kRefused : after,
+       planar ? kPlanar : kByRates},
+      {"columns.normal_after_m_s", in.normal_after_m_s, after, kByRates},
       {"columns.friction", in.friction, Presence::kOptional},
       {"columns.velocity_uncertainty_m_s", in.velocity_uncertainty_m_s, Presence::kOptional}};
+  for (size_t i = 0; i < in.rates_after_rad_s.size(); ++i) {
+    rules.push_back(
+        {absl::StrCat("columns.rates_after[", i, "].rates_rad_s"), in.rates_after_rad_s[i], Presence::kRequired});
+  }
+  return rules;
+}
+
+void CheckRateColumns(const AuditColumns& columns, const System& system, std::vector<Violation>& violations) {
+  const size_t found = columns.rates_after_rad_s.size();
+  if (found == 0) return;
+  const std::optional<size_t> wanted = RateCount(system);
+  if (!wanted.has_value()) {
+    violations.push_back(
+        {"columns.rates_after", "is set: must not be but for a pendulum or a linkage, give the contact's velocity"});
+  } else if (found != *wanted) {
+    violations.push_back({"columns.rates_after", CountText(found, *wanted)});
+  }
 }
 
 size_t RowsOf(const std::vector<ColumnRule>& rules) {
@@ -178,7 +195,7 @@ std::vector<Violation> CheckColumns(const std::vector<ColumnRule>& rules, size_t
   for (const ColumnRule& rule : rules) {
     const size_t length = rule.values.size();
     if (rule.presence == Presence::kRefused) {
-      if (length > 0) violations.push_back({rule.name, "is set: must not be for a planar system"});
+      if (length > 0) violations.push_back({rule.name, absl::StrCat("is set: must not be ", rule.refused_for)});
     } else if (length == 0) {
       if (rule.presence == Presence::kRequired) {
         violations.push_back({rule.name, "is not set: must have a value a row, or one for all"});
@@ -209,6 +226,19 @@ FrictionColumns FrictionOf(const AuditBatchRequest& request, double scene_speed,
     friction.static_.push_back(effective.static_friction);
   }
   return friction;
+}
+
+// With the contact velocities that rates make in place of them.
+AuditColumns WithVelocities(AuditColumns columns, const Scene& scene, size_t rows) {
+  if (columns.rates_after_rad_s.empty()) return columns;
+  for (size_t row = 0; row < rows; ++row) {
+    ObservedRates seen;
+    for (const std::vector<double>& rates : columns.rates_after_rad_s) seen.rates_rad_s.push_back(ValueAt(rates, row));
+    const ContactVelocity velocity = VelocityOf(seen, scene);
+    columns.tangential_after_m_s.push_back(velocity.tangential_m_s[0]);
+    columns.normal_after_m_s.push_back(velocity.normal_m_s);
+  }
+  return columns;
 }
 
 // The column, or the scene's own value where the request has none.
@@ -257,6 +287,31 @@ absl::StatusOr<AuditSummary> Audited(const SpatialReduction& reduction, const Au
       receive);
 }
 
+// A pendulum from its own state, in closed form as a single audit has it.
+AuditSummary AuditedPendulum(const Scene& scene, const AuditColumns& in, const FrictionColumns& friction, size_t rows,
+                             Receiver receive) {
+  AuditSummary summary;
+  pendulum::Problem problem = ClosedFormProblem(scene);
+  for (size_t row = 0; row < rows; ++row) {
+    problem.mu = ValueAt(friction.kinetic, row);
+    problem.mu_static = friction.static_.empty() ? problem.mu : ValueAt(friction.static_, row);
+    const audit::PlanarObservation seen = {
+        .u1 = ValueAt(in.tangential_after_m_s, row),
+        .v1 = ValueAt(in.normal_after_m_s, row),
+        .uncertainty = in.velocity_uncertainty_m_s.empty() ? 0.0 : ValueAt(in.velocity_uncertainty_m_s, row)};
+    const bool is_valid = std::isfinite(seen.u1) && std::isfinite(seen.v1) &&
+                          Holds(seen.uncertainty, NumberRule::kNotNegative) &&
+                          Holds(problem.mu, NumberRule::kNotNegative) &&
+                          Holds(problem.mu_static, NumberRule::kNotNegative) && problem.mu_static >= problem.mu;
+    AuditReport report = {.regime = Regime::kInvalid};
+    if (is_valid) report = audit::Audit(problem, seen);
+    if (audit::OverflowIn(report) != nullptr) report = {.regime = Regime::kInvalid};
+    audit::Add(static_cast<int64_t>(row), report, summary);
+    receive(static_cast<int64_t>(row), report);
+  }
+  return summary;
+}
+
 }  // namespace
 
 absl::StatusOr<AuditResponse> AuditScene(const AuditRequest& request) {
@@ -265,7 +320,8 @@ absl::StatusOr<AuditResponse> AuditScene(const AuditRequest& request) {
   const Scene scene = ContactOf(request.scene);
   const AnyReduction any = Reduce(scene);
   const ContactVelocity seen = VelocityOf(request.observed, scene);
-  if (!IsFinite(any) || !std::isfinite(seen.normal_m_s) || !std::isfinite(seen.tangential_m_s[0])) return Overflow();
+  if (!IsFinite(any) || !std::isfinite(seen.normal_m_s) || !std::isfinite(seen.tangential_m_s[0]))
+    return ContactOverflow();
   const double uncertainty = request.velocity_uncertainty_m_s;
   if (HasClosedForm(scene)) {
     const audit::PlanarObservation observation{seen.tangential_m_s[0], seen.normal_m_s, uncertainty};
@@ -281,20 +337,25 @@ absl::StatusOr<AuditBatchResponse> AuditScene(const AuditBatchRequest& request) 
   if (std::holds_alternative<std::monostate>(request.scene.system)) return InvalidRequest(violations);
   const std::vector<ColumnRule> rules = Rules(request.columns, TangentialDirections(request.scene.system));
   const size_t rows = RowsOf(rules);
+  CheckRateColumns(request.columns, request.scene.system, violations);
   if (rows > 0) {
     for (Violation& violation : CheckColumns(rules, rows)) violations.push_back(std::move(violation));
   }
   if (!violations.empty()) return InvalidRequest(violations);
-  const AnyReduction any = Reduce(ContactOf(request.scene));
-  if (!IsFinite(any)) return Overflow();
+  const Scene scene = ContactOf(request.scene);
+  const AnyReduction any = Reduce(scene);
+  if (!IsFinite(any)) return ContactOverflow();
+  const AuditColumns columns = WithVelocities(request.columns, scene, rows);
   const FrictionColumns friction = FrictionOf(request, ApproachSpeed(any), rows);
   AuditBatchResponse response;
   response.reports.reserve(rows);
   const auto keep = [&response](int64_t /*row*/, const AuditReport& report) { response.reports.push_back(report); };
+  if (HasClosedForm(scene) && columns.normal_m_s.empty()) {
+    response.summary = AuditedPendulum(scene, columns, friction, rows, keep);
+    return response;
+  }
   absl::StatusOr<AuditSummary> summary = std::visit(
-      [&](const auto& reduction) {
-        return Audited(reduction, request.columns, friction, static_cast<int64_t>(rows), keep);
-      },
+      [&](const auto& reduction) { return Audited(reduction, columns, friction, static_cast<int64_t>(rows), keep); },
       any);
   if (!summary.ok()) return summary.status();
   response.summary = *summary;

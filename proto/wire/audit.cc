@@ -123,10 +123,15 @@ v1::AuditColumns ToProto(const AuditColumns& columns) {
   AssignDoubles(columns.normal_after_m_s, *proto.mutable_normal_after_m_s());
   AssignDoubles(columns.friction, *proto.mutable_friction());
   AssignDoubles(columns.velocity_uncertainty_m_s, *proto.mutable_velocity_uncertainty_m_s());
+  for (const std::vector<double>& rates : columns.rates_after_rad_s) {
+    AssignDoubles(rates, *proto.add_rates_after()->mutable_rates_rad_s());
+  }
   return proto;
 }
 
 AuditColumns FromProto(const v1::AuditColumns& proto) {
+  std::vector<std::vector<double>> rates_after_rad_s;
+  for (const v1::RateColumn& column : proto.rates_after()) rates_after_rad_s.push_back(ToVector(column.rates_rad_s()));
   return {.tangential_m_s = ToVector(proto.tangential_m_s()),
           .tangential_2_m_s = ToVector(proto.tangential_2_m_s()),
           .normal_m_s = ToVector(proto.normal_m_s()),
@@ -134,7 +139,8 @@ AuditColumns FromProto(const v1::AuditColumns& proto) {
           .tangential_2_after_m_s = ToVector(proto.tangential_2_after_m_s()),
           .normal_after_m_s = ToVector(proto.normal_after_m_s()),
           .friction = ToVector(proto.friction()),
-          .velocity_uncertainty_m_s = ToVector(proto.velocity_uncertainty_m_s())};
+          .velocity_uncertainty_m_s = ToVector(proto.velocity_uncertainty_m_s()),
+          .rates_after_rad_s = std::move(rates_after_rad_s)};
 }
 
 void ImpulsesToProto(const AuditReport& report, v1::AuditReport& proto) {

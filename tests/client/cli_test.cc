@@ -1,10 +1,12 @@
 // Files, pictures, exit codes and signals of the command line.
 
 #include <gmock/gmock.h>
+#include <google/protobuf/util/json_util.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
+#include "ricochet/v1/impact_service.pb.h"
 #include "tests/client/cli_run.h"
 #include "tests/support/paths.h"
 #include "tests/support/server_process.h"
@@ -141,6 +143,31 @@ TEST_F(Cli, AuditsATableOfMoreRowsThanOneCallTakes) {
   EXPECT_THAT(result.out, testing::ContainsRegex("invalid +1 +9000\n"));
 }
 
+TEST_F(Cli, AuditsATableOfRatesAsItAuditsEachRow) {
+  Write("kane.textproto", kKane);
+  const CliResult table = Run({"audit", "--scene", "kane.textproto", "--data", "-", "--format", "csv"},
+                              "rates_after_rad_s[1],rates_after_rad_s[0]\n0.25,-0.5\n0.5,-0.25\n");
+  EXPECT_EQ(table.exit_code, 0) << table.err;
+  const CliResult one = Run({"audit", "--scene", "kane.textproto", "--observed-rate=-0.25,0.5", "--format", "csv"});
+  EXPECT_THAT(table.out, HasSubstr("\n1," + one.out.substr(one.out.find('\n') + 1)));
+}
+
+TEST_F(Cli, AnswersATableOfManyCallsAsJsonOfOneResponse) {
+  Write("kane.textproto", kKane);
+  std::string table = "tangential_after_m_s,normal_after_m_s\n";
+  for (int i = 0; i < 8'193; ++i) table += i == 8'192 ? "x,1\n" : "0.1,0.02\n";
+  const CliResult result = Run({"audit", "--scene", "kane.textproto", "--data", "-", "--format", "json"}, table);
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  v1::AuditBatchResponse response;
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(result.out, &response).ok());
+  ASSERT_EQ(response.reports_size(), 8'193);
+  EXPECT_EQ(response.reports(8'192).regime(), v1::REGIME_INVALID);
+  EXPECT_EQ(response.summary().rows(), 8'193);
+  EXPECT_EQ(response.summary().invalid().count(), 1);
+  EXPECT_EQ(response.summary().invalid().first_index(), 8'192);
+  EXPECT_FALSE(response.engine().version().empty());
+}
+
 TEST_F(Cli, RefusesATableWithoutAKnownHeaderAndAnAuditOfNothing) {
   Write("kane.textproto", kKane);
   const Arguments audit = {"audit", "--scene", "kane.textproto"};
@@ -154,6 +181,11 @@ TEST_F(Cli, RefusesATableWithoutAKnownHeaderAndAnAuditOfNothing) {
   EXPECT_THAT(Run(with({"--data", "-"}), "1,2\n").err, HasSubstr("names no known column"));
   EXPECT_THAT(Run(with({"--data", "-"}), "").err, HasSubstr("has no header"));
   EXPECT_THAT(Run(with({"--data", "-"}), "friction,friction\n").err, HasSubstr("friction twice"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "rates_after_rad_s[0],rates_after_rad_s[00]\n").err, HasSubstr("twice"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "rates_after_rad_s[1],rates_after_rad_s[2]\n").err,
+              HasSubstr("rates_after_rad_s[2] but not one for each link before it"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "rates_after_rad_s[0]\n1\n").err,
+              HasSubstr("columns.rates_after has 1 entry: must have 2"));
   EXPECT_THAT(Run(with({"--data", "-"}), "normal_after_m_s\n1\n").err,
               HasSubstr("columns.tangential_after_m_s is not set"));
   EXPECT_THAT(Run(with({"--observed-rate", "1"})).err, HasSubstr("rates.rates_rad_s has 1 entry: must have 2"));

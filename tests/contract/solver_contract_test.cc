@@ -270,6 +270,59 @@ TEST_P(SolverContract, AuditOfABatchTakesWhatItLeavesOutFromTheScene) {
   EXPECT_EQ(solver().AuditBatch({.scene = request.scene, .columns = {}})->reports.size(), 0);
 }
 
+TEST_P(SolverContract, AuditOfABatchByRatesIsThatOfEachRowsRates) {
+  AuditBatchRequest request = {.scene = With(Chain()), .columns = {}};
+  const size_t links = std::get<Linkage>(request.scene.system).links.size();
+  const std::vector<double> rates = {0.5, -0.25, 1e308, std::nan("")};
+  for (size_t link = 0; link < links; ++link) request.columns.rates_after_rad_s.push_back({0.125});
+  request.columns.rates_after_rad_s.back() = rates;
+  request.scene.friction.kinetic_coefficient = 0.25;
+  const auto batch = solver().AuditBatch(request);
+  ASSERT_TRUE(batch.ok()) << batch.status();
+  ASSERT_EQ(batch->reports.size(), rates.size());
+  for (const size_t row : {0, 1}) {
+    ObservedRates observed;
+    for (size_t link = 0; link < links; ++link) observed.rates_rad_s.push_back(0.125);
+    observed.rates_rad_s.back() = rates[row];
+    const auto one = solver().Audit({.scene = request.scene, .observed = observed});
+    ASSERT_TRUE(one.ok()) << one.status();
+    EXPECT_EQ(batch->reports[row], one->report) << "row " << row;
+  }
+  EXPECT_EQ(batch->summary.invalid, (Tally{2, 2}));
+}
+
+TEST_P(SolverContract, AuditOfABatchByThePendulumsRateIsThatOfEachRow) {
+  AuditBatchRequest request = {.scene = PaperScene(), .columns = {}};
+  request.columns.rates_after_rad_s = {{0.125, 0.5, 0.75, 1.5}};
+  const auto batch = solver().AuditBatch(request);
+  ASSERT_TRUE(batch.ok()) << batch.status();
+  for (size_t row = 0; row < 4; ++row) {
+    const auto one = solver().Audit(
+        {.scene = request.scene, .observed = ObservedRates{{request.columns.rates_after_rad_s[0][row]}}});
+    ASSERT_TRUE(one.ok()) << one.status();
+    EXPECT_EQ(batch->reports[row], one->report) << "row " << row;
+  }
+}
+
+TEST_P(SolverContract, AuditOfABatchRefusesRatesOfAnotherSystemOrBesideVelocities) {
+  AuditBatchRequest request = {.scene = With(Contact()), .columns = {}};
+  request.columns.rates_after_rad_s = {{0.5}};
+  EXPECT_THAT(
+      ViolationsOf(solver().AuditBatch(request).status()),
+      ElementsAre(Violation{"columns.rates_after",
+                            "is set: must not be but for a pendulum or a linkage, give the contact's velocity"}));
+  request = {.scene = PaperScene(), .columns = {}};
+  request.columns.rates_after_rad_s = {{0.5, 0.25}, {}};
+  request.columns.normal_after_m_s = {0.5};
+  request.columns.friction = {0.5, 0.5, 0.5};
+  EXPECT_THAT(ViolationsOf(solver().AuditBatch(request).status()),
+              ElementsAre(Violation{"columns.rates_after", "has 2 entries: must have 1"},
+                          Violation{"columns.normal_after_m_s", "is set: must not be beside rates_after"},
+                          Violation{"columns.rates_after[0].rates_rad_s", "has 2 values: must have 1 or 3"},
+                          Violation{"columns.rates_after[1].rates_rad_s",
+                                    "is not set: must have a value a row, or one for all"}));
+}
+
 TEST_P(SolverContract, AuditOfABatchReportsEveryWrongColumn) {
   AuditBatchRequest request = {.scene = With(Contact()), .columns = {}};
   request.columns.normal_m_s = {-1.0};

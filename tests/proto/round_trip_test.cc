@@ -298,8 +298,9 @@ TEST(AuditTest, ResponsesSurvive) {
 TEST(AuditTest, EmptySummaryHasNoFirstIndices) { EXPECT_EQ(FromProto(v1::AuditBatchResponse()), AuditBatchResponse()); }
 
 TEST(AuditTest, ColumnsSurvive) {
-  const AuditBatchRequest request = {.scene = PaperScene(),
-                                     .columns = {{1.0}, {2.0}, {3.0}, {4.0, 5.0}, {6.0}, {7.0, kSubnormal}, {}, {0.5}}};
+  const AuditBatchRequest request = {
+      .scene = PaperScene(),
+      .columns = {{1.0}, {2.0}, {3.0}, {4.0, 5.0}, {6.0}, {7.0, kSubnormal}, {}, {0.5}, {{8.0, kSubnormal}, {}}}};
   EXPECT_EQ(ThroughWire(request), request);
 }
 

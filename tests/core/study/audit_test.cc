@@ -656,6 +656,26 @@ TEST(AuditColumnsTest, MarksRowsThatAreNoContact) {
   EXPECT_EQ(summary->invalid, (Tally{5, 0}));
 }
 
+TEST(AuditColumnsTest, SinglesOutTheRowThatOverflows) {
+  // p_n = (v+ - v-)/Wnn: 1e308/1e-3 exceeds the largest double.
+  const std::vector<double> v1 = {0.5, 1e308, 0.25};
+  planar::Problem contact = kByHand;
+  contact.wnn = 1e-3;
+  PlanarColumns columns = RowsAt(contact, 3);
+  columns.u1 = Fixed(contact.u0);
+  columns.v1 = v1;
+  std::vector<AuditReport> reports;
+  const auto keep = [&](int64_t /*row*/, const AuditReport& report) { reports.push_back(report); };
+  const auto summary = AuditColumns(columns, keep);
+  ASSERT_TRUE(summary.ok()) << summary.status();
+  EXPECT_EQ(summary->rows, 3);
+  EXPECT_EQ(summary->invalid, (Tally{1, 1}));
+  EXPECT_EQ(reports[1], AuditReport{.regime = Regime::kInvalid});
+  EXPECT_EQ(reports[2], Audit(contact, {.u1 = contact.u0, .v1 = 0.25}));
+  EXPECT_STREQ(OverflowIn(Audit(contact, {.u1 = contact.u0, .v1 = 1e308})), "report.normal_impulse_n_s");
+  EXPECT_EQ(OverflowIn(reports[2]), nullptr);
+}
+
 TEST(AuditColumnsTest, AuditsSpatialRowsAsItAuditsOne) {
   const spatial::Problem problem = TurningContact(1.0, 0.6, 0.4);
   const std::vector<double> v1 = {0.5, 1.0};
