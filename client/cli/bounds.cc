@@ -12,8 +12,8 @@
 #include "client/cli/axis_input.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/table.h"
-#include "core/models/scene_outcome.h"
 #include "core/numerics/decimal.h"
+#include "core/plan/planned_scene.h"
 #include "proto/wire/requests.h"
 
 namespace ricochet::cli {

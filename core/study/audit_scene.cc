@@ -16,6 +16,7 @@
 #include "core/models/spatial_outcome.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/effective.h"
+#include "core/scene/numbers.h"
 #include "core/scene/reduction.h"
 #include "core/scene/validate.h"
 #include "core/study/audit.h"
@@ -287,6 +288,31 @@ absl::StatusOr<AuditSummary> Audited(const SpatialReduction& reduction, const Au
       receive);
 }
 
+// A pendulum from its own state, in closed form as a single audit has it.
+AuditSummary AuditedPendulum(const Scene& scene, const AuditColumns& in, const FrictionColumns& friction, size_t rows,
+                             Receiver receive) {
+  AuditSummary summary;
+  pendulum::Problem problem = ClosedFormProblem(scene);
+  for (size_t row = 0; row < rows; ++row) {
+    problem.mu = ValueAt(friction.kinetic, row);
+    problem.mu_static = friction.static_.empty() ? problem.mu : ValueAt(friction.static_, row);
+    const audit::PlanarObservation seen = {
+        .u1 = ValueAt(in.tangential_after_m_s, row),
+        .v1 = ValueAt(in.normal_after_m_s, row),
+        .uncertainty = in.velocity_uncertainty_m_s.empty() ? 0.0 : ValueAt(in.velocity_uncertainty_m_s, row)};
+    const bool is_valid = std::isfinite(seen.u1) && std::isfinite(seen.v1) &&
+                          Holds(seen.uncertainty, NumberRule::kNotNegative) &&
+                          Holds(problem.mu, NumberRule::kNotNegative) &&
+                          Holds(problem.mu_static, NumberRule::kNotNegative) && problem.mu_static >= problem.mu;
+    AuditReport report = {.regime = Regime::kInvalid};
+    if (is_valid) report = audit::Audit(problem, seen);
+    if (audit::OverflowIn(report) != nullptr) report = {.regime = Regime::kInvalid};
+    audit::Add(static_cast<int64_t>(row), report, summary);
+    receive(static_cast<int64_t>(row), report);
+  }
+  return summary;
+}
+
 }  // namespace
 
 absl::StatusOr<AuditResponse> AuditScene(const AuditRequest& request) {
@@ -325,6 +351,10 @@ absl::StatusOr<AuditBatchResponse> AuditScene(const AuditBatchRequest& request) 
   AuditBatchResponse response;
   response.reports.reserve(rows);
   const auto keep = [&response](int64_t /*row*/, const AuditReport& report) { response.reports.push_back(report); };
+  if (HasClosedForm(scene) && columns.normal_m_s.empty()) {
+    response.summary = AuditedPendulum(scene, columns, friction, rows, keep);
+    return response;
+  }
   absl::StatusOr<AuditSummary> summary = std::visit(
       [&](const auto& reduction) { return Audited(reduction, columns, friction, static_cast<int64_t>(rows), keep); },
       any);

@@ -1,7 +1,8 @@
 // AuditScene: the audit of any scene, reduced to its contact (core/scene/reduction.h), by core/study/audit.h.
 //
-// A pendulum that strikes a surface at rest goes by its closed form. Friction is the scene's at the approach speed; the
-// restitution and the impact law are not used. A spatial path is integrated to spatial::kStudyTolerance.
+// A pendulum that strikes a surface at rest from the scene's own state goes by its closed form. Friction is the scene's
+// at the approach speed; the restitution and the impact law are not used. A spatial path is integrated to
+// spatial::kStudyTolerance.
 
 #ifndef RICOCHET_CORE_STUDY_AUDIT_SCENE_H_
 #define RICOCHET_CORE_STUDY_AUDIT_SCENE_H_
