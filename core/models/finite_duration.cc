@@ -19,7 +19,7 @@ namespace ricochet::finite_duration {
 namespace {
 
 // Both for one integration.
-constexpr int64_t kStepBudget = 100'000;
+constexpr int64_t kStepBudget = 50'000;
 constexpr int64_t kTurnBudget = 200;
 
 // CVODE, for one contact: Adams' formulas of variable order, step by step, with the roots of the guards.
@@ -73,20 +73,27 @@ class Integrator {
     counted_ = 0;
   }
 
-  // To the end of a step or the next root; false if CVODE gives up. `fallen`: guards that it found at 0.
-  bool Step(std::array<bool, kModeGuards>& fallen) {
+  enum class Progress {
+    kStep,
+    kCrowded,  // A guard is 0 where the last root was and just after it: begin anew from there.
+    kFailed
+  };
+
+  // To the end of a step or the next root. `fallen`: guards that it found at 0.
+  Progress Step(std::array<bool, kModeGuards>& fallen) {
     // All that CVODE makes of it is the direction and the size of the first step.
     constexpr double kAhead = 1.0;
     fallen.fill(false);
     previous_s_ = s_;
     const int flag = CVode(memory_, s_ + kAhead, y_, &s_, CV_ONE_STEP);
-    if (flag < 0) return false;
+    if (flag == CV_ILL_INPUT) return Progress::kCrowded;
+    if (flag < 0) return Progress::kFailed;
     AddLocalErrors();
-    if (flag != CV_ROOT_RETURN) return true;
+    if (flag != CV_ROOT_RETURN) return Progress::kStep;
     std::array<int, kGuards> found;
     Require(CVodeGetRootInfo(memory_, found.data()));
     for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = found[i] != 0;
-    return true;
+    return Progress::kStep;
   }
 
   const Motion& y() const { return StateOf(y_); }
@@ -102,13 +109,8 @@ class Integrator {
     return between;
   }
 
-  // The sum of the sizes of all local errors since the last call, as CVODE estimates them.
-  double TakeLocalErrors() {
-    double size = 0.0;
-    for (const Part part : {kPlace, kU, kV}) size = std::max(size, local_errors_[part]);
-    local_errors_ = {};
-    return size;
-  }
+  // For each part, the sum of the sizes of its local errors since the last call, as CVODE estimates them.
+  Motion TakeLocalErrors() { return std::exchange(local_errors_, Motion{}); }
 
   // Since the last call.
   std::pair<int64_t, int64_t> TakeCosts() {
@@ -195,8 +197,10 @@ struct Path {
   bool held = false;    // Ended at rest, where friction and the spring keep it.
   bool parted = false;  // Or ended where compression does, because eta = 0 or it is held.
   double peak_normal = 0.0, peak_tangential = 0.0, indentation = 0.0;
+  double largest_place = 0.0;
+  double fastest = 0.0;       // Of restitution, along n.
   double spring_force = 0.0;  // Of the tangential spring at the end.
-  double local_errors = 0.0;
+  Motion local_errors = {};
   int64_t steps = 0, right_hand_sides = 0;
 };
 
@@ -240,11 +244,15 @@ class Follower {
  private:
   // False if a budget runs out.
   bool FollowMode() {
+    if (NeverTurns(contact_, mode_, y_)) return false;
     integrator_.Begin(mode_, y_, tolerance_);
     changed_ = false;
     while (!changed_) {
       std::array<bool, kModeGuards> fallen;
-      if (steps_++ == kStepBudget || !integrator_.Step(fallen)) return false;
+      if (steps_++ == kStepBudget) return false;
+      const Integrator::Progress progress = integrator_.Step(fallen);
+      if (progress == Integrator::Progress::kFailed) return false;
+      if (progress == Integrator::Progress::kCrowded) return true;
       y_ = integrator_.y();
       if (history_ != nullptr) TakeSamples();
       NotePeaks();
@@ -268,6 +276,8 @@ class Follower {
     const Forces forces = ForcesAt(contact_, mode_, y_);
     path_.peak_normal = std::max(path_.peak_normal, forces.normal);
     path_.peak_tangential = std::max(path_.peak_tangential, std::fabs(forces.tangential));
+    path_.largest_place = std::max(path_.largest_place, y_[kPlace]);
+    if (mode_.line == Line::kUnloading) path_.fastest = std::max(path_.fastest, y_[kV]);
     path_.indentation = std::max(path_.indentation, Indentation(contact_, mode_, y_));
   }
 
@@ -400,15 +410,24 @@ class Follower {
   int64_t turns_ = 0;
 };
 
-// How far the velocities at the end of a path are from the truth, over max(|u0|, |v0|). Errors made on the way add up at
-// worst in size; that they also grow on the way is what the factor is for.
+// How far the velocities at the end of a path are from the truth, over max(|u0|, |v0|). Local errors add up at worst in
+// size. They grow where restitution slows down, as it is v^2 that carries over, and shift the end, up to which a_t acts.
+// The safety is for all other growth; without forces, damping and springs along t each piece of the path is straight.
 double ErrorOf(const Contact& contact, const Path& path) {
-  constexpr double kSafety = 2.0;
-  constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
+  const bool straight = contact.at == 0.0 && contact.an == 0.0 && !contact.damped && !contact.compliant;
+  const double safety = straight ? 2.0 : 6.0;
+  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
   const Motion& end = path.end;
+  const Motion& local = path.local_errors;
+  const double growth = end[kV] > 0.0 ? path.fastest / end[kV] : 1.0;
+  // A force that is wrong by a part of itself changes the velocities by that part.
+  const double normal = std::max(local[kPlace] / std::max(1.0, path.largest_place), local[kV]);
+  const double shift = std::fabs(contact.at) * end[kTime] * normal;
+  const double error = std::max(growth * normal, local[kU]) + shift;
   double terms = std::fabs(contact.u0) + 1.0 + (std::fabs(contact.at) + std::fabs(contact.an)) * end[kTime];
+  // Springs along t and n work against each other where W is close to rank one.
   if (contact.compliant) terms += (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu) * end[kNormal];
-  return (kSafety * path.local_errors + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
+  return (safety * error + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
 }
 
 struct Estimated {

@@ -239,7 +239,7 @@ Motion RatesAt(const Contact& contact, const Mode& mode, const Motion& y) {
   rates[kTangentMoment] = y[kTangential] * dt;
   rates[kNormalWork] = forces.normal * y[kV] * dt;
   rates[kTangentWork] = forces.tangential * y[kU] * dt;
-  rates[kFrictionLoss] = std::fabs(forces.tangential) * slip * dt;
+  rates[kFrictionLoss] = contact.mu * forces.normal * slip * dt;
   rates[kDampingLoss] = LoadingCurve(contact, y[kPlace]) * contact.damping * Square(y[kV]) * dt;
   return rates;
 }
@@ -269,6 +269,13 @@ Guards GuardsAt(const Contact& contact, const Mode& mode, const Motion& y) {
     SetRigidGuards(contact, mode, y, forces, rate, guards);
   }
   return guards;
+}
+
+bool NeverTurns(const Contact& contact, const Mode& mode, const Motion& y) {
+  if (mode.grip != Grip::kStick || contact.compliant || contact.stick_slope != 0.0 || y[kV] >= 0.0) return false;
+  // The cone, which is a line in N, holds here and at infinity.
+  const Forces forces = ForcesAt(contact, mode, y);
+  return contact.holds_freely && AccelerationAt(contact, mode, forces).v <= 0.0;
 }
 
 Motion StartOf(const Contact& contact) {
