@@ -70,7 +70,8 @@ class Integrator {
     Require(CVodeReInit(memory_, 0.0, y_));
     Require(CVodeSVtolerances(memory_, tolerance, absolute_));
     s_ = previous_s_ = 0.0;
-    counted_ = 0;
+    counted_ = {0, 0};
+    judged_ = 0;
   }
 
   enum class Progress {
@@ -143,8 +144,8 @@ class Integrator {
   void AddLocalErrors() {
     long steps = 0;
     Require(CVodeGetNumSteps(memory_, &steps));
-    if (steps == counted_) return;
-    counted_ = steps;
+    if (steps == judged_) return;
+    judged_ = steps;
     Require(CVodeGetEstLocalErrors(memory_, errors_));
     for (size_t i = 0; i < kParts; ++i) local_errors_[i] += std::fabs(StateOf(errors_)[i]);
   }
@@ -154,8 +155,9 @@ class Integrator {
     long right_hand_sides = 0;
     Require(CVodeGetNumSteps(memory_, &steps));
     Require(CVodeGetNumRhsEvals(memory_, &right_hand_sides));
-    steps_ += steps;
-    right_hand_sides_ += right_hand_sides;
+    steps_ += steps - counted_.first;
+    right_hand_sides_ += right_hand_sides - counted_.second;
+    counted_ = {steps, right_hand_sides};
   }
 
   const Contact& contact_;
@@ -170,7 +172,8 @@ class Integrator {
   double previous_s_ = 0.0;
   int64_t steps_ = 0;
   int64_t right_hand_sides_ = 0;
-  long counted_ = 0;
+  std::pair<long, long> counted_ = {0, 0};  // Of those, since the integrator last began.
+  long judged_ = 0;                         // The step whose local errors were taken last.
   Motion local_errors_ = {};
 };
 
@@ -244,7 +247,7 @@ class Follower {
  private:
   // False if a budget runs out.
   bool FollowMode() {
-    if (NeverTurns(contact_, mode_, y_)) return false;
+    if (stays_ || NeverTurns(contact_, mode_, y_)) return false;
     integrator_.Begin(mode_, y_, tolerance_);
     changed_ = false;
     while (!changed_) {
@@ -350,7 +353,9 @@ class Follower {
     if (!held && (opens ? rate <= 0.0 : rate >= 0.0)) return;
     changed_ = true;
     y_[kV] = 0.0;
-    path_.held = held;
+    // At rest in restitution it neither parts nor moves.
+    if (held && mode_.line != Line::kLoading) stays_ = true;
+    path_.held = held && !stays_;
     if (mode_.line == Line::kLoading && (!contact_.damped || y_[kPlace] >= mode_.largest)) {
       EndCompression();
       AddEvent(EventKind::kCompressionEnds);
@@ -405,6 +410,7 @@ class Follower {
   Path path_;
   bool changed_ = false;
   bool compression_ended_ = false;
+  bool stays_ = false;
   Works loading_start_;
   int64_t steps_ = 0;
   int64_t turns_ = 0;
@@ -415,7 +421,7 @@ class Follower {
 // The safety is for all other growth; without forces, damping and springs along t each piece of the path is straight.
 double ErrorOf(const Contact& contact, const Path& path) {
   const bool straight = contact.at == 0.0 && contact.an == 0.0 && !contact.damped && !contact.compliant;
-  const double safety = straight ? 2.0 : 6.0;
+  const double safety = straight ? 2.0 : 4.0;
   constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
   const Motion& end = path.end;
   const Motion& local = path.local_errors;
