@@ -255,7 +255,7 @@ class Follower {
       if (steps_++ == kStepBudget) return false;
       const Integrator::Progress progress = integrator_.Step(fallen);
       if (progress == Integrator::Progress::kFailed) return false;
-      if (progress == Integrator::Progress::kCrowded) return true;
+      if (progress == Integrator::Progress::kCrowded) return integrator_.s() > 0.0;
       y_ = integrator_.y();
       if (history_ != nullptr) TakeSamples();
       NotePeaks();
@@ -439,7 +439,7 @@ double ErrorOf(const Contact& contact, const Path& path) {
 struct Estimated {
   Path path;
   double tolerance = 0.0;  // Of the integration.
-  double error = std::numeric_limits<double>::infinity();
+  double error = 0.0;
   int64_t steps = 0, right_hand_sides = 0;
 };
 
@@ -456,6 +456,7 @@ Estimated FollowWithin(const Contact& contact, Integrator& integrator, double to
     const Path& path = result.path;
     result.steps += path.steps;
     result.right_hand_sides += path.right_hand_sides;
+    result.error = std::numeric_limits<double>::infinity();
     if (!(path.parted || path.held)) return result;
     result.error = ErrorOf(contact, path);
     if (result.error <= tolerance || result.tolerance == kFinest) return result;

@@ -21,11 +21,12 @@
 // sticks at first touch if |u0| < mu ratio^2 |v0|; where S = 0 on the cone dS/dt decides. eta = 0 there needs
 // mu |Wtn| < Wnn.
 //
-// Ends: N = 0. eta = 0: where v = 0 at d_max, all that the springs hold is lost. Where friction and the spring hold the
-// contact at rest at the end of compression (rank one, locked): there. An impact that does not part within a budget of
-// 50 000 steps or 200 changes of the sign of v, or provably never does, is answered with the state reached, regime
-// wedged, converged = false and an infinite error: forces that press too hard, wedges. A contact at the brink of jamming
-// (v rises by less than some 1e-9 Wnn times N) or heavily damped (c |v0| beyond some 1e4) may not end within it either.
+// Ends: N = 0. eta = 0, or eta^2 below the smallest normal double, which counts as 0: where v = 0 at d_max, all that the
+// springs hold is lost. Where friction and the spring hold the contact at rest at the end of compression (rank one,
+// locked): there. An impact that does not part within a budget of 50 000 steps or 200 changes of the sign of v, or
+// provably never does, is answered with the state reached, regime wedged, converged = false and an infinite error:
+// forces that press too hard, wedges. Nor may a contact whose particle sticks and slides too often (ratio below some
+// 1e-3), or one at the brink of jamming under forces, end within it.
 //
 // Phases: normal and tangential works of compression are those of first loading, those of restitution all others.
 // tau_compression and f_compression are the impulses at the last v = 0 with d = d_max. For Hunt-Crossley, whose curve is

@@ -44,7 +44,8 @@ void SetUnits(const Problem& problem, Contact& contact) {
   contact.time = NaturalTime(curve, problem.wnn, contact.speed);
   contact.mass = 1.0 / problem.wnn;
   contact.damping = curve.damping * contact.speed;
-  contact.eta = curve.damped ? 1.0 : problem.energetic;
+  const bool returns = Square(problem.energetic) >= std::numeric_limits<double>::min();
+  contact.eta = curve.damped ? 1.0 : returns ? problem.energetic : 0.0;
 }
 
 // Of slip towards +t for mu > 0, towards -t for mu < 0.
