@@ -3,18 +3,54 @@
 //   d(u, v)/dt = W (F, N) + (a_t, a_n),   d' = -v,   d(0) = 0
 //
 // W as in core/models/planar.h, held constant; (a_t, a_n) is the acceleration that gravity and other finite forces
-// alone would give the contact. F = -mu sgn(u) N while the contact slips, |F| <= mu_s N while it sticks.
+// alone would give the contact.
 //
 //   linear          N = k d            k in N/m
 //   Hertz           N = k d^(3/2)      k in N/m^(3/2)
-//     unloading from the largest indentation d_max: N(d) = N_load((d - (1 - eta^2) d_max)/eta^2)
-//   Hunt-Crossley   N = k d^p (1 + c d')   no coefficient of restitution: the damping stands for it
+//     unloading from the largest indentation d_max: N(d) = N_load((d - (1 - eta^2) d_max)/eta^2), loading again along the
+//     same curve until d passes d_max; the work of restitution is -eta^2 that of compression whatever the path
+//   Hunt-Crossley   N = k d^p (1 + c d')   no coefficient of restitution: the damping stands for it, and what it comes
+//     to is reported. The impact ends where N = 0, and d > 0 there if a_n pulls the bodies apart; what the spring still
+//     holds is lost.
+//
+// Tangentially rigid (Coulomb): F = -mu sgn(u) N while the contact slips; while it sticks F = -(Wtn N + a_t)/Wtt, as long
+// as |F| <= mu_s N. Then slip starts towards sgn(Wtn N + a_t); so it does at first touch, where N = 0, from u0 = 0 if
+// a_t != 0. Wtt = 0: no friction. Linear with `ratio_squared`: a massless particle between body and surface on a
+// tangential spring of stiffness k/ratio^2 (Stronge), F = -mu N s while it slides towards s, at the speed
+// S = s u + mu ratio^2 kn/k v, kn the slope of N(d); F' = -(k/ratio^2) u while it sticks, as long as |F| <= mu N. It
+// sticks at first touch if |u0| < mu ratio^2 |v0|; where S = 0 on the cone dS/dt decides. eta = 0 there needs
+// mu |Wtn| < Wnn.
+//
+// Ends: N = 0. eta = 0, or eta^2 below the smallest normal double, which counts as 0: where v = 0 at d_max, all that the
+// springs hold is lost. Where friction and the spring hold the contact at rest at the end of compression (rank one,
+// locked): there. An impact that does not part within a budget of 50 000 steps or 200 changes of the sign of v, or
+// provably never does, is answered with the state reached, regime wedged, converged = false and an infinite error:
+// forces that press too hard, wedges. Nor may a contact whose particle sticks and slides too often (ratio below some
+// 1e-3), or one at the brink of jamming under forces, end within it.
+//
+// Phases: normal and tangential works of compression are those of first loading, those of restitution all others.
+// tau_compression and f_compression are the impulses at the last v = 0 with d = d_max. For Hunt-Crossley, whose curve is
+// one, the works of compression are those up to there.
+//
+// Regimes as in core/models/planar.h, by the first stop of slip, or of the particle, and by v there; v = 0 counts as
+// restitution. Without forces and tangential spring the impact is planar::Solve's with the energetic law, at any k.
+//
+// Events: start; slip stops (u = 0; it sticks or reverses, as the regime says for the first); stick starts (of the
+// particle); slip starts (after stick); compression ends (once, the last v = 0 with d = d_max); restitution ends.
+//
+// Method: natural units, so that tolerances mean the same at all sizes (core/models/finite_duration_motion.h), CVODE's
+// Adams formulas of variable order, root finding for events. Peaks are taken at the events where they occur.
+// Accuracy: velocities within `tolerance`, or as far as double precision has it (some 1e-12 without forces; close to
+// rank one with a tangential spring 1e-15 Wtt Wnn/det W); error_estimate says what was reached. It is a multiple of the
+// sum of the sizes of CVODE's local errors, calibrated: testing has not found it below the true error, and in the median
+// it is 10 to 100 times that. All else has errors of like relative size, but for what passes close to 0.
+// The same bits on one machine only: SUNDIALS and the C library's pow.
+// Bad input: none gets here (core/scene/validate.h). v0 >= 0: nothing changes, whatever the forces.
 
 #ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_H_
 #define RICOCHET_CORE_MODELS_FINITE_DURATION_H_
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <vector>
 
@@ -43,11 +79,11 @@ struct Problem {
 struct Impact {
   Regime regime = Regime::kUnspecified;
   int w_rank = 0;
-  bool sharp_limit_broken = false;
-  bool energy_limit_broken = false;
+  bool sharp_limit_broken = false;   // Never: no spring here gives back more than it stored.
+  bool energy_limit_broken = false;  // Never: the contact's forces only take energy.
   double newton = 0.0, poisson = 0.0, energetic = 0.0;
-  double tangential = 0.0;  // f1/tau1
-  double energetic_excess = 0.0;
+  double tangential = 0.0;        // f1/tau1
+  double energetic_excess = 0.0;  // energetic - 1, free of cancellation
   double u1 = 0.0, v1 = 0.0;
   double tau_compression = 0.0, tau1 = 0.0;
   double f_compression = 0.0, f1 = 0.0;
@@ -65,7 +101,6 @@ struct Impact {
   std::vector<Event> events;  // Contact alone: no rates.
 };
 
-// Has the same bits on one machine only: SUNDIALS.
 Impact Solve(const Problem& problem);
 
 }  // namespace ricochet::finite_duration

@@ -247,6 +247,7 @@ TEST(SweepRunTest, TheSummaryTalliesEveryRegimeAndInadmissiblePoints) {
     const Regime regime = response.ok() ? response->outcome.regime : Regime::kInvalid;
     add(i, expected.by_regime[static_cast<size_t>(regime)]);
     if (response.ok() && !response->outcome.admissible) add(i, expected.inadmissible);
+    if (response.ok()) add(i, expected.by_model[static_cast<size_t>(response->outcome.plan.model)]);
     ++expected.points;
   }
   EXPECT_EQ(points.summary, expected);
@@ -255,6 +256,34 @@ TEST(SweepRunTest, TheSummaryTalliesEveryRegimeAndInadmissiblePoints) {
     EXPECT_GT(expected.by_regime[static_cast<size_t>(regime)].count, 0) << static_cast<int>(regime);
   }
   EXPECT_GT(expected.inadmissible.count, 0);
+}
+
+// From x = 1e-6 to x = 0.3: at 1e-3 the plan goes from the frictionless impact by first order to the closed form.
+TEST(SweepRunTest, EachRunOfPointsIsSolvedByTheModelOfItsPlanWithTheBitsOfSolve) {
+  SweepRequest request = MakeRequest({{"friction.kinetic_coefficient", Logspace{1e-6, 0.3, 500}}});
+  request.columns = PendulumColumns();
+  request.demand.relative_tolerance = 1e-3;
+  const Points points = RunAll(request);
+  const LocalSolver solver;
+  std::array<Tally, kModelCount> expected = {};
+  for (int64_t i = 0; i < 500; ++i) {
+    const auto response = solver.Solve({.scene = SceneAt(request, i), .demand = request.demand});
+    ASSERT_TRUE(response.ok()) << response.status();
+    Tally& tally = expected[static_cast<size_t>(response->outcome.plan.model)];
+    if (tally.count++ == 0) tally.first_index = i;
+    std::vector<double> numbers;
+    ReadColumns(response->outcome, numbers);
+    const std::vector<std::string> names = Columns(request.grid.scene);
+    for (size_t c = 0; c < request.columns.size(); ++c) {
+      const auto at = std::find(names.begin(), names.end(), request.columns[c]) - names.begin();
+      EXPECT_TRUE(SameBits(points.columns[c][static_cast<size_t>(i)], numbers[static_cast<size_t>(at)]))
+          << request.columns[c] << " of point " << i;
+    }
+  }
+  EXPECT_EQ(points.summary.by_model, expected);
+  for (const Model model : {Model::kFrictionless, Model::kFirstOrder, Model::kPendulum}) {
+    EXPECT_GT(expected[static_cast<size_t>(model)].count, 0) << static_cast<int>(model);
+  }
 }
 
 TEST(SweepRunTest, FirstIndicesOfASubRangeAreThoseOfTheGrid) {
