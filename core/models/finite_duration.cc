@@ -19,11 +19,7 @@ namespace ricochet::finite_duration {
 namespace {
 
 // Both for one integration.
-<<<<<<< HEAD
-constexpr int64_t kStepBudget = 100'000;
-=======
 constexpr int64_t kStepBudget = 50'000;
->>>>>>> finite
 constexpr int64_t kTurnBudget = 200;
 
 // CVODE, for one contact: Adams' formulas of variable order, step by step, with the roots of the guards.
@@ -74,13 +70,6 @@ class Integrator {
     Require(CVodeReInit(memory_, 0.0, y_));
     Require(CVodeSVtolerances(memory_, tolerance, absolute_));
     s_ = previous_s_ = 0.0;
-<<<<<<< HEAD
-    counted_ = 0;
-  }
-
-  // To the end of a step or the next root; false if CVODE gives up. `fallen`: guards that it found at 0.
-  bool Step(std::array<bool, kModeGuards>& fallen) {
-=======
     counted_ = {0, 0};
     judged_ = 0;
   }
@@ -93,21 +82,11 @@ class Integrator {
 
   // To the end of a step or the next root. `fallen`: guards that it found at 0.
   Progress Step(std::array<bool, kModeGuards>& fallen) {
->>>>>>> finite
     // All that CVODE makes of it is the direction and the size of the first step.
     constexpr double kAhead = 1.0;
     fallen.fill(false);
     previous_s_ = s_;
     const int flag = CVode(memory_, s_ + kAhead, y_, &s_, CV_ONE_STEP);
-<<<<<<< HEAD
-    if (flag < 0) return false;
-    AddLocalErrors();
-    if (flag != CV_ROOT_RETURN) return true;
-    std::array<int, kGuards> found;
-    Require(CVodeGetRootInfo(memory_, found.data()));
-    for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = found[i] != 0;
-    return true;
-=======
     if (flag == CV_ILL_INPUT) return Progress::kCrowded;
     if (flag < 0) return Progress::kFailed;
     AddLocalErrors();
@@ -116,7 +95,6 @@ class Integrator {
     Require(CVodeGetRootInfo(memory_, found.data()));
     for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = found[i] != 0;
     return Progress::kStep;
->>>>>>> finite
   }
 
   const Motion& y() const { return StateOf(y_); }
@@ -132,18 +110,8 @@ class Integrator {
     return between;
   }
 
-<<<<<<< HEAD
-  // The sum of the sizes of all local errors since the last call, as CVODE estimates them.
-  double TakeLocalErrors() {
-    double size = 0.0;
-    for (const Part part : {kPlace, kU, kV}) size = std::max(size, local_errors_[part]);
-    local_errors_ = {};
-    return size;
-  }
-=======
   // For each part, the sum of the sizes of its local errors since the last call, as CVODE estimates them.
   Motion TakeLocalErrors() { return std::exchange(local_errors_, Motion{}); }
->>>>>>> finite
 
   // Since the last call.
   std::pair<int64_t, int64_t> TakeCosts() {
@@ -176,13 +144,8 @@ class Integrator {
   void AddLocalErrors() {
     long steps = 0;
     Require(CVodeGetNumSteps(memory_, &steps));
-<<<<<<< HEAD
-    if (steps == counted_) return;
-    counted_ = steps;
-=======
     if (steps == judged_) return;
     judged_ = steps;
->>>>>>> finite
     Require(CVodeGetEstLocalErrors(memory_, errors_));
     for (size_t i = 0; i < kParts; ++i) local_errors_[i] += std::fabs(StateOf(errors_)[i]);
   }
@@ -192,14 +155,9 @@ class Integrator {
     long right_hand_sides = 0;
     Require(CVodeGetNumSteps(memory_, &steps));
     Require(CVodeGetNumRhsEvals(memory_, &right_hand_sides));
-<<<<<<< HEAD
-    steps_ += steps;
-    right_hand_sides_ += right_hand_sides;
-=======
     steps_ += steps - counted_.first;
     right_hand_sides_ += right_hand_sides - counted_.second;
     counted_ = {steps, right_hand_sides};
->>>>>>> finite
   }
 
   const Contact& contact_;
@@ -214,12 +172,8 @@ class Integrator {
   double previous_s_ = 0.0;
   int64_t steps_ = 0;
   int64_t right_hand_sides_ = 0;
-<<<<<<< HEAD
-  long counted_ = 0;
-=======
   std::pair<long, long> counted_ = {0, 0};  // Of those, since the integrator last began.
   long judged_ = 0;                         // The step whose local errors were taken last.
->>>>>>> finite
   Motion local_errors_ = {};
 };
 
@@ -246,15 +200,10 @@ struct Path {
   bool held = false;    // Ended at rest, where friction and the spring keep it.
   bool parted = false;  // Or ended where compression does, because eta = 0 or it is held.
   double peak_normal = 0.0, peak_tangential = 0.0, indentation = 0.0;
-<<<<<<< HEAD
-  double spring_force = 0.0;  // Of the tangential spring at the end.
-  double local_errors = 0.0;
-=======
   double largest_place = 0.0;
   double fastest = 0.0;       // Of restitution, along n.
   double spring_force = 0.0;  // Of the tangential spring at the end.
   Motion local_errors = {};
->>>>>>> finite
   int64_t steps = 0, right_hand_sides = 0;
 };
 
@@ -298,22 +247,15 @@ class Follower {
  private:
   // False if a budget runs out.
   bool FollowMode() {
-<<<<<<< HEAD
-=======
     if (stays_ || NeverTurns(contact_, mode_, y_)) return false;
->>>>>>> finite
     integrator_.Begin(mode_, y_, tolerance_);
     changed_ = false;
     while (!changed_) {
       std::array<bool, kModeGuards> fallen;
-<<<<<<< HEAD
-      if (steps_++ == kStepBudget || !integrator_.Step(fallen)) return false;
-=======
       if (steps_++ == kStepBudget) return false;
       const Integrator::Progress progress = integrator_.Step(fallen);
       if (progress == Integrator::Progress::kFailed) return false;
       if (progress == Integrator::Progress::kCrowded) return integrator_.s() > 0.0;
->>>>>>> finite
       y_ = integrator_.y();
       if (history_ != nullptr) TakeSamples();
       NotePeaks();
@@ -337,11 +279,8 @@ class Follower {
     const Forces forces = ForcesAt(contact_, mode_, y_);
     path_.peak_normal = std::max(path_.peak_normal, forces.normal);
     path_.peak_tangential = std::max(path_.peak_tangential, std::fabs(forces.tangential));
-<<<<<<< HEAD
-=======
     path_.largest_place = std::max(path_.largest_place, y_[kPlace]);
     if (mode_.line == Line::kUnloading) path_.fastest = std::max(path_.fastest, y_[kV]);
->>>>>>> finite
     path_.indentation = std::max(path_.indentation, Indentation(contact_, mode_, y_));
   }
 
@@ -414,13 +353,9 @@ class Follower {
     if (!held && (opens ? rate <= 0.0 : rate >= 0.0)) return;
     changed_ = true;
     y_[kV] = 0.0;
-<<<<<<< HEAD
-    path_.held = held;
-=======
     // At rest in restitution it neither parts nor moves.
     if (held && mode_.line != Line::kLoading) stays_ = true;
     path_.held = held && !stays_;
->>>>>>> finite
     if (mode_.line == Line::kLoading && (!contact_.damped || y_[kPlace] >= mode_.largest)) {
       EndCompression();
       AddEvent(EventKind::kCompressionEnds);
@@ -475,26 +410,12 @@ class Follower {
   Path path_;
   bool changed_ = false;
   bool compression_ended_ = false;
-<<<<<<< HEAD
-=======
   bool stays_ = false;
->>>>>>> finite
   Works loading_start_;
   int64_t steps_ = 0;
   int64_t turns_ = 0;
 };
 
-<<<<<<< HEAD
-// How far the velocities at the end of a path are from the truth, over max(|u0|, |v0|). Errors made on the way add up at
-// worst in size; that they also grow on the way is what the factor is for.
-double ErrorOf(const Contact& contact, const Path& path) {
-  constexpr double kSafety = 2.0;
-  constexpr double kRounding = 32.0 * std::numeric_limits<double>::epsilon();
-  const Motion& end = path.end;
-  double terms = std::fabs(contact.u0) + 1.0 + (std::fabs(contact.at) + std::fabs(contact.an)) * end[kTime];
-  if (contact.compliant) terms += (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu) * end[kNormal];
-  return (kSafety * path.local_errors + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
-=======
 // How far the velocities at the end of a path are from the truth, over max(|u0|, |v0|). Local errors add up at worst in
 // size. They grow where restitution slows down, as it is v^2 that carries over, and shift the end, up to which a_t acts.
 // The safety is for all other growth; without forces, damping and springs along t each piece of the path is straight.
@@ -513,17 +434,12 @@ double ErrorOf(const Contact& contact, const Path& path) {
   // Springs along t and n work against each other where W is close to rank one.
   if (contact.compliant) terms += (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu) * end[kNormal];
   return (safety * error + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
->>>>>>> finite
 }
 
 struct Estimated {
   Path path;
   double tolerance = 0.0;  // Of the integration.
-<<<<<<< HEAD
-  double error = std::numeric_limits<double>::infinity();
-=======
   double error = 0.0;
->>>>>>> finite
   int64_t steps = 0, right_hand_sides = 0;
 };
 
@@ -540,10 +456,7 @@ Estimated FollowWithin(const Contact& contact, Integrator& integrator, double to
     const Path& path = result.path;
     result.steps += path.steps;
     result.right_hand_sides += path.right_hand_sides;
-<<<<<<< HEAD
-=======
     result.error = std::numeric_limits<double>::infinity();
->>>>>>> finite
     if (!(path.parted || path.held)) return result;
     result.error = ErrorOf(contact, path);
     if (result.error <= tolerance || result.tolerance == kFinest) return result;

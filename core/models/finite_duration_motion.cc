@@ -44,12 +44,8 @@ void SetUnits(const Problem& problem, Contact& contact) {
   contact.time = NaturalTime(curve, problem.wnn, contact.speed);
   contact.mass = 1.0 / problem.wnn;
   contact.damping = curve.damping * contact.speed;
-<<<<<<< HEAD
-  contact.eta = curve.damped ? 1.0 : problem.energetic;
-=======
   const bool returns = Square(problem.energetic) >= std::numeric_limits<double>::min();
   contact.eta = curve.damped ? 1.0 : returns ? problem.energetic : 0.0;
->>>>>>> finite
 }
 
 // Of slip towards +t for mu > 0, towards -t for mu < 0.
@@ -244,11 +240,7 @@ Motion RatesAt(const Contact& contact, const Mode& mode, const Motion& y) {
   rates[kTangentMoment] = y[kTangential] * dt;
   rates[kNormalWork] = forces.normal * y[kV] * dt;
   rates[kTangentWork] = forces.tangential * y[kU] * dt;
-<<<<<<< HEAD
-  rates[kFrictionLoss] = std::fabs(forces.tangential) * slip * dt;
-=======
   rates[kFrictionLoss] = contact.mu * forces.normal * slip * dt;
->>>>>>> finite
   rates[kDampingLoss] = LoadingCurve(contact, y[kPlace]) * contact.damping * Square(y[kV]) * dt;
   return rates;
 }
@@ -280,8 +272,6 @@ Guards GuardsAt(const Contact& contact, const Mode& mode, const Motion& y) {
   return guards;
 }
 
-<<<<<<< HEAD
-=======
 bool NeverTurns(const Contact& contact, const Mode& mode, const Motion& y) {
   if (mode.grip != Grip::kStick || contact.compliant || contact.stick_slope != 0.0 || y[kV] >= 0.0) return false;
   // The cone, which is a line in N, holds here and at infinity.
@@ -289,7 +279,6 @@ bool NeverTurns(const Contact& contact, const Mode& mode, const Motion& y) {
   return contact.holds_freely && AccelerationAt(contact, mode, forces).v <= 0.0;
 }
 
->>>>>>> finite
 Motion StartOf(const Contact& contact) {
   Motion y = {};
   y[kU] = contact.u0;

@@ -123,11 +123,8 @@ Grip GripAtStart(const Contact& contact);
 Grip GripAtRest(const Contact& contact, double normal);
 // The grip after kUpper or kLower has fallen; that of `mode` if it goes on.
 Grip GripAfter(const Contact& contact, const Mode& mode, const Motion& y, Guard fallen);
-<<<<<<< HEAD
-=======
 // Whether v < 0 will fall for ever: nothing but forces that press drives a contact of rank one that friction holds.
 bool NeverTurns(const Contact& contact, const Mode& mode, const Motion& y);
->>>>>>> finite
 
 }  // namespace ricochet::finite_duration
 
