@@ -188,7 +188,8 @@ std::string WorkText(const Outcome& outcome) {
     table.Add({"  left in the spring", "", "", Rounded(-work.tangential_spring_j)});
     table.Add({"  lost to friction", "", "", Rounded(-work.friction_dissipation_j)});
   }
-  table.Add({"change of kinetic energy", "", "", Rounded(outcome.energy_change_j)});
+  const char* change = outcome.contact.has_value() ? "all of the contact's forces" : "change of kinetic energy";
+  table.Add({change, "", "", Rounded(outcome.energy_change_j)});
   return absl::StrCat("Work on the body\n", table.Render(2));
 }
 
