@@ -47,8 +47,8 @@ Regime RegimeOf(const Problem& problem, const Inertia& w, const Path& path, bool
   return stays ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
 }
 
-// 2^-47 for the relative errors put on, see the header.
-constexpr double kNoise = 0x1p-47;
+// 2^-45 for the relative errors put on, see the header.
+constexpr double kNoise = 0x1p-45;
 
 double ErrorEstimate(const Problem& problem, const Inertia& w, const Path& path) {
   const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));

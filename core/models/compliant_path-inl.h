@@ -31,7 +31,7 @@ namespace ricochet::compliant::internal {
 
 inline constexpr double kEps = 0x1p-52;
 
-// A relative error put on purpose on all that is computed: its sign at random, its size 0 or that given.
+// A relative error put on purpose on whatever is computed: its sign at random, its size 0 or that given.
 class Noise {
  public:
   Noise(uint64_t seed, double size) : bits_(seed), size_(size) {}
@@ -43,6 +43,9 @@ class Noise {
     return (bits_ >> 63) == 0 ? size_ : -size_;
   }
   double On(double value) { return value + value * Next(); }
+
+  // x + y, as wrong as rounding the terms can make it.
+  double Sum(double x, double y) { return x + y + (std::fabs(x) + std::fabs(y)) * Next(); }
 
  private:
   uint64_t bits_;
@@ -101,7 +104,6 @@ class Path {
   bool Run() {
     for (int i = 0; i < kMaxSections; ++i) {
       Record();
-      Perturb();
       const Ending ending = IsHeld() ? Ending{.never_comes = true} : side_ == 0 ? Stick() : Slide();
       if (ending.never_comes) return false;
       if (ending.parts || !GoOn(ending)) return true;
@@ -177,13 +179,6 @@ class Path {
                           .v = at_.v});
   }
 
-  void Perturb() {
-    at_.n = noise_.On(at_.n);
-    at_.v = noise_.On(at_.v);
-    at_.u = w_.in_range ? at_.v * (w_.wtn / w_.wnn) : noise_.On(at_.u);
-    at_.p = side_ != 0 ? side_ * mu_ * at_.n : noise_.On(at_.p);
-  }
-
   // Changes line, direction and mode. False: the impact ends here.
   bool GoOn(const Ending& ending) {
     const int side_before = side_;
@@ -225,55 +220,60 @@ class Path {
 
   // The least of the normal impulses still to come at which one of the section's events happens.
   Ending Slide() {
-    const double kn = Kn();
-    const double b = noise_.On(B(side_));
-    const double a = A(side_) + noise_.Next() * (std::fabs(w_.wtn) + mu_ * w_.wtt);
-    const double slip = std::max(0.0, Speed(side_)) + noise_.Next() * std::fabs(at_.u);
+    const double b = B(side_) + noise_.Next() * (w_.wnn + mu_ * std::fabs(w_.wtn));
+    const double error = noise_.Next() * (std::fabs(w_.wtn) + mu_ * w_.wtt);
+    const double a = A(side_) + error;
+    const double slip = std::max(0.0, Speed(side_) + noise_.Next() * std::fabs(at_.u));
     const double to_turn = (indenting_ ? b > 0.0 : b < 0.0) ? -at_.v / b : kNever;
     const double to_stop = a < 0.0 ? slip / -a : kNever;
-    const double to_line_end = indenting_ ? ToMax(b, kn) : ToParting(b, kn);
-    const double step = std::min({to_turn, to_stop, to_line_end});
+    const double to_line_end = indenting_ ? ToMax(b) : ToParting(b);
+    const double step = noise_.On(std::min({to_turn, to_stop, to_line_end}));
     if (step == kNever) return {.never_comes = true};
+    const double latest = step * (1.0 + 4.0 * kEps);
     Ending ending;
-    ending.parts = !indenting_ && to_line_end <= step;
-    ending.passes_max = indenting_ && to_line_end <= step;
-    ending.turns = !ending.parts && !ending.passes_max && to_turn <= step * (1.0 + 4.0 * kEps);
-    ending.stops = to_stop <= step * (1.0 + 4.0 * kEps);
-    AdvanceSlide(step, b, kn, slip, ending.stops ? 0.0 : std::max(0.0, slip + a * step), ending);
+    ending.stops = to_stop <= latest;
+    if (to_line_end <= step) {
+      (indenting_ ? ending.passes_max : ending.parts) = true;
+    } else {
+      ending.turns = to_turn <= latest;
+    }
+    const double slip_after = ending.stops ? 0.0 : std::max(0.0, slip + a * step);
+    at_.dissipation += 0.5 * mu_ * step * (slip + slip_after);
+    AdvanceSlide(step, b, w_.wtn - side_ * (mu_ * w_.wtt - error), ending);
     return ending;
   }
 
   // n = 0 on the way out.
-  double ToParting(double b, double kn) const {
-    const double energy = at_.n * at_.n / kn;
+  double ToParting(double b) const {
+    const double energy = at_.n * at_.n / Kn();
     const double square = std::fma(at_.v, at_.v, b * energy);
     if (energy == 0.0) return 0.0;
     return square < 0.0 ? kNever : energy / (at_.v + std::sqrt(square));
   }
 
   // n = n_max on the way in.
-  double ToMax(double b, double kn) const {
+  double ToMax(double b) const {
     if (first_loading_) return kNever;
-    const double energy = (n_max_ - at_.n) * (n_max_ + at_.n) / kn;
+    const double energy = (n_max_ - at_.n) * (n_max_ + at_.n) / Kn();
     const double square = std::fma(at_.v, at_.v, -b * energy);
     if (energy <= 0.0) return 0.0;
     return square < 0.0 ? kNever : energy / (std::sqrt(square) - at_.v);
   }
 
-  void AdvanceSlide(double step, double b, double kn, double slip, double slip_after, const Ending& ending) {
-    const double v = ending.turns ? 0.0 : at_.v + b * step;
-    const double square = std::max(0.0, at_.n * at_.n - kn * step * (at_.v + v));
+  void AdvanceSlide(double step, double b, double u_slope, const Ending& ending) {
+    const double kn = Kn();
+    const double v = ending.turns ? 0.0 : noise_.Sum(at_.v, b * step);
+    const double square = std::max(0.0, noise_.Sum(at_.n * at_.n, -kn * step * (at_.v + v)));
     at_.n = ending.parts ? 0.0 : ending.passes_max ? n_max_ : std::sqrt(square);
     at_.p = side_ * mu_ * at_.n;
     at_.tau += step;
     at_.f -= side_ * mu_ * step;
-    at_.dissipation += 0.5 * mu_ * step * (slip + slip_after);
     if (w_.in_range) {
       at_.u = v * (w_.wtn / w_.wnn);
     } else if (ending.stops) {
       at_.u = -side_ * mu_ * r2_ * kn * v;
     } else {
-      at_.u += (w_.wtn - side_ * mu_ * w_.wtt) * step;
+      at_.u = noise_.Sum(at_.u, u_slope * step);
     }
     at_.v = v;
   }
@@ -296,15 +296,21 @@ class Path {
     const double y2 = at_.n / root;
     const double rate1 = at_.u / r;
     const double rate2 = -at_.v * root;
-    modes.y = {modes.c * y1 + modes.s * y2, modes.c * y2 - modes.s * y1};
-    modes.rate = {modes.c * rate1 + modes.s * rate2, modes.c * rate2 - modes.s * rate1};
+    modes.y = Turned(modes, y1, y2);
+    modes.rate = Turned(modes, rate1, rate2);
     if (w_.in_range) modes.rate[1] = 0.0;
-    AddNoise(modes);
+    modes.w.fast = noise_.On(modes.w.fast);
+    modes.w.slow = std::min(noise_.On(modes.w.slow), modes.w.fast);
     return modes;
   }
 
-  void FindEigenvectors(double k11, double k12, double k22, Modes& modes) const {
-    const double half = 0.5 * (k11 - k22);
+  // The components along the eigenvectors.
+  std::array<double, 2> Turned(const Modes& modes, double first, double second) {
+    return {noise_.Sum(modes.c * first, modes.s * second), noise_.Sum(modes.c * second, -modes.s * first)};
+  }
+
+  void FindEigenvectors(double k11, double k12, double k22, Modes& modes) {
+    const double half = 0.5 * noise_.Sum(k11, -k22);
     const double large = std::max(std::fabs(half), std::fabs(k12));
     const double small = std::min(std::fabs(half), std::fabs(k12));
     if (large > 0.0) {
@@ -318,16 +324,6 @@ class Path {
       modes.w.fast = std::sqrt(k11);
     }
     modes.w.slow = RootKn() * std::sqrt(w_.det / r2_) / modes.w.fast;
-  }
-
-  void AddNoise(Modes& modes) {
-    const double y = std::sqrt(modes.y[0] * modes.y[0] + modes.y[1] * modes.y[1]);
-    const double rate = std::sqrt(modes.rate[0] * modes.rate[0] + modes.rate[1] * modes.rate[1]);
-    for (size_t i = 0; i < 2; ++i) modes.y[i] += y * noise_.Next();
-    modes.rate[0] += rate * noise_.Next();
-    if (!w_.in_range) modes.rate[1] += rate * noise_.Next();
-    modes.w.fast = noise_.On(modes.w.fast);
-    modes.w.slow = std::min(noise_.On(modes.w.slow), modes.w.fast);
   }
 
   static Signal Sum(const Modes& modes, double first, double second) {
@@ -395,7 +391,7 @@ class Path {
   void PassMax(const Modes& modes, double& t, Ending& ending) const {
     const Signal n = NormalForce(modes);
     if (!(n.At(modes.w, t).f > n_max_)) return;
-    t = RootBetween(0.0, t, [&](double time) {
+    t = RootBetween(0.0, t, 0.0, [&](double time) {
       const Value value = n.At(modes.w, time);
       return Value{.f = n_max_ - value.f, .slope = -value.slope};
     });
@@ -409,14 +405,15 @@ class Path {
     std::array<double, 2> y = {}, rate = {}, integral = {};
     for (size_t i = 0; i < 2; ++i) {
       const double w = modes.w[i];
-      y[i] = modes.y[i] * phase.c[i] + modes.rate[i] * phase.s[i];
-      rate[i] = modes.rate[i] * phase.c[i] - w * w * modes.y[i] * phase.s[i];
+      y[i] = noise_.Sum(modes.y[i] * phase.c[i], modes.rate[i] * phase.s[i]);
+      rate[i] = noise_.Sum(modes.rate[i] * phase.c[i], -w * w * modes.y[i] * phase.s[i]);
       integral[i] = modes.y[i] * phase.c_integral[i] + modes.rate[i] * phase.s_integral[i];
     }
-    at_.n = ending.passes_max ? n_max_ : root * (modes.s * y[0] + modes.c * y[1]);
-    at_.p = ending.breaks_away != 0 ? ending.breaks_away * mu_ * at_.n : (modes.c * y[0] - modes.s * y[1]) / r;
-    at_.v = ending.turns ? 0.0 : -(modes.s * rate[0] + modes.c * rate[1]) / root;
-    at_.u = w_.in_range ? at_.v * (w_.wtn / w_.wnn) : r * (modes.c * rate[0] - modes.s * rate[1]);
+    at_.n = ending.passes_max ? n_max_ : root * noise_.Sum(modes.s * y[0], modes.c * y[1]);
+    at_.p =
+        ending.breaks_away != 0 ? ending.breaks_away * mu_ * at_.n : noise_.Sum(modes.c * y[0], -modes.s * y[1]) / r;
+    at_.v = ending.turns ? 0.0 : -noise_.Sum(modes.s * rate[0], modes.c * rate[1]) / root;
+    at_.u = w_.in_range ? at_.v * (w_.wtn / w_.wnn) : r * noise_.Sum(modes.c * rate[0], -modes.s * rate[1]);
     at_.tau += root * (modes.s * integral[0] + modes.c * integral[1]);
     at_.f -= (modes.c * integral[0] - modes.s * integral[1]) / r;
   }

@@ -32,8 +32,11 @@ inline double Cos(double radians) { return std::cos(radians); }
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 
-// The angle in [-pi, pi] of the direction (x, y), 0 for (0, 0). A guess to 4e-3, then two steps of Newton's method on
-// sin(angle - guess), each of which leaves a sixth of the cube of the error.
+// What Angle is wrong by is well below.
+inline constexpr double kAngleError = 0x1p-24;
+
+// The angle in [-pi, pi] of the direction (x, y), 0 for (0, 0): a guess to 4e-3, then a step of Newton's method on
+// sin(angle - guess), which leaves a sixth of the cube of that.
 inline double Angle(double x, double y) {
   const double size = std::max(std::fabs(x), std::fabs(y));
   if (size == 0.0) return 0.0;
@@ -45,8 +48,7 @@ inline double Angle(double x, double y) {
   if (c < 0.0) angle = std::numbers::pi - angle;
   if (s < 0.0) angle = -angle;
   const double radius = std::sqrt(c * c + s * s);
-  for (int i = 0; i < 2; ++i) angle += (s * Cos(angle) - c * Sin(angle)) / radius;
-  return angle;
+  return angle + (s * Cos(angle) - c * Sin(angle)) / radius;
 }
 
 // What each oscillation is at one time: cos(w t), sin(w t)/w, and their integrals from 0.
@@ -99,11 +101,11 @@ struct Signal {
   }
 };
 
-// The root of a function with function(low).f > 0 >= function(high).f and no other change of sign in between: Newton's
-// method, or the bracket halved where that leaves it or is too slow.
+// The root between low and high of a function that is positive at low, not so at high, and has no other change of sign
+// in between: Newton's method from `guess`, or the bracket halved where that leaves it or is too slow.
 template <typename Function>
-double RootBetween(double low, double high, const Function& function) {
-  double t = 0.5 * (low + high);
+double RootBetween(double low, double high, double guess, const Function& function) {
+  double t = guess > low && guess < high ? guess : 0.5 * (low + high);
   double last_step = high - low;
   for (int i = 0; i < 200; ++i) {
     const Value value = function(t);
@@ -113,7 +115,7 @@ double RootBetween(double low, double high, const Function& function) {
     const bool useful = next >= low && next <= high && std::fabs(next - t) < 0.5 * last_step;
     if (!useful) next = 0.5 * (low + high);
     last_step = std::fabs(next - t);
-    if (last_step <= 0x1p-53 * std::fabs(t)) return next;
+    if (last_step <= 0x1p-50 * std::fabs(t)) return next;
     t = next;
   }
   return t;
@@ -124,20 +126,15 @@ class RootSearch {
  public:
   RootSearch(const Signal& signal, const Frequencies& w) : signal_(signal), w_(w) {
     const double sine = signal.b[0] / w.fast;
-    fast_amplitude_ = std::sqrt(signal.a[0] * signal.a[0] + sine * sine);
+    const double fast_amplitude = std::sqrt(signal.a[0] * signal.a[0] + sine * sine);
     first_zero_ = Angle(signal.a[0], sine) + std::numbers::pi / 2.0;
-    if (w.slow > 0.0) {
-      const double slow_sine = signal.b[1] / w.slow;
-      slow_amplitude_ = std::sqrt(signal.a[1] * signal.a[1] + slow_sine * slow_sine);
-      slow_angle_ = Angle(signal.a[1], slow_sine);
-    } else {
-      slow_amplitude_ = std::fabs(signal.a[1]);
-    }
+    const double slow_sine = w.slow > 0.0 ? signal.b[1] / w.slow : 0.0;
+    const double slow_amplitude = std::sqrt(signal.a[1] * signal.a[1] + slow_sine * slow_sine);
     // A little more than the fast amplitude, so that f is positive where a skip ends, whatever the rounding.
-    level_ = fast_amplitude_ + 0x1p-40 * (slow_amplitude_ + fast_amplitude_);
-    if (w.slow > 0.0 && level_ < slow_amplitude_) {
-      high_angle_ = Angle(level_, std::sqrt((slow_amplitude_ - level_) * (slow_amplitude_ + level_)));
-    }
+    level_ = fast_amplitude + 0x1p-40 * (slow_amplitude + fast_amplitude);
+    if (w.slow == 0.0 || level_ >= slow_amplitude) return;
+    slow_angle_ = Angle(signal.a[1], slow_sine);
+    high_angle_ = Angle(level_, std::sqrt((slow_amplitude - level_) * (slow_amplitude + level_))) - 4.0 * kAngleError;
   }
 
   // The first t in (0, horizon] where f turns negative, or kNever. `starts_at_zero`: f(0) = 0 and f is positive right
@@ -182,7 +179,7 @@ class RootSearch {
   // The time until which the slow sinusoid stays above the level: `t` itself if it is not above.
   double SkipFrom(double t) const {
     if (w_.slow > 0.0) {
-      if (level_ >= slow_amplitude_) return t;
+      if (high_angle_ <= 0.0) return t;
       const double angle = w_.slow * t - slow_angle_;
       const double turns = std::nearbyint(angle / (2.0 * std::numbers::pi)) * 2.0 * std::numbers::pi;
       if (std::fabs(angle - turns) >= high_angle_) return t;
@@ -193,10 +190,11 @@ class RootSearch {
     return signal_.b[1] < 0.0 ? std::max(t, (level_ - signal_.a[1]) / signal_.b[1]) : kNever;
   }
 
-  // The first zero of the fast sinusoid that is clearly behind `t`.
+  // The first zero of the fast sinusoid that is clearly behind `t`. In the sliver of the wrong sign that the error of
+  // the angle leaves, f changes by the square of that.
   double NextZero(double t) const {
     const double phase = (w_.fast * t - first_zero_) / std::numbers::pi;
-    return (first_zero_ + std::numbers::pi * (std::floor(phase + 1e-9) + 1.0)) / w_.fast;
+    return (first_zero_ + std::numbers::pi * (std::floor(phase + 2.0 * kAngleError) + 1.0)) / w_.fast;
   }
 
   // m(t) of the interval, and its slope.
@@ -214,11 +212,14 @@ class RootSearch {
     const auto f = [this](double t) { return signal_.At(w_, t); };
     if (at_right.f <= 0.0) {
       double low = interval.left;
+      double f_low = at_left.f;
       if (starts_at_zero) {
-        low = RootBetween(interval.left, interval.right, [&](double t) { return Monotonic(interval, t); });
-        if (f(low).f <= 0.0) return low;
+        low = RootBetween(low, interval.right, low, [&](double t) { return Monotonic(interval, t); });
+        f_low = f(low).f;
+        if (f_low <= 0.0) return low;
       }
-      return RootBetween(low, interval.right, f);
+      const double guess = interval.right - at_right.f * (interval.right - low) / (at_right.f - f_low);
+      return RootBetween(low, interval.right, guess, f);
     }
     if (starts_at_zero) return kNever;
     const double half = 0.5 * w_.slow * (interval.right - interval.left);
@@ -226,17 +227,15 @@ class RootSearch {
     const double fall = w_.slow * Sin(half);
     const bool dips = at_left.slope * h - at_left.f * fall < 0.0 && at_right.slope * h + at_right.f * fall > 0.0;
     if (!dips) return kNever;
-    const double lowest = RootBetween(interval.left, interval.right, [&](double t) {
+    const double lowest = RootBetween(interval.left, interval.right, interval.left, [&](double t) {
       const Value m = Monotonic(interval, t);
       return Value{.f = -m.f, .slope = -m.slope};
     });
-    return f(lowest).f < 0.0 ? RootBetween(interval.left, lowest, f) : kNever;
+    return f(lowest).f < 0.0 ? RootBetween(interval.left, lowest, interval.left, f) : kNever;
   }
 
   Signal signal_;
   Frequencies w_;
-  double fast_amplitude_ = 0.0;
-  double slow_amplitude_ = 0.0;
   double slow_angle_ = 0.0;
   double first_zero_ = 0.0;
   double level_ = 0.0;
