@@ -26,7 +26,7 @@ struct Units {
 };
 
 Units UnitsOf(const Problem& problem) {
-  return {.speed = std::ilogb(problem.v0), .inertia = std::ilogb(problem.wnn) / 2};
+  return {.speed = std::ilogb(problem.v0), .inertia = static_cast<int>(std::floor(0.5 * std::ilogb(problem.wnn)))};
 }
 
 Problem InUnits(const Problem& problem, const Units& units) {
@@ -47,8 +47,8 @@ Regime RegimeOf(const Problem& problem, const Inertia& w, const Path& path, bool
   return stays ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
 }
 
-// 2^-45 for the relative errors put on, see the header.
-constexpr double kNoise = 0x1p-45;
+// 2^-44 for the relative errors put on, see the header.
+constexpr double kNoise = 0x1p-44;
 
 double ErrorEstimate(const Problem& problem, const Inertia& w, const Path& path) {
   const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
