@@ -86,7 +86,7 @@ void WriteWorks(const Problem& problem, const Units& units, const Path& path, Im
   const double eta2 = problem.energetic * problem.energetic;
   // What the line of unloading gives back between d_max and d; all of it at N = 0. At eta = 0 there is no line.
   const double top = path.n_max();
-  const double left = end.n == 0.0 || eta2 == 0.0 ? top * top : (top - end.n) * (top + end.n);
+  const double left = end.n == 0.0 || problem.energetic < kLeastEnergetic ? top * top : (top - end.n) * (top + end.n);
   const double spring = path.spring_energy(end);
   const double spring_at_rest = path.spring_energy(rest);
   impact.work_normal_compression = units.Work(-0.5 * top * top);

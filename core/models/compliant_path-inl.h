@@ -92,7 +92,7 @@ class Path {
       : w_(w),
         mu_(problem.mu),
         r2_(problem.ratio_squared),
-        eta_(problem.energetic),
+        eta_(problem.energetic < kLeastEnergetic ? 0.0 : problem.energetic),
         noise_(noise),
         sections_(sections) {
     at_.u = w.in_range ? problem.v0 * (w.wtn / w.wnn) : problem.u0;

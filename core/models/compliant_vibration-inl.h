@@ -20,7 +20,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -148,7 +147,7 @@ class RootSearch {
       if (at_left.slope < 0.0) return 0.0;
       starts_at_zero = true;
     }
-    for (int64_t i = 0; i < kMostIntervals; ++i) {
+    for (int i = 0; i < kMostIntervals; ++i) {
       const double skipped = SkipFrom(left);
       if (skipped >= horizon) return kNever;
       if (skipped > left) {
@@ -169,8 +168,9 @@ class RootSearch {
   }
 
  private:
-  // A signal whose slow part hovers at the fast amplitude without end is one that grazes 0: no change of sign.
-  static constexpr int64_t kMostIntervals = 1 << 20;
+  // A signal whose slow part hovers at the fast amplitude for so long grazes 0: no change of sign. Or a double does not
+  // tell one fast period from the next any more.
+  static constexpr int kMostIntervals = 1 << 14;
 
   struct Interval {
     double left, right;

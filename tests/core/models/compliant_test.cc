@@ -434,6 +434,45 @@ TEST(CompliantCornerTest, NoRestitutionIsRefusedFromWhereFrictionCanHoldTheBody)
   EXPECT_FALSE(IsAdmissible(0.5, 1.0, 2.0, 0.0));
   EXPECT_FALSE(IsAdmissible(-0.5, 1.0, 2.0, 0.0));
   EXPECT_TRUE(IsAdmissible(-0.5, 1.0, 2.0, 1e-9));
+  EXPECT_FALSE(IsAdmissible(-0.5, 1.0, 2.0, 1e-300));
+}
+
+TEST(CompliantCornerTest, VanishingRestitutionComesToTheVelocitiesOfNone) {
+  const Impact none = Solve(Contact(2.5, 0.5, 2.5, -0.1, 0.7, 0.0, 1.0));
+  for (const double eta : {1e-30, 1e-59, 1e-61, 1e-300}) {
+    const Impact impact = Solve(Contact(2.5, 0.5, 2.5, -0.1, 0.7, eta, 1.0));
+    EXPECT_NEAR(impact.u1, none.u1, 1e-15) << eta;
+    EXPECT_NEAR(impact.v1, 0.0, 2.0 * eta) << eta;
+    EXPECT_NEAR(impact.tau1, none.tau1, 1e-15) << eta;
+    EXPECT_EQ(impact.energetic, eta);
+  }
+}
+
+// Exponents that a double's oscillations cannot follow may use up the budget, but nothing hangs and nothing is NaN.
+TEST(CompliantCornerTest, NumbersOfAllSizesEndInNumbers) {
+  SceneSource scenes(13);
+  for (int i = 0; i < 1000; ++i) {
+    Problem problem = scenes.Everyday(0.02, 4.0);
+    const double size = std::pow(10.0, scenes.Uniform(-300.0, 300.0));
+    switch (i % 4) {
+      case 0:
+        problem.ratio_squared = size;
+        break;
+      case 1:
+        problem.mu = size;
+        break;
+      case 2:
+        problem.u0 *= std::sqrt(size);
+        break;
+      default:
+        problem.wtt *= size;
+        problem.wtn *= std::sqrt(size);
+    }
+    const Impact impact = Solve(problem);
+    ASSERT_TRUE(std::isfinite(impact.u1) && std::isfinite(impact.v1) && std::isfinite(impact.tau1)) << i;
+    ASSERT_FALSE(std::isnan(impact.f1) || std::isnan(impact.energy_change)) << i;
+    ASSERT_FALSE(std::isnan(impact.error_estimate)) << i;
+  }
 }
 
 TEST(CompliantCornerTest, BodyThatCannotMoveAlongTheSurfaceKeepsItsSlip) {
