@@ -371,10 +371,12 @@ class Path {
   Ending Stick() {
     const Modes modes = MakeModes();
     double t = RootSearch(Departure(modes), modes.w).First(at_.v == 0.0, kNever);
+    if (std::isnan(t)) return {.never_comes = true};
     Ending ending = {.turns = t < kNever};
     const int likelier = LikelierSide();
     for (const int side : {likelier, -likelier}) {
       const double root = RootSearch(Margin(modes, side), modes.w).First(on_cone_[side > 0 ? 0 : 1], t);
+      if (std::isnan(root)) return {.never_comes = true};
       if (root >= t) continue;
       t = root;
       ending = {.breaks_away = side};

@@ -136,7 +136,7 @@ class RootSearch {
     high_angle_ = Angle(level_, std::sqrt((slow_amplitude - level_) * (slow_amplitude + level_))) - 4.0 * kAngleError;
   }
 
-  // The first t in (0, horizon] where f turns negative, or kNever. `starts_at_zero`: f(0) = 0 and f is positive right
+  // The first t in (0, horizon] where f turns negative, or kNever; NaN if it gives up. `starts_at_zero`: f(0) = 0 and f is positive right
   // after; else f(0) > 0, or the root is 0.
   double First(bool starts_at_zero, double horizon) const {
     double left = 0.0;
@@ -164,13 +164,12 @@ class RootSearch {
       at_left = at_right;
       starts_at_zero = false;
     }
-    return kNever;
+    return std::numeric_limits<double>::quiet_NaN();
   }
 
  private:
-  // A signal whose slow part hovers at the fast amplitude for so long grazes 0: no change of sign. Or a double does not
-  // tell one fast period from the next any more.
-  static constexpr int kMostIntervals = 1 << 14;
+  // The slow part hovers at the fast amplitude for longer, or a double tells no fast period from the next any more.
+  static constexpr int kMostIntervals = 1 << 10;
 
   struct Interval {
     double left, right;
