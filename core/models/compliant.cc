@@ -26,7 +26,7 @@ struct Units {
 };
 
 Units UnitsOf(const Problem& problem) {
-  return {.speed = std::ilogb(problem.v0), .inertia = std::ilogb(problem.wnn) / 2};
+  return {.speed = std::ilogb(problem.v0), .inertia = static_cast<int>(std::floor(0.5 * std::ilogb(problem.wnn)))};
 }
 
 Problem InUnits(const Problem& problem, const Units& units) {
@@ -47,8 +47,8 @@ Regime RegimeOf(const Problem& problem, const Inertia& w, const Path& path, bool
   return stays ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
 }
 
-// 2^-45 for the relative errors put on, see the header.
-constexpr double kNoise = 0x1p-45;
+// 2^-44 for the relative errors put on, see the header.
+constexpr double kNoise = 0x1p-44;
 
 double ErrorEstimate(const Problem& problem, const Inertia& w, const Path& path) {
   const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
@@ -86,7 +86,7 @@ void WriteWorks(const Problem& problem, const Units& units, const Path& path, Im
   const double eta2 = problem.energetic * problem.energetic;
   // What the line of unloading gives back between d_max and d; all of it at N = 0. At eta = 0 there is no line.
   const double top = path.n_max();
-  const double left = end.n == 0.0 || eta2 == 0.0 ? top * top : (top - end.n) * (top + end.n);
+  const double left = end.n == 0.0 || problem.energetic < kLeastEnergetic ? top * top : (top - end.n) * (top + end.n);
   const double spring = path.spring_energy(end);
   const double spring_at_rest = path.spring_energy(rest);
   impact.work_normal_compression = units.Work(-0.5 * top * top);

@@ -24,7 +24,7 @@
 // v = 0, and what the tangential spring holds is lost.
 //
 // Works: compression is what comes before the last d = d_max. All four add up to the change of energy, and the
-// tangential two to -(friction_dissipation + spring_energy).
+// tangential two to -(friction_dissipation + spring_energy). A change of energy above 0 can only be rounding: it is 0.
 //
 // Regimes, the first that applies:
 //   separating    v0 >= 0: nothing changes
@@ -40,15 +40,18 @@
 // rattle. Known by proof (W of rank one, and what oscillation is left stays inside |F| <= mu N and below d_max; or slip
 // without end against a force that only grows), or because kMaxSections sections have not been enough. The state
 // reached is then reported: velocities, impulses, works; newton and poisson are 0, the error estimate is infinite. Near
-// det W = 0 the number of sections grows like (det W)^(-1/2), and, where the particle sticks, like 1/ratio for any W.
+// det W = 0 the number of sections grows like (det W)^(-1/2); where the particle sticks, like 1/ratio for any W; and with
+// mu |Wtn| >= Wnn like 1/eta. Random everyday contacts have a few hundred at most. Below kLeastRatioSquared the budget,
+// or a double's resolution of the oscillation along the surface, may be used up by an impact that does end.
 //
 // Rank one: |det W| <= 4 eps Wtt Wnn, as in core/models/planar.h; Wtt is then Wtn^2/Wnn and u = v Wtn/Wnn. Wtt = 0 (then
 // Wtn = 0): u = u0, though the spring is strained and its force does work.
 //
 // Method: slides are algebra in the normal impulse and sticks two sinusoids in time, no step size: the -inl.h files.
 // Accuracy: error_estimate, 1e-14 to 1e-12 for everyday contacts. It compares the impact with two more that are
-// computed with relative errors of 2^-45, of random signs, put on the state and on the constants of each section, 128
+// computed with relative errors of 2^-44, of random signs, put on the state and on the constants of each section, 256
 // times of what rounding leaves there: so it grows as the path amplifies errors, near grazing events too.
+// mu, |u0|/|v0| and ratios of W's entries or ratio^2 beyond 1e100 either way may overflow to what is not finite.
 // Same bits everywhere as long as Sin and Cos have them.
 // Bad input: none gets here (core/scene/validate.h): IsAdmissible says which coefficients a contact can have.
 
@@ -74,10 +77,13 @@ struct Problem {
   double ratio_squared = 0.0;  // Tangential over normal compliance, > 0
 };
 
+// Smaller coefficients of restitution are computed as 0, which no velocity can tell.
+inline constexpr double kLeastEnergetic = 0x1p-200;
+
 // False where eta = 0 has no simple limit: mu |Wtn| >= Wnn, and the contact chatters as eta -> 0. The sign is that of
 // the exact difference.
 inline bool IsAdmissible(double wtn, double wnn, double mu, double energetic) {
-  return energetic > 0.0 || std::fma(mu, std::fabs(wtn), -wnn) < 0.0;
+  return energetic >= kLeastEnergetic || std::fma(mu, std::fabs(wtn), -wnn) < 0.0;
 }
 
 // What the particle does.
@@ -93,6 +99,9 @@ struct Section {
 
 // An impact that has not ended by then is wedged.
 inline constexpr int kMaxSections = 100'000;
+
+// At this one random everyday contacts have 73,000 sections at most.
+inline constexpr double kLeastRatioSquared = 1e-9;
 
 struct Impact {
   Regime regime = Regime::kUnspecified;

@@ -92,7 +92,7 @@ class Path {
       : w_(w),
         mu_(problem.mu),
         r2_(problem.ratio_squared),
-        eta_(problem.energetic),
+        eta_(problem.energetic < kLeastEnergetic ? 0.0 : problem.energetic),
         noise_(noise),
         sections_(sections) {
     at_.u = w.in_range ? problem.v0 * (w.wtn / w.wnn) : problem.u0;
@@ -371,9 +371,12 @@ class Path {
   Ending Stick() {
     const Modes modes = MakeModes();
     double t = RootSearch(Departure(modes), modes.w).First(at_.v == 0.0, kNever);
+    if (std::isnan(t)) return {.never_comes = true};
     Ending ending = {.turns = t < kNever};
-    for (const int side : {1, -1}) {
+    const int likelier = LikelierSide();
+    for (const int side : {likelier, -likelier}) {
       const double root = RootSearch(Margin(modes, side), modes.w).First(on_cone_[side > 0 ? 0 : 1], t);
+      if (std::isnan(root)) return {.never_comes = true};
       if (root >= t) continue;
       t = root;
       ending = {.breaks_away = side};
@@ -385,6 +388,12 @@ class Path {
     ending.parts = ending.breaks_away != 0 && !indenting_ && at_.n <= 8.0 * kEps * n_max_;
     if (ending.parts) at_.n = 0.0;
     return ending;
+  }
+
+  // Where a stick is to break is searched for on this side first, the other one then only up to there.
+  int LikelierSide() const {
+    const double leaning = at_.p != 0.0 ? at_.p : at_.u != 0.0 ? at_.u : w_.wtn;
+    return leaning < 0.0 ? -1 : 1;
   }
 
   // On the way in n rises to the event at `t`; if it passes n_max, that comes first.

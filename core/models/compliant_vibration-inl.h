@@ -20,7 +20,6 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -137,7 +136,7 @@ class RootSearch {
     high_angle_ = Angle(level_, std::sqrt((slow_amplitude - level_) * (slow_amplitude + level_))) - 4.0 * kAngleError;
   }
 
-  // The first t in (0, horizon] where f turns negative, or kNever. `starts_at_zero`: f(0) = 0 and f is positive right
+  // The first t in (0, horizon] where f turns negative, or kNever; NaN if it gives up. `starts_at_zero`: f(0) = 0 and f is positive right
   // after; else f(0) > 0, or the root is 0.
   double First(bool starts_at_zero, double horizon) const {
     double left = 0.0;
@@ -148,7 +147,7 @@ class RootSearch {
       if (at_left.slope < 0.0) return 0.0;
       starts_at_zero = true;
     }
-    for (int64_t i = 0; i < kMostIntervals; ++i) {
+    for (int i = 0; i < kMostIntervals; ++i) {
       const double skipped = SkipFrom(left);
       if (skipped >= horizon) return kNever;
       if (skipped > left) {
@@ -165,12 +164,12 @@ class RootSearch {
       at_left = at_right;
       starts_at_zero = false;
     }
-    return kNever;
+    return std::numeric_limits<double>::quiet_NaN();
   }
 
  private:
-  // A signal whose slow part hovers at the fast amplitude without end is one that grazes 0: no change of sign.
-  static constexpr int64_t kMostIntervals = 1 << 20;
+  // The slow part hovers at the fast amplitude for longer, or a double tells no fast period from the next any more.
+  static constexpr int kMostIntervals = 1 << 10;
 
   struct Interval {
     double left, right;

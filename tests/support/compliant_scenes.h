@@ -1,0 +1,70 @@
+// Random impacts with tangential compliance.
+
+#ifndef RICOCHET_TESTS_SUPPORT_COMPLIANT_SCENES_H_
+#define RICOCHET_TESTS_SUPPORT_COMPLIANT_SCENES_H_
+
+#include <cmath>
+#include <cstdint>
+#include <random>
+
+#include "core/models/compliant.h"
+
+namespace ricochet::compliant {
+
+class SceneSource {
+ public:
+  explicit SceneSource(uint64_t seed) : random_(seed) {}
+
+  // Full rank; ratio^2 between the two. One scene in four has much friction, one in eight no slip at first. Five times
+  // W or a velocity is exact.
+  Problem Everyday(double least_ratio_squared, double largest_ratio_squared) {
+    const double t = LogUniform(0.1, 3.0);
+    const double n = LogUniform(0.1, 3.0);
+    Problem problem = {.wtt = Short(t * t),
+                       .wtn = Short(t * n * Uniform(-1.0, 1.0)),
+                       .wnn = Short(n * n),
+                       .u0 = Short(Uniform(-3.0, 3.0)),
+                       .v0 = -Short(Uniform(0.1, 3.0)),
+                       .mu = Uniform(0.0, 1.5),
+                       .energetic = Uniform(0.05, 1.0),
+                       .ratio_squared = LogUniform(least_ratio_squared, largest_ratio_squared)};
+    if (Below(4) == 0) problem.mu *= 10.0;
+    if (Below(8) == 0) problem.u0 = 0.0;
+    return problem;
+  }
+
+  // A pendulum's: exactly of rank one, (u0, v0) in the range of W.
+  Problem RankOne() {
+    Problem problem = Everyday(0.02, 4.0);
+    const double a = (1 + Below(1000)) / 32.0;
+    const double b = (Below(2001) - 1000) / 32.0;
+    const double rate = -(1 + Below(64)) / 64.0;
+    problem.wtt = b * b;
+    problem.wtn = a * b;
+    problem.wnn = a * a;
+    problem.u0 = rate * b;
+    problem.v0 = rate * a;
+    return problem;
+  }
+
+  // det W from a tenth to 1e-7 of Wtt Wnn.
+  Problem NearRankOne() {
+    Problem problem = Everyday(0.02, 4.0);
+    const double cosine = std::sqrt(1.0 - LogUniform(1e-7, 1e-1));
+    problem.wtn = Short((Below(2) == 0 ? cosine : -cosine) * std::sqrt(problem.wtt * problem.wnn));
+    return problem;
+  }
+
+  double Uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
+  double LogUniform(double low, double high) { return std::exp2(Uniform(std::log2(low), std::log2(high))); }
+  int Below(int count) { return std::uniform_int_distribution<int>(0, count - 1)(random_); }
+
+ private:
+  static double Short(double value) { return std::nearbyint(value * 0x1p24) * 0x1p-24; }
+
+  std::mt19937_64 random_;
+};
+
+}  // namespace ricochet::compliant
+
+#endif  // RICOCHET_TESTS_SUPPORT_COMPLIANT_SCENES_H_
