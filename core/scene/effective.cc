@@ -5,12 +5,14 @@
 #include <cstddef>
 #include <variant>
 
+#include "core/numerics/elementary.h"
+
 namespace ricochet {
 namespace {
 
 double Factor(std::monostate /*unset*/, double /*speed*/) { return 1.0; }
 
-double Factor(const PowerLaw& law, double speed) { return 1.0 - law.alpha * std::pow(speed, law.exponent); }
+double Factor(const PowerLaw& law, double speed) { return 1.0 - law.alpha * Pow(speed, law.exponent); }
 
 double Factor(const SpeedTable& table, double speed) {
   const auto& speeds = table.speed_m_s;

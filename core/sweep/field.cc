@@ -7,6 +7,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/numerics/elementary.h"
 #include "core/scene/numbers.h"
 #include "core/scene/reduction.h"
 
@@ -62,14 +63,14 @@ void Field::Set(double value) const {
     return;
   }
   const auto& phi = std::get<Phi>(driver_);
-  *phi.a = phi.distance * std::sin(value);
-  *phi.b = phi.distance * std::cos(value);
+  *phi.a = phi.distance * Sin(value);
+  *phi.b = phi.distance * Cos(value);
 }
 
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   auto* const pendulum = std::get_if<Pendulum>(&scene.system);
   if (path == kPhi && pendulum != nullptr) {
-    const double distance = std::hypot(pendulum->a_m, pendulum->b_m);
+    const double distance = Hypot(pendulum->a_m, pendulum->b_m);
     return Field(Field::Phi{&pendulum->a_m, &pendulum->b_m, distance}, {"pendulum.a_m", "pendulum.b_m"});
   }
   const std::vector<std::string> paths = FieldPaths(scene);
