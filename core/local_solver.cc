@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/models/scene_bounds.h"
+#include "core/models/scene_enclosure.h"
 #include "core/models/scene_outcome.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/validate.h"
@@ -54,7 +55,7 @@ absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request)
   if (!bounds.ok()) return bounds.status();
   BoundsResponse response{.bounds = *bounds, .engine = ThisEngine(), .enclosure = std::nullopt};
   if (request.ranges.empty()) return response;
-  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges);
+  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, [] { return false; });
   if (!enclosure.ok()) return enclosure.status();
   response.enclosure = *enclosure;
   return response;

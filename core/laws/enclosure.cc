@@ -85,8 +85,8 @@ struct Part {
 
 class BranchAndBound {
  public:
-  BranchAndBound(absl::Span<const Interval> ranges, ToPlanar to_planar, const EnclosureOptions& options)
-      : whole_(ranges.begin(), ranges.end()), to_planar_(to_planar), options_(options) {
+  BranchAndBound(absl::Span<const Interval> ranges, ToBox to_box, const EnclosureOptions& options, Stopped stopped)
+      : whole_(ranges.begin(), ranges.end()), to_box_(to_box), options_(options), stopped_(stopped) {
     attained_.fill(-kInfinity);
     bounds_.fill(-kInfinity);
   }
@@ -102,7 +102,7 @@ class BranchAndBound {
     }
     UpdateBounds();
     const int64_t cost = 2 * static_cast<int64_t>(whole_.size()) + 2;  // Of a split.
-    while (boxes_ + cost <= options_.budget) {
+    while (boxes_ + cost <= options_.budget && !IsStopped()) {
       const std::optional<Goal> goal = WorstGoal();
       if (!goal) break;
       if (!Split(*goal)) given_up_[Index(*goal)] = true;
@@ -121,7 +121,14 @@ class BranchAndBound {
 
   PlanarEnds Evaluate(const Box& box) {
     ++boxes_;
-    return EncloseEnds(to_planar_(box));
+    return std::visit([](const auto& one) { return EncloseEnds(one); }, to_box_(box));
+  }
+
+  bool IsStopped() {
+    if (is_stopped_ || boxes_ < asked_at_ + kBoxesUnasked) return is_stopped_;
+    asked_at_ = boxes_;
+    is_stopped_ = stopped_();
+    return is_stopped_;
   }
 
   static Box CentreOf(Box box) {
@@ -131,7 +138,7 @@ class BranchAndBound {
 
   // Raises what is attained to what the scene at `point` reaches for certain.
   void AttainAt(const Box& point) {
-    if (boxes_ >= options_.budget) return;
+    if (boxes_ >= options_.budget || IsStopped()) return;
     const PlanarEnds ends = Evaluate(point);
     for (const Goal goal : kGoals) {
       if (!Reaches(ends, goal)) continue;
@@ -261,14 +268,17 @@ class BranchAndBound {
   }
 
   const Box whole_;
-  const ToPlanar to_planar_;
+  const ToBox to_box_;
   const EnclosureOptions options_;
+  const Stopped stopped_;
   std::array<std::priority_queue<Part>, kGoals.size()> parts_;  // What may still exceed what is attained.
   std::array<bool, kGoals.size()> given_up_ = {};               // The worst part is a point.
   Values attained_;
   Values bounds_;
   Interval energetic_;
   int64_t boxes_ = 0;
+  int64_t asked_at_ = 0;
+  bool is_stopped_ = false;
 };
 
 // ---- Pendulum ----
@@ -433,8 +443,8 @@ Enclosure Enclose(const PendulumBox& whole) {
   return enclosure;
 }
 
-Enclosure Enclose(absl::Span<const Interval> ranges, ToPlanar to_planar, const EnclosureOptions& options) {
-  return BranchAndBound(ranges, to_planar, options).Run();
+Enclosure Enclose(absl::Span<const Interval> ranges, ToBox to_box, const EnclosureOptions& options, Stopped stopped) {
+  return BranchAndBound(ranges, to_box, options, stopped).Run();
 }
 
 Enclosure Enclose(const PlanarBox& whole, const EnclosureOptions& options) {
@@ -442,12 +452,12 @@ Enclosure Enclose(const PlanarBox& whole, const EnclosureOptions& options) {
   KeepValidFriction(box.mu, box.mu_static);
   std::vector<Interval> ranges = {box.wtt, box.wtn, box.wnn, box.u0, box.v0, box.mu};
   if (box.mu_static) ranges.push_back(*box.mu_static);
-  const auto to_planar = [](absl::Span<const Interval> x) {
+  const auto to_box = [](absl::Span<const Interval> x) -> std::variant<PlanarBox, PendulumBox> {
     PlanarBox part = {.wtt = x[0], .wtn = x[1], .wnn = x[2], .u0 = x[3], .v0 = x[4], .mu = x[5]};
     if (x.size() > 6) part.mu_static = x[6];
     return part;
   };
-  return Enclose(ranges, to_planar, options);
+  return Enclose(ranges, to_box, options, [] { return false; });
 }
 
 }  // namespace ricochet

@@ -32,6 +32,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <variant>
 
 #include "absl/functional/function_ref.h"
 #include "absl/types/span.h"
@@ -46,6 +47,8 @@ struct PlanarBox {
   Interval u0, v0;
   Interval mu;
   std::optional<Interval> mu_static;  // As kinetic if unset.
+  // C = Wnn - Wtn^2/Wtt = det W/Wtt, where more is known of it than from the three above.
+  std::optional<Interval> stick_slope;
 };
 
 // Units as in core/models/pendulum.h. The same static and kinetic friction if `mu_static` is unset.
@@ -54,6 +57,9 @@ struct PendulumBox {
   Interval mu;
   std::optional<Interval> mu_static;
 };
+
+// Says that nobody waits for the answer any more.
+using Stopped = absl::FunctionRef<bool()>;
 
 struct EnclosureOptions {
   double tolerance = 0.005;  // Wanted: excess <= tolerance.
@@ -64,10 +70,13 @@ Enclosure Enclose(const PendulumBox& box);
 
 Enclosure Enclose(const PlanarBox& box, const EnclosureOptions& options);
 
-// `to_planar` encloses the contact of a system, for every scene whose parameters lie in the intervals that it is given;
-// the narrower they are, the narrower must its answer be. `ranges` are the whole box.
-using ToPlanar = absl::FunctionRef<PlanarBox(absl::Span<const Interval> ranges)>;
-Enclosure Enclose(absl::Span<const Interval> ranges, ToPlanar to_planar, const EnclosureOptions& options);
+// `to_box` encloses the contact or the pendulum (a of either sign) that a system's scenes come to, for every scene whose
+// parameters lie in the intervals that it is given; the narrower they are, the narrower must its answer be. Where no
+// scene is valid its mu may be empty. `ranges` are the whole box. Branch and bound for both.
+// `stopped` is asked every kBoxesUnasked boxes; once it says yes the answer is what the boxes until then prove.
+using ToBox = absl::FunctionRef<std::variant<PlanarBox, PendulumBox>(absl::Span<const Interval> ranges)>;
+inline constexpr int64_t kBoxesUnasked = 256;
+Enclosure Enclose(absl::Span<const Interval> ranges, ToBox to_box, const EnclosureOptions& options, Stopped stopped);
 
 }  // namespace ricochet
 

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/numerics/elementary.h"
+#include "core/numerics/interval_elementary.h"
 
 namespace ricochet {
 namespace {
@@ -21,6 +22,33 @@ double Factor(const SpeedTable& table, double speed) {
   if (above == speeds.size()) return table.factor.back();
   const double share = (speed - speeds[above - 1]) / (speeds[above] - speeds[above - 1]);
   return std::lerp(table.factor[above - 1], table.factor[above], share);
+}
+
+Interval Factor(std::monostate /*unset*/, const Interval& /*speed*/) { return 1.0; }
+
+Interval Factor(const PowerLaw& law, const Interval& speed) {
+  return Interval(1.0) - Interval(law.alpha) * Pow(speed, law.exponent);
+}
+
+// At one speed.
+Interval FactorAtPoint(const SpeedTable& table, double speed) {
+  const auto& speeds = table.speed_m_s;
+  const auto above = static_cast<size_t>(std::upper_bound(speeds.begin(), speeds.end(), speed) - speeds.begin());
+  if (above == 0) return table.factor.front();
+  if (above == speeds.size()) return table.factor.back();
+  const Interval from(speeds[above - 1]);
+  const Interval share = (Interval(speed) - from) / (Interval(speeds[above]) - from);
+  const Interval factor(table.factor[above - 1]);
+  return factor + share * (Interval(table.factor[above]) - factor);
+}
+
+// Linear between its nodes: the extremes are at them or at the ends.
+Interval Factor(const SpeedTable& table, const Interval& speed) {
+  Interval factor = Hull(FactorAtPoint(table, speed.lower), FactorAtPoint(table, speed.upper));
+  for (size_t i = 0; i < table.speed_m_s.size(); ++i) {
+    if (Contains(speed, table.speed_m_s[i])) factor = Hull(factor, table.factor[i]);
+  }
+  return factor;
 }
 
 double Value(std::monostate /*unset*/) { return 0.0; }
@@ -40,6 +68,11 @@ double NewtonOf(const Law& law) {
 double FactorAt(const std::optional<SpeedDependence>& dependence, double speed) {
   if (!dependence.has_value()) return 1.0;
   return std::visit([speed](const auto& form) { return Factor(form, speed); }, *dependence);
+}
+
+Interval FactorAt(const std::optional<SpeedDependence>& dependence, const Interval& speed) {
+  if (!dependence.has_value()) return 1.0;
+  return std::visit([&speed](const auto& form) { return Factor(form, speed); }, *dependence);
 }
 
 EffectiveCoefficients EffectiveAt(const Scene& scene, double speed) {
