@@ -452,9 +452,12 @@ Enclosure Enclose(const PlanarBox& whole, const EnclosureOptions& options) {
   KeepValidFriction(box.mu, box.mu_static);
   std::vector<Interval> ranges = {box.wtt, box.wtn, box.wnn, box.u0, box.v0, box.mu};
   if (box.mu_static) ranges.push_back(*box.mu_static);
-  const auto to_box = [](absl::Span<const Interval> x) -> std::variant<PlanarBox, PendulumBox> {
-    PlanarBox part = {.wtt = x[0], .wtn = x[1], .wnn = x[2], .u0 = x[3], .v0 = x[4], .mu = x[5]};
-    if (x.size() > 6) part.mu_static = x[6];
+  SlopeParameters parameters;
+  const auto to_box = [&](absl::Span<const Interval> x) -> std::variant<PlanarForm, PendulumBox> {
+    parameters = SlopeParameters();
+    const auto at = [&](size_t i) { return SlopeForm::Parameter(x[i], parameters); };
+    PlanarForm part = {.wtt = at(0), .wtn = at(1), .wnn = at(2), .u0 = at(3), .v0 = at(4), .mu = at(5)};
+    if (x.size() > 6) part.mu_static = at(6);
     return part;
   };
   return Enclose(ranges, to_box, options, [] { return false; });

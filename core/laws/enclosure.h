@@ -38,6 +38,7 @@
 #include "absl/types/span.h"
 #include "core/bounds.h"
 #include "core/numerics/interval.h"
+#include "core/numerics/slope_form.h"
 
 namespace ricochet {
 
@@ -47,8 +48,17 @@ struct PlanarBox {
   Interval u0, v0;
   Interval mu;
   std::optional<Interval> mu_static;  // As kinetic if unset.
-  // C = Wnn - Wtn^2/Wtt = det W/Wtt, where more is known of it than from the three above.
+  // C = Wnn - Wtn^2/Wtt = det W/Wtt, where more is known of it than from the entries.
   std::optional<Interval> stick_slope;
+};
+
+// The same to first order in the parameters of the box.
+struct PlanarForm {
+  SlopeForm wtt, wtn, wnn;
+  SlopeForm u0, v0;
+  SlopeForm mu;
+  std::optional<SlopeForm> mu_static;
+  std::optional<SlopeForm> stick_slope;
 };
 
 // Units as in core/models/pendulum.h. The same static and kinetic friction if `mu_static` is unset.
@@ -56,6 +66,7 @@ struct PendulumBox {
   Interval inertia, a, b, omega_minus;
   Interval mu;
   std::optional<Interval> mu_static;
+  std::optional<Interval> slope;  // b/a, where more is known of it than from the two.
 };
 
 // Says that nobody waits for the answer any more.
@@ -74,7 +85,7 @@ Enclosure Enclose(const PlanarBox& box, const EnclosureOptions& options);
 // parameters lie in the intervals that it is given; the narrower they are, the narrower must its answer be. Where no
 // scene is valid its mu may be empty. `ranges` are the whole box. Branch and bound for both.
 // `stopped` is asked every kBoxesUnasked boxes; once it says yes the answer is what the boxes until then prove.
-using ToBox = absl::FunctionRef<std::variant<PlanarBox, PendulumBox>(absl::Span<const Interval> ranges)>;
+using ToBox = absl::FunctionRef<std::variant<PlanarForm, PendulumBox>(absl::Span<const Interval> ranges)>;
 inline constexpr int64_t kBoxesUnasked = 256;
 Enclosure Enclose(absl::Span<const Interval> ranges, ToBox to_box, const EnclosureOptions& options, Stopped stopped);
 

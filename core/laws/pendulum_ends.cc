@@ -31,7 +31,7 @@ Interval ApproachRate(const PendulumBox& box) {
 
 PlanarEnds EncloseEnds(const PendulumBox& box) {
   PlanarEnds ends;
-  if (IsEmpty(box.mu) || (box.mu_static && box.mu_static->upper < box.mu.lower)) return ends;
+  if (IsEmpty(box.a) || IsEmpty(box.mu) || (box.mu_static && box.mu_static->upper < box.mu.lower)) return ends;
   const Interval approach = -(box.a * box.omega_minus);
   if (approach.lower <= 0.0) ends.normal_dead = ends.normal_elastic = 0.0;
   if (approach.upper <= 0.0) return ends;
@@ -42,9 +42,9 @@ PlanarEnds EncloseEnds(const PendulumBox& box) {
   const Interval mu_static = AtLeast(box.mu_static.value_or(box.mu), box.mu.lower);
   const Interval momentum = box.inertia * ApproachRate(box);
   const Interval q = box.mu * depth;
-  const Interval hold = mu_static * depth - lever;
-  const Interval slope = box.b / box.a;
-  const Interval dead = momentum / (lever + q);
+  const Interval slope = box.slope.value_or(box.b / box.a);
+  const Interval dead = Intersect(momentum / (lever + q), momentum / (lever * (one + box.mu * Abs(slope))));
+  const Interval hold = mu_static * Abs(slope) - one;
   ends.tangential_dead = OnItsSide(box.mu, slope);
   ends.normal_dead = Hull(ends.normal_dead, dead);
   if (hold.upper >= 0.0) {
@@ -55,7 +55,7 @@ PlanarEnds EncloseEnds(const PendulumBox& box) {
   if (hold.lower >= 0.0) return ends;
 
   // Of the scenes that slip: x = mu |b|/a < mu/mu_s <= 1.
-  Interval x = AtMost(AtLeast(box.mu * (depth / lever), 0.0), 1.0);
+  Interval x = AtMost(AtLeast(box.mu * Abs(slope), 0.0), 1.0);
   if (mu_static.lower > 0.0) x = AtMost(x, (box.mu / mu_static).upper);
   if (IsEmpty(x)) return ends;
   const Interval newton = AtEnds(x, [&](const Interval& at) { return Sqrt(AtLeast((one - at) / (one + at), 0.0)); });

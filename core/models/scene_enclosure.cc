@@ -150,53 +150,57 @@ class UncertainScene {
 
 // ---- Friction ----
 
-struct IntervalFriction {
-  Interval kinetic;
-  std::optional<Interval> fixed;  // Static friction; unset where it follows kinetic: it would not be the same scene's.
+// Both at the approach speed of the scenes, the factor enclosed over all of it.
+struct FrictionForm {
+  SlopeForm kinetic;
+  std::optional<SlopeForm> fixed;  // Static friction; unset where it follows kinetic: it would not be the same scene's.
 };
 
-// Of scenes that approach at `speed` >= 0. Empty if none of them is valid.
-IntervalFriction FrictionAt(const SceneBox& box, const Interval& speed) {
+FrictionForm FrictionAt(const SceneBox& box, const Interval& approach, SlopeParameters& parameters) {
   const Friction& low = box.low.friction;
   const Friction& high = box.high.friction;
-  const Interval factor = FactorAt(low.by_speed, speed);
-  IntervalFriction friction = {.kinetic = Interval(low.kinetic_coefficient, high.kinetic_coefficient),
-                               .fixed = std::nullopt};
-  if (low.static_coefficient.has_value()) friction.fixed = Interval(*low.static_coefficient, *high.static_coefficient);
-  if (friction.fixed.has_value()) friction.kinetic = AtMost(friction.kinetic, friction.fixed->upper);
-  if (IsEmpty(friction.kinetic)) return friction;
-  friction.kinetic = AtLeast(factor * friction.kinetic, 0.0);
-  if (friction.fixed.has_value()) friction.fixed = AtLeast(factor * *friction.fixed, 0.0);
+  const SlopeForm factor = FactorAt(low.by_speed, AtLeast(approach, 0.0));
+  FrictionForm friction = {
+      .kinetic = factor * SlopeForm::Parameter({low.kinetic_coefficient, high.kinetic_coefficient}, parameters),
+      .fixed = std::nullopt};
+  if (low.static_coefficient.has_value()) {
+    friction.fixed = factor * SlopeForm::Parameter({*low.static_coefficient, *high.static_coefficient}, parameters);
+  }
   return friction;
 }
 
-using ContactBox = std::variant<PlanarBox, PendulumBox>;
+using ContactBox = std::variant<PlanarForm, PendulumBox>;
 
-ContactBox WithFriction(const SceneBox& box, const IntervalPendulum& pendulum) {
+ContactBox WithFriction(const SceneBox& box, const IntervalPendulum& pendulum, SlopeParameters& parameters) {
   if (IsEmpty(pendulum.a)) return PendulumBox{.mu = pendulum.a};
-  const IntervalFriction friction = FrictionAt(box, AtLeast(-(pendulum.a * pendulum.omega_minus), 0.0));
-  return PendulumBox{.inertia = pendulum.inertia,
-                     .a = pendulum.a,
-                     .b = pendulum.b,
-                     .omega_minus = pendulum.omega_minus,
-                     .mu = friction.kinetic,
-                     .mu_static = friction.fixed};
+  const FrictionForm friction = FrictionAt(box, -(pendulum.a * pendulum.omega_minus), parameters);
+  PendulumBox contact = {.inertia = pendulum.inertia,
+                         .a = pendulum.a,
+                         .b = pendulum.b,
+                         .omega_minus = pendulum.omega_minus,
+                         .mu = AtLeast(friction.kinetic.range(), 0.0),
+                         .mu_static = std::nullopt,
+                         .slope = pendulum.slope};
+  if (friction.fixed.has_value()) contact.mu_static = AtLeast(friction.fixed->range(), 0.0);
+  return contact;
 }
 
-ContactBox WithFriction(const SceneBox& box, const IntervalContact& contact) {
-  const IntervalFriction friction = FrictionAt(box, AtLeast(-contact.v0, 0.0));
-  return PlanarBox{.wtt = contact.wtt,
-                   .wtn = contact.wtn,
-                   .wnn = contact.wnn,
-                   .u0 = contact.u0,
-                   .v0 = contact.v0,
-                   .mu = friction.kinetic,
-                   .mu_static = friction.fixed,
-                   .stick_slope = contact.stick_slope};
+ContactBox WithFriction(const SceneBox& box, const ContactForm& contact, SlopeParameters& parameters) {
+  const FrictionForm friction = FrictionAt(box, -contact.v0.range(), parameters);
+  return PlanarForm{.wtt = contact.wtt,
+                    .wtn = contact.wtn,
+                    .wnn = contact.wnn,
+                    .u0 = contact.u0,
+                    .v0 = contact.v0,
+                    .mu = friction.kinetic,
+                    .mu_static = friction.fixed,
+                    .stick_slope = contact.stick_slope};
 }
 
-ContactBox ContactOf(const SceneBox& box) {
-  return std::visit([&](const auto& reduction) { return WithFriction(box, reduction); }, Reduce(box));
+ContactBox ContactOf(const SceneBox& box, SlopeParameters& parameters) {
+  parameters = SlopeParameters();
+  return std::visit([&](const auto& reduction) { return WithFriction(box, reduction, parameters); },
+                    Reduce(box, parameters));
 }
 
 // Whether its corners tell everything: a pendulum whose own numbers and friction's have ranges.
@@ -248,12 +252,13 @@ absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const Fiel
                                        absl::FunctionRef<bool()> stopped) {
   if (HasRankOneThroughout(scene, ranges)) return RankOneThroughout(scene.system);
   UncertainScene uncertain(scene, ranges);
+  SlopeParameters parameters;
   const auto contact_in = [&](absl::Span<const Interval> values) {
     uncertain.Set(values);
-    return ContactOf(uncertain.box());
+    return ContactOf(uncertain.box(), parameters);
   };
   const Enclosure enclosure = IsSolvedAtCorners(uncertain.box())
-                                  ? Enclose(std::get<PendulumBox>(ContactOf(uncertain.box())))
+                                  ? Enclose(std::get<PendulumBox>(ContactOf(uncertain.box(), parameters)))
                                   : Enclose(uncertain.whole(), contact_in, EnclosureOptions(), stopped);
   if (stopped()) return absl::CancelledError("the enclosure was stopped by its caller");
   if (enclosure.attained.newton.lower > enclosure.attained.newton.upper) {

@@ -40,8 +40,8 @@ class SlopeForm {
   // A number that is the same all over the box, or of which no more is known than this.
   SlopeForm(const Interval& value) : centre_(value), range_(value) {}  // NOLINT(google-explicit-constructor)
 
-  // A further parameter of the box. `parameters` must outlive every form that stems from it, and take no parameter once
-  // a form has been computed.
+  SlopeForm(double value) : SlopeForm(Interval(value)) {}  // NOLINT(google-explicit-constructor)
+  // A further parameter of the box. `parameters` must outlive every form that stems from it.
   static SlopeForm Parameter(const Interval& range, SlopeParameters& parameters) {
     if (IsPoint(range) || parameters.size_ == SlopeParameters::kMostSlopes) return range;
     const size_t i = parameters.size_++;
@@ -55,6 +55,12 @@ class SlopeForm {
   }
 
   const Interval& range() const { return range_; }
+
+  // The same where it is known to lie in `limits`.
+  friend SlopeForm Within(SlopeForm x, const Interval& limits) {
+    x.range_ = Intersect(x.range_, limits);
+    return x;
+  }
 
   friend SlopeForm operator-(const SlopeForm& x) { return SlopeForm(0.0) - x; }
   friend SlopeForm operator+(const SlopeForm& x, const SlopeForm& y) {
@@ -79,6 +85,12 @@ class SlopeForm {
   friend SlopeForm Square(const SlopeForm& x) {
     return Make(x, x, Square(x.centre_), Square(x.range_),
                 [&](size_t i) { return x.slopes_[i] * (x.range_ + x.centre_); });
+  }
+  // Of the members that are not negative; sqrt(x) - sqrt(x_c) = (x - x_c)/(sqrt(x) + sqrt(x_c)).
+  friend SlopeForm Sqrt(const SlopeForm& x) {
+    const Interval centre = Sqrt(x.centre_);
+    const Interval range = Sqrt(x.range_);
+    return Make(x, x, centre, range, [&](size_t i) { return x.slopes_[i] / (range + centre); });
   }
   friend SlopeForm Sin(const SlopeForm& x) {
     const Interval derivative = Cos(x.range_);

@@ -9,53 +9,55 @@
 namespace ricochet {
 namespace {
 
-const Interval kOne = 1.0;
 const Interval kNone = {rounding::kInfinity, -rounding::kInfinity};
+
+// The numbers of two structs of one kind, each in between.
+template <typename T>
+auto ParametersBetween(const T& low, const T& high, SlopeParameters& parameters) {
+  return [&](double T::*number) { return SlopeForm::Parameter({low.*number, high.*number}, parameters); };
+}
 
 // --- Free bodies ---
 
-struct IntervalBody {
-  Interval mass, inertia, t, n, velocity_t, velocity_n, rate;
+struct BodyForm {
+  SlopeForm mass, inertia, t, n, velocity_t, velocity_n, rate;
 };
 
-IntervalBody Between(const PlanarBody& low, const PlanarBody& high) {
-  return {.mass = {low.mass_kg, high.mass_kg},
-          .inertia = {low.inertia_com_kg_m2, high.inertia_com_kg_m2},
-          .t = {low.offset_t_m, high.offset_t_m},
-          .n = {low.offset_n_m, high.offset_n_m},
-          .velocity_t = {low.velocity_t_m_s, high.velocity_t_m_s},
-          .velocity_n = {low.velocity_n_m_s, high.velocity_n_m_s},
-          .rate = {low.rate_rad_s, high.rate_rad_s}};
+BodyForm Between(const PlanarBody& low, const PlanarBody& high, SlopeParameters& parameters) {
+  const auto between = ParametersBetween(low, high, parameters);
+  return {.mass = between(&PlanarBody::mass_kg),
+          .inertia = between(&PlanarBody::inertia_com_kg_m2),
+          .t = between(&PlanarBody::offset_t_m),
+          .n = between(&PlanarBody::offset_n_m),
+          .velocity_t = between(&PlanarBody::velocity_t_m_s),
+          .velocity_n = between(&PlanarBody::velocity_n_m_s),
+          .rate = between(&PlanarBody::rate_rad_s)};
 }
 
-Interval SlipOf(const IntervalBody& body) { return body.velocity_t - body.rate * body.n; }
-Interval SpeedOf(const IntervalBody& body) { return body.velocity_n + body.rate * body.t; }
+SlopeForm SlipOf(const BodyForm& body) { return body.velocity_t - body.rate * body.n; }
+SlopeForm SpeedOf(const BodyForm& body) { return body.velocity_n + body.rate * body.t; }
 
-IntervalContact Contact(const IntervalBody& body) {
-  const Interval inverse_mass = kOne / body.mass;
-  const Interval t2 = Square(body.t);
-  const Interval n2 = Square(body.n);
-  // Falls with the mass.
-  const auto stick_slope = [&](double mass) {
-    return kOne / Interval(mass) + t2 / (body.inertia + Interval(mass) * n2);
-  };
+ContactForm Contact(const BodyForm& body) {
+  const SlopeForm inverse_mass = SlopeForm(1.0) / body.mass;
+  const SlopeForm t2 = Square(body.t);
+  const SlopeForm n2 = Square(body.n);
   return {.wtt = inverse_mass + n2 / body.inertia,
           .wtn = -(body.t * body.n / body.inertia),
           .wnn = inverse_mass + t2 / body.inertia,
-          .stick_slope = Interval(stick_slope(body.mass.upper).lower, stick_slope(body.mass.lower).upper),
+          .stick_slope = inverse_mass + t2 / (body.inertia + body.mass * n2),
           .u0 = SlipOf(body),
           .v0 = SpeedOf(body)};
 }
 
-IntervalContact Contact(const IntervalBody& one, const IntervalBody& two) {
-  const Interval inverse_mass = kOne / one.mass + kOne / two.mass;
-  const Interval tt = Square(one.n) / one.inertia + Square(two.n) / two.inertia;
-  const Interval nn = Square(one.t) / one.inertia + Square(two.t) / two.inertia;
-  const Interval cross = Square(one.n * two.t - one.t * two.n) / (one.inertia * two.inertia);
+ContactForm Contact(const BodyForm& one, const BodyForm& two) {
+  const SlopeForm inverse_mass = SlopeForm(1.0) / one.mass + SlopeForm(1.0) / two.mass;
+  const SlopeForm tt = Square(one.n) / one.inertia + Square(two.n) / two.inertia;
+  const SlopeForm nn = Square(one.t) / one.inertia + Square(two.t) / two.inertia;
+  const SlopeForm cross = Square(one.n * two.t - one.t * two.n) / (one.inertia * two.inertia);
   return {.wtt = inverse_mass + tt,
           .wtn = -(one.t * one.n / one.inertia + two.t * two.n / two.inertia),
           .wnn = inverse_mass + nn,
-          .stick_slope = inverse_mass + nn / (kOne + tt / inverse_mass) + cross / (inverse_mass + tt),
+          .stick_slope = inverse_mass + nn / (SlopeForm(1.0) + tt / inverse_mass) + cross / (inverse_mass + tt),
           .u0 = SlipOf(one) - SlipOf(two),
           .v0 = SpeedOf(one) - SpeedOf(two)};
 }
@@ -69,9 +71,7 @@ struct LinkForm {
 std::vector<LinkForm> Between(const Linkage& low, const Linkage& high, SlopeParameters& parameters) {
   std::vector<LinkForm> links;
   for (size_t i = 0; i < low.links.size(); ++i) {
-    const auto between = [&](double Link::*number) {
-      return SlopeForm::Parameter({low.links[i].*number, high.links[i].*number}, parameters);
-    };
+    const auto between = ParametersBetween(low.links[i], high.links[i], parameters);
     links.push_back({.length = between(&Link::length_m),
                      .mass = between(&Link::mass_kg),
                      .com = between(&Link::com_m),
@@ -129,7 +129,7 @@ Gram Eliminate(const std::vector<LinkForm>& links) {
   return gram;
 }
 
-IntervalContact Contact(const std::vector<LinkForm>& links) {
+ContactForm Contact(const std::vector<LinkForm>& links) {
   const Gram gram = Eliminate(links);
   SlopeForm wtt(0.0), wtn(0.0), wnn(0.0), determinant(0.0), u0(0.0), v0(0.0);
   for (size_t i = 0; i < links.size(); ++i) {
@@ -142,12 +142,15 @@ IntervalContact Contact(const std::vector<LinkForm>& links) {
     u0 = u0 + links[i].length * Cos(links[i].theta) * links[i].rate;
     v0 = v0 + links[i].length * Sin(links[i].theta) * links[i].rate;
   }
-  return {.wtt = wtt.range(),
-          .wtn = wtn.range(),
-          .wnn = wnn.range(),
-          .stick_slope = (determinant / wtt).range(),
-          .u0 = u0.range(),
-          .v0 = v0.range()};
+  return {.wtt = wtt, .wtn = wtn, .wnn = wnn, .stick_slope = determinant / wtt, .u0 = u0, .v0 = v0};
+}
+
+// cos/sin, which falls between its poles.
+Interval Cotangent(const Interval& radians) {
+  const Interval plain = Cos(radians) / Sin(radians);
+  if (Contains(Sin(radians), 0.0)) return plain;
+  const auto at = [](double end) { return Cos(Interval(end)) / Sin(Interval(end)); };
+  return Intersect(plain, {at(radians.upper).lower, at(radians.lower).upper});
 }
 
 IntervalPendulum OneLink(const Link& low, const Link& high) {
@@ -157,6 +160,7 @@ IntervalPendulum OneLink(const Link& low, const Link& high) {
   return {.inertia = Interval(low.inertia_com_kg_m2, high.inertia_com_kg_m2) + mass * Square({low.com_m, high.com_m}),
           .a = length * Sin(theta),
           .b = length * Cos(theta),
+          .slope = Cotangent(theta),
           .omega_minus = {low.rate_rad_s, high.rate_rad_s}};
 }
 
@@ -166,39 +170,43 @@ IntervalPendulum Between(const SceneBox& box, const Pendulum& low, const Pendulu
   IntervalPendulum pendulum = {.inertia = {low.inertia_kg_m2, high.inertia_kg_m2},
                                .a = {low.a_m, high.a_m},
                                .b = {low.b_m, high.b_m},
+                               .slope = std::nullopt,
                                .omega_minus = {low.omega_minus_rad_s, high.omega_minus_rad_s}};
   if (!box.phi.has_value()) return pendulum;
   const Interval distance = Sqrt(Square(low.a_m) + Square(low.b_m));
   pendulum.a = distance * Sin(*box.phi);
   pendulum.a = pendulum.a.upper > 0.0 ? AtLeast(pendulum.a, 0.0) : kNone;
   pendulum.b = distance * Cos(*box.phi);
+  pendulum.slope = Cotangent(*box.phi);
   return pendulum;
 }
 
-IntervalContact Between(const PlanarContact& low, const PlanarContact& high) {
-  return {.wtt = {low.w_tt_per_kg, high.w_tt_per_kg},
-          .wtn = {low.w_tn_per_kg, high.w_tn_per_kg},
-          .wnn = {low.w_nn_per_kg, high.w_nn_per_kg},
-          .stick_slope = std::nullopt,
-          .u0 = {low.tangential_m_s, high.tangential_m_s},
-          .v0 = {low.normal_m_s, high.normal_m_s}};
+ContactForm Between(const PlanarContact& low, const PlanarContact& high, SlopeParameters& parameters) {
+  const auto between = ParametersBetween(low, high, parameters);
+  ContactForm contact = {.wtt = between(&PlanarContact::w_tt_per_kg),
+                         .wtn = between(&PlanarContact::w_tn_per_kg),
+                         .wnn = between(&PlanarContact::w_nn_per_kg),
+                         .u0 = between(&PlanarContact::tangential_m_s),
+                         .v0 = between(&PlanarContact::normal_m_s)};
+  contact.stick_slope = contact.wnn - Square(contact.wtn) / contact.wtt;
+  return contact;
 }
 
-IntervalContact Contact(const SceneBox& box) {
+ContactForm Contact(const SceneBox& box, SlopeParameters& parameters) {
   const System& high = box.high.system;
   if (const auto* low = std::get_if<PlanarContact>(&box.low.system)) {
-    return Between(*low, std::get<PlanarContact>(high));
+    return Between(*low, std::get<PlanarContact>(high), parameters);
   }
   if (const auto* low = std::get_if<PlanarBody>(&box.low.system)) {
-    return Contact(Between(*low, std::get<PlanarBody>(high)));
+    return Contact(Between(*low, std::get<PlanarBody>(high), parameters));
   }
   if (const auto* low = std::get_if<Linkage>(&box.low.system)) {
-    SlopeParameters parameters;
     return Contact(Between(*low, std::get<Linkage>(high), parameters));
   }
   const auto& low_pair = std::get<PlanarPair>(std::get<BodyPair>(box.low.system).bodies);
   const auto& high_pair = std::get<PlanarPair>(std::get<BodyPair>(high).bodies);
-  return Contact(Between(low_pair.body_1, high_pair.body_1), Between(low_pair.body_2, high_pair.body_2));
+  const BodyForm body_1 = Between(low_pair.body_1, high_pair.body_1, parameters);
+  return Contact(body_1, Between(low_pair.body_2, high_pair.body_2, parameters));
 }
 
 }  // namespace
@@ -208,19 +216,19 @@ bool IsOfRankOne(const System& system) {
   return std::holds_alternative<Pendulum>(system) || (linkage != nullptr && linkage->links.size() == 1);
 }
 
-IntervalReduction Reduce(const SceneBox& box) {
+IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters) {
   if (const auto* low = std::get_if<Pendulum>(&box.low.system)) {
     return Between(box, *low, std::get<Pendulum>(box.high.system));
   }
   if (IsOfRankOne(box.low.system)) {
     return OneLink(std::get<Linkage>(box.low.system).links[0], std::get<Linkage>(box.high.system).links[0]);
   }
-  IntervalContact contact = Contact(box);
+  ContactForm contact = Contact(box, parameters);
   if (!box.low.surface_velocity.has_value()) return contact;
   const SurfaceVelocity& low = *box.low.surface_velocity;
   const SurfaceVelocity& high = *box.high.surface_velocity;
-  contact.u0 = contact.u0 - Interval(low.tangential_m_s[0], high.tangential_m_s[0]);
-  contact.v0 = contact.v0 - Interval(low.normal_m_s, high.normal_m_s);
+  contact.u0 = contact.u0 - SlopeForm::Parameter({low.tangential_m_s[0], high.tangential_m_s[0]}, parameters);
+  contact.v0 = contact.v0 - SlopeForm::Parameter({low.normal_m_s, high.normal_m_s}, parameters);
   return contact;
 }
 

@@ -9,8 +9,8 @@
 // with st, sn the offsets, J the inertia, and C = Wnn - Wtn^2/Wtt = det W/Wtt, the slope of v while the contact sticks,
 // free of the difference: it tells a W of full rank from others where its entries do not.
 // Contained is the contact of every scene of the box, as exact arithmetic has it; every operation is rounded outward.
-// A body's entries are no wider than they must be, since each number enters once or monotonically; those of a pair's C
-// and of a linkage are too wide by the square of the box's size (core/numerics/slope_form.h).
+// Each of these depends on the box's parameters to first order (core/numerics/slope_form.h) and is too wide by the
+// square of the box's size at most; a pendulum's are no wider than they must be.
 
 #ifndef RICOCHET_CORE_SCENE_INTERVAL_REDUCTION_H_
 #define RICOCHET_CORE_SCENE_INTERVAL_REDUCTION_H_
@@ -19,6 +19,7 @@
 #include <variant>
 
 #include "core/numerics/interval.h"
+#include "core/numerics/slope_form.h"
 #include "core/scene/scene.h"
 
 namespace ricochet {
@@ -31,22 +32,25 @@ struct SceneBox {
 };
 
 struct IntervalPendulum {
-  Interval inertia, a, b, omega_minus;  // a of either sign; empty where no pendulum of the box has an a > 0.
+  Interval inertia, a, b;         // a of either sign; empty where no pendulum of the box has an a > 0.
+  std::optional<Interval> slope;  // b/a, where more is known of it than from the two.
+  Interval omega_minus;
 };
 
-struct IntervalContact {
-  Interval wtt, wtn, wnn;
-  std::optional<Interval> stick_slope;  // C, where more is known of it than from the entries.
-  Interval u0, v0;                      // Relative to the surface.
+struct ContactForm {
+  SlopeForm wtt, wtn, wnn;
+  SlopeForm stick_slope;  // C
+  SlopeForm u0, v0;       // Relative to the surface.
 };
 
-using IntervalReduction = std::variant<IntervalPendulum, IntervalContact>;
+using IntervalReduction = std::variant<IntervalPendulum, ContactForm>;
 
 // Whether the system's W has rank one by its nature: a pendulum, a linkage of one link.
 bool IsOfRankOne(const System& system);
 
-// The scenes' system is planar and set; where IsOfRankOne, the surface is at rest.
-IntervalReduction Reduce(const SceneBox& box);
+// The scenes' system is planar and set; where IsOfRankOne, the surface is at rest. The numbers that differ become
+// `parameters`.
+IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters);
 
 }  // namespace ricochet
 
