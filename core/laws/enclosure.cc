@@ -23,10 +23,10 @@ Range ToRange(const Interval& x) { return {x.lower, x.upper}; }
 double ExcessOf(const Range& outer, const Range& attained) {
   const double excess = std::max(attained.lower - outer.lower, 0.0) + std::max(outer.upper - attained.upper, 0.0);
   if (outer.lower > outer.upper) return 0.0;
-  if (attained.lower > attained.upper) return kInfinity;
-  const double rounding = 0x1p-40 * std::max(std::fabs(outer.lower), std::fabs(outer.upper));
   if (std::isinf(outer.lower) || std::isinf(outer.upper)) return kInfinity;
-  return excess <= rounding ? 0.0 : excess / (attained.upper - attained.lower);
+  const double rounding = 0x1p-40 * std::max(std::fabs(outer.lower), std::fabs(outer.upper));
+  if (excess <= rounding) return 0.0;
+  return attained.lower > attained.upper ? kInfinity : excess / (attained.upper - attained.lower);
 }
 
 double ExcessOf(const CoefficientBounds& outer, const CoefficientBounds& attained) {
@@ -109,6 +109,9 @@ class BranchAndBound {
       UpdateBounds();
     }
     Enclosure enclosure = {.outer = ToBounds(bounds_), .attained = ToBounds(attained_), .boxes = boxes_};
+    // All scenes reach one value, known to rounding.
+    Range& tangential = enclosure.attained.tangential;
+    if (tangential.lower > tangential.upper && !std::isinf(tangential.lower)) tangential = enclosure.outer.tangential;
     enclosure.excess = ExcessOf(enclosure.outer, enclosure.attained);
     return enclosure;
   }

@@ -67,6 +67,7 @@ Interval PoissonInCompression(const Interval& m, const Interval& rho) {
 
 // x/(x + y) for x, y >= 0.
 Interval Share(const Interval& x, const Interval& y) {
+  if (x.upper == 0.0 && y.lower > 0.0) return 0.0;
   return AtMost(AtLeast(Interval(1.0) / (Interval(1.0) + AtLeast(y / x, 0.0)), 0.0), 1.0);
 }
 

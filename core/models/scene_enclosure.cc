@@ -156,10 +156,13 @@ struct FrictionForm {
   std::optional<SlopeForm> fixed;  // Static friction; unset where it follows kinetic: it would not be the same scene's.
 };
 
-FrictionForm FrictionAt(const SceneBox& box, const Interval& approach, SlopeParameters& parameters) {
+// `approach` is -v0; what separates does not matter.
+FrictionForm FrictionAt(const SceneBox& box, const SlopeForm& approach, SlopeParameters& parameters) {
   const Friction& low = box.low.friction;
   const Friction& high = box.high.friction;
-  const SlopeForm factor = FactorAt(low.by_speed, AtLeast(approach, 0.0));
+  const bool all_approach = approach.range().lower > 0.0;
+  const SlopeForm speed = all_approach ? approach : SlopeForm(Hull(AtLeast(approach.range(), 0.0), 0.0));
+  const SlopeForm factor = FactorAt(low.by_speed, speed);
   FrictionForm friction = {
       .kinetic = factor * SlopeForm::Parameter({low.kinetic_coefficient, high.kinetic_coefficient}, parameters),
       .fixed = std::nullopt};
@@ -186,7 +189,7 @@ ContactBox WithFriction(const SceneBox& box, const IntervalPendulum& pendulum, S
 }
 
 ContactBox WithFriction(const SceneBox& box, const ContactForm& contact, SlopeParameters& parameters) {
-  const FrictionForm friction = FrictionAt(box, -contact.v0.range(), parameters);
+  const FrictionForm friction = FrictionAt(box, -contact.v0, parameters);
   return PlanarForm{.wtt = contact.wtt,
                     .wtn = contact.wtn,
                     .wnn = contact.wnn,

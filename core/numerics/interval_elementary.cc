@@ -54,10 +54,11 @@ Interval Cos(const Interval& radians) {
 Interval Pow(const Interval& base, double exponent) {
   if (exponent == 0.0) return 1.0;
   if (exponent == 1.0) return base;
-  // 0 and 1 are their own powers, so that no exact value lies beyond them.
   const auto at = [exponent](double x) {
-    return x == 0.0 || x == 1.0 ? Interval(x) : AtLeast(Around(Pow(x, exponent)), 0.0);
+    if (x == 0.0) return Interval(exponent > 0.0 ? 0.0 : rounding::kInfinity);
+    return x == 1.0 ? Interval(1.0) : AtLeast(Around(Pow(x, exponent)), 0.0);
   };
+  if (exponent < 0.0) return {at(base.upper).lower, at(base.lower).upper};
   return {at(base.lower).lower, at(base.upper).upper};
 }
 

@@ -16,7 +16,7 @@ inline constexpr double kMostQuarters = 0x1p40;
 Interval Sin(const Interval& radians);
 Interval Cos(const Interval& radians);
 
-// base >= 0, exponent >= 0. Exact for the exponents 0 and 1.
+// base >= 0, where the exponent is negative 0 gives infinity. Exact for the exponents 0 and 1.
 Interval Pow(const Interval& base, double exponent);
 
 }  // namespace ricochet

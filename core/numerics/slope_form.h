@@ -1,8 +1,8 @@
 // SlopeForm: a function of the parameters of a box, enclosed to first order.
 //
 // For every point x of the box, with its centre c,  f(x) in f(c) + sum_i s_i (x_i - c_i),  s_i the slopes. Sums, products
-// and quotients carry slopes on exactly (Krawczyk and Neumaier 1985), a sine's or cosine's are bounded by its
-// derivative. The range is what the slopes and what interval arithmetic alone allow: where parameters enter a formula
+// and quotients carry slopes on exactly (Krawczyk and Neumaier 1985), those of another function
+// are bounded by its derivative. The range is what the slopes and what interval arithmetic alone allow: where parameters enter a formula
 // several times it is too wide by the square of the box's size, not by the size. All is rounded outward
 // (core/numerics/interval.h).
 //
@@ -54,6 +54,7 @@ class SlopeForm {
     return form;
   }
 
+  const Interval& centre() const { return centre_; }
   const Interval& range() const { return range_; }
 
   // The same where it is known to lie in `limits`.
@@ -92,13 +93,17 @@ class SlopeForm {
     const Interval range = Sqrt(x.range_);
     return Make(x, x, centre, range, [&](size_t i) { return x.slopes_[i] / (range + centre); });
   }
-  friend SlopeForm Sin(const SlopeForm& x) {
-    const Interval derivative = Cos(x.range_);
-    return Make(x, x, Sin(x.centre_), Sin(x.range_), [&](size_t i) { return x.slopes_[i] * derivative; });
+  friend SlopeForm Sin(const SlopeForm& x) { return x.Through(Sin(x.centre_), Sin(x.range_), Cos(x.range_)); }
+  friend SlopeForm Cos(const SlopeForm& x) { return x.Through(Cos(x.centre_), Cos(x.range_), -Sin(x.range_)); }
+  // x >= 0
+  friend SlopeForm Pow(const SlopeForm& x, double exponent) {
+    return x.Through(Pow(x.centre_, exponent), Pow(x.range_, exponent),
+                     Interval(exponent) * Pow(x.range_, exponent - 1.0));
   }
-  friend SlopeForm Cos(const SlopeForm& x) {
-    const Interval derivative = -Sin(x.range_);
-    return Make(x, x, Cos(x.centre_), Cos(x.range_), [&](size_t i) { return x.slopes_[i] * derivative; });
+
+  // A function of this, by its value at the centre, its range and its slopes.
+  SlopeForm Through(const Interval& centre, const Interval& range, const Interval& slope) const {
+    return Make(*this, *this, centre, range, [&](size_t i) { return slopes_[i] * slope; });
   }
 
  private:
@@ -112,6 +117,7 @@ class SlopeForm {
     if (form.parameters_ == nullptr) return form;
     Interval linear = centre;
     for (size_t i = 0; i < form.parameters_->size(); ++i) {
+      if (x.slopes_[i] == Interval() && y.slopes_[i] == Interval()) continue;
       form.slopes_[i] = slope_of(i);
       linear = linear + form.slopes_[i] * form.parameters_->reach(i);
     }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <variant>
+#include <vector>
 
 #include "core/numerics/elementary.h"
-#include "core/numerics/interval_elementary.h"
 
 namespace ricochet {
 namespace {
@@ -24,31 +24,47 @@ double Factor(const SpeedTable& table, double speed) {
   return std::lerp(table.factor[above - 1], table.factor[above], share);
 }
 
-Interval Factor(std::monostate /*unset*/, const Interval& /*speed*/) { return 1.0; }
+SlopeForm Factor(std::monostate /*unset*/, const SlopeForm& /*speed*/) { return 1.0; }
 
-Interval Factor(const PowerLaw& law, const Interval& speed) {
-  return Interval(1.0) - Interval(law.alpha) * Pow(speed, law.exponent);
+SlopeForm Factor(const PowerLaw& law, const SlopeForm& speed) {
+  return SlopeForm(1.0) - SlopeForm(law.alpha) * Pow(speed, law.exponent);
 }
 
-// At one speed.
-Interval FactorAtPoint(const SpeedTable& table, double speed) {
+// A piece of a table, between two of its speeds or beyond them all.
+struct Piece {
+  Interval speeds;
+  Interval from, factor;  // The line goes through the factor there ...
+  Interval slope;         // ... and rises by this.
+};
+
+std::vector<Piece> PiecesOf(const SpeedTable& table) {
   const auto& speeds = table.speed_m_s;
-  const auto above = static_cast<size_t>(std::upper_bound(speeds.begin(), speeds.end(), speed) - speeds.begin());
-  if (above == 0) return table.factor.front();
-  if (above == speeds.size()) return table.factor.back();
-  const Interval from(speeds[above - 1]);
-  const Interval share = (Interval(speed) - from) / (Interval(speeds[above]) - from);
-  const Interval factor(table.factor[above - 1]);
-  return factor + share * (Interval(table.factor[above]) - factor);
+  std::vector<Piece> pieces = {{{0.0, speeds.front()}, 0.0, table.factor.front(), 0.0}};
+  for (size_t i = 1; i < speeds.size(); ++i) {
+    const Interval rise = Interval(table.factor[i]) - Interval(table.factor[i - 1]);
+    const Interval slope = rise / (Interval(speeds[i]) - Interval(speeds[i - 1]));
+    pieces.push_back({{speeds[i - 1], speeds[i]}, speeds[i - 1], table.factor[i - 1], slope});
+  }
+  pieces.push_back({{speeds.back(), rounding::kInfinity}, 0.0, table.factor.back(), 0.0});
+  return pieces;
 }
 
-// Linear between its nodes: the extremes are at them or at the ends.
-Interval Factor(const SpeedTable& table, const Interval& speed) {
-  Interval factor = Hull(FactorAtPoint(table, speed.lower), FactorAtPoint(table, speed.upper));
-  for (size_t i = 0; i < table.speed_m_s.size(); ++i) {
-    if (Contains(speed, table.speed_m_s[i])) factor = Hull(factor, table.factor[i]);
+Interval Factor(const std::vector<Piece>& pieces, const Interval& speed) {
+  Interval factor(rounding::kInfinity, -rounding::kInfinity);
+  for (const Piece& piece : pieces) {
+    const Interval part = Intersect(piece.speeds, speed);
+    if (!IsEmpty(part)) factor = Hull(factor, piece.factor + (part - piece.from) * piece.slope);
   }
   return factor;
+}
+
+SlopeForm Factor(const SpeedTable& table, const SlopeForm& speed) {
+  const std::vector<Piece> pieces = PiecesOf(table);
+  Interval slope(rounding::kInfinity, -rounding::kInfinity);
+  for (const Piece& piece : pieces) {
+    if (!IsEmpty(Intersect(piece.speeds, speed.range()))) slope = Hull(slope, piece.slope);
+  }
+  return speed.Through(Factor(pieces, speed.centre()), Factor(pieces, speed.range()), slope);
 }
 
 double Value(std::monostate /*unset*/) { return 0.0; }
@@ -70,7 +86,7 @@ double FactorAt(const std::optional<SpeedDependence>& dependence, double speed) 
   return std::visit([speed](const auto& form) { return Factor(form, speed); }, *dependence);
 }
 
-Interval FactorAt(const std::optional<SpeedDependence>& dependence, const Interval& speed) {
+SlopeForm FactorAt(const std::optional<SpeedDependence>& dependence, const SlopeForm& speed) {
   if (!dependence.has_value()) return 1.0;
   return std::visit([&speed](const auto& form) { return Factor(form, speed); }, *dependence);
 }
