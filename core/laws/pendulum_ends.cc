@@ -43,8 +43,9 @@ PlanarEnds EncloseEnds(const PendulumBox& box) {
   const Interval momentum = box.inertia * ApproachRate(box);
   const Interval q = box.mu * depth;
   const Interval slope = box.slope.value_or(box.b / box.a);
-  const Interval dead = Intersect(momentum / (lever + q), momentum / (lever * (one + box.mu * Abs(slope))));
-  const Interval hold = mu_static * Abs(slope) - one;
+  const Interval steepness = Intersect(Abs(slope), AtLeast(depth / lever, 0.0));
+  const Interval dead = Intersect(momentum / (lever + q), momentum / (lever * (one + box.mu * steepness)));
+  const Interval hold = mu_static * steepness - one;
   ends.tangential_dead = OnItsSide(box.mu, slope);
   ends.normal_dead = Hull(ends.normal_dead, dead);
   if (hold.upper >= 0.0) {
@@ -55,7 +56,7 @@ PlanarEnds EncloseEnds(const PendulumBox& box) {
   if (hold.lower >= 0.0) return ends;
 
   // Of the scenes that slip: x = mu |b|/a < mu/mu_s <= 1.
-  Interval x = AtMost(AtLeast(box.mu * Abs(slope), 0.0), 1.0);
+  Interval x = AtMost(AtLeast(box.mu * steepness, 0.0), 1.0);
   if (mu_static.lower > 0.0) x = AtMost(x, (box.mu / mu_static).upper);
   if (IsEmpty(x)) return ends;
   const Interval newton = AtEnds(x, [&](const Interval& at) { return Sqrt(AtLeast((one - at) / (one + at), 0.0)); });

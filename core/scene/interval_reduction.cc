@@ -145,9 +145,9 @@ ContactForm Contact(const std::vector<LinkForm>& links) {
   return {.wtt = wtt, .wtn = wtn, .wnn = wnn, .stick_slope = determinant / wtt, .u0 = u0, .v0 = v0};
 }
 
-// cos/sin, which falls between its poles.
-Interval Cotangent(const Interval& radians) {
-  const Interval plain = Cos(radians) / Sin(radians);
+// cos/sin, which falls between its poles; of the angles whose sine is in `sine`.
+Interval Cotangent(const Interval& radians, const Interval& sine) {
+  const Interval plain = Cos(radians) / sine;
   if (Contains(Sin(radians), 0.0)) return plain;
   const auto at = [](double end) { return Cos(Interval(end)) / Sin(Interval(end)); };
   return Intersect(plain, {at(radians.upper).lower, at(radians.lower).upper});
@@ -160,7 +160,7 @@ IntervalPendulum OneLink(const Link& low, const Link& high) {
   return {.inertia = Interval(low.inertia_com_kg_m2, high.inertia_com_kg_m2) + mass * Square({low.com_m, high.com_m}),
           .a = length * Sin(theta),
           .b = length * Cos(theta),
-          .slope = Cotangent(theta),
+          .slope = Cotangent(theta, Sin(theta)),
           .omega_minus = {low.rate_rad_s, high.rate_rad_s}};
 }
 
@@ -174,10 +174,14 @@ IntervalPendulum Between(const SceneBox& box, const Pendulum& low, const Pendulu
                                .omega_minus = {low.omega_minus_rad_s, high.omega_minus_rad_s}};
   if (!box.phi.has_value()) return pendulum;
   const Interval distance = Sqrt(Square(low.a_m) + Square(low.b_m));
-  pendulum.a = distance * Sin(*box.phi);
-  pendulum.a = pendulum.a.upper > 0.0 ? AtLeast(pendulum.a, 0.0) : kNone;
+  const Interval sine = AtLeast(Sin(*box.phi), 0.0);
+  if (!(sine.upper > 0.0)) {
+    pendulum.a = kNone;
+    return pendulum;
+  }
+  pendulum.a = distance * sine;
   pendulum.b = distance * Cos(*box.phi);
-  pendulum.slope = Cotangent(*box.phi);
+  pendulum.slope = Cotangent(*box.phi, sine);
   return pendulum;
 }
 

@@ -490,11 +490,11 @@ std::variant<PlanarForm, PendulumBox> BodyContact(absl::Span<const Interval> ran
   const Interval inverse = Interval(1.0) / range[2];
   const Interval inertia(0.1);
   return PlanarForm{.wtt = inverse + Square(range[1]) / inertia,
-          .wtn = -(range[0] * range[1]) / inertia,
-          .wnn = inverse + Square(range[0]) / inertia,
-          .u0 = 1.0,
-          .v0 = -1.0,
-          .mu = 0.4};
+                    .wtn = -(range[0] * range[1]) / inertia,
+                    .wnn = inverse + Square(range[0]) / inertia,
+                    .u0 = 1.0,
+                    .v0 = -1.0,
+                    .mu = 0.4};
 }
 
 TEST(EnclosureTest, EnclosesABodyThroughItsOwnParameters) {
