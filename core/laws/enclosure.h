@@ -21,7 +21,9 @@
 //   k = (1 + sigma e)/(sigma + e), sigma >= 0;   k = e/(rho (1 - m) + m), m = -sigma >= 0
 // and e = k = 1 for sigma > 1: slip does not stop. (A1 <= 0, self-locking: core/laws/planar_ends.cc.) Where a box holds
 // scenes of several regimes, all of them are evaluated and joined. The box is cut, the worst part first and across the
-// dimension that helps most, until the excess is within the tolerance or the budget is spent.
+// dimension that helps most, until the excess is within the tolerance or the budget is spent. A part whose scenes all go
+// the same way is enclosed to first order too (core/laws/one_regime_ends.cc), so that W and the velocities may depend
+// on the same parameters.
 //
 // Scenes of a box that validation would refuse (det W < 0, mu_s < mu, v0 and u0 outside the range of a W of rank one)
 // count for nothing. Scenes that separate count for tau1 = 0 alone. Where a box comes near det W = 0 the true range of
@@ -74,7 +76,7 @@ using Stopped = absl::FunctionRef<bool()>;
 
 struct EnclosureOptions {
   double tolerance = 0.005;  // Wanted: excess <= tolerance.
-  int64_t budget = 200'000;  // Boxes evaluated, at the most (but one is in any case); some 3 us each.
+  int64_t budget = 200'000;  // Boxes evaluated, at the most (but one is in any case); some 2 to 10 us each.
 };
 
 Enclosure Enclose(const PendulumBox& box);

@@ -113,22 +113,19 @@ inline Interval operator+(const Interval& x, const Interval& y) {
 
 inline Interval operator-(const Interval& x, const Interval& y) { return x + -y; }
 
+// The ends of x y, given which ends of x and y multiply to them.
+inline Interval ProductOfEnds(double x_low, double y_low, double x_high, double y_high) {
+  const rounding::Rounded low = rounding::Multiply(x_low, y_low);
+  const rounding::Rounded high = rounding::Multiply(x_high, y_high);
+  return {rounding::Down(low.value, low.error), rounding::Up(high.value, high.error)};
+}
+
 inline Interval operator*(const Interval& x, const Interval& y) {
-  if (x.lower >= 0.0 && y.lower >= 0.0) {
-    const rounding::Rounded low = rounding::Multiply(x.lower, y.lower);
-    const rounding::Rounded high = rounding::Multiply(x.upper, y.upper);
-    return {rounding::Down(low.value, low.error), rounding::Up(high.value, high.error)};
-  }
   if (x.upper <= 0.0 && x.lower < 0.0) return -(-x * y);
   if (y.upper <= 0.0 && y.lower < 0.0) return -(x * -y);
-  const rounding::Rounded products[] = {rounding::Multiply(x.lower, y.lower), rounding::Multiply(x.lower, y.upper),
-                                        rounding::Multiply(x.upper, y.lower), rounding::Multiply(x.upper, y.upper)};
-  Interval hull(rounding::kInfinity, -rounding::kInfinity);
-  for (const rounding::Rounded& product : products) {
-    hull.lower = std::min(hull.lower, rounding::Down(product.value, product.error));
-    hull.upper = std::max(hull.upper, rounding::Up(product.value, product.error));
-  }
-  return hull;
+  if (x.lower >= 0.0) return ProductOfEnds(y.lower >= 0.0 ? x.lower : x.upper, y.lower, x.upper, y.upper);
+  if (y.lower >= 0.0) return ProductOfEnds(x.lower, y.upper, x.upper, y.upper);
+  return Hull(ProductOfEnds(x.lower, y.upper, x.lower, y.lower), ProductOfEnds(x.upper, y.lower, x.upper, y.upper));
 }
 
 // By the members of y other than 0; unbounded where they come near it.

@@ -239,7 +239,7 @@ TEST_P(EveryPlanarSystem, EnclosureContainsEveryScene) {
 }
 
 TEST_P(EveryPlanarSystem, EnclosureContainsEverySceneWhereFrictionDependsOnSpeed) {
-  Random random(2);
+  Random random(5);
   for (int i = 0; i < Scenes() / 2; ++i) {
     Scene scene = RandomScene(GetParam(), random);
     scene.friction.by_speed = SpeedDependence(PowerLaw{0.2, random.Uniform(0.0, 2.0)});
@@ -252,7 +252,7 @@ TEST_P(EveryPlanarSystem, EnclosureContainsEverySceneWhereFrictionDependsOnSpeed
 
 // Attained is reached by scenes of the box, so that no sampling is needed to tell the excess.
 TEST_P(EveryPlanarSystem, ThreeRangesOfTenPercentAreEnclosedToHalfAPercent) {
-  Random random(3);
+  Random random(7);
   int enclosed = 0;
   for (int i = 0; i < Scenes(); ++i) {
     const Scene scene = RandomScene(GetParam(), random);
