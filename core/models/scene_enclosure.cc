@@ -29,6 +29,9 @@ constexpr char kPhi[] = "pendulum.phi_rad";
 
 // Why a field that an axis may drive has no range; null if it may have one.
 const char* WhyNoRange(const Scene& scene, const std::string& path) {
+  for (const char* effect : {"compliance.", "gravity.", "pin_moment.", "contact_acceleration."}) {
+    if (absl::StartsWith(path, effect)) return "bounds are those of the impulsive impact, which does not know it";
+  }
   if (absl::StartsWith(path, "restitution.")) return "bounds hold for every coefficient of restitution";
   if (absl::StartsWith(path, "friction.by_speed.")) return "an enclosure takes friction.by_speed as it stands";
   if (absl::StartsWith(path, "surface_velocity.") && IsOfRankOne(scene.system)) {
