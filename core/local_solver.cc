@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/error.h"
 #include "core/models/scene_bounds.h"
+#include "core/models/scene_enclosure.h"
 #include "core/models/scene_outcome.h"
 #include "core/numerics/decimal.h"
 #include "core/plan/demand_fields.h"
@@ -70,6 +71,10 @@ absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) co
 }
 
 absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request) const {
+  return AnswerBounds(request, [] { return false; });
+}
+
+absl::StatusOr<BoundsResponse> AnswerBounds(const BoundsRequest& request, absl::FunctionRef<bool()> stopped) {
   auto violations = Validate(request.scene, RestitutionIs::kOptional);
   if (!std::holds_alternative<std::monostate>(request.scene.impact_law)) {
     violations.push_back({"impact_law", "is set: must not be, for bounds"});
@@ -80,7 +85,7 @@ absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request)
   if (!bounds.ok()) return bounds.status();
   BoundsResponse response{.bounds = *bounds, .engine = ThisEngine(), .enclosure = std::nullopt};
   if (request.ranges.empty()) return response;
-  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges);
+  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, stopped);
   if (!enclosure.ok()) return enclosure.status();
   response.enclosure = *enclosure;
   return response;

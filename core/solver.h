@@ -57,7 +57,8 @@ struct FieldRange {
 
 struct BoundsRequest {
   Scene scene;  // Its restitution may be left unset.
-  // Asks for an enclosure. Of a pendulum's or a planar contact's own fields and of friction, on a surface at rest.
+  // Asks for an enclosure. Of any fields of a planar system, of friction's coefficients and of the surface's velocity
+  // (core/models/scene_enclosure.h).
   std::vector<FieldRange> ranges;
   friend bool operator==(const BoundsRequest&, const BoundsRequest&) = default;
 };

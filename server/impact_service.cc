@@ -8,6 +8,7 @@
 #include "absl/types/span.h"
 #include "core/engine.h"
 #include "core/error.h"
+#include "core/local_solver.h"
 #include "core/sweep/sweep_run.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
@@ -33,7 +34,7 @@ absl::Status Draining() {
   return status;
 }
 
-// Why a sweep that was stopped, or whose chunk could not be sent, ends.
+// Why a call that was stopped, or whose chunk could not be sent, ends.
 absl::Status WhyStopped(const grpc::ServerContext& context, bool draining) {
   if (context.deadline() <= std::chrono::system_clock::now()) {
     return absl::DeadlineExceededError("the call's deadline passed");
@@ -85,9 +86,10 @@ grpc::Status ImpactService::Bounds(grpc::ServerContext* context, const v1::Bound
                                    v1::BoundsResponse* response) {
   Call call("Bounds", *context, admission_, log_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
-  const absl::StatusOr<BoundsResponse> answer = solver_.Bounds(FromProto(*request));
+  const absl::StatusOr<BoundsResponse> answer =
+      AnswerBounds(FromProto(*request), [context] { return context->IsCancelled(); });
   if (answer.ok()) *response = ToProto(*answer);
-  return call.Finish(answer.status());
+  return call.Finish(absl::IsCancelled(answer.status()) ? WhyStopped(*context, false) : answer.status());
 }
 
 grpc::Status ImpactService::Audit(grpc::ServerContext* context, const v1::AuditRequest* request,

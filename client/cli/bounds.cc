@@ -216,7 +216,7 @@ void AddBounds(CLI::App& app, Command& command) {
   const auto options = std::make_shared<BoundsOptions>();
   AddSceneOptions(*sub, options->scene);
   sub->add_option("--range", options->ranges,
-                  "What is uncertain: a field of a pendulum, of planar_contact or of friction; repeat for more")
+                  "What is uncertain: a field of a planar system, of friction or of the surface; repeat for more")
       ->type_name("PATH=LOW:HIGH")
       ->allow_extra_args(false);
   AddServerOptions(*sub, options->common);

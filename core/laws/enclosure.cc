@@ -23,10 +23,10 @@ Range ToRange(const Interval& x) { return {x.lower, x.upper}; }
 double ExcessOf(const Range& outer, const Range& attained) {
   const double excess = std::max(attained.lower - outer.lower, 0.0) + std::max(outer.upper - attained.upper, 0.0);
   if (outer.lower > outer.upper) return 0.0;
-  if (attained.lower > attained.upper) return kInfinity;
-  const double rounding = 0x1p-40 * std::max(std::fabs(outer.lower), std::fabs(outer.upper));
   if (std::isinf(outer.lower) || std::isinf(outer.upper)) return kInfinity;
-  return excess <= rounding ? 0.0 : excess / (attained.upper - attained.lower);
+  const double rounding = 0x1p-40 * std::max(std::fabs(outer.lower), std::fabs(outer.upper));
+  if (excess <= rounding) return 0.0;
+  return attained.lower > attained.upper ? kInfinity : excess / (attained.upper - attained.lower);
 }
 
 double ExcessOf(const CoefficientBounds& outer, const CoefficientBounds& attained) {
@@ -85,8 +85,8 @@ struct Part {
 
 class BranchAndBound {
  public:
-  BranchAndBound(absl::Span<const Interval> ranges, ToPlanar to_planar, const EnclosureOptions& options)
-      : whole_(ranges.begin(), ranges.end()), to_planar_(to_planar), options_(options) {
+  BranchAndBound(absl::Span<const Interval> ranges, ToBox to_box, const EnclosureOptions& options, Stopped stopped)
+      : whole_(ranges.begin(), ranges.end()), to_box_(to_box), options_(options), stopped_(stopped) {
     attained_.fill(-kInfinity);
     bounds_.fill(-kInfinity);
   }
@@ -102,13 +102,16 @@ class BranchAndBound {
     }
     UpdateBounds();
     const int64_t cost = 2 * static_cast<int64_t>(whole_.size()) + 2;  // Of a split.
-    while (boxes_ + cost <= options_.budget) {
+    while (boxes_ + cost <= options_.budget && !IsStopped()) {
       const std::optional<Goal> goal = WorstGoal();
       if (!goal) break;
       if (!Split(*goal)) given_up_[Index(*goal)] = true;
       UpdateBounds();
     }
     Enclosure enclosure = {.outer = ToBounds(bounds_), .attained = ToBounds(attained_), .boxes = boxes_};
+    // All scenes reach one value, known to rounding.
+    Range& tangential = enclosure.attained.tangential;
+    if (tangential.lower > tangential.upper && !std::isinf(tangential.lower)) tangential = enclosure.outer.tangential;
     enclosure.excess = ExcessOf(enclosure.outer, enclosure.attained);
     return enclosure;
   }
@@ -121,7 +124,14 @@ class BranchAndBound {
 
   PlanarEnds Evaluate(const Box& box) {
     ++boxes_;
-    return EncloseEnds(to_planar_(box));
+    return std::visit([](const auto& one) { return EncloseEnds(one); }, to_box_(box));
+  }
+
+  bool IsStopped() {
+    if (is_stopped_ || boxes_ < asked_at_ + kBoxesUnasked) return is_stopped_;
+    asked_at_ = boxes_;
+    is_stopped_ = stopped_();
+    return is_stopped_;
   }
 
   static Box CentreOf(Box box) {
@@ -131,7 +141,7 @@ class BranchAndBound {
 
   // Raises what is attained to what the scene at `point` reaches for certain.
   void AttainAt(const Box& point) {
-    if (boxes_ >= options_.budget) return;
+    if (boxes_ >= options_.budget || IsStopped()) return;
     const PlanarEnds ends = Evaluate(point);
     for (const Goal goal : kGoals) {
       if (!Reaches(ends, goal)) continue;
@@ -261,14 +271,17 @@ class BranchAndBound {
   }
 
   const Box whole_;
-  const ToPlanar to_planar_;
+  const ToBox to_box_;
   const EnclosureOptions options_;
+  const Stopped stopped_;
   std::array<std::priority_queue<Part>, kGoals.size()> parts_;  // What may still exceed what is attained.
   std::array<bool, kGoals.size()> given_up_ = {};               // The worst part is a point.
   Values attained_;
   Values bounds_;
   Interval energetic_;
   int64_t boxes_ = 0;
+  int64_t asked_at_ = 0;
+  bool is_stopped_ = false;
 };
 
 // ---- Pendulum ----
@@ -433,8 +446,8 @@ Enclosure Enclose(const PendulumBox& whole) {
   return enclosure;
 }
 
-Enclosure Enclose(absl::Span<const Interval> ranges, ToPlanar to_planar, const EnclosureOptions& options) {
-  return BranchAndBound(ranges, to_planar, options).Run();
+Enclosure Enclose(absl::Span<const Interval> ranges, ToBox to_box, const EnclosureOptions& options, Stopped stopped) {
+  return BranchAndBound(ranges, to_box, options, stopped).Run();
 }
 
 Enclosure Enclose(const PlanarBox& whole, const EnclosureOptions& options) {
@@ -442,12 +455,15 @@ Enclosure Enclose(const PlanarBox& whole, const EnclosureOptions& options) {
   KeepValidFriction(box.mu, box.mu_static);
   std::vector<Interval> ranges = {box.wtt, box.wtn, box.wnn, box.u0, box.v0, box.mu};
   if (box.mu_static) ranges.push_back(*box.mu_static);
-  const auto to_planar = [](absl::Span<const Interval> x) {
-    PlanarBox part = {.wtt = x[0], .wtn = x[1], .wnn = x[2], .u0 = x[3], .v0 = x[4], .mu = x[5]};
-    if (x.size() > 6) part.mu_static = x[6];
+  SlopeParameters parameters;
+  const auto to_box = [&](absl::Span<const Interval> x) -> std::variant<PlanarForm, PendulumBox> {
+    parameters = SlopeParameters();
+    const auto at = [&](size_t i) { return SlopeForm::Parameter(x[i], parameters); };
+    PlanarForm part = {.wtt = at(0), .wtn = at(1), .wnn = at(2), .u0 = at(3), .v0 = at(4), .mu = at(5)};
+    if (x.size() > 6) part.mu_static = at(6);
     return part;
   };
-  return Enclose(ranges, to_planar, options);
+  return Enclose(ranges, to_box, options, [] { return false; });
 }
 
 }  // namespace ricochet

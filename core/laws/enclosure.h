@@ -21,7 +21,9 @@
 //   k = (1 + sigma e)/(sigma + e), sigma >= 0;   k = e/(rho (1 - m) + m), m = -sigma >= 0
 // and e = k = 1 for sigma > 1: slip does not stop. (A1 <= 0, self-locking: core/laws/planar_ends.cc.) Where a box holds
 // scenes of several regimes, all of them are evaluated and joined. The box is cut, the worst part first and across the
-// dimension that helps most, until the excess is within the tolerance or the budget is spent.
+// dimension that helps most, until the excess is within the tolerance or the budget is spent. A part whose scenes all go
+// the same way is enclosed to first order too (core/laws/one_regime_ends.cc), so that W and the velocities may depend
+// on the same parameters.
 //
 // Scenes of a box that validation would refuse (det W < 0, mu_s < mu, v0 and u0 outside the range of a W of rank one)
 // count for nothing. Scenes that separate count for tau1 = 0 alone. Where a box comes near det W = 0 the true range of
@@ -32,11 +34,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <variant>
 
 #include "absl/functional/function_ref.h"
 #include "absl/types/span.h"
 #include "core/bounds.h"
 #include "core/numerics/interval.h"
+#include "core/numerics/slope_form.h"
 
 namespace ricochet {
 
@@ -46,6 +50,17 @@ struct PlanarBox {
   Interval u0, v0;
   Interval mu;
   std::optional<Interval> mu_static;  // As kinetic if unset.
+  // C = Wnn - Wtn^2/Wtt = det W/Wtt, where more is known of it than from the entries.
+  std::optional<Interval> stick_slope;
+};
+
+// The same to first order in the parameters of the box.
+struct PlanarForm {
+  SlopeForm wtt, wtn, wnn;
+  SlopeForm u0, v0;
+  SlopeForm mu;
+  std::optional<SlopeForm> mu_static;
+  std::optional<SlopeForm> stick_slope;
 };
 
 // Units as in core/models/pendulum.h. The same static and kinetic friction if `mu_static` is unset.
@@ -53,21 +68,28 @@ struct PendulumBox {
   Interval inertia, a, b, omega_minus;
   Interval mu;
   std::optional<Interval> mu_static;
+  std::optional<Interval> slope;  // b/a, where more is known of it than from the two.
 };
+
+// Says that nobody waits for the answer any more.
+using Stopped = absl::FunctionRef<bool()>;
 
 struct EnclosureOptions {
   double tolerance = 0.005;  // Wanted: excess <= tolerance.
-  int64_t budget = 200'000;  // Boxes evaluated, at the most (but one is in any case); some 3 us each.
+  int64_t budget = 200'000;  // Boxes evaluated, at the most (but one is in any case); some 2 to 10 us each.
 };
 
 Enclosure Enclose(const PendulumBox& box);
 
 Enclosure Enclose(const PlanarBox& box, const EnclosureOptions& options);
 
-// `to_planar` encloses the contact of a system, for every scene whose parameters lie in the intervals that it is given;
-// the narrower they are, the narrower must its answer be. `ranges` are the whole box.
-using ToPlanar = absl::FunctionRef<PlanarBox(absl::Span<const Interval> ranges)>;
-Enclosure Enclose(absl::Span<const Interval> ranges, ToPlanar to_planar, const EnclosureOptions& options);
+// `to_box` encloses the contact or the pendulum (a of either sign) that a system's scenes come to, for every scene whose
+// parameters lie in the intervals that it is given; the narrower they are, the narrower must its answer be. Where no
+// scene is valid its mu may be empty. `ranges` are the whole box. Branch and bound for both.
+// `stopped` is asked every kBoxesUnasked boxes; once it says yes the answer is what the boxes until then prove.
+using ToBox = absl::FunctionRef<std::variant<PlanarForm, PendulumBox>(absl::Span<const Interval> ranges)>;
+inline constexpr int64_t kBoxesUnasked = 256;
+Enclosure Enclose(absl::Span<const Interval> ranges, ToBox to_box, const EnclosureOptions& options, Stopped stopped);
 
 }  // namespace ricochet
 

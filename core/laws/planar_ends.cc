@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace ricochet {
 namespace {
@@ -66,6 +67,7 @@ Interval PoissonInCompression(const Interval& m, const Interval& rho) {
 
 // x/(x + y) for x, y >= 0.
 Interval Share(const Interval& x, const Interval& y) {
+  if (x.upper == 0.0 && y.lower > 0.0) return 0.0;
   return AtMost(AtLeast(Interval(1.0) / (Interval(1.0) + AtLeast(y / x, 0.0)), 0.0), 1.0);
 }
 
@@ -94,12 +96,13 @@ class OneWay {
         mu_(box.mu),
         own_static_(box.mu_static.has_value()),
         mu_static_(AtLeast(box.mu_static.value_or(box.mu), box.mu.lower)),
+        stick_slope_(box.stick_slope),
         ends_(ends) {}
 
   // Wtn drives slip on, and the contact in: q >= 0.
   void AddDriving(const Interval& q) {
     if (wtt_.upper == 0.0) return AddSliding(wnn_);
-    const Interval determinant = wtt_ * wnn_ - Square(q);
+    const Interval determinant = Determinant(q);
     const Interval full = RankTolerance();
     if (determinant.upper <= full.lower && wtt_.lower > 0.0) return;
     const Interval first = wnn_ - mu_ * q;
@@ -117,7 +120,7 @@ class OneWay {
   // Wtn brakes slip: q = -r <= 0.
   void AddOpposing(const Interval& r) {
     if (wtt_.upper == 0.0) return;
-    const Interval determinant = wtt_ * wnn_ - Square(r);
+    const Interval determinant = Determinant(r);
     const Interval tolerance = RankTolerance();
     if (determinant.lower <= tolerance.upper && determinant.upper >= -tolerance.upper) AddRankOne(r);
     if (determinant.upper <= tolerance.lower) return;
@@ -147,8 +150,16 @@ class OneWay {
 
   Interval RankTolerance() const { return Interval(kRankTolerance) * (wtt_ * wnn_); }
 
+  Interval Determinant(const Interval& q) const {
+    const Interval plain = wtt_ * wnn_ - Square(q);
+    return stick_slope_ ? Both(plain, wtt_ * *stick_slope_) : plain;
+  }
+
   // Wnn - q^2/Wtt
-  Interval StuckSlope(const Interval& q) const { return AtMost(AtLeast(wnn_ - Square(q) / wtt_, 0.0), wnn_.upper); }
+  Interval StuckSlope(const Interval& q) const {
+    const Interval plain = AtMost(AtLeast(wnn_ - Square(q) / wtt_, 0.0), wnn_.upper);
+    return stick_slope_ ? Both(plain, AtLeast(*stick_slope_, 0.0)) : plain;
+  }
 
   // A1/B, monotone in each of its four parameters: it grows with Wnn and, where A1 > 0, falls with Wtt.
   Interval FirstOverBraking(const Stop& stop) const {
@@ -309,6 +320,7 @@ class OneWay {
   Interval wtt_, wnn_, slip_, speed_, mu_;
   bool own_static_;
   Interval mu_static_;
+  std::optional<Interval> stick_slope_;
   PlanarEnds& ends_;
 };
 
@@ -316,7 +328,7 @@ class OneWay {
 
 PlanarEnds EncloseEnds(const PlanarBox& box) {
   PlanarEnds ends;
-  if (box.mu_static && box.mu_static->upper < box.mu.lower) return ends;
+  if (IsEmpty(box.mu) || (box.mu_static && box.mu_static->upper < box.mu.lower)) return ends;
   if (box.v0.upper >= 0.0) ends.normal_dead = ends.normal_elastic = 0.0;
   if (box.v0.lower >= 0.0) return ends;
   for (const bool backwards : {false, true}) {

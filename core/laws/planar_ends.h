@@ -1,5 +1,5 @@
 // The two ends of a planar impact's bounds, the dead impact and the elastic one, over a box of parameters; private to
-// core/laws. core/laws/enclosure.h has the formulas.
+// core/laws. core/laws/enclosure.h has the formulas. A pendulum's `a` may be of either sign.
 
 #ifndef RICOCHET_CORE_LAWS_PLANAR_ENDS_H_
 #define RICOCHET_CORE_LAWS_PLANAR_ENDS_H_
@@ -19,6 +19,8 @@ struct PlanarEnds {
 };
 
 PlanarEnds EncloseEnds(const PlanarBox& box);
+PlanarEnds EncloseEnds(const PlanarForm& form);
+PlanarEnds EncloseEnds(const PendulumBox& box);
 
 }  // namespace ricochet
 

@@ -23,11 +23,9 @@
 #include <limits>
 #include <numbers>
 
-namespace ricochet::compliant::internal {
+#include "core/numerics/elementary.h"
 
-// All that is transcendental here.
-inline double Sin(double radians) { return std::sin(radians); }
-inline double Cos(double radians) { return std::cos(radians); }
+namespace ricochet::compliant::internal {
 
 inline constexpr double kNever = std::numeric_limits<double>::infinity();
 

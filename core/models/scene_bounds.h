@@ -1,4 +1,4 @@
-// SolveSceneBounds, EncloseScene: the bounds of any scene, and of an uncertain one.
+// SolveSceneBounds: the bounds of any scene.
 //
 //   a pendulum over a surface at rest   closed form                           core/models/pendulum_bounds.h
 //   any other planar system             ends of the path's restitution        core/laws/contact_bounds.h
@@ -13,14 +13,9 @@
 #ifndef RICOCHET_CORE_MODELS_SCENE_BOUNDS_H_
 #define RICOCHET_CORE_MODELS_SCENE_BOUNDS_H_
 
-#include <vector>
-
 #include "absl/status/statusor.h"
-#include "absl/types/span.h"
 #include "core/bounds.h"
-#include "core/error.h"
 #include "core/scene/scene.h"
-#include "core/solver.h"
 
 namespace ricochet {
 
@@ -29,15 +24,6 @@ inline constexpr int kSpatialImpacts = 65;
 // `scene` is valid, its restitution set or not, and has no impact law.
 // Errors: OUT_OF_RANGE if W, the contact velocity or a bound, which is named, exceeds the largest double.
 absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene);
-
-// What is wrong with the ranges for this scene; `scene` need not be valid.
-std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRange> ranges);
-
-// The enclosure over all scenes that differ from `scene` in fields within the ranges alone. `scene` is valid and
-// CheckRanges finds nothing.
-// Errors: INVALID_ARGUMENT naming `ranges` if no scene of the box is valid, and planar_contact if its W is of rank one
-// and no range is of W: next to none of the velocities in the ranges could be its.
-absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const FieldRange> ranges);
 
 }  // namespace ricochet
 

@@ -12,7 +12,9 @@
 #define RICOCHET_CORE_NUMERICS_INTERVAL_H_
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace ricochet {
@@ -23,8 +25,16 @@ inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 // Above this a product's, quotient's or root's rounding error is a double.
 inline constexpr double kErrorIsExact = 0x1p-960;
 
-inline double Down(double value, double error) { return error >= 0.0 ? value : std::nextafter(value, -kInfinity); }
-inline double Up(double value, double error) { return error <= 0.0 ? value : std::nextafter(value, kInfinity); }
+// The neighbours of a double; inline, because every operation comes here. An infinity has but one.
+inline double Next(double value) {
+  if (!(value < kInfinity)) return value;
+  if (value == 0.0) return std::numeric_limits<double>::denorm_min();
+  return std::bit_cast<double>(std::bit_cast<int64_t>(value) + (value > 0.0 ? 1 : -1));
+}
+inline double Previous(double value) { return -Next(-value); }
+
+inline double Down(double value, double error) { return error >= 0.0 ? value : Previous(value); }
+inline double Up(double value, double error) { return error <= 0.0 ? value : Next(value); }
 
 struct Rounded {
   double value;
@@ -103,15 +113,19 @@ inline Interval operator+(const Interval& x, const Interval& y) {
 
 inline Interval operator-(const Interval& x, const Interval& y) { return x + -y; }
 
+// The ends of x y, given which ends of x and y multiply to them.
+inline Interval ProductOfEnds(double x_low, double y_low, double x_high, double y_high) {
+  const rounding::Rounded low = rounding::Multiply(x_low, y_low);
+  const rounding::Rounded high = rounding::Multiply(x_high, y_high);
+  return {rounding::Down(low.value, low.error), rounding::Up(high.value, high.error)};
+}
+
 inline Interval operator*(const Interval& x, const Interval& y) {
-  const rounding::Rounded products[] = {rounding::Multiply(x.lower, y.lower), rounding::Multiply(x.lower, y.upper),
-                                        rounding::Multiply(x.upper, y.lower), rounding::Multiply(x.upper, y.upper)};
-  Interval hull(rounding::kInfinity, -rounding::kInfinity);
-  for (const rounding::Rounded& product : products) {
-    hull.lower = std::min(hull.lower, rounding::Down(product.value, product.error));
-    hull.upper = std::max(hull.upper, rounding::Up(product.value, product.error));
-  }
-  return hull;
+  if (x.upper <= 0.0 && x.lower < 0.0) return -(-x * y);
+  if (y.upper <= 0.0 && y.lower < 0.0) return -(x * -y);
+  if (x.lower >= 0.0) return ProductOfEnds(y.lower >= 0.0 ? x.lower : x.upper, y.lower, x.upper, y.upper);
+  if (y.lower >= 0.0) return ProductOfEnds(x.lower, y.upper, x.upper, y.upper);
+  return Hull(ProductOfEnds(x.lower, y.upper, x.lower, y.lower), ProductOfEnds(x.upper, y.lower, x.upper, y.upper));
 }
 
 // By the members of y other than 0; unbounded where they come near it.

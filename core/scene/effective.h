@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "core/numerics/slope_form.h"
 #include "core/outcome.h"
 #include "core/scene/scene.h"
 
@@ -12,6 +13,9 @@ namespace ricochet {
 
 // The factor at `speed` >= 0; 1 where there is no dependence.
 double FactorAt(const std::optional<SpeedDependence>& dependence, double speed);
+
+// Encloses the factor of each speed, all >= 0.
+SlopeForm FactorAt(const std::optional<SpeedDependence>& dependence, const SlopeForm& speed);
 
 // Whether the coefficients depend on the speed at all.
 inline bool DependsOnSpeed(const Scene& scene) {

@@ -1,8 +1,9 @@
 #include "core/scene/linkage_matrices.h"
 
-#include <cmath>
 #include <cstddef>
 #include <vector>
+
+#include "core/numerics/elementary.h"
 
 namespace ricochet {
 
@@ -18,7 +19,7 @@ Eigen::MatrixXd MassMatrix(const Linkage& linkage) {
         link.inertia_com_kg_m2 + link.mass_kg * link.com_m * link.com_m + beyond * link.length_m * link.length_m;
     for (Eigen::Index i = 0; i < k; ++i) {
       const Link& before = links[static_cast<size_t>(i)];
-      mass(i, k) = mass(k, i) = moment * before.length_m * std::cos(before.theta_rad - link.theta_rad);
+      mass(i, k) = mass(k, i) = moment * before.length_m * Cos(before.theta_rad - link.theta_rad);
     }
     beyond += link.mass_kg;
   }
@@ -29,8 +30,8 @@ Eigen::MatrixXd TransposedJacobian(const Linkage& linkage) {
   Eigen::MatrixXd jt(static_cast<Eigen::Index>(linkage.links.size()), 2);
   Eigen::Index i = 0;
   for (const Link& link : linkage.links) {
-    jt(i, 0) = link.length_m * std::cos(link.theta_rad);
-    jt(i, 1) = link.length_m * std::sin(link.theta_rad);
+    jt(i, 0) = link.length_m * Cos(link.theta_rad);
+    jt(i, 1) = link.length_m * Sin(link.theta_rad);
     ++i;
   }
   return jt;
@@ -42,8 +43,7 @@ Eigen::VectorXd GravityMoments(const Linkage& linkage, const Gravity& gravity) {
   for (Eigen::Index k = moments.size() - 1; k >= 0; --k) {
     const Link& link = linkage.links[static_cast<size_t>(k)];
     const double moment = link.mass_kg * link.com_m + beyond * link.length_m;
-    moments(k) =
-        moment * (gravity.tangential_m_s2 * std::cos(link.theta_rad) + gravity.normal_m_s2 * std::sin(link.theta_rad));
+    moments(k) = moment * (gravity.tangential_m_s2 * Cos(link.theta_rad) + gravity.normal_m_s2 * Sin(link.theta_rad));
     beyond += link.mass_kg;
   }
   return moments;

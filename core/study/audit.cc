@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "absl/functional/function_ref.h"
+#include "core/numerics/elementary.h"
 #include "core/numerics/wide.h"
 #include "core/study/coulomb_path.h"
 
@@ -117,7 +118,7 @@ double Charge(const std::array<Number, N>& x, const Vector<N>& weight) {
 template <size_t N>
 double TangentialRatio(const std::array<double, 2>& tangential, double normal) {
   if (!(normal > 0.0)) return 0.0;
-  return (N == 2 ? tangential[0] : std::hypot(tangential[0], tangential[1])) / normal;
+  return (N == 2 ? tangential[0] : Hypot(tangential[0], tangential[1])) / normal;
 }
 
 void Check(AuditLimit kind, double value, double limit, double excess, double allowance, AuditReport& report) {
@@ -224,7 +225,7 @@ class UniqueImpulse {
   }
   double Change() const {
     double length = 0.0;
-    for (const Number& change : change_) length = std::hypot(length, Rounded(change));
+    for (const Number& change : change_) length = Hypot(length, Rounded(change));
     return length;
   }
 
@@ -312,7 +313,7 @@ AuditReport AuditPoint(const PathPoint& point, const PathPoint& moved_back, cons
     report.tangential_impulse_uncertainty[i] = std::abs(point.f[i] - moved_back.f[i]);
   }
   const double v1 = contact.after[N - 1];
-  const double size = std::hypot(point.f[0], point.f[1]);
+  const double size = Hypot(point.f[0], point.f[1]);
   const double cone = contact.mu_static * point.tau;
   const double energy_error = std::max(point.energy_change - moved_back.energy_change, 0.0);
   Check(AuditLimit::kNormalImpulse, point.tau, 0.0, -point.tau, 0.0, report);
@@ -354,7 +355,7 @@ AuditReport AuditRankOne(const Contact<2>& contact, const Line& line, absl::Func
   AuditReport report = AuditPoint(point, moved_back, contact, error[1]);
   const double beyond = std::abs(along - (line.t * point.u[0] + line.n * point.v));
   report.unexplained = !on_line || beyond > along_error;
-  report.distance = report.unexplained ? std::hypot(u1 - point.u[0], v1 - point.v) : 0.0;
+  report.distance = report.unexplained ? Hypot(u1 - point.u[0], v1 - point.v) : 0.0;
   Judge(report);
   return report;
 }
@@ -363,7 +364,7 @@ AuditReport AuditRankOne(const Contact<2>& contact, const Line& line, absl::Func
 // since u and v vanish together.
 AuditReport AuditPlanarRankOne(const planar::Problem& problem, const Contact<2>& contact,
                                const PathPoint& compression) {
-  const double size = std::hypot(problem.wtn, problem.wnn);
+  const double size = Hypot(problem.wtn, problem.wnn);
   const Line line = {problem.wtn / size, problem.wnn / size};
   const auto reach = [&](double v) {
     if (problem.v0 >= 0.0) return compression;
@@ -428,7 +429,7 @@ class NearestPoint {
       : problem_(problem), contact_(contact), end_(end) {}
 
   double DistanceTo(const PathPoint& point) const {
-    return std::hypot(contact_.after[0] - point.u[0], contact_.after[1] - point.u[1], contact_.after[2] - point.v);
+    return Hypot(Hypot(contact_.after[0] - point.u[0], contact_.after[1] - point.u[1]), contact_.after[2] - point.v);
   }
 
   double Find() const {
@@ -482,7 +483,7 @@ AuditReport AuditSpatialDeficient(const spatial::Problem& problem, const Contact
     // First order: how far the path goes in that much velocity.
     const double step = 0x1p-10 * point.tau;
     const PathPoint before = PathAt(problem, point.tau - step);
-    const double way = std::hypot(point.u[0] - before.u[0], point.u[1] - before.u[1], point.v - before.v);
+    const double way = Hypot(Hypot(point.u[0] - before.u[0], point.u[1] - before.u[1]), point.v - before.v);
     const double back = way > 0.0 ? std::min(error / way * step, point.tau) : 0.0;
     moved_back = PathAt(problem, point.tau - back);
   }
@@ -522,13 +523,13 @@ AuditReport Audit(const pendulum::Problem& problem, const PlanarObservation& obs
                            .after = {observation.u1, observation.v1},
                            .mu_static = std::max(problem.mu, problem.mu_static),
                            .uncertainty = observation.uncertainty};
-  const double size = std::hypot(problem.a, problem.b);
+  const double size = Hypot(problem.a, problem.b);
   const Line line = {problem.b / size, problem.a / size};
   return AuditRankOne(contact, line, [&](double v) { return PendulumAt(problem, v / problem.a); });
 }
 
 AuditReport AuditRate(const pendulum::Problem& problem, double omega_plus, double uncertainty) {
-  const double size = std::hypot(problem.a, problem.b);
+  const double size = Hypot(problem.a, problem.b);
   // |along| of the line moves by the sum of its parts.
   const double per_component = uncertainty * size * size / (problem.a + std::abs(problem.b));
   return Audit(problem, {problem.b * omega_plus, problem.a * omega_plus, per_component});

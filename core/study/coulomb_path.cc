@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/numerics/elementary.h"
+
 namespace ricochet::audit {
 namespace {
 
@@ -16,7 +18,7 @@ std::array<double, 2> Tangential(const std::array<double, 2>& value) { return va
 
 double Scale(const planar::Problem& problem) { return std::max(std::abs(problem.u0), std::abs(problem.v0)); }
 double Scale(const spatial::Problem& problem) {
-  return std::max(std::hypot(problem.u0[0], problem.u0[1]), std::abs(problem.v0));
+  return std::max(Hypot(problem.u0[0], problem.u0[1]), std::abs(problem.v0));
 }
 bool Slips(const planar::Problem& problem) { return problem.u0 != 0.0; }
 bool Slips(const spatial::Problem& problem) { return problem.u0[0] != 0.0 || problem.u0[1] != 0.0; }
@@ -96,7 +98,7 @@ PathPoint BeforeCompressionEnds(const spatial::Problem& problem, const spatial::
   point.v = problem.v0;
   if (tau > 0.0) {
     spatial::Problem other = problem;
-    other.w33 = 2.0 * (problem.w33 + problem.mu * std::hypot(problem.w13, problem.w23));
+    other.w33 = 2.0 * (problem.w33 + problem.mu * Hypot(problem.w13, problem.w23));
     other.v0 = -0.5 * problem.w33 * tau;
     const double tau_compression = SolveBy(other, Law::kPoisson, 0.0).tau_compression;
     const spatial::Impact end = SolveBy(other, Law::kPoisson, (tau - tau_compression) / tau_compression);

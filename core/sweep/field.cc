@@ -8,6 +8,7 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/numerics/elementary.h"
 #include "core/scene/reduction.h"
 
 namespace ricochet {
@@ -50,8 +51,8 @@ std::string Storage(const std::string& path) {
 bool Field::Set(double value) const {
   if (const auto* scalar = std::get_if<Scalar>(&driver_)) return scalar->Set(value);
   const auto& phi = std::get<Phi>(driver_);
-  const bool a_is_right = phi.a.Set(phi.distance * std::sin(value));
-  return phi.b.Set(phi.distance * std::cos(value)) && a_is_right;
+  const bool a_is_right = phi.a.Set(phi.distance * Sin(value));
+  return phi.b.Set(phi.distance * Cos(value)) && a_is_right;
 }
 
 // There must be one.
@@ -67,7 +68,7 @@ Field::Scalar Field::Find(const std::string& path, Scene& scene) {
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   auto* const pendulum = std::get_if<Pendulum>(&scene.system);
   if (path == kPhi && pendulum != nullptr) {
-    const double distance = std::hypot(pendulum->a_m, pendulum->b_m);
+    const double distance = Hypot(pendulum->a_m, pendulum->b_m);
     return Field(Field::Phi{Field::Find("pendulum.a_m", scene), Field::Find("pendulum.b_m", scene), distance},
                  {"pendulum.a_m", "pendulum.b_m"});
   }

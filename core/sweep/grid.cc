@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "absl/strings/str_cat.h"
+#include "core/numerics/elementary.h"
 
 namespace ricochet {
 namespace {
@@ -96,7 +97,7 @@ double ValueAt(const Linspace& linspace, int64_t i) {
 double ValueAt(const Logspace& logspace, int64_t i) {
   if (i == 0) return logspace.start;
   if (i == logspace.count - 1) return logspace.stop;
-  return std::exp(std::lerp(std::log(logspace.start), std::log(logspace.stop), Fraction(i, logspace.count)));
+  return Exp(std::lerp(Log(logspace.start), Log(logspace.stop), Fraction(i, logspace.count)));
 }
 
 }  // namespace

@@ -371,5 +371,17 @@ TEST(ColumnTest, EveryColumnIsKnownByItsNameAndNoOther) {
   }
 }
 
+TEST(LocalSolverTest, BoundsEndOnceNobodyWaitsForThem) {
+  const Scene scene = {.system = PlanarBody{1.0, 0.1, 0.2, -0.3, 1.0, -2.0, 0.5},
+                       .friction = {.kinetic_coefficient = 0.5}};
+  const BoundsRequest request = {.scene = scene,
+                                 .ranges = {{"planar_body.offset_t_m", 0.1, 0.3},
+                                            {"planar_body.offset_n_m", -0.4, -0.2},
+                                            {"planar_body.rate_rad_s", 0.25, 0.75}}};
+  EXPECT_TRUE(AnswerBounds(request, [] { return false; }).ok());
+  EXPECT_EQ(AnswerBounds(request, [] { return true; }).status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(LocalSolver().Bounds(request)->enclosure, AnswerBounds(request, [] { return false; })->enclosure);
+}
+
 }  // namespace
 }  // namespace ricochet

@@ -130,6 +130,18 @@ TEST(RoomsTest, TheCoreAsksNoClockAndNoEnvironment) {
   }
 }
 
+// The C library's depend on the processor; core/numerics/elementary.h has those that do not.
+TEST(RoomsTest, TheCoreTakesNoElementaryFunctionFromTheCLibrary) {
+  const std::regex calls(R"(\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(10|2|1p)?|pow|hypot|cbrt)\()");
+  for (const fs::path& path : SourcesOf("core")) {
+    std::ifstream file(path);
+    std::string line;
+    for (int number = 1; std::getline(file, line); ++number) {
+      EXPECT_FALSE(std::regex_search(line, calls)) << RelativePath(path) << ":" << number << ": " << line;
+    }
+  }
+}
+
 // Each of these libraries has one door.
 TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
   struct Library {
@@ -145,6 +157,7 @@ TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
       {"nvector/", {"core/models/finite_duration.cc"}},
       {"sundials/", {"core/models/finite_duration.cc"}},
       {"sunnonlinsol/", {"core/models/finite_duration.cc"}},
+      {"sleef.h", {"core/numerics/elementary.cc"}},
       {"grpcpp/", {"proto/wire/", "server/", "client/"}},
       {"ricochet/v1/", {"proto/wire/", "server/", "client/"}},
   };

@@ -74,6 +74,11 @@ class Ball {
     arb_sqrt(root.value_, x.value_, x.bits_);
     return root;
   }
+  friend Ball Sin(const Ball& x) { return Apply(arb_sin, x); }
+  friend Ball Cos(const Ball& x) { return Apply(arb_cos, x); }
+  friend Ball Exp(const Ball& x) { return Apply(arb_exp, x); }
+  friend Ball Log(const Ball& x) { return Apply(arb_log, x); }
+  friend Ball Pow(const Ball& x, const Ball& y) { return Apply(arb_pow, x, y); }
 
   // True only where every point of one ball compares so with every point of the other. Exact balls are never in doubt.
   friend bool operator<(const Ball& x, const Ball& y) { return arb_lt(x.value_, y.value_); }
@@ -111,6 +116,12 @@ class Ball {
   }
 
  private:
+  template <typename Operation>
+  static Ball Apply(Operation operation, const Ball& x) {
+    Ball result(0.0, x.bits_);
+    operation(result.value_, x.value_, x.bits_);
+    return result;
+  }
   template <typename Operation>
   static Ball Apply(Operation operation, const Ball& x, const Ball& y) {
     Ball result(0.0, std::max(x.bits_, y.bits_));

@@ -11,6 +11,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/laws/contact_bounds.h"
@@ -482,16 +483,18 @@ TEST(EnclosureTest, ABoxWithoutAValidSceneIsEmpty) {
 
 // ---- A system that is not a bare contact ----
 
+bool Never() { return false; }
+
 // A free body, contact offset (x, y) and mass m uncertain: W = [1/m + y^2/I, -xy/I; ., 1/m + x^2/I].
-PlanarBox BodyContact(absl::Span<const Interval> range) {
+std::variant<PlanarForm, PendulumBox> BodyContact(absl::Span<const Interval> range) {
   const Interval inverse = Interval(1.0) / range[2];
   const Interval inertia(0.1);
-  return {.wtt = inverse + Square(range[1]) / inertia,
-          .wtn = -(range[0] * range[1]) / inertia,
-          .wnn = inverse + Square(range[0]) / inertia,
-          .u0 = 1.0,
-          .v0 = -1.0,
-          .mu = 0.4};
+  return PlanarForm{.wtt = inverse + Square(range[1]) / inertia,
+                    .wtn = -(range[0] * range[1]) / inertia,
+                    .wnn = inverse + Square(range[0]) / inertia,
+                    .u0 = 1.0,
+                    .v0 = -1.0,
+                    .mu = 0.4};
 }
 
 TEST(EnclosureTest, EnclosesABodyThroughItsOwnParameters) {
@@ -500,7 +503,7 @@ TEST(EnclosureTest, EnclosesABodyThroughItsOwnParameters) {
     const double inverse = 1.0 / x[2];
     return PlanarBounds({inverse + x[1] * x[1] / 0.1, -x[0] * x[1] / 0.1, inverse + x[0] * x[0] / 0.1, 1.0, -1.0, 0.4});
   };
-  const Enclosure enclosure = Enclose(box, BodyContact, kDefault);
+  const Enclosure enclosure = Enclose(box, BodyContact, kDefault, Never);
   const CoefficientBounds seen = Sampled(box, 1'000'000, 13, bounds_of);
   EXPECT_TRUE(Contains(enclosure.outer, seen));
   EXPECT_LE(Wider(enclosure.outer, seen), 0.01);

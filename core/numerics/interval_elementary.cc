@@ -1,0 +1,65 @@
+#include "core/numerics/interval_elementary.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/numerics/elementary.h"
+
+namespace ricochet {
+namespace {
+
+constexpr Interval kHalfPi = {0x1.921fb54442d18p+0, 0x1.921fb54442d19p+0};
+
+// All that a function may be whose computed value this is.
+Interval Around(double value) {
+  constexpr double kInfinity = rounding::kInfinity;
+  return {std::nextafter(std::nextafter(value, -kInfinity), -kInfinity),
+          std::nextafter(std::nextafter(value, kInfinity), kInfinity)};
+}
+
+// Whether a whole number of quarter turns with this remainder of 4 may lie in between.
+bool HoldsQuarter(const Interval& quarters, int remainder) {
+  const double first = std::ceil(quarters.lower);
+  for (double n = first; n <= std::min(quarters.upper, first + 3.0); n += 1.0) {
+    if (n - 4.0 * std::floor(n / 4.0) == remainder) return true;
+  }
+  return false;
+}
+
+// Of a function of period 4 quarters that is 1 at `top` and -1 two quarters further on.
+Interval Wave(const Interval& radians, double (*function)(double), int top) {
+  const Interval unit(-1.0, 1.0);
+  const Interval low = Around(function(radians.lower));
+  if (IsPoint(radians)) return Intersect(low, unit);
+  const Interval quarters = radians / kHalfPi;
+  if (!(Abs(quarters).upper <= kMostQuarters)) return unit;
+  Interval range = Hull(low, Around(function(radians.upper)));
+  if (HoldsQuarter(quarters, top)) range.upper = 1.0;
+  if (HoldsQuarter(quarters, (top + 2) % 4)) range.lower = -1.0;
+  return Intersect(range, unit);
+}
+
+}  // namespace
+
+Interval Sin(const Interval& radians) {
+  if (radians == Interval(0.0)) return 0.0;
+  return Wave(radians, Sin, 1);
+}
+
+Interval Cos(const Interval& radians) {
+  if (radians == Interval(0.0)) return 1.0;
+  return Wave(radians, Cos, 0);
+}
+
+Interval Pow(const Interval& base, double exponent) {
+  if (exponent == 0.0) return 1.0;
+  if (exponent == 1.0) return base;
+  const auto at = [exponent](double x) {
+    if (x == 0.0) return Interval(exponent > 0.0 ? 0.0 : rounding::kInfinity);
+    return x == 1.0 ? Interval(1.0) : AtLeast(Around(Pow(x, exponent)), 0.0);
+  };
+  if (exponent < 0.0) return {at(base.upper).lower, at(base.lower).upper};
+  return {at(base.lower).lower, at(base.upper).upper};
+}
+
+}  // namespace ricochet
