@@ -60,7 +60,8 @@ std::string ByInequality(Effect effect, const Size& size, const Sizes& sizes) {
       return absl::StrCat("slip may rest after ", Percent(size.number),
                           " of the normal impulse; which coefficient holds it then changes ", most);
     case Effect::kTangentialCompliance:
-      return absl::StrCat("slip may stop, where no inequality is known but that all friction changes ", most);
+      return absl::StrCat("the particle may stick, where no inequality but those of friction is known; it changes ",
+                          most);
     case Effect::kFiniteForces:
       return absl::StrCat("forces act for at most ", Digits(size.number), " s, which changes ", most);
     case Effect::kHigherOrder:

@@ -120,8 +120,10 @@ EndRange EndsBySlopes(const Restoring& restoring, double low, double high) {
 
 EndShift ShiftBySlopes(const Restoring& restoring, const ReferencePath& reference, const Perturbation& change) {
   constexpr double kRounding = 0x1p-48;
-  const double low = std::min(change.slope_low, reference.slope_low);
-  const double high = std::max(change.slope_high, reference.slope_high);
+  // Slopes near 0 are differences of terms near 1.
+  const double most = std::max(change.slope_high, reference.slope_high);
+  const double low = std::min(change.slope_low, reference.slope_low) - kRounding * (1.0 + most);
+  const double high = most + kRounding * (1.0 + most);
   const EndRange a = EndsBySlopes(restoring, reference.slope_low, reference.slope_high);
   const EndRange b = EndsBySlopes(restoring, low, high);
   const double v1 = restoring.law == Law::kNewton
@@ -153,7 +155,8 @@ double LargestChange(const Mobility& mobility, const Restoring& restoring, const
   }
   const double u1 = by.OfU(shift.last) + reference.u_slope * shift.tau1;
   const double f1 = mobility.tangential * (by.OfF(shift.last) + reference.f_slope * shift.tau1);
-  return Padded(std::max({shift.v1, shift.tau1, u1, f1}));
+  const bool bounded = shift.v1 + shift.tau1 + u1 + f1 < kUnbounded;  // And no NaN among them.
+  return bounded ? Padded(std::max({shift.v1, shift.tau1, u1, f1})) : kUnbounded;
 }
 
 }  // namespace ricochet

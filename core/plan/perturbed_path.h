@@ -31,7 +31,8 @@
 //   |d u1| <= e_u(tau1_B) + U |d tau1|,   Wtt |d f1| <= Wtt (e_f(tau1_B) + F |d tau1|).
 //
 // Rounding: lo and L have to be at least 2^-20, else the answer is infinite; inputs right to 2^-30 and the answer,
-// enlarged by 2^-20 of itself, then bounds the true change. Differences that cancel have 2^-48 of their terms added.
+// enlarged by 2^-20 of itself, then bounds the true change. Differences that cancel have 2^-48 of their
+// terms added. `from` has to be below its true value.
 
 #ifndef RICOCHET_CORE_PLAN_PERTURBED_PATH_H_
 #define RICOCHET_CORE_PLAN_PERTURBED_PATH_H_

@@ -1,4 +1,8 @@
 // Plan: which effects an impact was computed with, which were left out, why, and what that can change.
+//
+// core/plan/sizes.h proves the size of each effect, core/plan/choose.h takes the cheapest model within a demand
+// (core/plan/demand.h), core/plan/explain.h says why. Sizes add up: `neglected` is the sum of those left out, and the
+// answer is within that, and the model's own error, of the answer with all effects of the scene.
 
 #ifndef RICOCHET_CORE_PLAN_PLAN_H_
 #define RICOCHET_CORE_PLAN_PLAN_H_
@@ -27,7 +31,7 @@ enum class Decision {
   kUnspecified = 0,
   kAbsent = 1,  // The scene has it not, or it provably never comes into play.
   kSimulated = 2,
-  kNegligible = 3,  // Left out: what that can change is within the tolerance.
+  kNegligible = 3,  // Left out: what all such can change together is within the tolerance.
   kRequired = 4,    // Simulated because the caller says so.
   kExcluded = 5,    // Left out because the caller says so, whatever that changes.
 };
@@ -35,10 +39,11 @@ enum class Decision {
 struct PlannedEffect {
   Effect effect = Effect::kUnspecified;
   Decision decision = Decision::kUnspecified;
-  // The most that leaving it out changes in any contact velocity, or in an impulse times its mobility (Wnn tau, Wtt f),
-  // over max(|u0|, |v0|). 0 where absent; infinite where no bound is known.
+  // The most that leaving it out changes in any contact velocity, or in an impulse times its mobility (Wnn tau, Wtt f; in
+  // space (W11 + W22) |f|), over max(|u0|, |v0|). 0 where absent, and for what friction does where friction itself is
+  // left out; infinite where no bound is known.
   double size = 0.0;
-  std::string reason;  // One sentence.
+  std::string reason;  // One sentence: where the size comes from, with its numbers.
   friend bool operator==(const PlannedEffect&, const PlannedEffect&) = default;
 };
 
@@ -61,7 +66,7 @@ inline constexpr int kModelCount = 11;
 struct Plan {
   Model model = Model::kUnspecified;
   double relative_tolerance = 0.0;     // As asked for.
-  double neglected = 0.0;              // What all effects left out can change together.
+  double neglected = 0.0;              // What all effects left out can change together: the sum of their sizes.
   std::vector<PlannedEffect> effects;  // Every effect once, in order of their numbers.
   friend bool operator==(const Plan&, const Plan&) = default;
 };

@@ -35,10 +35,14 @@ struct Scaled {
   double Braking() const { return mu * mobility.tangential - along; }             // -s u' of A
   double UTerms() const { return mu * mobility.tangential + mobility.coupling; }  // What Braking is a difference of.
   double SlideImpulse() const { return (1.0 + restoring.coefficient) / SlideSlope(); }  // tau1 of A
-  double LeastSlip(double tau) const {                                                  // s u of A, or a little less
-    return slip - Braking() * tau - kRounding * (slip + UTerms() * tau);
+  // What rounding may move of a time on A, over that time.
+  double TimeError() const { return kRounding * (1.0 + (1.0 + mu * mobility.coupling) / SlideSlope()); }
+  // s u of A, or a little less.
+  double LeastSlip(double tau) const {
+    return slip - Braking() * tau - (kRounding * (slip + UTerms() * tau) + TimeError() * std::fabs(Braking()) * tau);
   }
-  double EarliestStop() const { return slip / std::max(Braking() + kRounding * UTerms(), 0.0); }
+  // tau_s, or a little less.
+  double EarliestStop() const { return slip / std::max(Braking() + kRounding * UTerms(), 0.0) * (1.0 - TimeError()); }
   double Change(const ReferencePath& reference, const Perturbation& change) const {
     return Padded(scale * LargestChange(mobility, restoring, reference, change));
   }
@@ -71,23 +75,34 @@ ReferencePath Sliding(const Scaled& contact) {
 
 Size Locking(double cone) { return {.value = kUnbounded, .ground = Ground::kSelfLocking, .number = cone}; }
 
+// What |f| cannot exceed because friction only ever slows slip: 2 (|u0| + w tau1)/W.
+double HeldImpulse(const Scaled& contact) {
+  const double cone = contact.Cone();
+  const double c = contact.restoring.coefficient;
+  const double v1 = contact.restoring.law == Law::kEnergetic ? c * std::sqrt((1.0 + cone) / (1.0 - cone)) : c;
+  const double last = (1.0 + v1) / (1.0 - cone) * (1.0 + 0x1p-20);
+  return 2.0 * (contact.slip + contact.mobility.coupling * last) / contact.mobility.tangential;
+}
+
 Size FrictionSize(const Scaled& contact, const ContactPhysics& physics, bool slips_on) {
   if (contact.friction == 0.0) return {};
   const double cone = contact.Cone();
   const ReferencePath smooth = {.u_slope = contact.mobility.coupling};
   double size =
       contact.Change(smooth, {.f_slope = contact.friction, .slope_low = 1.0 - cone, .slope_high = 1.0 + cone});
-  const double stop = contact.EarliestStop();
-  if (physics.ratio_squared == 0.0 && !slips_on && contact.may_stick && !contact.may_slip && std::isfinite(stop)) {
-    // Slip may stop earlier or later than that by rounding alone.
-    const double late = stop * (1.0 + kRounding) * (contact.Braking() + kRounding * contact.UTerms()) /
-                        std::max(contact.Braking() - kRounding * contact.UTerms(), 0.0);
-    const Perturbation brief = {.f_jump = contact.mu * (contact.slip == 0.0 ? 0.0 : late),
-                                .f_slope = contact.Holding(),
-                                .from = stop,
-                                .slope_low = std::min(contact.SlideSlope(), contact.StickSlope()),
-                                .slope_high = std::max(contact.SlideSlope(), contact.StickSlope())};
-    size = std::min(size, contact.Change(smooth, brief));
+  if (1.0 - cone >= kLeastSlope) {
+    const Perturbation held = {.f_jump = HeldImpulse(contact), .slope_low = 1.0 - cone, .slope_high = 1.0 + cone};
+    size = std::min(size, contact.Change(smooth, held));
+  }
+  const bool sticks = contact.may_stick && !contact.may_slip && contact.SlideSlope() >= kLeastSlope;
+  if (sticks && physics.ratio_squared == 0.0 && !slips_on) {
+    const double stop = contact.EarliestStop();
+    const double latest = contact.slip / std::max(contact.Braking() - kRounding * contact.UTerms(), 0.0);
+    size = std::min(size, contact.Change(smooth, {.f_jump = contact.slip == 0.0 ? 0.0 : contact.mu * latest,
+                                                  .f_slope = contact.Holding(),
+                                                  .from = contact.slip == 0.0 ? 0.0 : stop,
+                                                  .slope_low = std::min(contact.SlideSlope(), contact.StickSlope()),
+                                                  .slope_high = std::max(contact.SlideSlope(), contact.StickSlope())}));
   }
   if (!(size < kUnbounded)) return Locking(cone);
   return {.value = size, .ground = Ground::kInequality, .number = cone};
@@ -107,7 +122,7 @@ Size SlidingThroughout(const Scaled& contact, const planar::Problem& problem) {
 
 // What a change of friction from the earliest stop on can do; `path` is A.
 Size AfterStop(const Scaled& contact, const ReferencePath& path, double f_slope, double low, double high) {
-  const double stop = contact.slip == 0.0 ? 0.0 : contact.EarliestStop() * (1.0 - kRounding);
+  const double stop = contact.slip == 0.0 ? 0.0 : contact.EarliestStop();
   const double size = contact.Change(path, {.f_slope = f_slope, .from = stop, .slope_low = low, .slope_high = high});
   if (!(size < kUnbounded)) return Locking(contact.Cone());
   return {.value = size,
@@ -160,19 +175,58 @@ Size StaticSize(const Scaled& contact, const planar::Problem& problem) {
   const double stick = contact.StickSlope();
   if (!(stick >= kLeastSlope)) return Locking(contact.Cone());
   const double change = contact.Holding() * (1.0 + kRounding) - contact.mu;
-  return AfterStop(contact, reversing, std::max(change, 0.0), stick, stick);
+  const Size size = AfterStop(contact, reversing, std::max(change, 0.0), stick, stick);
+  if (contact.slip == 0.0 || !(first >= kLeastSlope)) return size;
+  const Size to_stick = AfterStop(contact, Sliding(contact), contact.Holding() + contact.mu, stick, stick);
+  Size both = AfterStop(contact, Sliding(contact), 2.0 * contact.mu, 1.0 - cone, 1.0 - cone);
+  both.value += to_stick.value;
+  return both.value < size.value ? both : size;
+}
+
+// The earliest normal impulse at which a compliant or a rigid contact, both sliding until then, may stop.
+double EarliestParting(const Scaled& contact, double lag) {
+  const double start = contact.slip - lag * (1.0 + kRounding);
+  if (start <= 0.0 || !(contact.SlideSlope() >= kLeastSlope)) return 0.0;
+  const double rest = 1.0 / contact.SlideSlope();
+  const double at_rest = contact.LeastSlip(rest);
+  if (at_rest > 0.0) return contact.EarliestStop();
+  return start / (start - at_rest) * rest * (1.0 - contact.TimeError());
+}
+
+// The normal impulse after which a compliant and a rigid contact that cannot stick both slide towards sgn Wtn; infinite
+// where that does not come before compression ends.
+double LatestMeeting(const Scaled& contact, double lag) {
+  const double drive =
+      contact.mobility.coupling - contact.mu * contact.mobility.tangential - kRounding * contact.UTerms();
+  if (!(drive > 0.0)) return kUnbounded;
+  const double slip = contact.along < 0.0 ? -contact.slip : contact.slip;  // Towards sgn Wtn.
+  const double wait = std::max(0.0, (lag * (1.0 + kRounding) - slip * (1.0 - kRounding)) / drive);
+  // (t - wait)^2 = 2 b t
+  const double b = 4.0 * lag / drive;
+  const double meeting = (wait + b + std::sqrt(b * (b + 2.0 * wait))) * (1.0 + 0x1p-20);
+  return meeting * (1.0 + contact.Cone()) < 1.0 ? meeting : kUnbounded;
 }
 
 Size ComplianceSize(const Scaled& contact, const planar::Problem& problem, const ContactPhysics& physics,
                     double friction) {
-  if (physics.ratio_squared == 0.0) return {};
-  if (contact.mu == 0.0) return {};
+  if (physics.ratio_squared == 0.0 || contact.mu == 0.0) return {};
   const double lag = contact.mu * physics.ratio_squared;
-  if (contact.slip > lag * (1.0 + kRounding) && SlidesThroughout(contact)) {
-    return SlidingThroughout(contact, problem);
-  }
-  if (!(friction < kUnbounded)) return Locking(contact.Cone());
-  return {.value = 2.0 * friction, .ground = Ground::kInequality, .number = contact.Cone()};
+  if (contact.slip > lag * (1.0 + kRounding) && SlidesThroughout(contact)) return SlidingThroughout(contact, problem);
+  const double cone = contact.mu * contact.mobility.coupling;
+  if (!(1.0 - cone >= kLeastSlope)) return Locking(cone);
+  const auto change = [&](const ReferencePath& path, double jump, double slope, double from) {
+    return contact.Change(
+        path, {.f_jump = jump, .f_slope = slope, .from = from, .slope_low = 1.0 - cone, .slope_high = 1.0 + cone});
+  };
+  const ReferencePath rigid = {
+      .slope_low = 1.0 - cone, .slope_high = 1.0 + cone, .u_slope = contact.UTerms(), .f_slope = contact.friction};
+  double size = std::min(2.0 * friction, change(rigid, HeldImpulse(contact), 0.0, 0.0));
+  const double parting = EarliestParting(contact, lag);
+  if (parting > 0.0) size = std::min(size, 2.0 * change(Sliding(contact), 0.0, 2.0 * contact.mu, parting));
+  const double meeting = LatestMeeting(contact, lag);
+  if (meeting < kUnbounded) size = std::min(size, change(rigid, 2.0 * contact.mu * meeting, 0.0, 0.0));
+  if (!(size < kUnbounded)) return Locking(cone);
+  return {.value = size, .ground = Ground::kInequality, .number = cone};
 }
 
 Size DurationSize(const ContactPhysics& physics) {

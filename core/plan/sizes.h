@@ -12,8 +12,11 @@
 // that is <= mu_s). c >= 1 is possible self-locking: v' may vanish, no bound is known, all sizes but 0 are infinite.
 //
 //   friction       A without friction, v' = 1. B: |f'| <= m, v' in [1 - c, 1 + c]. That is so for any law of friction,
-//                  for a compliant contact too (|F| <= mu N). A rigid contact whose slip stops at tau_s does
-//                  better where it sticks: |f_B| <= mu tau_s + (w/W)(tau - tau_s)+, v' = 1 - s mu w, then 1 - w^2/W.
+//                  for a compliant contact too (|F| <= mu N). Nor can friction do more than hold: it only takes from
+//                  u^2/2 W + (what a tangential spring stores), to which w adds at most w |u|/W, so that
+//                  |u_B| <= |u0| + w tau and |f_B| = |u_B - u0 - wtn tau|/W <= 2 (|u0| + w tau)/W. A rigid contact whose slip
+//                  stops at tau_s to stick: |f_B| <= mu tau_s + (w/W)(tau - tau_s)+, v' = 1 - s mu w, then 1 - w^2/W.
+//                  The smallest bound counts.
 //   pendulum       exactly, with x = mu |b|/a, r = (1 - x)/(1 + x), in units of a |w-|:
 //                  |d v1| = eta (1 - sqrt r), Poisson 2 k x/(1 + x), Newton 0; |d u1| = |b|/a |d v1|;
 //                  Wnn tau1 = (1 + kappa)/(1 + x) in place of 1 + c; Wtt f1 = (|b|/a) x (1 - kappa)/(1 + x).
@@ -21,12 +24,21 @@
 //   stops          then it sticks, f' off by mu - s w/W and v' = 1 - w^2/W, or reverses, f' off by 2 mu and
 //                  v' = 1 - mu w. Size 0 if A's s u is above its rounding up to A's end: then B never stops either.
 //   static         comes in only if slip rests (as above) and mu W < w <= mu_s W, decided exactly. A reverses, B sticks:
-//   friction       f' off by w/W - mu from tau_s on.
+//   friction       f' off by w/W - mu from tau_s on. Or both against slip that goes on, if that sum is smaller.
 //   tangential     A rigid. B: particle with speed S = s u + mu ratio^2 kn v as it slides, kn = 1 in compression and
 //   compliance     1/eta^2 after. If S > 0 at the start, s u0 > mu ratio^2 |v0|, and s u > 0 up to A's end, then
 //                  S > 0 throughout, it being linear in tau in compression and >= s u after: both slide,
-//                  the impulses are the same, size 0. Once slip may stop, no inequality is known but that both
-//                  lie within friction's bound of the frictionless impact: twice that.
+//                  the impulses are the same, size 0. Else the smallest of
+//                  1. twice friction's bound: both lie within that of the frictionless impact;
+//                  2. |f_B - f_A| = |u_B - u_A|/W <= 2 (|u0| + w tau)/W, as for friction;
+//                  3. twice (f' off by 2 mu from tau_p on), against slip that goes on: until tau_p, when S as above or
+//                     s u first vanishes, both slide;
+//                  4. where w > mu W, sgn wtn u grows by at least a = w - mu W: A slides that way once it has
+//                     stopped. S = u sgn wtn + mu ratio^2 v is above a (tau - t0) from t0 = (mu ratio^2 - u0 sgn wtn)/a
+//                     on. In a stick the gap between mu N and the force shrinks at the rate S in time, from at most
+//                     2 mu N ratio^2/k, N^2/2k <= tau being the work so far: closed, for B to slide that way for good, when
+//                     a (tau - t0)^2/2 >= 4 mu ratio^2 tau. If that is still in compression, |f_B - f_A| <= 2 mu tau.
+//                  So no inequality tells how a stick ends once slip may stop; only that it does little.
 //   finite         Without finite forces time is no part of the equations in tau, and any spring that gives back eta^2
 //   duration       of its work ends where eta does: size 0. Hunt and Crossley's damping is the restitution itself:
 //                  infinite.

@@ -194,6 +194,7 @@ Size StaticSize(const Scaled& contact, double speed, const Size& stop) {
   if (!disagree || contact.mobility.coupling == 0.0) return {.ground = Ground::kDecidesNothing};
   if (contact.slip > 0.0 && stop.ground == Ground::kSlidesThroughout) return stop;
   const double cone = contact.Friction() * contact.mobility.coupling;
+  if (!(1.0 - cone >= kLeastSlope)) return Locking(cone);
   const double impulse = LongestImpulse(contact.restoring, 1.0 - cone, 1.0 + cone);
   const double from = contact.slip / contact.Terms() * (1.0 - kRounding);
   if (from > impulse * (1.0 + 0x1p-20)) {

@@ -1,0 +1,66 @@
+// What tangential compliance changes never exceeds its size, and is nothing while the particle slides throughout.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/models/compliant.h"
+#include "core/models/planar.h"
+#include "core/plan/sizes.h"
+#include "tests/support/impact_change.h"
+#include "tests/support/impact_tally.h"
+#include "tests/support/plan_scenes.h"
+#include "tests/support/planned_answer.h"
+
+namespace ricochet {
+namespace {
+
+constexpr int kScenes = 100'000;
+
+// Everyday conditioning: near rank one, or near locking, a compliant contact may rattle for ever.
+planar::Problem Scene(PlanScenes& scenes) {
+  planar::Problem problem = scenes.OfManyScales();
+  while (problem.wtn * problem.wtn > 0.99 * problem.wtt * problem.wnn) problem = scenes.OfManyScales();
+  problem.law = planar::Law::kEnergetic;
+  problem.mu = std::min(problem.mu, 0.9 * problem.wnn / std::fabs(problem.wtn));
+  problem.mu_static = problem.mu;
+  return problem;
+}
+
+TEST(ComplianceSizeTest, OfTangentialCompliance) {
+  PlanScenes scenes(11);
+  ImpactTally tally("tangential compliance");
+  for (int i = 0; i < kScenes; ++i) {
+    planar::Problem problem = Scene(scenes);
+    const double ratio_squared = scenes.Power(-2.0, 1.0);
+    // Near where the particle sticks at once.
+    if (scenes.Below(16) == 0) {
+      problem.u0 = std::copysign(
+          problem.mu * ratio_squared * problem.v0 * (1.0 + scenes.Sign() * scenes.Power(-12.0, 0.0)), problem.u0);
+    }
+    const compliant::Impact with = compliant::Solve(CompliantOf(problem, ratio_squared));
+    const auto without = EndingOf(planar::Solve(problem));
+    const Size size = PlanarSizes(problem, {.ratio_squared = ratio_squared})[Effect::kTangentialCompliance];
+    tally.Add(size, ChangeBetween(problem, EndingOf(with), without), 4.0 * with.error_estimate + 1e-14,
+              scenes.Tolerance());
+  }
+  tally.Finish(1000);
+}
+
+TEST(ComplianceSizeTest, FrictionOfACompliantContact) {
+  PlanScenes scenes(12);
+  ImpactTally tally("friction, compliant");
+  for (int i = 0; i < kScenes / 2; ++i) {
+    const planar::Problem problem = Scene(scenes);
+    const double ratio_squared = scenes.Power(-2.0, 1.0);
+    const compliant::Impact with = compliant::Solve(CompliantOf(problem, ratio_squared));
+    const auto without = EndingOf(planar::Solve(Smooth(problem)));
+    const Size size = PlanarSizes(problem, {.ratio_squared = ratio_squared})[Effect::kFriction];
+    tally.Add(size, ChangeBetween(problem, EndingOf(with), without), 4.0 * with.error_estimate + 1e-14,
+              scenes.Tolerance());
+  }
+  tally.Finish(1000);
+}
+
+}  // namespace
+}  // namespace ricochet

@@ -1,0 +1,113 @@
+// A plan in words: every effect once, in order, each with its reason and numbers.
+
+#include "core/plan/explain.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "tests/support/plan_scenes.h"
+
+namespace ricochet {
+namespace {
+
+planar::Problem Slider() {
+  return {.wtt = 1.0, .wtn = 0.1, .wnn = 1.0, .u0 = 5.0, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3, .coefficient = 0.5};
+}
+
+const PlannedEffect& On(const Plan& plan, Effect effect) { return plan.effects[static_cast<size_t>(effect) - 1]; }
+
+Plan PlanOf(const planar::Problem& problem, const ContactPhysics& physics, const Demand& demand) {
+  return Explain(ChoosePlanar(problem, physics, demand), demand);
+}
+
+TEST(ExplainTest, EveryEffectOnceInOrderWithAReason) {
+  PlanScenes scenes(41);
+  for (int i = 0; i < 20'000; ++i) {
+    const Demand demand = {.relative_tolerance = scenes.Tolerance()};
+    const Plan plans[] = {Explain(ChoosePlanar(scenes.Planar(), {.ratio_squared = 0.5}, demand), demand),
+                          Explain(ChoosePendulum(scenes.Pendulum(), {}, demand), demand),
+                          Explain(ChooseSpatial(scenes.Spatial(), demand), demand)};
+    for (const Plan& plan : plans) {
+      ASSERT_EQ(plan.effects.size(), static_cast<size_t>(kEffectCount - 1));
+      double neglected = 0.0;
+      for (size_t k = 0; k < plan.effects.size(); ++k) {
+        const PlannedEffect& planned = plan.effects[k];
+        EXPECT_EQ(static_cast<size_t>(planned.effect), k + 1);
+        EXPECT_NE(planned.decision, Decision::kUnspecified);
+        EXPECT_FALSE(planned.reason.empty());
+        if (planned.decision == Decision::kAbsent) {
+          EXPECT_EQ(planned.size, 0.0);
+        }
+        if (planned.decision == Decision::kNegligible) neglected += planned.size;
+      }
+      EXPECT_EQ(plan.neglected, neglected);
+      EXPECT_EQ(plan.relative_tolerance, demand.relative_tolerance);
+    }
+  }
+}
+
+// u1 = 5 + (0.1 - 0.3) tau1, tau1 = 1.5/0.97.
+TEST(ExplainTest, SlipThatNeverStopsSaysWhereItEnds) {
+  const Plan plan = PlanOf(Slider(), {.ratio_squared = 1.2}, {.relative_tolerance = 1e-3});
+  EXPECT_EQ(plan.model, Model::kSliding);
+  EXPECT_EQ(On(plan, Effect::kSlipStop).reason, "slip never stops: it ends at 4.69 m/s");
+  EXPECT_EQ(On(plan, Effect::kTangentialCompliance).reason, "the particle slides throughout");
+  EXPECT_EQ(On(plan, Effect::kSlipTurn).reason, "in a plane slip has no way to turn");
+  EXPECT_EQ(On(plan, Effect::kStaticFriction).reason, "the static coefficient is the kinetic one");
+  EXPECT_EQ(On(plan, Effect::kFiniteForces).reason, "there are no finite forces");
+}
+
+TEST(ExplainTest, FrictionSaysWhatItIsInAndWhatItChanges) {
+  planar::Problem problem = Slider();
+  problem.mu = problem.mu_static = 1e-4;
+  const Plan plan = PlanOf(problem, {}, {.relative_tolerance = 1e-2});
+  EXPECT_EQ(plan.model, Model::kFrictionless);
+  const PlannedEffect& friction = On(plan, Effect::kFriction);
+  EXPECT_EQ(friction.decision, Decision::kNegligible);
+  EXPECT_EQ(friction.reason, "mu |Wtn|/Wnn = 1e-05: friction changes velocities by at most 3.03e-05");
+}
+
+TEST(ExplainTest, APendulumSpeaksOfX) {
+  const pendulum::Problem problem = {
+      .inertia = 1.0, .a = 1.0, .b = 0.1, .omega_minus = -1.0, .mu = 0.1, .mu_static = 0.1, .coefficient = 0.5};
+  const Demand demand = {.relative_tolerance = 1e-3};
+  const Plan plan = Explain(ChoosePendulum(problem, {}, demand), demand);
+  EXPECT_EQ(On(plan, Effect::kFriction).reason.substr(0, 20), "x = mu |b|/a = 0.01:");
+  EXPECT_EQ(On(plan, Effect::kSlipStop).reason, "slip stops where compression ends, as that of every pendulum does");
+  EXPECT_EQ(On(plan, Effect::kHigherOrder).decision, Decision::kNegligible);
+}
+
+TEST(ExplainTest, WhatLivesOnFrictionIsCountedThere) {
+  const Plan plan = PlanOf(Slider(), {}, {.excluded = {Effect::kFriction}});
+  EXPECT_EQ(On(plan, Effect::kFriction).decision, Decision::kExcluded);
+  EXPECT_GT(On(plan, Effect::kFriction).size, 0.09);
+  EXPECT_EQ(plan.neglected, On(plan, Effect::kFriction).size);
+}
+
+TEST(ExplainTest, SelfLockingAndDampingHaveNoBound) {
+  planar::Problem jam = Slider();
+  jam.wtn = 0.9;
+  jam.mu = jam.mu_static = 1.2;
+  const Plan locked = PlanOf(jam, {}, {});
+  EXPECT_TRUE(std::isinf(On(locked, Effect::kFriction).size));
+  EXPECT_EQ(
+      On(locked, Effect::kFriction).reason,
+      "friction may lock the contact, the coefficient times the coupling being 1.08 of Wnn: no inequality is known");
+  const Plan damped = PlanOf(Slider(), {.spring = HuntCrossleySpring{1e6, 1.5, 0.3}}, {});
+  EXPECT_EQ(On(damped, Effect::kFiniteDuration).reason, "the spring's damping is the restitution");
+}
+
+TEST(ExplainTest, ASeparatingContactSaysSo) {
+  planar::Problem problem = Slider();
+  problem.v0 = 1.0;
+  const Plan plan = PlanOf(problem, {}, {});
+  EXPECT_EQ(plan.model, Model::kNone);
+  for (const PlannedEffect& planned : plan.effects) {
+    EXPECT_EQ(planned.reason, "the contact separates: nothing happens");
+  }
+}
+
+}  // namespace
+}  // namespace ricochet

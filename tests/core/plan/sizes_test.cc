@@ -1,0 +1,159 @@
+// Each inequality by itself: the true change never exceeds it, and it is not vacuous.
+//
+// The true change is between two exact impacts, with the effect and without it. Not vacuous: of the scenes whose true
+// change is below a hundredth of a random tolerance, the size lets at least 90 % leave the effect out; once over all
+// scenes, once over those where it is not absent by proof. (Static friction in play is sized, but not sharply: no
+// model is cheaper without it.)
+
+#include "core/plan/sizes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/models/first_order.h"
+#include "core/models/sliding.h"
+#include "tests/support/impact_change.h"
+#include "tests/support/impact_tally.h"
+#include "tests/support/plan_scenes.h"
+
+namespace ricochet {
+namespace {
+
+constexpr int kScenes = 100'000;
+
+// Rounding of exact models, where an answer is large beside max(|u0|, |v0|).
+double NoiseOf(const planar::Problem& problem, const Ending<1>& end) {
+  return 0x1p-50 * (1.0 + ChangeBetween(problem, {}, end));
+}
+
+TEST(SizesTest, FrictionOfAPlanarContact) {
+  PlanScenes scenes(1);
+  ImpactTally tally("friction");
+  for (int i = 0; i < kScenes; ++i) {
+    const planar::Problem problem = scenes.Planar();
+    const auto with = EndingOf(planar::Solve(problem));
+    const auto without = EndingOf(planar::Solve(Smooth(problem)));
+    const Size size = PlanarSizes(problem, {})[Effect::kFriction];
+    tally.Add(size, ChangeBetween(problem, with, without), NoiseOf(problem, with), scenes.Tolerance());
+  }
+  tally.Finish(1000);
+  tally.ExpectSharpInPlay();
+}
+
+TEST(SizesTest, SlipThatStopsInAPlane) {
+  PlanScenes scenes(2);
+  ImpactTally tally("slip that stops");
+  for (int i = 0; i < kScenes; ++i) {
+    const planar::Problem problem = scenes.Planar();
+    const Size size = PlanarSizes(problem, {})[Effect::kSlipStop];
+    if (problem.u0 == 0.0 || problem.mu == 0.0 || planar::SceneSource::IsRankOne(problem)) continue;
+    if (problem.coefficient > 1.0 || !(sliding::SlidingSlopes(LineOf(problem)).v > 1e-6 * problem.wnn)) continue;
+    const auto with = EndingOf(planar::Solve(problem));
+    const auto without = EndingOf(sliding::SolveEnd(LineOf(problem)));
+    const double noise = NoiseOf(problem, with) + sliding::ErrorsOf(LineOf(problem)).Largest();
+    tally.Add(size, ChangeBetween(problem, with, without), noise, scenes.Tolerance());
+  }
+  tally.Finish(1000);
+  tally.ExpectSharpInPlay();
+}
+
+TEST(SizesTest, StaticFrictionInAPlane) {
+  PlanScenes scenes(3);
+  ImpactTally tally("static friction");
+  for (int i = 0; i < kScenes; ++i) {
+    planar::Problem problem = scenes.Planar();
+    if (scenes.Below(8) == 0) problem.mu = std::fabs(problem.wtn) / problem.wtt * (1.0 - scenes.Power(-6.0, -0.5));
+    problem.mu_static = problem.mu * (1.0 + scenes.Power(-4.0, 1.0));
+    if (!std::isfinite(problem.mu)) continue;
+    const auto with = EndingOf(planar::Solve(problem));
+    const auto without = EndingOf(planar::Solve(WithoutStatic(problem)));
+    const Size size = PlanarSizes(problem, {})[Effect::kStaticFriction];
+    tally.Add(size, ChangeBetween(problem, with, without), NoiseOf(problem, with), scenes.Tolerance());
+  }
+  tally.Finish(1000);
+}
+
+TEST(SizesTest, FrictionOfAPendulum) {
+  PlanScenes scenes(4);
+  ImpactTally tally("friction, pendulum");
+  for (int i = 0; i < kScenes; ++i) {
+    const pendulum::Problem problem = scenes.Pendulum();
+    const planar::Problem planar = PlanarOf(problem);
+    const auto with = EndingOf(pendulum::Solve(problem));
+    const auto without = EndingOf(pendulum::Solve(Smooth(problem)));
+    const Size size = PendulumSizes(problem, {})[Effect::kFriction];
+    tally.Add(size, ChangeBetween(planar, with, without), NoiseOf(planar, with), scenes.Tolerance());
+  }
+  tally.Finish(1000);
+  tally.ExpectSharpInPlay();
+}
+
+TEST(SizesTest, HigherOrderOfAPendulum) {
+  PlanScenes scenes(5);
+  ImpactTally tally("higher order");
+  for (int i = 0; i < kScenes; ++i) {
+    const pendulum::Problem problem = scenes.Pendulum();
+    const Size size = PendulumSizes(problem, {})[Effect::kHigherOrder];
+    if (!first_order::Serves(problem)) continue;
+    const planar::Problem planar = PlanarOf(problem);
+    const auto with = EndingOf(pendulum::Solve(problem));
+    const auto without = EndingOf(first_order::Solve(problem));
+    tally.Add(size, ChangeBetween(planar, with, without), NoiseOf(planar, with), scenes.Tolerance());
+  }
+  tally.Finish(1000);
+  tally.ExpectSharpInPlay();
+}
+
+TEST(SizesTest, FrictionInSpace) {
+  PlanScenes scenes(6);
+  ImpactTally tally("friction, space");
+  for (int i = 0; i < kScenes / 4; ++i) {
+    const spatial::Problem problem = scenes.Spatial();
+    const spatial::Impact with = spatial::Solve(problem);
+    const auto without = EndingOf(spatial::Solve(Smooth(problem)));
+    const Size size = SpatialSizes(problem)[Effect::kFriction];
+    tally.Add(size, ChangeBetween(problem, EndingOf(with), without), with.error_estimate, scenes.Tolerance());
+  }
+  tally.Finish(1000);
+  tally.ExpectSharpInPlay();
+}
+
+// The form that leaves out the one leaves out the other.
+TEST(SizesTest, SlipThatTurnsOrStopsInSpace) {
+  PlanScenes scenes(7);
+  ImpactTally tally("slip that turns and stops");
+  for (int i = 0; i < kScenes / 4; ++i) {
+    const spatial::Problem problem = scenes.Spatial();
+    const auto line = LineOf(problem);
+    if (!(sliding::SlidingSlopes(line).v > 1e-6 * problem.w33)) continue;
+    const spatial::Impact with = spatial::Solve(problem);
+    const Sizes sizes = SpatialSizes(problem);
+    Size size = sizes[Effect::kSlipTurn];
+    size.value += sizes[Effect::kSlipStop].value;
+    const double noise = with.error_estimate + sliding::ErrorsOf(line).Largest();
+    tally.Add(size, ChangeBetween(problem, EndingOf(with), EndingOf(sliding::SolveEnd(line))), noise,
+              scenes.Tolerance());
+  }
+  tally.Finish(1000);
+  tally.ExpectSharpInPlay();
+}
+
+TEST(SizesTest, StaticFrictionInSpace) {
+  PlanScenes scenes(8);
+  ImpactTally tally("static friction, space");
+  for (int i = 0; i < kScenes / 4; ++i) {
+    spatial::Problem problem = scenes.Spatial();
+    if (scenes.Below(8) == 0) problem.mu = spatial::SceneSource::StickFriction(problem) * scenes.Uniform(0.5, 1.0);
+    problem.mu_static = problem.mu * scenes.Uniform(1.0, 3.0);
+    const spatial::Impact with = spatial::Solve(problem);
+    const spatial::Impact without = spatial::Solve(WithoutStatic(problem));
+    const Size size = SpatialSizes(problem)[Effect::kStaticFriction];
+    tally.Add(size, ChangeBetween(problem, EndingOf(with), EndingOf(without)),
+              with.error_estimate + without.error_estimate, scenes.Tolerance());
+  }
+  tally.Finish(1000);
+}
+
+}  // namespace
+}  // namespace ricochet
