@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/error.h"
+#include "core/models/certified/certified.h"
 #include "core/models/scene_bounds.h"
 #include "core/models/scene_enclosure.h"
 #include "core/models/scene_outcome.h"
@@ -54,11 +55,39 @@ std::vector<Violation> CheckSolve(const SolveRequest& request) {
   return violations;
 }
 
+void CheckDigits(const Scene& scene, int digits, std::vector<Violation>& violations) {
+  if (digits == 0) return;
+  for (Violation& violation : CheckCertifiable(scene, digits)) violations.push_back(std::move(violation));
+}
+
+void CheckCertified(const SolveRequest& request, std::vector<Violation>& violations) {
+  CheckDigits(request.scene, request.certified_digits, violations);
+  if (request.certified_digits != 0 && request.plan_only) {
+    violations.push_back({"plan_only", "is set: must not be, with certified_digits: a plan has no numbers to prove"});
+  }
+}
+
+// Sets `certificate` if the request asks for one.
+absl::Status Keep(absl::StatusOr<Certificate> certified, std::optional<Certificate>& certificate) {
+  if (!certified.ok()) return certified.status();
+  certificate = *std::move(certified);
+  return absl::OkStatus();
+}
+absl::Status Certify(const SolveRequest& request, std::optional<Certificate>& certificate) {
+  if (request.certified_digits == 0) return absl::OkStatus();
+  return Keep(CertifySolve(request.scene, request.certified_digits), certificate);
+}
+absl::Status Certify(const BoundsRequest& request, std::optional<Certificate>& certificate) {
+  if (request.certified_digits == 0) return absl::OkStatus();
+  return Keep(CertifyBounds(request.scene, request.certified_digits), certificate);
+}
+
 }  // namespace
 
 absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) const {
   auto violations = Validate(request.scene);
   if (violations.empty()) violations = CheckSolve(request);
+  if (violations.empty()) CheckCertified(request, violations);
   if (!violations.empty()) return InvalidRequest(violations);
   absl::StatusOr<Outcome> outcome = request.plan_only
                                         ? PlanSceneOnly(request.scene, ToDemand(request.demand))
@@ -67,6 +96,8 @@ absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) co
                                                                      .demand = DemandOf(request)});
   if (!outcome.ok()) return outcome.status();
   if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
+  const absl::Status certified = Certify(request, outcome->certificate);
+  if (!certified.ok()) return certified;
   return SolveResponse{.outcome = *std::move(outcome), .engine = ThisEngine()};
 }
 
@@ -80,10 +111,13 @@ absl::StatusOr<BoundsResponse> AnswerBounds(const BoundsRequest& request, absl::
     violations.push_back({"impact_law", "is set: must not be, for bounds"});
   }
   for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
+  CheckDigits(request.scene, request.certified_digits, violations);
   if (!violations.empty()) return InvalidRequest(violations);
   const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene);
   if (!bounds.ok()) return bounds.status();
-  BoundsResponse response{.bounds = *bounds, .engine = ThisEngine(), .enclosure = std::nullopt};
+  BoundsResponse response{.bounds = *bounds, .engine = ThisEngine()};
+  const absl::Status certified = Certify(request, response.certificate);
+  if (!certified.ok()) return certified;
   if (request.ranges.empty()) return response;
   const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, stopped);
   if (!enclosure.ok()) return enclosure.status();

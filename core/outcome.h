@@ -11,28 +11,11 @@
 #include <optional>
 #include <vector>
 
+#include "core/certificate.h"
 #include "core/plan/plan.h"
+#include "core/regime.h"
 
 namespace ricochet {
-
-// What the contact point did. The numbers are those of ricochet.v1.Regime.
-enum class Regime {
-  kUnspecified = 0,
-  kFrictionless = 1,  // x = mu |b|/a = 0: no tangential coupling, the three coefficients are equal.
-  kRebound = 2,       // Pendulum, 0 < x < 1: slip reverses where compression ends.
-  kSliding = 3,
-  kStickInCompression = 4,
-  kStickInRestitution = 5,
-  kReversalInCompression = 6,
-  kReversalInRestitution = 7,
-  kLocked = 8,       // The pin and friction hold the body: no restitution, velocities 0, coefficients 0.
-  kWedged = 9,       // A compliant contact that never ends.
-  kSeparating = 10,  // The contact does not approach: nothing changes.
-  kInvalid = 11,     // Sweeps and batches only: a point that breaks a rule or overflows; its columns are quiet NaN.
-  kByLaw = 12,       // An impact law says how the impact ends, not how it goes on: nothing is known by phases.
-  kNoSolution = 13,  // An impact law contradicts itself: no impulse, nothing changes.
-};
-inline constexpr int kRegimeCount = 14;
 
 struct Coefficients {
   double newton = 0.0;
@@ -192,6 +175,7 @@ struct Outcome {
   std::vector<ImpactSolution> alternatives;  // Of a Kane-Levinson law with several solutions or none.
   Plan plan;
   std::optional<ContactDuration> contact;  // Present exactly if the model is that of finite duration.
+  std::optional<Certificate> certificate;  // Present exactly if SolveRequest::certified_digits asks for it.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 

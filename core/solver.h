@@ -7,6 +7,7 @@
 #ifndef RICOCHET_CORE_SOLVER_H_
 #define RICOCHET_CORE_SOLVER_H_
 
+#include <cstdint>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -15,6 +16,7 @@
 #include "absl/status/statusor.h"
 #include "core/audit.h"
 #include "core/bounds.h"
+#include "core/certificate.h"
 #include "core/engine.h"
 #include "core/outcome.h"
 #include "core/plan/demand_fields.h"
@@ -38,6 +40,9 @@ struct SolveRequest {
   // > 0: ContactDuration::history at so many equal steps of time, which requires Effect::kFiniteDuration. At most
   // kMostForceIntervals.
   int64_t force_intervals = 0;
+  // > 0: Outcome::certificate to so many significant digits, at most kMostCertifiedDigits; 0: none. Not with plan_only.
+  // core/models/certified/certified.h says for which scenes.
+  int32_t certified_digits = 0;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };
 
@@ -60,6 +65,7 @@ struct BoundsRequest {
   // Asks for an enclosure. Of any fields of a planar system, of friction's coefficients and of the surface's velocity
   // (core/models/scene_enclosure.h).
   std::vector<FieldRange> ranges;
+  int32_t certified_digits = 0;  // As in SolveRequest, for BoundsResponse::certificate.
   friend bool operator==(const BoundsRequest&, const BoundsRequest&) = default;
 };
 
@@ -67,6 +73,7 @@ struct BoundsResponse {
   Bounds bounds;  // Of the scene as it stands.
   EngineInfo engine;
   std::optional<Enclosure> enclosure;  // Over all scenes whose fields lie in the ranges; absent if there are none.
+  std::optional<Certificate> certificate;  // Of `bounds`; present exactly if certified_digits asks for it.
   friend bool operator==(const BoundsResponse&, const BoundsResponse&) = default;
 };
 

@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/axis_input.h"
+#include "client/cli/certificate_report.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
@@ -28,12 +29,13 @@ constexpr char kExample[] = R"(Example: what friction leaves of the coefficients
   Poisson      0 ... 1.41421       0 ... 2      0 ... 1.33333 ...
   ...
 With --range, which may be repeated, also what they can be over all scenes whose fields lie in the ranges.
-CSV has one row a quantity, at full precision. Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+CSV has one row a quantity, at full precision; with --certified, one row a proved number. Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct BoundsOptions {
   CommonOptions common;
   SceneOptions scene;
   std::vector<std::string> ranges;
+  std::string certified;
 };
 
 // One quantity: its name, its unit, where its range and its first-order error stand.
@@ -139,6 +141,7 @@ std::string BoundsText(const BoundsRequest& request, const BoundsResponse& respo
     absl::StrAppend(&text, FirstOrderText(*bounds.nearly_vertical));
   }
   if (response.enclosure.has_value()) absl::StrAppend(&text, EnclosureText(*response.enclosure, request.ranges));
+  if (response.certificate.has_value()) text += CertificateText(*response.certificate);
   return text;
 }
 
@@ -183,13 +186,15 @@ absl::StatusOr<std::string> Render(const BoundsRequest& request, const BoundsRes
     case Format::kCsv:
       break;
   }
-  return BoundsCsv(response);
+  return response.certificate.has_value() ? CertificateCsv(*response.certificate) : BoundsCsv(response);
 }
 
 absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
   const absl::StatusOr<Scene> scene = ReadScene(options.scene);
   if (!scene.ok()) return scene.status();
-  BoundsRequest request{.scene = *scene, .ranges = {}};
+  const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
+  if (!digits.ok()) return digits.status();
+  BoundsRequest request{.scene = *scene, .ranges = {}, .certified_digits = *digits};
   for (const std::string& text : options.ranges) {
     const absl::StatusOr<FieldRange> range = ParseFieldRange(text);
     if (!range.ok()) return range.status();
@@ -219,6 +224,7 @@ void AddBounds(CLI::App& app, Command& command) {
                   "What is uncertain: a field of a planar system, of friction or of the surface; repeat for more")
       ->type_name("PATH=LOW:HIGH")
       ->allow_extra_args(false);
+  AddCertifiedOption(*sub, options->certified);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);
   sub->footer(kExample);

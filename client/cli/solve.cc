@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/cli/certificate_report.h"
 #include "client/cli/demand_input.h"
 #include "client/cli/number_input.h"
 #include "client/cli/plan_report.h"
@@ -28,7 +29,7 @@ constexpr char kExample[] = R"(Example: the pendulum of the paper's sec. 4, elas
     Poisson     (normal impulses)         1.41421
   ...
 CSV has one row: every number of the outcome by its path; with --history or --force-history, one row a state or sample
-instead; with --explain, one row an effect.
+instead; with --explain, one row an effect; with --certified, one row a number.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct SolveOptions {
@@ -39,6 +40,7 @@ struct SolveOptions {
   bool plan_only = false;
   std::string history;
   std::string force_history;
+  std::string certified;
   bool strict = false;
   std::string plot;
 };
@@ -63,6 +65,7 @@ absl::Status AddHistory(const Solver& solver, const std::string& intervals, Solv
 std::string Text(const Outcome& outcome, const SolveOptions& options) {
   if (options.plan_only) return PlanText(outcome.plan);
   std::string text = SolveText(outcome);
+  if (outcome.certificate.has_value()) text += CertificateText(*outcome.certificate);
   if (options.explain) absl::StrAppend(&text, "\n", PlanText(outcome.plan));
   return text;
 }
@@ -76,6 +79,7 @@ absl::StatusOr<std::string> Render(const SolveResponse& response, const SolveOpt
     case Format::kCsv:
       break;
   }
+  if (response.outcome.certificate.has_value()) return CertificateCsv(*response.outcome.certificate);
   if (options.plan_only || options.explain) return PlanCsv(response.outcome.plan);
   if (!options.force_history.empty()) return ForceHistoryCsv(response.outcome);
   return options.history.empty() ? SolveCsv(response.outcome) : HistoryCsv(response.outcome);
@@ -101,6 +105,9 @@ absl::Status RunSolve(const SolveOptions& options) {
                        .inadmissible_is_error = options.strict,
                        .demand = *demand,
                        .plan_only = options.plan_only};
+  const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
+  if (!digits.ok()) return digits.status();
+  request.certified_digits = *digits;
   if (!options.force_history.empty()) {
     const absl::StatusOr<int64_t> intervals = ParseIntervals(options.force_history, "--force-history");
     if (!intervals.ok()) return intervals.status();
@@ -132,6 +139,7 @@ void AddSolve(CLI::App& app, Command& command) {
   sub->add_flag("--explain", options->explain, "Also the plan: which effects are in or out, and why");
   sub->add_flag("--plan-only", options->plan_only, "The plan alone, without solving");
   AddDemandOptions(*sub, options->demand);
+  AddCertifiedOption(*sub, options->certified);
   sub->add_flag("--strict", options->strict, "Fail if the outcome is inadmissible");
   sub->add_option("--plot", options->plot, "Draw w(tau), F/N(tau) and f(tau) by gnuplot")->type_name("FILE.svg|.png");
   AddServerOptions(*sub, options->common);

@@ -1,5 +1,6 @@
 #include "proto/wire/outcome.h"
 
+#include "proto/wire/certificate.h"
 #include "proto/wire/plan.h"
 #include "proto/wire/repeated.h"
 
@@ -391,6 +392,7 @@ v1::Outcome ToProto(const Outcome& outcome) {
   for (const ImpactSolution& solution : outcome.alternatives) *proto.add_alternatives() = ToProto(solution);
   *proto.mutable_plan() = ToProto(outcome.plan);
   if (outcome.contact.has_value()) *proto.mutable_contact() = ToProto(*outcome.contact);
+  if (outcome.certificate.has_value()) *proto.mutable_certificate() = ToProto(*outcome.certificate);
   return proto;
 }
 
@@ -418,6 +420,7 @@ Outcome FromProto(const v1::Outcome& proto) {
   }
   outcome.plan = FromProto(proto.plan());
   if (proto.has_contact()) outcome.contact = FromProto(proto.contact());
+  if (proto.has_certificate()) outcome.certificate = FromProto(proto.certificate());
   return outcome;
 }
 

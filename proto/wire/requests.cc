@@ -19,6 +19,7 @@ v1::SolveRequest ToProto(const SolveRequest& request) {
   SetDemand(request.demand, proto);
   proto.set_plan_only(request.plan_only);
   proto.set_force_intervals(request.force_intervals);
+  proto.set_certified_digits(request.certified_digits);
   return proto;
 }
 
@@ -28,7 +29,8 @@ SolveRequest FromProto(const v1::SolveRequest& proto) {
           .inadmissible_is_error = proto.inadmissible_is_error(),
           .demand = DemandOf(proto),
           .plan_only = proto.plan_only(),
-          .force_intervals = proto.force_intervals()};
+          .force_intervals = proto.force_intervals(),
+          .certified_digits = proto.certified_digits()};
 }
 
 v1::SolveResponse ToProto(const SolveResponse& response) {
@@ -51,11 +53,13 @@ v1::BoundsRequest ToProto(const BoundsRequest& request) {
     added.set_low(range.low);
     added.set_high(range.high);
   }
+  proto.set_certified_digits(request.certified_digits);
   return proto;
 }
 
 BoundsRequest FromProto(const v1::BoundsRequest& proto) {
-  BoundsRequest request{.scene = FromProto(proto.scene()), .ranges = {}};
+  BoundsRequest request{
+      .scene = FromProto(proto.scene()), .ranges = {}, .certified_digits = proto.certified_digits()};
   for (const v1::FieldRange& range : proto.ranges()) {
     request.ranges.push_back({.path = range.path(), .low = range.low(), .high = range.high()});
   }
@@ -67,13 +71,14 @@ v1::BoundsResponse ToProto(const BoundsResponse& response) {
   *proto.mutable_bounds() = ToProto(response.bounds);
   *proto.mutable_engine() = ToProto(response.engine);
   if (response.enclosure.has_value()) *proto.mutable_enclosure() = ToProto(*response.enclosure);
+  if (response.certificate.has_value()) *proto.mutable_certificate() = ToProto(*response.certificate);
   return proto;
 }
 
 BoundsResponse FromProto(const v1::BoundsResponse& proto) {
-  BoundsResponse response{
-      .bounds = FromProto(proto.bounds()), .engine = FromProto(proto.engine()), .enclosure = std::nullopt};
+  BoundsResponse response{.bounds = FromProto(proto.bounds()), .engine = FromProto(proto.engine())};
   if (proto.has_enclosure()) response.enclosure = FromProto(proto.enclosure());
+  if (proto.has_certificate()) response.certificate = FromProto(proto.certificate());
   return response;
 }
 

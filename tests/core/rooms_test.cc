@@ -27,6 +27,8 @@ const std::vector<Room>& Rooms() {
       {"core",
        {"core/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/", "hwy/", "Eigen/", "cvode/",
         "nvector/", "sundials/", "sunnonlinsol/"}},
+      {"core/models/certified",
+       {"core/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/", "flint/"}},
       {"proto/wire", {"proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
       {"client", {"client/", "proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
       {"client/cli",
@@ -158,6 +160,9 @@ TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
       {"sundials/", {"core/models/finite_duration.cc"}},
       {"sunnonlinsol/", {"core/models/finite_duration.cc"}},
       {"sleef.h", {"core/numerics/elementary.cc"}},
+      {"flint/", {"core/models/certified/"}},
+      {"arb", {"core/models/certified/"}},
+      {"arf", {"core/models/certified/"}},
       {"grpcpp/", {"proto/wire/", "server/", "client/"}},
       {"ricochet/v1/", {"proto/wire/", "server/", "client/"}},
   };
