@@ -21,9 +21,10 @@ struct CertifiedNumber {
   // the middle of two, either neighbour, within 1 of the last digit. Trailing zeros after the point are left out where
   // `exact`. Empty where all that is proved is [lower, upper].
   std::string decimal;
-  std::string lower;   // Rounded outward to the digits asked; empty where `decimal` is not.
+  std::string lower;  // Rounded outward to the digits asked; empty where `decimal` is not.
   std::string upper;
-  double value = 0.0;  // The double nearest to the number, or to the middle of [lower, upper]; infinite above the largest.
+  double value =
+      0.0;  // The double nearest to the number, or to the middle of [lower, upper]; infinite above the largest.
   bool exact = false;  // `decimal` is the number itself.
   friend bool operator==(const CertifiedNumber&, const CertifiedNumber&) = default;
 };
@@ -32,7 +33,7 @@ struct Certificate {
   int digits = 0;
   int precision_bits = 0;       // Of the arithmetic that the digits were taken from.
   std::vector<Regime> regimes;  // One; of a set every regime that could not be excluded, in the order of the enum.
-  bool is_set = false;          // Some number is proved to lie between `lower` and `upper` alone, or a branch is open.
+  bool is_set = false;          // Of ranges; or some number is proved to lie between `lower` and `upper` alone.
   std::vector<CertifiedNumber> numbers;
   friend bool operator==(const Certificate&, const Certificate&) = default;
 };

@@ -72,7 +72,7 @@ struct BoundsRequest {
 struct BoundsResponse {
   Bounds bounds;  // Of the scene as it stands.
   EngineInfo engine;
-  std::optional<Enclosure> enclosure;  // Over all scenes whose fields lie in the ranges; absent if there are none.
+  std::optional<Enclosure> enclosure;      // Over all scenes whose fields lie in the ranges; absent if there are none.
   std::optional<Certificate> certificate;  // Of `bounds`; present exactly if certified_digits asks for it.
   friend bool operator==(const BoundsResponse&, const BoundsResponse&) = default;
 };

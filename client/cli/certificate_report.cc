@@ -25,9 +25,8 @@ absl::StatusOr<int32_t> ReadCertifiedDigits(const std::string& digits) {
 }
 
 std::string CertificateText(const Certificate& certificate) {
-  const std::string regimes = absl::StrJoin(certificate.regimes, ", or ", [](std::string* out, Regime regime) {
-    absl::StrAppend(out, RegimeText(regime));
-  });
+  const std::string regimes = absl::StrJoin(
+      certificate.regimes, ", or ", [](std::string* out, Regime regime) { absl::StrAppend(out, RegimeText(regime)); });
   size_t width = 0;
   for (const CertifiedNumber& number : certificate.numbers) width = std::max(width, number.path.size());
   std::string text = absl::StrCat("\nCertified to ", certificate.digits, certificate.digits == 1 ? " digit" : " digits",

@@ -58,8 +58,7 @@ v1::BoundsRequest ToProto(const BoundsRequest& request) {
 }
 
 BoundsRequest FromProto(const v1::BoundsRequest& proto) {
-  BoundsRequest request{
-      .scene = FromProto(proto.scene()), .ranges = {}, .certified_digits = proto.certified_digits()};
+  BoundsRequest request{.scene = FromProto(proto.scene()), .ranges = {}, .certified_digits = proto.certified_digits()};
   for (const v1::FieldRange& range : proto.ranges()) {
     request.ranges.push_back({.path = range.path(), .low = range.low(), .high = range.high()});
   }

@@ -44,7 +44,7 @@ void AddVelocities(const SystemContact<N>& system, const Impact<N>& impact, Answ
   for (size_t i = 0; i < system.before.size(); ++i) {
     after.push_back(system.before[i] + system.response[i][0] * impact.f1 + system.response[i][1] * impact.tau1);
   }
-  if (system.a.has_value()) after = {impact.v1 / *system.a};
+  if (system.lever.has_value()) after = {impact.v1 / *system.lever};
   if (system.velocities == Velocities::kRates) {
     for (size_t i = 0; i < after.size(); ++i) answer.Add(absl::StrCat("rates_after_rad_s[", i, "]"), after[i]);
   }
@@ -84,12 +84,11 @@ Answer<N> AnswerSolve(SystemContact<N> system, Branches& branches) {
   Contact<N>& contact = system.contact;
   const bool separating = !IsNegative(contact.v0, branches);
   if (!separating) contact.v0 = AtMostZero(contact.v0);
-  const Impact<N> impact = separating
-                               ? SeparatingImpact(contact)
-                               : ContactPath<N>(contact, branches).Solve(contact.law, contact.coefficient);
+  const Impact<N> impact = separating ? SeparatingImpact(contact)
+                                      : ContactPath<N>(contact, branches).Solve(contact.law, contact.coefficient);
   const N tangential_total = impact.tangential_compression + impact.tangential_restitution;
   Answer<N> answer;
-  answer.regime = system.a.has_value() ? PendulumRegime(impact.regime) : impact.regime;
+  answer.regime = system.is_pendulum ? PendulumRegime(impact.regime) : impact.regime;
   answer.Add("coefficients.newton", impact.newton);
   answer.Add("coefficients.poisson", impact.poisson);
   answer.Add("coefficients.energetic", impact.energetic);
@@ -260,7 +259,7 @@ BothRanges<N> RangesWhereSeparating(Contact<N> contact, bool is_pendulum, Branch
 template <typename N>
 Answer<N> AnswerBounds(SystemContact<N> system, Branches& branches) {
   Contact<N>& contact = system.contact;
-  const bool is_pendulum = system.a.has_value();
+  const bool is_pendulum = system.is_pendulum;
   Answer<N> answer;
   if (is_pendulum) AddRatios(contact, answer);
   const bool separating = !IsNegative(contact.v0, branches);

@@ -53,7 +53,9 @@ class ArfInterval {
   // Implicit, so that formulas read like formulas.
   ArfInterval(double exact) : lower_(exact), upper_(exact) {}
   ArfInterval(Arf lower, Arf upper, slong bits) : lower_(std::move(lower)), upper_(std::move(upper)), bits_(bits) {}
-  ArfInterval(const arb_t ball, slong bits) : bits_(bits) { arb_get_interval_arf(lower_.get(), upper_.get(), ball, bits); }
+  ArfInterval(const arb_t ball, slong bits) : bits_(bits) {
+    arb_get_interval_arf(lower_.get(), upper_.get(), ball, bits);
+  }
 
   friend ArfInterval operator+(const ArfInterval& x, const ArfInterval& y);
   friend ArfInterval operator-(const ArfInterval& x, const ArfInterval& y);

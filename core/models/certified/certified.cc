@@ -30,13 +30,14 @@ Answer<N> AnswerTo(Asked asked, const SystemContact<N>& system, Branches& branch
   return asked == Asked::kSolve ? AnswerSolve(system, branches) : AnswerBounds(system, branches);
 }
 
-// FLINT keeps tables for each thread, which nothing else frees when the thread ends.
-struct FlintTables {
-  FlintTables() = default;
-  FlintTables(const FlintTables&) = delete;
-  FlintTables& operator=(const FlintTables&) = delete;
-  ~FlintTables() { flint_cleanup(); }
-};
+// FLINT keeps numbers and tables for each thread, which nothing else frees when the thread ends.
+void FreeTablesWithThread() {
+  struct Tables {
+    ~Tables() { flint_cleanup(); }
+  };
+  thread_local const Tables tables;
+  static_cast<void>(tables);
+}
 
 // --- Exact systems ---
 
@@ -68,9 +69,7 @@ Certificate CertifyExact(Asked asked, const SystemContact<Surd>& system, int dig
 
 // --- Intervals ---
 
-ArfInterval ValueOf(const Number<ArfInterval>& number) {
-  return number.is_square ? Sqrt(number.value) : number.value;
-}
+ArfInterval ValueOf(const Number<ArfInterval>& number) { return number.is_square ? Sqrt(number.value) : number.value; }
 
 // The hull of answers.
 class Hulls {
@@ -88,23 +87,21 @@ class Hulls {
     }
   }
 
-  // Includes every answer that open branches allow. Whether there was only one.
-  bool IncludeAll(Asked asked, const SystemContact<ArfInterval>& system) {
+  // Includes every answer that open branches allow.
+  void IncludeAll(Asked asked, const SystemContact<ArfInterval>& system) {
     Branches branches;
     Include(AnswerTo(asked, system, branches));
-    const bool all_decided = !branches.any_open();
     while (branches.NextRun()) Include(AnswerTo(asked, system, branches));
-    return all_decided;
   }
 
   bool empty() const { return regimes_.empty(); }
 
-  // As a set unless every number is narrow enough for its digits and `all_decided`.
-  Certificate Certify(int digits, slong bits, bool all_decided) const {
+  // As a set unless there is one regime and every number is narrow enough for its digits.
+  Certificate Certify(int digits, slong bits) const {
     Certificate certificate = {.digits = digits,
                                .precision_bits = static_cast<int>(bits),
                                .regimes = {regimes_.begin(), regimes_.end()},
-                               .is_set = !all_decided};
+                               .is_set = regimes_.size() > 1};
     for (const auto& [path, hull] : hulls_) {
       if (!hull.has_value()) continue;
       const std::optional<CertifiedNumber> proved = certified::Certify(*hull, digits);
@@ -126,7 +123,7 @@ std::optional<Certificate> TryLinkage(Asked asked, const SystemContact<ArfInterv
   Hulls hulls;
   hulls.Include(AnswerTo(asked, system, branches));
   if (branches.any_open()) return std::nullopt;
-  Certificate certificate = hulls.Certify(digits, bits, true);
+  Certificate certificate = hulls.Certify(digits, bits);
   if (certificate.is_set) return std::nullopt;
   return certificate;
 }
@@ -141,12 +138,13 @@ absl::StatusOr<Certificate> CertifyLinkage(Asked asked, const Scene& scene, cons
     }
     if (bits < most_bits) continue;
     if (!system.has_value()) {
-      return InvalidRequest({{"linkage.links", "have a mass matrix that is singular to the most bits of certified "
-                                               "answers: must be less unlike in mass and length"}});
+      return InvalidRequest({{"linkage.links",
+                              "have a mass matrix that is singular to the most bits of certified "
+                              "answers: must be less unlike in mass and length"}});
     }
     Hulls hulls;
-    const bool all_decided = hulls.IncludeAll(asked, *system);
-    return hulls.Certify(digits, bits, all_decided);
+    hulls.IncludeAll(asked, *system);
+    return hulls.Certify(digits, bits);
   }
 }
 
@@ -246,7 +244,7 @@ std::optional<SystemContact<N>> SystemOf(const ContactSet& set, const SetBox& bo
 
 template <typename Set>
 absl::StatusOr<Certificate> CertifySet(Asked asked, const Set& set, int digits) {
-  const FlintTables tables;
+  FreeTablesWithThread();
   const SetBox box = BoxOf(set);
   const slong bits = BitsOf(digits);
   if (IsPoint(box)) {
@@ -263,7 +261,9 @@ absl::StatusOr<Certificate> CertifySet(Asked asked, const Set& set, int digits) 
   if (hulls.empty()) {
     return InvalidRequest({{"planar_contact", "has no W with det W >= 0 in the set: must have one"}});
   }
-  return hulls.Certify(digits, bits, false);
+  Certificate certificate = hulls.Certify(digits, bits);
+  certificate.is_set = true;
+  return certificate;
 }
 
 // --- Scenes ---
@@ -275,7 +275,7 @@ EffectiveCoefficients EffectiveOf(const Scene& scene) {
 }
 
 absl::StatusOr<Certificate> CertifyScene(Asked asked, const Scene& scene, int digits, int most_bits) {
-  const FlintTables tables;
+  FreeTablesWithThread();
   const EffectiveCoefficients effective = EffectiveOf(scene);
   if (std::holds_alternative<Linkage>(scene.system)) {
     return CertifyLinkage(asked, scene, effective, digits, most_bits);

@@ -133,9 +133,7 @@ class ContactPath {
 
   static N Signed(const N& x, bool negative) { return negative ? -x : x; }
 
-  Piece Slip(const N& f) const {
-    return {f, contact_.wtn + f * contact_.wtt, contact_.wnn + f * contact_.wtn};
-  }
+  Piece Slip(const N& f) const { return {f, contact_.wtn + f * contact_.wtt, contact_.wnn + f * contact_.wtn}; }
 
   void FollowFullRank() {
     const N& wtn = contact_.wtn;
@@ -147,7 +145,10 @@ class ContactPath {
       contact_.u0 = backwards ? N(AtMostZero(contact_.u0)) : N(AtLeastZero(contact_.u0));
       first_ = Slip(Signed(contact_.mu, !backwards));
       stops_ = IsNegative(Signed(first_.u, backwards), branches_);
-      if (stops_) v_stop_ = contact_.v0 - contact_.u0 * first_.v / first_.u;
+      if (stops_) {
+        first_.u = Signed(N(AtMostZero(Signed(first_.u, backwards))), backwards);
+        v_stop_ = contact_.v0 - contact_.u0 * first_.v / first_.u;
+      }
     }
     if (!stops_) return;
     sticks_ = !IsNegative(contact_.mu_static * contact_.wtt - Abs(wtn), branches_);
@@ -307,11 +308,14 @@ class ContactPath {
             .normal_total = half * (compression_normal_ + end.normal_twice)};
   }
 
-  // What the law gives by definition stands as given: an interval would only blur it.
+  // What the law gives by definition stands as given: an interval would only blur it. Where v' is the same
+  // throughout, all laws agree.
   void SetCoefficients(Law law, const N& coefficient, const End& end, Impact<N>& impact) const {
-    impact.newton = law == Law::kNewton ? coefficient : end.at.v / -contact_.v0;
-    impact.poisson = law == Law::kPoisson ? coefficient : (end.at.tau - rest_.tau) / rest_.tau;
-    if (law == Law::kEnergetic) {
+    const bool one_piece =
+        impact.regime == Regime::kFrictionless || (!end.passes_stop && !(stops_in_compression_ && slips_first_));
+    impact.newton = one_piece || law == Law::kNewton ? coefficient : end.at.v / -contact_.v0;
+    impact.poisson = one_piece || law == Law::kPoisson ? coefficient : (end.at.tau - rest_.tau) / rest_.tau;
+    if (one_piece || law == Law::kEnergetic) {
       const N square = Square(coefficient);
       impact.energetic = {coefficient, false};
       impact.normal_restitution = -square * impact.normal_compression;
@@ -331,8 +335,8 @@ class ContactPath {
   bool sticks_ = false;
   bool locked_ = false;
   bool stops_in_compression_ = false;
-  N v_stop_;  // v where slip stops.
-  Point rest_;  // The end of compression.
+  N v_stop_;                                       // v where slip stops.
+  Point rest_;                                     // The end of compression.
   N compression_normal_, compression_tangential_;  // Twice the works.
 };
 

@@ -51,7 +51,7 @@ class Ball {
 
 // A quotient of integers, times a power of ten.
 Rational Scaled(const Rational& x, int64_t power) {
-  Rational scale;
+  Rational scale(1.0);
   const Integer ten = Integer::PowerOfTen(std::abs(power));
   fmpz_set(power >= 0 ? fmpq_numref(scale.get()) : fmpq_denref(scale.get()), ten.get());
   return x * scale;
@@ -227,8 +227,7 @@ bool IsNarrow(const ArfInterval& interval, int digits) {
 slong BitsOf(int digits) { return static_cast<slong>(std::ceil(digits * kBitsPerDigit)) + 64; }
 
 CertifiedNumber Certify(const Number<Surd>& given, int digits) {
-  const bool has_rational_root =
-      given.is_square && given.value.IsRational() && given.value.rational_part().IsSquare();
+  const bool has_rational_root = given.is_square && given.value.IsRational() && given.value.rational_part().IsSquare();
   const Number<Surd> number = has_rational_root ? Number<Surd>{Sqrt(given.value), false} : given;
   const Decimal decimal = ToDecimal(number, digits, Rounding::kNearest);
   return {.decimal = decimal.text, .value = NearestDouble(number), .exact = decimal.is_exact};

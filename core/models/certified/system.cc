@@ -25,12 +25,14 @@ class Matrix {
   arb_mat_t value_;
 };
 
-template <typename N>
-void SetCoefficients(const Scene& scene, const EffectiveCoefficients& effective, Contact<N>& contact) {
-  contact.mu = N(effective.kinetic_friction);
-  contact.mu_static = N(effective.static_friction);
+// `exactly(double)` makes an N.
+template <typename N, typename Exactly>
+void SetCoefficients(const Scene& scene, const EffectiveCoefficients& effective, const Exactly& exactly,
+                     Contact<N>& contact) {
+  contact.mu = exactly(effective.kinetic_friction);
+  contact.mu_static = exactly(effective.static_friction);
   contact.law = LawOf(scene.restitution);
-  contact.coefficient = N(effective.restitution);
+  contact.coefficient = exactly(effective.restitution);
 }
 
 // --- Rational systems ---
@@ -179,11 +181,13 @@ bool AreParallel(const std::vector<Link>& links) {
 
 SystemContact<Surd> ReduceExactly(const Scene& scene, const EffectiveCoefficients& effective) {
   SystemContact<Surd> system = std::visit([](const auto& given) { return Reduce(given); }, scene.system);
-  SetCoefficients(scene, effective, system.contact);
+  SetCoefficients(
+      scene, effective, [](double x) { return Surd(x); }, system.contact);
   if (!scene.surface_velocity.has_value()) return system;
   system.contact.u0 = system.contact.u0 - Surd(scene.surface_velocity->tangential_m_s[0]);
   system.contact.v0 = system.contact.v0 - Surd(scene.surface_velocity->normal_m_s);
-  system.a.reset();
+  system.lever.reset();
+  system.is_pendulum = false;
   return system;
 }
 
@@ -218,8 +222,12 @@ std::optional<SystemContact<ArfInterval>> ReduceLinkage(const Scene& scene, cons
   contact.rank_one = AreParallel(links);
   contact.det = contact.wtt * contact.wnn - Square(contact.wtn);
   contact.rho = jt[0][0] / jt[0][1];
-  SetCoefficients(scene, effective, contact);
-  if (!scene.surface_velocity.has_value()) return system;
+  SetCoefficients(
+      scene, effective, [bits](double x) { return Exactly(x, bits); }, contact);
+  if (!scene.surface_velocity.has_value()) {
+    if (n == 1) system.lever = jt[0][1];
+    return system;
+  }
   contact.u0 = contact.u0 - Exactly(scene.surface_velocity->tangential_m_s[0], bits);
   contact.v0 = contact.v0 - Exactly(scene.surface_velocity->normal_m_s, bits);
   return system;

@@ -27,7 +27,8 @@ struct SystemContact {
   Velocities velocities = Velocities::kNone;
   std::vector<N> before;                   // q'
   std::vector<std::array<N, 2>> response;  // M^-1 J^T
-  std::optional<N> a;                      // Of a pendulum over a surface at rest: w = v/a, and its own regimes.
+  std::optional<N> lever;                  // Where one rate w is all there is, over a surface at rest: w = v/lever.
+  bool is_pendulum = false;                // Stated as one, over a surface at rest: it has regimes of its own.
 };
 
 // `scene` is valid and planar; not a linkage.
@@ -52,7 +53,8 @@ SystemContact<N> ReducePendulum(const N& inertia, const N& a, const N& b, const 
   system.velocities = Velocities::kRates;
   system.before = {omega};
   system.response = {{b / inertia, a / inertia}};
-  system.a = a;
+  system.lever = a;
+  system.is_pendulum = true;
   return system;
 }
 
