@@ -62,7 +62,11 @@ void CheckDigits(const Scene& scene, int digits, std::vector<Violation>& violati
 
 void CheckCertified(const SolveRequest& request, std::vector<Violation>& violations) {
   CheckDigits(request.scene, request.certified_digits, violations);
-  if (request.certified_digits != 0 && request.plan_only) {
+  if (request.certified_digits == 0) return;
+  if (!request.demand.excluded.empty()) {
+    violations.push_back({"excluded", "is set: must not be, with certified_digits: certificates leave nothing out"});
+  }
+  if (request.plan_only) {
     violations.push_back({"plan_only", "is set: must not be, with certified_digits: a plan has no numbers to prove"});
   }
 }

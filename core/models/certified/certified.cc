@@ -15,7 +15,7 @@
 #include "core/models/certified/answers.h"
 #include "core/models/certified/digits.h"
 #include "core/models/certified/system.h"
-#include "core/models/scene_outcome.h"
+#include "core/plan/planned_scene.h"
 #include "core/scene/effective.h"
 #include "core/scene/reduction.h"
 

@@ -272,6 +272,13 @@ TEST(CertifiedRefusalTest, APlanHasNoNumbersToProve) {
             "plan_only is set: must not be, with certified_digits: a plan has no numbers to prove");
 }
 
+TEST(CertifiedRefusalTest, NoEffectIsLeftOut) {
+  const auto response = LocalSolver().Solve(
+      {.scene = With(Contact()), .demand = {.excluded = {Effect::kFriction}}, .certified_digits = 10});
+  EXPECT_EQ(response.status().message(),
+            "excluded is set: must not be, with certified_digits: certificates leave nothing out");
+}
+
 TEST(CertifiedRefusalTest, BoundsRefuseTheSame) {
   EXPECT_EQ(LocalSolver().Bounds({.scene = With(Body()), .certified_digits = 10}).status().message(),
             "system is in space: certified answers are for a pendulum, planar bodies, a linkage or planar_contact");
