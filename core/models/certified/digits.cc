@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 
 #include "absl/strings/str_cat.h"
 
@@ -52,7 +51,7 @@ class Ball {
 // A quotient of integers, times a power of ten.
 Rational Scaled(const Rational& x, int64_t power) {
   Rational scale(1.0);
-  const Integer ten = Integer::PowerOfTen(std::abs(power));
+  const Integer ten = Integer::PowerOfTen(power >= 0 ? power : -power);
   fmpz_set(power >= 0 ? fmpq_numref(scale.get()) : fmpq_denref(scale.get()), ten.get());
   return x * scale;
 }

@@ -245,6 +245,8 @@ TEST(CertifiedDoublesTest, EverySystemHasTheNumbersOfItsOutcome) {
                              (std::holds_alternative<BodyPair>(system) &&
                               std::holds_alternative<SpatialPair>(std::get<BodyPair>(system).bodies));
     if (!is_in_space) systems.push_back(system);
+    // Slip of Contact() stops just where restitution ends, which changes nothing: a plan may leave it out.
+    if (auto* const contact = std::get_if<PlanarContact>(&systems.back())) contact->tangential_m_s = 0.75;
   }
   ASSERT_EQ(systems.size(), 5U);
   for (const System& system : systems) {
