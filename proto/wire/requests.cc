@@ -1,8 +1,7 @@
 #include "proto/wire/requests.h"
 
-#include <optional>
-
 #include "proto/wire/bounds.h"
+#include "proto/wire/certificate.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
