@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/models/finite_duration_motion.h"
+#include "core/numerics/elementary.h"
 
 namespace ricochet::finite_duration {
 namespace {
@@ -503,7 +504,7 @@ void WriteCoefficients(const Problem& problem, const Contact& contact, const Pat
   }
   // Damping and what the spring still holds are lost of the work of compression, without a difference that cancels.
   const double p = contact.exponent + 1.0;
-  const double left = std::pow(Indentation(contact, {}, path.end), p) / p;
+  const double left = Pow(Indentation(contact, {}, path.end), p) / p;
   const double lost = (path.end[kDampingLoss] + left) / -path.compression_works.normal;
   impact.energetic = std::sqrt(std::max(0.0, 1.0 - lost));
   impact.energetic_excess = -lost / (1.0 + impact.energetic);

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "core/numerics/determinant.h"
+#include "core/numerics/elementary.h"
 
 namespace ricochet::finite_duration {
 namespace {
@@ -32,7 +33,7 @@ struct CurveOf {
 // k Wnn |v0|^(p-1) T^(p+1) = 1, root by root: no power leaves the range of doubles.
 double NaturalTime(const Curve& curve, double wnn, double speed) {
   const double root = 1.0 / (curve.exponent + 1.0);
-  return std::pow(curve.stiffness, -root) * std::pow(wnn, -root) * std::pow(speed, -(curve.exponent - 1.0) * root);
+  return Pow(curve.stiffness, -root) * Pow(wnn, -root) * Pow(speed, -(curve.exponent - 1.0) * root);
 }
 
 void SetUnits(const Problem& problem, Contact& contact) {
@@ -80,7 +81,7 @@ bool HoldsFreely(const Problem& problem) {
 double LoadingCurve(const Contact& contact, double place) {
   if (!contact.rooted) return place;
   if (contact.exponent == 1.5) return place * place * place;
-  return std::copysign(std::pow(std::fabs(place), 2.0 * contact.exponent), place);
+  return std::copysign(Pow(std::fabs(place), 2.0 * contact.exponent), place);
 }
 
 double SpringSlope(const Contact& contact, const Mode& mode) {

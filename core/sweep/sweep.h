@@ -25,7 +25,7 @@ struct SweepRequest {
   bool with_regime = false;  // Send every point's regime too.
   int64_t first_index = 0;   // Points [first_index, end_index) of the grid, with the same bits as in
   std::optional<int64_t> end_index;  // the whole; absent means all to the end.
-  DemandFields demand;                     // Of every point: each gets its own plan.
+  DemandFields demand;               // Of every point: each gets its own plan.
   friend bool operator==(const SweepRequest&, const SweepRequest&) = default;
 };
 

@@ -84,10 +84,12 @@ TEST_F(Cli, ShowsBothDirectionsOfAnImpactInSpace) {
 }
 
 TEST_F(Cli, RangesOfASystemThatHasNoEnclosureNameTheSystem) {
-  const CliResult result = Run({"bounds", "--scene", TestDataPath("scenes/double_pendulum.textproto"), "--range",
+  const CliResult result = Run({"bounds", "--scene", TestDataPath("scenes/spatial_body.json"), "--range",
                                 "friction.kinetic_coefficient=0.1:0.2"});
   EXPECT_EQ(result.exit_code, 2);
-  EXPECT_THAT(result.err, HasSubstr("system has no enclosure: must be pendulum or planar_contact"));
+  EXPECT_THAT(result.err,
+              HasSubstr("system has no enclosure: must be one of pendulum, planar_body, body_pair.planar, linkage, "
+                        "planar_contact, with ranges"));
 }
 
 TEST_F(Cli, TellsItsVersionAndEngine) {

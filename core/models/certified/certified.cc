@@ -15,6 +15,7 @@
 #include "core/models/certified/answers.h"
 #include "core/models/certified/digits.h"
 #include "core/models/certified/system.h"
+#include "core/numerics/elementary.h"
 #include "core/plan/planned_scene.h"
 #include "core/scene/effective.h"
 #include "core/scene/reduction.h"
@@ -160,7 +161,7 @@ void VisitParts(const Box<kCount>& box, const Visitor& visit) {
   for (size_t i = 0; i < kCount; ++i) {
     if (box[i].lower < box[i].upper) uncertain.push_back(i);
   }
-  const double parts_exactly = std::pow(kMostSetBoxes, 1.0 / static_cast<double>(uncertain.size()));
+  const double parts_exactly = Pow(kMostSetBoxes, 1.0 / static_cast<double>(uncertain.size()));
   const auto parts = static_cast<int>(std::floor(parts_exactly + 1e-9));
   const auto end = [&](const Range& range, int part) {
     if (part == 0 || part == parts) return part == 0 ? range.lower : range.upper;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 
 #include "absl/strings/str_cat.h"
+#include "core/numerics/elementary.h"
 
 namespace ricochet::certified {
 namespace {
@@ -129,7 +131,7 @@ int64_t DecimalExponent(const arf_struct* x) {
   Integer mantissa_exponent;
   Arf mantissa;
   arf_frexp(mantissa.get(), mantissa_exponent.get(), x);
-  const double log2 = std::log2(std::fabs(arf_get_d(mantissa.get(), ARF_RND_NEAR))) +
+  const double log2 = Log(std::fabs(arf_get_d(mantissa.get(), ARF_RND_NEAR))) * std::numbers::log2e +
                       static_cast<double>(fmpz_get_si(mantissa_exponent.get()));
   return static_cast<int64_t>(std::floor(log2 / kBitsPerDigit));
 }
