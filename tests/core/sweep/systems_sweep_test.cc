@@ -166,9 +166,8 @@ TEST(SystemsSweepTest, DrivingTheSurfaceMakesItMove) {
 
 // Not even the regime is known then, so it does not matter which column is asked for.
 TEST(SystemsSweepTest, ACompliantPathThatOverflowsMakesItsPointInvalidAsSolveRefusesIt) {
-  Scene scene = With(
-      PlanarContact{.w_tt_per_kg = 2.0, .w_tn_per_kg = -0.9, .w_nn_per_kg = 1.5, .u_t_m_s = -1.2e152, .u_n_m_s = -0.85},
-      0.3, EnergeticCoefficient{0.15});
+  Scene scene = With(PlanarContact{2.0, -0.9, 1.5, -1.2e152, -0.85});
+  scene.restitution = EnergeticCoefficient{0.15};
   scene.compliance = {.tangential_ratio_squared = 2.9, .normal = {}};
   const std::vector<double> frictions = {0.3, 1.7e305};
   const Points points =
