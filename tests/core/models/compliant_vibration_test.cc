@@ -81,8 +81,8 @@ TEST_F(RootSearchTest, LooksOnlyFromTheOutsetOn) {
   const Frequencies w = {.fast = 1.0, .slow = 0.0};
   const RootSearch search({.a = {1.0, 0.0}, .b = {0.0, 0.0}}, w);  // cos t
   const double first = std::numbers::pi / 2.0;
-  EXPECT_NEAR(search.First({.time = 1.0}, kNever), first, 1e-15);
-  EXPECT_NEAR(search.First({.time = 5.0}, kNever), 5.0 * first, 1e-14);
+  EXPECT_NEAR(search.First({.time = 1.0}, kNever), first, 0x1p-49 * first);
+  EXPECT_NEAR(search.First({.time = 5.0}, kNever), 5.0 * first, 0x1p-49 * 5.0 * first);
   EXPECT_EQ(search.First({.time = 2.0}, kNever), 2.0) << "negative there";
   EXPECT_EQ(search.First({.time = 1.0}, 1.0), kNever);
 }
