@@ -1,8 +1,14 @@
 #include "core/models/compliant_outcome.h"
 
+#include <cmath>
 #include <vector>
 
+#include "core/scene/numbers.h"
+
 namespace ricochet::compliant {
+
+static_assert(kLeastRatioSquared == kLeastTangentialRatioSquared);
+
 namespace {
 
 Event MakeEvent(EventKind kind, const Section& section, const PlanarReduction& reduction) {
@@ -44,7 +50,8 @@ absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReductio
   outcome.work.friction_dissipation_j = impact.friction_dissipation;
   outcome.work.tangential_spring_j = impact.spring_energy;
   outcome.accuracy = {.relative_error = impact.error_estimate, .kind = AccuracyKind::kEstimate};
-  if (detail == Detail::kNumbers) return outcome;
+  // Of a path that overflows not even the regime is known, whatever numbers are wanted.
+  if (detail == Detail::kNumbers && std::isfinite(impact.u1)) return outcome;
   outcome.timeline = TimelineOf(impact, reduction);
   const absl::Status finite = CheckFinite(outcome);
   if (!finite.ok()) return finite;

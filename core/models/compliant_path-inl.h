@@ -12,7 +12,11 @@
 //
 // Stick: y = (ratio p, n/sqrt(kn)) has y'' = -K y, K = [Wtt/ratio^2, -c; -c, kn Wnn], c = Wtn sqrt(kn)/ratio, with
 // det K = kn det W/ratio^2: two oscillations, K's eigenvectors. It ends where g = mu n - s p vanishes, s = 1 or -1; as
-// g' = -S/ratio^2, a stick that began where slip stopped has g = g' = 0 there and g'' = -A n/ratio^2 > 0.
+// g' = -S/ratio^2, a stick that began where slip stopped has g = g' = 0 there and g'' = -A n/ratio^2 > 0. It cannot end
+// on that side while n cos(w_0 t) + n' sin(w_0 t)/w_0 > 0, with the fast frequency w_0 and n, n' of its start. For there
+// p' = mu s n' too, so g''' = -A n'/ratio^2, and g'' + w_1^2 g, which is a multiple of the fast sinusoid, is that
+// expression times -A/ratio^2 > 0: Polya's factors (core/models/compliant_vibration-inl.h) keep g/h rising from 0. No
+// search in rounded numbers could tell, g grows as t^2. And so no chain of sections stays at one time.
 
 #ifndef RICOCHET_CORE_MODELS_COMPLIANT_PATH_INL_H_
 #define RICOCHET_CORE_MODELS_COMPLIANT_PATH_INL_H_
@@ -21,6 +25,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <numbers>
 #include <vector>
 
 #include "core/models/compliant.h"
@@ -100,11 +106,12 @@ class Path {
     Start();
   }
 
-  // To the end; false if there is none.
+  // To the end; false if there is none, or if it overflows on the way: u and v are NaN then.
   bool Run() {
     for (int i = 0; i < kMaxSections; ++i) {
       Record();
       const Ending ending = IsHeld() ? Ending{.never_comes = true} : side_ == 0 ? Stick() : Slide();
+      if (!std::isfinite(at_.n + at_.p + at_.u + at_.v + at_.tau + at_.f)) return !Overflow().never_comes;
       if (ending.never_comes) return false;
       if (ending.parts || !GoOn(ending)) return true;
     }
@@ -155,11 +162,7 @@ class Path {
     }
     const int side = at_.u < 0.0 ? -1 : 1;
     const double speed = Speed(side);
-    if (speed > 0.0 || (speed == 0.0 && A(side) >= 0.0)) {
-      side_ = side;
-    } else {
-      on_cone_ = {true, true};
-    }
+    if (speed > 0.0 || (speed == 0.0 && A(side) >= 0.0)) side_ = side;
   }
 
   void Record() {
@@ -182,7 +185,8 @@ class Path {
   // Changes line, direction and mode. False: the impact ends here.
   bool GoOn(const Ending& ending) {
     const int side_before = side_;
-    on_cone_ = {false, false};
+    leaves_cone_ = 0;
+    has_turned_ = ending.turns;
     if (ending.passes_max) first_loading_ = true;
     if (ending.turns && !Turn()) return false;
     if (ending.breaks_away != 0) {
@@ -190,14 +194,14 @@ class Path {
       // Slip that rounding alone has started stops at once.
       const bool grazes = Speed(side) <= 0.0 && A(side) < 0.0;
       side_ = grazes ? 0 : side;
-      if (grazes) SetOnCone(side);
+      if (grazes) leaves_cone_ = side;
     }
     if (!ending.stops) return true;
     if (mu_ == 0.0) {
       side_ = -side_before;
     } else if (A(side_before) < 0.0) {
       side_ = 0;
-      SetOnCone(side_before);
+      leaves_cone_ = side_before;
     }
     return true;
   }
@@ -214,8 +218,6 @@ class Path {
     return eta_ > 0.0;
   }
 
-  void SetOnCone(int side) { on_cone_[side > 0 ? 0 : 1] = true; }
-
   // -- Slide --
 
   // The least of the normal impulses still to come at which one of the section's events happens.
@@ -227,6 +229,7 @@ class Path {
     const double to_turn = (indenting_ ? b > 0.0 : b < 0.0) ? -at_.v / b : kNever;
     const double to_stop = a < 0.0 ? slip / -a : kNever;
     const double to_line_end = indenting_ ? ToMax(b) : ToParting(b);
+    if (std::isnan(to_line_end) || !std::isfinite(a + b + slip)) return Overflow();
     const double step = noise_.On(std::min({to_turn, to_stop, to_line_end}));
     if (step == kNever) return {.never_comes = true};
     const double latest = step * (1.0 + 4.0 * kEps);
@@ -243,11 +246,18 @@ class Path {
     return ending;
   }
 
-  // n = 0 on the way out.
+  // Not an end that never comes, for nothing is known of it.
+  Ending Overflow() {
+    at_.u = at_.v = std::numeric_limits<double>::quiet_NaN();
+    return {.never_comes = true};
+  }
+
+  // n = 0 on the way out; NaN if it overflows, as ToMax.
   double ToParting(double b) const {
     const double energy = at_.n * at_.n / Kn();
     const double square = std::fma(at_.v, at_.v, b * energy);
     if (energy == 0.0) return 0.0;
+    if (!std::isfinite(square)) return std::numeric_limits<double>::quiet_NaN();
     return square < 0.0 ? kNever : energy / (at_.v + std::sqrt(square));
   }
 
@@ -257,6 +267,7 @@ class Path {
     const double energy = (n_max_ - at_.n) * (n_max_ + at_.n) / Kn();
     const double square = std::fma(at_.v, at_.v, -b * energy);
     if (energy <= 0.0) return 0.0;
+    if (!std::isfinite(square)) return std::numeric_limits<double>::quiet_NaN();
     return square < 0.0 ? kNever : energy / (std::sqrt(square) - at_.v);
   }
 
@@ -360,22 +371,26 @@ class Path {
     };
     const double rounding = 16.0 * kEps * n_max_;
     const Signal n = NormalForce(modes);
-    if (n.a[1] + amplitude(n) > n_max_ + rounding) return false;
+    if (!(n.a[1] + amplitude(n) <= n_max_ + rounding)) return false;
     for (const int side : {-1, 1}) {
       const Signal margin = Margin(modes, side);
-      if (margin.a[1] - amplitude(margin) < -mu_ * rounding) return false;
+      if (!(margin.a[1] - amplitude(margin) >= -mu_ * rounding)) return false;
     }
     return true;
   }
 
   Ending Stick() {
     const Modes modes = MakeModes();
-    double t = RootSearch(Departure(modes), modes.w).First(at_.v == 0.0, kNever);
+    const int likelier = LikelierSide();
+    const RootSearch departure(Departure(modes), modes.w);
+    const std::array<RootSearch, 2> margins = {RootSearch(Margin(modes, likelier), modes.w),
+                                               RootSearch(Margin(modes, -likelier), modes.w)};
+    if (departure.overflows() || margins[0].overflows() || margins[1].overflows()) return Overflow();
+    double t = departure.First({.at_zero = has_turned_}, kNever);
     if (std::isnan(t)) return {.never_comes = true};
     Ending ending = {.turns = t < kNever};
-    const int likelier = LikelierSide();
     for (const int side : {likelier, -likelier}) {
-      const double root = RootSearch(Margin(modes, side), modes.w).First(on_cone_[side > 0 ? 0 : 1], t);
+      const double root = margins[side == likelier ? 0 : 1].First(OutsetOf(side, modes.w), t);
       if (std::isnan(root)) return {.never_comes = true};
       if (root >= t) continue;
       t = root;
@@ -388,6 +403,13 @@ class Path {
     ending.parts = ending.breaks_away != 0 && !indenting_ && at_.n <= 8.0 * kEps * n_max_;
     if (ending.parts) at_.n = 0.0;
     return ending;
+  }
+
+  // From where a break away to `side` is possible. The impact starts at the tip of the cone.
+  Outset OutsetOf(int side, const Frequencies& w) const {
+    if (side != leaves_cone_) return {.at_zero = at_.n == 0.0};
+    const double n_rate = -Kn() * at_.v;
+    return {.time = (Angle(at_.n, n_rate / w.fast) + std::numbers::pi / 2.0) / w.fast};
   }
 
   // Where a stick is to break is searched for on this side first, the other one then only up to there.
@@ -436,8 +458,9 @@ class Path {
 
   Body at_;
   Body compression_;
-  int side_ = 0;                                  // 0: sticks.
-  std::array<bool, 2> on_cone_ = {false, false};  // A stick that begins with g = 0: forwards, backwards.
+  int side_ = 0;             // 0: sticks.
+  int leaves_cone_ = 0;      // The side, if the stick begins with g = 0 there, S <= 0 and A < 0.
+  bool has_turned_ = false;  // The section begins with v = 0 for that; else v = 0 is the turn still to come.
   bool first_loading_ = true;
   bool indenting_ = true;
   double n_max_ = 0.0;

@@ -118,31 +118,43 @@ double RootBetween(double low, double high, double guess, const Function& functi
   return t;
 }
 
+// Where a search for a root begins: where f > 0, or where it is 0 and positive right after. What has a smaller f there
+// is at the root if it falls, and else counts as 0.
+struct Outset {
+  double time = 0.0;
+  bool at_zero = false;
+};
+
 // Looks for the first root of one signal, half a fast period at a time.
 class RootSearch {
  public:
   RootSearch(const Signal& signal, const Frequencies& w) : signal_(signal), w_(w) {
     const double sine = signal.b[0] / w.fast;
-    const double fast_amplitude = std::sqrt(signal.a[0] * signal.a[0] + sine * sine);
+    const double fast_amplitude = Hypot(signal.a[0], sine);
     first_zero_ = Angle(signal.a[0], sine) + std::numbers::pi / 2.0;
     const double slow_sine = w.slow > 0.0 ? signal.b[1] / w.slow : 0.0;
-    const double slow_amplitude = std::sqrt(signal.a[1] * signal.a[1] + slow_sine * slow_sine);
+    const double slow_amplitude = Hypot(signal.a[1], slow_sine);
     // A little more than the fast amplitude, so that f is positive where a skip ends, whatever the rounding.
     level_ = fast_amplitude + 0x1p-40 * (slow_amplitude + fast_amplitude);
     if (w.slow == 0.0 || level_ >= slow_amplitude) return;
     slow_angle_ = Angle(signal.a[1], slow_sine);
-    high_angle_ = Angle(level_, std::sqrt((slow_amplitude - level_) * (slow_amplitude + level_))) - 4.0 * kAngleError;
+    high_angle_ =
+        Angle(level_, std::sqrt(slow_amplitude - level_) * std::sqrt(slow_amplitude + level_)) - 4.0 * kAngleError;
   }
 
-  // The first t in (0, horizon] where f turns negative, or kNever; NaN if it gives up. `starts_at_zero`: f(0) = 0 and f is positive right
-  // after; else f(0) > 0, or the root is 0.
-  double First(bool starts_at_zero, double horizon) const {
-    double left = 0.0;
-    Value at_left = signal_.At(w_, 0.0);
+  // Whether the amplitudes exceed the largest double. Nothing can be searched for then.
+  bool overflows() const { return !std::isfinite(level_); }
+
+  // The first t in [outset, horizon] where f turns negative, or kNever; NaN if it gives up.
+  double First(const Outset& outset, double horizon) const {
+    double left = outset.time;
+    if (left >= horizon) return kNever;
+    bool starts_at_zero = outset.at_zero;
+    Value at_left = signal_.At(w_, left);
     if (starts_at_zero) {
       at_left.f = 0.0;
     } else if (at_left.f <= 0.0) {
-      if (at_left.slope < 0.0) return 0.0;
+      if (at_left.slope < 0.0) return left;
       starts_at_zero = true;
     }
     for (int i = 0; i < kMostIntervals; ++i) {

@@ -65,6 +65,8 @@ class Check {
         return "be in [-1, 1]";
       case NumberRule::kOneToFour:
         return "be in [1, 4]";
+      case NumberRule::kRatioSquared:
+        return "be >= 1e-9";
     }
     return "";
   }

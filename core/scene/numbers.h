@@ -17,8 +17,11 @@
 
 namespace ricochet {
 
+// Below, a double does not resolve the oscillation along the surface: that of core/models/compliant.h.
+inline constexpr double kLeastTangentialRatioSquared = 1e-9;
+
 // Every number must be finite.
-enum class NumberRule { kFinite, kPositive, kNotNegative, kUnitInterval, kPlusMinusOne, kOneToFour };
+enum class NumberRule { kFinite, kPositive, kNotNegative, kUnitInterval, kPlusMinusOne, kOneToFour, kRatioSquared };
 
 // One comparison a side: no rule lets a NaN or an infinity pass.
 inline bool Holds(double value, NumberRule rule) {
@@ -36,6 +39,8 @@ inline bool Holds(double value, NumberRule rule) {
       return value >= -1.0 && value <= 1.0;
     case NumberRule::kOneToFour:
       return value >= 1.0 && value <= 4.0;
+    case NumberRule::kRatioSquared:
+      return value >= kLeastTangentialRatioSquared && value <= kMost;
   }
   return false;
 }
@@ -245,7 +250,7 @@ template <Is<Compliance> SomeCompliance, typename Visitor>
 void Visit(SomeCompliance& compliance, Visitor& visit) {
   if (compliance.tangential_ratio_squared.has_value()) {
     const Part<Visitor> part{"compliance", -1, visit};
-    part.One("tangential_ratio_squared", *compliance.tangential_ratio_squared, NumberRule::kPositive);
+    part.One("tangential_ratio_squared", *compliance.tangential_ratio_squared, NumberRule::kRatioSquared);
   }
   std::visit([&visit](auto& spring) { Visit(spring, visit); }, compliance.normal);
 }

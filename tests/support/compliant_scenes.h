@@ -3,6 +3,7 @@
 #ifndef RICOCHET_TESTS_SUPPORT_COMPLIANT_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_COMPLIANT_SCENES_H_
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
@@ -52,6 +53,29 @@ class SceneSource {
     Problem problem = Everyday(0.02, 4.0);
     const double cosine = std::sqrt(1.0 - LogUniform(1e-7, 1e-1));
     problem.wtn = Short((Below(2) == 0 ? cosine : -cosine) * std::sqrt(problem.wtt * problem.wnn));
+    return problem;
+  }
+
+  // All sizes, det W > 1e-3 Wtt Wnn, and friction that cannot hold the body. One scene in two is a borderline: slip stops
+  // close to the end of compression, or the impact starts close to the slip at which it would stick.
+  Problem AnySizes() {
+    Problem problem = {.wtt = LogUniform(1e-3, 1e3), .wnn = LogUniform(1e-3, 1e3), .v0 = -LogUniform(1e-3, 1e3)};
+    problem.wtn = Uniform(-1.0, 1.0) * std::sqrt((1.0 - 1e-3) * problem.wtt * problem.wnn);
+    problem.mu = LogUniform(1e-12, std::min(10.0, 0.999 * problem.wnn / std::fabs(problem.wtn)));
+    problem.ratio_squared = LogUniform(1e-4, 1e4);
+    const int eta = Below(3);
+    problem.energetic = eta == 0 ? Uniform(0.0, 1.0) : eta == 1 ? LogUniform(1e-12, 1.0) : 1.0 - LogUniform(1e-16, 1.0);
+    const double side = Below(2) == 0 ? -1.0 : 1.0;
+    const double closeness = 1.0 + (Below(2) == 0 ? -1.0 : 1.0) * LogUniform(1e-17, 1e-3);
+    const int start = Below(4);
+    if (start == 0) {
+      const double slope = side * problem.wtn - problem.mu * problem.wtt;
+      problem.u0 = side * slope * problem.v0 / (problem.wnn - side * problem.mu * problem.wtn) * closeness;
+    } else if (start == 1) {
+      problem.u0 = side * problem.mu * problem.ratio_squared * problem.v0 * closeness;
+    } else {
+      problem.u0 = side * LogUniform(1e-6, 1e6) * problem.v0;
+    }
     return problem;
   }
 

@@ -475,6 +475,20 @@ TEST(CompliantCornerTest, NumbersOfAllSizesEndInNumbers) {
   }
 }
 
+// A wedged body has a state, which is finite; an overflow has none.
+TEST(CompliantCornerTest, APathThatOverflowsHasNoVelocitiesAndUsesUpNoBudget) {
+  const Impact impact = Solve({.wtt = 2.0,
+                               .wtn = -0.9,
+                               .wnn = 1.5,
+                               .u0 = -1.2e152,
+                               .v0 = -0.85,
+                               .mu = 1.7e305,
+                               .energetic = 0.15,
+                               .ratio_squared = 2.9});
+  EXPECT_TRUE(std::isnan(impact.u1) && std::isnan(impact.v1));
+  EXPECT_LE(impact.sections.size(), 2U);
+}
+
 TEST(CompliantCornerTest, BodyThatCannotMoveAlongTheSurfaceKeepsItsSlip) {
   const Impact impact = Solve(Contact(0.0, 0.0, 2.0, 0.3, 0.5, 0.8, 1.3));
   EXPECT_EQ(impact.w_rank, 1);
@@ -511,7 +525,54 @@ TEST(CompliantCornerTest, PendulumSlipsToTheEndOfCompressionAndGoesOnByTheSignOf
   EXPECT_EQ(Solve(problem).sections[1].mode, Mode::kStick);
 }
 
+bool IsEmpty(const Section& section, const Section& next) {
+  return next.mode == section.mode && next.first_loading == section.first_loading &&
+         next.indenting == section.indenting && next.tau == section.tau;
+}
+
+int EmptySections(const Impact& impact) {
+  int empty = 0;
+  for (size_t i = 1; i < impact.sections.size(); ++i) {
+    empty += IsEmpty(impact.sections[i - 1], impact.sections[i]) ? 1 : 0;
+  }
+  return empty;
+}
+
+// So little friction that no impulse of it, mu tau at most, moves the end by more than the bounds.
+TEST(CompliantCornerTest, SlipThatStopsWithinRoundingOfTheEndOfCompressionGoesOn) {
+  const Problem problem = {.wtt = 799.47564555592942,
+                           .wtn = -0.079929156042974528,
+                           .wnn = 56.324427762804198,
+                           .u0 = 0.12385403736785695,
+                           .v0 = -87.219844328824038,
+                           .mu = 6.5957619238675615e-08,
+                           .energetic = 0.3705742415836551,
+                           .ratio_squared = 0.18014975854623022};
+  const Impact impact = Solve(problem);
+  EXPECT_EQ(impact.regime, Regime::kReversalInCompression);
+  EXPECT_EQ(impact.sections.size(), 4U);
+  EXPECT_EQ(EmptySections(impact), 0);
+  const double tau = -problem.v0 * (1.0 + problem.energetic) / problem.wnn;
+  const double f = problem.mu * tau * (1.0 + 1e-6);
+  EXPECT_NEAR(impact.tau1, tau, std::fabs(problem.wtn) * f / problem.wnn);
+  EXPECT_NEAR(impact.v1, -problem.energetic * problem.v0, std::fabs(problem.wtn) * f);
+  EXPECT_NEAR(impact.u1, problem.u0 + problem.wtn * tau, problem.wtt * f);
+  EXPECT_LE(impact.error_estimate, 1e-12);
+}
+
 // -- Wedging --
+
+TEST(CompliantWedgeTest, FrictionThatCannotHoldTheBodyNeverWedgesAndNoSectionIsEmpty) {
+  SceneSource scenes(14);
+  size_t most = 0;
+  for (int i = 0; i < kScenes / 2; ++i) {
+    const Impact impact = Solve(scenes.AnySizes());
+    most = std::max(most, impact.sections.size());
+    ASSERT_NE(impact.regime, Regime::kWedged) << i;
+    ASSERT_EQ(EmptySections(impact), 0) << i;
+  }
+  std::printf("  %zu sections at most\n", most);
+}
 
 TEST(CompliantWedgeTest, EveryPendulumEitherEndsOrIsKnownToBeHeldInAFewSections) {
   SceneSource scenes(11);

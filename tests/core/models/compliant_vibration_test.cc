@@ -46,7 +46,7 @@ TEST_F(RootSearchTest, FindsTheFirstChangeOfSignAndNoLaterOne) {
     Signal signal = {.a = {Uniform(-1.0, 1.0), balance * Uniform(-0.2, 1.0)},
                      .b = {Uniform(-1.0, 1.0), balance * w.slow * Uniform(-1.0, 1.0)}};
     if (!(signal.a[0] + signal.a[1] > 0.0)) signal.a[1] = std::fabs(signal.a[0]) + 1e-3;
-    const double root = RootSearch(signal, w).First(false, 60.0);
+    const double root = RootSearch(signal, w).First({}, 60.0);
     const double on_grid = FirstOnGrid(signal, w, 0.02, 60.0);
     ASSERT_LE(root, on_grid) << i;
     if (root == kNever) {
@@ -68,7 +68,7 @@ TEST_F(RootSearchTest, LeavesADoubleRootAtTheStartBehind) {
     const Frequencies w = {.fast = 1.0, .slow = std::exp2(Uniform(-6.0, -0.1))};
     const double slope = Uniform(-1.0, 1.0);
     const Signal signal = {.a = {-1.0, 1.0}, .b = {slope, -slope}};
-    const double root = RootSearch(signal, w).First(true, kNever);
+    const double root = RootSearch(signal, w).First({.at_zero = true}, kNever);
     ASSERT_GT(root, 1e-3) << i;
     ASSERT_LE(std::fabs(signal.At(w, root).f), 1e-13 * AmplitudeOf(signal, w)) << i;
     for (double t = 0.01; t < std::min(root, 200.0) - 1e-6; t += 0.02) {
@@ -77,10 +77,20 @@ TEST_F(RootSearchTest, LeavesADoubleRootAtTheStartBehind) {
   }
 }
 
+TEST_F(RootSearchTest, LooksOnlyFromTheOutsetOn) {
+  const Frequencies w = {.fast = 1.0, .slow = 0.0};
+  const RootSearch search({.a = {1.0, 0.0}, .b = {0.0, 0.0}}, w);  // cos t
+  const double first = std::numbers::pi / 2.0;
+  EXPECT_NEAR(search.First({.time = 1.0}, kNever), first, 0x1p-49 * first);
+  EXPECT_NEAR(search.First({.time = 5.0}, kNever), 5.0 * first, 0x1p-49 * 5.0 * first);
+  EXPECT_EQ(search.First({.time = 2.0}, kNever), 2.0) << "negative there";
+  EXPECT_EQ(search.First({.time = 1.0}, 1.0), kNever);
+}
+
 TEST_F(RootSearchTest, SkipsAMillionPeriodsInWhichTheSlowPartIsTooLarge) {
   const Frequencies w = {.fast = 1e6, .slow = 1.0};
   const Signal signal = {.a = {1e-3, 1.0}, .b = {0.0, 0.0}};
-  const double root = RootSearch(signal, w).First(false, kNever);
+  const double root = RootSearch(signal, w).First({}, kNever);
   // cos t = 1e-3 at the earliest, and -1e-3 at the latest.
   EXPECT_NEAR(root, std::numbers::pi / 2.0, 1.1e-3);
   EXPECT_LE(std::fabs(signal.At(w, root).f), 1e-9);
@@ -92,7 +102,7 @@ TEST_F(RootSearchTest, TwoRootsCloseTogetherAreNotMissed) {
     // 1 - (1 + depth) cos(t - pi) is below 0 for |t - pi| < sqrt(2 depth).
     const Frequencies w = {.fast = 1.0, .slow = 0.0};
     const Signal signal = {.a = {1.0 + depth, 1.0}, .b = {0.0, 0.0}};
-    const double root = RootSearch(signal, w).First(false, kNever);
+    const double root = RootSearch(signal, w).First({}, kNever);
     EXPECT_NEAR(std::numbers::pi - root, std::sqrt(2.0 * depth), 0.02 * std::sqrt(2.0 * depth)) << depth;
   }
 }

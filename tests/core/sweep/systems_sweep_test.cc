@@ -164,6 +164,22 @@ TEST(SystemsSweepTest, DrivingTheSurfaceMakesItMove) {
   EXPECT_EQ(points.values[1][0], response->outcome.contact_velocity_after.tangential_m_s[0]);
 }
 
+// Not even the regime is known then, so it does not matter which column is asked for.
+TEST(SystemsSweepTest, ACompliantPathThatOverflowsMakesItsPointInvalidAsSolveRefusesIt) {
+  Scene scene = With(PlanarContact{2.0, -0.9, 1.5, -1.2e152, -0.85});
+  scene.restitution = EnergeticCoefficient{0.15};
+  scene.compliance = {.tangential_ratio_squared = 2.9, .normal = {}};
+  const std::vector<double> frictions = {0.3, 1.7e305};
+  const Points points =
+      RunAll({.grid = {.scene = scene, .axes = {{"friction.kinetic_coefficient", ListValues{frictions}}}},
+              .columns = {"impulse.normal_total_n_s"}});
+  EXPECT_NE(points.regimes[0], Regime::kInvalid);
+  EXPECT_EQ(points.regimes[1], Regime::kInvalid);
+  EXPECT_TRUE(std::isnan(points.values[1][0]));
+  scene.friction.kinetic_coefficient = frictions[1];
+  EXPECT_EQ(LocalSolver().Solve({.scene = scene}).status().code(), absl::StatusCode::kOutOfRange);
+}
+
 // Points where W is indefinite are invalid, and they alone.
 TEST(SystemsSweepTest, ABadPointDoesNotEndTheSweep) {
   const Points points = RunAll(
