@@ -199,7 +199,7 @@ class Path {
     if (!ending.stops) return true;
     if (mu_ == 0.0) {
       side_ = -side_before;
-    } else if (A(side_before) < 0.0) {
+    } else if (A(side_before) < 0.0 && !ending.passes_max) {  // On the gentler line S is above 0 again.
       side_ = 0;
       leaves_cone_ = side_before;
     }
