@@ -59,11 +59,12 @@ absl::Status ChunkChecker::CheckEnd() const {
                                           end_index_.has_value() ? absl::StrCat(*end_index_) : "?"));
 }
 
-SweepReader::SweepReader(v1::ImpactService::StubInterface& stub, const SweepRequest& request,
-                         std::optional<std::chrono::milliseconds> deadline, std::stop_token stop)
+SweepReader::SweepReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start,
+                         const SweepRequest& request, std::optional<std::chrono::milliseconds> deadline,
+                         std::stop_token stop)
     : checker_(request), stop_(std::move(stop)), cancel_(stop_, [this] { context_.TryCancel(); }) {
   if (deadline.has_value()) context_.set_deadline(std::chrono::system_clock::now() + *deadline);
-  reader_ = stub.Sweep(&context_, ToProto(request));
+  reader_ = start(&context_);
 }
 
 SweepReader::~SweepReader() {

@@ -1,0 +1,98 @@
+// Fuzzes what reads a scene for the command line: the first byte says how the others are meant, as JSON, as textproto, as
+// either, or as the flags of a pendulum, a line each.
+//
+// Checked: OK or INVALID_ARGUMENT with a message; a scene that was read is the same when it is written in either format
+// and read again; Validate and Solve's door take it as it is.
+//
+// Covers: client/cli/scene_input.cc but AddSceneOptions and ReadText, client/cli/number_input.cc
+
+#include <google/protobuf/text_format.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/number_input.h"
+#include "client/cli/scene_input.h"
+#include "core/scene/validate.h"
+#include "proto/wire/scene.h"
+#include "tests/fuzz/fail.h"
+
+namespace ricochet::cli {
+namespace {
+
+void CheckStatus(const absl::Status& status) {
+  if (status.ok()) return;
+  if (status.code() != absl::StatusCode::kInvalidArgument || status.message().empty()) Fail(status.ToString());
+}
+
+// Numbers by their shortest decimals, all NaN alike.
+std::string Printed(const v1::Scene& scene) {
+  std::string text;
+  google::protobuf::TextFormat::PrintToString(scene, &text);
+  return text;
+}
+
+void CheckReadAgain(const std::string& path, const std::string& text, const v1::Scene& scene) {
+  v1::Scene again;
+  const absl::Status status = ParseMessage(path, text, again);
+  if (!status.ok()) Fail(status.ToString());
+  if (Printed(again) != Printed(scene)) Fail(path + " changes when it is read again");
+}
+
+void CheckText(const std::string& path, const std::string& text) {
+  v1::Scene scene;
+  const absl::Status status = ParseMessage(path, text, scene);
+  CheckStatus(status);
+  if (!status.ok()) return;
+  static_cast<void>(Validate(FromProto(scene)));
+  CheckReadAgain("scene.textproto", Printed(scene), scene);
+  std::string json;
+  if (!google::protobuf::util::MessageToJsonString(scene, &json).ok()) Fail("a scene has no JSON");
+  CheckReadAgain("scene.json", json, scene);
+}
+
+void CheckFlags(const std::string& text) {
+  SceneOptions options;
+  std::optional<std::string>* const flags[] = {&options.a,      &options.b,       &options.inertia,
+                                               &options.omega,  &options.mu,      &options.mu_static,
+                                               &options.newton, &options.poisson, &options.energetic};
+  size_t i = 0;
+  for (const absl::string_view line : absl::StrSplit(text, '\n')) {
+    if (i == std::size(flags)) break;
+    if (!line.empty()) *flags[i] = std::string(line);
+    ++i;
+  }
+  const absl::StatusOr<Scene> scene = ReadScene(options);
+  CheckStatus(scene.status());
+  if (scene.ok()) static_cast<void>(Validate(*scene));
+  CheckStatus(ParseCount(text, "--points").status());
+  CheckStatus(ParseDuration(text, "--deadline").status());
+}
+
+}  // namespace
+}  // namespace ricochet::cli
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  if (size == 0) return 0;
+  const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
+  switch (data[0] % 4) {
+    case 0:
+      ricochet::cli::CheckText("scene.json", text);
+      break;
+    case 1:
+      ricochet::cli::CheckText("scene.textproto", text);
+      break;
+    case 2:
+      ricochet::cli::CheckText("-", text);
+      break;
+    default:
+      ricochet::cli::CheckFlags(text);
+  }
+  return 0;
+}
