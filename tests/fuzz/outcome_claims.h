@@ -7,10 +7,13 @@
 //   energy     E+ - E- <= s under the energetic coefficient; a gain is always flagged
 //   cone       |f1| <= mu_s tau1 + s_f, of Coulomb friction
 //   signs      normal work of compression <= s, of restitution >= -s; both dissipations >= -s; tau1 >= 0
+//              (nothing of energy and dissipation where the request excludes an effect, but that a gain is flagged)
 //   timeline   normal impulses rise from 0 to tau1
 //
-// s = (relative_error + 2^-40) V P, V the largest contact velocity before or after, P = |tau1| + |f1| the impulse; what
-// P W P, a product of two roundings more, adds near singular W is added. s_f is s over V. Both are 0 for no impact.
+// s = (e + 2^-40) (V + W P) P + e V^2/Wnn and s_f = 2 (e + 2^-40) P + e V/Wnn: e the outcome's relative error, which is
+// one of velocities, V the largest contact velocity before or after, P = tau1 + |f1|, W the sum of the sizes of its
+// entries. An answer with infinite e has been said not to have converged, and makes no claim but that its numbers are
+// finite.
 
 #ifndef RICOCHET_TESTS_FUZZ_OUTCOME_CLAIMS_H_
 #define RICOCHET_TESTS_FUZZ_OUTCOME_CLAIMS_H_
