@@ -1,7 +1,9 @@
-// Fuzzes the door and all models without a duration: bytes are a v1::SolveRequest, which is solved, bounded and audited.
+// Fuzzes the door and all models without a duration: bytes are a v1::SolveRequest, which is solved, swept, bounded and
+// audited.
 //
 // Checked: tests/fuzz/outcome_claims.h; bounds are intervals, of the energetic coefficient within [0, 1]; what was
-// solved under the energetic coefficient breaks no limit in its own audit; any velocity can be audited.
+// solved under the energetic coefficient breaks no limit in its own audit; any velocity can be audited; a
+// sweep has the bits of Solve.
 //
 // Covers: core/scene/*.cc but interval_reduction.cc; core/models/*.cc but finite_duration*.cc and scene_enclosure.cc;
 // core/local_solver.cc; core/study/audit*.cc but audit_columns.cc.
@@ -72,12 +74,48 @@ void CheckOwnAudit(const Scene& scene, const Outcome& outcome) {
   }
 }
 
+// A point of a sweep has the bits of the same impact solved alone; of the others only their number is known.
+void CheckSweep(const SolveRequest& request, const absl::StatusOr<SolveResponse>& alone) {
+  const double mu = request.scene.friction.kinetic_coefficient;
+  const SweepRequest sweep = {
+      .grid = {.scene = request.scene, .axes = {{"friction.kinetic_coefficient", ListValues{{mu, 0.1, 0.5}}}}},
+      .columns = {"coefficients.newton", "energy_change_j"},
+      .with_regime = true,
+      .demand = request.demand};
+  SweepStream stream = LocalSolver().Sweep(sweep);
+  const auto chunk = stream.begin();
+  if (chunk == stream.end()) Fail("a sweep without chunks");
+  if (!chunk->ok()) return CheckStatus(chunk->status(), Validate(request.scene).empty());
+  if ((*chunk)->count != 3 || (*chunk)->values.size() != 6) Fail("a sweep of another size");
+  if (!alone.ok() || request.plan_only || (*chunk)->regimes[0] == Regime::kInvalid) return;
+  if ((*chunk)->values[0] != alone->outcome.coefficients.newton) Fail("a point of a sweep has other bits");
+}
+
+// The numbers of the history stand for two rows of what was seen before and after, and for the coefficient of friction.
+void CheckColumns(const SolveRequest& request) {
+  const std::vector<double>& seen = request.history_at_n_s;
+  AuditBatchRequest batch = {.scene = request.scene};
+  batch.columns.tangential_after_m_s = {0.5, -0.1};
+  batch.columns.normal_after_m_s = {0.5};
+  if (seen.size() > 2) batch.columns.friction = {seen[2]};
+  if (seen.size() > 1) {
+    batch.columns.tangential_m_s = {seen[0]};
+    batch.columns.normal_m_s = {-1.0, seen[1]};
+  }
+  if (seen.size() > 3) batch.columns.tangential_2_m_s = batch.columns.tangential_2_after_m_s = {seen[3]};
+  const absl::StatusOr<AuditBatchResponse> response = LocalSolver().AuditBatch(batch);
+  CheckStatus(response.status(), Validate(request.scene, RestitutionIs::kOptional).empty());
+  if (response.ok() && response->reports.size() != 2) Fail("another number of audits than of rows");
+}
+
 void Run(const v1::SolveRequest& proto) {
   const SolveRequest request = FromProto(proto);
   if (TakesTime(request)) return;
   const absl::StatusOr<SolveResponse> response = SolveAndCheck(request);
   CheckBounds(request.scene);
   CheckAnyAudit(request);
+  CheckColumns(request);
+  CheckSweep(request, response);
   if (response.ok() && !request.plan_only) CheckOwnAudit(request.scene, response->outcome);
 }
 

@@ -4,11 +4,14 @@
 // Checked: OK or INVALID_ARGUMENT with a message; a scene that was read is the same when it is written in either format
 // and read again; Validate and Solve's door take it as it is.
 //
-// Covers: client/cli/scene_input.cc but AddSceneOptions and ReadText, client/cli/number_input.cc
+// Covers: client/cli/scene_input.cc, client/cli/number_input.cc
 
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include <CLI/App.hpp>
+#include <CLI/Config.hpp>
+#include <CLI/Formatter.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,6 +20,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/number_input.h"
 #include "client/cli/scene_input.h"
@@ -65,16 +69,25 @@ void CheckText(const std::string& path, const std::string& text) {
 }
 
 void CheckFlags(const std::string& text) {
+  static constexpr const char* kFlags[] = {"--a",         "--b",      "--inertia", "--omega",     "--mu",
+                                           "--mu-static", "--newton", "--poisson", "--energetic", "--scene"};
+  CLI::App app;
   SceneOptions options;
-  std::optional<std::string>* const flags[] = {&options.a,      &options.b,       &options.inertia,
-                                               &options.omega,  &options.mu,      &options.mu_static,
-                                               &options.newton, &options.poisson, &options.energetic};
+  AddSceneOptions(app, options);
+  std::vector<std::string> arguments;
   size_t i = 0;
   for (const absl::string_view line : absl::StrSplit(text, '\n')) {
-    if (i == std::size(flags)) break;
-    if (!line.empty()) *flags[i] = std::string(line);
+    if (i == std::size(kFlags)) break;
+    if (!line.empty()) arguments.push_back(absl::StrCat(kFlags[i], "=", line));
     ++i;
   }
+  try {
+    app.parse(arguments);
+  } catch (const CLI::ParseError&) {
+    return;
+  }
+  // No file of anybody's: a folder.
+  if (!options.file.empty()) options.file = ".";
   const absl::StatusOr<Scene> scene = ReadScene(options);
   CheckStatus(scene.status());
   if (scene.ok()) static_cast<void>(Validate(*scene));
