@@ -174,7 +174,7 @@ template <size_t kTangential>
 struct Impact {
   Regime regime = Regime::kSliding;
   int w_rank = 0;
-  bool sharp_limit_broken = false;   // Never: c <= 1.
+  bool sharp_limit_broken = false;  // Never: c <= 1.
   // Only where the caller excludes that slip stops: friction then drives it backwards, and may give more than
   // restitution takes.
   bool energy_limit_broken = false;
