@@ -7,6 +7,7 @@
 #include "proto/wire/audit.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
+#include "proto/wire/sweep.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 
 namespace ricochet {
@@ -66,8 +67,9 @@ absl::StatusOr<AuditBatchResponse> Client::AuditBatch(const AuditBatchRequest& r
 }
 
 SweepStream Client::Sweep(const SweepRequest& request, std::stop_token stop) const {
-  auto reader =
-      std::make_shared<SweepReader>(*connection_->stub, request, connection_->options.sweep_deadline, std::move(stop));
+  auto reader = std::make_shared<SweepReader>(
+      [&](grpc::ClientContext* context) { return connection_->stub->Sweep(context, ToProto(request)); }, request,
+      connection_->options.sweep_deadline, std::move(stop));
   // The stream keeps the connection, so it may outlive the Client that made it.
   return SweepStream([connection = connection_, reader = std::move(reader)] { return reader->Next(); });
 }

@@ -1,5 +1,7 @@
 #include "client/sweep_reader.h"
 
+#include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -16,6 +18,12 @@ std::optional<int64_t> EndIndex(const SweepRequest& request) {
   return PointCount(request.grid);
 }
 
+// Unsigned, because the ends of a range that no server would answer may be further apart than an int64_t can say.
+uint64_t PointsLeft(int64_t next_index, int64_t end_index) {
+  if (end_index <= next_index) return 0;
+  return static_cast<uint64_t>(end_index) - static_cast<uint64_t>(next_index);
+}
+
 }  // namespace
 
 ChunkChecker::ChunkChecker(const SweepRequest& request)
@@ -29,10 +37,16 @@ absl::Status ChunkChecker::Check(const SweepChunk& chunk) {
     return absl::DataLossError(absl::StrCat("the sweep's next chunk should start at point ", next_index_,
                                             " but starts at ", chunk.first_index));
   }
-  if (!end_index_.has_value()) end_index_ = next_index_ + chunk.points_total;
+  if (!end_index_.has_value()) {
+    if (chunk.points_total > std::numeric_limits<int64_t>::max() - std::max<int64_t>(next_index_, 0)) {
+      return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", next_index_, " promises ",
+                                              chunk.points_total, " points, more than can be numbered"));
+    }
+    end_index_ = next_index_ + std::max<int64_t>(chunk.points_total, 0);
+  }
   // A division, because a hostile count times the columns may overflow.
   const auto values = static_cast<int64_t>(chunk.values.size());
-  const bool fits = chunk.count >= 0 && chunk.count <= *end_index_ - next_index_ &&
+  const bool fits = chunk.count >= 0 && static_cast<uint64_t>(chunk.count) <= PointsLeft(next_index_, *end_index_) &&
                     (columns_ == 0 ? values == 0 : values % columns_ == 0 && values / columns_ == chunk.count);
   if (!fits) {
     return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", next_index_, " has ", values, " values for ",
@@ -59,11 +73,12 @@ absl::Status ChunkChecker::CheckEnd() const {
                                           end_index_.has_value() ? absl::StrCat(*end_index_) : "?"));
 }
 
-SweepReader::SweepReader(v1::ImpactService::StubInterface& stub, const SweepRequest& request,
-                         std::optional<std::chrono::milliseconds> deadline, std::stop_token stop)
+SweepReader::SweepReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start,
+                         const SweepRequest& request, std::optional<std::chrono::milliseconds> deadline,
+                         std::stop_token stop)
     : checker_(request), stop_(std::move(stop)), cancel_(stop_, [this] { context_.TryCancel(); }) {
   if (deadline.has_value()) context_.set_deadline(std::chrono::system_clock::now() + *deadline);
-  reader_ = stub.Sweep(&context_, ToProto(request));
+  reader_ = start(&context_);
 }
 
 SweepReader::~SweepReader() {

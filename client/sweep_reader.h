@@ -13,9 +13,10 @@
 #include <optional>
 #include <stop_token>
 
+#include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
 #include "core/sweep/sweep.h"
-#include "ricochet/v1/impact_service.grpc.pb.h"
+#include "ricochet/v1/sweep.pb.h"
 
 namespace ricochet {
 
@@ -40,8 +41,10 @@ class ChunkChecker {
 // Thread safety: one thread at a time; the stop token may be triggered from any.
 class SweepReader {
  public:
-  // Starts the call.
-  SweepReader(v1::ImpactService::StubInterface& stub, const SweepRequest& request,
+  using Call = grpc::ClientReaderInterface<v1::SweepResponse>;
+
+  // Starts the call that is to answer `request`.
+  SweepReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start, const SweepRequest& request,
               std::optional<std::chrono::milliseconds> deadline, std::stop_token stop);
   // Cancels the call if it is still running, and waits for its end.
   ~SweepReader();
@@ -59,7 +62,7 @@ class SweepReader {
   grpc::ClientContext context_;
   ChunkChecker checker_;
   std::stop_token stop_;
-  std::unique_ptr<grpc::ClientReaderInterface<v1::SweepResponse>> reader_;
+  std::unique_ptr<Call> reader_;
   v1::SweepResponse message_;
   bool finished_ = false;
   // Last, so that it is gone before what it cancels.

@@ -151,10 +151,14 @@ absl::StatusOr<std::string> ReadText(const std::string& path) {
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message) {
   const absl::StatusOr<std::string> text = ReadText(path);
   if (!text.ok()) return text.status();
+  return ParseMessage(path, *text, message);
+}
+
+absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message) {
   const std::string name = path == "-" ? "standard input" : path;
   const std::string type = message.GetTypeName();
-  if (IsJson(path, *text)) {
-    const auto status = google::protobuf::util::JsonStringToMessage(*text, &message);
+  if (IsJson(path, text)) {
+    const auto status = google::protobuf::util::JsonStringToMessage(text, &message);
     if (status.ok()) return absl::OkStatus();
     return absl::InvalidArgumentError(
         absl::StrCat(name, " is not a ", type, " in JSON: ", status.message().ToString()));
@@ -162,7 +166,7 @@ absl::Status ReadMessage(const std::string& path, google::protobuf::Message& mes
   FirstError error;
   google::protobuf::TextFormat::Parser parser;
   parser.RecordErrorsTo(&error);
-  if (parser.ParseFromString(*text, &message)) return absl::OkStatus();
+  if (parser.ParseFromString(text, &message)) return absl::OkStatus();
   return absl::InvalidArgumentError(absl::StrCat(name, " is not a ", type, " in textproto: ", error.text));
 }
 

@@ -39,6 +39,8 @@ absl::StatusOr<std::string> ReadText(const std::string& path);
 // *.pbtxt are textproto, anything else is JSON if it starts with a brace.
 // Errors: INVALID_ARGUMENT that names the file, and the line where the parser tells it.
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message);
+// The same of a file's text.
+absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message);
 
 }  // namespace ricochet::cli
 

@@ -130,6 +130,8 @@ Impact<kTangential> Solve(const Problem<kTangential>& problem) {
   impact.work_tangential_compression = 0.5 * Dot(rest.f, Sum(start.u, rest.u)) + 0.0;
   impact.work_tangential_restitution = 0.5 * Dot(f_restitution, Sum(rest.u, last.u)) + 0.0;
   impact.energy_change += 0.5 * Dot(last.f, Sum(start.u, last.u));
+  const double friction_gives = impact.work_tangential_compression + impact.work_tangential_restitution;
+  impact.energy_limit_broken = friction_gives > 0.0 && impact.energy_change > 0.0;
   return impact;
 }
 

@@ -174,8 +174,10 @@ template <size_t kTangential>
 struct Impact {
   Regime regime = Regime::kSliding;
   int w_rank = 0;
-  bool sharp_limit_broken = false;   // Never: c <= 1.
-  bool energy_limit_broken = false;  // Never: friction and restitution both only take.
+  bool sharp_limit_broken = false;  // Never: c <= 1.
+  // Only where the caller excludes that slip stops: friction then drives it backwards, and may give more than
+  // restitution takes.
+  bool energy_limit_broken = false;
   double newton = 0.0, poisson = 0.0, energetic = 0.0;
   double tangential = 0.0;  // f1/tau1; in space |f1|/tau1
   double energetic_excess = 0.0;

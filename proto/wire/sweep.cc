@@ -124,7 +124,9 @@ Tally FromProto(const v1::Tally& proto) { return {proto.count(), proto.first_ind
 static Tally Sum(const Tally& a, const Tally& b) {
   if (a.count == 0) return b;
   if (b.count == 0) return a;
-  return {a.count + b.count, std::min(a.first_index, b.first_index)};
+  // Unsigned, because a hostile count must not overflow.
+  const auto count = static_cast<int64_t>(static_cast<uint64_t>(a.count) + static_cast<uint64_t>(b.count));
+  return {count, std::min(a.first_index, b.first_index)};
 }
 
 v1::SweepSummary ToProto(const SweepSummary& summary) {

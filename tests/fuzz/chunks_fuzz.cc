@@ -1,0 +1,193 @@
+// Fuzzes what decodes a sweep's stream in the client: bytes are a request and the server's chunks. Each chunk is first
+// what belongs there; the bits of its first byte say which of its numbers are then replaced by those that follow.
+//
+// Checked: a stream is let through up to the first chunk that does not fit, and not further; what was let through is
+// every point of the range, once and in order; it ends well only if the summary came at the end; a stream of right chunks
+// is let through whole.
+//
+// Covers: client/sweep_reader.cc
+
+#include <grpcpp/client_context.h>
+#include <grpcpp/support/sync_stream.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
+#include "client/sweep_reader.h"
+#include "core/sweep/grid.h"
+#include "tests/fuzz/fail.h"
+
+namespace ricochet {
+namespace {
+
+class Bytes {
+ public:
+  Bytes(const uint8_t* data, size_t size) : data_(data), size_(size) {}
+
+  bool empty() const { return size_ == 0; }
+  // 0 where none is left.
+  uint8_t Byte() {
+    if (empty()) return 0;
+    --size_;
+    return *data_++;
+  }
+  // Of all sizes: a byte says by how much eight others are shifted.
+  int64_t Number() {
+    const int shift = Byte() % 64;
+    uint64_t bits = 0;
+    for (int i = 0; i < 8; ++i) bits = bits << 8U | Byte();
+    return static_cast<int64_t>(bits) >> shift;
+  }
+
+ private:
+  const uint8_t* data_;
+  size_t size_;
+};
+
+// How the whole call goes.
+struct Script {
+  SweepRequest request;
+  int64_t end = 0;  // Of the range, if the server and the client agree.
+  std::vector<v1::SweepResponse> chunks;
+  grpc::Status status;
+  bool right = true;  // No number was replaced, and the chunks go to the end.
+  std::optional<size_t> stop_at;
+};
+
+SweepRequest RequestFrom(Bytes& bytes) {
+  SweepRequest request;
+  const uint8_t shape = bytes.Byte();
+  request.columns.resize(shape % 4, "coefficients.newton");
+  request.with_regime = (shape & 4U) != 0;
+  if ((shape & 8U) != 0) request.first_index = bytes.Number();
+  if ((shape & 16U) != 0) request.end_index = bytes.Number();
+  request.grid.axes = {{"pendulum.a_m", Linspace{1.0, 2.0, bytes.Byte()}}};
+  if ((shape & 32U) != 0) request.grid.axes[0].path = "nobody.knows";
+  return request;
+}
+
+// Replaces what the bits of `spoilt` say.
+void Spoil(uint8_t spoilt, Bytes& bytes, v1::SweepResponse& chunk) {
+  if ((spoilt & 1U) != 0) chunk.set_first_index(bytes.Number());
+  if ((spoilt & 2U) != 0) chunk.set_count(bytes.Number());
+  if ((spoilt & 4U) != 0) chunk.mutable_values()->Resize(bytes.Byte(), 0.5);
+  if ((spoilt & 8U) != 0) chunk.mutable_regimes()->Resize(bytes.Byte(), 1);
+  if ((spoilt & 16U) != 0) chunk.set_points_total(bytes.Number());
+  if ((spoilt & 32U) != 0) chunk.has_summary() ? chunk.clear_summary() : chunk.mutable_summary()->Clear();
+}
+
+Script ScriptFrom(Bytes bytes) {
+  Script script = {.request = RequestFrom(bytes)};
+  const SweepRequest& request = script.request;
+  const int64_t points = ValidateAxes(request.grid).empty() ? PointCount(request.grid) : 64;
+  script.end = request.end_index.value_or(points);
+  int64_t next = request.first_index;
+  // Ranges that no server answers are right for nobody.
+  script.right = next >= 0 && next < script.end && script.end <= points;
+  while (!bytes.empty()) {
+    const uint8_t spoilt = bytes.Byte();
+    if ((spoilt & 64U) != 0) script.stop_at = script.chunks.size();
+    if ((spoilt & 128U) != 0) script.status = grpc::Status(grpc::StatusCode::INTERNAL, "broke down");
+    const int64_t count = script.right ? std::min<int64_t>(bytes.Byte() % 32 + 1, script.end - next) : bytes.Byte();
+    v1::SweepResponse chunk;
+    chunk.set_first_index(next);
+    chunk.set_count(count);
+    chunk.mutable_values()->Resize(static_cast<int>(count) * static_cast<int>(request.columns.size()), 0.5);
+    if (request.with_regime) chunk.mutable_regimes()->Resize(static_cast<int>(count), 1);
+    if (script.right) {
+      next += count;
+      chunk.set_points_total(script.end - request.first_index);
+      if (next == script.end) chunk.mutable_summary();
+    }
+    Spoil(spoilt, bytes, chunk);
+    script.right = script.right && (spoilt & ~64U) == 0;
+    script.chunks.push_back(std::move(chunk));
+    if (script.right && next == script.end) return script;
+  }
+  script.right = false;
+  return script;
+}
+
+// A call that answers by the script.
+class ScriptedCall final : public SweepReader::Call {
+ public:
+  ScriptedCall(const Script& script, std::stop_source stop) : script_(script), stop_(std::move(stop)) {}
+
+  bool Read(v1::SweepResponse* message) override {
+    if (next_ == script_.stop_at) stop_.request_stop();
+    if (next_ == script_.chunks.size()) return false;
+    *message = script_.chunks[next_++];
+    return true;
+  }
+  bool NextMessageSize(uint32_t* size) override {
+    *size = static_cast<uint32_t>(script_.chunks[next_].ByteSizeLong());
+    return true;
+  }
+  void WaitForInitialMetadata() override {}
+  grpc::Status Finish() override { return script_.status; }
+
+ private:
+  const Script& script_;
+  std::stop_source stop_;
+  size_t next_ = 0;
+};
+
+// Holds what is let through against the request.
+class Receiver {
+ public:
+  explicit Receiver(const Script& script) : script_(script), next_(script.request.first_index) {}
+
+  void Take(const SweepChunk& chunk) {
+    const auto columns = static_cast<int64_t>(script_.request.columns.size());
+    if (chunk.first_index != next_) Fail(absl::StrCat("point ", chunk.first_index, " in place of ", next_));
+    if (chunk.count < 0) Fail("a chunk of fewer than no points");
+    if (static_cast<int64_t>(chunk.values.size()) != chunk.count * columns) Fail("another number of values");
+    const int64_t regimes = script_.request.with_regime ? chunk.count : 0;
+    if (static_cast<int64_t>(chunk.regimes.size()) != regimes) Fail("another number of regimes");
+    next_ += chunk.count;
+    summarised_ = chunk.summary.has_value();
+  }
+
+  void End() const {
+    if (!summarised_) Fail("an end without a summary");
+    if (script_.request.end_index.has_value() && next_ != script_.end) Fail("an end before the last point");
+  }
+
+  bool complete() const { return summarised_ && next_ == script_.end; }
+
+ private:
+  const Script& script_;
+  int64_t next_;
+  bool summarised_ = false;
+};
+
+void Run(const Script& script) {
+  std::stop_source stop;
+  SweepReader reader([&](grpc::ClientContext*) { return std::make_unique<ScriptedCall>(script, stop); }, script.request,
+                     std::chrono::hours(1), stop.get_token());
+  Receiver receiver(script);
+  for (size_t reads = 0;; ++reads) {
+    if (reads > script.chunks.size()) Fail("more chunks than were sent");
+    const std::optional<absl::StatusOr<SweepChunk>> chunk = reader.Next();
+    if (!chunk.has_value()) return receiver.End();
+    if (!chunk->ok()) break;
+    receiver.Take(**chunk);
+  }
+  if (script.right && !script.stop_at.has_value()) Fail("a right stream is refused");
+  if (receiver.complete() && script.status.ok() && script.right) Fail("a complete stream ends badly");
+}
+
+}  // namespace
+}  // namespace ricochet
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  ricochet::Run(ricochet::ScriptFrom(ricochet::Bytes(data, size)));
+  return 0;
+}

@@ -1,0 +1,129 @@
+// Fuzzes the door and all models without a duration: bytes are a v1::SolveRequest, which is solved, swept, bounded and
+// audited.
+//
+// Checked: tests/fuzz/outcome_claims.h; bounds are intervals, of the energetic coefficient within [0, 1]; what was
+// solved under the energetic coefficient breaks no limit in its own audit; any velocity can be audited; a
+// sweep has the bits of Solve.
+//
+// Covers: core/scene/*.cc but interval_reduction.cc; core/models/*.cc but finite_duration*.cc and scene_enclosure.cc;
+// core/local_solver.cc; core/study/audit*.cc but audit_columns.cc.
+
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+
+#include "absl/status/statusor.h"
+#include "core/local_solver.h"
+#include "core/scene/validate.h"
+#include "proto/wire/requests.h"
+#include "tests/fuzz/fail.h"
+#include "tests/fuzz/outcome_claims.h"
+
+namespace ricochet {
+namespace {
+
+void CheckInterval(const Range& range, const char* what) {
+  if (!(range.lower <= range.upper)) Fail(what);
+}
+
+void CheckBounds(const Scene& scene) {
+  const absl::StatusOr<BoundsResponse> response = LocalSolver().Bounds({.scene = scene, .ranges = {}});
+  CheckStatus(response.status(), Validate(scene, RestitutionIs::kOptional).empty());
+  if (!response.ok()) return;
+  const CoefficientBounds& sharp = response->bounds.sharp;
+  CheckInterval(sharp.newton, "bounds of Newton's coefficient");
+  CheckInterval(sharp.poisson, "bounds of Poisson's coefficient");
+  CheckInterval(sharp.energetic, "bounds of the energetic coefficient");
+  CheckInterval(sharp.tangential, "bounds of the tangential coefficient");
+  CheckInterval(sharp.normal_total_n_s, "bounds of the normal impulse");
+  if (sharp.energetic.lower < 0.0 || sharp.energetic.upper > 1.0) Fail("an energetic bound is outside [0, 1]");
+}
+
+absl::StatusOr<AuditResponse> AuditAndCheck(const AuditRequest& request) {
+  absl::StatusOr<AuditResponse> response = LocalSolver().Audit(request);
+  CheckStatus(response.status(), Validate(request.scene, RestitutionIs::kOptional).empty());
+  return response;
+}
+
+// The numbers of the history stand for what somebody has seen.
+void CheckAnyAudit(const SolveRequest& request) {
+  const std::vector<double>& seen = request.history_at_n_s;
+  if (seen.size() < 2) return;
+  AuditRequest audit = {.scene = request.scene};
+  if (seen.size() == 2) audit.observed = ContactVelocity{{seen[0]}, seen[1]};
+  if (seen.size() == 3) audit.observed = ContactVelocity{{seen[0], seen[1]}, seen[2]};
+  if (seen.size() > 3) {
+    audit.observed = ObservedRates{{seen.begin() + 1, seen.end()}};
+    audit.velocity_uncertainty_m_s = seen[0];
+  }
+  static_cast<void>(AuditAndCheck(audit));
+}
+
+bool IsRigidAndEnergetic(const Scene& scene) {
+  return std::holds_alternative<EnergeticCoefficient>(scene.restitution) && !scene.compliance.has_value();
+}
+
+void CheckOwnAudit(const Scene& scene, const Outcome& outcome) {
+  AuditRequest request = {.scene = scene, .observed = outcome.contact_velocity_after};
+  const absl::StatusOr<AuditResponse> response = AuditAndCheck(request);
+  if (!response.ok() || !IsRigidAndEnergetic(scene)) return;
+  const bool exact = outcome.plan.model == Model::kPendulum || outcome.plan.model == Model::kPlanar;
+  if (!exact || outcome.accuracy.relative_error > 0x1p-40) return;
+  for (const LimitCheck& limit : response->report.limits) {
+    if (limit.verdict == Verdict::kBroken) Fail("the audit of an admissible impact finds a limit broken");
+  }
+}
+
+// A point of a sweep has the bits of the same impact solved alone; of the others only their number is known.
+void CheckSweep(const SolveRequest& request, const absl::StatusOr<SolveResponse>& alone) {
+  const double mu = request.scene.friction.kinetic_coefficient;
+  const SweepRequest sweep = {
+      .grid = {.scene = request.scene, .axes = {{"friction.kinetic_coefficient", ListValues{{mu, 0.1, 0.5}}}}},
+      .columns = {"coefficients.newton", "energy_change_j"},
+      .with_regime = true,
+      .demand = request.demand};
+  SweepStream stream = LocalSolver().Sweep(sweep);
+  const auto chunk = stream.begin();
+  if (chunk == stream.end()) Fail("a sweep without chunks");
+  if (!chunk->ok()) return CheckStatus(chunk->status(), Validate(request.scene).empty());
+  if ((*chunk)->count != 3 || (*chunk)->values.size() != 6) Fail("a sweep of another size");
+  if (!alone.ok() || request.plan_only || (*chunk)->regimes[0] == Regime::kInvalid) return;
+  if ((*chunk)->values[0] != alone->outcome.coefficients.newton) Fail("a point of a sweep has other bits");
+}
+
+// The numbers of the history stand for two rows of what was seen before and after, and for the coefficient of friction.
+void CheckColumns(const SolveRequest& request) {
+  const std::vector<double>& seen = request.history_at_n_s;
+  AuditBatchRequest batch = {.scene = request.scene};
+  batch.columns.tangential_after_m_s = {0.5, -0.1};
+  batch.columns.normal_after_m_s = {0.5};
+  if (seen.size() > 2) batch.columns.friction = {seen[2]};
+  if (seen.size() > 1) {
+    batch.columns.tangential_m_s = {seen[0]};
+    batch.columns.normal_m_s = {-1.0, seen[1]};
+  }
+  if (seen.size() > 3) batch.columns.tangential_2_m_s = batch.columns.tangential_2_after_m_s = {seen[3]};
+  const absl::StatusOr<AuditBatchResponse> response = LocalSolver().AuditBatch(batch);
+  CheckStatus(response.status(), Validate(request.scene, RestitutionIs::kOptional).empty());
+  if (response.ok() && response->reports.size() != 2) Fail("another number of audits than of rows");
+}
+
+void Run(const v1::SolveRequest& proto) {
+  const SolveRequest request = FromProto(proto);
+  if (TakesTime(request)) return;
+  const absl::StatusOr<SolveResponse> response = SolveAndCheck(request);
+  CheckBounds(request.scene);
+  CheckAnyAudit(request);
+  CheckColumns(request);
+  CheckSweep(request, response);
+  if (response.ok() && !request.plan_only) CheckOwnAudit(request.scene, response->outcome);
+}
+
+}  // namespace
+}  // namespace ricochet
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  ricochet::v1::SolveRequest request;
+  if (request.ParseFromArray(data, static_cast<int>(size))) ricochet::Run(request);
+  return 0;
+}

@@ -1,0 +1,166 @@
+#include "tests/fuzz/outcome_claims.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/error.h"
+#include "core/local_solver.h"
+#include "core/outcome_numbers.h"
+#include "core/scene/reduction.h"
+#include "core/scene/validate.h"
+#include "tests/fuzz/fail.h"
+
+namespace ricochet {
+namespace {
+
+void Require(bool kept, const char* claim, double value, double limit) {
+  if (!kept) Fail(absl::StrCat(claim, ": ", value, " against ", limit));
+}
+
+double Length(const std::vector<double>& numbers) {
+  double length = 0.0;
+  for (const double number : numbers) length = std::hypot(length, number);
+  return length;
+}
+
+// How far rounding, and the model's own error, may move works and impulses.
+struct Slack {
+  double work = 0.0;
+  double impulse = 0.0;
+};
+
+Slack SlackOf(const Scene& scene, const Outcome& outcome) {
+  const ContactVelocity& after = outcome.contact_velocity_after;
+  const double impulse = outcome.impulse.normal_total_n_s + Length(outcome.impulse.tangential_n_s);
+  double speed = std::max(Length(after.tangential_m_s), std::fabs(after.normal_m_s));
+  double mobility = 0.0;
+  double normal_mobility = 0.0;
+  std::visit(
+      [&](const auto& reduction) {
+        for (const double entry : reduction.w) mobility += std::fabs(entry);
+        for (const double u : reduction.u0) speed = std::max(speed, std::fabs(u));
+        speed = std::max(speed, std::fabs(reduction.v0));
+        normal_mobility = reduction.w.back();
+      },
+      Reduce(scene));
+  constexpr double kRounding = 0x1p-40;
+  constexpr double kSmallest = 0x1p-1060;
+  const double error = outcome.accuracy.relative_error + kRounding;
+  const double changed = speed + mobility * impulse;
+  const double unseen = outcome.accuracy.relative_error * speed / normal_mobility;
+  return {.work = error * changed * impulse + unseen * speed + kSmallest,
+          .impulse = 2.0 * error * impulse + unseen + kSmallest};
+}
+
+bool IsCoulomb(const Scene& scene) { return std::holds_alternative<std::monostate>(scene.impact_law); }
+// Whether the caller has left something out, whatever that changes.
+bool HasExclusions(const Outcome& outcome) {
+  return std::any_of(outcome.plan.effects.begin(), outcome.plan.effects.end(),
+                     [](const PlannedEffect& effect) { return effect.decision == Decision::kExcluded; });
+}
+bool HasForces(const Scene& scene) { return !std::holds_alternative<std::monostate>(scene.finite_forces); }
+
+void CheckNumbers(const Outcome& outcome) {
+  VisitOutcomeNumbers(outcome, [](const NumberPath& path, double number) {
+    if (!std::isfinite(number) && std::string(path.name) != "relative_error") {
+      Fail(absl::StrCat(path.prefix, ".", path.name, " = ", number));
+    }
+  });
+  if (outcome.admissible != outcome.broken_limits.empty()) Fail("admissible against broken_limits");
+}
+
+void CheckWorks(const Scene& scene, const Outcome& outcome, double slack) {
+  const WorkLedger& work = outcome.work;
+  const double phases = work.normal_compression_j + work.normal_restitution_j + work.tangential_compression_j +
+                        work.tangential_restitution_j;
+  const double sum = IsCoulomb(scene) ? phases : work.normal_total_j + work.tangential_total_j;
+  Require(std::fabs(sum - outcome.energy_change_j) <= slack, "the ledger is open", sum, outcome.energy_change_j);
+  if (!IsCoulomb(scene)) return;
+  Require(work.normal_compression_j <= slack, "compression gives work", work.normal_compression_j, slack);
+  Require(work.normal_restitution_j >= -slack, "restitution takes work", work.normal_restitution_j, slack);
+  if (HasExclusions(outcome)) return;
+  Require(work.friction_dissipation_j >= -slack, "friction gives work", work.friction_dissipation_j, slack);
+  Require(work.tangential_spring_j >= -slack, "the spring's rest is negative", work.tangential_spring_j, slack);
+}
+
+void CheckEnergy(const Scene& scene, const Outcome& outcome, double slack) {
+  const bool energetic = std::holds_alternative<EnergeticCoefficient>(scene.restitution);
+  const bool flagged = !outcome.admissible;
+  Require(flagged || outcome.energy_change_j <= slack, "a gain is not flagged", outcome.energy_change_j, slack);
+  if (!energetic || HasExclusions(outcome)) return;
+  Require(outcome.energy_change_j <= slack, "energy rises", outcome.energy_change_j, slack);
+  if (flagged) Fail("an energetic coefficient is inadmissible");
+}
+
+void CheckCone(const Outcome& outcome, double slack) {
+  const double limit = outcome.effective.static_friction * outcome.impulse.normal_total_n_s;
+  const double friction = Length(outcome.impulse.tangential_n_s);
+  Require(friction <= limit + slack * (1.0 + outcome.effective.static_friction), "friction leaves its cone", friction,
+          limit);
+}
+
+void CheckTimeline(const Outcome& outcome, double slack) {
+  double before = 0.0;
+  for (const Event& event : outcome.timeline) {
+    const double tau = event.state.normal_impulse_n_s;
+    Require(tau >= before - slack, "the timeline runs back", tau, before);
+    before = tau;
+  }
+  if (outcome.timeline.empty()) return;
+  Require(std::fabs(before - outcome.impulse.normal_total_n_s) <= slack, "the timeline ends elsewhere", before,
+          outcome.impulse.normal_total_n_s);
+}
+
+}  // namespace
+
+void CheckStatus(const absl::Status& status, bool valid_scene, bool inadmissible_is_error) {
+  switch (status.code()) {
+    case absl::StatusCode::kOk:
+      if (!valid_scene) Fail("an invalid scene is answered");
+      return;
+    case absl::StatusCode::kInvalidArgument:
+      if (ViolationsOf(status).empty()) Fail("INVALID_ARGUMENT without violations");
+      return;
+    case absl::StatusCode::kOutOfRange:
+      if (valid_scene && ReasonOf(status) == ErrorReason::kOutputOverflow) return;
+      break;
+    case absl::StatusCode::kFailedPrecondition:
+      if (valid_scene && inadmissible_is_error) return;
+      break;
+    default:
+      break;
+  }
+  Fail(absl::StrCat("status ", status.ToString()));
+}
+
+void CheckOutcome(const Scene& scene, const Outcome& outcome) {
+  CheckNumbers(outcome);
+  const Slack slack = SlackOf(scene, outcome);
+  if (!std::isfinite(slack.work)) return;  // Not converged, and said so; or beyond what doubles can be held against.
+  Require(outcome.impulse.normal_total_n_s >= 0.0, "the surface pulls", outcome.impulse.normal_total_n_s, 0.0);
+  CheckWorks(scene, outcome, slack.work);
+  CheckTimeline(outcome, slack.impulse);
+  if (!IsCoulomb(scene)) return;
+  CheckCone(outcome, slack.impulse);
+  if (!HasForces(scene)) CheckEnergy(scene, outcome, slack.work);
+}
+
+absl::StatusOr<SolveResponse> SolveAndCheck(const SolveRequest& request) {
+  const bool valid = Validate(request.scene).empty();
+  absl::StatusOr<SolveResponse> response = LocalSolver().Solve(request);
+  CheckStatus(response.status(), valid, request.inadmissible_is_error);
+  if (response.ok() && !request.plan_only) CheckOutcome(request.scene, response->outcome);
+  return response;
+}
+
+bool TakesTime(SolveRequest request) {
+  request.plan_only = true;
+  const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(request);
+  return response.ok() && response->outcome.plan.model == Model::kFiniteDuration;
+}
+
+}  // namespace ricochet

@@ -1,0 +1,72 @@
+// Fuzzes the conversions between protos and the core: the first byte says which message the others are.
+//
+// Checked: proto -> core -> proto -> core -> proto is total, and the last two protos have the same bytes; an error that
+// has crossed the wire once crosses it again unchanged.
+//
+// Covers: proto/wire/*.cc
+
+#include <grpcpp/support/status.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "absl/status/status.h"
+#include "proto/wire/audit.h"
+#include "proto/wire/requests.h"
+#include "proto/wire/status.h"
+#include "proto/wire/sweep.h"
+#include "ricochet/v1/impact_service.pb.h"
+#include "tests/fuzz/fail.h"
+
+namespace ricochet {
+namespace {
+
+v1::SweepResponse ToProto(const SweepChunk& chunk) {
+  v1::SweepResponse proto;
+  ricochet::ToProto(chunk, proto);
+  return proto;
+}
+
+template <typename Message>
+void CheckMessage(const std::string& bytes) {
+  Message proto;
+  if (!proto.ParseFromString(bytes)) return;
+  const Message once = ToProto(FromProto(proto));
+  const Message twice = ToProto(FromProto(once));
+  if (once.SerializeAsString() != twice.SerializeAsString()) Fail("a second conversion changes " + once.GetTypeName());
+}
+
+// Status codes beyond those of gRPC are as likely as they are in the hands of a broken server.
+void CheckError(const std::string& bytes) {
+  const int code = bytes.empty() ? 3 : static_cast<unsigned char>(bytes[0]) % 32;
+  const absl::Status once = FromGrpcStatus(grpc::Status(static_cast<grpc::StatusCode>(code), "message", bytes));
+  const absl::Status twice = FromGrpcStatus(ToGrpcStatus(once));
+  if (once.code() != twice.code() || once.message() != twice.message()) {
+    Fail("an error changes: " + once.ToString() + " becomes " + twice.ToString());
+  }
+}
+
+constexpr void (*kChecks[])(const std::string&) = {
+    CheckMessage<v1::SolveRequest>,
+    CheckMessage<v1::SolveResponse>,
+    CheckMessage<v1::BoundsRequest>,
+    CheckMessage<v1::BoundsResponse>,
+    CheckMessage<v1::AuditRequest>,
+    CheckMessage<v1::AuditResponse>,
+    CheckMessage<v1::AuditBatchRequest>,
+    CheckMessage<v1::AuditBatchResponse>,
+    CheckMessage<v1::SweepRequest>,
+    CheckMessage<v1::SweepResponse>,
+    CheckError,
+};
+
+}  // namespace
+}  // namespace ricochet
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  if (size == 0) return 0;
+  const std::string bytes(reinterpret_cast<const char*>(data) + 1, size - 1);
+  ricochet::kChecks[data[0] % std::size(ricochet::kChecks)](bytes);
+  return 0;
+}
