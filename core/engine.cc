@@ -1,29 +1,20 @@
 #include "core/engine.h"
 
-#include <bit>
 #include <cstdint>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/models/compliant.h"
+#include "core/models/first_order.h"
 #include "core/models/pendulum.h"
 #include "core/models/planar.h"
+#include "core/models/sliding.h"
 #include "core/models/spatial.h"
+#include "core/numerics/stable_hash.h"
+#include "core/scene/reduction.h"
 
 namespace ricochet {
 namespace {
-
-// FNV-1a over 64-bit words: a hash that is the same in every build and process, which absl::Hash is not.
-class StableHash {
- public:
-  void Add(uint64_t word) {
-    for (int shift = 0; shift < 64; shift += 8) {
-      state_ = (state_ ^ ((word >> shift) & 0xffU)) * 0x100000001b3U;
-    }
-  }
-  uint64_t value() const { return state_; }
-
- private:
-  uint64_t state_ = 0xcbf29ce484222325U;
-};
 
 // 64 impacts that between them reach every law and regime.
 pendulum::Problem Probe(int i) {
@@ -66,13 +57,59 @@ spatial::Problem SpatialProbe(int i) {
           .coefficient = (i % 11) / 10.0};
 }
 
+// The same contacts, compliant along t: sticks that end and impacts that do not.
+compliant::Problem CompliantProbe(int i) {
+  const planar::Problem p = PlanarProbe(i);
+  return {.wtt = p.wtt,
+          .wtn = p.wtn,
+          .wnn = p.wnn,
+          .u0 = p.u0,
+          .v0 = p.v0,
+          .mu = 0.1 * (i % 7),
+          .energetic = 0.1 + 0.05 * i,
+          .ratio_squared = 0.25 + 0.1 * i};
+}
+
+sliding::Problem<1> SlidingProbe(int i) {
+  return {.w = {2.5, 0.1 * i, 2.5}, .u0 = {1.0 + 0.1 * i}, .v0 = -1.0, .mu = 0.05 * i, .coefficient = i / 16.0};
+}
+
+sliding::Problem<2> SpatialSlidingProbe(int i) {
+  return {.w = {1.96, 0.24, 0.6, 2.96, -0.8, 1.85},
+          .u0 = {1.0 + 0.1 * i, 0.6},
+          .v0 = -1.0,
+          .mu = 0.01 * i,
+          .coefficient = i / 16.0};
+}
+
+// Chains of one to four links: angles, and a matrix to factorise.
+Linkage LinkageProbe(int i) {
+  Linkage linkage;
+  for (int k = 0; k <= i % 4; ++k) {
+    linkage.links.push_back({.length_m = 1.0 + 0.1 * k,
+                             .mass_kg = 1.0 + 0.2 * i,
+                             .com_m = 0.5,
+                             .inertia_com_kg_m2 = 0.1,
+                             .theta_rad = 0.3 * i - 0.7 * k,
+                             .rate_rad_s = -1.0 - 0.1 * k});
+  }
+  return linkage;
+}
+
 template <typename Impact>
 void Add(const Impact& impact, StableHash& hash) {
   hash.Add(static_cast<uint64_t>(impact.regime));
   for (const double value : {impact.v1, impact.tau_compression, impact.tau1, impact.work_normal_compression,
                              impact.work_normal_restitution, impact.energy_change}) {
-    hash.Add(std::bit_cast<uint64_t>(value));
+    hash.Add(value);
   }
+}
+
+void Add(const PlanarReduction& reduction, StableHash& hash) {
+  for (const double value : reduction.w) hash.Add(value);
+  for (const double value : reduction.response) hash.Add(value);
+  hash.Add(reduction.u0[0]);
+  hash.Add(reduction.v0);
 }
 
 std::string Fingerprint() {
@@ -80,11 +117,19 @@ std::string Fingerprint() {
   for (int i = 0; i < 16; ++i) {
     Add(planar::Solve(PlanarProbe(i)), hash);
     Add(spatial::Solve(SpatialProbe(i)), hash);
+    Add(compliant::Solve(CompliantProbe(i)), hash);
+    Add(sliding::Solve(SlidingProbe(i)), hash);
+    Add(sliding::SolveFrictionless(SlidingProbe(i)), hash);
+    Add(sliding::Solve(SpatialSlidingProbe(i)), hash);
+    Add(std::get<PlanarReduction>(Reduce({.system = LinkageProbe(i)})), hash);
   }
   for (int i = 0; i < 64; ++i) {
     const pendulum::Impact impact = pendulum::Solve(Probe(i));
     hash.Add(static_cast<uint64_t>(impact.regime));
-    for (const double value : impact.values) hash.Add(std::bit_cast<uint64_t>(value));
+    for (const double value : impact.values) hash.Add(value);
+    if (i % 4 == 0 && first_order::Serves(Probe(i))) {
+      for (const double value : first_order::Solve(Probe(i)).values) hash.Add(value);
+    }
   }
   return absl::StrCat(absl::Hex(hash.value(), absl::kZeroPad16));
 }

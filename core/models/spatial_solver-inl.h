@@ -58,6 +58,12 @@ inline Scale PowerOfTwo(int exponent) {
 // steps left behind is at most the sum of theirs, E. Semidefiniteness of W then bounds the velocities at equal tau:
 //   |du| <= sqrt(largest eigenvalue of Wtt) E,   |dv| = |wtn . Wtt^-1 du| <= sqrt(Wnn) E.
 // An event late by dtau adds dtau times the slopes there. Once the contact sticks, E is 0 again.
+//
+// Rounding. Slopes of slip along a line are sums of W's entries and of mu times others along e; with eps = 2^-52,
+//   v' is off by eps (Wnn + mu |wtn|),   u' by eps (|wtn| + mu |Wtt|),
+// however small they are themselves. Over a length in tau these are errors of v and of u. That of v is late / v' where v
+// has to reach something, and its integral where work has. Slip that stops late by dtau = (error of u)/|u'| to stick
+// leaves in v what the two slopes differ by, times dtau.
 template <typename T>
 class Solver {
  public:
@@ -162,7 +168,8 @@ class Solver {
   T work_error_{0};         // Of normal work in this phase: int |dv| dtau, and that of friction's.
   T compression_error_{0};  // dtau of the end of compression
   T compression_work_error_{0};
-  T rounding_{0};
+  T rounding_{0};       // Of v
+  T slip_rounding_{0};  // Of u
   T estimate_{0};
   T stop_tau_ = -kInfinity;  // Where slip stopped, from where the phase began.
   Slopes slopes_before_stop_ = {T{0}, T{0}, T{0}};
@@ -343,8 +350,10 @@ void Solver<T>::TurnTo(const Direction<T>& e) {
 template <typename T>
 void Solver<T>::SlipStraight(const Direction<T>& e) {
   const Slopes slopes = SlopesAlong(e);
-  const T growth = slopes.u1 * e.c + slopes.u2 * e.s;
   const T slip = std::sqrt(state_.u1 * state_.u1 + state_.u2 * state_.u2);
+  T growth = slopes.u1 * e.c + slopes.u2 * e.s;
+  // Slip that starts grows, if ever so slowly: a rounding below 0 would stop it where it is, again and again.
+  if (slip == T{0}) growth = std::max(growth, T{0});
   AddError(kEpsilon * slip / smallest_root_);
   Straight piece = {.slopes = {growth * e.c, growth * e.s, slopes.v},
                     .f1 = -mu_ * e.c,
@@ -377,6 +386,10 @@ void Solver<T>::AfterStop() {
   }
   error_ = T{0};
   if (sticking.v_slope == T{0}) return EndLocked();
+  const Slopes& before = slopes_before_stop_;
+  const T slowing = std::sqrt(before.u1 * before.u1 + before.u2 * before.u2);
+  if (slowing > T{0}) rounding_ += std::fabs(before.v - sticking.v_slope) * (slip_rounding_ / slowing);
+  slip_rounding_ = T{0};
   SetRegime(Regime::kStickInCompression, Regime::kStickInRestitution);
   Advance({.slopes = {T{0}, T{0}, sticking.v_slope},
            .f1 = sticking.f1,
@@ -411,8 +424,10 @@ void Solver<T>::Advance(const Straight& piece) {
     state_.v += piece.slopes.v * length;
     const T slip_after = std::sqrt(state_.u1 * state_.u1 + state_.u2 * state_.u2);
     state_.friction_work += piece.friction * length * T{0.5} * (slip + slip_after);
-    work_error_ += normal_root_ * error_ * length;
-    rounding_ += kEpsilon * (w_.w33 * length + std::fabs(state_.v));
+    const bool slips = piece.friction != T{0};
+    rounding_ += kEpsilon * ((slips ? steepest_ : w_.w33) * length + std::fabs(state_.v));
+    if (slips) slip_rounding_ += kEpsilon * (rate_ * length + slip);
+    work_error_ += (normal_root_ * error_ + rounding_) * length;
     if (!(distance <= left)) return;
     left -= length;
     Reach(piece.slopes);
@@ -695,7 +710,7 @@ T Solver<T>::Estimate(const Slopes& slopes) const {
     u_slope = std::max(u_slope, size(slopes_before_stop_));
     v_slope = std::max(v_slope, std::fabs(slopes_before_stop_.v));
   }
-  const T u_error = largest_root_ * error_ + late * u_slope;
+  const T u_error = largest_root_ * error_ + slip_rounding_ + late * u_slope;
   // A v that ends the impact is what was asked for.
   const bool v_is_goal = coefficient_ == T{0} || goal_.quantity == Quantity::kVelocity;
   const T v_error = v_is_goal ? landing_ * v_slope : normal_root_ * error_ + late * v_slope;

@@ -117,6 +117,41 @@ class SceneSource {
     return problem;
   }
 
+  // Where an output changes its sign, or the impact its regime.
+  enum class SignChange { kLocking, kFrictionImpulse, kDeformation, kEnergy };
+  static constexpr int kSignChanges = 4;
+
+  // At `factor` times the coefficient, of friction or of restitution, at which a double has the sign change.
+  Problem NearSignChange(SignChange change, double factor) {
+    Problem problem = Everyday();
+    AimSlope(problem, Uniform(0.0, 1.0));
+    const double x = problem.mu * std::fabs(problem.b) / problem.a;
+    const double r = (1.0 - x) / (1.0 + x);
+    problem.law = AnyLaw();
+    const auto coefficient = [&problem](double newton, double poisson, double energetic) {
+      return problem.law == Law::kNewton ? newton : problem.law == Law::kPoisson ? poisson : energetic;
+    };
+    switch (change) {
+      case SignChange::kLocking:
+        problem.mu = problem.mu_static = problem.a / std::fabs(problem.b) * factor;
+        return problem;
+      case SignChange::kFrictionImpulse:
+        problem.coefficient = coefficient(r, 1.0, std::sqrt(r)) * factor;
+        break;
+      case SignChange::kDeformation:
+        problem.coefficient = coefficient(std::sqrt(r), std::sqrt(1.0 / r), 1.0) * factor;
+        break;
+      case SignChange::kEnergy:
+        problem.coefficient = coefficient(1.0, 1.0 / r, 1.0) * factor;
+        break;
+    }
+    Admit(problem);
+    return problem;
+  }
+
+  // 1 +- a power of two with exponent in [-52, -20], any as likely as any other.
+  double NearlyOne() { return 1.0 + Sign() * std::exp2(-Uniform(20.0, 52.0)); }
+
   // x far below the last bit of 1.
   Problem NearlyVertical() {
     Problem problem = Everyday();

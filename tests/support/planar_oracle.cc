@@ -235,60 +235,61 @@ double Error(double computed, const Ball& exact, const Ball& allowance) {
   return std::max(0.0, error.UpperBound());
 }
 
-// The worst error of values of one scale.
-class WorstError {
+// Errors of values of one scale.
+class ErrorOnScale {
  public:
-  WorstError(Ball scale, const Ball& conditioning)
+  ErrorOnScale(Ball scale, const Ball& conditioning)
       : scale_(std::move(scale)), allowance_(conditioning * Ball::PowerOfTwo(-94)) {}
-  void Add(double computed, const Ball& exact) {
-    worst_ = std::max(worst_, Error(computed, exact, Larger(Abs(exact), scale_) * allowance_));
+  double operator()(double computed, const Ball& exact) const {
+    return Error(computed, exact, Larger(Abs(exact), scale_) * allowance_);
   }
-  double ulps() const { return worst_; }
 
  private:
   Ball scale_;
   Ball allowance_;
-  double worst_ = 0.0;
 };
 
 }  // namespace
 
 ExactImpact SolveExactly(const Problem& problem) { return Simulation(problem).Run(); }
 
-Errors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact) {
-  const Ball work = Larger(Larger(-exact.work_normal_compression, exact.work_normal_restitution),
-                           -(exact.work_tangential_compression + exact.work_tangential_restitution));
-  WorstError velocities(Larger(Abs(Ball(problem.u0)), Abs(Ball(problem.v0))), exact.conditioning);
-  WorstError impulses(exact.end().tau, exact.conditioning);
-  WorstError frictions(exact.steepest_friction * exact.end().tau, exact.conditioning);
-  WorstError tangential(exact.steepest_friction, exact.conditioning);
-  WorstError works(work, exact.conditioning);
-  WorstError coefficients(Ball(1.0), exact.conditioning);
+OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact) {
+  const Ball work_scale = Larger(Larger(-exact.work_normal_compression, exact.work_normal_restitution),
+                                 -(exact.work_tangential_compression + exact.work_tangential_restitution));
+  const ErrorOnScale velocity(Larger(Abs(Ball(problem.u0)), Abs(Ball(problem.v0))), exact.conditioning);
+  const ErrorOnScale normal(exact.end().tau, exact.conditioning);
+  const ErrorOnScale friction(exact.steepest_friction * exact.end().tau, exact.conditioning);
+  const ErrorOnScale tangential(exact.steepest_friction, exact.conditioning);
+  const ErrorOnScale work(work_scale, exact.conditioning);
+  const ErrorOnScale coefficient(Ball(1.0), exact.conditioning);
+  double tau = 0.0, f = 0.0, u = 0.0, v = 0.0;
   for (size_t i = 1; i < exact.events.size(); ++i) {  // The start is the input.
     const ExactInstant& expected = exact.events[i];
-    impulses.Add(impact.events[i].tau, expected.tau);
-    frictions.Add(impact.events[i].f, expected.f);
-    velocities.Add(impact.events[i].u, expected.u);
-    velocities.Add(impact.events[i].v, expected.v);
+    tau = std::max(tau, normal(impact.events[i].tau, expected.tau));
+    f = std::max(f, friction(impact.events[i].f, expected.f));
+    u = std::max(u, velocity(impact.events[i].u, expected.u));
+    v = std::max(v, velocity(impact.events[i].v, expected.v));
   }
-  velocities.Add(impact.u1, exact.end().u);
-  velocities.Add(impact.v1, exact.end().v);
-  impulses.Add(impact.tau_compression, exact.tau_compression);
-  impulses.Add(impact.tau1, exact.end().tau);
-  frictions.Add(impact.f_compression, exact.f_compression);
-  frictions.Add(impact.f1, exact.end().f);
-  works.Add(impact.work_normal_compression, exact.work_normal_compression);
-  works.Add(impact.work_normal_restitution, exact.work_normal_restitution);
-  works.Add(impact.work_tangential_compression, exact.work_tangential_compression);
-  works.Add(impact.work_tangential_restitution, exact.work_tangential_restitution);
-  works.Add(impact.energy_change, exact.energy_change);
-  coefficients.Add(impact.newton, exact.newton);
-  coefficients.Add(impact.poisson, exact.poisson);
-  coefficients.Add(impact.energetic, exact.energetic);
-  coefficients.Add(impact.energetic_excess, exact.energetic - 1.0);
-  tangential.Add(impact.tangential, exact.end().f / exact.end().tau);
-  return {velocities.ulps(), std::max(impulses.ulps(), frictions.ulps()), works.ulps(),
-          std::max(coefficients.ulps(), tangential.ulps())};
+  return {velocity(impact.u1, exact.end().u),
+          velocity(impact.v1, exact.end().v),
+          normal(impact.tau_compression, exact.tau_compression),
+          normal(impact.tau1, exact.end().tau),
+          friction(impact.f_compression, exact.f_compression),
+          friction(impact.f1, exact.end().f),
+          work(impact.work_normal_compression, exact.work_normal_compression),
+          work(impact.work_normal_restitution, exact.work_normal_restitution),
+          work(impact.work_tangential_compression, exact.work_tangential_compression),
+          work(impact.work_tangential_restitution, exact.work_tangential_restitution),
+          work(impact.energy_change, exact.energy_change),
+          coefficient(impact.newton, exact.newton),
+          coefficient(impact.poisson, exact.poisson),
+          coefficient(impact.energetic, exact.energetic),
+          coefficient(impact.energetic_excess, exact.energetic - 1.0),
+          tangential(impact.tangential, exact.end().f / exact.end().tau),
+          tau,
+          f,
+          u,
+          v};
 }
 
 std::string ToString(const Problem& problem) {

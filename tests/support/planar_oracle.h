@@ -7,6 +7,8 @@
 #ifndef RICOCHET_TESTS_SUPPORT_PLANAR_ORACLE_H_
 #define RICOCHET_TESTS_SUPPORT_PLANAR_ORACLE_H_
 
+#include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -38,17 +40,36 @@ struct ExactImpact {
 // The problem must not be separating.
 ExactImpact SolveExactly(const Problem& problem);
 
-// The largest error over the outputs of each kind in ulp of the exact value, beyond 2^-94 c of its scale, with
+// Outputs by which errors are told apart. The last four are the largest error at an event after the start.
+inline constexpr std::array kOutputNames = {
+    "u1",
+    "v1",
+    "tau_compression",
+    "tau1",
+    "f_compression",
+    "f1",
+    "work_n_compression",
+    "work_n_restitution",
+    "work_t_compression",
+    "work_t_restitution",
+    "energy_change",
+    "newton",
+    "poisson",
+    "energetic",
+    "energetic_excess",
+    "tangential",
+    "tau of events",
+    "f of events",
+    "u of events",
+    "v of events",
+};
+using OutputErrors = std::array<double, kOutputNames.size()>;
+
+// The error of each output in ulp of the exact value, beyond 2^-94 c of its scale, with
 // c = (Wtt Wnn/det W) (1 + mu |Wtn|/Wnn), at rank one 1. Scales: max(|u0|, |v0|) for velocities, tau1 for normal
 // impulses, the largest |f'| tau1 for tangential ones, the largest work for works, 1 for coefficients of restitution, the
 // largest |f'| for the tangential one; the value itself where that is larger.
-struct Errors {
-  double velocity = 0.0;
-  double impulse = 0.0;
-  double work = 0.0;
-  double coefficient = 0.0;
-};
-Errors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact);
+OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact);
 
 // A problem as hexadecimal floats, to be pasted into a test.
 std::string ToString(const Problem& problem);

@@ -104,6 +104,30 @@ class SceneSource {
     return NearStop(problem, problem.coefficient);
   }
 
+  // Where an output changes its sign, or the impact its regime.
+  enum class SignChange {
+    kStick,            // mu Wtt - |Wtn|
+    kJam,              // Wnn - mu |Wtn|
+    kStopAtRest,       // Slip stops where compression ends,
+    kStopAtEnd,        // or restitution.
+    kDeterminant,      // det W
+    kFrictionImpulse,  // f1
+    kDeformation,      // eta - 1
+    kEnergy,           // E+ - E-
+  };
+  static constexpr int kSignChanges = 8;
+
+  // At `factor` times the input at which a double has the sign change.
+  Problem NearSignChange(SignChange change, double factor) {
+    while (true) {
+      Problem problem = Everyday();
+      if (Approach(change, factor, problem)) return Admitted(problem);
+    }
+  }
+
+  // 1 +- a power of two with exponent in [-52, -20], any as likely as any other.
+  double NearlyOne() { return 1.0 + Sign() * std::exp2(-Uniform(20.0, 52.0)); }
+
   // Numbers of a few bits, so that events coincide exactly.
   Problem SmallIntegers() {
     Problem problem = {.wtt = Integer(1, 6),
@@ -183,6 +207,81 @@ class SceneSource {
       problem.u0 = sign * Steps(problem.v0 * u_slope / v_slope * (1.0 + k), Near(3));
     }
     return problem;
+  }
+
+  // Moves one input of `problem` to `factor` times its critical value; false if it has none.
+  bool Approach(SignChange change, double factor, Problem& problem) {
+    if (problem.wtn == 0.0) return false;
+    switch (change) {
+      case SignChange::kStick:
+        problem.mu = problem.mu_static = std::fabs(problem.wtn) / problem.wtt * factor;
+        return true;
+      case SignChange::kJam:
+        problem.mu = problem.mu_static = problem.wnn / std::fabs(problem.wtn) * factor;
+        problem.u0 = std::copysign(problem.u0, problem.wtn);
+        return true;
+      case SignChange::kStopAtRest:
+        return ApproachStop(0.0, factor, problem);
+      case SignChange::kStopAtEnd:
+        return ApproachStop(problem.coefficient, factor, problem);
+      case SignChange::kDeterminant:
+        problem.wtn = Sign() * std::sqrt(1.0 - std::fabs(1.0 - factor)) * std::sqrt(problem.wtt * problem.wnn);
+        return true;
+      case SignChange::kFrictionImpulse:
+        return ApproachNoFrictionImpulse(factor, problem);
+      case SignChange::kDeformation:
+        problem.law = Below(2) == 0 ? Law::kNewton : Law::kPoisson;
+        problem.coefficient = Elastic(problem) * factor;
+        return problem.coefficient > 0.0;
+      case SignChange::kEnergy:
+        return ApproachNoEnergyLost(factor, problem);
+    }
+    return false;
+  }
+
+  bool ApproachStop(double k, double factor, Problem& problem) {
+    const double sign = Sign();
+    const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
+    const double v_slope = problem.wnn - sign * problem.mu * problem.wtn;
+    problem.u0 = sign * (problem.v0 * u_slope / v_slope * (1.0 + k)) * factor;
+    return u_slope < 0.0 && v_slope > 0.0;
+  }
+
+  // Slip that stopped in compression has one slope of friction from there on.
+  static bool ApproachNoFrictionImpulse(double factor, Problem& problem) {
+    problem.law = Law::kPoisson;
+    problem.coefficient = 1.0;
+    const Impact impact = Solve(problem);
+    if (impact.f_compression * (impact.f1 - impact.f_compression) >= 0.0) return false;
+    problem.coefficient = impact.f_compression / (impact.f_compression - impact.f1) * factor;
+    return true;
+  }
+
+  // The coefficient of the problem's law that returns all the normal work.
+  static double Elastic(Problem problem) {
+    const Law law = problem.law;
+    problem.law = Law::kEnergetic;
+    problem.coefficient = 1.0;
+    const Impact impact = Solve(problem);
+    return law == Law::kNewton ? impact.newton : impact.poisson;
+  }
+
+  bool ApproachNoEnergyLost(double factor, Problem& problem) {
+    problem.law = Below(2) == 0 ? Law::kNewton : Law::kPoisson;
+    const auto change = [&problem](double coefficient) {
+      problem.coefficient = coefficient;
+      return Solve(problem).energy_change;
+    };
+    double low = Elastic(problem);
+    double high = 8.0 * low;
+    if (!(change(low) < 0.0 && change(high) > 0.0)) return false;
+    constexpr int kBits = 60;
+    for (int i = 0; i < kBits; ++i) {
+      const double middle = 0.5 * (low + high);
+      (change(middle) < 0.0 ? low : high) = middle;
+    }
+    problem.coefficient = high * factor;
+    return true;
   }
   int64_t Near(int64_t steps) { return static_cast<int64_t>(Below(static_cast<uint64_t>(2 * steps + 1))) - steps; }
   double Bits() { return std::bit_cast<double>(Below(uint64_t{0x7ff} << 52)); }

@@ -202,6 +202,65 @@ TEST_P(EstimateTest, IsNeverBelowTheErrorOfNearlySingularImpacts) {
 
 INSTANTIATE_TEST_SUITE_P(SpatialTest, EstimateTest, testing::Values(1e-4, 1e-6, 1e-10, 1e-12));
 
+// Slip along its invariant direction (p, q) from the start, v' from everyday size down to a ten-thousandth of Wnn.
+Problem StraightAndNearlyJamming(SceneSource& source, double p, double q) {
+  Problem problem = source.Typical();
+  problem.w12 = 0.0;
+  if (p != 0.0) problem.w22 = problem.w11;
+  // Few bits, so that wtn and u0 are exactly along (p, q).
+  const double coupling = std::ldexp(std::floor(std::ldexp(source.Uniform(0.1, 0.6), 20)), -20);
+  const double slip = std::ldexp(std::floor(std::ldexp(std::exp2(source.Uniform(-3.0, 7.0)), 20)), -20);
+  problem.w13 = coupling * p;
+  problem.w23 = coupling * q;
+  problem.u0 = {slip * p, slip * q};
+  const double critical = problem.w33 / (coupling * std::hypot(p, q));
+  problem.mu = problem.mu_static = critical * (1.0 - std::pow(10.0, -source.Uniform(0.1, 4.0)));
+  problem.tolerance = kLeastTolerance;
+  return problem;
+}
+
+TEST(SpatialTest, EstimateOfAClosedFormIsNotBelowItsErrorHoweverSlowlyVGrows) {
+  SceneSource source(13);
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> ratios;
+  for (int i = 0; i < 60'000; ++i) {
+    const bool oblique = i % 2 == 0;
+    const Problem problem =
+        oblique ? StraightAndNearlyJamming(source, 3.0, 1.0) : StraightAndNearlyJamming(source, 0.0, 1.0);
+    const Impact impact = Solve(problem);
+    ASSERT_TRUE(impact.closed_form) << i;
+    Problem second = problem;  // In the plane of t2 and n, where there is an exact model.
+    second.w11 = problem.w22;
+    second.w13 = problem.w23;
+    second.u0 = {problem.u0[1], 0.0};
+    const planar::Impact planar = planar::Solve(InPlane(second));
+    Impact reference;
+    reference.u1 = {0.0, planar.u1};
+    reference.v1 = planar.v1;
+    if (oblique) reference = Reference(problem);
+    const double ratio = impact.error_estimate / std::max(Distance(problem, impact, reference), 0x1p-54);
+    ASSERT_GE(ratio, 1.0) << i << " v0 " << problem.v0 << " estimate " << impact.error_estimate;
+    ratios.push_back(ratio);
+    least = std::min(least, ratio);
+  }
+  std::nth_element(ratios.begin(), ratios.begin() + 30'000, ratios.end());
+  std::printf("  estimate/error at least %.2f, median %.1f\n", least, ratios[30'000]);
+  EXPECT_LE(ratios[30'000], 100.0);
+}
+
+TEST(SpatialTest, SlipThatStartsAtNearlyNoRateEnds) {
+  SceneSource source(14);
+  for (int i = 0; i < 10'000; ++i) {
+    Problem problem = source.Typical();
+    problem.mu = problem.mu_static = SceneSource::StickFriction(problem) * (1.0 - std::ldexp(1.0, -50 + i % 20));
+    if (i % 2 == 0) problem.u0 = {};
+    const Impact impact = Solve(problem);
+    ASSERT_TRUE(impact.converged) << i;
+    ASSERT_LE(impact.event_count, 4) << i;
+    ASSERT_EQ(impact.events[static_cast<size_t>(impact.event_count) - 1].kind, EventKind::kRestitutionEnds) << i;
+  }
+}
+
 TEST(SpatialTest, EveryImpactEndsConservesTheLedgerStaysInTheConeAndGainsNoEnergyUnderTheEnergeticLaw) {
   SceneSource source(21);
   int64_t most_steps = 0;

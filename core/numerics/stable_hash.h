@@ -1,0 +1,27 @@
+// StableHash: FNV-1a over 64-bit words, the same in every build and process, which absl::Hash is not.
+
+#ifndef RICOCHET_CORE_NUMERICS_STABLE_HASH_H_
+#define RICOCHET_CORE_NUMERICS_STABLE_HASH_H_
+
+#include <bit>
+#include <cstdint>
+
+namespace ricochet {
+
+class StableHash {
+ public:
+  void Add(uint64_t word) {
+    for (int shift = 0; shift < 64; shift += 8) {
+      state_ = (state_ ^ ((word >> shift) & 0xffU)) * 0x100000001b3U;
+    }
+  }
+  void Add(double value) { Add(std::bit_cast<uint64_t>(value)); }
+  uint64_t value() const { return state_; }
+
+ private:
+  uint64_t state_ = 0xcbf29ce484222325U;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_NUMERICS_STABLE_HASH_H_

@@ -1,0 +1,15 @@
+// A planar impact from event to event in plain doubles, as a textbook would have it.
+
+#ifndef RICOCHET_TESTS_HARD_CASES_NAIVE_PLANAR_H_
+#define RICOCHET_TESTS_HARD_CASES_NAIVE_PLANAR_H_
+
+#include "core/models/planar.h"
+
+namespace ricochet::planar {
+
+// The problem must not be separating. W is taken as it stands: what rounding made of a rank of one is rank two.
+Impact NaiveSolve(const Problem& problem);
+
+}  // namespace ricochet::planar
+
+#endif  // RICOCHET_TESTS_HARD_CASES_NAIVE_PLANAR_H_
