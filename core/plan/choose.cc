@@ -208,6 +208,12 @@ Choice ForcedContact() {
   return choice;
 }
 
+// Without friction, as a planar contact: W and the velocities are rounded products of the pendulum's numbers.
+double PendulumSmoothError(const pendulum::Problem& problem) {
+  constexpr double kReduction = 0x1p-49;
+  return kReduction + SmoothError(problem.coefficient <= 1.0, LineOf(PlanarOf(problem)));
+}
+
 }  // namespace
 
 ContactPhysics Without(const Choice& choice, ContactPhysics physics) {
@@ -235,6 +241,16 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
 }
 
+// What is not simulated beside friction, or beside what first order leaves out, has size 0 here: the candidates are as in
+// ChoosePendulum.
+Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance) {
+  if (problem.omega_minus >= 0.0) return Model::kNone;
+  const double friction = PendulumFrictionSize(problem).value;
+  if (friction <= tolerance && friction + PendulumSmoothError(problem) <= tolerance) return Model::kFrictionless;
+  const bool serves = first_order::Serves(problem);
+  return serves && PendulumHigherOrderSize(problem).value <= tolerance ? Model::kFirstOrder : Model::kPendulum;
+}
+
 Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& physics, const Demand& demand) {
   const EffectSet excluded = WithImplied(demand.excluded, /*in_space=*/false);
   const ContactPhysics kept_physics = WithoutEffects(excluded, physics);
@@ -242,12 +258,8 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
   const pendulum::Problem kept = WithoutEffects(excluded, problem);
   const Sizes of_all = PendulumSizes(problem, physics);
   const Sizes sizes = excluded.IsEmpty() ? of_all : PendulumSizes(kept, kept_physics);
-  // W and the velocities are rounded products of the pendulum's numbers.
-  constexpr double kReduction = 0x1p-49;
   const Candidate rigid[] = {
-      {.model = Model::kFrictionless,
-       .simulates = {},
-       .error = kReduction + SmoothError(problem.coefficient <= 1.0, LineOf(PlanarOf(kept)))},
+      {.model = Model::kFrictionless, .simulates = {}, .error = PendulumSmoothError(kept)},
       {.model = Model::kFirstOrder,
        .simulates = {Effect::kFriction, Effect::kSlipStop},
        .error = first_order::Serves(kept) ? 0.0 : kUnbounded},

@@ -46,6 +46,9 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
 Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand);
 Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& physics, const Demand& demand);
 
+// The model of ChoosePendulum for a rigid pendulum and a demand of nothing but a tolerance, at a fraction of the cost.
+Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance);
+
 // The problem without what the choice leaves out: mu = mu_s = 0 without friction, mu_s = mu without static friction.
 // The problem may be of any model that has both coefficients.
 template <typename Problem>

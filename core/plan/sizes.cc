@@ -394,6 +394,10 @@ planar::Problem PlanarOf(const pendulum::Problem& problem) {
           .coefficient = problem.coefficient};
 }
 
+Size PendulumFrictionSize(const pendulum::Problem& problem) { return PendulumFriction(problem); }
+
+Size PendulumHigherOrderSize(const pendulum::Problem& problem) { return HigherOrderSize(problem); }
+
 Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& physics) {
   Sizes sizes;
   const planar::Problem planar = PlanarOf(problem);

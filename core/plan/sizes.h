@@ -129,6 +129,10 @@ Sizes PlanarSizes(const planar::Problem& problem, const ContactPhysics& physics,
 Sizes SpatialSizes(const spatial::Problem& problem);
 Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& physics);
 
+// Two of a rigid pendulum's, for whoever needs no others.
+Size PendulumFrictionSize(const pendulum::Problem& problem);
+Size PendulumHigherOrderSize(const pendulum::Problem& problem);
+
 // The contact of a pendulum.
 planar::Problem PlanarOf(const pendulum::Problem& problem);
 

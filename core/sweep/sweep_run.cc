@@ -139,6 +139,7 @@ class SweepRun::Impl {
   void SetField(size_t k);
   bool PointIsValid() const;
   void ResolveColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known);
+  void PlanPendulum(size_t i);
   void GatherProblems(int64_t count);
   void SolveLanes(int64_t count);
   void SolveInLanes(size_t first, size_t count);
@@ -254,14 +255,24 @@ SweepRun::Extent SweepRun::Impl::Next() const {
   return {next_, std::min(wanted, end_ - next_)};
 }
 
+// Most demands are a tolerance alone, and most points are cheap: so must their plan be.
+void SweepRun::Impl::PlanPendulum(size_t i) {
+  if (demand_.required.IsEmpty() && demand_.excluded.IsEmpty()) {
+    models_[i] = ModelOfPendulum(problems_[i], demand_.relative_tolerance);
+    if (models_[i] == Model::kFrictionless) problems_[i].mu = problems_[i].mu_static = 0.0;
+    return;
+  }
+  const Choice choice = ChoosePendulum(problems_[i], {}, demand_);
+  models_[i] = choice.model;
+  problems_[i] = Without(choice, problems_[i]);
+}
+
 void SweepRun::Impl::GatherProblems(int64_t count) {
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
     valid_[i] = PointIsValid();
     problems_[i] = valid_[i] ? ClosedFormProblem(scene_) : pendulum::Problem{};
     if (!valid_[i]) problems_[i].omega_minus = 1.0;  // Separating: the cheapest to solve.
-    const Choice choice = ChoosePendulum(problems_[i], {}, demand_);
-    models_[i] = choice.model;
-    problems_[i] = Without(choice, problems_[i]);
+    PlanPendulum(i);
     AdvancePoint();
   }
 }

@@ -104,6 +104,19 @@ TEST(ChooseTest, AnswersOfPendulumsAreWithinTheTolerance) {
   }
 }
 
+TEST(ChooseTest, TheCheapChoiceOfAPendulumIsTheWholeOne) {
+  PlanScenes scenes(29);
+  Usage usage;
+  for (int i = 0; i < kScenes; ++i) {
+    const pendulum::Problem problem = scenes.Pendulum();
+    const double tolerance = SomeTolerance(scenes);
+    const Choice choice = ChoosePendulum(problem, {}, {.relative_tolerance = tolerance});
+    ASSERT_EQ(ModelOfPendulum(problem, tolerance), choice.model) << "scene " << i;
+    usage.Add(choice.model);
+  }
+  for (const Model model : {Model::kFrictionless, Model::kFirstOrder, Model::kPendulum}) EXPECT_GT(usage[model], 100);
+}
+
 TEST(ChooseTest, AnswersInSpaceAreWithinTheTolerance) {
   PlanScenes scenes(33);
   Usage usage;
