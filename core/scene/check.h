@@ -66,7 +66,7 @@ class Check {
       case NumberRule::kOneToFour:
         return "be in [1, 4]";
       case NumberRule::kRatioSquared:
-        return "be >= 1e-9";
+        return "be in [1e-9, 1e9]";
     }
     return "";
   }

@@ -19,6 +19,8 @@ namespace ricochet {
 
 // Below, a double does not resolve the oscillation along the surface: that of core/models/compliant.h.
 inline constexpr double kLeastTangentialRatioSquared = 1e-9;
+// And no larger: one of the two springs is then none.
+inline constexpr double kMostTangentialRatioSquared = 1e9;
 
 // Every number must be finite.
 enum class NumberRule { kFinite, kPositive, kNotNegative, kUnitInterval, kPlusMinusOne, kOneToFour, kRatioSquared };
@@ -40,7 +42,7 @@ inline bool Holds(double value, NumberRule rule) {
     case NumberRule::kOneToFour:
       return value >= 1.0 && value <= 4.0;
     case NumberRule::kRatioSquared:
-      return value >= kLeastTangentialRatioSquared && value <= kMost;
+      return value >= kLeastTangentialRatioSquared && value <= kMostTangentialRatioSquared;
   }
   return false;
 }

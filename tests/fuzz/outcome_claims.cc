@@ -51,7 +51,7 @@ Slack SlackOf(const Scene& scene, const Outcome& outcome) {
   constexpr double kSmallest = 0x1p-1060;
   const double error = outcome.accuracy.relative_error + kRounding;
   const double changed = speed + mobility * impulse;
-  const double unseen = outcome.accuracy.relative_error * speed / normal_mobility;
+  const double unseen = error * speed / normal_mobility;
   return {.work = error * changed * impulse + unseen * speed + kSmallest,
           .impulse = 2.0 * error * impulse + unseen + kSmallest};
 }
@@ -141,7 +141,8 @@ void CheckOutcome(const Scene& scene, const Outcome& outcome) {
   CheckNumbers(outcome);
   const Slack slack = SlackOf(scene, outcome);
   if (!std::isfinite(slack.work)) return;  // Not converged, and said so; or beyond what doubles can be held against.
-  Require(outcome.impulse.normal_total_n_s >= 0.0, "the surface pulls", outcome.impulse.normal_total_n_s, 0.0);
+  const double normal = outcome.impulse.normal_total_n_s;
+  Require(normal >= -slack.impulse, "the surface pulls", normal, slack.impulse);
   CheckWorks(scene, outcome, slack.work);
   CheckTimeline(outcome, slack.impulse);
   if (!IsCoulomb(scene)) return;
