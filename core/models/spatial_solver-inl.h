@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "core/models/spatial.h"
 #include "core/models/spatial_matrix-inl.h"
@@ -171,6 +172,7 @@ class Solver {
   T rounding_{0};       // Of v
   T slip_rounding_{0};  // Of u
   T estimate_{0};
+  bool has_stopped_ = false;
   T stop_tau_ = -kInfinity;  // Where slip stopped, from where the phase began.
   Slopes slopes_before_stop_ = {T{0}, T{0}, T{0}};
   T landed_v_{0};  // Instead of 0, at the end of compression.
@@ -374,6 +376,12 @@ void Solver<T>::SlipStraight(const Direction<T>& e) {
 
 template <typename T>
 void Solver<T>::AfterStop() {
+  // Slip that starts again grows: it stops a second time only where numbers are beyond doubles.
+  if (std::exchange(has_stopped_, true)) {
+    impact_.converged = false;
+    done_ = true;
+    return;
+  }
   if (state_.u1 != T{0} || state_.u2 != T{0}) slopes_before_stop_ = SlopesAlong(Normalized(state_.u1, state_.u2));
   stop_tau_ = state_.tau;
   state_.u1 = state_.u2 = T{0};
