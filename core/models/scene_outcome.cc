@@ -129,15 +129,6 @@ absl::StatusOr<Outcome> SolveContact(const Job& job, const pendulum::Problem& pr
   return SolveContact(job, std::get<PlanarReduction>(Reduce(job.scene)));
 }
 
-// What may be wrong with the answer to what was asked, effects that the caller excludes apart.
-double ErrorOfPlan(const Choice& choice) {
-  double error = 0.0;
-  for (const Effect effect : kEffects) {
-    if (choice.decisions[static_cast<size_t>(effect)] == Decision::kNegligible) error += choice.sizes[effect].value;
-  }
-  return error;
-}
-
 }  // namespace
 
 absl::Status ContactOverflow() {
@@ -153,7 +144,7 @@ absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& optio
       std::visit([&job](const auto& contact) { return SolveContact(job, contact); }, planned.contact);
   if (!outcome.ok()) return outcome;
   outcome->effective = planned.effective;
-  outcome->accuracy.relative_error += ErrorOfPlan(planned.choice);
+  outcome->accuracy.relative_error += planned.choice.Negligible();
   outcome->plan.model = planned.choice.model;
   if (options.detail == Detail::kAll) outcome->plan = Explain(planned, options.demand);
   return outcome;

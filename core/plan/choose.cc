@@ -111,25 +111,8 @@ Choice Separating() {
 }
 
 // What the models that take a tolerance are left of the budget, in [least, most].
-double Left(const Choice& choice, const Sizes& sizes, const Demand& demand, double least, double most) {
-  double spent = 0.0;
-  for (const Effect effect : kEffects) {
-    if (choice.decisions[static_cast<size_t>(effect)] == Decision::kNegligible) spent += sizes[effect].value;
-  }
-  return std::clamp(demand.relative_tolerance - spent, least, most);
-}
-
-ContactPhysics WithoutEffects(EffectSet effects, ContactPhysics physics) {
-  if (effects.Has(Effect::kTangentialCompliance)) physics.ratio_squared = 0.0;
-  if (effects.Has(Effect::kFiniteForces)) physics.tangential_acceleration = physics.normal_acceleration = 0.0;
-  return physics;
-}
-
-template <typename Problem>
-Problem WithoutEffects(EffectSet effects, Problem problem) {
-  if (effects.Has(Effect::kFriction)) problem.mu = problem.mu_static = 0.0;
-  if (effects.Has(Effect::kStaticFriction)) problem.mu_static = problem.mu;
-  return problem;
+double Left(const Choice& choice, const Demand& demand, double least, double most) {
+  return std::clamp(demand.relative_tolerance - choice.Negligible(), least, most);
 }
 
 bool HasForces(const ContactPhysics& physics) {
@@ -191,7 +174,7 @@ Choice ChooseRigidOrCompliant(const Sizes& sizes, const Sizes& of_all, const Con
   Choice choice = ChooseAmong(sizes, of_all, demand, excluded,
                               absl::MakeConstSpan(candidates.data(), static_cast<size_t>(end - candidates.begin())));
   if (choice.model == Model::kFiniteDuration) {
-    choice.model_tolerance = Left(choice, choice.sizes, demand, 1e-12, 1e-1);
+    choice.model_tolerance = Left(choice, demand, 1e-12, 1e-1);
   }
   return choice;
 }
@@ -216,19 +199,33 @@ double PendulumSmoothError(const pendulum::Problem& problem) {
 
 }  // namespace
 
-ContactPhysics Without(const Choice& choice, ContactPhysics physics) {
+EffectSet Choice::LeftOut() const {
   EffectSet left_out;
   for (const Effect effect : kEffects) {
-    if (choice.LeavesOut(effect)) left_out.Add(effect);
+    if (LeavesOut(effect)) left_out.Add(effect);
   }
-  return WithoutEffects(left_out, physics);
+  return left_out;
+}
+
+double Choice::Negligible() const {
+  double sum = 0.0;
+  for (const Effect effect : kEffects) {
+    if (decisions[static_cast<size_t>(effect)] == Decision::kNegligible) sum += sizes[effect].value;
+  }
+  return sum;
+}
+
+ContactPhysics Without(EffectSet effects, ContactPhysics physics) {
+  if (effects.Has(Effect::kTangentialCompliance)) physics.ratio_squared = 0.0;
+  if (effects.Has(Effect::kFiniteForces)) physics.tangential_acceleration = physics.normal_acceleration = 0.0;
+  return physics;
 }
 
 Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physics, const Demand& demand) {
   const EffectSet excluded = WithImplied(demand.excluded, /*in_space=*/false);
-  const ContactPhysics kept_physics = WithoutEffects(excluded, physics);
+  const ContactPhysics kept_physics = Without(excluded, physics);
   if (problem.v0 >= 0.0) return HasForces(kept_physics) ? ForcedContact() : Separating();
-  const planar::Problem kept = WithoutEffects(excluded, problem);
+  const planar::Problem kept = Without(excluded, problem);
   const Sizes of_all = PlanarSizes(problem, physics);
   const Sizes sizes = excluded.IsEmpty() ? of_all : PlanarSizes(kept, kept_physics, excluded.Has(Effect::kSlipStop));
   const bool serves = LinesServe(kept);
@@ -253,9 +250,9 @@ Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance) {
 
 Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& physics, const Demand& demand) {
   const EffectSet excluded = WithImplied(demand.excluded, /*in_space=*/false);
-  const ContactPhysics kept_physics = WithoutEffects(excluded, physics);
+  const ContactPhysics kept_physics = Without(excluded, physics);
   if (problem.omega_minus >= 0.0) return HasForces(kept_physics) ? ForcedContact() : Separating();
-  const pendulum::Problem kept = WithoutEffects(excluded, problem);
+  const pendulum::Problem kept = Without(excluded, problem);
   const Sizes of_all = PendulumSizes(problem, physics);
   const Sizes sizes = excluded.IsEmpty() ? of_all : PendulumSizes(kept, kept_physics);
   const Candidate rigid[] = {
@@ -271,7 +268,7 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
 Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
   if (problem.v0 >= 0.0) return Separating();
   const EffectSet excluded = WithImplied(demand.excluded, /*in_space=*/true);
-  const spatial::Problem kept = WithoutEffects(excluded, problem);
+  const spatial::Problem kept = Without(excluded, problem);
   const Sizes of_all = SpatialSizes(problem);
   const Sizes sizes = excluded.IsEmpty() ? of_all : SpatialSizes(kept);
   const bool serves = LinesServe(kept);
@@ -283,7 +280,8 @@ Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
       {.model = Model::kSpatial, .simulates = kOfSpatial},
   };
   Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);
-  if (choice.model == Model::kSpatial) choice.model_tolerance = Left(choice, choice.sizes, demand, 1e-12, 1e-4);
+  if (choice.model == Model::kSpatial)
+    choice.model_tolerance = Left(choice, demand, spatial::kLeastTolerance, spatial::kMostTolerance);
   return choice;
 }
 

@@ -40,6 +40,9 @@ struct Choice {
     const Decision decision = decisions[static_cast<size_t>(effect)];
     return decision == Decision::kNegligible || decision == Decision::kExcluded;
   }
+  EffectSet LeftOut() const;
+  // What the plan itself leaves out can change, without what the caller excludes.
+  double Negligible() const;
 };
 
 Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physics, const Demand& demand);
@@ -49,15 +52,21 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
 // The model of ChoosePendulum for a rigid pendulum and a demand of nothing but a tolerance, at a fraction of the cost.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance);
 
-// The problem without what the choice leaves out: mu = mu_s = 0 without friction, mu_s = mu without static friction.
+// The problem without the effects: mu = mu_s = 0 without friction, mu_s = mu without static friction.
 // The problem may be of any model that has both coefficients.
 template <typename Problem>
-Problem Without(const Choice& choice, Problem problem) {
-  if (choice.LeavesOut(Effect::kFriction)) problem.mu = problem.mu_static = 0.0;
-  if (choice.LeavesOut(Effect::kStaticFriction)) problem.mu_static = problem.mu;
+Problem Without(EffectSet effects, Problem problem) {
+  if (effects.Has(Effect::kFriction)) problem.mu = problem.mu_static = 0.0;
+  if (effects.Has(Effect::kStaticFriction)) problem.mu_static = problem.mu;
   return problem;
 }
-ContactPhysics Without(const Choice& choice, ContactPhysics physics);
+ContactPhysics Without(EffectSet effects, ContactPhysics physics);
+
+// Without what the choice leaves out.
+template <typename Problem>
+Problem Without(const Choice& choice, const Problem& problem) {
+  return Without(choice.LeftOut(), problem);
+}
 
 }  // namespace ricochet
 

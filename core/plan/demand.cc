@@ -10,6 +10,7 @@
 #include "core/models/spatial_outcome.h"
 #include "core/plan/choose.h"
 #include "core/plan/planned_scene.h"
+#include "core/scene/check.h"
 #include "core/scene/effective.h"
 #include "core/scene/reduction.h"
 
@@ -58,10 +59,6 @@ std::string Lacking(const Scene& scene, Effect effect) {
 // Of the finite duration that the scene's spring gives it.
 bool HasFiniteForces(const Scene& scene) { return Lacking(scene, Effect::kFiniteForces).empty(); }
 
-bool IsDamped(const Scene& scene) {
-  return scene.compliance.has_value() && std::holds_alternative<HuntCrossleySpring>(scene.compliance->normal);
-}
-
 // Why the effect cannot be left out; empty if it can, as far as the contact's numbers do not decide.
 std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded) {
   const bool rubs = !excluded.Has(Effect::kFriction);
@@ -73,16 +70,16 @@ std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded
       if (effect == Effect::kSlipTurn && !IsInSpace(scene)) return "be left in: in a plane slip has no way to turn";
       if (!rubs) return "";
       if (HasClosedForm(scene)) return "be left in: a pendulum's slip stops where compression ends; exclude friction";
-      if (IsDamped(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {
+      if (HasDamping(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {
         return "be left in: the model of finite duration has slip that stops; exclude friction";
       }
       return "";
     case Effect::kFiniteDuration:
-      return IsDamped(scene) ? "be left in: the spring's damping is the restitution" : "";
+      return HasDamping(scene) ? "be left in: the spring's damping is the restitution" : "";
     case Effect::kHigherOrder:
       if (!HasClosedForm(scene)) return "be left in: only a pendulum over a surface at rest has a first-order form";
       if (!rubs) return "";
-      if (IsDamped(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {
+      if (HasDamping(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {
         return "be left in: the first-order form knows no duration; exclude finite_forces";
       }
       return "";

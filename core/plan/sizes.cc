@@ -316,49 +316,6 @@ void SetForces(const Scaled& contact, const planar::Problem& problem, const Cont
           .number = drift.seconds};
 }
 
-// x and the change that friction makes, exactly but for rounding.
-Size PendulumFriction(const pendulum::Problem& problem) {
-  const double b = std::fabs(problem.b);
-  const double x = problem.mu * b / problem.a;
-  if ((problem.mu == 0.0 || b == 0.0) && problem.mu_static * b < problem.a) return {};
-  if (!(1.0 - x >= kLeastSlope) || problem.mu_static * b >= problem.a * (1.0 - kRounding)) return Locking(x);
-  const double c = problem.coefficient;
-  const double ratio = (1.0 - x) / (1.0 + x);
-  const double twice = 2.0 * x / (1.0 + x);  // 1 - r
-  double v1 = 0.0;
-  double kappa = c;
-  double grown = 0.0;  // kappa - c
-  switch (problem.law) {
-    case Law::kEnergetic: {
-      const double root = std::sqrt(ratio);
-      v1 = c * twice / (1.0 + root);
-      kappa = c / root;
-      grown = kappa * twice / (1.0 + root);
-      break;
-    }
-    case Law::kPoisson:
-      v1 = c * twice;
-      break;
-    case Law::kNewton:
-      kappa = c / ratio;
-      grown = kappa * twice;
-      break;
-  }
-  // (1 + kappa)/(1 + x) - (1 + c)
-  const double tau1 = (std::fabs(grown - x * (1.0 + c)) + kRounding * (grown + x * (1.0 + c))) / (1.0 + x);
-  const double arm = b / problem.a;
-  const double f1 = arm * x * (std::fabs(1.0 - kappa) + kRounding * (1.0 + kappa)) / (1.0 + x);
-  const double largest = std::max({v1, arm * v1, tau1, f1}) / std::max(1.0, arm);
-  return {.value = Padded(largest + std::numeric_limits<double>::min()), .ground = Ground::kInequality, .number = x};
-}
-
-Size HigherOrderSize(const pendulum::Problem& problem) {
-  const double x = problem.mu * std::fabs(problem.b) / problem.a;
-  if (x == 0.0) return {};
-  if (!first_order::Serves(problem)) return {.value = kUnbounded, .ground = Ground::kNoInequality, .number = x};
-  return {.value = Padded(first_order::ErrorsOf(problem).Largest()), .ground = Ground::kInequality, .number = x};
-}
-
 }  // namespace
 
 Sizes PlanarSizes(const planar::Problem& problem, const ContactPhysics& physics, bool slips_on) {
@@ -394,16 +351,55 @@ planar::Problem PlanarOf(const pendulum::Problem& problem) {
           .coefficient = problem.coefficient};
 }
 
-Size PendulumFrictionSize(const pendulum::Problem& problem) { return PendulumFriction(problem); }
+// x and the change that friction makes, exactly but for rounding.
+Size PendulumFrictionSize(const pendulum::Problem& problem) {
+  const double b = std::fabs(problem.b);
+  const double x = problem.mu * b / problem.a;
+  if ((problem.mu == 0.0 || b == 0.0) && problem.mu_static * b < problem.a) return {};
+  if (!(1.0 - x >= kLeastSlope) || problem.mu_static * b >= problem.a * (1.0 - kRounding)) return Locking(x);
+  const double c = problem.coefficient;
+  const double ratio = (1.0 - x) / (1.0 + x);
+  const double twice = 2.0 * x / (1.0 + x);  // 1 - r
+  double v1 = 0.0;
+  double kappa = c;
+  double grown = 0.0;  // kappa - c
+  switch (problem.law) {
+    case Law::kEnergetic: {
+      const double root = std::sqrt(ratio);
+      v1 = c * twice / (1.0 + root);
+      kappa = c / root;
+      grown = kappa * twice / (1.0 + root);
+      break;
+    }
+    case Law::kPoisson:
+      v1 = c * twice;
+      break;
+    case Law::kNewton:
+      kappa = c / ratio;
+      grown = kappa * twice;
+      break;
+  }
+  // (1 + kappa)/(1 + x) - (1 + c)
+  const double tau1 = (std::fabs(grown - x * (1.0 + c)) + kRounding * (grown + x * (1.0 + c))) / (1.0 + x);
+  const double arm = b / problem.a;
+  const double f1 = arm * x * (std::fabs(1.0 - kappa) + kRounding * (1.0 + kappa)) / (1.0 + x);
+  const double largest = std::max({v1, arm * v1, tau1, f1}) / std::max(1.0, arm);
+  return {.value = Padded(largest + std::numeric_limits<double>::min()), .ground = Ground::kInequality, .number = x};
+}
 
-Size PendulumHigherOrderSize(const pendulum::Problem& problem) { return HigherOrderSize(problem); }
+Size PendulumHigherOrderSize(const pendulum::Problem& problem) {
+  const double x = problem.mu * std::fabs(problem.b) / problem.a;
+  if (x == 0.0) return {};
+  if (!first_order::Serves(problem)) return {.value = kUnbounded, .ground = Ground::kNoInequality, .number = x};
+  return {.value = Padded(first_order::ErrorsOf(problem).Largest()), .ground = Ground::kInequality, .number = x};
+}
 
 Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& physics) {
   Sizes sizes;
   const planar::Problem planar = PlanarOf(problem);
   const Scaled contact = Scale(planar);
   const double b = std::fabs(problem.b);
-  sizes[Effect::kFriction] = PendulumFriction(problem);
+  sizes[Effect::kFriction] = PendulumFrictionSize(problem);
   const bool rubs = problem.mu_static > 0.0 && b > 0.0;
   if (rubs && !sizes[Effect::kFriction].IsAbsent()) {
     sizes[Effect::kSlipStop] = {.value = kUnbounded, .ground = Ground::kStopsAtRest};
@@ -419,7 +415,7 @@ Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& phys
   sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, planar, physics, friction);
   sizes[Effect::kFiniteDuration] = DurationSize(physics);
   SetForces(contact, planar, physics, sizes);
-  sizes[Effect::kHigherOrder] = HigherOrderSize(problem);
+  sizes[Effect::kHigherOrder] = PendulumHigherOrderSize(problem);
   return sizes;
 }
 
