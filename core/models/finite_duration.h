@@ -44,7 +44,7 @@
 // rank one with a tangential spring 1e-15 Wtt Wnn/det W); error_estimate says what was reached. It is a multiple of the
 // sum of the sizes of CVODE's local errors, calibrated: testing has not found it below the true error, and in the median
 // it is 10 to 100 times that. All else has errors of like relative size, but for what passes close to 0.
-// The same bits on one machine only: SUNDIALS and the C library's pow.
+// The same bits on one machine only: SUNDIALS calls the C library's pow.
 // Bad input: none gets here (core/scene/validate.h). v0 >= 0: nothing changes, whatever the forces.
 
 #ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_H_
