@@ -7,11 +7,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "absl/status/statusor.h"
 #include "core/local_solver.h"
 #include "proto/wire/requests.h"
 #include "tests/fuzz/fail.h"
+#include "tests/fuzz/mutate_message.h"
 #include "tests/fuzz/outcome_claims.h"
 
 namespace ricochet {
@@ -34,6 +36,9 @@ void Run(const v1::SolveRequest& proto) {
 }
 
 }  // namespace
+
+std::unique_ptr<google::protobuf::Message> NewInput() { return std::make_unique<v1::SolveRequest>(); }
+
 }  // namespace ricochet
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

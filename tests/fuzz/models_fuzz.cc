@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <variant>
 
 #include "absl/status/statusor.h"
@@ -17,6 +18,7 @@
 #include "core/scene/validate.h"
 #include "proto/wire/requests.h"
 #include "tests/fuzz/fail.h"
+#include "tests/fuzz/mutate_message.h"
 #include "tests/fuzz/outcome_claims.h"
 
 namespace ricochet {
@@ -120,6 +122,9 @@ void Run(const v1::SolveRequest& proto) {
 }
 
 }  // namespace
+
+std::unique_ptr<google::protobuf::Message> NewInput() { return std::make_unique<v1::SolveRequest>(); }
+
 }  // namespace ricochet
 
 extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {

@@ -57,10 +57,13 @@ Slack SlackOf(const Scene& scene, const Outcome& outcome) {
 }
 
 bool IsCoulomb(const Scene& scene) { return std::holds_alternative<std::monostate>(scene.impact_law); }
-// Whether the caller has left something out, whatever that changes.
-bool HasExclusions(const Outcome& outcome) {
-  return std::any_of(outcome.plan.effects.begin(), outcome.plan.effects.end(),
-                     [](const PlannedEffect& effect) { return effect.decision == Decision::kExcluded; });
+// Whether the caller has slip go on straight, or to first order, whatever that changes: friction is not against it then.
+bool ForcesSlip(const Outcome& outcome) {
+  return std::any_of(outcome.plan.effects.begin(), outcome.plan.effects.end(), [](const PlannedEffect& planned) {
+    const bool is_of_slip = planned.effect == Effect::kSlipStop || planned.effect == Effect::kSlipTurn ||
+                            planned.effect == Effect::kHigherOrder;
+    return is_of_slip && planned.decision == Decision::kExcluded;
+  });
 }
 bool HasForces(const Scene& scene) { return !std::holds_alternative<std::monostate>(scene.finite_forces); }
 
@@ -82,7 +85,7 @@ void CheckWorks(const Scene& scene, const Outcome& outcome, double slack) {
   if (!IsCoulomb(scene)) return;
   Require(work.normal_compression_j <= slack, "compression gives work", work.normal_compression_j, slack);
   Require(work.normal_restitution_j >= -slack, "restitution takes work", work.normal_restitution_j, slack);
-  if (HasExclusions(outcome)) return;
+  if (ForcesSlip(outcome)) return;
   Require(work.friction_dissipation_j >= -slack, "friction gives work", work.friction_dissipation_j, slack);
   Require(work.tangential_spring_j >= -slack, "the spring's rest is negative", work.tangential_spring_j, slack);
 }
@@ -91,7 +94,7 @@ void CheckEnergy(const Scene& scene, const Outcome& outcome, double slack) {
   const bool energetic = std::holds_alternative<EnergeticCoefficient>(scene.restitution);
   const bool flagged = !outcome.admissible;
   Require(flagged || outcome.energy_change_j <= slack, "a gain is not flagged", outcome.energy_change_j, slack);
-  if (!energetic || HasExclusions(outcome)) return;
+  if (!energetic || ForcesSlip(outcome)) return;
   Require(outcome.energy_change_j <= slack, "energy rises", outcome.energy_change_j, slack);
   if (flagged) Fail("an energetic coefficient is inadmissible");
 }

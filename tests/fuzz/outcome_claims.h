@@ -7,7 +7,8 @@
 //   energy     E+ - E- <= s under the energetic coefficient; a gain is always flagged
 //   cone       |f1| <= mu_s tau1 + s_f, of Coulomb friction
 //   signs      normal work of compression <= s, of restitution >= -s; both dissipations >= -s; tau1 >= 0
-//              (nothing of energy and dissipation where the request excludes an effect, but that a gain is flagged)
+//              (nothing of energy and dissipation where the request excludes that slip stops or turns, or higher
+//              orders, but that a gain is flagged)
 //   timeline   normal impulses rise from 0 to tau1
 //
 // s = (e + 2^-40) (V + W P) P + e V^2/Wnn and s_f = 2 (e + 2^-40) P + e V/Wnn: e the outcome's relative error, which is

@@ -1,6 +1,8 @@
-// libFuzzer's mutator of targets whose input is a v1::SolveRequest in bytes. Changes of bytes seldom keep a message
-// whole, and hardly ever put two numbers an ulp from where a regime changes; these do: one change of one field at a
-// time, every fourth left to libFuzzer. It takes the part that libprotobuf-mutator would have, which Debian has not.
+// libFuzzer's mutator of targets whose input is a message in bytes. Changes of bytes seldom keep a message whole, and
+// hardly ever put two numbers an ulp from where a regime changes; these do: one change of one field at a time, every
+// fourth left to libFuzzer. It takes the part that libprotobuf-mutator would have, which Debian has not.
+
+#include "tests/fuzz/mutate_message.h"
 
 #include <google/protobuf/message.h>
 
@@ -9,10 +11,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <random>
 #include <vector>
-
-#include "ricochet/v1/impact_service.pb.h"
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
 
@@ -185,12 +186,12 @@ class Mutator {
 
 extern "C" size_t LLVMFuzzerCustomMutator(uint8_t* data, size_t size, size_t max_size, unsigned seed) {
   ricochet::Mutator mutator(seed);
-  ricochet::v1::SolveRequest request;
-  if (mutator.Below(4) == 0 || !request.ParseFromArray(data, static_cast<int>(size))) {
+  const std::unique_ptr<google::protobuf::Message> input = ricochet::NewInput();
+  if (mutator.Below(4) == 0 || !input->ParseFromArray(data, static_cast<int>(size))) {
     return LLVMFuzzerMutate(data, size, max_size);
   }
-  mutator.Mutate(request);
-  if (request.ByteSizeLong() > max_size) return size;
-  request.SerializeToArray(data, static_cast<int>(max_size));
-  return request.ByteSizeLong();
+  mutator.Mutate(*input);
+  if (input->ByteSizeLong() > max_size) return size;
+  input->SerializeToArray(data, static_cast<int>(max_size));
+  return input->ByteSizeLong();
 }

@@ -1,0 +1,17 @@
+// What a fuzz target whose input is a message in bytes tells the mutator of messages (tests/fuzz/mutate_message.cc).
+
+#ifndef RICOCHET_TESTS_FUZZ_MUTATE_MESSAGE_H_
+#define RICOCHET_TESTS_FUZZ_MUTATE_MESSAGE_H_
+
+#include <google/protobuf/message.h>
+
+#include <memory>
+
+namespace ricochet {
+
+// An empty message of the target's type.
+std::unique_ptr<google::protobuf::Message> NewInput();
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_TESTS_FUZZ_MUTATE_MESSAGE_H_

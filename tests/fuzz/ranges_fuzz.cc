@@ -1,0 +1,103 @@
+// Fuzzes enclosures: bytes are a v1::BoundsRequest, enclosed if that takes no more than some thousand boxes.
+//
+// Checked: the status; whatever scene one picks from the box, its bounds lie in the enclosure's outer ranges, within
+// 2^-30 of their size for what the bounds of that scene are rounded by, a separating one's impulse alone; what is
+// attained lies in the outer ranges too.
+//
+// Covers: core/models/scene_enclosure.cc, core/scene/interval_reduction.cc, core/laws/enclosure.cc,
+// core/laws/one_regime_ends.cc, core/laws/pendulum_ends.cc.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "absl/strings/str_cat.h"
+#include "core/error.h"
+#include "core/local_solver.h"
+#include "core/models/scene_enclosure.h"
+#include "core/scene/validate.h"
+#include "core/sweep/field.h"
+#include "proto/wire/requests.h"
+#include "tests/fuzz/fail.h"
+#include "tests/fuzz/mutate_message.h"
+#include "tests/fuzz/outcome_claims.h"
+
+namespace ricochet {
+namespace {
+
+constexpr size_t kMostRanges = 8;
+constexpr int kMostLooks = 8;  // Of EncloseScene at whether it should stop.
+
+void CheckRange(const Range& inner, const Range& outer, double slack, const char* what) {
+  if (inner.lower > inner.upper) return;
+  const double moved = slack * std::max(std::fabs(inner.lower), std::fabs(inner.upper));
+  if (inner.lower >= outer.lower - moved && inner.upper <= outer.upper + moved) return;
+  Fail(absl::StrCat(what, ": [", inner.lower, ", ", inner.upper, "] is not in [", outer.lower, ", ", outer.upper, "]"));
+}
+
+void CheckInside(const CoefficientBounds& inner, const CoefficientBounds& outer, double slack) {
+  CheckRange(inner.newton, outer.newton, slack, "Newton's coefficient");
+  CheckRange(inner.poisson, outer.poisson, slack, "Poisson's coefficient");
+  CheckRange(inner.energetic, outer.energetic, slack, "the energetic coefficient");
+  CheckRange(inner.tangential, outer.tangential, slack, "the tangential coefficient");
+  CheckRange(inner.normal_total_n_s, outer.normal_total_n_s, slack, "the normal impulse");
+}
+
+// The scene at one place of the box: a quarter's multiple of each range, told by `place`'s digits.
+Scene SceneAt(const BoundsRequest& request, size_t place) {
+  Scene scene = request.scene;
+  for (const FieldRange& range : request.ranges) {
+    const double part = 0.25 * static_cast<double>(place % 5);
+    place /= 5;
+    const double value = range.low * (1.0 - part) + range.high * part;
+    ResolveField(range.path, scene)->Set(std::clamp(value, range.low, range.high));
+  }
+  return scene;
+}
+
+void CheckScenes(const BoundsRequest& request, const Enclosure& enclosure) {
+  constexpr double kRounding = 0x1p-30;
+  size_t places = 1;
+  for (size_t i = 0; i < request.ranges.size(); ++i) places *= 5;
+  const size_t step = places / 37 + 1;
+  for (size_t place = 0; place < places; place += step) {
+    const Scene scene = SceneAt(request, place);
+    if (!Validate(scene, RestitutionIs::kOptional).empty()) continue;
+    const absl::StatusOr<BoundsResponse> response = LocalSolver().Bounds({.scene = scene, .ranges = {}});
+    if (!response.ok()) continue;
+    const CoefficientBounds& sharp = response->bounds.sharp;
+    if (response->bounds.regime != Regime::kSeparating) CheckInside(sharp, enclosure.outer, kRounding);
+    CheckRange(sharp.normal_total_n_s, enclosure.outer.normal_total_n_s, kRounding, "the normal impulse");
+  }
+}
+
+void Run(const v1::BoundsRequest& proto) {
+  const BoundsRequest request = FromProto(proto);
+  if (request.ranges.empty() || request.ranges.size() > kMostRanges) return;
+  if (!Validate(request.scene, RestitutionIs::kOptional).empty()) return;
+  if (!CheckRanges(request.scene, request.ranges).empty()) return;
+  int looks = 0;
+  const auto stopped = [&looks] { return ++looks > kMostLooks; };
+  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, stopped);
+  if (absl::IsCancelled(enclosure.status())) return;
+  CheckStatus(enclosure.status(), true);
+  if (!enclosure.ok()) return;
+  CheckInside(enclosure->attained, enclosure->outer, 0.0);
+  CheckScenes(request, *enclosure);
+}
+
+}  // namespace
+
+std::unique_ptr<google::protobuf::Message> NewInput() { return std::make_unique<v1::BoundsRequest>(); }
+
+}  // namespace ricochet
+
+extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
+  ricochet::v1::BoundsRequest request;
+  if (request.ParseFromArray(data, static_cast<int>(size))) ricochet::Run(request);
+  return 0;
+}
