@@ -227,8 +227,9 @@ Motion RatesAt(const Contact& contact, const Mode& mode, const Motion& y) {
   const double pace = Pace(contact, mode);
   const double dt = contact.rooted ? 2.0 * y[kPlace] * pace : pace;
   const bool particle_sticks = contact.compliant && mode.grip == Grip::kStick;
-  const bool particle_slides = contact.compliant && mode.grip != Grip::kStick;
-  const double slip = SlipSign(mode.grip) * y[kU] + (particle_slides ? ParticleShare(contact, mode) * y[kV] : 0.0);
+  const double sign = SlipSign(mode.grip);
+  const bool particle_slides = contact.compliant && sign != 0.0;
+  const double slip = sign * y[kU] + (particle_slides ? ParticleShare(contact, mode) * y[kV] : 0.0);
   Motion rates;
   rates[kPlace] = -y[kV] / pace;
   rates[kU] = acceleration.u * dt;

@@ -314,6 +314,21 @@ TEST(FiniteDurationTest, ACompliantContactThatEndsAtRestBooksItsSpringAsLost) {
   EXPECT_EQ(impact.friction_dissipation, 0.0);
 }
 
+TEST(FiniteDurationTest, WhereNothingMovesAlongTFrictionTakesNothing) {
+  const Impact impact = Solve({.wnn = 1.0,
+                               .v0 = -1.0,
+                               .normal_acceleration = -9.81,
+                               .mu = 0.5,
+                               .mu_static = 0.5,
+                               .spring = LinearSpring{1e4},
+                               .energetic = 0.8,
+                               .ratio_squared = 1.2});
+  EXPECT_EQ(impact.regime, Regime::kFrictionless);
+  EXPECT_EQ(impact.f1, 0.0);
+  EXPECT_EQ(impact.friction_dissipation, 0.0);
+  EXPECT_EQ(impact.spring_energy, 0.0);
+}
+
 // What the trapezoidal rule makes of a history.
 double Integral(const std::vector<ForceSample>& history, double ForceSample::*force) {
   double sum = 0.0;
