@@ -152,13 +152,14 @@ class Follower {
     if (!held && (opens ? rate <= 0.0 : rate >= 0.0)) return;
     changed_ = true;
     y_[kV] = 0.0;
-    // At rest in restitution it neither parts nor moves.
-    if (held && mode_.line != Line::kLoading) stays_ = true;
+    const bool compressed = mode_.line == Line::kLoading && (!contact_.damped || y_[kPlace] >= mode_.largest);
+    // At rest in restitution, or where the spring balances what presses, it neither parts nor moves.
+    stays_ = held && (!compressed || contact_.stick_slope != 0.0);
     path_.held = held && !stays_;
-    if (mode_.line == Line::kLoading && (!contact_.damped || y_[kPlace] >= mode_.largest)) {
+    if (compressed) {
       EndCompression();
       AddEvent(EventKind::kCompressionEnds);
-      if (contact_.eta == 0.0 && !held) return Part();
+      if (contact_.eta == 0.0 && !path_.held) return Part();
     }
     const Line closing = contact_.damped ? Line::kLoading : Line::kReloading;
     mode_.line = opens ? Line::kUnloading : closing;

@@ -34,7 +34,8 @@ constexpr int kMostLooks = 8;  // Of EncloseScene at whether it should stop.
 
 void CheckRange(const Range& inner, const Range& outer, double slack, const char* what) {
   if (inner.lower > inner.upper) return;
-  const double moved = slack * std::max(std::fabs(inner.lower), std::fabs(inner.upper));
+  const double size = std::max(std::fabs(inner.lower), std::fabs(inner.upper));
+  const double moved = std::isinf(size) ? 0.0 : slack * size;
   if (inner.lower >= outer.lower - moved && inner.upper <= outer.upper + moved) return;
   Fail(absl::StrCat(what, ": [", inner.lower, ", ", inner.upper, "] is not in [", outer.lower, ", ", outer.upper, "]"));
 }

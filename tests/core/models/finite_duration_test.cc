@@ -581,6 +581,16 @@ TEST(FiniteDurationTest, WhatDoesNotPartEndsByItsBudget) {
   }
 }
 
+TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
+  Problem problem = Rod(HuntCrossleySpring{3.0, 1.5, 0.2});
+  problem.mu = 4.0 / 3.0;
+  problem.mu_static = 3.0;
+  problem.tangential_acceleration = 2.0;
+  const Impact impact = Solve(problem);
+  EXPECT_FALSE(impact.converged);
+  EXPECT_EQ(impact.regime, Regime::kWedged);
+}
+
 TEST(FiniteDurationTest, APendulumThatSticksIsLockedWhateverPressesIt) {
   Problem problem = {.wtt = 4.0,
                      .wtn = 2.0,
