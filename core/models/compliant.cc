@@ -101,13 +101,8 @@ void WriteWorks(const Problem& problem, const Units& units, const Path& path, Im
 }
 
 Impact SolveSeparating(const Problem& problem) {
-  Impact impact;
-  impact.regime = Regime::kSeparating;
-  impact.w_rank = internal::MakeInertia(problem.wtt, problem.wtn, problem.wnn).rank_one ? 1 : 2;
-  impact.energetic_excess = -1.0;
-  impact.u1 = problem.u0;
-  impact.v1 = problem.v0;
-  return impact;
+  const bool rank_one = internal::MakeInertia(problem.wtt, problem.wtn, problem.wnn).rank_one;
+  return Separating<Impact>(rank_one ? 1 : 2, problem.u0, problem.v0);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/outcome.h"
+#include "core/models/impact_end.h"
 
 namespace ricochet::compliant {
 
@@ -104,20 +104,10 @@ inline constexpr int kMaxSections = 100'000;
 // At this one random everyday contacts have 73,000 sections at most.
 inline constexpr double kLeastRatioSquared = 1e-9;
 
-struct Impact {
-  Regime regime = Regime::kUnspecified;
-  int w_rank = 0;
-  bool sharp_limit_broken = false;   // Never.
-  bool energy_limit_broken = false;  // Never.
-  double newton = 0.0, poisson = 0.0, energetic = 0.0;
-  double tangential = 0.0;  // f1/tau1
-  double energetic_excess = 0.0;
-  double u1 = 0.0, v1 = 0.0;
-  double tau_compression = 0.0, tau1 = 0.0;  // Compression ends at the last d = d_max.
-  double f_compression = 0.0, f1 = 0.0;
-  double work_normal_compression = 0.0, work_normal_restitution = 0.0;
-  double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
-  double energy_change = 0.0;         // P . (v- + v+)/2, never through an inverse of W
+// No limit is ever broken. Compression ends at the last d = d_max. The change of energy is P . (v- + v+)/2, never through
+// an inverse of W.
+struct Impact : ImpactEnd<double> {
+  double f_compression = 0.0;
   double friction_dissipation = 0.0;  // >= 0
   double spring_energy = 0.0;         // Left in the tangential spring, and lost, >= 0.
   double error_estimate = 0.0;        // Of the velocities over max(|u0|, |v0|).

@@ -61,16 +61,6 @@ Estimated FollowWithin(const Contact& contact, Integrator& integrator, double to
   }
 }
 
-Impact Separating(const Problem& problem) {
-  Impact impact;
-  impact.regime = Regime::kSeparating;
-  impact.w_rank = RankOf(problem);
-  impact.energetic_excess = -1.0;
-  impact.u1 = problem.u0;
-  impact.v1 = problem.v0;
-  return impact;
-}
-
 Regime RegimeOf(const Contact& contact, const Path& path) {
   if (!path.parted && !path.held) return Regime::kWedged;
   if (path.held) return Regime::kLocked;
@@ -178,7 +168,7 @@ Impact MakeImpact(const Problem& problem, const Contact& contact, const Estimate
 }  // namespace
 
 Impact Solve(const Problem& problem) {
-  if (problem.v0 >= 0.0) return Separating(problem);
+  if (problem.v0 >= 0.0) return Separating<Impact>(RankOf(problem), problem.u0, problem.v0);
   const Contact contact = MakeContact(problem);
   Integrator integrator(contact);
   Estimated found = FollowWithin(contact, integrator, problem.tolerance);

@@ -54,6 +54,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/models/impact_end.h"
 #include "core/outcome.h"
 #include "core/scene/scene.h"
 
@@ -76,21 +77,11 @@ struct Problem {
   int64_t intervals = 0;                // > 0: a history of so many equal steps of time.
 };
 
-struct Impact {
-  Regime regime = Regime::kUnspecified;
-  int w_rank = 0;
-  bool sharp_limit_broken = false;   // Never: no spring here gives back more than it stored.
-  bool energy_limit_broken = false;  // Never: the contact's forces only take energy.
-  double newton = 0.0, poisson = 0.0, energetic = 0.0;
-  double tangential = 0.0;        // f1/tau1
-  double energetic_excess = 0.0;  // energetic - 1, free of cancellation
-  double u1 = 0.0, v1 = 0.0;
-  double tau_compression = 0.0, tau1 = 0.0;
-  double f_compression = 0.0, f1 = 0.0;
-  double work_normal_compression = 0.0, work_normal_restitution = 0.0;
-  double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
-  // What the contact's forces do: P.(v- + v+)/2 + a.(T P/2 - integral of P dt), P = (f1, tau1), T the duration.
-  double energy_change = 0.0;
+// No limit is ever broken: no spring here gives back more than it stored, the contact's forces only take energy. The
+// excess is free of cancellation. The change of energy is what the contact's forces do:
+// P.(v- + v+)/2 + a.(T P/2 - integral of P dt), P = (f1, tau1), T the duration.
+struct Impact : ImpactEnd<double> {
+  double f_compression = 0.0;
   double friction_dissipation = 0.0;  // >= 0
   double spring_energy = 0.0;         // Left in the tangential spring, and lost, >= 0.
   double error_estimate = 0.0;        // Of the velocities over max(|u0|, |v0|).

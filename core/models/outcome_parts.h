@@ -14,6 +14,7 @@
 #include "absl/status/status.h"
 #include "absl/types/span.h"
 #include "core/error.h"
+#include "core/models/impact_end.h"
 #include "core/models/pendulum.h"
 #include "core/outcome.h"
 #include "core/scene/reduction.h"
@@ -106,9 +107,8 @@ std::array<double, kTangential> ByDirection(const std::array<double, kTangential
 }
 
 // What the path of an impact ends with: all of an outcome but its effective coefficients, accuracy, timeline and history.
-// SomeImpact has the members of planar::Impact or of spatial::Impact, u1 and f1 scalars or one entry a direction.
-template <size_t kTangential, typename SomeImpact>
-Outcome MakeEnd(const SomeImpact& impact, const Reduction<kTangential>& reduction, double duration = 0.0) {
+template <size_t kTangential, typename Along>
+Outcome MakeEnd(const ImpactEnd<Along>& impact, const Reduction<kTangential>& reduction, double duration = 0.0) {
   const std::array<double, kTangential> u1 = ByDirection(impact.u1);
   const std::array<double, kTangential> f1 = ByDirection(impact.f1);
   Outcome outcome;

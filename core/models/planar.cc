@@ -44,21 +44,12 @@ bool FitsDoubleDouble(const Problem& problem) {
          0;
 }
 
-// Nothing changes.
-Impact SolveSeparating(const Problem& problem) {
-  Impact impact;
-  impact.regime = Regime::kSeparating;
-  impact.w_rank = HWY_NAMESPACE::MakeInputs<Wide>(problem).rank_one ? 1 : 2;
-  impact.energetic_excess = -1.0;
-  impact.u1 = problem.u0;
-  impact.v1 = problem.v0;
-  return impact;
-}
-
 }  // namespace
 
 Impact Solve(const Problem& problem) {
-  if (problem.v0 >= 0.0) return SolveSeparating(problem);
+  if (problem.v0 >= 0.0) {
+    return Separating<Impact>(HWY_NAMESPACE::MakeInputs<Wide>(problem).rank_one ? 1 : 2, problem.u0, problem.v0);
+  }
   if (!FitsDoubleDouble(problem)) return HWY_NAMESPACE::SolveOne<Wide>(problem);
   return HWY_DYNAMIC_DISPATCH(SolveModerate)(problem);
 }

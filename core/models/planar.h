@@ -42,6 +42,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/models/impact_end.h"
 #include "core/models/pendulum.h"
 #include "core/outcome.h"
 
@@ -61,32 +62,15 @@ struct Problem {
   double coefficient = 0.0;  // e, k or eta
 };
 
-// The contact at an event, and what ends or begins there.
-struct Instant {
-  EventKind kind = EventKind::kUnspecified;
-  double tau = 0.0;  // Normal impulse so far.
-  double f = 0.0;    // Tangential impulse so far.
-  double u = 0.0;
-  double v = 0.0;
-};
+using Instant = ImpactInstant<double>;
 
 // The start, the stop of slip, the ends of compression and of restitution.
 inline constexpr int kMaxEvents = 4;
 
-struct Impact {
-  Regime regime = Regime::kUnspecified;
-  int w_rank = 0;
-  bool sharp_limit_broken = false;   // Implied energetic coefficient > 1.
-  bool energy_limit_broken = false;  // E+ > E-.
-  double newton = 0.0, poisson = 0.0, energetic = 0.0;
-  double tangential = 0.0;        // f1/tau1
-  double energetic_excess = 0.0;  // energetic - 1, free of cancellation; > 0 exactly if the sharp limit is broken
-  double u1 = 0.0, v1 = 0.0;
-  double tau_compression = 0.0, tau1 = 0.0;
-  double f_compression = 0.0, f1 = 0.0;
-  double work_normal_compression = 0.0, work_normal_restitution = 0.0;
-  double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
-  double energy_change = 0.0;              // p . (v- + v+)/2, never through an inverse of W
+// The excess is free of cancellation: > 0 exactly if the sharp limit is broken. The change of energy is p . (v- + v+)/2,
+// never through an inverse of W.
+struct Impact : ImpactEnd<double> {
+  double f_compression = 0.0;
   std::array<Instant, kMaxEvents> events;  // In order of tau; u is linear between them, and so are v and f.
   int event_count = 0;                     // 0 where separating.
 };

@@ -62,6 +62,7 @@ Impact<kTangential> MakeImpact(const Problem<kTangential>& problem, const End<kT
     u_compression[i] = std::fma(u_slope[i], end.tau_compression, problem.u0[i]) + 0.0;
   }
   Impact<kTangential> impact;
+  impact.regime = Regime::kSliding;
   impact.w_rank = RankOf(problem);
   impact.newton = impact.poisson = impact.energetic = c;
   impact.energetic_excess = c - 1.0;

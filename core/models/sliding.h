@@ -40,6 +40,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "core/models/impact_end.h"
 #include "core/models/relative_errors.h"
 #include "core/numerics/products.h"
 #include "core/outcome.h"
@@ -159,35 +160,13 @@ RelativeErrors ErrorsOf(const Problem<kTangential>& problem);
 template <size_t kTangential>
 RelativeErrors FrictionlessErrorsOf(const Problem<kTangential>& problem);
 
-// The contact at an event, and what ends or begins there.
 template <size_t kTangential>
-struct Instant {
-  EventKind kind = EventKind::kUnspecified;
-  double tau = 0.0;
-  Vector<kTangential> f = {};
-  Vector<kTangential> u = {};
-  double v = 0.0;
-};
+using Instant = ImpactInstant<Vector<kTangential>>;
 
-// Members as those of planar::Impact.
+// The sharp limit is never broken: c <= 1. That of energy is only where the caller excludes that slip stops: friction then
+// drives it backwards, and may give more than restitution takes.
 template <size_t kTangential>
-struct Impact {
-  Regime regime = Regime::kSliding;
-  int w_rank = 0;
-  bool sharp_limit_broken = false;  // Never: c <= 1.
-  // Only where the caller excludes that slip stops: friction then drives it backwards, and may give more than
-  // restitution takes.
-  bool energy_limit_broken = false;
-  double newton = 0.0, poisson = 0.0, energetic = 0.0;
-  double tangential = 0.0;  // f1/tau1; in space |f1|/tau1
-  double energetic_excess = 0.0;
-  Vector<kTangential> u1 = {};
-  double v1 = 0.0;
-  double tau_compression = 0.0, tau1 = 0.0;
-  Vector<kTangential> f1 = {};
-  double work_normal_compression = 0.0, work_normal_restitution = 0.0;
-  double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
-  double energy_change = 0.0;
+struct Impact : ImpactEnd<Vector<kTangential>> {
   std::array<Instant<kTangential>, 3> events = {};  // The start, the ends of compression and of restitution.
   int event_count = 3;
 };

@@ -34,12 +34,7 @@ namespace {
 
 // Nothing changes.
 Impact SolveSeparating(const Problem& problem) {
-  Impact impact;
-  impact.regime = Regime::kSeparating;
-  impact.w_rank = RankOf(problem);
-  impact.energetic_excess = -1.0;
-  impact.u1 = problem.u0;
-  impact.v1 = problem.v0;
+  Impact impact = Separating<Impact>(RankOf(problem), problem.u0, problem.v0);
   impact.closed_form = true;
   return impact;
 }

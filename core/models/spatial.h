@@ -23,6 +23,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/models/impact_end.h"
 #include "core/models/pendulum.h"
 #include "core/outcome.h"
 
@@ -47,30 +48,11 @@ struct Problem {
   double tolerance = 1e-10;  // Of each velocity after the impact over max(|u0|, |v0|); in [1e-12, 1e-4].
 };
 
-// The contact at an event, and what ends or begins there.
-struct Instant {
-  EventKind kind = EventKind::kUnspecified;
-  double tau = 0.0;              // Normal impulse so far.
-  std::array<double, 2> f = {};  // Tangential impulse so far.
-  std::array<double, 2> u = {};
-  double v = 0.0;
-};
+using Instant = ImpactInstant<std::array<double, 2>>;
 
-struct Impact {
-  Regime regime = Regime::kUnspecified;
-  int w_rank = 0;
-  bool sharp_limit_broken = false;   // Implied energetic coefficient > 1, by more than the estimated error.
-  bool energy_limit_broken = false;  // E+ > E-, by more than the estimated error.
-  double newton = 0.0, poisson = 0.0, energetic = 0.0;
-  double tangential = 0.0;        // |f1|/tau1
-  double energetic_excess = 0.0;  // energetic - 1
-  std::array<double, 2> u1 = {};
-  double v1 = 0.0;
-  double tau_compression = 0.0, tau1 = 0.0;
-  std::array<double, 2> f1 = {};
-  double work_normal_compression = 0.0, work_normal_restitution = 0.0;
-  double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
-  double energy_change = 0.0;    // p . (v- + v+)/2, never through an inverse of W
+// Limits count as broken where they are by more than the estimated error. The change of energy is p . (v- + v+)/2, never
+// through an inverse of W.
+struct Impact : ImpactEnd<std::array<double, 2>> {
   double error_estimate = 0.0;   // Not below the true error of the velocities over max(|u0|, |v0|).
   bool converged = true;         // False: a budget ran out, the state is that reached, the error estimate infinite.
   bool closed_form = false;      // Slip never turns: no integration was needed.
