@@ -36,7 +36,7 @@ class Follower {
     }
     path_.end = y_;
     if (contact_.compliant) path_.spring_force = ForcesAt(contact_, mode_, y_).tangential;
-    if (history_ != nullptr) history_->samples.push_back(SampleOf(contact_, mode_, y_, y_[kTime]));
+    if (history_ != nullptr) EndHistory();
     if (mode_.line == Line::kLoading && !compression_ended_) EndCompression();
     path_.local_errors = integrator_.TakeLocalErrors();
     std::tie(path_.steps, path_.right_hand_sides) = integrator_.TakeCosts();
@@ -199,6 +199,13 @@ class Follower {
       if (time > y_[kTime]) return;
       history_->samples.push_back(SampleOf(contact_, mode_, At(time), time));
     }
+  }
+
+  // Where not even the first step can be taken, all its times are that of the end.
+  void EndHistory() {
+    const ForceSample end = SampleOf(contact_, mode_, y_, y_[kTime]);
+    history_->samples.resize(static_cast<size_t>(history_->intervals), end);
+    history_->samples.push_back(end);
   }
 
   const Contact& contact_;

@@ -581,6 +581,17 @@ TEST(FiniteDurationTest, WhatDoesNotPartEndsByItsBudget) {
   }
 }
 
+TEST(FiniteDurationTest, WhatCannotTakeItsFirstStepHasAHistoryAllTheSame) {
+  Problem problem = Rod(HertzSpring{1.0});
+  problem.normal_acceleration = -1e274;
+  problem.intervals = 4;
+  const Impact impact = Solve(problem);
+  EXPECT_FALSE(impact.converged);
+  EXPECT_EQ(impact.v1, problem.v0);
+  EXPECT_EQ(impact.contact.duration_s, 0.0);
+  EXPECT_EQ(impact.contact.history.size(), 5U);
+}
+
 TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
   Problem problem = Rod(HuntCrossleySpring{3.0, 1.5, 0.2});
   problem.mu = 4.0 / 3.0;
