@@ -26,8 +26,7 @@ struct Job {
   // The coefficients that the model is to use.
   EffectiveCoefficients Effective() const {
     EffectiveCoefficients effective = planned.effective;
-    if (planned.choice.LeavesOut(Effect::kFriction)) effective.kinetic_friction = effective.static_friction = 0.0;
-    if (planned.choice.LeavesOut(Effect::kStaticFriction)) effective.static_friction = effective.kinetic_friction;
+    LeaveOut(planned.choice.LeftOut(), effective.kinetic_friction, effective.static_friction);
     return effective;
   }
 };

@@ -52,12 +52,15 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
 // The model of ChoosePendulum for a rigid pendulum and a demand of nothing but a tolerance, at a fraction of the cost.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance);
 
-// The problem without the effects: mu = mu_s = 0 without friction, mu_s = mu without static friction.
+// Without the effects: mu = mu_s = 0 without friction, mu_s = mu without static friction.
+inline void LeaveOut(EffectSet effects, double& mu, double& mu_static) {
+  if (effects.Has(Effect::kFriction)) mu = mu_static = 0.0;
+  if (effects.Has(Effect::kStaticFriction)) mu_static = mu;
+}
 // The problem may be of any model that has both coefficients.
 template <typename Problem>
 Problem Without(EffectSet effects, Problem problem) {
-  if (effects.Has(Effect::kFriction)) problem.mu = problem.mu_static = 0.0;
-  if (effects.Has(Effect::kStaticFriction)) problem.mu_static = problem.mu;
+  LeaveOut(effects, problem.mu, problem.mu_static);
   return problem;
 }
 ContactPhysics Without(EffectSet effects, ContactPhysics physics);

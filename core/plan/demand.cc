@@ -6,12 +6,8 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
-#include "core/models/planar_outcome.h"
-#include "core/models/spatial_outcome.h"
-#include "core/plan/choose.h"
 #include "core/plan/planned_scene.h"
 #include "core/scene/check.h"
-#include "core/scene/effective.h"
 #include "core/scene/reduction.h"
 
 namespace ricochet {
@@ -138,23 +134,14 @@ bool CheckExcluded(const Scene& scene, const Demand& demand, std::vector<Violati
   return violations.size() == before;
 }
 
-Choice ChooseFor(const Scene& scene, const Demand& demand) {
-  if (HasClosedForm(scene)) return ChoosePendulum(ClosedFormProblem(scene), {}, demand);
-  const AnyReduction any = Reduce(scene);
-  const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
-  if (const auto* planar = std::get_if<PlanarReduction>(&any)) {
-    return ChoosePlanar(planar::MakeProblem(*planar, scene.restitution, effective), {}, demand);
-  }
-  const auto& reduction = std::get<SpatialReduction>(any);
-  return ChooseSpatial(spatial::MakeProblem(reduction, scene.restitution, effective, 1e-12), demand);
-}
-
 // Straight slip and first order are forms that not every contact has.
 void CheckForms(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {
   const EffectSet forms = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kHigherOrder};
   const EffectSet asked = demand.excluded & forms;
   if (asked.IsEmpty() || demand.excluded.Has(Effect::kFriction)) return;
-  if (ChooseFor(scene, demand).model != Model::kUnspecified) return;
+  // A contact that overflows is Solve's to refuse.
+  if (!HasClosedForm(scene) && !IsFinite(Reduce(scene))) return;
+  if (PlanScene(scene, demand).choice.model != Model::kUnspecified) return;
   const char* higher_order =
       "be left in: the first-order form needs mu |b|/a <= 0.5, no lock, and a coefficient within its own bound";
   const char* slip =
