@@ -89,7 +89,7 @@ void WriteCoefficients(const Problem& problem, const Contact& contact, const Pat
   }
   // Damping and what the spring still holds are lost of the work of compression, without a difference that cancels.
   const double p = contact.exponent + 1.0;
-  const double left = Pow(Indentation(contact, {}, path.end), p) / p;
+  const double left = contact.stiffness * Pow(Indentation(contact, {}, path.end), p) / p;
   const double lost = (path.end[kDampingLoss] + left) / -path.compression_works.normal;
   impact.energetic = std::sqrt(std::max(0.0, 1.0 - lost));
   impact.energetic_excess = -lost / (1.0 + impact.energetic);
@@ -109,7 +109,7 @@ void WriteWorks(const Contact& contact, const Path& path, Impact& impact) {
                           contact.an * (half_time * end[kNormal] - end[kNormalMoment]);
   impact.energy_change = unit * (by_velocity + by_force);
   impact.friction_dissipation = unit * end[kFrictionLoss];
-  impact.spring_energy = unit * 0.5 * contact.ratio_squared * Square(path.spring_force);
+  impact.spring_energy = unit * 0.5 * (contact.ratio_squared / contact.stiffness) * Square(path.spring_force);
 }
 
 void WriteEvents(const Contact& contact, const Path& path, Impact& impact) {

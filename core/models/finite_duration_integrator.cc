@@ -59,6 +59,7 @@ void Integrator::Begin(const Mode& mode, const Motion& y, double tolerance) {
   absolute[kTangentWork] *= slip;
   absolute[kFrictionLoss] *= slip;
   absolute[kV] *= Pace(contact_, mode);
+  for (const Part part : kOfForces) absolute[part] *= contact_.stiffness;
   Require(CVodeReInit(memory_, 0.0, y_));
   Require(CVodeSVtolerances(memory_, tolerance, absolute_));
   s_ = previous_s_ = 0.0;

@@ -43,6 +43,11 @@ void SetUnits(const Problem& problem, Contact& contact) {
   contact.damped = curve.damped;
   contact.speed = -problem.v0;
   contact.time = NaturalTime(curve, problem.wnn, contact.speed);
+  const double turn = contact.speed / problem.normal_acceleration;
+  if (turn > 0.0 && turn < contact.time) {
+    contact.stiffness = Pow(turn / contact.time, curve.exponent + 1.0);
+    contact.time = turn;
+  }
   contact.mass = 1.0 / problem.wnn;
   contact.damping = curve.damping * contact.speed;
   const bool returns = Square(problem.energetic) >= std::numeric_limits<double>::min();
@@ -77,11 +82,11 @@ bool HoldsFreely(const Problem& problem) {
   return std::fma(problem.mu_static, problem.wtt, -std::fabs(problem.wtn)) >= 0.0;
 }
 
-// x^p, continued as an odd function below 0, where a step may try its way.
+// K x^p, continued as an odd function below 0, where a step may try its way.
 double LoadingCurve(const Contact& contact, double place) {
-  if (!contact.rooted) return place;
-  if (contact.exponent == 1.5) return place * place * place;
-  return std::copysign(Pow(std::fabs(place), 2.0 * contact.exponent), place);
+  if (!contact.rooted) return contact.stiffness * place;
+  if (contact.exponent == 1.5) return contact.stiffness * (place * place * place);
+  return contact.stiffness * std::copysign(Pow(std::fabs(place), 2.0 * contact.exponent), place);
 }
 
 double SpringSlope(const Contact& contact, const Mode& mode) {
@@ -234,7 +239,7 @@ Motion RatesAt(const Contact& contact, const Mode& mode, const Motion& y) {
   rates[kPlace] = -y[kV] / pace;
   rates[kU] = acceleration.u * dt;
   rates[kV] = acceleration.v * dt;
-  rates[kSpringForce] = particle_sticks ? -y[kU] / contact.ratio_squared * dt : 0.0;
+  rates[kSpringForce] = particle_sticks ? -contact.stiffness * y[kU] / contact.ratio_squared * dt : 0.0;
   rates[kTime] = dt;
   rates[kNormal] = forces.normal * dt;
   rates[kTangential] = forces.tangential * dt;

@@ -1,7 +1,8 @@
 // The motion of core/models/finite_duration.h in natural units: forces, rates, what ends a mode and which comes next.
 //
-// Units: velocity |v0|, mass 1/Wnn, and the time T in which they make the spring's own force: k Wnn |v0|^(p-1) T^(p+1) = 1
-// for N = k d^p. Then v0 = -1, Wnn = 1 and N = x^p (1 - c v), where x is d on the curve of loading and
+// Units: velocity |v0|, mass 1/Wnn, and the time T in which they make the spring's own force, k Wnn |v0|^(p-1) T^(p+1) = 1
+// for N = k d^p, or in which a_n > 0 alone would turn v around, |v0|/a_n, if that is less. Then v0 = -1, Wnn = 1, a_n <= 1
+// and N = K x^p (1 - c v), K <= 1 the spring's stiffness and x the d of the curve of loading or
 // (d - (1 - eta^2) d_max)/eta^2 on that of unloading: x' = -v or -v/eta^2.
 //
 // Two changes of variables keep the equations smooth and of size 1. For p != 1, x = q^2 and dt = 2 q ds: q' = -v and all
@@ -33,11 +34,12 @@ struct Contact {
   double u0 = 0.0;
   double at = 0.0, an = 0.0;
   double mu = 0.0, mu_static = 0.0;
-  double exponent = 1.0;  // p
-  bool rooted = false;    // p != 1: x = q^2.
-  bool damped = false;    // Hunt and Crossley.
-  double damping = 0.0;   // c
-  double eta = 1.0;       // 1 for Hunt and Crossley: loading and unloading are one curve.
+  double stiffness = 1.0;  // K
+  double exponent = 1.0;   // p
+  bool rooted = false;     // p != 1: x = q^2.
+  bool damped = false;     // Hunt and Crossley.
+  double damping = 0.0;    // c
+  double eta = 1.0;        // 1 for Hunt and Crossley: loading and unloading are one curve.
   bool compliant = false;
   double ratio_squared = 0.0;
   bool smooth = false;                         // No friction force: mu_s = 0 or Wtt = 0.
@@ -73,6 +75,9 @@ enum Part : size_t {
   kParts
 };
 using Motion = std::array<double, kParts>;
+// What forces make: as soft as the spring.
+inline constexpr Part kOfForces[] = {kSpringForce, kNormal,      kTangential,   kNormalMoment, kTangentMoment,
+                                     kNormalWork,  kTangentWork, kFrictionLoss, kDampingLoss};
 
 enum class Line { kLoading, kUnloading, kReloading };
 // What friction does: nothing, hold, or act on slip towards +t or -t.

@@ -102,7 +102,7 @@ absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene) {
     bounds = PendulumBounds(scene);
   } else {
     const AnyReduction any = Reduce(scene);
-    if (!IsFinite(any)) return ContactOverflow();
+    if (!FitsDoubles(any)) return ContactOverflow();
     const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
     bounds = std::visit([&](const auto& reduction) { return ReducedBounds(reduction, effective); }, any);
   }

@@ -131,8 +131,10 @@ absl::StatusOr<Outcome> SolveContact(const Job& job, const pendulum::Problem& pr
 }  // namespace
 
 absl::Status ContactOverflow() {
-  return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kOutputOverflow,
-                   "the contact-space inverse inertia or the contact velocity exceeds the largest double");
+  return MakeError(
+      absl::StatusCode::kOutOfRange, ErrorReason::kOutputOverflow,
+      "the contact-space inverse inertia W or the contact velocity exceeds the largest double, or W_nn is below the "
+      "smallest");
 }
 
 absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& options) {

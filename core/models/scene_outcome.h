@@ -23,14 +23,14 @@ struct SolveOptions {
 };
 
 // `scene` is valid and CheckDemand finds nothing. With Detail::kNumbers the outcome's plan has the model alone.
-// Errors: those of the models' MakeOutcome; OUT_OF_RANGE if W or the contact velocity exceeds the largest double.
+// Errors: those of the models' MakeOutcome; OUT_OF_RANGE as ContactOverflow.
 absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& options);
 
 // The plan alone, in an outcome that has nothing else.
 // Errors: OUT_OF_RANGE as above.
 absl::StatusOr<Outcome> PlanSceneOnly(const Scene& scene, const Demand& demand);
 
-// OUT_OF_RANGE: W or the contact velocity exceeds the largest double.
+// OUT_OF_RANGE: W or the contact velocity exceeds the largest double, or W_nn is below the smallest.
 absl::Status ContactOverflow();
 
 }  // namespace ricochet

@@ -139,8 +139,8 @@ void CheckForms(const Scene& scene, const Demand& demand, std::vector<Violation>
   const EffectSet forms = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kHigherOrder};
   const EffectSet asked = demand.excluded & forms;
   if (asked.IsEmpty() || demand.excluded.Has(Effect::kFriction)) return;
-  // A contact that overflows is Solve's to refuse.
-  if (!HasClosedForm(scene) && !IsFinite(Reduce(scene))) return;
+  // A contact beyond doubles is Solve's to refuse.
+  if (!HasClosedForm(scene) && !FitsDoubles(Reduce(scene))) return;
   if (PlanScene(scene, demand).choice.model != Model::kUnspecified) return;
   const char* higher_order =
       "be left in: the first-order form needs mu |b|/a <= 0.5, no lock, and a coefficient within its own bound";

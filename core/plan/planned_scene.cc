@@ -34,7 +34,11 @@ void PlanPendulum(const Scene& scene, const Demand& demand, PlannedScene& planne
   planned.effective = {
       .kinetic_friction = problem.mu, .static_friction = problem.mu_static, .restitution = problem.coefficient};
   // Compliance alone gives finite forces time to act.
-  if (scene.compliance.has_value()) planned.physics = PhysicsOf(scene, std::get<PlanarReduction>(Reduce(scene)));
+  if (scene.compliance.has_value()) {
+    const AnyReduction any = Reduce(scene);
+    if (!FitsDoubles(any)) return;
+    planned.physics = PhysicsOf(scene, std::get<PlanarReduction>(any));
+  }
   planned.choice = ChoosePendulum(problem, planned.physics, demand);
 }
 
@@ -80,7 +84,7 @@ PlannedScene PlanScene(const Scene& scene, const Demand& demand) {
     return planned;
   }
   AnyReduction any = Reduce(scene);
-  if (!IsFinite(any)) return planned;
+  if (!FitsDoubles(any)) return planned;
   planned.effective = EffectiveAt(scene, ApproachSpeed(any));
   std::visit([&](auto& reduction) { PlanReduced(scene, demand, std::move(reduction), planned); }, any);
   return planned;

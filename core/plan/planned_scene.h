@@ -29,7 +29,7 @@ bool HasClosedForm(const Scene& scene);
 pendulum::Problem ClosedFormProblem(const Scene& scene);
 
 // `scene` is valid and CheckDemand finds nothing. Under an impact law the model is kImpactLaw and no effect is planned;
-// so it is, with kUnspecified, where W or the contact velocity is not finite.
+// so it is, with kUnspecified, where doubles do not hold W or the contact velocity.
 PlannedScene PlanScene(const Scene& scene, const Demand& demand);
 
 // The plan in words.

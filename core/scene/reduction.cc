@@ -247,6 +247,12 @@ bool IsFinite(const AnyReduction& reduction) {
       reduction);
 }
 
+bool FitsDoubles(const AnyReduction& reduction) {
+  const bool may_bounce =
+      std::visit([](const auto& reduced) { return reduced.w.back() > 0.0 || reduced.v0 >= 0.0; }, reduction);
+  return may_bounce && IsFinite(reduction);
+}
+
 double ApproachSpeed(const AnyReduction& reduction) {
   return std::visit([](const auto& reduced) { return std::max(0.0, -reduced.v0); }, reduction);
 }

@@ -58,6 +58,10 @@ AnyReduction Reduce(const Scene& scene);
 // Whether W and the velocities are finite.
 bool IsFinite(const AnyReduction& reduction);
 
+// Whether doubles hold what an impact needs: both are finite, and W_nn has not underflowed to 0 where the contact
+// approaches.
+bool FitsDoubles(const AnyReduction& reduction);
+
 // How fast the contact approaches, >= 0.
 double ApproachSpeed(const AnyReduction& reduction);
 

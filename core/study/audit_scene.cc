@@ -321,7 +321,7 @@ absl::StatusOr<AuditResponse> AuditScene(const AuditRequest& request) {
   const Scene scene = ContactOf(request.scene);
   const AnyReduction any = Reduce(scene);
   const ContactVelocity seen = VelocityOf(request.observed, scene);
-  if (!IsFinite(any) || !std::isfinite(seen.normal_m_s) || !std::isfinite(seen.tangential_m_s[0]))
+  if (!FitsDoubles(any) || !std::isfinite(seen.normal_m_s) || !std::isfinite(seen.tangential_m_s[0]))
     return ContactOverflow();
   const double uncertainty = request.velocity_uncertainty_m_s;
   if (HasClosedForm(scene)) {
@@ -345,7 +345,7 @@ absl::StatusOr<AuditBatchResponse> AuditScene(const AuditBatchRequest& request) 
   if (!violations.empty()) return InvalidRequest(violations);
   const Scene scene = ContactOf(request.scene);
   const AnyReduction any = Reduce(scene);
-  if (!IsFinite(any)) return ContactOverflow();
+  if (!FitsDoubles(any)) return ContactOverflow();
   const AuditColumns columns = WithVelocities(request.columns, scene, rows);
   const FrictionColumns friction = FrictionOf(request, ApproachSpeed(any), rows);
   AuditBatchResponse response;

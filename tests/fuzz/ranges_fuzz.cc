@@ -1,8 +1,8 @@
 // Fuzzes enclosures: bytes are a v1::BoundsRequest, enclosed if that takes no more than some thousand boxes.
 //
 // Checked: the status; whatever scene one picks from the box, its bounds lie in the enclosure's outer ranges, within
-// 2^-30 of their size for what the bounds of that scene are rounded by, a separating one's impulse alone; what is
-// attained lies in the outer ranges too.
+// 2^-30 of 1 and of their size for what the bounds of that scene are rounded by, a separating one's impulse alone; what
+// is attained lies in the outer ranges too.
 //
 // Covers: core/models/scene_enclosure.cc, core/scene/interval_reduction.cc, core/laws/enclosure.cc,
 // core/laws/one_regime_ends.cc, core/laws/pendulum_ends.cc.
@@ -32,20 +32,21 @@ namespace {
 constexpr size_t kMostRanges = 8;
 constexpr int kMostLooks = 8;  // Of EncloseScene at whether it should stop.
 
-void CheckRange(const Range& inner, const Range& outer, double slack, const char* what) {
+// `least`: what counts as a size at least.
+void CheckRange(const Range& inner, const Range& outer, double slack, double least, const char* what) {
   if (inner.lower > inner.upper) return;
-  const double size = std::max(std::fabs(inner.lower), std::fabs(inner.upper));
+  const double size = std::max({std::fabs(inner.lower), std::fabs(inner.upper), least});
   const double moved = std::isinf(size) ? 0.0 : slack * size;
   if (inner.lower >= outer.lower - moved && inner.upper <= outer.upper + moved) return;
   Fail(absl::StrCat(what, ": [", inner.lower, ", ", inner.upper, "] is not in [", outer.lower, ", ", outer.upper, "]"));
 }
 
 void CheckInside(const CoefficientBounds& inner, const CoefficientBounds& outer, double slack) {
-  CheckRange(inner.newton, outer.newton, slack, "Newton's coefficient");
-  CheckRange(inner.poisson, outer.poisson, slack, "Poisson's coefficient");
-  CheckRange(inner.energetic, outer.energetic, slack, "the energetic coefficient");
-  CheckRange(inner.tangential, outer.tangential, slack, "the tangential coefficient");
-  CheckRange(inner.normal_total_n_s, outer.normal_total_n_s, slack, "the normal impulse");
+  CheckRange(inner.newton, outer.newton, slack, 1.0, "Newton's coefficient");
+  CheckRange(inner.poisson, outer.poisson, slack, 1.0, "Poisson's coefficient");
+  CheckRange(inner.energetic, outer.energetic, slack, 1.0, "the energetic coefficient");
+  CheckRange(inner.tangential, outer.tangential, slack, 1.0, "the tangential coefficient");
+  CheckRange(inner.normal_total_n_s, outer.normal_total_n_s, slack, 0.0, "the normal impulse");
 }
 
 // The scene at one place of the box: a quarter's multiple of each range, told by `place`'s digits.
@@ -72,7 +73,7 @@ void CheckScenes(const BoundsRequest& request, const Enclosure& enclosure) {
     if (!response.ok()) continue;
     const CoefficientBounds& sharp = response->bounds.sharp;
     if (response->bounds.regime != Regime::kSeparating) CheckInside(sharp, enclosure.outer, kRounding);
-    CheckRange(sharp.normal_total_n_s, enclosure.outer.normal_total_n_s, kRounding, "the normal impulse");
+    CheckRange(sharp.normal_total_n_s, enclosure.outer.normal_total_n_s, kRounding, 0.0, "the normal impulse");
   }
 }
 

@@ -12,6 +12,7 @@
 #include <numbers>
 #include <sstream>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "core/models/planar.h"
@@ -581,9 +582,44 @@ TEST(FiniteDurationTest, WhatDoesNotPartEndsByItsBudget) {
   }
 }
 
+TEST(FiniteDurationTest, WhatIsPulledApartBeforeItsSpringIsFeltFollowsThePull) {
+  // v = v0 + a t down to d_max = v0^2/(2 a), then to (1 - eta^2) d_max, where the curve of unloading ends.
+  constexpr double kPull = 0.2;
+  constexpr double kAlong = 2.0;
+  constexpr double kEta = 0.45;
+  for (const double k : {1e-20, 1e-100, 1e-250}) {
+    for (const NormalSpring& spring : {NormalSpring(LinearSpring{k}), NormalSpring(HertzSpring{k})}) {
+      const Impact impact = Solve({.wtt = 2.5,
+                                   .wtn = 1.5,
+                                   .wnn = 1.2,
+                                   .u0 = 1.5,
+                                   .v0 = -1.0,
+                                   .tangential_acceleration = kAlong,
+                                   .normal_acceleration = kPull,
+                                   .mu = 0.3,
+                                   .mu_static = 0.3,
+                                   .spring = spring,
+                                   .energetic = kEta,
+                                   .intervals = 4});
+      EXPECT_TRUE(impact.converged);
+      EXPECT_LE(impact.error_estimate, 1e-10);
+      const double duration = (1.0 + kEta) / kPull;
+      EXPECT_NEAR(impact.contact.duration_s, duration, 1e-10 * duration) << k;
+      EXPECT_NEAR(impact.u1, 1.5 + kAlong * duration, 1e-10 * impact.u1) << k;
+      EXPECT_NEAR(impact.v1, kEta, 1e-10) << k;
+      EXPECT_NEAR(impact.poisson, kEta, 1e-9) << k;
+      EXPECT_NEAR(impact.f1, -0.3 * impact.tau1, 1e-9 * impact.tau1) << k;
+      if (!std::holds_alternative<LinearSpring>(spring)) continue;
+      // The integral of k (t - a t^2/2).
+      const double compression = k / (3.0 * kPull * kPull);
+      EXPECT_NEAR(impact.tau_compression, compression, 1e-9 * compression) << k;
+    }
+  }
+}
+
 TEST(FiniteDurationTest, WhatCannotTakeItsFirstStepHasAHistoryAllTheSame) {
   Problem problem = Rod(HertzSpring{1.0});
-  problem.normal_acceleration = -1e274;
+  problem.normal_acceleration = 1e300;
   problem.intervals = 4;
   const Impact impact = Solve(problem);
   EXPECT_FALSE(impact.converged);

@@ -229,6 +229,15 @@ TEST(SceneOutcomeTest, AWThatOverflowsIsOutOfRange) {
   EXPECT_EQ(response.status().code(), absl::StatusCode::kOutOfRange);
 }
 
+TEST(SceneOutcomeTest, AWThatUnderflowsIsOutOfRange) {
+  Scene scene = With(Pendulum{1.3, 1e-200, 0.4, -2.0}, 0.8, EnergeticCoefficient{0.8});
+  EXPECT_TRUE(LocalSolver().Solve({.scene = scene}).ok());
+  scene.compliance = Compliance{.tangential_ratio_squared = 0.3};
+  const absl::Status status = LocalSolver().Solve({.scene = scene}).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kOutOfRange);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("W_nn is below the smallest"));
+}
+
 // --- Coefficients by speed ---
 
 TEST(SceneOutcomeTest, CoefficientsAreThoseAtTheApproachSpeed) {
