@@ -197,6 +197,19 @@ double PendulumSmoothError(const pendulum::Problem& problem) {
   return kReduction + SmoothError(problem.coefficient <= 1.0, LineOf(PlanarOf(problem)));
 }
 
+// Whether neither friction nor higher orders can be left out, by cheap lower bounds of their sizes. First order is off by
+// c x^2/2 at least. Of friction, v1 and tau1 (core/plan/sizes.cc) cannot both be small: under the energetic law, with
+// root^2 = (1 - x)/(1 + x), (1 + x) tau1 >= x (1 + c) - v1/root, so that the larger is x/(1 + x + 1/root) at least, which
+// is x 2^-11 as far as 1 - x >= kLeastSlope; beyond, and where it locks, no bound is finite. Under Poisson's law
+// tau1 >= x/2. Newton's fixes v1 = 0, and tau1 may be any.
+bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance) {
+  static_assert(kLeastSlope >= 0x1p-20);
+  if (problem.law == pendulum::Law::kNewton) return false;
+  const double b = std::fabs(problem.b);
+  const double x = problem.mu * b / problem.a;
+  return problem.coefficient * x * x > 4.0 * tolerance && problem.mu * b > 0x1p12 * tolerance * std::max(problem.a, b);
+}
+
 }  // namespace
 
 EffectSet Choice::LeftOut() const {
@@ -242,6 +255,7 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
 // ChoosePendulum.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance) {
   if (problem.omega_minus >= 0.0) return Model::kNone;
+  if (IsFarFromSimple(problem, tolerance)) return Model::kPendulum;
   const double friction = PendulumFrictionSize(problem).value;
   if (friction <= tolerance && friction + PendulumSmoothError(problem) <= tolerance) return Model::kFrictionless;
   const bool serves = first_order::Serves(problem);
