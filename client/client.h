@@ -18,13 +18,14 @@ namespace ricochet {
 
 // Answers with the bits of a LocalSolver of the same engine (EngineInfo::fingerprint).
 //
-// Thread safety: every method may be called from several threads at once; a SweepStream belongs to one thread at a time.
+// Thread safety: every method may be called from several threads at once; a SweepStream belongs to one thread at a
+// time.
 //
 // Cost: a Client is a shared pointer; copies share one connection, which is made at the first call. Connect is the
 // expensive step: make one Client a server and copy it. A sweep holds one chunk, whatever its size.
 //
-// Retries: by ClientOptions::retry, on UNAVAILABLE and before the first response, so never in the middle of a sweep. All
-// calls are pure, so a repeated one does no harm. A sweep that broke off is taken up by asking for
+// Retries: by ClientOptions::retry, on UNAVAILABLE and before the first response, so never in the middle of a sweep.
+// All calls are pure, so a repeated one does no harm. A sweep that broke off is taken up by asking for
 // [next index, end_index), which gives the same bits.
 //
 // Errors: those of Solver with the same reason and violations; UNAVAILABLE and DEADLINE_EXCEEDED of the network;

@@ -1,7 +1,7 @@
 // Audit: what an observed impact implies, and which limits of an admissible impact it breaks.
 //
-// Mirrors ricochet.v1.AuditReport and AuditSummary. core/study/audit.h says how each number is found and how exact it is.
-// N s, J and m/s; coefficients are pure numbers.
+// Mirrors ricochet.v1.AuditReport and AuditSummary. core/study/audit.h says how each number is found and how exact it
+// is. N s, J and m/s; coefficients are pure numbers.
 
 #ifndef RICOCHET_CORE_AUDIT_H_
 #define RICOCHET_CORE_AUDIT_H_
@@ -28,9 +28,9 @@ using Observed = std::variant<std::monostate, ContactVelocity, ObservedRates>;
 // At most this many rows a call.
 inline constexpr int64_t kMostAuditRows = 8192;
 
-// Many impacts of one scene, by columns: a value a row, or one for all rows; the longest has the number of rows. Columns
-// of the second tangential direction are for systems in space and only for them. Velocities are those of the contact
-// relative to the surface; a pendulum or a linkage may have its rates after the impact in place of them.
+// Many impacts of one scene, by columns: a value a row, or one for all rows; the longest has the number of rows.
+// Columns of the second tangential direction are for systems in space and only for them. Velocities are those of the
+// contact relative to the surface; a pendulum or a linkage may have its rates after the impact in place of them.
 struct AuditColumns {
   std::vector<double> tangential_m_s;  // Before. Empty: the scene's own, all three.
   std::vector<double> tangential_2_m_s;

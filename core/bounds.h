@@ -77,8 +77,8 @@ struct Bounds {
 // What an uncertain scene's coefficients can be; core/laws/enclosure.h has the proof.
 struct Enclosure {
   CoefficientBounds outer;  // Proved to contain. Infinite ends: no bound exists, or none was found.
-  // Reached by scenes of the box; but for `energetic`, which is as in `outer`. Both are empty (lower > upper) if no scene
-  // is valid.
+  // Reached by scenes of the box; but for `energetic`, which is as in `outer`. Both are empty (lower > upper) if no
+  // scene is valid.
   CoefficientBounds attained;
   // The largest of (width of outer - width of attained)/(width of attained) over the coefficients; an end that rounding
   // alone moves counts as 0, and a range that is infinite as infinite.

@@ -39,8 +39,8 @@ struct Impulse {
   friend bool operator==(const Impulse&, const Impulse&) = default;
 };
 
-// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j. An impact
-// law knows no phases: all four are 0, the residual is that of the two totals.
+// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j. An
+// impact law knows no phases: all four are 0, the residual is that of the two totals.
 struct WorkLedger {
   double normal_compression_j = 0.0;
   double normal_restitution_j = 0.0;

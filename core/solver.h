@@ -40,8 +40,8 @@ struct SolveRequest {
   // > 0: ContactDuration::history at so many equal steps of time, which requires Effect::kFiniteDuration. At most
   // kMostForceIntervals.
   int64_t force_intervals = 0;
-  // > 0: Outcome::certificate to so many significant digits, at most kMostCertifiedDigits; 0: none. Not with plan_only nor
-  // with excluded effects.
+  // > 0: Outcome::certificate to so many significant digits, at most kMostCertifiedDigits; 0: none. Not with plan_only
+  // nor with excluded effects.
   // core/models/certified/certified.h says for which scenes.
   int32_t certified_digits = 0;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;

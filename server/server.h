@@ -1,7 +1,7 @@
 // Server: the impact service with health and reflection, its limits, and how it ends.
 //
-// Drain: health says NOT_SERVING, so that load balancers look elsewhere; after the grace the running sweeps end at their
-// next chunk with UNAVAILABLE and a retry delay; then all calls have the drain timeout to end.
+// Drain: health says NOT_SERVING, so that load balancers look elsewhere; after the grace the running sweeps end at
+// their next chunk with UNAVAILABLE and a retry delay; then all calls have the drain timeout to end.
 
 #ifndef RICOCHET_SERVER_SERVER_H_
 #define RICOCHET_SERVER_SERVER_H_

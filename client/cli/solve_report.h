@@ -14,7 +14,8 @@ namespace ricochet::cli {
 // Tables with units, to six digits.
 std::string SolveText(const Outcome& outcome);
 
-// A header and one row: every number of the outcome but its lists of events, states and broken limits and its certificate, by path.
+// A header and one row: every number of the outcome but its lists of events, states and broken limits and its
+// certificate, by path.
 std::string SolveCsv(const Outcome& outcome);
 
 // A header and one row for each state of the history.

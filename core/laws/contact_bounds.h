@@ -1,16 +1,16 @@
 // The bounds of the coefficients of a planar contact: what they come to when the energetic one runs from 0 to 1.
 //
 // The path of a planar impact (core/models/planar.h) does not depend on the coefficient of restitution; that only says
-// how far along it restitution goes. Restitution ends at tau1, between tau_c where it is 0 and tau_e where the energetic
-// one is 1, and with tau1 grow
+// how far along it restitution goes. Restitution ends at tau1, between tau_c where it is 0 and tau_e where the
+// energetic one is 1, and with tau1 grow
 //   Newton's  v(tau1)/|v0|      since v' > 0 in restitution,
 //   Poisson's tau1/tau_c - 1.
-// Brach's mu_hat = f(tau1)/tau1 could turn at a breakpoint of f. It does not: f has at most one, tau_s where slip stops,
-// f/tau is constant before tau_s (f = -mu s tau) and monotone after it (a constant plus one over tau), so its extremes
-// are its values at tau_c and tau_e. Newton's and Poisson's bounds may exceed 1: such an impact is admissible.
+// Brach's mu_hat = f(tau1)/tau1 could turn at a breakpoint of f. It does not: f has at most one, tau_s where slip
+// stops, f/tau is constant before tau_s (f = -mu s tau) and monotone after it (a constant plus one over tau), so its
+// extremes are its values at tau_c and tau_e. Newton's and Poisson's bounds may exceed 1: such an impact is admissible.
 //
-// By energy alone: E' = f'u + v rises along the path (its slope is (f', 1) W (f', 1)^T > 0, and it is v where slip stops),
-// so E comes back to E- at one tau after tau_e.
+// By energy alone: E' = f'u + v rises along the path (its slope is (f', 1) W (f', 1)^T > 0, and it is v where slip
+// stops), so E comes back to E- at one tau after tau_e.
 //
 // Critical coefficients of friction, other things equal, with s = sgn(u0), p = |u0|, w = -v0, q = s Wtn:
 //   stick               |Wtn|/Wtt                          contact that has stopped sticks from here on (static friction)

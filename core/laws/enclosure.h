@@ -1,9 +1,9 @@
 // Enclosures: the range of each coefficient over all scenes of a box of parameters, proved to contain it.
 //
 // For every scene in the box the bounds of its coefficients (core/laws/contact_bounds.h, core/models/pendulum_bounds.h:
-// the energetic coefficient from 0 to 1) lie within `outer`. That holds in spite of rounding: every operation is rounded
-// outward (core/numerics/interval.h). `attained` lies within what scenes of the box reach, also in spite of rounding, so
-// the true range lies between the two and `excess` bounds how much too wide `outer` can be.
+// the energetic coefficient from 0 to 1) lie within `outer`. That holds in spite of rounding: every operation is
+// rounded outward (core/numerics/interval.h). `attained` lies within what scenes of the box reach, also in spite of
+// rounding, so the true range lies between the two and `excess` bounds how much too wide `outer` can be.
 //
 // Pendulum: with q = mu |b| and x = q/a, each end is monotone, or convex, in each parameter, so that it is reached at a
 // corner of the box, and `outer` is exact but for rounding:
@@ -14,16 +14,16 @@
 //   tau_e     -J w- (1/(a + q) + 1/sqrt(a^2 - q^2))     grows with J, |w-|; falls with a; convex in q
 // Where a box reaches from slip into locking the suprema of Poisson's coefficient and of tau_e are infinite.
 //
-// Planar: branch and bound. With s = sgn(u0), p = |u0|, w = -v0, q = s Wtn, and the slopes of v before and after slip has
-// stopped, A1 = Wnn - mu q and A2, everything depends on two numbers: rho = A2/A1 and sigma = v_s/w, v_s being the normal
-// velocity where slip stops, 1 + sigma = (A1/B)(p/w), B = mu Wtt - q. In an elastic impact, -1 <= sigma <= 1:
+// Planar: branch and bound. With s = sgn(u0), p = |u0|, w = -v0, q = s Wtn, and the slopes of v before and after slip
+// has stopped, A1 = Wnn - mu q and A2, everything depends on two numbers: rho = A2/A1 and sigma = v_s/w, v_s being the
+// normal velocity where slip stops, 1 + sigma = (A1/B)(p/w), B = mu Wtt - q. In an elastic impact, -1 <= sigma <= 1:
 //   e^2 = sigma^2 + rho (1 - sigma^2)
 //   k = (1 + sigma e)/(sigma + e), sigma >= 0;   k = e/(rho (1 - m) + m), m = -sigma >= 0
 // and e = k = 1 for sigma > 1: slip does not stop. (A1 <= 0, self-locking: core/laws/planar_ends.cc.) Where a box holds
 // scenes of several regimes, all of them are evaluated and joined. The box is cut, the worst part first and across the
-// dimension that helps most, until the excess is within the tolerance or the budget is spent. A part whose scenes all go
-// the same way is enclosed to first order too (core/laws/one_regime_ends.cc), so that W and the velocities may depend
-// on the same parameters.
+// dimension that helps most, until the excess is within the tolerance or the budget is spent. A part whose scenes all
+// go the same way is enclosed to first order too (core/laws/one_regime_ends.cc), so that W and the velocities may
+// depend on the same parameters.
 //
 // Scenes of a box that validation would refuse (det W < 0, mu_s < mu, v0 and u0 outside the range of a W of rank one)
 // count for nothing. Scenes that separate count for tau1 = 0 alone. Where a box comes near det W = 0 the true range of
@@ -83,9 +83,9 @@ Enclosure Enclose(const PendulumBox& box);
 
 Enclosure Enclose(const PlanarBox& box, const EnclosureOptions& options);
 
-// `to_box` encloses the contact or the pendulum (a of either sign) that a system's scenes come to, for every scene whose
-// parameters lie in the intervals that it is given; the narrower they are, the narrower must its answer be. Where no
-// scene is valid its mu may be empty. `ranges` are the whole box. Branch and bound for both.
+// `to_box` encloses the contact or the pendulum (a of either sign) that a system's scenes come to, for every scene
+// whose parameters lie in the intervals that it is given; the narrower they are, the narrower must its answer be. Where
+// no scene is valid its mu may be empty. `ranges` are the whole box. Branch and bound for both.
 // `stopped` is asked every kBoxesUnasked boxes; once it says yes the answer is what the boxes until then prove.
 using ToBox = absl::FunctionRef<std::variant<PlanarForm, PendulumBox>(absl::Span<const Interval> ranges)>;
 inline constexpr int64_t kBoxesUnasked = 256;

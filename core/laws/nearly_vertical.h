@@ -12,11 +12,11 @@
 //   mu_hat/mu = -tanh(theta), theta = (ln eta + atanh x)/2; its second derivative in x,
 //   sech^2(theta) (tanh(theta)/2 - x)/(1-x^2)^2, is at most (1/5 + x)/(1-x^2)^2, because sech^2 tanh <= 2/(3 sqrt 3):
 //   the error of [59] is at most mu x^2 (1/10 + x/2)/(1-x^2)^2.
-// At a given Newton's coefficient e: kappa = e (1+x)/(1-x), so kappa's form e (1 + 2x) is off by 2 e x^2/(1-x) and eta's,
-// e (1+x), as kappa's above; mu_hat/mu = -tanh(ln e/2 + atanh x), whose second derivative is at most
+// At a given Newton's coefficient e: kappa = e (1+x)/(1-x), so kappa's form e (1 + 2x) is off by 2 e x^2/(1-x) and
+// eta's, e (1+x), as kappa's above; mu_hat/mu = -tanh(ln e/2 + atanh x), whose second derivative is at most
 // (4/5 + 2x)/(1-x^2)^2: its form (1-e)/(1+e) - 4 x e/(1+e)^2 is off by at most x^2 (2/5 + x)/(1-x^2)^2.
-// At a given Poisson's coefficient k: kappa_hat's form k (1 - 2x) is off by 2 k x^2/(1+x) <= 2 k x^2, eta's, k (1-x), as
-// kappa_hat's above; mu_hat is exact.
+// At a given Poisson's coefficient k: kappa_hat's form k (1 - 2x) is off by 2 k x^2/(1+x) <= 2 k x^2, eta's, k (1-x),
+// as kappa_hat's above; mu_hat is exact.
 
 #ifndef RICOCHET_CORE_LAWS_NEARLY_VERTICAL_H_
 #define RICOCHET_CORE_LAWS_NEARLY_VERTICAL_H_

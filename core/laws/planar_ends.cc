@@ -50,8 +50,8 @@ Interval PoissonInRestitution(const Interval& sigma, const Interval& rho) {
   return {sigma.lower, AtVertices(sigma, Interval(rho.lower), poisson).upper};
 }
 
-// k where slip stops in compression; monotone in m, and in rho it grows up to m/(1 + m), where it is (1 + m)/(2 sqrt(m)),
-// and falls after it, to 0 at last.
+// k where slip stops in compression; monotone in m, and in rho it grows up to m/(1 + m), where it is (1 + m)/(2
+// sqrt(m)), and falls after it, to 0 at last.
 Interval PoissonInCompression(const Interval& m, const Interval& rho) {
   const Interval one(1.0);
   const auto poisson = [&](const Interval& x, const Interval& r) { return NewtonOf(x, r) / (r * (one - x) + x); };

@@ -9,15 +9,15 @@
 //                N = k d_max - (k/eta^2)(d_max - d), until d passes d_max again or N = 0, the end
 //   tangential   stiffness k/ratio^2; |F| <= mu N on the particle, which sticks (its speed is 0) or slides
 //
-// kn = k on first loading, k/eta^2 on the line of unloading. While the particle slides towards s, F = -s mu N; its speed
-// along s, S = s u + mu ratio^2 (kn/k) v, has the slope A in the normal impulse:
+// kn = k on first loading, k/eta^2 on the line of unloading. While the particle slides towards s, F = -s mu N; its
+// speed along s, S = s u + mu ratio^2 (kn/k) v, has the slope A in the normal impulse:
 //
 //   B = Wnn - s mu Wtn = dv/dtau,   A = s Wtn - mu Wtt + mu ratio^2 (kn/k) B
 //
 // Slip ends at S = 0 in a stick: it never turns round without. A stick ends at |F| = mu N, towards the side of the
-// deflection. The impact starts in a stick if |u0| < mu ratio^2 |v0|. Where both are possible (S = 0 at |F| = mu N, also
-// at the start and where the line changes) the particle slides if A >= 0 and sticks if A < 0. mu = 0: no tangential
-// force. Friction can push the body back in: v changes its sign more than once only if mu |Wtn| > Wnn.
+// deflection. The impact starts in a stick if |u0| < mu ratio^2 |v0|. Where both are possible (S = 0 at |F| = mu N,
+// also at the start and where the line changes) the particle slides if A >= 0 and sticks if A < 0. mu = 0: no
+// tangential force. Friction can push the body back in: v changes its sign more than once only if mu |Wtn| > Wnn.
 //
 // The net normal work that is not first loading's is -eta^2 times that of first loading, for any W: the energetic
 // coefficient is met exactly. k drops out of impulses and velocities and is not asked for. eta = 0: the impact ends at
@@ -40,12 +40,12 @@
 // rattle. Known by proof (W of rank one, and what oscillation is left stays inside |F| <= mu N and below d_max; or slip
 // without end against a force that only grows), or because kMaxSections sections have not been enough. The state
 // reached is then reported: velocities, impulses, works; newton and poisson are 0, the error estimate is infinite. Near
-// det W = 0 the number of sections grows like (det W)^(-1/2); where the particle sticks, like 1/ratio for any W; and with
-// mu |Wtn| >= Wnn like 1/eta. Random everyday contacts have a few hundred at most. Below kLeastRatioSquared the budget,
-// or a double's resolution of the oscillation along the surface, may be used up by an impact that does end.
+// det W = 0 the number of sections grows like (det W)^(-1/2); where the particle sticks, like 1/ratio for any W; and
+// with mu |Wtn| >= Wnn like 1/eta. Random everyday contacts have a few hundred at most. Below kLeastRatioSquared the
+// budget, or a double's resolution of the oscillation along the surface, may be used up by an impact that does end.
 //
-// Rank one: |det W| <= 4 eps Wtt Wnn, as in core/models/planar.h; Wtt is then Wtn^2/Wnn and u = v Wtn/Wnn. Wtt = 0 (then
-// Wtn = 0): u = u0, though the spring is strained and its force does work.
+// Rank one: |det W| <= 4 eps Wtt Wnn, as in core/models/planar.h; Wtt is then Wtn^2/Wnn and u = v Wtn/Wnn. Wtt = 0
+// (then Wtn = 0): u = u0, though the spring is strained and its force does work.
 //
 // Method: slides are algebra in the normal impulse and sticks two sinusoids in time, no step size: the -inl.h files.
 // Accuracy: error_estimate, 1e-14 to 1e-12 for everyday contacts. It compares the impact with two more that are
@@ -104,8 +104,8 @@ inline constexpr int kMaxSections = 100'000;
 // At this one random everyday contacts have 73,000 sections at most.
 inline constexpr double kLeastRatioSquared = 1e-9;
 
-// No limit is ever broken. Compression ends at the last d = d_max. The change of energy is P . (v- + v+)/2, never through
-// an inverse of W.
+// No limit is ever broken. Compression ends at the last d = d_max. The change of energy is P . (v- + v+)/2, never
+// through an inverse of W.
 struct Impact : ImpactEnd<double> {
   double f_compression = 0.0;
   double friction_dissipation = 0.0;  // >= 0

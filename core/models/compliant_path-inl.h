@@ -13,8 +13,8 @@
 // Stick: y = (ratio p, n/sqrt(kn)) has y'' = -K y, K = [Wtt/ratio^2, -c; -c, kn Wnn], c = Wtn sqrt(kn)/ratio, with
 // det K = kn det W/ratio^2: two oscillations, K's eigenvectors. It ends where g = mu n - s p vanishes, s = 1 or -1; as
 // g' = -S/ratio^2, a stick that began where slip stopped has g = g' = 0 there and g'' = -A n/ratio^2 > 0. It cannot end
-// on that side while n cos(w_0 t) + n' sin(w_0 t)/w_0 > 0, with the fast frequency w_0 and n, n' of its start. For there
-// p' = mu s n' too, so g''' = -A n'/ratio^2, and g'' + w_1^2 g, which is a multiple of the fast sinusoid, is that
+// on that side while n cos(w_0 t) + n' sin(w_0 t)/w_0 > 0, with the fast frequency w_0 and n, n' of its start. For
+// there p' = mu s n' too, so g''' = -A n'/ratio^2, and g'' + w_1^2 g, which is a multiple of the fast sinusoid, is that
 // expression times -A/ratio^2 > 0: Polya's factors (core/models/compliant_vibration-inl.h) keep g/h rising from 0. No
 // search in rounded numbers could tell, g grows as t^2. And so no chain of sections stays at one time.
 

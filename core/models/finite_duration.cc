@@ -13,8 +13,9 @@ namespace ricochet::finite_duration {
 namespace {
 
 // How far the velocities at the end of a path are from the truth, over max(|u0|, |v0|). Local errors add up at worst in
-// size. They grow where restitution slows down, as it is v^2 that carries over, and shift the end, up to which a_t acts.
-// The safety is for all other growth; without forces, damping and springs along t each piece of the path is straight.
+// size. They grow where restitution slows down, as it is v^2 that carries over, and shift the end, up to which a_t
+// acts. The safety is for all other growth; without forces, damping and springs along t each piece of the path is
+// straight.
 double ErrorOf(const Contact& contact, const Path& path) {
   const bool straight = contact.at == 0.0 && contact.an == 0.0 && !contact.damped && !contact.compliant;
   const double safety = straight ? 2.0 : 4.0;

@@ -13,24 +13,24 @@
 //     to is reported. The impact ends where N = 0, and d > 0 there if a_n pulls the bodies apart; what the spring still
 //     holds is lost.
 //
-// Tangentially rigid (Coulomb): F = -mu sgn(u) N while the contact slips; while it sticks F = -(Wtn N + a_t)/Wtt, as long
-// as |F| <= mu_s N. Then slip starts towards sgn(Wtn N + a_t); so it does at first touch, where N = 0, from u0 = 0 if
-// a_t != 0. Wtt = 0: no friction. Linear with `ratio_squared`: a massless particle between body and surface on a
+// Tangentially rigid (Coulomb): F = -mu sgn(u) N while the contact slips; while it sticks F = -(Wtn N + a_t)/Wtt, as
+// long as |F| <= mu_s N. Then slip starts towards sgn(Wtn N + a_t); so it does at first touch, where N = 0, from u0 = 0
+// if a_t != 0. Wtt = 0: no friction. Linear with `ratio_squared`: a massless particle between body and surface on a
 // tangential spring of stiffness k/ratio^2 (Stronge), F = -mu N s while it slides towards s, at the speed
 // S = s u + mu ratio^2 kn/k v, kn the slope of N(d); F' = -(k/ratio^2) u while it sticks, as long as |F| <= mu N. It
 // sticks at first touch if |u0| < mu ratio^2 |v0|; where S = 0 on the cone dS/dt decides. eta = 0 there needs
 // mu |Wtn| < Wnn.
 //
-// Ends: N = 0. eta = 0, or eta^2 below the smallest normal double, which counts as 0: where v = 0 at d_max, all that the
-// springs hold is lost. Where friction and the spring hold the contact at rest at the end of compression (rank one,
+// Ends: N = 0. eta = 0, or eta^2 below the smallest normal double, which counts as 0: where v = 0 at d_max, all that
+// the springs hold is lost. Where friction and the spring hold the contact at rest at the end of compression (rank one,
 // locked): there. An impact that does not part within a budget of 50 000 steps or 200 changes of the sign of v, or
 // provably never does, is answered with the state reached, regime wedged, converged = false and an infinite error:
 // forces that press too hard, wedges. Nor may a contact whose particle sticks and slides too often (ratio below some
 // 1e-3), or one at the brink of jamming under forces, end within it.
 //
 // Phases: normal and tangential works of compression are those of first loading, those of restitution all others.
-// tau_compression and f_compression are the impulses at the last v = 0 with d = d_max. For Hunt-Crossley, whose curve is
-// one, the works of compression are those up to there.
+// tau_compression and f_compression are the impulses at the last v = 0 with d = d_max. For Hunt-Crossley, whose curve
+// is one, the works of compression are those up to there.
 //
 // Regimes as in core/models/planar.h, by the first stop of slip, or of the particle, and by v there; v = 0 counts as
 // restitution. Without forces and tangential spring the impact is planar::Solve's with the energetic law, at any k.
@@ -42,8 +42,8 @@
 // Adams formulas of variable order, root finding for events. Peaks are taken at the events where they occur.
 // Accuracy: velocities within `tolerance`, or as far as double precision has it (some 1e-12 without forces; close to
 // rank one with a tangential spring 1e-15 Wtt Wnn/det W); error_estimate says what was reached. It is a multiple of the
-// sum of the sizes of CVODE's local errors, calibrated: testing has not found it below the true error, and in the median
-// it is 10 to 100 times that. All else has errors of like relative size, but for what passes close to 0.
+// sum of the sizes of CVODE's local errors, calibrated: testing has not found it below the true error, and in the
+// median it is 10 to 100 times that. All else has errors of like relative size, but for what passes close to 0.
 // The same bits on one machine only: SUNDIALS calls the C library's pow.
 // Bad input: none gets here (core/scene/validate.h). v0 >= 0: nothing changes, whatever the forces.
 

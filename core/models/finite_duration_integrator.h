@@ -1,5 +1,5 @@
-// CVODE for one contact of core/models/finite_duration.h: Adams' formulas of variable order, step by step, with the roots
-// of the guards. The only file, with its source, that knows SUNDIALS.
+// CVODE for one contact of core/models/finite_duration.h: Adams' formulas of variable order, step by step, with the
+// roots of the guards. The only file, with its source, that knows SUNDIALS.
 
 #ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_INTEGRATOR_H_
 #define RICOCHET_CORE_MODELS_FINITE_DURATION_INTEGRATOR_H_

@@ -1,13 +1,13 @@
 // The motion of core/models/finite_duration.h in natural units: forces, rates, what ends a mode and which comes next.
 //
-// Units: velocity |v0|, mass 1/Wnn, and the time T in which they make the spring's own force, k Wnn |v0|^(p-1) T^(p+1) = 1
-// for N = k d^p, or in which a_n > 0 alone would turn v around, |v0|/a_n, if that is less. Then v0 = -1, Wnn = 1, a_n <= 1
-// and N = K x^p (1 - c v), K <= 1 the spring's stiffness and x the d of the curve of loading or
+// Units: velocity |v0|, mass 1/Wnn, and the time T in which they make the spring's own force, k Wnn |v0|^(p-1) T^(p+1)
+// = 1 for N = k d^p, or in which a_n > 0 alone would turn v around, |v0|/a_n, if that is less. Then v0 = -1, Wnn = 1,
+// a_n <= 1 and N = K x^p (1 - c v), K <= 1 the spring's stiffness and x the d of the curve of loading or
 // (d - (1 - eta^2) d_max)/eta^2 on that of unloading: x' = -v or -v/eta^2.
 //
-// Two changes of variables keep the equations smooth and of size 1. For p != 1, x = q^2 and dt = 2 q ds: q' = -v and all
-// rates are polynomials for p a multiple of 1/2, where x^p itself has no derivatives at first and last touch. On the
-// curve of unloading dt has the factor eta as well, which is the size of v and of the time there.
+// Two changes of variables keep the equations smooth and of size 1. For p != 1, x = q^2 and dt = 2 q ds: q' = -v and
+// all rates are polynomials for p a multiple of 1/2, where x^p itself has no derivatives at first and last touch. On
+// the curve of unloading dt has the factor eta as well, which is the size of v and of the time there.
 //
 // A mode is a line of the normal spring and a grip of friction. It lasts while its guards are >= 0. The turning points
 // of what may leave and come back within one step, and those of the forces, are watched too.

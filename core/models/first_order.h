@@ -24,8 +24,8 @@
 // so that velocities are right to 2 c x^2 and impulses, times their mobility, to (8/3) c x^2 for x <= 1/2. Works of
 // restitution and the change of energy: to J w-^2/2 (2 kappa_hat + d) d/(1 - x), d = d(kappa_hat).
 // Rounding, eps = 2^-53, to first order: x 2 eps, 1 + x 2 eps, 1 - x 3 eps, 1 - 2x 4 eps of 1. Then kappa_hat is off by
-// at most 5 eps c and the velocities, two products more, by 7 eps c V. kappa is off by 4 eps kappa, 1 + kappa by 5 eps of
-// itself, tau0 by 4 eps, tau1 by 10 eps; f1 by 11 eps (1 + kappa) mu tau0. 8 and 12 eps cover higher orders, and the
+// at most 5 eps c and the velocities, two products more, by 7 eps c V. kappa is off by 4 eps kappa, 1 + kappa by 5 eps
+// of itself, tau0 by 4 eps, tau1 by 10 eps; f1 by 11 eps (1 + kappa) mu tau0. 8 and 12 eps cover higher orders, and the
 // bounds of the forms, a few roundings of products, are enlarged by 2^-48 of themselves.
 //
 // mu = 0: the impact without friction, where the forms are exact, to the errors of rounding above.

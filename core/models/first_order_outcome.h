@@ -11,7 +11,8 @@
 
 namespace ricochet::first_order {
 
-// As pendulum::MakeOutcome, whose paths it uses (core/models/pendulum_outcome.h). `problem` is one that the model serves.
+// As pendulum::MakeOutcome, whose paths it uses (core/models/pendulum_outcome.h). `problem` is one that the model
+// serves.
 // Errors: INVALID_ARGUMENT for each history_at_n_s that is not in [0, tau1].
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s,
                                     Detail detail = Detail::kAll);

@@ -1,5 +1,5 @@
-// What an impact at one point comes to, by whatever model: what models of one contact share. `Along` is what there is along
-// the surface: a number in a plane, one for each direction in space.
+// What an impact at one point comes to, by whatever model: what models of one contact share. `Along` is what there is
+// along the surface: a number in a plane, one for each direction in space.
 
 #ifndef RICOCHET_CORE_MODELS_IMPACT_END_H_
 #define RICOCHET_CORE_MODELS_IMPACT_END_H_

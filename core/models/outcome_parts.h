@@ -106,7 +106,8 @@ std::array<double, kTangential> ByDirection(const std::array<double, kTangential
   return t;
 }
 
-// What the path of an impact ends with: all of an outcome but its effective coefficients, accuracy, timeline and history.
+// What the path of an impact ends with: all of an outcome but its effective coefficients, accuracy, timeline and
+// history.
 template <size_t kTangential, typename Along>
 Outcome MakeEnd(const ImpactEnd<Along>& impact, const Reduction<kTangential>& reduction, double duration = 0.0) {
   const std::array<double, kTangential> u1 = ByDirection(impact.u1);

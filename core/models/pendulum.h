@@ -19,7 +19,8 @@
 // Accuracy: each output within 1 ulp of the exact value of the exact inputs over the whole double range. Where an
 // output changes sign (1 - eta^2, 1 - kappa, 1 - kappa_hat^2 under another law's coefficient), to 2^-100 of its scale.
 // Below 2^-1022: within 1 unit of 2^-1074. An exact value above the largest double comes out infinite.
-// A limit that is broken or kept by more than 2^-100 of the terms compared is reported so; closer than that, either way.
+// A limit that is broken or kept by more than 2^-100 of the terms compared is reported so; closer than that, either
+// way.
 // Bad input: none gets here (core/scene/validate.h); the functions assume a valid problem.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_H_

@@ -1,4 +1,5 @@
-// The pendulum's formulas (core/models/pendulum.h) over a number type N: DoubleDouble for moderate inputs, Wide for all.
+// The pendulum's formulas (core/models/pendulum.h) over a number type N: DoubleDouble for moderate inputs, Wide for
+// all.
 //
 // Nothing cancels. With s = a + q and d = a - q (q = mu |b| exact), the differences that could are written as
 //   energetic eta:   1 - kappa = n/(d (1 + kappa)),  n = d - eta^2 s = a (1-eta)(1+eta) - q (1 + eta^2)

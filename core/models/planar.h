@@ -7,8 +7,8 @@
 //   d(u, v)/dtau = W (f', 1),   f' = -mu sgn(u) while the contact slips, |f'| <= mu_s while it sticks
 //
 // At u = 0 the contact sticks, f' = -Wtn/Wtt, if |Wtn| <= mu_s Wtt; else slip starts towards sgn(Wtn). u and v are
-// piecewise linear in tau. Compression ends at v = 0. v may fall at first (self-locking): then compression goes on until
-// slip has stopped. Restitution ends at
+// piecewise linear in tau. Compression ends at v = 0. v may fall at first (self-locking): then compression goes on
+// until slip has stopped. Restitution ends at
 //   Newton     v = -e v0
 //   Poisson    tau1 = (1 + k) tau_c
 //   energetic  normal work of restitution = -eta^2 times that of compression
@@ -67,8 +67,8 @@ using Instant = ImpactInstant<double>;
 // The start, the stop of slip, the ends of compression and of restitution.
 inline constexpr int kMaxEvents = 4;
 
-// The excess is free of cancellation: > 0 exactly if the sharp limit is broken. The change of energy is p . (v- + v+)/2,
-// never through an inverse of W.
+// The excess is free of cancellation: > 0 exactly if the sharp limit is broken. The change of energy is p . (v- +
+// v+)/2, never through an inverse of W.
 struct Impact : ImpactEnd<double> {
   double f_compression = 0.0;
   std::array<Instant, kMaxEvents> events;  // In order of tau; u is linear between them, and so are v and f.

@@ -7,8 +7,8 @@
 // In space the path does not depend on restitution either, but slip that turns can press the bodies together again, and
 // friction's share of the impulse may turn anywhere on the way: nothing proves that the ends are the extremes. What is
 // answered is the hull of kSpatialImpacts impacts, the energetic coefficient at equal steps from 0 to 1, each solved to
-// spatial::kStudyTolerance: it lies within the true range, to that tolerance. There are no bounds by energy alone and no
-// critical coefficients.
+// spatial::kStudyTolerance: it lies within the true range, to that tolerance. There are no bounds by energy alone and
+// no critical coefficients.
 
 #ifndef RICOCHET_CORE_MODELS_SCENE_BOUNDS_H_
 #define RICOCHET_CORE_MODELS_SCENE_BOUNDS_H_
@@ -22,8 +22,8 @@ namespace ricochet {
 inline constexpr int kSpatialImpacts = 65;
 
 // `scene` is valid, its restitution set or not, and has no impact law.
-// Errors: OUT_OF_RANGE if W, the contact velocity or a bound, which is named, exceeds the largest double, or W_nn is below
-// the smallest.
+// Errors: OUT_OF_RANGE if W, the contact velocity or a bound, which is named, exceeds the largest double, or W_nn is
+// below the smallest.
 absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene);
 
 }  // namespace ricochet

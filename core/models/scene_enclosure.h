@@ -4,10 +4,11 @@
 //   any other planar system                               branch and bound   core/laws/enclosure.h, over
 //                                                                            core/scene/interval_reduction.h
 //
-// A range may be of whatever an axis of a sweep can drive (core/sweep/field.h), but for the coefficients of restitution,
-// which bounds do not depend on, and for the numbers of friction.by_speed, which count as they stand: friction's factor
-// is enclosed over the approach speeds of the box. A system whose W has rank one by its nature, a pendulum or a linkage of
-// one link, strikes a surface at rest; next to no other surface velocity is in the range of its W.
+// A range may be of whatever an axis of a sweep can drive (core/sweep/field.h), but for the coefficients of
+// restitution, which bounds do not depend on, and for the numbers of friction.by_speed, which count as they stand:
+// friction's factor is enclosed over the approach speeds of the box. A system whose W has rank one by its nature, a
+// pendulum or a linkage of one link, strikes a surface at rest; next to no other surface velocity is in the range of
+// its W.
 //
 // Bad input: see CheckRanges and EncloseScene.
 

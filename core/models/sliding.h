@@ -26,8 +26,8 @@
 //   frictionless  u' and v' are exact: tau1 2 eps, u1 eps |u1| + 2 eps |Wtn| tau1.
 //   all         v1: one product, eps |v1|.
 // mu |wtn . e| = |v' - Wnn| and mu |Wtt e| = |u' - wtn| are taken from the slopes, exact to the order that counts.
-// Every number that is not 0 has to lie between 2^-100 and 2^100, so that no product leaves the range of doubles (slopes
-// are above 2^-360, works below 2^820); elsewhere the bound is infinite.
+// Every number that is not 0 has to lie between 2^-100 and 2^100, so that no product leaves the range of doubles
+// (slopes are above 2^-360, works below 2^820); elsewhere the bound is infinite.
 // Bad input: none gets here. The caller has made sure of v0 < 0, 0 <= c <= 1, with friction also of u0 != 0, mu > 0,
 // v' > 0, and that slip does not stop nor turn by more than it allows (core/plan/).
 
@@ -163,8 +163,8 @@ RelativeErrors FrictionlessErrorsOf(const Problem<kTangential>& problem);
 template <size_t kTangential>
 using Instant = ImpactInstant<Vector<kTangential>>;
 
-// The sharp limit is never broken: c <= 1. That of energy is only where the caller excludes that slip stops: friction then
-// drives it backwards, and may give more than restitution takes.
+// The sharp limit is never broken: c <= 1. That of energy is only where the caller excludes that slip stops: friction
+// then drives it backwards, and may give more than restitution takes.
 template <size_t kTangential>
 struct Impact : ImpactEnd<Vector<kTangential>> {
   std::array<Instant<kTangential>, 3> events = {};  // The start, the ends of compression and of restitution.

@@ -50,8 +50,8 @@ struct Problem {
 
 using Instant = ImpactInstant<std::array<double, 2>>;
 
-// Limits count as broken where they are by more than the estimated error. The change of energy is p . (v- + v+)/2, never
-// through an inverse of W.
+// Limits count as broken where they are by more than the estimated error. The change of energy is p . (v- + v+)/2,
+// never through an inverse of W.
 struct Impact : ImpactEnd<std::array<double, 2>> {
   double error_estimate = 0.0;   // Not below the true error of the velocities over max(|u0|, |v0|).
   bool converged = true;         // False: a budget ran out, the state is that reached, the error estimate infinite.

@@ -62,8 +62,8 @@ inline Scale PowerOfTwo(int exponent) {
 //
 // Rounding. Slopes of slip along a line are sums of W's entries and of mu times others along e; with eps = 2^-52,
 //   v' is off by eps (Wnn + mu |wtn|),   u' by eps (|wtn| + mu |Wtt|),
-// however small they are themselves. Over a length in tau these are errors of v and of u. That of v is late / v' where v
-// has to reach something, and its integral where work has. Slip that stops late by dtau = (error of u)/|u'| to stick
+// however small they are themselves. Over a length in tau these are errors of v and of u. That of v is late / v' where
+// v has to reach something, and its integral where work has. Slip that stops late by dtau = (error of u)/|u'| to stick
 // leaves in v what the two slopes differ by, times dtau.
 template <typename T>
 class Solver {

@@ -6,8 +6,9 @@
 // that of SLEEF loses its accuracy close to underflow.
 //
 // Accuracy: kElementaryUlps, in ulp of the exact result, which SLEEF states and the tests hold every function to; the
-// worst they see are 0.72 (Sin, Cos), 0.93 (Exp), 0.66 (Log), 0.65 (Pow) and, close to underflow, 0.73 (Hypot). Sin and Cos reduce arguments
-// of any size by as many bits of 2/pi as these need. Exact are Sin(0), Cos(0), Exp(0), Log(1), Pow(x, 0) and Pow(x, 1).
+// worst they see are 0.72 (Sin, Cos), 0.93 (Exp), 0.66 (Log), 0.65 (Pow) and, close to underflow, 0.73 (Hypot). Sin and
+// Cos reduce arguments of any size by as many bits of 2/pi as these need. Exact are Sin(0), Cos(0), Exp(0), Log(1),
+// Pow(x, 0) and Pow(x, 1).
 // Bad input: of an infinity, of Log(0) and of negative numbers the limit or the NaN that C prescribes.
 
 #ifndef RICOCHET_CORE_NUMERICS_ELEMENTARY_H_

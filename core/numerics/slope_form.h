@@ -1,10 +1,10 @@
 // SlopeForm: a function of the parameters of a box, enclosed to first order.
 //
-// For every point x of the box, with its centre c,  f(x) in f(c) + sum_i s_i (x_i - c_i),  s_i the slopes. Sums, products
-// and quotients carry slopes on exactly (Krawczyk and Neumaier 1985), those of another function
-// are bounded by its derivative. The range is what the slopes and what interval arithmetic alone allow: where parameters enter a formula
-// several times it is too wide by the square of the box's size, not by the size. All is rounded outward
-// (core/numerics/interval.h).
+// For every point x of the box, with its centre c,  f(x) in f(c) + sum_i s_i (x_i - c_i),  s_i the slopes. Sums,
+// products and quotients carry slopes on exactly (Krawczyk and Neumaier 1985), those of another function
+// are bounded by its derivative. The range is what the slopes and what interval arithmetic alone allow: where
+// parameters enter a formula several times it is too wide by the square of the box's size, not by the size. All is
+// rounded outward (core/numerics/interval.h).
 //
 // Parameters beyond the first kMostSlopes have no slopes: they count as intervals at the centre too.
 

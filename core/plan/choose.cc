@@ -65,8 +65,8 @@ Decision DecisionOn(const Context& context, const Sizes& of_all, EffectSet simul
   return simulates.Has(effect) ? Decision::kSimulated : Decision::kNegligible;
 }
 
-// The first candidate within the tolerance. Where the caller excludes what every exact model has, there may be none: then
-// the last that leaves out nothing else, as exact as it is.
+// The first candidate within the tolerance. Where the caller excludes what every exact model has, there may be none:
+// then the last that leaves out nothing else, as exact as it is.
 const Candidate* Cheapest(const Context& context, absl::Span<const Candidate> candidates) {
   const Candidate* rest = nullptr;
   for (const Candidate& candidate : candidates) {
@@ -197,11 +197,11 @@ double PendulumSmoothError(const pendulum::Problem& problem) {
   return kReduction + SmoothError(problem.coefficient <= 1.0, LineOf(PlanarOf(problem)));
 }
 
-// Whether neither friction nor higher orders can be left out, by cheap lower bounds of their sizes. First order is off by
-// c x^2/2 at least. Of friction, v1 and tau1 (core/plan/sizes.cc) cannot both be small: under the energetic law, with
-// root^2 = (1 - x)/(1 + x), (1 + x) tau1 >= x (1 + c) - v1/root, so that the larger is x/(1 + x + 1/root) at least, which
-// is x 2^-11 as far as 1 - x >= kLeastSlope; beyond, and where it locks, no bound is finite. Under Poisson's law
-// tau1 >= x/2. Newton's fixes v1 = 0, and tau1 may be any.
+// Whether neither friction nor higher orders can be left out, by cheap lower bounds of their sizes. First order is off
+// by c x^2/2 at least. Of friction, v1 and tau1 (core/plan/sizes.cc) cannot both be small: under the energetic law,
+// with root^2 = (1 - x)/(1 + x), (1 + x) tau1 >= x (1 + c) - v1/root, so that the larger is x/(1 + x + 1/root) at
+// least, which is x 2^-11 as far as 1 - x >= kLeastSlope; beyond, and where it locks, no bound is finite. Under
+// Poisson's law tau1 >= x/2. Newton's fixes v1 = 0, and tau1 may be any.
 bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance) {
   static_assert(kLeastSlope >= 0x1p-20);
   if (problem.law == pendulum::Law::kNewton) return false;
@@ -251,8 +251,8 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
 }
 
-// What is not simulated beside friction, or beside what first order leaves out, has size 0 here: the candidates are as in
-// ChoosePendulum.
+// What is not simulated beside friction, or beside what first order leaves out, has size 0 here: the candidates are as
+// in ChoosePendulum.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance) {
   if (problem.omega_minus >= 0.0) return Model::kNone;
   if (IsFarFromSimple(problem, tolerance)) return Model::kPendulum;

@@ -8,8 +8,8 @@
 //
 // What the caller excludes does not count: the tolerance is that of the answer without it. Where friction is left out,
 // what lives on it is too, at no further price. The last model that simulates all there is counts as exact: its error
-// is what double precision or its own tolerance allows. Closed forms in plain double arithmetic (frictionless, first order,
-// sliding) do not serve for a coefficient of restitution above 1 or c >= 1 (possible self-locking), frictionless
+// is what double precision or its own tolerance allows. Closed forms in plain double arithmetic (frictionless, first
+// order, sliding) do not serve for a coefficient of restitution above 1 or c >= 1 (possible self-locking), frictionless
 // and sliding neither for W of rank one, unless Wtt = 0; these have the exact models' care for limits and regimes.
 // v0 >= 0 without a spring and finite forces: no model at all, nothing happens.
 //

@@ -39,9 +39,9 @@ enum class Decision {
 struct PlannedEffect {
   Effect effect = Effect::kUnspecified;
   Decision decision = Decision::kUnspecified;
-  // The most that leaving it out changes in any contact velocity, or in an impulse times its mobility (Wnn tau, Wtt f; in
-  // space (W11 + W22) |f|), over max(|u0|, |v0|). 0 where absent, and for what friction does where friction itself is
-  // left out; infinite where no bound is known.
+  // The most that leaving it out changes in any contact velocity, or in an impulse times its mobility (Wnn tau, Wtt f;
+  // in space (W11 + W22) |f|), over max(|u0|, |v0|). 0 where absent, and for what friction does where friction itself
+  // is left out; infinite where no bound is known.
   double size = 0.0;
   std::string reason;  // One sentence: where the size comes from, with its numbers.
   friend bool operator==(const PlannedEffect&, const PlannedEffect&) = default;

@@ -1,6 +1,7 @@
 // VisitNumbers: every number of a scene with its path, where it is stored and the rule that it keeps by itself.
 //
-// What Validate checks and what axes and ranges may drive is read off here, so that a new field is known to all of them.
+// What Validate checks and what axes and ranges may drive is read off here, so that a new field is known to all of
+// them.
 
 #ifndef RICOCHET_CORE_SCENE_NUMBERS_H_
 #define RICOCHET_CORE_SCENE_NUMBERS_H_

@@ -81,8 +81,8 @@ struct HuntCrossleySpring {
 using NormalSpring = std::variant<std::monostate, LinearSpring, HertzSpring, HuntCrossleySpring>;
 
 struct Compliance {
-  // Tangential over normal compliance, in [1e-9, 1e9]; (2 - nu)/(2 (1 - nu)) for spheres of Poisson's ratio nu. Absent means rigid
-  // along the surface. Not with HertzSpring or HuntCrossleySpring, nor with static above kinetic friction.
+  // Tangential over normal compliance, in [1e-9, 1e9]; (2 - nu)/(2 (1 - nu)) for spheres of Poisson's ratio nu. Absent
+  // means rigid along the surface. Not with HertzSpring or HuntCrossleySpring, nor with static above kinetic friction.
   std::optional<double> tangential_ratio_squared;
   NormalSpring normal;
   friend bool operator==(const Compliance&, const Compliance&) = default;

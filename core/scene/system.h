@@ -1,7 +1,7 @@
 // System: what strikes. A body or a mechanism, or the contact alone as another program sees it.
 //
-// t points along the surface to the right, n out of it into the striking body; angles and rates are counter-clockwise in
-// the plane (t, n). SI units and radians. Every number must be finite. Lists have a fixed length, given beside each.
+// t points along the surface to the right, n out of it into the striking body; angles and rates are counter-clockwise
+// in the plane (t, n). SI units and radians. Every number must be finite. Lists have a fixed length, given beside each.
 
 #ifndef RICOCHET_CORE_SCENE_SYSTEM_H_
 #define RICOCHET_CORE_SCENE_SYSTEM_H_

@@ -1,7 +1,7 @@
 // Audit: what an observed impact implies, and which limits of an admissible impact it breaks.
 //
-// Given: the contact (W, the approach velocity v-, friction) and the velocity v+ after the impact that a simulator or an
-// experiment has seen, each of its components within +-uncertainty. The contact is taken as stated.
+// Given: the contact (W, the approach velocity v-, friction) and the velocity v+ after the impact that a simulator or
+// an experiment has seen, each of its components within +-uncertainty. The contact is taken as stated.
 //
 // W of full rank. The impulse p = W^-1 (v+ - v-) is unique. Newton's coefficient is that of v+; Poisson's and the
 // energetic one, the phases and the four works are those of the scene's Coulomb path run to the normal impulse p_n, and
@@ -13,8 +13,8 @@
 //
 // A contact that does not approach (regime separating) has no path but its start: unexplained unless v+ = v-.
 //
-// Limits and their allowances. A limit is broken if its excess is above its allowance: then no v+ within the uncertainty
-// keeps it. With d_i >= |error of v+_i|, G = W^-1, and sums over i:
+// Limits and their allowances. A limit is broken if its excess is above its allowance: then no v+ within the
+// uncertainty keeps it. With d_i >= |error of v+_i|, G = W^-1, and sums over i:
 //
 //   kNormalImpulse   p_n >= 0                sum |G_ni| d_i
 //   kPenetration     v+_n >= 0               d_n
@@ -57,9 +57,9 @@ struct SpatialObservation {
   double uncertainty = 0.0;
 };
 
-// The law and the coefficient of the problem are not used. In space the path is integrated to the problem's tolerance; a
-// simulator's error belongs to the uncertainty. Where a spatial W is rank deficient the nearest point is searched for,
-// in some hundred solutions.
+// The law and the coefficient of the problem are not used. In space the path is integrated to the problem's tolerance;
+// a simulator's error belongs to the uncertainty. Where a spatial W is rank deficient the nearest point is searched
+// for, in some hundred solutions.
 AuditReport Audit(const planar::Problem& problem, const PlanarObservation& observation);
 AuditReport Audit(const spatial::Problem& problem, const SpatialObservation& observation);
 
@@ -68,8 +68,8 @@ AuditReport Audit(const pendulum::Problem& problem, const PlanarObservation& obs
 // The same from the angular velocity after the impact and its uncertainty in rad/s.
 AuditReport AuditRate(const pendulum::Problem& problem, double omega_plus, double uncertainty);
 
-// The path, in ricochet.v1.AuditResponse, of the first number that exceeds the largest double; null if none does. What an
-// uncertainty can make of a number may be infinite.
+// The path, in ricochet.v1.AuditResponse, of the first number that exceeds the largest double; null if none does. What
+// an uncertainty can make of a number may be infinite.
 const char* OverflowIn(const AuditReport& report);
 
 }  // namespace ricochet::audit

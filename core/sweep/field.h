@@ -51,8 +51,8 @@ class Field {
   std::vector<std::string> sets_;
 };
 
-// The field at `path`. A restitution path switches the scene to that definition; a static_coefficient or surface_velocity
-// path makes it present.
+// The field at `path`. A restitution path switches the scene to that definition; a static_coefficient or
+// surface_velocity path makes it present.
 // Errors: INVALID_ARGUMENT whose message says what would be right, for an unknown path or one of another system.
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
 

@@ -1,8 +1,8 @@
 // absl::Status <-> grpc::Status: the one place where errors are mapped.
 //
 // Code and message are kept. Reason, violations and retry delay (core/error.h) travel as google.rpc.ErrorInfo
-// {reason, domain "ricochet"}, BadRequest and RetryInfo in grpc-status-details-bin; a status without any of them travels
-// without details.
+// {reason, domain "ricochet"}, BadRequest and RetryInfo in grpc-status-details-bin; a status without any of them
+// travels without details.
 //
 // gRPC clients drop a call whose trailers exceed 8 KiB, so a status that does not fit is cut: the details stay within
 // 4 KiB and the message, percent-encoded, within 2 KiB. Violations are dropped from the end, the last one kept says how

@@ -86,7 +86,8 @@ Answer Theirs(CvodePeer& peer, const Case& c, double tolerance) {
   return c.Judge(impact.ended, impact.u1, impact.v1);
 }
 
-// CVODE controls local errors: the loosest tolerance, by half decades, that brings 99 of 100 answers within what is asked.
+// CVODE controls local errors: the loosest tolerance, by half decades, that brings 99 of 100 answers within what is
+// asked.
 double ToleranceForSameAccuracy(CvodePeer& peer, const std::vector<Case>& cases, double asked) {
   constexpr double kTightest = 1e-14;
   double tolerance = asked;
@@ -142,7 +143,8 @@ void Measure(CvodePeer& peer, const char* what, const std::vector<Case>& cases, 
                         Mean(times.theirs) / Mean(times.ours)));
 }
 
-// Slip that is never near 0, of cases where it never stops: there the equations are smooth, and CVODE is a second opinion.
+// Slip that is never near 0, of cases where it never stops: there the equations are smooth, and CVODE is a second
+// opinion.
 void CrossCheck(CvodePeer& peer, const std::vector<Case>& cases) {
   constexpr double kTolerance = 1e-13;
   constexpr double kLeastSlip = 0.1;

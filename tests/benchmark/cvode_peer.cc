@@ -77,8 +77,8 @@ int Events(realtype tau, N_Vector y, realtype* values, void* data) {
   return 0;
 }
 
-// d(u, v, w)/dtau once slip has stopped: the contact holds if friction can do that; else slip starts in the one direction
-// e in which it grows, (mu Wtt + h) e = wtn with |e| = 1, h > 0.
+// d(u, v, w)/dtau once slip has stopped: the contact holds if friction can do that; else slip starts in the one
+// direction e in which it grows, (mu Wtt + h) e = wtn with |e| = 1, h > 0.
 State RateFromRest(const Impact& impact) {
   const auto solve = [&](double scale, double h) -> std::array<double, 2> {
     const double a = scale * impact.w11 + h;

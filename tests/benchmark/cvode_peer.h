@@ -29,8 +29,8 @@ struct PeerImpact {
 class CvodePeer {
  public:
   static constexpr int64_t kStepBudget = 100'000;
-  // Slip below this many tolerances counts as stopped: the velocities are wrong by no more than that, for friction makes
-  // paths converge. At 1 CVODE tends to step over the stop and to rattle about it until its budget is spent.
+  // Slip below this many tolerances counts as stopped: the velocities are wrong by no more than that, for friction
+  // makes paths converge. At 1 CVODE tends to step over the stop and to rattle about it until its budget is spent.
   static constexpr double kStopSlip = 10.0;
 
   CvodePeer();

@@ -1,8 +1,8 @@
 // The same bits everywhere: 10^5 scenes hash to what tests/data/golden/bits.txt says, whatever the build, the SIMD
 // target, the threads and the order. RICOCHET_UPDATE_GOLDEN=1 writes the file anew.
 //
-// Every system, law and effect but those of SUNDIALS (a normal spring), which promises its bits on one machine only. The
-// scenes themselves come from sums and products of random bits, so that they are the same everywhere too.
+// Every system, law and effect but those of SUNDIALS (a normal spring), which promises its bits on one machine only.
+// The scenes themselves come from sums and products of random bits, so that they are the same everywhere too.
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 // what belongs there; the bits of its first byte say which of its numbers are then replaced by those that follow.
 //
 // Checked: a stream is let through up to the first chunk that does not fit, and not further; what was let through is
-// every point of the range, once and in order; it ends well only if the summary came at the end; a stream of right chunks
-// is let through whole.
+// every point of the range, once and in order; it ends well only if the summary came at the end; a stream of right
+// chunks is let through whole.
 //
 // Covers: client/sweep_reader.cc
 

@@ -57,7 +57,8 @@ Slack SlackOf(const Scene& scene, const Outcome& outcome) {
 }
 
 bool IsCoulomb(const Scene& scene) { return std::holds_alternative<std::monostate>(scene.impact_law); }
-// Whether the caller has slip go on straight, or to first order, whatever that changes: friction is not against it then.
+// Whether the caller has slip go on straight, or to first order, whatever that changes: friction is not against it
+// then.
 bool ForcesSlip(const Outcome& outcome) {
   return std::any_of(outcome.plan.effects.begin(), outcome.plan.effects.end(), [](const PlannedEffect& planned) {
     const bool is_of_slip = planned.effect == Effect::kSlipStop || planned.effect == Effect::kSlipTurn ||

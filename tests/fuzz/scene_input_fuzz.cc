@@ -1,5 +1,5 @@
-// Fuzzes what reads a scene for the command line: the first byte says how the others are meant, as JSON, as textproto, as
-// either, or as the flags of a pendulum, a line each.
+// Fuzzes what reads a scene for the command line: the first byte says how the others are meant, as JSON, as textproto,
+// as either, or as the flags of a pendulum, a line each.
 //
 // Checked: OK or INVALID_ARGUMENT with a message; a scene that was read is the same when it is written in either format
 // and read again; Validate and Solve's door take it as it is.

@@ -97,8 +97,8 @@ class RungeKutta {
   bool in_xi_;
 };
 
-// Slip that comes as near to 0 as `least`, to the side from which it turns by 190 degrees (sign > 0) or by 170: found by
-// going back from there. `mu` = 0.1617 makes the angle between the directions in and out 190 degrees.
+// Slip that comes as near to 0 as `least`, to the side from which it turns by 190 degrees (sign > 0) or by 170: found
+// by going back from there. `mu` = 0.1617 makes the angle between the directions in and out 190 degrees.
 Problem NearMiss(double least, double mu, double sign) {
   Problem problem = TurningContact(0.0, 0.0, mu);
   problem.law = Law::kPoisson;

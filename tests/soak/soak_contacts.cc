@@ -227,7 +227,8 @@ Tally PlanarCases(int64_t cases) {
   return tally;
 }
 
-// A contact of a mechanism with fewer than three degrees of freedom: W = sum of g g^T, velocity = sum of g times a rate.
+// A contact of a mechanism with fewer than three degrees of freedom: W = sum of g g^T, velocity = sum of g times a
+// rate.
 spatial::Problem WithDegreesOfFreedom(int count, spatial::SceneSource& source) {
   spatial::Problem problem = source.Typical();
   problem.w11 = problem.w12 = problem.w13 = problem.w22 = problem.w23 = problem.w33 = 0.0;

@@ -1,8 +1,9 @@
 // Ball: a real number enclosed by Arb, as a C++ value.
 //
-// Every operation encloses the exact result; exponents have no limit, so nothing overflows or underflows. A ball carries
-// the precision it is computed with, and an operation uses the larger of its operands' two: constants written as doubles
-// take on the other side's. With kExact, sums, differences and products are exact (and / and Sqrt must not be used).
+// Every operation encloses the exact result; exponents have no limit, so nothing overflows or underflows. A ball
+// carries the precision it is computed with, and an operation uses the larger of its operands' two: constants written
+// as doubles take on the other side's. With kExact, sums, differences and products are exact (and / and Sqrt must not
+// be used).
 
 #ifndef RICOCHET_TESTS_SUPPORT_ARB_H_
 #define RICOCHET_TESTS_SUPPORT_ARB_H_

@@ -56,8 +56,8 @@ class SceneSource {
     return problem;
   }
 
-  // All sizes, det W > 1e-3 Wtt Wnn, and friction that cannot hold the body. One scene in two is a borderline: slip stops
-  // close to the end of compression, or the impact starts close to the slip at which it would stick.
+  // All sizes, det W > 1e-3 Wtt Wnn, and friction that cannot hold the body. One scene in two is a borderline: slip
+  // stops close to the end of compression, or the impact starts close to the slip at which it would stick.
   Problem AnySizes() {
     Problem problem = {.wtt = LogUniform(1e-3, 1e3), .wnn = LogUniform(1e-3, 1e3), .v0 = -LogUniform(1e-3, 1e3)};
     problem.wtn = Uniform(-1.0, 1.0) * std::sqrt((1.0 - 1e-3) * problem.wtt * problem.wnn);

@@ -1,8 +1,9 @@
 // A planar impact by simulating its events in ball arithmetic: the oracle of core/models/planar.
 //
-// A state (tau, f, u, v) is advanced to the next of: slip stops, v vanishes, restitution ends; whichever comes first, by
-// the naive formulas. Precision grows with the spread of the inputs' exponents, so that no difference of these inputs
-// can be so small as a ball without being 0: a ball around 0 is 0, two that overlap are equal. Shares no code with core/.
+// A state (tau, f, u, v) is advanced to the next of: slip stops, v vanishes, restitution ends; whichever comes first,
+// by the naive formulas. Precision grows with the spread of the inputs' exponents, so that no difference of these
+// inputs can be so small as a ball without being 0: a ball around 0 is 0, two that overlap are equal. Shares no code
+// with core/.
 
 #ifndef RICOCHET_TESTS_SUPPORT_PLANAR_ORACLE_H_
 #define RICOCHET_TESTS_SUPPORT_PLANAR_ORACLE_H_
@@ -67,8 +68,8 @@ using OutputErrors = std::array<double, kOutputNames.size()>;
 
 // The error of each output in ulp of the exact value, beyond 2^-94 c of its scale, with
 // c = (Wtt Wnn/det W) (1 + mu |Wtn|/Wnn), at rank one 1. Scales: max(|u0|, |v0|) for velocities, tau1 for normal
-// impulses, the largest |f'| tau1 for tangential ones, the largest work for works, 1 for coefficients of restitution, the
-// largest |f'| for the tangential one; the value itself where that is larger.
+// impulses, the largest |f'| tau1 for tangential ones, the largest work for works, 1 for coefficients of restitution,
+// the largest |f'| for the tangential one; the value itself where that is larger.
 OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact);
 
 // A problem as hexadecimal floats, to be pasted into a test.

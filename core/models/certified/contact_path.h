@@ -1,8 +1,8 @@
 // The path of a planar impact (core/models/planar.h has its equations and regimes) over a number type N: Surd, where
 // every branch is decided, or ArfInterval.
 //
-// A path has at most two pieces, on which u, v and f are linear in tau: the slip of the start, and what follows where it
-// stops. Along a piece with slopes (f', u', v')
+// A path has at most two pieces, on which u, v and f are linear in tau: the slip of the start, and what follows where
+// it stops. Along a piece with slopes (f', u', v')
 //   twice the work    step (v + v_new) of the normal, f' step (u + u_new) of the tangential impulse
 //   v_new^2 - v^2     2 v' times the normal work, which ends energetic restitution at a square root
 //   E_new - E         p step + P step^2/2,  p = f' u + v,  P = f' u' + v'

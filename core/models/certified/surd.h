@@ -1,7 +1,7 @@
 // Surd: a + b sqrt(d) with rational a, b, d, exact.
 //
-// All that an impact comes to is of this form, with one d an impact: its events are rational in its inputs, but that the
-// energetic end of restitution takes one square root. Sums, products and quotients stay in the form,
+// All that an impact comes to is of this form, with one d an impact: its events are rational in its inputs, but that
+// the energetic end of restitution takes one square root. Sums, products and quotients stay in the form,
 //   (a + b s)(e + f s) = (ae + bfd) + (af + be) s,   1/(a + b s) = (a - b s)/(a^2 - b^2 d),   s = sqrt(d),
 // and signs are exact: where a and b differ in sign, a + b s has that of the larger of a^2 and b^2 d.
 

@@ -156,8 +156,8 @@ TEST(CertifiedSetTest, WithNoSemidefiniteWIsRefused) {
 
 // --- Linkages ---
 
-// Two links that mirror each other and, so hung, feel the same inertia: the tip comes straight down, u0 = 0 and Wtn = 0,
-// but sines and cosines cannot prove it.
+// Two links that mirror each other and, so hung, feel the same inertia: the tip comes straight down, u0 = 0 and Wtn =
+// 0, but sines and cosines cannot prove it.
 Scene SymmetricChain() {
   const Link upper = {1.0, 1.0, 0.5, 0.25, 0.5, -1.0};
   const Link lower = {1.0, 1.0, 0.5, 1.25, -0.5, 1.0};

@@ -40,8 +40,8 @@ Restitution RestitutionOf(const VectorRow& row) {
 
 using Columns = std::vector<std::pair<const char*, const char*>>;
 
-// Whether they agree in the rows' 25 printed digits. What is proved to be 0 the rows have as what is left of a difference
-// of some 40 or 60 digits.
+// Whether they agree in the rows' 25 printed digits. What is proved to be 0 the rows have as what is left of a
+// difference of some 40 or 60 digits.
 bool AgreesWith(const std::string& printed, const CertifiedNumber& number) {
   if (number.decimal == "0" && number.exact) return std::fabs(std::stod(printed)) < 1e-35;
   return Agree(printed, number.decimal, 24);

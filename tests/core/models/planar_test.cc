@@ -81,8 +81,8 @@ double LargestWork(const Impact& impact) {
 
 // ---- By hand ----
 
-// Slip -1 + 3.25 tau and v = -1 + 3.55 tau: compression ends at 20/71, slip stops at 4/13 with v = 6/65, and sticks, for
-// 1.5 < 0.7 2.5; then v' = 4/2.5 = 1.6.
+// Slip -1 + 3.25 tau and v = -1 + 3.55 tau: compression ends at 20/71, slip stops at 4/13 with v = 6/65, and sticks,
+// for 1.5 < 0.7 2.5; then v' = 4/2.5 = 1.6.
 TEST(PlanarRodTest, NewtonsLawCreatesASixteenthOfAJoule) {
   const Impact impact = Solve(FortyFiveDegreeRod(Law::kNewton, 1.0));
   EXPECT_EQ(impact.regime, Regime::kStickInRestitution);
