@@ -5,7 +5,7 @@
 // is attained lies in the outer ranges too.
 //
 // Covers: core/models/scene_enclosure.cc, core/scene/interval_reduction.cc, core/laws/enclosure.cc,
-// core/laws/one_regime_ends.cc, core/laws/pendulum_ends.cc.
+// core/laws/one_regime_ends.cc, core/laws/pendulum_ends.cc, core/laws/planar_ends.cc.
 
 #include <algorithm>
 #include <cmath>
