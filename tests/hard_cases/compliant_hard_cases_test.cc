@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <limits>
 #include <vector>
@@ -230,13 +229,13 @@ std::vector<HardCase> HardCases() {
       With("slip stops at the end of contact ± 10⁻¹⁵", "the same", StopAtTheEndOfContact),
       With("equal frequencies ± 10⁻¹⁵, Wtn to 10⁻²⁰ Wnn", "no eigenvector is better than another", EqualFrequencies),
       With(
-          "ratio² = 10⁻⁹", "10⁴ periods along the surface in one along n",
+          "ratio² = 10⁻⁹", "10³ periods along the surface in one along n",
           [](SceneSource& source, Problem& p) {
             p.ratio_squared = 1e-9;
-            p.wtt = 0.1 * p.wnn;
+            p.wtt = 0.01 * p.wnn;
             p.wtn = source.Uniform(-0.5, 0.5) * std::sqrt(p.wtt * p.wnn);
           },
-          4),
+          2),
       With("ratio² = 10⁹", "the tangential force is 10⁻⁹ of the normal one",
            [](SceneSource&, Problem& p) { p.ratio_squared = 1e9; }),
       With("Wtn = 0 or 10⁻³⁰⁰", "angles and eigenvectors of 0",
@@ -265,7 +264,7 @@ std::vector<HardCase> HardCases() {
       With("W and velocities at 10^±250", "squares and products leave the range", OtherUnits),
       With(
           "ratio² from 10⁻⁶ to 10⁻³", "the rigid limit: hundreds of sections",
-          [](SceneSource& source, Problem& p) { p.ratio_squared = source.LogUniform(1e-6, 1e-3); }, 10),
+          [](SceneSource& source, Problem& p) { p.ratio_squared = source.LogUniform(1e-6, 1e-3); }, 5),
       With("μ from 10⁻³⁰⁰ to 10⁻¹²", "the limit of no friction",
            [](SceneSource& source, Problem& p) { p.mu = source.LogUniform(1e-300, 1e-12); }),
       With("μ from 10⁶ to 10¹⁵, Wtn = 0", "the particle slips at the tip of the cone alone",
@@ -302,8 +301,9 @@ TEST(CompliantHardCasesTest, NaiveFormulasServeEverydayProblems) {
   SceneSource source(33);
   for (int i = 0; i < 60; ++i) {
     const Problem problem = Everyday(source);
-    EXPECT_LE(NaiveError(problem, SolveExactly(problem)), 1e-9) << ToString(problem);
-    EXPECT_NE(NaiveError(problem, SolveExactly(problem)), kOtherRegime) << ToString(problem);
+    const double error = NaiveError(problem, SolveExactly(problem));
+    EXPECT_NE(error, kOtherRegime) << ToString(problem);
+    EXPECT_LE(error, 1e-9) << ToString(problem);
   }
 }
 

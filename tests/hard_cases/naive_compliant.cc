@@ -22,7 +22,7 @@ class Path {
   }
 
   NaiveImpact Run() {
-    constexpr int kEnough = 2'000;
+    constexpr int kEnough = kMaxSections;
     for (int i = 0; i < kEnough && !done_ && !lost_; ++i) {
       sticks_ |= side_ == 0;
       Section();
