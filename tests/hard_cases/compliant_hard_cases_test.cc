@@ -267,6 +267,11 @@ std::vector<HardCase> HardCases() {
           [](SceneSource& source, Problem& p) { p.ratio_squared = source.LogUniform(1e-6, 1e-3); }, 5),
       With("μ from 10⁻³⁰⁰ to 10⁻¹²", "the limit of no friction",
            [](SceneSource& source, Problem& p) { p.mu = source.LogUniform(1e-300, 1e-12); }),
+      With("μ from 10 to 10³ Wnn/\\|Wtn\\|", "coupled oscillations all along, and friction that can push the body in",
+           [](SceneSource& source, Problem& p) {
+             p.wtn = std::copysign(source.Uniform(0.1, 0.8) * std::sqrt(p.wtt * p.wnn), p.wtn);
+             p.mu = source.LogUniform(10.0, 1e3) * p.wnn / std::fabs(p.wtn);
+           }),
       With("μ from 10⁶ to 10¹⁵, Wtn = 0", "the particle slips at the tip of the cone alone",
            [](SceneSource& source, Problem& p) {
              p.wtn = 0.0;
