@@ -50,10 +50,12 @@ Regime RegimeOf(const Problem& problem, const Inertia& w, const Path& path, bool
 // 2^-44 for the relative errors put on, see the header.
 constexpr double kNoise = 0x1p-44;
 
-double ErrorEstimate(const Problem& problem, const Inertia& w, const Path& path) {
+double ErrorEstimate(const Problem& problem, const Units& units, const Inertia& w, const Path& path) {
   const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
   const auto size = [](double u, double v) { return std::max(std::fabs(u), std::fabs(v)); };
-  double error = 16.0 * internal::kEps * std::max(speed, size(path.at().u, path.at().v));
+  // In units of speed the least double is 2^-1074/2^units.speed, and half of it what rounding to it takes.
+  const double rounding = std::scalbn(1.0, -1075 - units.speed);
+  const double error = 16.0 * internal::kEps * std::max(speed, size(path.at().u, path.at().v)) + rounding;
   double spread = 0.0;
   for (const uint64_t seed : {0x9e3779b97f4a7c15U, 0xd1b54a32d192ed03U}) {
     Path noisy(w, problem, Noise(seed, kNoise), nullptr);
@@ -86,11 +88,16 @@ void WriteWorks(const Problem& problem, const Units& units, const Path& path, Im
   const double eta2 = problem.energetic * problem.energetic;
   // What the line of unloading gives back between d_max and d; all of it at N = 0. At eta = 0 there is no line.
   const double top = path.n_max();
-  const double left = end.n == 0.0 || problem.energetic < kLeastEnergetic ? top * top : (top - end.n) * (top + end.n);
+  const bool all = end.n == 0.0 || problem.energetic < kLeastEnergetic;
+  const double left = all ? top * top : (top - end.n) * (top + end.n);
   const double spring = path.spring_energy(end);
   const double spring_at_rest = path.spring_energy(rest);
   impact.work_normal_compression = units.Work(-0.5 * top * top);
   impact.work_normal_restitution = units.Work(0.5 * eta2 * left);
+  // Not the difference of the two, which hardly knows 1 - eta^2 for eta near 1.
+  const double lost = (1.0 - problem.energetic) * (1.0 + problem.energetic);
+  impact.work_normal =
+      all ? units.Work(-0.5 * lost * left) : impact.work_normal_compression + impact.work_normal_restitution;
   impact.work_tangential_compression = units.Work(-(spring_at_rest + rest.dissipation)) + 0.0;
   impact.work_tangential_restitution =
       units.Work((spring_at_rest - spring) - (end.dissipation - rest.dissipation)) + 0.0;
@@ -119,7 +126,7 @@ Impact Solve(const Problem& problem) {
   impact.w_rank = w.rank_one ? 1 : 2;
   WriteMotion(scaled, units, path, impact);
   WriteWorks(scaled, units, path, impact);
-  impact.error_estimate = ends ? ErrorEstimate(scaled, w, path) : std::numeric_limits<double>::infinity();
+  impact.error_estimate = ends ? ErrorEstimate(scaled, units, w, path) : std::numeric_limits<double>::infinity();
   for (Section& section : impact.sections) {
     section.tau = units.Impulse(section.tau);
     section.f = units.Impulse(section.f);

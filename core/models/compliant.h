@@ -36,6 +36,9 @@
 // of which stick: a rigid contact could stay stuck, |Wtn| <= mu Wtt, and reversal: not. So for ratio -> 0 the regimes
 // become those of core/models/planar.h. A particle that has stuck mostly slides again before the impact ends.
 //
+// At full rank the start is decided by the exact sign of S, down to 2^-104 of its terms. What comes later lies on the
+// side of a threshold where inputs within 16 eps of those given lie.
+//
 // Wedged: where det W vanishes and mu |Wtn| >= Wnn, friction can hold the body against the surface for ever, or let it
 // rattle. Known by proof (W of rank one, and what oscillation is left stays inside |F| <= mu N and below d_max; or slip
 // without end against a force that only grows), or because kMaxSections sections have not been enough. The state
@@ -50,7 +53,8 @@
 // Method: slides are algebra in the normal impulse and sticks two sinusoids in time, no step size: the -inl.h files.
 // Accuracy: error_estimate, 1e-14 to 1e-12 for everyday contacts. It compares the impact with two more that are
 // computed with relative errors of 2^-44, of random signs, put on the state and on the constants of each section, 256
-// times of what rounding leaves there: so it grows as the path amplifies errors, near grazing events too.
+// times of what rounding leaves there: so it grows as the path amplifies errors, near grazing events too. Half the least
+// double is added, which the rounding of a subnormal velocity may take.
 // mu, |u0|/|v0| and ratios of W's entries or ratio^2 beyond 1e100 either way may overflow: what is not finite then is
 // not known, and where the path itself overflows u1 and v1 are NaN and the regime, wedged, means nothing.
 // Same bits everywhere as long as Sin and Cos have them.
@@ -108,6 +112,7 @@ inline constexpr double kLeastRatioSquared = 1e-9;
 // through an inverse of W.
 struct Impact : ImpactEnd<double> {
   double f_compression = 0.0;
+  double work_normal = 0.0;           // What deformation takes, <= 0: to its own last digits for any eta.
   double friction_dissipation = 0.0;  // >= 0
   double spring_energy = 0.0;         // Left in the tangential spring, and lost, >= 0.
   double error_estimate = 0.0;        // Of the velocities over max(|u0|, |v0|).

@@ -47,6 +47,7 @@ absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReductio
   }
   const Impact impact = Solve(problem);
   Outcome outcome = MakeEnd(impact, reduction);
+  outcome.work.normal_total_j = impact.work_normal;
   outcome.work.friction_dissipation_j = impact.friction_dissipation;
   outcome.work.tangential_spring_j = impact.spring_energy;
   outcome.accuracy = {.relative_error = impact.error_estimate, .kind = AccuracyKind::kEstimate};

@@ -161,8 +161,18 @@ class Path {
       return;
     }
     const int side = at_.u < 0.0 ? -1 : 1;
-    const double speed = Speed(side);
+    const double speed = SpeedAtStart(side);
     if (speed > 0.0 || (speed == 0.0 && A(side) >= 0.0)) side_ = side;
+  }
+
+  // With its sign down to 2^-104 of mu ratio^2 |v0|: where the two cancel their difference is exact, and what rounding
+  // took from the product of three is added.
+  double SpeedAtStart(int side) const {
+    if (w_.in_range) return Speed(side);
+    const double compliance = mu_ * r2_;
+    const double product = compliance * at_.v;
+    const double lost = std::fma(compliance, at_.v, -product) + std::fma(mu_, r2_, -compliance) * at_.v;
+    return (side * at_.u + product) + lost;
   }
 
   void Record() {

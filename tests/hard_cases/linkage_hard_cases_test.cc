@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -80,6 +81,11 @@ std::array<T, 3> DelassusMatrix(Chain<T> chain, const T& zero) {
   return w;
 }
 
+Chain<double> InDoubles(const Linkage& linkage) {
+  return MakeChain<double>(
+      linkage, [](double x) { return std::sin(x); }, [](double x) { return std::cos(x); }, [](double x) { return x; });
+}
+
 std::array<Ball, 3> Exact(const Linkage& linkage) {
   const auto exactly = [](double x) { return Ball(x, kBits); };
   return DelassusMatrix(
@@ -88,11 +94,18 @@ std::array<Ball, 3> Exact(const Linkage& linkage) {
       exactly(0.0));
 }
 
+// J M^-1 J^T through the inverse itself.
 std::array<double, 3> Naive(const Linkage& linkage) {
-  return DelassusMatrix(MakeChain<double>(
-                            linkage, [](double x) { return std::sin(x); }, [](double x) { return std::cos(x); },
-                            [](double x) { return x; }),
-                        0.0);
+  const Chain<double> chain = InDoubles(linkage);
+  const auto n = static_cast<Eigen::Index>(linkage.links.size());
+  Eigen::MatrixXd mass(n, n), jacobian(2, n);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = 0; j < n; ++j) mass(i, j) = chain.mass[static_cast<size_t>(i)][static_cast<size_t>(j)];
+    for (Eigen::Index d = 0; d < 2; ++d)
+      jacobian(d, i) = chain.jacobian[static_cast<size_t>(i)][static_cast<size_t>(d)];
+  }
+  const Eigen::MatrixXd w = jacobian * mass.inverse() * jacobian.transpose();
+  return {w(0, 0), w(0, 1), w(1, 1)};
 }
 
 // The largest error of an entry over sqrt(Wtt Wnn), or over its own size on the diagonal.
@@ -123,6 +136,19 @@ Linkage MakeLinkage(size_t count, double spread, double mass_ratio) {
   return linkage;
 }
 
+// A mass at the end of links that are lighter by `lightness`.
+Linkage LoadedChain(size_t count, double spread, double lightness) {
+  Linkage linkage = MakeLinkage(count, spread, 1.0);
+  for (Link& link : linkage.links) {
+    link.mass_kg *= lightness;
+    link.inertia_com_kg_m2 *= lightness;
+  }
+  Link& load = linkage.links.back();
+  load.mass_kg = 1.0;
+  load.com_m = load.length_m;
+  return linkage;
+}
+
 struct HardCase {
   const char* name;
   const char* why;
@@ -132,8 +158,7 @@ struct HardCase {
 // n ulp times the condition of M with a unit diagonal, core/scene/reduction.h.
 double Promised(const Linkage& linkage) {
   const auto n = static_cast<Eigen::Index>(linkage.links.size());
-  const Chain<double> chain = MakeChain<double>(
-      linkage, [](double x) { return std::sin(x); }, [](double x) { return std::cos(x); }, [](double x) { return x; });
+  const Chain<double> chain = InDoubles(linkage);
   Eigen::MatrixXd scaled(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -162,6 +187,9 @@ TEST(LinkageHardCasesTest, KeepTheirPromise) {
       {"50 links at all angles", "50 x 50 matrix of masses", MakeLinkage(50, 3.0, 1.0)},
       {"50 links, nearly straight", "rows of M are nearly parallel", MakeLinkage(50, 1e-3, 1.0)},
       {"50 links, masses up to 1 : 10⁶", "rows of M of unequal size", MakeLinkage(50, 3.0, 1e6)},
+      {"10 links, 10⁻⁶ of the load at their end", "M is of rank two but for the links", LoadedChain(10, 3.0, 1e-6)},
+      {"10 links, 10⁻¹⁰ of the load", "the same, and M⁻¹ cancels in W", LoadedChain(10, 3.0, 1e-10)},
+      {"10 links, 10⁻⁸ of the load, nearly straight", "M and W are all but singular", LoadedChain(10, 1e-2, 1e-8)},
       {"2 links in a line", "M is singular but for the links' own inertia", MakeLinkage(2, 1e-9, 1.0)},
   };
   std::vector<HardCaseResult> results;

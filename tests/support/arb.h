@@ -70,6 +70,13 @@ class Ball {
     arb_abs(x.value_, x.value_);
     return x;
   }
+  // The centre alone.
+  friend Ball Middle(Ball x) {
+    mag_zero(arb_radref(x.value_));
+    return x;
+  }
+  // A ball around both.
+  friend Ball Union(const Ball& x, const Ball& y) { return Apply(arb_union, x, y); }
   friend Ball Sqrt(const Ball& x) {
     Ball root(0.0, x.bits_);
     arb_sqrt(root.value_, x.value_, x.bits_);

@@ -1,0 +1,323 @@
+// Impacts with tangential compliance close to where their paths fork, degenerate or leave the range, against the
+// equations in time by Taylor series at 58 digits.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "core/models/compliant.h"
+#include "core/models/compliant_outcome.h"
+#include "core/outcome.h"
+#include "core/scene/reduction.h"
+#include "tests/hard_cases/hard_case_table.h"
+#include "tests/hard_cases/naive_compliant.h"
+#include "tests/support/compliant_oracle.h"
+#include "tests/support/compliant_scenes.h"
+
+namespace ricochet::compliant {
+namespace {
+
+constexpr double kDistance = 1e-15;
+
+struct HardCase {
+  const char* name;
+  const char* why;
+  std::function<Problem(SceneSource&)> next;
+  int problems = 20;
+};
+
+// A wrong regime is worse than NaN, NaN than any number.
+double Worse(double x, double y) {
+  if (x == kOtherRegime || y == kOtherRegime) return kOtherRegime;
+  if (std::isnan(x) || std::isnan(y)) return std::numeric_limits<double>::quiet_NaN();
+  return std::max(x, y);
+}
+
+double NaiveError(const Problem& problem, const ExactImpact& exact) {
+  const NaiveImpact naive = NaiveSolve(problem);
+  if (std::isnan(naive.u1)) return naive.u1;
+  return naive.regime == exact.regime ? VelocityError(problem, naive.u1, naive.v1, exact) : kOtherRegime;
+}
+
+// That of inputs within 16 eps of those given, core/models/compliant.h.
+bool IsRegimeNear(Regime regime, const Problem& problem) {
+  for (double Problem::*input : {&Problem::u0, &Problem::mu}) {
+    for (const double factor : {1.0, 1.0 - 0x1p-48, 1.0 + 0x1p-48}) {
+      Problem other = problem;
+      other.*input *= factor;
+      if (SolveExactly(other).regime == regime) return true;
+    }
+  }
+  return false;
+}
+
+HardCaseResult ResultOf(const HardCase& hard) {
+  HardCaseResult result = {.name = hard.name, .why = hard.why};
+  SceneSource source(31);
+  for (int i = 0; i < hard.problems; ++i) {
+    const Problem problem = hard.next(source);
+    const ExactImpact exact = SolveExactly(problem);
+    const Impact impact = Solve(problem);
+    EXPECT_TRUE(exact.ends) << hard.name << " " << ToString(problem);
+    EXPECT_TRUE(impact.regime == exact.regime || IsRegimeNear(impact.regime, problem))
+        << hard.name << " " << ToString(problem);
+    const double error = VelocityError(problem, impact.u1, impact.v1, exact);
+    EXPECT_LE(error, impact.error_estimate) << hard.name << " " << ToString(problem);
+    result.promised = std::max(result.promised, impact.error_estimate);
+    result.seen = std::max(result.seen, error);
+    result.naive = Worse(result.naive, NaiveError(problem, exact));
+  }
+  return result;
+}
+
+// -- Inputs --
+
+// At 1, or 1e-15 to either side of it.
+double Nearly(SceneSource& source, double value) { return value * (1.0 + kDistance * (source.Below(3) - 1)); }
+
+// Friction that cannot hold the body, and enough of it to matter.
+Problem Everyday(SceneSource& source) {
+  Problem problem = source.Everyday(0.1, 4.0);
+  problem.mu = source.Uniform(0.1, std::min(1.5, 0.9 * problem.wnn / (std::fabs(problem.wtn) + 1e-3)));
+  if (problem.u0 == 0.0) problem.u0 = 0.5 * problem.v0;
+  return problem;
+}
+
+HardCase With(const char* name, const char* why, void (*change)(SceneSource&, Problem&), int problems = 20) {
+  return {name, why,
+          [change](SceneSource& source) {
+            Problem problem = Everyday(source);
+            change(source, problem);
+            return problem;
+          },
+          problems};
+}
+
+double SideOf(const Problem& problem) { return problem.u0 < 0.0 ? -1.0 : 1.0; }
+
+double B(const Problem& p) { return p.wnn - SideOf(p) * p.mu * p.wtn; }
+
+// Of u along the side while it slides there, in the normal impulse.
+double SlipSlope(const Problem& p) { return SideOf(p) * p.wtn - p.mu * p.wtt; }
+
+void StartOnTheCone(SceneSource& source, Problem& p) {
+  p.u0 = Nearly(source, SideOf(p) * p.mu * p.ratio_squared * -p.v0);
+}
+
+void StartOnTheConeWithoutGrowth(SceneSource& source, Problem& p) {
+  while (SlipSlope(p) >= 0.0) p = Everyday(source);
+  p.ratio_squared = Nearly(source, -SlipSlope(p) / (p.mu * B(p)));
+  StartOnTheCone(source, p);
+}
+
+void CriticalFriction(SceneSource& source, Problem& p) {
+  while (p.mu * p.mu * p.wtt > 0.9 * p.wnn) p = Everyday(source);
+  p.wtn = Nearly(source, p.mu * p.wtt * (source.Below(2) == 0 ? 1.0 : -1.0));
+}
+
+// Slip to the side on which friction pushes the body in as much as the spring pushes it out.
+void NoLift(SceneSource& source, Problem& p) {
+  p.wtn = std::copysign(source.Uniform(0.3, 0.9) * std::sqrt(p.wtt * p.wnn), p.u0);
+  p.mu = Nearly(source, p.wnn / std::fabs(p.wtn));
+}
+
+void StopAtTheEndOfCompression(SceneSource& source, Problem& p) {
+  while (SlipSlope(p) >= 0.0 || p.mu * p.ratio_squared * B(p) >= -SlipSlope(p)) p = Everyday(source);
+  p.u0 = Nearly(source, SideOf(p) * SlipSlope(p) * p.v0 / B(p));
+}
+
+void StopAtTheEndOfContact(SceneSource& source, Problem& p) {
+  const auto slip_left = [](const Problem& at) {
+    const double eta = at.energetic;
+    return SlipSlope(at) * (1.0 + eta) / B(at) + at.mu * at.ratio_squared / eta;
+  };
+  while (slip_left(p) >= -0.1) {
+    p = Everyday(source);
+    p.energetic = std::max(p.energetic, 0.3);
+    p.ratio_squared *= 0.1;
+  }
+  p.u0 = Nearly(source, SideOf(p) * slip_left(p) * p.v0);
+}
+
+void EqualFrequencies(SceneSource& source, Problem& p) {
+  p.ratio_squared = Nearly(source, p.wtt / p.wnn);
+  p.wtn = (source.Below(2) == 0 ? -1.0 : 1.0) * source.LogUniform(1e-20, 1e-8) * p.wnn;
+}
+
+// The modes on both sides of one double, found by halving.
+Problem Fork(SceneSource& source) {
+  const auto paths_differ = [](const Problem& a, const Problem& b) {
+    const Impact x = Solve(a);
+    const Impact y = Solve(b);
+    return !std::equal(
+        x.sections.begin(), x.sections.end(), y.sections.begin(), y.sections.end(),
+        [](const Section& s, const Section& t) { return s.mode == t.mode && s.indenting == t.indenting; });
+  };
+  for (;;) {
+    Problem low = Everyday(source);
+    low.ratio_squared = source.Uniform(0.1, 1.0);
+    Problem high = low;
+    high.mu *= 1.5;
+    if (!paths_differ(low, high)) continue;
+    for (;;) {
+      Problem half = low;
+      half.mu = 0.5 * (low.mu + high.mu);
+      if (half.mu <= low.mu || half.mu >= high.mu) return source.Below(2) == 0 ? low : high;
+      (paths_differ(low, half) ? high : low) = half;
+    }
+  }
+}
+
+Problem Rod(SceneSource& source) {
+  Problem p = source.RankOne();
+  p.mu = source.Uniform(0.1, 0.9 * p.wnn / (std::fabs(p.wtn) + 0.1 * p.wnn));
+  const double scale = source.Uniform(0.5, 2.0);
+  for (double* w : {&p.wtt, &p.wtn, &p.wnn}) *w *= scale;
+  return p;
+}
+
+void NearlyARod(SceneSource& source, Problem& p) {
+  const double cosine = std::sqrt(1.0 - source.LogUniform(1e-14, 1e-6));
+  p.wtn = std::copysign(cosine * std::sqrt(p.wtt * p.wnn), p.wtn);
+  p.mu = source.Uniform(0.1, 0.9) * p.wnn / std::fabs(p.wtn);
+}
+
+// Friction pushes the body in as much as the spring out: it comes back along the slow oscillation alone.
+void HeldForLong(SceneSource& source, Problem& p) {
+  const double cosine = std::sqrt(1.0 - source.LogUniform(1e-4, 1e-3));
+  p.wtn = std::copysign(cosine * std::sqrt(p.wtt * p.wnn), p.u0);
+  p.mu = source.Uniform(1.1, 1.5) * p.wnn / std::fabs(p.wtn);
+  p.energetic = std::max(p.energetic, 0.2);
+}
+
+// The heavy body of a pair adds a trillionth of W.
+void UnequalMasses(SceneSource& source, Problem& p) {
+  const double offset = source.Uniform(-1.0, 1.0);
+  p.wtt += 1e-12 * (1.0 + offset * offset);
+  p.wtn += 1e-12 * offset;
+  p.wnn += 1e-12;
+}
+
+void UnequalMobilities(SceneSource& source, Problem& p) {
+  p.wtt *= 1e12;
+  p.wtn *= 1e6;
+  p.mu *= 1e-6;
+  p.u0 *= 1e6;
+  p.ratio_squared = 1e9 * source.Uniform(0.5, 1.0);
+}
+
+// Lengths, masses and times in units 1e250 times too large or too small, as far as products stay in the range.
+void OtherUnits(SceneSource& source, Problem& p) {
+  const double speeds = source.Below(2) == 0 ? 1e250 : 1e-250;
+  const double masses = source.Below(2) == 0 ? 1e250 : 1e-250;
+  for (double* speed : {&p.u0, &p.v0}) *speed *= speeds;
+  for (double* w : {&p.wtt, &p.wtn, &p.wnn}) *w *= masses;
+}
+
+std::vector<HardCase> HardCases() {
+  return {
+      With("\\|u₀\\| = μ ratio² \\|v₀\\| ± 10⁻¹⁵", "does it start in a stick or in a slide?", StartOnTheCone, 60),
+      With("the same, and A = 0 ± 10⁻¹⁵", "slip neither grows nor falls", StartOnTheConeWithoutGrowth),
+      With("μ Wtt = \\|Wtn\\| ± 10⁻¹⁵", "stick or reversal of the rigid limit", CriticalFriction),
+      With("B = Wnn − sμWtn = ± 10⁻¹⁵ Wnn", "cosine, line or cosh of time", NoLift),
+      {"μ an ulp from another sequence of sections", "sections of some ulp, cones touched and left", Fork},
+      With("slip stops at the end of compression ± 10⁻¹⁵", "two events in one", StopAtTheEndOfCompression),
+      With("slip stops at the end of contact ± 10⁻¹⁵", "the same", StopAtTheEndOfContact),
+      With("equal frequencies ± 10⁻¹⁵, Wtn to 10⁻²⁰ Wnn", "no eigenvector is better than another", EqualFrequencies),
+      With(
+          "ratio² = 10⁻⁹", "10³ periods along the surface in one along n",
+          [](SceneSource& source, Problem& p) {
+            p.ratio_squared = 1e-9;
+            p.wtt = 0.01 * p.wnn;
+            p.wtn = source.Uniform(-0.5, 0.5) * std::sqrt(p.wtt * p.wnn);
+          },
+          2),
+      With("ratio² = 10⁹", "the tangential force is 10⁻⁹ of the normal one",
+           [](SceneSource&, Problem& p) { p.ratio_squared = 1e9; }),
+      With("Wtn = 0 or 10⁻³⁰⁰", "angles and eigenvectors of 0",
+           [](SceneSource& source, Problem& p) { p.wtn = source.Below(2) == 0 ? 0.0 : 1e-300; }),
+      {"W of rank one up to rounding", "det W is noise: u and v have to vanish together", Rod},
+      With("det W from 10⁻⁶ to 10⁻¹⁴ of Wtt Wnn", "the slow frequency is its root", NearlyARod),
+      With("det W from 10⁻³ to 10⁻⁴, and \\|μWtn\\| > Wnn", "all but wedged", HeldForLong, 2),
+      With("masses 1 : 10¹²", "W is a sum of unequals", UnequalMasses),
+      With("mobilities 10¹² : 1", "W is of unequals", UnequalMobilities, 3),
+      With("η = 1", "nothing may be lost to deformation", [](SceneSource&, Problem& p) { p.energetic = 1.0; }),
+      With("η from 10⁻¹² to 10⁻³", "the line of unloading is as steep as 10²⁴",
+           [](SceneSource& source, Problem& p) { p.energetic = source.LogUniform(1e-12, 1e-3); }),
+      With("η = 0", "no line of unloading", [](SceneSource&, Problem& p) { p.energetic = 0.0; }),
+      With("u₀ = 0", "no slip to have a direction", [](SceneSource&, Problem& p) { p.u0 = 0.0; }),
+      With("u₀ = ±10⁻³⁰⁰", "a direction and nothing else", [](SceneSource&, Problem& p) { p.u0 *= 1e-300; }),
+      With("v₀ = −10⁻³⁰⁰, u₀ = 0", "squares below the smallest double",
+           [](SceneSource&, Problem& p) {
+             p.u0 = 0.0;
+             p.v0 = -1e-300;
+           }),
+      With("v₀ = −2⁻¹⁰⁷⁴, u₀ = 0", "one bit of velocity",
+           [](SceneSource&, Problem& p) {
+             p.u0 = 0.0;
+             p.v0 = -0x1p-1074;
+           }),
+      With("W and velocities at 10^±250", "squares and products leave the range", OtherUnits),
+      With(
+          "ratio² from 10⁻⁶ to 10⁻³", "the rigid limit: hundreds of sections",
+          [](SceneSource& source, Problem& p) { p.ratio_squared = source.LogUniform(1e-6, 1e-3); }, 5),
+      With("μ from 10⁻³⁰⁰ to 10⁻¹²", "the limit of no friction",
+           [](SceneSource& source, Problem& p) { p.mu = source.LogUniform(1e-300, 1e-12); }),
+      With("μ from 10 to 10³ Wnn/\\|Wtn\\|", "coupled oscillations all along, and friction that can push the body in",
+           [](SceneSource& source, Problem& p) {
+             p.wtn = std::copysign(source.Uniform(0.1, 0.8) * std::sqrt(p.wtt * p.wnn), p.wtn);
+             p.mu = source.LogUniform(10.0, 1e3) * p.wnn / std::fabs(p.wtn);
+           }),
+      With("μ from 10⁶ to 10¹⁵, Wtn = 0", "the particle slips at the tip of the cone alone",
+           [](SceneSource& source, Problem& p) {
+             p.wtn = 0.0;
+             p.mu = source.LogUniform(1e6, 1e15);
+           }),
+  };
+}
+
+// Energy lost to deformation, of itself.
+HardCaseResult RunLoss() {
+  HardCaseResult result = {.name = "η = 1 − 2⁻ᵏ, k to 53: the loss", .why = "1 − η² is what deformation takes"};
+  SceneSource source(32);
+  for (int k = 1; k <= 53; ++k) {
+    Problem problem = Everyday(source);
+    problem.energetic = 1.0 - std::ldexp(1.0, -k);
+    const ExactImpact exact = SolveExactly(problem);
+    const PlanarReduction reduction = {
+        .w = {problem.wtt, problem.wtn, problem.wnn}, .u0 = {problem.u0}, .v0 = problem.v0};
+    const Outcome outcome = MakeOutcome(problem, reduction, {}, Detail::kNumbers).value();
+    const auto error = [&exact](double loss) {
+      return (Abs(Ball(loss, 192) - exact.work_normal) / Abs(exact.work_normal)).UpperBound();
+    };
+    result.promised = std::max(result.promised, outcome.accuracy.relative_error);
+    result.seen = std::max(result.seen, error(outcome.work.normal_total_j));
+    result.naive = std::max(result.naive, error(NaiveSolve(problem).work_normal));
+  }
+  return result;
+}
+
+// What fails on the hard cases is the arithmetic, not the path.
+TEST(CompliantHardCasesTest, NaiveFormulasServeEverydayProblems) {
+  SceneSource source(33);
+  for (int i = 0; i < 60; ++i) {
+    const Problem problem = Everyday(source);
+    const double error = NaiveError(problem, SolveExactly(problem));
+    EXPECT_NE(error, kOtherRegime) << ToString(problem);
+    EXPECT_LE(error, 1e-9) << ToString(problem);
+  }
+}
+
+TEST(CompliantHardCasesTest, KeepTheirPromise) {
+  std::vector<HardCaseResult> results;
+  for (const HardCase& hard : HardCases()) results.push_back(ResultOf(hard));
+  results.push_back(RunLoss());
+  CheckTable("compliant", "of max(\\|u₀\\|, \\|v₀\\|)", results);
+}
+
+}  // namespace
+}  // namespace ricochet::compliant

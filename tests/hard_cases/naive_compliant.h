@@ -1,0 +1,23 @@
+// An impact with tangential compliance in plain doubles, as a textbook would have it: sines, cosines and their
+// hyperbolic kin of time, eigenvalues as the roots of a quadratic, and events looked for on a grid.
+
+#ifndef RICOCHET_TESTS_HARD_CASES_NAIVE_COMPLIANT_H_
+#define RICOCHET_TESTS_HARD_CASES_NAIVE_COMPLIANT_H_
+
+#include "core/models/compliant.h"
+
+namespace ricochet::compliant {
+
+// Velocities NaN where it finds no end.
+struct NaiveImpact {
+  Regime regime = Regime::kUnspecified;
+  double u1 = 0.0, v1 = 0.0;
+  double work_normal = 0.0;  // Compression and restitution.
+};
+
+// The problem must not be separating. W is taken as it stands, whatever its rank.
+NaiveImpact NaiveSolve(const Problem& problem);
+
+}  // namespace ricochet::compliant
+
+#endif  // RICOCHET_TESTS_HARD_CASES_NAIVE_COMPLIANT_H_
