@@ -53,8 +53,8 @@
 // Method: slides are algebra in the normal impulse and sticks two sinusoids in time, no step size: the -inl.h files.
 // Accuracy: error_estimate, 1e-14 to 1e-12 for everyday contacts. It compares the impact with two more that are
 // computed with relative errors of 2^-44, of random signs, put on the state and on the constants of each section, 256
-// times of what rounding leaves there: so it grows as the path amplifies errors, near grazing events too. Half the least
-// double is added, which the rounding of a subnormal velocity may take.
+// times of what rounding leaves there: so it grows as the path amplifies errors, near grazing events too. Half the
+// least double is added, which the rounding of a subnormal velocity may take.
 // mu, |u0|/|v0| and ratios of W's entries or ratio^2 beyond 1e100 either way may overflow: what is not finite then is
 // not known, and where the path itself overflows u1 and v1 are NaN and the regime, wedged, means nothing.
 // Same bits everywhere as long as Sin and Cos have them.

@@ -156,8 +156,8 @@ End Reference(const Problem& problem) {
   return {limit(coarse.u1, fine.u1), limit(coarse.u2, fine.u2), limit(coarse.v, fine.v)};
 }
 
-// Under Poisson's law, with 64-bit mantissas: slip by its Taylor series in xi, in steps of an eighth of the time in which
-// it can change, until nothing is left of it; a stick, or slip that has one direction, in closed form.
+// Under Poisson's law, with 64-bit mantissas: slip by its Taylor series in xi, in steps of an eighth of the time in
+// which it can change, until nothing is left of it; a stick, or slip that has one direction, in closed form.
 class SlipSeries {
  public:
   explicit SlipSeries(const Problem& problem) : p_(problem), at_{problem.u0[0], problem.u0[1], problem.v0, 0.0L} {

@@ -1,11 +1,11 @@
 // An impact with tangential compliance in arithmetic of any precision: the oracle of core/models/compliant.
 //
-// Between events the equations are linear in time, x' = M x for x = (u, v, n, p, tau, f), whether the particle slides or
-// sticks: x(t) = exp(M t) x(0) by its Taylor series, in steps no longer than a radian of the fastest oscillation. So
+// Between events the equations are linear in time, x' = M x for x = (u, v, n, p, tau, f), whether the particle slides
+// or sticks: x(t) = exp(M t) x(0) by its Taylor series, in steps no longer than a radian of the fastest oscillation. So
 // every event is a root of a polynomial on [0, 1], and the first is found by halving until interval arithmetic shows
-// either that there is none or that the polynomial is monotonic. Zeros at t = 0, the beginning of a stick or a turn, are
-// divided out. No sine, square root or eigenvalue, and no normal impulse in place of time: shares nothing with core/ but
-// the problem and the modes' names.
+// either that there is none or that the polynomial is monotonic. Zeros at t = 0, the beginning of a stick or a turn,
+// are divided out. No sine, square root or eigenvalue, and no normal impulse in place of time: shares nothing with
+// core/ but the problem and the modes' names.
 //
 // Radii of balls are dropped from step to step, for in the directions of x they would grow without reason: compare two
 // precisions. What is below 2^(-bits/2) of its terms counts as 0.
