@@ -451,12 +451,18 @@ class Path {
       integral[i] = modes.y[i] * phase.c_integral[i] + modes.rate[i] * phase.s_integral[i];
     }
     at_.n = ending.passes_max ? n_max_ : root * noise_.Sum(modes.s * y[0], modes.c * y[1]);
-    at_.p =
-        ending.breaks_away != 0 ? ending.breaks_away * mu_ * at_.n : noise_.Sum(modes.c * y[0], -modes.s * y[1]) / r;
+    at_.p = noise_.Sum(modes.c * y[0], -modes.s * y[1]) / r;
+    if (ending.breaks_away != 0) PutOnCone(ending.breaks_away);
     at_.v = ending.turns ? 0.0 : -noise_.Sum(modes.s * rate[0], modes.c * rate[1]) / root;
     at_.u = w_.in_range ? at_.v * (w_.wtn / w_.wnn) : r * noise_.Sum(modes.c * rate[0], -modes.s * rate[1]);
     at_.tau += root * (modes.s * integral[0] + modes.c * integral[1]);
     at_.f -= (modes.c * integral[0] - modes.s * integral[1]) / r;
+  }
+
+  // |p| = mu n, by the one of the two that mu does not magnify the rounding of.
+  void PutOnCone(int side) {
+    if (mu_ > 1.0) at_.n = std::max(0.0, side * at_.p) / mu_;
+    at_.p = side * mu_ * at_.n;
   }
 
   Inertia w_;

@@ -107,7 +107,8 @@ void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const Eff
 // Whether the system's own velocities lie in the range of W by their nature.
 bool RangeIsSure(const Scene& scene) {
   if (scene.surface_velocity.has_value()) return false;
-  return std::holds_alternative<Pendulum>(scene.system) || std::holds_alternative<Linkage>(scene.system);
+  const auto* linkage = std::get_if<Linkage>(&scene.system);
+  return std::holds_alternative<Pendulum>(scene.system) || (linkage != nullptr && linkage->links.size() == 1);
 }
 
 }  // namespace

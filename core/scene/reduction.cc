@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "core/numerics/determinant.h"
+#include "core/numerics/products.h"
 #include "core/scene/finite_forces.h"
 #include "core/scene/linkage_matrices.h"
 
@@ -42,18 +43,28 @@ Reduction<kTangential> FromMechanism(const Eigen::MatrixXd& mass, const Eigen::M
   return reduction;
 }
 
+// What rounding may make of det W/(Wtt Wnn) = 0.
+double RankNoise(const PlanarReduction& reduction) {
+  return 8.0 * static_cast<double>(reduction.before.size()) * kEpsilon;
+}
+
 // A planar W whose determinant may be rounding alone becomes one of rank one.
 void SettleRank(PlanarReduction& reduction) {
   auto& [tt, tn, nn] = reduction.w;
-  const double noise = 8.0 * static_cast<double>(reduction.before.size()) * kEpsilon;
-  if (tt == 0.0 || nn == 0.0 || RelativeDeterminant(tt, tn, nn) > noise) return;
+  if (tt == 0.0 || nn == 0.0 || RelativeDeterminant(tt, tn, nn) > RankNoise(reduction)) return;
   tn = std::copysign(std::sqrt(tt) * std::sqrt(nn), tn);
 }
 
-// Of a system whose velocities lie in the range of W by their nature, what rounding put outside is taken away.
-void SettleVelocity(PlanarReduction& reduction) {
+// Where the velocities lie in the range of W but for rounding, as they do where all links point the same way, what that
+// put outside is taken away. det W/(Wtt Wnn) is the square of an angle between directions, so that directions, and
+// velocities with them, are told apart by no less than the root of its noise. What is further off moves with a link too
+// heavy for the tip to feel. `sizes`: of the terms whose sums u0 and v0 are.
+void SettleVelocity(const Eigen::Vector2d& sizes, PlanarReduction& reduction) {
   const auto& [tt, tn, nn] = reduction.w;
   if (std::abs(RelativeDeterminant(tt, tn, nn)) > 4.0 * kEpsilon) return;
+  const double noise = std::sqrt(RankNoise(reduction));
+  const double outside = DifferenceOfProducts(reduction.u0[0], nn, reduction.v0, tn);
+  if (!(std::abs(outside) <= noise * (sizes[0] * nn + sizes[1] * std::abs(tn)))) return;
   if (nn >= tt) {
     reduction.u0[0] = nn == 0.0 ? 0.0 : reduction.v0 * (tn / nn);
   } else {
@@ -81,10 +92,11 @@ PlanarReduction ReduceOne(const Linkage& linkage) {
   Eigen::VectorXd rates(static_cast<Eigen::Index>(linkage.links.size()));
   std::transform(linkage.links.begin(), linkage.links.end(), rates.begin(),
                  [](const Link& link) { return link.rate_rad_s; });
-  PlanarReduction reduction = FromMechanism<1>(MassMatrix(linkage), TransposedJacobian(linkage), rates);
+  const Eigen::MatrixXd jt = TransposedJacobian(linkage);
+  PlanarReduction reduction = FromMechanism<1>(MassMatrix(linkage), jt, rates);
   reduction.coordinates = Coordinates::kRates;
   SettleRank(reduction);
-  SettleVelocity(reduction);
+  SettleVelocity(jt.cwiseAbs().transpose() * rates.cwiseAbs(), reduction);
   return reduction;
 }
 

@@ -142,6 +142,25 @@ TEST_F(CompliantIdentityTest, TangentialWorkIsWhatFrictionAndTheSpringTake) {
   }
 }
 
+// The steeper the cone, the less of N is left where the particle breaks away, and the more of rounding in it.
+TEST_F(CompliantIdentityTest, TheLedgerClosesAtTheTipOfASteepCone) {
+  for (const double wtt : {4.0, 5.0}) {
+    for (double mu = 10.0; mu < 1e16; mu *= 7.0) {
+      const Impact impact = Solve({.wtt = wtt,
+                                   .wtn = 2.0,
+                                   .wnn = 1.0,
+                                   .u0 = -2.0,
+                                   .v0 = -1.0,
+                                   .mu = mu,
+                                   .energetic = 0.8,
+                                   .ratio_squared = 5.2});
+      ASSERT_NE(impact.regime, Regime::kWedged);
+      const double works = impact.work_normal_compression + impact.work_normal_restitution + TangentialWork(impact);
+      EXPECT_NEAR(works, impact.energy_change, 4e-15 * LargestWork(impact)) << wtt << ", " << mu;
+    }
+  }
+}
+
 // Velocities come from the oscillations, impulses from their integrals.
 TEST_F(CompliantIdentityTest, ImpulsesMakeTheChangeOfVelocity) {
   SceneSource scenes(3);

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/scene/numbers.h"
+#include "core/scene/reduction.h"
 #include "core/scene/validate.h"
 #include "tests/support/system_scenes.h"
 
@@ -367,6 +368,24 @@ TEST(ValidateSystemsTest, ContactsThatDoNotApproachNeedNoRange) {
 TEST(ValidateSystemsTest, RankOneWithItsVelocityInTheRangeIsValid) {
   EXPECT_THAT(Validate(With(PlanarContact{4.0, 2.0, 1.0, -2.0, -1.0})), IsEmpty());
   EXPECT_THAT(Validate(With(SpatialContact{{1, 2, 1, 4, 2, 1}, {-1.0, -2.0}, -1.0})), IsEmpty());
+}
+
+// The tip does not feel a link of 10^20 kg, but moves with it.
+TEST(ValidateSystemsTest, ALinkTooHeavyForTheTipToFeelMovesItOutOfTheRange) {
+  const Link light = {.length_m = 1.0, .mass_kg = 1.0, .com_m = 0.5, .inertia_com_kg_m2 = 0.1, .theta_rad = 0.4};
+  Linkage linkage = {.links = {light, light}};
+  linkage.links[0].rate_rad_s = 1.0;
+  linkage.links[1].theta_rad = -0.5;
+  linkage.links[1].rate_rad_s = 2.0;
+  const auto reduced = [](const Linkage& system) { return std::get<PlanarReduction>(Reduce(With(system))); };
+  const PlanarReduction before = reduced(linkage);
+  EXPECT_THAT(Validate(With(linkage)), IsEmpty());
+  linkage.links[0].inertia_com_kg_m2 = 1e20;
+  const PlanarReduction after = reduced(linkage);
+  EXPECT_EQ(after.u0, before.u0);
+  EXPECT_EQ(after.v0, before.v0);
+  ASSERT_LT(after.v0, 0.0);
+  EXPECT_THAT(Validate(With(linkage)), ElementsAre(testing::Field(&Violation::field, "system")));
 }
 
 TEST(ValidateSystemsTest, ASurfaceThatMovesWithThePendulumIsValid) {
