@@ -61,12 +61,12 @@ void SettleRank(PlanarReduction& reduction) {
 // heavy for the tip to feel. `sizes`: of the terms whose sums u0 and v0 are.
 void SettleVelocity(const Eigen::Vector2d& sizes, PlanarReduction& reduction) {
   const auto& [tt, tn, nn] = reduction.w;
-  if (std::abs(RelativeDeterminant(tt, tn, nn)) > 4.0 * kEpsilon) return;
+  if (tt == 0.0 || nn == 0.0 || std::abs(RelativeDeterminant(tt, tn, nn)) > 4.0 * kEpsilon) return;
   const double noise = std::sqrt(RankNoise(reduction));
   const double outside = DifferenceOfProducts(reduction.u0[0], nn, reduction.v0, tn);
   if (!(std::abs(outside) <= noise * (sizes[0] * nn + sizes[1] * std::abs(tn)))) return;
   if (nn >= tt) {
-    reduction.u0[0] = nn == 0.0 ? 0.0 : reduction.v0 * (tn / nn);
+    reduction.u0[0] = reduction.v0 * (tn / nn);
   } else {
     reduction.v0 = reduction.u0[0] * (tn / tt);
   }

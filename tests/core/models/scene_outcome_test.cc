@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/local_solver.h"
+#include "core/scene/reduction.h"
 #include "tests/support/system_scenes.h"
 
 namespace ricochet {
@@ -236,6 +237,18 @@ TEST(SceneOutcomeTest, AWThatUnderflowsIsOutOfRange) {
   const absl::Status status = LocalSolver().Solve({.scene = scene}).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kOutOfRange);
   EXPECT_THAT(std::string(status.message()), HasSubstr("W_nn is below the smallest"));
+}
+
+TEST(SceneOutcomeTest, ALinkTooHeavyForDoublesIsOutOfRangeAndDoesNotSeparate) {
+  const Linkage linkage = {.links = {{.length_m = 1.0,
+                                      .mass_kg = 1.7e308,
+                                      .com_m = 0.5,
+                                      .inertia_com_kg_m2 = 1.0,
+                                      .theta_rad = -1e-108,
+                                      .rate_rad_s = 0.35}}};
+  ASSERT_LT(std::get<PlanarReduction>(Reduce({.system = linkage})).v0, 0.0);
+  const Scene scene = With(linkage, 0.3, EnergeticCoefficient{0.8});
+  EXPECT_EQ(LocalSolver().Solve({.scene = scene}).status().code(), absl::StatusCode::kOutOfRange);
 }
 
 // --- Coefficients by speed ---

@@ -406,6 +406,17 @@ TEST(AuditTest, GivesBackTheCoefficientsOfThePendulum) {
   }
 }
 
+// tau1 is so many least doubles; mu makes of a half of one what leaves the cone.
+TEST(AuditTest, ASubnormalNormalImpulseBreaksNoCone) {
+  const pendulum::Problem problem = {.inertia = 0.1308892775068743,
+                                     .a = 0.3,
+                                     .b = 4294967296.0,
+                                     .omega_minus = -1.0,
+                                     .mu = 1.348269851146737e+307,
+                                     .mu_static = 1.348269851146737e+307};
+  EXPECT_TRUE(AuditRate(problem, 0.0, 0.0).admissible);
+}
+
 TEST(AuditTest, FlagsAPendulumAboveItsSharpBound) {
   // x = 1/3, r = 1/2: Newton's coefficient is at most sqrt(1/2) = .7071.
   const pendulum::Problem problem{.inertia = 1.0, .a = 0.3, .b = 1.0, .omega_minus = -1.0, .mu = 0.1, .mu_static = 0.1};
