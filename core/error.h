@@ -24,6 +24,7 @@ enum class ErrorReason {
   kTooManyCalls = 4,         // RESOURCE_EXHAUSTED: the server's limit on live calls; try again after a while.
   kSweepTooLarge = 5,        // RESOURCE_EXHAUSTED: more points than the server allows in one call; ask for sub-ranges.
   kDraining = 6,             // UNAVAILABLE: the server is shutting down; another one, or a later try, will do.
+  kNotEnded = 7,             // OUT_OF_RANGE: an impact that bounds rest on has not ended within its model's steps.
 };
 
 // What could make a violation good.

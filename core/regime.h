@@ -16,7 +16,7 @@ enum class Regime {
   kReversalInCompression = 6,
   kReversalInRestitution = 7,
   kLocked = 8,       // The pin and friction hold the body: no restitution, velocities 0, coefficients 0.
-  kWedged = 9,       // A compliant contact that never ends.
+  kWedged = 9,       // It has not ended, as far as its model has followed it: the error is infinite.
   kSeparating = 10,  // The contact does not approach: nothing changes.
   kInvalid = 11,     // Sweeps and batches only: a point that breaks a rule or overflows; its columns are quiet NaN.
   kByLaw = 12,       // An impact law says how the impact ends, not how it goes on: nothing is known by phases.

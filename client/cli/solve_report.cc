@@ -37,7 +37,7 @@ const char* Sentence(Regime regime) {
     case Regime::kLocked:
       return "Locked: friction and the pin hold the body; it does not rebound.";
     case Regime::kWedged:
-      return "Wedged: the contact never ends.";
+      return "Wedged: the impact has not ended, as far as its model has followed it.";
     case Regime::kSeparating:
       return "Separating: the contact does not approach; nothing happens.";
     case Regime::kByLaw:

@@ -39,6 +39,7 @@ class Follower {
     if (history_ != nullptr) EndHistory();
     if (mode_.line == Line::kLoading && !compression_ended_) EndCompression();
     path_.local_errors = integrator_.TakeLocalErrors();
+    for (size_t i = 0; i < kParts; ++i) path_.local_errors[i] += cut_off_[i];
     std::tie(path_.steps, path_.right_hand_sides) = integrator_.TakeCosts();
     return std::move(path_);
   }
@@ -106,7 +107,7 @@ class Follower {
     const bool slid = mode_.grip != Grip::kStick;
     const Grip next = GripAfter(contact_, mode_, y_, fallen);
     if (next == mode_.grip) return;
-    if (slid && !contact_.compliant) y_[kU] = 0.0;
+    if (slid && !contact_.compliant) Zero(kU);
     Grasp(next);
   }
 
@@ -151,7 +152,7 @@ class Follower {
     // What has but touched 0 goes on.
     if (!held && (opens ? rate <= 0.0 : rate >= 0.0)) return;
     changed_ = true;
-    y_[kV] = 0.0;
+    Zero(kV);
     const bool compressed = mode_.line == Line::kLoading && (!contact_.damped || y_[kPlace] >= mode_.largest);
     // At rest in restitution, or where the spring balances what presses, it neither parts nor moves.
     stays_ = held && (!compressed || contact_.stick_slope != 0.0);
@@ -168,9 +169,18 @@ class Follower {
   void StopWithNormal() {
     const Grip next = GripAtRest(contact_, ForcesAt(contact_, mode_, y_).normal);
     if (next == mode_.grip) return;
+    Zero(kV);
     y_[kU] = 0.0;
-    y_[kV] = 0.0;
     Grasp(next);
+  }
+
+  // Where a velocity has fallen to 0. A root is known to 1e-14 of s, in which a steep one goes far: Newton's step takes
+  // it closer, and what is left of it is an error.
+  void Zero(size_t velocity) {
+    const double s = integrator_.s() - y_[velocity] / RatesAt(contact_, mode_, y_)[velocity];
+    if (s > integrator_.previous_s() && s < integrator_.s()) y_ = integrator_.Between(s);
+    cut_off_[velocity] += std::fabs(y_[velocity]);
+    y_[velocity] = 0.0;
   }
 
   // The motion at `time`, which lies in the last step.
@@ -215,6 +225,7 @@ class Follower {
   Motion y_ = {};
   Mode mode_;
   Path path_;
+  Motion cut_off_ = {};  // What has been set to 0.
   bool changed_ = false;
   bool compression_ended_ = false;
   bool stays_ = false;

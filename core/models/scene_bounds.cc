@@ -31,13 +31,13 @@ Bounds PendulumBounds(const Scene& scene) {
   return bounds;
 }
 
-Bounds ReducedBounds(const PlanarReduction& reduction, const EffectiveCoefficients& effective) {
+absl::StatusOr<Bounds> ReducedBounds(const PlanarReduction& reduction, const EffectiveCoefficients& effective) {
   const planar::ContactBounds contact = planar::SolveBounds(planar::MakeProblem(reduction, {}, effective));
-  return {.regime = contact.regime,
-          .sharp = contact.sharp,
-          .energy_only = contact.energy_only,
-          .nearly_vertical = std::nullopt,
-          .critical = contact.critical};
+  return Bounds{.regime = contact.regime,
+                .sharp = contact.sharp,
+                .energy_only = contact.energy_only,
+                .nearly_vertical = std::nullopt,
+                .critical = contact.critical};
 }
 
 void Include(double value, Range& range) {
@@ -45,11 +45,17 @@ void Include(double value, Range& range) {
   range.upper = std::max(range.upper, value);
 }
 
-Bounds ReducedBounds(const SpatialReduction& reduction, const EffectiveCoefficients& effective) {
+absl::Status NotEnded() {
+  return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kNotEnded,
+                   "bounds.sharp: an impact of its sample has not ended within the steps that the model has");
+}
+
+absl::StatusOr<Bounds> ReducedBounds(const SpatialReduction& reduction, const EffectiveCoefficients& effective) {
   spatial::Problem problem =
       spatial::MakeProblem(reduction, EnergeticCoefficient{}, effective, spatial::kStudyTolerance);
   problem.coefficient = 0.0;
   const spatial::Impact dead = spatial::Solve(problem);
+  if (!dead.converged) return NotEnded();
   Bounds bounds;
   bounds.sampled = true;
   bounds.regime = dead.regime;
@@ -62,6 +68,7 @@ Bounds ReducedBounds(const SpatialReduction& reduction, const EffectiveCoefficie
   for (int i = 1; i < kSpatialImpacts; ++i) {
     problem.coefficient = static_cast<double>(i) / (kSpatialImpacts - 1);
     const spatial::Impact impact = spatial::Solve(problem);
+    if (!impact.converged) return NotEnded();
     bounds.regime = impact.regime;
     Include(impact.newton, sharp.newton);
     Include(impact.poisson, sharp.poisson);
@@ -70,6 +77,13 @@ Bounds ReducedBounds(const SpatialReduction& reduction, const EffectiveCoefficie
     Include(impact.tau1, sharp.normal_total_n_s);
   }
   return bounds;
+}
+
+absl::StatusOr<Bounds> ReducedBounds(const Scene& scene) {
+  const AnyReduction any = Reduce(scene);
+  if (!FitsDoubles(any)) return ContactOverflow();
+  const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
+  return std::visit([&](const auto& reduction) { return ReducedBounds(reduction, effective); }, any);
 }
 
 absl::Status CheckFinite(const CoefficientBounds& bounds, const std::string& path) {
@@ -97,16 +111,9 @@ absl::Status CheckFinite(const Bounds& bounds) {
 }  // namespace
 
 absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene) {
-  Bounds bounds;
-  if (HasClosedForm(scene)) {
-    bounds = PendulumBounds(scene);
-  } else {
-    const AnyReduction any = Reduce(scene);
-    if (!FitsDoubles(any)) return ContactOverflow();
-    const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
-    bounds = std::visit([&](const auto& reduction) { return ReducedBounds(reduction, effective); }, any);
-  }
-  const absl::Status finite = CheckFinite(bounds);
+  const absl::StatusOr<Bounds> bounds = HasClosedForm(scene) ? PendulumBounds(scene) : ReducedBounds(scene);
+  if (!bounds.ok()) return bounds;
+  const absl::Status finite = CheckFinite(*bounds);
   if (!finite.ok()) return finite;
   return bounds;
 }

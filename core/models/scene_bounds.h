@@ -23,7 +23,7 @@ inline constexpr int kSpatialImpacts = 65;
 
 // `scene` is valid, its restitution set or not, and has no impact law.
 // Errors: OUT_OF_RANGE if W, the contact velocity or a bound, which is named, exceeds the largest double, or W_nn is
-// below the smallest.
+// below the smallest, or where an impact of a sample does not end.
 absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene);
 
 }  // namespace ricochet

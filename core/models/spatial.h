@@ -54,7 +54,7 @@ using Instant = ImpactInstant<std::array<double, 2>>;
 // never through an inverse of W.
 struct Impact : ImpactEnd<std::array<double, 2>> {
   double error_estimate = 0.0;   // Not below the true error of the velocities over max(|u0|, |v0|).
-  bool converged = true;         // False: a budget ran out, the state is that reached, the error estimate infinite.
+  bool converged = true;         // False: wedged. A budget ran out, the state is that reached, the error infinite.
   bool closed_form = false;      // Slip never turns: no integration was needed.
   int64_t steps = 0;             // Series expanded.
   int64_t right_hand_sides = 0;  // Terms of them: what a Runge-Kutta method would call right-hand sides.

@@ -52,6 +52,8 @@ v1::ErrorReason ToProto(ErrorReason reason) {
       return v1::ERROR_REASON_INVALID_REQUEST;
     case ErrorReason::kOutputOverflow:
       return v1::ERROR_REASON_OUTPUT_OVERFLOW;
+    case ErrorReason::kNotEnded:
+      return v1::ERROR_REASON_NOT_ENDED;
     case ErrorReason::kInadmissibleOutcome:
       return v1::ERROR_REASON_INADMISSIBLE_OUTCOME;
     case ErrorReason::kTooManyCalls:
@@ -70,6 +72,8 @@ ErrorReason FromProto(v1::ErrorReason proto) {
       return ErrorReason::kInvalidRequest;
     case v1::ERROR_REASON_OUTPUT_OVERFLOW:
       return ErrorReason::kOutputOverflow;
+    case v1::ERROR_REASON_NOT_ENDED:
+      return ErrorReason::kNotEnded;
     case v1::ERROR_REASON_INADMISSIBLE_OUTCOME:
       return ErrorReason::kInadmissibleOutcome;
     case v1::ERROR_REASON_TOO_MANY_CALLS:

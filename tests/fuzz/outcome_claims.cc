@@ -131,6 +131,7 @@ void CheckStatus(const absl::Status& status, bool valid_scene, bool inadmissible
       return;
     case absl::StatusCode::kOutOfRange:
       if (valid_scene && ReasonOf(status) == ErrorReason::kOutputOverflow) return;
+      if (valid_scene && ReasonOf(status) == ErrorReason::kNotEnded) return;
       break;
     case absl::StatusCode::kFailedPrecondition:
       if (valid_scene && inadmissible_is_error) return;

@@ -96,7 +96,7 @@ TEST(StatusTest, StatusWithoutFactsHasNoDetails) {
 
 TEST(StatusTest, EveryReasonTravelsByItsNameWithoutThePrefix) {
   const google::protobuf::EnumDescriptor& type = *v1::ErrorReason_descriptor();
-  ASSERT_EQ(type.value_count(), 7);
+  ASSERT_EQ(type.value_count(), 8);
   for (int i = 1; i < type.value_count(); ++i) {
     const auto reason = static_cast<ErrorReason>(type.value(i)->number());
     const absl::Status error = MakeError(absl::StatusCode::kOutOfRange, reason, "message");

@@ -6,9 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "core/laws/contact_bounds.h"
+#include "core/error.h"
 #include "core/local_solver.h"
 #include "core/scene/reduction.h"
 #include "tests/support/system_scenes.h"
@@ -99,6 +101,19 @@ TEST(SceneBoundsTest, ARodAt45DegreesByHand) {
   EXPECT_EQ(bounds.critical.reversal, 0.0);
   EXPECT_FALSE(bounds.critical.jam.has_value());
   EXPECT_EQ(bounds.sharp.energetic, (Range{0.0, 1.0}));
+}
+
+TEST(SceneBoundsTest, AnImpactInSpaceThatDoesNotEndBoundsNothing) {
+  const Scene scene = {.system = SpatialContact{{1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, {0.9999999999999999, 0.6}, -1.0},
+                       .friction = {.kinetic_coefficient = 1.7976931348623157e+308},
+                       .restitution = EnergeticCoefficient{0.45}};
+  const absl::StatusOr<SolveResponse> impact = LocalSolver().Solve({.scene = scene});
+  ASSERT_TRUE(impact.ok());
+  EXPECT_EQ(impact->outcome.regime, Regime::kWedged);
+  EXPECT_EQ(impact->outcome.accuracy.relative_error, std::numeric_limits<double>::infinity());
+  const absl::Status status = LocalSolver().Bounds({.scene = scene, .ranges = {}}).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kOutOfRange);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kNotEnded);
 }
 
 TEST(SceneBoundsTest, FrictionBySpeedCountsAtTheApproachSpeed) {
