@@ -9,8 +9,8 @@
 #include <limits>
 #include <vector>
 
-#include "core/laws/contact_bounds.h"
 #include "core/error.h"
+#include "core/laws/contact_bounds.h"
 #include "core/local_solver.h"
 #include "core/scene/reduction.h"
 #include "tests/support/system_scenes.h"
