@@ -409,6 +409,8 @@ class Path {
     if (t == kNever) return {.never_comes = true};
     if (indenting_ && !first_loading_) PassMax(modes, t, ending);
     AdvanceStick(modes, t, ending);
+    // At the tip of a steep cone both sides break at once, as far as doubles can tell; p says which it is.
+    if (ending.breaks_away * at_.p < 0.0) ending.breaks_away = -ending.breaks_away;
     // The tip of the cone.
     ending.parts = ending.breaks_away != 0 && !indenting_ && at_.n <= 8.0 * kEps * n_max_;
     if (ending.parts) at_.n = 0.0;
@@ -461,8 +463,11 @@ class Path {
 
   // |p| = mu n, by the one of the two that mu does not magnify the rounding of.
   void PutOnCone(int side) {
-    if (mu_ > 1.0) at_.n = std::max(0.0, side * at_.p) / mu_;
-    at_.p = side * mu_ * at_.n;
+    if (mu_ > 1.0) {
+      at_.n = std::fabs(at_.p) / mu_;
+    } else {
+      at_.p = side * mu_ * at_.n;
+    }
   }
 
   Inertia w_;

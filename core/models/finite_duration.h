@@ -24,7 +24,8 @@
 // Ends: N = 0. eta = 0, or eta^2 below the smallest normal double, which counts as 0: where v = 0 at d_max, all that
 // the springs hold is lost. Where friction and the spring hold the contact at rest at the end of compression (rank one,
 // locked): there. An impact that does not part within a budget of 50 000 steps or 200 changes of the sign of v, or
-// provably never does, is answered with the state reached, regime wedged, converged = false and an infinite error:
+// provably never does, or that is lost in rounding, is answered with the state reached, regime wedged, converged =
+// false and an infinite error:
 // forces that press too hard, wedges. Nor may a contact whose particle sticks and slides too often (ratio below some
 // 1e-3), or one at the brink of jamming under forces, end within it.
 //

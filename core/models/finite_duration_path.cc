@@ -56,6 +56,7 @@ class Follower {
       const Integrator::Progress progress = integrator_.Step(fallen);
       if (progress == Integrator::Progress::kFailed) return false;
       if (progress == Integrator::Progress::kCrowded) return integrator_.s() > 0.0;
+      if (RunsBack(integrator_.y()[kTime])) return false;
       y_ = integrator_.y();
       if (history_ != nullptr) TakeSamples();
       NotePeaks();
@@ -71,6 +72,12 @@ class Follower {
       NotePeaks();
     }
     return true;
+  }
+
+  // Where v is far below what the tolerance is a part of, all that it leads to may be rounding: time that runs back is.
+  bool RunsBack(double time) const {
+    constexpr double kRounding = 1e-9;
+    return time < y_[kTime] * (1.0 - kRounding) || time < 0.0;
   }
 
   void AddEvent(EventKind kind) { path_.events.push_back({kind, y_}); }

@@ -161,6 +161,19 @@ TEST_F(CompliantIdentityTest, TheLedgerClosesAtTheTipOfASteepCone) {
   }
 }
 
+// The particle sticks to the end, where what the spring has left is lost.
+TEST_F(CompliantIdentityTest, TheLedgerClosesWhereFrictionIsBeyondAllNumbers) {
+  for (const double mu : {1e20, 1e100, 3e298}) {
+    for (const double u0 : {-1.0, 1.0}) {
+      const Impact impact = Solve(
+          {.wtt = 1.0, .wtn = 0.1, .wnn = 1.0, .u0 = u0, .v0 = -1.0, .mu = mu, .energetic = 1.0, .ratio_squared = 0.3});
+      const double works = impact.work_normal_compression + impact.work_normal_restitution + TangentialWork(impact);
+      EXPECT_NEAR(works, impact.energy_change, 4e-15 * LargestWork(impact)) << mu;
+      EXPECT_LT(impact.energy_change, -0.01);
+    }
+  }
+}
+
 // Velocities come from the oscillations, impulses from their integrals.
 TEST_F(CompliantIdentityTest, ImpulsesMakeTheChangeOfVelocity) {
   SceneSource scenes(3);

@@ -644,6 +644,27 @@ TEST(FiniteDurationTest, ImpulsesMakeTheChangeOfASlipThatStopsAllOfASudden) {
   EXPECT_LE(impact.error_estimate, 1e-8);
 }
 
+// v0 is 10^-86 of u0, and what becomes of it a part in 10^12 of u0.
+TEST(FiniteDurationTest, AnImpactThatIsLostInRoundingIsNotAnswered) {
+  constexpr double kInertia = 1.3;
+  constexpr double kA = 1.3065459890738525e-86;
+  constexpr double kB = 0.3133785130770308;
+  constexpr double kMoment = 4.889078302384e-311;
+  const Impact impact = Solve({.wtt = kB * kB / kInertia,
+                               .wtn = kA * kB / kInertia,
+                               .wnn = kA * kA / kInertia,
+                               .u0 = -2.0 * kB,
+                               .v0 = -2.0 * kA,
+                               .tangential_acceleration = kMoment * kB / kInertia,
+                               .mu = 0.012424130900937969,
+                               .mu_static = 0.9450167383826467,
+                               .spring = HertzSpring{0.45385987235336556},
+                               .energetic = 1.0,
+                               .tolerance = 1e-12});
+  EXPECT_FALSE(impact.converged);
+  EXPECT_GE(impact.contact.duration_s, 0.0);
+}
+
 TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
   Problem problem = Rod(HuntCrossleySpring{3.0, 1.5, 0.2});
   problem.mu = 4.0 / 3.0;
