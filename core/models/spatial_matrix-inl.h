@@ -93,7 +93,9 @@ Sticking<T> Matrix<T>::Stick(T mu_static) const {
   const N reach = limit * bottom;
   const N square = top1 * top1 + top2 * top2;
   constexpr double kRounding = 0x1p-96;
-  const bool holds = rounded(square - reach * reach) <= kRounding * square.hi;
+  // No top is that large, but the square of `reach` would leave the range of doubles.
+  constexpr double kBeyondAll = 0x1p400;
+  const bool holds = reach.hi > kBeyondAll || rounded(square - reach * reach) <= kRounding * square.hi;
   const bool locked = Rank() < (singular ? 2 : 3);
   const T v_slope = locked ? T{0} : std::max(rounded(n - (p * top1 + q * top2) / bottom), T{0});
   return {rounded(-(top1 / bottom)), rounded(-(top2 / bottom)), v_slope, holds};

@@ -473,6 +473,12 @@ TEST(SpatialTest, StaticFrictionDecidesWhetherStoppedSlipSticks) {
   problem.mu_static = critical * (1.0 + 1e-12);
   EXPECT_EQ(Solve(problem).regime, Regime::kStickInCompression);
   EXPECT_EQ(Solve(problem).u1[0], 0.0);
+  const double v1 = Solve(problem).v1;
+  for (const double mu_static : {10.0, 1e100, 1e200, 1e300, std::numeric_limits<double>::max()}) {
+    problem.mu_static = mu_static;
+    EXPECT_EQ(Solve(problem).regime, Regime::kStickInCompression) << mu_static;
+    EXPECT_EQ(Solve(problem).v1, v1) << mu_static;
+  }
   problem.mu_static = critical * (1.0 - 1e-12);
   EXPECT_EQ(Solve(problem).regime, Regime::kSliding);
 }
@@ -610,11 +616,12 @@ TEST(SpatialTest, NewtonsLawMayCreateEnergyAndSaysSo) {
 }
 
 TEST(SpatialTest, ABudgetThatRunsOutIsSaidSo) {
-  // No impact of a valid problem gets there; one that is not a number does not end either, and must.
+  // Next to no impact of a valid problem gets there; one that is not a number does not end either, and must.
   Problem problem = Known(1.0, 0.6, 0.2);
   problem.w12 = std::numeric_limits<double>::quiet_NaN();
   const Impact impact = Solve(problem);
   EXPECT_FALSE(impact.converged);
+  EXPECT_EQ(impact.regime, Regime::kWedged);
   EXPECT_EQ(impact.error_estimate, std::numeric_limits<double>::infinity());
 }
 
