@@ -3,18 +3,23 @@
 //
 // Checked: tests/fuzz/outcome_claims.h; bounds are intervals, of the energetic coefficient within [0, 1]; what was
 // solved under the energetic coefficient breaks no limit in its own audit; any velocity can be audited; a
-// sweep has the bits of Solve.
+// sweep has the bits of Solve; a certificate's numbers have a decimal or two ends, and are a
+// pendulum's to 2^-45.
 //
 // Covers: core/scene/*.cc but interval_reduction.cc; core/models/*.cc but finite_duration*.cc and scene_enclosure.cc;
 // core/local_solver.cc; core/study/audit*.cc but audit_columns.cc.
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <memory>
 #include <variant>
 
 #include "absl/status/statusor.h"
 #include "core/local_solver.h"
+#include "core/models/certified/certified.h"
 #include "core/scene/validate.h"
 #include "proto/wire/requests.h"
 #include "tests/fuzz/fail.h"
@@ -93,6 +98,76 @@ void CheckSweep(const SolveRequest& request, const absl::StatusOr<SolveResponse>
   if ((*chunk)->values[0] != alone->outcome.coefficients.newton) Fail("a point of a sweep has other bits");
 }
 
+void CheckNumbers(const absl::StatusOr<Certificate>& certificate) {
+  CheckStatus(certificate.status(), true);
+  if (!certificate.ok()) return;
+  for (const CertifiedNumber& number : certificate->numbers) {
+    const bool is_open = number.decimal.empty();
+    if (is_open != !number.lower.empty()) Fail(number.path + " has neither a decimal nor two ends");
+    if (!is_open || std::isinf(number.value)) continue;
+    if (!(std::strtod(number.lower.c_str(), nullptr) <= std::strtod(number.upper.c_str(), nullptr))) Fail(number.path);
+  }
+}
+
+constexpr int kDigits = 20;
+
+Range Around(double value) {
+  const double moved = value * (1.0 + 0x1p-30);
+  const double other = std::isfinite(moved) ? moved : value;
+  return {std::min(value, other), std::max(value, other)};
+}
+Range Point(double value) { return {value, value}; }
+
+// The same impact at a speed that is not known well.
+void CheckSets(const Scene& scene) {
+  if (const auto* pendulum = std::get_if<Pendulum>(&scene.system)) {
+    const double mu = scene.friction.kinetic_coefficient;
+    const PendulumSet set = {.inertia = Point(pendulum->inertia_kg_m2),
+                             .a = Point(pendulum->a_m),
+                             .b = Point(pendulum->b_m),
+                             .omega_minus = Around(pendulum->omega_minus_rad_s),
+                             .mu = Point(mu),
+                             .mu_static = Point(scene.friction.static_coefficient.value_or(mu)),
+                             .coefficient = Point(0.5)};
+    CheckNumbers(CertifySolve(set, kDigits));
+    CheckNumbers(CertifyBounds(set, kDigits));
+  }
+  if (const auto* contact = std::get_if<PlanarContact>(&scene.system)) {
+    const double mu = scene.friction.kinetic_coefficient;
+    const ContactSet set = {.wtt = Point(contact->w_tt_per_kg),
+                            .wtn = Point(contact->w_tn_per_kg),
+                            .wnn = Point(contact->w_nn_per_kg),
+                            .u0 = Around(contact->tangential_m_s),
+                            .v0 = Around(contact->normal_m_s),
+                            .mu = Point(mu),
+                            .mu_static = Point(scene.friction.static_coefficient.value_or(mu)),
+                            .coefficient = Point(0.5)};
+    CheckNumbers(CertifySolve(set, kDigits));
+    CheckNumbers(CertifyBounds(set, kDigits));
+  }
+}
+
+void CheckCertificates(SolveRequest request, const absl::StatusOr<SolveResponse>& response) {
+  constexpr double kRounding = 0x1p-45;
+  const Scene& scene = request.scene;
+  if (!Validate(scene).empty() || !CheckCertifiable(scene, kDigits).empty()) return;
+  CheckSets(scene);
+  request.certified_digits = kDigits;
+  CheckStatus(LocalSolver().Solve(request).status(), true, request.inadmissible_is_error);
+  const absl::StatusOr<BoundsResponse> bounds =
+      LocalSolver().Bounds({.scene = scene, .ranges = {}, .certified_digits = kDigits});
+  CheckStatus(bounds.status(), true);
+  if (bounds.ok()) CheckNumbers(*bounds->certificate);
+  const absl::StatusOr<Certificate> certificate = CertifySolve(scene, kDigits);
+  CheckNumbers(certificate);
+  if (!certificate.ok() || !response.ok() || response->outcome.plan.model != Model::kPendulum) return;
+  for (const CertifiedNumber& number : certificate->numbers) {
+    if (number.path != "coefficients.newton" || !std::isfinite(number.value)) continue;
+    const double computed = response->outcome.coefficients.newton;
+    if (std::fabs(computed - number.value) > kRounding * number.value + 0x1p-1060) Fail("another Newton's coefficient");
+  }
+}
+
 // The numbers of the history stand for two rows of what was seen before and after, and for the coefficient of friction.
 void CheckColumns(const SolveRequest& request) {
   const std::vector<double>& seen = request.history_at_n_s;
@@ -118,6 +193,7 @@ void Run(const v1::SolveRequest& proto) {
   CheckAnyAudit(request);
   CheckColumns(request);
   CheckSweep(request, response);
+  CheckCertificates(request, response);
   if (response.ok() && !request.plan_only) CheckOwnAudit(request.scene, response->outcome);
 }
 
