@@ -239,7 +239,8 @@ std::optional<SystemContact<N>> SystemOf(const ContactSet& set, const SetBox& bo
   contact.coefficient = number(7);
   contact.det = contact.wtt * contact.wnn - Square(contact.wtn);
   if (CanBeNegativeOnly(contact.det)) return std::nullopt;
-  contact.rho = contact.wtn / contact.wnn;
+  // A contact without mobility along n does not approach.
+  if (box[2].upper > 0.0) contact.rho = contact.wtn / contact.wnn;
   return system;
 }
 
