@@ -206,7 +206,7 @@ bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance) {
   static_assert(kLeastSlope >= 0x1p-20);
   if (problem.law == pendulum::Law::kNewton) return false;
   const double b = std::fabs(problem.b);
-  const double x = problem.mu * b / problem.a;
+  const double x = first_order::FrictionRatio(problem);
   return problem.coefficient * x * x > 4.0 * tolerance && problem.mu * b > 0x1p12 * tolerance * std::max(problem.a, b);
 }
 

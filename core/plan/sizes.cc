@@ -354,7 +354,7 @@ planar::Problem PlanarOf(const pendulum::Problem& problem) {
 // x and the change that friction makes, exactly but for rounding.
 Size PendulumFrictionSize(const pendulum::Problem& problem) {
   const double b = std::fabs(problem.b);
-  const double x = problem.mu * b / problem.a;
+  const double x = first_order::FrictionRatio(problem);
   if ((problem.mu == 0.0 || b == 0.0) && problem.mu_static * b < problem.a) return {};
   if (!(1.0 - x >= kLeastSlope) || problem.mu_static * b >= problem.a * (1.0 - kRounding)) return Locking(x);
   const double c = problem.coefficient;
@@ -388,7 +388,7 @@ Size PendulumFrictionSize(const pendulum::Problem& problem) {
 }
 
 Size PendulumHigherOrderSize(const pendulum::Problem& problem) {
-  const double x = problem.mu * std::fabs(problem.b) / problem.a;
+  const double x = first_order::FrictionRatio(problem);
   if (x == 0.0) return {};
   if (!first_order::Serves(problem)) return {.value = kUnbounded, .ground = Ground::kNoInequality, .number = x};
   return {.value = Padded(first_order::ErrorsOf(problem).Largest()), .ground = Ground::kInequality, .number = x};

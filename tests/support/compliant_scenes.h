@@ -1,4 +1,4 @@
-// Random impacts with tangential compliance.
+// Impacts with tangential compliance: those of the vectors, and random ones.
 
 #ifndef RICOCHET_TESTS_SUPPORT_COMPLIANT_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_COMPLIANT_SCENES_H_
@@ -9,8 +9,21 @@
 #include <random>
 
 #include "core/models/compliant.h"
+#include "tests/support/vectors.h"
 
 namespace ricochet::compliant {
+
+// Of a row of compliant.csv.
+inline Problem ProblemOf(const VectorRow& row) {
+  return {.wtt = Number(row, "wtt"),
+          .wtn = Number(row, "wtn"),
+          .wnn = Number(row, "wnn"),
+          .u0 = Number(row, "u0"),
+          .v0 = Number(row, "v0"),
+          .mu = Number(row, "mu"),
+          .energetic = Number(row, "eta"),
+          .ratio_squared = Number(row, "ratio2")};
+}
 
 class SceneSource {
  public:

@@ -40,14 +40,7 @@ TEST(CompliantArbTest, TheOracleHasTheDigitsOfTheTable) {
                                  {"work_n_restitution", &ExactImpact::work_normal_restitution}};
   const Ball digits = Ball::Parse("3e-24", 192);
   for (const VectorRow& row : ReadVectors("compliant.csv")) {
-    const ExactImpact exact = SolveExactly({.wtt = Number(row, "wtt"),
-                                            .wtn = Number(row, "wtn"),
-                                            .wnn = Number(row, "wnn"),
-                                            .u0 = Number(row, "u0"),
-                                            .v0 = Number(row, "v0"),
-                                            .mu = Number(row, "mu"),
-                                            .energetic = Number(row, "eta"),
-                                            .ratio_squared = Number(row, "ratio2")});
+    const ExactImpact exact = SolveExactly(ProblemOf(row));
     ASSERT_TRUE(exact.ends);
     for (const Column& column : kColumns) {
       const Ball given = Ball::Parse(row.at(column.name), 192);

@@ -10,21 +10,11 @@
 #include <vector>
 
 #include "core/models/compliant.h"
+#include "tests/support/compliant_scenes.h"
 #include "tests/support/vectors.h"
 
 namespace ricochet::compliant {
 namespace {
-
-Problem ProblemOf(const VectorRow& row) {
-  return {.wtt = Number(row, "wtt"),
-          .wtn = Number(row, "wtn"),
-          .wnn = Number(row, "wnn"),
-          .u0 = Number(row, "u0"),
-          .v0 = Number(row, "v0"),
-          .mu = Number(row, "mu"),
-          .energetic = Number(row, "eta"),
-          .ratio_squared = Number(row, "ratio2")};
-}
 
 // What the file puts between two sections on different lines of the normal spring, or of different sign of v.
 std::string Between(const Section& before, const Section& after) {
