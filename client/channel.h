@@ -8,7 +8,7 @@
 #include <memory>
 
 #include "absl/status/statusor.h"
-#include "client/options.h"
+#include "ricochet/client_options.h"
 
 namespace ricochet {
 

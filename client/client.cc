@@ -1,4 +1,4 @@
-#include "client/client.h"
+#include "ricochet/client.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "client/health.h"
+#include "ricochet/health.h"
 
 #include <grpcpp/client_context.h>
 

@@ -1,12 +1,11 @@
-#include "client/options.h"
-
 #include <cmath>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "core/error.h"
 #include "core/numerics/decimal.h"
+#include "ricochet/client_options.h"
+#include "ricochet/error.h"
 
 namespace ricochet {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
-#include "core/sweep/sweep.h"
+#include "ricochet/sweep.h"
 #include "ricochet/v1/sweep.pb.h"
 
 namespace ricochet {

@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "absl/strings/str_cat.h"
-#include "core/error.h"
+#include "ricochet/error.h"
 
 namespace ricochet::server {
 

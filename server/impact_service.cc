@@ -6,15 +6,15 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/types/span.h"
-#include "core/engine.h"
-#include "core/error.h"
-#include "core/local_solver.h"
+#include "core/engine/engine.h"
+#include "core/engine/local_solver.h"
 #include "core/sweep/sweep_run.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
+#include "ricochet/error.h"
 
 namespace ricochet::server {
 namespace {

@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <stop_token>
 
-#include "core/solver.h"
+#include "ricochet/solver.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/admission.h"
 #include "server/call.h"

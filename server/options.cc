@@ -16,7 +16,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
-#include "core/engine.h"
+#include "core/engine/engine.h"
 
 namespace ricochet::server {
 namespace {

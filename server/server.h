@@ -13,7 +13,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "core/local_solver.h"
+#include "ricochet/solver.h"
 #include "server/admission.h"
 #include "server/impact_service.h"
 #include "server/listen_address.h"

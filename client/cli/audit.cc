@@ -16,7 +16,7 @@
 #include "client/cli/number_input.h"
 #include "client/cli/output.h"
 #include "client/cli/scene_input.h"
-#include "core/scene/reduction.h"
+#include "core/contact/reduction.h"
 #include "core/study/audit_columns.h"
 #include "proto/wire/audit.h"
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
-#include "core/audit.h"
+#include "ricochet/audit.h"
 
 namespace ricochet::cli {
 

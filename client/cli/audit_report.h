@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "core/solver.h"
+#include "ricochet/solver.h"
 
 namespace ricochet::cli {
 

@@ -8,8 +8,8 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "core/solver.h"
 #include "core/sweep/grid.h"
+#include "ricochet/solver.h"
 
 namespace ricochet::cli {
 

@@ -15,6 +15,7 @@
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
 #include "core/plan/planned_scene.h"
+#include "core/problem/scene_problem.h"
 #include "proto/wire/requests.h"
 
 namespace ricochet::cli {

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "core/certificate.h"
+#include "ricochet/certificate.h"
 
 namespace ricochet::cli {
 

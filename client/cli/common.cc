@@ -11,10 +11,10 @@
 #include "absl/strings/strip.h"
 #include "client/cli/number_input.h"
 #include "client/cli/output.h"
-#include "client/client.h"
-#include "core/engine.h"
-#include "core/local_solver.h"
+#include "core/engine/engine.h"
 #include "proto/wire/outcome.h"
+#include "ricochet/client.h"
+#include "ricochet/solver.h"
 
 namespace ricochet::cli {
 

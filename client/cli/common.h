@@ -9,8 +9,8 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "client/options.h"
-#include "core/solver.h"
+#include "ricochet/client_options.h"
+#include "ricochet/solver.h"
 
 namespace google::protobuf {
 class Message;

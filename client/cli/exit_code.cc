@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "client/cli/output.h"
-#include "core/error.h"
+#include "ricochet/error.h"
 
 namespace ricochet::cli {
 

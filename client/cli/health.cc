@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "absl/strings/str_cat.h"
-#include "client/health.h"
+#include "ricochet/health.h"
 
 namespace ricochet::cli {
 namespace {

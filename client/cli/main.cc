@@ -14,7 +14,7 @@
 #include "client/cli/health.h"
 #include "client/cli/solve.h"
 #include "client/cli/sweep.h"
-#include "core/engine.h"
+#include "core/engine/engine.h"
 
 namespace {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "absl/strings/str_cat.h"
-#include "core/error.h"
+#include "ricochet/error.h"
 
 namespace ricochet::cli {
 namespace {

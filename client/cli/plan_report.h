@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "core/plan/plan.h"
+#include "ricochet/plan.h"
 
 namespace ricochet::cli {
 

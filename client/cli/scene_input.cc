@@ -17,8 +17,8 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/number_input.h"
-#include "core/error.h"
 #include "proto/wire/scene.h"
+#include "ricochet/error.h"
 
 namespace ricochet::cli {
 namespace {

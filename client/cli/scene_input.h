@@ -8,7 +8,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
-#include "core/scene/scene.h"
+#include "ricochet/scene.h"
 
 namespace google::protobuf {
 class Message;

@@ -7,7 +7,7 @@
 
 #include "absl/status/statusor.h"
 #include "client/cli/plot.h"
-#include "core/outcome.h"
+#include "ricochet/outcome.h"
 
 namespace ricochet::cli {
 

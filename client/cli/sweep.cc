@@ -15,8 +15,8 @@
 #include "client/cli/scene_input.h"
 #include "client/cli/sweep_plot.h"
 #include "client/cli/sweep_writer.h"
+#include "core/scene/field.h"
 #include "core/sweep/column.h"
-#include "core/sweep/field.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet::cli {

@@ -10,7 +10,7 @@
 
 #include "absl/status/statusor.h"
 #include "client/cli/plot.h"
-#include "core/sweep/sweep.h"
+#include "ricochet/sweep.h"
 
 namespace ricochet::cli {
 

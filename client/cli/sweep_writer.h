@@ -8,7 +8,7 @@
 
 #include "absl/status/statusor.h"
 #include "client/cli/common.h"
-#include "core/sweep/sweep.h"
+#include "ricochet/sweep.h"
 
 namespace ricochet::cli {
 

@@ -4,7 +4,7 @@
 #ifndef RICOCHET_CORE_MODELS_IMPACT_END_H_
 #define RICOCHET_CORE_MODELS_IMPACT_END_H_
 
-#include "core/outcome.h"
+#include "ricochet/outcome.h"
 
 namespace ricochet {
 

@@ -6,8 +6,9 @@
 #include <variant>
 
 #include "absl/types/span.h"
-#include "core/models/first_order.h"
-#include "core/models/sliding.h"
+#include "core/models/pendulum/first_order.h"
+#include "core/models/restitution_law.h"
+#include "core/models/sliding/sliding.h"
 #include "core/numerics/determinant.h"
 #include "core/plan/perturbed_path.h"
 
@@ -204,7 +205,7 @@ double PendulumSmoothError(const pendulum::Problem& problem) {
 // Poisson's law tau1 >= x/2. Newton's fixes v1 = 0, and tau1 may be any.
 bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance) {
   static_assert(kLeastSlope >= 0x1p-20);
-  if (problem.law == pendulum::Law::kNewton) return false;
+  if (problem.law == RestitutionLaw::kNewton) return false;
   const double b = std::fabs(problem.b);
   const double x = first_order::FrictionRatio(problem);
   return problem.coefficient * x * x > 4.0 * tolerance && problem.mu * b > 0x1p12 * tolerance * std::max(problem.a, b);

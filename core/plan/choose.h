@@ -24,8 +24,8 @@
 #include <cstddef>
 
 #include "core/plan/demand.h"
-#include "core/plan/plan.h"
 #include "core/plan/sizes.h"
+#include "ricochet/plan.h"
 
 namespace ricochet {
 

@@ -20,7 +20,7 @@
 #ifndef RICOCHET_CORE_PLAN_CONTACT_TIME_H_
 #define RICOCHET_CORE_PLAN_CONTACT_TIME_H_
 
-#include "core/scene/scene.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 

@@ -6,9 +6,10 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/contact/reduction.h"
 #include "core/plan/planned_scene.h"
+#include "core/problem/scene_problem.h"
 #include "core/scene/check.h"
-#include "core/scene/reduction.h"
 
 namespace ricochet {
 namespace {

@@ -5,9 +5,9 @@
 
 #include <vector>
 
-#include "core/error.h"
 #include "core/plan/effect_set.h"
-#include "core/scene/scene.h"
+#include "ricochet/error.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "core/plan/plan.h"
+#include "ricochet/plan.h"
 
 namespace ricochet {
 

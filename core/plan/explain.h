@@ -5,7 +5,7 @@
 
 #include "core/plan/choose.h"
 #include "core/plan/demand.h"
-#include "core/plan/plan.h"
+#include "ricochet/plan.h"
 
 namespace ricochet {
 

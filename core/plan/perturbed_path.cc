@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/models/restitution_law.h"
+
 namespace ricochet {
 namespace {
-
-using pendulum::Law;
 
 // What both ends have in common: e_f, e_v and the reach of compression.
 class Comparison {
@@ -87,11 +87,11 @@ EndShift EnergeticShift(const Comparison& by, double eta) {
 
 EndShift ShiftOf(const Comparison& by, const Restoring& restoring) {
   switch (restoring.law) {
-    case Law::kNewton:
+    case RestitutionLaw::kNewton:
       return NewtonShift(by, restoring.coefficient);
-    case Law::kPoisson:
+    case RestitutionLaw::kPoisson:
       return PoissonShift(by, restoring.coefficient);
-    case Law::kEnergetic:
+    case RestitutionLaw::kEnergetic:
       break;
   }
   return EnergeticShift(by, restoring.coefficient);
@@ -107,11 +107,11 @@ EndRange EndsBySlopes(const Restoring& restoring, double low, double high) {
   const double c = restoring.coefficient;
   const double ratio = high / low;
   switch (restoring.law) {
-    case Law::kNewton:
+    case RestitutionLaw::kNewton:
       return {c, c, (1.0 + c) / high, (1.0 + c) / low};
-    case Law::kPoisson:
+    case RestitutionLaw::kPoisson:
       return {c / ratio, c * ratio, (1.0 + c) / high, (1.0 + c) / low};
-    case Law::kEnergetic:
+    case RestitutionLaw::kEnergetic:
       break;
   }
   const double root = std::sqrt(ratio);
@@ -126,7 +126,7 @@ EndShift ShiftBySlopes(const Restoring& restoring, const ReferencePath& referenc
   const double high = most + kRounding * (1.0 + most);
   const EndRange a = EndsBySlopes(restoring, reference.slope_low, reference.slope_high);
   const EndRange b = EndsBySlopes(restoring, low, high);
-  const double v1 = restoring.law == Law::kNewton
+  const double v1 = restoring.law == RestitutionLaw::kNewton
                         ? 0.0
                         : std::max(b.v_high - a.v_low, a.v_high - b.v_low) + kRounding * (a.v_high + b.v_high);
   return {.v1 = v1,

@@ -39,7 +39,8 @@
 
 #include <limits>
 
-#include "core/models/pendulum.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/restitution_law.h"
 
 namespace ricochet {
 
@@ -47,7 +48,7 @@ inline constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 inline constexpr double kLeastSlope = 0x1p-20;  // Of v, over Wnn.
 
 struct Restoring {
-  pendulum::Law law = pendulum::Law::kEnergetic;
+  RestitutionLaw law = RestitutionLaw::kEnergetic;
   double coefficient = 0.0;
 };
 

@@ -2,15 +2,12 @@
 
 #include <algorithm>
 
-#include "core/models/planar_outcome.h"
-#include "core/models/spatial_outcome.h"
+#include "core/contact/effective.h"
 #include "core/plan/explain.h"
-#include "core/scene/effective.h"
+#include "core/problem/scene_problem.h"
 
 namespace ricochet {
 namespace {
-
-double PendulumSpeed(const Pendulum& pendulum) { return std::max(0.0, -pendulum.a_m * pendulum.omega_minus_rad_s); }
 
 ContactPhysics PhysicsOf(const Scene& scene, const PlanarReduction& reduction) {
   ContactPhysics physics;
@@ -61,21 +58,6 @@ void PlanReduced(const Scene& scene, const Demand& demand, SpatialReduction redu
 }
 
 }  // namespace
-
-bool HasClosedForm(const Scene& scene) {
-  return std::holds_alternative<Pendulum>(scene.system) && !scene.surface_velocity.has_value() &&
-         std::holds_alternative<std::monostate>(scene.impact_law);
-}
-
-pendulum::Problem ClosedFormProblem(const Scene& scene) {
-  pendulum::Problem problem = pendulum::MakeProblem(scene);
-  if (!DependsOnSpeed(scene)) return problem;
-  const EffectiveCoefficients effective = EffectiveAt(scene, PendulumSpeed(std::get<Pendulum>(scene.system)));
-  problem.mu = effective.kinetic_friction;
-  problem.mu_static = effective.static_friction;
-  problem.coefficient = effective.restitution;
-  return problem;
-}
 
 PlannedScene PlanScene(const Scene& scene, const Demand& demand) {
   PlannedScene planned;

@@ -5,12 +5,12 @@
 
 #include <variant>
 
-#include "core/models/pendulum.h"
-#include "core/outcome.h"
+#include "core/contact/reduction.h"
+#include "core/models/pendulum/pendulum.h"
 #include "core/plan/choose.h"
 #include "core/plan/demand.h"
-#include "core/scene/reduction.h"
-#include "core/scene/scene.h"
+#include "ricochet/outcome.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 
@@ -21,12 +21,6 @@ struct PlannedScene {
   ContactPhysics physics;
   Choice choice;
 };
-
-// Whether a pendulum's own models answer the scene: no surface that moves, no impact law.
-bool HasClosedForm(const Scene& scene);
-
-// The pendulum's problem with the coefficients at the approach speed. `scene` is valid and HasClosedForm.
-pendulum::Problem ClosedFormProblem(const Scene& scene);
 
 // `scene` is valid and CheckDemand finds nothing. Under an impact law the model is kImpactLaw and no effect is planned;
 // so it is, with kUnspecified, where doubles do not hold W or the contact velocity.

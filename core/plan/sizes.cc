@@ -5,14 +5,13 @@
 #include <limits>
 #include <variant>
 
-#include "core/models/first_order.h"
+#include "core/models/pendulum/first_order.h"
+#include "core/models/restitution_law.h"
 #include "core/plan/contact_time.h"
 #include "core/plan/perturbed_path.h"
 
 namespace ricochet {
 namespace {
-
-using pendulum::Law;
 
 constexpr double kRounding = 0x1p-48;  // Of sums of a few terms, over the terms.
 
@@ -79,7 +78,8 @@ Size Locking(double cone) { return {.value = kUnbounded, .ground = Ground::kSelf
 double HeldImpulse(const Scaled& contact) {
   const double cone = contact.Cone();
   const double c = contact.restoring.coefficient;
-  const double v1 = contact.restoring.law == Law::kEnergetic ? c * std::sqrt((1.0 + cone) / (1.0 - cone)) : c;
+  const double v1 =
+      contact.restoring.law == RestitutionLaw::kEnergetic ? c * std::sqrt((1.0 + cone) / (1.0 - cone)) : c;
   const double last = (1.0 + v1) / (1.0 - cone) * (1.0 + 0x1p-20);
   return 2.0 * (contact.slip + contact.mobility.coupling * last) / contact.mobility.tangential;
 }
@@ -152,7 +152,7 @@ Size StopSize(const Scaled& contact, const planar::Problem& problem) {
   return AfterStop(contact, Sliding(contact), change, low, high);
 }
 
-// Whether the contact sticks by one coefficient and slides by the other. W of rank one: core/models/planar.h.
+// Whether the contact sticks by one coefficient and slides by the other. W of rank one: core/models/planar/planar.h.
 bool CoefficientsDisagree(const planar::Problem& problem, double relative_determinant) {
   const bool rank_one = std::fabs(relative_determinant) <= 0x1p-50;
   const double normal = std::fabs(problem.wtn);
@@ -364,17 +364,17 @@ Size PendulumFrictionSize(const pendulum::Problem& problem) {
   double kappa = c;
   double grown = 0.0;  // kappa - c
   switch (problem.law) {
-    case Law::kEnergetic: {
+    case RestitutionLaw::kEnergetic: {
       const double root = std::sqrt(ratio);
       v1 = c * twice / (1.0 + root);
       kappa = c / root;
       grown = kappa * twice / (1.0 + root);
       break;
     }
-    case Law::kPoisson:
+    case RestitutionLaw::kPoisson:
       v1 = c * twice;
       break;
-    case Law::kNewton:
+    case RestitutionLaw::kNewton:
       kappa = c / ratio;
       grown = kappa * twice;
       break;

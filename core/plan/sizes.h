@@ -48,7 +48,7 @@
 //                  stays above |a_t| T (and S above |a_t| T + mu ratio^2 |a_n| T) by the end of A and a quarter more,
 //                  both slide on, for any mu_s and ratio, and f is the same. Else, with mu_s > mu or
 //                  compliance, no bound is known. Left out together with friction: A frictionless, |f_B'| <= mu_s.
-//   higher order   of a pendulum in x: what core/models/first_order.h states, rounding included.
+//   higher order   of a pendulum in x: what core/models/pendulum/first_order.h states, rounding included.
 //
 // In space (w = |wtn|/Wnn, W the trace of Wtt over Wnn, e0 = u0/|u0|, s = |u|):
 //
@@ -71,11 +71,11 @@
 #include <array>
 #include <cstddef>
 
-#include "core/models/pendulum.h"
-#include "core/models/planar.h"
-#include "core/models/spatial.h"
-#include "core/plan/plan.h"
-#include "core/scene/scene.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/spatial/spatial.h"
+#include "ricochet/plan.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 
@@ -83,7 +83,7 @@ namespace ricochet {
 struct ContactPhysics {
   double ratio_squared = 0.0;            // Tangential over normal compliance; 0 is rigid along t.
   NormalSpring spring;                   // std::monostate: the impact takes no time.
-  double tangential_acceleration = 0.0;  // a_t of core/models/finite_duration.h, m/s^2
+  double tangential_acceleration = 0.0;  // a_t of core/models/finite_duration/finite_duration.h, m/s^2
   double normal_acceleration = 0.0;      // a_n
 };
 

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "core/models/restitution_law.h"
 #include "core/plan/perturbed_path.h"
 #include "core/plan/sizes.h"
 
@@ -90,7 +91,7 @@ Scaled Scale(const spatial::Problem& problem) {
 // Normal impulse of slopes in [low, high], at most.
 double LongestImpulse(const Restoring& restoring, double low, double high) {
   const double c = restoring.coefficient;
-  const double v1 = restoring.law == pendulum::Law::kEnergetic ? c * std::sqrt(high / low) : c;
+  const double v1 = restoring.law == RestitutionLaw::kEnergetic ? c * std::sqrt(high / low) : c;
   return (1.0 + v1) / low;
 }
 

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/error.h"
 #include "core/scene/numbers.h"
+#include "ricochet/error.h"
 
 namespace ricochet {
 

@@ -4,12 +4,12 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/contact/effective.h"
+#include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
 #include "core/numerics/determinant.h"
 #include "core/numerics/products.h"
 #include "core/scene/check.h"
-#include "core/scene/effective.h"
-#include "core/scene/reduction.h"
 
 namespace ricochet {
 namespace {

@@ -2,8 +2,8 @@
 #include <string>
 #include <variant>
 
+#include "core/contact/reduction.h"
 #include "core/scene/check.h"
-#include "core/scene/reduction.h"
 
 namespace ricochet {
 namespace {

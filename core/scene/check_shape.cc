@@ -7,10 +7,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
 #include "core/numerics/determinant.h"
 #include "core/scene/check.h"
-#include "core/scene/reduction.h"
 
 namespace ricochet {
 namespace {

@@ -13,12 +13,12 @@
 #include <type_traits>
 #include <variant>
 
-#include "core/number_path.h"
-#include "core/scene/scene.h"
+#include "ricochet/number_path.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 
-// Below, a double does not resolve the oscillation along the surface: that of core/models/compliant.h.
+// Below, a double does not resolve the oscillation along the surface: that of core/models/compliant/compliant.h.
 inline constexpr double kLeastTangentialRatioSquared = 1e-9;
 // And no larger: one of the two springs is then none.
 inline constexpr double kMostTangentialRatioSquared = 1e9;

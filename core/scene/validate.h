@@ -5,15 +5,15 @@
 
 #include <vector>
 
-#include "core/error.h"
-#include "core/scene/scene.h"
+#include "ricochet/error.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 
 // Whether a scene may leave its restitution open: bounds do not need it.
 enum class RestitutionIs { kRequired, kOptional };
 
-// Every violation of the rules in core/scene/scene.h, in field order; empty if the scene is valid. Paths start at the
+// Every violation of the rules in ricochet/scene.h, in field order; empty if the scene is valid. Paths start at the
 // scene: "pendulum.a_m", "friction.kinetic_coefficient", "restitution.energetic".
 std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution = RestitutionIs::kRequired);
 

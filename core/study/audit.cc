@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "absl/functional/function_ref.h"
+#include "core/models/restitution_law.h"
 #include "core/numerics/elementary.h"
 #include "core/numerics/wide.h"
 #include "core/study/coulomb_path.h"
@@ -419,7 +420,7 @@ PathPoint EndOf(const pendulum::Impact& impact) {
 }
 
 PathPoint PendulumAt(pendulum::Problem problem, double omega) {
-  problem.law = pendulum::Law::kNewton;
+  problem.law = RestitutionLaw::kNewton;
   problem.coefficient = std::max(-omega / problem.omega_minus, 0.0);
   const pendulum::Impact impact = pendulum::Solve(problem);
   const bool compressing = impact.regime != Regime::kSeparating && omega < 0.0;

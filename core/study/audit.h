@@ -39,10 +39,10 @@
 
 #include <array>
 
-#include "core/audit.h"
-#include "core/models/pendulum.h"
-#include "core/models/planar.h"
-#include "core/models/spatial.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/spatial/spatial.h"
+#include "ricochet/audit.h"
 
 namespace ricochet::audit {
 

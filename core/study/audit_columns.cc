@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/error.h"
 #include "core/numerics/products.h"
+#include "ricochet/error.h"
 
 namespace ricochet::audit {
 namespace {

@@ -31,7 +31,7 @@ struct SpatialColumns {
   std::array<absl::Span<const double>, 2> u0, u1;
   absl::Span<const double> v0, v1;
   absl::Span<const double> uncertainty;  // Empty: 0.
-  double tolerance = 1e-10;              // Of the path, core/models/spatial.h.
+  double tolerance = 1e-10;              // Of the path, core/models/spatial/spatial.h.
 };
 
 // Counts a row's report.

@@ -9,18 +9,19 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/error.h"
-#include "core/models/planar_outcome.h"
-#include "core/models/scene_outcome.h"
-#include "core/models/spatial_outcome.h"
+#include "core/answer/planar_outcome.h"
+#include "core/answer/scene_outcome.h"
+#include "core/answer/spatial_outcome.h"
+#include "core/contact/effective.h"
+#include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
 #include "core/plan/planned_scene.h"
-#include "core/scene/effective.h"
+#include "core/problem/scene_problem.h"
 #include "core/scene/numbers.h"
-#include "core/scene/reduction.h"
 #include "core/scene/validate.h"
 #include "core/study/audit.h"
 #include "core/study/audit_columns.h"
+#include "ricochet/error.h"
 
 namespace ricochet {
 namespace {

@@ -1,4 +1,4 @@
-// AuditScene: the audit of any scene, reduced to its contact (core/scene/reduction.h), by core/study/audit.h.
+// AuditScene: the audit of any scene, reduced to its contact (core/contact/reduction.h), by core/study/audit.h.
 //
 // A pendulum that strikes a surface at rest from the scene's own state goes by its closed form. Friction is the scene's
 // at the approach speed; the restitution and the impact law are not used. A spatial path is integrated to
@@ -8,7 +8,7 @@
 #define RICOCHET_CORE_STUDY_AUDIT_SCENE_H_
 
 #include "absl/status/statusor.h"
-#include "core/solver.h"
+#include "ricochet/solver.h"
 
 namespace ricochet {
 

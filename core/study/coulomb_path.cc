@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/models/restitution_law.h"
 #include "core/numerics/elementary.h"
 
 namespace ricochet::audit {
 namespace {
-
-using planar::Law;
 
 // The planar model is exact but for the rounding of a handful of operations an event.
 constexpr double kPlanarError = 0x1p-46;
@@ -48,7 +47,7 @@ PathPoint EndOf(const Problem& problem, const Impact& impact) {
 }
 
 template <typename Problem>
-auto SolveBy(Problem problem, Law law, double coefficient) {
+auto SolveBy(Problem problem, RestitutionLaw law, double coefficient) {
   problem.law = law;
   problem.coefficient = coefficient;
   return Solve(problem);
@@ -100,8 +99,8 @@ PathPoint BeforeCompressionEnds(const spatial::Problem& problem, const spatial::
     spatial::Problem other = problem;
     other.w33 = 2.0 * (problem.w33 + problem.mu * Hypot(problem.w13, problem.w23));
     other.v0 = -0.5 * problem.w33 * tau;
-    const double tau_compression = SolveBy(other, Law::kPoisson, 0.0).tau_compression;
-    const spatial::Impact end = SolveBy(other, Law::kPoisson, (tau - tau_compression) / tau_compression);
+    const double tau_compression = SolveBy(other, RestitutionLaw::kPoisson, 0.0).tau_compression;
+    const spatial::Impact end = SolveBy(other, RestitutionLaw::kPoisson, (tau - tau_compression) / tau_compression);
     const double v_shift = problem.v0 - other.v0;
     const double slope_shift = other.w33 - problem.w33;
     point.f = end.f1;
@@ -119,12 +118,12 @@ PathPoint BeforeCompressionEnds(const spatial::Problem& problem, const spatial::
 
 template <typename Problem>
 PathPoint PointAt(const Problem& problem, double tau) {
-  const auto compression = SolveBy(problem, Law::kPoisson, 0.0);
+  const auto compression = SolveBy(problem, RestitutionLaw::kPoisson, 0.0);
   if (compression.regime == Regime::kSeparating) return EndOf(problem, compression);
   const double rest = tau - compression.tau_compression;
   if (rest < 0.0) return BeforeCompressionEnds(problem, compression, tau);
   if (compression.regime == Regime::kLocked) return EndOf(problem, compression);
-  return EndOf(problem, SolveBy(problem, Law::kPoisson, rest / compression.tau_compression));
+  return EndOf(problem, SolveBy(problem, RestitutionLaw::kPoisson, rest / compression.tau_compression));
 }
 
 }  // namespace
@@ -133,10 +132,10 @@ PathPoint PathAt(const planar::Problem& problem, double tau) { return PointAt(pr
 PathPoint PathAt(const spatial::Problem& problem, double tau) { return PointAt(problem, tau); }
 
 PathPoint PathWhereNormalIs(const planar::Problem& problem, double normal_m_s) {
-  return EndOf(problem, SolveBy(problem, Law::kNewton, -normal_m_s / problem.v0));
+  return EndOf(problem, SolveBy(problem, RestitutionLaw::kNewton, -normal_m_s / problem.v0));
 }
 PathPoint PathWhereNormalIs(const spatial::Problem& problem, double normal_m_s) {
-  return EndOf(problem, SolveBy(problem, Law::kNewton, -normal_m_s / problem.v0));
+  return EndOf(problem, SolveBy(problem, RestitutionLaw::kNewton, -normal_m_s / problem.v0));
 }
 
 }  // namespace ricochet::audit

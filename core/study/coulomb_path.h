@@ -1,6 +1,6 @@
 // Coulomb path: where the contact is once the normal impulse has reached tau, whatever ends the impact.
 //
-// Friction alone decides the path; a law of restitution only says where on it the impact ends (core/models/planar.h,
+// Friction alone decides the path; a law of restitution only says where on it the impact ends (core/models/planar/planar.h,
 // spatial.h). Poisson's law ends it at tau1 = (1 + k) tau_c, so k = tau/tau_c - 1 runs it to any tau >= tau_c. Before
 // tau_c the planar path is straight between two events. The spatial one need not be, but slip depends on Wtt, wtn and
 // u0 only: a contact with Wnn* = 2 (Wnn + mu |wtn|), for which dv*/dtau >= Wnn in slip and in stick, and with
@@ -13,9 +13,9 @@
 
 #include <array>
 
-#include "core/models/planar.h"
-#include "core/models/spatial.h"
-#include "core/outcome.h"
+#include "core/models/planar/planar.h"
+#include "core/models/spatial/spatial.h"
+#include "ricochet/outcome.h"
 
 namespace ricochet::audit {
 

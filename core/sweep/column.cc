@@ -2,9 +2,9 @@
 
 #include <variant>
 
-#include "core/models/pendulum_outcome.h"
-#include "core/outcome_numbers.h"
-#include "core/scene/reduction.h"
+#include "core/answer/pendulum_outcome.h"
+#include "core/contact/reduction.h"
+#include "ricochet/outcome_numbers.h"
 
 namespace ricochet {
 namespace {

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "core/models/pendulum.h"
-#include "core/outcome.h"
-#include "core/scene/scene.h"
+#include "core/models/pendulum/pendulum.h"
+#include "ricochet/outcome.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 

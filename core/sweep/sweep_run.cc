@@ -13,14 +13,17 @@
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "core/models/first_order.h"
-#include "core/models/pendulum.h"
-#include "core/models/scene_outcome.h"
+#include "core/answer/scene_outcome.h"
+#include "core/contact/reduction.h"
+#include "core/models/pendulum/first_order.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/plan/demand_fields.h"
 #include "core/plan/planned_scene.h"
-#include "core/scene/reduction.h"
+#include "core/problem/scene_problem.h"
+#include "core/scene/field.h"
 #include "core/scene/validate.h"
 #include "core/sweep/column.h"
-#include "core/sweep/field.h"
+#include "core/sweep/grid.h"
 
 namespace ricochet {
 namespace {

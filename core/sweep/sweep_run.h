@@ -19,7 +19,7 @@
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
-#include "core/sweep/sweep.h"
+#include "ricochet/sweep.h"
 
 namespace ricochet {
 

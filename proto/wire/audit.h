@@ -3,7 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_AUDIT_H_
 #define RICOCHET_PROTO_WIRE_AUDIT_H_
 
-#include "core/solver.h"
+#include "ricochet/solver.h"
 #include "ricochet/v1/impact_service.pb.h"
 
 namespace ricochet {

@@ -3,7 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_BOUNDS_H_
 #define RICOCHET_PROTO_WIRE_BOUNDS_H_
 
-#include "core/bounds.h"
+#include "ricochet/bounds.h"
 #include "ricochet/v1/bounds.pb.h"
 
 namespace ricochet {

@@ -3,7 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_CERTIFICATE_H_
 #define RICOCHET_PROTO_WIRE_CERTIFICATE_H_
 
-#include "core/certificate.h"
+#include "ricochet/certificate.h"
 #include "ricochet/v1/outcome.pb.h"
 
 namespace ricochet {

@@ -3,7 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_ENGINE_H_
 #define RICOCHET_PROTO_WIRE_ENGINE_H_
 
-#include "core/engine.h"
+#include "core/engine/engine.h"
 #include "ricochet/v1/engine.pb.h"
 
 namespace ricochet {

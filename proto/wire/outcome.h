@@ -3,7 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_OUTCOME_H_
 #define RICOCHET_PROTO_WIRE_OUTCOME_H_
 
-#include "core/outcome.h"
+#include "ricochet/outcome.h"
 #include "ricochet/v1/outcome.pb.h"
 
 namespace ricochet {

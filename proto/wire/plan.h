@@ -4,7 +4,7 @@
 #define RICOCHET_PROTO_WIRE_PLAN_H_
 
 #include "core/plan/demand_fields.h"
-#include "core/plan/plan.h"
+#include "ricochet/plan.h"
 #include "ricochet/v1/plan.pb.h"
 
 namespace ricochet {

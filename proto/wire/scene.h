@@ -3,7 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_SCENE_H_
 #define RICOCHET_PROTO_WIRE_SCENE_H_
 
-#include "core/scene/scene.h"
+#include "ricochet/scene.h"
 #include "ricochet/v1/scene.pb.h"
 
 namespace ricochet {

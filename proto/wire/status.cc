@@ -13,9 +13,9 @@
 #include "absl/strings/cord.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
-#include "core/error.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "ricochet/error.h"
 #include "ricochet/v1/error_reason.pb.h"
 
 namespace ricochet {

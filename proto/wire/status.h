@@ -1,6 +1,6 @@
 // absl::Status <-> grpc::Status: the one place where errors are mapped.
 //
-// Code and message are kept. Reason, violations and retry delay (core/error.h) travel as google.rpc.ErrorInfo
+// Code and message are kept. Reason, violations and retry delay (ricochet/error.h) travel as google.rpc.ErrorInfo
 // {reason, domain "ricochet"}, BadRequest and RetryInfo in grpc-status-details-bin; a status without any of them
 // travels without details.
 //

@@ -3,7 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_SWEEP_H_
 #define RICOCHET_PROTO_WIRE_SWEEP_H_
 
-#include "core/sweep/sweep.h"
+#include "ricochet/sweep.h"
 #include "ricochet/v1/sweep.pb.h"
 
 namespace ricochet {

@@ -10,11 +10,13 @@
 
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
-#include "core/local_solver.h"
-#include "core/models/pendulum.h"
-#include "core/models/planar.h"
+#include "core/engine/engine.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
 #include "core/numerics/ulp.h"
 #include "core/sweep/sweep_run.h"
+#include "ricochet/solver.h"
 #include "tests/benchmark/measure.h"
 #include "tests/support/known_contacts.h"
 #include "tests/support/planar_scenes.h"
@@ -23,7 +25,6 @@ namespace ricochet::bench {
 namespace {
 
 using pendulum::Impact;
-using pendulum::Law;
 using pendulum::Output;
 using pendulum::Problem;
 
@@ -79,7 +80,7 @@ std::vector<Problem> TypicalProblems(size_t count) {
          .omega_minus = -uniform(0.1, 10.0),
          .mu = uniform(0.0, 0.2),
          .mu_static = 0.0,
-         .law = Law::kEnergetic,
+         .law = RestitutionLaw::kEnergetic,
          .coefficient = uniform(0.0, 1.0)};
     p.mu_static = p.mu;
   }

@@ -12,9 +12,10 @@
 
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
-#include "core/local_solver.h"
+#include "core/engine/engine.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
+#include "ricochet/solver.h"
 #include "server/admission.h"
 #include "server/impact_service.h"
 #include "server/log.h"

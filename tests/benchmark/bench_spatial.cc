@@ -7,8 +7,8 @@
 
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
-#include "core/models/planar.h"
-#include "core/models/spatial.h"
+#include "core/models/planar/planar.h"
+#include "core/models/spatial/spatial.h"
 #include "tests/benchmark/measure.h"
 #include "tests/support/known_contacts.h"
 #include "tests/support/spatial_scenes.h"

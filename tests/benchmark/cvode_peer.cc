@@ -13,7 +13,6 @@
 namespace ricochet::bench {
 namespace {
 
-using spatial::Law;
 using spatial::Problem;
 
 // A call that fails only where this program is wrong.
@@ -32,7 +31,7 @@ using State = std::array<double, 4>;
 struct Impact {
   double w11, w12, w13, w22, w23;
   double mu;
-  Law law;
+  RestitutionLaw law;
   double coefficient;
   double stop_slip;
 
@@ -40,8 +39,8 @@ struct Impact {
   double target = 0.0;  // v, tau or work at which the phase ends.
 
   double Value(double tau, const State& y) const {
-    if (!restitution || law == Law::kNewton) return y[2];
-    return law == Law::kPoisson ? tau : y[3];
+    if (!restitution || law == RestitutionLaw::kNewton) return y[2];
+    return law == RestitutionLaw::kPoisson ? tau : y[3];
   }
 
   State Rate(const State& y, double f1, double f2) const {
@@ -51,9 +50,9 @@ struct Impact {
   // False if there is no restitution.
   bool BeginRestitution(double tau, const State& y, double v0) {
     restitution = true;
-    target = law == Law::kNewton    ? -coefficient * v0
-             : law == Law::kPoisson ? (1.0 + coefficient) * tau
-                                    : y[3] * (1.0 - coefficient * coefficient);
+    target = law == RestitutionLaw::kNewton    ? -coefficient * v0
+             : law == RestitutionLaw::kPoisson ? (1.0 + coefficient) * tau
+                                               : y[3] * (1.0 - coefficient * coefficient);
     return coefficient > 0.0;
   }
 };
@@ -104,8 +103,8 @@ State RateFromRest(const Impact& impact) {
 // tau from here to the end of the phase on a straight path with slope `slope` of v.
 double StraightLength(const Impact& impact, double tau, const State& y, double slope) {
   const double missing = impact.target - impact.Value(tau, y);
-  if (impact.restitution && impact.law == Law::kPoisson) return missing;
-  if (impact.restitution && impact.law == Law::kEnergetic) {
+  if (impact.restitution && impact.law == RestitutionLaw::kPoisson) return missing;
+  if (impact.restitution && impact.law == RestitutionLaw::kEnergetic) {
     return 2.0 * missing / (y[2] + std::sqrt(y[2] * y[2] + 2.0 * slope * missing));
   }
   return missing / slope;

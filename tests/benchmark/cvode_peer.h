@@ -14,7 +14,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "core/models/spatial.h"
+#include "core/models/spatial/spatial.h"
 
 namespace ricochet::bench {
 

@@ -11,14 +11,15 @@
 #include <vector>
 
 #include "absl/synchronization/mutex.h"
-#include "core/models/compliant_outcome.h"
-#include "core/models/finite_duration_outcome.h"
-#include "core/models/first_order_outcome.h"
-#include "core/models/planar_outcome.h"
-#include "core/models/scene_outcome.h"
-#include "core/models/sliding_outcome.h"
-#include "core/models/spatial_outcome.h"
+#include "core/answer/compliant_outcome.h"
+#include "core/answer/finite_duration_outcome.h"
+#include "core/answer/first_order_outcome.h"
+#include "core/answer/planar_outcome.h"
+#include "core/answer/scene_outcome.h"
+#include "core/answer/sliding_outcome.h"
+#include "core/answer/spatial_outcome.h"
 #include "core/plan/planned_scene.h"
+#include "core/problem/scene_problem.h"
 #include "core/scene/validate.h"
 #include "tests/benchmark/measure.h"
 

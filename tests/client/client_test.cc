@@ -1,6 +1,6 @@
 // The client's own rules: its options, its retries, a network that fails, chunks that do not fit.
 
-#include "client/client.h"
+#include "ricochet/client.h"
 
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "client/health.h"
 #include "client/sweep_reader.h"
+#include "ricochet/health.h"
 #include "tests/support/server_process.h"
 
 namespace ricochet {

@@ -2,7 +2,7 @@
 
 #include <iostream>
 
-#include "core/local_solver.h"
+#include "ricochet/solver.h"
 
 int main() {
   ricochet::Scene scene;

@@ -3,8 +3,8 @@
 #include <iostream>
 #include <memory>
 
-#include "client/client.h"
-#include "core/local_solver.h"
+#include "ricochet/client.h"
+#include "ricochet/solver.h"
 
 namespace {
 

@@ -1,4 +1,4 @@
-// What every Solver promises (core/solver.h), asked of each.
+// What every Solver promises (ricochet/solver.h), asked of each.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "core/engine/engine.h"
+#include "core/sweep/grid.h"
 #include "tests/contract/solvers.h"
 #include "tests/support/system_scenes.h"
 

@@ -4,8 +4,8 @@
 
 #include <utility>
 
-#include "client/client.h"
-#include "core/local_solver.h"
+#include "ricochet/client.h"
+#include "ricochet/solver.h"
 #include "tests/support/server_process.h"
 
 namespace ricochet {
@@ -27,13 +27,13 @@ Scene MakeScene(const pendulum::Problem& problem) {
   scene.friction.kinetic_coefficient = problem.mu;
   if (problem.mu_static != problem.mu) scene.friction.static_coefficient = problem.mu_static;
   switch (problem.law) {
-    case pendulum::Law::kNewton:
+    case RestitutionLaw::kNewton:
       scene.restitution = NewtonCoefficient{problem.coefficient};
       break;
-    case pendulum::Law::kPoisson:
+    case RestitutionLaw::kPoisson:
       scene.restitution = PoissonCoefficient{problem.coefficient};
       break;
-    case pendulum::Law::kEnergetic:
+    case RestitutionLaw::kEnergetic:
       scene.restitution = EnergeticCoefficient{problem.coefficient};
       break;
   }

@@ -5,8 +5,8 @@
 
 #include <vector>
 
-#include "core/models/pendulum.h"
-#include "core/solver.h"
+#include "core/models/pendulum/pendulum.h"
+#include "ricochet/solver.h"
 
 namespace ricochet {
 
@@ -14,7 +14,7 @@ const Solver& Local();
 // Of a ricochetd that was started for this process.
 const Solver& Remote();
 
-// The scene whose problem (core/models/pendulum.h) this is.
+// The scene whose problem (core/models/pendulum/pendulum.h) this is.
 Scene MakeScene(const pendulum::Problem& problem);
 
 // mu = 0.1, a/b = 0.3, elastic: x = 1/3, r = 1/2. Lubarda (2009), sec. 4.

@@ -5,10 +5,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
+#include <map>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "tests/support/paths.h"
 
 namespace ricochet {
 namespace {
@@ -25,16 +29,17 @@ struct Room {
 const std::vector<Room>& Rooms() {
   static const std::vector<Room> rooms = {
       {"core",
-       {"core/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/", "hwy/", "Eigen/", "cvode/",
-        "nvector/", "sundials/", "sunnonlinsol/"}},
-      {"core/models/certified",
-       {"core/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/", "flint/"}},
-      {"proto/wire", {"proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
-      {"client", {"client/", "proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
+       {"core/", "ricochet/", "absl/container/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/",
+        "hwy/", "Eigen/", "cvode/", "nvector/", "sundials/", "sunnonlinsol/"}},
+      {"core/include/ricochet", {"ricochet/", "absl/"}},
+      {"core/certified",
+       {"core/", "ricochet/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/", "flint/"}},
+      {"proto/wire", {"proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
+      {"client", {"client/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
       {"client/cli",
-       {"client/", "proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/"}},
+       {"client/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/"}},
       {"server",
-       {"server/", "proto/wire/", "ricochet/v1/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/"}},
+       {"server/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/"}},
   };
   return rooms;
 }
@@ -55,7 +60,7 @@ struct Include {
   std::string header;
 };
 
-fs::path Root() { return fs::path(RICOCHET_TEST_DATA_DIR).parent_path().parent_path(); }
+fs::path Root() { return fs::path(SourceRoot()); }
 
 std::string RelativePath(const fs::path& path) { return fs::relative(path, Root()).generic_string(); }
 
@@ -101,6 +106,90 @@ const Room& RoomOf(const std::string& file) {
     if (inside && (innermost == nullptr || room.folder.size() > innermost->folder.size())) innermost = &room;
   }
   return *innermost;
+}
+
+// The core's rooms from the ground up. Rooms on one floor do not see each other.
+const std::vector<std::vector<std::string>>& Floors() {
+  static const std::vector<std::vector<std::string>> floors = {
+      {"core/numerics"},
+      {"core/include/ricochet"},
+      {"core/vocabulary"},  // The functions that the public headers declare.
+      {"core/contact"},
+      {"core/scene"},
+      {"core/models"},
+      {"core/models/pendulum", "core/models/planar", "core/models/sliding", "core/models/spatial",
+       "core/models/compliant", "core/models/finite_duration", "core/models/laws"},
+      {"core/problem"},
+      {"core/bounds", "core/certified"},
+      {"core/plan"},
+      {"core/answer"},
+      {"core/study", "core/sweep"},
+      {"core/engine"},
+  };
+  return floors;
+}
+
+// -1 for a folder that no floor lists.
+int FloorOf(const std::string& folder) {
+  for (size_t i = 0; i < Floors().size(); ++i) {
+    if (std::find(Floors()[i].begin(), Floors()[i].end(), folder) != Floors()[i].end()) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+std::string FolderOf(const std::string& file) { return file.substr(0, file.rfind('/')); }
+
+// The file behind one of our own headers, as a source of the core includes it.
+std::string FileOf(const std::string& header) {
+  return header.rfind("ricochet/", 0) == 0 ? "core/include/" + header : header;
+}
+
+bool IsOfTheCore(const std::string& header) { return StartsWithAny(header, {"core/", "ricochet/"}); }
+
+TEST(FloorsTest, AnIncludeInTheCoreStaysInItsRoomOrGoesToALowerFloor) {
+  for (const Include& include : IncludesOf("core")) {
+    const std::string from = FolderOf(include.file);
+    ASSERT_GE(FloorOf(from), 0) << include.file << " lies in a folder that is on no floor";
+    if (!IsOfTheCore(include.header)) continue;
+    const std::string to = FolderOf(FileOf(include.header));
+    EXPECT_TRUE(from == to || FloorOf(to) < FloorOf(from))
+        << include.file << " includes " << include.header << ", which lies on floor " << FloorOf(to)
+        << ", not below its own, " << FloorOf(from);
+  }
+}
+
+// Floors imply it; this one would also see a circle among rooms that somebody put on one floor.
+TEST(FloorsTest, NoTwoFoldersOfTheCoreReachEachOther) {
+  std::map<std::string, std::set<std::string>> reach;
+  for (const Include& include : IncludesOf("core")) {
+    const std::string from = FolderOf(include.file);
+    if (IsOfTheCore(include.header)) reach[from].insert(FolderOf(FileOf(include.header)));
+  }
+  for (size_t i = 0; i < reach.size(); ++i) {
+    for (auto& [from, all] : reach) {
+      for (const std::string& to : std::set<std::string>(all)) all.insert(reach[to].begin(), reach[to].end());
+    }
+  }
+  int circles = 0;
+  for (const auto& [from, all] : reach) {
+    for (const std::string& to : all) {
+      if (from >= to || !reach[to].contains(from)) continue;
+      ++circles;
+      ADD_FAILURE() << from << " and " << to << " reach each other";
+    }
+  }
+  std::cout << "folder circles in the core: " << circles << "\n";
+}
+
+// What is installed must not need what is not.
+TEST(FloorsTest, PublicHeadersIncludePublicHeadersAlone) {
+  for (const std::string folder : {"core/include", "client/include"}) {
+    for (const Include& include : IncludesOf(folder)) {
+      EXPECT_TRUE(IsSystemHeader(include.header) || StartsWithAny(include.header, {"ricochet/", "absl/"}))
+          << include.file << " includes " << include.header;
+      EXPECT_FALSE(StartsWithAny(include.header, {"ricochet/v1/"})) << include.file << " includes " << include.header;
+    }
+  }
 }
 
 TEST(RoomsTest, NoRoomIncludesWhatItsDoorsDoNotAllow) {
@@ -154,15 +243,15 @@ TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
       {"spdlog/", {"server/", "client/cli/"}},
       {"CLI/", {"server/", "client/cli/"}},
       {"hwy/", {"core/models/", "core/numerics/"}},
-      {"Eigen/", {"core/scene/"}},
-      {"cvode/", {"core/models/finite_duration_integrator."}},
-      {"nvector/", {"core/models/finite_duration_integrator."}},
-      {"sundials/", {"core/models/finite_duration_integrator."}},
-      {"sunnonlinsol/", {"core/models/finite_duration_integrator."}},
+      {"Eigen/", {"core/contact/"}},
+      {"cvode/", {"core/models/finite_duration/integrator."}},
+      {"nvector/", {"core/models/finite_duration/integrator."}},
+      {"sundials/", {"core/models/finite_duration/integrator."}},
+      {"sunnonlinsol/", {"core/models/finite_duration/integrator."}},
       {"sleef.h", {"core/numerics/elementary.cc"}},
-      {"flint/", {"core/models/certified/"}},
-      {"arb", {"core/models/certified/"}},
-      {"arf", {"core/models/certified/"}},
+      {"flint/", {"core/certified/"}},
+      {"arb", {"core/certified/"}},
+      {"arf", {"core/certified/"}},
       {"grpcpp/", {"proto/wire/", "server/", "client/"}},
       {"ricochet/v1/", {"proto/wire/", "server/", "client/"}},
   };

@@ -4,7 +4,7 @@
 // Checked: tests/fuzz/outcome_claims.h; the history has its length; of what converges, the duration and the peaks are
 // not negative.
 //
-// Covers: core/models/finite_duration*.cc, core/scene/finite_forces.cc.
+// Covers: core/models/finite_duration*.cc, core/contact/finite_forces.cc.
 
 #include <cmath>
 #include <cstddef>
@@ -12,8 +12,8 @@
 #include <memory>
 
 #include "absl/status/statusor.h"
-#include "core/local_solver.h"
 #include "proto/wire/requests.h"
+#include "ricochet/solver.h"
 #include "tests/fuzz/fail.h"
 #include "tests/fuzz/mutate_message.h"
 #include "tests/fuzz/outcome_claims.h"

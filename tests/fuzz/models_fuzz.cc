@@ -7,7 +7,7 @@
 // pendulum's to 2^-45.
 //
 // Covers: core/scene/*.cc but interval_reduction.cc; core/models/*.cc but finite_duration*.cc and scene_enclosure.cc;
-// core/local_solver.cc; core/study/audit*.cc but audit_columns.cc.
+// core/engine/local_solver.cc; core/study/audit*.cc but audit_columns.cc.
 
 #include <algorithm>
 #include <cmath>
@@ -18,10 +18,10 @@
 #include <variant>
 
 #include "absl/status/statusor.h"
-#include "core/local_solver.h"
-#include "core/models/certified/certified.h"
+#include "core/certified/certified.h"
 #include "core/scene/validate.h"
 #include "proto/wire/requests.h"
+#include "ricochet/solver.h"
 #include "tests/fuzz/fail.h"
 #include "tests/fuzz/mutate_message.h"
 #include "tests/fuzz/outcome_claims.h"
@@ -161,10 +161,10 @@ void CheckCertificates(SolveRequest request, const absl::StatusOr<SolveResponse>
   const absl::StatusOr<SolveResponse> certified = LocalSolver().Solve(request);
   CheckStatus(certified.status(), true, request.inadmissible_is_error);
   if (!certified.ok()) return CheckNumbers(CertifySolve(scene, kDigits));
-  CheckNumbers(*certified->certificate);
+  CheckNumbers(*certified->outcome.certificate);
   const bool left_out = !request.demand.excluded.empty() || !request.demand.required.empty();
   if (!response.ok() || left_out || response->outcome.plan.model != Model::kPendulum) return;
-  for (const CertifiedNumber& number : certified->certificate->numbers) {
+  for (const CertifiedNumber& number : certified->outcome.certificate->numbers) {
     if (number.path != "coefficients.newton" || !std::isfinite(number.value)) continue;
     const double computed = response->outcome.coefficients.newton;
     if (std::fabs(computed - number.value) > kRounding * number.value + 0x1p-1060) Fail("another Newton's coefficient");

@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/error.h"
-#include "core/local_solver.h"
-#include "core/outcome_numbers.h"
-#include "core/scene/reduction.h"
+#include "core/contact/reduction.h"
 #include "core/scene/validate.h"
+#include "ricochet/error.h"
+#include "ricochet/outcome_numbers.h"
+#include "ricochet/solver.h"
 #include "tests/fuzz/fail.h"
 
 namespace ricochet {

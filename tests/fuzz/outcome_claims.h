@@ -21,7 +21,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "core/solver.h"
+#include "ricochet/solver.h"
 
 namespace ricochet {
 

@@ -4,8 +4,8 @@
 // 2^-30 of 1 and of their size for what the bounds of that scene are rounded by, a separating one's impulse alone; what
 // is attained lies in the outer ranges too.
 //
-// Covers: core/models/scene_enclosure.cc, core/scene/interval_reduction.cc, core/laws/enclosure.cc,
-// core/laws/one_regime_ends.cc, core/laws/pendulum_ends.cc, core/laws/planar_ends.cc.
+// Covers: core/answer/scene_enclosure.cc, core/contact/interval_reduction.cc, core/bounds/enclosure.cc,
+// core/bounds/one_regime_ends.cc, core/bounds/pendulum_ends.cc, core/bounds/planar_ends.cc.
 
 #include <algorithm>
 #include <cmath>
@@ -16,12 +16,12 @@
 
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
-#include "core/error.h"
-#include "core/local_solver.h"
-#include "core/models/scene_enclosure.h"
+#include "core/answer/scene_enclosure.h"
+#include "core/engine/local_solver.h"
+#include "core/scene/field.h"
 #include "core/scene/validate.h"
-#include "core/sweep/field.h"
 #include "proto/wire/requests.h"
+#include "ricochet/error.h"
 #include "tests/fuzz/fail.h"
 #include "tests/fuzz/mutate_message.h"
 #include "tests/fuzz/outcome_claims.h"

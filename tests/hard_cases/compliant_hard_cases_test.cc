@@ -9,10 +9,10 @@
 #include <limits>
 #include <vector>
 
-#include "core/models/compliant.h"
-#include "core/models/compliant_outcome.h"
-#include "core/outcome.h"
-#include "core/scene/reduction.h"
+#include "core/answer/compliant_outcome.h"
+#include "core/contact/reduction.h"
+#include "core/models/compliant/compliant.h"
+#include "ricochet/outcome.h"
 #include "tests/hard_cases/hard_case_table.h"
 #include "tests/hard_cases/naive_compliant.h"
 #include "tests/support/compliant_oracle.h"
@@ -43,7 +43,7 @@ double NaiveError(const Problem& problem, const ExactImpact& exact) {
   return naive.regime == exact.regime ? VelocityError(problem, naive.u1, naive.v1, exact) : kOtherRegime;
 }
 
-// That of inputs within 16 eps of those given, core/models/compliant.h.
+// That of inputs within 16 eps of those given, core/models/compliant/compliant.h.
 bool IsRegimeNear(Regime regime, const Problem& problem) {
   for (double Problem::*input : {&Problem::u0, &Problem::mu}) {
     for (const double factor : {1.0, 1.0 - 0x1p-48, 1.0 + 0x1p-48}) {

@@ -13,7 +13,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/scene/reduction.h"
+#include "core/contact/reduction.h"
 #include "tests/hard_cases/hard_case_table.h"
 #include "tests/support/arb.h"
 
@@ -155,7 +155,7 @@ struct HardCase {
   Linkage linkage;
 };
 
-// n ulp times the condition of M with a unit diagonal, core/scene/reduction.h.
+// n ulp times the condition of M with a unit diagonal, core/contact/reduction.h.
 double Promised(const Linkage& linkage) {
   const auto n = static_cast<Eigen::Index>(linkage.links.size());
   const Chain<double> chain = InDoubles(linkage);

@@ -4,7 +4,7 @@
 #ifndef RICOCHET_TESTS_HARD_CASES_NAIVE_COMPLIANT_H_
 #define RICOCHET_TESTS_HARD_CASES_NAIVE_COMPLIANT_H_
 
-#include "core/models/compliant.h"
+#include "core/models/compliant/compliant.h"
 
 namespace ricochet::compliant {
 

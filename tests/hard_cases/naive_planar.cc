@@ -38,11 +38,11 @@ class Path {
   double UntilEnd(double rise) const {
     if (!restoring_) return rise > 0.0 ? -v_ / rise : kNever;
     switch (p_.law) {
-      case Law::kNewton:
+      case RestitutionLaw::kNewton:
         return (-p_.coefficient * p_.v0 - v_) / rise;
-      case Law::kPoisson:
+      case RestitutionLaw::kPoisson:
         return (1.0 + p_.coefficient) * impact_.tau_compression - tau_;
-      case Law::kEnergetic: {
+      case RestitutionLaw::kEnergetic: {
         const double missing = -p_.coefficient * p_.coefficient * impact_.work_normal_compression - work_n_;
         return (std::sqrt(v_ * v_ + 2.0 * rise * missing) - v_) / rise;
       }

@@ -3,7 +3,7 @@
 #ifndef RICOCHET_TESTS_HARD_CASES_NAIVE_PLANAR_H_
 #define RICOCHET_TESTS_HARD_CASES_NAIVE_PLANAR_H_
 
-#include "core/models/planar.h"
+#include "core/models/planar/planar.h"
 
 namespace ricochet::planar {
 

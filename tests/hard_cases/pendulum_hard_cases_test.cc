@@ -9,15 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "core/models/pendulum.h"
-#include "core/models/pendulum_bounds.h"
+#include "core/bounds/pendulum_bounds.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/restitution_law.h"
 #include "tests/hard_cases/hard_case_table.h"
 #include "tests/support/pendulum_oracle.h"
 
 namespace ricochet::pendulum {
 namespace {
 
-constexpr double kPromisedUlps = 1.0;  // core/models/pendulum.h, core/models/pendulum_bounds.h
+constexpr double kPromisedUlps = 1.0;  // core/models/pendulum/pendulum.h, core/bounds/pendulum_bounds.h
 constexpr double kLeast = std::numeric_limits<double>::denorm_min();
 
 struct HardCase {
@@ -36,9 +37,9 @@ Impact NaiveSolve(const Problem& p) {
   impact.regime = locks ? Regime::kLocked : q == 0.0 ? Regime::kFrictionless : Regime::kRebound;
   const double c = locks ? 0.0 : p.coefficient;
   double newton = c, poisson = c, eta = c;
-  if (p.law == Law::kNewton && !locks) poisson = c / r, eta = std::sqrt(newton * poisson);
-  if (p.law == Law::kPoisson && !locks) newton = c * r, eta = std::sqrt(newton * poisson);
-  if (p.law == Law::kEnergetic && !locks) newton = c * std::sqrt(r), poisson = c * std::sqrt(1.0 / r);
+  if (p.law == RestitutionLaw::kNewton && !locks) poisson = c / r, eta = std::sqrt(newton * poisson);
+  if (p.law == RestitutionLaw::kPoisson && !locks) newton = c * r, eta = std::sqrt(newton * poisson);
+  if (p.law == RestitutionLaw::kEnergetic && !locks) newton = c * std::sqrt(r), poisson = c * std::sqrt(1.0 / r);
   const double tau0 = -p.inertia * p.omega_minus / (p.a + q);
   const double tau1 = (1.0 + poisson) * tau0;
   const double omega = -newton * p.omega_minus;
@@ -82,7 +83,7 @@ HardCaseResult ResultOf(const HardCase& hard) {
   return result;
 }
 
-Problem Tip(double mu, Law law = Law::kEnergetic, double coefficient = 0.8) {
+Problem Tip(double mu, RestitutionLaw law = RestitutionLaw::kEnergetic, double coefficient = 0.8) {
   return {.inertia = 1.2,
           .a = 0.3,
           .b = 0.7,
@@ -93,7 +94,7 @@ Problem Tip(double mu, Law law = Law::kEnergetic, double coefficient = 0.8) {
           .coefficient = coefficient};
 }
 
-constexpr std::array kLaws = {Law::kNewton, Law::kPoisson, Law::kEnergetic};
+constexpr std::array kLaws = {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic};
 
 double Steps(double x, int steps) {
   for (; steps > 0; --steps) x = std::nextafter(x, std::numeric_limits<double>::infinity());
@@ -104,7 +105,7 @@ double Steps(double x, int steps) {
 // a so many ulp from the rounded product mu |b|.
 std::vector<Problem> UlpsFromLocking(int first, int last) {
   std::vector<Problem> problems;
-  for (const Law law : kLaws) {
+  for (const RestitutionLaw law : kLaws) {
     for (int ulps = first; ulps <= last; ++ulps) {
       for (const double mu : {0.37, 0.41, 0.43}) {
         Problem problem = Tip(mu, law);
@@ -118,7 +119,7 @@ std::vector<Problem> UlpsFromLocking(int first, int last) {
 
 std::vector<Problem> FrictionOneUlpFromLocking() {
   std::vector<Problem> problems;
-  for (const Law law : kLaws) {
+  for (const RestitutionLaw law : kLaws) {
     for (const int ulps : {-1, 0, 1}) problems.push_back(Tip(Steps(0.3 / 0.7, ulps), law));
   }
   return problems;
@@ -135,7 +136,7 @@ std::vector<double> FrictionRatios() {
 std::vector<Problem> AllFrictionRatios(double coefficient) {
   std::vector<Problem> problems;
   for (const double x : FrictionRatios()) {
-    for (const Law law : kLaws) problems.push_back(Tip(x * (0.3 / 0.7), law, coefficient));
+    for (const RestitutionLaw law : kLaws) problems.push_back(Tip(x * (0.3 / 0.7), law, coefficient));
   }
   return problems;
 }
@@ -146,9 +147,9 @@ std::vector<Problem> NearCoefficients(double newton, double poisson, double ener
   for (const double side : sides) {
     for (int k = 1; k <= 53; ++k) {
       const double factor = 1.0 + side * std::ldexp(1.0, -k);
-      if (newton > 0.0) problems.push_back(Tip(0.1, Law::kNewton, newton * factor));
-      if (poisson > 0.0) problems.push_back(Tip(0.1, Law::kPoisson, poisson * factor));
-      if (energetic > 0.0) problems.push_back(Tip(0.1, Law::kEnergetic, energetic * factor));
+      if (newton > 0.0) problems.push_back(Tip(0.1, RestitutionLaw::kNewton, newton * factor));
+      if (poisson > 0.0) problems.push_back(Tip(0.1, RestitutionLaw::kPoisson, poisson * factor));
+      if (energetic > 0.0) problems.push_back(Tip(0.1, RestitutionLaw::kEnergetic, energetic * factor));
     }
   }
   return problems;
@@ -156,13 +157,13 @@ std::vector<Problem> NearCoefficients(double newton, double poisson, double ener
 
 std::vector<Problem> Elastic() {
   std::vector<Problem> problems;
-  for (const double mu : {0.0, 0x1p-60, 0.1, 0.25, 0.4}) problems.push_back(Tip(mu, Law::kEnergetic, 1.0));
+  for (const double mu : {0.0, 0x1p-60, 0.1, 0.25, 0.4}) problems.push_back(Tip(mu, RestitutionLaw::kEnergetic, 1.0));
   return problems;
 }
 
 std::vector<Problem> Vertical() {
   std::vector<Problem> problems;
-  for (const Law law : kLaws) {
+  for (const RestitutionLaw law : kLaws) {
     for (const double b : {0.0, -0.0}) {
       problems.push_back(Tip(0.5, law));
       problems.back().b = b;
@@ -268,7 +269,7 @@ HardCaseResult RunOwnDigits() {
                            .promised = kPromisedUlps};
   for (const double ratio : FrictionRatios()) {
     if (ratio < kLeastRatio) continue;
-    for (const Law law : kLaws) {
+    for (const RestitutionLaw law : kLaws) {
       const Problem problem = Tip(ratio * (0.3 / 0.7), law, 1.0);
       const ExactImpact exact = SolveExactly(problem);
       const Impact impact = Solve(problem);

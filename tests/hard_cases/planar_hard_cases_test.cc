@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/models/planar.h"
+#include "core/models/planar/planar.h"
 #include "tests/hard_cases/hard_case_table.h"
 #include "tests/hard_cases/naive_planar.h"
 #include "tests/support/known_contacts.h"
@@ -18,7 +18,7 @@
 namespace ricochet::planar {
 namespace {
 
-constexpr double kPromisedUlps = 1.0;  // core/models/planar.h
+constexpr double kPromisedUlps = 1.0;  // core/models/planar/planar.h
 constexpr int kProblemsPerCase = 300;
 
 struct HardCase {

@@ -10,8 +10,9 @@
 #include <numbers>
 #include <vector>
 
-#include "core/local_solver.h"
-#include "core/models/spatial.h"
+#include "core/models/restitution_law.h"
+#include "core/models/spatial/spatial.h"
+#include "ricochet/solver.h"
 #include "tests/hard_cases/hard_case_table.h"
 #include "tests/support/arb.h"
 #include "tests/support/known_contacts.h"
@@ -101,7 +102,7 @@ class RungeKutta {
 // by going back from there. `mu` = 0.1617 makes the angle between the directions in and out 190 degrees.
 Problem NearMiss(double least, double mu, double sign) {
   Problem problem = TurningContact(0.0, 0.0, mu);
-  problem.law = Law::kPoisson;
+  problem.law = RestitutionLaw::kPoisson;
   problem.coefficient = 0.6;
   problem.tolerance = kTolerance;
   // The direction to the side, where slip neither grows nor falls.
@@ -328,7 +329,7 @@ HardCaseResult RunStickThreshold() {
   SceneSource source(7);
   for (int i = 0; i < 300; ++i) {
     Problem problem = source.Typical();
-    problem.law = Law::kPoisson;
+    problem.law = RestitutionLaw::kPoisson;
     problem.tolerance = kTolerance;
     const double distance = 1e-15 * (static_cast<double>(source.Below(3)) - 1.0);
     problem.mu = problem.mu_static = SceneSource::StickFriction(problem) * (1.0 + distance);
@@ -345,7 +346,7 @@ HardCaseResult RunStickThreshold() {
 
 // Slip along (3, 1), its invariant direction, that goes on to the end; v' = `slow` Wnn. Entries have few bits, so that
 // the direction is exact.
-Problem SlowV(SceneSource& source, double slow, Law law) {
+Problem SlowV(SceneSource& source, double slow, RestitutionLaw law) {
   const auto rounded = [](double x) { return std::ldexp(std::floor(std::ldexp(x, 20)), -20); };
   Problem p = {.w33 = 1.0, .v0 = -1.0, .law = law, .coefficient = source.Uniform(0.1, 1.0), .tolerance = kTolerance};
   p.w11 = p.w22 = source.Uniform(0.5, 2.0);
@@ -383,7 +384,7 @@ HardCaseResult RunSlowV() {
   SceneSource source(8);
   for (int i = 0; i < 3000; ++i) {
     const double slow = std::pow(10.0, -source.Uniform(0.1, 5.0));
-    const Problem p = SlowV(source, slow, static_cast<Law>(i % 3));
+    const Problem p = SlowV(source, slow, static_cast<RestitutionLaw>(i % 3));
     const End exact = StraightEnd(p);
     const Impact impact = Solve(p);
     EXPECT_TRUE(impact.closed_form && impact.regime == Regime::kSliding) << i;
@@ -407,7 +408,7 @@ HardCaseResult RunRankTwo() {
   SceneSource source(9);
   for (int i = 0; i < 300; ++i) {
     Problem problem = source.NearRankTwo();
-    problem.law = Law::kPoisson;
+    problem.law = RestitutionLaw::kPoisson;
     problem.tolerance = kTolerance;
     const Impact impact = Solve(problem);
     const End exact = SlipSeries(problem).Run();

@@ -125,7 +125,7 @@ class EquationMapTest(unittest.TestCase):
     def test_every_file_and_output_it_names_exists(self):
         for path in re.findall(r"`((?:core|tests|models|laws|numerics|scene|sweep)/[\w./-]+\.(?:h|cc|csv))`", CORE_README):
             self.assertTrue((SOURCE / path).exists() or (SOURCE / "core" / path).exists(), path)
-        header = (SOURCE / "core/models/pendulum.h").read_text()
+        header = (SOURCE / "core/models/pendulum/pendulum.h").read_text()
         for output in re.findall(r"`(k[A-Z]\w+)`", CORE_README):
             self.assertRegex(header, rf"\b{output}\b")
 

@@ -18,13 +18,13 @@
 #include <thread>
 #include <vector>
 
-#include "core/engine.h"
-#include "core/error.h"
+#include "core/engine/engine.h"
 #include "core/numerics/ulp.h"
 #include "core/sweep/sweep_run.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/status.h"
+#include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "tests/support/server_process.h"
 

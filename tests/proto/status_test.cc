@@ -16,9 +16,9 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/error.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "ricochet/error.h"
 #include "ricochet/v1/error_reason.pb.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/error.h"
+#include "ricochet/error.h"
 
 namespace ricochet::server {
 namespace {

@@ -11,7 +11,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/engine.h"
+#include "core/engine/engine.h"
 
 namespace ricochet::server {
 namespace {

@@ -16,17 +16,16 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
-#include "core/models/planar.h"
-#include "core/models/spatial.h"
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
+#include "core/models/spatial/spatial.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/spatial_scenes.h"
 
 namespace ricochet {
 namespace {
 
-using pendulum::Law;
-
-constexpr std::array kLaws = {Law::kNewton, Law::kPoisson, Law::kEnergetic};
+constexpr std::array kLaws = {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic};
 
 const char* NameOf(Regime regime) {
   static constexpr std::array<const char*, kRegimeCount> kNames = {"unspecified",
@@ -176,7 +175,7 @@ std::string Complaint(const Problem& problem, const Impact& impact, const Limits
   if (LedgerResidual(impact) > limits.ledger) {
     return absl::StrFormat("the ledger is open by %.2g of its limit", LedgerResidual(impact) / limits.ledger);
   }
-  if (problem.law != Law::kEnergetic) return "";
+  if (problem.law != RestitutionLaw::kEnergetic) return "";
   if (impact.energy_change > limits.energy_gain) return absl::StrFormat("gains %.2g J", impact.energy_change);
   if (impact.sharp_limit_broken || impact.energy_limit_broken) return "flagged as inadmissible";
   return "";
@@ -209,9 +208,9 @@ void Check(const Problem& problem, bool any_exponent, Tally& tally) {
 template <typename Problem>
 void CheckUnderAllLaws(Problem problem, bool any_exponent, Tally& tally) {
   const double given = problem.coefficient;
-  for (const Law law : kLaws) {
+  for (const RestitutionLaw law : kLaws) {
     problem.law = law;
-    problem.coefficient = law == Law::kEnergetic ? std::min(given, 1.0) : given;
+    problem.coefficient = law == RestitutionLaw::kEnergetic ? std::min(given, 1.0) : given;
     Check(problem, any_exponent, tally);
   }
 }

@@ -7,10 +7,11 @@
 
 #include <string>
 
-#include "core/certificate.h"
-#include "core/models/pendulum.h"
-#include "core/models/planar.h"
-#include "core/scene/scene.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
+#include "ricochet/certificate.h"
+#include "ricochet/scene.h"
 #include "tests/support/arb.h"
 
 namespace ricochet {
@@ -46,13 +47,13 @@ inline bool Holds(const CertifiedNumber& set, const std::string& decimal) {
   return above && (set.upper == "inf" || Digits(decimal) <= Digits(set.upper));
 }
 
-inline Restitution RestitutionOf(pendulum::Law law, double coefficient) {
+inline Restitution RestitutionOf(RestitutionLaw law, double coefficient) {
   switch (law) {
-    case pendulum::Law::kNewton:
+    case RestitutionLaw::kNewton:
       return NewtonCoefficient{coefficient};
-    case pendulum::Law::kPoisson:
+    case RestitutionLaw::kPoisson:
       return PoissonCoefficient{coefficient};
-    case pendulum::Law::kEnergetic:
+    case RestitutionLaw::kEnergetic:
       break;
   }
   return EnergeticCoefficient{coefficient};

@@ -16,7 +16,7 @@
 #include <string>
 #include <vector>
 
-#include "core/models/compliant.h"
+#include "core/models/compliant/compliant.h"
 #include "tests/support/arb.h"
 
 namespace ricochet::compliant {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <random>
 
-#include "core/models/compliant.h"
+#include "core/models/compliant/compliant.h"
 #include "tests/support/vectors.h"
 
 namespace ricochet::compliant {

@@ -8,11 +8,11 @@
 #include <cmath>
 #include <cstddef>
 
-#include "core/models/first_order.h"
-#include "core/models/pendulum.h"
-#include "core/models/planar.h"
-#include "core/models/sliding.h"
-#include "core/models/spatial.h"
+#include "core/models/pendulum/first_order.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/sliding/sliding.h"
+#include "core/models/spatial/spatial.h"
 
 namespace ricochet {
 

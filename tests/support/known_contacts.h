@@ -3,14 +3,15 @@
 #ifndef RICOCHET_TESTS_SUPPORT_KNOWN_CONTACTS_H_
 #define RICOCHET_TESTS_SUPPORT_KNOWN_CONTACTS_H_
 
-#include "core/models/pendulum.h"
-#include "core/models/planar.h"
-#include "core/models/spatial.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
+#include "core/models/spatial/spatial.h"
 
 namespace ricochet {
 
 // A uniform rod at 45 degrees that strikes with its end, m = l = 1; mu = 0.7.
-inline planar::Problem FortyFiveDegreeRod(pendulum::Law law = pendulum::Law::kEnergetic, double coefficient = 0.0) {
+inline planar::Problem FortyFiveDegreeRod(RestitutionLaw law = RestitutionLaw::kEnergetic, double coefficient = 0.0) {
   return {.wtt = 2.5,
           .wtn = 1.5,
           .wnn = 2.5,

@@ -1,4 +1,4 @@
-// Where the tests find their data.
+// Where test data lies in the source tree.
 
 #ifndef RICOCHET_TESTS_SUPPORT_PATHS_H_
 #define RICOCHET_TESTS_SUPPORT_PATHS_H_
@@ -7,8 +7,11 @@
 
 namespace ricochet {
 
-// The absolute path of the file `name` in tests/data.
-inline std::string TestDataPath(const std::string& name) { return std::string(RICOCHET_TEST_DATA_DIR) + "/" + name; }
+// The top folder of the source tree.
+std::string SourceRoot();
+
+// A file or folder of tests/data.
+std::string TestDataPath(const std::string& name);
 
 }  // namespace ricochet
 

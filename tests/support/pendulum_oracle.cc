@@ -38,15 +38,15 @@ void DecideLimits(const Problem& problem, ExactImpact& impact) {
   const Geometry g(problem, Ball::kExact);
   const Ball c(problem.coefficient, Ball::kExact);
   switch (problem.law) {
-    case Law::kNewton:
+    case RestitutionLaw::kNewton:
       impact.sharp_limit_broken = c * c * g.sum > g.difference;
       impact.energy_limit_broken = c > Ball(1.0);
       break;
-    case Law::kPoisson:
+    case RestitutionLaw::kPoisson:
       impact.sharp_limit_broken = c * c * g.difference > g.sum;
       impact.energy_limit_broken = c * g.difference > g.sum;
       break;
-    case Law::kEnergetic:
+    case RestitutionLaw::kEnergetic:
       impact.sharp_limit_broken = c > Ball(1.0);
       impact.energy_limit_broken = c * c * g.difference > g.sum;
       break;
@@ -61,11 +61,11 @@ struct Coefficients {
 Coefficients Convert(const Problem& problem, const Ball& r, slong bits) {
   const Ball c(problem.coefficient, bits);
   switch (problem.law) {
-    case Law::kNewton:
+    case RestitutionLaw::kNewton:
       return {c, c / r, Sqrt(c * (c / r))};
-    case Law::kPoisson:
+    case RestitutionLaw::kPoisson:
       return {r * c, c, Sqrt(c * (r * c))};
-    case Law::kEnergetic:
+    case RestitutionLaw::kEnergetic:
       return {Sqrt(r) * c, Sqrt(1.0 / r) * c, c};
   }
   std::abort();
@@ -126,12 +126,12 @@ bool IsGranted(const Problem& problem, Output output) {
   switch (output) {
     case Output::kTangentialCoefficient:
     case Output::kTangentialImpulse:
-      return problem.law != Law::kPoisson;
+      return problem.law != RestitutionLaw::kPoisson;
     case Output::kWorkNormal:
     case Output::kEnergeticExcess:
-      return problem.law != Law::kEnergetic;
+      return problem.law != RestitutionLaw::kEnergetic;
     case Output::kEnergyChange:
-      return problem.law == Law::kPoisson;
+      return problem.law == RestitutionLaw::kPoisson;
     default:
       return false;
   }

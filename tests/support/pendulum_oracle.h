@@ -9,7 +9,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/models/pendulum.h"
+#include "core/models/pendulum/pendulum.h"
 #include "tests/support/arb.h"
 
 namespace ricochet::pendulum {

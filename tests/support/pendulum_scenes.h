@@ -10,7 +10,8 @@
 #include <sstream>
 #include <string>
 
-#include "core/models/pendulum.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/restitution_law.h"
 
 namespace ricochet::pendulum {
 
@@ -52,7 +53,8 @@ class SceneSource {
     Problem problem = {.inertia = any(), .a = any(), .b = Sign() * any(), .omega_minus = -any(), .mu = any()};
     problem.mu_static = problem.mu;
     SetCoefficient(problem, /*any_size=*/false);
-    if (problem.law != Law::kEnergetic && Below(2) == 0) problem.coefficient = std::exp2(Uniform(-41.0, 41.0));
+    if (problem.law != RestitutionLaw::kEnergetic && Below(2) == 0)
+      problem.coefficient = std::exp2(Uniform(-41.0, 41.0));
     if (Below(4) != 0) AimSlope(problem, std::exp2(-Uniform(0.0, 60.0)) * Uniform(0.5, 1.0));
     return problem;
   }
@@ -95,7 +97,9 @@ class SceneSource {
     const double x = problem.mu * std::fabs(problem.b) / problem.a;
     const double root = std::sqrt((1.0 - x) / (1.0 + x));
     problem.law = AnyLaw();
-    problem.coefficient = problem.law == Law::kNewton ? root : problem.law == Law::kPoisson ? 1.0 / root : 1.0;
+    problem.coefficient = problem.law == RestitutionLaw::kNewton    ? root
+                          : problem.law == RestitutionLaw::kPoisson ? 1.0 / root
+                                                                    : 1.0;
     if (Below(3) == 0) problem.coefficient = 1.0;
     if (Below(6) == 0) problem.coefficient = root * root;        // Newton's that makes mu_hat vanish,
     if (Below(6) == 0) problem.coefficient = 1.0 / root / root;  // Poisson's that creates no energy.
@@ -111,7 +115,9 @@ class SceneSource {
     const double x = problem.mu * std::fabs(problem.b) / problem.a;
     const double r = (1.0 - x) / (1.0 + x);
     problem.law = AnyLaw();
-    problem.coefficient = problem.law == Law::kNewton ? r : problem.law == Law::kPoisson ? 1.0 : std::sqrt(r);
+    problem.coefficient = problem.law == RestitutionLaw::kNewton    ? r
+                          : problem.law == RestitutionLaw::kPoisson ? 1.0
+                                                                    : std::sqrt(r);
     problem.coefficient = Steps(problem.coefficient, Near(3));
     Admit(problem);
     return problem;
@@ -129,7 +135,9 @@ class SceneSource {
     const double r = (1.0 - x) / (1.0 + x);
     problem.law = AnyLaw();
     const auto coefficient = [&problem](double newton, double poisson, double energetic) {
-      return problem.law == Law::kNewton ? newton : problem.law == Law::kPoisson ? poisson : energetic;
+      return problem.law == RestitutionLaw::kNewton    ? newton
+             : problem.law == RestitutionLaw::kPoisson ? poisson
+                                                       : energetic;
     };
     switch (change) {
       case SignChange::kLocking:
@@ -170,7 +178,7 @@ class SceneSource {
   double Uniform(double low, double high) { return std::uniform_real_distribution<double>(low, high)(random_); }
   uint64_t Below(uint64_t bound) { return random_() % bound; }
   double Sign() { return Below(2) == 0 ? 1.0 : -1.0; }
-  Law AnyLaw() { return static_cast<Law>(Below(3)); }
+  RestitutionLaw AnyLaw() { return static_cast<RestitutionLaw>(Below(3)); }
 
  private:
   static double Steps(double x, int64_t steps) {
@@ -197,7 +205,7 @@ class SceneSource {
   void SetCoefficient(Problem& problem, bool any_size) {
     problem.law = AnyLaw();
     const uint64_t kind = Below(8);
-    if (problem.law == Law::kEnergetic) {
+    if (problem.law == RestitutionLaw::kEnergetic) {
       problem.coefficient = kind == 0 ? 1.0 : UnitByExponent();
     } else {
       problem.coefficient = kind == 0 && any_size ? Bits() : kind < 2 ? Uniform(0.0, 3.0) : UnitByExponent();
@@ -205,7 +213,7 @@ class SceneSource {
   }
   // Keeps the one rule that depends on the law.
   static void Admit(Problem& problem) {
-    if (problem.law == Law::kEnergetic) problem.coefficient = std::min(problem.coefficient, 1.0);
+    if (problem.law == RestitutionLaw::kEnergetic) problem.coefficient = std::min(problem.coefficient, 1.0);
   }
 
   std::mt19937_64 random_;

@@ -8,9 +8,10 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/models/pendulum.h"
-#include "core/models/planar.h"
-#include "core/models/spatial.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
+#include "core/models/spatial/spatial.h"
 #include "core/plan/sizes.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/spatial_scenes.h"
@@ -92,7 +93,7 @@ class PlanScenes {
  private:
   template <typename Problem>
   void SetRestitution(Problem& problem) {
-    problem.law = static_cast<pendulum::Law>(Below(3));
+    problem.law = static_cast<RestitutionLaw>(Below(3));
     problem.coefficient = planar_.UnitCoefficient();
   }
 

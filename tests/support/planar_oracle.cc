@@ -88,11 +88,11 @@ class Simulation {
   // How much impulse restitution still needs if v goes on with slope `rise`.
   Ball WaitForEnd(const Ball& rise) const {
     switch (problem_.law) {
-      case Law::kNewton:
+      case RestitutionLaw::kNewton:
         return (-coefficient_ * v0_ - v_) / rise;
-      case Law::kPoisson:
+      case RestitutionLaw::kPoisson:
         return (1.0 + coefficient_) * impact_.tau_compression - tau_;
-      case Law::kEnergetic: {
+      case RestitutionLaw::kEnergetic: {
         const Ball missing = -coefficient_ * coefficient_ * impact_.work_normal_compression - normal_work_;
         return (RootOf(v_ * v_ + 2.0 * rise * missing) - v_) / rise;
       }

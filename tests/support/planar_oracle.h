@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "core/models/planar.h"
+#include "core/models/planar/planar.h"
 #include "tests/support/arb.h"
 
 namespace ricochet::planar {

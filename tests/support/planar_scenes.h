@@ -9,7 +9,8 @@
 #include <cstdint>
 #include <random>
 
-#include "core/models/planar.h"
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
 
 namespace ricochet::planar {
 
@@ -137,7 +138,7 @@ class SceneSource {
                        .v0 = -Integer(1, 4),
                        .mu = Integer(0, 8) / 4.0};
     problem.mu_static = problem.mu + (Below(3) == 0 ? Integer(0, 4) / 4.0 : 0.0);
-    problem.law = static_cast<Law>(Below(3));
+    problem.law = static_cast<RestitutionLaw>(Below(3));
     problem.coefficient = Integer(0, 4) / 4.0;
     return Admitted(problem);
   }
@@ -230,7 +231,7 @@ class SceneSource {
       case SignChange::kFrictionImpulse:
         return ApproachNoFrictionImpulse(factor, problem);
       case SignChange::kDeformation:
-        problem.law = Below(2) == 0 ? Law::kNewton : Law::kPoisson;
+        problem.law = Below(2) == 0 ? RestitutionLaw::kNewton : RestitutionLaw::kPoisson;
         problem.coefficient = Elastic(problem) * factor;
         return problem.coefficient > 0.0;
       case SignChange::kEnergy:
@@ -249,7 +250,7 @@ class SceneSource {
 
   // Slip that stopped in compression has one slope of friction from there on.
   static bool ApproachNoFrictionImpulse(double factor, Problem& problem) {
-    problem.law = Law::kPoisson;
+    problem.law = RestitutionLaw::kPoisson;
     problem.coefficient = 1.0;
     const Impact impact = Solve(problem);
     if (impact.f_compression * (impact.f1 - impact.f_compression) >= 0.0) return false;
@@ -259,15 +260,15 @@ class SceneSource {
 
   // The coefficient of the problem's law that returns all the normal work.
   static double Elastic(Problem problem) {
-    const Law law = problem.law;
-    problem.law = Law::kEnergetic;
+    const RestitutionLaw law = problem.law;
+    problem.law = RestitutionLaw::kEnergetic;
     problem.coefficient = 1.0;
     const Impact impact = Solve(problem);
-    return law == Law::kNewton ? impact.newton : impact.poisson;
+    return law == RestitutionLaw::kNewton ? impact.newton : impact.poisson;
   }
 
   bool ApproachNoEnergyLost(double factor, Problem& problem) {
-    problem.law = Below(2) == 0 ? Law::kNewton : Law::kPoisson;
+    problem.law = Below(2) == 0 ? RestitutionLaw::kNewton : RestitutionLaw::kPoisson;
     const auto change = [&problem](double coefficient) {
       problem.coefficient = coefficient;
       return Solve(problem).energy_change;
@@ -294,9 +295,9 @@ class SceneSource {
   }
 
   void SetCoefficient(Problem& problem) {
-    problem.law = static_cast<Law>(Below(3));
+    problem.law = static_cast<RestitutionLaw>(Below(3));
     problem.coefficient = UnitCoefficient();
-    if (problem.law != Law::kEnergetic && Below(8) == 0) problem.coefficient = Uniform(1.0, 3.0);
+    if (problem.law != RestitutionLaw::kEnergetic && Below(8) == 0) problem.coefficient = Uniform(1.0, 3.0);
   }
   void SetRest(Problem& problem) {
     SetCoefficient(problem);

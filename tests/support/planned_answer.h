@@ -5,12 +5,12 @@
 
 #include <gtest/gtest.h>
 
-#include "core/models/compliant.h"
-#include "core/models/first_order.h"
-#include "core/models/pendulum.h"
-#include "core/models/planar.h"
-#include "core/models/sliding.h"
-#include "core/models/spatial.h"
+#include "core/models/compliant/compliant.h"
+#include "core/models/pendulum/first_order.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/sliding/sliding.h"
+#include "core/models/spatial/spatial.h"
 #include "core/plan/choose.h"
 #include "tests/support/impact_change.h"
 

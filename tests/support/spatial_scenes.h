@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <random>
 
-#include "core/models/spatial.h"
+#include "core/models/spatial/spatial.h"
 
 namespace ricochet::spatial {
 
@@ -21,7 +21,7 @@ class SceneSource {
     problem.u0 = {Uniform(-1.0, 1.0), Uniform(-1.0, 1.0)};
     problem.v0 = -Uniform(0.1, 1.5);
     problem.mu = problem.mu_static = Uniform(0.05, 1.2);
-    problem.law = static_cast<Law>(Below(3));
+    problem.law = static_cast<RestitutionLaw>(Below(3));
     problem.coefficient = Uniform(0.0, 1.0);
     return problem;
   }

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "core/scene/scene.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 

@@ -27,9 +27,9 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
-#include "core/models/pendulum_outcome.h"
-#include "core/models/planar_outcome.h"
-#include "core/scene/reduction.h"
+#include "core/answer/pendulum_outcome.h"
+#include "core/answer/planar_outcome.h"
+#include "core/contact/reduction.h"
 #include "tests/support/pendulum_oracle.h"
 #include "tests/support/pendulum_scenes.h"
 #include "tests/support/planar_oracle.h"
@@ -39,7 +39,7 @@
 namespace ricochet {
 namespace {
 
-constexpr double kPromisedUlps = 1.0;  // core/models/pendulum.h, core/models/planar.h
+constexpr double kPromisedUlps = 1.0;  // core/models/pendulum/pendulum.h, core/models/planar/planar.h
 constexpr int64_t kPointsPerBlock = 2000;
 constexpr double kWrong = std::numeric_limits<double>::infinity();
 

@@ -10,6 +10,7 @@
 #include <cstdio>
 #include <string>
 
+#include "core/models/restitution_law.h"
 #include "core/plan/explain.h"
 #include "core/plan/perturbed_path.h"
 #include "tests/support/plan_scenes.h"
@@ -52,7 +53,7 @@ PlanarScene SomePlanarScene(PlanScenes& scenes) {
   do {
     problem = scenes.OfManyScales();
   } while (problem.wtn * problem.wtn > 0.99 * problem.wtt * problem.wnn);
-  problem.law = planar::Law::kEnergetic;
+  problem.law = RestitutionLaw::kEnergetic;
   problem.coefficient = std::min(problem.coefficient, 1.0);
   problem.mu = std::min(problem.mu, 0.9 * problem.wnn / std::fabs(problem.wtn));
   problem.mu_static = problem.mu;
@@ -262,7 +263,7 @@ TEST(ChooseTest, StaticFrictionCanBeExcludedAlone) {
 
 TEST(ChooseTest, OnlyExactModelsServeAnInadmissibleRequestOrPossibleSelfLocking) {
   planar::Problem inadmissible = Slider();
-  inadmissible.law = planar::Law::kNewton;
+  inadmissible.law = RestitutionLaw::kNewton;
   inadmissible.coefficient = 1.1;
   EXPECT_EQ(ChoosePlanar(inadmissible, {}, {.relative_tolerance = 0.1}).model, Model::kPlanar);
   planar::Problem jam = Slider();

@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-#include "core/models/compliant.h"
-#include "core/models/planar.h"
+#include "core/models/compliant/compliant.h"
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
 #include "core/plan/sizes.h"
 #include "tests/support/impact_change.h"
 #include "tests/support/impact_tally.h"
@@ -21,7 +22,7 @@ constexpr int kScenes = 100'000;
 planar::Problem Scene(PlanScenes& scenes) {
   planar::Problem problem = scenes.OfManyScales();
   while (problem.wtn * problem.wtn > 0.99 * problem.wtt * problem.wnn) problem = scenes.OfManyScales();
-  problem.law = planar::Law::kEnergetic;
+  problem.law = RestitutionLaw::kEnergetic;
   problem.mu = std::min(problem.mu, 0.9 * problem.wnn / std::fabs(problem.wtn));
   problem.mu_static = problem.mu;
   return problem;

@@ -4,8 +4,9 @@
 
 #include <cmath>
 
-#include "core/models/finite_duration.h"
-#include "core/models/planar.h"
+#include "core/models/finite_duration/finite_duration.h"
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
 #include "core/plan/contact_time.h"
 #include "core/plan/sizes.h"
 #include "tests/support/impact_change.h"
@@ -27,7 +28,7 @@ Forced Scene(PlanScenes& scenes) {
   Forced scene = {.problem = scenes.OfManyScales()};
   planar::Problem& problem = scene.problem;
   while (problem.wtn * problem.wtn > 0.99 * problem.wtt * problem.wnn) problem = scenes.OfManyScales();
-  problem.law = planar::Law::kEnergetic;
+  problem.law = RestitutionLaw::kEnergetic;
   problem.coefficient = scenes.Uniform(0.1, 1.0);
   problem.mu = std::min(problem.mu, 0.9 * problem.wnn / std::fabs(problem.wtn));
   problem.mu_static = problem.mu;

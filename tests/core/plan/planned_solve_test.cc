@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "core/local_solver.h"
+#include "ricochet/solver.h"
 #include "tests/support/system_scenes.h"
 
 namespace ricochet {

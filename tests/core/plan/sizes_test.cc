@@ -11,8 +11,8 @@
 
 #include <cmath>
 
-#include "core/models/first_order.h"
-#include "core/models/sliding.h"
+#include "core/models/pendulum/first_order.h"
+#include "core/models/sliding/sliding.h"
 #include "tests/support/impact_change.h"
 #include "tests/support/impact_tally.h"
 #include "tests/support/plan_scenes.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "core/contact/reduction.h"
 #include "core/scene/numbers.h"
-#include "core/scene/reduction.h"
 #include "core/scene/validate.h"
 #include "tests/support/system_scenes.h"
 

@@ -1,4 +1,4 @@
-// The door: each rule of core/scene/scene.h, with the field, the value and the rule in the message.
+// The door: each rule of ricochet/scene.h, with the field, the value and the rule in the message.
 
 #include "core/scene/validate.h"
 

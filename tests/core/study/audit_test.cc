@@ -11,14 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "core/models/restitution_law.h"
 #include "core/study/audit_columns.h"
 #include "core/study/coulomb_path.h"
 #include "tests/support/known_contacts.h"
 
 namespace ricochet::audit {
 namespace {
-
-using planar::Law;
 
 constexpr double kUlp = 0x1p-52;
 
@@ -29,14 +28,14 @@ PlanarObservation Seen(const planar::Impact& impact, double uncertainty = 0.0) {
   return {impact.u1, impact.v1, uncertainty};
 }
 
-double CoefficientOf(Law law, const AuditReport& report) {
-  if (law == Law::kNewton) return report.newton;
-  return law == Law::kPoisson ? report.poisson : report.energetic;
+double CoefficientOf(RestitutionLaw law, const AuditReport& report) {
+  if (law == RestitutionLaw::kNewton) return report.newton;
+  return law == RestitutionLaw::kPoisson ? report.poisson : report.energetic;
 }
 
 // Kane and Levinson's double pendulum: two rods of 1 m and 1 kg, hung up at the first one's start, angles from the
 // downward vertical; its tip strikes a horizontal surface. W = J M^-1 J^T.
-planar::Problem DoublePendulum(Law law, double coefficient) {
+planar::Problem DoublePendulum(RestitutionLaw law, double coefficient) {
   const double angle1 = std::numbers::pi / 9.0;
   const double angle2 = std::numbers::pi / 6.0;
   const double m11 = 4.0 / 3.0;
@@ -74,7 +73,7 @@ class RandomContacts {
     problem.v0 = In(-2.0, -0.1);
     problem.mu = In(0.0, 1.5);
     problem.mu_static = problem.mu * (In(0.0, 1.0) < 0.5 ? 1.0 : In(1.0, 1.5));
-    problem.law = static_cast<Law>(std::uniform_int_distribution<int>(0, 2)(engine_));
+    problem.law = static_cast<RestitutionLaw>(std::uniform_int_distribution<int>(0, 2)(engine_));
     problem.coefficient = In(0.05, 1.0);
     return problem;
   }
@@ -93,7 +92,7 @@ class RandomContacts {
     problem.u0 = {In(-2.0, 2.0), In(-2.0, 2.0)};
     problem.v0 = In(-2.0, -0.1);
     problem.mu = problem.mu_static = In(0.05, 1.5);
-    problem.law = static_cast<Law>(std::uniform_int_distribution<int>(0, 2)(engine_));
+    problem.law = static_cast<RestitutionLaw>(std::uniform_int_distribution<int>(0, 2)(engine_));
     problem.coefficient = In(0.05, 1.0);
     problem.tolerance = 1e-11;
     return problem;
@@ -120,7 +119,7 @@ double Conditioning(const planar::Problem& p, const planar::Impact& impact) {
 TEST(AuditTest, WorksTheFortyFiveDegreeRodByHand) {
   // v+ = (0, 1), so p = W^-1 (1, 2) = (-1/8, 7/8), and E+ - E- = p . (v- + v+)/2 = 1/16. The path slips until
   // tau = 4/13, where v = 6/65, and then sticks: it comes to tau = 7/8 at (0, 1) too. tau_c = 20/71.
-  const AuditReport report = Audit(FortyFiveDegreeRod(Law::kEnergetic, 0.0), {.u1 = 0.0, .v1 = 1.0});
+  const AuditReport report = Audit(FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.0), {.u1 = 0.0, .v1 = 1.0});
   EXPECT_EQ(report.regime, Regime::kStickInRestitution);
   EXPECT_EQ(report.w_rank, 2);
   EXPECT_EQ(report.normal_impulse, 7.0 / 8.0);
@@ -205,7 +204,7 @@ TEST(AuditTest, TakesAPerfectReboundAsAdmissible) {
   RandomContacts random;
   for (int i = 0; i < 2000; ++i) {
     planar::Problem problem = random.Planar();
-    problem.law = Law::kEnergetic;
+    problem.law = RestitutionLaw::kEnergetic;
     problem.coefficient = 1.0;
     SCOPED_TRACE(Text(problem));
     ASSERT_TRUE(Audit(problem, Seen(Solve(problem))).admissible);
@@ -213,7 +212,7 @@ TEST(AuditTest, TakesAPerfectReboundAsAdmissible) {
 }
 
 TEST(AuditTest, FindsKanesParadoxInData) {
-  const planar::Problem problem = DoublePendulum(Law::kNewton, 1.0);
+  const planar::Problem problem = DoublePendulum(RestitutionLaw::kNewton, 1.0);
   const AuditReport report = Audit(problem, Seen(Solve(problem)));
   EXPECT_NEAR(report.energy_change / DoublePendulumEnergy(), 5.35, 0.005);
   EXPECT_NEAR(report.newton, 1.0, 4 * kUlp);
@@ -227,7 +226,7 @@ TEST(AuditTest, FindsKanesParadoxInData) {
 
 TEST(AuditTest, FindsNoParadoxWhereTheEnergeticLawRebounds) {
   for (const double coefficient : {0.0, 0.5, 0.7, 1.0}) {
-    const planar::Problem problem = DoublePendulum(Law::kEnergetic, coefficient);
+    const planar::Problem problem = DoublePendulum(RestitutionLaw::kEnergetic, coefficient);
     const AuditReport report = Audit(problem, Seen(Solve(problem)));
     EXPECT_TRUE(report.admissible) << coefficient;
     EXPECT_NEAR(report.energetic, coefficient, 1e-12);
@@ -236,7 +235,7 @@ TEST(AuditTest, FindsNoParadoxWhereTheEnergeticLawRebounds) {
 
 TEST(AuditTest, SeesASpringThatGivesBackMoreThanItStored) {
   // v' = 1.45 in slip and 1.6 in stick, which begins at tau = .8, after compression has ended at 1/1.45.
-  planar::Problem problem = FortyFiveDegreeRod(Law::kPoisson, 1.0);
+  planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kPoisson, 1.0);
   problem.u0 = 0.2;
   const planar::Impact impact = Solve(problem);
   const AuditReport report = Audit(problem, Seen(impact));
@@ -285,7 +284,7 @@ TEST(AuditTest, RunsThePathToAnImpulseWithinCompression) {
 TEST(AuditTest, AllowsEachLimitWhatTheUncertaintyMakesOfIt) {
   // W^-1 = [.625, -.375; -.375, .625]: an error d of both velocities moves p_n by d, and the cone's excess by
   // |.625 + .7 .375| + |.375 + .7 .625| where p_t > 0.
-  const planar::Problem problem = FortyFiveDegreeRod(Law::kEnergetic, 0.0);
+  const planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.0);
   const double uncertainty = 0x1p-10;
   const AuditReport report = Audit(problem, {.u1 = 1.0, .v1 = 0.5, .uncertainty = uncertainty});
   ASSERT_GT(report.tangential_impulse[0], 0.0);
@@ -296,7 +295,7 @@ TEST(AuditTest, AllowsEachLimitWhatTheUncertaintyMakesOfIt) {
 }
 
 TEST(AuditTest, CallsBrokenOnlyWhatNoVelocityWithinTheUncertaintyKeeps) {
-  const planar::Problem problem = FortyFiveDegreeRod(Law::kEnergetic, 1.0);
+  const planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 1.0);
   const planar::Impact impact = Solve(problem);
   const PlanarObservation noisy{impact.u1, impact.v1 + 1e-3, 0.0};
   const AuditReport exact = Audit(problem, noisy);
@@ -312,7 +311,7 @@ TEST(AuditTest, NeverCallsANoisyAdmissibleImpactBroken) {
   RandomContacts random;
   for (int i = 0; i < 5000; ++i) {
     planar::Problem problem = random.Planar();
-    problem.law = Law::kEnergetic;
+    problem.law = RestitutionLaw::kEnergetic;
     const planar::Impact impact = Solve(problem);
     const double uncertainty = random.In(0.0, 0.05);
     const PlanarObservation seen{impact.u1 + random.In(-uncertainty, uncertainty),
@@ -326,7 +325,7 @@ TEST(AuditTest, AuditsContactsFarFromTheScaleOfDoublesToo) {
   // Units of 2^-600 m/s and 2^-1020 kg^-1 for those of the hand-worked rod.
   constexpr double kSpeed = 0x1p-600;
   constexpr double kMobility = 0x1p-1020;
-  planar::Problem problem = FortyFiveDegreeRod(Law::kEnergetic, 0.0);
+  planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.0);
   for (double* w : {&problem.wtt, &problem.wtn, &problem.wnn}) *w *= kMobility;
   problem.u0 *= kSpeed;
   problem.v0 *= kSpeed;
@@ -356,7 +355,7 @@ TEST(AuditTest, AuditsSpatialContactsWhoseImpulsesHaveNoSquare) {
 }
 
 TEST(AuditTest, HoldsAContactThatSticksToTheStaticCone) {
-  planar::Problem problem = FortyFiveDegreeRod(Law::kEnergetic, 0.5);
+  planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.5);
   problem.u0 = 0.0;
   problem.mu = 0.2;
   const planar::Impact impact = Solve(problem);
@@ -365,7 +364,7 @@ TEST(AuditTest, HoldsAContactThatSticksToTheStaticCone) {
 }
 
 TEST(AuditTest, ExplainsASeparatingContactOnlyByNoChange) {
-  planar::Problem problem = FortyFiveDegreeRod(Law::kEnergetic, 0.5);
+  planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.5);
   problem.v0 = 0.25;
   const AuditReport same = Audit(problem, {.u1 = -1.0, .v1 = 0.25});
   EXPECT_EQ(same.regime, Regime::kSeparating);
@@ -380,7 +379,7 @@ TEST(AuditTest, ExplainsASeparatingContactOnlyByNoChange) {
 
 TEST(AuditTest, GivesBackTheCoefficientsOfThePendulum) {
   for (const double b : {-0.4, 0.0, 0.4}) {
-    for (const Law law : {Law::kNewton, Law::kPoisson, Law::kEnergetic}) {
+    for (const RestitutionLaw law : {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
       for (const double coefficient : {0.0, 0.3, 0.6}) {
         const pendulum::Problem problem{.inertia = 0.7,
                                         .a = 1.3,
@@ -566,7 +565,7 @@ TEST(AuditTest, SearchesTheNearestPointOfARankDeficientSpatialPath) {
                                  .v0 = -1.0,
                                  .mu = 0.3,
                                  .mu_static = 0.3,
-                                 .law = Law::kEnergetic,
+                                 .law = RestitutionLaw::kEnergetic,
                                  .coefficient = 0.6};
   const spatial::Impact impact = Solve(problem);
   ASSERT_EQ(impact.w_rank, 2);

@@ -13,8 +13,9 @@
 #include <string>
 #include <vector>
 
-#include "core/local_solver.h"
 #include "core/sweep/column.h"
+#include "core/sweep/grid.h"
+#include "ricochet/solver.h"
 
 namespace ricochet {
 namespace {

@@ -9,12 +9,12 @@
 #include <string>
 #include <vector>
 
-#include "core/local_solver.h"
-#include "core/outcome_numbers.h"
+#include "core/scene/field.h"
 #include "core/scene/validate.h"
 #include "core/sweep/column.h"
-#include "core/sweep/field.h"
 #include "core/sweep/sweep_run.h"
+#include "ricochet/outcome_numbers.h"
+#include "ricochet/solver.h"
 #include "tests/support/system_scenes.h"
 
 namespace ricochet {

@@ -1,0 +1,62 @@
+#include "core/answer/compliant_outcome.h"
+
+#include <cmath>
+#include <vector>
+
+#include "core/scene/numbers.h"
+
+namespace ricochet::compliant {
+
+static_assert(kLeastRatioSquared == kLeastTangentialRatioSquared);
+
+namespace {
+
+Event MakeEvent(EventKind kind, const Section& section, const PlanarReduction& reduction) {
+  return {kind, MakeState(reduction, section)};
+}
+
+// What begins with `section`, after one of the mode `before`.
+void AddEvents(const Section& section, Mode before, double tau_compression, const PlanarReduction& reduction,
+               std::vector<Event>& timeline) {
+  if (section.tau == tau_compression) {
+    timeline.push_back(MakeEvent(EventKind::kCompressionEnds, section, reduction));
+  }
+  if (section.mode == before) return;
+  const EventKind kind = section.mode == Mode::kStick ? EventKind::kStickStarts : EventKind::kSlipStarts;
+  timeline.push_back(MakeEvent(kind, section, reduction));
+}
+
+std::vector<Event> TimelineOf(const Impact& impact, const PlanarReduction& reduction) {
+  std::vector<Event> timeline;
+  if (impact.sections.empty()) return timeline;
+  timeline.push_back(MakeEvent(EventKind::kStart, impact.sections.front(), reduction));
+  for (size_t i = 1; i < impact.sections.size() && timeline.size() + 2 < kMostEvents; ++i) {
+    AddEvents(impact.sections[i], impact.sections[i - 1].mode, impact.tau_compression, reduction, timeline);
+  }
+  const Section end = {.tau = impact.tau1, .f = impact.f1, .u = impact.u1, .v = impact.v1};
+  timeline.push_back(MakeEvent(EventKind::kRestitutionEnds, end, reduction));
+  return timeline;
+}
+
+}  // namespace
+
+absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
+                                    absl::Span<const double> history_at_n_s, Detail detail) {
+  if (auto violations = RefuseHistory(history_at_n_s, "a contact with tangential compliance"); !violations.empty()) {
+    return InvalidRequest(violations);
+  }
+  const Impact impact = Solve(problem);
+  Outcome outcome = MakeEnd(impact, reduction);
+  outcome.work.normal_total_j = impact.work_normal;
+  outcome.work.friction_dissipation_j = impact.friction_dissipation;
+  outcome.work.tangential_spring_j = impact.spring_energy;
+  outcome.accuracy = {.relative_error = impact.error_estimate, .kind = AccuracyKind::kEstimate};
+  // Of a path that overflows not even the regime is known, whatever numbers are wanted.
+  if (detail == Detail::kNumbers && std::isfinite(impact.u1)) return outcome;
+  outcome.timeline = TimelineOf(impact, reduction);
+  const absl::Status finite = CheckFinite(outcome);
+  if (!finite.ok()) return finite;
+  return outcome;
+}
+
+}  // namespace ricochet::compliant

@@ -1,0 +1,113 @@
+#include "core/answer/law_outcome.h"
+
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "core/models/laws/impact_laws.h"
+#include "core/numerics/determinant.h"
+
+namespace ricochet {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// The laws' headers promise a few rounding errors.
+constexpr double kError = 16.0 * kEpsilon;
+
+laws::ImpactLawResult SolveLaw(const ImpactLaw& law, const laws::PlanarImpactInput& input) {
+  struct Solver {
+    const laws::PlanarImpactInput& input;
+    laws::ImpactLawResult operator()(std::monostate) const { return {}; }
+    laws::ImpactLawResult operator()(WhittakerLaw law) const { return laws::SolveWhittaker(input, law.e); }
+    laws::ImpactLawResult operator()(KaneLevinsonLaw law) const { return laws::SolveKaneLevinson(input, law.e); }
+    laws::ImpactLawResult operator()(BrachLaw law) const { return laws::SolveBrach(input, law.e, law.mu_hat); }
+    laws::ImpactLawResult operator()(ChatterjeeRuinaLaw law) const {
+      return laws::SolveChatterjeeRuina(input, law.e, law.e_t);
+    }
+  };
+  return std::visit(Solver{input}, law);
+}
+
+int RankOf(const PlanarReduction& reduction) {
+  const auto& [tt, tn, nn] = reduction.w;
+  if (tt == 0.0 && nn == 0.0) return 0;
+  return RelativeDeterminant(tt, tn, nn) > 4.0 * kEpsilon ? 2 : 1;
+}
+
+Regime RegimeOf(const PlanarReduction& reduction, const laws::ImpactLawResult& result) {
+  if (reduction.v0 >= 0.0) return Regime::kSeparating;
+  return result.solutions.empty() ? Regime::kNoSolution : Regime::kByLaw;
+}
+
+ImpactSolution ToOutcome(const laws::ImpactSolution& solution) {
+  return {.contact_velocity_after = {.tangential_m_s = {solution.u1}, .normal_m_s = solution.v1},
+          .impulse = {.normal_total_n_s = solution.tau1, .tangential_n_s = {solution.f}}};
+}
+
+WorkLedger LedgerOf(const PlanarReduction& reduction, const laws::ImpactSolution& solution) {
+  WorkLedger work;
+  work.normal_total_j = solution.tau1 * (0.5 * (reduction.v0 + solution.v1));
+  work.tangential_total_j = solution.f * (0.5 * (reduction.u0[0] + solution.u1));
+  work.friction_dissipation_j = 0.0 - work.tangential_total_j;
+  work.residual_j = work.normal_total_j + work.tangential_total_j - solution.energy_change;
+  return work;
+}
+
+// Whether energy is gained beyond what rounding can make.
+bool CreatesEnergy(const PlanarReduction& reduction, const laws::ImpactSolution& solution) {
+  const double moved = std::abs(solution.tau1) * (std::abs(reduction.v0) + std::abs(solution.v1)) +
+                       std::abs(solution.f) * (std::abs(reduction.u0[0]) + std::abs(solution.u1));
+  return solution.energy_change > 16.0 * kEpsilon * moved;
+}
+
+std::vector<Event> TimelineOf(const PlanarReduction& reduction, const laws::ImpactSolution& solution) {
+  return {
+      {EventKind::kStart, MakeState<1>(reduction, 0.0, {0.0}, reduction.u0, reduction.v0)},
+      {EventKind::kRestitutionEnds, MakeState<1>(reduction, solution.tau1, {solution.f}, {solution.u1}, solution.v1)}};
+}
+
+}  // namespace
+
+absl::StatusOr<Outcome> MakeLawOutcome(const ImpactLaw& law, double mu, const PlanarReduction& reduction,
+                                       absl::Span<const double> history_at_n_s, Detail detail) {
+  if (const auto violations = RefuseHistory(history_at_n_s, "an impact law, which has no path"); !violations.empty()) {
+    return InvalidRequest(violations);
+  }
+  const laws::ImpactLawResult result = SolveLaw(law, {.wtt = reduction.w[0],
+                                                      .wtn = reduction.w[1],
+                                                      .wnn = reduction.w[2],
+                                                      .u0 = reduction.u0[0],
+                                                      .v0 = reduction.v0,
+                                                      .mu = mu});
+  Outcome outcome;
+  outcome.regime = RegimeOf(reduction, result);
+  laws::ImpactSolution solution = {.u1 = reduction.u0[0], .v1 = reduction.v0};
+  if (outcome.regime == Regime::kByLaw) {
+    solution = result.solutions.front();
+    outcome.coefficients.newton = 0.0 - solution.v1 / reduction.v0;
+    outcome.coefficients.tangential = solution.tau1 == 0.0 ? 0.0 : solution.f / solution.tau1;
+    outcome.accuracy.relative_error = RelativeToBefore<1>(kError, reduction, {solution.u1}, solution.v1);
+  }
+  outcome.accuracy.kind = AccuracyKind::kEstimate;
+  outcome.w_rank = RankOf(reduction);
+  SetVelocities<1>(reduction, {solution.f}, solution.tau1, 0.0, outcome);
+  const ImpactSolution first = ToOutcome(solution);
+  outcome.contact_velocity_after = first.contact_velocity_after;
+  outcome.impulse = first.impulse;
+  outcome.work = LedgerOf(reduction, solution);
+  outcome.energy_change_j = solution.energy_change;
+  outcome.broken_limits =
+      BrokenLimits({.energy_broken = CreatesEnergy(reduction, solution), .energy_change = solution.energy_change});
+  outcome.admissible = outcome.broken_limits.empty();
+  if (detail == Detail::kNumbers) return outcome;
+  if (outcome.regime == Regime::kByLaw) outcome.timeline = TimelineOf(reduction, solution);
+  if (result.solutions.size() > 1) {
+    for (const laws::ImpactSolution& each : result.solutions) outcome.alternatives.push_back(ToOutcome(each));
+  }
+  const absl::Status finite = CheckFinite(outcome);
+  if (!finite.ok()) return finite;
+  return outcome;
+}
+
+}  // namespace ricochet

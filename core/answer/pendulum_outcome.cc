@@ -1,0 +1,143 @@
+#include "core/answer/pendulum_outcome.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "ricochet/error.h"
+
+namespace ricochet::pendulum {
+namespace {
+
+// 4 ulp of a velocity whose size is at most 1.
+constexpr double kUlps = 0x1p-50;
+
+// The state of the contact at angular velocity `omega`; one rounding a product.
+State MakeState(const Problem& problem, double tau, double omega, double tangential_impulse) {
+  return {.normal_impulse_n_s = tau,
+          .tangential_impulse_n_s = {tangential_impulse},
+          .contact_velocity = {.tangential_m_s = {problem.b * omega + 0.0}, .normal_m_s = problem.a * omega},
+          .rates_rad_s = {omega}};
+}
+
+std::vector<Event> MakeTimeline(const Problem& problem, const Impact& impact) {
+  const State start = MakeState(problem, 0.0, problem.omega_minus, 0.0);
+  const State rest =
+      MakeState(problem, impact[Output::kNormalImpulseCompression], 0.0, impact[Output::kTangentialImpulseCompression]);
+  std::vector<Event> timeline = {{EventKind::kStart, start}};
+  if (problem.b != 0.0) timeline.push_back({EventKind::kSlipStops, rest});
+  timeline.push_back({EventKind::kCompressionEnds, rest});
+  if (impact.regime != Regime::kLocked) {
+    timeline.push_back(
+        {EventKind::kRestitutionEnds, MakeState(problem, impact[Output::kNormalImpulse], impact[Output::kOmegaPlus],
+                                                impact[Output::kTangentialImpulse])});
+  }
+  return timeline;
+}
+
+WorkLedger MakeLedger(const Impact& impact) {
+  WorkLedger work = ricochet::MakeLedger(impact[Output::kWorkNormalCompression], impact[Output::kWorkNormalRestitution],
+                                         impact[Output::kWorkTangentialCompression],
+                                         impact[Output::kWorkTangentialRestitution], impact[Output::kEnergyChange]);
+  work.normal_total_j = impact[Output::kWorkNormal];
+  work.tangential_total_j = impact[Output::kWorkTangential];
+  work.friction_dissipation_j = 0.0 - work.tangential_total_j;
+  return work;
+}
+
+State StateAt(const Problem& problem, const Findings& findings, double tau) {
+  if (problem.omega_minus >= 0.0) return MakeState(problem, tau, problem.omega_minus, 0.0);
+  const Instant instant = findings.at(problem, tau);
+  return MakeState(problem, tau, instant.omega, instant.tangential_impulse);
+}
+
+}  // namespace
+
+std::string OutputPath(Output output) {
+  switch (output) {
+    case Output::kNewton:
+      return "coefficients.newton";
+    case Output::kPoisson:
+      return "coefficients.poisson";
+    case Output::kEnergetic:
+      return "coefficients.energetic";
+    case Output::kTangentialCoefficient:
+      return "coefficients.tangential";
+    case Output::kOmegaPlus:
+      return "rates_after_rad_s[0]";
+    case Output::kTangentialVelocityAfter:
+      return "contact_velocity_after.tangential_m_s[0]";
+    case Output::kNormalVelocityAfter:
+      return "contact_velocity_after.normal_m_s";
+    case Output::kNormalImpulseCompression:
+      return "impulse.normal_compression_n_s";
+    case Output::kNormalImpulse:
+      return "impulse.normal_total_n_s";
+    case Output::kTangentialImpulse:
+      return "impulse.tangential_n_s[0]";
+    case Output::kWorkNormalCompression:
+      return "work.normal_compression_j";
+    case Output::kWorkNormalRestitution:
+      return "work.normal_restitution_j";
+    case Output::kWorkTangentialCompression:
+      return "work.tangential_compression_j";
+    case Output::kWorkTangentialRestitution:
+      return "work.tangential_restitution_j";
+    case Output::kWorkNormal:
+      return "work.normal_total_j";
+    case Output::kWorkTangential:
+      return "work.tangential_total_j";
+    case Output::kEnergyChange:
+      return "energy_change_j";
+    case Output::kTangentialImpulseCompression:
+    case Output::kEnergeticExcess:
+      return "";
+  }
+  return "";
+}
+
+absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const Findings& findings,
+                                    absl::Span<const double> history_at_n_s, Detail detail) {
+  const Impact& impact = findings.impact;
+  Outcome outcome;
+  outcome.regime = impact.regime;
+  outcome.broken_limits = BrokenLimits({.sharp_broken = impact.sharp_limit_broken,
+                                        .energetic = impact[Output::kEnergetic],
+                                        .energetic_excess = impact[Output::kEnergeticExcess],
+                                        .energy_broken = impact.energy_limit_broken,
+                                        .energy_change = impact[Output::kEnergyChange]});
+  outcome.admissible = outcome.broken_limits.empty();
+  outcome.w_rank = 1;
+  outcome.coefficients = {.newton = impact[Output::kNewton],
+                          .poisson = impact[Output::kPoisson],
+                          .energetic = impact[Output::kEnergetic],
+                          .tangential = impact[Output::kTangentialCoefficient]};
+  outcome.rates_after_rad_s = {impact[Output::kOmegaPlus]};
+  outcome.contact_velocity_after = {.tangential_m_s = {impact[Output::kTangentialVelocityAfter]},
+                                    .normal_m_s = impact[Output::kNormalVelocityAfter]};
+  outcome.impulse = {.normal_compression_n_s = impact[Output::kNormalImpulseCompression],
+                     .normal_total_n_s = impact[Output::kNormalImpulse],
+                     .tangential_n_s = {impact[Output::kTangentialImpulse]}};
+  outcome.work = MakeLedger(impact);
+  outcome.energy_change_j = impact[Output::kEnergyChange];
+  outcome.accuracy.kind = AccuracyKind::kBound;
+  if (impact.regime != Regime::kSeparating) {
+    outcome.accuracy.relative_error = findings.error;
+    outcome.timeline = detail == Detail::kAll ? MakeTimeline(problem, impact) : std::vector<Event>();
+  }
+  if (detail == Detail::kNumbers) return outcome;
+  const absl::Status finite = CheckFinite(outcome);
+  if (!finite.ok()) return finite;
+  const auto violations = CheckHistory(history_at_n_s, impact[Output::kNormalImpulse]);
+  if (!violations.empty()) return InvalidRequest(violations);
+  for (const double tau : history_at_n_s) outcome.history.push_back(StateAt(problem, findings, tau));
+  return outcome;
+}
+
+absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s, Detail detail) {
+  const Impact impact = Solve(problem);
+  const double error = kUlps * std::max(1.0, impact[Output::kNewton]);
+  return MakeOutcome(problem, {.impact = impact, .error = error, .at = At}, history_at_n_s, detail);
+}
+
+}  // namespace ricochet::pendulum

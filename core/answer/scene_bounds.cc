@@ -1,0 +1,122 @@
+#include "core/answer/scene_bounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+#include "core/answer/planar_outcome.h"
+#include "core/answer/scene_outcome.h"
+#include "core/answer/spatial_outcome.h"
+#include "core/bounds/contact_bounds.h"
+#include "core/bounds/nearly_vertical.h"
+#include "core/bounds/pendulum_bounds.h"
+#include "core/contact/effective.h"
+#include "core/contact/reduction.h"
+#include "core/plan/planned_scene.h"
+#include "core/problem/scene_problem.h"
+
+namespace ricochet {
+namespace {
+
+Bounds PendulumBounds(const Scene& scene) {
+  const pendulum::Problem problem = ClosedFormProblem(scene);
+  Bounds bounds = pendulum::SolveBounds(problem);
+  if (bounds.slope_ratio > 0.0 && bounds.regime != Regime::kLocked) {
+    const bool has_restitution = !std::holds_alternative<std::monostate>(scene.restitution);
+    bounds.nearly_vertical = pendulum::SolveNearlyVertical(problem, has_restitution);
+  }
+  return bounds;
+}
+
+absl::StatusOr<Bounds> ReducedBounds(const PlanarReduction& reduction, const EffectiveCoefficients& effective) {
+  const planar::ContactBounds contact = planar::SolveBounds(planar::MakeProblem(reduction, {}, effective));
+  return Bounds{.regime = contact.regime,
+                .sharp = contact.sharp,
+                .energy_only = contact.energy_only,
+                .nearly_vertical = std::nullopt,
+                .critical = contact.critical};
+}
+
+void Include(double value, Range& range) {
+  range.lower = std::min(range.lower, value);
+  range.upper = std::max(range.upper, value);
+}
+
+absl::Status NotEnded() {
+  return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kNotEnded,
+                   "bounds.sharp: an impact of its sample has not ended within the steps that the model has");
+}
+
+absl::StatusOr<Bounds> ReducedBounds(const SpatialReduction& reduction, const EffectiveCoefficients& effective) {
+  spatial::Problem problem =
+      spatial::MakeProblem(reduction, EnergeticCoefficient{}, effective, spatial::kStudyTolerance);
+  problem.coefficient = 0.0;
+  const spatial::Impact dead = spatial::Solve(problem);
+  if (!dead.converged) return NotEnded();
+  Bounds bounds;
+  bounds.sampled = true;
+  bounds.regime = dead.regime;
+  CoefficientBounds& sharp = bounds.sharp;
+  sharp = {.newton = {dead.newton, dead.newton},
+           .poisson = {dead.poisson, dead.poisson},
+           .energetic = {dead.energetic, dead.energetic},
+           .tangential = {dead.tangential, dead.tangential},
+           .normal_total_n_s = {dead.tau1, dead.tau1}};
+  for (int i = 1; i < kSpatialImpacts; ++i) {
+    problem.coefficient = static_cast<double>(i) / (kSpatialImpacts - 1);
+    const spatial::Impact impact = spatial::Solve(problem);
+    if (!impact.converged) return NotEnded();
+    bounds.regime = impact.regime;
+    Include(impact.newton, sharp.newton);
+    Include(impact.poisson, sharp.poisson);
+    Include(impact.energetic, sharp.energetic);
+    Include(impact.tangential, sharp.tangential);
+    Include(impact.tau1, sharp.normal_total_n_s);
+  }
+  return bounds;
+}
+
+absl::StatusOr<Bounds> ReducedBounds(const Scene& scene) {
+  const AnyReduction any = Reduce(scene);
+  if (!FitsDoubles(any)) return ContactOverflow();
+  const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
+  return std::visit([&](const auto& reduction) { return ReducedBounds(reduction, effective); }, any);
+}
+
+absl::Status CheckFinite(const CoefficientBounds& bounds, const std::string& path) {
+  const std::pair<const char*, Range> ranges[] = {{"newton", bounds.newton},
+                                                  {"poisson", bounds.poisson},
+                                                  {"energetic", bounds.energetic},
+                                                  {"tangential", bounds.tangential},
+                                                  {"normal_total_n_s", bounds.normal_total_n_s}};
+  for (const auto& [name, range] : ranges) {
+    if (!std::isfinite(range.upper)) return OutputOverflow(absl::StrCat(path, name, ".upper"));
+    if (!std::isfinite(range.lower)) return OutputOverflow(absl::StrCat(path, name, ".lower"));
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CheckFinite(const Bounds& bounds) {
+  if (!std::isfinite(bounds.friction_ratio)) return OutputOverflow("bounds.friction_ratio");
+  absl::Status status = CheckFinite(bounds.sharp, "bounds.sharp.");
+  if (bounds.energy_only.has_value()) status.Update(CheckFinite(*bounds.energy_only, "bounds.energy_only."));
+  if (!bounds.nearly_vertical.has_value()) return status;
+  status.Update(CheckFinite(bounds.nearly_vertical->bounds, "bounds.nearly_vertical.bounds."));
+  return status;
+}
+
+}  // namespace
+
+absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene) {
+  const absl::StatusOr<Bounds> bounds = HasClosedForm(scene) ? PendulumBounds(scene) : ReducedBounds(scene);
+  if (!bounds.ok()) return bounds;
+  const absl::Status finite = CheckFinite(*bounds);
+  if (!finite.ok()) return finite;
+  return bounds;
+}
+
+}  // namespace ricochet

@@ -1,0 +1,155 @@
+#include <optional>
+
+#include "core/bounds/planar_ends.h"
+
+namespace ricochet {
+namespace {
+
+const SlopeForm kOne = 1.0;
+
+Interval Tighter(const Interval& x, const SlopeForm& form) {
+  const Interval both = Intersect(x, form.range());
+  return IsEmpty(both) ? x : both;
+}
+
+// A contact that slips towards +t at first, everything seen along that way, with the slopes of core/bounds/enclosure.h.
+struct Slipping {
+  SlopeForm wtt, q, wnn, slip, speed, mu;
+  SlopeForm first;    // A1
+  SlopeForm braking;  // B
+};
+
+// How slip goes on once it has stopped.
+struct Afterwards {
+  SlopeForm second;  // A2
+  SlopeForm drag;    // -f'
+};
+
+std::optional<Slipping> MakeSlipping(const PlanarForm& form) {
+  const bool forwards = form.u0.range().lower > 0.0;
+  const bool backwards = form.u0.range().upper < 0.0;
+  if ((!forwards && !backwards) || form.v0.range().upper >= 0.0 || form.wtt.range().lower <= 0.0) return std::nullopt;
+  if (form.mu.range().lower < 0.0) return std::nullopt;
+  const SlopeForm q = forwards ? form.wtn : -form.wtn;
+  return Slipping{.wtt = form.wtt,
+                  .q = q,
+                  .wnn = form.wnn,
+                  .slip = forwards ? form.u0 : -form.u0,
+                  .speed = -form.v0,
+                  .mu = form.mu,
+                  .first = form.wnn - form.mu * q,
+                  .braking = form.mu * form.wtt - q};
+}
+
+// Unset where some scenes stick and others do not, or where W comes near to rank one.
+std::optional<Afterwards> AfterStop(const PlanarForm& form, const Slipping& slipping) {
+  const SlopeForm hold = form.mu_static.value_or(form.mu) * form.wtt;
+  const SlopeForm stick_slope = form.stick_slope.value_or(form.wnn - Square(form.wtn) / form.wtt);
+  std::optional<Afterwards> after;
+  if ((hold - slipping.q).range().lower >= 0.0 && (hold + slipping.q).range().lower >= 0.0) {
+    after = Afterwards{stick_slope, slipping.q / slipping.wtt};
+  } else if ((hold + slipping.q).range().upper < 0.0) {
+    after = Afterwards{slipping.wnn + slipping.mu * slipping.q, -slipping.mu};
+  }
+  const bool is_full_rank = stick_slope.range().lower > 0.0;
+  if (!after.has_value() || !is_full_rank || after->second.range().lower <= 0.0) return std::nullopt;
+  return after;
+}
+
+struct Forms {
+  SlopeForm newton, poisson, dead, elastic, drag_dead, drag_elastic;
+};
+
+Forms Sliding(const Slipping& slipping) {
+  const SlopeForm compression = slipping.speed / slipping.first;
+  return {.newton = kOne,
+          .poisson = kOne,
+          .dead = compression,
+          .elastic = compression + compression,
+          .drag_dead = slipping.mu,
+          .drag_elastic = slipping.mu};
+}
+
+// The mean of -f' over an impulse of which slip takes `share`.
+SlopeForm Blend(const Slipping& slipping, const Afterwards& after, const SlopeForm& share) {
+  return after.drag + share * (slipping.mu - after.drag);
+}
+
+Forms StopInRestitution(const Slipping& slipping, const Afterwards& after, const SlopeForm& reach) {
+  const SlopeForm sigma = Within(reach - kOne, {0.0, 1.0});
+  const SlopeForm rho = after.second / slipping.first;
+  const SlopeForm square = Square(sigma);
+  const SlopeForm newton = Sqrt(square + rho * (kOne - square));
+  const SlopeForm poisson = (kOne + sigma * newton) / (sigma + newton);
+  const SlopeForm compression = slipping.speed / slipping.first;
+  return {.newton = newton,
+          .poisson = poisson,
+          .dead = compression,
+          .elastic = compression * (kOne + poisson),
+          .drag_dead = slipping.mu,
+          .drag_elastic = Blend(slipping, after, (sigma + newton) / (kOne + newton))};
+}
+
+Forms StopInCompression(const Slipping& slipping, const Afterwards& after, const SlopeForm& ratio,
+                        const SlopeForm& reach) {
+  const SlopeForm m = Within(kOne - reach, {0.0, rounding::kInfinity});
+  const SlopeForm h = after.second * ratio / slipping.braking;
+  const SlopeForm rest = h + m;
+  const SlopeForm newton = Sqrt(h * (kOne + m) + Square(m));
+  const SlopeForm poisson = newton / rest;
+  const SlopeForm scale = slipping.speed / after.second;
+  return {.newton = newton,
+          .poisson = poisson,
+          .dead = scale * rest,
+          .elastic = scale * (rest + newton),
+          .drag_dead = Blend(slipping, after, h / rest),
+          .drag_elastic = Blend(slipping, after, h / (rest + newton))};
+}
+
+// Unset where the scenes of the box may go different ways.
+std::optional<Forms> FormsOf(const PlanarForm& form, const Slipping& slipping) {
+  const bool never_jams = slipping.first.range().lower > 0.0;
+  if (slipping.braking.range().upper <= 0.0 && never_jams) return Sliding(slipping);
+  if (slipping.braking.range().lower <= 0.0) return std::nullopt;
+  const SlopeForm ratio = slipping.slip / slipping.speed;
+  const SlopeForm reach = slipping.first / slipping.braking * ratio;  // 1 + sigma
+  if (reach.range().lower >= 2.0) return Sliding(slipping);
+  const std::optional<Afterwards> after = AfterStop(form, slipping);
+  if (!after.has_value()) return std::nullopt;
+  if (reach.range().upper <= 1.0) return StopInCompression(slipping, *after, ratio, reach);
+  if (reach.range().lower < 1.0 || reach.range().upper > 2.0 || !never_jams) return std::nullopt;
+  return StopInRestitution(slipping, *after, reach);
+}
+
+PlanarBox RangesOf(const PlanarForm& form) {
+  PlanarBox box = {.wtt = form.wtt.range(),
+                   .wtn = form.wtn.range(),
+                   .wnn = form.wnn.range(),
+                   .u0 = form.u0.range(),
+                   .v0 = form.v0.range(),
+                   .mu = AtLeast(form.mu.range(), 0.0)};
+  if (form.mu_static.has_value()) box.mu_static = AtLeast(form.mu_static->range(), 0.0);
+  if (form.stick_slope.has_value()) box.stick_slope = form.stick_slope->range();
+  return box;
+}
+
+}  // namespace
+
+PlanarEnds EncloseEnds(const PlanarForm& form) {
+  PlanarEnds ends = EncloseEnds(RangesOf(form));
+  const std::optional<Slipping> slipping = MakeSlipping(form);
+  if (!slipping.has_value() || IsEmpty(ends.newton)) return ends;
+  const std::optional<Forms> forms = FormsOf(form, *slipping);
+  if (!forms.has_value()) return ends;
+  const bool backwards = form.u0.range().upper < 0.0;
+  const auto along = [&](const SlopeForm& drag) { return backwards ? drag : -drag; };
+  ends.newton = Tighter(ends.newton, forms->newton);
+  ends.poisson = Tighter(ends.poisson, forms->poisson);
+  ends.normal_dead = Tighter(ends.normal_dead, forms->dead);
+  ends.normal_elastic = Tighter(ends.normal_elastic, forms->elastic);
+  ends.tangential_dead = Tighter(ends.tangential_dead, along(forms->drag_dead));
+  ends.tangential_elastic = Tighter(ends.tangential_elastic, along(forms->drag_elastic));
+  return ends;
+}
+
+}  // namespace ricochet

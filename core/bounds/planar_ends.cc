@@ -1,0 +1,346 @@
+#include "core/bounds/planar_ends.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace ricochet {
+namespace {
+
+// Products that rounding takes off rank one: core/models/planar/planar.h.
+constexpr double kRankTolerance = 0x1p-50;
+// How far from the range of a W of rank one rounding takes (u0, v0), relative to |u0| Wnn + |v0 Wtn|.
+constexpr double kRangeTolerance = 0x1p-49;
+
+Interval Join(const Interval& x, const Interval& y) { return IsEmpty(x) ? y : IsEmpty(y) ? x : Hull(x, y); }
+
+// Two enclosures of the same: their members in common; rounding never parts them.
+Interval Both(const Interval& x, const Interval& y) {
+  const Interval both = Intersect(x, y);
+  return IsEmpty(both) ? x : both;
+}
+
+// The hull of a function's values at the ends of both arguments, for functions that are monotone in each.
+template <typename Function>
+Interval AtVertices(const Interval& x, const Interval& y, Function function) {
+  Interval hull = function(Interval(x.lower), Interval(y.lower));
+  if (!IsPoint(y)) hull = Hull(hull, function(Interval(x.lower), Interval(y.upper)));
+  if (IsPoint(x)) return hull;
+  hull = Hull(hull, function(Interval(x.upper), Interval(y.lower)));
+  return IsPoint(y) ? hull : Hull(hull, function(Interval(x.upper), Interval(y.upper)));
+}
+
+// e of the elastic impact; grows with rho, and monotone in sigma^2.
+Interval NewtonOf(const Interval& sigma_size, const Interval& rho) {
+  const auto newton = [](const Interval& sigma, const Interval& r) {
+    const Interval square = Square(sigma);
+    return Sqrt(square + r * (Interval(1.0) - square));
+  };
+  if (!std::isinf(rho.upper)) return AtVertices(sigma_size, rho, newton);
+  return {AtVertices(sigma_size, Interval(rho.lower), newton).lower, rounding::kInfinity};
+}
+
+// k where slip stops in restitution; falls with rho, to sigma at last, and monotone in sigma.
+Interval PoissonInRestitution(const Interval& sigma, const Interval& rho) {
+  const auto poisson = [](const Interval& s, const Interval& r) {
+    const Interval e = NewtonOf(s, r);
+    return (Interval(1.0) + s * e) / (s + e);
+  };
+  if (!std::isinf(rho.upper)) return AtVertices(sigma, rho, poisson);
+  return {sigma.lower, AtVertices(sigma, Interval(rho.lower), poisson).upper};
+}
+
+// k where slip stops in compression; monotone in m, and in rho it grows up to m/(1 + m), where it is (1 + m)/(2
+// sqrt(m)), and falls after it, to 0 at last.
+Interval PoissonInCompression(const Interval& m, const Interval& rho) {
+  const Interval one(1.0);
+  const auto poisson = [&](const Interval& x, const Interval& r) { return NewtonOf(x, r) / (r * (one - x) + x); };
+  Interval range = std::isinf(rho.upper) ? Hull(Interval(0.0), AtVertices(m, Interval(rho.lower), poisson))
+                                         : AtVertices(m, rho, poisson);
+  for (const double end : {m.lower, m.upper}) {
+    const Interval peak = Interval(end) / (one + Interval(end));
+    if (IsEmpty(Intersect(peak, rho))) continue;
+    range.upper = std::max(range.upper, ((one + Interval(end)) / (Interval(2.0) * Sqrt(Interval(end)))).upper);
+  }
+  return range;
+}
+
+// x/(x + y) for x, y >= 0.
+Interval Share(const Interval& x, const Interval& y) {
+  if (x.upper == 0.0 && y.lower > 0.0) return 0.0;
+  return AtMost(AtLeast(Interval(1.0) / (Interval(1.0) + AtLeast(y / x, 0.0)), 0.0), 1.0);
+}
+
+// tau_s/tau_e where slip stops in restitution: (sigma + e)/(1 + e) grows with both.
+Interval ShareInRestitution(const Interval& sigma, const Interval& rho) {
+  const auto share = [](const Interval& s, const Interval& r) {
+    const Interval e = NewtonOf(s, r);
+    return (s + e) / (Interval(1.0) + e);
+  };
+  if (!std::isinf(rho.upper)) return AtMost(AtVertices(sigma, rho, share), 1.0);
+  return {AtVertices(sigma, Interval(rho.lower), share).lower, 1.0};
+}
+
+// sqrt(h (1 + m) + m^2), e where slip stops in compression.
+Interval NewtonInCompression(const Interval& h, const Interval& m) { return Sqrt(h * (Interval(1.0) + m) + Square(m)); }
+
+// The scenes of a box in which slip first goes one way, u towards +t (`backwards` false) or -t, seen along that way.
+class OneWay {
+ public:
+  OneWay(const PlanarBox& box, bool backwards, PlanarEnds& ends)
+      : backwards_(backwards),
+        wtt_(AtLeast(box.wtt, 0.0)),
+        wnn_(AtLeast(box.wnn, 0.0)),
+        slip_(AtLeast(backwards ? -box.u0 : box.u0, 0.0)),
+        speed_(AtLeast(-box.v0, 0.0)),
+        mu_(box.mu),
+        own_static_(box.mu_static.has_value()),
+        mu_static_(AtLeast(box.mu_static.value_or(box.mu), box.mu.lower)),
+        stick_slope_(box.stick_slope),
+        ends_(ends) {}
+
+  // Wtn drives slip on, and the contact in: q >= 0.
+  void AddDriving(const Interval& q) {
+    if (wtt_.upper == 0.0) return AddSliding(wnn_);
+    const Interval determinant = Determinant(q);
+    const Interval full = RankTolerance();
+    if (determinant.upper <= full.lower && wtt_.lower > 0.0) return;
+    const Interval first = wnn_ - mu_ * q;
+    const Interval braking = mu_ * wtt_ - q;
+    const Interval stuck = StuckSlope(q);
+    if (IsEmpty(stuck)) return;
+    // A scene with B <= 0 has A1 >= det W/Wtt.
+    if (braking.lower <= 0.0) AddSliding(AtLeast(first, stuck.lower));
+    if (braking.upper > 0.0) {
+      AddStop({q, first, AtLeast(braking, 0.0), stuck, StuckRatio(q, first, braking), true}, slip_);
+    }
+    if (own_static_ && braking.lower <= 0.0) AddHeld(q, stuck);
+  }
+
+  // Wtn brakes slip: q = -r <= 0.
+  void AddOpposing(const Interval& r) {
+    if (wtt_.upper == 0.0) return;
+    const Interval determinant = Determinant(r);
+    const Interval tolerance = RankTolerance();
+    if (determinant.lower <= tolerance.upper && determinant.upper >= -tolerance.upper) AddRankOne(r);
+    if (determinant.upper <= tolerance.lower) return;
+    const Interval first = wnn_ + mu_ * r;
+    const Interval braking = mu_ * wtt_ + r;
+    const Interval stuck = StuckSlope(r);
+    if (IsEmpty(stuck)) return;
+    const Interval hold = mu_static_ * wtt_ - r;
+    if (braking.lower <= 0.0) AddSliding(first);
+    if (hold.upper >= 0.0) AddStop({-r, first, braking, stuck, StuckRatio(-r, first, braking), true}, slip_);
+    if (hold.lower < 0.0) {
+      // Where slip reverses, mu r < r^2/Wtt.
+      const Interval second = AtLeast(wnn_ - mu_ * r, stuck.lower);
+      if (!IsEmpty(second)) AddStop({-r, first, braking, second, ReversedRatio(r), false}, slip_);
+    }
+  }
+
+ private:
+  struct Stop {
+    Interval q;
+    Interval first;    // A1
+    Interval braking;  // B, >= 0
+    Interval second;   // A2, >= 0
+    Interval rho;      // A2/A1 where A1 > 0
+    bool sticks;
+  };
+
+  Interval RankTolerance() const { return Interval(kRankTolerance) * (wtt_ * wnn_); }
+
+  Interval Determinant(const Interval& q) const {
+    const Interval plain = wtt_ * wnn_ - Square(q);
+    return stick_slope_ ? Both(plain, wtt_ * *stick_slope_) : plain;
+  }
+
+  // Wnn - q^2/Wtt
+  Interval StuckSlope(const Interval& q) const {
+    const Interval plain = AtMost(AtLeast(wnn_ - Square(q) / wtt_, 0.0), wnn_.upper);
+    return stick_slope_ ? Both(plain, AtLeast(*stick_slope_, 0.0)) : plain;
+  }
+
+  // A1/B, monotone in each of its four parameters: it grows with Wnn and, where A1 > 0, falls with Wtt.
+  Interval FirstOverBraking(const Stop& stop) const {
+    const Interval plain = stop.first / stop.braking;
+    if (stop.first.lower <= 0.0 || stop.braking.lower <= 0.0) return plain;
+    const auto corner = [&](double wnn, double wtt) {
+      return AtVertices(mu_, stop.q, [&](const Interval& mu, const Interval& q) {
+        return (Interval(wnn) - mu * q) / (mu * Interval(wtt) - q);
+      });
+    };
+    return Both(plain, {corner(wnn_.lower, wtt_.upper).lower, corner(wnn_.upper, wtt_.lower).upper});
+  }
+
+  // C/A1 = 1 + (q/Wtt)(B/A1)
+  Interval StuckRatio(const Interval& q, const Interval& first, const Interval& braking) const {
+    const Interval slope = AtLeast(first, 0.0);
+    if (IsEmpty(slope)) return {0.0, rounding::kInfinity};
+    const Interval plain = AtLeast(StuckSlope(q) / slope, 0.0);
+    const Interval other = Interval(1.0) + q / wtt_ * (AtLeast(braking, 0.0) / slope);
+    return Both(plain, AtLeast(other, 0.0));
+  }
+
+  // (1 - c)/(1 + c), c = mu r/Wnn < 1
+  Interval ReversedRatio(const Interval& r) const {
+    const Interval c = AtMost(mu_ * r / wnn_, 1.0);
+    const auto ratio = [](double end) { return (Interval(1.0) - Interval(end)) / (Interval(1.0) + Interval(end)); };
+    return AtLeast(Hull(ratio(c.upper), ratio(c.lower)), 0.0);
+  }
+
+  Interval Along(const Interval& x) const { return backwards_ ? -x : x; }
+
+  void Add(const Interval& newton, const Interval& poisson, double energetic, const Interval& tangential_dead,
+           const Interval& tangential_elastic, const Interval& normal_dead, const Interval& normal_elastic) {
+    ends_.newton = Join(ends_.newton, newton);
+    ends_.poisson = Join(ends_.poisson, poisson);
+    ends_.energetic = Join(ends_.energetic, energetic);
+    ends_.tangential_dead = Join(ends_.tangential_dead, Along(tangential_dead));
+    ends_.tangential_elastic = Join(ends_.tangential_elastic, Along(tangential_elastic));
+    ends_.normal_dead = Join(ends_.normal_dead, normal_dead);
+    ends_.normal_elastic = Join(ends_.normal_elastic, normal_elastic);
+  }
+
+  // u0 = 0 and static friction holds what kinetic friction could not stop: mu Wtt <= q <= mu_s Wtt.
+  void AddHeld(const Interval& q, const Interval& stuck) {
+    if (slip_.lower > 0.0 || (mu_static_ * wtt_ - q).upper < 0.0) return;
+    const Interval unknown(0.0, rounding::kInfinity);
+    AddStop({q, unknown, unknown, stuck, unknown, true}, 0.0);
+  }
+
+  // Slip does not stop.
+  void AddSliding(const Interval& slope) {
+    if (IsEmpty(slope) || slope.upper <= 0.0) return;
+    const Interval compression = speed_ / AtLeast(slope, 0.0);
+    Interval friction = -mu_;
+    if (wtt_.upper == 0.0) friction = 0.0;
+    if (wtt_.lower == 0.0) friction = Hull(friction, 0.0);
+    Add(1.0, 1.0, 1.0, friction, friction, compression, Interval(2.0) * compression);
+  }
+
+  // W of rank one is Wnn (g, 1)(g, 1)^T whatever Wtt says, and slip stops where compression ends.
+  void AddRankOne(const Interval& r) {
+    const Interval tangential = slip_ * wnn_;
+    const Interval normal = speed_ * r;
+    const Interval off = tangential - normal;
+    const double tolerance = (Interval(kRangeTolerance) * (tangential + normal)).upper;
+    if (off.lower > tolerance || off.upper < -tolerance) return;
+    const Interval first = wnn_ + mu_ * r;
+    const Interval compression = speed_ / first;
+    const Interval held = mu_static_ * r - wnn_;
+    if (held.upper >= 0.0) Add(0.0, 0.0, 0.0, -mu_, -mu_, compression, compression);
+    if (held.lower >= 0.0) return;
+    const Interval newton = Sqrt(ReversedRatio(r));
+    const Interval poisson = Interval(1.0) / newton;
+    const Interval total = compression + speed_ / Sqrt(first * AtLeast(wnn_ - mu_ * r, 0.0));
+    const Interval elastic = mu_ * (Interval(1.0) - Interval(2.0) / (Interval(1.0) + poisson));
+    Add(newton, poisson, 1.0, -mu_, elastic, compression, total);
+  }
+
+  void AddStop(const Stop& stop, const Interval& slip) {
+    const Interval ratio = AtLeast(slip / speed_, 0.0);
+    const Interval over = FirstOverBraking(stop);
+    const Interval reach = over * ratio;  // 1 + sigma
+    // 1 + sigma = (A1/B)(p/w) says how large A1 is where slip stops late.
+    const Interval least = AtLeast(stop.braking / ratio, 0.0);
+    if (reach.upper >= 2.0) AddSliding(AtLeast(stop.first, (Interval(2.0) * least).lower));
+    if (reach.upper >= 1.0 && reach.lower <= 2.0) {
+      Stop late = stop;
+      late.first = AtLeast(stop.first, least.lower);
+      late.rho = Both(stop.rho, AtLeast(late.second / late.first, 0.0));
+      if (!IsEmpty(late.first)) AddStopInRestitution(late, Intersect(reach, {1.0, 2.0}));
+    }
+    if (reach.lower < 1.0) AddStopInCompression(stop, slip, ratio, AtMost(reach, 1.0));
+  }
+
+  void AddStopInRestitution(const Stop& stop, const Interval& reach) {
+    const Interval one(1.0);
+    const Interval sigma = AtMost(AtLeast(reach - one, 0.0), 1.0);
+    const Interval compression = speed_ / stop.first;
+    const Interval newton = NewtonOf(sigma, stop.rho);
+    const Interval poisson = PoissonInRestitution(sigma, stop.rho);
+    const Interval share = ShareInRestitution(sigma, stop.rho);
+    Add(newton, poisson, 1.0, -mu_, Blend(stop, share), compression, (one + poisson) * compression);
+  }
+
+  // h = A2 tau_s/w, m = -sigma; A2 tau_c/w = h + m and e^2 = h (1 + m) + m^2, whatever the sign of A1.
+  void AddStopInCompression(const Stop& stop, const Interval& slip, const Interval& ratio, const Interval& reach) {
+    const Interval one(1.0);
+    const Interval m = AtLeast(one - reach, 0.0);
+    const bool never_jams = stop.first.lower > 0.0;
+    Interval stop_time = AtLeast(ratio / stop.braking, 0.0);  // tau_s/w
+    if (never_jams) stop_time = Both(stop_time, AtLeast(reach, 0.0) / stop.first);
+    Interval h = stop.second * stop_time;
+    if (never_jams) h = Both(h, stop.rho * AtLeast(one - m, 0.0));
+    Interval rest = h + m;
+    // The path to rest ends stuck: W^-1 gives the impulse.
+    if (stop.sticks) rest = Both(rest, AtLeast(one + stop.q / wtt_ * ratio, 0.0));
+    Interval newton = AtVertices(h, m, NewtonInCompression);
+    Interval poisson = newton / rest;
+    Interval compression = AtLeast(speed_ * rest / stop.second, 0.0);
+    if (stop.sticks) compression = Both(compression, AtLeast((speed_ + stop.q / wtt_ * slip) / stop.second, 0.0));
+    // Both fall with m and grow with h.
+    Interval dead_share = AtVertices(h, m, Share);
+    const auto share = [](const Interval& x, const Interval& y) { return Share(x, y + NewtonInCompression(x, y)); };
+    Interval elastic_share = AtVertices(h, m, share);
+    if (never_jams) {
+      newton = Both(newton, NewtonOf(m, stop.rho));
+      poisson = Both(poisson, PoissonInCompression(m, stop.rho));
+      compression = Both(compression, speed_ / stop.first * (one + m * (one / stop.rho - one)));
+      if (!std::isinf(stop.rho.upper)) {
+        dead_share = Both(dead_share, AtVertices(stop.rho, m, [&](const Interval& r, const Interval& x) {
+                            return Share(r * (one - x), x);
+                          }));
+        elastic_share = Both(elastic_share, AtVertices(stop.rho, m, [&](const Interval& r, const Interval& x) {
+                               return share(r * (one - x), x);
+                             }));
+      }
+    }
+    const Interval total = Both(compression * (one + poisson), compression + speed_ * newton / stop.second);
+    Interval dead = Blend(stop, dead_share);
+    Interval elastic = Blend(stop, elastic_share);
+    if (stop.sticks) {
+      dead = Both(dead, -((stop.q + slip / compression) / wtt_));
+      elastic = Both(elastic, -((stop.q + slip / total) / wtt_));
+    }
+    Add(newton, poisson, 1.0, dead, elastic, compression, total);
+  }
+
+  // f/tau where slip has taken `share` of tau.
+  Interval Blend(const Stop& stop, const Interval& share) const {
+    if (!stop.sticks) return mu_ * (Interval(1.0) - Interval(2.0) * share);
+    const Interval hold = Intersect(stop.q / wtt_, {-mu_static_.upper, mu_static_.upper});
+    return -AtVertices(share, mu_, [&](const Interval& part, const Interval& mu) {
+      return hold * (Interval(1.0) - part) + mu * part;
+    });
+  }
+
+  bool backwards_;
+  Interval wtt_, wnn_, slip_, speed_, mu_;
+  bool own_static_;
+  Interval mu_static_;
+  std::optional<Interval> stick_slope_;
+  PlanarEnds& ends_;
+};
+
+}  // namespace
+
+PlanarEnds EncloseEnds(const PlanarBox& box) {
+  PlanarEnds ends;
+  if (IsEmpty(box.mu) || (box.mu_static && box.mu_static->upper < box.mu.lower)) return ends;
+  if (box.v0.upper >= 0.0) ends.normal_dead = ends.normal_elastic = 0.0;
+  if (box.v0.lower >= 0.0) return ends;
+  for (const bool backwards : {false, true}) {
+    // u0 = 0 goes with the slip towards +t: both ways have the same limit.
+    const bool occurs = backwards ? box.u0.lower < 0.0 : box.u0.upper >= 0.0;
+    if (!occurs) continue;
+    const Interval q = backwards ? -box.wtn : box.wtn;
+    OneWay way(box, backwards, ends);
+    if (q.upper >= 0.0) way.AddDriving(AtLeast(q, 0.0));
+    if (q.lower < 0.0) way.AddOpposing(AtLeast(-q, 0.0));
+  }
+  return ends;
+}
+
+}  // namespace ricochet

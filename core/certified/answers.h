@@ -1,0 +1,279 @@
+// The numbers of an answer, in a fixed order with their paths, over a number type N (core/certified/branches.h).
+
+#ifndef RICOCHET_CORE_CERTIFIED_ANSWERS_H_
+#define RICOCHET_CORE_CERTIFIED_ANSWERS_H_
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/certified/contact_path.h"
+#include "core/certified/system.h"
+#include "core/models/restitution_law.h"
+
+namespace ricochet::certified {
+
+template <typename N>
+struct NamedNumber {
+  std::string path;
+  std::optional<Number<N>> number;  // Absent where there is no such thing: a critical friction that no friction is.
+};
+
+template <typename N>
+struct Answer {
+  Regime regime = Regime::kUnspecified;
+  std::vector<NamedNumber<N>> numbers;
+
+  void Add(std::string path, N value) { numbers.push_back({std::move(path), Number<N>{std::move(value)}}); }
+  void Add(std::string path, Number<N> number) { numbers.push_back({std::move(path), std::move(number)}); }
+};
+
+// A pendulum has regimes of its own names.
+inline Regime PendulumRegime(Regime regime) {
+  const bool shared = regime == Regime::kLocked || regime == Regime::kFrictionless || regime == Regime::kSeparating;
+  return shared ? regime : Regime::kRebound;
+}
+
+// The system's own velocities after the impact.
+template <typename N>
+void AddVelocities(const SystemContact<N>& system, const Impact<N>& impact, Answer<N>& answer) {
+  std::vector<N> after;
+  for (size_t i = 0; i < system.before.size(); ++i) {
+    after.push_back(system.before[i] + system.response[i][0] * impact.f1 + system.response[i][1] * impact.tau1);
+  }
+  if (system.lever.has_value()) after = {impact.v1 / *system.lever};
+  if (system.velocities == Velocities::kRates) {
+    for (size_t i = 0; i < after.size(); ++i) answer.Add(absl::StrCat("rates_after_rad_s[", i, "]"), after[i]);
+  }
+  if (system.velocities != Velocities::kBodies) return;
+  for (size_t body = 0; 3 * body < after.size(); ++body) {
+    const std::string path = absl::StrCat("bodies_after[", body, "].");
+    answer.Add(absl::StrCat(path, "linear_m_s[0]"), after[3 * body]);
+    answer.Add(absl::StrCat(path, "linear_m_s[1]"), after[3 * body + 1]);
+    answer.Add(absl::StrCat(path, "angular_rad_s[0]"), after[3 * body + 2]);
+  }
+}
+
+// Nothing changes.
+template <typename N>
+Impact<N> SeparatingImpact(const Contact<N>& contact) {
+  const N zero(0.0);
+  return {.regime = Regime::kSeparating,
+          .newton = zero,
+          .poisson = zero,
+          .tangential = zero,
+          .energetic = {zero, false},
+          .u1 = contact.u0,
+          .v1 = contact.v0,
+          .tau_compression = zero,
+          .tau1 = zero,
+          .f1 = zero,
+          .normal_compression = zero,
+          .normal_restitution = zero,
+          .tangential_compression = zero,
+          .tangential_restitution = zero,
+          .normal_total = zero};
+}
+
+// The numbers of Outcome, in the order of VisitOutcomeNumbers, that are the impact's own.
+template <typename N>
+Answer<N> AnswerSolve(SystemContact<N> system, Branches& branches) {
+  Contact<N>& contact = system.contact;
+  const bool separating = !IsNegative(contact.v0, branches);
+  if (!separating) contact.v0 = AtMostZero(contact.v0);
+  const Impact<N> impact = separating ? SeparatingImpact(contact)
+                                      : ContactPath<N>(contact, branches).Solve(contact.law, contact.coefficient);
+  const N tangential_total = impact.tangential_compression + impact.tangential_restitution;
+  Answer<N> answer;
+  answer.regime = system.is_pendulum ? PendulumRegime(impact.regime) : impact.regime;
+  answer.Add("coefficients.newton", impact.newton);
+  answer.Add("coefficients.poisson", impact.poisson);
+  answer.Add("coefficients.energetic", impact.energetic);
+  answer.Add("coefficients.tangential", impact.tangential);
+  AddVelocities(system, impact, answer);
+  answer.Add("contact_velocity_after.tangential_m_s[0]", impact.u1);
+  answer.Add("contact_velocity_after.normal_m_s", impact.v1);
+  answer.Add("impulse.normal_compression_n_s", impact.tau_compression);
+  answer.Add("impulse.normal_total_n_s", impact.tau1);
+  answer.Add("impulse.tangential_n_s[0]", impact.f1);
+  answer.Add("work.normal_compression_j", impact.normal_compression);
+  answer.Add("work.normal_restitution_j", impact.normal_restitution);
+  answer.Add("work.tangential_compression_j", impact.tangential_compression);
+  answer.Add("work.tangential_restitution_j", impact.tangential_restitution);
+  answer.Add("work.normal_total_j", impact.normal_total);
+  answer.Add("work.tangential_total_j", tangential_total);
+  answer.Add("work.friction_dissipation_j", -tangential_total);
+  answer.Add("work.tangential_spring_j", N(0.0));
+  answer.Add("energy_change_j", impact.normal_total + tangential_total);
+  return answer;
+}
+
+template <typename N>
+struct NumberRange {
+  Number<N> lower, upper;
+};
+
+template <typename N>
+struct RangesOfCoefficients {
+  NumberRange<N> newton, poisson, energetic, tangential, normal_total;
+};
+
+template <typename N>
+RangesOfCoefficients<N> NoRanges() {
+  const Number<N> zero = {N(0.0)};
+  const NumberRange<N> none = {zero, zero};
+  return {none, none, none, none, none};
+}
+
+template <typename N>
+NumberRange<N> UpTo(Number<N> upper) {
+  return {{N(0.0)}, std::move(upper)};
+}
+
+template <typename N>
+NumberRange<N> Between(const N& x, const N& y) {
+  return {{Min(x, y)}, {Max(x, y)}};
+}
+
+template <typename N>
+void AddRanges(const std::string& prefix, const RangesOfCoefficients<N>& ranges, Answer<N>& answer) {
+  const std::pair<const char*, const NumberRange<N>&> named[] = {{"newton", ranges.newton},
+                                                                 {"poisson", ranges.poisson},
+                                                                 {"energetic", ranges.energetic},
+                                                                 {"tangential", ranges.tangential},
+                                                                 {"normal_total_n_s", ranges.normal_total}};
+  for (const auto& [name, range] : named) {
+    answer.Add(absl::StrCat(prefix, name, ".lower"), range.lower);
+    answer.Add(absl::StrCat(prefix, name, ".upper"), range.upper);
+  }
+}
+
+template <typename N>
+using MaybeN = std::optional<Number<N>>;
+
+// n/d as a least coefficient of friction, which is not below 0; absent if d is not above 0.
+template <typename N>
+MaybeN<N> LeastFriction(const N& n, const N& d, Branches& branches) {
+  if (!IsPositive(d, branches)) return std::nullopt;
+  return Number<N>{Max(n / d, N(0.0))};
+}
+
+template <typename N>
+struct CriticalFrictionOf {
+  MaybeN<N> stick, stop_compression, stop, reversal, jam;
+};
+
+// The formulas of core/bounds/contact_bounds.h.
+template <typename N>
+CriticalFrictionOf<N> FindCriticalFriction(const Contact<N>& contact, Branches& branches) {
+  CriticalFrictionOf<N> critical;
+  if (contact.rank_one.value_or(false)) {
+    if (!IsPositive(Abs(contact.rho), branches)) return critical;
+    critical.stick = Number<N>{N(1.0) / Abs(contact.rho)};
+    critical.stop = critical.reversal = Number<N>{N(0.0)};
+    return critical;
+  }
+  if (!IsPositive(contact.wtt, branches)) return critical;
+  critical.stick = Number<N>{Abs(contact.wtn) / contact.wtt};
+  const bool backwards = IsNegative(contact.u0, branches);
+  if (!backwards && !IsPositive(contact.u0, branches)) return critical;
+  const N p = Abs(contact.u0);
+  const N w = -contact.v0;
+  const N q = backwards ? -contact.wtn : contact.wtn;
+  const N wnn_p = contact.wnn * p;
+  critical.stop_compression = LeastFriction(wnn_p + w * q, w * contact.wtt + q * p, branches);
+  critical.stop = LeastFriction(wnn_p + N(2.0) * w * q, N(2.0) * w * contact.wtt + q * p, branches);
+  const bool reverses = critical.stop.has_value() && IsNegative(q, branches) &&
+                        IsNegative(critical.stop->value - critical.stick->value, branches);
+  if (reverses) critical.reversal = critical.stop;
+  if (IsPositive(q, branches)) critical.jam = Number<N>{contact.wnn / q};
+  return critical;
+}
+
+template <typename N>
+void AddCriticalFriction(const CriticalFrictionOf<N>& critical, Answer<N>& answer) {
+  answer.numbers.push_back({"critical.stick", critical.stick});
+  answer.numbers.push_back({"critical.stop_compression", critical.stop_compression});
+  answer.numbers.push_back({"critical.stop", critical.stop});
+  answer.numbers.push_back({"critical.reversal", critical.reversal});
+  answer.numbers.push_back({"critical.jam", critical.jam});
+}
+
+// x = mu |b|/a and r = (1 - x)/(1 + x).
+template <typename N>
+void AddRatios(const Contact<N>& contact, Answer<N>& answer) {
+  const N x = contact.mu * Abs(contact.rho);
+  answer.Add("friction_ratio", x);
+  answer.Add("slope_ratio", N(2.0) / (N(1.0) + x) - N(1.0));
+}
+
+template <typename N>
+struct BothRanges {
+  Regime regime = Regime::kUnspecified;
+  RangesOfCoefficients<N> sharp, energy_only;
+};
+
+// Of a contact that approaches.
+template <typename N>
+BothRanges<N> RangesOf(const Contact<N>& contact, Branches& branches) {
+  const N one(1.0);
+  ContactPath<N> path(contact, branches);
+  const Impact<N> dead = path.Solve(RestitutionLaw::kEnergetic, N(0.0));
+  const Impact<N> elastic = path.Solve(RestitutionLaw::kEnergetic, one);
+  BothRanges<N> ranges = {.regime = elastic.regime};
+  ranges.sharp = {.newton = UpTo<N>({elastic.newton}),
+                  .poisson = UpTo<N>({elastic.poisson}),
+                  .energetic = UpTo<N>({path.locked() ? N(0.0) : one}),
+                  .tangential = Between(dead.tangential, elastic.tangential),
+                  .normal_total = {{dead.tau1}, {elastic.tau1}}};
+  ranges.energy_only = ranges.sharp;
+  if (path.locked()) return ranges;
+  const EnergyEnd<N> end = path.FindEnergyEnd();
+  ranges.energy_only = {.newton = UpTo<N>({end.newton}),
+                        .poisson = UpTo<N>({end.poisson}),
+                        .energetic = UpTo<N>(end.energetic),
+                        .tangential = Between(dead.tangential, end.tangential),
+                        .normal_total = {{dead.tau1}, {end.tau}}};
+  return ranges;
+}
+
+// Of a contact that does not. How fast a pendulum comes in does not matter to its coefficients, so that those are
+// answered for one that leaves too.
+template <typename N>
+BothRanges<N> RangesWhereSeparating(Contact<N> contact, bool is_pendulum, Branches& branches) {
+  BothRanges<N> ranges = {.sharp = NoRanges<N>(), .energy_only = NoRanges<N>()};
+  if (is_pendulum) {
+    contact.v0 = N(-1.0);
+    contact.u0 = -contact.rho;
+    ranges = RangesOf(contact, branches);
+    ranges.sharp.normal_total = ranges.energy_only.normal_total = NoRanges<N>().normal_total;
+  }
+  ranges.regime = Regime::kSeparating;
+  return ranges;
+}
+
+// The numbers of Bounds but the first-order ones, which are approximate by nature.
+template <typename N>
+Answer<N> AnswerBounds(SystemContact<N> system, Branches& branches) {
+  Contact<N>& contact = system.contact;
+  const bool is_pendulum = system.is_pendulum;
+  Answer<N> answer;
+  if (is_pendulum) AddRatios(contact, answer);
+  const bool separating = !IsNegative(contact.v0, branches);
+  if (!separating) contact.v0 = AtMostZero(contact.v0);
+  const BothRanges<N> ranges =
+      separating ? RangesWhereSeparating(contact, is_pendulum, branches) : RangesOf(contact, branches);
+  answer.regime = is_pendulum ? PendulumRegime(ranges.regime) : ranges.regime;
+  AddRanges("sharp.", ranges.sharp, answer);
+  AddRanges("energy_only.", ranges.energy_only, answer);
+  AddCriticalFriction(separating ? CriticalFrictionOf<N>() : FindCriticalFriction(contact, branches), answer);
+  return answer;
+}
+
+}  // namespace ricochet::certified
+
+#endif  // RICOCHET_CORE_CERTIFIED_ANSWERS_H_

@@ -1,0 +1,86 @@
+// ArfInterval: a closed interval with ends of any precision and exponent, by Arb.
+//
+// Every operation encloses the exact results for all points of its operands: each end is rounded outward to the larger
+// of the two precisions. Two ends, rather than a ball's centre and radius, keep signs and roots of wide intervals. A
+// quotient by an interval that holds 0 inside is the whole line, where it only ends at 0 a half-line.
+
+#ifndef RICOCHET_CORE_CERTIFIED_ARF_INTERVAL_H_
+#define RICOCHET_CORE_CERTIFIED_ARF_INTERVAL_H_
+
+#include <arb.h>
+
+#include <utility>
+
+namespace ricochet::certified {
+
+// A binary floating-point number.
+class Arf {
+ public:
+  Arf() { arf_init(value_); }
+  explicit Arf(double exact) {
+    arf_init(value_);
+    arf_set_d(value_, exact);
+  }
+  Arf(const Arf& other) {
+    arf_init(value_);
+    arf_set(value_, other.value_);
+  }
+  Arf(Arf&& other) noexcept {
+    arf_init(value_);
+    arf_swap(value_, other.value_);
+  }
+  Arf& operator=(Arf other) noexcept {
+    arf_swap(value_, other.value_);
+    return *this;
+  }
+  ~Arf() { arf_clear(value_); }
+
+  friend bool operator<(const Arf& x, const Arf& y) { return arf_cmp(x.value_, y.value_) < 0; }
+  friend bool operator==(const Arf& x, const Arf& y) { return arf_equal(x.value_, y.value_) != 0; }
+  int Sign() const { return arf_sgn(value_); }
+  bool IsFinite() const { return arf_is_finite(value_) != 0; }
+
+  arf_struct* get() { return value_; }
+  const arf_struct* get() const { return value_; }
+
+ private:
+  arf_t value_;
+};
+
+class ArfInterval {
+ public:
+  ArfInterval() = default;
+  // Implicit, so that formulas read like formulas.
+  ArfInterval(double exact) : lower_(exact), upper_(exact) {}
+  ArfInterval(Arf lower, Arf upper, slong bits) : lower_(std::move(lower)), upper_(std::move(upper)), bits_(bits) {}
+  ArfInterval(const arb_t ball, slong bits) : bits_(bits) {
+    arb_get_interval_arf(lower_.get(), upper_.get(), ball, bits);
+  }
+
+  friend ArfInterval operator+(const ArfInterval& x, const ArfInterval& y);
+  friend ArfInterval operator-(const ArfInterval& x, const ArfInterval& y);
+  friend ArfInterval operator*(const ArfInterval& x, const ArfInterval& y);
+  friend ArfInterval operator/(const ArfInterval& x, const ArfInterval& y);
+  friend ArfInterval operator-(const ArfInterval& x);
+  // Of the points that are not negative; there is one.
+  friend ArfInterval Sqrt(const ArfInterval& x);
+  friend ArfInterval Square(const ArfInterval& x);
+  friend ArfInterval Abs(const ArfInterval& x);
+  friend ArfInterval Min(const ArfInterval& x, const ArfInterval& y);
+  friend ArfInterval Max(const ArfInterval& x, const ArfInterval& y);
+  friend ArfInterval Hull(const ArfInterval& x, const ArfInterval& y);
+  // The points that are not negative, or not positive; there is one.
+  friend ArfInterval AtLeastZero(ArfInterval x);
+  friend ArfInterval AtMostZero(ArfInterval x);
+
+  const Arf& lower() const { return lower_; }
+  const Arf& upper() const { return upper_; }
+
+ private:
+  Arf lower_, upper_;
+  slong bits_ = 53;
+};
+
+}  // namespace ricochet::certified
+
+#endif  // RICOCHET_CORE_CERTIFIED_ARF_INTERVAL_H_

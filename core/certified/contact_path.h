@@ -1,0 +1,344 @@
+// The path of a planar impact (core/models/planar/planar.h has its equations and regimes) over a number type N: Surd, where
+// every branch is decided, or ArfInterval.
+//
+// A path has at most two pieces, on which u, v and f are linear in tau: the slip of the start, and what follows where
+// it stops. Along a piece with slopes (f', u', v')
+//   twice the work    step (v + v_new) of the normal, f' step (u + u_new) of the tangential impulse
+//   v_new^2 - v^2     2 v' times the normal work, which ends energetic restitution at a square root
+//   E_new - E         p step + P step^2/2,  p = f' u + v,  P = f' u' + v'
+// With rank one u = rho v, rho = Wtn/Wnn, along the path, so that slip stops just where v = 0.
+
+#ifndef RICOCHET_CORE_CERTIFIED_CONTACT_PATH_H_
+#define RICOCHET_CORE_CERTIFIED_CONTACT_PATH_H_
+
+#include <optional>
+#include <utility>
+
+#include "core/certified/branches.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/restitution_law.h"
+#include "ricochet/regime.h"
+
+namespace ricochet::certified {
+
+template <typename N>
+struct Contact {
+  N wtt, wtn, wnn;
+  N det;  // Of W, not below 0.
+  N rho;
+  N u0, v0;  // In the range of W.
+  N mu, mu_static;
+  RestitutionLaw law = RestitutionLaw::kEnergetic;
+  N coefficient;
+  std::optional<bool> rank_one;  // Where the system's nature says it; else det does.
+};
+
+// A number, or its square where it is a root that N may not hold.
+template <typename N>
+struct Number {
+  N value;
+  bool is_square = false;
+};
+
+template <typename N>
+struct Impact {
+  Regime regime = Regime::kUnspecified;
+  N newton, poisson, tangential;
+  Number<N> energetic;
+  N u1, v1;
+  N tau_compression, tau1, f1;
+  N normal_compression, normal_restitution, tangential_compression, tangential_restitution;  // Works.
+  N normal_total;
+};
+
+// Where the kinetic energy is back, beyond the end of the elastic impact.
+template <typename N>
+struct EnergyEnd {
+  N newton, poisson, tangential, tau;
+  Number<N> energetic;
+};
+
+template <typename N>
+class ContactPath {
+ public:
+  // The contact approaches: v0 < 0.
+  ContactPath(const Contact<N>& contact, Branches& branches) : contact_(contact), branches_(branches) {
+    rank_one_ = contact.rank_one.has_value() ? *contact.rank_one : !IsPositive(contact.det, branches);
+    if (rank_one_) {
+      FollowRankOne();
+    } else {
+      FollowFullRank();
+    }
+    Compress();
+  }
+
+  bool locked() const { return locked_; }
+
+  // The whole impact, with restitution by `law`.
+  Impact<N> Solve(RestitutionLaw law, const N& coefficient) {
+    End end = {.at = rest_, .normal_twice = N(0.0), .tangential_twice = N(0.0), .passes_stop = false};
+    const bool has_restitution = !locked_ && IsPositive(coefficient, branches_);
+    if (has_restitution) {
+      end = Restitute(law, coefficient);
+    } else if (!locked_ && StopIsAhead()) {
+      end.passes_stop = !IsPositive(v_stop_, branches_);
+    }
+    Impact<N> impact = Describe(end);
+    if (has_restitution) SetCoefficients(law, coefficient, end, impact);
+    return impact;
+  }
+
+  EnergyEnd<N> FindEnergyEnd() {
+    const N half(0.5);
+    Point at = rest_;
+    N energy = half * (compression_normal_ + compression_tangential_);
+    N work(0.0);
+    Piece piece = Current();
+    if (StopIsAhead()) {
+      const N step = v_stop_ / piece.v;
+      const N at_stop = energy + half * step * (piece.f * (at.u + N(0.0)) + (at.v + v_stop_));
+      if (IsNegative(at_stop, branches_)) {
+        work = half * step * (at.v + v_stop_);
+        energy = at_stop;
+        at = {at.tau + step, at.f + piece.f * step, N(0.0), v_stop_};
+        piece = second_;
+      }
+    }
+    const N power = piece.f * at.u + at.v;
+    const N slope = piece.f * piece.u + piece.v;
+    const N step = (Sqrt(AtLeastZero(Square(power) - N(2.0) * slope * AtMostZero(energy))) - power) / slope;
+    const N v = at.v + piece.v * step;
+    work = work + half * step * (at.v + v);
+    const N tau = at.tau + step;
+    return {.newton = v / -contact_.v0,
+            .poisson = (tau - rest_.tau) / rest_.tau,
+            .tangential = (at.f + piece.f * step) / tau,
+            .tau = tau,
+            .energetic = {work / (-half * compression_normal_), true}};
+  }
+
+ private:
+  struct Piece {
+    N f, u, v;
+  };
+  struct Point {
+    N tau, f, u, v;
+  };
+  struct End {
+    Point at;
+    N normal_twice, tangential_twice;  // Works of restitution.
+    bool passes_stop;
+  };
+
+  static N Signed(const N& x, bool negative) { return negative ? -x : x; }
+
+  Piece Slip(const N& f) const { return {f, contact_.wtn + f * contact_.wtt, contact_.wnn + f * contact_.wtn}; }
+
+  void FollowFullRank() {
+    const N& wtn = contact_.wtn;
+    v_stop_ = contact_.v0;
+    const bool backwards = IsNegative(contact_.u0, branches_);
+    slips_first_ = backwards || IsPositive(contact_.u0, branches_);
+    stops_ = true;
+    if (slips_first_) {
+      contact_.u0 = backwards ? N(AtMostZero(contact_.u0)) : N(AtLeastZero(contact_.u0));
+      first_ = Slip(Signed(contact_.mu, !backwards));
+      stops_ = IsNegative(Signed(first_.u, backwards), branches_);
+      if (stops_) {
+        first_.u = Signed(N(AtMostZero(Signed(first_.u, backwards))), backwards);
+        v_stop_ = contact_.v0 - contact_.u0 * first_.v / first_.u;
+      }
+    }
+    if (!stops_) return;
+    sticks_ = !IsNegative(contact_.mu_static * contact_.wtt - Abs(wtn), branches_);
+    if (sticks_) {
+      second_ = {-wtn / contact_.wtt, N(0.0), AtLeastZero(contact_.det) / contact_.wtt};
+    } else {
+      second_ = Slip(Signed(contact_.mu, !IsNegative(wtn, branches_)));
+    }
+  }
+
+  void FollowRankOne() {
+    const N& rho = contact_.rho;
+    slips_first_ = true;
+    const bool backwards = IsPositive(rho, branches_);
+    stops_ = backwards || IsNegative(rho, branches_);
+    if (!stops_) {
+      first_ = {N(0.0), N(0.0), contact_.wnn};
+      return;
+    }
+    const auto slope = [&](bool slips_back) {
+      const N f = Signed(contact_.mu, !slips_back);
+      const N v = contact_.wnn * (N(1.0) + f * rho);
+      return Piece{f, rho * v, v};
+    };
+    v_stop_ = N(0.0);
+    first_ = slope(backwards);
+    second_ = slope(!backwards);
+    sticks_ = locked_ = !IsNegative(contact_.mu_static * Abs(rho) - N(1.0), branches_);
+  }
+
+  void Advance(const Piece& piece, const N& step, const N& u, const N& v, Point& at, N& normal, N& tangential) const {
+    const N f_step = piece.f * step;
+    normal = normal + step * (at.v + v);
+    tangential = tangential + f_step * (at.u + u);
+    at = {at.tau + step, at.f + f_step, u, v};
+  }
+
+  void Compress() {
+    const N zero(0.0);
+    Point at = {zero, zero, contact_.u0, contact_.v0};
+    compression_normal_ = compression_tangential_ = zero;
+    stops_in_compression_ = stops_ && IsNegative(v_stop_, branches_);
+    if (stops_in_compression_) {
+      if (slips_first_) {
+        v_stop_ = AtMostZero(v_stop_);
+        Advance(first_, -contact_.u0 / first_.u, zero, v_stop_, at, compression_normal_, compression_tangential_);
+      }
+      const N step = -v_stop_ / second_.v;
+      Advance(second_, step, second_.u * step, zero, at, compression_normal_, compression_tangential_);
+    } else {
+      const N step = -contact_.v0 / first_.v;
+      // At rank one slip stops together with v.
+      const N u = stops_ && rank_one_ ? zero : contact_.u0 + first_.u * step;
+      Advance(first_, step, u, zero, at, compression_normal_, compression_tangential_);
+    }
+    rest_ = at;
+  }
+
+  bool StopIsAhead() const { return stops_ && !stops_in_compression_; }
+  const Piece& Current() const { return stops_in_compression_ ? second_ : first_; }
+
+  // How far restitution goes: on the current piece alone, or past where slip stops.
+  struct Steps {
+    bool passes_stop;
+    N before, after, v1;
+  };
+
+  Steps OnOnePiece(const N& step, const N& v1) const { return {false, step, N(0.0), v1}; }
+
+  Steps ByNewton(const N& e) {
+    const N& slope = Current().v;
+    const N v1 = e * -contact_.v0;
+    if (!StopIsAhead() || IsNegative(v1 - v_stop_, branches_)) return OnOnePiece(v1 / slope, v1);
+    return {true, v_stop_ / slope, AtLeastZero(v1 - v_stop_) / second_.v, v1};
+  }
+
+  Steps ByPoisson(const N& kappa) {
+    const N& slope = Current().v;
+    const N step = kappa * rest_.tau;
+    if (!StopIsAhead()) return OnOnePiece(step, slope * step);
+    const N before = v_stop_ / slope;
+    const N after = step - before;
+    if (IsNegative(after, branches_)) return OnOnePiece(step, slope * step);
+    return {true, before, AtLeastZero(after), v_stop_ + second_.v * AtLeastZero(after)};
+  }
+
+  Steps ByEnergy(const N& eta) {
+    const N& slope = Current().v;
+    const N work = Square(eta) * -compression_normal_;
+    if (StopIsAhead()) {
+      const N before = v_stop_ / slope;
+      const N beyond = work - v_stop_ * before;
+      if (!IsNegative(beyond, branches_)) {
+        const N v1 = Sqrt(Square(v_stop_) + second_.v * AtLeastZero(beyond));
+        return {true, before, (v1 - v_stop_) / second_.v, v1};
+      }
+    }
+    const N v1 = Sqrt(slope * work);
+    return OnOnePiece(v1 / slope, v1);
+  }
+
+  Steps FindSteps(RestitutionLaw law, const N& coefficient) {
+    switch (law) {
+      case RestitutionLaw::kNewton:
+        return ByNewton(coefficient);
+      case RestitutionLaw::kPoisson:
+        return ByPoisson(coefficient);
+      case RestitutionLaw::kEnergetic:
+        break;
+    }
+    return ByEnergy(coefficient);
+  }
+
+  End Restitute(RestitutionLaw law, const N& coefficient) {
+    const N zero(0.0);
+    const Steps steps = FindSteps(law, coefficient);
+    End end = {.at = rest_, .normal_twice = zero, .tangential_twice = zero, .passes_stop = steps.passes_stop};
+    const auto advance = [&](const Piece& piece, const N& step, const N& u, const N& v) {
+      Advance(piece, step, u, v, end.at, end.normal_twice, end.tangential_twice);
+    };
+    if (steps.passes_stop) {
+      advance(Current(), steps.before, zero, v_stop_);
+      advance(second_, steps.after, second_.u * steps.after, steps.v1);
+    } else {
+      advance(Current(), steps.before, rest_.u + Current().u * steps.before, steps.v1);
+    }
+    return end;
+  }
+
+  Regime RegimeOf(bool stops_in_restitution) {
+    if (locked_) return Regime::kLocked;
+    const bool stopped = stops_in_compression_ || stops_in_restitution;
+    const bool smooth = !IsPositive(contact_.mu_static, branches_) || !IsPositive(contact_.wtt, branches_);
+    if (smooth || (!(stopped && sticks_) && !IsPositive(contact_.mu, branches_))) return Regime::kFrictionless;
+    if (!stopped || !(slips_first_ || sticks_)) return Regime::kSliding;
+    if (stops_in_compression_) return sticks_ ? Regime::kStickInCompression : Regime::kReversalInCompression;
+    return sticks_ ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
+  }
+
+  Impact<N> Describe(const End& end) {
+    const N half(0.5);
+    const N zero(0.0);
+    return {.regime = RegimeOf(end.passes_stop),
+            .newton = zero,
+            .poisson = zero,
+            .tangential = end.at.f / end.at.tau,
+            .energetic = {zero, false},
+            .u1 = end.at.u,
+            .v1 = end.at.v,
+            .tau_compression = rest_.tau,
+            .tau1 = end.at.tau,
+            .f1 = end.at.f,
+            .normal_compression = half * compression_normal_,
+            .normal_restitution = half * end.normal_twice,
+            .tangential_compression = half * compression_tangential_,
+            .tangential_restitution = half * end.tangential_twice,
+            .normal_total = half * (compression_normal_ + end.normal_twice)};
+  }
+
+  // What the law gives by definition stands as given: an interval would only blur it. Where v' is the same
+  // throughout, all laws agree.
+  void SetCoefficients(RestitutionLaw law, const N& coefficient, const End& end, Impact<N>& impact) const {
+    const bool one_piece =
+        impact.regime == Regime::kFrictionless || (!end.passes_stop && !(stops_in_compression_ && slips_first_));
+    impact.newton = one_piece || law == RestitutionLaw::kNewton ? coefficient : end.at.v / -contact_.v0;
+    impact.poisson = one_piece || law == RestitutionLaw::kPoisson ? coefficient : (end.at.tau - rest_.tau) / rest_.tau;
+    if (one_piece || law == RestitutionLaw::kEnergetic) {
+      const N square = Square(coefficient);
+      impact.energetic = {coefficient, false};
+      impact.normal_restitution = -square * impact.normal_compression;
+      impact.normal_total = impact.normal_compression * (N(1.0) - square);
+    } else {
+      impact.energetic = {end.normal_twice / -compression_normal_, true};
+    }
+  }
+
+  Contact<N> contact_;
+  Branches& branches_;
+  Piece first_;   // Of the slip at the start; not set where u0 = 0.
+  Piece second_;  // Once slip has stopped; not set where it never does.
+  bool rank_one_ = false;
+  bool slips_first_ = false;
+  bool stops_ = false;  // Slip comes to a stop, if the impact lasts; true where u0 = 0.
+  bool sticks_ = false;
+  bool locked_ = false;
+  bool stops_in_compression_ = false;
+  N v_stop_;                                       // v where slip stops.
+  Point rest_;                                     // The end of compression.
+  N compression_normal_, compression_tangential_;  // Twice the works.
+};
+
+}  // namespace ricochet::certified
+
+#endif  // RICOCHET_CORE_CERTIFIED_CONTACT_PATH_H_

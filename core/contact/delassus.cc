@@ -1,0 +1,32 @@
+#include "core/contact/delassus.h"
+
+#include <algorithm>
+
+namespace ricochet {
+namespace {
+
+// a d - b c to 1.5 ulp.
+double Determinant(double a, double b, double c, double d) {
+  const double product = b * c;
+  const double rounding = std::fma(-b, c, product);
+  return std::fma(a, d, -product) + rounding;
+}
+
+}  // namespace
+
+int SpatialDelassus::Rank() const {
+  int exponent = 0;
+  (void)std::frexp(std::max({w[0], w[3], w[5]}), &exponent);
+  std::array<double, 6> scaled = {};
+  for (size_t i = 0; i < w.size(); ++i) scaled[i] = std::scalbn(w[i], -exponent);
+  const auto& [w11, w12, w13, w22, w23, w33] = scaled;
+  const double m11 = Determinant(w11, w13, w13, w33);
+  const double m22 = Determinant(w22, w23, w23, w33);
+  const double m12 = Determinant(w12, w13, w23, w33);
+  if (!(m11 > kRankTolerance * w11 * w33) && !(m22 > kRankTolerance * w22 * w33)) return 1;
+  const double noise =
+      kRankTolerance * w33 * (std::fabs(m11) * w22 + std::fabs(m22) * w11 + 2.0 * std::fabs(m12 * w12));
+  return m11 * m22 - m12 * m12 > noise ? 3 : 2;
+}
+
+}  // namespace ricochet

@@ -1,0 +1,46 @@
+// The Delassus matrix W = J M^-1 J^T of a contact (its inverse inertia, 1/kg), and the only place that decides its rank.
+//
+// W is symmetric and positive semidefinite up to the rounding of its entries. Its determinant counts as zero where a
+// rounding of the entries could have made it: |det W| <= 4 eps Wtt Wnn in the plane, eps = 2^-52; in space the same
+// holds for the minors with n, and for det W with the terms it is the sum of.
+// Scale does not matter: entries may lie anywhere in the range of doubles.
+// Bad input: none gets here (core/scene/validate.h).
+
+#ifndef RICOCHET_CORE_CONTACT_DELASSUS_H_
+#define RICOCHET_CORE_CONTACT_DELASSUS_H_
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/numerics/determinant.h"
+
+namespace ricochet {
+
+// What the determinant may be, relative to the product of the diagonal, where rounding alone has made it.
+inline constexpr double kRankTolerance = 4.0 * std::numeric_limits<double>::epsilon();
+
+struct PlanarDelassus {
+  double tt = 0.0, tn = 0.0, nn = 0.0;
+
+  // det W/(Wtt Wnn), as core/numerics/determinant.h has it.
+  double RelativeDeterminant() const { return ricochet::RelativeDeterminant(tt, tn, nn); }
+  bool IsSemidefinite() const { return RelativeDeterminant() >= -kRankTolerance; }
+  // 0 for W = 0, else 1 or 2.
+  int Rank() const {
+    if (tt == 0.0 && nn == 0.0) return 0;
+    return std::abs(RelativeDeterminant()) <= kRankTolerance ? 1 : 2;
+  }
+};
+
+// The third direction is n. Entries are the upper triangle, row by row: 11, 12, 13, 22, 23, 33.
+struct SpatialDelassus {
+  std::array<double, 6> w = {};
+
+  // 1, 2 or 3.
+  int Rank() const;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_CONTACT_DELASSUS_H_

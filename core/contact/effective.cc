@@ -1,0 +1,105 @@
+#include "core/contact/effective.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <variant>
+#include <vector>
+
+#include "core/numerics/elementary.h"
+
+namespace ricochet {
+namespace {
+
+double Factor(std::monostate /*unset*/, double /*speed*/) { return 1.0; }
+
+double Factor(const PowerLaw& law, double speed) { return 1.0 - law.alpha * Pow(speed, law.exponent); }
+
+double Factor(const SpeedTable& table, double speed) {
+  const auto& speeds = table.speed_m_s;
+  const auto above = static_cast<size_t>(std::upper_bound(speeds.begin(), speeds.end(), speed) - speeds.begin());
+  if (above == 0) return table.factor.front();
+  if (above == speeds.size()) return table.factor.back();
+  const double share = (speed - speeds[above - 1]) / (speeds[above] - speeds[above - 1]);
+  return std::lerp(table.factor[above - 1], table.factor[above], share);
+}
+
+SlopeForm Factor(std::monostate /*unset*/, const SlopeForm& /*speed*/) { return 1.0; }
+
+SlopeForm Factor(const PowerLaw& law, const SlopeForm& speed) {
+  return SlopeForm(1.0) - SlopeForm(law.alpha) * Pow(speed, law.exponent);
+}
+
+// A piece of a table, between two of its speeds or beyond them all.
+struct Piece {
+  Interval speeds;
+  Interval from, factor;  // The line goes through the factor there ...
+  Interval slope;         // ... and rises by this.
+};
+
+std::vector<Piece> PiecesOf(const SpeedTable& table) {
+  const auto& speeds = table.speed_m_s;
+  std::vector<Piece> pieces = {{{0.0, speeds.front()}, 0.0, table.factor.front(), 0.0}};
+  for (size_t i = 1; i < speeds.size(); ++i) {
+    const Interval rise = Interval(table.factor[i]) - Interval(table.factor[i - 1]);
+    const Interval slope = rise / (Interval(speeds[i]) - Interval(speeds[i - 1]));
+    pieces.push_back({{speeds[i - 1], speeds[i]}, speeds[i - 1], table.factor[i - 1], slope});
+  }
+  pieces.push_back({{speeds.back(), rounding::kInfinity}, 0.0, table.factor.back(), 0.0});
+  return pieces;
+}
+
+Interval Factor(const std::vector<Piece>& pieces, const Interval& speed) {
+  Interval factor(rounding::kInfinity, -rounding::kInfinity);
+  for (const Piece& piece : pieces) {
+    const Interval part = Intersect(piece.speeds, speed);
+    if (!IsEmpty(part)) factor = Hull(factor, piece.factor + (part - piece.from) * piece.slope);
+  }
+  return factor;
+}
+
+SlopeForm Factor(const SpeedTable& table, const SlopeForm& speed) {
+  const std::vector<Piece> pieces = PiecesOf(table);
+  Interval slope(rounding::kInfinity, -rounding::kInfinity);
+  for (const Piece& piece : pieces) {
+    if (!IsEmpty(Intersect(piece.speeds, speed.range()))) slope = Hull(slope, piece.slope);
+  }
+  return speed.Through(Factor(pieces, speed.centre()), Factor(pieces, speed.range()), slope);
+}
+
+double Value(std::monostate /*unset*/) { return 0.0; }
+template <typename Coefficient>
+double Value(const Coefficient& coefficient) {
+  return coefficient.value;
+}
+
+double NewtonOf(std::monostate /*unset*/) { return 0.0; }
+template <typename Law>
+double NewtonOf(const Law& law) {
+  return law.e;
+}
+
+}  // namespace
+
+double FactorAt(const std::optional<SpeedDependence>& dependence, double speed) {
+  if (!dependence.has_value()) return 1.0;
+  return std::visit([speed](const auto& form) { return Factor(form, speed); }, *dependence);
+}
+
+SlopeForm FactorAt(const std::optional<SpeedDependence>& dependence, const SlopeForm& speed) {
+  if (!dependence.has_value()) return 1.0;
+  return std::visit([&speed](const auto& form) { return Factor(form, speed); }, *dependence);
+}
+
+EffectiveCoefficients EffectiveAt(const Scene& scene, double speed) {
+  const double friction = FactorAt(scene.friction.by_speed, speed);
+  const double kinetic = scene.friction.kinetic_coefficient;
+  const bool has_law = !std::holds_alternative<std::monostate>(scene.impact_law);
+  const double restitution = has_law ? std::visit([](const auto& law) { return NewtonOf(law); }, scene.impact_law)
+                                     : std::visit([](const auto& given) { return Value(given); }, scene.restitution);
+  return {.kinetic_friction = kinetic * friction,
+          .static_friction = scene.friction.static_coefficient.value_or(kinetic) * friction,
+          .restitution = restitution * FactorAt(scene.restitution_by_speed, speed)};
+}
+
+}  // namespace ricochet

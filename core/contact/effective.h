@@ -1,0 +1,30 @@
+// What a scene's coefficients are at its approach speed.
+
+#ifndef RICOCHET_CORE_CONTACT_EFFECTIVE_H_
+#define RICOCHET_CORE_CONTACT_EFFECTIVE_H_
+
+#include <optional>
+
+#include "core/numerics/slope_form.h"
+#include "ricochet/outcome.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+// The factor at `speed` >= 0; 1 where there is no dependence.
+double FactorAt(const std::optional<SpeedDependence>& dependence, double speed);
+
+// Encloses the factor of each speed, all >= 0.
+SlopeForm FactorAt(const std::optional<SpeedDependence>& dependence, const SlopeForm& speed);
+
+// Whether the coefficients depend on the speed at all.
+inline bool DependsOnSpeed(const Scene& scene) {
+  return scene.friction.by_speed.has_value() || scene.restitution_by_speed.has_value();
+}
+
+// The scene's coefficients times their factors. A restitution that is left open counts as 0.
+EffectiveCoefficients EffectiveAt(const Scene& scene, double speed);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_CONTACT_EFFECTIVE_H_

@@ -1,0 +1,239 @@
+#include "core/contact/interval_reduction.h"
+
+#include <cstddef>
+#include <vector>
+
+#include "core/numerics/interval_elementary.h"
+#include "core/numerics/slope_form.h"
+
+namespace ricochet {
+namespace {
+
+const Interval kNone = {rounding::kInfinity, -rounding::kInfinity};
+
+// The numbers of two structs of one kind, each in between.
+template <typename T>
+auto ParametersBetween(const T& low, const T& high, SlopeParameters& parameters) {
+  return [&](double T::*number) { return SlopeForm::Parameter({low.*number, high.*number}, parameters); };
+}
+
+// --- Free bodies ---
+
+struct BodyForm {
+  SlopeForm mass, inertia, t, n, velocity_t, velocity_n, rate;
+};
+
+BodyForm Between(const PlanarBody& low, const PlanarBody& high, SlopeParameters& parameters) {
+  const auto between = ParametersBetween(low, high, parameters);
+  return {.mass = between(&PlanarBody::mass_kg),
+          .inertia = between(&PlanarBody::inertia_com_kg_m2),
+          .t = between(&PlanarBody::offset_t_m),
+          .n = between(&PlanarBody::offset_n_m),
+          .velocity_t = between(&PlanarBody::velocity_t_m_s),
+          .velocity_n = between(&PlanarBody::velocity_n_m_s),
+          .rate = between(&PlanarBody::rate_rad_s)};
+}
+
+SlopeForm SlipOf(const BodyForm& body) { return body.velocity_t - body.rate * body.n; }
+SlopeForm SpeedOf(const BodyForm& body) { return body.velocity_n + body.rate * body.t; }
+
+ContactForm Contact(const BodyForm& body) {
+  const SlopeForm inverse_mass = SlopeForm(1.0) / body.mass;
+  const SlopeForm t2 = Square(body.t);
+  const SlopeForm n2 = Square(body.n);
+  return {.wtt = inverse_mass + n2 / body.inertia,
+          .wtn = -(body.t * body.n / body.inertia),
+          .wnn = inverse_mass + t2 / body.inertia,
+          .stick_slope = inverse_mass + t2 / (body.inertia + body.mass * n2),
+          .u0 = SlipOf(body),
+          .v0 = SpeedOf(body)};
+}
+
+ContactForm Contact(const BodyForm& one, const BodyForm& two) {
+  const SlopeForm inverse_mass = SlopeForm(1.0) / one.mass + SlopeForm(1.0) / two.mass;
+  const SlopeForm tt = Square(one.n) / one.inertia + Square(two.n) / two.inertia;
+  const SlopeForm nn = Square(one.t) / one.inertia + Square(two.t) / two.inertia;
+  const SlopeForm cross = Square(one.n * two.t - one.t * two.n) / (one.inertia * two.inertia);
+  return {.wtt = inverse_mass + tt,
+          .wtn = -(one.t * one.n / one.inertia + two.t * two.n / two.inertia),
+          .wnn = inverse_mass + nn,
+          .stick_slope = inverse_mass + nn / (SlopeForm(1.0) + tt / inverse_mass) + cross / (inverse_mass + tt),
+          .u0 = SlipOf(one) - SlipOf(two),
+          .v0 = SpeedOf(one) - SpeedOf(two)};
+}
+
+// --- Linkages ---
+
+struct LinkForm {
+  SlopeForm length, mass, com, inertia, theta, rate;
+};
+
+std::vector<LinkForm> Between(const Linkage& low, const Linkage& high, SlopeParameters& parameters) {
+  std::vector<LinkForm> links;
+  for (size_t i = 0; i < low.links.size(); ++i) {
+    const auto between = ParametersBetween(low.links[i], high.links[i], parameters);
+    links.push_back({.length = between(&Link::length_m),
+                     .mass = between(&Link::mass_kg),
+                     .com = between(&Link::com_m),
+                     .inertia = between(&Link::inertia_com_kg_m2),
+                     .theta = between(&Link::theta_rad),
+                     .rate = between(&Link::rate_rad_s)});
+  }
+  return links;
+}
+
+using Row = std::vector<SlopeForm>;
+
+// The lower triangle; MassMatrix in core/contact/reduction.cc has the formula.
+std::vector<Row> MassMatrix(const std::vector<LinkForm>& links) {
+  std::vector<Row> mass(links.size());
+  SlopeForm beyond(0.0);
+  for (size_t k = links.size(); k-- > 0;) {
+    const LinkForm& link = links[k];
+    const SlopeForm moment = link.mass * link.com + beyond * link.length;
+    for (size_t i = 0; i < k; ++i) {
+      mass[k].push_back(moment * links[i].length * Cos(links[i].theta - link.theta));
+    }
+    mass[k].push_back(link.inertia + link.mass * Square(link.com) + beyond * Square(link.length));
+    beyond = beyond + link.mass;
+  }
+  return mass;
+}
+
+// W = sum_i (t_i, n_i)^T (t_i, n_i)/d_i
+struct Gram {
+  Row d, t, n;
+};
+
+// By elimination, row by row.
+Gram Eliminate(const std::vector<LinkForm>& links) {
+  const std::vector<Row> mass = MassMatrix(links);
+  Gram gram;
+  std::vector<Row> scaled(links.size());  // L D
+  for (size_t i = 0; i < links.size(); ++i) {
+    SlopeForm d = mass[i][i];
+    SlopeForm t = links[i].length * Cos(links[i].theta);
+    SlopeForm n = links[i].length * Sin(links[i].theta);
+    for (size_t j = 0; j < i; ++j) {
+      SlopeForm entry = mass[i][j];
+      for (size_t k = 0; k < j; ++k) entry = entry - scaled[i][k] * scaled[j][k] / gram.d[k];
+      d = d - Square(entry) / gram.d[j];
+      t = t - entry / gram.d[j] * gram.t[j];
+      n = n - entry / gram.d[j] * gram.n[j];
+      scaled[i].push_back(entry);
+    }
+    gram.d.push_back(d);
+    gram.t.push_back(t);
+    gram.n.push_back(n);
+  }
+  return gram;
+}
+
+ContactForm Contact(const std::vector<LinkForm>& links) {
+  const Gram gram = Eliminate(links);
+  SlopeForm wtt(0.0), wtn(0.0), wnn(0.0), determinant(0.0), u0(0.0), v0(0.0);
+  for (size_t i = 0; i < links.size(); ++i) {
+    wtt = wtt + Square(gram.t[i]) / gram.d[i];
+    wtn = wtn + gram.t[i] * gram.n[i] / gram.d[i];
+    wnn = wnn + Square(gram.n[i]) / gram.d[i];
+    for (size_t j = 0; j < i; ++j) {
+      determinant = determinant + Square(gram.t[i] * gram.n[j] - gram.t[j] * gram.n[i]) / (gram.d[i] * gram.d[j]);
+    }
+    u0 = u0 + links[i].length * Cos(links[i].theta) * links[i].rate;
+    v0 = v0 + links[i].length * Sin(links[i].theta) * links[i].rate;
+  }
+  return {.wtt = wtt, .wtn = wtn, .wnn = wnn, .stick_slope = determinant / wtt, .u0 = u0, .v0 = v0};
+}
+
+// cos/sin, which falls between its poles; of the angles whose sine is in `sine`.
+Interval Cotangent(const Interval& radians, const Interval& sine) {
+  const Interval plain = Cos(radians) / sine;
+  if (Contains(Sin(radians), 0.0)) return plain;
+  const auto at = [](double end) { return Cos(Interval(end)) / Sin(Interval(end)); };
+  return Intersect(plain, {at(radians.upper).lower, at(radians.lower).upper});
+}
+
+IntervalPendulum OneLink(const Link& low, const Link& high) {
+  const Interval length(low.length_m, high.length_m);
+  const Interval theta(low.theta_rad, high.theta_rad);
+  const Interval mass(low.mass_kg, high.mass_kg);
+  return {.inertia = Interval(low.inertia_com_kg_m2, high.inertia_com_kg_m2) + mass * Square({low.com_m, high.com_m}),
+          .a = length * Sin(theta),
+          .b = length * Cos(theta),
+          .slope = Cotangent(theta, Sin(theta)),
+          .omega_minus = {low.rate_rad_s, high.rate_rad_s}};
+}
+
+// --- Systems; both scenes' are of the same kind. ---
+
+IntervalPendulum Between(const SceneBox& box, const Pendulum& low, const Pendulum& high) {
+  IntervalPendulum pendulum = {.inertia = {low.inertia_kg_m2, high.inertia_kg_m2},
+                               .a = {low.a_m, high.a_m},
+                               .b = {low.b_m, high.b_m},
+                               .slope = std::nullopt,
+                               .omega_minus = {low.omega_minus_rad_s, high.omega_minus_rad_s}};
+  if (!box.phi.has_value()) return pendulum;
+  const Interval distance = Sqrt(Square(low.a_m) + Square(low.b_m));
+  const Interval sine = AtLeast(Sin(*box.phi), 0.0);
+  if (!(sine.upper > 0.0)) {
+    pendulum.a = kNone;
+    return pendulum;
+  }
+  pendulum.a = distance * sine;
+  pendulum.b = distance * Cos(*box.phi);
+  pendulum.slope = Cotangent(*box.phi, sine);
+  return pendulum;
+}
+
+ContactForm Between(const PlanarContact& low, const PlanarContact& high, SlopeParameters& parameters) {
+  const auto between = ParametersBetween(low, high, parameters);
+  ContactForm contact = {.wtt = between(&PlanarContact::w_tt_per_kg),
+                         .wtn = between(&PlanarContact::w_tn_per_kg),
+                         .wnn = between(&PlanarContact::w_nn_per_kg),
+                         .u0 = between(&PlanarContact::tangential_m_s),
+                         .v0 = between(&PlanarContact::normal_m_s)};
+  contact.stick_slope = contact.wnn - Square(contact.wtn) / contact.wtt;
+  return contact;
+}
+
+ContactForm Contact(const SceneBox& box, SlopeParameters& parameters) {
+  const System& high = box.high.system;
+  if (const auto* low = std::get_if<PlanarContact>(&box.low.system)) {
+    return Between(*low, std::get<PlanarContact>(high), parameters);
+  }
+  if (const auto* low = std::get_if<PlanarBody>(&box.low.system)) {
+    return Contact(Between(*low, std::get<PlanarBody>(high), parameters));
+  }
+  if (const auto* low = std::get_if<Linkage>(&box.low.system)) {
+    return Contact(Between(*low, std::get<Linkage>(high), parameters));
+  }
+  const auto& low_pair = std::get<PlanarPair>(std::get<BodyPair>(box.low.system).bodies);
+  const auto& high_pair = std::get<PlanarPair>(std::get<BodyPair>(high).bodies);
+  const BodyForm body_1 = Between(low_pair.body_1, high_pair.body_1, parameters);
+  return Contact(body_1, Between(low_pair.body_2, high_pair.body_2, parameters));
+}
+
+}  // namespace
+
+bool IsOfRankOne(const System& system) {
+  const auto* const linkage = std::get_if<Linkage>(&system);
+  return std::holds_alternative<Pendulum>(system) || (linkage != nullptr && linkage->links.size() == 1);
+}
+
+IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters) {
+  if (const auto* low = std::get_if<Pendulum>(&box.low.system)) {
+    return Between(box, *low, std::get<Pendulum>(box.high.system));
+  }
+  if (IsOfRankOne(box.low.system)) {
+    return OneLink(std::get<Linkage>(box.low.system).links[0], std::get<Linkage>(box.high.system).links[0]);
+  }
+  ContactForm contact = Contact(box, parameters);
+  if (!box.low.surface_velocity.has_value()) return contact;
+  const SurfaceVelocity& low = *box.low.surface_velocity;
+  const SurfaceVelocity& high = *box.high.surface_velocity;
+  contact.u0 = contact.u0 - SlopeForm::Parameter({low.tangential_m_s[0], high.tangential_m_s[0]}, parameters);
+  contact.v0 = contact.v0 - SlopeForm::Parameter({low.normal_m_s, high.normal_m_s}, parameters);
+  return contact;
+}
+
+}  // namespace ricochet

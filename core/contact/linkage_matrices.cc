@@ -1,0 +1,52 @@
+#include "core/contact/linkage_matrices.h"
+
+#include <cstddef>
+#include <vector>
+
+#include "core/numerics/elementary.h"
+
+namespace ricochet {
+
+Eigen::MatrixXd MassMatrix(const Linkage& linkage) {
+  const std::vector<Link>& links = linkage.links;
+  const auto n = static_cast<Eigen::Index>(links.size());
+  Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);
+  double beyond = 0.0;  // Mass of the links after k, from the tip on.
+  for (Eigen::Index k = n - 1; k >= 0; --k) {
+    const Link& link = links[static_cast<size_t>(k)];
+    const double moment = link.mass_kg * link.com_m + beyond * link.length_m;
+    mass(k, k) =
+        link.inertia_com_kg_m2 + link.mass_kg * link.com_m * link.com_m + beyond * link.length_m * link.length_m;
+    for (Eigen::Index i = 0; i < k; ++i) {
+      const Link& before = links[static_cast<size_t>(i)];
+      mass(i, k) = mass(k, i) = moment * before.length_m * Cos(before.theta_rad - link.theta_rad);
+    }
+    beyond += link.mass_kg;
+  }
+  return mass;
+}
+
+Eigen::MatrixXd TransposedJacobian(const Linkage& linkage) {
+  Eigen::MatrixXd jt(static_cast<Eigen::Index>(linkage.links.size()), 2);
+  Eigen::Index i = 0;
+  for (const Link& link : linkage.links) {
+    jt(i, 0) = link.length_m * Cos(link.theta_rad);
+    jt(i, 1) = link.length_m * Sin(link.theta_rad);
+    ++i;
+  }
+  return jt;
+}
+
+Eigen::VectorXd GravityMoments(const Linkage& linkage, const Gravity& gravity) {
+  Eigen::VectorXd moments(static_cast<Eigen::Index>(linkage.links.size()));
+  double beyond = 0.0;  // Mass of the links after k, from the tip on.
+  for (Eigen::Index k = moments.size() - 1; k >= 0; --k) {
+    const Link& link = linkage.links[static_cast<size_t>(k)];
+    const double moment = link.mass_kg * link.com_m + beyond * link.length_m;
+    moments(k) = moment * (gravity.tangential_m_s2 * Cos(link.theta_rad) + gravity.normal_m_s2 * Sin(link.theta_rad));
+    beyond += link.mass_kg;
+  }
+  return moments;
+}
+
+}  // namespace ricochet

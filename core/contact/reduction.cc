@@ -1,0 +1,325 @@
+#include "core/contact/reduction.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/contact/finite_forces.h"
+#include "core/contact/linkage_matrices.h"
+#include "core/numerics/determinant.h"
+#include "core/numerics/products.h"
+
+namespace ricochet {
+namespace {
+
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// --- From M, J and q' ---
+
+// W, velocities and response of a system with the mass matrix L L^T and the transposed Jacobian `jt`.
+template <size_t kTangential>
+Reduction<kTangential> FromMechanism(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& jt,
+                                     const Eigen::VectorXd& before) {
+  constexpr int kDirections = kTangential + 1;
+  const Eigen::LLT<Eigen::MatrixXd> cholesky(mass);
+  const Eigen::MatrixXd y = cholesky.matrixL().solve(jt);
+  const Eigen::MatrixXd response = cholesky.matrixU().solve(y);
+  Reduction<kTangential> reduction;
+  size_t k = 0;
+  for (int i = 0; i < kDirections; ++i) {
+    for (int j = i; j < kDirections; ++j) reduction.w[k++] = y.col(i).dot(y.col(j));
+  }
+  const Eigen::VectorXd velocity = jt.transpose() * before;
+  for (size_t i = 0; i < kTangential; ++i) reduction.u0[i] = velocity(static_cast<int>(i));
+  reduction.v0 = velocity(kDirections - 1);
+  reduction.before.assign(before.data(), before.data() + before.size());
+  for (int row = 0; row < response.rows(); ++row) {
+    for (int column = 0; column < kDirections; ++column) reduction.response.push_back(response(row, column));
+  }
+  return reduction;
+}
+
+// What rounding may make of det W/(Wtt Wnn) = 0.
+double RankNoise(const PlanarReduction& reduction) {
+  return 8.0 * static_cast<double>(reduction.before.size()) * kEpsilon;
+}
+
+// A planar W whose determinant may be rounding alone becomes one of rank one.
+void SettleRank(PlanarReduction& reduction) {
+  auto& [tt, tn, nn] = reduction.w;
+  if (tt == 0.0 || nn == 0.0 || RelativeDeterminant(tt, tn, nn) > RankNoise(reduction)) return;
+  tn = std::copysign(std::sqrt(tt) * std::sqrt(nn), tn);
+}
+
+// Where the velocities lie in the range of W but for rounding, as they do where all links point the same way, what that
+// put outside is taken away. det W/(Wtt Wnn) is the square of an angle between directions, so that directions, and
+// velocities with them, are told apart by no less than the root of its noise. What is further off moves with a link too
+// heavy for the tip to feel. `sizes`: of the terms whose sums u0 and v0 are.
+void SettleVelocity(const Eigen::Vector2d& sizes, PlanarReduction& reduction) {
+  const auto& [tt, tn, nn] = reduction.w;
+  if (tt == 0.0 || nn == 0.0 || std::abs(RelativeDeterminant(tt, tn, nn)) > 4.0 * kEpsilon) return;
+  const double noise = std::sqrt(RankNoise(reduction));
+  const double outside = DifferenceOfProducts(reduction.u0[0], nn, reduction.v0, tn);
+  if (!(std::abs(outside) <= noise * (sizes[0] * nn + sizes[1] * std::abs(tn)))) return;
+  if (nn >= tt) {
+    reduction.u0[0] = reduction.v0 * (tn / nn);
+  } else {
+    reduction.v0 = reduction.u0[0] * (tn / tt);
+  }
+}
+
+PlanarReduction ReduceOne(const Pendulum& pendulum) {
+  const double a = pendulum.a_m;
+  const double b = pendulum.b_m;
+  const double root = std::sqrt(pendulum.inertia_kg_m2);
+  const double yt = b / root;
+  const double yn = a / root;
+  PlanarReduction reduction = {.w = {yt * yt, yt * yn, yn * yn},
+                               .u0 = {b * pendulum.omega_minus_rad_s},
+                               .v0 = a * pendulum.omega_minus_rad_s,
+                               .coordinates = Coordinates::kRates,
+                               .before = {pendulum.omega_minus_rad_s},
+                               .response = {b / pendulum.inertia_kg_m2, a / pendulum.inertia_kg_m2}};
+  SettleRank(reduction);
+  return reduction;
+}
+
+PlanarReduction ReduceOne(const Linkage& linkage) {
+  Eigen::VectorXd rates(static_cast<Eigen::Index>(linkage.links.size()));
+  std::transform(linkage.links.begin(), linkage.links.end(), rates.begin(),
+                 [](const Link& link) { return link.rate_rad_s; });
+  const Eigen::MatrixXd jt = TransposedJacobian(linkage);
+  PlanarReduction reduction = FromMechanism<1>(MassMatrix(linkage), jt, rates);
+  reduction.coordinates = Coordinates::kRates;
+  SettleRank(reduction);
+  SettleVelocity(jt.cwiseAbs().transpose() * rates.cwiseAbs(), reduction);
+  return reduction;
+}
+
+// --- Bodies. `side` is 1 for the body that the impulses act on, -1 for the one that their opposites act on. ---
+
+void AddBody(const PlanarBody& body, double side, PlanarReduction& reduction) {
+  const double st = body.offset_t_m;
+  const double sn = body.offset_n_m;
+  const double m = body.mass_kg;
+  const double inertia = body.inertia_com_kg_m2;
+  const double root = std::sqrt(inertia);
+  const double yt = -sn / root;
+  const double yn = st / root;
+  reduction.w[0] += 1.0 / m + yt * yt;
+  reduction.w[1] += yt * yn;
+  reduction.w[2] += 1.0 / m + yn * yn;
+  reduction.u0[0] += side * (body.velocity_t_m_s - body.rate_rad_s * sn);
+  reduction.v0 += side * (body.velocity_n_m_s + body.rate_rad_s * st);
+  reduction.before.insert(reduction.before.end(), {body.velocity_t_m_s, body.velocity_n_m_s, body.rate_rad_s});
+  reduction.response.insert(reduction.response.end(),
+                            {side / m, 0.0, 0.0, side / m, side * (-sn / inertia), side * (st / inertia)});
+}
+
+Eigen::Vector3d ToEigen(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }
+
+Eigen::Matrix3d Symmetric(const double* upper) {
+  Eigen::Matrix3d matrix;
+  matrix << upper[0], upper[1], upper[2], upper[1], upper[3], upper[4], upper[2], upper[4], upper[5];
+  return matrix;
+}
+
+// The matrix of r x.
+Eigen::Matrix3d Cross(const Eigen::Vector3d& r) {
+  Eigen::Matrix3d matrix;
+  matrix << 0.0, -r(2), r(1), r(2), 0.0, -r(0), -r(1), r(0), 0.0;
+  return matrix;
+}
+
+void AddBody(const SpatialBody& body, double side, SpatialReduction& reduction) {
+  const Eigen::Vector3d r = ToEigen(body.offset_m);
+  const Eigen::Vector3d linear = ToEigen(body.linear_m_s);
+  const Eigen::Vector3d angular = ToEigen(body.angular_rad_s);
+  const Eigen::LLT<Eigen::Matrix3d> cholesky(Symmetric(body.inertia_com_kg_m2.data()));
+  const Eigen::Matrix3d y = cholesky.matrixL().solve(Cross(r));
+  const Eigen::Matrix3d turn = cholesky.matrixU().solve(y);
+  const double inverse_mass = 1.0 / body.mass_kg;
+  size_t k = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = i; j < 3; ++j) reduction.w[k++] += y.col(i).dot(y.col(j)) + (i == j ? inverse_mass : 0.0);
+  }
+  const Eigen::Vector3d velocity = linear + angular.cross(r);
+  reduction.u0[0] += side * velocity(0);
+  reduction.u0[1] += side * velocity(1);
+  reduction.v0 += side * velocity(2);
+  for (const Eigen::Vector3d& part : {linear, angular}) {
+    reduction.before.insert(reduction.before.end(), part.data(), part.data() + 3);
+  }
+  const Eigen::Matrix3d move = inverse_mass * Eigen::Matrix3d::Identity();
+  for (const Eigen::Matrix3d& part : {move, turn}) {
+    for (int row = 0; row < 3; ++row) {
+      for (int column = 0; column < 3; ++column) reduction.response.push_back(side * part(row, column));
+    }
+  }
+}
+
+PlanarReduction ReduceOne(const PlanarBody& body) {
+  PlanarReduction reduction = {.coordinates = Coordinates::kBodies};
+  AddBody(body, 1.0, reduction);
+  SettleRank(reduction);
+  return reduction;
+}
+
+SpatialReduction ReduceOne(const SpatialBody& body) {
+  SpatialReduction reduction = {.coordinates = Coordinates::kBodies};
+  AddBody(body, 1.0, reduction);
+  return reduction;
+}
+
+AnyReduction ReduceOne(const BodyPair& pair) {
+  if (const auto* spatial = std::get_if<SpatialPair>(&pair.bodies)) {
+    SpatialReduction reduction = {.coordinates = Coordinates::kBodies};
+    AddBody(spatial->body_1, 1.0, reduction);
+    AddBody(spatial->body_2, -1.0, reduction);
+    return reduction;
+  }
+  PlanarReduction reduction = {.coordinates = Coordinates::kBodies};
+  if (const auto* planar = std::get_if<PlanarPair>(&pair.bodies)) {
+    AddBody(planar->body_1, 1.0, reduction);
+    AddBody(planar->body_2, -1.0, reduction);
+    SettleRank(reduction);
+  }
+  return reduction;
+}
+
+// --- Contacts ---
+
+PlanarReduction ReduceOne(const PlanarContact& contact) {
+  return {.w = {contact.w_tt_per_kg, contact.w_tn_per_kg, contact.w_nn_per_kg},
+          .u0 = {contact.tangential_m_s},
+          .v0 = contact.normal_m_s};
+}
+
+SpatialReduction ReduceOne(const SpatialContact& contact) {
+  SpatialReduction reduction = {.v0 = contact.normal_m_s};
+  std::copy_n(contact.w_per_kg.begin(), reduction.w.size(), reduction.w.begin());
+  std::copy_n(contact.tangential_m_s.begin(), reduction.u0.size(), reduction.u0.begin());
+  return reduction;
+}
+
+PlanarReduction ReduceOne(std::monostate /*unset*/) { return {}; }
+
+// The diagonal's inverse square roots; 0 for an entry of 0.
+Eigen::Vector3d InverseScales(const Eigen::Matrix3d& matrix) {
+  Eigen::Vector3d scales;
+  for (int i = 0; i < 3; ++i) scales(i) = matrix(i, i) > 0.0 ? 1.0 / std::sqrt(matrix(i, i)) : 0.0;
+  return scales;
+}
+
+}  // namespace
+
+template <size_t kTangential>
+std::vector<double> Reduction<kTangential>::After(const std::array<double, kTangential>& tangential, double normal,
+                                                  double duration) const {
+  std::vector<double> after = before;
+  for (size_t i = 0; i < drift.size(); ++i) after[i] += drift[i] * duration;
+  const double* row = response.data();
+  for (double& velocity : after) {
+    double change = row[kTangential] * normal;
+    for (size_t i = 0; i < kTangential; ++i) change += row[i] * tangential[i];
+    velocity += change;
+    row += kDirections;
+  }
+  return after;
+}
+
+template struct Reduction<1>;
+template struct Reduction<2>;
+
+AnyReduction Reduce(const Scene& scene) {
+  AnyReduction reduction =
+      std::visit([](const auto& system) -> AnyReduction { return ReduceOne(system); }, scene.system);
+  if (auto* planar = std::get_if<PlanarReduction>(&reduction)) AddFiniteForces(scene, *planar);
+  if (!scene.surface_velocity.has_value()) return reduction;
+  std::visit(
+      [&surface = *scene.surface_velocity](auto& reduced) {
+        for (size_t i = 0; i < reduced.u0.size(); ++i) reduced.u0[i] -= surface.tangential_m_s[i];
+        reduced.v0 -= surface.normal_m_s;
+      },
+      reduction);
+  return reduction;
+}
+
+bool IsFinite(const AnyReduction& reduction) {
+  return std::visit(
+      [](const auto& reduced) {
+        const auto finite = [](double value) { return std::isfinite(value); };
+        return std::all_of(reduced.w.begin(), reduced.w.end(), finite) &&
+               std::all_of(reduced.u0.begin(), reduced.u0.end(), finite) && finite(reduced.v0);
+      },
+      reduction);
+}
+
+bool FitsDoubles(const AnyReduction& reduction) {
+  const bool may_bounce =
+      std::visit([](const auto& reduced) { return reduced.w.back() > 0.0 || reduced.v0 >= 0.0; }, reduction);
+  return may_bounce && IsFinite(reduction);
+}
+
+double ApproachSpeed(const AnyReduction& reduction) {
+  return std::visit([](const auto& reduced) { return std::max(0.0, -reduced.v0); }, reduction);
+}
+
+double SmallestScaledEigenvalue(const std::vector<double>& upper) {
+  const Eigen::Matrix3d matrix = Symmetric(upper.data());
+  const Eigen::Vector3d scales = InverseScales(matrix);
+  for (int i = 0; i < 3; ++i) {
+    const bool empty = (matrix.row(i).array() == 0.0).all();
+    if (scales(i) == 0.0 && !empty) return -std::numeric_limits<double>::infinity();
+  }
+  const Eigen::Matrix3d scaled = scales.asDiagonal() * matrix * scales.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
+}
+
+static double ContactEnergy(const SpatialReduction& reduction) {
+  const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
+  const Eigen::Vector3d scales = InverseScales(matrix);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scales.asDiagonal() * matrix * scales.asDiagonal());
+  const Eigen::Vector3d velocity =
+      scales.asDiagonal() * Eigen::Vector3d(reduction.u0[0], reduction.u0[1], reduction.v0);
+  double energy = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    if (solver.eigenvalues()(i) <= 16.0 * kEpsilon) continue;
+    const double along = solver.eigenvectors().col(i).dot(velocity);
+    energy += 0.5 * along * along / solver.eigenvalues()(i);
+  }
+  return energy;
+}
+
+double ContactEnergy(const AnyReduction& any) {
+  if (const auto* spatial = std::get_if<SpatialReduction>(&any); spatial != nullptr) return ContactEnergy(*spatial);
+  const auto& planar = std::get<PlanarReduction>(any);
+  const auto& [tt, tn, nn] = planar.w;
+  return ContactEnergy(SpatialReduction{.w = {tt, 0.0, tn, 0.0, 0.0, nn}, .u0 = {planar.u0[0], 0.0}, .v0 = planar.v0});
+}
+
+double ShareOutsideRange(const SpatialReduction& reduction) {
+  const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
+  const Eigen::Vector3d scales = InverseScales(matrix);
+  const Eigen::Vector3d velocity(reduction.u0[0], reduction.u0[1], reduction.v0);
+  double share = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    if (scales(i) == 0.0 && velocity(i) != 0.0) return 1.0;
+  }
+  const Eigen::Matrix3d scaled = scales.asDiagonal() * matrix * scales.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scaled);
+  const Eigen::Vector3d scaled_velocity = scales.asDiagonal() * velocity;
+  for (int i = 0; i < 3; ++i) {
+    if (solver.eigenvalues()(i) > 16.0 * kEpsilon) continue;
+    const Eigen::Vector3d outside = solver.eigenvectors().col(i);
+    const double norm = scaled_velocity.norm();
+    if (norm > 0.0) share = std::max(share, std::abs(outside.dot(scaled_velocity)) / norm);
+  }
+  return share;
+}
+
+}  // namespace ricochet

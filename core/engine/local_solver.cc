@@ -1,0 +1,169 @@
+#include "core/engine/local_solver.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/answer/scene_bounds.h"
+#include "core/answer/scene_enclosure.h"
+#include "core/answer/scene_outcome.h"
+#include "core/certified/certified.h"
+#include "core/engine/engine.h"
+#include "core/numerics/decimal.h"
+#include "core/plan/demand_fields.h"
+#include "core/scene/validate.h"
+#include "core/study/audit_scene.h"
+#include "core/sweep/sweep_run.h"
+#include "ricochet/error.h"
+
+namespace ricochet {
+namespace {
+
+absl::Status Inadmissible(const Outcome& outcome) {
+  std::string message = "the outcome is inadmissible:";
+  for (const BrokenLimit& limit : outcome.broken_limits) {
+    message += limit.kind == LimitKind::kSharp
+                   ? " its energetic coefficient " + ShortestDecimal(limit.value) + " exceeds 1;"
+                   : " it creates " + ShortestDecimal(limit.value) + " J of kinetic energy;";
+  }
+  message.pop_back();
+  return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
+}
+
+// Forces have a history only where time has.
+Demand DemandOf(const SolveRequest& request) {
+  Demand demand = ToDemand(request.demand);
+  if (request.force_intervals > 0) demand.required.Add(Effect::kFiniteDuration);
+  return demand;
+}
+
+// What is wrong with a request whose scene is valid.
+std::vector<Violation> CheckSolve(const SolveRequest& request) {
+  std::vector<Violation> violations = CheckDemand(request.scene, request.demand);
+  const int64_t intervals = request.force_intervals;
+  if (intervals < 0 || intervals > kMostForceIntervals) {
+    violations.push_back(
+        {"force_intervals", absl::StrCat("= ", intervals, ": must be in [0, ", kMostForceIntervals, "]")});
+  } else if (intervals > 0 && violations.empty()) {
+    for (const Violation& violation : CheckDemand(request.scene, DemandOf(request))) {
+      const std::string rule = violation.description.substr(violation.description.find("must "));
+      violations.push_back({"force_intervals", absl::StrCat("= ", intervals, ": needs finite_duration, which ", rule)});
+    }
+  }
+  return violations;
+}
+
+void CheckDigits(const Scene& scene, int digits, std::vector<Violation>& violations) {
+  if (digits == 0) return;
+  for (Violation& violation : CheckCertifiable(scene, digits)) violations.push_back(std::move(violation));
+}
+
+void CheckCertified(const SolveRequest& request, std::vector<Violation>& violations) {
+  CheckDigits(request.scene, request.certified_digits, violations);
+  if (request.certified_digits == 0) return;
+  if (!request.demand.excluded.empty()) {
+    violations.push_back({"excluded", "is set: must not be, with certified_digits: certificates leave nothing out"});
+  }
+  if (request.plan_only) {
+    violations.push_back({"plan_only", "is set: must not be, with certified_digits: a plan has no numbers to prove"});
+  }
+}
+
+// Sets `certificate` if the request asks for one.
+absl::Status Keep(absl::StatusOr<Certificate> certified, std::optional<Certificate>& certificate) {
+  if (!certified.ok()) return certified.status();
+  certificate = *std::move(certified);
+  return absl::OkStatus();
+}
+absl::Status Certify(const SolveRequest& request, std::optional<Certificate>& certificate) {
+  if (request.certified_digits == 0) return absl::OkStatus();
+  return Keep(CertifySolve(request.scene, request.certified_digits), certificate);
+}
+absl::Status Certify(const BoundsRequest& request, std::optional<Certificate>& certificate) {
+  if (request.certified_digits == 0) return absl::OkStatus();
+  return Keep(CertifyBounds(request.scene, request.certified_digits), certificate);
+}
+
+}  // namespace
+
+absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) const {
+  auto violations = Validate(request.scene);
+  if (violations.empty()) violations = CheckSolve(request);
+  if (violations.empty()) CheckCertified(request, violations);
+  if (!violations.empty()) return InvalidRequest(violations);
+  absl::StatusOr<Outcome> outcome = request.plan_only
+                                        ? PlanSceneOnly(request.scene, ToDemand(request.demand))
+                                        : SolveScene(request.scene, {.history_at_n_s = request.history_at_n_s,
+                                                                     .force_intervals = request.force_intervals,
+                                                                     .demand = DemandOf(request)});
+  if (!outcome.ok()) return outcome.status();
+  if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
+  const absl::Status certified = Certify(request, outcome->certificate);
+  if (!certified.ok()) return certified;
+  return SolveResponse{.outcome = *std::move(outcome), .engine = ThisEngine()};
+}
+
+absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request) const {
+  return AnswerBounds(request, [] { return false; });
+}
+
+absl::StatusOr<BoundsResponse> AnswerBounds(const BoundsRequest& request, absl::FunctionRef<bool()> stopped) {
+  auto violations = Validate(request.scene, RestitutionIs::kOptional);
+  if (!std::holds_alternative<std::monostate>(request.scene.impact_law)) {
+    violations.push_back({"impact_law", "is set: must not be, for bounds"});
+  }
+  for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
+  CheckDigits(request.scene, request.certified_digits, violations);
+  if (!violations.empty()) return InvalidRequest(violations);
+  const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene);
+  if (!bounds.ok()) return bounds.status();
+  BoundsResponse response{.bounds = *bounds, .engine = ThisEngine()};
+  const absl::Status certified = Certify(request, response.certificate);
+  if (!certified.ok()) return certified;
+  if (request.ranges.empty()) return response;
+  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, stopped);
+  if (!enclosure.ok()) return enclosure.status();
+  response.enclosure = *enclosure;
+  return response;
+}
+
+absl::StatusOr<AuditResponse> LocalSolver::Audit(const AuditRequest& request) const {
+  absl::StatusOr<AuditResponse> response = AuditScene(request);
+  if (response.ok()) response->engine = ThisEngine();
+  return response;
+}
+
+absl::StatusOr<AuditBatchResponse> LocalSolver::AuditBatch(const AuditBatchRequest& request) const {
+  absl::StatusOr<AuditBatchResponse> response = AuditScene(request);
+  if (response.ok()) response->engine = ThisEngine();
+  return response;
+}
+
+SweepStream LocalSolver::Sweep(const SweepRequest& request, std::stop_token stop) const {
+  absl::StatusOr<SweepRun> made = SweepRun::Make(request);
+  if (!made.ok()) return SweepStream(made.status());
+  auto next = [run = *std::move(made), stop = std::move(stop), with_regime = request.with_regime,
+               summary_sent = false]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
+    if (summary_sent) return std::nullopt;
+    const SweepRun::Extent extent = run.Next();
+    SweepChunk chunk = {.first_index = extent.first_index, .count = extent.count};
+    chunk.values.resize(static_cast<size_t>(extent.count * run.column_count()));
+    if (with_regime) chunk.regimes.resize(static_cast<size_t>(extent.count));
+    if (!run.Compute(extent, absl::MakeSpan(chunk.values), absl::MakeSpan(chunk.regimes),
+                     [&stop] { return stop.stop_requested(); })) {
+      return absl::CancelledError("the sweep was stopped by its caller");
+    }
+    chunk.points_done = run.points_done();
+    chunk.points_total = run.points_total();
+    chunk.engine = ThisEngine();
+    summary_sent = run.done();
+    if (run.done()) chunk.summary = run.summary();
+    return chunk;
+  };
+  return SweepStream(std::move(next));
+}
+
+}  // namespace ricochet

@@ -1,0 +1,61 @@
+// Grid: a base scene and the axes that drive it.
+//
+// kProduct: every combination of the axes' values, the last axis runs fastest. kZip: the axes advance together and are
+// equally long. Nothing is stored per point, so a grid of 10^9 points costs what one of 10 does.
+
+#ifndef RICOCHET_GRID_H_
+#define RICOCHET_GRID_H_
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+struct ListValues {
+  std::vector<double> values;  // At least one.
+  friend bool operator==(const ListValues&, const ListValues&) = default;
+};
+
+// `count` values from `start` to `stop`, both ends exact, evenly spaced. count = 1 is `start`.
+struct Linspace {
+  double start = 0.0;
+  double stop = 0.0;
+  int64_t count = 0;  // >= 1
+  friend bool operator==(const Linspace&, const Linspace&) = default;
+};
+
+// `count` values from `start` to `stop`, both > 0 and exact, evenly spaced in their logarithm.
+struct Logspace {
+  double start = 0.0;
+  double stop = 0.0;
+  int64_t count = 0;  // >= 1
+  friend bool operator==(const Logspace&, const Logspace&) = default;
+};
+
+struct Axis {
+  std::string path;  // A field of the scene or a derived angle: core/scene/field.h lists them.
+  std::variant<std::monostate, ListValues, Linspace, Logspace> values;
+  friend bool operator==(const Axis&, const Axis&) = default;
+};
+
+// The numbers are those of ricochet.v1.SweepRequest.Combination.
+enum class Combination {
+  kUnspecified = 0,  // Means kProduct.
+  kProduct = 1,
+  kZip = 2,
+};
+
+struct Grid {
+  Scene scene;
+  std::vector<Axis> axes;  // None: the base scene alone, one point.
+  Combination combination = Combination::kUnspecified;
+  friend bool operator==(const Grid&, const Grid&) = default;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_GRID_H_

@@ -1,0 +1,184 @@
+// Outcome: what is answered. Velocities, impulses, coefficients, works, events and limits broken by one impact.
+//
+// Mirrors ricochet.v1.Outcome field by field. SI units and radians. Tangential quantities are along t, normal ones
+// along n (ricochet/scene.h); impulses act on the striking body; contact velocities are relative to the surface.
+// `energy_change_j` is E+ - E-, negative for a loss.
+
+#ifndef RICOCHET_OUTCOME_H_
+#define RICOCHET_OUTCOME_H_
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "ricochet/certificate.h"
+#include "ricochet/plan.h"
+#include "ricochet/regime.h"
+
+namespace ricochet {
+
+struct Coefficients {
+  double newton = 0.0;
+  double poisson = 0.0;
+  double energetic = 0.0;
+  double tangential = 0.0;  // Brach's mu_hat = tangential / normal impulse, signed. Lubarda Eq. (49).
+  friend bool operator==(const Coefficients&, const Coefficients&) = default;
+};
+
+// Lists are by tangential direction: one entry in a plane, two in space.
+struct ContactVelocity {
+  std::vector<double> tangential_m_s;
+  double normal_m_s = 0.0;
+  friend bool operator==(const ContactVelocity&, const ContactVelocity&) = default;
+};
+
+struct Impulse {
+  double normal_compression_n_s = 0.0;  // tau0
+  double normal_total_n_s = 0.0;        // tau1
+  std::vector<double> tangential_n_s;   // f1
+  friend bool operator==(const Impulse&, const Impulse&) = default;
+};
+
+// Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j. An
+// impact law knows no phases: all four are 0, the residual is that of the two totals.
+struct WorkLedger {
+  double normal_compression_j = 0.0;
+  double normal_restitution_j = 0.0;
+  double tangential_compression_j = 0.0;
+  double tangential_restitution_j = 0.0;
+  double normal_total_j = 0.0;          // -(energy lost to irreversible deformation), Lubarda Eq. (37).
+  double tangential_total_j = 0.0;      // -(energy lost to friction and left in a tangential spring), Lubarda Eq. (35).
+  double friction_dissipation_j = 0.0;  // >= 0
+  double tangential_spring_j = 0.0;     // Left in the tangential spring of a compliant contact, and lost. >= 0.
+  double residual_j = 0.0;              // Sum of the four works minus energy_change_j: rounding only.
+  friend bool operator==(const WorkLedger&, const WorkLedger&) = default;
+};
+
+// An instant of the impact. In a plane, every quantity is linear in the normal impulse between two events.
+// The numbers are those of ricochet.v1.Event.Kind.
+enum class EventKind {
+  kUnspecified = 0,
+  kStart = 1,
+  kSlipStops = 2,
+  kCompressionEnds = 3,
+  kRestitutionEnds = 4,
+  kSlipStarts = 5,
+  kStickStarts = 6,
+};
+
+// The state of the contact once the normal impulse has reached `normal_impulse_n_s`.
+struct State {
+  double normal_impulse_n_s = 0.0;             // tau, the paper's independent variable, Eq. (3).
+  std::vector<double> tangential_impulse_n_s;  // f(tau), Eq. (48).
+  ContactVelocity contact_velocity;            // u(tau), v(tau).
+  std::vector<double> rates_rad_s;             // w(tau), Eq. (9): one a link; empty for systems without joints.
+  friend bool operator==(const State&, const State&) = default;
+};
+
+struct Event {
+  EventKind kind = EventKind::kUnspecified;
+  State state;
+  friend bool operator==(const Event&, const Event&) = default;
+};
+
+// The numbers are those of ricochet.v1.BrokenLimit.Kind.
+enum class LimitKind {
+  kUnspecified = 0,
+  kSharp = 1,   // Implied energetic coefficient > 1: the spring gives back more than it stored. Eq. (29).
+  kEnergy = 2,  // Kinetic energy is created: E+ > E-. Eqs. (27), (28).
+};
+
+// Why an outcome is inadmissible.
+struct BrokenLimit {
+  LimitKind kind = LimitKind::kUnspecified;
+  double value = 0.0;   // kSharp: the implied energetic coefficient; kEnergy: E+ - E- in J.
+  double limit = 0.0;   // kSharp: 1; kEnergy: 0.
+  double excess = 0.0;  // value - limit, without cancellation.
+  friend bool operator==(const BrokenLimit&, const BrokenLimit&) = default;
+};
+
+// A free body, moving. Along and about t1, t2, n in space; in a plane along t and n, and counter-clockwise.
+struct BodyVelocity {
+  std::vector<double> linear_m_s;
+  std::vector<double> angular_rad_s;
+  friend bool operator==(const BodyVelocity&, const BodyVelocity&) = default;
+};
+
+// The coefficients that the impact was computed with: those of the scene at its approach speed.
+struct EffectiveCoefficients {
+  double kinetic_friction = 0.0;
+  double static_friction = 0.0;
+  double restitution = 0.0;  // By the scene's definition; e of an impact law.
+  friend bool operator==(const EffectiveCoefficients&, const EffectiveCoefficients&) = default;
+};
+
+// The numbers are those of ricochet.v1.Accuracy.Kind.
+enum class AccuracyKind {
+  kUnspecified = 0,
+  kBound = 1,     // Proved.
+  kEstimate = 2,  // Testing has not found it below the true error.
+};
+
+// How exact the contact velocity after the impact is, taking W and the one before as exact, and what that took.
+struct Accuracy {
+  double relative_error = 0.0;  // Of each component over max(|u0|, |v0|).
+  AccuracyKind kind = AccuracyKind::kUnspecified;
+  int64_t steps = 0;             // 0 for a closed form.
+  int64_t right_hand_sides = 0;  // 0 for a closed form.
+  friend bool operator==(const Accuracy&, const Accuracy&) = default;
+};
+
+// The forces at one instant of an impact that takes time, and the contact's state.
+struct ForceSample {
+  double time_s = 0.0;
+  double tangential_n = 0.0;
+  double normal_n = 0.0;
+  double indentation_m = 0.0;
+  double tangential_m_s = 0.0;
+  double normal_m_s = 0.0;
+  friend bool operator==(const ForceSample&, const ForceSample&) = default;
+};
+
+// An impact that takes time.
+struct ContactDuration {
+  double duration_s = 0.0;
+  double peak_normal_n = 0.0;
+  double peak_tangential_n = 0.0;    // Largest |F|.
+  double indentation_m = 0.0;        // The largest.
+  std::vector<ForceSample> history;  // At equal steps of time from first to last touch; SolveRequest::force_intervals.
+  friend bool operator==(const ContactDuration&, const ContactDuration&) = default;
+};
+
+// One of several ends that an impact law allows.
+struct ImpactSolution {
+  ContactVelocity contact_velocity_after;
+  Impulse impulse;
+  friend bool operator==(const ImpactSolution&, const ImpactSolution&) = default;
+};
+
+struct Outcome {
+  Regime regime = Regime::kUnspecified;
+  bool admissible = true;  // False exactly if broken_limits is not empty.
+  std::vector<BrokenLimit> broken_limits;
+  int w_rank = 0;                         // Rank of the contact-space inverse inertia W; 1 for a pendulum.
+  Coefficients coefficients;              // All 0 where separating or locked, but the tangential one.
+  std::vector<double> rates_after_rad_s;  // One a link; pendulum: one, w+. Empty for systems without joints.
+  ContactVelocity contact_velocity_after;
+  Impulse impulse;
+  WorkLedger work;
+  double energy_change_j = 0.0;
+  std::vector<Event> timeline;             // In order of normal impulse; empty where separating.
+  std::vector<State> history;              // One for each SolveRequest.history_at_n_s, in that order.
+  std::vector<BodyVelocity> bodies_after;  // Body 1 first. Empty for systems that are no free bodies.
+  EffectiveCoefficients effective;
+  Accuracy accuracy;
+  std::vector<ImpactSolution> alternatives;  // Of a Kane-Levinson law with several solutions or none.
+  Plan plan;
+  std::optional<ContactDuration> contact;  // Present exactly if the model is that of finite duration.
+  std::optional<Certificate> certificate;  // Present exactly if SolveRequest::certified_digits asks for it.
+  friend bool operator==(const Outcome&, const Outcome&) = default;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_OUTCOME_H_

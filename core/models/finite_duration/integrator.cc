@@ -1,0 +1,133 @@
+#include "core/models/finite_duration/integrator.h"
+
+#include <cvode/cvode.h>
+#include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace ricochet::finite_duration {
+namespace {
+
+Motion& StateOf(N_Vector vector) { return *reinterpret_cast<Motion*>(NV_DATA_S(vector)); }
+
+// For calls that fail only where this program is wrong.
+void Require([[maybe_unused]] int flag) { assert(flag >= 0); }
+
+void Silent(int /*code*/, const char* /*module*/, const char* /*function*/, char* /*message*/, void* /*data*/) {}
+
+}  // namespace
+
+Integrator::Integrator(const Contact& contact)
+    : contact_(contact),
+      y_(N_VNew_Serial(kParts, context_)),
+      absolute_(N_VNew_Serial(kParts, context_)),
+      errors_(N_VNew_Serial(kParts, context_)),
+      memory_(CVodeCreate(CV_ADAMS, context_)) {
+  N_VConst(0.0, y_);
+  N_VConst(1.0, absolute_);
+  fixed_point_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
+  Require(CVodeInit(memory_, Rates, 0.0, y_));
+  Require(CVodeSVtolerances(memory_, 1.0, absolute_));
+  Require(CVodeSetUserData(memory_, this));
+  Require(CVodeSetNonlinearSolver(memory_, fixed_point_));
+  Require(CVodeRootInit(memory_, kGuards, Roots));
+  std::array<int, kGuards> directions = {};
+  std::fill_n(directions.begin(), static_cast<size_t>(kModeGuards), -1);
+  Require(CVodeSetRootDirection(memory_, directions.data()));
+  Require(CVodeSetNoInactiveRootWarn(memory_));
+  Require(CVodeSetErrHandlerFn(memory_, Silent, nullptr));
+}
+
+Integrator::~Integrator() {
+  CVodeFree(&memory_);
+  SUNNonlinSolFree(fixed_point_);
+  N_VDestroy(errors_);
+  N_VDestroy(absolute_);
+  N_VDestroy(y_);
+}
+
+void Integrator::Begin(const Mode& mode, const Motion& y, double tolerance) {
+  Count();
+  mode_ = mode;
+  StateOf(y_) = y;
+  Motion& absolute = StateOf(absolute_);
+  const double slip = std::max(1.0, std::fabs(contact_.u0));
+  absolute.fill(tolerance);
+  absolute[kU] *= slip;
+  absolute[kTangentWork] *= slip;
+  absolute[kFrictionLoss] *= slip;
+  absolute[kV] *= Pace(contact_, mode);
+  for (const Part part : kOfForces) absolute[part] *= contact_.stiffness;
+  Require(CVodeReInit(memory_, 0.0, y_));
+  Require(CVodeSVtolerances(memory_, tolerance, absolute_));
+  s_ = previous_s_ = 0.0;
+  counted_ = {0, 0};
+  judged_ = 0;
+}
+
+Integrator::Progress Integrator::Step(std::array<bool, kModeGuards>& fallen) {
+  // All that CVODE makes of it is the direction and the size of the first step.
+  constexpr double kAhead = 1.0;
+  fallen.fill(false);
+  previous_s_ = s_;
+  const int flag = CVode(memory_, s_ + kAhead, y_, &s_, CV_ONE_STEP);
+  if (flag == CV_ILL_INPUT) return Progress::kCrowded;
+  if (flag < 0) return Progress::kFailed;
+  AddLocalErrors();
+  if (flag != CV_ROOT_RETURN) return Progress::kStep;
+  std::array<int, kGuards> found;
+  Require(CVodeGetRootInfo(memory_, found.data()));
+  for (size_t i = 0; i < kModeGuards; ++i) fallen[i] = found[i] != 0;
+  return Progress::kStep;
+}
+
+const Motion& Integrator::y() const { return StateOf(y_); }
+
+Motion Integrator::Between(double s) {
+  const Motion now = y();
+  Require(CVodeGetDky(memory_, s, 0, y_));
+  const Motion between = y();
+  StateOf(y_) = now;
+  return between;
+}
+
+std::pair<int64_t, int64_t> Integrator::TakeCosts() {
+  Count();
+  return {std::exchange(steps_, 0), std::exchange(right_hand_sides_, 0)};
+}
+
+int Integrator::Rates(realtype /*s*/, N_Vector y, N_Vector rates, void* data) {
+  const Integrator& self = *static_cast<const Integrator*>(data);
+  StateOf(rates) = RatesAt(self.contact_, self.mode_, StateOf(y));
+  return 0;
+}
+
+int Integrator::Roots(realtype /*s*/, N_Vector y, realtype* values, void* data) {
+  const Integrator& self = *static_cast<const Integrator*>(data);
+  const Guards guards = GuardsAt(self.contact_, self.mode_, StateOf(y));
+  std::copy(guards.begin(), guards.end(), values);
+  return 0;
+}
+
+void Integrator::AddLocalErrors() {
+  long steps = 0;
+  Require(CVodeGetNumSteps(memory_, &steps));
+  if (steps == judged_) return;
+  judged_ = steps;
+  Require(CVodeGetEstLocalErrors(memory_, errors_));
+  for (size_t i = 0; i < kParts; ++i) local_errors_[i] += std::fabs(StateOf(errors_)[i]);
+}
+
+void Integrator::Count() {
+  long steps = 0;
+  long right_hand_sides = 0;
+  Require(CVodeGetNumSteps(memory_, &steps));
+  Require(CVodeGetNumRhsEvals(memory_, &right_hand_sides));
+  steps_ += steps - counted_.first;
+  right_hand_sides_ += right_hand_sides - counted_.second;
+  counted_ = {steps, right_hand_sides};
+}
+
+}  // namespace ricochet::finite_duration

@@ -1,0 +1,34 @@
+#include "core/models/laws/chatterjee_ruina.h"
+
+#include <cmath>
+#include <utility>
+
+#include "core/models/laws/impact_law_parts.h"
+
+namespace ricochet::laws {
+namespace {
+
+// The tangential part of P_II - P_I; the normal one is -wtn/wnn times that.
+double StickingImpulse(const PlanarImpactInput& in, const NewtonImpact& impact) {
+  if (impact.rank_one()) return -in.v0 * (in.wtn / in.wnn) / (in.wtt + in.wnn);
+  return -impact.frictionless_slip() / impact.det();
+}
+
+}  // namespace
+
+ImpactLawResult SolveChatterjeeRuina(const PlanarImpactInput& input, double e, double e_t) {
+  const NewtonImpact impact(input, e);
+  if (auto trivial = impact.Trivial()) return *std::move(trivial);
+
+  const double f = (1.0 + e_t) * StickingImpulse(input, impact);
+  const double on_cone = input.mu * Sign(f);
+  if (std::abs(f) * impact.NormalSlope(on_cone) > input.mu * impact.normal_change()) {
+    return AtMostOne(impact.AtRatio(on_cone));
+  }
+  const double tau1 = std::fma(-f, input.wtn, impact.normal_change()) / input.wnn;
+  const double slip = impact.rank_one() ? impact.tangential_numerator()
+                                        : -std::fma(e_t, impact.frictionless_slip(), e * input.v0 * input.wtn);
+  return AtMostOne(impact.Solution(f, tau1, slip / input.wnn));
+}
+
+}  // namespace ricochet::laws

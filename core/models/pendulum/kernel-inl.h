@@ -1,0 +1,273 @@
+// The pendulum's formulas (core/models/pendulum/pendulum.h) over a number type N: DoubleDouble for moderate inputs, Wide for
+// all.
+//
+// Nothing cancels. With s = a + q and d = a - q (q = mu |b| exact), the differences that could are written as
+//   energetic eta:   1 - kappa = n/(d (1 + kappa)),  n = d - eta^2 s = a (1-eta)(1+eta) - q (1 + eta^2)
+//                    1 - kappa_hat^2 = (a (1-eta)(1+eta) + q (1 + eta^2))/s
+//   Newton e:        1 - kappa = (d - e s)/d = (a (1-e) - q (1+e))/d
+//                    1 - eta^2 = (d - e^2 s)/d = (a (1-e)(1+e) - q (1 + e^2))/d
+//   Poisson k:       1 - kappa_hat = (s - k d)/s = (a (1-k) + q (1+k))/s
+//                    1 - eta^2 = (s - k^2 d)/s = (a (1-k)(1+k) + q (1 + k^2))/s
+// Each numerator has two forms: the first keeps its accuracy where d is small against a, the second where the
+// coefficient is near 1 and q small against a. The rounding left is at most 25 u^2 of the larger term.
+
+// Per-target include guard.
+#if defined(RICOCHET_CORE_MODELS_PENDULUM_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_PENDULUM_KERNEL_INL_H_
+#undef RICOCHET_CORE_MODELS_PENDULUM_KERNEL_INL_H_
+#else
+#define RICOCHET_CORE_MODELS_PENDULUM_KERNEL_INL_H_
+#endif
+
+#include "core/models/pendulum/parts.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/restitution_law.h"
+#include "core/numerics/double_double-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::pendulum::HWY_NAMESPACE {
+
+using ricochet::HWY_NAMESPACE::Not;
+
+// Problems of one law, a lane each.
+template <typename N, typename Mask>
+struct Inputs {
+  N inertia, a, b, omega;  // omega is w-
+  N mu;                    // With the sign of b, 0 where b is.
+  N static_grip;           // mu_s |b|
+  N coefficient;
+  Mask near_one;  // Which form of a numerator: coefficient > 1/2, for Poisson's < 2.
+};
+
+// What is solved once a problem; the outputs are products of these.
+template <typename N, typename Mask>
+struct Solution {
+  N inertia, a, b, mu, omega;
+  N q, s, d;  // mu |b|, a + q, a - q
+  Mask locked;
+  N inverse_s, inverse_d;  // inverse_d means nothing where locked
+  N kappa, kappa_hat, eta, eta_squared;
+  N one_minus_kappa, inverse_one_plus_kappa, one_minus_eta_squared;
+  N one_minus_kappa_hat, energy_loss;  // energy_loss is 1 - kappa_hat^2
+  N tau0;
+  N half_omega_tau0;
+};
+
+template <typename N>
+HWY_INLINE N SquareOf(const N& x) {
+  return x * x;
+}
+
+// A numerator of the table above: lead - c trail with c = coefficient or its square, lead and trail being d and s or s
+// and d. The second form is a (1 - c) -+ q (1 + c), - where d leads.
+enum class Power { kOne, kTwo };
+enum class Lead { kD, kS };
+
+template <Lead kLead, Power kPower, typename N, typename Mask>
+HWY_INLINE N NearOneNumerator(const Inputs<N, Mask>& in, const Solution<N, Mask>& x) {
+  const N one = N::Constant(1.0);
+  const N& given = in.coefficient;
+  const N c = kPower == Power::kTwo ? SquareOf(given) : given;
+  const N complement = kPower == Power::kTwo ? (one - given) * (one + given) : one - given;
+  const N friction = x.q * (one + c);
+  return kLead == Lead::kD ? x.a * complement - friction : x.a * complement + friction;
+}
+
+template <Lead kLead, Power kPower, typename N, typename Mask>
+HWY_INLINE N Numerator(const Inputs<N, Mask>& in, const Solution<N, Mask>& x) {
+  const N c = kPower == Power::kTwo ? SquareOf(in.coefficient) : in.coefficient;
+  const N direct = kLead == Lead::kD ? x.d - c * x.s : x.s - c * x.d;
+  return Select(in.near_one, NearOneNumerator<kLead, kPower>(in, x), direct);
+}
+
+// 1/(1 + kappa), which both outputs of 1 - kappa use.
+template <typename N, typename Mask>
+HWY_INLINE void SolveInverse(unsigned parts, Solution<N, Mask>& x) {
+  if (parts & kPartOneMinusKappa) x.inverse_one_plus_kappa = Inverse(N::Constant(1.0) + x.kappa);
+}
+
+template <typename N, typename Mask>
+HWY_INLINE void SolveEnergetic(const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
+  const N one = N::Constant(1.0);
+  const N& eta = in.coefficient;
+  x.eta = eta;
+  x.eta_squared = SquareOf(eta);
+  x.one_minus_eta_squared = (one - eta) * (one + eta);
+  x.one_minus_kappa_hat = one;  // Above 0 is all that is asked of it: kappa_hat <= sqrt(r).
+  if (parts & (kPartKappa | kPartKappaHat)) {
+    const N scaled_root = eta * Sqrt(x.s * x.d);
+    x.kappa = scaled_root * x.inverse_d;
+    x.kappa_hat = scaled_root * x.inverse_s;
+  }
+  SolveInverse(parts, x);
+  if (parts & kPartOneMinusKappa) {
+    x.one_minus_kappa = Numerator<Lead::kD, Power::kTwo>(in, x) * x.inverse_d * x.inverse_one_plus_kappa;
+  }
+  if (parts & kPartEnergyLoss) {
+    x.energy_loss = NearOneNumerator<Lead::kS, Power::kTwo>(in, x) * x.inverse_s;
+  }
+}
+
+template <typename N, typename Mask>
+HWY_INLINE void SolveNewton(const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
+  const N one = N::Constant(1.0);
+  const N& e = in.coefficient;
+  x.kappa_hat = e;
+  x.one_minus_kappa_hat = one - e;
+  x.one_minus_eta_squared = Numerator<Lead::kD, Power::kTwo>(in, x) * x.inverse_d;
+  if (parts & (kPartKappa | kPartEtaSquared)) x.kappa = e * x.s * x.inverse_d;
+  SolveInverse(parts, x);
+  if (parts & kPartOneMinusKappa) x.one_minus_kappa = Numerator<Lead::kD, Power::kOne>(in, x) * x.inverse_d;
+  if (parts & kPartEta) x.eta = e * Sqrt(x.s * x.d) * x.inverse_d;
+  if (parts & kPartEtaSquared) x.eta_squared = e * x.kappa;
+  if (parts & kPartEnergyLoss) x.energy_loss = x.one_minus_kappa_hat * (one + e);
+}
+
+template <typename N, typename Mask>
+HWY_INLINE void SolvePoisson(const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
+  const N one = N::Constant(1.0);
+  const N& k = in.coefficient;
+  x.kappa = k;
+  x.one_minus_kappa = one - k;
+  x.one_minus_kappa_hat = Numerator<Lead::kS, Power::kOne>(in, x) * x.inverse_s;
+  x.one_minus_eta_squared = Numerator<Lead::kS, Power::kTwo>(in, x) * x.inverse_s;
+  SolveInverse(parts, x);
+  if (parts & (kPartKappaHat | kPartEnergyLoss | kPartEtaSquared)) x.kappa_hat = k * x.d * x.inverse_s;
+  if (parts & kPartEta) x.eta = k * Sqrt(x.s * x.d) * x.inverse_s;
+  if (parts & kPartEtaSquared) x.eta_squared = k * x.kappa_hat;
+  if (parts & kPartEnergyLoss) x.energy_loss = x.one_minus_kappa_hat * (one + x.kappa_hat);
+}
+
+// Where locked: no restitution, whatever the law and the coefficient.
+template <typename N, typename Mask>
+HWY_INLINE void OverrideLocked(Solution<N, Mask>& x) {
+  const N zero = N::Constant(0.0);
+  const N one = N::Constant(1.0);
+  x.kappa = Select(x.locked, zero, x.kappa);
+  x.kappa_hat = Select(x.locked, zero, x.kappa_hat);
+  x.eta = Select(x.locked, zero, x.eta);
+  x.eta_squared = Select(x.locked, zero, x.eta_squared);
+  x.one_minus_kappa = Select(x.locked, one, x.one_minus_kappa);
+  x.inverse_one_plus_kappa = Select(x.locked, one, x.inverse_one_plus_kappa);
+  x.one_minus_eta_squared = Select(x.locked, one, x.one_minus_eta_squared);
+  x.one_minus_kappa_hat = Select(x.locked, one, x.one_minus_kappa_hat);
+  x.energy_loss = Select(x.locked, one, x.energy_loss);
+}
+
+template <typename N, typename Mask>
+HWY_INLINE void SolveGeometry(const Inputs<N, Mask>& in, Solution<N, Mask>& x) {
+  x.inertia = in.inertia;
+  x.a = in.a;
+  x.b = in.b;
+  x.omega = in.omega;
+  x.mu = in.mu;
+  x.q = x.mu * x.b;
+  x.s = x.a + x.q;
+  x.d = x.a - x.q;
+  const N margin = x.a - in.static_grip;
+  x.locked = Not(IsPositive(margin));
+}
+
+// What `parts` leaves out is 0.
+template <typename N, typename Mask>
+HWY_INLINE void ClearParts(Solution<N, Mask>& x) {
+  const N zero = N::Constant(0.0);
+  x.kappa = zero;
+  x.kappa_hat = zero;
+  x.eta = zero;
+  x.eta_squared = zero;
+  x.one_minus_kappa = zero;
+  x.inverse_one_plus_kappa = zero;
+  x.energy_loss = zero;
+  x.tau0 = zero;
+  x.half_omega_tau0 = zero;
+}
+
+// Everything behind `parts`, for problems that do not separate.
+template <typename N, typename Mask>
+HWY_INLINE void SolveParts(RestitutionLaw law, const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
+  ClearParts(x);
+  SolveGeometry(in, x);
+  x.inverse_s = Inverse(x.s);
+  x.inverse_d = Inverse(x.d);
+  if (parts & kPartTau0) x.tau0 = x.inertia * -x.omega * x.inverse_s;
+  if (parts & kPartWork) x.half_omega_tau0 = N::Constant(0.5) * x.omega * x.tau0;
+  switch (law) {
+    case RestitutionLaw::kNewton:
+      SolveNewton(in, parts, x);
+      break;
+    case RestitutionLaw::kPoisson:
+      SolvePoisson(in, parts, x);
+      break;
+    case RestitutionLaw::kEnergetic:
+      SolveEnergetic(in, parts, x);
+      break;
+  }
+  OverrideLocked(x);
+}
+
+// One output, rounded; its parts must have been solved.
+template <typename N, typename Mask>
+HWY_INLINE auto Evaluate(const Solution<N, Mask>& x, Output output) {
+  const N one = N::Constant(1.0);
+  switch (output) {
+    case Output::kNewton:
+      return Rounded(x.kappa_hat);
+    case Output::kPoisson:
+      return Rounded(x.kappa);
+    case Output::kEnergetic:
+      return Rounded(x.eta);
+    case Output::kTangentialCoefficient:
+      return RoundedProduct(x.mu * x.one_minus_kappa, x.inverse_one_plus_kappa);
+    case Output::kOmegaPlus:
+      return RoundedProduct(-x.kappa_hat, x.omega);
+    case Output::kTangentialVelocityAfter:
+      return RoundedProduct(-x.kappa_hat * x.omega, x.b);
+    case Output::kNormalVelocityAfter:
+      return RoundedProduct(-x.kappa_hat * x.omega, x.a);
+    case Output::kNormalImpulseCompression:
+      return Rounded(x.tau0);
+    case Output::kNormalImpulse:
+      return RoundedProduct(one + x.kappa, x.tau0);
+    case Output::kTangentialImpulse:
+      return RoundedProduct(x.mu * x.one_minus_kappa, x.tau0);
+    case Output::kTangentialImpulseCompression:
+      return RoundedProduct(x.mu, x.tau0);
+    case Output::kWorkNormalCompression:
+      return RoundedProduct(x.a, x.half_omega_tau0);
+    case Output::kWorkNormalRestitution:
+      return RoundedProduct(-x.a * x.half_omega_tau0, x.eta_squared);
+    case Output::kWorkTangentialCompression:
+      return RoundedProduct(x.q, x.half_omega_tau0);
+    case Output::kWorkTangentialRestitution:
+      return RoundedProduct(x.q * x.half_omega_tau0, x.eta_squared);
+    case Output::kWorkNormal:
+      return RoundedProduct(x.a * x.half_omega_tau0, x.one_minus_eta_squared);
+    case Output::kWorkTangential:
+      return RoundedProduct(x.q * x.half_omega_tau0, one + x.eta_squared);
+    case Output::kEnergyChange:
+      return RoundedProduct(N::Constant(-0.5) * x.inertia * x.omega * x.omega, x.energy_loss);
+    case Output::kEnergeticExcess:
+      return Rounded(-x.one_minus_eta_squared / (one + x.eta));
+  }
+  return Rounded(N::Constant(0.0));
+}
+
+// The inputs of one problem.
+template <typename N>
+HWY_INLINE Inputs<N, bool> MakeInputs(const Problem& problem) {
+  const bool poisson = problem.law == RestitutionLaw::kPoisson;
+  return {.inertia = N::Exactly(problem.inertia),
+          .a = N::Exactly(problem.a),
+          .b = N::Exactly(problem.b),
+          .omega = N::Exactly(problem.omega_minus),
+          .mu = N::Exactly(SignedFriction(problem)),
+          .static_grip = N::Exactly(problem.mu_static) * N::Exactly(std::fabs(problem.b)),
+          .coefficient = N::Exactly(problem.coefficient),
+          .near_one = poisson ? problem.coefficient < 2.0 : problem.coefficient > 0.5};
+}
+
+}  // namespace ricochet::pendulum::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,296 @@
+// Compiled once for each SIMD target (foreach_target.h includes this file again), then dispatched at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/models/pendulum/pendulum.cc"
+#include "core/models/pendulum/pendulum.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+#include <variant>
+#include <vector>
+
+#include "core/models/pendulum/parts.h"
+#include "core/models/restitution_law.h"
+// The order is Highway's.
+// clang-format off
+#include "hwy/foreach_target.h"
+#include "core/models/pendulum/kernel-inl.h"
+#include "core/numerics/lanes-inl.h"
+// clang-format on
+
+#ifndef RICOCHET_CORE_MODELS_PENDULUM_CC_
+#define RICOCHET_CORE_MODELS_PENDULUM_CC_
+namespace ricochet::pendulum {
+
+// No product of the kernel leaves the range in which DoubleDouble is exact if every number is 0 or has a size between
+// 1/kLimit and kLimit: the largest product is below 2^700, the smallest above 2^-890, its low half 2^-106 of that.
+inline constexpr double kLimit = 0x1p100;
+inline constexpr double kCoefficientLimit = 0x1p40;
+
+// Problems of one law column by column, as vectors load them.
+struct Block {
+  static constexpr size_t kCapacity = 64;
+
+  RestitutionLaw law = RestitutionLaw::kEnergetic;
+  size_t size = 0;
+  std::array<double, kCapacity> inertia, a, b, omega, mu, mu_static, coefficient;
+  std::array<double, kCapacity> friction;      // mu as it stands, also where nothing couples.
+  std::array<double, kCapacity> locked;        // Written: 1 where locked, else 0.
+  std::array<double, kCapacity> inadmissible;  // Written: 1 where eta > 1, else 0.
+
+  void Append(const Problem& problem) {
+    assert(size < kCapacity);
+    inertia[size] = problem.inertia;
+    a[size] = problem.a;
+    b[size] = problem.b;
+    omega[size] = problem.omega_minus;
+    mu[size] = SignedFriction(problem);
+    mu_static[size] = std::copysign(problem.mu_static, problem.b);
+    coefficient[size] = problem.coefficient;
+    friction[size] = problem.mu;
+    ++size;
+  }
+
+  // Repeats the last problem, so that whole vectors can be loaded.
+  void PadTo(size_t padded) {
+    for (auto* column : {&inertia, &a, &b, &omega, &mu, &mu_static, &coefficient, &friction}) {
+      std::fill(column->begin() + static_cast<int64_t>(size), column->begin() + static_cast<int64_t>(padded),
+                (*column)[size - 1]);
+    }
+  }
+};
+
+}  // namespace ricochet::pendulum
+#endif  // RICOCHET_CORE_MODELS_PENDULUM_CC_
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::pendulum::HWY_NAMESPACE {
+
+using ricochet::HWY_NAMESPACE::Absolute;
+using ricochet::HWY_NAMESPACE::Select;
+
+// The target's widest lanes.
+using V = ricochet::HWY_NAMESPACE::Vector;
+using N = ricochet::HWY_NAMESPACE::DoubleDouble<V>;
+using VLanes = ricochet::HWY_NAMESPACE::Lanes<V>;
+using Mask = decltype(IsPositive(N()));
+
+// Adding 0 turns -0 into 0: an impulse or velocity that vanishes has no sign.
+template <typename T>
+HWY_INLINE T Unsigned0(T value) {
+  return value + ricochet::HWY_NAMESPACE::Lanes<T>::Fill(0.0);
+}
+
+HWY_INLINE Inputs<N, Mask> LoadInputs(const Block& block, size_t i) {
+  const auto exactly = [i](const auto& column) { return N::Exactly(VLanes::Load(column.data() + i)); };
+  const V coefficient = VLanes::Load(block.coefficient.data() + i);
+  Inputs<N, Mask> in;
+  in.inertia = exactly(block.inertia);
+  in.a = exactly(block.a);
+  in.b = exactly(block.b);
+  in.omega = exactly(block.omega);
+  in.mu = exactly(block.mu);
+  in.static_grip = exactly(block.mu_static) * in.b;
+  in.coefficient = N::Exactly(coefficient);
+  in.near_one =
+      block.law == RestitutionLaw::kPoisson ? coefficient < VLanes::Fill(2.0) : VLanes::Fill(0.5) < coefficient;
+  return in;
+}
+
+// The first `count` lanes of `value` to `to`.
+HWY_INLINE void StoreFirst(V value, size_t count, double* to) {
+  if (count >= VLanes::Count()) {
+    VLanes::Store(value, to);
+    return;
+  }
+  double lanes[Block::kCapacity];
+  VLanes::Store(value, lanes);
+  std::copy_n(lanes, count, to);
+}
+
+// The sizes of what has been taken in, zeros left out; lane by lane.
+struct Sizes {
+  V least;  // 1 at first, as is the next.
+  V most;
+
+  HWY_INLINE void TakeIn(const double* from) {
+    const V x = Absolute(VLanes::Load(from));
+    const V size = Select(x == VLanes::Fill(0.0), VLanes::Fill(1.0), x);
+    least = Select(size < least, size, least);
+    most = Select(most < size, size, most);
+  }
+
+  HWY_INLINE bool AreWithin(double limit) const {
+    double low[Block::kCapacity];
+    double high[Block::kCapacity];
+    VLanes::Store(least, low);
+    VLanes::Store(most, high);
+    bool within = true;
+    for (size_t i = 0; i < VLanes::Count(); ++i) within = within && low[i] >= 1.0 / limit && high[i] <= limit;
+    return within;
+  }
+};
+
+HWY_INLINE bool FitsDoubleDouble(const Block& block) {
+  const V one = VLanes::Fill(1.0);
+  Sizes sizes = {one, one};
+  Sizes coefficients = {one, one};
+  for (size_t i = 0; i < block.size; i += VLanes::Count()) {
+    for (const auto* column : {&block.inertia, &block.a, &block.b, &block.omega, &block.friction, &block.mu_static}) {
+      sizes.TakeIn(column->data() + i);
+    }
+    coefficients.TakeIn(block.coefficient.data() + i);
+  }
+  return sizes.AreWithin(kLimit) && coefficients.AreWithin(kCoefficientLimit);
+}
+
+// False, with nothing written, if a number is beyond the limits.
+bool SolveBlock(Block& block, unsigned parts, absl::Span<const Output> outputs, absl::Span<double* const> columns) {
+  block.PadTo((block.size + VLanes::Count() - 1) / VLanes::Count() * VLanes::Count());
+  if (!FitsDoubleDouble(block)) return false;
+  const V zero = VLanes::Fill(0.0);
+  const V one = VLanes::Fill(1.0);
+  for (size_t i = 0; i < block.size; i += VLanes::Count()) {
+    Solution<N, Mask> x;
+    SolveParts(block.law, LoadInputs(block, i), parts, x);
+    VLanes::Store(Select(x.locked, one, zero), block.locked.data() + i);
+    VLanes::Store(Select(IsNegative(x.one_minus_eta_squared), one, zero), block.inadmissible.data() + i);
+    for (size_t c = 0; c < outputs.size(); ++c) {
+      StoreFirst(Unsigned0(Evaluate(x, outputs[c])), block.size - i, columns[c] + i);
+    }
+  }
+  return true;
+}
+
+template <typename T>
+HWY_INLINE Impact SolveOne(const Problem& problem) {
+  Solution<T, bool> x;
+  SolveParts(problem.law, MakeInputs<T>(problem), kPartAll, x);
+  Impact impact;
+  impact.regime = RegimeOf(problem, x.locked);
+  impact.sharp_limit_broken = IsNegative(x.one_minus_eta_squared);
+  impact.energy_limit_broken = IsNegative(x.one_minus_kappa_hat);
+  for (int i = 0; i < kOutputCount; ++i) {
+    impact.values[static_cast<size_t>(i)] = Unsigned0(Evaluate(x, static_cast<Output>(i)));
+  }
+  return impact;
+}
+
+Impact SolveModerate(const Problem& problem) {
+  return SolveOne<ricochet::HWY_NAMESPACE::DoubleDouble<double>>(problem);
+}
+
+}  // namespace ricochet::pendulum::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+#include "core/models/pendulum/wide.h"
+
+namespace ricochet::pendulum {
+
+HWY_EXPORT(SolveBlock);
+HWY_EXPORT(SolveModerate);
+
+namespace {
+
+bool FitsDoubleDouble(const Problem& problem) {
+  const auto moderate = [](double value, double limit) {
+    const double size = std::fabs(value);
+    return size == 0.0 || (size >= 1.0 / limit && size <= limit);
+  };
+  return moderate(problem.inertia, kLimit) && moderate(problem.a, kLimit) && moderate(problem.b, kLimit) &&
+         moderate(problem.omega_minus, kLimit) && moderate(problem.mu, kLimit) && moderate(problem.mu_static, kLimit) &&
+         moderate(problem.coefficient, kCoefficientLimit);
+}
+
+bool Separating(const Problem& problem) { return problem.omega_minus >= 0.0; }
+
+// A contact that does not approach: velocities as before, all else 0.
+double SeparatingOutput(const Problem& problem, Output output) {
+  switch (output) {
+    case Output::kOmegaPlus:
+      return problem.omega_minus;
+    case Output::kTangentialVelocityAfter:
+      return problem.b * problem.omega_minus;
+    case Output::kNormalVelocityAfter:
+      return problem.a * problem.omega_minus;
+    case Output::kEnergeticExcess:
+      return -1.0;
+    default:
+      return 0.0;
+  }
+}
+
+Impact SolveSeparating(const Problem& problem) {
+  Impact impact;
+  impact.regime = Regime::kSeparating;
+  for (int i = 0; i < kOutputCount; ++i) {
+    impact.values[static_cast<size_t>(i)] = SeparatingOutput(problem, static_cast<Output>(i));
+  }
+  return impact;
+}
+
+unsigned PartsOf(absl::Span<const Output> outputs) {
+  unsigned parts = 0;
+  for (const Output output : outputs) parts |= PartsOf(output);
+  return parts;
+}
+
+}  // namespace
+
+Impact Solve(const Problem& problem) {
+  if (Separating(problem)) return SolveSeparating(problem);
+  if (!FitsDoubleDouble(problem)) return HWY_NAMESPACE::SolveOne<Wide>(problem);
+  return HWY_DYNAMIC_DISPATCH(SolveModerate)(problem);
+}
+
+void SolveColumns(absl::Span<const Problem> problems, absl::Span<const Output> outputs,
+                  absl::Span<double* const> columns, absl::Span<Regime> regimes, absl::Span<bool> inadmissible) {
+  assert(outputs.size() == columns.size());
+  const unsigned parts = PartsOf(outputs);
+  std::vector<double*> ends(columns.begin(), columns.end());
+  for (size_t first = 0; first < problems.size();) {
+    Block block;
+    block.law = problems[first].law;
+    for (size_t i = first; i < problems.size() && block.size < Block::kCapacity; ++i) {
+      if (problems[i].law != block.law || Separating(problems[i])) break;
+      block.Append(problems[i]);
+    }
+    const bool in_lanes = block.size > 0 && HWY_DYNAMIC_DISPATCH(SolveBlock)(block, parts, outputs, ends);
+    const size_t count = std::max<size_t>(block.size, 1);
+    for (size_t i = 0; i < count; ++i) {
+      const Problem& problem = problems[first + i];
+      if (in_lanes) {
+        regimes[first + i] = RegimeOf(problem, block.locked[i] != 0.0);
+        inadmissible[first + i] = block.inadmissible[i] != 0.0;
+        continue;
+      }
+      const Impact impact = Solve(problem);
+      regimes[first + i] = impact.regime;
+      inadmissible[first + i] = impact.sharp_limit_broken;
+      for (size_t c = 0; c < outputs.size(); ++c) ends[c][i] = impact[outputs[c]];
+    }
+    for (double*& end : ends) end += count;
+    first += count;
+  }
+}
+
+Instant At(const Problem& problem, double tau) {
+  const WideSolution x = SolveGeometry(problem);
+  const Wide momentum = x.inertia * x.omega;
+  const Wide impulse = Wide::Exactly(tau);
+  // J w(tau) of compression; from compression's end on, the slope is d instead of s.
+  const Wide compression = momentum + x.s * impulse;
+  if (!IsPositive(compression)) {
+    return {Rounded(compression / x.inertia) + 0.0, Rounded(x.mu * impulse) + 0.0};
+  }
+  const Wide two = Wide::Constant(2.0);
+  return {Rounded(x.d / x.s * compression / x.inertia) + 0.0,
+          Rounded(-x.mu * (two * momentum + x.s * impulse) / x.s) + 0.0};
+}
+
+}  // namespace ricochet::pendulum
+
+#endif  // HWY_ONCE

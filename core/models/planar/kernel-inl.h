@@ -1,0 +1,388 @@
+// The path of a planar impact (core/models/planar/planar.h) over a number type N: DoubleDouble for moderate inputs, Wide for
+// all.
+//
+// A path has at most two pieces: the slip that there is at first, and what follows where it stops. Slopes are sums of
+// two exact products, right to 3 u^2 (u = 2^-53) with their sign. Slip stops at v = d/u' and compression ends at
+// u = -d/v', with d = v0 u' - u0 v': one sign decides which comes first, and the one difference that may cancel leaves
+// an error of a few u^2 of v0 or u0. Every work is a sum of terms of one sign.
+
+// Per-target include guard.
+#if defined(RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_
+#undef RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_
+#else
+#define RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_
+#endif
+
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
+#include "core/numerics/double_double-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::planar::HWY_NAMESPACE {
+
+template <typename N>
+struct Inputs {
+  N wtt, wtn, wnn, u0, v0, mu, mu_static, coefficient;
+  N det;
+  bool rank_one;
+};
+
+// d(u, v, f)/dtau.
+template <typename N>
+struct Slopes {
+  N u, v, f;
+};
+
+template <typename N>
+struct Path {
+  Slopes<N> first;   // Of the slip at the start; not set where u0 = 0.
+  Slopes<N> second;  // After slip has stopped; not set where it never does.
+  bool slips_first;
+  bool stops;  // Slip comes to a stop, if the impact lasts long enough; true where u0 = 0.
+  bool sticks;
+  N v_stop;  // v where slip stops.
+  N u_rest;  // u where v = 0, if slip has not stopped before.
+};
+
+// The contact at one instant.
+template <typename N>
+struct State {
+  N tau, f, u, v;
+};
+
+template <typename N>
+struct TwiceWork {
+  N normal, tangential;
+};
+
+// How restitution ends.
+template <typename N>
+struct Rebound {
+  bool passes_stop;  // Slip stops on the way, after `before`; `after` follows.
+  N before, after;   // Normal impulses.
+  N v1;
+};
+
+template <typename N>
+struct Solution {
+  State<N> stop, rest, end;
+  TwiceWork<N> compression, restitution;
+  bool stops_in_compression;
+  bool stops_in_restitution;
+};
+
+template <typename N>
+HWY_INLINE N Zero() {
+  return N::Constant(0.0);
+}
+
+template <typename N>
+HWY_INLINE N Abs(const N& x) {
+  return Select(IsNegative(x), -x, x);
+}
+
+// x or -x.
+template <typename N>
+HWY_INLINE N Signed(const N& x, bool negative) {
+  return Select(negative, -x, x);
+}
+
+template <typename N>
+HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
+  Inputs<N> in = {.wtt = N::Exactly(problem.wtt),
+                  .wtn = N::Exactly(problem.wtn),
+                  .wnn = N::Exactly(problem.wnn),
+                  .u0 = N::Exactly(problem.u0),
+                  .v0 = N::Exactly(problem.v0),
+                  .mu = N::Exactly(problem.mu),
+                  .mu_static = N::Exactly(problem.mu_static),
+                  .coefficient = N::Exactly(problem.coefficient),
+                  .det = Zero<N>(),
+                  .rank_one = false};
+  constexpr double kFourEps = 0x1p-50;
+  const N square = in.wtt * in.wnn;
+  in.det = square - in.wtn * in.wtn;
+  in.rank_one = !IsPositive(Abs(in.det) - N::Constant(kFourEps) * square);
+  return in;
+}
+
+// Slip with u < 0 (`backwards`) or u > 0.
+template <typename N>
+HWY_INLINE Slopes<N> SlipSlopes(const Inputs<N>& in, bool backwards) {
+  const N f = Signed(in.mu, !backwards);
+  return {.u = in.wtn + f * in.wtt, .v = in.wnn + f * in.wtn, .f = f};
+}
+
+template <typename N>
+HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
+  Path<N> path;
+  path.v_stop = in.v0;
+  path.stops = true;
+  path.slips_first = IsPositive(in.u0) || IsNegative(in.u0);
+  if (path.slips_first) {
+    const bool backwards = IsNegative(in.u0);
+    path.first = SlipSlopes(in, backwards);
+    path.stops = IsNegative(Signed(path.first.u, backwards));
+    const N d = in.v0 * path.first.u - in.u0 * path.first.v;
+    if (path.stops) path.v_stop = d / path.first.u;
+    // Where v' <= 0, slip stops before v = 0.
+    if (IsPositive(path.first.v)) path.u_rest = -d / path.first.v;
+  }
+  if (!path.stops) return path;
+  path.sticks = !IsNegative(in.mu_static * in.wtt - Abs(in.wtn));
+  if (path.sticks) {
+    const N inverse = Inverse(in.wtt);
+    path.second = {.u = Zero<N>(), .v = in.det * inverse, .f = -in.wtn * inverse};
+  } else {
+    path.second = SlipSlopes(in, IsNegative(in.wtn));
+  }
+  return path;
+}
+
+// u = v Wtn/Wnn all along, in place of the given u0 too. Without friction to feel (Wtt = 0) there is one piece.
+template <typename N>
+HWY_INLINE Path<N> RankOnePath(Inputs<N>& in) {
+  Path<N> path;
+  path.slips_first = true;
+  path.v_stop = Zero<N>();
+  path.u_rest = Zero<N>();
+  path.stops = IsPositive(in.wtt);
+  if (!path.stops) {
+    path.first = {.u = Zero<N>(), .v = in.wnn, .f = Zero<N>()};
+    path.u_rest = in.u0;
+    return path;
+  }
+  const N ratio = in.wtn / in.wnn;
+  const bool backwards = IsPositive(in.wtn);
+  in.u0 = in.v0 * ratio;
+  path.first = SlipSlopes(in, backwards);
+  path.first.u = path.first.v * ratio;
+  path.sticks = !IsNegative(in.mu_static * Abs(in.wtn) - in.wnn);
+  path.second = SlipSlopes(in, !backwards);
+  path.second.u = path.second.v * ratio;
+  return path;
+}
+
+// Along one piece to (u, v), which the caller knows better than a sum would.
+template <typename N>
+HWY_INLINE void Advance(const Slopes<N>& slopes, const N& step, const N& u, const N& v, State<N>& at,
+                        TwiceWork<N>& work) {
+  const N f_step = slopes.f * step;
+  work.normal = work.normal + step * (at.v + v);
+  work.tangential = work.tangential + f_step * (at.u + u);
+  at = {at.tau + step, at.f + f_step, u, v};
+}
+
+template <typename N>
+HWY_INLINE void Compress(const Inputs<N>& in, const Path<N>& path, Solution<N>& x) {
+  State<N> at = {Zero<N>(), Zero<N>(), in.u0, in.v0};
+  x.compression = {Zero<N>(), Zero<N>()};
+  x.stops_in_compression = path.stops && IsNegative(path.v_stop);
+  x.stop = at;
+  if (!x.stops_in_compression) {
+    Advance(path.first, -in.v0 / path.first.v, path.u_rest, Zero<N>(), at, x.compression);
+  } else {
+    if (path.slips_first) {
+      Advance(path.first, -in.u0 / path.first.u, Zero<N>(), path.v_stop, at, x.compression);
+    }
+    x.stop = at;
+    const N step = -path.v_stop / path.second.v;
+    Advance(path.second, step, path.second.u * step, Zero<N>(), at, x.compression);
+  }
+  x.rest = at;
+}
+
+// `stop_ahead`: slip is still to stop, at path.v_stop.
+template <typename N>
+HWY_INLINE Rebound<N> FindNewton(const Inputs<N>& in, const Path<N>& path, const N& slope, bool stop_ahead) {
+  const N v1 = -in.coefficient * in.v0;
+  const N beyond = v1 - path.v_stop;
+  if (!stop_ahead || IsNegative(beyond)) return {false, v1 / slope, Zero<N>(), v1};
+  return {true, path.v_stop / slope, beyond / path.second.v, v1};
+}
+
+template <typename N>
+HWY_INLINE Rebound<N> FindPoisson(const Inputs<N>& in, const Path<N>& path, const N& tau_c, const N& slope,
+                                  bool stop_ahead) {
+  const N step = in.coefficient * tau_c;
+  if (!stop_ahead) return {false, step, Zero<N>(), slope * step};
+  const N before = path.v_stop / slope;
+  const N after = step - before;
+  if (IsNegative(after)) return {false, step, Zero<N>(), slope * step};
+  return {true, before, after, path.v_stop + path.second.v * after};
+}
+
+// On a piece v^2 grows by twice its slope times the work, and the impulse is the change of v^2 over the sum of the v.
+template <typename N>
+HWY_INLINE Rebound<N> FindEnergetic(const Inputs<N>& in, const Path<N>& path, const N& stored_twice, const N& slope,
+                                    bool stop_ahead) {
+  const N work = in.coefficient * in.coefficient * stored_twice;
+  if (stop_ahead) {
+    const N before = path.v_stop / slope;
+    const N beyond = work - path.v_stop * before;
+    if (!IsNegative(beyond)) {
+      const N v1 = Sqrt(path.v_stop * path.v_stop + path.second.v * beyond);
+      return {true, before, beyond / (v1 + path.v_stop), v1};
+    }
+  }
+  const N v1 = Sqrt(slope * work);
+  return {false, v1 / slope, Zero<N>(), v1};
+}
+
+template <typename N>
+HWY_INLINE Rebound<N> FindRebound(RestitutionLaw law, const Inputs<N>& in, const Path<N>& path, const Solution<N>& x,
+                                  const N& slope, bool stop_ahead) {
+  if (!IsPositive(in.coefficient)) {
+    return {stop_ahead && !IsPositive(path.v_stop), Zero<N>(), Zero<N>(), Zero<N>()};
+  }
+  switch (law) {
+    case RestitutionLaw::kNewton:
+      return FindNewton(in, path, slope, stop_ahead);
+    case RestitutionLaw::kPoisson:
+      return FindPoisson(in, path, x.rest.tau, slope, stop_ahead);
+    case RestitutionLaw::kEnergetic:
+      break;
+  }
+  return FindEnergetic(in, path, -x.compression.normal, slope, stop_ahead);
+}
+
+template <typename N>
+HWY_INLINE void Restore(RestitutionLaw law, const Inputs<N>& in, const Path<N>& path, Solution<N>& x) {
+  State<N> at = x.rest;
+  x.restitution = {Zero<N>(), Zero<N>()};
+  const Slopes<N>& slopes = x.stops_in_compression ? path.second : path.first;
+  const bool stop_ahead = path.stops && !x.stops_in_compression;
+  const Rebound<N> rebound = FindRebound(law, in, path, x, slopes.v, stop_ahead);
+  x.stops_in_restitution = rebound.passes_stop;
+  if (rebound.passes_stop) {
+    Advance(slopes, rebound.before, Zero<N>(), path.v_stop, at, x.restitution);
+    x.stop = at;
+    Advance(path.second, rebound.after, path.second.u * rebound.after, rebound.v1, at, x.restitution);
+  } else {
+    N u1 = at.u + slopes.u * rebound.before;
+    // Slip that has not stopped has not turned either.
+    if (stop_ahead && IsNegative(Signed(u1, IsNegative(at.u)))) u1 = Zero<N>();
+    Advance(slopes, rebound.before, u1, rebound.v1, at, x.restitution);
+  }
+  x.end = at;
+}
+
+// 0 for what rounding alone may leave of a difference of terms of size `scale`.
+template <typename N>
+HWY_INLINE N WithoutRounding(const N& difference, const N& scale) {
+  const bool is_rounding = !IsPositive(Abs(difference) - N::Constant(0x1p-96) * scale);
+  return Select(is_rounding, Zero<N>(), difference);
+}
+
+// Adding 0 turns -0 into 0: what vanishes has no sign.
+template <typename N>
+HWY_INLINE double Out(const N& value) {
+  return Rounded(value) + 0.0;
+}
+
+template <typename N>
+HWY_INLINE Instant MakeInstant(EventKind kind, const State<N>& at) {
+  return {.kind = kind, .tau = Out(at.tau), .f = Out(at.f), .u = Out(at.u), .v = Out(at.v)};
+}
+
+template <typename N>
+HWY_INLINE void WriteEvents(const Problem& problem, const Solution<N>& x, bool slips_first, Impact& impact) {
+  const auto add = [&impact](const Instant& event) {
+    impact.events[static_cast<size_t>(impact.event_count++)] = event;
+  };
+  const bool locked = impact.regime == Regime::kLocked;
+  add({.kind = EventKind::kStart, .tau = 0.0, .f = 0.0, .u = problem.u0, .v = problem.v0});
+  const bool stops_at_rest = x.stops_in_restitution && !IsPositive(x.stop.v);
+  const bool stops_before = (x.stops_in_compression && slips_first) || stops_at_rest || locked;
+  if (stops_before) add(MakeInstant(EventKind::kSlipStops, x.stop));
+  add(MakeInstant(EventKind::kCompressionEnds, x.rest));
+  if (locked) return;
+  if (x.stops_in_restitution && !stops_at_rest) add(MakeInstant(EventKind::kSlipStops, x.stop));
+  add(MakeInstant(EventKind::kRestitutionEnds, x.end));
+}
+
+template <typename N>
+HWY_INLINE Regime RegimeOf(const Inputs<N>& in, const Path<N>& path, const Solution<N>& x) {
+  if (in.rank_one && path.stops && path.sticks) return Regime::kLocked;
+  const bool stopped = x.stops_in_compression || x.stops_in_restitution;
+  const bool smooth = !IsPositive(in.mu_static) || !IsPositive(in.wtt);
+  if (smooth || (!IsPositive(in.mu) && !(stopped && path.sticks))) return Regime::kFrictionless;
+  if (!stopped || !(path.slips_first || path.sticks)) return Regime::kSliding;
+  if (x.stops_in_compression) return path.sticks ? Regime::kStickInCompression : Regime::kReversalInCompression;
+  return path.sticks ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
+}
+
+// The given coefficient as it is; the other two from the path. Nothing where there is no restitution.
+template <typename N>
+HWY_INLINE void WriteCoefficients(const Problem& problem, const Inputs<N>& in, const Solution<N>& x, Impact& impact) {
+  impact.tangential = Out(x.end.f / x.end.tau);
+  impact.energetic_excess = -1.0;
+  if (impact.regime == Regime::kLocked || problem.coefficient == 0.0) return;
+  impact.newton = problem.law == RestitutionLaw::kNewton ? problem.coefficient : Out(x.end.v / -in.v0);
+  impact.poisson =
+      problem.law == RestitutionLaw::kPoisson ? problem.coefficient : Out((x.end.tau - x.rest.tau) / x.rest.tau);
+  if (problem.law == RestitutionLaw::kEnergetic) {
+    impact.energetic = problem.coefficient;
+    impact.energetic_excess = problem.coefficient - 1.0;
+  } else {
+    const N one = N::Constant(1.0);
+    const N square = x.restitution.normal / -x.compression.normal;
+    const N energetic = Sqrt(square);
+    impact.energetic = Out(energetic);
+    impact.energetic_excess = Out(WithoutRounding(square - one, one + square) / (one + energetic));
+  }
+  impact.sharp_limit_broken = impact.energetic_excess > 0.0;
+}
+
+template <typename N>
+HWY_INLINE void WriteWorks(const Inputs<N>& in, const Solution<N>& x, Impact& impact) {
+  const N half = N::Constant(0.5);
+  impact.work_normal_compression = Out(half * x.compression.normal);
+  impact.work_normal_restitution = Out(half * x.restitution.normal);
+  impact.work_tangential_compression = Out(half * x.compression.tangential);
+  impact.work_tangential_restitution = Out(half * x.restitution.tangential);
+  const N tangential = x.end.f * (in.u0 + x.end.u);
+  const N normal = x.end.tau * (in.v0 + x.end.v);
+  const N scale = Abs(x.end.f) * Abs(in.u0) + x.end.tau * -in.v0 + Abs(tangential) + Abs(normal);
+  const N twice_change = WithoutRounding(tangential + normal, scale);
+  impact.energy_change = Out(half * twice_change);
+  impact.energy_limit_broken = IsPositive(twice_change);
+}
+
+// The problem must not be separating.
+template <typename N>
+HWY_INLINE Impact SolveOne(const Problem& problem) {
+  Inputs<N> in = MakeInputs<N>(problem);
+  const Path<N> path = in.rank_one ? RankOnePath(in) : FullRankPath(in);
+  const bool locked = in.rank_one && path.stops && path.sticks;
+  Solution<N> x;
+  Compress(in, path, x);
+  x.stops_in_restitution = false;
+  x.restitution = {Zero<N>(), Zero<N>()};
+  x.end = x.rest;
+  if (locked) {
+    x.stop = x.rest;
+  } else {
+    Restore(problem.law, in, path, x);
+  }
+
+  Impact impact;
+  impact.regime = RegimeOf(in, path, x);
+  impact.w_rank = in.rank_one ? 1 : 2;
+  impact.u1 = Out(x.end.u);
+  impact.v1 = Out(x.end.v);
+  impact.tau_compression = Out(x.rest.tau);
+  impact.tau1 = Out(x.end.tau);
+  impact.f_compression = Out(x.rest.f);
+  impact.f1 = Out(x.end.f);
+  WriteCoefficients(problem, in, x, impact);
+  WriteWorks(in, x, impact);
+  WriteEvents(problem, x, path.slips_first, impact);
+  return impact;
+}
+
+}  // namespace ricochet::planar::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

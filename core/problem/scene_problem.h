@@ -1,0 +1,61 @@
+// The Problem of each impact model for a scene that has been reduced to its contact (core/contact/reduction.h).
+
+#ifndef RICOCHET_CORE_PROBLEM_SCENE_PROBLEM_H_
+#define RICOCHET_CORE_PROBLEM_SCENE_PROBLEM_H_
+
+#include <cstddef>
+
+#include "core/contact/reduction.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/sliding/sliding.h"
+#include "core/models/spatial/spatial.h"
+#include "ricochet/outcome.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+// Whether a pendulum's own models answer the scene: no surface that moves, no impact law.
+bool HasClosedForm(const Scene& scene);
+
+// The pendulum's problem with the coefficients at the approach speed. `scene` is valid and HasClosedForm.
+pendulum::Problem ClosedFormProblem(const Scene& scene);
+
+namespace pendulum {
+
+// The problem of a scene that states a pendulum and a coefficient; a scene without one gets kEnergetic, 0.
+Problem MakeProblem(const Scene& scene);
+
+}  // namespace pendulum
+
+namespace planar {
+
+// `effective` holds the coefficients, `restitution` says by which law.
+Problem MakeProblem(const PlanarReduction& reduction, const Restitution& restitution,
+                    const EffectiveCoefficients& effective);
+
+}  // namespace planar
+
+namespace spatial {
+
+// `effective` holds the coefficients, `restitution` says by which law.
+Problem MakeProblem(const SpatialReduction& reduction, const Restitution& restitution,
+                    const EffectiveCoefficients& effective, double tolerance);
+
+}  // namespace spatial
+
+namespace sliding {
+
+template <size_t kTangential>
+Problem<kTangential> MakeProblem(const Reduction<kTangential>& reduction, const EffectiveCoefficients& effective) {
+  return {.w = reduction.w,
+          .u0 = reduction.u0,
+          .v0 = reduction.v0,
+          .mu = effective.kinetic_friction,
+          .coefficient = effective.restitution};
+}
+
+}  // namespace sliding
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_PROBLEM_SCENE_PROBLEM_H_

@@ -1,0 +1,355 @@
+// The impact of every kind of scene: which model answers, and what the systems' own velocities come out as.
+
+#include "core/answer/scene_outcome.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/contact/reduction.h"
+#include "ricochet/solver.h"
+#include "tests/support/system_scenes.h"
+
+namespace ricochet {
+namespace {
+
+using testing::DoubleNear;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+constexpr double kTight = 1e-14;
+
+Scene With(const System& system, double mu, const Restitution& restitution) {
+  return {.system = system, .friction = {.kinetic_coefficient = mu}, .restitution = restitution};
+}
+
+Outcome Solved(const Scene& scene, std::vector<double> history = {}) {
+  const absl::StatusOr<SolveResponse> response =
+      LocalSolver().Solve({.scene = scene, .history_at_n_s = std::move(history)});
+  EXPECT_TRUE(response.ok()) << response.status();
+  return response.ok() ? response->outcome : Outcome();
+}
+
+std::string ErrorOf(const SolveRequest& request) {
+  const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(request);
+  EXPECT_EQ(response.status().code(), absl::StatusCode::kInvalidArgument);
+  return std::string(response.status().message());
+}
+
+// 1 kg and 1 m, leaning by 45 degrees: W = [2.5, 1.5; 1.5, 2.5], velocity (-1, -1).
+PlanarBody Rod() {
+  const double half = 0.5 * std::sqrt(0.5);
+  return {1.0, 1.0 / 12.0, half, -half, -1.0, -1.0, 0.0};
+}
+
+PlanarContact RodContact() { return {2.5, 1.5, 2.5, -1.0, -1.0}; }
+
+PlanarBody Disk() { return {2.0, 0.5 * 2.0 * 0.09, 0.0, -0.3, 1.5, -2.0, 0.5}; }
+
+double KineticEnergy(const PlanarBody& body, const BodyVelocity& velocity) {
+  return 0.5 * body.mass_kg * (std::pow(velocity.linear_m_s[0], 2) + std::pow(velocity.linear_m_s[1], 2)) +
+         0.5 * body.inertia_com_kg_m2 * std::pow(velocity.angular_rad_s[0], 2);
+}
+
+BodyVelocity VelocityOf(const PlanarBody& body) {
+  return {{body.velocity_t_m_s, body.velocity_n_m_s}, {body.rate_rad_s}};
+}
+
+TEST(SceneOutcomeTest, LeaningRodByHandUnderEachLaw) {
+  const Outcome newton = Solved(With(Rod(), 0.7, NewtonCoefficient{1.0}));
+  EXPECT_NEAR(newton.energy_change_j, 1.0 / 16.0, kTight);
+  EXPECT_FALSE(newton.admissible);
+  const Outcome poisson = Solved(With(Rod(), 0.7, PoissonCoefficient{1.0}));
+  EXPECT_NEAR(poisson.impulse.normal_total_n_s, 40.0 / 71.0, kTight);
+  const Outcome energetic = Solved(With(Rod(), 0.7, EnergeticCoefficient{1.0}));
+  EXPECT_NEAR(energetic.energy_change_j, -7.0 / 65.0, kTight);
+  EXPECT_TRUE(energetic.admissible);
+}
+
+TEST(SceneOutcomeTest, BodyAndItsContactAgree) {
+  const Outcome body = Solved(With(Rod(), 0.7, EnergeticCoefficient{0.8}));
+  const Outcome contact = Solved(With(RodContact(), 0.7, EnergeticCoefficient{0.8}));
+  EXPECT_EQ(body.regime, contact.regime);
+  EXPECT_NEAR(body.impulse.normal_total_n_s, contact.impulse.normal_total_n_s, kTight);
+  EXPECT_NEAR(body.contact_velocity_after.tangential_m_s[0], contact.contact_velocity_after.tangential_m_s[0], kTight);
+  EXPECT_THAT(contact.bodies_after, IsEmpty());
+  EXPECT_THAT(contact.rates_after_rad_s, IsEmpty());
+}
+
+// Lubarda, footnote 3: where nothing couples, the three laws are one.
+TEST(SceneOutcomeTest, DiskBouncesTheSameUnderAllThreeLaws) {
+  const Outcome newton = Solved(With(Disk(), 0.1, NewtonCoefficient{0.6}));
+  for (const Restitution& law : {Restitution(PoissonCoefficient{0.6}), Restitution(EnergeticCoefficient{0.6})}) {
+    const Outcome other = Solved(With(Disk(), 0.1, law));
+    EXPECT_NEAR(other.impulse.normal_total_n_s, newton.impulse.normal_total_n_s, kTight);
+    EXPECT_NEAR(other.contact_velocity_after.tangential_m_s[0], newton.contact_velocity_after.tangential_m_s[0],
+                kTight);
+    EXPECT_NEAR(other.bodies_after[0].angular_rad_s[0], newton.bodies_after[0].angular_rad_s[0], 10 * kTight);
+  }
+}
+
+// tau1 = m (1 + e) |v0|, f1 = -mu tau1 while it slides.
+TEST(SceneOutcomeTest, SlidingDiskByHand) {
+  const Outcome outcome = Solved(With(Disk(), 0.1, NewtonCoefficient{0.5}));
+  EXPECT_EQ(outcome.regime, Regime::kSliding);
+  EXPECT_NEAR(outcome.impulse.normal_total_n_s, 6.0, kTight);
+  EXPECT_NEAR(outcome.impulse.tangential_n_s[0], -0.6, kTight);
+  ASSERT_THAT(outcome.bodies_after, SizeIs(1));
+  EXPECT_THAT(outcome.bodies_after[0].linear_m_s, ElementsAre(DoubleNear(1.2, kTight), DoubleNear(1.0, kTight)));
+  EXPECT_THAT(outcome.bodies_after[0].angular_rad_s, ElementsAre(DoubleNear(0.5 - 0.3 * 0.6 / 0.09, kTight)));
+}
+
+TEST(SceneOutcomeTest, EnergyOfTheBodiesChangesByTheLedger) {
+  const PlanarBody one = {1.0, 0.2, 0.1, -0.5, 1.0, -1.0, 2.0};
+  const PlanarBody two = {3.0, 0.5, -0.3, 0.4, 0.5, 0.25, -1.0};
+  const Outcome outcome = Solved(With(BodyPair{PlanarPair{one, two}}, 0.4, EnergeticCoefficient{0.7}));
+  ASSERT_THAT(outcome.bodies_after, SizeIs(2));
+  const double before = KineticEnergy(one, VelocityOf(one)) + KineticEnergy(two, VelocityOf(two));
+  const double after = KineticEnergy(one, outcome.bodies_after[0]) + KineticEnergy(two, outcome.bodies_after[1]);
+  EXPECT_NEAR(after - before, outcome.energy_change_j, kTight);
+  for (size_t i = 0; i < 2; ++i) {
+    const double momentum =
+        one.mass_kg * outcome.bodies_after[0].linear_m_s[i] + two.mass_kg * outcome.bodies_after[1].linear_m_s[i];
+    EXPECT_NEAR(momentum, i == 0 ? 1.0 + 1.5 : -1.0 + 0.75, kTight);
+  }
+}
+
+TEST(SceneOutcomeTest, BodyThatStrikesAMountainBouncesAsFromTheGround) {
+  const PlanarBody mountain = {1e18, 1e18, 0.3, 0.4, 0.0, 0.0, 0.0};
+  const Outcome pair = Solved(With(BodyPair{PlanarPair{Rod(), mountain}}, 0.3, PoissonCoefficient{0.7}));
+  const Outcome ground = Solved(With(Rod(), 0.3, PoissonCoefficient{0.7}));
+  EXPECT_NEAR(pair.bodies_after[0].linear_m_s[1], ground.bodies_after[0].linear_m_s[1], kTight);
+  EXPECT_NEAR(pair.bodies_after[0].angular_rad_s[0], ground.bodies_after[0].angular_rad_s[0], kTight);
+}
+
+TEST(SceneOutcomeTest, OneLinkAnswersAsThePendulumDoes) {
+  const Link link = {2.0, 3.0, 0.7, 0.4, 0.6, -1.5};
+  const Pendulum pendulum = {0.4 + 3.0 * 0.49, 2.0 * std::sin(0.6), 2.0 * std::cos(0.6), -1.5};
+  for (const Restitution& law : {Restitution(NewtonCoefficient{0.5}), Restitution(PoissonCoefficient{0.5}),
+                                 Restitution(EnergeticCoefficient{0.5})}) {
+    for (const double mu : {0.0, 0.2, 0.5, 0.9}) {
+      const Outcome chain = Solved(With(Linkage{{link}}, mu, law));
+      const Outcome single = Solved(With(pendulum, mu, law));
+      EXPECT_EQ(chain.w_rank, 1);
+      EXPECT_NEAR(chain.rates_after_rad_s[0], single.rates_after_rad_s[0], kTight);
+      EXPECT_NEAR(chain.impulse.normal_total_n_s, single.impulse.normal_total_n_s, kTight);
+      EXPECT_NEAR(chain.impulse.tangential_n_s[0], single.impulse.tangential_n_s[0], kTight);
+      EXPECT_NEAR(chain.energy_change_j, single.energy_change_j, kTight);
+    }
+  }
+}
+
+TEST(SceneOutcomeTest, PendulumOnAMovingSurfaceTurnsRelativeToIt) {
+  Scene moving = With(Pendulum{2.0, 0.3, 1.0, -3.0}, 0.1, EnergeticCoefficient{0.5});
+  moving.surface_velocity = SurfaceVelocity{{-1.0}, -0.3};  // As if it turned by -1 rad/s.
+  const Outcome still = Solved(With(Pendulum{2.0, 0.3, 1.0, -2.0}, 0.1, EnergeticCoefficient{0.5}));
+  const Outcome outcome = Solved(moving);
+  EXPECT_NEAR(outcome.rates_after_rad_s[0] + 1.0, still.rates_after_rad_s[0], kTight);
+  EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, still.contact_velocity_after.normal_m_s, kTight);
+}
+
+// theory: Keller's contact, mu = 0.2, eta = 0.6.
+TEST(SceneOutcomeTest, ContactInSpaceMeetsTheKnownNumbers) {
+  const Outcome outcome = Solved(With(ContactInSpace(), 0.2, EnergeticCoefficient{0.6}));
+  EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[0], 1.1935907812616, 1e-10);
+  EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[1], -0.23674642666214, 1e-10);
+  EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, 0.58574780070097, 1e-10);
+  EXPECT_LE(outcome.accuracy.relative_error, 1e-10);
+  EXPECT_EQ(outcome.accuracy.kind, AccuracyKind::kEstimate);
+}
+
+TEST(SceneOutcomeTest, SphereInSpaceIsTheDiskInItsPlane) {
+  const double inertia = 0.4 * 2.0 * 0.09;
+  const SpatialBody sphere = {
+      2.0, {inertia, 0, 0, inertia, 0, inertia}, {0.0, 0.0, -0.3}, {1.5, 0.0, -2.0}, {0.0, -0.5, 0.0}};
+  const PlanarBody disk = {2.0, inertia, 0.0, -0.3, 1.5, -2.0, 0.5};
+  const Outcome space = Solved(With(sphere, 0.1, EnergeticCoefficient{0.6}));
+  const Outcome plane = Solved(With(disk, 0.1, EnergeticCoefficient{0.6}));
+  ASSERT_THAT(space.bodies_after, SizeIs(1));
+  EXPECT_NEAR(space.bodies_after[0].linear_m_s[0], plane.bodies_after[0].linear_m_s[0], 1e-13);
+  EXPECT_NEAR(space.bodies_after[0].linear_m_s[2], plane.bodies_after[0].linear_m_s[1], 1e-13);
+  EXPECT_NEAR(space.bodies_after[0].angular_rad_s[1], -plane.bodies_after[0].angular_rad_s[0], 1e-12);
+}
+
+TEST(SceneOutcomeTest, ContactsThatDoNotApproachKeepTheirVelocities) {
+  PlanarBody rising = Rod();
+  rising.velocity_n_m_s = 1.0;
+  SpatialContact grazing = ContactInSpace();
+  grazing.normal_m_s = 0.0;
+  for (const System& system : {System(rising), System(BodyPair{PlanarPair{rising, Rod()}}),
+                               System(Linkage{{{1.0, 1.0, 0.5, 0.1, 0.3, 1.0}}}), System(grazing)}) {
+    const Outcome outcome = Solved(With(system, 0.5, NewtonCoefficient{0.5}));
+    EXPECT_EQ(outcome.regime, Regime::kSeparating) << system.index();
+    EXPECT_EQ(outcome.impulse.normal_total_n_s, 0.0);
+    EXPECT_THAT(outcome.timeline, IsEmpty());
+    EXPECT_EQ(outcome.energy_change_j, 0.0);
+    EXPECT_EQ(outcome.accuracy.relative_error, 0.0);
+  }
+  const Outcome body = Solved(With(rising, 0.5, NewtonCoefficient{0.5}));
+  EXPECT_EQ(body.bodies_after[0], VelocityOf(rising));
+}
+
+TEST(SceneOutcomeTest, HistoryOfAChainGivesItsRates) {
+  const Linkage chain = {{{1.0, 1.0, 0.5, 1.0 / 12.0, 0.35, -0.1}, {1.0, 1.0, 0.5, 1.0 / 12.0, 0.52, -0.2}}};
+  const Scene scene = With(chain, 0.7, EnergeticCoefficient{0.5});
+  const Outcome whole = Solved(scene);
+  const double tau1 = whole.impulse.normal_total_n_s;
+  const Outcome outcome = Solved(scene, {0.0, 0.5 * tau1, tau1});
+  ASSERT_THAT(outcome.history, SizeIs(3));
+  EXPECT_THAT(outcome.history[0].rates_rad_s, ElementsAre(-0.1, -0.2));
+  EXPECT_THAT(outcome.history[2].rates_rad_s, ElementsAre(DoubleNear(whole.rates_after_rad_s[0], kTight),
+                                                          DoubleNear(whole.rates_after_rad_s[1], kTight)));
+  EXPECT_THAT(ErrorOf({.scene = scene, .history_at_n_s = {2.0 * tau1}}), HasSubstr("history_at_n_s[0]"));
+}
+
+TEST(SceneOutcomeTest, ThereIsNoHistoryInSpaceAndUnderAnImpactLaw) {
+  EXPECT_EQ(ErrorOf({.scene = With(ContactInSpace(), 0.2, EnergeticCoefficient{0.6}), .history_at_n_s = {0.0}}),
+            "history_at_n_s has 1 entry: must be empty for a system in space");
+  Scene law = With(Rod(), 0.2, std::monostate());
+  law.impact_law = WhittakerLaw{0.5};
+  EXPECT_EQ(ErrorOf({.scene = law, .history_at_n_s = {0.0, 0.1}}),
+            "history_at_n_s has 2 entries: must be empty for an impact law, which has no path");
+}
+
+TEST(SceneOutcomeTest, ToleranceOutsideItsRangeIsRefused) {
+  const Scene scene = With(ContactInSpace(), 0.2, EnergeticCoefficient{0.6});
+  for (const double tolerance : {0.2, -1e-13, -1.0, 1e300, std::nan("")}) {
+    EXPECT_THAT(ErrorOf({.scene = scene, .demand = {.relative_tolerance = tolerance}}), HasSubstr("be in [0, 0.1]"));
+  }
+  EXPECT_TRUE(LocalSolver().Solve({.scene = scene, .demand = {.relative_tolerance = 1e-4}}).ok());
+}
+
+TEST(SceneOutcomeTest, AWThatOverflowsIsOutOfRange) {
+  const absl::StatusOr<SolveResponse> response =
+      LocalSolver().Solve({.scene = With(PlanarBody{1e-310, 1.0, 0, 0, 0, -1.0, 0}, 0.1, EnergeticCoefficient{0.5})});
+  EXPECT_EQ(response.status().code(), absl::StatusCode::kOutOfRange);
+}
+
+TEST(SceneOutcomeTest, AWThatUnderflowsIsOutOfRange) {
+  Scene scene = With(Pendulum{1.3, 1e-200, 0.4, -2.0}, 0.8, EnergeticCoefficient{0.8});
+  EXPECT_TRUE(LocalSolver().Solve({.scene = scene}).ok());
+  scene.compliance = Compliance{.tangential_ratio_squared = 0.3};
+  const absl::Status status = LocalSolver().Solve({.scene = scene}).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kOutOfRange);
+  EXPECT_THAT(std::string(status.message()), HasSubstr("W_nn is below the smallest"));
+}
+
+TEST(SceneOutcomeTest, ALinkTooHeavyForDoublesIsOutOfRangeAndDoesNotSeparate) {
+  const Linkage linkage = {.links = {{.length_m = 1.0,
+                                      .mass_kg = 1.7e308,
+                                      .com_m = 0.5,
+                                      .inertia_com_kg_m2 = 1.0,
+                                      .theta_rad = -1e-108,
+                                      .rate_rad_s = 0.35}}};
+  ASSERT_LT(std::get<PlanarReduction>(Reduce({.system = linkage})).v0, 0.0);
+  const Scene scene = With(linkage, 0.3, EnergeticCoefficient{0.8});
+  EXPECT_EQ(LocalSolver().Solve({.scene = scene}).status().code(), absl::StatusCode::kOutOfRange);
+}
+
+// --- Coefficients by speed ---
+
+TEST(SceneOutcomeTest, CoefficientsAreThoseAtTheApproachSpeed) {
+  Scene scene = With(Disk(), 0.2, NewtonCoefficient{0.8});  // It approaches at 2 m/s.
+  scene.friction.static_coefficient = 0.3;
+  scene.friction.by_speed = SpeedTable{{1.0, 3.0}, {1.0, 0.5}};
+  scene.restitution_by_speed = PowerLaw{0.25, 1.0};
+  const Outcome outcome = Solved(scene);
+  EXPECT_DOUBLE_EQ(outcome.effective.kinetic_friction, 0.15);
+  EXPECT_DOUBLE_EQ(outcome.effective.static_friction, 0.225);
+  EXPECT_DOUBLE_EQ(outcome.effective.restitution, 0.4);
+  EXPECT_DOUBLE_EQ(outcome.coefficients.newton, 0.4);
+  EXPECT_DOUBLE_EQ(outcome.coefficients.tangential, -0.15);
+}
+
+TEST(SceneOutcomeTest, PendulumTakesItsCoefficientsBySpeedToo) {
+  Scene scene = With(Pendulum{2.0, 0.5, 1.0, -4.0}, 0.1, EnergeticCoefficient{0.8});
+  scene.restitution_by_speed = PowerLaw{0.25, 1.0};
+  Scene constant = scene;
+  constant.restitution_by_speed.reset();
+  constant.restitution = EnergeticCoefficient{0.8 * (1.0 - 0.25 * 2.0)};
+  EXPECT_EQ(Solved(scene), Solved(constant));
+}
+
+TEST(SceneOutcomeTest, ConstantCoefficientsAreEchoed) {
+  const Outcome outcome = Solved(With(Disk(), 0.4, PoissonCoefficient{0.8}));
+  EXPECT_EQ(outcome.effective, (EffectiveCoefficients{0.4, 0.4, 0.8}));
+}
+
+TEST(SceneOutcomeTest, FactorsAreLinearBetweenSpeedsAndConstantOutside) {
+  Scene scene = With(RodContact(), 1.0, NewtonCoefficient{0.0});
+  scene.friction.by_speed = SpeedTable{{1.0, 2.0, 4.0}, {1.0, 0.5, 0.25}};
+  const std::vector<std::pair<double, double>> factors = {{0.5, 1.0}, {1.0, 1.0},   {1.5, 0.75},
+                                                          {2.0, 0.5}, {3.0, 0.375}, {9.0, 0.25}};
+  for (const auto& [speed, factor] : factors) {
+    std::get<PlanarContact>(scene.system).normal_m_s = -speed;
+    EXPECT_EQ(Solved(scene).effective.kinetic_friction, factor) << speed;
+  }
+}
+
+// --- Laws to compare with ---
+
+Scene LawScene(const ImpactLaw& law) {
+  Scene scene = With(Rod(), 0.7, std::monostate());
+  scene.impact_law = law;
+  return scene;
+}
+
+// Whittaker on the rod: u0 < 0, f = 0.7 tau, tau1 = (1 + e)/(2.5 + 0.7 * 1.5), dE = (f (u0 + u1) + tau1 (v0 + v1))/2.
+TEST(SceneOutcomeTest, WhittakerOnTheRodByHand) {
+  const Outcome outcome = Solved(LawScene(WhittakerLaw{1.0}));
+  const double tau1 = 2.0 / 3.55;
+  EXPECT_EQ(outcome.regime, Regime::kByLaw);
+  EXPECT_NEAR(outcome.impulse.normal_total_n_s, tau1, kTight);
+  EXPECT_NEAR(outcome.coefficients.tangential, 0.7, kTight);
+  EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, 1.0, kTight);
+  const double u1 = -1.0 + (2.5 * 0.7 + 1.5) * tau1;
+  EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[0], u1, kTight);
+  EXPECT_NEAR(outcome.energy_change_j, 0.5 * 0.7 * tau1 * (u1 - 1.0), kTight);
+  EXPECT_EQ(outcome.effective.restitution, 1.0);
+  EXPECT_NEAR(outcome.work.normal_total_j + outcome.work.tangential_total_j, outcome.energy_change_j, kTight);
+  EXPECT_THAT(outcome.bodies_after, SizeIs(1));
+  EXPECT_THAT(outcome.timeline, SizeIs(2));
+}
+
+TEST(SceneOutcomeTest, BrachThatPushesCreatesEnergyAndIsFlagged) {
+  const Outcome outcome = Solved(LawScene(BrachLaw{1.0, 2.0}));
+  EXPECT_GT(outcome.energy_change_j, 0.0);
+  EXPECT_FALSE(outcome.admissible);
+  ASSERT_THAT(outcome.broken_limits, SizeIs(1));
+  EXPECT_EQ(outcome.broken_limits[0].kind, LimitKind::kEnergy);
+}
+
+TEST(SceneOutcomeTest, EachLawHoldsItsNewtonCoefficient) {
+  for (const ImpactLaw& law : {ImpactLaw(WhittakerLaw{0.5}), ImpactLaw(KaneLevinsonLaw{0.5}),
+                               ImpactLaw(BrachLaw{0.5, 0.1}), ImpactLaw(ChatterjeeRuinaLaw{0.5, 0.1})}) {
+    const Outcome outcome = Solved(LawScene(law));
+    EXPECT_NEAR(outcome.coefficients.newton, 0.5, kTight) << law.index();
+    EXPECT_THAT(outcome.alternatives, IsEmpty());
+  }
+}
+
+TEST(SceneOutcomeTest, ALawWithoutASolutionSaysSoAndChangesNothing) {
+  Scene scene = With(PlanarContact{2.5, -1.5, 1.0, 1.0, -1.0}, 0.0, std::monostate());
+  scene.impact_law = BrachLaw{0.5, 1.0};  // Wnn + mu_hat Wtn = -0.5: the impulse would pull the contact in.
+  const Outcome outcome = Solved(scene);
+  EXPECT_EQ(outcome.regime, Regime::kNoSolution);
+  EXPECT_EQ(outcome.impulse.normal_total_n_s, 0.0);
+  EXPECT_EQ(outcome.contact_velocity_after.normal_m_s, -1.0);
+}
+
+TEST(SceneOutcomeTest, KaneAndLevinsonListEverySolutionWhereThereAreSeveral) {
+  Scene scene = With(PlanarContact{4.0, 2.0, 1.0, -2.0, -1.0}, 0.3, std::monostate());
+  scene.impact_law = KaneLevinsonLaw{0.0};  // Rank one: any impulse of the cone ends the approach.
+  const Outcome outcome = Solved(scene);
+  ASSERT_THAT(outcome.alternatives, SizeIs(2));
+  EXPECT_EQ(outcome.alternatives[0].contact_velocity_after, outcome.contact_velocity_after);
+  EXPECT_NE(outcome.alternatives[0].impulse, outcome.alternatives[1].impulse);
+}
+
+}  // namespace
+}  // namespace ricochet

@@ -1,0 +1,292 @@
+// The same bits everywhere: 10^5 scenes hash to what tests/data/golden/bits.txt says, whatever the build, the SIMD
+// target, the threads and the order. RICOCHET_UPDATE_GOLDEN=1 writes the file anew.
+//
+// Every system, law and effect but those of SUNDIALS (a normal spring), which promises its bits on one machine only.
+// The scenes themselves come from sums and products of random bits, so that they are the same everywhere too.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <random>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/numerics/stable_hash.h"
+#include "core/scene/numbers.h"
+#include "core/scene/validate.h"
+#include "core/sweep/column.h"
+#include "core/sweep/sweep_run.h"
+#include "hwy/targets.h"
+#include "ricochet/outcome_numbers.h"
+#include "ricochet/solver.h"
+#include "tests/support/only_target.h"
+#include "tests/support/paths.h"
+#include "tests/support/system_scenes.h"
+
+namespace ricochet {
+namespace {
+
+constexpr size_t kScenes = 100'000;
+
+// Nothing here depends on the standard library's distributions.
+class Random {
+ public:
+  explicit Random(uint64_t seed) : bits_(seed) {}
+  double Uniform(double low, double high) {
+    return low + (high - low) * (static_cast<double>(bits_() >> 11) * 0x1p-53);
+  }
+  uint64_t Below(uint64_t bound) { return bits_() % bound; }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+std::vector<System> AllSystems() {
+  std::vector<System> systems = Systems();
+  systems.push_back(Pendulum{2.0, 0.3, 1.0, -1.0});
+  Linkage chain = Chain();
+  chain.links.push_back({0.7, 0.5, 0.3, 0.05, -0.4, -1.5});
+  chain.links.push_back({0.9, 0.3, 0.4, 0.02, 0.8, -0.5});
+  systems.push_back(chain);
+  return systems;
+}
+
+bool IsPlanar(const System& system) {
+  const auto* const pair = std::get_if<BodyPair>(&system);
+  if (pair != nullptr) return std::holds_alternative<PlanarPair>(pair->bodies);
+  return !std::holds_alternative<SpatialBody>(system) && !std::holds_alternative<SpatialContact>(system);
+}
+
+Restitution AnyRestitution(Random& random) {
+  const double value = random.Below(8) == 0 ? 1.0 : random.Uniform(0.0, 1.0);
+  switch (random.Below(3)) {
+    case 0:
+      return NewtonCoefficient{value};
+    case 1:
+      return PoissonCoefficient{value};
+    default:
+      return EnergeticCoefficient{value};
+  }
+}
+
+ImpactLaw AnyImpactLaw(Random& random) {
+  const double e = random.Uniform(0.0, 1.0);
+  switch (random.Below(4)) {
+    case 0:
+      return WhittakerLaw{e};
+    case 1:
+      return KaneLevinsonLaw{e};
+    case 2:
+      return BrachLaw{e, random.Uniform(-0.5, 0.5)};
+    default:
+      return ChatterjeeRuinaLaw{e, random.Uniform(-1.0, 1.0)};
+  }
+}
+
+// Effects that not every scene has, each in one of a few.
+void AddEffects(Random& random, Scene& scene) {
+  const bool planar = IsPlanar(scene.system);
+  if (random.Below(4) == 0) scene.friction.static_coefficient = scene.friction.kinetic_coefficient * 1.25;
+  if (random.Below(8) == 0) scene.friction.by_speed = PowerLaw{random.Uniform(0.0, 0.1), random.Uniform(0.0, 1.0)};
+  if (random.Below(8) == 0) scene.restitution_by_speed = PowerLaw{random.Uniform(0.0, 0.1), random.Uniform(0.0, 1.0)};
+  if (planar && random.Below(6) == 0) {
+    scene.restitution = std::monostate();
+    scene.restitution_by_speed.reset();
+    scene.impact_law = AnyImpactLaw(random);
+  } else if (planar && random.Below(6) == 0) {
+    scene.restitution = EnergeticCoefficient{random.Uniform(0.1, 1.0)};
+    scene.friction.static_coefficient.reset();
+    scene.compliance = Compliance{.tangential_ratio_squared = random.Uniform(0.5, 1.5)};
+  }
+}
+
+// One of the systems with each number off by up to `spread` of its size; valid.
+Scene AnyScene(Random& random, const System& system) {
+  while (true) {
+    Scene scene = {.system = system};
+    const double spread = random.Below(4) == 0 ? 0.0 : random.Uniform(0.0, 0.5);
+    VisitNumbers(scene, [&](const NumberPath&, double& number, NumberRule) {
+      number += number * random.Uniform(-spread, spread);
+    });
+    scene.friction.kinetic_coefficient = random.Below(8) == 0 ? 0.0 : random.Uniform(0.0, 1.5);
+    scene.restitution = AnyRestitution(random);
+    AddEffects(random, scene);
+    if (Validate(scene).empty()) return scene;
+  }
+}
+
+struct Question {
+  Scene scene;
+  DemandFields demand;
+};
+
+std::vector<Question> Questions() {
+  constexpr std::array kTolerances = {0.0, 1e-12, 1e-9, 1e-6, 1e-3, 0.1};
+  const std::vector<System> systems = AllSystems();
+  std::vector<Question> questions;
+  for (size_t i = 0; i < kScenes; ++i) {
+    Random random(i);
+    questions.push_back({.scene = AnyScene(random, systems[i % systems.size()]),
+                         .demand = {.relative_tolerance = kTolerances[random.Below(kTolerances.size())]}});
+  }
+  return questions;
+}
+
+void Add(const State& state, StableHash& hash) {
+  hash.Add(state.normal_impulse_n_s);
+  for (const double f : state.tangential_impulse_n_s) hash.Add(f);
+  for (const double u : state.contact_velocity.tangential_m_s) hash.Add(u);
+  hash.Add(state.contact_velocity.normal_m_s);
+  for (const double rate : state.rates_rad_s) hash.Add(rate);
+}
+
+struct Answer {
+  uint64_t hash = 0;
+  Model model = Model::kUnspecified;
+  friend bool operator==(const Answer&, const Answer&) = default;
+};
+
+Answer AnswerTo(const Question& question) {
+  const auto response = LocalSolver().Solve({.scene = question.scene, .demand = question.demand});
+  StableHash hash;
+  if (!response.ok()) {
+    hash.Add(static_cast<uint64_t>(response.status().code()));
+    return {hash.value(), Model::kUnspecified};
+  }
+  const Outcome& outcome = response->outcome;
+  hash.Add(static_cast<uint64_t>(outcome.regime));
+  hash.Add(static_cast<uint64_t>(outcome.w_rank));
+  VisitOutcomeNumbers(outcome, [&hash](const NumberPath&, double number) { hash.Add(number); });
+  hash.Add(outcome.work.residual_j);
+  hash.Add(static_cast<uint64_t>(outcome.accuracy.right_hand_sides));
+  for (const BrokenLimit& limit : outcome.broken_limits) hash.Add(limit.excess);
+  for (const Event& event : outcome.timeline) {
+    hash.Add(static_cast<uint64_t>(event.kind));
+    Add(event.state, hash);
+  }
+  hash.Add(outcome.plan.neglected);
+  for (const PlannedEffect& effect : outcome.plan.effects) hash.Add(effect.size);
+  return {hash.value(), outcome.plan.model};
+}
+
+// In `threads` threads, each with every threads-th question.
+std::vector<Answer> AnswersTo(const std::vector<Question>& questions, size_t threads) {
+  std::vector<Answer> answers(questions.size());
+  std::vector<std::thread> workers;
+  for (size_t first = 0; first < threads; ++first) {
+    workers.emplace_back([&, first] {
+      for (size_t i = first; i < questions.size(); i += threads) answers[i] = AnswerTo(questions[i]);
+    });
+  }
+  for (std::thread& worker : workers) worker.join();
+  return answers;
+}
+
+// A line a model: its number, how many scenes it solved and what these hash to.
+std::string Summary(const std::vector<Answer>& answers) {
+  std::map<int, std::pair<int, StableHash>> by_model;
+  for (const Answer& answer : answers) {
+    auto& [count, hash] = by_model[static_cast<int>(answer.model)];
+    ++count;
+    hash.Add(answer.hash);
+  }
+  std::string text;
+  for (const auto& [model, entry] : by_model) {
+    absl::StrAppend(&text, "model ", model, ": ", entry.first, " scenes, ",
+                    absl::Hex(entry.second.value(), absl::kZeroPad16), "\n");
+  }
+  return text;
+}
+
+std::string Golden(const std::string& text) {
+  const std::string path = TestDataPath("golden/bits.txt");
+  if (std::getenv("RICOCHET_UPDATE_GOLDEN") != nullptr) std::ofstream(path) << text;
+  std::ifstream file(path);
+  std::ostringstream golden;
+  golden << file.rdbuf();
+  return golden.str();
+}
+
+TEST(GoldenBitsTest, A100000ScenesHaveTheBitsOfEveryOtherBuildThreadAndTarget) {
+  const std::vector<Question> questions = Questions();
+  const std::vector<Answer> answers = AnswersTo(questions, 4);
+  const std::string summary = Summary(answers);
+  EXPECT_EQ(summary, Golden(summary));
+  // Every model but that of finite duration.
+  for (int model = static_cast<int>(Model::kNone); model < kModelCount; ++model) {
+    if (static_cast<Model>(model) == Model::kFiniteDuration) continue;
+    EXPECT_NE(summary.find(absl::StrCat("model ", model, ": ")), std::string::npos) << model;
+  }
+  constexpr size_t kEvery = 7;
+  std::vector<Question> some;
+  std::vector<Answer> expected;
+  for (size_t i = 0; i < questions.size(); i += kEvery) {
+    some.push_back(questions[i]);
+    expected.push_back(answers[i]);
+  }
+  for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+    const OnlyTarget only(target);
+    EXPECT_TRUE(AnswersTo(some, 1) == expected) << hwy::TargetName(target);
+  }
+}
+
+// Every value of the points [first, end).
+std::vector<uint64_t> BitsOf(SweepRequest request, int64_t first, int64_t end) {
+  request.first_index = first;
+  request.end_index = end;
+  absl::StatusOr<SweepRun> run = SweepRun::Make(request);
+  EXPECT_TRUE(run.ok()) << run.status();
+  std::vector<std::vector<uint64_t>> columns(request.columns.size());
+  while (!run->done()) {
+    const SweepRun::Extent extent = run->Next();
+    const auto count = static_cast<size_t>(extent.count);
+    std::vector<double> values(count * columns.size());
+    EXPECT_TRUE(run->Compute(extent, absl::MakeSpan(values), {}, [] { return false; }));
+    for (size_t i = 0; i < values.size(); ++i) columns[i / count].push_back(std::bit_cast<uint64_t>(values[i]));
+  }
+  std::vector<uint64_t> bits;
+  for (const auto& column : columns) bits.insert(bits.end(), column.begin(), column.end());
+  return bits;
+}
+
+TEST(GoldenBitsTest, SweepsOfEverySystemHaveTheSameBitsInAnySubRangeAndOnEveryTarget) {
+  constexpr int64_t kPoints = 600;
+  for (const System& system : AllSystems()) {
+    for (const double tolerance : {1e-12, 1e-3}) {
+      const Scene scene = With(system);
+      const SweepRequest request = {
+          .grid = {.scene = scene, .axes = {{"friction.kinetic_coefficient", Logspace{1e-6, 1.5, kPoints}}}},
+          .columns = Columns(scene),
+          .demand = {.relative_tolerance = tolerance}};
+      const std::vector<uint64_t> whole = BitsOf(request, 0, kPoints);
+      for (const int64_t cut : {1, 7, 333}) {
+        const std::vector<uint64_t> low = BitsOf(request, 0, cut);
+        const std::vector<uint64_t> high = BitsOf(request, cut, kPoints);
+        std::vector<uint64_t> joined;
+        for (size_t c = 0; c < request.columns.size(); ++c) {
+          const auto part = [c](const std::vector<uint64_t>& bits, int64_t rows) {
+            const auto begin = bits.begin() + static_cast<int64_t>(c) * rows;
+            return std::vector<uint64_t>(begin, begin + rows);
+          };
+          for (const uint64_t value : part(low, cut)) joined.push_back(value);
+          for (const uint64_t value : part(high, kPoints - cut)) joined.push_back(value);
+        }
+        ASSERT_TRUE(joined == whole) << "system " << system.index() << ", cut at " << cut;
+      }
+      for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
+        const OnlyTarget only(target);
+        ASSERT_TRUE(BitsOf(request, 0, kPoints) == whole) << hwy::TargetName(target);
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ricochet

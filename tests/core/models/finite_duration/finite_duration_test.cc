@@ -1,0 +1,728 @@
+// The model of finite duration: closed forms, the rigid impact, a table of compliant impacts, a second integrator.
+
+#include "core/models/finite_duration/finite_duration.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <sstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
+#include "tests/support/planar_scenes.h"
+#include "tests/support/vectors.h"
+
+namespace ricochet::finite_duration {
+namespace {
+
+double SpeedOf(const Problem& problem) { return std::max(std::fabs(problem.u0), std::fabs(problem.v0)); }
+
+Problem ProblemOf(const planar::Problem& rigid, const NormalSpring& spring, double tolerance) {
+  return {.wtt = rigid.wtt,
+          .wtn = rigid.wtn,
+          .wnn = rigid.wnn,
+          .u0 = rigid.u0,
+          .v0 = rigid.v0,
+          .mu = rigid.mu,
+          .mu_static = rigid.mu_static,
+          .spring = spring,
+          .energetic = rigid.coefficient,
+          .tolerance = tolerance};
+}
+
+// A uniform rod at 45 degrees that strikes with its end, m = l = 1, under gravity of its own.
+Problem Rod(const NormalSpring& spring) {
+  return {.wtt = 2.5,
+          .wtn = 1.5,
+          .wnn = 2.5,
+          .u0 = -1.0,
+          .v0 = -1.0,
+          .tangential_acceleration = 0.0,
+          .normal_acceleration = -9.81,
+          .mu = 0.3,
+          .mu_static = 0.3,
+          .spring = spring,
+          .energetic = 0.7};
+}
+
+double WorkScale(const Impact& impact) {
+  return std::max({std::fabs(impact.work_normal_compression), std::fabs(impact.work_normal_restitution),
+                   std::fabs(impact.work_tangential_compression), std::fabs(impact.work_tangential_restitution)});
+}
+
+double Residual(const Impact& impact) {
+  return impact.work_normal_compression + impact.work_normal_restitution + impact.work_tangential_compression +
+         impact.work_tangential_restitution - impact.energy_change;
+}
+
+double DistanceOf(const Problem& problem, const Impact& impact, double u1, double v1) {
+  return std::max(std::fabs(impact.u1 - u1), std::fabs(impact.v1 - v1)) / SpeedOf(problem);
+}
+
+std::vector<EventKind> KindsOf(const Impact& impact) {
+  std::vector<EventKind> kinds;
+  for (const Event& event : impact.events) kinds.push_back(event.kind);
+  return kinds;
+}
+
+// Estimated over true errors. Never below 1, in the median at most 100.
+class EstimateLog {
+ public:
+  void Add(const Impact& impact, double error, const std::string& what) {
+    EXPECT_LE(error, impact.error_estimate) << what;
+    ratios_.push_back(impact.error_estimate / std::max(error, 1e-17));
+  }
+  void Check(const char* name) {
+    std::sort(ratios_.begin(), ratios_.end());
+    const double median = ratios_[ratios_.size() / 2];
+    std::printf("  %-24s estimated over true error: least %.2g, median %.2g of %zu\n", name, ratios_.front(), median,
+                ratios_.size());
+    EXPECT_LE(median, 100.0) << name;
+  }
+
+ private:
+  std::vector<double> ratios_;
+};
+
+// Whether rounding or the tolerance may give the stop of slip to another phase.
+bool StopsNearAnEnd(const planar::Impact& impact, double speed, double tolerance) {
+  for (int i = 0; i < impact.event_count; ++i) {
+    const planar::Instant& event = impact.events[static_cast<size_t>(i)];
+    if (event.kind != EventKind::kSlipStops) continue;
+    const double margin = 100.0 * tolerance;
+    return std::fabs(event.v) <= margin * speed || impact.tau1 - event.tau <= margin * impact.tau1;
+  }
+  return std::fabs(impact.u1) <= 100.0 * tolerance * speed;
+}
+
+TEST(FiniteDurationTest, WithoutFiniteForcesItIsTheRigidImpactAtAnyStiffness) {
+  planar::SceneSource source(20);
+  EstimateLog log;
+  for (int i = 0; i < 400; ++i) {
+    planar::Problem rigid = source.Any();
+    rigid.law = RestitutionLaw::kEnergetic;
+    rigid.coefficient = source.UnitCoefficient();
+    const planar::Impact exact = planar::Solve(rigid);
+    const double tolerance = std::pow(10.0, -source.Uniform(4.0, 10.0));
+    const double stiffness = std::pow(10.0, source.Uniform(-3.0, 12.0));
+    for (const NormalSpring& spring : {NormalSpring(LinearSpring{stiffness}), NormalSpring(HertzSpring{stiffness})}) {
+      const std::string what = "scene " + std::to_string(i) + (spring.index() == 1 ? " linear" : " Hertz");
+      const Problem problem = ProblemOf(rigid, spring, tolerance);
+      const Impact impact = Solve(problem);
+      ASSERT_TRUE(impact.converged) << what;
+      const double error = DistanceOf(problem, impact, exact.u1, exact.v1);
+      log.Add(impact, error, what);
+      EXPECT_LE(error, tolerance) << what;
+      EXPECT_EQ(impact.w_rank, exact.w_rank) << what;
+      if (StopsNearAnEnd(exact, SpeedOf(problem), tolerance)) continue;
+      EXPECT_EQ(impact.regime, exact.regime) << what;
+      // Impulses and works near rank one are large numbers that velocities hardly depend on.
+      const double det = rigid.wtt * rigid.wnn - rigid.wtn * rigid.wtn;
+      if (exact.w_rank == 2 && det < 0.01 * rigid.wtt * rigid.wnn) continue;
+      const double slack = 100.0 * tolerance;
+      const double scale = exact.tau1 * (1.0 + rigid.mu_static);
+      EXPECT_NEAR(impact.tau_compression, exact.tau_compression, slack * scale) << what;
+      EXPECT_NEAR(impact.tau1, exact.tau1, slack * scale) << what;
+      EXPECT_NEAR(impact.f1, exact.f1, slack * scale) << what;
+      EXPECT_NEAR(impact.f_compression, exact.f_compression, slack * scale) << what;
+      const double work = scale * SpeedOf(problem);
+      EXPECT_NEAR(impact.work_normal_compression, exact.work_normal_compression, slack * work) << what;
+      EXPECT_NEAR(impact.work_normal_restitution, exact.work_normal_restitution, slack * work) << what;
+      EXPECT_NEAR(impact.work_tangential_compression, exact.work_tangential_compression, slack * work) << what;
+      EXPECT_NEAR(impact.work_tangential_restitution, exact.work_tangential_restitution, slack * work) << what;
+      EXPECT_NEAR(impact.energy_change, exact.energy_change, slack * work) << what;
+      EXPECT_EQ(impact.energetic, exact.energetic) << what;
+    }
+  }
+  log.Check("rigid along t");
+}
+
+TEST(FiniteDurationTest, ALinearContactLastsHalfAPeriodShrunkByEta) {
+  for (const double eta : {1.0, 0.6, 0.05, 0.0}) {
+    const double k = 3e7;
+    const Impact impact =
+        Solve({.wtt = 1.0, .wnn = 0.4, .u0 = 0.3, .v0 = -2.0, .spring = LinearSpring{k}, .energetic = eta});
+    const double omega = std::sqrt(k * 0.4);
+    EXPECT_EQ(impact.regime, Regime::kFrictionless);
+    EXPECT_NEAR(impact.contact.duration_s * omega, std::numbers::pi / 2.0 * (1.0 + eta), 1e-9);
+    EXPECT_NEAR(impact.contact.peak_normal_n / (k * 2.0 / omega), 1.0, 1e-9);
+    EXPECT_NEAR(impact.contact.indentation_m / (2.0 / omega), 1.0, 1e-9);
+    EXPECT_EQ(impact.contact.peak_tangential_n, 0.0);
+    EXPECT_NEAR(impact.v1, 2.0 * eta, 1e-9);
+  }
+}
+
+// Hertz (1882): the whole of an elastic contact lasts 2.9432 d_max/|v0|, d_max^(5/2) = (5/4) v0^2/(k Wnn).
+TEST(FiniteDurationTest, AHertzContactLastsAsLongAsHertzSays) {
+  const double half = std::sqrt(std::numbers::pi) * std::tgamma(1.4) / std::tgamma(0.9);
+  EXPECT_NEAR(2.0 * half, 2.9432, 1e-4);
+  for (const double eta : {1.0, 0.5, 0.1}) {
+    const double k = 7e9;
+    const double wnn = 25.0;
+    const Impact impact = Solve({.wnn = wnn, .v0 = -0.7, .spring = HertzSpring{k}, .energetic = eta});
+    const double largest = std::pow(1.25 * 0.49 / (k * wnn), 0.4);
+    EXPECT_NEAR(impact.contact.indentation_m / largest, 1.0, 1e-9);
+    EXPECT_NEAR(impact.contact.peak_normal_n / (k * std::pow(largest, 1.5)), 1.0, 1e-9);
+    EXPECT_NEAR(impact.contact.duration_s / ((1.0 + eta) * half * largest / 0.7), 1.0, 1e-9);
+  }
+}
+
+// w dw/(1 + c w) = -(k Wnn) d^p dd for w = d', so that w/c - ln(1 + c w)/c^2 is the same at first and last touch.
+double HuntCrossleyCoefficient(double c, double speed) {
+  const auto place = [&](double w) { return w / c - std::log1p(c * w) / (c * c); };
+  double low = 0.0;
+  double high = 1.0;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (low + high);
+    const bool too_slow = c * middle * speed < 1.0 && place(-middle * speed) < place(speed);
+    (too_slow ? low : high) = middle;
+  }
+  return low;
+}
+
+TEST(FiniteDurationTest, HuntCrossleyImpliesTheCoefficientOfItsPhasePlane) {
+  for (const double p : {1.0, 1.5, 2.2, 4.0}) {
+    for (const double c : {0.01, 0.3, 1.0, 10.0}) {
+      const double speed = 1.7;
+      const double k = 4e5;
+      // Slip goes on, so that v feels one inertia throughout.
+      const Problem problem = {.wtt = 3.0,
+                               .wtn = 0.5,
+                               .wnn = 2.0,
+                               .u0 = 20.0,
+                               .v0 = -speed,
+                               .mu = 0.2,
+                               .mu_static = 0.2,
+                               .spring = HuntCrossleySpring{k, p, c}};
+      const Impact impact = Solve(problem);
+      const double coefficient = HuntCrossleyCoefficient(c, speed);
+      EXPECT_EQ(impact.regime, Regime::kSliding);
+      EXPECT_NEAR(impact.newton, coefficient, 1e-8) << p << " " << c;
+      EXPECT_NEAR(impact.poisson, coefficient, 1e-8) << p << " " << c;
+      EXPECT_NEAR(impact.energetic, coefficient, 1e-8) << p << " " << c;
+      EXPECT_NEAR(impact.energetic_excess, coefficient - 1.0, 1e-8);
+      const double slope = 2.0 - 0.2 * 0.5;
+      const double room = (speed / c - std::log1p(c * speed) / (c * c)) * (p + 1.0) / (k * slope);
+      EXPECT_NEAR(impact.contact.indentation_m / std::pow(room, 1.0 / (p + 1.0)), 1.0, 1e-8);
+      EXPECT_LE(std::fabs(Residual(impact)), 1e-8 * WorkScale(impact));
+    }
+  }
+}
+
+TEST(FiniteDurationTest, HuntCrossleyWithoutDampingIsElasticToTheBit) {
+  const Impact impact = Solve(Rod(HuntCrossleySpring{1e6, 1.5, 0.0}));
+  EXPECT_EQ(impact.energetic, 1.0);
+  EXPECT_EQ(impact.energetic_excess, 0.0);
+}
+
+TEST(FiniteDurationTest, AHuntCrossleyContactThatIsPulledApartEndsIndented) {
+  const Impact impact = Solve({.wnn = 1.0,
+                               .v0 = -1.0,
+                               .normal_acceleration = 2000.0,
+                               .spring = HuntCrossleySpring{1e6, 1.0, 3.0},
+                               .intervals = 8});
+  ASSERT_TRUE(impact.converged);
+  EXPECT_NEAR(impact.v1, 1.0 / 3.0, 1e-9);
+  EXPECT_GT(impact.contact.history.back().indentation_m, 0.0);
+  EXPECT_NEAR(impact.contact.history.back().normal_n, 0.0, 1e-6 * impact.contact.peak_normal_n);
+  EXPECT_LE(std::fabs(Residual(impact)), 1e-8 * WorkScale(impact));
+}
+
+// The kinds of events that a row's modes stand for, apart from the end of compression.
+std::vector<EventKind> KindsOf(const std::string& modes) {
+  std::vector<EventKind> kinds = {EventKind::kStart};
+  std::istringstream words(modes);
+  std::string last;
+  for (std::string word; words >> word;) {
+    if (word.size() == 1) continue;
+    if (!last.empty() && word != last) {
+      kinds.push_back(word == "stick" ? EventKind::kStickStarts : EventKind::kSlipStarts);
+    }
+    last = word;
+  }
+  kinds.push_back(EventKind::kRestitutionEnds);
+  return kinds;
+}
+
+TEST(FiniteDurationTest, CompliantImpactsAreThoseOfTheTable) {
+  const std::vector<VectorRow> rows = ReadVectors("compliant.csv");
+  ASSERT_EQ(rows.size(), 60U);
+  EstimateLog log;
+  for (size_t i = 0; i < rows.size(); ++i) {
+    const VectorRow& row = rows[i];
+    for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
+      const Problem problem = {.wtt = Number(row, "wtt"),
+                               .wtn = Number(row, "wtn"),
+                               .wnn = Number(row, "wnn"),
+                               .u0 = Number(row, "u0"),
+                               .v0 = Number(row, "v0"),
+                               .mu = Number(row, "mu"),
+                               .mu_static = Number(row, "mu"),
+                               .spring = LinearSpring{std::pow(10.0, 0.1 * static_cast<double>(i))},
+                               .energetic = Number(row, "eta"),
+                               .ratio_squared = Number(row, "ratio2"),
+                               .tolerance = tolerance};
+      const Impact impact = Solve(problem);
+      const std::string what = "row " + std::to_string(i) + " at " + std::to_string(tolerance);
+      const double error = DistanceOf(problem, impact, Number(row, "u1"), Number(row, "v1"));
+      log.Add(impact, error, what);
+      EXPECT_LE(error, tolerance) << what;
+      const double tau1 = Number(row, "tau1");
+      const double slack = 10.0 * tolerance;
+      EXPECT_NEAR(impact.tau1 / tau1, 1.0, slack) << what;
+      EXPECT_NEAR(impact.tau_compression / tau1, Number(row, "tau_compression") / tau1, slack) << what;
+      EXPECT_NEAR(impact.f1 / tau1, Number(row, "friction_impulse") / tau1, slack) << what;
+      const double work_t = impact.work_tangential_compression + impact.work_tangential_restitution;
+      const double scale = std::max({std::fabs(Number(row, "work_n_compression")),
+                                     std::fabs(Number(row, "work_n_restitution")), std::fabs(Number(row, "work_t"))});
+      EXPECT_NEAR(impact.work_normal_compression / scale, Number(row, "work_n_compression") / scale, slack) << what;
+      EXPECT_NEAR(impact.work_normal_restitution / scale, Number(row, "work_n_restitution") / scale, slack) << what;
+      EXPECT_NEAR(work_t / scale, Number(row, "work_t") / scale, slack) << what;
+      EXPECT_NEAR((work_t + impact.friction_dissipation + impact.spring_energy) / scale, 0.0, slack) << what;
+      EXPECT_NEAR(Residual(impact) / scale, 0.0, slack) << what;
+      if (tolerance > 1e-10) continue;
+      std::vector<EventKind> kinds = KindsOf(impact);
+      std::erase(kinds, EventKind::kCompressionEnds);
+      EXPECT_EQ(kinds, KindsOf(row.at("modes"))) << what << ": " << row.at("modes");
+    }
+  }
+  log.Check("compliant along t");
+}
+
+TEST(FiniteDurationTest, ACompliantContactThatEndsAtRestBooksItsSpringAsLost) {
+  const Impact impact = Solve({.wtt = 3.5,
+                               .wnn = 1.0,
+                               .u0 = 0.2,
+                               .v0 = -1.0,
+                               .mu = 0.5,
+                               .mu_static = 0.5,
+                               .spring = LinearSpring{1e4},
+                               .energetic = 0.0,
+                               .ratio_squared = 1.2});
+  // It sticks: a quarter of the normal period, F = -u0 sin(w t)/(ratio^2 w) with w^2 = Wtt/(ratio^2 Wnn).
+  const double w = std::sqrt(3.5 / 1.2);
+  const double u = 0.2 * std::cos(w * std::numbers::pi / 2.0);
+  EXPECT_EQ(impact.regime, Regime::kStickInCompression);
+  EXPECT_NEAR(impact.u1, u, 1e-9);
+  EXPECT_NEAR(impact.spring_energy, (0.2 * 0.2 - u * u) / (2.0 * 3.5), 1e-9);
+  EXPECT_EQ(impact.friction_dissipation, 0.0);
+}
+
+TEST(FiniteDurationTest, WhereNothingMovesAlongTFrictionTakesNothing) {
+  const Impact impact = Solve({.wnn = 1.0,
+                               .v0 = -1.0,
+                               .normal_acceleration = -9.81,
+                               .mu = 0.5,
+                               .mu_static = 0.5,
+                               .spring = LinearSpring{1e4},
+                               .energetic = 0.8,
+                               .ratio_squared = 1.2});
+  EXPECT_EQ(impact.regime, Regime::kFrictionless);
+  EXPECT_EQ(impact.f1, 0.0);
+  EXPECT_EQ(impact.friction_dissipation, 0.0);
+  EXPECT_EQ(impact.spring_energy, 0.0);
+}
+
+// What the trapezoidal rule makes of a history.
+double Integral(const std::vector<ForceSample>& history, double ForceSample::*force) {
+  double sum = 0.0;
+  for (size_t i = 1; i < history.size(); ++i) {
+    sum += 0.5 * (history[i].*force + history[i - 1].*force) * (history[i].time_s - history[i - 1].time_s);
+  }
+  return sum;
+}
+
+TEST(FiniteDurationTest, HistoriesIntegrateToTheImpulsesAndKeepTheCone) {
+  for (const NormalSpring& spring : {NormalSpring(LinearSpring{1e4}), NormalSpring(HertzSpring{1e4}),
+                                     NormalSpring(HuntCrossleySpring{1e6, 2.0, 0.3})}) {
+    for (const double mu : {0.3, 0.9}) {
+      Problem problem = Rod(spring);
+      problem.mu = problem.mu_static = mu;
+      problem.tangential_acceleration = 2.0;
+      double last = 1.0;
+      for (const int64_t intervals : {250, 1000, 4000}) {
+        problem.intervals = intervals;
+        const Impact impact = Solve(problem);
+        const ContactDuration& contact = impact.contact;
+        ASSERT_TRUE(impact.converged);
+        ASSERT_EQ(static_cast<int64_t>(contact.history.size()), intervals + 1);
+        EXPECT_EQ(contact.history.front().time_s, 0.0);
+        EXPECT_EQ(contact.history.back().time_s, contact.duration_s);
+        const double normal = Integral(contact.history, &ForceSample::normal_n) - impact.tau1;
+        const double tangential = Integral(contact.history, &ForceSample::tangential_n) - impact.f1;
+        // Of second order within a piece; each jump of the friction force adds its part of a step.
+        const double step = 1.0 / static_cast<double>(intervals);
+        EXPECT_LE(std::fabs(normal), 4.0 * step * step * impact.tau1);
+        EXPECT_LE(std::fabs(tangential), 4.0 * step * impact.tau1);
+        EXPECT_LE(std::fabs(normal), last);
+        last = std::fabs(normal);
+        double largest = 0.0;
+        for (size_t i = 0; i < contact.history.size(); ++i) {
+          const ForceSample& sample = contact.history[i];
+          EXPECT_NEAR(sample.time_s, static_cast<double>(i) * step * contact.duration_s, 1e-12 * contact.duration_s);
+          EXPECT_LE(std::fabs(sample.tangential_n), mu * sample.normal_n + 1e-8 * contact.peak_normal_n);
+          EXPECT_LE(sample.indentation_m, contact.indentation_m * (1.0 + 1e-12));
+          largest = std::max(largest, sample.normal_n);
+        }
+        EXPECT_LE(largest, contact.peak_normal_n * (1.0 + 1e-12));
+        EXPECT_GE(largest, contact.peak_normal_n * (1.0 - 10.0 * step * step));
+        EXPECT_LE(contact.peak_tangential_n, mu * contact.peak_normal_n * (1.0 + 1e-12));
+      }
+    }
+  }
+}
+
+TEST(FiniteDurationTest, WhatGravityChangesIsOfFirstOrderInTheDuration) {
+  for (const double mu : {0.3, 0.9}) {
+    double last_change = 0.0;
+    double last_duration = 0.0;
+    for (int i = 0; i < 6; ++i) {
+      // Half the duration each time, three decades of stiffness.
+      Problem problem = Rod(LinearSpring{1e7 * std::pow(4.0, i)});
+      problem.mu = problem.mu_static = mu;
+      problem.tolerance = 1e-12;
+      const Impact impact = Solve(problem);
+      problem.normal_acceleration = 0.0;
+      const Impact without = Solve(problem);
+      const double change = DistanceOf(problem, impact, without.u1, without.v1);
+      if (i > 0) {
+        EXPECT_NEAR(impact.contact.duration_s / last_duration, 0.5, 0.01);
+        EXPECT_NEAR(change / last_change, 0.5, 0.02) << mu << " " << i;
+      }
+      last_change = change;
+      last_duration = impact.contact.duration_s;
+    }
+    EXPECT_GT(last_change, 0.0);
+  }
+}
+
+// A second method: Runge and Kutta's classical steps of one size in SI units, halved down onto each event.
+class FixedSteps {
+ public:
+  explicit FixedSteps(const Problem& problem) : p_(problem), k_(std::get<LinearSpring>(problem.spring).stiffness_n_m) {}
+
+  // (u, v) at the end.
+  std::pair<double, double> Solve() {
+    State y = {0.0, p_.u0, p_.v0};
+    Regrip(y);
+    if (p_.u0 != 0.0) grip_ = p_.u0 > 0.0 ? 1 : -1;
+    const double step = 1e-4 / std::sqrt(k_ * p_.wnn);
+    for (;;) {
+      State next = Stepped(y, step);
+      if (Fits(next)) {
+        y = next;
+        continue;
+      }
+      double low = 0.0;
+      double high = step;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = 0.5 * (low + high);
+        (Fits(Stepped(y, middle)) ? low : high) = middle;
+      }
+      y = Stepped(y, high);
+      if (unloading_ && Normal(y) <= 0.0) return {y[1], y[2]};
+      if (!unloading_ && y[2] >= 0.0) {
+        unloading_ = true;
+        largest_ = y[0];
+      } else {
+        if (grip_ != 0) y[1] = 0.0;
+        Regrip(y);
+      }
+    }
+  }
+
+ private:
+  using State = std::array<double, 3>;  // d, u, v
+
+  double Normal(const State& y) const {
+    const double eta2 = p_.energetic * p_.energetic;
+    return k_ * (unloading_ ? (y[0] - (1.0 - eta2) * largest_) / eta2 : y[0]);
+  }
+  double Drive(double normal) const { return p_.wtn * normal + p_.tangential_acceleration; }
+  State Rates(const State& y) const {
+    const double normal = Normal(y);
+    const double f = grip_ != 0 ? -p_.mu * grip_ * normal : -Drive(normal) / p_.wtt;
+    return {-y[2], p_.wtt * f + Drive(normal), p_.wtn * f + p_.wnn * normal + p_.normal_acceleration};
+  }
+  bool Fits(const State& y) const {
+    if (unloading_ ? Normal(y) <= 0.0 : y[2] >= 0.0) return false;
+    if (grip_ != 0) return grip_ * y[1] > 0.0 || just_slipped_;
+    return std::fabs(Drive(Normal(y))) <= p_.mu_static * p_.wtt * Normal(y);
+  }
+  void Regrip(const State& y) {
+    const double drive = Drive(Normal(y));
+    const bool sticks = grip_ != 0 && std::fabs(drive) <= p_.mu_static * p_.wtt * Normal(y);
+    grip_ = sticks ? 0 : drive > 0.0 ? 1 : -1;
+    just_slipped_ = !sticks;
+  }
+  State Stepped(const State& y, double h) {
+    const auto along = [](const State& a, const State& b, double c) {
+      return State{a[0] + c * b[0], a[1] + c * b[1], a[2] + c * b[2]};
+    };
+    const State a = Rates(y);
+    const State b = Rates(along(y, a, 0.5 * h));
+    const State c = Rates(along(y, b, 0.5 * h));
+    const State d = Rates(along(y, c, h));
+    State next;
+    for (size_t i = 0; i < 3; ++i) next[i] = y[i] + h / 6.0 * (a[i] + 2.0 * (b[i] + c[i]) + d[i]);
+    if (grip_ * next[1] > 0.0) just_slipped_ = false;
+    return next;
+  }
+
+  const Problem& p_;
+  double k_;
+  int grip_ = 1;
+  bool unloading_ = false;
+  bool just_slipped_ = false;
+  double largest_ = 0.0;
+};
+
+TEST(FiniteDurationTest, AgreesWithFixedStepsUnderFiniteForces) {
+  for (const double mu : {0.1, 0.3, 0.59, 0.8}) {
+    for (const double tangential : {-30.0, 0.0, 10.0}) {
+      Problem problem = Rod(LinearSpring{2e4});
+      problem.mu = problem.mu_static = mu;
+      problem.tangential_acceleration = tangential;
+      const Impact impact = Solve(problem);
+      const auto [u, v] = FixedSteps(problem).Solve();
+      EXPECT_LE(DistanceOf(problem, impact, u, v), 1e-9) << mu << " " << tangential;
+    }
+  }
+}
+
+TEST(FiniteDurationTest, AContactAtRestAlongTSlipsFirstUnderAFiniteForce) {
+  Problem problem = Rod(LinearSpring{1e4});
+  problem.u0 = 0.0;
+  problem.mu = problem.mu_static = 0.9;
+  EXPECT_EQ(KindsOf(Solve(problem)),
+            (std::vector{EventKind::kStart, EventKind::kCompressionEnds, EventKind::kRestitutionEnds}));
+  problem.tangential_acceleration = 1.0;
+  const Impact impact = Solve(problem);
+  EXPECT_EQ(KindsOf(impact), (std::vector{EventKind::kStart, EventKind::kSlipStops, EventKind::kCompressionEnds,
+                                          EventKind::kSlipStarts, EventKind::kRestitutionEnds}));
+  EXPECT_EQ(impact.regime, Regime::kStickInCompression);
+  // However weak it is.
+  problem.tangential_acceleration = -1e-9;
+  EXPECT_EQ(Solve(problem).regime, Regime::kStickInCompression);
+}
+
+// Held against the same model at its tightest tolerance.
+TEST(FiniteDurationTest, EstimatesAreNotBelowTheErrorUnderForcesDampingAndSprings) {
+  EstimateLog log;
+  planar::SceneSource source(77);
+  for (int i = 0; i < 240; ++i) {
+    planar::Problem rigid = source.Everyday();
+    rigid.coefficient = source.Uniform(0.05, 1.0);
+    const double stiffness = std::pow(10.0, source.Uniform(2.0, 6.0));
+    const int kind = i % 4;
+    Problem problem = ProblemOf(rigid, LinearSpring{stiffness}, 1e-12);
+    if (kind == 1) problem.spring = HertzSpring{stiffness};
+    if (kind == 2) problem.spring = HuntCrossleySpring{stiffness, source.Uniform(1.0, 4.0), source.Uniform(0.0, 1.0)};
+    if (kind == 3) {
+      problem.ratio_squared = source.Uniform(0.2, 3.0);
+      problem.mu_static = problem.mu;
+    }
+    problem.tangential_acceleration = source.Uniform(-20.0, 20.0);
+    problem.normal_acceleration = source.Uniform(-20.0, 20.0);
+    const Impact exact = Solve(problem);
+    if (!exact.converged || exact.error_estimate > 1e-11) continue;
+    problem.tolerance = std::pow(10.0, -source.Uniform(3.0, 8.0));
+    const Impact impact = Solve(problem);
+    const std::string what = "scene " + std::to_string(i);
+    ASSERT_TRUE(impact.converged) << what;
+    log.Add(impact, DistanceOf(problem, impact, exact.u1, exact.v1), what);
+    const double slack = 100.0 * problem.tolerance * (WorkScale(impact) + std::fabs(impact.energy_change));
+    EXPECT_NEAR(Residual(impact), 0.0, slack) << what;
+    const double work_t = impact.work_tangential_compression + impact.work_tangential_restitution;
+    EXPECT_NEAR(impact.friction_dissipation + impact.spring_energy, -work_t, slack) << what;
+    EXPECT_GE(impact.friction_dissipation, -slack) << what;
+  }
+  log.Check("forces, damping, springs");
+}
+
+TEST(FiniteDurationTest, ToleranceMeansTheSameAtAllSizes) {
+  Problem problem = Rod(HertzSpring{1e4});
+  const Impact impact = Solve(problem);
+  // Mass, velocity and time in other units.
+  const double mass = 0x1p60;
+  const double speed = 0x1p-40;
+  const double time = 0x1p-30;
+  for (double* w : {&problem.wtt, &problem.wtn, &problem.wnn}) *w /= mass;
+  for (double* u : {&problem.u0, &problem.v0}) *u *= speed;
+  problem.normal_acceleration *= speed / time;
+  problem.spring = HertzSpring{1e4 * mass / (time * std::sqrt(speed * time) * time)};
+  const Impact scaled = Solve(problem);
+  EXPECT_NEAR(scaled.u1 / speed, impact.u1, 1e-10);
+  EXPECT_NEAR(scaled.v1 / speed, impact.v1, 1e-10);
+  EXPECT_NEAR(scaled.contact.duration_s / time / impact.contact.duration_s, 1.0, 1e-9);
+  EXPECT_NEAR(scaled.contact.peak_normal_n * time / (mass * speed) / impact.contact.peak_normal_n, 1.0, 1e-9);
+}
+
+TEST(FiniteDurationTest, WhatDoesNotPartEndsByItsBudget) {
+  for (const NormalSpring& spring :
+       {NormalSpring(LinearSpring{1e3}), NormalSpring(HuntCrossleySpring{1e3, 1.5, 1.0})}) {
+    Problem problem = Rod(spring);
+    problem.normal_acceleration = -1e4;
+    problem.intervals = 4;
+    const Impact impact = Solve(problem);
+    EXPECT_FALSE(impact.converged);
+    EXPECT_EQ(impact.regime, Regime::kWedged);
+    EXPECT_EQ(impact.error_estimate, std::numeric_limits<double>::infinity());
+    // Of the impact and of its history.
+    EXPECT_LE(impact.steps, 2 * 50'000);
+    EXPECT_TRUE(std::isfinite(impact.u1) && std::isfinite(impact.v1) && std::isfinite(impact.contact.duration_s));
+    EXPECT_EQ(impact.contact.history.size(), 5U);
+  }
+}
+
+TEST(FiniteDurationTest, WhatIsPulledApartBeforeItsSpringIsFeltFollowsThePull) {
+  // v = v0 + a t down to d_max = v0^2/(2 a), then to (1 - eta^2) d_max, where the curve of unloading ends.
+  constexpr double kPull = 0.2;
+  constexpr double kAlong = 2.0;
+  constexpr double kEta = 0.45;
+  for (const double k : {1e-20, 1e-100, 1e-250}) {
+    for (const NormalSpring& spring : {NormalSpring(LinearSpring{k}), NormalSpring(HertzSpring{k})}) {
+      const Impact impact = Solve({.wtt = 2.5,
+                                   .wtn = 1.5,
+                                   .wnn = 1.2,
+                                   .u0 = 1.5,
+                                   .v0 = -1.0,
+                                   .tangential_acceleration = kAlong,
+                                   .normal_acceleration = kPull,
+                                   .mu = 0.3,
+                                   .mu_static = 0.3,
+                                   .spring = spring,
+                                   .energetic = kEta,
+                                   .intervals = 4});
+      EXPECT_TRUE(impact.converged);
+      EXPECT_LE(impact.error_estimate, 1e-10);
+      const double duration = (1.0 + kEta) / kPull;
+      EXPECT_NEAR(impact.contact.duration_s, duration, 1e-10 * duration) << k;
+      EXPECT_NEAR(impact.u1, 1.5 + kAlong * duration, 1e-10 * impact.u1) << k;
+      EXPECT_NEAR(impact.v1, kEta, 1e-10) << k;
+      EXPECT_NEAR(impact.poisson, kEta, 1e-9) << k;
+      EXPECT_NEAR(impact.f1, -0.3 * impact.tau1, 1e-9 * impact.tau1) << k;
+      if (!std::holds_alternative<LinearSpring>(spring)) continue;
+      // The integral of k (t - a t^2/2).
+      const double compression = k / (3.0 * kPull * kPull);
+      EXPECT_NEAR(impact.tau_compression, compression, 1e-9 * compression) << k;
+    }
+  }
+}
+
+TEST(FiniteDurationTest, WhatCannotTakeItsFirstStepHasAHistoryAllTheSame) {
+  Problem problem = Rod(HertzSpring{1.0});
+  problem.normal_acceleration = 1e300;
+  problem.intervals = 4;
+  const Impact impact = Solve(problem);
+  EXPECT_FALSE(impact.converged);
+  EXPECT_EQ(impact.v1, problem.v0);
+  EXPECT_EQ(impact.contact.duration_s, 0.0);
+  EXPECT_EQ(impact.contact.history.size(), 5U);
+}
+
+// u falls by 10^9 m/s within 10^-13 of the time that the impact has lasted.
+TEST(FiniteDurationTest, ImpulsesMakeTheChangeOfASlipThatStopsAllOfASudden) {
+  const Problem problem = {.wtt = 1.685,
+                           .wtn = -0.6,
+                           .wnn = 1.186,
+                           .u0 = -0x1p30,
+                           .v0 = -2.0,
+                           .mu = 2.5,
+                           .mu_static = 2.5,
+                           .spring = HuntCrossleySpring{1e6, 1.5, 0.2}};
+  const Impact impact = Solve(problem);
+  const double u1 = problem.u0 + problem.wtt * impact.f1 + problem.wtn * impact.tau1;
+  EXPECT_NEAR(impact.u1, u1, impact.error_estimate * std::fabs(problem.u0));
+  EXPECT_LE(impact.error_estimate, 1e-8);
+}
+
+// v0 is 10^-86 of u0, and what becomes of it a part in 10^12 of u0.
+TEST(FiniteDurationTest, AnImpactThatIsLostInRoundingIsNotAnswered) {
+  constexpr double kInertia = 1.3;
+  constexpr double kA = 1.3065459890738525e-86;
+  constexpr double kB = 0.3133785130770308;
+  constexpr double kMoment = 4.889078302384e-311;
+  const Impact impact = Solve({.wtt = kB * kB / kInertia,
+                               .wtn = kA * kB / kInertia,
+                               .wnn = kA * kA / kInertia,
+                               .u0 = -2.0 * kB,
+                               .v0 = -2.0 * kA,
+                               .tangential_acceleration = kMoment * kB / kInertia,
+                               .mu = 0.012424130900937969,
+                               .mu_static = 0.9450167383826467,
+                               .spring = HertzSpring{0.45385987235336556},
+                               .energetic = 1.0,
+                               .tolerance = 1e-12});
+  EXPECT_FALSE(impact.converged);
+  EXPECT_GE(impact.contact.duration_s, 0.0);
+}
+
+TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
+  Problem problem = Rod(HuntCrossleySpring{3.0, 1.5, 0.2});
+  problem.mu = 4.0 / 3.0;
+  problem.mu_static = 3.0;
+  problem.tangential_acceleration = 2.0;
+  const Impact impact = Solve(problem);
+  EXPECT_FALSE(impact.converged);
+  EXPECT_EQ(impact.regime, Regime::kWedged);
+}
+
+TEST(FiniteDurationTest, APendulumThatSticksIsLockedWhateverPressesIt) {
+  Problem problem = {.wtt = 4.0,
+                     .wtn = 2.0,
+                     .wnn = 1.0,
+                     .u0 = -2.0,
+                     .v0 = -1.0,
+                     .mu = 0.6,
+                     .mu_static = 0.6,
+                     .spring = LinearSpring{1e5},
+                     .energetic = 0.8};
+  for (const double normal : {0.0, -20.0, 20.0}) {
+    problem.normal_acceleration = normal;
+    problem.tangential_acceleration = 2.0 * normal;
+    const Impact impact = Solve(problem);
+    EXPECT_TRUE(impact.converged);
+    EXPECT_EQ(impact.regime, Regime::kLocked);
+    EXPECT_EQ(impact.w_rank, 1);
+    EXPECT_EQ(impact.u1, 0.0);
+    EXPECT_EQ(impact.v1, 0.0);
+    EXPECT_EQ(impact.poisson, 0.0);
+    EXPECT_EQ(KindsOf(impact), (std::vector{EventKind::kStart, EventKind::kSlipStops, EventKind::kCompressionEnds}));
+  }
+}
+
+TEST(FiniteDurationTest, AContactThatDoesNotApproachIsLeftAlone) {
+  Problem problem = Rod(LinearSpring{1e5});
+  for (const double v0 : {0.0, 2.0}) {
+    problem.v0 = v0;
+    const Impact impact = Solve(problem);
+    EXPECT_EQ(impact.regime, Regime::kSeparating);
+    EXPECT_EQ(impact.u1, problem.u0);
+    EXPECT_EQ(impact.v1, v0);
+    EXPECT_EQ(impact.steps, 0);
+    EXPECT_TRUE(impact.events.empty());
+  }
+}
+
+TEST(FiniteDurationTest, TheSameProblemHasTheSameBits) {
+  Problem problem = Rod(HertzSpring{1e6});
+  problem.intervals = 50;
+  const Impact first = Solve(problem);
+  const Impact second = Solve(problem);
+  EXPECT_EQ(first.u1, second.u1);
+  EXPECT_EQ(first.v1, second.v1);
+  EXPECT_EQ(first.contact, second.contact);
+  EXPECT_EQ(first.events, second.events);
+}
+
+}  // namespace
+}  // namespace ricochet::finite_duration

@@ -1,0 +1,630 @@
+#include "core/models/spatial/spatial.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/models/planar/planar.h"
+#include "core/models/restitution_law.h"
+#include "core/models/spatial/solver-inl.h"
+#include "tests/support/known_contacts.h"
+#include "tests/support/spatial_scenes.h"
+
+namespace ricochet::spatial {
+namespace {
+
+// The same solver at a tolerance of 1e-16 with 64-bit mantissas.
+Impact Reference(const Problem& problem) { return HWY_NAMESPACE::Solver<long double>(problem, 1e-16L).Run(); }
+
+double Scale(const Problem& problem) {
+  return std::max(std::hypot(problem.u0[0], problem.u0[1]), std::fabs(problem.v0));
+}
+
+// Largest difference of a velocity after the impact over max(|u0|, |v0|).
+double Distance(const Problem& problem, const Impact& a, const Impact& b) {
+  return std::max(std::hypot(a.u1[0] - b.u1[0], a.u1[1] - b.u1[1]), std::fabs(a.v1 - b.v1)) / Scale(problem);
+}
+
+// The contact of theory and its impacts, each computed independently at 25 digits.
+Problem Known(double u1, double u2, double mu) {
+  Problem problem = TurningContact(u1, u2, mu);
+  problem.law = RestitutionLaw::kEnergetic;
+  problem.coefficient = 0.6;
+  problem.tolerance = 1e-12;
+  return problem;
+}
+
+struct KnownImpact {
+  const char* name;
+  Problem problem;
+  double u1, u2, v1;
+  Regime regime;
+};
+const KnownImpact kKnownImpacts[] = {
+    {"Mu2", Known(1.0, 0.6, 0.2), 1.1935907812616, -0.23674642666214, 0.58574780070097, Regime::kSliding},
+    {"Mu4", Known(1.0, 0.6, 0.4), 0.8464137913066, -0.30730421739091, 0.56534880484974, Regime::kSliding},
+    {"Mu9", Known(1.0, 0.6, 0.9), 0.0, 0.0, 0.56781213107787, Regime::kStickInRestitution},
+    {"NearMiss", Known(-.15231670063190971, .25845622977326199, 0.2), 0.2566352273718, -0.2771032621575,
+     0.5606160735658, Regime::kSliding},
+};
+
+class KnownImpactTest : public testing::TestWithParam<KnownImpact> {};
+
+TEST_P(KnownImpactTest, IsReproduced) {
+  const KnownImpact& known = GetParam();
+  const Impact impact = Solve(known.problem);
+  EXPECT_EQ(impact.regime, known.regime);
+  EXPECT_NEAR(impact.u1[0], known.u1, 1e-12);
+  EXPECT_NEAR(impact.u1[1], known.u2, 1e-12);
+  EXPECT_NEAR(impact.v1, known.v1, 1e-12);
+  EXPECT_LE(impact.error_estimate, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(SpatialTest, KnownImpactTest, testing::ValuesIn(kKnownImpacts),
+                         [](const auto& test) { return std::string(test.param.name); });
+
+// Keller's equations as they stand, d/dtau of (u, v, normal work) by the classical Runge-Kutta method at a fixed step:
+// shares nothing with the solver. Fine as long as slip stays away from 0.
+class PlainIntegrator {
+ public:
+  explicit PlainIntegrator(const Problem& problem)
+      : p_(problem), state_{problem.u0[0], problem.u0[1], problem.v0, 0.0L} {}
+
+  // The state at which `goal` is reached, by bisecting the last step.
+  template <typename Goal>
+  void RunTo(long double step, const Goal& goal) {
+    while (!goal(Stepped(step))) state_ = Stepped(step);
+    long double low = 0.0L;
+    for (int i = 0; i < 64; ++i) {
+      step *= 0.5L;
+      if (!goal(Stepped(low + step))) low += step;
+    }
+    state_ = Stepped(low);
+  }
+
+  struct State {
+    long double u1, u2, v, work;
+  };
+  const State& state() const { return state_; }
+  void ForgetWork() { state_.work = 0.0L; }
+
+ private:
+  State Rate(const State& at) const {
+    const long double s = std::sqrt(at.u1 * at.u1 + at.u2 * at.u2);
+    const long double f1 = -p_.mu * at.u1 / s;
+    const long double f2 = -p_.mu * at.u2 / s;
+    return {p_.w11 * f1 + p_.w12 * f2 + p_.w13, p_.w12 * f1 + p_.w22 * f2 + p_.w23, p_.w13 * f1 + p_.w23 * f2 + p_.w33,
+            at.v};
+  }
+  static State Sum(const State& a, long double t, const State& b) {
+    return {a.u1 + t * b.u1, a.u2 + t * b.u2, a.v + t * b.v, a.work + t * b.work};
+  }
+  State Stepped(long double step) const {
+    const State k1 = Rate(state_);
+    const State k2 = Rate(Sum(state_, step / 2, k1));
+    const State k3 = Rate(Sum(state_, step / 2, k2));
+    const State k4 = Rate(Sum(state_, step, k3));
+    return Sum(Sum(Sum(Sum(state_, step / 6, k1), step / 3, k2), step / 3, k3), step / 6, k4);
+  }
+
+  Problem p_;
+  State state_;
+};
+
+TEST(SpatialTest, AgreesWithKellersEquationsIntegratedPlainly) {
+  SceneSource source(1);
+  int compared = 0;
+  double worst = 0.0;
+  while (compared < 100) {
+    Problem problem = source.Typical();
+    problem.law = RestitutionLaw::kEnergetic;
+    problem.tolerance = 1e-12;
+    const Impact impact = Solve(problem);
+    if (impact.regime != Regime::kSliding || problem.mu * std::hypot(problem.w13, problem.w23) > problem.w33) continue;
+    double slip = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < impact.event_count; ++i) {
+      slip = std::min(
+          slip, std::hypot(impact.events[static_cast<size_t>(i)].u[0], impact.events[static_cast<size_t>(i)].u[1]));
+    }
+    if (slip < 0.3) continue;
+    const long double step = impact.tau1 / 4000.0L;
+    PlainIntegrator plain(problem);
+    plain.RunTo(step, [](const auto& state) { return state.v >= 0.0L; });
+    const long double target =
+        -static_cast<long double>(problem.coefficient) * problem.coefficient * plain.state().work;
+    plain.ForgetWork();
+    plain.RunTo(step, [&](const auto& state) { return state.work >= target; });
+    const double error = std::max({std::fabs(static_cast<double>(plain.state().u1) - impact.u1[0]),
+                                   std::fabs(static_cast<double>(plain.state().u2) - impact.u1[1]),
+                                   std::fabs(static_cast<double>(plain.state().v) - impact.v1)});
+    EXPECT_LT(error, 1e-10);
+    worst = std::max(worst, error);
+    ++compared;
+  }
+  std::printf("  worst difference %.2e\n", worst);
+}
+
+struct Statistics {
+  double worst_ratio = std::numeric_limits<double>::infinity();
+  double median_ratio = 0.0;
+  double worst_error = 0.0;
+  int above_tolerance = 0;
+};
+
+// Error estimate over true error; a true error below the rounding of the output counts as that rounding.
+template <typename NextProblem>
+Statistics EstimateStatistics(double tolerance, int count, const NextProblem& next_problem) {
+  constexpr double kRounding = 0x1p-54;
+  Statistics statistics;
+  std::vector<double> ratios;
+  for (int i = 0; i < count; ++i) {
+    Problem problem = next_problem();
+    problem.tolerance = tolerance;
+    const Impact impact = Solve(problem);
+    const double error = Distance(problem, impact, Reference(problem));
+    ratios.push_back(impact.error_estimate / std::max(error, kRounding));
+    statistics.worst_error = std::max(statistics.worst_error, error);
+    statistics.above_tolerance += error > tolerance ? 1 : 0;
+  }
+  std::sort(ratios.begin(), ratios.end());
+  statistics.worst_ratio = ratios.front();
+  statistics.median_ratio = ratios[ratios.size() / 2];
+  return statistics;
+}
+
+class EstimateTest : public testing::TestWithParam<double> {
+ protected:
+  static constexpr int kCount = 10000;
+
+  static void Check(const char* what, const Statistics& statistics) {
+    std::printf("  %s: estimate/error at least %.2f, median %.1f; largest error %.1e for a tolerance of %.0e\n", what,
+                statistics.worst_ratio, statistics.median_ratio, statistics.worst_error, GetParam());
+    EXPECT_GE(statistics.worst_ratio, 1.0);
+    EXPECT_LE(statistics.median_ratio, 100.0);
+  }
+};
+
+TEST_P(EstimateTest, IsNeverBelowTheErrorOfTypicalImpactsWhichIsWithinTheTolerance) {
+  SceneSource source(11);
+  const Statistics statistics = EstimateStatistics(GetParam(), kCount, [&] { return source.Typical(); });
+  Check("typical", statistics);
+  EXPECT_EQ(statistics.above_tolerance, 0);
+}
+
+TEST_P(EstimateTest, IsNeverBelowTheErrorOfNearlySingularImpacts) {
+  SceneSource source(12);
+  Check("nearly singular", EstimateStatistics(GetParam(), kCount, [&] { return source.NearSingular(); }));
+}
+
+INSTANTIATE_TEST_SUITE_P(SpatialTest, EstimateTest, testing::Values(1e-4, 1e-6, 1e-10, 1e-12));
+
+// Slip along its invariant direction (p, q) from the start, v' from everyday size down to a ten-thousandth of Wnn.
+Problem StraightAndNearlyJamming(SceneSource& source, double p, double q) {
+  Problem problem = source.Typical();
+  problem.w12 = 0.0;
+  if (p != 0.0) problem.w22 = problem.w11;
+  // Few bits, so that wtn and u0 are exactly along (p, q).
+  const double coupling = std::ldexp(std::floor(std::ldexp(source.Uniform(0.1, 0.6), 20)), -20);
+  const double slip = std::ldexp(std::floor(std::ldexp(std::exp2(source.Uniform(-3.0, 7.0)), 20)), -20);
+  problem.w13 = coupling * p;
+  problem.w23 = coupling * q;
+  problem.u0 = {slip * p, slip * q};
+  const double critical = problem.w33 / (coupling * std::hypot(p, q));
+  problem.mu = problem.mu_static = critical * (1.0 - std::pow(10.0, -source.Uniform(0.1, 4.0)));
+  problem.tolerance = kLeastTolerance;
+  return problem;
+}
+
+TEST(SpatialTest, EstimateOfAClosedFormIsNotBelowItsErrorHoweverSlowlyVGrows) {
+  SceneSource source(13);
+  double least = std::numeric_limits<double>::infinity();
+  std::vector<double> ratios;
+  for (int i = 0; i < 60'000; ++i) {
+    const bool oblique = i % 2 == 0;
+    const Problem problem =
+        oblique ? StraightAndNearlyJamming(source, 3.0, 1.0) : StraightAndNearlyJamming(source, 0.0, 1.0);
+    const Impact impact = Solve(problem);
+    ASSERT_TRUE(impact.closed_form) << i;
+    Problem second = problem;  // In the plane of t2 and n, where there is an exact model.
+    second.w11 = problem.w22;
+    second.w13 = problem.w23;
+    second.u0 = {problem.u0[1], 0.0};
+    const planar::Impact planar = planar::Solve(InPlane(second));
+    Impact reference;
+    reference.u1 = {0.0, planar.u1};
+    reference.v1 = planar.v1;
+    if (oblique) reference = Reference(problem);
+    const double ratio = impact.error_estimate / std::max(Distance(problem, impact, reference), 0x1p-54);
+    ASSERT_GE(ratio, 1.0) << i << " v0 " << problem.v0 << " estimate " << impact.error_estimate;
+    ratios.push_back(ratio);
+    least = std::min(least, ratio);
+  }
+  std::nth_element(ratios.begin(), ratios.begin() + 30'000, ratios.end());
+  std::printf("  estimate/error at least %.2f, median %.1f\n", least, ratios[30'000]);
+  EXPECT_LE(ratios[30'000], 100.0);
+}
+
+TEST(SpatialTest, SlipThatStartsAtNearlyNoRateEnds) {
+  SceneSource source(14);
+  for (int i = 0; i < 10'000; ++i) {
+    Problem problem = source.Typical();
+    problem.mu = problem.mu_static = SceneSource::StickFriction(problem) * (1.0 - std::ldexp(1.0, -50 + i % 20));
+    if (i % 2 == 0) problem.u0 = {};
+    const Impact impact = Solve(problem);
+    ASSERT_TRUE(impact.converged) << i;
+    ASSERT_LE(impact.event_count, 4) << i;
+    ASSERT_EQ(impact.events[static_cast<size_t>(impact.event_count) - 1].kind, EventKind::kRestitutionEnds) << i;
+  }
+}
+
+TEST(SpatialTest, EveryImpactEndsConservesTheLedgerStaysInTheConeAndGainsNoEnergyUnderTheEnergeticLaw) {
+  SceneSource source(21);
+  int64_t most_steps = 0;
+  for (int i = 0; i < 100000; ++i) {
+    Problem problem = i % 2 == 0 ? source.Typical() : source.NearSingular();
+    problem.tolerance = 1e-6;
+    const Impact impact = Solve(problem);
+    ASSERT_TRUE(impact.converged) << i;
+    ASSERT_TRUE(std::isfinite(impact.error_estimate)) << i;
+    most_steps = std::max(most_steps, impact.steps);
+    const double f1 = std::hypot(impact.f1[0], impact.f1[1]);
+    // The impulses' works, before they cancel.
+    const double scale = Scale(problem) * (impact.tau1 + f1) + std::fabs(impact.work_tangential_compression) +
+                         (problem.w11 + problem.w22 + problem.w33) * (impact.tau1 + f1) * (impact.tau1 + f1);
+    const double ledger = impact.work_normal_compression + impact.work_normal_restitution +
+                          impact.work_tangential_compression + impact.work_tangential_restitution;
+    ASSERT_NEAR(ledger, impact.energy_change, 1e-13 * scale) << i;
+    ASSERT_LE(f1, problem.mu * impact.tau1 * (1.0 + 1e-5)) << i;
+    ASSERT_LE(impact.work_tangential_compression, 0.0) << i;
+    ASSERT_LE(impact.work_tangential_restitution, 1e-15 * scale) << i;
+    if (problem.law != RestitutionLaw::kEnergetic) continue;
+    ASSERT_FALSE(impact.sharp_limit_broken) << i;
+    ASSERT_FALSE(impact.energy_limit_broken) << i;
+    ASSERT_LE(impact.energy_change, impact.error_estimate * scale) << i;
+  }
+  std::printf("  at most %ld steps\n", static_cast<long>(most_steps));
+  EXPECT_LE(most_steps, 500);
+}
+
+TEST(SpatialTest, VelocitiesAreThoseThatTheImpulsesLeadTo) {
+  SceneSource source(22);
+  for (int i = 0; i < 10000; ++i) {
+    Problem p = source.Typical();
+    p.tolerance = 1e-6;
+    const Impact impact = Solve(p);
+    const double f1 = impact.f1[0];
+    const double f2 = impact.f1[1];
+    const double scale = 1e-13 * (Scale(p) + (p.w11 + p.w22 + p.w33) * impact.tau1);
+    ASSERT_NEAR(impact.u1[0], p.u0[0] + p.w11 * f1 + p.w12 * f2 + p.w13 * impact.tau1, scale) << i;
+    ASSERT_NEAR(impact.u1[1], p.u0[1] + p.w12 * f1 + p.w22 * f2 + p.w23 * impact.tau1, scale) << i;
+    ASSERT_NEAR(impact.v1, p.v0 + p.w13 * f1 + p.w23 * f2 + p.w33 * impact.tau1, scale) << i;
+  }
+}
+
+TEST(SpatialTest, IsThePlanarModelWhereOneDirectionDecouples) {
+  SceneSource source(23);
+  for (int i = 0; i < 10000; ++i) {
+    Problem p = source.Typical();
+    p.w12 = p.w23 = 0.0;
+    p.u0[1] = 0.0;
+    if (i % 10 == 0) p.u0[0] = 0.0;
+    if (i % 3 == 0) p.mu_static = p.mu * 1.5;
+    const Impact impact = Solve(p);
+    const planar::Impact planar = planar::Solve(InPlane(p));
+    const double velocity = 1e-11 * Scale(p);
+    ASSERT_TRUE(impact.closed_form) << i;
+    ASSERT_EQ(impact.regime, planar.regime) << i;
+    ASSERT_NEAR(impact.u1[0], planar.u1, velocity) << i;
+    ASSERT_EQ(impact.u1[1], 0.0) << i;
+    ASSERT_NEAR(impact.v1, planar.v1, velocity) << i;
+    ASSERT_NEAR(impact.tau1, planar.tau1, 1e-11 * planar.tau1) << i;
+    ASSERT_NEAR(impact.energetic, planar.energetic, 1e-9) << i;
+    ASSERT_EQ(impact.event_count, planar.event_count) << i;
+  }
+}
+
+// The same contact in a tangent frame turned by the angle of (c, s).
+Problem Turned(const Problem& p, double c, double s) {
+  Problem turned = p;
+  turned.w11 = c * c * p.w11 + 2.0 * c * s * p.w12 + s * s * p.w22;
+  turned.w22 = s * s * p.w11 - 2.0 * c * s * p.w12 + c * c * p.w22;
+  turned.w12 = c * s * (p.w22 - p.w11) + (c * c - s * s) * p.w12;
+  turned.w13 = c * p.w13 + s * p.w23;
+  turned.w23 = c * p.w23 - s * p.w13;
+  turned.u0 = {c * p.u0[0] + s * p.u0[1], c * p.u0[1] - s * p.u0[0]};
+  return turned;
+}
+
+TEST(SpatialTest, AnotherTangentFrameChangesNothing) {
+  SceneSource source(24);
+  for (int i = 0; i < 10000; ++i) {
+    Problem problem = source.Typical();
+    problem.tolerance = 1e-9;
+    const double angle = source.Uniform(0.0, 6.3);
+    const double c = std::cos(angle);
+    const double s = std::sin(angle);
+    const Impact impact = Solve(problem);
+    Impact turned = Solve(Turned(problem, c, s));
+    turned.u1 = {c * turned.u1[0] - s * turned.u1[1], s * turned.u1[0] + c * turned.u1[1]};
+    ASSERT_LE(Distance(problem, impact, turned), 2e-9) << i;
+    ASSERT_EQ(impact.regime, turned.regime) << i;
+  }
+}
+
+TEST(SpatialTest, PowersOfTwoOfTheUnitsChangeNoBit) {
+  SceneSource source(25);
+  for (const int shift : {-700, -300, 300, 700}) {
+    const Problem problem = source.Typical();
+    Problem scaled = problem;
+    for (double* w : {&scaled.w11, &scaled.w12, &scaled.w13, &scaled.w22, &scaled.w23, &scaled.w33}) {
+      *w = std::ldexp(*w, shift);
+    }
+    for (double* v : {&scaled.u0[0], &scaled.u0[1], &scaled.v0}) *v = std::ldexp(*v, shift);
+    EXPECT_EQ(Solve(scaled).v1, std::ldexp(Solve(problem).v1, shift));
+    EXPECT_EQ(Solve(scaled).u1[0], std::ldexp(Solve(problem).u1[0], shift));
+    EXPECT_EQ(Solve(scaled).tau1, Solve(problem).tau1);
+  }
+}
+
+TEST(SpatialTest, AContactThatDoesNotApproachIsLeftAlone) {
+  for (const double v0 : {0.0, 0.5}) {
+    Problem problem = Known(1.0, 0.6, 0.2);
+    problem.v0 = v0;
+    const Impact impact = Solve(problem);
+    EXPECT_EQ(impact.regime, Regime::kSeparating);
+    EXPECT_EQ(impact.u1, problem.u0);
+    EXPECT_EQ(impact.v1, v0);
+    EXPECT_EQ(impact.tau1, 0.0);
+    EXPECT_EQ(impact.event_count, 0);
+    EXPECT_EQ(impact.w_rank, 3);
+  }
+}
+
+TEST(SpatialTest, WithoutFrictionTheThreeLawsAgree) {
+  for (const RestitutionLaw law : {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
+    Problem problem = Known(1.0, 0.6, 0.0);
+    problem.law = law;
+    const Impact impact = Solve(problem);
+    EXPECT_EQ(impact.regime, Regime::kFrictionless);
+    EXPECT_TRUE(impact.closed_form);
+    EXPECT_NEAR(impact.v1, 0.6, 1e-15);
+    EXPECT_NEAR(impact.u1[0], 1.0 + 0.6 * 1.6 / 1.85, 1e-15);
+    EXPECT_NEAR(impact.u1[1], 0.6 - 0.8 * 1.6 / 1.85, 1e-15);
+    EXPECT_NEAR(impact.newton, 0.6, 1e-15);
+    EXPECT_NEAR(impact.poisson, 0.6, 1e-15);
+    EXPECT_NEAR(impact.energetic, 0.6, 1e-15);
+  }
+}
+
+// A sphere: Wtt is 7/2 of Wnn in every direction, nothing couples, slip never turns.
+Problem Sphere(double u1, double u2) {
+  return {
+      .w11 = 3.5, .w22 = 3.5, .w33 = 1.0, .u0 = {u1, u2}, .v0 = -1.0, .mu = 0.1, .mu_static = 0.1, .coefficient = 1.0};
+}
+
+TEST(SpatialTest, AFastSphereSlidesAgainstItsWholeImpulse) {
+  const Impact impact = Solve(Sphere(3.0, 4.0));
+  EXPECT_EQ(impact.regime, Regime::kSliding);
+  EXPECT_TRUE(impact.closed_form);
+  EXPECT_NEAR(impact.u1[0], 3.0 - 0.6 * 0.7, 1e-14);
+  EXPECT_NEAR(impact.u1[1], 4.0 - 0.8 * 0.7, 1e-14);
+  EXPECT_NEAR(impact.v1, 1.0, 1e-15);
+  EXPECT_NEAR(impact.tangential, 0.1, 1e-16);
+}
+
+TEST(SpatialTest, ASlowSphereEndsRolling) {
+  const Impact in_compression = Solve(Sphere(0.03, 0.04));
+  EXPECT_EQ(in_compression.regime, Regime::kStickInCompression);
+  EXPECT_EQ(in_compression.u1[0], 0.0);
+  const Impact in_restitution = Solve(Sphere(0.3, 0.4));
+  EXPECT_EQ(in_restitution.regime, Regime::kStickInRestitution);
+  EXPECT_NEAR(in_restitution.f1[0], -0.3 / 3.5, 1e-15);
+  EXPECT_EQ(in_restitution.event_count, 4);
+  EXPECT_EQ(in_restitution.events[2].kind, EventKind::kSlipStops);
+  EXPECT_NEAR(in_restitution.events[2].tau, 0.5 / 0.35, 1e-14);
+}
+
+TEST(SpatialTest, SlipThatStopsStartsAgainAlongTheGrowingDirection) {
+  // Straight against wtn: stops at tau = 0.1/0.7, then slips along +t1 with h = 0.5 - 0.2.
+  Problem problem = {.w11 = 1.0,
+                     .w13 = 0.5,
+                     .w22 = 2.0,
+                     .w33 = 1.0,
+                     .u0 = {-0.1, 0.0},
+                     .v0 = -1.0,
+                     .mu = 0.2,
+                     .mu_static = 0.2,
+                     .law = RestitutionLaw::kPoisson,
+                     .coefficient = 0.0};
+  Impact impact = Solve(problem);
+  EXPECT_EQ(impact.regime, Regime::kReversalInCompression);
+  const double stop = 0.1 / 0.7;
+  const double end = stop + (1.0 - 1.1 * stop) / 0.9;
+  EXPECT_NEAR(impact.tau1, end, 1e-14);
+  EXPECT_NEAR(impact.u1[0], 0.3 * (end - stop), 1e-14);
+  problem.u0[0] = -0.7;
+  problem.coefficient = 1.0;
+  impact = Solve(problem);
+  EXPECT_EQ(impact.regime, Regime::kReversalInRestitution);
+  EXPECT_NEAR(impact.u1[0], 0.3 * (impact.tau1 - 1.0), 1e-14);
+}
+
+TEST(SpatialTest, ARestartKeepsToTheInvariantDirection) {
+  Problem problem = Known(0.0, 0.0, 0.2);
+  const Impact impact = Solve(problem);
+  EXPECT_EQ(impact.regime, Regime::kSliding);
+  EXPECT_TRUE(impact.closed_form);
+  const double slip = std::hypot(impact.u1[0], impact.u1[1]);
+  const double c = impact.u1[0] / slip;
+  const double s = impact.u1[1] / slip;
+  const double u1 = problem.w13 - problem.mu * (problem.w11 * c + problem.w12 * s);
+  const double u2 = problem.w23 - problem.mu * (problem.w12 * c + problem.w22 * s);
+  EXPECT_NEAR(c * u2 - s * u1, 0.0, 1e-15);
+  EXPECT_GT(c * u1 + s * u2, 0.0);
+}
+
+TEST(SpatialTest, StaticFrictionDecidesWhetherStoppedSlipSticks) {
+  const double critical = SceneSource::StickFriction(Known(0.0, 0.0, 0.0));
+  Problem problem = Known(0.0, 0.0, 0.2);
+  problem.mu_static = critical * (1.0 + 1e-12);
+  EXPECT_EQ(Solve(problem).regime, Regime::kStickInCompression);
+  EXPECT_EQ(Solve(problem).u1[0], 0.0);
+  const double v1 = Solve(problem).v1;
+  for (const double mu_static : {10.0, 1e100, 1e200, 1e300, std::numeric_limits<double>::max()}) {
+    problem.mu_static = mu_static;
+    EXPECT_EQ(Solve(problem).regime, Regime::kStickInCompression) << mu_static;
+    EXPECT_EQ(Solve(problem).v1, v1) << mu_static;
+  }
+  problem.mu_static = critical * (1.0 - 1e-12);
+  EXPECT_EQ(Solve(problem).regime, Regime::kSliding);
+}
+
+TEST(SpatialTest, NearMissesAreAsSmoothAsAnyOther) {
+  // Slip that starts ever closer to the direction it would stop along turns round ever closer to 0.
+  const double phi = std::atan2(.25845622977326199, -.15231670063190971);
+  Impact before;
+  for (int power = 2; power <= 14; ++power) {
+    const double angle = phi + std::pow(10.0, -power);
+    Problem problem = Known(0.3 * std::cos(angle), 0.3 * std::sin(angle), 0.2);
+    problem.tolerance = 1e-10;
+    const Impact impact = Solve(problem);
+    EXPECT_EQ(impact.regime, Regime::kSliding) << power;
+    EXPECT_LE(impact.error_estimate, 1e-10) << power;
+    EXPECT_LE(impact.steps, 40) << power;
+    EXPECT_LE(Distance(problem, impact, Reference(problem)), impact.error_estimate) << power;
+    if (power > 2) {
+      EXPECT_LE(Distance(problem, impact, before), std::pow(10.0, 1 - power)) << power;
+    }
+    before = impact;
+  }
+}
+
+TEST(SpatialTest, SelfLockingAtFirstEndsOnceSlipHasStopped) {
+  // Moving along wtn with mu |wtn| > Wnn: friction drives the bodies together until slip stops.
+  const Problem problem = {.w11 = 2.0,
+                           .w12 = 0.1,
+                           .w13 = 1.2,
+                           .w22 = 1.5,
+                           .w23 = 0.2,
+                           .w33 = 1.0,
+                           .u0 = {1.0, 0.3},
+                           .v0 = -1.0,
+                           .mu = 1.0,
+                           .mu_static = 1.0,
+                           .coefficient = 0.5};
+  const Impact impact = Solve(problem);
+  EXPECT_EQ(impact.regime, Regime::kStickInCompression);
+  ASSERT_EQ(impact.events[1].kind, EventKind::kSlipStops);
+  EXPECT_LT(impact.events[1].v, -1.0);
+  EXPECT_GT(impact.v1, 0.0);
+  EXPECT_LE(Distance(problem, impact, Reference(problem)), 1e-10);
+}
+
+TEST(SpatialTest, RankOneIsPlanarAlongItsTangentialDirection) {
+  // W = g g^T with g = (0.3, 0.4, 1): a pendulum, a/|b| = 2.
+  for (const double mu : {0.5, 3.0}) {
+    const Problem problem = {.w11 = 0.09,
+                             .w12 = 0.12,
+                             .w13 = 0.3,
+                             .w22 = 0.16,
+                             .w23 = 0.4,
+                             .w33 = 1.0,
+                             .u0 = {-0.3, -0.4},
+                             .v0 = -1.0,
+                             .mu = mu,
+                             .mu_static = mu,
+                             .coefficient = 1.0};
+    const Impact impact = Solve(problem);
+    const planar::Impact planar = planar::Solve({.wtt = 0.25,
+                                                 .wtn = 0.5,
+                                                 .wnn = 1.0,
+                                                 .u0 = -0.5,
+                                                 .v0 = -1.0,
+                                                 .mu = mu,
+                                                 .mu_static = mu,
+                                                 .law = RestitutionLaw::kEnergetic,
+                                                 .coefficient = 1.0});
+    EXPECT_EQ(impact.w_rank, 1);
+    EXPECT_EQ(impact.regime, planar.regime) << mu;
+    EXPECT_EQ(impact.regime == Regime::kLocked, mu == 3.0);
+    EXPECT_NEAR(impact.v1, planar.v1, 1e-14);
+    EXPECT_NEAR(impact.u1[0], 0.6 * planar.u1, 1e-14);
+    EXPECT_NEAR(impact.tau1, planar.tau1, 1e-14);
+    EXPECT_NEAR(impact.poisson, planar.poisson, 1e-14);
+  }
+}
+
+TEST(SpatialTest, RankTwoThatSticksIsLocked) {
+  // wtn = Wtt (1/2, 1/2) and Wnn to match: u and v vanish together once slip has stopped.
+  const Problem problem = {.w11 = 1.0,
+                           .w13 = 0.5,
+                           .w22 = 1.0,
+                           .w23 = 0.5,
+                           .w33 = 0.5,
+                           .u0 = {-1.0, -1.0},
+                           .v0 = -1.0,
+                           .mu = 1.0,
+                           .mu_static = 1.0,
+                           .coefficient = 0.9};
+  const Impact impact = Solve(problem);
+  EXPECT_EQ(impact.w_rank, 2);
+  EXPECT_EQ(impact.regime, Regime::kLocked);
+  EXPECT_EQ(impact.v1, 0.0);
+  EXPECT_EQ(impact.tau1, impact.tau_compression);
+  EXPECT_EQ(impact.energetic, 0.0);
+}
+
+TEST(SpatialTest, ASingularTangentMatrixSticksByTheSmallestForce) {
+  // Nothing moves along t2: the contact sticks as in the plane of t1 and n.
+  const Problem problem = {.w11 = 1.0,
+                           .w13 = 0.5,
+                           .w33 = 1.0,
+                           .u0 = {0.2, 0.0},
+                           .v0 = -1.0,
+                           .mu = 0.8,
+                           .mu_static = 0.8,
+                           .law = RestitutionLaw::kPoisson,
+                           .coefficient = 0.5};
+  const Impact impact = Solve(problem);
+  EXPECT_EQ(impact.regime, Regime::kStickInCompression);
+  EXPECT_EQ(impact.w_rank, 2);
+  EXPECT_EQ(impact.f1[1], 0.0);
+  EXPECT_NEAR(impact.f1[0], -0.2 - 0.5 * impact.tau1, 1e-15);
+}
+
+TEST(SpatialTest, NewtonsLawMayCreateEnergyAndSaysSo) {
+  SceneSource source(26);
+  int created = 0;
+  for (int i = 0; i < 2000; ++i) {
+    Problem problem = source.Typical();
+    problem.law = RestitutionLaw::kNewton;
+    problem.coefficient = 1.0;
+    const Impact impact = Solve(problem);
+    if (std::fabs(impact.energy_change) > 1e-6) {
+      ASSERT_EQ(impact.energy_limit_broken, impact.energy_change > 0.0) << i;
+    }
+    if (std::fabs(impact.energetic_excess) > 1e-6) {
+      ASSERT_EQ(impact.sharp_limit_broken, impact.energetic_excess > 0.0) << i;
+    }
+    created += impact.energy_limit_broken ? 1 : 0;
+  }
+  EXPECT_GT(created, 0);
+}
+
+TEST(SpatialTest, ABudgetThatRunsOutIsSaidSo) {
+  // Next to no impact of a valid problem gets there; one that is not a number does not end either, and must.
+  Problem problem = Known(1.0, 0.6, 0.2);
+  problem.w12 = std::numeric_limits<double>::quiet_NaN();
+  const Impact impact = Solve(problem);
+  EXPECT_FALSE(impact.converged);
+  EXPECT_EQ(impact.regime, Regime::kWedged);
+  EXPECT_EQ(impact.error_estimate, std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace ricochet::spatial
