@@ -1,0 +1,20 @@
+// CheckInvariant: stops the process, with a message, where the code itself is wrong.
+//
+// Every build checks it. It is for what no input can bring about; a bad request is an absl::Status (ricochet/error.h).
+
+#ifndef RICOCHET_CORE_NUMERICS_INVARIANT_H_
+#define RICOCHET_CORE_NUMERICS_INVARIANT_H_
+
+namespace ricochet {
+
+// Prints `message` with its place to standard error and aborts.
+[[noreturn]] void StopOnBrokenInvariant(const char* message, const char* file, int line);
+
+inline void CheckInvariant(bool holds, const char* message, const char* file = __builtin_FILE(),
+                           int line = __builtin_LINE()) {
+  if (!holds) StopOnBrokenInvariant(message, file, line);
+}
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_NUMERICS_INVARIANT_H_
