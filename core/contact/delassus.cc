@@ -5,7 +5,7 @@
 namespace ricochet {
 namespace {
 
-// a d - b c to 1.5 ulp.
+// Computes a d - b c to within 1.5 ulp.
 double Determinant(double a, double b, double c, double d) {
   const double product = b * c;
   const double rounding = std::fma(-b, c, product);

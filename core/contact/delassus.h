@@ -1,10 +1,10 @@
 // The Delassus matrix W = J M^-1 J^T of a contact (its inverse inertia, 1/kg), and the only place that decides its rank.
 //
-// W is symmetric and positive semidefinite up to the rounding of its entries. Its determinant counts as zero where a
-// rounding of the entries could have made it: |det W| <= 4 eps Wtt Wnn in the plane, eps = 2^-52; in space the same
-// holds for the minors with n, and for det W with the terms it is the sum of.
-// Scale does not matter: entries may lie anywhere in the range of doubles.
-// Bad input: none gets here (core/scene/validate.h).
+// W is symmetric and positive semidefinite up to the rounding of its entries. Its determinant counts as zero if the
+// rounding of the entries could have produced it: |det W| <= 4 eps Wtt Wnn in the plane, with eps = 2^-52. In space the
+// minors with n are compared in this way, and det W is compared with the sum of the magnitudes of its terms.
+// The result does not depend on the scale of W: entries may lie anywhere in the range of doubles.
+// The entries must be finite and the diagonal >= 0; core/scene/validate.h refuses any other W.
 
 #ifndef RICOCHET_CORE_CONTACT_DELASSUS_H_
 #define RICOCHET_CORE_CONTACT_DELASSUS_H_
@@ -17,13 +17,13 @@
 
 namespace ricochet {
 
-// What the determinant may be, relative to the product of the diagonal, where rounding alone has made it.
+// A determinant of at most this many times the product of the diagonal counts as rounding alone.
 inline constexpr double kRankTolerance = 4.0 * std::numeric_limits<double>::epsilon();
 
 struct PlanarDelassus {
   double tt = 0.0, tn = 0.0, nn = 0.0;
 
-  // det W/(Wtt Wnn), as core/numerics/determinant.h has it.
+  // det W/(Wtt Wnn), with the limits that core/numerics/determinant.h states.
   double RelativeDeterminant() const { return ricochet::RelativeDeterminant(tt, tn, nn); }
   bool IsSemidefinite() const { return RelativeDeterminant() >= -kRankTolerance; }
   // 0 for W = 0, else 1 or 2.

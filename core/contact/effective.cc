@@ -30,11 +30,11 @@ SlopeForm Factor(const PowerLaw& law, const SlopeForm& speed) {
   return SlopeForm(1.0) - SlopeForm(law.alpha) * Pow(speed, law.exponent);
 }
 
-// A piece of a table, between two of its speeds or beyond them all.
+// A Piece is a straight line of a table, between two of its speeds or outside them all: factor + slope (speed - from).
 struct Piece {
   Interval speeds;
-  Interval from, factor;  // The line goes through the factor there ...
-  Interval slope;         // ... and rises by this.
+  Interval from, factor;
+  Interval slope;
 };
 
 std::vector<Piece> PiecesOf(const SpeedTable& table) {

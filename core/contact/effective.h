@@ -1,4 +1,4 @@
-// What a scene's coefficients are at its approach speed.
+// EffectiveAt: the coefficients of a scene at its approach speed.
 
 #ifndef RICOCHET_CORE_CONTACT_EFFECTIVE_H_
 #define RICOCHET_CORE_CONTACT_EFFECTIVE_H_
@@ -11,18 +11,18 @@
 
 namespace ricochet {
 
-// The factor at `speed` >= 0; 1 where there is no dependence.
+// The factor at `speed` >= 0, in m/s; 1 if there is no dependence.
 double FactorAt(const std::optional<SpeedDependence>& dependence, double speed);
 
 // Encloses the factor of each speed, all >= 0.
 SlopeForm FactorAt(const std::optional<SpeedDependence>& dependence, const SlopeForm& speed);
 
-// Whether the coefficients depend on the speed at all.
+// True if a coefficient of the scene depends on the speed.
 inline bool DependsOnSpeed(const Scene& scene) {
   return scene.friction.by_speed.has_value() || scene.restitution_by_speed.has_value();
 }
 
-// The scene's coefficients times their factors. A restitution that is left open counts as 0.
+// The scene's coefficients, each multiplied by its factor. A restitution that is left open counts as 0.
 EffectiveCoefficients EffectiveAt(const Scene& scene, double speed);
 
 }  // namespace ricochet

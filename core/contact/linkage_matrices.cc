@@ -11,7 +11,7 @@ Eigen::MatrixXd MassMatrix(const Linkage& linkage) {
   const std::vector<Link>& links = linkage.links;
   const auto n = static_cast<Eigen::Index>(links.size());
   Eigen::MatrixXd mass = Eigen::MatrixXd::Zero(n, n);
-  double beyond = 0.0;  // Mass of the links after k, from the tip on.
+  double beyond = 0.0;  // Mass of all links between link k and the tip.
   for (Eigen::Index k = n - 1; k >= 0; --k) {
     const Link& link = links[static_cast<size_t>(k)];
     const double moment = link.mass_kg * link.com_m + beyond * link.length_m;
@@ -39,7 +39,7 @@ Eigen::MatrixXd TransposedJacobian(const Linkage& linkage) {
 
 Eigen::VectorXd GravityMoments(const Linkage& linkage, const Gravity& gravity) {
   Eigen::VectorXd moments(static_cast<Eigen::Index>(linkage.links.size()));
-  double beyond = 0.0;  // Mass of the links after k, from the tip on.
+  double beyond = 0.0;  // Mass of all links between link k and the tip.
   for (Eigen::Index k = moments.size() - 1; k >= 0; --k) {
     const Link& link = linkage.links[static_cast<size_t>(k)];
     const double moment = link.mass_kg * link.com_m + beyond * link.length_m;

@@ -1,4 +1,5 @@
-// The matrices of a linkage: mass, Jacobian, gravity. Needs Eigen; the angles are the joints' coordinates.
+// Linkage matrices: mass matrix, Jacobian and moments of gravity of a linkage. The generalised coordinates are the
+// absolute angles of the links. This header includes Eigen.
 
 #ifndef RICOCHET_CORE_CONTACT_LINKAGE_MATRICES_H_
 #define RICOCHET_CORE_CONTACT_LINKAGE_MATRICES_H_
@@ -9,14 +10,14 @@
 
 namespace ricochet {
 
-// M_ij = cos(theta_i - theta_j) sum over links k of m_k a_ki a_kj, with a_ki = length_i for links i before k, com_k for
-// k itself, 0 after; and the inertias on the diagonal.
+// M_ij = cos(theta_i - theta_j) sum over links k of m_k a_ki a_kj, where a_ki is length_i for links i before k, com_k for
+// k itself and 0 for links after k. The links' moments of inertia are added on the diagonal. Units are kg m^2.
 Eigen::MatrixXd MassMatrix(const Linkage& linkage);
 
-// d(tip)/d(theta), a row a link, columns t and n.
+// d(tip)/d(theta) in m: one row for each link, columns t and n.
 Eigen::MatrixXd TransposedJacobian(const Linkage& linkage);
 
-// The moments that gravity has about the joints.
+// The moments of gravity about the joints, N m.
 Eigen::VectorXd GravityMoments(const Linkage& linkage, const Gravity& gravity);
 
 }  // namespace ricochet

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <limits>
 
+#include "core/contact/delassus.h"
 #include "core/contact/finite_forces.h"
 #include "core/contact/linkage_matrices.h"
-#include "core/numerics/determinant.h"
 #include "core/numerics/products.h"
 
 namespace ricochet {
@@ -20,7 +20,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // --- From M, J and q' ---
 
-// W, velocities and response of a system with the mass matrix L L^T and the transposed Jacobian `jt`.
+// Computes W, the velocities and the response of a system from its mass matrix and its transposed Jacobian `jt`.
 template <size_t kTangential>
 Reduction<kTangential> FromMechanism(const Eigen::MatrixXd& mass, const Eigen::MatrixXd& jt,
                                      const Eigen::VectorXd& before) {
@@ -43,25 +43,25 @@ Reduction<kTangential> FromMechanism(const Eigen::MatrixXd& mass, const Eigen::M
   return reduction;
 }
 
-// What rounding may make of det W/(Wtt Wnn) = 0.
+// A bound on |det W|/(Wtt Wnn) after rounding, if the exact determinant is 0.
 double RankNoise(const PlanarReduction& reduction) {
   return 8.0 * static_cast<double>(reduction.before.size()) * kEpsilon;
 }
 
-// A planar W whose determinant may be rounding alone becomes one of rank one.
+// Gives a planar W rank one if its determinant may be rounding alone.
 void SettleRank(PlanarReduction& reduction) {
   auto& [tt, tn, nn] = reduction.w;
-  if (tt == 0.0 || nn == 0.0 || RelativeDeterminant(tt, tn, nn) > RankNoise(reduction)) return;
+  if (tt == 0.0 || nn == 0.0 || PlanarDelassus{tt, tn, nn}.RelativeDeterminant() > RankNoise(reduction)) return;
   tn = std::copysign(std::sqrt(tt) * std::sqrt(nn), tn);
 }
 
-// Where the velocities lie in the range of W but for rounding, as they do where all links point the same way, what that
-// put outside is taken away. det W/(Wtt Wnn) is the square of an angle between directions, so that directions, and
-// velocities with them, are told apart by no less than the root of its noise. What is further off moves with a link too
-// heavy for the tip to feel. `sizes`: of the terms whose sums u0 and v0 are.
+// Moves the velocity into the range of a W of rank one if only rounding put it outside, as happens when all links point
+// the same way. The root of the noise in det W/(Wtt Wnn) is the smallest angle between two directions that can be
+// resolved (docs/theory/contact.md). A velocity further outside is real: it belongs to a link that is too heavy for the
+// impulse to move. `sizes` are the sums of the magnitudes of the terms of u0 and v0.
 void SettleVelocity(const Eigen::Vector2d& sizes, PlanarReduction& reduction) {
   const auto& [tt, tn, nn] = reduction.w;
-  if (tt == 0.0 || nn == 0.0 || std::abs(RelativeDeterminant(tt, tn, nn)) > 4.0 * kEpsilon) return;
+  if (tt == 0.0 || nn == 0.0 || PlanarDelassus{tt, tn, nn}.Rank() == 2) return;
   const double noise = std::sqrt(RankNoise(reduction));
   const double outside = DifferenceOfProducts(reduction.u0[0], nn, reduction.v0, tn);
   if (!(std::abs(outside) <= noise * (sizes[0] * nn + sizes[1] * std::abs(tn)))) return;
@@ -100,7 +100,7 @@ PlanarReduction ReduceOne(const Linkage& linkage) {
   return reduction;
 }
 
-// --- Bodies. `side` is 1 for the body that the impulses act on, -1 for the one that their opposites act on. ---
+// --- Bodies. `side` is 1 for the body on which the impulses act, -1 for the one on which their opposites act. ---
 
 void AddBody(const PlanarBody& body, double side, PlanarReduction& reduction) {
   const double st = body.offset_t_m;
@@ -128,7 +128,7 @@ Eigen::Matrix3d Symmetric(const double* upper) {
   return matrix;
 }
 
-// The matrix of r x.
+// The matrix of the cross product r x.
 Eigen::Matrix3d Cross(const Eigen::Vector3d& r) {
   Eigen::Matrix3d matrix;
   matrix << 0.0, -r(2), r(1), r(2), 0.0, -r(0), -r(1), r(0), 0.0;
@@ -208,7 +208,7 @@ SpatialReduction ReduceOne(const SpatialContact& contact) {
 
 PlanarReduction ReduceOne(std::monostate /*unset*/) { return {}; }
 
-// The diagonal's inverse square roots; 0 for an entry of 0.
+// The inverse square roots of the diagonal; 0 for an entry of 0.
 Eigen::Vector3d InverseScales(const Eigen::Matrix3d& matrix) {
   Eigen::Vector3d scales;
   for (int i = 0; i < 3; ++i) scales(i) = matrix(i, i) > 0.0 ? 1.0 / std::sqrt(matrix(i, i)) : 0.0;

@@ -1,13 +1,14 @@
-// Reduction: everything that the impact of a system at one point depends on, and the way back.
+// Reduction: all quantities that determine the impact of a system at one point, and the map from its impulse back to the
+// velocities of the system.
 //
 //   W = J M^-1 J^T,   (u0, v0) = J q' - surface velocity,   q'+ = q' + M^-1 J^T (f, tau)
 //
-// M is the mass matrix, J the Jacobian of the contact point, q' the generalised velocities: a pendulum's or linkage's
-// rates, a body's velocity and angular velocity. W is the Gram matrix of L^-1 J^T, L L^T = M, so that it is positive
-// semidefinite to rounding; a planar W whose determinant rounding could have made (below 8 n eps Wtt Wnn, n velocities)
-// has rank one, and wtn = +-sqrt(Wtt Wnn) says so exactly.
-// Accuracy: a few n ulp times the condition of M with its rows scaled to a unit diagonal.
-// Bad input: none gets here (core/scene/validate.h). Overflow shows as a W or velocity that is not finite.
+// M is the mass matrix, J the Jacobian of the contact point, and q' the n generalised velocities: the rates of a
+// pendulum or linkage, or the velocity and angular velocity of a body. W is computed as the Gram matrix of L^-1 J^T with
+// L L^T = M, so that it is positive semidefinite up to rounding. A planar W whose determinant may be rounding alone
+// (below 8 n eps Wtt Wnn) is given rank one by wtn = +-sqrt(Wtt Wnn). docs/theory/contact.md derives this.
+// Accuracy: a few n ulp times the condition of M after scaling to a unit diagonal. Units are SI units.
+// The scene must be valid (core/scene/validate.h). If a product overflows, W or a velocity is not finite.
 
 #ifndef RICOCHET_CORE_CONTACT_REDUCTION_H_
 #define RICOCHET_CORE_CONTACT_REDUCTION_H_
@@ -21,16 +22,16 @@
 
 namespace ricochet {
 
-// What the generalised velocities are.
+// The kind of generalised velocities that a system has.
 enum class Coordinates {
-  kNone,    // The system is a contact alone.
-  kRates,   // Angular velocities: pendulum, linkage.
-  kBodies,  // Each body's linear velocity, then its angular velocity: 3 numbers a body in a plane, 6 in space.
+  kNone,    // The system is a contact alone and has none.
+  kRates,   // A pendulum or a linkage has the angular velocities of its links.
+  kBodies,  // Each body has its linear, then its angular velocity: 3 numbers in a plane, 6 in space.
 };
 
 template <size_t kTangential>
 struct Reduction {
-  static constexpr size_t kDirections = kTangential + 1;  // The last is n.
+  static constexpr size_t kDirections = kTangential + 1;  // The last direction is n.
 
   std::array<double, kDirections*(kDirections + 1) / 2> w = {};  // Upper triangle, row by row.
   std::array<double, kTangential> u0 = {};                       // Relative to the surface.
@@ -38,12 +39,13 @@ struct Reduction {
   Coordinates coordinates = Coordinates::kNone;
   std::vector<double> before;    // q'
   std::vector<double> response;  // M^-1 J^T, row by row.
-  // What finite forces alone give the contact and the system: (a_t, a_n) and q'' = M^-1 Q. The latter is empty where
-  // there are none.
+  // The accelerations by finite forces alone: (a_t, a_n) of the contact and q'' = M^-1 Q of the system. The latter is
+  // empty if there are no finite forces.
   std::array<double, kDirections> acceleration = {};
   std::vector<double> drift;
 
-  // q' once the contact has received the impulse, and finite forces have acted for `duration`.
+  // q' after the contact has received the impulse (`tangential`, `normal`) in N s and finite forces have acted for
+  // `duration` in s.
   std::vector<double> After(const std::array<double, kTangential>& tangential, double normal,
                             double duration = 0.0) const;
 };
@@ -52,28 +54,30 @@ using PlanarReduction = Reduction<1>;   // w: tt, tn, nn
 using SpatialReduction = Reduction<2>;  // w: 11, 12, 13, 22, 23, 33
 using AnyReduction = std::variant<PlanarReduction, SpatialReduction>;
 
-// `scene` states a system whose own rules hold. Any impact law and restitution.
+// Reduces a scene whose system keeps its own rules. Restitution and impact law do not matter.
 AnyReduction Reduce(const Scene& scene);
 
-// Whether W and the velocities are finite.
+// True if W and the velocities are finite.
 bool IsFinite(const AnyReduction& reduction);
 
-// Whether doubles hold what an impact needs: both are finite, and W_nn has not underflowed to 0 where the contact
-// approaches.
+// True if doubles can represent what an impact needs: W and the velocities are finite, and W_nn has not underflowed to
+// 0 while the contact approaches.
 bool FitsDoubles(const AnyReduction& reduction);
 
-// How fast the contact approaches, >= 0.
+// The approach speed max(0, -v0), m/s.
 double ApproachSpeed(const AnyReduction& reduction);
 
-// 1/2 v.W+ v with the pseudo-inverse of W: the least kinetic energy that goes with the contact velocity.
+// 1/2 v.W+ v with the pseudo-inverse W+ of W: the least kinetic energy, in J, that goes with the contact velocity.
 double ContactEnergy(const AnyReduction& reduction);
 
-// The smallest eigenvalue of a symmetric 3 x 3 matrix, upper triangle row by row, scaled to a unit diagonal: in
-// [-2, 1], 0 for a singular matrix, -infinity if a diagonal entry is negative or 0 beside entries that are not.
+// The smallest eigenvalue of a symmetric 3 x 3 matrix that is scaled to a unit diagonal. `upper` is its upper triangle,
+// row by row. The eigenvalue lies in [-2, 1] and is 0 for a singular matrix. It is -infinity if a diagonal entry is
+// negative, or is 0 in a row that is not 0.
 double SmallestScaledEigenvalue(const std::vector<double>& upper);
 
-// How far (u0, v0) lies outside of the range of W, as a share of what could: 0 within, 1 at right angles. A W is
-// singular along an eigenvector, scaled to a unit diagonal, of an eigenvalue below 16 eps.
+// The share of the velocity (u0, v0) that lies outside the range of W: 0 if the velocity lies within it, 1 if it is
+// perpendicular to it. W counts as singular along an eigenvector whose eigenvalue, after scaling to a unit diagonal, is
+// below 16 eps.
 double ShareOutsideRange(const SpatialReduction& reduction);
 
 }  // namespace ricochet

@@ -1,5 +1,5 @@
-// What an impact at one point comes to, by whatever model: what models of one contact share. `Along` is what there is
-// along the surface: a number in a plane, one for each direction in space.
+// ImpactEnd: the fields of a result that all models share. The template parameter `Tangential` is a double in the plane
+// and std::array<double, 2> in space.
 
 #ifndef RICOCHET_CORE_MODELS_IMPACT_END_H_
 #define RICOCHET_CORE_MODELS_IMPACT_END_H_
@@ -8,37 +8,37 @@
 
 namespace ricochet {
 
-template <typename Along>
+template <typename Tangential>
 struct ImpactEnd {
   Regime regime = Regime::kUnspecified;
   int w_rank = 0;
-  bool sharp_limit_broken = false;   // Implied energetic coefficient > 1.
+  bool sharp_limit_broken = false;   // The implied energetic coefficient is above 1.
   bool energy_limit_broken = false;  // E+ > E-.
   double newton = 0.0, poisson = 0.0, energetic = 0.0;
   double tangential = 0.0;        // |f1|/tau1, signed in a plane.
   double energetic_excess = 0.0;  // energetic - 1
-  Along u1 = {};
+  Tangential u1 = {};
   double v1 = 0.0;
   double tau_compression = 0.0, tau1 = 0.0;  // Normal impulses.
-  Along f1 = {};                             // Tangential impulse.
+  Tangential f1 = {};                        // Tangential impulse.
   double work_normal_compression = 0.0, work_normal_restitution = 0.0;
   double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
   double energy_change = 0.0;  // E+ - E-
 };
 
-// The contact at an event, and what ends or begins there.
-template <typename Along>
+// The state of the contact at an event.
+template <typename Tangential>
 struct ImpactInstant {
   EventKind kind = EventKind::kUnspecified;
-  double tau = 0.0;  // Normal impulse so far.
-  Along f = {};      // Tangential impulse so far.
-  Along u = {};
+  double tau = 0.0;   // Normal impulse so far.
+  Tangential f = {};  // Tangential impulse so far.
+  Tangential u = {};
   double v = 0.0;
 };
 
-// Of v0 >= 0: nothing changes.
-template <typename Impact, typename Along>
-Impact Separating(int w_rank, const Along& u0, double v0) {
+// The result for a contact that does not approach, v0 >= 0: nothing changes.
+template <typename Impact, typename Tangential>
+Impact Separating(int w_rank, const Tangential& u0, double v0) {
   Impact impact;
   impact.regime = Regime::kSeparating;
   impact.w_rank = w_rank;

@@ -10,9 +10,9 @@
 
 namespace ricochet {
 
-// (x z - y^2)/(x z) for x, z >= 0: 1 where y = 0, 0 for rank one, negative for a matrix that is not semidefinite.
-// Where x z = 0: 0, or -infinity if y is not 0. NaN where x or z is. Scaling by powers of two keeps it right over the
-// whole double range.
+// Computes (x z - y^2)/(x z) for x, z >= 0. It is 1 if y = 0, 0 for rank one, and negative for a matrix that is not
+// positive semidefinite. If x z = 0, it is 0, or -infinity if y is not 0. It is NaN if x or z is. Scaling by powers of
+// two makes it accurate over the whole range of doubles.
 inline double RelativeDeterminant(double x, double y, double z) {
   if (x == 0.0 || z == 0.0) return y == 0.0 ? 0.0 : -std::numeric_limits<double>::infinity();
   if (std::isnan(x) || std::isnan(z)) return std::numeric_limits<double>::quiet_NaN();

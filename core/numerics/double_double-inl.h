@@ -25,11 +25,11 @@ struct DoubleDouble {
   V hi;
   V lo;
 
-  // Unset; an initialiser would be a call for vectors.
+  // The value is unset, because initialising a vector would cost a call.
   DoubleDouble() = default;
   HWY_INLINE DoubleDouble(V high, V low) : hi(high), lo(low) {}
 
-  // Exactly `value`, in every lane.
+  // Every lane has exactly `value`.
   HWY_INLINE static DoubleDouble Constant(double value) { return Exactly(Lanes<V>::Fill(value)); }
   HWY_INLINE static DoubleDouble Exactly(V value) { return {value, Lanes<V>::Fill(0.0)}; }
 };
@@ -82,7 +82,7 @@ HWY_INLINE DoubleDouble<V> operator*(DoubleDouble<V> x, DoubleDouble<V> y) {
   return QuickTwoSum(product.hi, product.lo + cross);
 }
 
-// 1/x, one Newton step in double-double on the double's.
+// 1/x by one Newton step in double-double from the reciprocal in double.
 template <typename V>
 HWY_INLINE DoubleDouble<V> Inverse(DoubleDouble<V> x) {
   using N = DoubleDouble<V>;
@@ -106,7 +106,7 @@ HWY_INLINE DoubleDouble<V> Sqrt(DoubleDouble<V> x) {
   return QuickTwoSum(root, rest / (root + root));
 }
 
-// Masks.
+// Comparisons give one truth value for each lane.
 template <typename V>
 HWY_INLINE auto IsNegative(DoubleDouble<V> x) {
   return x.hi < Lanes<V>::Fill(0.0);
@@ -121,13 +121,13 @@ HWY_INLINE DoubleDouble<V> Select(Mask condition, DoubleDouble<V> yes, DoubleDou
   return {Select(condition, yes.hi, no.hi), Select(condition, yes.lo, no.lo)};
 }
 
-// The nearest V.
+// The V nearest to the value.
 template <typename V>
 HWY_INLINE V Rounded(DoubleDouble<V> x) {
   return x.hi;
 }
 
-// Rounded(x y) up to 2^-50 ulp, for a third of the work.
+// Computes Rounded(x y) to within 2^-50 ulp, at a third of the cost.
 template <typename V>
 HWY_INLINE V RoundedProduct(DoubleDouble<V> x, DoubleDouble<V> y) {
   return Fma(x.hi, y.hi, Fma(x.hi, y.lo, x.lo * y.hi));

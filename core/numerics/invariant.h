@@ -1,6 +1,7 @@
-// CheckInvariant: stops the process, with a message, where the code itself is wrong.
+// CheckInvariant: stops the process with a message if the code itself is wrong.
 //
-// Every build checks it. It is for what no input can bring about; a bad request is an absl::Status (ricochet/error.h).
+// Every build checks it. It is for conditions that no input can cause; a bad request is an absl::Status
+// (ricochet/error.h).
 
 #ifndef RICOCHET_CORE_NUMERICS_INVARIANT_H_
 #define RICOCHET_CORE_NUMERICS_INVARIANT_H_

@@ -1,8 +1,8 @@
 // Lanes: one vocabulary for a double and for a SIMD vector of doubles, so that an algorithm is written once.
 //
-// V is `double` or a Highway vector; its masks are `bool` or the vector's. Included once a target, as Highway's own
-// headers are: everything here lives in HWY_NAMESPACE. Vectors exist only on targets with a hardware fma
-// (RICOCHET_SIMD); elsewhere V is `double` and std::fma gives the same bits.
+// V is `double` or a Highway vector; its masks are `bool` or the vector's masks. Like Highway's own headers, this one is
+// included once for each target, and everything here lives in HWY_NAMESPACE. Vectors exist only on targets with a
+// hardware fma (RICOCHET_SIMD); elsewhere V is `double` and std::fma gives the same bits.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_NUMERICS_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -27,7 +27,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::HWY_NAMESPACE {
 
-// a b + c, a b - c and c - a b with one rounding.
+// The following compute a b + c, a b - c and c - a b with one rounding.
 HWY_INLINE double Fma(double a, double b, double c) { return std::fma(a, b, c); }
 HWY_INLINE double FmaSubtract(double a, double b, double c) { return std::fma(a, b, -c); }
 HWY_INLINE double NegativeFma(double a, double b, double c) { return std::fma(-a, b, c); }
@@ -36,7 +36,7 @@ HWY_INLINE double Absolute(double x) { return std::fabs(x); }
 HWY_INLINE double Select(bool condition, double yes, double no) { return condition ? yes : no; }
 HWY_INLINE bool Not(bool x) { return !x; }
 
-// A V of lanes in memory, or of one value in every lane.
+// Lanes<V> loads a V from memory, or fills every lane with one value.
 template <typename V>
 struct Lanes;
 

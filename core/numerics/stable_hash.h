@@ -1,4 +1,4 @@
-// StableHash: FNV-1a over 64-bit words, the same in every build and process, which absl::Hash is not.
+// StableHash: FNV-1a over 64-bit words. Unlike absl::Hash it gives the same value in every build and process.
 
 #ifndef RICOCHET_CORE_NUMERICS_STABLE_HASH_H_
 #define RICOCHET_CORE_NUMERICS_STABLE_HASH_H_

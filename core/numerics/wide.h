@@ -1,7 +1,7 @@
 // Wide: a DoubleDouble with an exponent of its own, so that nothing overflows or underflows on the way.
 //
-// value = mantissa 2^exponent, |mantissa.hi| in [1/2, 1) or 0. The same operations and error bounds as DoubleDouble, at
-// some ten times the cost: for inputs whose products leave the range of doubles.
+// The value is mantissa 2^exponent with |mantissa.hi| in [1/2, 1) or 0. Wide has the operations and error bounds of
+// DoubleDouble at about ten times the cost. It serves inputs whose products leave the range of doubles.
 
 #ifndef RICOCHET_CORE_NUMERICS_WIDE_H_
 #define RICOCHET_CORE_NUMERICS_WIDE_H_
@@ -29,7 +29,7 @@ class Wide {
     const Wide& big = x_leads ? x : y;
     const Wide& small = x_leads ? y : x;
     const int shift = big.exponent_ - small.exponent_;
-    // Below 2^-400 of the sum the addend cannot reach a bit of the result, nor its sign.
+    // An addend below 2^-400 of the sum cannot change a bit of the result or its sign.
     if (shift > 400) return big;
     return {big.mantissa_ + Scaled(small.mantissa_, -shift), big.exponent_};
   }
@@ -45,7 +45,7 @@ class Wide {
   friend bool IsPositive(const Wide& x) { return x.mantissa_.hi > 0.0; }
   friend Wide Select(bool condition, const Wide& yes, const Wide& no) { return condition ? yes : no; }
 
-  // The nearest double; infinite above the largest one.
+  // The double nearest to the value; infinite above the largest double.
   friend double Rounded(const Wide& x) { return std::ldexp(x.mantissa_.hi, x.exponent_); }
   friend double RoundedProduct(const Wide& x, const Wide& y) { return Rounded(x * y); }
 

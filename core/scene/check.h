@@ -1,4 +1,4 @@
-// Check: collects what is wrong, or only whether something is.
+// Check: collects the violations of a scene, or only finds whether there is one.
 
 #ifndef RICOCHET_CORE_SCENE_CHECK_H_
 #define RICOCHET_CORE_SCENE_CHECK_H_
@@ -17,11 +17,11 @@ namespace ricochet {
 
 class Check {
  public:
-  // With kVerdict nothing is spelt out: a sweep asks this of every point.
+  // kVerdict spares the texts of the violations, because a sweep checks every point.
   enum class Mode { kListing, kVerdict };
   explicit Check(Mode mode) : mode_(mode) {}
 
-  // `violation()` is called only to list it.
+  // `violation()` is called only if the violation is to be listed.
   template <typename MakesViolation>
   void Require(bool holds, const MakesViolation& violation) {
     if (holds) return;
@@ -39,7 +39,7 @@ class Check {
     Require(is_set, [&] { return Violation{field, absl::StrCat("is not set: must ", rule)}; });
   }
 
-  // Whether the list has `wanted` entries.
+  // Requires that the list has `wanted` entries, and returns whether it has.
   bool Length(const std::string& field, size_t found, size_t wanted) {
     Require(found == wanted, [&] {
       return Violation{field, absl::StrCat("has ", found, found == 1 ? " entry" : " entries", ": must have ", wanted)};
@@ -76,17 +76,18 @@ class Check {
   std::vector<Violation> violations_;
 };
 
-// The rules of a system beyond those of its single numbers: what is set, lengths of lists, definite matrices.
+// Checks the rules of a system beyond those of its single numbers: which fields are set, the lengths of lists, and
+// whether matrices are definite.
 void CheckShape(const System& system, Check& check);
 
-// Whether a spring's damping stands for the coefficient of restitution.
+// True if the damping of a spring takes the place of the coefficient of restitution.
 bool HasDamping(const Scene& scene);
 
-// What compliance and finite forces go with.
+// Checks what compliance and finite forces may be combined with.
 void CheckEffects(const Scene& scene, Check& check);
 
-// The rules that take the contact to decide: the velocity lies in the range of W, and the coefficients are what they
-// may be at the approach speed. All others hold.
+// Checks the rules that depend on the contact: the velocity lies in the range of W, and the coefficients keep their
+// rules at the approach speed. All other rules must hold already.
 void CheckContact(const Scene& scene, Check& check);
 
 }  // namespace ricochet

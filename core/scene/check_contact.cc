@@ -4,10 +4,10 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/contact/delassus.h"
 #include "core/contact/effective.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
-#include "core/numerics/determinant.h"
 #include "core/numerics/products.h"
 #include "core/scene/check.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-// The velocity's field, which a W of less than full rank restricts.
+// The field of the velocity, which is restricted if W has less than full rank.
 std::string VelocityField(const Scene& scene) {
   if (scene.surface_velocity.has_value()) return "surface_velocity";
   if (std::holds_alternative<PlanarContact>(scene.system)) return "planar_contact.tangential_m_s";
@@ -26,8 +26,8 @@ std::string VelocityField(const Scene& scene) {
 
 bool InRange(const PlanarReduction& reduction) {
   const auto& [tt, tn, nn] = reduction.w;
-  if (std::abs(RelativeDeterminant(tt, tn, nn)) > 4.0 * kEpsilon) return true;
-  if (nn == 0.0) return false;  // The contact approaches, and no impulse could stop it.
+  if (PlanarDelassus{tt, tn, nn}.Rank() == 2) return true;
+  if (nn == 0.0) return false;  // The contact approaches, and no impulse can stop it.
   const double u = reduction.u0[0];
   const double v = reduction.v0;
   return std::abs(DifferenceOfProducts(u, nn, v, tn)) <= 8.0 * kEpsilon * (std::abs(u) * nn + std::abs(v * tn));
@@ -40,7 +40,7 @@ std::string TangentialText(const SpatialReduction& reduction) {
   return absl::StrCat("(", ShortestDecimal(reduction.u0[0]), ", ", ShortestDecimal(reduction.u0[1]), ")");
 }
 
-// A contact that does not approach is answered whatever its velocity.
+// A contact that does not approach may have any velocity.
 void CheckRange(const Scene& scene, const AnyReduction& any, Check& check) {
   std::visit(
       [&](const auto& reduction) {
@@ -55,7 +55,7 @@ void CheckRange(const Scene& scene, const AnyReduction& any, Check& check) {
       any);
 }
 
-// `product` = the coefficient times its factor at `speed`.
+// `product` is the coefficient times its factor at `speed`.
 void CheckProduct(const char* field, double product, double speed, double most, Check& check) {
   check.Require(product >= 0.0 && product <= most && std::isfinite(product), [&] {
     const std::string rule = std::isfinite(most) ? "be in [0, 1]" : "be finite and >= 0";
@@ -71,7 +71,7 @@ void CheckEffective(const Scene& scene, double speed, Check& check) {
   const EffectiveCoefficients effective = EffectiveAt(scene, speed);
   if (scene.friction.by_speed.has_value()) {
     CheckProduct("friction.by_speed", effective.kinetic_friction, speed, kInfinity, check);
-    // A factor that is right for the kinetic coefficient may overflow the static one.
+    // The static coefficient may overflow although the kinetic one does not.
     if (std::isfinite(effective.kinetic_friction) && effective.kinetic_friction >= 0.0) {
       CheckProduct("friction.by_speed", effective.static_friction, speed, kInfinity, check);
     }
@@ -82,7 +82,8 @@ void CheckEffective(const Scene& scene, double speed, Check& check) {
   }
 }
 
-// A spring returns energy, which the energetic coefficient measures; without coupling all three are the same.
+// The energetic coefficient measures the energy that a spring returns. If W_tn = 0, all three coefficients are equal, and
+// any of them will do.
 void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const EffectiveCoefficients& effective,
                  Check& check) {
   const double tn = std::abs(reduction.w[1]);
@@ -104,7 +105,7 @@ void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const Eff
   });
 }
 
-// Whether the system's own velocities lie in the range of W by their nature.
+// True if the velocity lies in the range of W whatever the numbers of the system are.
 bool RangeIsSure(const Scene& scene) {
   if (scene.surface_velocity.has_value()) return false;
   const auto* linkage = std::get_if<Linkage>(&scene.system);
@@ -117,7 +118,7 @@ void CheckContact(const Scene& scene, Check& check) {
   const bool with_spring = scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.restitution);
   if (RangeIsSure(scene) && !DependsOnSpeed(scene) && !with_spring) return;
   const AnyReduction reduction = Reduce(scene);
-  if (!IsFinite(reduction)) return;  // The outcome overflows, which is no fault of a single field.
+  if (!IsFinite(reduction)) return;  // The caller reports the overflow, because no single field causes it.
   if (!RangeIsSure(scene)) CheckRange(scene, reduction, check);
   if (DependsOnSpeed(scene)) CheckEffective(scene, ApproachSpeed(reduction), check);
   if (with_spring) {

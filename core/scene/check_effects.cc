@@ -8,7 +8,7 @@
 namespace ricochet {
 namespace {
 
-// The member of `finite_forces` that is set, and the systems that it goes with.
+// The name of the member of `finite_forces` that is set, and the rule that says which systems may have it.
 struct ForcesText {
   const char* field;
   const char* rule;
@@ -41,7 +41,7 @@ void CheckForces(const Scene& scene, bool has_law, Check& check) {
     return Violation{text.field, text.rule};
   });
   check.Require(!has_law, [&] {
-    return Violation{text.field, "is set beside an impact law: must not be, a law knows no time"};
+    return Violation{text.field, "is set beside an impact law: must not be, an impact law has no duration"};
   });
 }
 
@@ -73,7 +73,7 @@ void CheckEffects(const Scene& scene, Check& check) {
   if (!scene.compliance.has_value()) return;
   const Compliance& compliance = *scene.compliance;
   check.Require(!has_law, [] {
-    return Violation{"compliance", "is set beside an impact law: must not be, a law knows no springs"};
+    return Violation{"compliance", "is set beside an impact law: must not be, an impact law has no springs"};
   });
   check.Require(std::holds_alternative<std::monostate>(scene.system) || TangentialDirections(scene.system) == 1, [] {
     return Violation{"compliance", "is set: must not be for a system in space"};

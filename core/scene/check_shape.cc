@@ -7,9 +7,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/contact/delassus.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
-#include "core/numerics/determinant.h"
 #include "core/scene/check.h"
 
 namespace ricochet {
@@ -32,7 +32,7 @@ std::vector<std::string> EntriesOf(const std::string& field, size_t count) {
   return entries;
 }
 
-// `least` is what the smallest eigenvalue, scaled to a unit diagonal, must exceed.
+// The smallest eigenvalue of the matrix, scaled to a unit diagonal, must exceed `least`.
 void CheckMatrix(const std::string& field, const std::vector<double>& upper, double least, const char* rule,
                  Check& check) {
   if (!check.Length(field, upper.size(), 6) || !AllFinite(upper)) return;
@@ -80,7 +80,7 @@ void CheckOne(const PlanarContact& contact, Check& check) {
   const double nn = contact.w_nn_per_kg;
   const double tn = contact.w_tn_per_kg;
   if (!AllFinite({tt, tn, nn}) || tt < 0.0 || nn < 0.0) return;
-  check.Require(RelativeDeterminant(tt, tn, nn) >= -4.0 * kEpsilon, [&] {
+  check.Require(PlanarDelassus{tt, tn, nn}.IsSemidefinite(), [&] {
     return MakeViolation("planar_contact.w_tn_per_kg", tn,
                          absl::StrCat("leave W positive semidefinite: w_tn^2 <= w_tt w_nn = ", ShortestDecimal(tt),
                                       " * ", ShortestDecimal(nn)),

@@ -22,7 +22,7 @@ void Switch(Scene& scene) {
   if (!std::holds_alternative<T>(scene.restitution)) scene.restitution = T{};
 }
 
-// The surface's velocity, at rest if the scene states none. A pair's body 2 is its surface.
+// Gives the scene a surface at rest if it states none. A pair has no surface but its body 2.
 void MakeSurface(Scene& scene) {
   if (scene.surface_velocity.has_value() || std::holds_alternative<BodyPair>(scene.system)) return;
   scene.surface_velocity = SurfaceVelocity{std::vector<double>(TangentialDirections(scene.system), 0.0), 0.0};
@@ -30,7 +30,7 @@ void MakeSurface(Scene& scene) {
 
 bool StartsWith(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
 
-// Makes present what an axis on `path` needs and the scene leaves out.
+// Adds the optional part of the scene that `path` names, if the scene leaves it out.
 void MakePresent(const std::string& path, Scene& scene) {
   auto& static_coefficient = scene.friction.static_coefficient;
   if (path == "friction.static_coefficient" && !static_coefficient.has_value()) static_coefficient = 0.0;
@@ -40,7 +40,7 @@ void MakePresent(const std::string& path, Scene& scene) {
   if (StartsWith(path, "surface_velocity.")) MakeSurface(scene);
 }
 
-// The scene's own field behind a scalar path: the three definitions of restitution share one.
+// The path under which the scene stores the field: the three definitions of restitution share one.
 std::string Storage(const std::string& path) {
   const bool is_definition = StartsWith(path, "restitution.") && !StartsWith(path, "restitution.by_speed.");
   return is_definition ? "restitution.coefficient" : path;
@@ -55,7 +55,7 @@ bool Field::Set(double value) const {
   return phi.b.Set(phi.distance * Cos(value)) && a_is_right;
 }
 
-// There must be one.
+// Finds the number at `path`, which must exist.
 Field::Scalar Field::Find(const std::string& path, Scene& scene) {
   Scalar found = {.number = nullptr, .rule = NumberRule::kFinite};
   VisitNumbers(scene, [&](const NumberPath& number_path, double& number, NumberRule rule) {

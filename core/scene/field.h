@@ -1,11 +1,11 @@
-// Fields: what an axis can drive, by path. A field is resolved once for a scene, then set once a point.
+// Field: a number of a scene that an axis can drive, by its path. A field is resolved once for a scene, then set once for
+// each point.
 //
-// Fields are spelled as in the proto: "friction.kinetic_coefficient", "linkage.links[1].theta_rad",
-// "spatial_contact.w_per_kg[3]"; core/scene/numbers.h knows them all. Which there are depends on the scene: its system,
-// its lists. Beyond those that the scene states, an axis may drive friction.static_coefficient, each definition of
-// restitution, and surface_velocity, which it makes present.
-// Derived: pendulum.phi_rad, the paper's angle phi = arctan(a/b) (Fig. 4) at the base scene's distance
-// R = sqrt(a^2 + b^2) from the pin: a = R sin(phi), b = R cos(phi).
+// Paths are spelled as in the proto: "friction.kinetic_coefficient", "linkage.links[1].theta_rad",
+// "spatial_contact.w_per_kg[3]"; core/scene/numbers.h lists them. A scene has the fields of its own system and lists.
+// In addition an axis may drive friction.static_coefficient, each definition of restitution, and surface_velocity, even
+// if the scene states none. One field is derived: pendulum.phi_rad is the paper's angle phi = arctan(a/b) (Fig. 4) at
+// the base scene's distance R = sqrt(a^2 + b^2) from the pin, so that a = R sin(phi) and b = R cos(phi).
 
 #ifndef RICOCHET_CORE_SCENE_FIELD_H_
 #define RICOCHET_CORE_SCENE_FIELD_H_
@@ -20,13 +20,14 @@
 
 namespace ricochet {
 
-// Sets one field of the scene it was resolved for; that scene must outlive it and keep its system, law and lists.
+// A Field sets one number of the scene for which it was resolved. That scene must outlive the field and keep its system,
+// law and lists.
 class Field {
  public:
-  // Returns whether what it has set keeps the rule that each number has by itself.
+  // Sets the field and returns whether each number that it has set keeps its own rule.
   bool Set(double value) const;
 
-  // The paths of the scene's own fields that it sets: one, or for phi_rad two.
+  // The paths of the numbers that the field sets: one, or two for phi_rad.
   const std::vector<std::string>& sets() const { return sets_; }
 
  private:
@@ -51,9 +52,9 @@ class Field {
   std::vector<std::string> sets_;
 };
 
-// The field at `path`. A restitution path switches the scene to that definition; a static_coefficient or
-// surface_velocity path makes it present.
-// Errors: INVALID_ARGUMENT whose message says what would be right, for an unknown path or one of another system.
+// Resolves the field at `path`. A restitution path switches the scene to that definition; a static_coefficient or
+// surface_velocity path adds it to the scene.
+// Errors: an unknown path, or one of another system, gets INVALID_ARGUMENT with a message that says what would be right.
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
 
 // Every path that an axis may drive in the scene.

@@ -1,7 +1,6 @@
-// VisitNumbers: every number of a scene with its path, where it is stored and the rule that it keeps by itself.
+// VisitNumbers: every number of a scene with its path, a reference to it and the rule that it keeps by itself.
 //
-// What Validate checks and what axes and ranges may drive is read off here, so that a new field is known to all of
-// them.
+// Validate, the axes of sweeps and the ranges of bounds all use this list, so that a new field is added here only.
 
 #ifndef RICOCHET_CORE_SCENE_NUMBERS_H_
 #define RICOCHET_CORE_SCENE_NUMBERS_H_
@@ -18,15 +17,15 @@
 
 namespace ricochet {
 
-// Below, a double does not resolve the oscillation along the surface: that of core/models/compliant/compliant.h.
+// Below this ratio doubles do not resolve the oscillation along the surface (core/models/compliant/compliant.h).
 inline constexpr double kLeastTangentialRatioSquared = 1e-9;
-// And no larger: one of the two springs is then none.
+// Above this ratio the tangential spring is too soft to have an effect that doubles resolve.
 inline constexpr double kMostTangentialRatioSquared = 1e9;
 
-// Every number must be finite.
+// Each rule requires in addition that the number is finite.
 enum class NumberRule { kFinite, kPositive, kNotNegative, kUnitInterval, kPlusMinusOne, kOneToFour, kRatioSquared };
 
-// One comparison a side: no rule lets a NaN or an infinity pass.
+// True if `value` keeps `rule`. Every rule compares with two finite ends, so that NaN and infinity break it.
 inline bool Holds(double value, NumberRule rule) {
   constexpr double kMost = std::numeric_limits<double>::max();
   switch (rule) {
@@ -48,10 +47,10 @@ inline bool Holds(double value, NumberRule rule) {
   return false;
 }
 
-// Implementation of VisitNumbers, below.
+// This namespace implements VisitNumbers.
 namespace numbers {
 
-// A part of a scene whose fields have one prefix.
+// A Part visits the fields of a part of the scene, which share a prefix.
 template <typename Visitor>
 struct Part {
   const char* prefix;
@@ -70,7 +69,8 @@ struct Part {
   }
 };
 
-// `T`, const or not. Overloads for each alternative of a variant, so that a new one does not compile until it is known.
+// T is U or const U. Each alternative of a variant has its own overload of Visit, so that a new alternative does not
+// compile until it has one too.
 template <typename T, typename U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
 
@@ -175,7 +175,7 @@ void VisitBySpeed(Table& table, bool friction, Visitor& visit) {
 template <Is<std::monostate> Unset, typename Visitor>
 void VisitBySpeed(Unset& /*unset*/, bool /*friction*/, Visitor& /*visit*/) {}
 
-// The static coefficient's further rule depends on the kinetic one.
+// Validate checks in addition that the static coefficient is not below the kinetic one.
 template <Is<Friction> SomeFriction, typename Visitor>
 void Visit(SomeFriction& friction, Visitor& visit) {
   const Part<Visitor> part{"friction", -1, visit};
@@ -279,8 +279,8 @@ void Visit(Acceleration& acceleration, Visitor& visit) {
 
 }  // namespace numbers
 
-// Calls visit(path, number, rule) for every number of the scene, a reference to const if the scene is; in the order of
-// the proto's fields. Where a oneof is unset there is nothing to visit.
+// Calls visit(path, number, rule) for every number of the scene, in the order of the proto's fields. `number` is a
+// reference to const if the scene is const. A oneof that is not set has no numbers.
 template <typename SomeScene, typename Visitor>
 void VisitNumbers(SomeScene& scene, Visitor visit) {
   const auto visit_one_of = [&visit](auto& variant) {

@@ -16,7 +16,7 @@
 namespace ricochet {
 namespace {
 
-// The static coefficient against a kinetic one that is right itself.
+// Compares the static coefficient with the kinetic one, if each keeps its own rule.
 void CheckStatic(const Friction& friction, Check& check) {
   const double kinetic = friction.kinetic_coefficient;
   if (!friction.static_coefficient.has_value() || !(kinetic >= 0.0) || !std::isfinite(kinetic)) return;
@@ -75,7 +75,7 @@ const char* NameOf(const ImpactLaw& law) {
   return std::visit(Namer(), law);
 }
 
-// What goes with which system.
+// Checks which other parts of a scene the system may be combined with.
 void CheckTogether(const Scene& scene, Check& check) {
   if (std::holds_alternative<std::monostate>(scene.system)) return;
   const size_t directions = TangentialDirections(scene.system);
@@ -90,13 +90,12 @@ void CheckTogether(const Scene& scene, Check& check) {
   });
 }
 
-// What is to be checked.
 enum class Scope {
   kAll,
-  kRelations,  // Only what another number may break: the scene was whole, and each number keeps its own rule.
+  kRelations,  // Only the rules that tie one number to another, for a scene that differs from a valid one in numbers.
 };
 
-// The rules that the fields decide.
+// Checks the rules that do not depend on the contact.
 void CheckFields(const Scene& scene, RestitutionIs restitution, Scope scope, Check& check) {
   CheckShape(scene.system, check);
   if (scope == Scope::kAll) {
@@ -126,7 +125,7 @@ std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution) {
 
 bool HasRelations(const Scene& scene) {
   if (!std::holds_alternative<Pendulum>(scene.system)) return true;
-  // A pendulum by itself: whatever else a scene may state could bring a rule with it.
+  // The numbers of a pendulum, its friction and its restitution keep no rules but their own. Any other part may.
   Scene plain;
   plain.system = scene.system;
   plain.friction.kinetic_coefficient = scene.friction.kinetic_coefficient;

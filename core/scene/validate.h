@@ -1,4 +1,5 @@
-// Validate: the door. Every rule that a scene must keep, all violations at once.
+// Validate: checks every rule that a scene must keep, and lists all violations at once. It is the door of the core: all
+// other code relies on a valid scene.
 
 #ifndef RICOCHET_CORE_SCENE_VALIDATE_H_
 #define RICOCHET_CORE_SCENE_VALIDATE_H_
@@ -10,18 +11,18 @@
 
 namespace ricochet {
 
-// Whether a scene may leave its restitution open: bounds do not need it.
+// Bounds hold for any restitution, so that a scene may leave it open there.
 enum class RestitutionIs { kRequired, kOptional };
 
-// Every violation of the rules in ricochet/scene.h, in field order; empty if the scene is valid. Paths start at the
-// scene: "pendulum.a_m", "friction.kinetic_coefficient", "restitution.energetic".
+// Lists every violation of the rules in ricochet/scene.h, in field order; the list is empty if the scene is valid. Paths
+// start at the scene: "pendulum.a_m", "friction.kinetic_coefficient", "restitution.energetic".
 std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution = RestitutionIs::kRequired);
 
-// Whether Validate(scene) finds nothing, without the cost of saying what, in a scene that differs only by numbers from
-// one in which it found nothing, if each of them keeps its own rule: Holds in core/scene/numbers.h.
+// A fast check for sweeps. `scene` must differ from a valid scene in numbers only, and every number must keep its own
+// rule (Holds in core/scene/numbers.h). Returns true if the rules between numbers hold as well.
 bool KeepsRelations(const Scene& scene);
 
-// Whether that can be false at all, whatever the numbers are.
+// False if KeepsRelations is true for all numbers that `scene` may have.
 bool HasRelations(const Scene& scene);
 
 }  // namespace ricochet

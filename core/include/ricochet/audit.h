@@ -1,7 +1,7 @@
 // Audit: what an observed impact implies, and which limits of an admissible impact it breaks.
 //
-// Mirrors ricochet.v1.AuditReport and AuditSummary. core/study/audit.h says how each number is found and how exact it
-// is. N s, J and m/s; coefficients are pure numbers.
+// These structs mirror ricochet.v1.AuditReport and AuditSummary. core/study/audit.h says how each number is found and
+// how exact it is. Units are N s, J and m/s; coefficients have none.
 
 #ifndef RICOCHET_AUDIT_H_
 #define RICOCHET_AUDIT_H_
@@ -17,78 +17,81 @@
 
 namespace ricochet {
 
-// What was seen after the impact: the velocity of the contact relative to the surface, or the rates of a pendulum (one)
-// or a linkage (one a link). std::monostate: the request left the choice open, which is a violation.
+// The observed state after the impact is either the velocity of the contact relative to the surface, or the rates of a
+// pendulum (one) or of a linkage (one for each link). std::monostate means that the request stated neither, which is a
+// violation.
 struct ObservedRates {
   std::vector<double> rates_rad_s;
   friend bool operator==(const ObservedRates&, const ObservedRates&) = default;
 };
 using Observed = std::variant<std::monostate, ContactVelocity, ObservedRates>;
 
-// At most this many rows a call.
+// A call may have at most this many rows.
 inline constexpr int64_t kMostAuditRows = 8192;
 
-// Many impacts of one scene, by columns: a value a row, or one for all rows; the longest has the number of rows.
-// Columns of the second tangential direction are for systems in space and only for them. Velocities are those of the
-// contact relative to the surface; a pendulum or a linkage may have its rates after the impact in place of them.
+// AuditColumns holds many impacts of one scene, one row for each impact. A column has one value for each row, or a
+// single value that holds for all rows; the longest column determines the number of rows. Systems in space, and only
+// they, have the columns of the second tangential direction. Velocities are those of the contact relative to the
+// surface; a pendulum or a linkage may state its rates after the impact in place of the velocities after it.
 struct AuditColumns {
-  std::vector<double> tangential_m_s;  // Before. Empty: the scene's own, all three.
+  std::vector<double> tangential_m_s;  // Velocity before the impact; if all three are empty, the scene's own holds.
   std::vector<double> tangential_2_m_s;
   std::vector<double> normal_m_s;
   std::vector<double> tangential_after_m_s;
   std::vector<double> tangential_2_after_m_s;
   std::vector<double> normal_after_m_s;
-  std::vector<double> friction;  // Kinetic and static. Empty: the scene's, at each row's approach speed.
-  std::vector<double> velocity_uncertainty_m_s;        // Empty: 0.
-  std::vector<std::vector<double>> rates_after_rad_s;  // A column a link; of a pendulum, one.
+  std::vector<double> friction;  // Both coefficients of friction; empty means the scene's, at each approach speed.
+  std::vector<double> velocity_uncertainty_m_s;        // Empty means 0.
+  std::vector<std::vector<double>> rates_after_rad_s;  // One column for each link; a pendulum has one.
   friend bool operator==(const AuditColumns&, const AuditColumns&) = default;
 };
 
-// The first two have the numbers of ricochet::LimitKind.
+// The first two limits have the same numbers as in ricochet::LimitKind.
 enum class AuditLimit { kUnspecified = 0, kSharp = 1, kEnergy = 2, kNormalImpulse = 3, kPenetration = 4, kCone = 5 };
 inline constexpr int kAuditLimitCount = 6;
 
 enum class Verdict {
   kUnspecified = 0,
   kKept = 1,
-  kWithinUncertainty = 2,  // Exceeded, but something within the uncertainty keeps it.
+  kWithinUncertainty = 2,  // The limit is exceeded, but some velocity within the uncertainty keeps it.
   kBroken = 3,
 };
 
 struct LimitCheck {
-  double value = 0.0;      // p_n, v+_n, |p_t|, E+ - E-, energetic coefficient
-  double limit = 0.0;      // 0, 0, mu p_n, 0, 1
-  double excess = 0.0;     // By how much the value is on the wrong side; negative where kept. Free of cancellation.
-  double allowance = 0.0;  // What the uncertainty can make of it.
+  double value = 0.0;      // kSharp: energetic coefficient; kEnergy: E+ - E-; then p_n, v+_n and |p_t|.
+  double limit = 0.0;      // kSharp: 1; kCone: mu p_n; all others: 0.
+  double excess = 0.0;     // How far the value lies beyond the limit, without cancellation; negative if it keeps it.
+  double allowance = 0.0;  // The largest excess that the uncertainty of the velocity can cause.
   Verdict verdict = Verdict::kUnspecified;
   friend bool operator==(const LimitCheck&, const LimitCheck&) = default;
 };
 
-// A plane uses the first tangential direction only; the other is 0.
+// The path is the impact that Coulomb friction gives, followed as far as the observed normal impulse. In a plane only
+// the first tangential direction is used; the second component is 0.
 struct AuditReport {
-  Regime regime = Regime::kUnspecified;  // What the path has done up to the normal impulse.
+  Regime regime = Regime::kUnspecified;  // The regime of the path up to the observed normal impulse.
   int w_rank = 0;
-  bool admissible = false;  // Explained, and no limit broken.
-  bool unexplained = false;
-  double distance = 0.0;           // From v+ to the nearest point of the path; 0 where explained.
-  bool compression_ended = false;  // False: p_n < tau_c. Then Poisson's coefficient is negative, the energetic one 0.
+  bool admissible = false;   // The observation is explained and breaks no limit.
+  bool unexplained = false;  // W is rank deficient or the contact separates, and the path misses the observed velocity.
+  double distance = 0.0;     // Distance of the observed velocity to the nearest point of the path, m/s; 0 if explained.
+  bool compression_ended = false;  // If false, p_n < tau_c, Poisson's coefficient is negative and the energetic one 0.
   double newton = 0.0;
   double poisson = 0.0;
   double energetic = 0.0;
-  double tangential = 0.0;  // p_t/p_n; in space |p_t|/p_n. 0 without a normal impulse.
-  double normal_impulse = 0.0;
-  double normal_impulse_compression = 0.0;  // tau_c of the path
-  std::array<double, 2> tangential_impulse = {};
-  std::array<double, 2> friction_mismatch = {};  // N s
-  double normal_impulse_uncertainty = 0.0;       // N s, as are the next
+  double tangential = 0.0;                        // p_t/p_n, in space |p_t|/p_n; 0 if there is no normal impulse.
+  double normal_impulse = 0.0;                    // p_n
+  double normal_impulse_compression = 0.0;        // tau_c of the path
+  std::array<double, 2> tangential_impulse = {};  // p_t
+  std::array<double, 2> friction_mismatch = {};   // p_t minus the tangential impulse of the path, N s.
+  double normal_impulse_uncertainty = 0.0;        // N s
   std::array<double, 2> tangential_impulse_uncertainty = {};
   double work_normal_compression = 0.0, work_normal_restitution = 0.0;
   double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
   double energy_change = 0.0;
   double residual = 0.0;
-  std::array<double, 2> path_tangential_velocity = {};  // Where the path is at that normal impulse.
+  std::array<double, 2> path_tangential_velocity = {};  // Velocity of the path at the observed normal impulse.
   double path_normal_velocity = 0.0;
-  std::array<LimitCheck, kAuditLimitCount> limits = {};  // By the number of the limit; [0] is not used.
+  std::array<LimitCheck, kAuditLimitCount> limits = {};  // Indexed by the number of the limit; [0] is not used.
 
   const LimitCheck& operator[](AuditLimit limit) const { return limits[static_cast<size_t>(limit)]; }
   friend bool operator==(const AuditReport&, const AuditReport&) = default;
@@ -97,11 +100,11 @@ struct AuditReport {
 struct AuditSummary {
   int64_t rows = 0;
   int64_t admissible = 0;
-  Tally invalid;  // Rows that break a rule or overflow; all else is not counted for them.
+  Tally invalid;  // Rows that break a rule or overflow; no other member counts them.
   Tally unexplained;
-  std::array<Tally, kAuditLimitCount> broken = {};              // By the number of the limit.
-  std::array<Tally, kAuditLimitCount> within_uncertainty = {};  // Exceeded, but not broken.
-  std::array<double, kAuditLimitCount> largest_excess = {};     // Of the broken ones; 0 where none is.
+  std::array<Tally, kAuditLimitCount> broken = {};              // Indexed by the number of the limit.
+  std::array<Tally, kAuditLimitCount> within_uncertainty = {};  // Limits exceeded by no more than the uncertainty.
+  std::array<double, kAuditLimitCount> largest_excess = {};  // Largest excess of a broken limit; 0 if none is broken.
   friend bool operator==(const AuditSummary&, const AuditSummary&) = default;
 };
 

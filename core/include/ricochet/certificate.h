@@ -1,6 +1,6 @@
 // Certificate: numbers proved to as many decimal digits as were asked for, beside the doubles of an answer.
 //
-// Mirrors ricochet.v1.Certificate field by field. core/certified/certified.h says what is proved, and how.
+// The structs mirror ricochet.v1.Certificate field by field. core/certified/certified.h says what is proved, and how.
 
 #ifndef RICOCHET_CERTIFICATE_H_
 #define RICOCHET_CERTIFICATE_H_
@@ -12,28 +12,30 @@
 
 namespace ricochet {
 
-// The most significant digits that can be asked for.
+// A request may ask for at most this many significant digits.
 inline constexpr int kMostCertifiedDigits = 1000;
 
 struct CertifiedNumber {
-  std::string path;  // As ricochet/outcome_numbers.h spells it; of bounds, from Bounds on: "sharp.newton.upper".
-  // Significant decimal digits as asked, the nearest to the number; of a number that an irrational W keeps too close to
-  // the middle of two, either neighbour, within 1 of the last digit. Trailing zeros after the point are left out where
-  // `exact`. Empty where all that is proved is [lower, upper].
+  // Path of a number of an outcome, spelled as in ricochet/outcome_numbers.h, or of a number of Bounds:
+  // "sharp.newton.upper".
+  std::string path;
+  // The decimal nearest to the number, with as many significant digits as asked for. If W is irrational and the number
+  // lies too close to the middle of two decimals, either of them may stand here, within 1 of the last digit. An `exact`
+  // decimal has no trailing zeros after the point. Empty if only [lower, upper] is proved.
   std::string decimal;
-  std::string lower;  // Rounded outward to the digits asked; empty where `decimal` is not.
+  std::string lower;  // Ends rounded outward to the digits asked for; empty if `decimal` is not.
   std::string upper;
-  double value =
-      0.0;  // The double nearest to the number, or to the middle of [lower, upper]; infinite above the largest.
-  bool exact = false;  // `decimal` is the number itself.
+  // The double nearest to the number, or to the middle of [lower, upper]; infinite above the largest double.
+  double value = 0.0;
+  bool exact = false;  // True if `decimal` is the number itself.
   friend bool operator==(const CertifiedNumber&, const CertifiedNumber&) = default;
 };
 
 struct Certificate {
   int digits = 0;
-  int precision_bits = 0;       // Of the arithmetic that the digits were taken from.
-  std::vector<Regime> regimes;  // One; of a set every regime that could not be excluded, in the order of the enum.
-  bool is_set = false;          // Of ranges; or some number is proved to lie between `lower` and `upper` alone.
+  int precision_bits = 0;       // Precision of the arithmetic that proved the digits.
+  std::vector<Regime> regimes;  // Every regime that could not be excluded, in the order of the enum; as a rule one.
+  bool is_set = false;          // True if for some number only the range [lower, upper] is proved.
   std::vector<CertifiedNumber> numbers;
   friend bool operator==(const Certificate&, const Certificate&) = default;
 };

@@ -8,8 +8,8 @@
 namespace ricochet {
 
 struct EngineInfo {
-  std::string version;      // Of the release, "major.minor.patch".
-  std::string fingerprint;  // 16 hex digits over the bits of a fixed set of solves: equal fingerprints, equal numbers.
+  std::string version;      // Version of the release, "major.minor.patch".
+  std::string fingerprint;  // 16 hex digits that hash a fixed set of answers: equal fingerprints mean equal bits.
   friend bool operator==(const EngineInfo&, const EngineInfo&) = default;
 };
 

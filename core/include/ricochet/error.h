@@ -1,6 +1,6 @@
-// Errors of the core: a bad request names every field that is wrong, its value and what would be right.
+// Errors: the message for a bad request names every field that is wrong, its value and what would be right.
 //
-// A failure that is the caller's travels as an absl::Status with a Reason and, for bad requests, the list of
+// A failure that the caller can cure travels as an absl::Status with an ErrorReason and, for a bad request, the list of
 // violations. A numerical outcome (inadmissible, locked, separating) is not an error: see ricochet/outcome.h.
 
 #ifndef RICOCHET_ERROR_H_
@@ -18,57 +18,58 @@ namespace ricochet {
 // Why a request failed, in a form that a program can act on. The numbers are those of ricochet.v1.ErrorReason.
 enum class ErrorReason {
   kUnspecified = 0,
-  kInvalidRequest = 1,       // INVALID_ARGUMENT: every violation is listed.
+  kInvalidRequest = 1,       // INVALID_ARGUMENT: the message lists every violation.
   kOutputOverflow = 2,       // OUT_OF_RANGE: an exact result lies above the largest double; the message names it.
   kInadmissibleOutcome = 3,  // FAILED_PRECONDITION: the caller asked that an inadmissible outcome be an error.
-  kTooManyCalls = 4,         // RESOURCE_EXHAUSTED: the server's limit on live calls; try again after a while.
+  kTooManyCalls = 4,         // RESOURCE_EXHAUSTED: the server has reached its limit on live calls; try again later.
   kSweepTooLarge = 5,        // RESOURCE_EXHAUSTED: more points than the server allows in one call; ask for sub-ranges.
-  kDraining = 6,             // UNAVAILABLE: the server is shutting down; another one, or a later try, will do.
-  kNotEnded = 7,             // OUT_OF_RANGE: an impact that bounds rest on has not ended within its model's steps.
+  kDraining = 6,             // UNAVAILABLE: the server is shutting down; ask another one, or try again later.
+  kNotEnded = 7,             // OUT_OF_RANGE: an impact that the bounds need did not end within its step budget.
 };
 
-// What could make a violation good.
+// The change to a request that could cure a violation.
 enum class ViolationKind {
-  kShape,    // Setting or leaving out a field, or another length of a list.
-  kValue,    // Another number in the field, or in one that the rule ties it to.
-  kContact,  // Another number in any field that shapes the contact or its velocity.
+  kShape,    // Set or leave out a field, or change the length of a list.
+  kValue,    // Change the number in the field, or a number that the rule ties it to.
+  kContact,  // Change a number in any field that determines the contact or its velocity.
 };
 
 // One wrong field of a request.
 struct Violation {
-  // Path of the field as the proto spells it: fields of the scene from the scene on ("friction.kinetic_coefficient"),
-  // all others from the request on ("axes[0].linspace.count").
+  // Path of the field as the proto spells it. The path of a field of the scene starts at the scene
+  // ("friction.kinetic_coefficient"), any other path at the request ("axes[0].linspace.count").
   std::string field;
-  // The value found and the rule it breaks: "= -0.1: must be >= 0". Text of the caller's in it is escaped.
+  // The value found and the rule it breaks: "= -0.1: must be >= 0". Text that came from the caller is escaped.
   std::string description;
 
-  // For the core alone: neither a status nor a comparison has them.
+  // The core alone uses these two members: a status does not carry them, and comparisons ignore them.
   ViolationKind kind = ViolationKind::kShape;
-  std::vector<std::string> tied_to = {};  // kValue: the other numbers that the rule takes in, by path.
+  std::vector<std::string> tied_to = {};  // kValue: the paths of the other numbers that the rule involves.
 
   friend bool operator==(const Violation& a, const Violation& b) {
     return a.field == b.field && a.description == b.description;
   }
 };
 
-// "= VALUE: must RULE", VALUE in the shortest form that reads back as the same double; of kind kValue.
+// Makes a violation of kind kValue with the description "= VALUE: must RULE". VALUE is the shortest decimal that reads
+// back as the same double.
 Violation MakeViolation(std::string field, double value, const std::string& rule,
                         std::vector<std::string> tied_to = {});
 
-// A status with a reason. `code` must not be OK.
+// Makes a status with a reason. `code` must not be OK.
 absl::Status MakeError(absl::StatusCode code, ErrorReason reason, const std::string& message);
 
-// INVALID_ARGUMENT that lists every violation, in the message and as data. `violations` must not be empty.
+// Makes an INVALID_ARGUMENT that lists every violation, in the message and as data. `violations` must not be empty.
 absl::Status InvalidRequest(const std::vector<Violation>& violations);
 
-// OUT_OF_RANGE naming the output, a path such as "outcome.work.normal_compression_j".
+// Makes an OUT_OF_RANGE that names the output by its path, such as "outcome.work.normal_compression_j".
 absl::Status OutputOverflow(const std::string& path);
 
-// What the functions above put into a status; empty or kUnspecified where there is none.
+// These two read what the functions above have put into a status: kUnspecified or empty if there is nothing.
 ErrorReason ReasonOf(const absl::Status& status);
 std::vector<Violation> ViolationsOf(const absl::Status& status);
 
-// When a retry may succeed; absent where a retry of the same call cannot.
+// The retry delay says after which time the same call may succeed; it is absent if a retry cannot succeed.
 void SetRetryDelay(std::chrono::milliseconds delay, absl::Status& status);
 std::optional<std::chrono::milliseconds> RetryDelayOf(const absl::Status& status);
 

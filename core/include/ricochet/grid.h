@@ -1,7 +1,8 @@
 // Grid: a base scene and the axes that drive it.
 //
-// kProduct: every combination of the axes' values, the last axis runs fastest. kZip: the axes advance together and are
-// equally long. Nothing is stored per point, so a grid of 10^9 points costs what one of 10 does.
+// A kProduct grid has a point for every combination of the axes' values, and the last axis runs fastest. The axes of a
+// kZip grid are equally long and advance together. Nothing is stored per point, so a grid of 10^9 points needs no more
+// memory than one of 10.
 
 #ifndef RICOCHET_GRID_H_
 #define RICOCHET_GRID_H_
@@ -20,7 +21,7 @@ struct ListValues {
   friend bool operator==(const ListValues&, const ListValues&) = default;
 };
 
-// `count` values from `start` to `stop`, both ends exact, evenly spaced. count = 1 is `start`.
+// A Linspace is `count` evenly spaced values from `start` to `stop`; both ends are exact. One value is `start`.
 struct Linspace {
   double start = 0.0;
   double stop = 0.0;
@@ -28,7 +29,7 @@ struct Linspace {
   friend bool operator==(const Linspace&, const Linspace&) = default;
 };
 
-// `count` values from `start` to `stop`, both > 0 and exact, evenly spaced in their logarithm.
+// A Logspace is `count` values from `start` to `stop`, both > 0, evenly spaced in their logarithm; both ends are exact.
 struct Logspace {
   double start = 0.0;
   double stop = 0.0;
@@ -51,7 +52,7 @@ enum class Combination {
 
 struct Grid {
   Scene scene;
-  std::vector<Axis> axes;  // None: the base scene alone, one point.
+  std::vector<Axis> axes;  // A grid without axes has one point, the base scene.
   Combination combination = Combination::kUnspecified;
   friend bool operator==(const Grid&, const Grid&) = default;
 };

@@ -1,6 +1,8 @@
-// Where a number of a scene or an outcome stands, PREFIX[ENTRY].NAME[INDEX], as the proto spells it:
-// "linkage.links[1].theta_rad". Indices are left out where they are negative, an empty prefix with its dot. It becomes
-// text only when somebody asks.
+// NumberPath: the path PREFIX[ENTRY].NAME[INDEX] of a number of a scene or an outcome, as the proto spells it:
+// "linkage.links[1].theta_rad".
+//
+// A negative index is left out, and so are an empty prefix and its dot. The path becomes text only when Text() is
+// called, because most paths are never printed.
 
 #ifndef RICOCHET_NUMBER_PATH_H_
 #define RICOCHET_NUMBER_PATH_H_

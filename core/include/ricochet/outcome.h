@@ -1,8 +1,9 @@
-// Outcome: what is answered. Velocities, impulses, coefficients, works, events and limits broken by one impact.
+// Outcome: the answer. It holds the velocities, impulses, coefficients, works and events of one impact, and the limits
+// that it breaks.
 //
-// Mirrors ricochet.v1.Outcome field by field. SI units and radians. Tangential quantities are along t, normal ones
-// along n (ricochet/scene.h); impulses act on the striking body; contact velocities are relative to the surface.
-// `energy_change_j` is E+ - E-, negative for a loss.
+// The structs mirror ricochet.v1.Outcome field by field. Units are SI units and radians. Tangential quantities are along
+// t, normal ones along n (ricochet/system.h); impulses act on the striking body; contact velocities are relative to the
+// surface. `energy_change_j` is E+ - E-, negative for a loss.
 
 #ifndef RICOCHET_OUTCOME_H_
 #define RICOCHET_OUTCOME_H_
@@ -25,7 +26,7 @@ struct Coefficients {
   friend bool operator==(const Coefficients&, const Coefficients&) = default;
 };
 
-// Lists are by tangential direction: one entry in a plane, two in space.
+// Tangential lists, here and below, have one entry for each tangential direction: one in a plane, two in space.
 struct ContactVelocity {
   std::vector<double> tangential_m_s;
   double normal_m_s = 0.0;
@@ -40,7 +41,7 @@ struct Impulse {
 };
 
 // Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j. An
-// impact law knows no phases: all four are 0, the residual is that of the two totals.
+// impact law has no phases: all four are then 0, and the residual is that of the two totals.
 struct WorkLedger {
   double normal_compression_j = 0.0;
   double normal_restitution_j = 0.0;
@@ -49,13 +50,13 @@ struct WorkLedger {
   double normal_total_j = 0.0;          // -(energy lost to irreversible deformation), Lubarda Eq. (37).
   double tangential_total_j = 0.0;      // -(energy lost to friction and left in a tangential spring), Lubarda Eq. (35).
   double friction_dissipation_j = 0.0;  // >= 0
-  double tangential_spring_j = 0.0;     // Left in the tangential spring of a compliant contact, and lost. >= 0.
+  double tangential_spring_j = 0.0;     // Energy left in the tangential spring of a compliant contact, and lost. >= 0.
   double residual_j = 0.0;              // Sum of the four works minus energy_change_j: rounding only.
   friend bool operator==(const WorkLedger&, const WorkLedger&) = default;
 };
 
-// An instant of the impact. In a plane, every quantity is linear in the normal impulse between two events.
-// The numbers are those of ricochet.v1.Event.Kind.
+// An event is an instant at which the motion of the contact changes. In a plane, every quantity is linear in the normal
+// impulse between two events. The numbers are those of ricochet.v1.Event.Kind.
 enum class EventKind {
   kUnspecified = 0,
   kStart = 1,
@@ -71,7 +72,7 @@ struct State {
   double normal_impulse_n_s = 0.0;             // tau, the paper's independent variable, Eq. (3).
   std::vector<double> tangential_impulse_n_s;  // f(tau), Eq. (48).
   ContactVelocity contact_velocity;            // u(tau), v(tau).
-  std::vector<double> rates_rad_s;             // w(tau), Eq. (9): one a link; empty for systems without joints.
+  std::vector<double> rates_rad_s;  // omega(tau), Eq. (9): one for each link; empty for systems without joints.
   friend bool operator==(const State&, const State&) = default;
 };
 
@@ -97,7 +98,8 @@ struct BrokenLimit {
   friend bool operator==(const BrokenLimit&, const BrokenLimit&) = default;
 };
 
-// A free body, moving. Along and about t1, t2, n in space; in a plane along t and n, and counter-clockwise.
+// The velocity of a free body. In space its components are along and about t1, t2 and n; in a plane the linear ones are
+// along t and n, and the angular one is counter-clockwise.
 struct BodyVelocity {
   std::vector<double> linear_m_s;
   std::vector<double> angular_rad_s;
@@ -108,20 +110,21 @@ struct BodyVelocity {
 struct EffectiveCoefficients {
   double kinetic_friction = 0.0;
   double static_friction = 0.0;
-  double restitution = 0.0;  // By the scene's definition; e of an impact law.
+  double restitution = 0.0;  // In the scene's definition; e for an impact law.
   friend bool operator==(const EffectiveCoefficients&, const EffectiveCoefficients&) = default;
 };
 
 // The numbers are those of ricochet.v1.Accuracy.Kind.
 enum class AccuracyKind {
   kUnspecified = 0,
-  kBound = 1,     // Proved.
-  kEstimate = 2,  // Testing has not found it below the true error.
+  kBound = 1,     // The true error is proved to be no larger.
+  kEstimate = 2,  // No test has found a true error that is larger, but there is no proof.
 };
 
-// How exact the contact velocity after the impact is, taking W and the one before as exact, and what that took.
+// Accuracy of the contact velocity after the impact, with W and the velocity before it taken as exact, and the effort
+// of the computation.
 struct Accuracy {
-  double relative_error = 0.0;  // Of each component over max(|u0|, |v0|).
+  double relative_error = 0.0;  // Error of each component divided by max(|u0|, |v0|).
   AccuracyKind kind = AccuracyKind::kUnspecified;
   int64_t steps = 0;             // 0 for a closed form.
   int64_t right_hand_sides = 0;  // 0 for a closed form.
@@ -139,17 +142,18 @@ struct ForceSample {
   friend bool operator==(const ForceSample&, const ForceSample&) = default;
 };
 
-// An impact that takes time.
+// Duration, peaks and force history of an impact that takes time.
 struct ContactDuration {
   double duration_s = 0.0;
   double peak_normal_n = 0.0;
-  double peak_tangential_n = 0.0;    // Largest |F|.
-  double indentation_m = 0.0;        // The largest.
-  std::vector<ForceSample> history;  // At equal steps of time from first to last touch; SolveRequest::force_intervals.
+  double peak_tangential_n = 0.0;  // Largest magnitude of the tangential force.
+  double indentation_m = 0.0;      // Largest indentation.
+  // Samples at equal steps of time from first to last touch, if SolveRequest::force_intervals asks for them.
+  std::vector<ForceSample> history;
   friend bool operator==(const ContactDuration&, const ContactDuration&) = default;
 };
 
-// One of several ends that an impact law allows.
+// An impact law may allow several ends of an impact; this is one of them.
 struct ImpactSolution {
   ContactVelocity contact_velocity_after;
   Impulse impulse;
@@ -161,20 +165,20 @@ struct Outcome {
   bool admissible = true;  // False exactly if broken_limits is not empty.
   std::vector<BrokenLimit> broken_limits;
   int w_rank = 0;                         // Rank of the contact-space inverse inertia W; 1 for a pendulum.
-  Coefficients coefficients;              // All 0 where separating or locked, but the tangential one.
-  std::vector<double> rates_after_rad_s;  // One a link; pendulum: one, w+. Empty for systems without joints.
+  Coefficients coefficients;              // All 0 but the tangential one if separating or locked.
+  std::vector<double> rates_after_rad_s;  // One for each link; a pendulum has omega+. Empty for systems without joints.
   ContactVelocity contact_velocity_after;
   Impulse impulse;
   WorkLedger work;
   double energy_change_j = 0.0;
-  std::vector<Event> timeline;             // In order of normal impulse; empty where separating.
+  std::vector<Event> timeline;             // In order of normal impulse; empty if the contact separates.
   std::vector<State> history;              // One for each SolveRequest.history_at_n_s, in that order.
-  std::vector<BodyVelocity> bodies_after;  // Body 1 first. Empty for systems that are no free bodies.
+  std::vector<BodyVelocity> bodies_after;  // Body 1 first. Empty for systems other than free bodies.
   EffectiveCoefficients effective;
   Accuracy accuracy;
-  std::vector<ImpactSolution> alternatives;  // Of a Kane-Levinson law with several solutions or none.
+  std::vector<ImpactSolution> alternatives;  // Every solution of a Kane-Levinson law that has several or none.
   Plan plan;
-  std::optional<ContactDuration> contact;  // Present exactly if the model is that of finite duration.
+  std::optional<ContactDuration> contact;  // Present exactly if the model is Model::kFiniteDuration.
   std::optional<Certificate> certificate;  // Present exactly if SolveRequest::certified_digits asks for it.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };

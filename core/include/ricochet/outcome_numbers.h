@@ -1,7 +1,7 @@
 // VisitOutcomeNumbers: every number of an outcome that a sweep can ask for, with its path.
 //
-// Lists have the same length whatever becomes of the impact, so that the numbers of all outcomes of one system stand in
-// the same order.
+// The lists of an outcome have the same lengths for every impact of one system, so that all its outcomes have their
+// numbers in the same order.
 
 #ifndef RICOCHET_OUTCOME_NUMBERS_H_
 #define RICOCHET_OUTCOME_NUMBERS_H_
@@ -14,7 +14,8 @@
 
 namespace ricochet {
 
-// Calls visit(path, number). Paths start at the outcome: "coefficients.newton", "bodies_after[0].linear_m_s[1]".
+// Calls visit(path, number) for every number. Paths start at the outcome: "coefficients.newton",
+// "bodies_after[0].linear_m_s[1]".
 template <typename Visitor>
 void VisitOutcomeNumbers(const Outcome& outcome, const Visitor& visit) {
   const auto one = [&visit](const char* prefix, const char* name, double number) {

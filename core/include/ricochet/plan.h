@@ -1,8 +1,8 @@
 // Plan: which effects an impact was computed with, which were left out, why, and what that can change.
 //
 // core/plan/sizes.h proves the size of each effect, core/plan/choose.h takes the cheapest model within a demand
-// (core/plan/demand.h), core/plan/explain.h says why. Sizes add up: `neglected` is the sum of those left out, and the
-// answer is within that, and the model's own error, of the answer with all effects of the scene.
+// (core/plan/demand.h), core/plan/explain.h says why. Sizes add up: `neglected` is the sum of the sizes left out. The
+// answer differs from the one with all effects of the scene by at most `neglected` plus the model's own error.
 
 #ifndef RICOCHET_PLAN_H_
 #define RICOCHET_PLAN_H_
@@ -12,36 +12,37 @@
 
 namespace ricochet {
 
-// What may matter in an impact. The numbers are those of ricochet.v1.Effect.
+// An effect is a part of the physics that an impact may be computed with or without. The numbers are those of
+// ricochet.v1.Effect.
 enum class Effect {
   kUnspecified = 0,
   kFriction = 1,
-  kSlipStop = 2,              // Slip that comes to rest, to stick or to reverse.
-  kSlipTurn = 3,              // Slip that turns, in space.
-  kStaticFriction = 4,        // A coefficient of static friction above the kinetic one.
-  kTangentialCompliance = 5,  // A contact that gives way along the surface.
-  kFiniteDuration = 6,        // An indentation that takes time.
-  kFiniteForces = 7,          // Gravity and the like, at work during the contact.
-  kHigherOrder = 8,           // What lies beyond first order in x = mu |b|/a, of a pendulum.
+  kSlipStop = 2,              // Slip stops, and the contact then sticks or slips in reverse.
+  kSlipTurn = 3,              // Slip changes its direction, in space.
+  kStaticFriction = 4,        // The coefficient of static friction is above the kinetic one.
+  kTangentialCompliance = 5,  // The contact deforms along the surface.
+  kFiniteDuration = 6,        // The indentation takes time.
+  kFiniteForces = 7,          // Finite forces such as gravity do work during the contact.
+  kHigherOrder = 8,           // A pendulum's terms beyond first order in x = mu |b|/a.
 };
 inline constexpr int kEffectCount = 9;
 
 // The numbers are those of ricochet.v1.PlannedEffect.Decision.
 enum class Decision {
   kUnspecified = 0,
-  kAbsent = 1,  // The scene has it not, or it provably never comes into play.
+  kAbsent = 1,  // The scene does not have the effect, or it provably never comes into play.
   kSimulated = 2,
-  kNegligible = 3,  // Left out: what all such can change together is within the tolerance.
-  kRequired = 4,    // Simulated because the caller says so.
-  kExcluded = 5,    // Left out because the caller says so, whatever that changes.
+  kNegligible = 3,  // Left out: all negligible effects together change the answer within the tolerance.
+  kRequired = 4,    // Simulated because the caller requires it.
+  kExcluded = 5,    // Left out because the caller excludes it, whatever that changes.
 };
 
 struct PlannedEffect {
   Effect effect = Effect::kUnspecified;
   Decision decision = Decision::kUnspecified;
-  // The most that leaving it out changes in any contact velocity, or in an impulse times its mobility (Wnn tau, Wtt f;
-  // in space (W11 + W22) |f|), over max(|u0|, |v0|). 0 where absent, and for what friction does where friction itself
-  // is left out; infinite where no bound is known.
+  // Bound on the change that leaving the effect out makes in any contact velocity, or in an impulse times its mobility
+  // (Wnn tau, Wtt f; in space (W11 + W22) |f|), divided by max(|u0|, |v0|). 0 if the effect is absent, or if it is an
+  // effect of friction and friction itself is left out; infinite if no bound is known.
   double size = 0.0;
   std::string reason;  // One sentence: where the size comes from, with its numbers.
   friend bool operator==(const PlannedEffect&, const PlannedEffect&) = default;
@@ -65,8 +66,8 @@ inline constexpr int kModelCount = 11;
 
 struct Plan {
   Model model = Model::kUnspecified;
-  double relative_tolerance = 0.0;     // As asked for.
-  double neglected = 0.0;              // What all effects left out can change together: the sum of their sizes.
+  double relative_tolerance = 0.0;     // Tolerance asked for.
+  double neglected = 0.0;              // Sum of the sizes of all effects left out; bounds what they change together.
   std::vector<PlannedEffect> effects;  // Every effect once, in order of their numbers.
   friend bool operator==(const Plan&, const Plan&) = default;
 };

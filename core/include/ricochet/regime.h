@@ -1,11 +1,11 @@
-// Regime: what the contact point did, in one word.
+// Regime: the course of the contact during the impact, in one word.
 
 #ifndef RICOCHET_REGIME_H_
 #define RICOCHET_REGIME_H_
 
 namespace ricochet {
 
-// What the contact point did. The numbers are those of ricochet.v1.Regime.
+// The numbers are those of ricochet.v1.Regime.
 enum class Regime {
   kUnspecified = 0,
   kFrictionless = 1,  // x = mu |b|/a = 0: no tangential coupling, the three coefficients are equal.
@@ -15,12 +15,12 @@ enum class Regime {
   kStickInRestitution = 5,
   kReversalInCompression = 6,
   kReversalInRestitution = 7,
-  kLocked = 8,       // The pin and friction hold the body: no restitution, velocities 0, coefficients 0.
-  kWedged = 9,       // It has not ended, as far as its model has followed it: the error is infinite.
+  kLocked = 8,       // The constraints and friction hold the body: no restitution, velocities 0, coefficients 0.
+  kWedged = 9,       // The impact had not ended when the model's step budget ran out: the error is infinite.
   kSeparating = 10,  // The contact does not approach: nothing changes.
-  kInvalid = 11,     // Sweeps and batches only: a point that breaks a rule or overflows; its columns are quiet NaN.
-  kByLaw = 12,       // An impact law says how the impact ends, not how it goes on: nothing is known by phases.
-  kNoSolution = 13,  // An impact law contradicts itself: no impulse, nothing changes.
+  kInvalid = 11,     // Sweeps and batches only: the point breaks a rule or overflows; its columns are quiet NaN.
+  kByLaw = 12,       // An impact law gives the end of the impact but not its course: no phases are known.
+  kNoSolution = 13,  // The impact law has no solution: there is no impulse, and nothing changes.
 };
 inline constexpr int kRegimeCount = 14;
 

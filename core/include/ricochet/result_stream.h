@@ -24,13 +24,13 @@ namespace ricochet {
 template <typename T>
 class ResultStream {
  public:
-  // Gives the next element, or nothing at the end. Not called again after nothing or an error.
-  // What it holds is released with the stream.
+  // A source gives the next element, or nothing at the end. It is not called again after nothing or an error, and it is
+  // destroyed with the stream.
   using Source = absl::AnyInvocable<std::optional<absl::StatusOr<T>>()>;
 
   explicit ResultStream(Source source) : source_(std::move(source)) {}
 
-  // A stream of one error.
+  // Makes a stream of one error.
   explicit ResultStream(absl::Status error)
       : source_([error = std::move(error)]() -> std::optional<absl::StatusOr<T>> { return error; }) {}
 

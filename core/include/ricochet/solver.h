@@ -1,8 +1,8 @@
 // Solver: the one interface. LocalSolver answers in this process, Client asks a server; both give the same bits.
 //
 // Thread safety: every method may be called from several threads at once.
-// Errors: INVALID_ARGUMENT with all violations (ricochet/error.h) for a bad request; OUT_OF_RANGE for an exact result above
-// the largest double; a Client adds those of the network. Numerical outcomes are fields of the answer, not errors.
+// Errors: a bad request gets INVALID_ARGUMENT with all violations (ricochet/error.h), an exact result above the largest
+// double OUT_OF_RANGE; a Client adds the errors of the network. Numerical outcomes are fields of the answer, not errors.
 
 #ifndef RICOCHET_SOLVER_H_
 #define RICOCHET_SOLVER_H_
@@ -27,23 +27,22 @@
 
 namespace ricochet {
 
-// The most forces of one request's history.
+// A request may ask for the forces at the ends of at most this many steps of time.
 inline constexpr int64_t kMostForceIntervals = 65535;
 
 struct SolveRequest {
   Scene scene;
-  // Normal impulses tau at which the state is asked for (Outcome::history), each in [0, tau1]; at most 65,536.
+  // Normal impulses tau at which Outcome::history gives the state, each in [0, tau1]; at most 65,536.
   std::vector<double> history_at_n_s;
-  // Turns an outcome with admissible = false into FAILED_PRECONDITION.
+  // If true, an outcome with admissible = false becomes FAILED_PRECONDITION.
   bool inadmissible_is_error = false;
   DemandFields demand;
-  bool plan_only = false;  // Answers Outcome::plan alone.
-  // > 0: ContactDuration::history at so many equal steps of time, which requires Effect::kFiniteDuration. At most
-  // kMostForceIntervals.
+  bool plan_only = false;  // If true, the outcome has its plan alone.
+  // If > 0, ContactDuration::history has the forces at this many equal steps of time, at most kMostForceIntervals. This
+  // requires Effect::kFiniteDuration.
   int64_t force_intervals = 0;
-  // > 0: Outcome::certificate to so many significant digits, at most kMostCertifiedDigits; 0: none. Not with plan_only
-  // nor with excluded effects.
-  // core/certified/certified.h says for which scenes.
+  // If > 0, Outcome::certificate has this many significant digits, at most kMostCertifiedDigits. It must be 0 with
+  // plan_only and with excluded effects. core/certified/certified.h says which scenes can be certified.
   int32_t certified_digits = 0;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };
@@ -54,9 +53,9 @@ struct SolveResponse {
   friend bool operator==(const SolveResponse&, const SolveResponse&) = default;
 };
 
-// What a field of an uncertain scene lies between.
+// The range in which a field of an uncertain scene lies.
 struct FieldRange {
-  std::string path;  // As an axis of a sweep spells it (core/scene/field.h).
+  std::string path;  // Path of the field, spelled as for an axis of a sweep (core/scene/field.h).
   double low = 0.0;
   double high = 0.0;
   friend bool operator==(const FieldRange&, const FieldRange&) = default;
@@ -64,45 +63,45 @@ struct FieldRange {
 
 struct BoundsRequest {
   Scene scene;  // Its restitution may be left unset.
-  // Asks for an enclosure. Of any fields of a planar system, of friction's coefficients and of the surface's velocity
-  // (core/answer/scene_enclosure.h).
+  // Ranges ask for an enclosure. All fields of a planar system, the coefficients of friction and the velocity of the
+  // surface may have one (core/answer/scene_enclosure.h).
   std::vector<FieldRange> ranges;
-  int32_t certified_digits = 0;  // As in SolveRequest, for BoundsResponse::certificate.
+  int32_t certified_digits = 0;  // Digits of BoundsResponse::certificate; the rules of SolveRequest hold.
   friend bool operator==(const BoundsRequest&, const BoundsRequest&) = default;
 };
 
 struct BoundsResponse {
-  Bounds bounds;  // Of the scene as it stands.
+  Bounds bounds;  // Bounds of the request's scene; ranges do not change them.
   EngineInfo engine;
-  std::optional<Enclosure> enclosure;      // Over all scenes whose fields lie in the ranges; absent if there are none.
-  std::optional<Certificate> certificate;  // Of `bounds`; present exactly if certified_digits asks for it.
+  std::optional<Enclosure> enclosure;      // Present if there are ranges; holds for all scenes within them.
+  std::optional<Certificate> certificate;  // Certifies `bounds`; present exactly if certified_digits asks for it.
   friend bool operator==(const BoundsResponse&, const BoundsResponse&) = default;
 };
 
 struct AuditRequest {
   Scene scene;  // Its restitution and impact law are not used and may be left unset.
   Observed observed;
-  double velocity_uncertainty_m_s = 0.0;  // Of each component of the observed contact velocity, >= 0.
+  double velocity_uncertainty_m_s = 0.0;  // Bound on the error of each component of the observed velocity, >= 0.
   friend bool operator==(const AuditRequest&, const AuditRequest&) = default;
 };
 
 struct AuditResponse {
   AuditReport report;
-  // 1/2 v-.W+ v- before the impact, to double precision times the condition of W: the least kinetic energy with this
-  // contact velocity, the most that an impact can take; all there is if the contact's motion is that of the system.
+  // 1/2 v-.W+ v- with the pseudo-inverse W+ of W, to double precision times the condition of W. This is the least
+  // kinetic energy that goes with the contact velocity before the impact, and the most that an impact can dissipate.
   double contact_energy_j = 0.0;
   EngineInfo engine;
   friend bool operator==(const AuditResponse&, const AuditResponse&) = default;
 };
 
 struct AuditBatchRequest {
-  Scene scene;  // As in AuditRequest.
+  Scene scene;  // Its restitution and impact law are not used and may be left unset.
   AuditColumns columns;
   friend bool operator==(const AuditBatchRequest&, const AuditBatchRequest&) = default;
 };
 
 struct AuditBatchResponse {
-  std::vector<AuditReport> reports;  // One a row; of one that breaks a rule or overflows: kInvalid, all else 0.
+  std::vector<AuditReport> reports;  // One for each row; kInvalid and all else 0 if the row breaks a rule or overflows.
   AuditSummary summary;
   EngineInfo engine;
   friend bool operator==(const AuditBatchResponse&, const AuditBatchResponse&) = default;
@@ -114,25 +113,25 @@ class Solver {
  public:
   virtual ~Solver() = default;
 
-  // One impact.
+  // Computes one impact.
   virtual absl::StatusOr<SolveResponse> Solve(const SolveRequest& request) const = 0;
 
-  // The values that the coefficients can take.
+  // Bounds the values that the coefficients can take.
   virtual absl::StatusOr<BoundsResponse> Bounds(const BoundsRequest& request) const = 0;
 
-  // What an impact that was observed implies, and which limits it breaks.
+  // Finds what an observed impact implies, and which limits it breaks.
   virtual absl::StatusOr<AuditResponse> Audit(const AuditRequest& request) const = 0;
 
-  // The same of many impacts at one contact. A bad row does not spoil the others.
+  // Audits many observed impacts at one contact. A bad row does not spoil the others.
   virtual absl::StatusOr<AuditBatchResponse> AuditBatch(const AuditBatchRequest& request) const = 0;
 
-  // Many impacts, streamed; points in index order, none twice, none left out. Ends with CANCELLED at most 1024 points
-  // after `stop` was requested. A request that is invalid gives a stream of that one error.
+  // Computes many impacts and streams them in index order, each point once. The stream ends with CANCELLED at most 1024
+  // points after `stop` was requested. An invalid request gives a stream of that one error.
   virtual SweepStream Sweep(const SweepRequest& request, std::stop_token stop) const = 0;
   SweepStream Sweep(const SweepRequest& request) const { return Sweep(request, std::stop_token()); }
 };
 
-// The Solver that runs in this process: no server, no thread, no file. Copying it costs nothing.
+// LocalSolver is the Solver that runs in this process: it needs no server, thread or file. Copying it costs nothing.
 class LocalSolver final : public Solver {
  public:
   using Solver::Sweep;

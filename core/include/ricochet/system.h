@@ -1,7 +1,8 @@
-// System: what strikes. A body or a mechanism, or the contact alone as another program sees it.
+// System: the body or mechanism that strikes, or the contact alone as another program sees it.
 //
 // t points along the surface to the right, n out of it into the striking body; angles and rates are counter-clockwise
-// in the plane (t, n). SI units and radians. Every number must be finite. Lists have a fixed length, given beside each.
+// in the plane (t, n). Units are SI units and radians. Every number must be finite. Each list has the fixed length that
+// its comment states.
 
 #ifndef RICOCHET_SYSTEM_H_
 #define RICOCHET_SYSTEM_H_
@@ -13,12 +14,13 @@
 namespace ricochet {
 
 // A rigid body that turns about a fixed frictionless pin O and strikes a fixed horizontal surface at the point
-// (a, -b) seen from O. Contact velocity: u = b w along t, v = a w along n. Lubarda (2009), Fig. 1 and Eq. (1).
+// (a, -b) seen from O. With its rate omega the contact velocity is u = b omega along t and v = a omega along n. Lubarda
+// (2009), Fig. 1 and Eq. (1).
 struct Pendulum {
-  double inertia_kg_m2 = 0.0;      // J0 about the pin, > 0.
-  double a_m = 0.0;                // Horizontal distance pin to contact, > 0.
-  double b_m = 0.0;                // Depth of the contact below the pin, of either sign.
-  double omega_minus_rad_s = 0.0;  // w-, the angular velocity of incidence; >= 0 means separating: nothing happens.
+  double inertia_kg_m2 = 0.0;      // J0, moment of inertia about the pin, > 0.
+  double a_m = 0.0;                // Horizontal distance from the pin to the contact, > 0.
+  double b_m = 0.0;                // Depth of the contact below the pin; may have either sign.
+  double omega_minus_rad_s = 0.0;  // Angular velocity of incidence; if >= 0 the contact separates, nothing happens.
 
   friend bool operator==(const Pendulum&, const Pendulum&) = default;
 };
@@ -26,10 +28,10 @@ struct Pendulum {
 // A free rigid body in the plane. u = velocity_t - rate offset_n, v = velocity_n + rate offset_t.
 struct PlanarBody {
   double mass_kg = 0.0;            // > 0
-  double inertia_com_kg_m2 = 0.0;  // About the centre of mass, > 0.
-  double offset_t_m = 0.0;         // From the centre of mass to the contact point.
+  double inertia_com_kg_m2 = 0.0;  // Moment of inertia about the centre of mass, > 0.
+  double offset_t_m = 0.0;         // Vector from the centre of mass to the contact point.
   double offset_n_m = 0.0;
-  double velocity_t_m_s = 0.0;  // Of the centre of mass.
+  double velocity_t_m_s = 0.0;  // Velocity of the centre of mass.
   double velocity_n_m_s = 0.0;
   double rate_rad_s = 0.0;
 
@@ -39,10 +41,10 @@ struct PlanarBody {
 // A free rigid body in space, everything in the right-handed contact frame (t1, t2, n).
 struct SpatialBody {
   double mass_kg = 0.0;                   // > 0
-  std::vector<double> inertia_com_kg_m2;  // 11 12 13 22 23 33, positive definite.
-  std::vector<double> offset_m;           // 3: from the centre of mass to the contact point.
-  std::vector<double> linear_m_s;         // 3: of the centre of mass.
-  std::vector<double> angular_rad_s;      // 3
+  std::vector<double> inertia_com_kg_m2;  // 6 entries 11 12 13 22 23 33 of a positive definite matrix.
+  std::vector<double> offset_m;           // 3 components of the vector from the centre of mass to the contact point.
+  std::vector<double> linear_m_s;         // 3 components of the velocity of the centre of mass.
+  std::vector<double> angular_rad_s;      // 3 components of the angular velocity.
 
   friend bool operator==(const SpatialBody&, const SpatialBody&) = default;
 };
@@ -61,7 +63,7 @@ struct SpatialPair {
 
   friend bool operator==(const SpatialPair&, const SpatialPair&) = default;
 };
-// std::monostate: the request left the choice open, which Validate reports.
+// std::monostate means that the request stated no bodies, which Validate reports.
 struct BodyPair {
   std::variant<std::monostate, PlanarPair, SpatialPair> bodies;
 
@@ -69,12 +71,12 @@ struct BodyPair {
 };
 
 struct Link {
-  double length_m = 0.0;           // Joint to joint, or to the tip, > 0.
+  double length_m = 0.0;           // Distance from its joint to the next joint or to the tip, > 0.
   double mass_kg = 0.0;            // > 0
-  double com_m = 0.0;              // From the joint where it hangs to its centre of mass, along the link.
-  double inertia_com_kg_m2 = 0.0;  // About its centre of mass, > 0.
-  double theta_rad = 0.0;          // From the downward vertical, not from the link before.
-  double rate_rad_s = 0.0;         // Not relative to the link before.
+  double com_m = 0.0;              // Distance from its joint to its centre of mass, along the link.
+  double inertia_com_kg_m2 = 0.0;  // Moment of inertia about its centre of mass, > 0.
+  double theta_rad = 0.0;          // Absolute angle from the downward vertical, not relative to the link before.
+  double rate_rad_s = 0.0;         // Absolute rate, not relative to the link before.
 
   friend bool operator==(const Link&, const Link&) = default;
 };
@@ -98,20 +100,20 @@ struct PlanarContact {
   friend bool operator==(const PlanarContact&, const PlanarContact&) = default;
 };
 
-// The same in space, n last.
+// A contact in space: W and the contact velocity with the rules of PlanarContact; the third direction is n.
 struct SpatialContact {
-  std::vector<double> w_per_kg;        // 11 12 13 22 23 33, positive semidefinite.
-  std::vector<double> tangential_m_s;  // 2
+  std::vector<double> w_per_kg;        // 6 entries 11 12 13 22 23 33 of a positive semidefinite matrix.
+  std::vector<double> tangential_m_s;  // 2 components along t1 and t2.
   double normal_m_s = 0.0;
 
   friend bool operator==(const SpatialContact&, const SpatialContact&) = default;
 };
 
-// std::monostate: the request left the choice open, which Validate reports.
+// std::monostate means that the request stated no system, which Validate reports.
 using System =
     std::variant<std::monostate, Pendulum, PlanarBody, SpatialBody, BodyPair, Linkage, PlanarContact, SpatialContact>;
 
-// The number of tangential directions of a system that is set: 1 in a plane, 2 in space.
+// The number of tangential directions: 1 in a plane, 2 in space. The system must be set.
 size_t TangentialDirections(const System& system);
 
 }  // namespace ricochet

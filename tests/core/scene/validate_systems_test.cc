@@ -262,7 +262,7 @@ std::vector<BadScene> BadEffects() {
          s.impact_law = WhittakerLaw{0.5};
          s.compliance = Ratio();
        }),
-       "compliance", "is set beside an impact law: must not be, a law knows no springs"},
+       "compliance", "is set beside an impact law: must not be, an impact law has no springs"},
       {"NewtonOnASpring", Beside([](Scene& s) {
          s.restitution = NewtonCoefficient{0.5};
          s.compliance = Ratio();
@@ -316,7 +316,7 @@ std::vector<BadScene> BadEffects() {
          s.impact_law = WhittakerLaw{0.5};
          s.finite_forces = ContactAcceleration{0.0, 1.0};
        }),
-       "contact_acceleration", "is set beside an impact law: must not be, a law knows no time"},
+       "contact_acceleration", "is set beside an impact law: must not be, an impact law has no duration"},
   };
 }
 
