@@ -1,29 +1,34 @@
-# Installs the build into a fresh prefix, then configures, builds and runs the project beside this file against it.
-# Called as cmake -DBUILD_DIR=... -DWORK_DIR=... -P consumer_test.cmake
+# Installs the build into a fresh prefix, then configures, builds and runs the project beside this file against it, and
+# builds its program a second time by the line that pkg-config gives.
+# Called as cmake -DBUILD_DIR=... -DWORK_DIR=... -DCXX_FLAGS=... -DLAUNCHER=... -DCXX=... -DLIBDIR=...
+# -P consumer_test.cmake
+include(${CMAKE_CURRENT_LIST_DIR}/run.cmake)
 
-function(run)
-  execute_process(COMMAND ${ARGN} OUTPUT_VARIABLE output ERROR_VARIABLE output RESULT_VARIABLE result)
-  if(NOT result EQUAL 0)
-    message(FATAL_ERROR "${ARGN}: ${result}\n${output}")
-  endif()
-  set(output "${output}" PARENT_SCOPE)
-endfunction()
-
-function(expect_output program text)
-  run(${program})
-  if(NOT output STREQUAL text)
-    message(FATAL_ERROR "${program} printed\n${output}instead of\n${text}")
-  endif()
+# Compiles one source by the flags of one pkg-config package.
+function(build_by_pkg_config package source program)
+  run(${CMAKE_COMMAND} -E env PKG_CONFIG_PATH=${WORK_DIR}/prefix/${LIBDIR}/pkgconfig
+      pkg-config --cflags --libs ${package})
+  separate_arguments(flags UNIX_COMMAND "${CXX_FLAGS} -std=c++20 ${CMAKE_CURRENT_LIST_DIR}/${source} ${output}")
+  run(${CXX} -o ${program} ${flags})
 endfunction()
 
 file(REMOVE_RECURSE ${WORK_DIR})
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix)
-run(${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR} -B ${WORK_DIR}/build -G Ninja
-    -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_FLAGS=${CXX_FLAGS} -DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER})
-run(${CMAKE_COMMAND} --build ${WORK_DIR}/build)
+build_consumer()
+expect_answer(${WORK_DIR}/build/consumer)
+build_by_pkg_config(ricochet-core main.cc ${WORK_DIR}/build/plain_consumer)
+expect_answer(${WORK_DIR}/build/plain_consumer)
 
-expect_output(${WORK_DIR}/build/consumer "Newton 0.707107, Poisson 1.41421\n")
 if(EXISTS ${WORK_DIR}/build/remote_consumer)
-  expect_output(${WORK_DIR}/build/remote_consumer "1\n0.707107\n0.447214\n0\n")
+  set(swept "1\n0.707107\n0.447214\n0\n")
+  expect_output(${WORK_DIR}/build/remote_consumer ${swept})
+  build_by_pkg_config(ricochet-client remote.cc ${WORK_DIR}/build/plain_remote_consumer)
+  expect_output(${WORK_DIR}/build/plain_remote_consumer ${swept})
 endif()
+foreach(file include/ricochet/solver.h share/ricochet/proto/ricochet/v1/impact_service.proto
+        share/ricochet/examples/dropped_rod.textproto)
+  if(NOT EXISTS ${WORK_DIR}/prefix/${file})
+    message(FATAL_ERROR "not installed: ${file}")
+  endif()
+endforeach()
 file(REMOVE_RECURSE ${WORK_DIR})
