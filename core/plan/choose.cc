@@ -19,29 +19,30 @@ constexpr EffectSet kOfPlanar = {Effect::kFriction, Effect::kSlipStop, Effect::k
 constexpr EffectSet kOfSpatial = {Effect::kFriction, Effect::kSlipStop, Effect::kSlipTurn, Effect::kStaticFriction};
 constexpr EffectSet kOfCompliant = kOfPlanar | EffectSet{Effect::kTangentialCompliance};
 constexpr EffectSet kOfDuration = kOfCompliant | EffectSet{Effect::kFiniteDuration, Effect::kFiniteForces};
-// What an input that is set to nothing leaves out of any model.
+// Any model leaves these effects out if the corresponding input is 0.
 constexpr EffectSet kSwitched = {Effect::kFriction, Effect::kStaticFriction, Effect::kTangentialCompliance,
                                  Effect::kFiniteForces};
 
 struct Candidate {
   Model model = Model::kUnspecified;
   EffectSet simulates;
-  double error = 0.0;  // Its own, over V; infinite where it does not serve.
+  double error = 0.0;  // The model's own error over V; infinite if the model does not serve the contact.
 };
 
 struct Context {
   const Sizes& sizes;
   const Demand& demand;
-  EffectSet excluded;  // With all that this implies.
+  EffectSet excluded;  // Includes the effects that the caller's exclusions imply.
 
-  // What a model may be asked to do without that it would do.
+  // True if a model that simulates these effects may be used: it has every required effect, and every excluded effect
+  // among them can be switched off.
   bool Allows(EffectSet simulates) const {
     EffectSet fixed = excluded.Without(kSwitched);
     if (excluded.Has(Effect::kFriction)) fixed = fixed.Without(kOnFriction);
     return simulates.Contains(demand.required) && (simulates & fixed).IsEmpty();
   }
 
-  // The price of what a model leaves out and nobody has excluded.
+  // Sum of the sizes of the effects that a model leaves out and the caller does not exclude.
   double Neglected(EffectSet simulates) const {
     const bool smooth = !simulates.Has(Effect::kFriction) || excluded.Has(Effect::kFriction);
     double sum = 0.0;
@@ -66,8 +67,8 @@ Decision DecisionOn(const Context& context, const Sizes& of_all, EffectSet simul
   return simulates.Has(effect) ? Decision::kSimulated : Decision::kNegligible;
 }
 
-// The first candidate within the tolerance. Where the caller excludes what every exact model has, there may be none:
-// then the last that leaves out nothing else, as exact as it is.
+// The first candidate within the tolerance. There may be none if the caller excludes an effect that every exact model
+// has; then the last candidate is taken that leaves out nothing else.
 const Candidate* Cheapest(const Context& context, absl::Span<const Candidate> candidates) {
   const Candidate* rest = nullptr;
   for (const Candidate& candidate : candidates) {
@@ -88,7 +89,7 @@ void Decide(const Context& context, const Candidate& candidate, const Sizes& of_
     Size& size = choice.sizes[effect];
     if (decision == Decision::kNegligible) size.value = context.SizeOf(effect, smooth);
     if (context.excluded.Has(effect)) size = of_all[effect];
-    // Counted in what friction changes.
+    // The size of friction covers this effect already.
     if (choice.LeavesOut(effect) && kOnFriction.Has(effect) && smooth) size.value = 0.0;
     if (choice.LeavesOut(effect)) choice.neglected += size.value;
   }
@@ -111,7 +112,7 @@ Choice Separating() {
   return choice;
 }
 
-// What the models that take a tolerance are left of the budget, in [least, most].
+// The part of the tolerance that is left for the model's own error, in [least, most].
 double Left(const Choice& choice, const Demand& demand, double least, double most) {
   return std::clamp(demand.relative_tolerance - choice.Negligible(), least, most);
 }
@@ -151,7 +152,7 @@ bool LinesServe(const planar::Problem& problem) {
   return problem.coefficient <= 1.0 && (full_rank || problem.wtt == 0.0) && 1.0 - cone >= kLeastSlope;
 }
 
-// det W over the product of the diagonal is above 2^-40, which a W of less than full rank is far below.
+// True if det W over the product of the diagonal is above 2^-40, far above its value for a W of less than full rank.
 bool HasFullRank(const spatial::Problem& w) {
   const double c12 = w.w12 / std::sqrt(w.w11 * w.w22);
   const double c13 = w.w13 / std::sqrt(w.w11 * w.w33);
@@ -180,7 +181,8 @@ Choice ChooseRigidOrCompliant(const Sizes& sizes, const Sizes& of_all, const Con
   return choice;
 }
 
-// An impact that only the model of finite duration can tell from none.
+// The choice for a contact that does not approach but that finite forces may press together: only the model of finite
+// duration can compute it.
 Choice ForcedContact() {
   Choice choice = Separating();
   choice.model = Model::kFiniteDuration;
@@ -192,17 +194,18 @@ Choice ForcedContact() {
   return choice;
 }
 
-// Without friction, as a planar contact: W and the velocities are rounded products of the pendulum's numbers.
+// The error of the frictionless model for a pendulum as a planar contact, whose W and velocities are rounded products of
+// the pendulum's numbers.
 double PendulumSmoothError(const pendulum::Problem& problem) {
   constexpr double kReduction = 0x1p-49;
   return kReduction + SmoothError(problem.coefficient <= 1.0, LineOf(PlanarOf(problem)));
 }
 
-// Whether neither friction nor higher orders can be left out, by cheap lower bounds of their sizes. First order is off
-// by c x^2/2 at least. Of friction, v1 and tau1 (core/plan/sizes.cc) cannot both be small: under the energetic law,
-// with root^2 = (1 - x)/(1 + x), (1 + x) tau1 >= x (1 + c) - v1/root, so that the larger is x/(1 + x + 1/root) at
-// least, which is x 2^-11 as far as 1 - x >= kLeastSlope; beyond, and where it locks, no bound is finite. Under
-// Poisson's law tau1 >= x/2. Newton's fixes v1 = 0, and tau1 may be any.
+// True if cheap lower bounds show that neither friction nor higher orders can be left out. The first-order form has an
+// error of at least c x^2/2. The changes v1 and tau1 by friction (core/plan/sizes.cc) cannot both be small. Under the
+// energetic law, with root^2 = (1 - x)/(1 + x), (1 + x) tau1 >= x (1 + c) - v1/root, so that the larger of the two is at
+// least x/(1 + x + 1/root). This is at least x 2^-11 if 1 - x >= kLeastSlope; otherwise the size is infinite. Under
+// Poisson's law tau1 >= x/2. Newton's law fixes v1, and tau1 has no lower bound.
 bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance) {
   static_assert(kLeastSlope >= 0x1p-20);
   if (problem.law == RestitutionLaw::kNewton) return false;
@@ -252,8 +255,7 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
 }
 
-// What is not simulated beside friction, or beside what first order leaves out, has size 0 here: the candidates are as
-// in ChoosePendulum.
+// For a rigid pendulum all other effects have size 0, so that the candidates are those of ChoosePendulum.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance) {
   if (problem.omega_minus >= 0.0) return Model::kNone;
   if (IsFarFromSimple(problem, tolerance)) return Model::kPendulum;

@@ -1,21 +1,15 @@
 // Choose: the cheapest model that is proved to answer a contact within a demand.
 //
-// In order of cost: frictionless, first order (a pendulum's), sliding, a pendulum's closed form, planar, spatial,
-// compliant, finite duration. Each simulates some effects and leaves out the others; the first is taken for which
+// In order of cost the models are frictionless, first order (pendulum), sliding, closed form (pendulum), planar, spatial,
+// compliant, finite duration. The first one is taken for which
 //
 //   every required effect is simulated, every excluded one is not, and
-//   sum of the sizes (core/plan/sizes.h) of what it leaves out + its own numerical error <= the tolerance.
+//   sum of the sizes (core/plan/sizes.h) of the effects left out + the model's own numerical error <= the tolerance.
 //
-// What the caller excludes does not count: the tolerance is that of the answer without it. Where friction is left out,
-// what lives on it is too, at no further price. The last model that simulates all there is counts as exact: its error
-// is what double precision or its own tolerance allows. Closed forms in plain double arithmetic (frictionless, first
-// order, sliding) do not serve for a coefficient of restitution above 1 or c >= 1 (possible self-locking), frictionless
-// and sliding neither for W of rank one, unless Wtt = 0; these have the exact models' care for limits and regimes.
-// v0 >= 0 without a spring and finite forces: no model at all, nothing happens.
-//
-// Everything here is free of allocation and costs a few dozen multiplications: a sweep asks it of every point.
-// Bad input: none gets here (CheckDemand). Where no model meets the demand the choice is kUnspecified; that happens
-// exactly where CheckDemand finds a violation.
+// docs/theory/plan.md, section 2, says how excluded effects count and which contacts a closed form does not serve.
+// A choice allocates nothing and costs a few dozen multiplications, because a sweep makes one at every point.
+// The problem must be valid. If no model meets the demand, the choice is kUnspecified; this happens exactly if CheckDemand
+// (core/plan/demand.h) finds a violation.
 
 #ifndef RICOCHET_CORE_PLAN_CHOOSE_H_
 #define RICOCHET_CORE_PLAN_CHOOSE_H_
@@ -31,8 +25,8 @@ namespace ricochet {
 
 struct Choice {
   Model model = Model::kUnspecified;
-  double neglected = 0.0;        // What all effects left out can change together.
-  double model_tolerance = 0.0;  // What the spatial model or that of finite duration is to be given; else 0.
+  double neglected = 0.0;        // Sum of the sizes of all effects left out.
+  double model_tolerance = 0.0;  // Tolerance for the spatial model or that of finite duration; 0 for other models.
   std::array<Decision, kEffectCount> decisions = {};
   Sizes sizes;
 
@@ -41,7 +35,7 @@ struct Choice {
     return decision == Decision::kNegligible || decision == Decision::kExcluded;
   }
   EffectSet LeftOut() const;
-  // What the plan itself leaves out can change, without what the caller excludes.
+  // Sum of the sizes that the plan itself leaves out; effects that the caller excludes do not count.
   double Negligible() const;
 };
 
@@ -49,15 +43,16 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
 Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand);
 Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& physics, const Demand& demand);
 
-// The model of ChoosePendulum for a rigid pendulum and a demand of nothing but a tolerance, at a fraction of the cost.
+// Gives the model that ChoosePendulum chooses for a rigid pendulum and a demand that is a tolerance alone, at a fraction
+// of the cost.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance);
 
-// Without the effects: mu = mu_s = 0 without friction, mu_s = mu without static friction.
+// Leaves effects out of both coefficients of friction: without friction mu = mu_s = 0, without static friction mu_s = mu.
 inline void LeaveOut(EffectSet effects, double& mu, double& mu_static) {
   if (effects.Has(Effect::kFriction)) mu = mu_static = 0.0;
   if (effects.Has(Effect::kStaticFriction)) mu_static = mu;
 }
-// The problem may be of any model that has both coefficients.
+// Leaves the effects out of a problem of any model that has both coefficients of friction.
 template <typename Problem>
 Problem Without(EffectSet effects, Problem problem) {
   LeaveOut(effects, problem.mu, problem.mu_static);
@@ -65,7 +60,7 @@ Problem Without(EffectSet effects, Problem problem) {
 }
 ContactPhysics Without(EffectSet effects, ContactPhysics physics);
 
-// Without what the choice leaves out.
+// Leaves out all effects that the choice leaves out.
 template <typename Problem>
 Problem Without(const Choice& choice, const Problem& problem) {
   return Without(choice.LeftOut(), problem);

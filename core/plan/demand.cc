@@ -23,7 +23,7 @@ bool HasFriction(const Scene& scene) {
 
 bool IsInSpace(const Scene& scene) { return TangentialDirections(scene.system) == 2; }
 
-// What the scene would have to have for the effect; empty if it has.
+// The part that the scene lacks for the effect; empty if it lacks nothing.
 std::string Lacking(const Scene& scene, Effect effect) {
   const auto unless = [](bool holds, const char* lacking) { return std::string(holds ? "" : lacking); };
   const bool rubs = HasFriction(scene);
@@ -53,10 +53,10 @@ std::string Lacking(const Scene& scene, Effect effect) {
   return "";
 }
 
-// Of the finite duration that the scene's spring gives it.
+// True if the scene has finite forces and a spring, so that the forces have time to act.
 bool HasFiniteForces(const Scene& scene) { return Lacking(scene, Effect::kFiniteForces).empty(); }
 
-// Why the effect cannot be left out; empty if it can, as far as the contact's numbers do not decide.
+// The reason why the effect cannot be left out; empty if it can, or if that depends on the numbers of the contact.
 std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded) {
   const bool rubs = !excluded.Has(Effect::kFriction);
   switch (effect) {
@@ -77,7 +77,7 @@ std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded
       if (!HasClosedForm(scene)) return "be left in: only a pendulum over a surface at rest has a first-order form";
       if (!rubs) return "";
       if (HasDamping(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {
-        return "be left in: the first-order form knows no duration; exclude finite_forces";
+        return "be left in: the first-order form has no duration; exclude finite_forces";
       }
       return "";
     case Effect::kFriction:
@@ -135,12 +135,12 @@ bool CheckExcluded(const Scene& scene, const Demand& demand, std::vector<Violati
   return violations.size() == before;
 }
 
-// Straight slip and first order are forms that not every contact has.
+// Checks that the contact has the form that the exclusions ask for: slip along a straight line, or first order in x.
 void CheckForms(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {
   const EffectSet forms = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kHigherOrder};
   const EffectSet asked = demand.excluded & forms;
   if (asked.IsEmpty() || demand.excluded.Has(Effect::kFriction)) return;
-  // A contact beyond doubles is Solve's to refuse.
+  // Solve itself refuses a contact that doubles cannot represent.
   if (!HasClosedForm(scene) && !FitsDoubles(Reduce(scene))) return;
   if (PlanScene(scene, demand).choice.model != Model::kUnspecified) return;
   const char* higher_order =

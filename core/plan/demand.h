@@ -1,4 +1,4 @@
-// Demand: how exact an answer has to be, and what the caller wants in it or out of it by all means.
+// Demand: how exact an answer has to be, and which effects the caller requires or excludes.
 
 #ifndef RICOCHET_CORE_PLAN_DEMAND_H_
 #define RICOCHET_CORE_PLAN_DEMAND_H_
@@ -12,32 +12,32 @@
 namespace ricochet {
 
 struct Demand {
-  // Of each contact velocity after the impact and each impulse times its mobility, over max(|u0|, |v0|); in [0, 0.1].
-  // 0: nothing is left out but what changes nothing.
+  // Tolerated change of each contact velocity after the impact and of each impulse times its mobility, divided by
+  // max(|u0|, |v0|), in [0, 0.1]. With 0, an effect is left out only if it changes nothing.
   double relative_tolerance = 1e-12;
-  EffectSet required;  // Simulated, even if negligible.
-  EffectSet excluded;  // Left out, whatever that changes, and what lives on them too: see WithImplied.
+  EffectSet required;  // Effects to simulate even if they are negligible.
+  EffectSet excluded;  // Effects to leave out whatever that changes; WithImplied adds those that depend on them.
   friend bool operator==(const Demand&, const Demand&) = default;
 };
 
-// What is nothing without friction.
+// These effects do not exist without friction.
 inline constexpr EffectSet kOnFriction = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kStaticFriction,
                                           Effect::kTangentialCompliance, Effect::kHigherOrder};
 
-// What leaving out `excluded` leaves out:
-//   friction         with all that it does: slip that stops and turns, static friction, tangential compliance, and what
-//                    lies beyond first order in x
-//   slip that stops  with sticking: static friction, tangential compliance; in space slip that turns, because what
-//                    is left is slip along a straight line
-//   slip that turns  in space, for the same reason: slip that stops and static friction
-//   finite duration  with the finite forces, which need time to act
+// The effects that are left out if the caller excludes `excluded`:
+//   friction         takes with it slip that stops and turns, static friction, tangential compliance, and the terms
+//                    beyond first order in x
+//   slip that stops  takes with it static friction and tangential compliance; in space also slip that turns, because
+//                    slip along a straight line is all that is left
+//   slip that turns  takes with it, in space and for the same reason, slip that stops and static friction
+//   finite duration  takes with it the finite forces, which need time to act
 EffectSet WithImplied(EffectSet excluded, bool in_space);
 
-// Every reason why the demand cannot be met for a valid scene; empty if it can. Paths are "relative_tolerance" and
-// "required[i]", "excluded[i]", i counting a set's effects in order of their numbers.
+// Lists every reason why the demand cannot be met for a valid scene; the list is empty if it can. Paths are
+// "relative_tolerance", "required[i]" and "excluded[i]", where i counts the effects of a set in order of their numbers.
 std::vector<Violation> CheckDemand(const Scene& scene, const Demand& demand);
 
-// "slip_stop", as the proto spells it without its prefix.
+// The name of the effect in the proto, in small letters and without its prefix: "slip_stop".
 const char* NameOf(Effect effect);
 
 }  // namespace ricochet

@@ -14,7 +14,7 @@ EffectSet ToSet(const std::vector<Effect>& effects) {
   return set;
 }
 
-// What a set cannot say: an effect that is none, or one twice.
+// Checks the list for an effect that is not named or that is named twice, because a set could not show either.
 void CheckList(const std::vector<Effect>& effects, const char* field, std::vector<Violation>& violations) {
   EffectSet seen;
   for (size_t i = 0; i < effects.size(); ++i) {

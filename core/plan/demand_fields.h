@@ -1,4 +1,4 @@
-// Turns what a request says of accuracy and effects into a Demand, and checks it.
+// ToDemand and CheckDemand: convert what a request says of accuracy and effects into a Demand, and check it.
 
 #ifndef RICOCHET_CORE_PLAN_DEMAND_FIELDS_H_
 #define RICOCHET_CORE_PLAN_DEMAND_FIELDS_H_
@@ -14,7 +14,8 @@ namespace ricochet {
 
 Demand ToDemand(const DemandFields& fields);
 
-// Every reason why the demand cannot be met for a valid scene, by path: "relative_tolerance", "required[1]".
+// Lists every reason why the demand cannot be met for a valid scene, with paths such as "relative_tolerance" and
+// "required[1]".
 std::vector<Violation> CheckDemand(const Scene& scene, const DemandFields& fields);
 
 }  // namespace ricochet

@@ -1,4 +1,4 @@
-// A set of effects.
+// EffectSet: a set of effects.
 
 #ifndef RICOCHET_CORE_PLAN_EFFECT_SET_H_
 #define RICOCHET_CORE_PLAN_EFFECT_SET_H_
@@ -34,7 +34,7 @@ class EffectSet {
   uint32_t bits_ = 0;
 };
 
-// In order of their numbers.
+// All effects, in order of their numbers.
 inline constexpr Effect kEffects[] = {
     Effect::kFriction,
     Effect::kSlipStop,

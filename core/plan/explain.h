@@ -9,8 +9,8 @@
 
 namespace ricochet {
 
-// The plan of a choice made on `demand`: every effect once, in order of their numbers, with one sentence that says
-// where its size comes from, numbers to three digits.
+// The plan of a choice that was made for `demand`. It has every effect once, in order of their numbers, each with one
+// sentence that gives the reason for its size, with numbers to three digits.
 Plan Explain(const Choice& choice, const Demand& demand);
 
 }  // namespace ricochet

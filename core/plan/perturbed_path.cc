@@ -8,7 +8,7 @@
 namespace ricochet {
 namespace {
 
-// What both ends have in common: e_f, e_v and the reach of compression.
+// The differences e_f, e_v and e_u of two paths, and the shift of the end of compression.
 class Comparison {
  public:
   Comparison(const Mobility& mobility, const ReferencePath& reference, const Perturbation& change)
@@ -51,7 +51,7 @@ class Comparison {
 struct EndShift {
   double v1 = 0.0;
   double tau1 = 0.0;
-  double last = 0.0;  // tau1_B at most.
+  double last = 0.0;  // An upper bound on tau1_B.
 };
 
 EndShift NewtonShift(const Comparison& by, double e) {
@@ -102,7 +102,7 @@ struct EndRange {
   double tau_low, tau_high;
 };
 
-// The ends that slopes in [low, high] allow.
+// The ranges of v1 and tau1 if v' lies in [low, high].
 EndRange EndsBySlopes(const Restoring& restoring, double low, double high) {
   const double c = restoring.coefficient;
   const double ratio = high / low;
@@ -120,7 +120,7 @@ EndRange EndsBySlopes(const Restoring& restoring, double low, double high) {
 
 EndShift ShiftBySlopes(const Restoring& restoring, const ReferencePath& reference, const Perturbation& change) {
   constexpr double kRounding = 0x1p-48;
-  // Slopes near 0 are differences of terms near 1.
+  // A slope near 0 is a difference of terms near 1, with their rounding.
   const double most = std::max(change.slope_high, reference.slope_high);
   const double low = std::min(change.slope_low, reference.slope_low) - kRounding * (1.0 + most);
   const double high = most + kRounding * (1.0 + most);
@@ -155,7 +155,7 @@ double LargestChange(const Mobility& mobility, const Restoring& restoring, const
   }
   const double u1 = by.OfU(shift.last) + reference.u_slope * shift.tau1;
   const double f1 = mobility.tangential * (by.OfF(shift.last) + reference.f_slope * shift.tau1);
-  const bool bounded = shift.v1 + shift.tau1 + u1 + f1 < kUnbounded;  // And no NaN among them.
+  const bool bounded = shift.v1 + shift.tau1 + u1 + f1 < kUnbounded;  // A NaN makes this false, too.
   return bounded ? Padded(std::max({shift.v1, shift.tau1, u1, f1})) : kUnbounded;
 }
 

@@ -30,7 +30,7 @@ void PlanPendulum(const Scene& scene, const Demand& demand, PlannedScene& planne
   planned.contact = problem;
   planned.effective = {
       .kinetic_friction = problem.mu, .static_friction = problem.mu_static, .restitution = problem.coefficient};
-  // Compliance alone gives finite forces time to act.
+  // Finite forces have time to act only if the contact is compliant.
   if (scene.compliance.has_value()) {
     const AnyReduction any = Reduce(scene);
     if (!FitsDoubles(any)) return;

@@ -1,4 +1,4 @@
-// PlannedScene: a scene as the models see it, and the one that is chosen for it.
+// PlannedScene: a scene reduced to its contact, with the model that is chosen for it.
 
 #ifndef RICOCHET_CORE_PLAN_PLANNED_SCENE_H_
 #define RICOCHET_CORE_PLAN_PLANNED_SCENE_H_
@@ -15,15 +15,15 @@
 namespace ricochet {
 
 struct PlannedScene {
-  // A pendulum over a surface at rest keeps its own numbers; everything else is reduced to its contact.
+  // A pendulum over a surface at rest keeps its own numbers; any other system is reduced to its contact.
   std::variant<pendulum::Problem, PlanarReduction, SpatialReduction> contact;
   EffectiveCoefficients effective;
   ContactPhysics physics;
   Choice choice;
 };
 
-// `scene` is valid and CheckDemand finds nothing. Under an impact law the model is kImpactLaw and no effect is planned;
-// so it is, with kUnspecified, where doubles do not hold W or the contact velocity.
+// Plans a valid scene and a demand in which CheckDemand finds nothing. Under an impact law the model is kImpactLaw and
+// no effect is planned. If doubles cannot represent W or the contact velocity, the model is kUnspecified.
 PlannedScene PlanScene(const Scene& scene, const Demand& demand);
 
 // The plan in words.

@@ -13,9 +13,9 @@
 namespace ricochet {
 namespace {
 
-constexpr double kRounding = 0x1p-48;  // Of sums of a few terms, over the terms.
+constexpr double kRounding = 0x1p-48;  // Rounding error of a sum of a few terms, relative to its terms.
 
-// A planar contact, scaled.
+// A planar contact in the scales of core/plan/perturbed_path.h. Comments give the symbols of docs/theory/plan.md.
 struct Scaled {
   Mobility mobility;   // W, w
   double along = 0.0;  // s w
@@ -23,24 +23,24 @@ struct Scaled {
   double mu = 0.0;
   double friction = 0.0;   // m
   bool may_stick = false;  // w <= mu_s W
-  bool may_slip = false;   // w > mu_s W; both within rounding of equality
+  bool may_slip = false;   // w > mu_s W; both are true within rounding of equality
   double scale = 0.0;      // |v0|/V
   Restoring restoring;
 
-  double Cone() const { return friction * mobility.coupling; }                    // c
-  double SlideSlope() const { return 1.0 - mu * along; }                          // v' of A
-  double StickSlope() const { return 1.0 - mobility.coupling * Holding(); }       // v' where the contact sticks
-  double Holding() const { return mobility.coupling / mobility.tangential; }      // |f'| there
-  double Braking() const { return mu * mobility.tangential - along; }             // -s u' of A
-  double UTerms() const { return mu * mobility.tangential + mobility.coupling; }  // What Braking is a difference of.
+  double Cone() const { return friction * mobility.coupling; }                          // c
+  double SlideSlope() const { return 1.0 - mu * along; }                                // v' of A
+  double StickSlope() const { return 1.0 - mobility.coupling * Holding(); }             // v' while the contact sticks
+  double Holding() const { return mobility.coupling / mobility.tangential; }            // |f'| while the contact sticks
+  double Braking() const { return mu * mobility.tangential - along; }                   // -s u' of A
+  double UTerms() const { return mu * mobility.tangential + mobility.coupling; }        // Sum of the terms of Braking.
   double SlideImpulse() const { return (1.0 + restoring.coefficient) / SlideSlope(); }  // tau1 of A
-  // What rounding may move of a time on A, over that time.
+  // Relative rounding error of a normal impulse tau on A.
   double TimeError() const { return kRounding * (1.0 + (1.0 + mu * mobility.coupling) / SlideSlope()); }
-  // s u of A, or a little less.
+  // A lower bound on s u of A, close to it.
   double LeastSlip(double tau) const {
     return slip - Braking() * tau - (kRounding * (slip + UTerms() * tau) + TimeError() * std::fabs(Braking()) * tau);
   }
-  // tau_s, or a little less.
+  // A lower bound on tau_s, close to it.
   double EarliestStop() const { return slip / std::max(Braking() + kRounding * UTerms(), 0.0) * (1.0 - TimeError()); }
   double Change(const ReferencePath& reference, const Perturbation& change) const {
     return Padded(scale * LargestChange(mobility, restoring, reference, change));
@@ -64,7 +64,7 @@ Scaled Scale(const planar::Problem& problem) {
   return contact;
 }
 
-// A straight path of sliding.
+// The path of a contact that slides on.
 ReferencePath Sliding(const Scaled& contact) {
   return {.slope_low = contact.SlideSlope(),
           .slope_high = contact.SlideSlope(),
@@ -74,7 +74,7 @@ ReferencePath Sliding(const Scaled& contact) {
 
 Size Locking(double cone) { return {.value = kUnbounded, .ground = Ground::kSelfLocking, .number = cone}; }
 
-// What |f| cannot exceed because friction only ever slows slip: 2 (|u0| + w tau1)/W.
+// Bounds |f| by 2 (|u0| + w tau1)/W, because friction only slows slip.
 double HeldImpulse(const Scaled& contact) {
   const double cone = contact.Cone();
   const double c = contact.restoring.coefficient;
@@ -108,7 +108,7 @@ Size FrictionSize(const Scaled& contact, const ContactPhysics& physics, bool sli
   return {.value = size, .ground = Ground::kInequality, .number = cone};
 }
 
-// Whether slip goes on to the end of the sliding path.
+// True if slip goes on to the end of the sliding path.
 bool SlidesThroughout(const Scaled& contact) {
   if (!(contact.SlideSlope() >= kLeastSlope)) return false;
   if (contact.slip == 0.0) return !contact.may_stick;
@@ -120,7 +120,7 @@ Size SlidingThroughout(const Scaled& contact, const planar::Problem& problem) {
   return {.value = 0.0, .ground = Ground::kSlidesThroughout, .number = -problem.v0 * end};
 }
 
-// What a change of friction from the earliest stop on can do; `path` is A.
+// The size of a change of f' by `f_slope` from the earliest stop of slip on; `path` is A.
 Size AfterStop(const Scaled& contact, const ReferencePath& path, double f_slope, double low, double high) {
   const double stop = contact.slip == 0.0 ? 0.0 : contact.EarliestStop();
   const double size = contact.Change(path, {.f_slope = f_slope, .from = stop, .slope_low = low, .slope_high = high});
@@ -152,7 +152,8 @@ Size StopSize(const Scaled& contact, const planar::Problem& problem) {
   return AfterStop(contact, Sliding(contact), change, low, high);
 }
 
-// Whether the contact sticks by one coefficient and slides by the other. W of rank one: core/models/planar/planar.h.
+// True if the contact sticks by the static coefficient and slides by the kinetic one. core/models/planar/planar.h states
+// the criterion for a W of rank one.
 bool CoefficientsDisagree(const planar::Problem& problem, double relative_determinant) {
   const bool rank_one = std::fabs(relative_determinant) <= 0x1p-50;
   const double normal = std::fabs(problem.wtn);
@@ -183,7 +184,7 @@ Size StaticSize(const Scaled& contact, const planar::Problem& problem) {
   return both.value < size.value ? both : size;
 }
 
-// The earliest normal impulse at which a compliant or a rigid contact, both sliding until then, may stop.
+// The earliest normal impulse at which a compliant or a rigid contact may stop; both slide until then.
 double EarliestParting(const Scaled& contact, double lag) {
   const double start = contact.slip - lag * (1.0 + kRounding);
   if (start <= 0.0 || !(contact.SlideSlope() >= kLeastSlope)) return 0.0;
@@ -193,8 +194,8 @@ double EarliestParting(const Scaled& contact, double lag) {
   return start / (start - at_rest) * rest * (1.0 - contact.TimeError());
 }
 
-// The normal impulse after which a compliant and a rigid contact that cannot stick both slide towards sgn Wtn; infinite
-// where that does not come before compression ends.
+// The normal impulse after which a compliant and a rigid contact that cannot stick both slide towards sgn Wtn. It is
+// infinite if compression ends earlier.
 double LatestMeeting(const Scaled& contact, double lag) {
   const double drive =
       contact.mobility.coupling - contact.mu * contact.mobility.tangential - kRounding * contact.UTerms();
@@ -237,7 +238,7 @@ Size DurationSize(const ContactPhysics& physics) {
   return {.value = 0.0, .ground = Ground::kSameImpulses};
 }
 
-// Shifts of velocity by finite forces, scaled.
+// Changes of velocity by finite forces, scaled, and the duration in which they act.
 struct Drift {
   double seconds = 0.0;
   double u = 0.0;
@@ -258,7 +259,7 @@ Drift DriftOf(const planar::Problem& problem, const ContactPhysics& physics) {
           .v = normal * time / -problem.v0};
 }
 
-// Both slide on, whatever the forces do.
+// The size of finite forces if the contact slides on with them and without them; infinite if it may stop.
 double ForcesOnSlide(const Scaled& contact, const ContactPhysics& physics, const Drift& drift) {
   if (contact.slip == 0.0 || !(contact.SlideSlope() >= kLeastSlope)) return kUnbounded;
   const double end = contact.SlideImpulse();
@@ -351,7 +352,7 @@ planar::Problem PlanarOf(const pendulum::Problem& problem) {
           .coefficient = problem.coefficient};
 }
 
-// x and the change that friction makes, exactly but for rounding.
+// The change that friction makes is known exactly for a pendulum, up to rounding.
 Size PendulumFrictionSize(const pendulum::Problem& problem) {
   const double b = std::fabs(problem.b);
   const double x = first_order::FrictionRatio(problem);

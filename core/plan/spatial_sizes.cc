@@ -11,7 +11,8 @@ namespace {
 
 constexpr double kRounding = 0x1p-46;
 
-// A contact in space, scaled; slip starts along e0.
+// A contact in space in the scales of core/plan/perturbed_path.h; slip starts along e0. Comments give the symbols of
+// docs/theory/plan.md, section 4.
 struct Scaled {
   double w11, w12, w22;  // Wtt/Wnn
   double w13, w23;       // wtn/Wnn
@@ -20,7 +21,7 @@ struct Scaled {
   double slip = 0.0;  // |u0|
   double mu = 0.0;
   double mu_static = 0.0;
-  double holding = 0.0;  // |Wtt^-1 wtn|; infinite where Wtt is singular
+  double holding = 0.0;  // |Wtt^-1 wtn|; infinite if Wtt is singular
   double scale = 0.0;
   Restoring restoring;
   double along_normal = 0.0;  // wtn.e0
@@ -47,7 +48,7 @@ void SetEigenvalues(Scaled& contact) {
   const double h1 = (contact.w22 * contact.w13 - contact.w12 * contact.w23) / determinant;
   const double h2 = (contact.w11 * contact.w23 - contact.w12 * contact.w13) / determinant;
   const double size = std::sqrt(h1 * h1 + h2 * h2) * (1.0 + 0x1p-20);
-  // Within 2^-20 of singular, rounding could hide what the stick force is.
+  // If Wtt is within 2^-20 of singular, rounding could hide the force of stick.
   contact.holding = contact.lambda_low > 0x1p-20 * contact.lambda_high ? size : kUnbounded;
   if (contact.mobility.coupling == 0.0) contact.holding = 0.0;
 }
@@ -88,7 +89,7 @@ Scaled Scale(const spatial::Problem& problem) {
   return contact;
 }
 
-// Normal impulse of slopes in [low, high], at most.
+// The largest normal impulse of an impact with v' in [low, high].
 double LongestImpulse(const Restoring& restoring, double low, double high) {
   const double c = restoring.coefficient;
   const double v1 = restoring.law == RestitutionLaw::kEnergetic ? c * std::sqrt(high / low) : c;
@@ -100,7 +101,7 @@ struct Turn {
   double least_slip = 0.0;
 };
 
-// What supposing |phi - phi0| <= angle proves.
+// The bounds that follow if |phi - phi0| <= angle is supposed.
 Turn Supposing(const Scaled& contact, double angle) {
   const double spread = contact.mu * contact.mobility.coupling * std::min(angle, 2.0);
   const double low = contact.SlideSlope() - spread;
@@ -116,7 +117,7 @@ Turn Supposing(const Scaled& contact, double angle) {
   return {.angle = contact.turning * passed / left * (1.0 + 0x1p-20), .least_slip = std::min(contact.slip, end)};
 }
 
-// The smallest angle that proves itself, of a few.
+// Tries a few angles and returns the bounds of the smallest one that proves itself.
 Turn LargestTurn(const Scaled& contact) {
   if (!(contact.slip > 0.0)) return {};
   double angle = 1.5 * contact.turning / (contact.slip * contact.SlideSlope());
@@ -146,7 +147,7 @@ ReferencePath Sliding(const Scaled& contact) {
           .f_slope = contact.mu};
 }
 
-// Slip of a sphere keeps its direction until it stops and sticks.
+// Sets the sizes of slip for an isotropic contact such as a sphere's: slip keeps its direction until it stops and sticks.
 void SetStraight(const Scaled& contact, double speed, Sizes& sizes) {
   sizes[Effect::kSlipTurn] = {.ground = Ground::kStraight};
   Size& stop = sizes[Effect::kSlipStop];
