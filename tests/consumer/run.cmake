@@ -28,5 +28,5 @@ endfunction()
 
 # Stops unless the program of main.cc prints what its scene gives.
 function(expect_answer program)
-  expect_output(${program} "Newton 0.707107, Poisson 1.41421\n")
+  expect_output(${program} "0.976188 -0.464299 -0.071436\n0.011906 -0.76785 -3.14284\n")
 endfunction()

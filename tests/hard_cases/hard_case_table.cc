@@ -38,20 +38,20 @@ std::string ReadFile(const std::string& path) {
   return text.str();
 }
 
-void CheckReadme(const std::string& model, const std::string& table) {
-  const std::string path = RICOCHET_CORE_README;
-  std::string readme = ReadFile(path);
+void CheckPage(const std::string& model, const std::string& table) {
+  const std::string path = RICOCHET_ACCURACY_PAGE;
+  std::string page = ReadFile(path);
   const std::string head = "<!-- hard cases: " + model + " -->\n";
-  const size_t begin = readme.find(head);
+  const size_t begin = page.find(head);
   ASSERT_NE(begin, std::string::npos) << head;
   const size_t from = begin + head.size();
-  const size_t to = readme.find("<!-- end -->", from);
+  const size_t to = page.find("<!-- end -->", from);
   ASSERT_NE(to, std::string::npos) << head;
   if (std::getenv("RICOCHET_UPDATE_GOLDEN") != nullptr) {
-    std::ofstream(path) << readme.replace(from, to - from, table);
+    std::ofstream(path) << page.replace(from, to - from, table);
     return;
   }
-  EXPECT_EQ(readme.substr(from, to - from), table);
+  EXPECT_EQ(page.substr(from, to - from), table);
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ void CheckTable(const std::string& model, const std::string& unit, const std::ve
   }
   const std::string table = Markdown(unit, results);
   std::printf("%s\n", table.c_str());
-  CheckReadme(model, table);
+  CheckPage(model, table);
 }
 
 }  // namespace ricochet

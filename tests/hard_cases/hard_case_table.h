@@ -1,6 +1,7 @@
-// HardCase: inputs on which formulas typed as they stand fail, and what the model makes of them; a table a model.
+// HardCaseResult: one row of the tables of inputs on which textbook formulas fail, with the error of those formulas and
+// of the model. There is one table a model.
 //
-// Tables stand in core/README.md between "<!-- hard cases: NAME -->" and "<!-- end -->", as printed here.
+// The tables stand in docs/accuracy.md between "<!-- hard cases: NAME -->" and "<!-- end -->", as printed here.
 
 #ifndef RICOCHET_TESTS_HARD_CASES_HARD_CASE_TABLE_H_
 #define RICOCHET_TESTS_HARD_CASES_HARD_CASE_TABLE_H_
@@ -10,7 +11,7 @@
 
 namespace ricochet {
 
-// What naive formulas get wrong altogether.
+// Stands for an error where naive formulas find another regime.
 inline constexpr double kOtherRegime = -1.0;
 
 struct HardCaseResult {
@@ -21,8 +22,8 @@ struct HardCaseResult {
   double seen = 0.0;
 };
 
-// Demands what is promised of every case, and that core/README.md shows the table; RICOCHET_UPDATE_GOLDEN=1 puts it
-// there instead.
+// Demands that every case keeps its promise, and that docs/accuracy.md shows the table. If the environment has
+// RICOCHET_UPDATE_GOLDEN=1, the table is written into that page instead.
 void CheckTable(const std::string& model, const std::string& unit, const std::vector<HardCaseResult>& results);
 
 }  // namespace ricochet

@@ -1,4 +1,4 @@
-"""Does what README.md says and demands what it shows; checks that core/README.md names what exists.
+"""Runs the examples of README.md, CONTRIBUTING.md and docs/, and checks that these pages name only what exists.
 
 usage: readme_test.py SOURCE_DIRECTORY RICOCHET RICOCHETD WORK_DIRECTORY
 """
@@ -13,19 +13,23 @@ import unittest
 from pathlib import Path
 
 WORK, RICOCHETD, RICOCHET, SOURCE = [Path(sys.argv.pop()).resolve() for _ in range(4)]
-ADDRESS = "127.0.0.1:50051"  # As the README writes it; the server of this test has a port of its own.
-README = (SOURCE / "README.md").read_text()
-CORE_README = (SOURCE / "core/README.md").read_text()
+ADDRESS = "127.0.0.1:50051"  # The pages write this address; the server of this test has a port of its own.
+README = SOURCE / "README.md"
+PAGES = {
+    path: path.read_text()
+    for path in [README, *sorted(SOURCE.glob("C*.md")), *sorted((SOURCE / "docs").rglob("*.md"))]
+}
 EQUATIONS = 60
+MOST_README_LINES = 220
 WAIT_S = 10
 
 
-def blocks(language):
-    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+def blocks(language, page):
+    return re.findall(rf"^```{language}\n(.*?)^```$", PAGES[page], re.MULTILINE | re.DOTALL)
 
 
-def commands_and_outputs():
-    for block in blocks("console"):
+def commands_and_outputs(page):
+    for block in blocks("console", page):
         for command, output in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", block, re.MULTILINE):
             yield command, output
 
@@ -47,7 +51,7 @@ def shell(command):
     return done.returncode, done.stdout
 
 
-class ReadmeTest(unittest.TestCase):
+class ExamplesTest(unittest.TestCase):
     maxDiff = None
 
     @classmethod
@@ -68,65 +72,85 @@ class ReadmeTest(unittest.TestCase):
                 raise RuntimeError((WORK / "server.log").read_text())
             time.sleep(0.05)
         cls.address = f"127.0.0.1:{port_file.read_text().strip()}"
+        cls.write_files()
 
-    def prepare_python(self):
-        stubs = [block for block in blocks("sh") if "protoc" in block]
-        self.assertEqual(len(stubs), 1)
-        self.assertEqual(shell(stubs[0]), (0, ""))
-        programs = blocks("python")
-        self.assertEqual(len(programs), 1)
-        self.assertIn(ADDRESS, programs[0])
-        (WORK / "ask.py").write_text(programs[0].replace(ADDRESS, self.address))
+    @classmethod
+    def write_files(cls):
+        """Writes every block that follows "A file `NAME`:" and makes the stubs of the Python examples."""
+        for page, text in PAGES.items():
+            for name, content in re.findall(r"`([\w.]+)`:\n\n```(?:json|python)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+                (WORK / name).write_text(content.replace(ADDRESS, cls.address))
+            for stubs in blocks("sh", page):
+                if "protoc" in stubs and shell(stubs) != (0, ""):
+                    raise RuntimeError(stubs)
 
-    def test_commands_print_what_the_readme_shows(self):
-        self.prepare_python()
+    def test_commands_print_what_the_pages_show(self):
         count = 0
-        for command, output in commands_and_outputs():
-            with self.subTest(command):
-                _, printed = shell(command.replace(ADDRESS, self.address))
-                self.assertEqual(without_times(printed), without_times(output))
-            count += 1
+        for page in PAGES:
+            for command, output in commands_and_outputs(page):
+                with self.subTest(page=page.name, command=command):
+                    _, printed = shell(command.replace(ADDRESS, self.address))
+                    self.assertEqual(without_times(printed), without_times(output))
+                count += 1
         self.assertGreaterEqual(count, 8)
         self.assertEqual(picture(WORK / "figure4.svg"), picture(SOURCE / "client/cli/figure4.svg"))
 
     def test_cpp_is_compiled_by_the_consumer_project(self):
-        compiled = (SOURCE / "tests/consumer/main.cc").read_text()
-        self.assertTrue(blocks("cpp"))
-        for block in blocks("cpp"):
-            self.assertIn(block, compiled)
+        compiled = [path.read_text() for path in sorted((SOURCE / "tests/consumer").glob("*.cc"))]
+        count = 0
+        for page in PAGES:
+            for block in blocks("cpp", page):
+                self.assertTrue(any(block in source for source in compiled), block)
+                count += 1
+        self.assertGreater(count, 0)
+
+
+class PagesTest(unittest.TestCase):
+    def test_readme_is_short(self):
+        self.assertLessEqual(PAGES[README].count("\n"), MOST_README_LINES)
 
     def test_every_command_of_the_dev_script_is_listed(self):
         defined = re.findall(r"^cmd_([a-z]+)\(\)", (SOURCE / "dev").read_text(), re.MULTILINE)
-        listed = re.findall(r"^\| `\./dev ([a-z]+)` \|", README, re.MULTILINE)
+        listed = re.findall(r"^\| `\./dev ([a-z]+)` \|", "\n".join(PAGES.values()), re.MULTILINE)
         self.assertEqual(sorted(listed), sorted(defined))
 
     def test_links_lead_somewhere(self):
-        for folder, text in ((SOURCE, README), (SOURCE / "core", CORE_README)):
-            for target in re.findall(r"\]\((?!https?:|#)([^)#]+)\)", text):
-                self.assertTrue((folder / target).exists(), target)
+        for page, text in PAGES.items():
+            for target in re.findall(r"\]\((?!https?:|#)([^)#]+)", text):
+                self.assertTrue((page.parent / target).exists(), f"{page}: {target}")
 
+    def test_links_to_headings_lead_to_headings(self):
+        for page, text in PAGES.items():
+            for target, heading in re.findall(r"\]\((?!https?:)([^)#]*)#([^)]+)\)", text):
+                linked = (page.parent / target).resolve() if target else page
+                headings = re.findall(r"^#+ (.*)$", PAGES[linked], re.MULTILINE)
+                anchors = [re.sub(r"[^\w -]", "", line.lower()).replace(" ", "-") for line in headings]
+                self.assertIn(heading, anchors, f"{page}: {linked}")
 
-class EquationMapTest(unittest.TestCase):
     def test_every_equation_of_the_paper_is_mapped(self):
         mapped = set()
-        for first, last in re.findall(r"^\| \[(\d+)\](?:-\[(\d+)\])? \|", CORE_README, re.MULTILINE):
+        for first, last in re.findall(
+                r"^\| \[(\d+)\](?:-\[(\d+)\])? \|", PAGES[SOURCE / "docs/theory/pendulum.md"], re.MULTILINE):
             mapped.update(range(int(first), int(last or first) + 1))
         self.assertEqual(mapped, set(range(1, EQUATIONS + 1)))
 
-    def test_every_test_it_names_exists(self):
+    def test_every_test_they_name_exists(self):
         defined = set()
         for path in (SOURCE / "tests").rglob("*.cc"):
-            defined.update(re.findall(r"^TEST(?:_[FP])?\((\w+), (\w+)\)", path.read_text(), re.MULTILINE))
-        named = re.findall(r"\b(\w+Test|Cli|SolverContract|SameBits)\.(\w+)", CORE_README)
+            defined.update(re.findall(r"^TEST(?:_[FP])?\((\w+),\s+(\w+)\)", path.read_text(), re.MULTILINE))
+        named = re.findall(r"\b(\w+Test|Cli|SolverContract|SameBits)\.([A-Z]\w+)", "\n".join(PAGES.values()))
         self.assertGreater(len(named), 30)
         for test in named:
             self.assertIn(test, defined)
 
-    def test_every_file_and_output_it_names_exists(self):
-        for path in re.findall(r"`((?:core|tests|models|laws|numerics|scene|sweep)/[\w./-]+\.(?:h|cc|csv))`", CORE_README):
-            self.assertTrue((SOURCE / path).exists() or (SOURCE / "core" / path).exists(), path)
+    def test_every_file_and_folder_they_name_exists(self):
+        for page, text in PAGES.items():
+            for path in re.findall(r"`((?:core|tests|client|server|proto|deploy|docs)/[a-z0-9_./-]*)`", text):
+                self.assertTrue((SOURCE / path).exists(), f"{page}: {path}")
+
+    def test_every_output_of_the_pendulum_they_name_exists(self):
         header = (SOURCE / "core/models/pendulum/pendulum.h").read_text()
-        for output in re.findall(r"`(k[A-Z]\w+)`", CORE_README):
+        for output in re.findall(r"`(k[A-Z]\w+)`", PAGES[SOURCE / "docs/theory/pendulum.md"]):
             self.assertRegex(header, rf"\b{output}\b")
 
 
