@@ -1,43 +1,40 @@
-// What an effect costs, in instructions: run under callgrind by tests/benchmark/plan_cost.py, which makes the table.
+// Solves scenes under callgrind, so that tests/benchmark/plan_cost.py can read off what each function executes.
 //
-// ricochet_plan_cost CASE WHAT COUNT does one thing COUNT times. WHAT: validate, plan, solve (the scene), direct (the
-// model without the effect, called by hand), with (the same scene with the effect).
+// ricochet_plan_cost lists the cases; ricochet_plan_cost CASE COUNT solves one case COUNT times and prints how often it
+// asked for memory. The first call, which chooses the instruction set, comes before and is not counted.
 
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
-#include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "absl/synchronization/mutex.h"
-#include "core/answer/compliant_outcome.h"
-#include "core/answer/finite_duration_outcome.h"
-#include "core/answer/first_order_outcome.h"
-#include "core/answer/planar_outcome.h"
-#include "core/answer/scene_outcome.h"
-#include "core/answer/sliding_outcome.h"
-#include "core/answer/spatial_outcome.h"
-#include "core/plan/planned_scene.h"
-#include "core/problem/scene_problem.h"
-#include "core/scene/validate.h"
+#include "ricochet/solver.h"
 #include "tests/benchmark/measure.h"
+
+namespace {
+
+int64_t allocations = 0;
+
+}  // namespace
+
+void* operator new(size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size)) return memory;
+  std::abort();
+}
+void operator delete(void* memory) noexcept { std::free(memory); }
+void operator delete(void* memory, size_t) noexcept { std::free(memory); }
 
 namespace ricochet::bench {
 namespace {
 
-using Direct = std::function<absl::StatusOr<Outcome>(const PlannedScene&)>;
-
 struct Case {
   std::string name;
-  Scene without;
-  Scene with;
-  Demand demand;       // Of the scene without the effect.
-  Demand demand_with;  // Of the one with it.
-  Direct direct;
+  SolveRequest request;
 };
-
-constexpr Detail kDetail = Detail::kNumbers;
 
 Scene Plane(double u0, double mu) {
   return {.system = PlanarContact{2.0, 0.5, 1.0, u0, -1.0},
@@ -51,119 +48,105 @@ Scene Space(double slip) {
           .restitution = EnergeticCoefficient{0.6}};
 }
 
-Scene With(Scene scene, const std::function<void(Scene&)>& change) {
-  change(scene);
+Scene ThePendulum() {
+  return {.system = Pendulum{1.0, 1.0, 0.1, -1.0},
+          .friction = {.kinetic_coefficient = 0.1},
+          .restitution = EnergeticCoefficient{0.6}};
+}
+
+Scene Body() {
+  return {.system = PlanarBody{.mass_kg = 2.0,
+                               .inertia_com_kg_m2 = 0.1,
+                               .offset_t_m = 0.2,
+                               .offset_n_m = -0.3,
+                               .velocity_t_m_s = 1.0,
+                               .velocity_n_m_s = -2.0,
+                               .rate_rad_s = 0.5},
+          .friction = {.kinetic_coefficient = 0.3},
+          .restitution = EnergeticCoefficient{0.6}};
+}
+
+Scene Sticky(Scene scene) {
+  scene.friction.static_coefficient = 0.4;
   return scene;
 }
 
-const PlanarReduction& PlanarOf(const PlannedScene& planned) { return std::get<PlanarReduction>(planned.contact); }
-
-planar::Problem ProblemOf(const PlannedScene& planned) {
-  return planar::MakeProblem(PlanarOf(planned), EnergeticCoefficient{}, planned.effective);
+Scene Compliant(Scene scene) {
+  scene.compliance = {.tangential_ratio_squared = 1.2, .normal = {}};
+  return scene;
 }
 
-absl::StatusOr<Outcome> DirectPlanar(const PlannedScene& planned) {
-  return planar::MakeOutcome(ProblemOf(planned), PlanarOf(planned), {}, kDetail);
+Scene Sprung(Scene scene) {
+  scene.compliance = {.tangential_ratio_squared = {}, .normal = LinearSpring{1e6}};
+  return scene;
 }
 
-absl::StatusOr<Outcome> DirectSmooth(const PlannedScene& planned) {
-  const PlanarReduction& reduction = PlanarOf(planned);
-  return sliding::MakeFrictionlessOutcome(sliding::MakeProblem(reduction, planned.effective), reduction, {}, kDetail);
+Scene Heavy(Scene scene) {
+  scene.finite_forces = ContactAcceleration{0.0, -9.81};
+  return scene;
 }
 
-absl::StatusOr<Outcome> DirectSliding(const PlannedScene& planned) {
-  const PlanarReduction& reduction = PlanarOf(planned);
-  return sliding::MakeOutcome(sliding::MakeProblem(reduction, planned.effective), reduction, {}, kDetail);
-}
-
-absl::StatusOr<Outcome> DirectStraight(const PlannedScene& planned) {
-  const auto& reduction = std::get<SpatialReduction>(planned.contact);
-  return sliding::MakeOutcome(sliding::MakeProblem(reduction, planned.effective), reduction, {}, kDetail);
-}
-
-absl::StatusOr<Outcome> DirectFirstOrder(const PlannedScene& planned) {
-  return first_order::MakeOutcome(std::get<pendulum::Problem>(planned.contact), {}, kDetail);
-}
-
-absl::StatusOr<Outcome> DirectFiniteDuration(const PlannedScene& planned) {
-  const planar::Problem rigid = ProblemOf(planned);
-  const finite_duration::Problem problem = {.wtt = rigid.wtt,
-                                            .wtn = rigid.wtn,
-                                            .wnn = rigid.wnn,
-                                            .u0 = rigid.u0,
-                                            .v0 = rigid.v0,
-                                            .mu = rigid.mu,
-                                            .mu_static = rigid.mu_static,
-                                            .spring = planned.physics.spring,
-                                            .energetic = rigid.coefficient,
-                                            .tolerance = planned.choice.model_tolerance};
-  return finite_duration::MakeOutcome(problem, PlanarOf(planned), {}, kDetail);
-}
-
+// Two cases an effect, EFFECT.off and EFFECT.on, and cases of their own with the defaults of a request.
 std::vector<Case> Cases() {
-  const Demand exact = {.relative_tolerance = 1e-10};
-  const Demand in_time = {.relative_tolerance = 1e-6, .required = {Effect::kFiniteDuration}};
-  const auto compliant = [](Scene& s) { s.compliance = {.tangential_ratio_squared = 1.2, .normal = {}}; };
-  const auto spring = [](Scene& s) { s.compliance = {.tangential_ratio_squared = {}, .normal = LinearSpring{1e6}}; };
-  const auto weight = [](Scene& s) { s.finite_forces = ContactAcceleration{0.0, -9.81}; };
-  const auto sticky = [](Scene& s) { s.friction.static_coefficient = 0.4; };
-  const Scene spring_scene = With(Plane(0.3, 0.5), spring);
-  const Scene pendulum = {.system = Pendulum{1.0, 1.0, 0.1, -1.0},
-                          .friction = {.kinetic_coefficient = 0.1},
-                          .restitution = EnergeticCoefficient{0.6}};
+  const DemandFields exact = {.relative_tolerance = 1e-10};
+  const DemandFields in_time = {.relative_tolerance = 1e-6, .required = {Effect::kFiniteDuration}};
+  const auto request = [](Scene scene, DemandFields demand) {
+    SolveRequest r;
+    r.scene = std::move(scene);
+    r.demand = std::move(demand);
+    return r;
+  };
   return {
-      {"friction", Plane(3.0, 0.0), Plane(3.0, 0.3), exact, exact, DirectSmooth},
-      {"slip_stop", Plane(3.0, 0.5), Plane(0.3, 0.5), exact, exact, DirectSliding},
-      {"slip_turn", Space(30.0), Space(1.0), {.relative_tolerance = 0.01}, exact, DirectStraight},
-      {"static_friction", Plane(-0.1, 0.2), With(Plane(-0.1, 0.2), sticky), exact, exact, DirectPlanar},
-      {"tangential_compliance", Plane(0.3, 0.5), With(Plane(0.3, 0.5), compliant), exact, exact, DirectPlanar},
-      {"finite_duration", spring_scene, spring_scene, exact, in_time, DirectPlanar},
-      {"finite_forces", spring_scene, With(spring_scene, weight), in_time, in_time, DirectFiniteDuration},
-      {"higher_order", pendulum, pendulum, {.relative_tolerance = 1e-3}, exact, DirectFirstOrder},
+      {"planar_body", request(Body(), {})},
+      {"planar_contact", request(Plane(0.3, 0.5), {})},
+      {"pendulum", request(ThePendulum(), {})},
+      {"friction.off", request(Plane(3.0, 0.0), exact)},
+      {"friction.on", request(Plane(3.0, 0.3), exact)},
+      {"slip_stop.off", request(Plane(3.0, 0.5), exact)},
+      {"slip_stop.on", request(Plane(0.3, 0.5), exact)},
+      {"slip_turn.off", request(Space(30.0), {.relative_tolerance = 0.01})},
+      {"slip_turn.on", request(Space(1.0), exact)},
+      {"static_friction.off", request(Plane(-0.1, 0.2), exact)},
+      {"static_friction.on", request(Sticky(Plane(-0.1, 0.2)), exact)},
+      {"tangential_compliance.off", request(Plane(0.3, 0.5), exact)},
+      {"tangential_compliance.on", request(Compliant(Plane(0.3, 0.5)), exact)},
+      {"finite_duration.off", request(Sprung(Plane(0.3, 0.5)), exact)},
+      {"finite_duration.on", request(Sprung(Plane(0.3, 0.5)), in_time)},
+      {"finite_forces.off", request(Sprung(Plane(0.3, 0.5)), in_time)},
+      {"finite_forces.on", request(Heavy(Sprung(Plane(0.3, 0.5))), in_time)},
+      {"higher_order.off", request(ThePendulum(), {.relative_tolerance = 1e-3})},
+      {"higher_order.on", request(ThePendulum(), exact)},
   };
 }
 
-// A result that nobody could do without.
-double Use(const absl::StatusOr<Outcome>& outcome) {
-  if (!outcome.ok()) return -1.0;
-  return outcome->contact_velocity_after.normal_m_s + outcome->contact_velocity_after.tangential_m_s.front();
+// From a request to an answer that has been freed again. Not inlined, as plan_cost.py looks for it by name.
+[[gnu::noinline]] double SolveOnce(const SolveRequest& request) {
+  const LocalSolver solver;
+  const absl::StatusOr<SolveResponse> response = solver.Solve(request);
+  if (!response.ok()) {
+    std::fprintf(stderr, "%s\n", response.status().ToString().c_str());
+    std::exit(1);
+  }
+  return response->outcome.contact_velocity_after.normal_m_s;
 }
 
-double Do(const Case& one, const std::string& what, const PlannedScene& planned) {
-  if (what == "validate") return static_cast<double>(Validate(one.without).size());
-  if (what == "plan") return PlanScene(one.without, one.demand).choice.neglected;
-  if (what == "solve") return Use(SolveScene(one.without, {.demand = one.demand, .detail = kDetail}));
-  if (what == "direct") return Use(one.direct(planned));
-  if (what == "with") return Use(SolveScene(one.with, {.demand = one.demand_with, .detail = kDetail}));
-  std::fprintf(stderr, "no such thing to measure: %s\n", what.c_str());
-  std::exit(2);
-}
-
-// Makes sure that "direct" and "solve" are the same model.
-void Check(const Case& one, const PlannedScene& planned) {
-  const double direct = Use(one.direct(planned));
-  const double solved = Use(SolveScene(one.without, {.demand = one.demand, .detail = kDetail}));
-  if (direct == solved && planned.choice.model != PlanScene(one.with, one.demand_with).choice.model) return;
-  if (direct == solved && (one.name == "static_friction" || one.name == "finite_forces")) return;
-  std::fprintf(stderr, "%s: the scene is not solved by the model that is called by hand\n", one.name.c_str());
-  std::exit(1);
-}
-
-void Run(const Case& one, const std::string& what, int count) {
-  const PlannedScene planned = PlanScene(one.without, one.demand);
-  Check(one, planned);
+// Not inlined, as plan_cost.py counts instructions inside it alone.
+[[gnu::noinline]] void SolveRepeatedly(const SolveRequest& request, int count) {
   double sum = 0.0;
-  for (int i = 0; i < count; ++i) sum += Do(one, what, planned);
+  const int64_t before = allocations;
+  for (int i = 0; i < count; ++i) sum += SolveOnce(request);
+  std::printf("%lld\n", static_cast<long long>(allocations - before));
   Keep(sum);
 }
 
 int Main(int argc, char** argv) {
-  if (argc != 4) {
-    for (const Case& one : Cases()) std::printf("%s\n", one.name.c_str());
-    return 0;
-  }
   for (const Case& one : Cases()) {
-    if (one.name == argv[1]) Run(one, argv[2], std::atoi(argv[3]));
+    if (argc != 3) {
+      std::printf("%s\n", one.name.c_str());
+    } else if (one.name == argv[1]) {
+      Keep(SolveOnce(one.request));
+      SolveRepeatedly(one.request, std::atoi(argv[2]));
+    }
   }
   return 0;
 }

@@ -1,58 +1,100 @@
 #!/usr/bin/python3
-"""What each effect costs, in instructions under callgrind: python3 plan_cost.py RICOCHET_PLAN_COST."""
+"""Instructions and heap allocations of a solve, counted by callgrind: python3 plan_cost.py RICOCHET_PLAN_COST."""
 
+import collections
+import os
 import re
 import subprocess
 import sys
+import tempfile
 
-# The function that is the model of a case without the effect, as callgrind names it.
+COUNT = 20
+SOLVE = "ricochet::bench::(anonymous namespace)::SolveOnce("
+VALIDATE = "ricochet::Validate("
+PLAN = "ricochet::PlanScene("
+# The function that is the model of an effect's case without the effect.
 MODELS = {
-    "friction": "*sliding::SolveFrictionless<1ul>*",
-    "slip_stop": "*sliding::Solve<1ul>*",
-    "slip_turn": "*sliding::Solve<2ul>*",
-    "static_friction": "ricochet::planar::Solve(*",
-    "tangential_compliance": "ricochet::planar::Solve(*",
-    "finite_duration": "ricochet::planar::Solve(*",
-    "finite_forces": "ricochet::finite_duration::Solve(*",
-    "higher_order": "ricochet::first_order::Solve(*",
+    "friction": "ricochet::sliding::SolveFrictionless<1",
+    "slip_stop": "ricochet::sliding::Solve<1",
+    "slip_turn": "ricochet::sliding::Solve<2",
+    "static_friction": "ricochet::planar::Solve(",
+    "tangential_compliance": "ricochet::planar::Solve(",
+    "finite_duration": "ricochet::planar::Solve(",
+    "finite_forces": "ricochet::finite_duration::Solve(",
+    "higher_order": "ricochet::first_order::Solve(",
 }
 
 
-def instructions(program, case, what, count, inside=None):
-    command = ["valgrind", "--tool=callgrind", "--callgrind-out-file=/dev/null"]
-    if inside is not None:
-        command += ["--collect-atstart=no", f"--toggle-collect={inside}"]
-    command += [program, case, what, str(count)]
-    done = subprocess.run(command, capture_output=True, text=True, check=False)
-    found = re.search(r"Collected : (\d+)", done.stderr)
-    if done.returncode != 0 or found is None:
-        sys.exit(f"{' '.join(command)} failed:\n{done.stderr}")
-    return int(found.group(1))
+class Profile:
+    """What COUNT solves executed, each function with all that it calls, and how often they asked for memory."""
+
+    def __init__(self, lines, allocations):
+        self.inclusive = collections.Counter()
+        self.allocations = allocations / COUNT
+        names, function, callee, is_call = {}, None, None, False
+        for line in lines:
+            named = re.match(r"(c?fn)=\((\d+)\)(?: (.*))?", line)
+            if named:
+                kind, number, name = named.groups()
+                if name is not None:
+                    names[number] = name
+                if kind == "fn":
+                    function = names[number]
+                else:
+                    callee = names[number]
+            elif line.startswith("calls="):
+                is_call = True
+            elif re.match(r"[+*\d-]", line):
+                # Position and cost; after calls= the cost is that of the calls.
+                if not (is_call and callee == function):
+                    self.inclusive[function] += int(line.split()[1])
+                is_call = False
+
+    def instructions(self, name):
+        """A solve's, in the functions whose qualified names begin so; they must not call each other."""
+        wanted = re.compile(r"(^|[ *&])" + re.escape(name))
+        return sum(cost for function, cost in self.inclusive.items() if wanted.search(function)) / COUNT
 
 
-def per_call(program, case, what, inside=None):
-    few, many = (10, 20) if case.startswith("finite") else (50, 250)
-    counts = [instructions(program, case, what, count, inside) for count in (few, many)]
-    return (counts[1] - counts[0]) / (many - few)
+def profile(program, case):
+    with tempfile.TemporaryDirectory() as directory:
+        out = os.path.join(directory, "out")
+        command = ["valgrind", "--tool=callgrind", "--collect-atstart=no", "--toggle-collect=*SolveRepeatedly*",
+                   f"--callgrind-out-file={out}", program, case, str(COUNT)]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode != 0:
+            sys.exit(f"{' '.join(command)} failed:\n{done.stderr}")
+        with open(out, encoding="utf-8") as lines:
+            return Profile(lines, int(done.stdout))
+
+
+def print_solves(program, cases):
+    print("One solve in this process, with the defaults of a request, from the request until its answer is freed:")
+    print(f"{'system':<22} {'instructions':>12} {'allocations':>12}")
+    for case in cases:
+        measured = profile(program, case)
+        print(f"{case:<22} {measured.instructions(SOLVE):12.0f} {measured.allocations:12.0f}")
+
+
+def print_effects(program, effects):
+    print("\nInstructions of a solve without each effect, and of one with it. 'rest' is what puts the answer together.")
+    print(f"{'effect':<22} {'validate':>9} {'plan':>7} {'model':>9} {'rest':>7} {'solve':>9} {'solve with it':>14}")
+    for effect in effects:
+        off, on = (profile(program, f"{effect}.{state}") for state in ("off", "on"))
+        validate, plan, model = (off.instructions(name) for name in (VALIDATE, PLAN, MODELS[effect]))
+        if not (validate and plan and model):
+            sys.exit(f"{effect}: one of {VALIDATE}, {PLAN}, {MODELS[effect]} was not called")
+        solve, solve_with_it = off.instructions(SOLVE), on.instructions(SOLVE)
+        rest = solve - validate - plan - model
+        print(f"{effect:<22} {validate:9.0f} {plan:7.0f} {model:9.0f} {rest:7.0f} {solve:9.0f} {solve_with_it:14.0f}")
 
 
 def main():
     program = sys.argv[1]
-    cases = subprocess.run([program], capture_output=True, text=True, check=True).stdout.split()
-    print("Instructions a call, counted by callgrind. The effect named is off but in the last column; 'solve' is validated")
-    print("scene to outcome: plan, model, and what puts the answer together.")
-    print(f"{'effect':<22} {'validate':>9} {'plan':>7} {'solve':>9} {'model in it':>12} {'model directly':>15} {'ratio':>6}"
-          f" {'solve with it':>14}")
-    worst = 0.0
-    for case in cases:
-        validate, plan, solve, on = (per_call(program, case, what) for what in ("validate", "plan", "solve", "with"))
-        model, direct = (per_call(program, case, what, MODELS[case]) for what in ("solve", "direct"))
-        if not direct > 0.0:
-            sys.exit(f"{case}: no function {MODELS[case]} was called")
-        worst = max(worst, abs(model / direct - 1.0))
-        print(f"{case:<22} {validate:9.0f} {plan:7.0f} {solve:9.0f} {model:12.0f} {direct:15.0f} {model / direct:6.3f}"
-              f" {on:14.0f}")
-    print(f"\nA model costs within {100 * worst:.1f} % in a scene of what it costs directly.")
+    names = subprocess.run([program], capture_output=True, text=True, check=True).stdout.split()
+    print("Counted by callgrind, each function with all that it calls.\n")
+    print_solves(program, [name for name in names if "." not in name])
+    print_effects(program, [name.split(".")[0] for name in names if name.endswith(".off")])
 
 
 if __name__ == "__main__":
