@@ -1,4 +1,5 @@
-// The numbers of an answer, in a fixed order with their paths, over a number type N (core/certified/branches.h).
+// AnswerSolve, AnswerBounds: the numbers of an answer with their paths, in a fixed order, over a number type N
+// (core/certified/branches.h).
 
 #ifndef RICOCHET_CORE_CERTIFIED_ANSWERS_H_
 #define RICOCHET_CORE_CERTIFIED_ANSWERS_H_
@@ -20,7 +21,7 @@ namespace ricochet::certified {
 template <typename N>
 struct NamedNumber {
   std::string path;
-  std::optional<Number<N>> number;  // Absent where there is no such thing: a critical friction that no friction is.
+  std::optional<Number<N>> number;  // Absent if no coefficient of friction is critical in this way.
 };
 
 template <typename N>
@@ -32,13 +33,13 @@ struct Answer {
   void Add(std::string path, Number<N> number) { numbers.push_back({std::move(path), std::move(number)}); }
 };
 
-// A pendulum has regimes of its own names.
+// The regimes of a pendulum have names of their own.
 inline Regime PendulumRegime(Regime regime) {
   const bool shared = regime == Regime::kLocked || regime == Regime::kFrictionless || regime == Regime::kSeparating;
   return shared ? regime : Regime::kRebound;
 }
 
-// The system's own velocities after the impact.
+// Adds the system's own velocities after the impact.
 template <typename N>
 void AddVelocities(const SystemContact<N>& system, const Impact<N>& impact, Answer<N>& answer) {
   std::vector<N> after;
@@ -58,7 +59,7 @@ void AddVelocities(const SystemContact<N>& system, const Impact<N>& impact, Answ
   }
 }
 
-// Nothing changes.
+// A contact that separates has no impact, and nothing changes.
 template <typename N>
 Impact<N> SeparatingImpact(const Contact<N>& contact) {
   const N zero(0.0);
@@ -79,7 +80,7 @@ Impact<N> SeparatingImpact(const Contact<N>& contact) {
           .normal_total = zero};
 }
 
-// The numbers of Outcome, in the order of VisitOutcomeNumbers, that are the impact's own.
+// Gives the numbers of Outcome that the impact alone decides, in the order of VisitOutcomeNumbers.
 template <typename N>
 Answer<N> AnswerSolve(SystemContact<N> system, Branches& branches) {
   Contact<N>& contact = system.contact;
@@ -155,7 +156,7 @@ void AddRanges(const std::string& prefix, const RangesOfCoefficients<N>& ranges,
 template <typename N>
 using MaybeN = std::optional<Number<N>>;
 
-// n/d as a least coefficient of friction, which is not below 0; absent if d is not above 0.
+// Returns n/d as a least coefficient of friction, which is not below 0; nothing if d is not above 0.
 template <typename N>
 MaybeN<N> LeastFriction(const N& n, const N& d, Branches& branches) {
   if (!IsPositive(d, branches)) return std::nullopt;
@@ -171,7 +172,7 @@ struct CriticalFrictionOf {
 template <typename N>
 CriticalFrictionOf<N> FindCriticalFriction(const Contact<N>& contact, Branches& branches) {
   CriticalFrictionOf<N> critical;
-  if (contact.rank_one.value_or(false)) {
+  if (contact.rank_one) {
     if (!IsPositive(Abs(contact.rho), branches)) return critical;
     critical.stick = Number<N>{N(1.0) / Abs(contact.rho)};
     critical.stop = critical.reversal = Number<N>{N(0.0)};
@@ -203,7 +204,7 @@ void AddCriticalFriction(const CriticalFrictionOf<N>& critical, Answer<N>& answe
   answer.numbers.push_back({"critical.jam", critical.jam});
 }
 
-// x = mu |b|/a and r = (1 - x)/(1 + x).
+// Adds the pendulum's x = mu |b|/a and r = (1 - x)/(1 + x).
 template <typename N>
 void AddRatios(const Contact<N>& contact, Answer<N>& answer) {
   const N x = contact.mu * Abs(contact.rho);
@@ -217,32 +218,32 @@ struct BothRanges {
   RangesOfCoefficients<N> sharp, energy_only;
 };
 
-// Of a contact that approaches.
+// Gives the ranges for a contact that approaches.
 template <typename N>
 BothRanges<N> RangesOf(const Contact<N>& contact, Branches& branches) {
   const N one(1.0);
   ContactPath<N> path(contact, branches);
-  const Impact<N> dead = path.Solve(RestitutionLaw::kEnergetic, N(0.0));
+  const Impact<N> plastic = path.Solve(RestitutionLaw::kEnergetic, N(0.0));
   const Impact<N> elastic = path.Solve(RestitutionLaw::kEnergetic, one);
   BothRanges<N> ranges = {.regime = elastic.regime};
   ranges.sharp = {.newton = UpTo<N>({elastic.newton}),
                   .poisson = UpTo<N>({elastic.poisson}),
                   .energetic = UpTo<N>({path.locked() ? N(0.0) : one}),
-                  .tangential = Between(dead.tangential, elastic.tangential),
-                  .normal_total = {{dead.tau1}, {elastic.tau1}}};
+                  .tangential = Between(plastic.tangential, elastic.tangential),
+                  .normal_total = {{plastic.tau1}, {elastic.tau1}}};
   ranges.energy_only = ranges.sharp;
   if (path.locked()) return ranges;
   const EnergyEnd<N> end = path.FindEnergyEnd();
   ranges.energy_only = {.newton = UpTo<N>({end.newton}),
                         .poisson = UpTo<N>({end.poisson}),
                         .energetic = UpTo<N>(end.energetic),
-                        .tangential = Between(dead.tangential, end.tangential),
-                        .normal_total = {{dead.tau1}, {end.tau}}};
+                        .tangential = Between(plastic.tangential, end.tangential),
+                        .normal_total = {{plastic.tau1}, {end.tau}}};
   return ranges;
 }
 
-// Of a contact that does not. How fast a pendulum comes in does not matter to its coefficients, so that those are
-// answered for one that leaves too.
+// Gives the ranges for a contact that separates: all are 0. The coefficients of a pendulum do not depend on its speed, so
+// they are answered for one that leaves, too.
 template <typename N>
 BothRanges<N> RangesWhereSeparating(Contact<N> contact, bool is_pendulum, Branches& branches) {
   BothRanges<N> ranges = {.sharp = NoRanges<N>(), .energy_only = NoRanges<N>()};
@@ -256,7 +257,7 @@ BothRanges<N> RangesWhereSeparating(Contact<N> contact, bool is_pendulum, Branch
   return ranges;
 }
 
-// The numbers of Bounds but the first-order ones, which are approximate by nature.
+// Gives the numbers of Bounds other than the first-order ones, which are approximate by nature.
 template <typename N>
 Answer<N> AnswerBounds(SystemContact<N> system, Branches& branches) {
   Contact<N>& contact = system.contact;

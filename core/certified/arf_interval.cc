@@ -6,7 +6,7 @@
 namespace ricochet::certified {
 namespace {
 
-// x y, where 0 times an infinite end, which no point attains, is 0.
+// Returns x y. 0 times an infinite end is 0, because no point attains that end.
 Arf Product(const Arf& x, const Arf& y, slong bits, arf_rnd_t rounding) {
   Arf product;
   if (x.Sign() != 0 && y.Sign() != 0) arf_mul(product.get(), x.get(), y.get(), bits, rounding);
@@ -19,7 +19,7 @@ Arf Sum(const Arf& x, const Arf& y, slong bits, arf_rnd_t rounding) {
   return sum;
 }
 
-// 1/x; infinite with the sign of `side` where x is 0.
+// Returns 1/x, or an infinity with the sign of `side` if x is 0.
 Arf Inverse(const Arf& x, slong bits, arf_rnd_t rounding, int side) {
   Arf inverse;
   if (x.Sign() != 0) {

@@ -1,15 +1,16 @@
 // ArfInterval: a closed interval with ends of any precision and exponent, by Arb.
 //
-// Every operation encloses the exact results for all points of its operands: each end is rounded outward to the larger
-// of the two precisions. Two ends, rather than a ball's centre and radius, keep signs and roots of wide intervals. A
-// quotient by an interval that holds 0 inside is the whole line, where it only ends at 0 a half-line.
+// Every operation encloses the exact results for all points of its operands: it rounds each end outward, to the larger
+// of the operands' two precisions. An interval keeps two ends rather than a centre and a radius, because so it keeps the
+// sign and the root of a wide interval. A quotient is the whole line if the divisor holds 0 inside, and a half-line if
+// the divisor ends at 0.
 
 #ifndef RICOCHET_CORE_CERTIFIED_ARF_INTERVAL_H_
 #define RICOCHET_CORE_CERTIFIED_ARF_INTERVAL_H_
 
-#include <arb.h>
-
 #include <utility>
+
+#include "core/certified/flint.h"
 
 namespace ricochet::certified {
 
@@ -62,14 +63,14 @@ class ArfInterval {
   friend ArfInterval operator*(const ArfInterval& x, const ArfInterval& y);
   friend ArfInterval operator/(const ArfInterval& x, const ArfInterval& y);
   friend ArfInterval operator-(const ArfInterval& x);
-  // Of the points that are not negative; there is one.
+  // The root of the points that are not negative; there must be one.
   friend ArfInterval Sqrt(const ArfInterval& x);
   friend ArfInterval Square(const ArfInterval& x);
   friend ArfInterval Abs(const ArfInterval& x);
   friend ArfInterval Min(const ArfInterval& x, const ArfInterval& y);
   friend ArfInterval Max(const ArfInterval& x, const ArfInterval& y);
   friend ArfInterval Hull(const ArfInterval& x, const ArfInterval& y);
-  // The points that are not negative, or not positive; there is one.
+  // The points that are not negative, or not positive; there must be one.
   friend ArfInterval AtLeastZero(ArfInterval x);
   friend ArfInterval AtMostZero(ArfInterval x);
 

@@ -1,8 +1,8 @@
-// Branches: which way a computation goes, by proof, or both ways in turn.
+// Branches: decides which way a computation goes by proof, or takes both ways in turn.
 //
-// The sign of a Surd is always known. That of an ArfInterval that holds 0 is not: while more precision may help, the
-// branch is noted as open and what follows is thrown away; otherwise the computation is run once for each combination
-// of open branches, and the answers together enclose the right one.
+// The sign of a Surd is always known. The sign of an ArfInterval that holds 0 is not, and the branch is then open. While
+// more precision may help, the caller throws such a run away. At the highest precision it repeats the computation once
+// for each combination of open branches, and the answers together enclose the right one.
 
 #ifndef RICOCHET_CORE_CERTIFIED_BRANCHES_H_
 #define RICOCHET_CORE_CERTIFIED_BRANCHES_H_
@@ -17,16 +17,16 @@ namespace ricochet::certified {
 
 class Branches {
  public:
-  // A branch that is open: no, at first; yes, once NextRun has come to it.
+  // Takes an open branch: it answers no in the first run, and yes once NextRun has turned it.
   bool TakeOpen() {
     if (next_ == taken_.size()) taken_.push_back(false);
     return taken_[next_++];
   }
 
-  // Whether some branch of the run was open.
+  // Tells whether some branch of the run was open.
   bool any_open() const { return !taken_.empty(); }
 
-  // Sets up the run that turns the last open branch not yet turned; false when there is none.
+  // Prepares a run that turns the last open branch not yet turned. Returns false if there is none.
   bool NextRun() {
     taken_.resize(next_);
     while (!taken_.empty() && taken_.back()) taken_.pop_back();

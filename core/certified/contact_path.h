@@ -1,21 +1,19 @@
-// The path of a planar impact (core/models/planar/planar.h has its equations and regimes) over a number type N: Surd, where
-// every branch is decided, or ArfInterval.
+// ContactPath: the path of a planar impact over a number type N that proves its branches. N is Surd, which decides every
+// branch, or ArfInterval.
 //
-// A path has at most two pieces, on which u, v and f are linear in tau: the slip of the start, and what follows where
-// it stops. Along a piece with slopes (f', u', v')
-//   twice the work    step (v + v_new) of the normal, f' step (u + u_new) of the tangential impulse
-//   v_new^2 - v^2     2 v' times the normal work, which ends energetic restitution at a square root
-//   E_new - E         p step + P step^2/2,  p = f' u + v,  P = f' u' + v'
-// With rank one u = rho v, rho = Wtn/Wnn, along the path, so that slip stops just where v = 0.
+// core/models/planar/planar.h has the equations and regimes, and docs/theory/certified.md says why this path stands
+// apart from the kernel of that model. A path has at most two pieces, on which u, v and f are linear in tau: the slip at
+// the start, and what follows where slip stops. On a piece with slopes (f', u', v') the sums are
+//   twice the work      step (v + v_new) for the normal and f' step (u + u_new) for the tangential impulse
+//   v_new^2 - v^2       2 v' times the normal work, so energetic restitution ends at a square root
+//   E_new - E           p step + P step^2/2 with p = f' u + v and P = f' u' + v'
+// If W has rank one, u = rho v with rho = Wtn/Wnn all along the path, so slip stops exactly where v = 0.
+// Units are those of core/models/planar/planar.h. Results are exact for Surd and enclosed for ArfInterval.
 
 #ifndef RICOCHET_CORE_CERTIFIED_CONTACT_PATH_H_
 #define RICOCHET_CORE_CERTIFIED_CONTACT_PATH_H_
 
-#include <optional>
-#include <utility>
-
 #include "core/certified/branches.h"
-#include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
 #include "ricochet/regime.h"
 
@@ -24,16 +22,16 @@ namespace ricochet::certified {
 template <typename N>
 struct Contact {
   N wtt, wtn, wnn;
-  N det;  // Of W, not below 0.
-  N rho;
-  N u0, v0;  // In the range of W.
+  N det;                  // det W, which is not below 0.
+  bool rank_one = false;  // The system makes det W = 0, or it is so exactly.
+  N rho;                  // Wtn/Wnn
+  N u0, v0;               // They lie in the range of W.
   N mu, mu_static;
   RestitutionLaw law = RestitutionLaw::kEnergetic;
   N coefficient;
-  std::optional<bool> rank_one;  // Where the system's nature says it; else det does.
 };
 
-// A number, or its square where it is a root that N may not hold.
+// A number, or its square if the number is a root that N may not hold.
 template <typename N>
 struct Number {
   N value;
@@ -47,11 +45,12 @@ struct Impact {
   Number<N> energetic;
   N u1, v1;
   N tau_compression, tau1, f1;
-  N normal_compression, normal_restitution, tangential_compression, tangential_restitution;  // Works.
+  // Works, J.
+  N normal_compression, normal_restitution, tangential_compression, tangential_restitution;
   N normal_total;
 };
 
-// Where the kinetic energy is back, beyond the end of the elastic impact.
+// The point of the path, beyond the end of the elastic impact, at which the kinetic energy is what it was before.
 template <typename N>
 struct EnergyEnd {
   N newton, poisson, tangential, tau;
@@ -61,10 +60,9 @@ struct EnergyEnd {
 template <typename N>
 class ContactPath {
  public:
-  // The contact approaches: v0 < 0.
+  // The contact must approach: v0 < 0.
   ContactPath(const Contact<N>& contact, Branches& branches) : contact_(contact), branches_(branches) {
-    rank_one_ = contact.rank_one.has_value() ? *contact.rank_one : !IsPositive(contact.det, branches);
-    if (rank_one_) {
+    if (contact.rank_one) {
       FollowRankOne();
     } else {
       FollowFullRank();
@@ -74,9 +72,9 @@ class ContactPath {
 
   bool locked() const { return locked_; }
 
-  // The whole impact, with restitution by `law`.
+  // Solves the whole impact, with restitution by `law`.
   Impact<N> Solve(RestitutionLaw law, const N& coefficient) {
-    End end = {.at = rest_, .normal_twice = N(0.0), .tangential_twice = N(0.0), .passes_stop = false};
+    End end = {.at = compression_end_, .normal_twice = N(0.0), .tangential_twice = N(0.0), .passes_stop = false};
     const bool has_restitution = !locked_ && IsPositive(coefficient, branches_);
     if (has_restitution) {
       end = Restitute(law, coefficient);
@@ -90,13 +88,13 @@ class ContactPath {
 
   EnergyEnd<N> FindEnergyEnd() {
     const N half(0.5);
-    Point at = rest_;
+    Point at = compression_end_;
     N energy = half * (compression_normal_ + compression_tangential_);
     N work(0.0);
     Piece piece = Current();
     if (StopIsAhead()) {
       const N step = v_stop_ / piece.v;
-      const N at_stop = energy + half * step * (piece.f * (at.u + N(0.0)) + (at.v + v_stop_));
+      const N at_stop = energy + half * step * (piece.f * at.u + (at.v + v_stop_));
       if (IsNegative(at_stop, branches_)) {
         work = half * step * (at.v + v_stop_);
         energy = at_stop;
@@ -111,7 +109,7 @@ class ContactPath {
     work = work + half * step * (at.v + v);
     const N tau = at.tau + step;
     return {.newton = v / -contact_.v0,
-            .poisson = (tau - rest_.tau) / rest_.tau,
+            .poisson = (tau - compression_end_.tau) / compression_end_.tau,
             .tangential = (at.f + piece.f * step) / tau,
             .tau = tau,
             .energetic = {work / (-half * compression_normal_), true}};
@@ -126,7 +124,7 @@ class ContactPath {
   };
   struct End {
     Point at;
-    N normal_twice, tangential_twice;  // Works of restitution.
+    N normal_twice, tangential_twice;  // Twice the works of restitution.
     bool passes_stop;
   };
 
@@ -199,17 +197,17 @@ class ContactPath {
       Advance(second_, step, second_.u * step, zero, at, compression_normal_, compression_tangential_);
     } else {
       const N step = -contact_.v0 / first_.v;
-      // At rank one slip stops together with v.
-      const N u = stops_ && rank_one_ ? zero : contact_.u0 + first_.u * step;
+      // If W has rank one, slip stops together with v.
+      const N u = stops_ && contact_.rank_one ? zero : contact_.u0 + first_.u * step;
       Advance(first_, step, u, zero, at, compression_normal_, compression_tangential_);
     }
-    rest_ = at;
+    compression_end_ = at;
   }
 
   bool StopIsAhead() const { return stops_ && !stops_in_compression_; }
   const Piece& Current() const { return stops_in_compression_ ? second_ : first_; }
 
-  // How far restitution goes: on the current piece alone, or past where slip stops.
+  // How far restitution goes: on the current piece alone, or past the point where slip stops.
   struct Steps {
     bool passes_stop;
     N before, after, v1;
@@ -226,7 +224,7 @@ class ContactPath {
 
   Steps ByPoisson(const N& kappa) {
     const N& slope = Current().v;
-    const N step = kappa * rest_.tau;
+    const N step = kappa * compression_end_.tau;
     if (!StopIsAhead()) return OnOnePiece(step, slope * step);
     const N before = v_stop_ / slope;
     const N after = step - before;
@@ -264,7 +262,8 @@ class ContactPath {
   End Restitute(RestitutionLaw law, const N& coefficient) {
     const N zero(0.0);
     const Steps steps = FindSteps(law, coefficient);
-    End end = {.at = rest_, .normal_twice = zero, .tangential_twice = zero, .passes_stop = steps.passes_stop};
+    End end = {
+        .at = compression_end_, .normal_twice = zero, .tangential_twice = zero, .passes_stop = steps.passes_stop};
     const auto advance = [&](const Piece& piece, const N& step, const N& u, const N& v) {
       Advance(piece, step, u, v, end.at, end.normal_twice, end.tangential_twice);
     };
@@ -272,7 +271,7 @@ class ContactPath {
       advance(Current(), steps.before, zero, v_stop_);
       advance(second_, steps.after, second_.u * steps.after, steps.v1);
     } else {
-      advance(Current(), steps.before, rest_.u + Current().u * steps.before, steps.v1);
+      advance(Current(), steps.before, compression_end_.u + Current().u * steps.before, steps.v1);
     }
     return end;
   }
@@ -297,7 +296,7 @@ class ContactPath {
             .energetic = {zero, false},
             .u1 = end.at.u,
             .v1 = end.at.v,
-            .tau_compression = rest_.tau,
+            .tau_compression = compression_end_.tau,
             .tau1 = end.at.tau,
             .f1 = end.at.f,
             .normal_compression = half * compression_normal_,
@@ -307,13 +306,15 @@ class ContactPath {
             .normal_total = half * (compression_normal_ + end.normal_twice)};
   }
 
-  // What the law gives by definition stands as given: an interval would only blur it. Where v' is the same
-  // throughout, all laws agree.
+  // A coefficient that the law states is copied, because an interval would only blur it. If v' is the same throughout,
+  // all laws agree.
   void SetCoefficients(RestitutionLaw law, const N& coefficient, const End& end, Impact<N>& impact) const {
     const bool one_piece =
         impact.regime == Regime::kFrictionless || (!end.passes_stop && !(stops_in_compression_ && slips_first_));
     impact.newton = one_piece || law == RestitutionLaw::kNewton ? coefficient : end.at.v / -contact_.v0;
-    impact.poisson = one_piece || law == RestitutionLaw::kPoisson ? coefficient : (end.at.tau - rest_.tau) / rest_.tau;
+    impact.poisson = one_piece || law == RestitutionLaw::kPoisson
+                         ? coefficient
+                         : (end.at.tau - compression_end_.tau) / compression_end_.tau;
     if (one_piece || law == RestitutionLaw::kEnergetic) {
       const N square = Square(coefficient);
       impact.energetic = {coefficient, false};
@@ -326,16 +327,15 @@ class ContactPath {
 
   Contact<N> contact_;
   Branches& branches_;
-  Piece first_;   // Of the slip at the start; not set where u0 = 0.
-  Piece second_;  // Once slip has stopped; not set where it never does.
-  bool rank_one_ = false;
+  Piece first_;   // The slip at the start; not set if u0 = 0.
+  Piece second_;  // The piece after slip has stopped; not set if it never does.
   bool slips_first_ = false;
-  bool stops_ = false;  // Slip comes to a stop, if the impact lasts; true where u0 = 0.
+  bool stops_ = false;  // Slip comes to a stop if the impact lasts long enough; true if u0 = 0.
   bool sticks_ = false;
   bool locked_ = false;
   bool stops_in_compression_ = false;
-  N v_stop_;                                       // v where slip stops.
-  Point rest_;                                     // The end of compression.
+  N v_stop_;  // v at the point where slip stops.
+  Point compression_end_;
   N compression_normal_, compression_tangential_;  // Twice the works.
 };
 

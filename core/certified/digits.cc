@@ -50,7 +50,7 @@ class Ball {
   arb_t value_;
 };
 
-// A quotient of integers, times a power of ten.
+// Returns x 10^power.
 Rational Scaled(const Rational& x, int64_t power) {
   Rational scale(1.0);
   const Integer ten = Integer::PowerOfTen(power >= 0 ? power : -power);
@@ -60,7 +60,7 @@ Rational Scaled(const Rational& x, int64_t power) {
 
 Surd Scaled(const Surd& x, int64_t power) { return x * Surd(Scaled(Rational(1.0), power)); }
 
-// The ball of a number, a root where it is one.
+// Sets `ball` to enclose the number.
 void Enclose(const Number<Surd>& number, slong bits, Ball& ball) {
   number.value.Enclose(ball.get(), bits);
   if (number.is_square) arb_sqrt(ball.get(), ball.get(), bits);
@@ -77,7 +77,7 @@ struct Rounded {
   bool is_exact = false;
 };
 
-// x >= 0 to an integer.
+// Rounds x >= 0 to an integer.
 Rounded Round(const Rational& x, Rounding rounding) {
   Rounded rounded;
   Integer rest;
@@ -93,14 +93,14 @@ Rounded Round(const Rational& x, Rounding rounding) {
   return rounded;
 }
 
-// The sign of x - h, h >= 0, where x >= 0.
+// Returns the sign of x - h for x, h >= 0.
 int Compare(const Number<Surd>& x, const Integer& h) {
   Rational exact;
   fmpz_set(fmpq_numref(exact.get()), h.get());
   return (x.value - Surd(x.is_square ? exact * exact : exact)).Sign();
 }
 
-// x > 0, not rational, to the nearest integer: by the floor of 2 x.
+// Rounds an irrational x > 0 to the nearest integer, which it gets from the floor of 2 x.
 Rounded RoundIrrational(const Number<Surd>& x, slong bits) {
   const Number<Surd> twice = {x.value * Surd(x.is_square ? 4.0 : 2.0), x.is_square};
   Ball ball;
@@ -126,7 +126,7 @@ Rounded Round(const Number<Surd>& x, int digits, Rounding rounding) {
   return RoundIrrational(x, BitsOf(digits));
 }
 
-// floor(log10 |x|) of a ball that is not 0, or one beside it.
+// Returns floor(log10 |x|) for x != 0, or an integer next to it.
 int64_t DecimalExponent(const arf_struct* x) {
   Integer mantissa_exponent;
   Arf mantissa;
@@ -136,7 +136,7 @@ int64_t DecimalExponent(const arf_struct* x) {
   return static_cast<int64_t>(std::floor(log2 / kBitsPerDigit));
 }
 
-// Plain, or with an exponent where that needs zeros that are no digits of the number.
+// Writes the digits with an exponent only where the plain form would need zeros that are no digits of the number.
 std::string Spell(bool negative, std::string digits, int64_t exponent, bool is_exact) {
   const auto count = static_cast<int64_t>(digits.size());
   const bool is_plain = exponent >= -6 && exponent < count;
@@ -152,7 +152,7 @@ struct Decimal {
   bool is_exact = true;
 };
 
-// `rounding` other than kNearest is for rational numbers, kDown and kUp towards and away from 0.
+// kDown rounds towards 0 and kUp away from it; only rational numbers may be rounded other than to the nearest.
 Decimal ToDecimal(Number<Surd> number, int digits, Rounding rounding) {
   const int sign = number.value.Sign();
   if (sign == 0) return {};
@@ -172,8 +172,8 @@ Decimal ToDecimal(Number<Surd> number, int digits, Rounding rounding) {
   }
 }
 
-// The nearest double, from balls that shrink until both ends agree: at once, unless the number lies close to the middle
-// of two doubles; exactly in the middle the ball is exact.
+// Finds the nearest double with balls that shrink until both ends round to the same one. The first ball does, unless the
+// number lies close to the middle of two doubles; if it lies exactly there the ball is exact.
 double NearestDouble(const Number<Surd>& number) {
   constexpr slong kLeastBits = 128;
   constexpr slong kEnoughBits = 1 << 14;
@@ -195,7 +195,7 @@ Rational Exactly(const Arf& x) {
 Number<Surd> AsNumber(const Arf& x) { return {Surd(Exactly(x)), false}; }
 
 Arf Middle(const ArfInterval& interval) {
-  constexpr slong kBits = 1 << 13;  // More than kMostCertifiedDigits take.
+  constexpr slong kBits = 1 << 13;  // kMostCertifiedDigits take fewer.
   Arf sum;
   arf_add(sum.get(), interval.lower().get(), interval.upper().get(), kBits, ARF_RND_NEAR);
   arf_mul_2exp_si(sum.get(), sum.get(), -1);
@@ -210,7 +210,7 @@ std::string OutwardDecimal(const Arf& end, int digits, bool is_upper) {
   return ToDecimal(AsNumber(end), digits, away_from_zero ? Rounding::kUp : Rounding::kDown).text;
 }
 
-// Whether the interval is narrower than a millionth of a unit in the last digit, and of a double's too.
+// Tells whether the interval is narrower than a millionth of a unit in the last digit, and in a double's last digit too.
 bool IsNarrow(const ArfInterval& interval, int digits) {
   constexpr int kDigitsOfDouble = 17;
   if (interval.lower().Sign() * interval.upper().Sign() <= 0) return false;

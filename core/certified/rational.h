@@ -1,14 +1,14 @@
 // Rational: an exact quotient of integers of any size, by FLINT.
 //
-// Every double is one, and so is whatever +, -, * and / make of doubles: a sign is never in doubt.
+// Every finite double is a rational, and so is every result of +, -, * and / on them. A sign is never in doubt.
 
 #ifndef RICOCHET_CORE_CERTIFIED_RATIONAL_H_
 #define RICOCHET_CORE_CERTIFIED_RATIONAL_H_
 
-#include <flint/fmpq.h>
-
-#include <cassert>
 #include <cmath>
+
+#include "core/certified/flint.h"
+#include "core/numerics/invariant.h"
 
 namespace ricochet::certified {
 
@@ -17,7 +17,7 @@ class Rational {
   Rational() { fmpq_init(value_); }
   // Implicit, so that formulas read like formulas. `exact` must be finite.
   Rational(double exact) {
-    assert(std::isfinite(exact));
+    CheckInvariant(std::isfinite(exact), "an infinity or a NaN is no rational number");
     fmpq_init(value_);
     int exponent = 0;
     const double fraction = std::frexp(exact, &exponent);
@@ -45,7 +45,7 @@ class Rational {
   friend Rational operator+(const Rational& x, const Rational& y) { return Apply(fmpq_add, x, y); }
   friend Rational operator-(const Rational& x, const Rational& y) { return Apply(fmpq_sub, x, y); }
   friend Rational operator*(const Rational& x, const Rational& y) { return Apply(fmpq_mul, x, y); }
-  // `y` is not 0.
+  // `y` must not be 0.
   friend Rational operator/(const Rational& x, const Rational& y) { return Apply(fmpq_div, x, y); }
   friend Rational operator-(Rational x) {
     fmpq_neg(x.value_, x.value_);
@@ -54,7 +54,7 @@ class Rational {
 
   int Sign() const { return fmpq_sgn(value_); }
   bool IsSquare() const { return fmpz_is_square(fmpq_numref(value_)) && fmpz_is_square(fmpq_denref(value_)); }
-  // Of a square.
+  // The root of a number for which IsSquare holds.
   Rational Root() const {
     Rational root;
     fmpz_sqrt(fmpq_numref(root.value_), fmpq_numref(value_));

@@ -1,5 +1,7 @@
 #include "core/certified/surd.h"
 
+#include "core/numerics/invariant.h"
+
 namespace ricochet::certified {
 
 Surd operator+(const Surd& x, const Surd& y) {
@@ -32,7 +34,7 @@ int Surd::Sign() const {
 }
 
 Surd Sqrt(const Surd& x) {
-  assert(x.IsRational() && x.Sign() >= 0);
+  CheckInvariant(x.IsRational() && x.Sign() >= 0, "the root of this number is no surd");
   if (x.a_.IsSquare()) return x.a_.Root();
   return {Rational(), 1.0, x.a_};
 }

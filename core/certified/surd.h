@@ -1,17 +1,16 @@
 // Surd: a + b sqrt(d) with rational a, b, d, exact.
 //
-// All that an impact comes to is of this form, with one d an impact: its events are rational in its inputs, but that
-// the energetic end of restitution takes one square root. Sums, products and quotients stay in the form,
-//   (a + b s)(e + f s) = (ae + bfd) + (af + be) s,   1/(a + b s) = (a - b s)/(a^2 - b^2 d),   s = sqrt(d),
-// and signs are exact: where a and b differ in sign, a + b s has that of the larger of a^2 and b^2 d.
+// Every number of an impact has this form, and one d serves a whole impact: its events are rational in its inputs, and
+// only the end of restitution under the energetic law takes a square root. Sums, products and quotients keep the form:
+//   (a + b s)(e + f s) = (ae + bfd) + (af + be) s,   1/(a + b s) = (a - b s)/(a^2 - b^2 d),   s = sqrt(d).
+// Signs are exact: if a and b differ in sign, a + b s has the sign of a where a^2 > b^2 d, and else the sign of b.
 
 #ifndef RICOCHET_CORE_CERTIFIED_SURD_H_
 #define RICOCHET_CORE_CERTIFIED_SURD_H_
 
-#include <arb.h>
-
 #include <utility>
 
+#include "core/certified/flint.h"
 #include "core/certified/rational.h"
 
 namespace ricochet::certified {
@@ -22,7 +21,7 @@ class Surd {
   Surd(double exact) : a_(exact) {}
   Surd(Rational exact) : a_(std::move(exact)) {}
 
-  // Two surds that are combined have the same d, or one of them is rational.
+  // Two surds can be combined only if they have the same d or one of them is rational.
   friend Surd operator+(const Surd& x, const Surd& y);
   friend Surd operator-(const Surd& x, const Surd& y);
   friend Surd operator*(const Surd& x, const Surd& y);
@@ -33,17 +32,18 @@ class Surd {
   bool IsRational() const { return b_.Sign() == 0; }
   const Rational& rational_part() const { return a_; }
 
-  // `x` is rational and >= 0.
+  // `x` must be rational and >= 0.
   friend Surd Sqrt(const Surd& x);
   friend Surd Square(const Surd& x) { return x * x; }
   friend Surd Abs(const Surd& x) { return x.Sign() < 0 ? -x : x; }
   friend Surd Min(const Surd& x, const Surd& y) { return (x - y).Sign() < 0 ? x : y; }
   friend Surd Max(const Surd& x, const Surd& y) { return (x - y).Sign() < 0 ? y : x; }
-  // What a branch has taken for >= 0 or <= 0 is so.
+  // A branch that has been taken for >= 0 or <= 0 was decided exactly, so there is nothing to cut off.
   friend const Surd& AtLeastZero(const Surd& x) { return x; }
   friend const Surd& AtMostZero(const Surd& x) { return x; }
 
-  // A ball around it with an error of a few units in the last of `bits`: no two terms of opposite sign are added.
+  // Sets `ball` to enclose the number with an error of a few units in the last of `bits`. It never adds two terms of
+  // opposite sign, so nothing cancels.
   void Enclose(arb_t ball, slong bits) const;
 
  private:
@@ -51,7 +51,7 @@ class Surd {
   static const Rational& SharedRadicand(const Surd& x, const Surd& y) { return x.IsRational() ? y.d_ : x.d_; }
   Rational Norm() const { return a_ * a_ - b_ * b_ * d_; }
 
-  Rational a_, b_, d_;  // d is no square where b is not 0.
+  Rational a_, b_, d_;  // If b is not 0, d is not the square of a rational.
 };
 
 }  // namespace ricochet::certified

@@ -1,16 +1,17 @@
 #include "core/certified/system.h"
 
-#include <arb_mat.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <variant>
 
+#include "core/certified/flint.h"
 #include "core/models/restitution_law.h"
 
 namespace ricochet::certified {
 namespace {
+
+using Stopped = absl::FunctionRef<bool()>;
 
 class Matrix {
  public:
@@ -25,7 +26,7 @@ class Matrix {
   arb_mat_t value_;
 };
 
-// `exactly(double)` makes an N.
+// `exactly` makes an N of a double.
 template <typename N, typename Exactly>
 void SetCoefficients(const Scene& scene, const EffectiveCoefficients& effective, const Exactly& exactly,
                      Contact<N>& contact) {
@@ -44,7 +45,22 @@ void SetDeterminant(Contact<Surd>& contact) {
 }
 
 SystemContact<Surd> Reduce(const Pendulum& pendulum) {
-  return ReducePendulum<Surd>(pendulum.inertia_kg_m2, pendulum.a_m, pendulum.b_m, pendulum.omega_minus_rad_s);
+  const Surd inertia(pendulum.inertia_kg_m2), a(pendulum.a_m), b(pendulum.b_m), omega(pendulum.omega_minus_rad_s);
+  SystemContact<Surd> system;
+  system.contact = {.wtt = b * b / inertia,
+                    .wtn = a * b / inertia,
+                    .wnn = a * a / inertia,
+                    .det = Surd(),
+                    .rank_one = true,
+                    .rho = b / a,
+                    .u0 = b * omega,
+                    .v0 = a * omega};
+  system.velocities = Velocities::kRates;
+  system.before = {omega};
+  system.response = {{b / inertia, a / inertia}};
+  system.lever = a;
+  system.is_pendulum = true;
+  return system;
 }
 
 SystemContact<Surd> Reduce(const PlanarContact& given) {
@@ -58,23 +74,24 @@ SystemContact<Surd> Reduce(const PlanarContact& given) {
   return system;
 }
 
-// `side` is 1 for the body that the impulses act on, -1 for the one that their opposites act on.
+// `side` is 1 for the body that the impulses act on and -1 for the body that their opposites act on.
 void AddBody(const PlanarBody& body, double side, SystemContact<Surd>& system) {
   const Surd t(body.offset_t_m), n(body.offset_n_m);
   const Surd u(body.velocity_t_m_s), v(body.velocity_n_m_s), rate(body.rate_rad_s);
-  const Surd moves = Surd(1.0) / Surd(body.mass_kg);
-  const Surd turns = Surd(1.0) / Surd(body.inertia_com_kg_m2);
+  const Surd inverse_mass = Surd(1.0) / Surd(body.mass_kg);
+  const Surd inverse_inertia = Surd(1.0) / Surd(body.inertia_com_kg_m2);
   const Surd sign(side);
   Contact<Surd>& contact = system.contact;
-  contact.wtt = contact.wtt + moves + n * n * turns;
-  contact.wtn = contact.wtn - t * n * turns;
-  contact.wnn = contact.wnn + moves + t * t * turns;
+  contact.wtt = contact.wtt + inverse_mass + n * n * inverse_inertia;
+  contact.wtn = contact.wtn - t * n * inverse_inertia;
+  contact.wnn = contact.wnn + inverse_mass + t * t * inverse_inertia;
   contact.u0 = contact.u0 + sign * (u - rate * n);
   contact.v0 = contact.v0 + sign * (v + rate * t);
   const Surd zero;
   system.before.insert(system.before.end(), {u, v, rate});
-  system.response.insert(system.response.end(),
-                         {{sign * moves, zero}, {zero, sign * moves}, {-sign * n * turns, sign * t * turns}});
+  system.response.insert(system.response.end(), {{sign * inverse_mass, zero},
+                                                 {zero, sign * inverse_mass},
+                                                 {-sign * n * inverse_inertia, sign * t * inverse_inertia}});
   system.velocities = Velocities::kBodies;
 }
 
@@ -95,7 +112,7 @@ SystemContact<Surd> Reduce(const BodyPair& pair) {
   return system;
 }
 
-// Linkages are intervals, spatial systems refused.
+// No other system gets here: linkages are made of intervals, and CheckCertifiable refuses systems in space.
 template <typename Other>
 SystemContact<Surd> Reduce(const Other& /*other*/) {
   return {};
@@ -103,31 +120,31 @@ SystemContact<Surd> Reduce(const Other& /*other*/) {
 
 // --- Linkages ---
 
-struct Turn {
+struct SineCosine {
   ArfInterval sine, cosine;
 };
 
-Turn TurnOf(const Arf& angle, slong bits) {
+SineCosine SineCosineOf(const Arf& angle, slong bits) {
   arb_t x, sine, cosine;
   arb_init(x);
   arb_init(sine);
   arb_init(cosine);
   arb_set_arf(x, angle.get());
   arb_sin_cos(sine, cosine, x, bits);
-  Turn turn = {ArfInterval(sine, bits), ArfInterval(cosine, bits)};
+  SineCosine both = {ArfInterval(sine, bits), ArfInterval(cosine, bits)};
   arb_clear(cosine);
   arb_clear(sine);
   arb_clear(x);
-  return turn;
+  return both;
 }
 
 ArfInterval CosineOfDifference(double x, double y, slong bits) {
   Arf difference;
   arf_sub(difference.get(), Arf(x).get(), Arf(y).get(), ARF_PREC_EXACT, ARF_RND_NEAR);
-  return TurnOf(difference, bits).cosine;
+  return SineCosineOf(difference, bits).cosine;
 }
 
-// An exact double, with which products and sums are rounded to `bits`.
+// The double itself; what it is multiplied with or added to is rounded to `bits`.
 ArfInterval Exactly(double x, slong bits) { return {Arf(x), Arf(x), bits}; }
 
 void Set(Matrix& matrix, size_t row, size_t column, const ArfInterval& value, slong bits) {
@@ -139,45 +156,64 @@ ArfInterval Get(Matrix& matrix, size_t row, size_t column, slong bits) {
   return {matrix.at(static_cast<slong>(row), static_cast<slong>(column)), bits};
 }
 
-// M with the links' angles from the vertical as coordinates: off its diagonal l_i cos(theta_i - theta_k) times the
-// moment about joint k, i < k, of link k and of all that hangs on it.
-void SetMassMatrix(const std::vector<Link>& links, slong bits, Matrix& mass) {
-  ArfInterval beyond = Exactly(0.0, bits);  // Mass of the links after k, from the tip on.
+// Sets M, in which the coordinates are the links' angles from the vertical. For i < k the entry (i, k) is
+// l_i cos(theta_i - theta_k) times the moment about joint k of link k and of all links that hang on it. Returns false
+// once `stopped`.
+bool SetMassMatrix(const std::vector<Link>& links, slong bits, Matrix& mass, Stopped stopped) {
+  ArfInterval outer_mass = Exactly(0.0, bits);  // The mass of the links between k and the tip.
   for (size_t k = links.size(); k-- > 0;) {
     const Link& link = links[k];
     const ArfInterval own = Exactly(link.mass_kg, bits);
     const ArfInterval com = Exactly(link.com_m, bits);
     const ArfInterval length = Exactly(link.length_m, bits);
-    const ArfInterval moment = own * com + beyond * length;
+    const ArfInterval moment = own * com + outer_mass * length;
     const ArfInterval inertia = Exactly(link.inertia_com_kg_m2, bits);
-    Set(mass, k, k, inertia + own * Square(com) + beyond * Square(length), bits);
+    Set(mass, k, k, inertia + own * Square(com) + outer_mass * Square(length), bits);
     for (size_t i = 0; i < k; ++i) {
+      if (stopped()) return false;
       const ArfInterval cosine = CosineOfDifference(links[i].theta_rad, link.theta_rad, bits);
-      const ArfInterval entry = moment * Exactly(links[i].length_m, bits) * cosine;
-      Set(mass, i, k, entry, bits);
-      Set(mass, k, i, entry, bits);
+      Set(mass, k, i, moment * Exactly(links[i].length_m, bits) * cosine, bits);
     }
-    beyond = beyond + own;
+    outer_mass = outer_mass + own;
   }
+  return true;
 }
 
-// The rows of J^T: how the tip moves with each link's rate.
+// Replaces the lower triangle of M by its Cholesky factor, as arb_mat_cho does, but asks `stopped` before each entry.
+// Returns false once `stopped`, or where a pivot cannot be proved positive.
+bool Factorize(size_t size, slong bits, Matrix& mass, Stopped stopped) {
+  const auto at = [&](size_t row, size_t column) {
+    return mass.at(static_cast<slong>(row), static_cast<slong>(column));
+  };
+  for (size_t i = 0; i < size; ++i) {
+    for (size_t j = 0; j <= i; ++j) {
+      if (stopped()) return false;
+      arb_dot(at(i, j), at(i, j), 1, at(i, 0), 1, at(j, 0), 1, static_cast<slong>(j), bits);
+      if (j < i) arb_div(at(i, j), at(i, j), at(j, j), bits);
+    }
+    if (arb_is_positive(at(i, i)) == 0) return false;
+    arb_sqrt(at(i, i), at(i, i), bits);
+  }
+  return true;
+}
+
+// The rows of J^T: how the tip inverse_mass with each link's rate.
 std::vector<std::array<ArfInterval, 2>> TransposedJacobian(const std::vector<Link>& links, slong bits) {
   std::vector<std::array<ArfInterval, 2>> rows;
   for (const Link& link : links) {
-    const Turn turn = TurnOf(Arf(link.theta_rad), bits);
+    const auto [sine, cosine] = SineCosineOf(Arf(link.theta_rad), bits);
     const ArfInterval length = Exactly(link.length_m, bits);
-    rows.push_back({length * turn.cosine, length * turn.sine});
+    rows.push_back({length * cosine, length * sine});
   }
   return rows;
 }
+
+}  // namespace
 
 bool AreParallel(const std::vector<Link>& links) {
   return std::all_of(links.begin(), links.end(),
                      [&](const Link& link) { return link.theta_rad == links.front().theta_rad; });
 }
-
-}  // namespace
 
 SystemContact<Surd> ReduceExactly(const Scene& scene, const EffectiveCoefficients& effective) {
   SystemContact<Surd> system = std::visit([](const auto& given) { return Reduce(given); }, scene.system);
@@ -192,18 +228,18 @@ SystemContact<Surd> ReduceExactly(const Scene& scene, const EffectiveCoefficient
 }
 
 std::optional<SystemContact<ArfInterval>> ReduceLinkage(const Scene& scene, const EffectiveCoefficients& effective,
-                                                        slong bits) {
+                                                        slong bits, Stopped stopped) {
   const std::vector<Link>& links = std::get<Linkage>(scene.system).links;
   const size_t n = links.size();
   Matrix mass(static_cast<slong>(n), static_cast<slong>(n));
-  SetMassMatrix(links, bits, mass);
+  if (!SetMassMatrix(links, bits, mass, stopped) || !Factorize(n, bits, mass, stopped)) return std::nullopt;
   const auto jt = TransposedJacobian(links, bits);
   Matrix right(static_cast<slong>(n), 2), solution(static_cast<slong>(n), 2);
   for (size_t i = 0; i < n; ++i) {
     Set(right, i, 0, jt[i][0], bits);
     Set(right, i, 1, jt[i][1], bits);
   }
-  if (arb_mat_spd_solve(solution.get(), mass.get(), right.get(), bits) == 0) return std::nullopt;
+  arb_mat_solve_cho_precomp(solution.get(), mass.get(), right.get(), bits);
 
   SystemContact<ArfInterval> system;
   system.velocities = Velocities::kRates;

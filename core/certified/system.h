@@ -1,10 +1,12 @@
-// What a system's contact is, exactly, and the way back from its impulse to the system's velocities.
+// SystemContact: a system's contact over the number type of a certificate, and the way back from the impulse to the
+// system's velocities.
 //
-//   W = J M^-1 J^T,   (u0, v0) = J q' - surface velocity,   q'+ = q' + M^-1 J^T (f, tau)
+//   W = J M^-1 J^T (1/kg),   (u0, v0) = J q' - surface velocity,   q'+ = q' + M^-1 J^T (f, tau)
 //
-// Of a pendulum, of bodies and of a contact these are rational in the inputs. A linkage's take sines and cosines:
-// intervals. W has rank one by nature where all that moves turns as one: for a pendulum, and for a linkage whose links
-// are all parallel, which two doubles can only be by being equal, no multiple of pi but 0 being rational.
+// For a pendulum, bodies and a planar_contact these are rational in the inputs, so they are exact. A linkage needs sines
+// and cosines, so its contact is made of intervals.
+// W has rank one by construction for a pendulum and for a linkage whose links are all parallel. Two angles that are
+// doubles are parallel only if they are equal, because no multiple of pi other than 0 is rational.
 
 #ifndef RICOCHET_CORE_CERTIFIED_SYSTEM_H_
 #define RICOCHET_CORE_CERTIFIED_SYSTEM_H_
@@ -13,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "core/certified/contact_path.h"
 #include "ricochet/outcome.h"
 #include "ricochet/scene.h"
@@ -27,36 +30,18 @@ struct SystemContact {
   Velocities velocities = Velocities::kNone;
   std::vector<N> before;                   // q'
   std::vector<std::array<N, 2>> response;  // M^-1 J^T
-  std::optional<N> lever;                  // Where one rate w is all there is, over a surface at rest: w = v/lever.
-  bool is_pendulum = false;                // Stated as one, over a surface at rest: it has regimes of its own.
+  std::optional<N> lever;                  // Set for one rate w over a surface at rest: w = v/lever.
+  bool is_pendulum = false;                // The scene states a pendulum over a surface at rest; its regimes differ.
 };
+
+bool AreParallel(const std::vector<Link>& links);
 
 // `scene` is valid and planar; not a linkage.
 SystemContact<Surd> ReduceExactly(const Scene& scene, const EffectiveCoefficients& effective);
 
-// `scene` is valid and states a linkage. Nothing where `bits` are too few to solve with M.
+// `scene` is valid and states a linkage. Returns nothing where `bits` are too few to invert M, or once `stopped`.
 std::optional<SystemContact<ArfInterval>> ReduceLinkage(const Scene& scene, const EffectiveCoefficients& effective,
-                                                        slong bits);
-
-// The contact of a pendulum over a surface at rest, by its numbers.
-template <typename N>
-SystemContact<N> ReducePendulum(const N& inertia, const N& a, const N& b, const N& omega) {
-  SystemContact<N> system;
-  system.contact.wtt = Square(b) / inertia;
-  system.contact.wtn = a * b / inertia;
-  system.contact.wnn = Square(a) / inertia;
-  system.contact.det = N(0.0);
-  system.contact.rho = b / a;
-  system.contact.u0 = b * omega;
-  system.contact.v0 = a * omega;
-  system.contact.rank_one = true;
-  system.velocities = Velocities::kRates;
-  system.before = {omega};
-  system.response = {{b / inertia, a / inertia}};
-  system.lever = a;
-  system.is_pendulum = true;
-  return system;
-}
+                                                        slong bits, absl::FunctionRef<bool()> stopped);
 
 }  // namespace ricochet::certified
 

@@ -78,13 +78,15 @@ absl::Status Keep(absl::StatusOr<Certificate> certified, std::optional<Certifica
   certificate = *std::move(certified);
   return absl::OkStatus();
 }
-absl::Status Certify(const SolveRequest& request, std::optional<Certificate>& certificate) {
+absl::Status Certify(const SolveRequest& request, absl::FunctionRef<bool()> stopped,
+                     std::optional<Certificate>& certificate) {
   if (request.certified_digits == 0) return absl::OkStatus();
-  return Keep(CertifySolve(request.scene, request.certified_digits), certificate);
+  return Keep(CertifySolve(request.scene, {.digits = request.certified_digits}, stopped), certificate);
 }
-absl::Status Certify(const BoundsRequest& request, std::optional<Certificate>& certificate) {
+absl::Status Certify(const BoundsRequest& request, absl::FunctionRef<bool()> stopped,
+                     std::optional<Certificate>& certificate) {
   if (request.certified_digits == 0) return absl::OkStatus();
-  return Keep(CertifyBounds(request.scene, request.certified_digits), certificate);
+  return Keep(CertifyBounds(request.scene, {.digits = request.certified_digits}, stopped), certificate);
 }
 
 }  // namespace
@@ -101,7 +103,8 @@ absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) co
                                                                      .demand = DemandOf(request)});
   if (!outcome.ok()) return outcome.status();
   if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
-  const absl::Status certified = Certify(request, outcome->certificate);
+  const absl::Status certified = Certify(
+      request, [] { return false; }, outcome->certificate);
   if (!certified.ok()) return certified;
   return SolveResponse{.outcome = *std::move(outcome), .engine = ThisEngine()};
 }
@@ -121,7 +124,7 @@ absl::StatusOr<BoundsResponse> AnswerBounds(const BoundsRequest& request, absl::
   const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene);
   if (!bounds.ok()) return bounds.status();
   BoundsResponse response{.bounds = *bounds, .engine = ThisEngine()};
-  const absl::Status certified = Certify(request, response.certificate);
+  const absl::Status certified = Certify(request, stopped, response.certificate);
   if (!certified.ok()) return certified;
   if (request.ranges.empty()) return response;
   const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, stopped);

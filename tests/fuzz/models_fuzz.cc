@@ -111,48 +111,11 @@ void CheckNumbers(const absl::StatusOr<Certificate>& certificate) {
 
 constexpr int kDigits = 20;
 
-Range Around(double value) {
-  const double moved = value * (1.0 + 0x1p-30);
-  const double other = std::isfinite(moved) ? moved : value;
-  return {std::min(value, other), std::max(value, other)};
-}
-Range Point(double value) { return {value, value}; }
-
-// Of the same friction, under the energetic law.
-template <typename Set>
-void CheckSet(Set set, const Friction& friction) {
-  set.mu = Point(friction.kinetic_coefficient);
-  set.mu_static = Point(friction.static_coefficient.value_or(friction.kinetic_coefficient));
-  set.coefficient = Point(0.5);
-  CheckNumbers(CertifySolve(set, kDigits));
-  CheckNumbers(CertifyBounds(set, kDigits));
-}
-
-// The same impact at a speed that is not known well.
-void CheckSets(const Scene& scene) {
-  if (const auto* pendulum = std::get_if<Pendulum>(&scene.system)) {
-    CheckSet(PendulumSet{.inertia = Point(pendulum->inertia_kg_m2),
-                         .a = Point(pendulum->a_m),
-                         .b = Point(pendulum->b_m),
-                         .omega_minus = Around(pendulum->omega_minus_rad_s)},
-             scene.friction);
-  }
-  if (const auto* contact = std::get_if<PlanarContact>(&scene.system)) {
-    CheckSet(ContactSet{.wtt = Point(contact->w_tt_per_kg),
-                        .wtn = Point(contact->w_tn_per_kg),
-                        .wnn = Point(contact->w_nn_per_kg),
-                        .u0 = Around(contact->tangential_m_s),
-                        .v0 = Around(contact->normal_m_s)},
-             scene.friction);
-  }
-}
-
 // Where numbers of the outcome overflow there is no response, but the numbers themselves can be proved.
 void CheckCertificates(SolveRequest request, const absl::StatusOr<SolveResponse>& response) {
   constexpr double kRounding = 0x1p-45;
   const Scene& scene = request.scene;
   if (!Validate(scene).empty() || !CheckCertifiable(scene, kDigits).empty()) return;
-  CheckSets(scene);
   const absl::StatusOr<BoundsResponse> bounds =
       LocalSolver().Bounds({.scene = scene, .ranges = {}, .certified_digits = kDigits});
   CheckStatus(bounds.status(), true);
@@ -160,7 +123,7 @@ void CheckCertificates(SolveRequest request, const absl::StatusOr<SolveResponse>
   request.certified_digits = kDigits;
   const absl::StatusOr<SolveResponse> certified = LocalSolver().Solve(request);
   CheckStatus(certified.status(), true, request.inadmissible_is_error);
-  if (!certified.ok()) return CheckNumbers(CertifySolve(scene, kDigits));
+  if (!certified.ok()) return CheckNumbers(CertifySolve(scene, {.digits = kDigits}, [] { return false; }));
   CheckNumbers(*certified->outcome.certificate);
   const bool left_out = !request.demand.excluded.empty() || !request.demand.required.empty();
   if (!response.ok() || left_out || response->outcome.plan.model != Model::kPendulum) return;

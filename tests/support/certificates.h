@@ -18,6 +18,9 @@ namespace ricochet {
 
 inline constexpr slong kTestBits = 4096;
 
+// A caller that never stops what it has asked for.
+inline bool Never() { return false; }
+
 // The number at `path`; one without a path where there is none.
 inline CertifiedNumber NumberAt(const Certificate& certificate, const std::string& path) {
   for (const CertifiedNumber& number : certificate.numbers) {

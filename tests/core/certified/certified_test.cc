@@ -49,7 +49,7 @@ bool AgreesWith(const std::string& printed, const CertifiedNumber& number) {
 }
 
 void ExpectDigitsOf(const VectorRow& row, const Scene& scene, const Columns& columns) {
-  const absl::StatusOr<Certificate> certificate = CertifySolve(scene, 25);
+  const absl::StatusOr<Certificate> certificate = CertifySolve(scene, {25}, Never);
   ASSERT_TRUE(certificate.ok()) << certificate.status();
   ASSERT_FALSE(certificate->is_set);
   for (const auto& [column, path] : columns) {
@@ -82,7 +82,7 @@ TEST(CertifiedVectorsTest, EveryDigitOfEveryPendulumIsThatOfTheIndependentProgra
         .friction = {.kinetic_coefficient = Number(row, "mu")},
         .restitution = RestitutionOf(row)};
     ExpectDigitsOf(row, scene, kPendulumColumns);
-    const Certificate certificate = *CertifySolve(scene, 25);
+    const Certificate certificate = *CertifySolve(scene, {25}, Never);
     const std::string& lost = row.at("energy_dissipated");
     EXPECT_TRUE(AgreesWith(lost[0] == '-' ? lost.substr(1) : "-" + lost, NumberAt(certificate, "energy_change_j")));
     EXPECT_EQ(row.at("regime") == "stick", certificate.regimes[0] == Regime::kLocked);
@@ -147,7 +147,7 @@ TEST(CertifiedVectorsTest, EveryDigitOfEveryLinkageIsThatOfTheIndependentProgram
                     {"poisson", "coefficients.poisson"},
                     {"energetic", "coefficients.energetic"}});
     const std::vector<std::string> rates = Split(row.at("rate_after"));
-    const Certificate certificate = *CertifySolve(ChainOf(row), 25);
+    const Certificate certificate = *CertifySolve(ChainOf(row), {25}, Never);
     for (size_t k = 0; k < rates.size(); ++k) {
       const std::string path = "rates_after_rad_s[" + std::to_string(k) + "]";
       EXPECT_TRUE(AgreesWith(rates[k], NumberAt(certificate, path)))
@@ -163,7 +163,7 @@ TEST(CertifiedDoublesTest, TheClosedFormIsWithinOneUlpOfTheCertifiedNumberOver10
   for (int i = 0; i < 10000; ++i) {
     const pendulum::Problem problem = source.Any();
     const pendulum::Impact impact = pendulum::Solve(problem);
-    const absl::StatusOr<Certificate> certificate = CertifySolve(SceneOf(problem), 17);
+    const absl::StatusOr<Certificate> certificate = CertifySolve(SceneOf(problem), {17}, Never);
     ASSERT_TRUE(certificate.ok()) << certificate.status();
     ASSERT_EQ(certificate->regimes, std::vector<Regime>{impact.regime}) << i;
     // 2^-100 of its scale where an output changes sign, as core/models/pendulum/pendulum.h grants.
@@ -200,7 +200,7 @@ TEST(CertifiedDoublesTest, ThePlanarModelKeepsItsPromiseOver10000Contacts) {
   for (int i = 0; i < 10000; ++i) {
     const planar::Problem p = source.Any();
     const planar::Impact impact = planar::Solve(p);
-    const absl::StatusOr<Certificate> certificate = CertifySolve(SceneOf(p), 17);
+    const absl::StatusOr<Certificate> certificate = CertifySolve(SceneOf(p), {17}, Never);
     const bool near_rank_one = planar::SceneSource::IsRankOne(p);
     if (near_rank_one && p.wtt != 0.0) continue;  // The certificate takes W at its word.
     ASSERT_TRUE(certificate.ok()) << i << certificate.status();
@@ -276,7 +276,7 @@ TEST(CertifiedDoublesTest, EverySystemHasTheNumbersOfItsOutcome) {
 // --- Ties and thresholds ---
 
 Regime CertifiedRegime(const Scene& scene) {
-  const absl::StatusOr<Certificate> certificate = CertifySolve(scene, 5);
+  const absl::StatusOr<Certificate> certificate = CertifySolve(scene, {5}, Never);
   EXPECT_TRUE(certificate.ok()) << certificate.status();
   if (!certificate.ok()) return Regime::kUnspecified;
   EXPECT_FALSE(certificate->is_set);
@@ -330,8 +330,9 @@ TEST(CertifiedTiesTest, SlipThatStopsJustWhereEnergeticRestitutionEndsStopsBefor
   EXPECT_EQ(CertifiedRegime(SceneOf(StopAtRest(2.0, 1.0))), Regime::kStickInRestitution);
   EXPECT_EQ(CertifiedRegime(SceneOf(StopAtRest(std::nextafter(2.0, 0.0), 1.0))), Regime::kStickInRestitution);
   EXPECT_EQ(CertifiedRegime(SceneOf(StopAtRest(std::nextafter(2.0, 3.0), 1.0))), Regime::kSliding);
-  EXPECT_EQ(DecimalAt(*CertifySolve(SceneOf(StopAtRest(2.0, 1.0)), 40), "contact_velocity_after.tangential_m_s[0]"),
-            "0");
+  EXPECT_EQ(
+      DecimalAt(*CertifySolve(SceneOf(StopAtRest(2.0, 1.0)), {40}, Never), "contact_velocity_after.tangential_m_s[0]"),
+      "0");
 }
 
 TEST(CertifiedTiesTest, ContactThatHasStoppedSticksFromTheThresholdOnToTheLastUlp) {
@@ -351,12 +352,12 @@ TEST(CertifiedTiesTest, ARankOfOneIsThatOfTheDoublesThemselves) {
   problem.wtn = std::nextafter(3.0, 0.0);
   EXPECT_NE(CertifiedRegime(SceneOf(problem)), Regime::kLocked);
   problem.wtn = std::nextafter(3.0, 4.0);
-  EXPECT_EQ(CertifySolve(SceneOf(problem), 5).status().message(),
+  EXPECT_EQ(CertifySolve(SceneOf(problem), {5}, Never).status().message(),
             "planar_contact.w_tn_per_kg makes det W < 0: must leave it >= 0 exactly, not to rounding, with "
             "certified_digits");
   problem.wtn = 3.0;
   problem.u0 = std::nextafter(-1.0, 0.0);
-  EXPECT_EQ(CertifySolve(SceneOf(problem), 5).status().message(),
+  EXPECT_EQ(CertifySolve(SceneOf(problem), {5}, Never).status().message(),
             "planar_contact.tangential_m_s makes (u0, v0) lie beside the range of W, whose rank is one: must lie in it "
             "exactly, not to rounding, with certified_digits");
 }
@@ -376,8 +377,8 @@ std::vector<Scene> Various() {
 
 TEST(CertifiedDigitsTest, FourHundredDigitsBeginWithTwoHundred) {
   for (const Scene& scene : Various()) {
-    const absl::StatusOr<Certificate> some = CertifySolve(scene, 200);
-    const absl::StatusOr<Certificate> more = CertifySolve(scene, 400);
+    const absl::StatusOr<Certificate> some = CertifySolve(scene, {200}, Never);
+    const absl::StatusOr<Certificate> more = CertifySolve(scene, {400}, Never);
     ASSERT_TRUE(some.ok() && more.ok());
     ASSERT_EQ(some->numbers.size(), more->numbers.size());
     for (size_t i = 0; i < some->numbers.size(); ++i) {
@@ -390,7 +391,7 @@ TEST(CertifiedDigitsTest, FourHundredDigitsBeginWithTwoHundred) {
 TEST(CertifiedDigitsTest, AThousandDigitsOfARootAreThoseWhoseSquareIsTheRatio) {
   const Scene scene = SceneOf(pendulum::Problem{
       .inertia = 1.0, .a = 3.0, .b = 1.0, .omega_minus = -1.0, .mu = 1.0, .mu_static = 1.0, .coefficient = 1.0});
-  const std::string newton = DecimalAt(*CertifySolve(scene, 1000), "coefficients.newton");
+  const std::string newton = DecimalAt(*CertifySolve(scene, {1000}, Never), "coefficients.newton");
   ASSERT_EQ(newton.size(), 1002U);  // "0." before the digits.
   const Ball root = Digits(newton);
   const Ball unit = Digits("1e-1000");
@@ -402,7 +403,7 @@ TEST(CertifiedDigitsTest, AThousandDigitsOfARootAreThoseWhoseSquareIsTheRatio) {
 TEST(CertifiedDigitsTest, WhatIsExactSaysSo) {
   const Scene scene = SceneOf(pendulum::Problem{
       .inertia = 1.0, .a = 3.0, .b = 1.0, .omega_minus = -1.0, .mu = 1.0, .mu_static = 1.0, .coefficient = 0.5});
-  const Certificate certificate = *CertifySolve(scene, 10);
+  const Certificate certificate = *CertifySolve(scene, {10}, Never);
   const CertifiedNumber impulse = NumberAt(certificate, "impulse.normal_compression_n_s");
   EXPECT_EQ(impulse.decimal, "0.25");
   EXPECT_TRUE(impulse.exact);
@@ -418,7 +419,7 @@ TEST(CertifiedDigitsTest, WhatIsExactSaysSo) {
 TEST(CertifiedDigitsTest, DigitsAreRoundedToTheNearestAndHalvesToEven) {
   const auto after = [](double v0, int digits) {
     return DecimalAt(
-        *CertifySolve(SceneOf(planar::Problem{.wtt = 1.0, .wnn = 1.0, .v0 = -v0, .coefficient = 1.0}), digits),
+        *CertifySolve(SceneOf(planar::Problem{.wtt = 1.0, .wnn = 1.0, .v0 = -v0, .coefficient = 1.0}), {digits}, Never),
         "contact_velocity_after.normal_m_s");
   };
   EXPECT_EQ(after(2.5, 1), "2");
@@ -436,7 +437,7 @@ TEST(CertifiedDigitsTest, DigitsAreRoundedToTheNearestAndHalvesToEven) {
 TEST(CertifiedDigitsTest, TheValueIsTheNearestDouble) {
   const auto value = [](double e, double v0) {
     planar::Problem problem = {.wtt = 1.0, .wnn = 1.0, .v0 = -v0, .law = RestitutionLaw::kNewton, .coefficient = e};
-    return NumberAt(*CertifySolve(SceneOf(problem), 3), "contact_velocity_after.normal_m_s").value;
+    return NumberAt(*CertifySolve(SceneOf(problem), {3}, Never), "contact_velocity_after.normal_m_s").value;
   };
   EXPECT_EQ(value(0.5, 0x3p-1074), 0x2p-1074);
   EXPECT_EQ(value(0.5, 0x1p-1074), 0.0);

@@ -1,0 +1,19 @@
+// The one door to FLINT and Arb: every include of theirs. FLINT 3 contains Arb as <flint/arb.h>; before it, Arb was a
+// library of its own whose headers Debian 12 installs as <arb.h>.
+
+#ifndef RICOCHET_CORE_CERTIFIED_FLINT_H_
+#define RICOCHET_CORE_CERTIFIED_FLINT_H_
+
+#include <flint/flint.h>
+#include <flint/fmpq.h>
+#include <flint/fmpz.h>
+
+#if __has_include(<flint/arb.h>)
+#include <flint/arb.h>
+#include <flint/arb_mat.h>
+#else
+#include <arb.h>
+#include <arb_mat.h>
+#endif
+
+#endif  // RICOCHET_CORE_CERTIFIED_FLINT_H_

@@ -1,0 +1,31 @@
+// Takes the place of every other source of this folder in a build without FLINT: no certificate can be asked for.
+
+#include <vector>
+
+#include "core/certified/certified.h"
+#include "core/numerics/invariant.h"
+
+namespace ricochet {
+namespace {
+
+constexpr char kNotChecked[] = "a certificate was computed whose request CheckCertifiable refuses";
+
+}  // namespace
+
+bool certified::IsAvailable() { return false; }
+
+std::vector<Violation> CheckCertifiable(const Scene& /*scene*/, int digits) {
+  return {MakeViolation("certified_digits", digits, "be 0, this build has no certified numbers (component certified)")};
+}
+
+absl::StatusOr<Certificate> CertifySolve(const Scene& /*scene*/, const CertifiedPrecision& /*precision*/,
+                                         absl::FunctionRef<bool()> /*stopped*/) {
+  StopOnBrokenInvariant(kNotChecked, __FILE__, __LINE__);
+}
+
+absl::StatusOr<Certificate> CertifyBounds(const Scene& /*scene*/, const CertifiedPrecision& /*precision*/,
+                                          absl::FunctionRef<bool()> /*stopped*/) {
+  StopOnBrokenInvariant(kNotChecked, __FILE__, __LINE__);
+}
+
+}  // namespace ricochet
