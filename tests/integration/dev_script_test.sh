@@ -27,3 +27,4 @@ expect_code 0
 expect_code 2 nonsense
 expect_code 2 clean everything
 expect_code 2 format --nonsense
+expect_code 2 lint --nonsense
