@@ -9,12 +9,12 @@
 namespace ricochet {
 namespace {
 
-// A Solve with 65,536 history states may pass gRPC's default of 4 MiB.
+// The response of a Solve with 65,536 history states may exceed gRPC's default limit of 4 MiB.
 constexpr int kMaxReceiveBytes = 64 << 20;
 constexpr int kKeepaliveTimeMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
 
-// gRPC as packaged runs abseil's lock-order detector, which is slow and can abort on a false cycle.
+// Packaged gRPC runs abseil's lock-order detector, which is slow and can abort on a false cycle, so it is turned off.
 void SetUpOnce() {
   static const bool done = [] {
     absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);

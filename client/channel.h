@@ -1,4 +1,4 @@
-// The gRPC channel behind a ClientOptions.
+// MakeChannel: the gRPC channel that ClientOptions describe.
 
 #ifndef RICOCHET_CLIENT_CHANNEL_H_
 #define RICOCHET_CLIENT_CHANNEL_H_
@@ -12,7 +12,7 @@
 
 namespace ricochet {
 
-// A channel that connects at its first call, without encryption.
+// Makes a channel without encryption that connects at its first call.
 // Errors: INVALID_ARGUMENT for invalid options.
 absl::StatusOr<std::shared_ptr<grpc::Channel>> MakeChannel(const ClientOptions& options);
 

@@ -19,7 +19,7 @@ struct Client::Connection {
 
 namespace {
 
-// A unary call: request and response of the core, those of the wire between them.
+// Sends a unary call: converts the request to its proto, calls, and converts the response back.
 template <typename Response, typename WireResponse, typename Request, typename Call>
 absl::StatusOr<Response> Ask(const ClientOptions& options, const Request& request, Call call) {
   grpc::ClientContext context;

@@ -10,7 +10,7 @@
 namespace ricochet {
 namespace {
 
-constexpr int kMostAttempts = 5;  // gRPC treats a larger number as this one.
+constexpr int kMostAttempts = 5;  // gRPC treats a larger number as 5.
 
 std::string Seconds(std::chrono::milliseconds time) {
   return absl::StrFormat("%d.%03ds", time.count() / 1000, time.count() % 1000);
@@ -66,7 +66,7 @@ absl::Status ValidateOptions(const ClientOptions& options) {
 
 std::string ServiceConfig(const ClientOptions& options) {
   const RetryPolicy& retry = options.retry;
-  // A policy of one attempt is an error to gRPC; no policy says the same.
+  // gRPC refuses a policy of one attempt; without a policy it does not retry either.
   if (retry.max_attempts == 1) return "{}";
   return absl::StrCat(R"({"methodConfig":[{"name":[{"service":"ricochet.v1.ImpactService"}],"retryPolicy":{)",
                       R"("maxAttempts":)", retry.max_attempts,                         //

@@ -18,7 +18,7 @@ std::optional<int64_t> EndIndex(const SweepRequest& request) {
   return PointCount(request.grid);
 }
 
-// Unsigned, because the ends of a range that no server would answer may be further apart than an int64_t can say.
+// The result is unsigned, because the ends of a range that no server answers may differ by more than an int64_t holds.
 uint64_t PointsLeft(int64_t next_index, int64_t end_index) {
   if (end_index <= next_index) return 0;
   return static_cast<uint64_t>(end_index) - static_cast<uint64_t>(next_index);
@@ -44,7 +44,7 @@ absl::Status ChunkChecker::Check(const SweepChunk& chunk) {
     }
     end_index_ = next_index_ + std::max<int64_t>(chunk.points_total, 0);
   }
-  // A division, because a hostile count times the columns may overflow.
+  // This divides, because a hostile count times the number of columns may overflow.
   const auto values = static_cast<int64_t>(chunk.values.size());
   const bool fits = chunk.count >= 0 && static_cast<uint64_t>(chunk.count) <= PointsLeft(next_index_, *end_index_) &&
                     (columns_ == 0 ? values == 0 : values % columns_ == 0 && values / columns_ == chunk.count);
@@ -88,7 +88,7 @@ SweepReader::~SweepReader() {
 }
 
 std::optional<absl::StatusOr<SweepChunk>> SweepReader::Next() {
-  // What has already arrived does not count as an answer once the caller has asked to stop.
+  // Once the caller has asked to stop, chunks that had already arrived are dropped.
   if (!reader_->Read(&message_) || (stop_.stop_requested() && !message_.has_summary())) return End();
   SweepChunk chunk = FromProto(message_);
   if (absl::Status status = checker_.Check(chunk); !status.ok()) return status;
@@ -104,7 +104,7 @@ std::optional<absl::StatusOr<SweepChunk>> SweepReader::End() {
   return std::nullopt;
 }
 
-// Finish may be asked only once all messages were read; after a cancellation few are left.
+// gRPC allows Finish only after all messages were read; after a cancellation few are left.
 absl::Status SweepReader::Finish() {
   finished_ = true;
   while (reader_->Read(&message_)) {

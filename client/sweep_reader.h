@@ -1,4 +1,4 @@
-// SweepReader: the receiving end of a sweep. Reads the server's stream and checks that nothing is lost.
+// SweepReader: the receiving end of a sweep. It reads the server's stream and checks that no point is missing.
 
 #ifndef RICOCHET_CLIENT_SWEEP_READER_H_
 #define RICOCHET_CLIENT_SWEEP_READER_H_
@@ -20,39 +20,41 @@
 
 namespace ricochet {
 
-// Checks that chunks fit together: in order, without gaps, of the right size, up to the end of the range.
+// Checks that chunks fit together: they come in order, without gaps, with the right sizes, up to the end of the range.
 class ChunkChecker {
  public:
   explicit ChunkChecker(const SweepRequest& request);
 
-  // DATA_LOSS if `chunk` is not what must come next.
+  // Errors: DATA_LOSS if `chunk` cannot be the next one.
   absl::Status Check(const SweepChunk& chunk);
-  // DATA_LOSS if chunks are missing.
+  // Errors: DATA_LOSS if chunks are missing at the end of the stream.
   absl::Status CheckEnd() const;
 
  private:
   int64_t columns_;
   bool with_regime_;
   int64_t next_index_;
-  std::optional<int64_t> end_index_;  // Absent until a chunk tells the size of a grid that this build cannot read.
+  std::optional<int64_t> end_index_;  // Absent until the first chunk, for a grid that this build cannot read.
   bool summarised_ = false;
 };
 
-// Thread safety: one thread at a time; the stop token may be triggered from any.
+// Reads one sweep from the server, chunk by chunk.
+//
+// Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
 class SweepReader {
  public:
   using Call = grpc::ClientReaderInterface<v1::SweepResponse>;
 
-  // Starts the call that is to answer `request`.
+  // Starts the call by `start`, which receives the context and returns the stream that answers `request`.
   SweepReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start, const SweepRequest& request,
               std::optional<std::chrono::milliseconds> deadline, std::stop_token stop);
-  // Cancels the call if it is still running, and waits for its end.
+  // Cancels the call if it still runs, and waits for its end.
   ~SweepReader();
 
   SweepReader(const SweepReader&) = delete;
   SweepReader& operator=(const SweepReader&) = delete;
 
-  // As ResultStream::Source.
+  // Returns the next chunk, an error, or nothing at the end of the sweep; it serves as a ResultStream::Source.
   std::optional<absl::StatusOr<SweepChunk>> Next();
 
  private:
@@ -65,7 +67,7 @@ class SweepReader {
   std::unique_ptr<Call> reader_;
   v1::SweepResponse message_;
   bool finished_ = false;
-  // Last, so that it is gone before what it cancels.
+  // The callback is the last member, so that it is destroyed before the context that it cancels.
   std::stop_callback<std::function<void()>> cancel_;
 };
 

@@ -1,7 +1,7 @@
-// Admission: how many calls may be live at once.
+// Admission: limits how many calls are live at once.
 //
-// gRPC's own limits count streams, and a stream that a client resets is free again while its handler still runs. A
-// ticket is held for as long as the handler runs.
+// gRPC's own limits count streams, and a stream that its client has reset is free again while its handler still runs. A
+// ticket is therefore held as long as the handler runs.
 
 #ifndef RICOCHET_SERVER_ADMISSION_H_
 #define RICOCHET_SERVER_ADMISSION_H_
@@ -16,7 +16,7 @@ namespace ricochet::server {
 // Thread safety: every method may be called from several threads at once.
 class Admission {
  public:
-  // One live call; gives its place back when destroyed.
+  // The place of one live call. Destroying the ticket gives the place back.
   class Ticket {
    public:
     Ticket(Ticket&&) noexcept = default;
@@ -31,11 +31,11 @@ class Admission {
     std::unique_ptr<std::atomic<int>, Release> live_;
   };
 
-  // `limit` >= 1 calls.
+  // Admits `limit` >= 1 calls at once.
   explicit Admission(int limit) : limit_(limit) {}
 
+  // Returns a ticket, which this object must outlive.
   // Errors: RESOURCE_EXHAUSTED with kTooManyCalls and a retry delay while `limit` tickets are held.
-  // This object must outlive the ticket.
   absl::StatusOr<Ticket> Enter();
 
   int live() const { return live_; }

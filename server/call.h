@@ -1,4 +1,5 @@
-// Call: what surrounds the work of every handler. A place among the live calls, the time, one log line at the end.
+// Call: the frame around the work of every handler. It takes a place among the live calls, measures the time and writes
+// one log line at the end.
 
 #ifndef RICOCHET_SERVER_CALL_H_
 #define RICOCHET_SERVER_CALL_H_
@@ -20,23 +21,23 @@ namespace ricochet::server {
 
 class Call {
  public:
-  // Starts the clock and asks for admission. `method` is the method's name within the service.
+  // Starts the clock and asks for admission. `method` is the method's name without that of the service.
   Call(const char* method, const grpc::ServerContext& context, Admission& admission, const Log& log);
   // Writes the log line.
   ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
-  // OK, or why the handler must do nothing but finish with it.
+  // OK, or the error with which the handler must finish at once.
   absl::Status admitted() const { return ticket_.status(); }
 
-  // Seconds since the start.
+  // Returns the seconds since the start.
   double elapsed_s() const;
 
-  // Points of a sweep computed so far, for the log line.
+  // Sets the number of points of a sweep computed so far, for the log line.
   void set_points(int64_t points) { points_ = points; }
 
-  // What the handler returns.
+  // Records the status for the log line and returns what the handler must return.
   grpc::Status Finish(const absl::Status& status);
 
  private:
@@ -46,7 +47,7 @@ class Call {
   const std::string peer_;
   const absl::StatusOr<Admission::Ticket> ticket_;
   std::optional<int64_t> points_;
-  // What gRPC answers if a handler throws and so never finishes.
+  // The status UNKNOWN is logged if a handler throws and never finishes; gRPC then answers the same.
   absl::StatusCode code_ = absl::StatusCode::kUnknown;
 };
 

@@ -1,4 +1,5 @@
-// ImpactService: the handlers of ricochet.v1.ImpactService. They convert, call the core and map the status.
+// ImpactService: the handlers of ricochet.v1.ImpactService. Each converts the request, calls the Solver, and converts the
+// response and the status.
 
 #ifndef RICOCHET_SERVER_IMPACT_SERVICE_H_
 #define RICOCHET_SERVER_IMPACT_SERVICE_H_
@@ -22,7 +23,7 @@ namespace ricochet::server {
 class ImpactService final : public v1::ImpactService::Service {
  public:
   // All arguments by reference must outlive the service. Once `drain` was requested, sweeps end with UNAVAILABLE and
-  // kDraining. A sweep over more than `max_points_per_sweep` points is refused with kSweepTooLarge.
+  // kDraining. A sweep of more than `max_points_per_sweep` points is refused with kSweepTooLarge.
   ImpactService(const Solver& solver, int64_t max_points_per_sweep, std::stop_token drain, Admission& admission,
                 const Log& log);
 

@@ -31,7 +31,7 @@ bool IsIpv6(const std::string& host) {
 std::optional<std::string> WhyNotBindable(const addrinfo& address) {
   const int descriptor = socket(address.ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0);
   if (descriptor < 0) return std::system_category().message(errno);
-  // As gRPC does: connections that linger after a close do not keep the port.
+  // gRPC sets this option too: connections that linger after a close do not keep the port.
   const int on = 1;
   setsockopt(descriptor, SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
   std::optional<std::string> reason;

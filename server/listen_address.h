@@ -1,4 +1,4 @@
-// ListenAddress: HOST:PORT, where a server takes connections.
+// ListenAddress: the address HOST:PORT at which a server takes connections.
 
 #ifndef RICOCHET_SERVER_LISTEN_ADDRESS_H_
 #define RICOCHET_SERVER_LISTEN_ADDRESS_H_
@@ -15,15 +15,15 @@ struct ListenAddress {
   friend bool operator==(const ListenAddress&, const ListenAddress&) = default;
 };
 
-// Reads "HOST:PORT", an IPv6 host in brackets; nothing for anything else.
+// Reads "HOST:PORT", where an IPv6 host stands in brackets. Returns nothing for any other text.
 std::optional<ListenAddress> ParseListenAddress(const std::string& text);
 
 std::string ToString(const ListenAddress& address);
 
-// Whether only this host can connect: localhost, 127.0.0.0/8, ::1.
+// Returns true if only this host can connect: localhost, 127.0.0.0/8, ::1.
 bool IsLoopback(const ListenAddress& address);
 
-// Why the system does not let a socket listen there; nothing if it now would.
+// Returns the reason why the system does not let a socket listen there, or nothing if it does.
 std::optional<std::string> WhyNotBindable(const ListenAddress& address);
 
 }  // namespace ricochet::server

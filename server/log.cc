@@ -34,7 +34,7 @@ spdlog::level::level_enum ToSpdlog(LogLevel level) {
 
 bool IsContinuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
 
-// Bytes of the UTF-8 character that starts at `i`; 0 where none does.
+// Returns the number of bytes of the UTF-8 character that starts at `i`, or 0 if none does.
 size_t Utf8Length(const std::string& text, size_t i) {
   const auto byte = [&text](size_t at) { return static_cast<unsigned char>(text[at]); };
   const unsigned char lead = byte(i);
@@ -43,13 +43,13 @@ size_t Utf8Length(const std::string& text, size_t i) {
   for (size_t k = 1; k < length; ++k) {
     if (!IsContinuation(text[i + k])) return 0;
   }
-  // The second byte bars longer spellings than needed, surrogates and what lies above U+10FFFF.
+  // The second byte excludes overlong encodings, surrogates and code points above U+10FFFF.
   const bool barred = (lead == 0xE0 && byte(i + 1) < 0xA0) || (lead == 0xED && byte(i + 1) >= 0xA0) ||
                       (lead == 0xF0 && byte(i + 1) < 0x90) || (lead == 0xF4 && byte(i + 1) >= 0x90);
   return barred ? 0 : length;
 }
 
-// A JSON string. Bytes that are not UTF-8 become U+FFFD.
+// Returns `text` as a JSON string. Bytes that are not UTF-8 become U+FFFD.
 std::string Quoted(const std::string& text) {
   std::string quoted = "\"";
   for (size_t i = 0; i < text.size();) {
@@ -71,7 +71,7 @@ std::string Quoted(const std::string& text) {
   return quoted + "\"";
 }
 
-// For a text line: bare where nothing in it could be mistaken.
+// Returns `text` for a text line, quoted unless it is plain ASCII without spaces, quotes, backslashes and equals signs.
 std::string QuotedIfNeeded(const std::string& text) {
   const bool bare = !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
     return c > ' ' && c < 0x7F && c != '"' && c != '\\' && c != '=';
@@ -94,7 +94,7 @@ std::string ToText(const LogField& field, LogFormat format) {
       field.value);
 }
 
-// The log that gRPC's own messages go to.
+// The log that receives gRPC's own messages.
 std::atomic<const Log*> grpc_log = nullptr;
 
 void WriteGrpcMessage(gpr_log_func_args* message) {

@@ -1,9 +1,9 @@
-// Log: one line a record, text for people or JSON for programs.
+// Log: writes one line for each record, as text for people or as JSON for programs.
 //
 //   2026-01-31T12:00:00.000Z info call peer=ipv4:127.0.0.1:40000 method=/ricochet.v1.ImpactService/Solve status=OK …
 //   {"time":"2026-01-31T12:00:00.000Z","level":"info","event":"call","peer":"ipv4:127.0.0.1:40000",…}
 //
-// Times are UTC. Strings are escaped: a record never breaks its line, and every JSON line parses.
+// Times are UTC. Strings are escaped, so that a record never breaks its line and every JSON line parses.
 
 #ifndef RICOCHET_SERVER_LOG_H_
 #define RICOCHET_SERVER_LOG_H_
@@ -25,7 +25,7 @@ enum class LogFormat { kText, kJson };
 enum class LogLevel { kDebug, kInfo, kWarning, kError };
 
 struct LogField {
-  std::string name;  // Of letters, digits and underscores.
+  std::string name;  // May contain letters, digits and underscores.
   std::variant<std::string, int64_t, double> value;
 };
 

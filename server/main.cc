@@ -1,4 +1,5 @@
-// ricochetd: the impact service as a daemon. Exit codes: 0 drained after a signal, 1 cannot start, 2 bad options.
+// ricochetd: the impact service as a daemon. Exit codes: 0 after a signal and an orderly shutdown, 1 if it cannot start,
+// 2 for bad options.
 
 #include <cstdlib>
 #include <iostream>
@@ -35,14 +36,14 @@ int Run(int argc, const char* const* argv) {
     return 1;
   }
   (*running)->ServeUntil(signals);
-  // Every call has had its time. Destroying the server would wait for clients that have stopped reading.
+  // All calls have ended or used up their time. Destroying the server would wait for clients that have stopped reading.
   std::_Exit(0);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  // A build of absl with assertions reports the lock order inside gRPC as a potential deadlock.
+  // A build of abseil with assertions reports the lock order inside gRPC as a potential deadlock.
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   return Run(argc, argv);
 }

@@ -21,7 +21,7 @@
 namespace ricochet::server {
 namespace {
 
-// The rule that a value breaks, "must …"; nothing for a good value.
+// The rule that a value breaks, as "must …"; nothing for a good value.
 using BrokenRule = std::optional<std::string>;
 
 constexpr char kAddressRule[] = "must be HOST:PORT with a port from 0 to 65535, an IPv6 host in brackets";
@@ -78,7 +78,7 @@ BrokenRule ReadAddress(const std::string& text, ListenAddress& listen) {
 
 struct Setting {
   std::string name;
-  std::string value_name;  // Empty for a flag, which may stand without a value.
+  std::string value_name;  // Empty for a flag, which may be given without a value.
   std::string help;
   std::function<BrokenRule(const std::string&, Options&)> read;
 };
@@ -87,13 +87,13 @@ std::vector<Setting> NetworkSettings() {
   return {
       {"listen", "HOST:PORT", "Where to take connections; port 0 lets the system choose [127.0.0.1:50051]",
        [](const std::string& text, Options& to) { return ReadAddress(text, to.listen); }},
-      {"port-file", "FILE", "Write the bound port there once calls are taken",
+      {"port-file", "FILE", "Write the bound port to this file once the server takes calls",
        [](const std::string& text, Options& to) -> BrokenRule {
          to.port_file = text;
          if (text.empty()) return "must not be empty";
          return std::nullopt;
        }},
-      {"insecure", "", "Allow a --listen address that is not loopback, without encryption",
+      {"insecure", "", "Allow a --listen address that other hosts can reach; nothing is encrypted",
        [](const std::string& text, Options& to) {
          return ReadName<bool>(text, {{"true", true}, {"1", true}, {"false", false}, {"0", false}}, to.insecure);
        }},
@@ -110,16 +110,16 @@ std::vector<Setting> LimitSettings() {
        [](const std::string& text, Options& to) {
          return ReadInteger(text, int64_t{1} << 53, to.max_points_per_sweep);
        }},
-      {"drain-grace", "SECONDS", "After a stop signal, announce NOT_SERVING for so long before sweeps are ended [3]",
+      {"drain-grace", "SECONDS", "After a stop signal, announce NOT_SERVING for this time before sweeps are ended [3]",
        [](const std::string& text, Options& to) { return ReadSeconds(text, to.drain_grace); }},
-      {"drain-timeout", "SECONDS", "Then wait for so long for calls to end [20]",
+      {"drain-timeout", "SECONDS", "Then wait at most this time for calls to end [20]",
        [](const std::string& text, Options& to) { return ReadSeconds(text, to.drain_timeout); }},
   };
 }
 
 std::vector<Setting> LogSettings() {
   return {
-      {"log-format", "FORMAT", "text or json: one record a line, on standard error [text]",
+      {"log-format", "FORMAT", "text or json: one record on each line of standard error [text]",
        [](const std::string& text, Options& to) {
          return ReadName<LogFormat>(text, {{"text", LogFormat::kText}, {"json", LogFormat::kJson}}, to.log_format);
        }},
@@ -144,7 +144,7 @@ std::string FromEnvironment(const std::string& name) {
   return value == nullptr ? "" : value;
 }
 
-// CLI11 ranks the file above the environment; this leaves out of the file what the environment sets.
+// CLI11 ranks the file above the environment, so this removes from the file what the environment sets.
 class BelowEnvironment : public CLI::ConfigTOML {
  public:
   std::vector<CLI::ConfigItem> from_config(std::istream& input) const override {
@@ -154,7 +154,7 @@ class BelowEnvironment : public CLI::ConfigTOML {
   }
 };
 
-// An option given by flag, environment or file, its value still text.
+// An option that was given by flag, environment or file; its value is still text.
 struct Given {
   const Setting* setting;
   CLI::Option* option;
@@ -219,16 +219,17 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   CLI::App app(
       "ricochetd: answers what happens when something hits a surface with friction.\n"
       "Each option can also be set in the environment, as RICOCHETD_MAX_LIVE_CALLS=10, "
-      "or in the file of --config, as max-live-calls = 10; the flag goes first, then the "
-      "environment.\n\nExample: ricochetd --listen 127.0.0.1:50051 --log-format json\n",
+      "or in the file of --config, as max-live-calls = 10; a flag overrides the environment, "
+      "which overrides the file.\n\nExample: ricochetd --listen 127.0.0.1:50051 --log-format json\n",
       "ricochetd");
-  app.set_help_flag("--help", "Print this and end");
+  app.set_help_flag("--help", "Print this help and exit");
   app.set_version_flag("--version",
                        absl::StrCat("ricochetd ", ThisEngine().version, " (engine ", ThisEngine().fingerprint, ")"));
   app.config_formatter(std::make_shared<BelowEnvironment>());
   app.allow_config_extras(CLI::config_extras_mode::error);
   const std::string file = FromEnvironment("config");
-  app.set_config("--config", file, "Read options from there (RICOCHETD_CONFIG)", !file.empty())->option_text("FILE");
+  app.set_config("--config", file, "Read options from this file (RICOCHETD_CONFIG)", !file.empty())
+      ->option_text("FILE");
 
   const std::vector<Setting> settings[] = {NetworkSettings(), LimitSettings(), LogSettings()};
   const char* const groups[] = {"Network", "Limits", "Log"};

@@ -1,8 +1,8 @@
-// Options: everything about a server that can be set.
+// Options: all settings of a server.
 //
-// Each option comes from the first of: its flag (--max-live-calls 10), the environment (RICOCHETD_MAX_LIVE_CALLS=10; an
-// empty one counts as unset), the file of --config or RICOCHETD_CONFIG (a line max-live-calls = 10, TOML or INI), its
-// default.
+// The value of an option is taken from the first of these that sets it: its flag (--max-live-calls 10), the environment
+// (RICOCHETD_MAX_LIVE_CALLS=10; an empty variable counts as unset), the file of --config or RICOCHETD_CONFIG (a line
+// max-live-calls = 10, TOML or INI), its default.
 
 #ifndef RICOCHET_SERVER_OPTIONS_H_
 #define RICOCHET_SERVER_OPTIONS_H_
@@ -20,7 +20,7 @@ namespace ricochet::server {
 
 struct Options {
   ListenAddress listen = {.host = "127.0.0.1", .port = 50051};
-  std::string port_file;  // Where the bound port is written once the server takes calls; empty: nowhere.
+  std::string port_file;  // The bound port is written to this file once the server takes calls; empty: to no file.
   bool insecure = false;  // Required to listen on anything but loopback: nothing is encrypted.
 
   int max_live_calls = 256;                       // 1 to 65,536.
@@ -33,20 +33,21 @@ struct Options {
   std::chrono::milliseconds drain_grace{3000};     // From health NOT_SERVING to the end of running sweeps; 0 to 1 h.
   std::chrono::milliseconds drain_timeout{20000};  // From there to the end of all calls; 0 to 1 h.
 
-  // Threads that wait for calls or serve reflection. With that many to spare it is the limit on live calls that
-  // refuses, with its retry delay, and not gRPC.
+  // Threads that wait for calls or serve reflection. With this many spare threads an overload is refused by the limit of
+  // live calls, which sends a retry delay, and not by gRPC.
   static constexpr int kSpareThreads = 32;
 
   friend bool operator==(const Options&, const Options&) = default;
 };
 
-// A text that was asked for instead of a server: --help, --version.
+// A text that the user asked for instead of a server: --help, --version.
 struct Notice {
   std::string text;
 };
 
-// Errors: INVALID_ARGUMENT that names every option with a bad value, the value and the rule, a line each; or the first
-// thing that is not an option.
+// Reads the options of a server.
+// Errors: INVALID_ARGUMENT with one line for each bad value, which names the option, the value and the rule; or
+// INVALID_ARGUMENT that names the first argument that is not an option.
 absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const char* const* argv);
 
 }  // namespace ricochet::server

@@ -1,4 +1,4 @@
-// The port file: how a script that started a server on port 0 learns the port.
+// The port file: it tells the port to a script that started a server on port 0.
 
 #ifndef RICOCHET_SERVER_PORT_FILE_H_
 #define RICOCHET_SERVER_PORT_FILE_H_
@@ -9,8 +9,8 @@
 
 namespace ricochet::server {
 
-// Writes `port` and a newline. A reader sees no file, the old one or the whole new one, never a part.
-// Errors: those of the file system, naming the path.
+// Writes `port` and a newline. A reader sees no file, the old file or the complete new file, never a part of it.
+// Errors: those of the file system; the message names the path.
 absl::Status WritePortFile(const std::string& path, int port);
 
 }  // namespace ricochet::server

@@ -21,7 +21,7 @@ constexpr int kMaxReceiveBytes = 1 << 20;
 constexpr int kMaxMetadataBytes = 8 << 10;
 constexpr int kMaxStreamsPerConnection = 128;
 
-// What the connections get to close once their calls were cancelled.
+// The time that connections have to close after their calls were cancelled.
 constexpr std::chrono::seconds kTimeToClose(1);
 
 constexpr int Milliseconds(std::chrono::milliseconds time) { return static_cast<int>(time.count()); }
@@ -36,20 +36,20 @@ void SetLimits(const Options& options, grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMaxMetadataBytes);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, kMaxStreamsPerConnection);
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, Milliseconds(seconds(10)));
-  // Notices a peer that vanished while a sweep waits to be read, and lets clients ask as often as every 20 s.
+  // Keepalive notices a peer that vanished while a sweep waits to be read; clients may send a ping every 20 s.
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIME_MS, Milliseconds(seconds(30)));
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, Milliseconds(seconds(10)));
   builder.AddChannelArgument(GRPC_ARG_KEEPALIVE_PERMIT_WITHOUT_CALLS, 1);
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, Milliseconds(seconds(20)));
   // Old connections are replaced, which spreads clients over new servers; calls on them run to their end.
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, Milliseconds(minutes(30)));
-  // Else a second server on the same port would silently share its connections.
+  // Without this a second server on the same port would silently take part of the connections.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
 }
 
 absl::Status CannotListen(const ListenAddress& address) {
   return absl::UnavailableError(absl::StrCat("cannot listen on ", ToString(address), ": ",
-                                             WhyNotBindable(address).value_or("another process held it just now")));
+                                             WhyNotBindable(address).value_or("another process used it a moment ago")));
 }
 
 }  // namespace

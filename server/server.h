@@ -1,7 +1,8 @@
-// Server: the impact service with health and reflection, its limits, and how it ends.
+// Server: the impact service with health checks, reflection and limits.
 //
-// Drain: health says NOT_SERVING, so that load balancers look elsewhere; after the grace the running sweeps end at
-// their next chunk with UNAVAILABLE and a retry delay; then all calls have the drain timeout to end.
+// A server drains in three steps. First its health becomes NOT_SERVING, so that load balancers send calls elsewhere.
+// After the drain grace, running sweeps end at their next chunk with UNAVAILABLE and a retry delay. Then all calls have
+// the drain timeout to end.
 
 #ifndef RICOCHET_SERVER_SERVER_H_
 #define RICOCHET_SERVER_SERVER_H_
@@ -25,7 +26,7 @@ namespace ricochet::server {
 
 class Server {
  public:
-  // A server that takes calls. `log` must outlive it.
+  // Starts a server that takes calls. `log` must outlive it.
   // Errors: UNAVAILABLE if it cannot listen, those of the file system if it cannot write the port file.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const Options& options, const Log& log);
 
@@ -34,12 +35,12 @@ class Server {
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // Where it listens, with the port that the system chose.
+  // Returns the address at which it listens, with the port that the system chose.
   const ListenAddress& address() const { return address_; }
 
   // Serves until a signal comes, then drains. A second signal skips the rest of the grace. Call it once; afterwards the
-  // process can only exit: gRPC closes a connection after the write in flight, which a client that has stopped reading
-  // holds up for ever, so that a thread may still use this object and its destruction may wait.
+  // process must exit without destroying the server: a client that has stopped reading can block a write for ever, so
+  // that a thread may still use this object and its destruction may never end.
   void ServeUntil(const StopSignals& signals);
 
  private:

@@ -1,7 +1,6 @@
-// StopSignals: SIGTERM and SIGINT, waited for by a thread instead of handled.
+// StopSignals: a thread waits for SIGTERM and SIGINT, because a signal handler must not call what stops a server.
 //
-// Nothing that stops a server may be called from a signal handler. Threads inherit the blocked signals, so construct
-// it before the first one starts.
+// Threads inherit the set of blocked signals, so construct this object before the first thread starts.
 
 #ifndef RICOCHET_SERVER_STOP_SIGNALS_H_
 #define RICOCHET_SERVER_STOP_SIGNALS_H_
@@ -14,13 +13,13 @@ namespace ricochet::server {
 
 class StopSignals {
  public:
-  // Blocks them in this thread and ignores SIGPIPE: a log reader that ends must not end the server.
+  // Blocks the two signals in this thread. Also ignores SIGPIPE: a reader of the log that ends must not end the server.
   StopSignals();
 
-  // Waits for one; its name.
+  // Waits for a signal and returns its name.
   std::string Wait() const;
 
-  // Waits for one at most `time`; whether it came.
+  // Waits for a signal for at most `time`. Returns true if one came.
   bool WaitFor(std::chrono::milliseconds time) const;
 
  private:

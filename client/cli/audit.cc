@@ -23,16 +23,18 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr char kExample[] = R"(Example: a pendulum that is said to rebound at 0.9 of its rate, which friction forbids.
+constexpr char kExample[] =
+    R"(Example: a pendulum is reported to rebound at 0.9 of its rate, which friction does not allow.
   $ ricochet audit --a 0.3 --b 1 --mu 0.1 --observed-rate 0.9
   Inadmissible:
-    more is returned than was stored: energetic coefficient above 1 by 0.272792
+    the energetic coefficient exceeds 1 by 0.272792
   ...
-Many impacts at one contact: --data FILE.csv, whose header names its columns: tangential_m_s, normal_m_s (before;
-without them the scene's own), tangential_after_m_s, normal_after_m_s, friction (else the scene's) and
-velocity_uncertainty_m_s; in space also tangential_2_m_s and tangential_2_after_m_s. A pendulum or a linkage may have
-rates_after_rad_s[0], one a link, in place of the velocity after. Text is a summary; csv has a row an impact, and the
-summary goes to standard error; json has both. A bad row is flagged INVALID and ends nothing.
+--data FILE.csv audits many impacts at one contact. Its header names the columns: tangential_m_s and normal_m_s before
+the impact (default: those of the scene), tangential_after_m_s, normal_after_m_s, friction (default: that of the scene)
+and velocity_uncertainty_m_s; in space also tangential_2_m_s and tangential_2_after_m_s. For a pendulum or a linkage,
+rates_after_rad_s[0] and so on, one for each link, may replace the velocity after. Text prints a summary; csv prints one
+row for each impact, and the summary on standard error; json prints both. A bad row is flagged INVALID; the others are
+still audited.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct AuditOptions {
@@ -60,7 +62,7 @@ absl::StatusOr<Observed> ReadObserved(const AuditOptions& options) {
   }
   if (!options.velocity.has_value()) {
     return absl::InvalidArgumentError(
-        "nothing observed: give --observed-velocity T,N, --observed-rate X or --data FILE.csv");
+        "no observation: give --observed-velocity T,N, --observed-rate X or --data FILE.csv");
   }
   absl::StatusOr<std::vector<double>> numbers = ParseNumbers(*options.velocity, "--observed-velocity");
   if (!numbers.ok()) return numbers.status();
@@ -98,7 +100,7 @@ absl::Status AuditOne(const AuditOptions& options, const Solver& solver, const S
 
 absl::StatusOr<AuditColumns> ReadData(const AuditOptions& options) {
   if (options.rate.has_value() || options.velocity.has_value()) {
-    return absl::InvalidArgumentError("--data does not go with --observed-rate or --observed-velocity");
+    return absl::InvalidArgumentError("--data cannot be combined with --observed-rate or --observed-velocity");
   }
   const absl::StatusOr<std::string> text = ReadText(options.data);
   if (!text.ok()) return text.status();
@@ -108,7 +110,7 @@ absl::StatusOr<AuditColumns> ReadData(const AuditOptions& options) {
   const absl::StatusOr<double> uncertainty = ReadUncertainty(options);
   if (!uncertainty.ok()) return uncertainty.status();
   if (!columns->velocity_uncertainty_m_s.empty()) {
-    return absl::InvalidArgumentError("--uncertainty does not go with a column velocity_uncertainty_m_s");
+    return absl::InvalidArgumentError("--uncertainty cannot be combined with a column velocity_uncertainty_m_s");
   }
   columns->velocity_uncertainty_m_s.assign(RowCount(*columns), *uncertainty);
   return columns;
@@ -116,13 +118,13 @@ absl::StatusOr<AuditColumns> ReadData(const AuditOptions& options) {
 
 using Receiver = absl::FunctionRef<absl::Status(size_t first, AuditBatchResponse& part)>;
 
-// Audits `columns`, of which a server answers some rows at a time, and hands each answer to `receive`.
+// Audits `columns` in parts of at most kMostAuditRows rows, and passes each answer to `receive`.
 absl::StatusOr<AuditSummary> AuditRows(const Solver& solver, const Scene& scene, const AuditColumns& columns,
                                        Receiver receive) {
   AuditSummary summary;
   const size_t rows = RowCount(columns);
   size_t first = 0;
-  do {  // At least once, for the errors of the scene.
+  do {  // Without rows there is still one call, which reports the errors of the scene.
     const size_t end = std::min(rows, first + static_cast<size_t>(kMostAuditRows));
     absl::StatusOr<AuditBatchResponse> response =
         solver.AuditBatch({.scene = scene, .columns = SomeRows(columns, first, end)});
@@ -146,7 +148,7 @@ absl::Status WriteSummary(const Solver& solver, const Scene& scene, const AuditC
   return summary.ok() ? output.Write(AuditSummaryText(*summary)) : summary.status();
 }
 
-// A line a row; the summary goes to standard error.
+// Writes one line for each row; the summary goes to standard error.
 absl::Status WriteCsv(const Solver& solver, const Scene& scene, const AuditColumns& columns, Output& output) {
   const size_t directions = TangentialDirections(scene.system);
   const absl::StatusOr<AuditSummary> summary =
@@ -161,7 +163,7 @@ absl::Status WriteCsv(const Solver& solver, const Scene& scene, const AuditColum
   return summary.status();
 }
 
-// All rows as the response that one call would give.
+// Writes all rows as one response, as if one call had answered them.
 absl::Status WriteJson(const Solver& solver, const Scene& scene, const AuditColumns& columns, Output& output) {
   AuditBatchResponse whole;
   const absl::StatusOr<AuditSummary> summary =
@@ -209,20 +211,22 @@ absl::Status RunAudit(const AuditOptions& options) {
 }  // namespace
 
 void AddAudit(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("audit", "What observed impacts imply, and which limits they break");
+  CLI::App* sub = app.add_subcommand("audit", "What observed impacts imply, and which physical limits they break");
   const auto options = std::make_shared<AuditOptions>();
   AddSceneOptions(*sub, options->scene);
   CLI::Option* rate =
       sub->add_option("--observed-rate", options->rate,
-                      "Angular velocity after, rad/s: of a pendulum, or of each link of a linkage, with commas")
+                      "Angular velocity after, rad/s: of a pendulum, or of each link of a linkage, separated by commas")
           ->type_name("X[,X...]");
   sub->add_option("--observed-velocity", options->velocity,
                   "Contact velocity after, m/s: tangential (two in space), then normal")
       ->type_name("T[,T2],N")
       ->excludes(rate);
-  sub->add_option("--uncertainty", options->uncertainty, "How far each component of it may be off, m/s [0]")
+  sub->add_option("--uncertainty", options->uncertainty,
+                  "Uncertainty of each component of the contact velocity, m/s [0]")
       ->type_name("X");
-  sub->add_option("--data", options->data, "Many impacts, one a line, columns by header; - for standard input")
+  sub->add_option("--data", options->data,
+                  "Many impacts, one on each line; the header names the columns; - for standard input")
       ->type_name("FILE.csv");
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);

@@ -1,4 +1,4 @@
-// ricochet audit: what observed impacts imply, and which limits they break.
+// The subcommand audit: what observed impacts imply, and which limits they break.
 
 #ifndef RICOCHET_CLIENT_CLI_AUDIT_H_
 #define RICOCHET_CLIENT_CLI_AUDIT_H_

@@ -31,7 +31,7 @@ constexpr Named kColumns[] = {{"tangential_m_s", &AuditColumns::tangential_m_s},
 
 constexpr char kRates[] = "rates_after_rad_s";
 
-// Where a column of a file goes: to a named one, to the rates of a link, or, if neither, nowhere.
+// The destination of a column of the file: a named column, the rates of a link, or neither if its name is unknown.
 struct Place {
   std::vector<double> AuditColumns::*values = nullptr;
   std::optional<size_t> link;

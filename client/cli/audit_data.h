@@ -1,4 +1,4 @@
-// Tables of observed impacts, as CSV with a header.
+// Tables of observed impacts: CSV text with a header.
 
 #ifndef RICOCHET_CLIENT_CLI_AUDIT_DATA_H_
 #define RICOCHET_CLIENT_CLI_AUDIT_DATA_H_
@@ -11,15 +11,17 @@
 
 namespace ricochet::cli {
 
-// Columns are found by name, the fields of AuditColumns (rates_after_rad_s[0], one a link), in any order; a column of
-// another name is left alone. What is no number, or missing, becomes a NaN, which makes its row invalid and no other.
-// Empty lines and those that start with # are passed over.
-// Errors: INVALID_ARGUMENT for a header that names a column twice, none that is known, or leaves out a link.
+// Reads a table. Columns are named as the fields of AuditColumns (rates_after_rad_s[0] and so on, one for each link) and
+// may come in any order; a column with another name is ignored. A cell that is missing or not a number becomes a NaN,
+// which makes its row invalid but no other. Empty lines and lines that start with # are skipped. `name` names the table
+// in errors.
+// Errors: INVALID_ARGUMENT for a header that names a column twice, names no known column, or leaves out a link.
 absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::string& name);
 
-// Rows [first, end) of columns that all have a value a row or none.
+// Returns the rows [first, end). Each column must be empty or have a value for every row.
 AuditColumns SomeRows(const AuditColumns& columns, size_t first, size_t end);
 
+// Returns the length of the longest column.
 size_t RowCount(const AuditColumns& columns);
 
 }  // namespace ricochet::cli

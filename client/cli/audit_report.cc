@@ -17,18 +17,19 @@ struct LimitName {
   AuditLimit limit;
   const char* column;
   const char* title;
-  const char* broken;  // What went wrong, in words, up to by how much.
+  const char* broken;  // The complaint in words, up to the excess.
   const char* unit;
 };
 
 constexpr LimitName kLimits[] = {
-    {AuditLimit::kEnergy, "energy", "kinetic energy gained <= 0 [J]", "kinetic energy is gained: ", " J"},
-    {AuditLimit::kSharp, "sharp", "energetic coefficient <= 1",
-     "more is returned than was stored: energetic coefficient above 1 by ", ""},
-    {AuditLimit::kNormalImpulse, "normal_impulse", "normal impulse >= 0 [N s]", "the surface pulls by ", " N s"},
+    {AuditLimit::kEnergy, "energy", "kinetic energy gained <= 0 [J]", "the kinetic energy grows by ", " J"},
+    {AuditLimit::kSharp, "sharp", "energetic coefficient <= 1", "the energetic coefficient exceeds 1 by ", ""},
+    {AuditLimit::kNormalImpulse, "normal_impulse", "normal impulse >= 0 [N s]", "the surface pulls with an impulse of ",
+     " N s"},
     {AuditLimit::kPenetration, "penetration", "normal velocity after >= 0 [m/s]", "the bodies still approach at ",
      " m/s"},
-    {AuditLimit::kCone, "cone", "tangential impulse <= mu normal [N s]", "friction leaves its cone by ", " N s"},
+    {AuditLimit::kCone, "cone", "tangential impulse <= mu normal [N s]",
+     "the impulse lies outside the friction cone by ", " N s"},
 };
 
 std::string VerdictText(Verdict verdict) {
@@ -54,21 +55,21 @@ std::string Heading(const AuditResponse& response) {
     if (check.verdict != Verdict::kBroken) continue;
     absl::StrAppend(&text, "  ", name.broken, Rounded(check.excess), name.unit);
     if (name.limit == AuditLimit::kEnergy && response.contact_energy_j > 0.0) {
-      absl::StrAppendFormat(&text, ", %+.4g %% of what the contact had",
+      absl::StrAppendFormat(&text, ", %+.4g %% of the contact's kinetic energy",
                             100.0 * check.excess / response.contact_energy_j);
     }
     text += "\n";
   }
   if (report.unexplained) {
-    absl::StrAppend(&text, "  no impulse explains it: the nearest point of the path is ", Rounded(report.distance),
-                    " m/s away and is what is shown\n");
+    absl::StrAppend(&text, "  no impulse explains the observation; the nearest point of the path, shown here, is ",
+                    Rounded(report.distance), " m/s away\n");
   }
   return text;
 }
 
 std::string LimitsText(const AuditReport& report) {
   Table table;
-  table.Add({"", "found", "limit", "excess", "may be off by", ""});
+  table.Add({"", "observed", "limit", "excess", "uncertainty", ""});
   for (const LimitName& name : kLimits) {
     const LimitCheck& check = report[name.limit];
     table.Add({name.title, Rounded(check.value), Rounded(check.limit), Rounded(check.excess), Rounded(check.allowance),
@@ -88,7 +89,7 @@ std::string CoefficientsText(const AuditReport& report) {
 
 std::string ImpulseText(const AuditReport& report, size_t directions) {
   Table table;
-  table.Add({"", "observed", "may be off by", "beyond the path"});
+  table.Add({"", "observed", "uncertainty", "minus that of the path"});
   table.Add({"normal [N s]", Rounded(report.normal_impulse), Rounded(report.normal_impulse_uncertainty), ""});
   for (size_t i = 0; i < directions; ++i) {
     const std::string name = directions == 1 ? "tangential [N s]" : absl::StrCat("tangential ", i + 1, " [N s]");
@@ -106,18 +107,18 @@ std::string WorkText(const AuditReport& report) {
   table.Add({"tangential", Rounded(report.work_tangential_compression), Rounded(report.work_tangential_restitution),
              Rounded(report.work_tangential_compression + report.work_tangential_restitution)});
   table.Add({"change of kinetic energy, observed", "", "", Rounded(report.energy_change)});
-  table.Add({"works less that", "", "", Rounded(report.residual)});
+  table.Add({"sum of the works minus that change", "", "", Rounded(report.residual)});
   return "\nWork on the body, along the scene's Coulomb path\n" + table.Render(2);
 }
 
-// The columns of a row, each with what goes into it.
+// The columns of a row: the name and the value of each.
 using Row = std::vector<std::pair<std::string, std::string>>;
 
 void AddDirections(const std::string& name, const std::array<double, 2>& values, size_t directions, Row& row) {
   for (size_t i = 0; i < directions; ++i) row.emplace_back(absl::StrCat(name, "[", i, "]"), ShortestDecimal(values[i]));
 }
 
-// Named as the fields of ricochet.v1.AuditReport.
+// The columns are named as the fields of ricochet.v1.AuditReport.
 Row RowOf(const AuditReport& report, size_t directions) {
   const auto number = [](double value) { return ShortestDecimal(value); };
   Row row = {

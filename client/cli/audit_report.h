@@ -1,4 +1,4 @@
-// What `ricochet audit` prints.
+// The answers of `ricochet audit` as text and CSV.
 
 #ifndef RICOCHET_CLIENT_CLI_AUDIT_REPORT_H_
 #define RICOCHET_CLIENT_CLI_AUDIT_REPORT_H_
@@ -9,14 +9,14 @@
 
 namespace ricochet::cli {
 
-// `directions` tangential ones are shown, 1 or 2.
+// Returns tables with units, to six digits. `directions` is the number of tangential directions, 1 or 2.
 std::string AuditText(const AuditResponse& response, size_t directions);
 
-// A header and one row an audit, at full precision.
+// Return the header and the row of one audit as CSV, at full precision, without a line feed.
 std::string AuditCsvHeader(size_t directions);
 std::string AuditCsvRow(const AuditReport& report, size_t directions);
 
-// What there was in many rows. Indices count from 0.
+// Returns the summary of many rows as a table. Row numbers start at 0.
 std::string AuditSummaryText(const AuditSummary& summary);
 
 }  // namespace ricochet::cli

@@ -14,7 +14,7 @@ using Values = decltype(Axis::values);
 
 std::vector<std::string> Split(const std::string& text, char separator) { return absl::StrSplit(text, separator); }
 
-// START, STOP and COUNT of a Linspace or a Logspace.
+// Reads START, STOP and COUNT of a Linspace or a Logspace.
 template <typename Space>
 absl::StatusOr<Values> ParseSpace(const std::vector<std::string>& parts, const std::string& what) {
   if (parts.size() != 4) {

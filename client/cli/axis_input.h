@@ -1,4 +1,4 @@
-// Axes and ranges of a sweep, and ranges of fields, as a user types them.
+// Reads axes and ranges of a sweep, and ranges of fields, as a user types them.
 
 #ifndef RICOCHET_CLIENT_CLI_AXIS_INPUT_H_
 #define RICOCHET_CLIENT_CLI_AXIS_INPUT_H_
@@ -13,8 +13,8 @@
 
 namespace ricochet::cli {
 
-// "PATH=0.1,1/3,0.5", "PATH=lin:START:STOP:COUNT" or "PATH=log:START:STOP:COUNT".
-// Errors: INVALID_ARGUMENT. Whether the path exists and the values make sense is for the solver to say.
+// Reads "PATH=0.1,1/3,0.5", "PATH=lin:START:STOP:COUNT" or "PATH=log:START:STOP:COUNT".
+// Errors: INVALID_ARGUMENT for another form. The solver checks that the path exists and the values are valid.
 absl::StatusOr<Axis> ParseAxis(const std::string& text);
 
 struct IndexRange {
@@ -22,11 +22,11 @@ struct IndexRange {
   std::optional<int64_t> end;
 };
 
-// "FIRST:END"; an empty FIRST is 0, an empty END the end of the grid.
+// Reads "FIRST:END"; an empty FIRST means 0, an empty END the end of the grid. Errors: INVALID_ARGUMENT.
 absl::StatusOr<IndexRange> ParseRange(const std::string& text);
 
-// "PATH=LOW:HIGH".
-// Errors: INVALID_ARGUMENT. Whether the path exists and the values make sense is for the solver to say.
+// Reads "PATH=LOW:HIGH".
+// Errors: INVALID_ARGUMENT for another form. The solver checks that the path exists and the values are valid.
 absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text);
 
 }  // namespace ricochet::cli

@@ -14,14 +14,12 @@
 #include "client/cli/scene_input.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
-#include "core/plan/planned_scene.h"
-#include "core/problem/scene_problem.h"
 #include "proto/wire/requests.h"
 
 namespace ricochet::cli {
 namespace {
 
-constexpr char kExample[] = R"(Example: what friction leaves of the coefficients of a pendulum, whatever it is made of.
+constexpr char kExample[] = R"(Example: the coefficients that friction allows a pendulum, whatever its material.
   $ ricochet bounds --a 0.3 --b 1 --mu 0.1
   Rebound: x = mu |b|/a = 0.333333, r = (1 - x)/(1 + x) = 0.5.
 
@@ -29,8 +27,10 @@ constexpr char kExample[] = R"(Example: what friction leaves of the coefficients
   Newton      0 ... 0.707107       0 ... 1     0 ... 0.666667 ...
   Poisson      0 ... 1.41421       0 ... 2      0 ... 1.33333 ...
   ...
-With --range, which may be repeated, also what they can be over all scenes whose fields lie in the ranges.
-CSV has one row a quantity, at full precision; with --certified, one row a proved number. Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+"sharp": the contact returns no more energy than it stored. "energy only": the kinetic energy does not grow.
+--range, which may be repeated, also gives guaranteed ranges over all scenes whose fields lie in the given ranges.
+CSV has one row for each quantity, at full precision; with --certified, one row for each proved number.
+Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct BoundsOptions {
   CommonOptions common;
@@ -39,13 +39,13 @@ struct BoundsOptions {
   std::string certified;
 };
 
-// One quantity: its name, its unit, where its range and its first-order error stand.
+// One quantity: its names, and the fields that hold its range, its first-order error and its coefficient.
 struct Quantity {
   const char* name;
   const char* title;
   Range CoefficientBounds::*range;
-  double NearlyVertical::*error;      // Null where the first order is exact.
-  double Coefficients::*coefficient;  // Null for what is not a coefficient.
+  double NearlyVertical::*error;      // Null if the first order is exact.
+  double Coefficients::*coefficient;  // Null for a quantity that is not a coefficient.
 };
 
 constexpr std::array kQuantities = {
@@ -60,17 +60,20 @@ constexpr std::array kQuantities = {
 
 std::string Interval(const Range& range) { return absl::StrCat(Rounded(range.lower), " ... ", Rounded(range.upper)); }
 
-std::string Heading(const Bounds& bounds, bool closed_form) {
+// Returns true for the bounds of a pendulum over a surface at rest: for other systems both ratios are 0.
+bool HasRatios(const Bounds& bounds) { return bounds.friction_ratio != 0.0 || bounds.slope_ratio != 0.0; }
+
+std::string Heading(const Bounds& bounds) {
   std::string regime = RegimeText(bounds.regime);
+  if (!HasRatios(bounds)) return absl::StrCat("Regime of the elastic impact: ", regime, ".\n");
   regime[0] = static_cast<char>(regime[0] - 'a' + 'A');
-  if (!closed_form) return absl::StrCat(regime, ", if the impact is elastic.\n");
   return absl::StrCat(regime, ": x = mu |b|/a = ", Rounded(bounds.friction_ratio),
                       ", r = (1 - x)/(1 + x) = ", Rounded(bounds.slope_ratio), ".\n");
 }
 
 std::string RangesText(const Bounds& bounds) {
   Table table;
-  std::vector<std::string> header = {"", bounds.sampled ? "reached by a sample" : "sharp (spring)"};
+  std::vector<std::string> header = {"", bounds.sampled ? "found by a sample" : "sharp (spring)"};
   if (bounds.energy_only.has_value()) header.emplace_back("energy only");
   if (bounds.nearly_vertical.has_value()) {
     header.insert(header.end(), {"first order in x", "error <="});
@@ -88,21 +91,21 @@ std::string RangesText(const Bounds& bounds) {
   return table.Render(0);
 }
 
-// Empty where no coefficient is critical.
+// Returns an empty text if no coefficient of friction is critical.
 std::string CriticalText(const CriticalFriction& critical) {
   const std::pair<const char*, std::optional<double>> rows[] = {
-      {"contact that has stopped sticks", critical.stick},
-      {"slip stops before compression ends", critical.stop_compression},
-      {"slip stops before an elastic impact ends", critical.stop},
-      {"slip reverses, until contact sticks", critical.reversal},
-      {"sliding drives the contact in (jams)", critical.jam},
+      {"a stopped contact sticks from", critical.stick},
+      {"slip stops before compression ends above", critical.stop_compression},
+      {"slip stops before an elastic impact ends above", critical.stop},
+      {"slip reverses, until the contact sticks, from", critical.reversal},
+      {"the contact jams above", critical.jam},
   };
   Table table;
   for (const auto& [title, value] : rows) {
     if (value.has_value()) table.Add({title, Rounded(*value)});
   }
   const std::string text = table.Render(2);
-  return text.empty() ? "" : absl::StrCat("\nFrom which friction on\n", text);
+  return text.empty() ? "" : absl::StrCat("\nCritical coefficients of friction\n", text);
 }
 
 std::string FirstOrderText(const NearlyVertical& vertical) {
@@ -122,22 +125,23 @@ std::string EnclosureText(const Enclosure& enclosure, const std::vector<FieldRan
     absl::StrAppend(&text, "  ", range.path, " in ", Interval({range.low, range.high}), "\n");
   }
   Table table;
-  table.Add({"", "proved to contain", "reached"});
+  table.Add({"", "guaranteed range", "range found"});
   for (const Quantity& quantity : kQuantities) {
     table.Add(
         {quantity.title, Interval(enclosure.outer.*quantity.range), Interval(enclosure.attained.*quantity.range)});
   }
-  const std::string excess = std::isinf(enclosure.excess)
-                                 ? "A range has no end: friction may lock the contact, or W comes near to singular"
-                                 : absl::StrCat("At most ", Rounded(100.0 * enclosure.excess), " % too wide");
-  return absl::StrCat(text, "\n", table.Render(0), excess, "; ", enclosure.boxes,
-                      enclosure.boxes == 1 ? " box.\n" : " boxes.\n");
+  const std::string excess =
+      std::isinf(enclosure.excess)
+          ? "A guaranteed range is infinite: friction may lock the contact, or W may be nearly singular"
+          : absl::StrCat("Guaranteed ranges are at most ", Rounded(100.0 * enclosure.excess),
+                         " % wider than those found");
+  return absl::StrCat(text, "\n", table.Render(0), excess, " (", enclosure.boxes,
+                      enclosure.boxes == 1 ? " sub-range examined).\n" : " sub-ranges examined).\n");
 }
 
 std::string BoundsText(const BoundsRequest& request, const BoundsResponse& response) {
   const Bounds& bounds = response.bounds;
-  std::string text = absl::StrCat(Heading(bounds, HasClosedForm(request.scene)), "\n", RangesText(bounds),
-                                  CriticalText(bounds.critical));
+  std::string text = absl::StrCat(Heading(bounds), "\n", RangesText(bounds), CriticalText(bounds.critical));
   if (bounds.nearly_vertical.has_value() && bounds.nearly_vertical->coefficients.has_value()) {
     absl::StrAppend(&text, FirstOrderText(*bounds.nearly_vertical));
   }
@@ -146,7 +150,7 @@ std::string BoundsText(const BoundsRequest& request, const BoundsResponse& respo
   return text;
 }
 
-// The cells of `range`, empty where there is none.
+// Appends the two cells of `range`, empty ones if there is none.
 void AddCells(const std::optional<Range>& range, std::vector<std::string>& row) {
   row.push_back(range.has_value() ? ShortestDecimal(range->lower) : "");
   row.push_back(range.has_value() ? ShortestDecimal(range->upper) : "");
@@ -222,7 +226,7 @@ void AddBounds(CLI::App& app, Command& command) {
   const auto options = std::make_shared<BoundsOptions>();
   AddSceneOptions(*sub, options->scene);
   sub->add_option("--range", options->ranges,
-                  "What is uncertain: a field of a planar system, of friction or of the surface; repeat for more")
+                  "An uncertain field of a planar system, of friction or of the surface; may be repeated")
       ->type_name("PATH=LOW:HIGH")
       ->allow_extra_args(false);
   AddCertifiedOption(*sub, options->certified);

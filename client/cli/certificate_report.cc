@@ -12,7 +12,7 @@
 namespace ricochet::cli {
 
 void AddCertifiedOption(CLI::App& sub, std::string& digits) {
-  sub.add_option("--certified", digits, "Also the numbers proved to so many significant digits, 1 to 1000")
+  sub.add_option("--certified", digits, "Also numbers with this many proved significant digits, 1 to 1000")
       ->type_name("DIGITS");
 }
 
@@ -29,8 +29,9 @@ std::string CertificateText(const Certificate& certificate) {
       certificate.regimes, ", or ", [](std::string* out, Regime regime) { absl::StrAppend(out, RegimeText(regime)); });
   size_t width = 0;
   for (const CertifiedNumber& number : certificate.numbers) width = std::max(width, number.path.size());
-  std::string text = absl::StrCat("\nCertified to ", certificate.digits, certificate.digits == 1 ? " digit" : " digits",
-                                  certificate.is_set ? ", as a set: " : ": ", regimes, " (= exactly)\n");
+  std::string text =
+      absl::StrCat("\nProved to ", certificate.digits, certificate.digits == 1 ? " digit" : " digits",
+                   certificate.is_set ? ", some numbers as ranges: " : ": ", regimes, " (= marks exact values)\n");
   for (const CertifiedNumber& number : certificate.numbers) {
     const char* const relation = number.decimal.empty() ? "in" : number.exact ? "= " : "  ";
     const std::string value =

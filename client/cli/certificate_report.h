@@ -1,4 +1,4 @@
-// The option --certified, and a certificate as text and as CSV.
+// The option --certified, and the report of a certificate as text and as CSV.
 
 #ifndef RICOCHET_CLIENT_CLI_CERTIFICATE_REPORT_H_
 #define RICOCHET_CLIENT_CLI_CERTIFICATE_REPORT_H_
@@ -14,13 +14,13 @@ namespace ricochet::cli {
 
 void AddCertifiedOption(CLI::App& sub, std::string& digits);
 
-// 0 where the option is not given.
+// Returns the number of digits, or 0 if the option is not given. Errors: INVALID_ARGUMENT outside [1, 1000].
 absl::StatusOr<int32_t> ReadCertifiedDigits(const std::string& digits);
 
-// A line a number: its path and its digits, or the range that it is proved to lie in.
+// Returns one line for each number: its path and its digits, or the range that is proved to contain it.
 std::string CertificateText(const Certificate& certificate);
 
-// One row a number.
+// Returns a header and one row for each number.
 std::string CertificateCsv(const Certificate& certificate);
 
 }  // namespace ricochet::cli

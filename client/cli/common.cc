@@ -30,10 +30,11 @@ void AddOutputOptions(CLI::App& app, CommonOptions& options) {
       {"text", Format::kText}, {"json", Format::kJson}, {"csv", Format::kCsv}};
   app.add_option_function<std::string>(
          "--format", [&options, formats](const std::string& name) { options.format = formats.at(name); },
-         "text: tables; json: the response of the call; csv: full precision")
+         "text: tables; json: the response message; csv: rows at full precision")
       ->check(CLI::IsMember({"text", "json", "csv"}))
       ->option_text("text|json|csv");
-  app.add_option("-o,--output", options.output, "Write to this file, which appears whole or not at all")
+  app.add_option("-o,--output", options.output,
+                 "Write to this file, which is replaced only when the output is complete")
       ->type_name("FILE");
 }
 
@@ -51,7 +52,7 @@ absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {
 absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options) {
   if (options.server.empty()) {
     if (!options.deadline.empty()) {
-      return absl::InvalidArgumentError("--deadline needs --server: computing here has no deadline");
+      return absl::InvalidArgumentError("--deadline needs --server");
     }
     return std::make_unique<LocalSolver>();
   }

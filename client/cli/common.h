@@ -1,4 +1,4 @@
-// What the subcommands share: options, the solver behind them, JSON.
+// Parts that the subcommands share: options, the solver behind them, JSON, names of regimes.
 
 #ifndef RICOCHET_CLIENT_CLI_COMMON_H_
 #define RICOCHET_CLIENT_CLI_COMMON_H_
@@ -18,13 +18,13 @@ class Message;
 
 namespace ricochet::cli {
 
-// What a subcommand does once its options are parsed. Parsing sets it; main runs it.
+// The work of a subcommand. Parsing the command line sets it, and main then runs it.
 using Command = std::function<absl::Status()>;
 
 enum class Format { kText, kJson, kCsv };
 
 struct CommonOptions {
-  std::string server;  // Empty: this process computes.
+  std::string server;  // Empty: this process computes the answer.
   std::string deadline;
   Format format = Format::kText;
   std::string output;  // Empty: standard output.
@@ -33,22 +33,22 @@ struct CommonOptions {
 void AddServerOptions(CLI::App& app, CommonOptions& options);
 void AddOutputOptions(CLI::App& app, CommonOptions& options);
 
-// The options of a client of `options.server`. Errors: INVALID_ARGUMENT.
+// Returns the options of a client of `options.server`. Errors: INVALID_ARGUMENT for a bad deadline.
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options);
 
-// A LocalSolver, or a Client if there is a server. Errors: INVALID_ARGUMENT.
+// Returns a LocalSolver, or a Client if a server is given. Errors: INVALID_ARGUMENT.
 absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options);
 
-// Writes `text` to the output that the options name.
+// Writes `text` to the output that the options name. Errors: those of Output.
 absl::Status WriteOutput(const CommonOptions& options, const std::string& text);
 
-// Canonical proto3 JSON on one line, default values included, with a line feed.
+// Returns canonical proto3 JSON on one line with a line feed, including default values.
 absl::StatusOr<std::string> Json(const google::protobuf::Message& message);
 
-// "rebound", "stick in compression".
+// Returns the regime as words: "rebound", "stick in compression".
 std::string RegimeText(Regime regime);
 
-// "REBOUND", as ricochet.v1.Regime without its prefix.
+// Returns the name in ricochet.v1.Regime without its prefix: "REBOUND".
 const std::string& RegimeName(Regime regime);
 
 }  // namespace ricochet::cli

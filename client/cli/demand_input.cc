@@ -31,16 +31,16 @@ absl::StatusOr<std::vector<Effect>> ReadEffects(const std::vector<std::string>& 
 void AddDemandOptions(CLI::App& app, DemandOptions& options) {
   const std::string group = "Accuracy and effects";
   app.add_option("--tolerance", options.tolerance,
-                 "Error of the contact velocity after the impact over the one before; what changes less is left out; "
-                 "default 1e-12")
+                 "Largest relative error of the contact velocity after the impact; effects that provably change less "
+                 "are left out; default 1e-12")
       ->type_name("X")
       ->group(group);
-  app.add_option("--require", options.required, "Effects to be simulated even if they are negligible")
+  app.add_option("--require", options.required, "Effects that are simulated even if they are negligible")
       ->type_name("EFFECT,...")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group(group);
-  app.add_option("--exclude", options.excluded, "Effects to be left out whatever that changes")
+  app.add_option("--exclude", options.excluded, "Effects that are left out whatever that changes")
       ->type_name("EFFECT,...")
       ->delimiter(',')
       ->allow_extra_args(false)

@@ -1,4 +1,4 @@
-// How exact, and with which effects: options of solve and sweep.
+// The options of solve and sweep for the accuracy and the effects.
 
 #ifndef RICOCHET_CLIENT_CLI_DEMAND_INPUT_H_
 #define RICOCHET_CLIENT_CLI_DEMAND_INPUT_H_
@@ -14,14 +14,14 @@ namespace ricochet::cli {
 
 struct DemandOptions {
   std::string tolerance;
-  std::vector<std::string> required, excluded;  // As EffectWord spells them.
+  std::vector<std::string> required, excluded;  // Names of effects, spelled as by EffectWord.
 
   bool any() const { return !tolerance.empty() || !required.empty() || !excluded.empty(); }
 };
 
 void AddDemandOptions(CLI::App& app, DemandOptions& options);
 
-// Errors: INVALID_ARGUMENT for what is no number or no effect.
+// Errors: INVALID_ARGUMENT for a text that is not a number or not an effect.
 absl::StatusOr<DemandFields> ReadDemand(const DemandOptions& options);
 
 }  // namespace ricochet::cli

@@ -1,4 +1,4 @@
-// How a run ends: exit codes, and errors for people.
+// The end of a run: exit codes, and the errors that a user sees.
 
 #ifndef RICOCHET_CLIENT_CLI_EXIT_CODE_H_
 #define RICOCHET_CLIENT_CLI_EXIT_CODE_H_
@@ -9,14 +9,15 @@ namespace ricochet::cli {
 
 enum ExitCode : int {
   kOk = 0,
-  kUsage = 2,      // A wrong flag, scene or request: the same call will fail again.
-  kFailed = 42,    // Every other failure that a retry will not mend.
-  kTryAgain = 75,  // EX_TEMPFAIL: the server is away, busy or late.
+  kUsage = 2,      // A flag, scene or request is wrong: the same call will fail again.
+  kFailed = 42,    // Any other failure that a retry does not cure.
+  kTryAgain = 75,  // EX_TEMPFAIL: the server is unreachable, busy or too slow.
 };
 
 ExitCode ExitCodeOf(const absl::Status& status);
 
-// On stderr: one line a violation, "field = value: must ...", or the message.
+// Prints the error on stderr: one line "field = value: must ..." for each violation, or the message. It prints nothing
+// for OK, nor if the reader of standard output has gone.
 void PrintError(const absl::Status& status);
 
 }  // namespace ricochet::cli

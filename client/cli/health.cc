@@ -9,7 +9,7 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr char kExample[] = R"(Example: a container's probe.
+constexpr char kExample[] = R"(Example: the health probe of a container.
   $ ricochet health --server 127.0.0.1:50051
   SERVING
 Exit codes: 0 serving, 75 any other state or no answer, 2 wrong input.)";
@@ -36,7 +36,7 @@ absl::Status RunHealth(const HealthOptions& options) {
   if (!client_options.ok()) return client_options.status();
   const absl::StatusOr<Health> health = CheckHealth(*client_options, options.service);
   if (!health.ok()) {
-    // A probe knows two answers only; a service that is not there yet may come.
+    // A probe distinguishes only two answers, and a service that is missing may still be starting.
     if (health.status().code() == absl::StatusCode::kInvalidArgument) return health.status();
     return absl::UnavailableError(std::string(health.status().message()));
   }
@@ -48,7 +48,7 @@ absl::Status RunHealth(const HealthOptions& options) {
 }  // namespace
 
 void AddHealth(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("health", "Whether a server takes calls");
+  CLI::App* sub = app.add_subcommand("health", "Ask whether a server takes calls");
   const auto options = std::make_shared<HealthOptions>();
   AddServerOptions(*sub, options->common);
   sub->get_option("--server")->required();

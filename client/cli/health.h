@@ -1,4 +1,4 @@
-// ricochet health: is a server taking calls.
+// The subcommand health: asks whether a server takes calls.
 
 #ifndef RICOCHET_CLIENT_CLI_HEALTH_H_
 #define RICOCHET_CLIENT_CLI_HEALTH_H_

@@ -1,4 +1,4 @@
-// Interrupt: Ctrl-C and SIGTERM as a stop token, so that a run ends in order and leaves nothing half-written.
+// Interrupt: turns Ctrl-C and SIGTERM into a stop token, so that a run ends in order and leaves no partial file.
 
 #ifndef RICOCHET_CLIENT_CLI_INTERRUPT_H_
 #define RICOCHET_CLIENT_CLI_INTERRUPT_H_
@@ -8,7 +8,7 @@
 
 namespace ricochet::cli {
 
-// Make it before any other thread: threads inherit that the signals wait for this one.
+// Construct it before any other thread starts, because threads inherit the set of blocked signals.
 class Interrupt {
  public:
   Interrupt();

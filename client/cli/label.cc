@@ -34,7 +34,7 @@ constexpr std::array kNamed = {
     Named{"rates_after_rad_s[0]", "ω+", "angular velocity after, ω+"},
 };
 
-// Suffix of a field's name -> unit; longer suffixes before those they end in.
+// Maps the suffix of a field's name to its unit. A longer suffix stands before the shorter ones that it ends in.
 constexpr std::array kUnits = {
     std::pair{"_kg_m2", "kg m²"}, std::pair{"_rad_s", "rad/s"}, std::pair{"_n_s", "N s"}, std::pair{"_m_s", "m/s"},
     std::pair{"_rad", "rad"},     std::pair{"_m", "m"},         std::pair{"_j", "J"},

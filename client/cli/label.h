@@ -1,4 +1,4 @@
-// Names of fields for people: what a path stands for, and its unit.
+// Labels: the symbol, the name and the unit of a field, for plots.
 
 #ifndef RICOCHET_CLIENT_CLI_LABEL_H_
 #define RICOCHET_CLIENT_CLI_LABEL_H_
@@ -8,15 +8,15 @@
 namespace ricochet::cli {
 
 struct Label {
-  std::string symbol;  // Short: "μ".
+  std::string symbol;  // A short name: "μ".
   std::string name;    // "kinetic friction μ".
   std::string unit;    // "rad/s"; empty for a pure number.
 };
 
-// Of a path of a scene or an outcome. A path without a name of its own is spelled with spaces.
+// Returns the label of a path of a scene or an outcome. A path without a name of its own is spelled with spaces.
 Label LabelOf(const std::string& path);
 
-// "name [unit]".
+// Returns "name [unit]".
 std::string WithUnit(const Label& label);
 
 }  // namespace ricochet::cli

@@ -1,4 +1,4 @@
-// ricochet: the command line.
+// ricochet: the command line program.
 
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
@@ -39,10 +39,11 @@ void AddSubcommands(CLI::App& app, ricochet::cli::Command& command) {
 
 int main(int argc, char** argv) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
-  // A closed pipe and a full quota come back as errors of write, so that temporary files are removed.
+  // With these signals ignored, a closed pipe and a full quota become errors of write, and temporary files are removed.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  CLI::App app("What happens when a thing hits a surface, with friction? SI units and radians.", "ricochet");
+  CLI::App app("Computes what happens when something hits a surface with friction. Units are SI and radians.",
+               "ricochet");
   ricochet::cli::Command command;
   AddSubcommands(app, command);
   try {

@@ -13,7 +13,7 @@ namespace {
 constexpr double kMostCount = 9007199254740992.0;  // 2^53: every whole number up to here is a double.
 constexpr double kYearMs = 365.0 * 24 * 3600 * 1000;
 
-// The double nearest to `text`; strtold, which the option parser would use, rounds twice.
+// Returns the double nearest to `text`. The option parser itself would use strtold, which rounds twice.
 std::optional<double> ToDouble(const std::string& text) {
   const char* first = text.data();
   const char* last = first + text.size();

@@ -1,4 +1,4 @@
-// Numbers and times as a user types them.
+// Reads numbers and times as a user types them.
 
 #ifndef RICOCHET_CLIENT_CLI_NUMBER_INPUT_H_
 #define RICOCHET_CLIENT_CLI_NUMBER_INPUT_H_
@@ -11,16 +11,17 @@
 
 namespace ricochet::cli {
 
-// "0.1", "-1e-3", or a fraction of two such numbers, "1/3". `what` names the input in the error.
+// Reads "0.1", "-1e-3", or a fraction of two such numbers, "1/3". `what` names the input in the error.
+// Errors: INVALID_ARGUMENT, here and below.
 absl::StatusOr<double> ParseNumber(const std::string& text, const std::string& what);
 
-// A whole number: "1000", "1e6".
+// Reads a whole number of at most 2^53: "1000", "1e6".
 absl::StatusOr<int64_t> ParseCount(const std::string& text, const std::string& what);
 
-// "250ms", "30s", "5m", "2h"; a bare number is in seconds. At least one millisecond, at most a year.
+// Reads "250ms", "30s", "5m", "2h"; a bare number is in seconds. At least one millisecond, at most a year.
 absl::StatusOr<std::chrono::milliseconds> ParseDuration(const std::string& text, const std::string& what);
 
-// INVALID_ARGUMENT "WHAT = TEXT: must RULE".
+// Returns the error INVALID_ARGUMENT "WHAT = TEXT: must RULE".
 absl::Status InputError(const std::string& what, const std::string& text, const std::string& rule);
 
 }  // namespace ricochet::cli

@@ -28,19 +28,10 @@ mode_t DefaultMode() {
   return 0666 & ~mask;
 }
 
-// A rename is on disk only once its directory is.
-absl::Status SyncDirectory(const std::filesystem::path& directory) {
-  const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return SystemError(absl::StrCat("cannot open ", directory.string()));
-  const bool synced = fsync(descriptor) == 0 || errno == EINVAL;
-  close(descriptor);
-  return synced ? absl::OkStatus() : SystemError(absl::StrCat("cannot sync ", directory.string()));
-}
-
 }  // namespace
 
 absl::StatusOr<AtomicFile> AtomicFile::Create(const std::string& path) {
-  // A link stays one: what it points to is replaced.
+  // A symbolic link is kept: its target is replaced.
   std::error_code failure;
   const std::filesystem::path target = std::filesystem::weakly_canonical(std::filesystem::absolute(path), failure);
   if (failure || !target.has_filename() || std::filesystem::is_directory(target, failure)) {
@@ -79,7 +70,7 @@ absl::Status AtomicFile::Commit() {
     return SystemError(absl::StrCat("cannot replace ", path_));
   }
   temporary_path_.clear();
-  return SyncDirectory(std::filesystem::path(path_).parent_path());
+  return absl::OkStatus();
 }
 
 absl::StatusOr<Output> Output::Open(const std::string& path) {
@@ -110,7 +101,7 @@ absl::Status Output::Write(const std::string& text) {
     if (count >= 0) {
       done += static_cast<size_t>(count);
     } else if (errno == EPIPE) {
-      absl::Status status = absl::CancelledError("nobody reads the output any more");
+      absl::Status status = absl::CancelledError("the reader of the output has gone");
       status.SetPayload(kReaderGoneUrl, absl::Cord());
       return status;
     } else if (errno != EINTR) {

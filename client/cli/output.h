@@ -1,4 +1,4 @@
-// Where results go: standard output, or a file that appears whole or not at all.
+// Output: the destination of results, which is standard output or a file that appears complete or not at all.
 
 #ifndef RICOCHET_CLIENT_CLI_OUTPUT_H_
 #define RICOCHET_CLIENT_CLI_OUTPUT_H_
@@ -9,10 +9,10 @@
 
 namespace ricochet::cli {
 
-// A file that is written beside `path` under another name and takes its place in one step.
+// A file that is written beside `path` under a temporary name and then renamed, so that a reader never sees a part of it.
 class AtomicFile {
  public:
-  // Errors: PERMISSION_DENIED, NOT_FOUND and so on, naming the path.
+  // Errors: PERMISSION_DENIED, NOT_FOUND and so on; the message names the path.
   static absl::StatusOr<AtomicFile> Create(const std::string& path);
 
   AtomicFile(AtomicFile&& other) noexcept;
@@ -23,17 +23,17 @@ class AtomicFile {
   int descriptor() const { return descriptor_; }
   const std::string& temporary_path() const { return temporary_path_; }
 
-  // Flushes to disk and renames. Call it once, last.
+  // Writes the data to disk and renames the file. Call it once, after the last write. Errors: those of the system.
   absl::Status Commit();
 
  private:
   AtomicFile() = default;
   std::string path_;
-  std::string temporary_path_;  // Empty once there is nothing to remove.
+  std::string temporary_path_;  // Empty if there is no file to remove.
   int descriptor_ = -1;
 };
 
-// Standard output for an empty path; a device or pipe at `path` is written to in place; else an AtomicFile.
+// Standard output for an empty path; a device or pipe at `path`, which is written to directly; else an AtomicFile.
 class Output {
  public:
   static absl::StatusOr<Output> Open(const std::string& path);
@@ -42,20 +42,21 @@ class Output {
   Output& operator=(Output&&) = delete;
   ~Output();
 
-  // Errors: IsReaderGone if whoever read standard output has closed it, else those of the system.
+  // Errors: one for which IsReaderGone holds if the reader of standard output has closed it; else those of the system.
   absl::Status Write(const std::string& text);
-  // What was written now stands under its name.
+  // Makes a file appear under its name. Call it once, after the last Write. Errors: those of the system.
   absl::Status Commit();
 
  private:
   explicit Output(absl::StatusOr<AtomicFile> file, int descriptor, bool owned)
       : file_(std::move(file)), descriptor_(descriptor), owned_(owned) {}
-  absl::StatusOr<AtomicFile> file_;  // Not OK where there is none.
+  absl::StatusOr<AtomicFile> file_;  // Not OK if the output is not an AtomicFile.
   int descriptor_;
-  bool owned_;  // Whether `descriptor_` is to be closed here.
+  bool owned_;  // True if the destructor closes `descriptor_`.
 };
 
-// Whether the reader of standard output has gone, as under `| head`: a reason to stop, not to complain.
+// Returns true if the error means that the reader of standard output has gone, as with `| head`. Such a run stops
+// without a complaint.
 bool IsReaderGone(const absl::Status& status);
 
 }  // namespace ricochet::cli

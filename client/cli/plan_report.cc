@@ -47,14 +47,14 @@ std::string ModelName(Model model) { return std::string(absl::StripPrefix(v1::Mo
 
 std::string PlanText(const Plan& plan) {
   std::string text =
-      absl::StrCat("Plan\n  model ", ModelText(plan.model), ", asked to ", Rounded(plan.relative_tolerance),
-                   "; what is left out changes at most ", Rounded(plan.neglected), "\n");
+      absl::StrCat("Plan\n  model ", ModelText(plan.model), ", tolerance ", Rounded(plan.relative_tolerance),
+                   "; the effects left out change velocities by at most ", Rounded(plan.neglected), "\n");
   if (plan.effects.empty()) return text;
   Table table;
   table.Add({"effect", "size"});
   for (const PlannedEffect& planned : plan.effects) table.Add({EffectWord(planned.effect), Rounded(planned.size)});
   const std::vector<std::string> lines = absl::StrSplit(table.Render(2), '\n', absl::SkipEmpty());
-  absl::StrAppend(&text, lines[0], "   in or out, and why\n");
+  absl::StrAppend(&text, lines[0], "   decision: reason\n");
   for (size_t i = 0; i < plan.effects.size(); ++i) {
     const PlannedEffect& planned = plan.effects[i];
     absl::StrAppend(&text, lines[i + 1], "   ", DecisionText(planned.decision), ": ", planned.reason, "\n");

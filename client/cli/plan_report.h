@@ -1,4 +1,4 @@
-// A plan as text and as CSV, and the words for its parts.
+// The report of a plan as text and as CSV, and the names of its parts.
 
 #ifndef RICOCHET_CLIENT_CLI_PLAN_REPORT_H_
 #define RICOCHET_CLIENT_CLI_PLAN_REPORT_H_
@@ -9,17 +9,18 @@
 
 namespace ricochet::cli {
 
-// "tangential-compliance", as options spell it.
+// Returns the name of an effect as the options spell it: "tangential-compliance".
 std::string EffectWord(Effect effect);
 
-// "finite duration", "COMPLIANT" as ricochet.v1.Model without its prefix.
+// Return the name of a model in words, "finite duration", and in ricochet.v1.Model without its prefix, "COMPLIANT".
 std::string ModelText(Model model);
 std::string ModelName(Model model);
 
-// The model, what is left out, and a line an effect: its size, whether it is in, why.
+// Returns the model, the sum of all that is left out, and one line for each effect: its size, the decision and the
+// reason.
 std::string PlanText(const Plan& plan);
 
-// One row an effect.
+// Returns a header and one row for each effect.
 std::string PlanCsv(const Plan& plan);
 
 }  // namespace ricochet::cli

@@ -34,7 +34,7 @@ set autoscale fix
 set offsets graph 0, graph 0, graph 0.04, graph 0.04
 )";
 
-// A gnuplot string, in which nothing is special but the quote.
+// Returns a gnuplot string, in which only the quote is a special character.
 std::string Quoted(const std::string& text) {
   return absl::StrCat("'", absl::StrReplaceAll(text, {{"'", "''"}, {"\n", " "}}), "'");
 }
@@ -75,7 +75,7 @@ void AppendPanel(size_t number, const Panel& panel, std::string& script) {
   absl::StrAppend(&script, "\n");
 }
 
-// Writes all of `text` to the pipe and closes it. False if the reader went away.
+// Writes all of `text` to the pipe and closes it. Returns false if the reader went away.
 bool Feed(int pipe, const std::string& text) {
   size_t done = 0;
   while (done < text.size()) {
@@ -87,7 +87,7 @@ bool Feed(int pipe, const std::string& text) {
   return done == text.size();
 }
 
-// This process's environment in a UTF-8 locale: gnuplot warns of the signs it cannot write in others.
+// The environment of this process with a UTF-8 locale: in others gnuplot warns of characters that it cannot write.
 class Utf8Environment {
  public:
   Utf8Environment() {
@@ -106,7 +106,7 @@ class Utf8Environment {
   std::vector<char*> pointers_;
 };
 
-// Starts gnuplot with `input` as its standard input, no signal blocked or ignored. Returns 0 or an errno.
+// Starts gnuplot with `input` as its standard input and with no signal blocked or ignored. Returns 0 or an errno.
 int SpawnGnuplot(int input, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);

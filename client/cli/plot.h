@@ -1,4 +1,4 @@
-// Plots: curves in panels side by side, drawn by gnuplot as a child process.
+// Plots: curves in panels side by side, which gnuplot draws as a child process.
 
 #ifndef RICOCHET_CLIENT_CLI_PLOT_H_
 #define RICOCHET_CLIENT_CLI_PLOT_H_
@@ -21,7 +21,7 @@ struct Panel {
   std::string x_label;
   std::string y_label;
   bool log_x = false;
-  std::vector<double> x_marks;  // Where a vertical dashed line is drawn.
+  std::vector<double> x_marks;  // A vertical dashed line is drawn at each.
   std::vector<Curve> curves;
 };
 
@@ -30,13 +30,13 @@ struct Plot {
   std::vector<Panel> panels;
 };
 
-// INVALID_ARGUMENT unless the name ends in .svg or .png.
+// Errors: INVALID_ARGUMENT unless the name ends in .svg or .png.
 absl::Status CheckPlotPath(const std::string& path);
 
-// What gnuplot is told; `terminal` is "svg" or "png".
+// Returns the commands for gnuplot; `terminal` is "svg" or "png".
 std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path);
 
-// Draws to `path`, which appears whole or not at all.
+// Draws to the file `path`, which appears complete or not at all.
 // Errors: FAILED_PRECONDITION if gnuplot is not installed, INTERNAL if it fails.
 absl::Status Draw(const Plot& plot, const std::string& path);
 

@@ -1,4 +1,4 @@
-// Progress: a bar on the terminal with rate and time left.
+// Progress: a bar on the terminal that shows the rate and the time left.
 
 #ifndef RICOCHET_CLIENT_CLI_PROGRESS_H_
 #define RICOCHET_CLIENT_CLI_PROGRESS_H_
@@ -9,10 +9,11 @@
 
 namespace ricochet::cli {
 
-// "[#####     ]  50 %   2.5e+06 points/s   3 s left".
+// Returns "[#####     ]  50 %   2.5e+06 points/s   3 s left".
 std::string ProgressLine(int64_t done, int64_t total, double seconds);
 
-// Draws on stderr if that is a terminal, at most ten times a second; else does nothing. Wipes itself at the end.
+// Draws on stderr at most ten times a second if stderr is a terminal, and erases the bar at the end. Otherwise it does
+// nothing.
 class Progress {
  public:
   Progress();

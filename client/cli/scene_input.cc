@@ -26,7 +26,7 @@ namespace {
 constexpr double kDefaultInertia = 1.0;
 constexpr double kDefaultOmega = -1.0;
 
-// Keeps the first complaint of the textproto parser.
+// Keeps the first error of the textproto parser.
 class FirstError final : public google::protobuf::io::ErrorCollector {
  public:
   void AddError(int line, google::protobuf::io::ColumnNumber column, const std::string& message) override {
@@ -44,7 +44,7 @@ bool IsJson(const std::string& path, const std::string& text) {
   return start != std::string::npos && text[start] == '{';
 }
 
-// Reads numbers and keeps every complaint, so that all of them are reported at once.
+// Reads numbers and keeps every violation, so that all of them are reported at once.
 class NumberReader {
  public:
   void Read(const std::optional<std::string>& text, const char* flag, double& value) {
@@ -110,11 +110,12 @@ void AddSceneOptions(CLI::App& app, SceneOptions& options) {
   add("--inertia", options.inertia, "Moment of inertia about the pin, kg m² [1]");
   add("--omega", options.omega, "Angular velocity before, rad/s; < 0 approaches [-1]");
   add("--mu", options.mu, "Coefficient of kinetic friction [0]");
-  add("--mu-static", options.mu_static, "Coefficient of static friction [that of --mu]");
+  add("--mu-static", options.mu_static, "Coefficient of static friction [the value of --mu]");
   CLI::Option* newton = add("--newton", options.newton, "Coefficient of restitution by Newton: -v+/v-");
-  CLI::Option* poisson = add("--poisson", options.poisson, "The same by Poisson: ratio of normal impulses");
+  CLI::Option* poisson =
+      add("--poisson", options.poisson, "Coefficient of restitution by Poisson: ratio of normal impulses");
   CLI::Option* energetic =
-      add("--energetic", options.energetic, "The same by Stronge: root of the ratio of normal works");
+      add("--energetic", options.energetic, "Coefficient of restitution by Stronge: root of the ratio of normal works");
   newton->excludes(poisson)->excludes(energetic);
   poisson->excludes(energetic);
 }
@@ -126,7 +127,7 @@ absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
   }
   if (AnyFlag(options)) {
     return absl::InvalidArgumentError(
-        "--scene does not go with the flags of a pendulum: put the values into the file, or leave --scene out");
+        "--scene cannot be combined with the flags of a pendulum: put the values into the file, or omit --scene");
   }
   v1::Scene proto;
   if (absl::Status status = ReadMessage(options.file, proto); !status.ok()) return status;
@@ -141,7 +142,7 @@ absl::StatusOr<std::string> ReadText(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;
   if (file) text << file.rdbuf();
-  // An empty file sets the failbit of the text alone.
+  // An empty file sets the failbit of `text` but not that of `file`.
   if (!file) {
     return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": ", std::strerror(errno)));
   }

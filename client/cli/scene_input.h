@@ -1,4 +1,4 @@
-// Scenes from files and from flags.
+// Reads scenes from files and from flags.
 
 #ifndef RICOCHET_CLIENT_CLI_SCENE_INPUT_H_
 #define RICOCHET_CLIENT_CLI_SCENE_INPUT_H_
@@ -16,7 +16,7 @@ class Message;
 
 namespace ricochet::cli {
 
-// --scene FILE, or a pendulum by flags. Values are kept as typed until they are read.
+// The options of a scene: --scene FILE, or the flags of a pendulum. Values are kept as typed until they are read.
 struct SceneOptions {
   std::string file;
   std::optional<std::string> a, b, inertia, omega;
@@ -28,18 +28,19 @@ struct SceneOptions {
 
 void AddSceneOptions(CLI::App& app, SceneOptions& options);
 
-// The scene that the options describe; inertia 1 kg m² and w- = -1 rad/s unless given. Not validated.
+// Returns the scene that the options describe, without validating it. A pendulum's inertia is 1 kg m² and its w- is
+// -1 rad/s unless given.
 // Errors: INVALID_ARGUMENT for neither or both of file and flags, a text that is not a number, an unreadable file.
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options);
 
-// The whole of a file, or of standard input for "-". Errors: INVALID_ARGUMENT that names the file.
+// Returns the whole text of a file, or of standard input for "-". Errors: INVALID_ARGUMENT that names the file.
 absl::StatusOr<std::string> ReadText(const std::string& path);
 
-// Reads a message of any type from a file, or from standard input for "-". *.json is JSON, *.textproto, *.txtpb and
-// *.pbtxt are textproto, anything else is JSON if it starts with a brace.
-// Errors: INVALID_ARGUMENT that names the file, and the line where the parser tells it.
+// Reads a message of any type from a file, or from standard input for "-". A file *.json is JSON; *.textproto, *.txtpb
+// and *.pbtxt are textproto; any other is JSON if it starts with a brace, else textproto.
+// Errors: INVALID_ARGUMENT that names the file, and the line if the parser tells it.
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message);
-// The same of a file's text.
+// Reads a message from the text of the file `path`, by the rules of ReadMessage.
 absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message);
 
 }  // namespace ricochet::cli

@@ -19,17 +19,17 @@ namespace {
 
 constexpr int64_t kMostHistory = 65535;
 
-constexpr char kExample[] = R"(Example: the pendulum of the paper's sec. 4, elastic.
+constexpr char kExample[] = R"(Example: the elastic pendulum of Lubarda (2009), sec. 4.
   $ ricochet solve --a 0.3 --b 1 --mu 0.1 --energetic 1
-  Rebound: the contact slips, reverses where compression ends, and parts.
+  Rebound: slip reverses at the end of compression, and the contact separates.
   Admissible.
 
   Coefficients
     Newton      (velocities, -v+/v-)     0.707107
     Poisson     (normal impulses)         1.41421
   ...
-CSV has one row: every number of the outcome by its path; with --history or --force-history, one row a state or sample
-instead; with --explain, one row an effect; with --certified, one row a number.
+CSV has one row with every number of the outcome, named by its path. Instead it has one row for each state with --history,
+for each sample with --force-history, for each effect with --explain, and for each number with --certified.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct SolveOptions {
@@ -51,7 +51,7 @@ absl::StatusOr<int64_t> ParseIntervals(const std::string& text, const char* flag
   return count;
 }
 
-// N + 1 evenly spaced impulses of [0, tau1]. What tau1 is, a first solve tells.
+// Asks for N + 1 evenly spaced impulses of [0, tau1]. A first solve gives tau1.
 absl::Status AddHistory(const Solver& solver, const std::string& intervals, SolveRequest& request) {
   const absl::StatusOr<int64_t> count = ParseIntervals(intervals, "--history");
   if (!count.ok()) return count.status();
@@ -128,20 +128,20 @@ absl::Status RunSolve(const SolveOptions& options) {
 }  // namespace
 
 void AddSolve(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("solve", "One impact: velocities, impulses, coefficients, works");
+  CLI::App* sub = app.add_subcommand("solve", "Compute one impact: velocities, impulses, coefficients, works");
   const auto options = std::make_shared<SolveOptions>();
   AddSceneOptions(*sub, options->scene);
-  sub->add_option("--history", options->history, "Also the states at N + 1 evenly spaced normal impulses")
+  sub->add_option("--history", options->history, "Also print the states at N + 1 evenly spaced normal impulses")
       ->type_name("N");
   sub->add_option("--force-history", options->force_history,
-                  "Also the forces at N + 1 evenly spaced times; needs a spring")
+                  "Also print the forces at N + 1 evenly spaced times; needs a normal spring in the scene")
       ->type_name("N");
-  sub->add_flag("--explain", options->explain, "Also the plan: which effects are in or out, and why");
-  sub->add_flag("--plan-only", options->plan_only, "The plan alone, without solving");
+  sub->add_flag("--explain", options->explain, "Also print the plan: which effects are simulated or left out, and why");
+  sub->add_flag("--plan-only", options->plan_only, "Print only the plan, without solving");
   AddDemandOptions(*sub, options->demand);
   AddCertifiedOption(*sub, options->certified);
   sub->add_flag("--strict", options->strict, "Fail if the outcome is inadmissible");
-  sub->add_option("--plot", options->plot, "Draw w(tau), F/N(tau) and f(tau) by gnuplot")->type_name("FILE.svg|.png");
+  sub->add_option("--plot", options->plot, "Draw w(tau), F/N(tau) and f(tau) with gnuplot")->type_name("FILE.svg|.png");
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);
   sub->footer(kExample);

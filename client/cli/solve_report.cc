@@ -1,5 +1,6 @@
 #include "client/cli/solve_report.h"
 
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -21,9 +22,9 @@ using google::protobuf::Reflection;
 const char* Sentence(Regime regime) {
   switch (regime) {
     case Regime::kFrictionless:
-      return "Frictionless: nothing couples normal and tangential motion.";
+      return "Frictionless: friction does not couple normal and tangential motion.";
     case Regime::kRebound:
-      return "Rebound: the contact slips, reverses where compression ends, and parts.";
+      return "Rebound: slip reverses at the end of compression, and the contact separates.";
     case Regime::kSliding:
       return "Sliding: slip keeps its direction.";
     case Regime::kStickInCompression:
@@ -37,18 +38,18 @@ const char* Sentence(Regime regime) {
     case Regime::kLocked:
       return "Locked: friction and the pin hold the body; it does not rebound.";
     case Regime::kWedged:
-      return "Wedged: the impact has not ended, as far as its model has followed it.";
+      return "Not converged: the contact had not separated when the step budget ran out.";
     case Regime::kSeparating:
-      return "Separating: the contact does not approach; nothing happens.";
+      return "Separating: the contact does not approach; nothing changes.";
     case Regime::kByLaw:
-      return "By an impact law: it says how the impact ends, not how it goes on.";
+      return "Impact law: it gives the end of the impact, but not its phases.";
     case Regime::kNoSolution:
-      return "No solution: the impact law contradicts itself here.";
+      return "No solution: the impact law has no solution for this contact.";
     case Regime::kUnspecified:
     case Regime::kInvalid:
       break;
   }
-  return "The server answered with a regime that this build does not know.";
+  return "Unknown: the server answered with a regime that this build does not know.";
 }
 
 const char* EventText(EventKind kind) {
@@ -73,7 +74,7 @@ const char* EventText(EventKind kind) {
 
 std::string Verdict(const Outcome& outcome) {
   if (outcome.admissible) return "Admissible.\n";
-  std::string text = "INADMISSIBLE: the coefficient asks for energy that the impact never stored.\n";
+  std::string text = "INADMISSIBLE: the coefficient would return more energy than the impact stored.\n";
   Table table;
   table.Add({"broken limit", "value", "limit", "excess"});
   for (const BrokenLimit& broken : outcome.broken_limits) {
@@ -97,7 +98,7 @@ std::string CoefficientsText(const Outcome& outcome) {
                       "), restitution ", Rounded(effective.restitution), "\n");
 }
 
-// Appends the entries of a list, one a tangential direction or a rate, as cells.
+// Appends the numbers of a list as cells, one for each tangential direction or angular velocity.
 void AppendCells(const std::vector<double>& values, std::vector<std::string>& cells) {
   for (const double value : values) cells.push_back(Rounded(value));
 }
@@ -110,16 +111,22 @@ void AddMotion(const std::string& name, const std::vector<double>& before, const
   }
 }
 
+// Returns two significant digits of a number that is at least `value`.
+std::string RoundedUp(double value) {
+  if (!(value > 0.0) || std::isinf(value)) return Rounded(value);
+  const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+  return Rounded(std::ceil(value / unit * (1.0 - 1e-12)) * unit);  // The factor undoes the rounding of the quotient.
+}
+
 std::string AccuracyText(const Accuracy& accuracy) {
-  std::string text =
-      absl::StrCat("  contact velocity exact to ", Rounded(accuracy.relative_error), " of the one before",
-                   accuracy.kind == AccuracyKind::kBound ? " (proved)" : " (estimated)");
+  std::string text = absl::StrCat("  relative error of the contact velocity <= ", RoundedUp(accuracy.relative_error),
+                                  accuracy.kind == AccuracyKind::kBound ? " (proved)" : " (estimated)");
   if (accuracy.steps > 0) absl::StrAppend(&text, ", ", accuracy.steps, " steps");
   return text + "\n";
 }
 
 std::string MotionText(const Outcome& outcome) {
-  // Where the contact separates there is no timeline, and nothing changes.
+  // A contact that separates has no timeline, and nothing changes.
   State before{.contact_velocity = outcome.contact_velocity_after, .rates_rad_s = outcome.rates_after_rad_s};
   if (!outcome.timeline.empty()) before = outcome.timeline.front().state;
   Table table;
@@ -148,7 +155,7 @@ std::string BodiesText(const std::vector<BodyVelocity>& bodies) {
   return absl::StrCat("\nBodies after\n", table.Render(2));
 }
 
-// Every solution of an impact law that has several.
+// Lists every solution of an impact law that can have several.
 std::string AlternativesText(const std::vector<ImpactSolution>& alternatives) {
   if (alternatives.empty()) return "";
   Table table;
@@ -166,12 +173,12 @@ std::string AlternativesText(const std::vector<ImpactSolution>& alternatives) {
 
 std::string ImpulseText(const Impulse& impulse) {
   Table table;
-  table.Add({"normal, of compression [N s]", Rounded(impulse.normal_compression_n_s)});
-  table.Add({"normal, whole [N s]", Rounded(impulse.normal_total_n_s)});
+  table.Add({"normal, in compression [N s]", Rounded(impulse.normal_compression_n_s)});
+  table.Add({"normal, total [N s]", Rounded(impulse.normal_total_n_s)});
   const std::vector<double>& tangential = impulse.tangential_n_s;
   for (size_t i = 0; i < tangential.size(); ++i) {
     const std::string number = tangential.size() == 1 ? "" : absl::StrCat(" ", i + 1);
-    table.Add({absl::StrCat("tangential, whole [N s]", number), Rounded(tangential[i])});
+    table.Add({absl::StrCat("tangential, total [N s]", number), Rounded(tangential[i])});
   }
   return absl::StrCat("Impulse on the body\n", table.Render(2));
 }
@@ -188,7 +195,7 @@ std::string WorkText(const Outcome& outcome) {
     table.Add({"  left in the spring", "", "", Rounded(-work.tangential_spring_j)});
     table.Add({"  lost to friction", "", "", Rounded(-work.friction_dissipation_j)});
   }
-  const char* change = outcome.contact.has_value() ? "all of the contact's forces" : "change of kinetic energy";
+  const char* change = outcome.contact.has_value() ? "work of all contact forces" : "change of kinetic energy";
   table.Add({change, "", "", Rounded(outcome.energy_change_j)});
   return absl::StrCat("Work on the body\n", table.Render(2));
 }
@@ -219,7 +226,7 @@ std::vector<std::string> StateCells(const std::string& name, const State& state)
   return cells;
 }
 
-// Whether every quantity is linear in the normal impulse from one event to the next.
+// Returns true if every quantity is linear in the normal impulse from one event to the next.
 bool IsLinear(Model model) {
   return model != Model::kSpatial && model != Model::kCompliant && model != Model::kFiniteDuration;
 }
@@ -230,14 +237,14 @@ std::string StatesText(const char* title, const Table& table) {
   return absl::StrCat("\n", title, "\n", table.Render(2));
 }
 
-// The names of a list's entries: "u [m/s]" for one, "u1 [m/s]", "u2 [m/s]" for two.
+// Appends the names of a list's entries: "u [m/s]" for one entry, "u1 [m/s]" and "u2 [m/s]" for two.
 void AppendNames(const std::string& symbol, const std::string& unit, size_t count, std::vector<std::string>& names) {
   for (size_t i = 0; i < count; ++i) {
     names.push_back(absl::StrCat(symbol, count == 1 ? "" : absl::StrCat(i + 1), " [", unit, "]"));
   }
 }
 
-// With the header for states like `state`.
+// Returns a table with the header for states like `state`.
 Table StateTable(const State& state) {
   std::vector<std::string> names = {"", "tau [N s]"};
   AppendNames("f", "N s", state.tangential_impulse_n_s.size(), names);
@@ -249,7 +256,7 @@ Table StateTable(const State& state) {
   return table;
 }
 
-// --- CSV: the outcome's proto, walked by reflection, so that a new field gets its column by itself. ---
+// --- CSV: reflection visits the fields of the outcome's proto, so that a new field gets its column automatically. ---
 
 struct Row {
   std::vector<std::string> names;
@@ -300,7 +307,7 @@ void AppendFields(const Message& message, const std::string& prefix, Row& row) {
         row.Add(absl::StrCat(path, "[", j, "]"), ShortestDecimal(reflection.GetRepeatedDouble(message, field, j)));
       }
     } else if (field->message_type() == v1::BodyVelocity::descriptor()) {
-      // The other lists of messages have as many entries as the impact has events.
+      // Other lists of messages are left out: their length depends on the events of the impact.
       for (int j = 0; j < reflection.FieldSize(message, field); ++j) {
         AppendFields(reflection.GetRepeatedMessage(message, field, j), absl::StrCat(path, "[", j, "]."), row);
       }
@@ -308,7 +315,7 @@ void AppendFields(const Message& message, const std::string& prefix, Row& row) {
   }
 }
 
-// A row a message, under one header.
+// Returns a header and one row for each message.
 template <typename Messages>
 std::string RowsOf(const Messages& messages) {
   std::string text;
@@ -356,10 +363,10 @@ std::string ForceHistoryCsv(const Outcome& outcome) { return RowsOf(ToProto(outc
 
 absl::StatusOr<Plot> SolvePlot(const Outcome& outcome) {
   if (outcome.timeline.size() < 2) {
-    return absl::FailedPreconditionError("--plot: the contact separates at once; there is nothing to draw");
+    return absl::FailedPreconditionError("--plot: the contact separates, so there is nothing to draw");
   }
   if (!IsPlanar(outcome.timeline.front().state)) {
-    return absl::FailedPreconditionError("--plot: the path of an impact in space is not kept between its events");
+    return absl::FailedPreconditionError("--plot: the path of an impact in space between its events is not stored");
   }
   const bool has_rates = !outcome.rates_after_rad_s.empty();
   Curve motion, ratio, impulse;

@@ -1,4 +1,4 @@
-// The answer of Solve as text, CSV and picture.
+// The report of an outcome as text, CSV and picture.
 
 #ifndef RICOCHET_CLIENT_CLI_SOLVE_REPORT_H_
 #define RICOCHET_CLIENT_CLI_SOLVE_REPORT_H_
@@ -11,21 +11,22 @@
 
 namespace ricochet::cli {
 
-// Tables with units, to six digits.
+// Returns tables with units, to six digits.
 std::string SolveText(const Outcome& outcome);
 
-// A header and one row: every number of the outcome but its lists of events, states and broken limits and its
-// certificate, by path.
+// Returns a header and one row: every number of the outcome, named by its path, without the lists of events, states and
+// broken limits and without the certificate.
 std::string SolveCsv(const Outcome& outcome);
 
-// A header and one row for each state of the history.
+// Returns a header and one row for each state of the history.
 std::string HistoryCsv(const Outcome& outcome);
 
-// A header and one row for each sample of the forces.
+// Returns a header and one row for each sample of the forces.
 std::string ForceHistoryCsv(const Outcome& outcome);
 
-// Fig. 3 and Fig. 5 of the paper: w(tau), F/N(tau) and f(tau) side by side.
-// Errors: FAILED_PRECONDITION where nothing happens, so that there is nothing to draw.
+// Returns w(tau), F/N(tau) and f(tau) side by side, as in figs. 3 and 5 of Lubarda (2009). Without angular velocities,
+// v(tau) replaces w(tau).
+// Errors: FAILED_PRECONDITION if the contact separates, and for an impact in space.
 absl::StatusOr<Plot> SolvePlot(const Outcome& outcome);
 
 }  // namespace ricochet::cli

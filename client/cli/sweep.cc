@@ -22,7 +22,8 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr char kExample[] = R"(Example: Fig. 4 of the paper, Newton's coefficient over the angle for five frictions.
+constexpr char kExample[] =
+    R"(Example: Newton's coefficient over the angle for five frictions, fig. 4 of Lubarda (2009).
   $ ricochet sweep --a 0.6 --b 0.8 --energetic 1 \
       --axis friction.kinetic_coefficient=0.1,1/3,0.5,2/3,1 \
       --axis pendulum.phi_rad=lin:0.01:1.5707963267948966:400 \
@@ -30,7 +31,7 @@ constexpr char kExample[] = R"(Example: Fig. 4 of the paper, Newton's coefficien
   index   friction.kinetic_coefficient   pendulum.phi_rad   coefficients.newton
   0                                0.1               0.01                     0
   ...
-The last axis runs fastest. --axis ? and --column ? list what there is, for the scene if one is given.
+The last axis runs fastest. --axis ? and --column ? list all axes and columns, of the scene if one is given.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct SweepOptions {
@@ -51,15 +52,15 @@ absl::StatusOr<SweepRequest> RequestFromFile(const SweepOptions& options) {
   if (options.scene.any() || !options.axes.empty() || !options.columns.empty() || !options.range.empty() ||
       options.zip || options.regime || options.demand.any()) {
     return absl::InvalidArgumentError(
-        "--request does not go with the flags of a scene, of accuracy and effects, --axis, --column, --range, --zip or "
-        "--regime: put them into the file");
+        "--request cannot be combined with the flags of a scene, of accuracy and effects, --axis, --column, --range, "
+        "--zip or --regime: put them into the file");
   }
   v1::SweepRequest proto;
   if (absl::Status status = ReadMessage(options.request, proto); !status.ok()) return status;
   return FromProto(proto);
 }
 
-// The three coefficients and the first of the system's own velocities, or the contact's where it has none.
+// Returns the three coefficients and the first velocity of the system, or that of the contact if the system has none.
 std::vector<std::string> DefaultColumns(const Scene& scene) {
   const std::vector<std::string> known = Columns(scene);
   std::vector<std::string> columns = {"coefficients.newton", "coefficients.poisson", "coefficients.energetic"};
@@ -96,7 +97,7 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   return request;
 }
 
-// Where the chunks of one sweep go: text, picture, bar.
+// Passes the chunks of one sweep on to the text, the picture and the progress bar.
 class Receiver {
  public:
   Receiver(const SweepRequest& request, const SweepOptions& options, Output output)
@@ -153,7 +154,7 @@ absl::Status List(const std::vector<std::string>& names) {
   return WriteOutput({}, text);
 }
 
-// What axes and columns there are depends on the scene; without one they are those of a pendulum.
+// Lists the axes or columns of the scene; without a scene those of a pendulum.
 absl::Status ListFor(const SceneOptions& options, std::vector<std::string> (*names)(const Scene&)) {
   if (!options.any()) return List(names({.system = Pendulum()}));
   const absl::StatusOr<Scene> scene = ReadScene(options);
@@ -166,7 +167,7 @@ absl::Status RunSweep(const SweepOptions& options) {
   if (!options.plot.empty()) {
     if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
   }
-  // Before the solver, whose connection starts threads.
+  // This comes before the solver, whose connection starts threads.
   const Interrupt interrupt;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
   if (!solver.ok()) return solver.status();
@@ -178,18 +179,19 @@ absl::Status RunSweep(const SweepOptions& options) {
 
 void AddGridOptions(CLI::App& sub, SweepOptions& options) {
   sub.add_option("--axis", options.axes,
-                 "What varies: a list 0.1,1/3,0.5 or lin:START:STOP:COUNT or log:START:STOP:COUNT; repeat for more")
+                 "A field that varies: a list 0.1,1/3,0.5 or lin:START:STOP:COUNT or log:START:STOP:COUNT; may be "
+                 "repeated")
       ->type_name("PATH=VALUES")
       ->allow_extra_args(false)
       ->group("Grid");
-  sub.add_flag("--zip", options.zip, "Advance the axes together instead of combining them")->group("Grid");
+  sub.add_flag("--zip", options.zip, "Advance all axes together instead of combining their values")->group("Grid");
   sub.add_option("--column", options.columns,
                  "Fields of the outcome to compute; default: the three coefficients and rates_after_rad_s[0]")
       ->type_name("NAME,...")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group("Grid");
-  sub.add_flag("--regime", options.regime, "Also the regime of every point")->group("Grid");
+  sub.add_flag("--regime", options.regime, "Also print the regime of every point")->group("Grid");
   sub.add_option("--range", options.range, "Only the points FIRST <= index < END")
       ->type_name("FIRST:END")
       ->group("Grid");
@@ -202,13 +204,13 @@ void AddGridOptions(CLI::App& sub, SweepOptions& options) {
 }  // namespace
 
 void AddSweep(CLI::App& app, Command& command) {
-  CLI::App* sub = app.add_subcommand("sweep", "Many impacts over a grid, streamed");
+  CLI::App* sub = app.add_subcommand("sweep", "Compute many impacts over a grid");
   const auto options = std::make_shared<SweepOptions>();
   AddSceneOptions(*sub, options->scene);
   AddGridOptions(*sub, *options);
   AddDemandOptions(*sub, options->demand);
-  sub->add_flag("--summary-only", options->summary_only, "Receive every point, print the summary alone");
-  sub->add_option("--plot", options->plot, "Draw curves over the last axis by gnuplot")->type_name("FILE.svg|.png");
+  sub->add_flag("--summary-only", options->summary_only, "Compute every point, but print only the summary");
+  sub->add_option("--plot", options->plot, "Draw curves over the last axis with gnuplot")->type_name("FILE.svg|.png");
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);
   sub->footer(kExample);

@@ -18,7 +18,7 @@ std::string JoinedNames(const std::vector<std::string>& columns) {
   return absl::StrJoin(names, ", ");
 }
 
-// The unit that all columns share, in brackets; without one, nothing.
+// Returns the unit that all columns share, in brackets, or an empty text if they share none.
 std::string SharedUnit(const std::vector<std::string>& columns) {
   const std::string unit = LabelOf(columns.front()).unit;
   for (const std::string& column : columns) {
@@ -36,7 +36,7 @@ std::string YLabel(const std::vector<std::string>& columns) {
 
 absl::Status SweepPlot::Add(const SweepChunk& chunk) {
   const std::vector<Axis>& axes = request_.grid.axes;
-  if (axes.empty()) return absl::FailedPreconditionError("--plot: a sweep without an axis has nothing to draw over");
+  if (axes.empty()) return absl::FailedPreconditionError("--plot: a sweep without an axis cannot be drawn");
   if (chunk.points_total > kMostPoints) {
     return absl::FailedPreconditionError(
         absl::StrCat("--plot: ", chunk.points_total, " points are more than a picture can show (", kMostPoints, ")"));

@@ -1,4 +1,4 @@
-// SweepPlot: a sweep as curves over its last axis, one for each column and each combination of the other axes.
+// SweepPlot: draws a sweep as curves over its last axis, one for each column and each combination of the other axes.
 
 #ifndef RICOCHET_CLIENT_CLI_SWEEP_PLOT_H_
 #define RICOCHET_CLIENT_CLI_SWEEP_PLOT_H_
@@ -14,7 +14,7 @@
 
 namespace ricochet::cli {
 
-// Holds the points it is given, so it refuses more than a picture can show.
+// It keeps all points in memory, so it refuses more than a picture can show.
 class SweepPlot {
  public:
   static constexpr int64_t kMostPoints = 1'000'000;
@@ -22,13 +22,14 @@ class SweepPlot {
 
   explicit SweepPlot(SweepRequest request) : request_(std::move(request)) {}
 
-  // Errors: FAILED_PRECONDITION for too many points or curves, or no axis.
+  // Adds the points of a chunk. Errors: FAILED_PRECONDITION for too many points or curves, or without an axis.
   absl::Status Add(const SweepChunk& chunk);
+  // Returns the plot of all points added.
   Plot Make() const;
 
  private:
   struct Line {
-    std::vector<int64_t> outer;  // The positions on all axes but the last; none under zip.
+    std::vector<int64_t> outer;  // The positions on all axes except the last; empty under zip.
     size_t column;
     bool operator<(const Line& other) const { return std::pair(outer, column) < std::pair(other.outer, other.column); }
   };

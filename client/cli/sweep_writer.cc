@@ -26,7 +26,8 @@ void AppendNumber(Number number, std::string& text) {
   text.append(buffer.data(), result.ptr);
 }
 
-// The axis values of one point after another. Keeps the last value of each axis: most of them stay for many points.
+// Gives the axis values of one point after another. It keeps the last value of each axis, because most stay the same for
+// many points.
 class AxisCursor {
  public:
   explicit AxisCursor(const Grid& grid)
@@ -68,8 +69,8 @@ struct Count {
   Tally tally;
 };
 
-// The regimes that occurred and the models that solved points, named by `name` and `model_name`, and the inadmissible
-// points.
+// Returns the regimes that occurred, the inadmissible points, and the models that solved points, named by `name` and
+// `model_name`.
 template <typename Name, typename NameOfModel>
 std::vector<Count> Counts(const SweepSummary& summary, Name name, NameOfModel model_name) {
   std::vector<Count> counts;
@@ -146,7 +147,7 @@ class TextWriter {
     return row;
   }
 
-  std::shared_ptr<const SweepRequest> request_;  // Shared, because the writer is copied and the cursor points here.
+  std::shared_ptr<const SweepRequest> request_;  // Shared, because the writer is copied and the cursor points to it.
   AxisCursor cursor_;
   Table table_;
   int64_t shown_ = 0;
@@ -183,7 +184,7 @@ class CsvWriter {
     text.push_back('\n');
   }
 
-  std::shared_ptr<const SweepRequest> request_;  // As in TextWriter.
+  std::shared_ptr<const SweepRequest> request_;  // Shared, as in TextWriter.
   AxisCursor cursor_;
   bool started_ = false;
 };

@@ -1,4 +1,4 @@
-// Writers of sweeps: each turns chunks, in order, into text. Memory does not depend on the number of points.
+// Writers of sweeps: each turns chunks, given in order, into text. Memory does not depend on the number of points.
 
 #ifndef RICOCHET_CLIENT_CLI_SWEEP_WRITER_H_
 #define RICOCHET_CLIENT_CLI_SWEEP_WRITER_H_
@@ -12,12 +12,12 @@
 
 namespace ricochet::cli {
 
-// The text of one chunk.
+// Returns the text of one chunk, which may be empty.
 using SweepWriter = std::function<absl::StatusOr<std::string>(const SweepChunk&)>;
 
-// kText: a table of the first points and the summary. kJson: a response a line. kCsv: a point a line, at full
-// precision: index, axes, columns, regime. With `summary_only` nothing but the summary, as text, as the JSON of
-// ricochet.v1.SweepSummary, or as CSV.
+// kText gives a table of the first points and the summary. kJson gives a ricochet.v1.SweepResponse on each line. kCsv
+// gives a point on each line, at full precision: index, axes, columns, regime. With `summary_only` there is only the
+// summary, as text, as the JSON of ricochet.v1.SweepSummary, or as CSV.
 SweepWriter MakeSweepWriter(const SweepRequest& request, Format format, bool summary_only);
 
 }  // namespace ricochet::cli

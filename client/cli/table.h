@@ -1,4 +1,4 @@
-// Table: rows of text in aligned columns, the first to the left, the others to the right.
+// Table: rows of text in aligned columns. The first column is aligned to the left, the others to the right.
 
 #ifndef RICOCHET_CLIENT_CLI_TABLE_H_
 #define RICOCHET_CLIENT_CLI_TABLE_H_
@@ -13,14 +13,14 @@ class Table {
   // A row may have fewer cells than others.
   void Add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
 
-  // Each row on a line of its own after `indent` spaces.
+  // Returns each row on its own line after `indent` spaces.
   std::string Render(size_t indent) const;
 
  private:
   std::vector<std::vector<std::string>> rows_;
 };
 
-// Six significant digits; -0 as 0.
+// Returns `value` with six significant digits; -0 becomes 0.
 std::string Rounded(double value);
 
 }  // namespace ricochet::cli

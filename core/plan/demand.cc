@@ -64,7 +64,7 @@ std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded
       return "be an effect that is named";
     case Effect::kSlipStop:
     case Effect::kSlipTurn:
-      if (effect == Effect::kSlipTurn && !IsInSpace(scene)) return "be left in: in a plane slip has no way to turn";
+      if (effect == Effect::kSlipTurn && !IsInSpace(scene)) return "be left in: in a plane slip cannot turn";
       if (!rubs) return "";
       if (HasClosedForm(scene)) return "be left in: a pendulum's slip stops where compression ends; exclude friction";
       if (HasDamping(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {

@@ -18,27 +18,27 @@ std::string Digits(double value) {
 
 std::string Percent(double share) { return absl::StrCat(Digits(100.0 * share), " %"); }
 
-// Which kind of contact the sizes are of.
+// These tell for which kind of contact the sizes were computed.
 bool IsPendulum(const Sizes& sizes) { return sizes[Effect::kHigherOrder].ground != Ground::kNotOfSystem; }
 bool IsInSpace(const Sizes& sizes) { return sizes[Effect::kSlipTurn].ground != Ground::kNotOfSystem; }
 
 std::string NotInScene(Effect effect, const Sizes& sizes) {
   switch (effect) {
     case Effect::kFriction:
-      return IsPendulum(sizes) ? "mu |b| = 0: friction does not act" : "mu = 0: the surface is smooth";
+      return IsPendulum(sizes) ? "mu |b| = 0: there is no friction" : "mu = 0: the surface is smooth";
     case Effect::kSlipStop:
     case Effect::kSlipTurn:
-      return "there is no friction to change slip";
+      return "without friction slip does not change";
     case Effect::kStaticFriction:
-      return "the static coefficient is the kinetic one";
+      return "the static and the kinetic coefficient are equal";
     case Effect::kTangentialCompliance:
       return "the contact is rigid along the surface";
     case Effect::kFiniteDuration:
-      return "no normal spring is stated: the impact takes no time";
+      return "the scene has no normal spring: the impact takes no time";
     case Effect::kFiniteForces:
-      return "there are no finite forces";
+      return "the scene has no finite forces";
     case Effect::kHigherOrder:
-      return "x = 0: the first order is exact";
+      return "x = 0: the first-order formulas are exact";
     case Effect::kUnspecified:
       break;
   }
@@ -57,15 +57,14 @@ std::string ByInequality(Effect effect, const Size& size, const Sizes& sizes) {
     case Effect::kSlipTurn:
       return absl::StrCat("slip turns by at most ", Digits(size.number), " rad, which changes ", most);
     case Effect::kStaticFriction:
-      return absl::StrCat("slip may rest after ", Percent(size.number),
-                          " of the normal impulse; which coefficient holds it then changes ", most);
+      return absl::StrCat("slip may stop after ", Percent(size.number),
+                          " of the normal impulse; the choice of the coefficient then changes ", most);
     case Effect::kTangentialCompliance:
-      return absl::StrCat("the particle may stick, where no inequality but those of friction is known; it changes ",
-                          most);
+      return absl::StrCat("the contact may stick; by the bound for friction this changes ", most);
     case Effect::kFiniteForces:
       return absl::StrCat("forces act for at most ", Digits(size.number), " s, which changes ", most);
     case Effect::kHigherOrder:
-      return absl::StrCat("x = mu |b|/a = ", Digits(size.number), ": what is beyond first order changes ", most);
+      return absl::StrCat("x = mu |b|/a = ", Digits(size.number), ": terms beyond first order change ", most);
     case Effect::kFiniteDuration:
     case Effect::kUnspecified:
       break;
@@ -76,20 +75,20 @@ std::string ByInequality(Effect effect, const Size& size, const Sizes& sizes) {
 std::string WithoutInequality(Effect effect, const Size& size) {
   switch (effect) {
     case Effect::kFiniteForces:
-      return size.number < kUnbounded ? "slip may stop, where no inequality is known"
-                                      : "the forces are too strong for a bound on how long the contact lasts";
+      return size.number < kUnbounded ? "slip may stop, and no bound is known for that case"
+                                      : "the forces are too strong for a bound on the duration of the contact";
     case Effect::kHigherOrder:
-      return absl::StrCat("x = mu |b|/a = ", Digits(size.number), ": the first-order form does not serve");
+      return absl::StrCat("x = mu |b|/a = ", Digits(size.number), ": the first-order formulas do not hold");
     case Effect::kFiniteDuration:
-      return "the contact is there only for the forces that press on it";
+      return "only the forces that press on the contact keep it closed";
     default:
-      return "no inequality is known once slip may stop or turn far";
+      return "no bound is known once slip may stop or turn by a large angle";
   }
 }
 
 std::string SlidesThroughout(Effect effect, const Size& size, const Sizes& sizes) {
-  if (effect == Effect::kTangentialCompliance) return "the particle slides throughout";
-  const char* ends = IsInSpace(sizes) ? "it is never below " : "it ends at ";
+  if (effect == Effect::kTangentialCompliance) return "the contact slides throughout";
+  const char* ends = IsInSpace(sizes) ? "it stays above " : "it ends at ";
   return absl::StrCat("slip never stops: ", ends, Digits(size.number), " m/s");
 }
 
@@ -98,41 +97,40 @@ std::string ReasonOf(Effect effect, const Size& size, const Sizes& sizes) {
     case Ground::kNotInScene:
       return NotInScene(effect, sizes);
     case Ground::kNotOfSystem:
-      return effect == Effect::kSlipTurn ? "in a plane slip has no way to turn"
-                                         : "only a pendulum has a first-order form";
+      return effect == Effect::kSlipTurn ? "in a plane slip cannot turn" : "only a pendulum has first-order formulas";
     case Ground::kImmobile:
       return "Wtt = 0: no tangential impulse moves the contact";
     case Ground::kSlidesThroughout:
       return SlidesThroughout(effect, size, sizes);
     case Ground::kStraight:
-      return "Wtt is the same in all directions and wtn = 0: slip keeps its own";
+      return "Wtt is the same in all directions and wtn = 0: slip keeps its direction";
     case Ground::kDecidesNothing:
-      return "the contact sticks by both coefficients of friction or by neither";
+      return "the contact sticks with both coefficients of friction or with neither";
     case Ground::kNoSpring:
-      return "no normal spring is stated: forces have no time to act";
+      return "the scene has no normal spring: forces have no time to act";
     case Ground::kSameImpulses:
-      return "it takes time, but velocities and impulses are those without; require it for contact time and forces";
+      return "velocities and impulses do not depend on it; require it to get the duration and the forces";
     case Ground::kInequality:
       return ByInequality(effect, size, sizes);
     case Ground::kSelfLocking:
-      return absl::StrCat("friction may lock the contact, the coefficient times the coupling being ",
-                          Digits(size.number), " of Wnn: no inequality is known");
+      return absl::StrCat("friction may lock the contact, as the coefficient times |Wtn| is ", Digits(size.number),
+                          " Wnn: no bound is known");
     case Ground::kStaysAtRest:
       return "there is no slip at the start, and the contact sticks";
     case Ground::kStopsAtRest:
-      return "slip stops where compression ends, as that of every pendulum does";
+      return "slip stops at the end of compression, as for every pendulum";
     case Ground::kNoInequality:
       return WithoutInequality(effect, size);
     case Ground::kDamped:
-      return "the spring's damping is the restitution";
+      return "the damping of the spring determines the restitution";
   }
   return "";
 }
 
 std::string Reason(Effect effect, const Choice& choice) {
-  if (choice.model == Model::kNone) return "the contact separates: nothing happens";
+  if (choice.model == Model::kNone) return "the contact separates: nothing changes";
   if (kOnFriction.Has(effect) && choice.LeavesOut(effect) && choice.LeavesOut(Effect::kFriction)) {
-    return "counted in what friction changes";
+    return "included in the change by friction";
   }
   return ReasonOf(effect, choice.sizes[effect], choice.sizes);
 }

@@ -21,7 +21,7 @@ void Assign(const std::array<double, 2>& values, RepeatedField<double>& field) {
   field.Assign(values.begin(), values.end());
 }
 
-// Of a list of another length, what there is.
+// Reads a list of tangential entries; missing ones are 0, further ones are ignored.
 std::array<double, 2> ToArray(const RepeatedField<double>& field) {
   std::array<double, 2> values = {};
   std::copy_n(field.data(), std::min<size_t>(2, static_cast<size_t>(field.size())), values.begin());
@@ -75,7 +75,7 @@ v1::LimitTally ToProto(const AuditSummary& summary, AuditLimit limit) {
   return proto;
 }
 
-// Absent: none, whose first index is not 0.
+// An absent tally has no rows, and its first index is then -1 and not 0.
 Tally TallyOf(bool present, const v1::Tally& proto) { return present ? ricochet::FromProto(proto) : Tally(); }
 
 void FromProto(const v1::LimitTally& proto, AuditLimit limit, AuditSummary& summary) {

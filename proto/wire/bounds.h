@@ -1,4 +1,4 @@
-// Bounds <-> ricochet.v1.Bounds; Enclosure <-> ricochet.v1.Enclosure.
+// Converts Bounds and Enclosure to their protos and back.
 
 #ifndef RICOCHET_PROTO_WIRE_BOUNDS_H_
 #define RICOCHET_PROTO_WIRE_BOUNDS_H_

@@ -1,4 +1,4 @@
-// Certificate <-> ricochet.v1.Certificate.
+// Converts a Certificate to its proto and back.
 
 #ifndef RICOCHET_PROTO_WIRE_CERTIFICATE_H_
 #define RICOCHET_PROTO_WIRE_CERTIFICATE_H_

@@ -1,4 +1,4 @@
-// EngineInfo <-> ricochet.v1.Engine.
+// Converts EngineInfo to its proto and back.
 
 #ifndef RICOCHET_PROTO_WIRE_ENGINE_H_
 #define RICOCHET_PROTO_WIRE_ENGINE_H_

@@ -6,8 +6,8 @@
 
 namespace ricochet {
 
-// The switches over enums have no default branch, so that a new enumerator does not compile until it is mapped; the
-// protobuf compiler's sentinels are therefore listed.
+// The switches over enums have no default branch, so that a new enumerator fails to compile until it is mapped. They
+// therefore list the sentinels of the protobuf compiler too.
 
 v1::Regime ToProto(Regime regime) {
   switch (regime) {

@@ -1,4 +1,4 @@
-// Outcome <-> ricochet.v1.Outcome. An enum number that this build does not know becomes kUnspecified.
+// Converts an Outcome to its proto and back. An enum number that this build does not know becomes kUnspecified.
 
 #ifndef RICOCHET_PROTO_WIRE_OUTCOME_H_
 #define RICOCHET_PROTO_WIRE_OUTCOME_H_

@@ -1,4 +1,4 @@
-// Overloaded: one function object out of several lambdas, for std::visit without a default branch.
+// Overloaded: joins several lambdas into one function object, for std::visit without a default branch.
 
 #ifndef RICOCHET_PROTO_WIRE_OVERLOADED_H_
 #define RICOCHET_PROTO_WIRE_OVERLOADED_H_

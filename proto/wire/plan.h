@@ -1,4 +1,4 @@
-// Plan and DemandFields to proto and back.
+// Converts Plan and DemandFields to proto and back.
 
 #ifndef RICOCHET_PROTO_WIRE_PLAN_H_
 #define RICOCHET_PROTO_WIRE_PLAN_H_
@@ -10,7 +10,7 @@
 namespace ricochet {
 
 v1::Effect ToProto(Effect value);
-// A number that this build does not know is kUnspecified, here and below.
+// A number that this build does not know becomes kUnspecified, here and below.
 Effect FromProto(v1::Effect proto);
 
 v1::Model ToProto(Model value);
@@ -22,7 +22,7 @@ Decision FromProto(v1::PlannedEffect::Decision proto);
 v1::Plan ToProto(const Plan& plan);
 Plan FromProto(const v1::Plan& proto);
 
-// A demand is spread over the fields of a request.
+// A request has the fields of a demand among its own.
 template <typename Request>
 void SetDemand(const DemandFields& demand, Request& proto) {
   if (demand.relative_tolerance.has_value()) proto.set_relative_tolerance(*demand.relative_tolerance);

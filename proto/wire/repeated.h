@@ -1,4 +1,4 @@
-// Lists of doubles <-> packed fields, one memcpy each way.
+// Converts lists of doubles to packed fields and back, each by one memcpy.
 
 #ifndef RICOCHET_PROTO_WIRE_REPEATED_H_
 #define RICOCHET_PROTO_WIRE_REPEATED_H_
@@ -15,7 +15,7 @@ inline void AssignDoubles(const std::vector<double>& values, google::protobuf::R
 }
 
 inline std::vector<double> ToVector(const google::protobuf::RepeatedField<double>& field) {
-  // Pointers, since the library's iterators do not let the copy become a memcpy.
+  // The pointers make the copy a memcpy, which the library's iterators prevent.
   return {field.data(), field.data() + field.size()};
 }
 

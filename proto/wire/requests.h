@@ -1,4 +1,4 @@
-// The requests and responses of Solve and Bounds <-> their protos.
+// Converts the requests and responses of Solve and Bounds to their protos and back.
 
 #ifndef RICOCHET_PROTO_WIRE_REQUESTS_H_
 #define RICOCHET_PROTO_WIRE_REQUESTS_H_

@@ -1,4 +1,5 @@
-// Scene <-> ricochet.v1.Scene. Both ways are total: what a request left open stays open, for Validate to report.
+// Converts a Scene to its proto and back. Every value converts: a part that a request left unset stays unset, and Validate
+// reports it.
 
 #ifndef RICOCHET_PROTO_WIRE_SCENE_H_
 #define RICOCHET_PROTO_WIRE_SCENE_H_

@@ -24,18 +24,18 @@ namespace {
 constexpr char kDomain[] = "ricochet";
 constexpr char kReasonPrefix[] = "ERROR_REASON_";
 
-// In base64 the details take 5.4 KiB; with the message that leaves half a KiB to the other trailers.
+// In base64 the details take 5.4 KiB. Together with the message this leaves half a KiB to the other trailers.
 constexpr size_t kDetailsLimit = 4096;
 constexpr size_t kMessageLimit = 2048;
 
-// So that one violation fits even if every byte of it is percent-encoded in the message.
+// A violation of this length fits even if every byte of it is percent-encoded in the message.
 constexpr size_t kFieldLimit = 200;
 constexpr size_t kDescriptionLimit = 400;
 
-// A violation takes at least two tags and two lengths, so that no more than this can fit.
+// A violation takes at least two tags and two lengths, so no more than this number can fit.
 constexpr size_t kMostViolations = kDetailsLimit / 4;
 
-// What travels of an absl::Status.
+// The parts of an absl::Status that are sent.
 struct Error {
   grpc::StatusCode code = grpc::StatusCode::UNKNOWN;
   std::string message;
@@ -131,14 +131,14 @@ google::rpc::RetryInfo ToProto(std::chrono::milliseconds delay) {
   return proto;
 }
 
-// Rounds up, since a retry before the delay has passed fails. The largest google.protobuf.Duration is 10'000 years.
+// Rounds up, because a retry before the delay has passed fails. The largest google.protobuf.Duration is 10,000 years.
 std::chrono::milliseconds FromProto(const google::rpc::RetryInfo& proto) {
   const int64_t seconds = std::clamp<int64_t>(proto.retry_delay().seconds(), 0, 315'576'000'000);
   const int64_t nanos = std::clamp<int64_t>(proto.retry_delay().nanos(), 0, 999'999'999);
   return std::chrono::milliseconds(seconds * 1000 + (nanos + 999'999) / 1'000'000);
 }
 
-// A google.rpc.Status, or nothing where there is nothing but code and message.
+// Returns a google.rpc.Status, or nothing if the status has only a code and a message.
 std::string SerializedDetails(const Error& error) {
   google::rpc::Status proto;
   if (error.reason != ErrorReason::kUnspecified) {
@@ -152,7 +152,7 @@ std::string SerializedDetails(const Error& error) {
   return proto.SerializeAsString();
 }
 
-// Of the trailer grpc-message.
+// Returns the size of the trailer grpc-message for `text`, in bytes.
 size_t PercentEncodedSize(const std::string& text) {
   size_t size = 0;
   for (const char c : text) size += c >= ' ' && c <= '~' && c != '%' ? 1 : 3;
@@ -163,13 +163,13 @@ bool Fits(const Error& error) {
   return PercentEncodedSize(error.message) <= kMessageLimit && SerializedDetails(error).size() <= kDetailsLimit;
 }
 
-// The first `size` bytes or fewer: no UTF-8 sequence is cut in two, which would make a proto unreadable.
+// Returns the first `size` bytes or fewer, so that no UTF-8 sequence is cut, which would make a proto unreadable.
 std::string Prefix(const std::string& text, size_t size) {
   while (size > 0 && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) --size;
   return text.substr(0, size);
 }
 
-// `text` if it has at most `limit` bytes, else what fits of it and how much does not.
+// Returns `text` if it has at most `limit` bytes; else its beginning and the number of bytes that were cut.
 std::string Clipped(const std::string& text, size_t limit) {
   constexpr size_t kNoteSize = sizeof("... (18446744073709551615 more bytes)");
   if (text.size() <= limit) return text;
@@ -177,7 +177,7 @@ std::string Clipped(const std::string& text, size_t limit) {
   return absl::StrCat(kept, "... (", text.size() - kept.size(), " more bytes)");
 }
 
-// The first `count` of the violations; the message lists just them.
+// Returns the status with the first `count` violations only, which the message lists.
 Error WithViolations(const Error& error, size_t count) {
   Error cut = error;
   cut.violations.resize(count);
@@ -191,7 +191,7 @@ Error WithViolations(const Error& error, size_t count) {
   return cut;
 }
 
-// As many violations as fit.
+// Returns the status with as many violations as fit.
 Error WithFewerViolations(const Error& error) {
   size_t fitting = 1;
   size_t too_many = std::min(error.violations.size(), kMostViolations) + 1;
@@ -205,7 +205,7 @@ Error WithFewerViolations(const Error& error) {
 Error Fitted(const Error& error) {
   if (Fits(error)) return error;
   if (!error.violations.empty()) return WithFewerViolations(error);
-  // A message of plain text stays as long as it may be; one of encoded bytes becomes a third of that.
+  // A plain message keeps the full length; a message of percent-encoded bytes keeps a third of it.
   Error cut = error;
   cut.message = Clipped(error.message, kMessageLimit);
   if (!Fits(cut)) cut.message = Clipped(error.message, kMessageLimit / 3);

@@ -13,8 +13,8 @@
 
 namespace ricochet {
 
-static_assert(kRegimeCount == v1::Regime_ARRAYSIZE, "SweepSummary::by_regime has one entry a regime");
-static_assert(kModelCount == v1::Model_ARRAYSIZE, "SweepSummary::by_model has one entry a model");
+static_assert(kRegimeCount == v1::Regime_ARRAYSIZE, "SweepSummary::by_regime needs an entry for each regime");
+static_assert(kModelCount == v1::Model_ARRAYSIZE, "SweepSummary::by_model needs an entry for each model");
 static_assert(kEffectCount == v1::Effect_ARRAYSIZE);
 
 // Linspace and Logspace have the same fields.
@@ -124,7 +124,7 @@ Tally FromProto(const v1::Tally& proto) { return {proto.count(), proto.first_ind
 static Tally Sum(const Tally& a, const Tally& b) {
   if (a.count == 0) return b;
   if (b.count == 0) return a;
-  // Unsigned, because a hostile count must not overflow.
+  // The sum is unsigned, because a hostile count must not overflow.
   const auto count = static_cast<int64_t>(static_cast<uint64_t>(a.count) + static_cast<uint64_t>(b.count));
   return {count, std::min(a.first_index, b.first_index)};
 }

@@ -1,4 +1,4 @@
-// Sweeps <-> ricochet.v1.SweepRequest, SweepResponse.
+// Converts the requests and chunks of sweeps to their protos and back.
 
 #ifndef RICOCHET_PROTO_WIRE_SWEEP_H_
 #define RICOCHET_PROTO_WIRE_SWEEP_H_
@@ -18,11 +18,11 @@ Combination FromProto(v1::SweepRequest::Combination proto);
 v1::Tally ToProto(const Tally& tally);
 Tally FromProto(const v1::Tally& proto);
 
-// Points of regimes that this build does not know are counted together as kUnspecified.
+// Points with regimes that this build does not know are counted together as kUnspecified.
 v1::SweepSummary ToProto(const SweepSummary& summary);
 SweepSummary FromProto(const v1::SweepSummary& proto);
 
-// `proto` is reused: every field is set or cleared, its capacity is kept.
+// Sets or clears every field of `proto`, whose capacity is reused.
 void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto);
 SweepChunk FromProto(const v1::SweepResponse& proto);
 

@@ -1,4 +1,4 @@
-// Wrong input: each row ends with exit code 2, prints nothing on standard output and says what would be right.
+// Wrong input: each row ends with exit code 2, prints nothing on standard output and states the rule that it breaks.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -16,8 +16,8 @@ using testing::HasSubstr;
 
 struct BadInput {
   Arguments arguments;
-  std::string message;  // Part of standard error.
-  std::string input;    // Standard input.
+  std::string message;  // A part of the text on standard error.
+  std::string input;    // The text on standard input.
 };
 
 void PrintTo(const BadInput& bad, std::ostream* stream) { *stream << bad.message; }

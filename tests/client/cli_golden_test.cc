@@ -1,6 +1,6 @@
-// What the command line prints, word for word, computed here and by a server.
+// The output of the command line matches the golden files word for word, computed in this process and by a server.
 //
-// RICOCHET_UPDATE_GOLDEN=1 writes the files anew.
+// RICOCHET_UPDATE_GOLDEN=1 rewrites the files.
 
 #include <gtest/gtest.h>
 
@@ -100,7 +100,7 @@ const Golden kGolden[] = {
       "friction.kinetic_coefficient=lin:-0.1:0.4:100001", "--summary-only", "--format", "csv"}},
 };
 
-// Times and the engine's identity differ from run to run and from release to release.
+// Replaces times, which differ from run to run, and the identity of the engine, which differs from release to release.
 std::string Normalised(const std::string& text) {
   std::string result = std::regex_replace(text, std::regex(R"("version":"[0-9.]+","fingerprint":"[0-9a-f]{16}")"),
                                           R"("version":"VERSION","fingerprint":"FINGERPRINT")");

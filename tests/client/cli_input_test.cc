@@ -1,4 +1,4 @@
-// Numbers, times, axes, ranges and progress as people type and read them.
+// Numbers, times, axes and ranges are read as people type them, and progress is shown as people read it.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Runs the command line as a user does.
+// CliTest: runs the command line as a user does.
 
 #ifndef RICOCHET_TESTS_CLIENT_CLI_RUN_H_
 #define RICOCHET_TESTS_CLIENT_CLI_RUN_H_
@@ -19,24 +19,24 @@ struct CliResult {
 
 using Arguments = std::vector<std::string>;
 
-// A directory of its own for each test, gone after it, in which the command line runs.
+// Each test runs the command line in a directory of its own, which is removed after the test.
 class CliTest : public testing::Test {
  protected:
   CliTest();
   ~CliTest() override;
 
-  // `ricochet arguments...` with `input` as standard input.
+  // Runs `ricochet arguments...` with `input` as standard input.
   CliResult Run(const Arguments& arguments, const std::string& input = "") const;
-  // A shell script, in which "$R" is the path of ricochet.
+  // Runs a shell script, in which "$R" is the path of ricochet.
   CliResult RunShell(const std::string& script, const std::string& input = "") const;
 
   void Write(const std::string& name, const std::string& text) const;
   std::string Read(const std::string& name) const;
-  std::vector<std::string> Files() const;  // Sorted.
+  std::vector<std::string> Files() const;  // The names of all files in the directory, sorted.
 
  private:
-  std::filesystem::path directory_;  // For the test's files.
-  std::filesystem::path streams_;    // For the program's standard streams.
+  std::filesystem::path directory_;  // Holds the test's files.
+  std::filesystem::path streams_;    // Holds the program's standard streams.
 };
 
 std::string ReadFile(const std::filesystem::path& path);

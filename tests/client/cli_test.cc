@@ -1,4 +1,4 @@
-// Files, pictures, exit codes and signals of the command line.
+// Tests of the command line: files, pictures, exit codes and signals.
 
 #include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>
@@ -28,7 +28,7 @@ std::string Sweep(const std::string& points, const std::string& options) { retur
 
 class Cli : public CliTest {};
 
-// --- What goes in ---
+// --- Input ---
 
 TEST_F(Cli, ReadsASceneAsJsonOrTextprotoFromAFileOrStandardInput) {
   const std::string json = R"({"pendulum": {"inertiaKgM2": 1, "a_m": 0.3, "bM": 1, "omegaMinusRadS": -1},)"
@@ -56,7 +56,7 @@ TEST_F(Cli, ReadsAWholeSweepRequest) {
 }
 
 TEST_F(Cli, ReadsEveryNumberAsTheNearestDouble) {
-  // Half-way cases that a detour over a longer format would round the wrong way.
+  // These lie half-way between doubles, so that a longer format in between would round them the wrong way.
   const CliResult result = Run({"sweep", "--a", "1", "--newton", "0", "--axis",
                                 "pendulum.b_m=0.1,1/3,9007199254740993,1.00000000000000011102230246251565404",
                                 "--column", "coefficients.newton", "--format", "csv"});

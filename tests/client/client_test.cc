@@ -1,4 +1,4 @@
-// The client's own rules: its options, its retries, a network that fails, chunks that do not fit.
+// Rules of the client itself: its options, its retries, a failing network, chunks that do not fit together.
 
 #include "ricochet/client.h"
 
@@ -97,7 +97,7 @@ TEST(Client, TriesAgainAsOftenAsTheOptionsSay) {
     return steady_clock::now() - start;
   };
   EXPECT_LT(time(options), milliseconds(1000));
-  // Four waits, each random up to 1 s: together below 100 ms once in 240,000 runs.
+  // There are four waits, each random up to 1 s: together they are below 100 ms once in 240,000 runs.
   options.retry = {.max_attempts = 5, .initial_backoff = milliseconds(1000), .multiplier = 1.0};
   EXPECT_GT(time(options), milliseconds(100));
 }
@@ -149,7 +149,7 @@ TEST(CheckHealth, TellsServingFromUnknownServices) {
   EXPECT_EQ(CheckHealth({.target = ""}, "").status().code(), absl::StatusCode::kInvalidArgument);
 }
 
-// --- Chunks that do not fit: what a broken server or proxy would have to get past ---
+// --- Chunks that do not fit together, as a broken server or proxy may send them ---
 
 SweepChunk Chunk(int64_t first, int64_t count, bool last) {
   SweepChunk chunk{.first_index = first, .count = count, .values = {}, .regimes = {}, .points_total = 100};

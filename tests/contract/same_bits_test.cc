@@ -1,4 +1,4 @@
-// LocalSolver and Client give the same bits: a NaN is the same NaN, a -0 stays one.
+// LocalSolver and Client give the same bits, including those of a NaN and of -0.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ std::string Bytes(const BoundsResponse& response) { return ToProto(response).Ser
 std::string Bytes(const AuditResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(const AuditBatchResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(SweepChunk chunk) {
-  // A clock's time is no result.
+  // The time of a clock is not a result.
   if (chunk.summary.has_value()) chunk.summary->elapsed_s.reset();
   v1::SweepResponse proto;
   ToProto(chunk, proto);
@@ -40,9 +40,9 @@ void ExpectSame(const absl::StatusOr<Response>& local, const absl::StatusOr<Resp
   EXPECT_EQ(Bytes(*local), Bytes(*remote));
 }
 
-// Chunks may be cut differently; the points, the regimes and the tallies may not differ.
+// The two solvers may cut chunks differently, but the points, the regimes and the tallies must be equal.
 struct Points {
-  std::vector<std::string> values;  // By column.
+  std::vector<std::string> values;  // The bytes of the values of each column.
   std::vector<Regime> regimes;
   std::string summary;
 };

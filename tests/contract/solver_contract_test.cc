@@ -1,4 +1,4 @@
-// What every Solver promises (ricochet/solver.h), asked of each.
+// The promises of every Solver (ricochet/solver.h), tested for LocalSolver and Client.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -166,7 +166,8 @@ TEST_P(SolverContract, AuditFindsKanesParadoxInRates) {
   ASSERT_TRUE(audit.ok()) << audit.status();
   const AuditReport& report = audit->report;
   EXPECT_NEAR(report.energy_change / audit->contact_energy_j, 5.35, 0.005);
-  // m l^2 (4/3 w1^2 + 1/3 w2^2 + w1 w2 cos 10 deg)/2: two links, two directions, so all of the kinetic energy.
+  // All of the kinetic energy, since the contact has as many directions as the system has links:
+  // m l^2 (4/3 w1^2 + 1/3 w2^2 + w1 w2 cos 10 deg)/2.
   EXPECT_NEAR(audit->contact_energy_j, 0.5 * (0.04 / 3.0 + 0.04 / 3.0 + 0.02 * std::cos(std::acos(-1.0) / 18.0)),
               1e-15);
   EXPECT_NEAR(report.newton, 1.0, 1e-12);

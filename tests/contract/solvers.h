@@ -1,4 +1,4 @@
-// The two solvers that must not differ, and the scenes to try them on.
+// The two solvers that must give the same answers, and scenes for them.
 
 #ifndef RICOCHET_TESTS_CONTRACT_SOLVERS_H_
 #define RICOCHET_TESTS_CONTRACT_SOLVERS_H_
@@ -11,19 +11,19 @@
 namespace ricochet {
 
 const Solver& Local();
-// Of a ricochetd that was started for this process.
+// Returns a client of a ricochetd that was started for this process.
 const Solver& Remote();
 
-// The scene whose problem (core/models/pendulum/pendulum.h) this is.
+// Returns the scene of this problem (core/models/pendulum/pendulum.h).
 Scene MakeScene(const pendulum::Problem& problem);
 
-// mu = 0.1, a/b = 0.3, elastic: x = 1/3, r = 1/2. Lubarda (2009), sec. 4.
+// Returns the elastic pendulum of Lubarda (2009), sec. 4: mu = 0.1, a/b = 0.3, x = 1/3, r = 1/2.
 Scene PaperScene();
 
-// Every element of a sweep, the error included.
+// Reads every element of a sweep, including the error.
 std::vector<absl::StatusOr<SweepChunk>> Collect(SweepStream stream);
 
-// Everything that tells two failures apart.
+// Expects that two statuses are equal in every part: code, message, reason and violations.
 void ExpectSameStatus(const absl::Status& one, const absl::Status& other);
 
 }  // namespace ricochet

@@ -1,11 +1,11 @@
-// Fuzzes what decodes a sweep's stream in the client: bytes are a request and the server's chunks. Each chunk is first
-// what belongs there; the bits of its first byte say which of its numbers are then replaced by those that follow.
+// Fuzzes the decoding of a sweep's stream in the client. The input gives a request and the chunks of a server. Each chunk
+// is correct at first; the bits of its first byte say which of its numbers the following bytes replace.
 //
-// Checked: a stream is let through up to the first chunk that does not fit, and not further; what was let through is
-// every point of the range, once and in order; it ends well only if the summary came at the end; a stream of right
-// chunks is let through whole.
+// It checks that a stream passes up to the first wrong chunk and no further; that the points that pass are those of the
+// range, once and in order; that the stream ends with OK only if the summary came at the end; and that a stream of
+// correct chunks passes as a whole.
 //
-// Covers: client/sweep_reader.cc
+// It covers client/sweep_reader.cc.
 
 #include <grpcpp/client_context.h>
 #include <grpcpp/support/sync_stream.h>
@@ -32,13 +32,13 @@ class Bytes {
   Bytes(const uint8_t* data, size_t size) : data_(data), size_(size) {}
 
   bool empty() const { return size_ == 0; }
-  // 0 where none is left.
+  // Returns 0 if no byte is left.
   uint8_t Byte() {
     if (empty()) return 0;
     --size_;
     return *data_++;
   }
-  // Of all sizes: a byte says by how much eight others are shifted.
+  // Returns numbers of all magnitudes: one byte says by how much eight others are shifted.
   int64_t Number() {
     const int shift = Byte() % 64;
     uint64_t bits = 0;
@@ -51,13 +51,13 @@ class Bytes {
   size_t size_;
 };
 
-// How the whole call goes.
+// The script of a whole call.
 struct Script {
   SweepRequest request;
-  int64_t end = 0;  // Of the range, if the server and the client agree.
+  int64_t end = 0;  // The end of the range, if the server and the client agree.
   std::vector<v1::SweepResponse> chunks;
   grpc::Status status;
-  bool right = true;  // No number was replaced, and the chunks go to the end.
+  bool right = true;  // True if no number was replaced and the chunks reach the end.
   std::optional<size_t> stop_at;
 };
 
@@ -73,7 +73,7 @@ SweepRequest RequestFrom(Bytes& bytes) {
   return request;
 }
 
-// Replaces what the bits of `spoilt` say.
+// Replaces the numbers whose bits are set in `spoilt`.
 void Spoil(uint8_t spoilt, Bytes& bytes, v1::SweepResponse& chunk) {
   if ((spoilt & 1U) != 0) chunk.set_first_index(bytes.Number());
   if ((spoilt & 2U) != 0) chunk.set_count(bytes.Number());
@@ -89,7 +89,7 @@ Script ScriptFrom(Bytes bytes) {
   const int64_t points = ValidateAxes(request.grid).empty() ? PointCount(request.grid) : 64;
   script.end = request.end_index.value_or(points);
   int64_t next = request.first_index;
-  // Ranges that no server answers are right for nobody.
+  // A range that no server answers never counts as right.
   script.right = next >= 0 && next < script.end && script.end <= points;
   while (!bytes.empty()) {
     const uint8_t spoilt = bytes.Byte();
@@ -115,7 +115,7 @@ Script ScriptFrom(Bytes bytes) {
   return script;
 }
 
-// A call that answers by the script.
+// A fake call that answers by the script.
 class ScriptedCall final : public SweepReader::Call {
  public:
   ScriptedCall(const Script& script, std::stop_source stop) : script_(script), stop_(std::move(stop)) {}
@@ -139,7 +139,7 @@ class ScriptedCall final : public SweepReader::Call {
   size_t next_ = 0;
 };
 
-// Holds what is let through against the request.
+// Compares the chunks that pass with the request.
 class Receiver {
  public:
   explicit Receiver(const Script& script) : script_(script), next_(script.request.first_index) {}

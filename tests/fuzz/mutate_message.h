@@ -1,4 +1,5 @@
-// What a fuzz target whose input is a message in bytes tells the mutator of messages (tests/fuzz/mutate_message.cc).
+// The interface between a fuzz target whose input is a serialized message and the mutator of messages
+// (tests/fuzz/mutate_message.cc).
 
 #ifndef RICOCHET_TESTS_FUZZ_MUTATE_MESSAGE_H_
 #define RICOCHET_TESTS_FUZZ_MUTATE_MESSAGE_H_

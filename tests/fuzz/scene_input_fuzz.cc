@@ -1,10 +1,10 @@
-// Fuzzes what reads a scene for the command line: the first byte says how the others are meant, as JSON, as textproto,
-// as either, or as the flags of a pendulum, a line each.
+// Fuzzes the reading of a scene by the command line. The first byte says whether the others are JSON, textproto, either of
+// them, or the flags of a pendulum, one on each line.
 //
-// Checked: OK or INVALID_ARGUMENT with a message; a scene that was read is the same when it is written in either format
-// and read again; Validate and Solve's door take it as it is.
+// It checks that reading gives OK, or INVALID_ARGUMENT with a message; that a scene is the same after it was written in
+// either format and read again; and that Validate and Solve accept any scene without a crash.
 //
-// Covers: client/cli/scene_input.cc, client/cli/number_input.cc
+// It covers client/cli/scene_input.cc and client/cli/number_input.cc.
 
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
@@ -36,7 +36,7 @@ void CheckStatus(const absl::Status& status) {
   if (status.code() != absl::StatusCode::kInvalidArgument || status.message().empty()) Fail(status.ToString());
 }
 
-// Numbers by their shortest decimals, all NaN alike.
+// Writes numbers as their shortest decimals, and all NaN alike.
 std::string Printed(const v1::Scene& scene) {
   std::string text;
   google::protobuf::TextFormat::PrintToString(scene, &text);
@@ -50,7 +50,7 @@ v1::Scene ReadAgain(const std::string& path, const std::string& text) {
   return scene;
 }
 
-// Protobuf reads JSON's -0 as the integer 0: the same number, of another sign.
+// Protobuf reads JSON's -0 as the integer 0, which is the same number with another sign.
 void CheckJson(const v1::Scene& scene) {
   std::string json;
   if (!google::protobuf::util::MessageToJsonString(scene, &json).ok()) Fail("a scene has no JSON");
@@ -86,7 +86,7 @@ void CheckFlags(const std::string& text) {
   } catch (const CLI::ParseError&) {
     return;
   }
-  // No file of anybody's: a folder.
+  // This is a folder, so that no file is read.
   if (!options.file.empty()) options.file = ".";
   const absl::StatusOr<Scene> scene = ReadScene(options);
   CheckStatus(scene.status());

@@ -1,9 +1,9 @@
-// Fuzzes the conversions between protos and the core: the first byte says which message the others are.
+// Fuzzes the conversions between protos and the core. The first byte says which message the others are.
 //
-// Checked: proto -> core -> proto -> core -> proto is total, and the last two protos have the same bytes; an error that
-// has crossed the wire once crosses it again unchanged.
+// It checks that every message can be converted proto -> core -> proto -> core -> proto and that the last two protos have
+// the same bytes; and that an error that was sent once can be sent again unchanged.
 //
-// Covers: proto/wire/*.cc
+// It covers proto/wire/*.cc.
 
 #include <grpcpp/support/status.h>
 
@@ -37,7 +37,7 @@ void CheckMessage(const std::string& bytes) {
   if (once.SerializeAsString() != twice.SerializeAsString()) Fail("a second conversion changes " + once.GetTypeName());
 }
 
-// Status codes beyond those of gRPC are as likely as they are in the hands of a broken server.
+// Status codes that gRPC does not define are included, because a broken server may send them.
 void CheckError(const std::string& bytes) {
   const int code = bytes.empty() ? 3 : static_cast<unsigned char>(bytes[0]) % 32;
   const absl::Status once = FromGrpcStatus(grpc::Status(static_cast<grpc::StatusCode>(code), "message", bytes));

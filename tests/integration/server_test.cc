@@ -1,4 +1,4 @@
-// What a real ricochetd does over real sockets.
+// Tests of a real ricochetd over real sockets.
 
 #include <gmock/gmock.h>
 #include <google/protobuf/struct.pb.h>
@@ -41,7 +41,7 @@ constexpr int64_t kHuge = 8'000'000'000;
 
 std::shared_ptr<grpc::Channel> MakeChannel(const std::string& address) {
   grpc::ChannelArguments arguments;
-  // Else channels to one address share a connection, and so the death of one test's server.
+  // Without this, channels to one address share a connection, and a test sees the server of another test end.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
 }
@@ -98,7 +98,7 @@ class RunningSweep {
   bool Read(v1::SweepResponse* chunk) { return reader_->Read(chunk); }
   void Cancel() { context_.TryCancel(); }
 
-  // Reads to the end and returns the status.
+  // Reads all remaining chunks and returns the status.
   absl::Status Drain() {
     v1::SweepResponse chunk;
     while (reader_->Read(&chunk)) {
@@ -111,7 +111,7 @@ class RunningSweep {
   std::unique_ptr<grpc::ClientReader<v1::SweepResponse>> reader_;
 };
 
-// The fields of the last log record of the method's calls, from a log in JSON.
+// Returns the fields of the last record of a call of the method, from a log in JSON.
 google::protobuf::Struct LastCall(const std::string& log, const std::string& method) {
   google::protobuf::Struct last;
   std::istringstream lines(log);
@@ -263,7 +263,7 @@ TEST(Server, ReflectionListsTheService) {
   auto call = stub.PrepareCall(&context, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", &queue);
   call->StartCall(nullptr);
   ASSERT_TRUE(wait());
-  // ServerReflectionRequest {list_services: "*"}; Debian ships no generated code for it.
+  // These are the bytes of ServerReflectionRequest {list_services: "*"}, because Debian ships no generated code for it.
   grpc::Slice request("\x3a\x01*");
   call->WriteLast(grpc::ByteBuffer(&request, 1), grpc::WriteOptions(), nullptr);
   ASSERT_TRUE(wait());
@@ -341,7 +341,7 @@ TEST(Server, DrainTimeoutEndsASweepThatNobodyReads) {
   RunningSweep sweep(*stub, SweepOf(kHuge));
   v1::SweepResponse chunk;
   ASSERT_TRUE(sweep.Read(&chunk));
-  // Time to fill the connection's window, so that the server waits in a write.
+  // This is time enough to fill the connection's window, so that the server waits in a write.
   std::this_thread::sleep_for(milliseconds(300));
   const auto before = steady_clock::now();
   EXPECT_EQ(server.Stop(), 0);
@@ -364,7 +364,7 @@ TEST(Server, CancelledSweepStopsWorkingAndFreesTheServer) {
   EXPECT_TRUE(Solve(*stub).ok());
 }
 
-// Points that the server computed of a huge sweep that was cancelled after `chunks`, its first two.
+// Returns the number of points that the server computed of a huge sweep, which was cancelled after `chunks`, its first two.
 int64_t PointsOfCancelledSweep(std::vector<v1::SweepResponse>* chunks) {
   const ServerProcess server({"--log-format", "json"});
   const auto stub = MakeStub(server);
@@ -377,7 +377,7 @@ int64_t PointsOfCancelledSweep(std::vector<v1::SweepResponse>* chunks) {
 }
 
 TEST(Server, CancelEndsASweepWithinAChunk) {
-  // Where the cancel finds the server in a write, the sweep ends between two chunks; so it may take several tries.
+  // If the cancel finds the server in a write, the sweep ends between two chunks. So this may take several tries.
   bool within = false;
   for (int i = 0; i < 30 && !within; ++i) {
     std::vector<v1::SweepResponse> chunks;
@@ -398,7 +398,7 @@ TEST(Server, DeadlineEndsASweepPromptly) {
   const auto record = LastCall(server.WaitForLog("points"), kSweepMethod);
   ASSERT_EQ(record.fields().count("points"), 1U);
   EXPECT_LT(record.fields().at("points").number_value(), 0.1 * kHuge);
-  // The client's own clock may cancel first.
+  // The clock of the client may cancel the call first.
   EXPECT_THAT(record.fields().at("status").string_value(), testing::AnyOf("DEADLINE_EXCEEDED", "CANCELLED"));
 }
 

@@ -1,4 +1,4 @@
-// Every element of every proto file of ours says what it means.
+// Every element of every proto file of this project has a comment.
 
 #include <gmock/gmock.h>
 #include <google/protobuf/descriptor.h>
@@ -22,7 +22,7 @@ using google::protobuf::ServiceDescriptor;
 using google::protobuf::SourceLocation;
 using testing::IsEmpty;
 
-// The elements of a file and those of them without a comment above.
+// Counts the elements of files, and lists those without a comment above them.
 class Census {
  public:
   void Count(const FileDescriptor& file) {

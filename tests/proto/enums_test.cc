@@ -1,4 +1,4 @@
-// Every enum value, both ways.
+// Every enum value converts to the same number in both directions.
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/generated_enum_reflection.h>

@@ -15,7 +15,7 @@
 namespace ricochet {
 namespace {
 
-// A multiple of the number of members of every oneof but Scene.system's seven, which sees every one of its own too.
+// This is a multiple of the number of members of every oneof except Scene.system, whose seven members all occur too.
 constexpr int kChoices = 12;
 
 template <typename Message>
@@ -54,7 +54,7 @@ TYPED_TEST(EveryFieldTest, SurvivesTheCoreByteForByte) {
   EXPECT_EQ(ThroughCore(proto).SerializeAsString(), proto.SerializeAsString());
 }
 
-// The messages above are all that the service speaks, so that no message goes untested.
+// The messages above are all messages of the service, so that none is left untested.
 TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   const auto& service = *v1::SolveRequest::descriptor()->file()->FindServiceByName("ImpactService");
   ASSERT_EQ(service.method_count(), 5);

@@ -1,6 +1,6 @@
-// Fill: a proto message with every field set, each scalar to a value of its own.
+// Fill: sets every field of a proto message, each scalar to a different value.
 //
-// A conversion that forgets a field, or that swaps two, does not give such a message back.
+// A conversion that forgets a field, or swaps two, does not give such a message back.
 
 #ifndef RICOCHET_TESTS_PROTO_FILL_H_
 #define RICOCHET_TESTS_PROTO_FILL_H_
@@ -9,8 +9,8 @@
 
 namespace ricochet {
 
-// Of each oneof, the member number `choice` (modulo their number) is set. Lists have two entries. Enum values are
-// taken in their order, so that a list's entries differ; none is the one of number 0.
+// Sets the member number `choice` (modulo their number) of each oneof. Lists get two entries. Enum values are taken in
+// their order, so that the entries of a list differ; none is the value 0.
 void Fill(int choice, google::protobuf::Message& message);
 
 }  // namespace ricochet

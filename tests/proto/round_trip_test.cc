@@ -1,4 +1,4 @@
-// Core -> proto -> bytes -> proto -> core: what the core holds arrives, and what it leaves open stays open.
+// The conversion core -> proto -> bytes -> proto -> core keeps every value, and an unset value stays unset.
 
 #include <gmock/gmock.h>
 #include <google/protobuf/util/json_util.h>

@@ -1,4 +1,4 @@
-// absl::Status -> grpc::Status -> absl::Status: nothing is lost, unless it is more than a trailer holds.
+// The conversion absl::Status -> grpc::Status -> absl::Status loses nothing, unless a status is too large for a trailer.
 
 #include "proto/wire/status.h"
 
@@ -52,7 +52,7 @@ std::vector<Detail> DetailsOfType(const grpc::Status& status) {
   return found;
 }
 
-// Of grpc-message, percent-encoded, and of grpc-status-details-bin, in base64.
+// Returns the size of the trailers grpc-message, percent-encoded, and grpc-status-details-bin, in base64.
 size_t TrailersSize(const grpc::Status& status) {
   size_t size = status.error_details().size() / 3 * 4 + 4;
   for (const char c : status.error_message()) size += c >= ' ' && c <= '~' && c != '%' ? 1 : 3;
@@ -259,7 +259,7 @@ TEST(StatusTest, ALongMessageIsNotCutInsideACharacter) {
   }
 }
 
-// Fails every call with one status.
+// A service that fails every call with one status.
 class FailingService final : public v1::ImpactService::Service {
  public:
   explicit FailingService(absl::Status status) : status_(std::move(status)) {}

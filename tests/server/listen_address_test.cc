@@ -23,7 +23,7 @@ TEST(ListenAddress, LoopbackIsOnlyThisHost) {
 }
 
 TEST(ListenAddress, SaysWhyItCannotBeBound) {
-  // Reserved for documentation: no host has it.
+  // This address is reserved for documentation, so that no host has it.
   EXPECT_EQ(WhyNotBindable({.host = "192.0.2.1", .port = 0}), "Cannot assign requested address");
   EXPECT_EQ(WhyNotBindable({.host = "127.0.0.1", .port = 0}), std::nullopt);
 }

@@ -87,7 +87,7 @@ TEST(Log, JsonNumbersAreNumbers) {
 }
 
 TEST(Log, BytesThatAreNotUtf8AreReplaced) {
-  // A lone continuation, an overlong slash, a surrogate, above U+10FFFF, a cut character.
+  // The cases are a lone continuation byte, an overlong slash, a surrogate, a code above U+10FFFF, a cut character.
   const std::string values[] = {"\x80", "\xC0\xAF", "\xED\xA0\x80", "\xF4\x90\x80\x80", "\xE2\x82"};
   std::ostringstream out;
   const Log log(LogFormat::kJson, LogLevel::kInfo, out);

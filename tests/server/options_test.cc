@@ -20,11 +20,11 @@ using std::chrono::milliseconds;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-// What a server is started with.
+// The command line, the environment and the file with which a server is started.
 struct Given {
   std::vector<std::string> flags;
   std::vector<std::pair<std::string, std::string>> environment;
-  std::string file;  // Contents of the file of --config; empty: no such flag.
+  std::string file;  // The contents of the file of --config; empty if the flag is not given.
 };
 
 class Environment {
@@ -168,7 +168,7 @@ TEST(Options, ConfigFileIsNamedByTheEnvironmentToo) {
 struct BadCase {
   std::string name;
   Given given;
-  std::vector<std::string> message;  // Each is part of it.
+  std::vector<std::string> message;  // Texts that the error message contains.
 };
 
 class BadOptions : public testing::TestWithParam<BadCase> {};

@@ -1,4 +1,4 @@
-// Client: the Solver that asks a server.
+// Client: the Solver that asks a server over gRPC.
 //
 //   absl::StatusOr<ricochet::Client> client = ricochet::Client::Connect({.target = "127.0.0.1:50051"});
 //   if (!client.ok()) return client.status();
@@ -16,23 +16,24 @@
 
 namespace ricochet {
 
-// Answers with the bits of a LocalSolver of the same engine (EngineInfo::fingerprint).
+// A Client gives the same bits as a LocalSolver of the same engine (EngineInfo::fingerprint).
 //
 // Thread safety: every method may be called from several threads at once; a SweepStream belongs to one thread at a
 // time.
 //
-// Cost: a Client is a shared pointer; copies share one connection, which is made at the first call. Connect is the
-// expensive step: make one Client a server and copy it. A sweep holds one chunk, whatever its size.
+// Cost: a Client is a shared pointer; its copies share one connection, which is made at the first call. Connect is
+// expensive, so make one Client for each server and copy it. A sweep keeps only one chunk in memory.
 //
-// Retries: by ClientOptions::retry, on UNAVAILABLE and before the first response, so never in the middle of a sweep.
-// All calls are pure, so a repeated one does no harm. A sweep that broke off is taken up by asking for
-// [next index, end_index), which gives the same bits.
+// Retries: ClientOptions::retry says how often a call is repeated after UNAVAILABLE. A call is repeated only before its
+// first response, so never in the middle of a sweep. Calls have no side effects, so a repeated one does no harm. To
+// continue an interrupted sweep, ask for [next index, end_index): this gives the same bits.
 //
-// Errors: those of Solver with the same reason and violations; UNAVAILABLE and DEADLINE_EXCEEDED of the network;
-// DATA_LOSS if the chunks of a sweep do not fit together: a gap, a repeat, a wrong size, an early end.
+// Errors: a Client returns the errors of Solver with the same reason and violations, UNAVAILABLE and DEADLINE_EXCEEDED
+// of the network, and DATA_LOSS if the chunks of a sweep do not fit together (a gap, a repetition, a wrong size, an early
+// end).
 class Client final : public Solver {
  public:
-  // Does not wait for a connection: a server that is not there shows at the first call.
+  // Returns without waiting for a connection: only the first call finds out that no server is there.
   // Errors: INVALID_ARGUMENT that names the wrong options.
   static absl::StatusOr<Client> Connect(const ClientOptions& options);
 

@@ -1,4 +1,4 @@
-// CheckHealth: is a service of a server taking calls? The public protocol grpc.health.v1.
+// CheckHealth: asks by the public protocol grpc.health.v1 whether a service of a server takes calls.
 
 #ifndef RICOCHET_HEALTH_H_
 #define RICOCHET_HEALTH_H_
@@ -14,12 +14,13 @@ namespace ricochet {
 enum class Health {
   kUnknown = 0,
   kServing = 1,
-  kNotServing = 2,  // Starting or draining.
+  kNotServing = 2,  // The server is starting or shutting down.
 };
 
-// The health of `service`, by full name; empty for the server as a whole.
-// Errors: INVALID_ARGUMENT for invalid options, NOT_FOUND for a service that the server does not know, those of the
-// network.
+// Asks for the health of `service`, given by its full name; an empty name means the server as a whole. It waits for
+// ClientOptions::deadline at most.
+// Errors: INVALID_ARGUMENT for invalid options, NOT_FOUND for a service that the server does not know, UNAVAILABLE and
+// DEADLINE_EXCEEDED of the network.
 absl::StatusOr<Health> CheckHealth(const ClientOptions& options, const std::string& service);
 
 }  // namespace ricochet

@@ -101,7 +101,7 @@ TEST(DemandTest, WhatEveryModelHasCannotBeExcluded) {
             Expected({"excluded[0] = higher_order: must be left in: only a pendulum over a surface at rest has a "
                       "first-order form"}));
   EXPECT_EQ(Texts(Contact(), {.excluded = {Effect::kSlipTurn}}),
-            Expected({"excluded[0] = slip_turn: must be left in: in a plane slip has no way to turn"}));
+            Expected({"excluded[0] = slip_turn: must be left in: in a plane slip cannot turn"}));
   EXPECT_EQ(
       Texts(Swinging(), {.excluded = {Effect::kSlipStop}}),
       Expected({"excluded[0] = slip_stop: must be left in: a pendulum's slip stops where compression ends; exclude "

@@ -53,10 +53,10 @@ TEST(ExplainTest, SlipThatNeverStopsSaysWhereItEnds) {
   const Plan plan = PlanOf(Slider(), {.ratio_squared = 1.2}, {.relative_tolerance = 1e-3});
   EXPECT_EQ(plan.model, Model::kSliding);
   EXPECT_EQ(On(plan, Effect::kSlipStop).reason, "slip never stops: it ends at 4.69 m/s");
-  EXPECT_EQ(On(plan, Effect::kTangentialCompliance).reason, "the particle slides throughout");
-  EXPECT_EQ(On(plan, Effect::kSlipTurn).reason, "in a plane slip has no way to turn");
-  EXPECT_EQ(On(plan, Effect::kStaticFriction).reason, "the static coefficient is the kinetic one");
-  EXPECT_EQ(On(plan, Effect::kFiniteForces).reason, "there are no finite forces");
+  EXPECT_EQ(On(plan, Effect::kTangentialCompliance).reason, "the contact slides throughout");
+  EXPECT_EQ(On(plan, Effect::kSlipTurn).reason, "in a plane slip cannot turn");
+  EXPECT_EQ(On(plan, Effect::kStaticFriction).reason, "the static and the kinetic coefficient are equal");
+  EXPECT_EQ(On(plan, Effect::kFiniteForces).reason, "the scene has no finite forces");
 }
 
 TEST(ExplainTest, FrictionSaysWhatItIsInAndWhatItChanges) {
@@ -75,7 +75,7 @@ TEST(ExplainTest, APendulumSpeaksOfX) {
   const Demand demand = {.relative_tolerance = 1e-3};
   const Plan plan = Explain(ChoosePendulum(problem, {}, demand), demand);
   EXPECT_EQ(On(plan, Effect::kFriction).reason.substr(0, 20), "x = mu |b|/a = 0.01:");
-  EXPECT_EQ(On(plan, Effect::kSlipStop).reason, "slip stops where compression ends, as that of every pendulum does");
+  EXPECT_EQ(On(plan, Effect::kSlipStop).reason, "slip stops at the end of compression, as for every pendulum");
   EXPECT_EQ(On(plan, Effect::kHigherOrder).decision, Decision::kNegligible);
 }
 
@@ -92,11 +92,10 @@ TEST(ExplainTest, SelfLockingAndDampingHaveNoBound) {
   jam.mu = jam.mu_static = 1.2;
   const Plan locked = PlanOf(jam, {}, {});
   EXPECT_TRUE(std::isinf(On(locked, Effect::kFriction).size));
-  EXPECT_EQ(
-      On(locked, Effect::kFriction).reason,
-      "friction may lock the contact, the coefficient times the coupling being 1.08 of Wnn: no inequality is known");
+  EXPECT_EQ(On(locked, Effect::kFriction).reason,
+            "friction may lock the contact, as the coefficient times |Wtn| is 1.08 Wnn: no bound is known");
   const Plan damped = PlanOf(Slider(), {.spring = HuntCrossleySpring{1e6, 1.5, 0.3}}, {});
-  EXPECT_EQ(On(damped, Effect::kFiniteDuration).reason, "the spring's damping is the restitution");
+  EXPECT_EQ(On(damped, Effect::kFiniteDuration).reason, "the damping of the spring determines the restitution");
 }
 
 TEST(ExplainTest, ASeparatingContactSaysSo) {
@@ -105,7 +104,7 @@ TEST(ExplainTest, ASeparatingContactSaysSo) {
   const Plan plan = PlanOf(problem, {}, {});
   EXPECT_EQ(plan.model, Model::kNone);
   for (const PlannedEffect& planned : plan.effects) {
-    EXPECT_EQ(planned.reason, "the contact separates: nothing happens");
+    EXPECT_EQ(planned.reason, "the contact separates: nothing changes");
   }
 }
 
