@@ -1,5 +1,5 @@
-// ImpactService: the handlers of ricochet.v1.ImpactService. Each converts the request, calls the Solver, and converts the
-// response and the status.
+// ImpactService: the handlers of ricochet.v1.ImpactService. Each converts the request, calls the Solver, and converts
+// the response and the status.
 
 #ifndef RICOCHET_SERVER_IMPACT_SERVICE_H_
 #define RICOCHET_SERVER_IMPACT_SERVICE_H_

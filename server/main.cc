@@ -1,5 +1,5 @@
-// ricochetd: the impact service as a daemon. Exit codes: 0 after a signal and an orderly shutdown, 1 if it cannot start,
-// 2 for bad options.
+// ricochetd: the impact service as a daemon. Exit codes: 0 after a signal and an orderly shutdown, 1 if it cannot
+// start, 2 for bad options.
 
 #include <cstdlib>
 #include <iostream>

@@ -11,10 +11,10 @@
 
 namespace ricochet::cli {
 
-// Reads a table. Columns are named as the fields of AuditColumns (rates_after_rad_s[0] and so on, one for each link) and
-// may come in any order; a column with another name is ignored. A cell that is missing or not a number becomes a NaN,
-// which makes its row invalid but no other. Empty lines and lines that start with # are skipped. `name` names the table
-// in errors.
+// Reads a table. Columns are named as the fields of AuditColumns (rates_after_rad_s[0] and so on, one for each link)
+// and may come in any order; a column with another name is ignored. A cell that is missing or not a number becomes a
+// NaN, which makes its row invalid but no other. Empty lines and lines that start with # are skipped. `name` names the
+// table in errors.
 // Errors: INVALID_ARGUMENT for a header that names a column twice, names no known column, or leaves out a link.
 absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::string& name);
 

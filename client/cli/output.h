@@ -9,7 +9,8 @@
 
 namespace ricochet::cli {
 
-// A file that is written beside `path` under a temporary name and then renamed, so that a reader never sees a part of it.
+// A file that is written beside `path` under a temporary name and then renamed, so that a reader never sees a part of
+// it.
 class AtomicFile {
  public:
   // Errors: PERMISSION_DENIED, NOT_FOUND and so on; the message names the path.

@@ -28,8 +28,8 @@ constexpr char kExample[] = R"(Example: the elastic pendulum of Lubarda (2009), 
     Newton      (velocities, -v+/v-)     0.707107
     Poisson     (normal impulses)         1.41421
   ...
-CSV has one row with every number of the outcome, named by its path. Instead it has one row for each state with --history,
-for each sample with --force-history, for each effect with --explain, and for each number with --certified.
+CSV has one row with every number of the outcome, named by its path. Instead it has one row for each state with
+--history, for each sample with --force-history, for each effect with --explain, and for each number with --certified.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct SolveOptions {

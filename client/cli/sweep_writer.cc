@@ -26,8 +26,8 @@ void AppendNumber(Number number, std::string& text) {
   text.append(buffer.data(), result.ptr);
 }
 
-// Gives the axis values of one point after another. It keeps the last value of each axis, because most stay the same for
-// many points.
+// Gives the axis values of one point after another. It keeps the last value of each axis, because most stay the same
+// for many points.
 class AxisCursor {
  public:
   explicit AxisCursor(const Grid& grid)

@@ -1,5 +1,5 @@
-// Converts audits, their requests and responses to their protos and back. A verdict that this build does not know becomes
-// kUnspecified.
+// Converts audits, their requests and responses to their protos and back. A verdict that this build does not know
+// becomes kUnspecified.
 
 #ifndef RICOCHET_PROTO_WIRE_AUDIT_H_
 #define RICOCHET_PROTO_WIRE_AUDIT_H_

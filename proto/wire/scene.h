@@ -1,5 +1,5 @@
-// Converts a Scene to its proto and back. Every value converts: a part that a request left unset stays unset, and Validate
-// reports it.
+// Converts a Scene to its proto and back. Every value converts: a part that a request left unset stays unset, and
+// Validate reports it.
 
 #ifndef RICOCHET_PROTO_WIRE_SCENE_H_
 #define RICOCHET_PROTO_WIRE_SCENE_H_

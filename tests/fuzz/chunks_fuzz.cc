@@ -1,5 +1,5 @@
-// Fuzzes the decoding of a sweep's stream in the client. The input gives a request and the chunks of a server. Each chunk
-// is correct at first; the bits of its first byte say which of its numbers the following bytes replace.
+// Fuzzes the decoding of a sweep's stream in the client. The input gives a request and the chunks of a server. Each
+// chunk is correct at first; the bits of its first byte say which of its numbers the following bytes replace.
 //
 // It checks that a stream passes up to the first wrong chunk and no further; that the points that pass are those of the
 // range, once and in order; that the stream ends with OK only if the summary came at the end; and that a stream of

@@ -1,5 +1,5 @@
-// Fuzzes the reading of a scene by the command line. The first byte says whether the others are JSON, textproto, either of
-// them, or the flags of a pendulum, one on each line.
+// Fuzzes the reading of a scene by the command line. The first byte says whether the others are JSON, textproto, either
+// of them, or the flags of a pendulum, one on each line.
 //
 // It checks that reading gives OK, or INVALID_ARGUMENT with a message; that a scene is the same after it was written in
 // either format and read again; and that Validate and Solve accept any scene without a crash.

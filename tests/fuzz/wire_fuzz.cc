@@ -1,7 +1,7 @@
 // Fuzzes the conversions between protos and the core. The first byte says which message the others are.
 //
-// It checks that every message can be converted proto -> core -> proto -> core -> proto and that the last two protos have
-// the same bytes; and that an error that was sent once can be sent again unchanged.
+// It checks that every message can be converted proto -> core -> proto -> core -> proto and that the last two protos
+// have the same bytes; and that an error that was sent once can be sent again unchanged.
 //
 // It covers proto/wire/*.cc.
 

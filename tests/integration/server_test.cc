@@ -364,7 +364,8 @@ TEST(Server, CancelledSweepStopsWorkingAndFreesTheServer) {
   EXPECT_TRUE(Solve(*stub).ok());
 }
 
-// Returns the number of points that the server computed of a huge sweep, which was cancelled after `chunks`, its first two.
+// Returns the number of points that the server computed of a huge sweep, which was cancelled after `chunks`, its first
+// two.
 int64_t PointsOfCancelledSweep(std::vector<v1::SweepResponse>* chunks) {
   const ServerProcess server({"--log-format", "json"});
   const auto stub = MakeStub(server);

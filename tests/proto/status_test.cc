@@ -1,4 +1,5 @@
-// The conversion absl::Status -> grpc::Status -> absl::Status loses nothing, unless a status is too large for a trailer.
+// The conversion absl::Status -> grpc::Status -> absl::Status loses nothing, unless a status is too large for a
+// trailer.
 
 #include "proto/wire/status.h"
 

@@ -29,8 +29,8 @@ namespace ricochet {
 // continue an interrupted sweep, ask for [next index, end_index): this gives the same bits.
 //
 // Errors: a Client returns the errors of Solver with the same reason and violations, UNAVAILABLE and DEADLINE_EXCEEDED
-// of the network, and DATA_LOSS if the chunks of a sweep do not fit together (a gap, a repetition, a wrong size, an early
-// end).
+// of the network, and DATA_LOSS if the chunks of a sweep do not fit together (a gap, a repetition, a wrong size, an
+// early end).
 class Client final : public Solver {
  public:
   // Returns without waiting for a connection: only the first call finds out that no server is there.
