@@ -179,7 +179,7 @@ TEST_F(Cli, RefusesATableWithoutAKnownHeaderAndAnAuditOfNothing) {
     return all;
   };
   EXPECT_EQ(Run(audit).exit_code, 2);
-  EXPECT_THAT(Run(audit).err, HasSubstr("nothing observed"));
+  EXPECT_THAT(Run(audit).err, HasSubstr("no observation"));
   EXPECT_THAT(Run(with({"--data", "-"}), "1,2\n").err, HasSubstr("names no known column"));
   EXPECT_THAT(Run(with({"--data", "-"}), "").err, HasSubstr("has no header"));
   EXPECT_THAT(Run(with({"--data", "-"}), "friction,friction\n").err, HasSubstr("friction twice"));
