@@ -8,7 +8,7 @@
 namespace ricochet::laws {
 namespace {
 
-// The tangential part of P_II - P_I; the normal one is -wtn/wnn times that.
+// The tangential part of P_II - P_I. The normal part is -wtn/wnn times the tangential one.
 double StickingImpulse(const PlanarImpactInput& in, const NewtonImpact& impact) {
   if (impact.rank_one()) return -in.v0 * (in.wtn / in.wnn) / (in.wtt + in.wnn);
   return -impact.frictionless_slip() / impact.det();

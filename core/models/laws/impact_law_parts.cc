@@ -15,20 +15,21 @@ double Determinant(const PlanarImpactInput& in) {
   return det <= 4.0 * kEpsilon * in.wtt * in.wnn ? 0.0 : det;
 }
 
-// Where W has rank one, velocities in its range have no such slip: what is left of the products is their rounding.
+// The slip after frictionless compression, times wnn. If W has rank one, velocities in its range have no such slip, so
+// that a difference within the rounding of its terms counts as 0.
 double FrictionlessSlip(const PlanarImpactInput& in, bool rank_one) {
   const double slip = DifferenceOfProducts(in.u0, in.wnn, in.v0, in.wtn);
   const double rounding = 8.0 * kEpsilon * (std::abs(in.u0) * in.wnn + std::abs(in.v0 * in.wtn));
   return rank_one && std::abs(slip) <= rounding ? 0.0 : slip;
 }
 
-// The sum of its two parts.
+// A number with more bits than a double: the sum of both parts.
 struct Unrounded {
   double high;
   double low;
 };
 
-// c = -(v0 + e v0): its rounding error matters in G and T, which all but cancel near rank one.
+// c = -(v0 + e v0) with its rounding error, which matters in G and T, because these all but cancel near rank one.
 Unrounded NormalGain(double v0, double e) {
   const double product = e * v0;
   const double product_error = std::fma(e, v0, -product);
@@ -38,7 +39,7 @@ Unrounded NormalGain(double v0, double e) {
   return {-sum, -(sum_error + product_error)};
 }
 
-// u0 w + c w2, to a few ulp however much cancels.
+// Computes u0 w + c w2 to a few ulp, however much cancels.
 double StickingNumerator(double u0, double w, Unrounded c, double w2) {
   return std::fma(c.low, w2, DifferenceOfProducts(u0, w, -c.high, w2));
 }
@@ -76,7 +77,7 @@ ImpactSolution NewtonImpact::Solution(double f, double tau1, double u1) const {
           .energy_change = 0.5 * DifferenceOfProducts(f, in_.u0 + u1, -tau1, twice_mean_v) + 0.0};
 }
 
-// u1 from u0 rather than from G + r T: where dv/dtau is small, those nearly cancel.
+// u1 is computed from u0 rather than from G + r T, because the latter nearly cancel if dv/dtau is small.
 std::optional<ImpactSolution> NewtonImpact::AtRatio(double ratio) const {
   const double slope = NormalSlope(ratio);
   if (!(slope > 0.0)) return std::nullopt;

@@ -1,4 +1,4 @@
-// Every comparison law.
+// This header includes every impact law.
 
 #ifndef RICOCHET_CORE_MODELS_LAWS_IMPACT_LAWS_H_
 #define RICOCHET_CORE_MODELS_LAWS_IMPACT_LAWS_H_

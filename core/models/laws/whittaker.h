@@ -1,13 +1,12 @@
-// Whittaker's law: friction at its limit, in one direction, for the whole impact.
+// Whittaker's law: friction acts at its limit, in one direction, for the whole impact.
 //
-// E. T. Whittaker, A Treatise on the Analytical Dynamics of Particles and Rigid Bodies, Cambridge (1904; 4th ed. 1937),
-// chapter VIII, on impact; the theory that Lubarda (2009) sets against his Eq. (50). The tangential impulse opposes
-// the slip before the impact:
+// E. T. Whittaker, Analytical Dynamics of Particles and Rigid Bodies, Cambridge (1904), chapter VIII; Lubarda (2009),
+// Eq. (50). The tangential impulse opposes the slip before the impact:
 //
 //   f = -mu sgn(u0) tau1,   v1 = -e v0   =>   tau1 = -(1 + e) v0/(wnn - mu sgn(u0) wtn)
 //
-// Slip that stops or reverses on the way is not noticed: friction then does positive work, and the law can create
-// energy. Convention at u0 = 0, where there is no slip to oppose: sgn(0) = 0, so f = 0.
+// The law ignores slip that stops or reverses on the way: friction then does positive work, and the law can create
+// energy. sgn(0) = 0, so that f = 0 if there is no slip before the impact.
 
 #ifndef RICOCHET_CORE_MODELS_LAWS_WHITTAKER_H_
 #define RICOCHET_CORE_MODELS_LAWS_WHITTAKER_H_
@@ -16,9 +15,8 @@
 
 namespace ricochet::laws {
 
-// e >= 0. One solution; none where wnn - mu sgn(u0) wtn <= 0: friction would hold the contact in approach for ever
-// (self-locking) and no tau1 > 0 ends it. At rank one velocities are those of any other friction. Units, degenerate
-// inputs and accuracy: core/models/laws/impact_law.h.
+// e must be >= 0. There is one solution, or none if wnn - mu sgn(u0) wtn <= 0, because no tau1 > 0 then ends the approach
+// (self-locking). core/models/laws/impact_law.h states units, degenerate inputs and accuracy.
 ImpactLawResult SolveWhittaker(const PlanarImpactInput& input, double e);
 
 }  // namespace ricochet::laws

@@ -1,35 +1,12 @@
 // First order: the nearly vertical pendulum to first order in x = mu |b|/a, in plain double arithmetic, no square root.
 //
-// Lubarda (2009), sec. 8. With the forms kappa_hat, kappa, eta and mu_hat of core/bounds/nearly_vertical.h, c the
-// coefficient that the law gives and V = max(|u0|, |v0|) = max(a, |b|) |w-|:
-//
-//   kappa_hat, kappa, eta, mu_hat                  c itself, else a form                        [56], [59]
-//   tau0 = -J w-/(a + mu |b|),  f0 = sgn(b) mu tau0                     exact                   [8], [48]
-//   tau1 = (1 + kappa) tau0,  f1 = sgn(b) mu (1 - kappa) tau0           off as kappa is         [10], [48]
-//   w+ = -kappa_hat w-,  u1 = b w+,  v1 = a w+                          off as kappa_hat is     [11]
-//   Wc_n = a tau0 w-/2,  Wc_t = x Wc_n                                  exact                   [22], [34]
-//   Wr_n = J w+^2/(2 (1 - x)),  Wr_t = -x Wr_n                          off as w+^2 is          [38], [39]
-//   energy change = J (w+ - w-)(w+ + w-)/2                              off as w+^2 is          [16]
-//
-// so that the works add up to the change of energy, which is that of the velocities, to rounding. What is equal only in
-// the exact impact differs here by O(x^2): mu_hat and f1/tau1, eta^2 and -Wr_n/Wc_n, Wr_n and a w+ (tau1 - tau0)/2.
-//
-// Errors, all O(x^2). With d(.) the bounds on the forms (nearly_vertical.h derives them):
-//   |d u1|, |d v1| <= d(kappa_hat) V
-//   Wnn |d tau1| = a |w-| d(kappa)/(1 + x),   Wtt |d f1| = x |b| |w-| d(kappa)/(1 + x)
-//   law         d(kappa_hat)     d(kappa)/(1 + x)
-//   energetic   c x^2/2          c x^2/(2 (1 - x^2))
-//   Newton      0                2 c x^2/(1 - x^2)
-//   Poisson     2 c x^2          0
-// so that velocities are right to 2 c x^2 and impulses, times their mobility, to (8/3) c x^2 for x <= 1/2. Works of
-// restitution and the change of energy: to J w-^2/2 (2 kappa_hat + d) d/(1 - x), d = d(kappa_hat).
-// Rounding, eps = 2^-53, to first order: x 2 eps, 1 + x 2 eps, 1 - x 3 eps, 1 - 2x 4 eps of 1. Then kappa_hat is off by
-// at most 5 eps c and the velocities, two products more, by 7 eps c V. kappa is off by 4 eps kappa, 1 + kappa by 5 eps
-// of itself, tau0 by 4 eps, tau1 by 10 eps; f1 by 11 eps (1 + kappa) mu tau0. 8 and 12 eps cover higher orders, and the
-// bounds of the forms, a few roundings of products, are enlarged by 2^-48 of themselves.
-//
-// mu = 0: the impact without friction, where the forms are exact, to the errors of rounding above.
-// Bad input: problems that `Serves` refuses are not for this model, but for those without friction.
+// Lubarda (2009), sec. 8. The coefficients are the forms of core/bounds/nearly_vertical.h. tau0, f0 and the works of
+// compression are exact; tau1, f1, omega+ and all that follows from them have the errors of kappa and kappa_hat, which
+// are of order x^2. Works add up to the change of energy up to rounding. For x <= 1/2 and with c, the coefficient that the
+// law states, velocities are right to 2 c x^2 of max(|u0|, |v0|), and impulses times their mobility to (8/3) c x^2.
+// docs/theory/pendulum_numerics.md lists the formulas, their errors and their rounding.
+// For mu = 0 this is the impact without friction, whose forms are exact up to rounding.
+// The model has no answer for a problem with mu > 0 that `Serves` refuses.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_FIRST_ORDER_H_
 #define RICOCHET_CORE_MODELS_PENDULUM_FIRST_ORDER_H_
@@ -51,7 +28,7 @@ using Output = pendulum::Output;
 
 inline constexpr double kLargestX = 0.5;
 
-// What every output is made of.
+// The quantities from which every output is computed.
 struct Approximation {
   double x, one_minus_x;
   double newton, poisson, energetic, tangential;  // tangential: mu_hat/(mu sgn b)
@@ -60,12 +37,13 @@ struct Approximation {
   RelativeErrors errors;  // Proved bounds, rounding included.
 };
 
-// x as computed: 2 eps from the true one.
+// The computed x, which differs from the exact one by at most 2 eps of it.
 inline double FrictionRatio(const Problem& problem) { return problem.mu * std::fabs(problem.b) / problem.a; }
 
-// Whether the model has an answer: the contact approaches, 0 < x <= kLargestX, friction does not lock the body, the
+// True if the model has an answer: the contact approaches, 0 < x <= kLargestX, friction does not lock the body, the
 // coefficient is within the first-order bounds [57], so that it is admissible, and all numbers lie between 2^-100 and
-// 2^100, so that no product leaves the range of doubles (coefficients may be 0). What rounding leaves open is refused.
+// 2^100, so that no product leaves the range of doubles (coefficients may be 0). A case that rounding cannot decide is
+// refused.
 inline bool Serves(const Problem& problem) {
   constexpr double kMargin = 0x1p-50;
   const auto moderate = [](double value) { return value >= 0x1p-100 && value <= 0x1p100; };
@@ -97,7 +75,7 @@ inline Approximation Approximate(const Problem& problem) {
   const double one_plus_x = 1.0 + x;
   const auto forms = pendulum::CoefficientForms(problem.law, problem.coefficient, x, 1.0 - x, one_plus_x);
   const double kappa = forms.poisson.value;
-  // Of a |w-| and x |b| |w-|, in units of V.
+  // The larger of a |w-| and x |b| |w-|, over (1 + x) V.
   const double share = std::max(problem.a, x * size) / (std::max(problem.a, size) * one_plus_x);
   return {.x = x,
           .one_minus_x = 1.0 - x,
@@ -111,7 +89,7 @@ inline Approximation Approximate(const Problem& problem) {
                      .impulse = share * (kEnlarged * forms.poisson.error + 12.0 * kEps * (1.0 + kappa))}};
 }
 
-// One output, as cheap as it can be.
+// Computes one output.
 inline double Value(const Problem& problem, const Approximation& of, Output output) {
   const auto& [x, one_minus_x, newton, poisson, energetic, tangential, tau0, omega_plus, errors] = of;
   const double mu = std::copysign(problem.mu, problem.b);
@@ -164,13 +142,13 @@ inline double Value(const Problem& problem, const Approximation& of, Output outp
 // Bounds on the errors of contact velocity and impulses; cheaper than an impact.
 inline RelativeErrors ErrorsOf(const Problem& problem) { return Approximate(problem).errors; }
 
-// Everything about one impact: no limit is broken.
+// Computes all outputs of one impact. It breaks no limit.
 Impact Solve(const Problem& problem);
 
-// kRebound, without friction kFrictionless.
+// The regime is kRebound, or kFrictionless if mu = 0.
 inline Regime RegimeOf(const Problem& problem) { return problem.mu > 0.0 ? Regime::kRebound : Regime::kFrictionless; }
 
-// The contact at normal impulse tau in [0, tau1]: [7], [12], [48] through tau0, tau1 and w+ of the model.
+// The state at normal impulse tau in [0, tau1], by [7], [12] and [48] with tau0, tau1 and omega+ of the model.
 // Accuracy: 4 ulp of |w-| or of mu tau0.
 Instant At(const Problem& problem, double tau);
 

@@ -1,15 +1,10 @@
 // The pendulum's formulas (core/models/pendulum/pendulum.h) over a number type N: DoubleDouble for moderate inputs, Wide for
 // all.
 //
-// Nothing cancels. With s = a + q and d = a - q (q = mu |b| exact), the differences that could are written as
-//   energetic eta:   1 - kappa = n/(d (1 + kappa)),  n = d - eta^2 s = a (1-eta)(1+eta) - q (1 + eta^2)
-//                    1 - kappa_hat^2 = (a (1-eta)(1+eta) + q (1 + eta^2))/s
-//   Newton e:        1 - kappa = (d - e s)/d = (a (1-e) - q (1+e))/d
-//                    1 - eta^2 = (d - e^2 s)/d = (a (1-e)(1+e) - q (1 + e^2))/d
-//   Poisson k:       1 - kappa_hat = (s - k d)/s = (a (1-k) + q (1+k))/s
-//                    1 - eta^2 = (s - k^2 d)/s = (a (1-k)(1+k) + q (1 + k^2))/s
-// Each numerator has two forms: the first keeps its accuracy where d is small against a, the second where the
-// coefficient is near 1 and q small against a. The rounding left is at most 25 u^2 of the larger term.
+// No difference cancels. With s = a + q and d = a - q (q = mu |b| is exact), a difference such as 1 - kappa is a numerator
+// divided by s or d, and each numerator has two forms: d - c s keeps its accuracy if d is small compared with a, and
+// a (1 - c) - q (1 + c) if c is near 1 and q is small compared with a. The rounding error left is at most 25 u^2 of the
+// larger term. docs/theory/pendulum_numerics.md lists all numerators.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_PENDULUM_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -29,23 +24,23 @@ namespace ricochet::pendulum::HWY_NAMESPACE {
 
 using ricochet::HWY_NAMESPACE::Not;
 
-// Problems of one law, a lane each.
+// The inputs of problems of one law, one problem in each lane.
 template <typename N, typename Mask>
 struct Inputs {
   N inertia, a, b, omega;  // omega is w-
-  N mu;                    // With the sign of b, 0 where b is.
-  N static_grip;           // mu_s |b|
+  N mu;                    // mu with the sign of b; 0 if b = 0.
+  N static_q;           // mu_s |b|
   N coefficient;
-  Mask near_one;  // Which form of a numerator: coefficient > 1/2, for Poisson's < 2.
+  Mask near_one;  // Selects the second form of a numerator: coefficient > 1/2, Poisson's < 2.
 };
 
-// What is solved once a problem; the outputs are products of these.
+// The quantities that are computed once for a problem; the outputs are products of these.
 template <typename N, typename Mask>
 struct Solution {
   N inertia, a, b, mu, omega;
   N q, s, d;  // mu |b|, a + q, a - q
   Mask locked;
-  N inverse_s, inverse_d;  // inverse_d means nothing where locked
+  N inverse_s, inverse_d;  // inverse_d has no meaning if locked
   N kappa, kappa_hat, eta, eta_squared;
   N one_minus_kappa, inverse_one_plus_kappa, one_minus_eta_squared;
   N one_minus_kappa_hat, energy_loss;  // energy_loss is 1 - kappa_hat^2
@@ -58,8 +53,8 @@ HWY_INLINE N SquareOf(const N& x) {
   return x * x;
 }
 
-// A numerator of the table above: lead - c trail with c = coefficient or its square, lead and trail being d and s or s
-// and d. The second form is a (1 - c) -+ q (1 + c), - where d leads.
+// A numerator is lead - c trail, where c is the coefficient or its square, and lead and trail are d and s or s and d. The
+// second form is a (1 - c) - q (1 + c) if d leads, and a (1 - c) + q (1 + c) if s leads.
 enum class Power { kOne, kTwo };
 enum class Lead { kD, kS };
 
@@ -80,7 +75,7 @@ HWY_INLINE N Numerator(const Inputs<N, Mask>& in, const Solution<N, Mask>& x) {
   return Select(in.near_one, NearOneNumerator<kLead, kPower>(in, x), direct);
 }
 
-// 1/(1 + kappa), which both outputs of 1 - kappa use.
+// Computes 1/(1 + kappa), which both outputs of 1 - kappa use.
 template <typename N, typename Mask>
 HWY_INLINE void SolveInverse(unsigned parts, Solution<N, Mask>& x) {
   if (parts & kPartOneMinusKappa) x.inverse_one_plus_kappa = Inverse(N::Constant(1.0) + x.kappa);
@@ -93,7 +88,7 @@ HWY_INLINE void SolveEnergetic(const Inputs<N, Mask>& in, unsigned parts, Soluti
   x.eta = eta;
   x.eta_squared = SquareOf(eta);
   x.one_minus_eta_squared = (one - eta) * (one + eta);
-  x.one_minus_kappa_hat = one;  // Above 0 is all that is asked of it: kappa_hat <= sqrt(r).
+  x.one_minus_kappa_hat = one;  // Only its sign is used, and kappa_hat <= sqrt(r) <= 1.
   if (parts & (kPartKappa | kPartKappaHat)) {
     const N scaled_root = eta * Sqrt(x.s * x.d);
     x.kappa = scaled_root * x.inverse_d;
@@ -138,7 +133,7 @@ HWY_INLINE void SolvePoisson(const Inputs<N, Mask>& in, unsigned parts, Solution
   if (parts & kPartEnergyLoss) x.energy_loss = x.one_minus_kappa_hat * (one + x.kappa_hat);
 }
 
-// Where locked: no restitution, whatever the law and the coefficient.
+// A locked impact has no restitution, whatever the law and the coefficient are.
 template <typename N, typename Mask>
 HWY_INLINE void OverrideLocked(Solution<N, Mask>& x) {
   const N zero = N::Constant(0.0);
@@ -164,11 +159,11 @@ HWY_INLINE void SolveGeometry(const Inputs<N, Mask>& in, Solution<N, Mask>& x) {
   x.q = x.mu * x.b;
   x.s = x.a + x.q;
   x.d = x.a - x.q;
-  const N margin = x.a - in.static_grip;
+  const N margin = x.a - in.static_q;
   x.locked = Not(IsPositive(margin));
 }
 
-// What `parts` leaves out is 0.
+// Sets all quantities to 0, so that those that `parts` leaves out are 0.
 template <typename N, typename Mask>
 HWY_INLINE void ClearParts(Solution<N, Mask>& x) {
   const N zero = N::Constant(0.0);
@@ -183,7 +178,7 @@ HWY_INLINE void ClearParts(Solution<N, Mask>& x) {
   x.half_omega_tau0 = zero;
 }
 
-// Everything behind `parts`, for problems that do not separate.
+// Computes all quantities that `parts` names. The problems must not separate.
 template <typename N, typename Mask>
 HWY_INLINE void SolveParts(RestitutionLaw law, const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
   ClearParts(x);
@@ -206,7 +201,7 @@ HWY_INLINE void SolveParts(RestitutionLaw law, const Inputs<N, Mask>& in, unsign
   OverrideLocked(x);
 }
 
-// One output, rounded; its parts must have been solved.
+// Computes one output and rounds it. Its parts must have been computed.
 template <typename N, typename Mask>
 HWY_INLINE auto Evaluate(const Solution<N, Mask>& x, Output output) {
   const N one = N::Constant(1.0);
@@ -262,7 +257,7 @@ HWY_INLINE Inputs<N, bool> MakeInputs(const Problem& problem) {
           .b = N::Exactly(problem.b),
           .omega = N::Exactly(problem.omega_minus),
           .mu = N::Exactly(SignedFriction(problem)),
-          .static_grip = N::Exactly(problem.mu_static) * N::Exactly(std::fabs(problem.b)),
+          .static_q = N::Exactly(problem.mu_static) * N::Exactly(std::fabs(problem.b)),
           .coefficient = N::Exactly(problem.coefficient),
           .near_one = poisson ? problem.coefficient < 2.0 : problem.coefficient > 0.5};
 }

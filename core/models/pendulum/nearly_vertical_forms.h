@@ -1,5 +1,5 @@
-// The first-order forms of the coefficients and the errors of core/bounds/nearly_vertical.h, which derives them, over a
-// number type N: double, or a wider one.
+// Nearly vertical forms: the first-order forms of the coefficients and their errors, over a number type N, which is double
+// or a wider type. core/bounds/nearly_vertical.h derives them.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_NEARLY_VERTICAL_FORMS_H_
 #define RICOCHET_CORE_MODELS_PENDULUM_NEARLY_VERTICAL_FORMS_H_
@@ -9,7 +9,7 @@
 
 namespace ricochet::pendulum {
 
-// A form and the most it is off by, rounding apart.
+// A form and a bound on its error, which does not include rounding.
 template <typename N>
 struct FirstOrder {
   N value{};
@@ -22,7 +22,7 @@ struct FirstOrderCoefficients {
   FirstOrder<N> newton, poisson, energetic, tangential;
 };
 
-// An exact double as a number.
+// Converts a double to N exactly.
 template <typename N>
 N Exactly(double value) {
   return N::Exactly(value);
@@ -49,8 +49,8 @@ FirstOrderCoefficients<N> CoefficientForms(RestitutionLaw law, const N& c, const
   const N two = Exactly<N>(2.0);
   const N product = one_minus_x * one_plus_x;
   const N denominator = product * product;
-  const N lowered = c * square * half;                // of (1 - x) c
-  const N raised = c * square / (two * one_minus_x);  // of (1 + x) c
+  const N lowered = c * square * half;                // error of (1 - x) c
+  const N raised = c * square / (two * one_minus_x);  // error of (1 + x) c
   const N exact = Exactly<N>(0.0);
   switch (law) {
     case RestitutionLaw::kEnergetic:

@@ -1,4 +1,4 @@
-// What the pendulum's outputs are made of, so that a sweep computes only what its columns need.
+// Parts: the intermediate results that a pendulum's outputs need, so that a sweep computes only those of its columns.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_PARTS_H_
 #define RICOCHET_CORE_MODELS_PENDULUM_PARTS_H_
@@ -9,7 +9,7 @@
 
 namespace ricochet::pendulum {
 
-// Intermediate results that outputs share; only those that an output needs are computed.
+// The intermediate results that outputs share.
 enum Part : unsigned {
   kPartKappa = 1U << 0,
   kPartKappaHat = 1U << 1,
@@ -22,7 +22,7 @@ enum Part : unsigned {
   kPartAll = (1U << 8) - 1,
 };
 
-// The parts behind an output.
+// The parts that an output needs.
 inline unsigned PartsOf(Output output) {
   switch (output) {
     case Output::kNewton:
@@ -58,10 +58,10 @@ inline unsigned PartsOf(Output output) {
   return 0;
 }
 
-// Whether nothing couples the tangential to the normal direction.
+// True if friction does not couple the tangential to the normal direction.
 inline bool Smooth(const Problem& problem) { return problem.mu == 0.0 || problem.b == 0.0; }
 
-// mu with the sign of b, 0 where nothing couples.
+// mu with the sign of b; 0 if the directions are not coupled.
 inline double SignedFriction(const Problem& problem) {
   return Smooth(problem) ? 0.0 : std::copysign(problem.mu, problem.b);
 }

@@ -1,4 +1,4 @@
-// Compiled once for each SIMD target (foreach_target.h includes this file again), then dispatched at run time.
+// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/models/pendulum/pendulum.cc"
 #include "core/models/pendulum/pendulum.h"
@@ -12,7 +12,7 @@
 
 #include "core/models/pendulum/parts.h"
 #include "core/models/restitution_law.h"
-// The order is Highway's.
+// Highway prescribes the order of these includes.
 // clang-format off
 #include "hwy/foreach_target.h"
 #include "core/models/pendulum/kernel-inl.h"
@@ -28,16 +28,16 @@ namespace ricochet::pendulum {
 inline constexpr double kLimit = 0x1p100;
 inline constexpr double kCoefficientLimit = 0x1p40;
 
-// Problems of one law column by column, as vectors load them.
+// A Block holds problems of one law, column by column, for vectors to load.
 struct Block {
   static constexpr size_t kCapacity = 64;
 
   RestitutionLaw law = RestitutionLaw::kEnergetic;
   size_t size = 0;
   std::array<double, kCapacity> inertia, a, b, omega, mu, mu_static, coefficient;
-  std::array<double, kCapacity> friction;      // mu as it stands, also where nothing couples.
-  std::array<double, kCapacity> locked;        // Written: 1 where locked, else 0.
-  std::array<double, kCapacity> inadmissible;  // Written: 1 where eta > 1, else 0.
+  std::array<double, kCapacity> friction;      // The stated mu, even if the directions are not coupled.
+  std::array<double, kCapacity> locked;        // Output: 1 if locked, else 0.
+  std::array<double, kCapacity> inadmissible;  // Output: 1 if eta > 1, else 0.
 
   void Append(const Problem& problem) {
     assert(size < kCapacity);
@@ -91,14 +91,14 @@ HWY_INLINE Inputs<N, Mask> LoadInputs(const Block& block, size_t i) {
   in.b = exactly(block.b);
   in.omega = exactly(block.omega);
   in.mu = exactly(block.mu);
-  in.static_grip = exactly(block.mu_static) * in.b;
+  in.static_q = exactly(block.mu_static) * in.b;
   in.coefficient = N::Exactly(coefficient);
   in.near_one =
       block.law == RestitutionLaw::kPoisson ? coefficient < VLanes::Fill(2.0) : VLanes::Fill(0.5) < coefficient;
   return in;
 }
 
-// The first `count` lanes of `value` to `to`.
+// Stores the first `count` lanes of `value` at `to`.
 HWY_INLINE void StoreFirst(V value, size_t count, double* to) {
   if (count >= VLanes::Count()) {
     VLanes::Store(value, to);
@@ -109,9 +109,9 @@ HWY_INLINE void StoreFirst(V value, size_t count, double* to) {
   std::copy_n(lanes, count, to);
 }
 
-// The sizes of what has been taken in, zeros left out; lane by lane.
+// The least and the largest magnitude in each lane of all numbers taken in, zeros left out. Both start at 1.
 struct Sizes {
-  V least;  // 1 at first, as is the next.
+  V least;
   V most;
 
   HWY_INLINE void TakeIn(const double* from) {
@@ -145,7 +145,7 @@ HWY_INLINE bool FitsDoubleDouble(const Block& block) {
   return sizes.AreWithin(kLimit) && coefficients.AreWithin(kCoefficientLimit);
 }
 
-// False, with nothing written, if a number is beyond the limits.
+// Returns false and writes nothing if a number is beyond the limits.
 bool SolveBlock(Block& block, unsigned parts, absl::Span<const Output> outputs, absl::Span<double* const> columns) {
   block.PadTo((block.size + VLanes::Count() - 1) / VLanes::Count() * VLanes::Count());
   if (!FitsDoubleDouble(block)) return false;
@@ -207,7 +207,7 @@ bool FitsDoubleDouble(const Problem& problem) {
 
 bool Separating(const Problem& problem) { return problem.omega_minus >= 0.0; }
 
-// A contact that does not approach: velocities as before, all else 0.
+// The output for a contact that does not approach: velocities stay the same, all other outputs are 0.
 double SeparatingOutput(const Problem& problem, Output output) {
   switch (output) {
     case Output::kOmegaPlus:
@@ -281,7 +281,7 @@ Instant At(const Problem& problem, double tau) {
   const WideSolution x = SolveGeometry(problem);
   const Wide momentum = x.inertia * x.omega;
   const Wide impulse = Wide::Exactly(tau);
-  // J w(tau) of compression; from compression's end on, the slope is d instead of s.
+  // J w(tau) in compression. From the end of compression on the slope is d instead of s.
   const Wide compression = momentum + x.s * impulse;
   if (!IsPositive(compression)) {
     return {Rounded(compression / x.inertia) + 0.0, Rounded(x.mu * impulse) + 0.0};

@@ -1,7 +1,8 @@
 // Pendulum: the frictional impact of a rigid pendulum in closed form.
 //
-// Lubarda (2009), doi:10.1115/1.3172198. Inertia J about the pin, contact at (a, -b), angular velocity w- < 0 before,
-// kinetic friction mu, static friction mu_s. With q = mu |b|, x = q/a and r = (a - q)/(a + q):
+// Lubarda (2009), doi:10.1115/1.3172198. The pendulum has the moment of inertia J about the pin, its contact at (a, -b),
+// the angular velocity w- < 0 before the impact, kinetic friction mu and static friction mu_s. With q = mu |b|, x = q/a
+// and r = (a - q)/(a + q):
 //
 //   tau0 = -J w-/(a + q)                           impulse of compression                                  [8]
 //   kappa_hat = eta sqrt(r) = kappa r              Newton's, energetic, Poisson's coefficient              [15], [23-25]
@@ -13,15 +14,12 @@
 //   Wc_t = q tau0 w-/2,  Wr_t = eta^2 Wc_t         works of friction                                       [34], [40]
 //   dE = J w-^2 (1 - kappa_hat^2)/2                energy lost                                             [16], [52]
 //
-// Regimes: separating if w- >= 0; locked if mu_s |b| >= a (no restitution: all three coefficients 0, tau1 = tau0);
-// frictionless if x = 0; rebound otherwise. Every threshold of a regime is decided exactly.
+// The contact separates if w- >= 0. It locks if mu_s |b| >= a: there is no restitution, all three coefficients are 0 and
+// tau1 = tau0. It is frictionless if x = 0, and rebounds otherwise. Every threshold is decided exactly.
 //
-// Accuracy: each output within 1 ulp of the exact value of the exact inputs over the whole double range. Where an
-// output changes sign (1 - eta^2, 1 - kappa, 1 - kappa_hat^2 under another law's coefficient), to 2^-100 of its scale.
-// Below 2^-1022: within 1 unit of 2^-1074. An exact value above the largest double comes out infinite.
-// A limit that is broken or kept by more than 2^-100 of the terms compared is reported so; closer than that, either
-// way.
-// Bad input: none gets here (core/scene/validate.h); the functions assume a valid problem.
+// Accuracy: each output is within 1 ulp of its exact value over the whole range of doubles; an output that changes its
+// sign is right to 2^-100 of its scale. docs/theory/pendulum_numerics.md says more. The problem must be valid
+// (core/scene/validate.h).
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_PENDULUM_H_
 #define RICOCHET_CORE_MODELS_PENDULUM_PENDULUM_H_
@@ -47,7 +45,7 @@ struct Problem {
   double coefficient = 0.0;  // kappa_hat, kappa or eta
 };
 
-// What a solve can give. The order is that of Impact's values.
+// The outputs of a solution, in the order of Impact::values.
 enum class Output {
   kNewton,
   kPoisson,
@@ -67,7 +65,7 @@ enum class Output {
   kWorkNormal,       // Wc_n + Wr_n = Wc_n (1 - eta^2), [36], [37]
   kWorkTangential,   // Wc_t + Wr_t = Wc_t (1 + eta^2), [35]
   kEnergyChange,     // -dE
-  kEnergeticExcess,  // eta - 1, free of cancellation; > 0 exactly if the sharp limit is broken
+  kEnergeticExcess,  // eta - 1 without cancellation; > 0 exactly if the sharp limit is broken
 };
 inline constexpr int kOutputCount = 19;
 
@@ -80,21 +78,21 @@ struct Impact {
   double operator[](Output output) const { return values[static_cast<size_t>(output)]; }
 };
 
-// Everything about one impact.
+// Computes all outputs of one impact.
 Impact Solve(const Problem& problem);
 
-// Many impacts, only the outputs asked for, with the bits that Solve gives. `columns[c][i]` receives output
-// `outputs[c]` of `problems[i]`; `regimes` and `inadmissible` have one entry a problem.
+// Computes the outputs asked for of many impacts, with the same bits as Solve. `columns[c][i]` receives output
+// `outputs[c]` of `problems[i]`; `regimes` and `inadmissible` have one entry for each problem.
 void SolveColumns(absl::Span<const Problem> problems, absl::Span<const Output> outputs,
                   absl::Span<double* const> columns, absl::Span<Regime> regimes, absl::Span<bool> inadmissible);
 
-// The contact at normal impulse tau in [0, tau1] of an impact: Fig. 3 and Fig. 5 of the paper.
+// The state of the pendulum at normal impulse tau in [0, tau1]: Fig. 3 and Fig. 5 of the paper.
 struct Instant {
   double omega = 0.0;               // w(tau), [9]
   double tangential_impulse = 0.0;  // f(tau), [48]
 };
 
-// Accuracy: 1 ulp or 2^-100 of |w-| (omega) or of mu tau0 (impulse). The problem must not be separating.
+// The problem must not separate. Accuracy: 1 ulp, or 2^-100 of |w-| for omega and of mu tau0 for the impulse.
 Instant At(const Problem& problem, double tau);
 
 }  // namespace ricochet::pendulum

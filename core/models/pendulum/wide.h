@@ -1,4 +1,5 @@
-// The pendulum's geometry in Wide arithmetic, for what is solved once a request: bounds, histories, first-order forms.
+// The pendulum's geometry in Wide arithmetic, for everything that is computed once a request: bounds, histories and
+// first-order forms.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_WIDE_H_
 #define RICOCHET_CORE_MODELS_PENDULUM_WIDE_H_
@@ -11,17 +12,10 @@ namespace ricochet::pendulum {
 
 using WideSolution = HWY_NAMESPACE::Solution<Wide, bool>;
 
-// s, d, q and locked; the rest is not set.
+// Computes s, d, q and locked; all other members are not set.
 inline WideSolution SolveGeometry(const Problem& problem) {
   WideSolution x;
   HWY_NAMESPACE::SolveGeometry(HWY_NAMESPACE::MakeInputs<Wide>(problem), x);
-  return x;
-}
-
-// Everything. The problem must not be separating.
-inline WideSolution SolveAll(const Problem& problem) {
-  WideSolution x;
-  HWY_NAMESPACE::SolveParts(problem.law, HWY_NAMESPACE::MakeInputs<Wide>(problem), kPartAll, x);
   return x;
 }
 

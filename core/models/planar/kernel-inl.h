@@ -1,10 +1,10 @@
 // The path of a planar impact (core/models/planar/planar.h) over a number type N: DoubleDouble for moderate inputs, Wide for
 // all.
 //
-// A path has at most two pieces: the slip that there is at first, and what follows where it stops. Slopes are sums of
-// two exact products, right to 3 u^2 (u = 2^-53) with their sign. Slip stops at v = d/u' and compression ends at
-// u = -d/v', with d = v0 u' - u0 v': one sign decides which comes first, and the one difference that may cancel leaves
-// an error of a few u^2 of v0 or u0. Every work is a sum of terms of one sign.
+// A path has at most two pieces: the first slip, and the piece after slip has stopped. Slopes are sums of two exact
+// products, right to 3 u^2 (u = 2^-53), and their signs are exact. The only difference that may cancel is
+// d = v0 u' - u0 v'; its sign decides whether slip stops or compression ends first. Every work is a sum of terms of one
+// sign. docs/theory/planar_numerics.md says more.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -36,10 +36,10 @@ struct Slopes {
 
 template <typename N>
 struct Path {
-  Slopes<N> first;   // Of the slip at the start; not set where u0 = 0.
-  Slopes<N> second;  // After slip has stopped; not set where it never does.
+  Slopes<N> first;   // Slopes of the first slip; not set if u0 = 0.
+  Slopes<N> second;  // Slopes after slip has stopped; not set if it never stops.
   bool slips_first;
-  bool stops;  // Slip comes to a stop, if the impact lasts long enough; true where u0 = 0.
+  bool stops;  // Slip stops if the impact lasts long enough; true if u0 = 0.
   bool sticks;
   N v_stop;  // v where slip stops.
   N u_rest;  // u where v = 0, if slip has not stopped before.
@@ -56,11 +56,11 @@ struct TwiceWork {
   N normal, tangential;
 };
 
-// How restitution ends.
+// The course and the end of restitution.
 template <typename N>
 struct Rebound {
-  bool passes_stop;  // Slip stops on the way, after `before`; `after` follows.
-  N before, after;   // Normal impulses.
+  bool passes_stop;  // True if slip stops during restitution.
+  N before, after;   // Normal impulses before and after slip stops; if it does not stop, `before` is all of it.
   N v1;
 };
 
@@ -107,7 +107,7 @@ HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
   return in;
 }
 
-// Slip with u < 0 (`backwards`) or u > 0.
+// The slopes of slip with u < 0 (`backwards`) or u > 0.
 template <typename N>
 HWY_INLINE Slopes<N> SlipSlopes(const Inputs<N>& in, bool backwards) {
   const N f = Signed(in.mu, !backwards);
@@ -126,7 +126,7 @@ HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
     path.stops = IsNegative(Signed(path.first.u, backwards));
     const N d = in.v0 * path.first.u - in.u0 * path.first.v;
     if (path.stops) path.v_stop = d / path.first.u;
-    // Where v' <= 0, slip stops before v = 0.
+    // If v' <= 0, slip stops before v = 0.
     if (IsPositive(path.first.v)) path.u_rest = -d / path.first.v;
   }
   if (!path.stops) return path;
@@ -140,7 +140,8 @@ HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
   return path;
 }
 
-// u = v Wtn/Wnn all along, in place of the given u0 too. Without friction to feel (Wtt = 0) there is one piece.
+// The path for a W of rank one, where u = v Wtn/Wnn throughout; u0 is replaced accordingly. If Wtt = 0, friction has no
+// effect on u and the path has one piece.
 template <typename N>
 HWY_INLINE Path<N> RankOnePath(Inputs<N>& in) {
   Path<N> path;
@@ -164,7 +165,7 @@ HWY_INLINE Path<N> RankOnePath(Inputs<N>& in) {
   return path;
 }
 
-// Along one piece to (u, v), which the caller knows better than a sum would.
+// Advances along one piece to (u, v). The caller knows these velocities more accurately than a sum would give them.
 template <typename N>
 HWY_INLINE void Advance(const Slopes<N>& slopes, const N& step, const N& u, const N& v, State<N>& at,
                         TwiceWork<N>& work) {
@@ -193,7 +194,7 @@ HWY_INLINE void Compress(const Inputs<N>& in, const Path<N>& path, Solution<N>& 
   x.rest = at;
 }
 
-// `stop_ahead`: slip is still to stop, at path.v_stop.
+// `stop_ahead` is true if slip has not stopped yet but will at path.v_stop.
 template <typename N>
 HWY_INLINE Rebound<N> FindNewton(const Inputs<N>& in, const Path<N>& path, const N& slope, bool stop_ahead) {
   const N v1 = -in.coefficient * in.v0;
@@ -261,21 +262,21 @@ HWY_INLINE void Restore(RestitutionLaw law, const Inputs<N>& in, const Path<N>& 
     Advance(path.second, rebound.after, path.second.u * rebound.after, rebound.v1, at, x.restitution);
   } else {
     N u1 = at.u + slopes.u * rebound.before;
-    // Slip that has not stopped has not turned either.
+    // Slip that has not stopped has not reversed; a u1 of the other sign is rounding.
     if (stop_ahead && IsNegative(Signed(u1, IsNegative(at.u)))) u1 = Zero<N>();
     Advance(slopes, rebound.before, u1, rebound.v1, at, x.restitution);
   }
   x.end = at;
 }
 
-// 0 for what rounding alone may leave of a difference of terms of size `scale`.
+// Replaces a difference of terms of size `scale` by 0 if it may be rounding alone.
 template <typename N>
 HWY_INLINE N WithoutRounding(const N& difference, const N& scale) {
   const bool is_rounding = !IsPositive(Abs(difference) - N::Constant(0x1p-96) * scale);
   return Select(is_rounding, Zero<N>(), difference);
 }
 
-// Adding 0 turns -0 into 0: what vanishes has no sign.
+// Adding 0 turns -0 into 0, because a result of 0 has no sign.
 template <typename N>
 HWY_INLINE double Out(const N& value) {
   return Rounded(value) + 0.0;
@@ -313,7 +314,7 @@ HWY_INLINE Regime RegimeOf(const Inputs<N>& in, const Path<N>& path, const Solut
   return path.sticks ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
 }
 
-// The given coefficient as it is; the other two from the path. Nothing where there is no restitution.
+// Writes the stated coefficient as it is, and the other two from the path. All three stay 0 if there is no restitution.
 template <typename N>
 HWY_INLINE void WriteCoefficients(const Problem& problem, const Inputs<N>& in, const Solution<N>& x, Impact& impact) {
   impact.tangential = Out(x.end.f / x.end.tau);

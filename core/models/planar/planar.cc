@@ -1,11 +1,11 @@
-// Compiled once for each SIMD target (foreach_target.h includes this file again), so that fma is an instruction where
-// there is one; then dispatched at run time.
+// This file is compiled once for each SIMD target (foreach_target.h includes it again), so that fma is an instruction on
+// targets that have one. The target is chosen at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/models/planar/planar.cc"
 #include "core/models/planar/planar.h"
 
 #include <cmath>
-// The order is Highway's.
+// Highway prescribes the order of these includes.
 // clang-format off
 #include "hwy/foreach_target.h"
 #include "core/models/planar/kernel-inl.h"
@@ -31,9 +31,9 @@ HWY_EXPORT(SolveModerate);
 
 namespace {
 
-// Whether nothing on the path can leave the range in which DoubleDouble is exact. Slopes lie between 2^-186 (two
-// products of 2^-80 that cancel to their last bit) and 2^81, v where slip stops below 2^307, impulses below 2^493 and
-// works below 2^800; v^2 over a slope above 2^-908.
+// True if no number on the path can leave the range in which DoubleDouble is exact. Slopes then lie between 2^-186 (two
+// products of 2^-80 that cancel to their last bit) and 2^81, v where slip stops is below 2^307, impulses are below 2^493,
+// works below 2^800, and v^2 over a slope is above 2^-908.
 bool FitsDoubleDouble(const Problem& problem) {
   const auto moderate = [](double value) {
     const double size = std::fabs(value);
