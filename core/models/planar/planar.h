@@ -6,9 +6,10 @@
 //   d(u, v)/dtau = W (f', 1),   f' = -mu sgn(u) while the contact slips, |f'| <= mu_s while it sticks
 //
 // Compression ends at v = 0, restitution as the law of restitution says. Newton's and Poisson's laws may ask for energy
-// that was never stored; the impact is then computed as asked, and flagged. docs/theory/planar_numerics.md defines the
-// regimes and derives the accuracy: each output is within 1 ulp of its exact value over the whole range of doubles, but
-// for outputs that cancel. The sign of every slope is exact. An exact value above the largest double comes out infinite.
+// that was never stored; the impact is then computed as asked, and flagged. docs/theory/planar.md defines the
+// regimes. Each output is within 1 ulp of its exact value over the whole range of doubles, except outputs that cancel
+// (docs/theory/planar_numerics.md). The sign of every slope is exact. An exact value above the largest double comes out
+// infinite.
 // The problem must be valid (core/scene/validate.h); in particular, if W has rank one, (u0, v0) lies in its range.
 
 #ifndef RICOCHET_CORE_MODELS_PLANAR_PLANAR_H_
