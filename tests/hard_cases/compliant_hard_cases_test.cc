@@ -30,7 +30,7 @@ struct HardCase {
   int problems = 20;
 };
 
-// A wrong regime is worse than NaN, NaN than any number.
+// A wrong regime counts as worse than NaN, and NaN as worse than any number.
 double Worse(double x, double y) {
   if (x == kOtherRegime || y == kOtherRegime) return kOtherRegime;
   if (std::isnan(x) || std::isnan(y)) return std::numeric_limits<double>::quiet_NaN();
@@ -43,7 +43,7 @@ double NaiveError(const Problem& problem, const ExactImpact& exact) {
   return naive.regime == exact.regime ? VelocityError(problem, naive.u1, naive.v1, exact) : kOtherRegime;
 }
 
-// That of inputs within 16 eps of those given, core/models/compliant/compliant.h.
+// The model promises the answer of inputs within 16 eps of those given (core/models/compliant/compliant.h).
 bool IsRegimeNear(Regime regime, const Problem& problem) {
   for (double Problem::*input : {&Problem::u0, &Problem::mu}) {
     for (const double factor : {1.0, 1.0 - 0x1p-48, 1.0 + 0x1p-48}) {
@@ -76,7 +76,7 @@ HardCaseResult ResultOf(const HardCase& hard) {
 
 // -- Inputs --
 
-// At 1, or 1e-15 to either side of it.
+// The factor is 1, or lies 1e-15 to either side of it.
 double Nearly(SceneSource& source, double value) { return value * (1.0 + kDistance * (source.Below(3) - 1)); }
 
 // Friction that cannot hold the body, and enough of it to matter.
@@ -101,7 +101,7 @@ double SideOf(const Problem& problem) { return problem.u0 < 0.0 ? -1.0 : 1.0; }
 
 double B(const Problem& p) { return p.wnn - SideOf(p) * p.mu * p.wtn; }
 
-// Of u along the side while it slides there, in the normal impulse.
+// The slope of u towards the side on which it slides, per normal impulse.
 double SlipSlope(const Problem& p) { return SideOf(p) * p.wtn - p.mu * p.wtt; }
 
 void StartOnTheCone(SceneSource& source, Problem& p) {
@@ -119,7 +119,7 @@ void CriticalFriction(SceneSource& source, Problem& p) {
   p.wtn = Nearly(source, p.mu * p.wtt * (source.Below(2) == 0 ? 1.0 : -1.0));
 }
 
-// Slip to the side on which friction pushes the body in as much as the spring pushes it out.
+// The contact slips to the side on which friction pushes the body in as much as the spring pushes it out.
 void NoLift(SceneSource& source, Problem& p) {
   p.wtn = std::copysign(source.Uniform(0.3, 0.9) * std::sqrt(p.wtt * p.wnn), p.u0);
   p.mu = Nearly(source, p.wnn / std::fabs(p.wtn));
@@ -148,7 +148,7 @@ void EqualFrequencies(SceneSource& source, Problem& p) {
   p.wtn = (source.Below(2) == 0 ? -1.0 : 1.0) * source.LogUniform(1e-20, 1e-8) * p.wnn;
 }
 
-// The modes on both sides of one double, found by halving.
+// Halving finds a double on both sides of which the modes differ.
 Problem Fork(SceneSource& source) {
   const auto paths_differ = [](const Problem& a, const Problem& b) {
     const Impact x = Solve(a);
@@ -210,7 +210,7 @@ void UnequalMobilities(SceneSource& source, Problem& p) {
   p.ratio_squared = 1e9 * source.Uniform(0.5, 1.0);
 }
 
-// Lengths, masses and times in units 1e250 times too large or too small, as far as products stay in the range.
+// Lengths, masses and times are in units 1e250 times too large or too small, as far as products stay in the range.
 void OtherUnits(SceneSource& source, Problem& p) {
   const double speeds = source.Below(2) == 0 ? 1e250 : 1e-250;
   const double masses = source.Below(2) == 0 ? 1e250 : 1e-250;
@@ -221,12 +221,13 @@ void OtherUnits(SceneSource& source, Problem& p) {
 std::vector<HardCase> HardCases() {
   return {
       With("\\|u₀\\| = μ ratio² \\|v₀\\| ± 10⁻¹⁵", "does it start in a stick or in a slide?", StartOnTheCone, 60),
-      With("the same, and A = 0 ± 10⁻¹⁵", "slip neither grows nor falls", StartOnTheConeWithoutGrowth),
+      With("\\|u₀\\| = μ ratio² \\|v₀\\| ± 10⁻¹⁵ and A = 0 ± 10⁻¹⁵", "slip neither grows nor falls",
+           StartOnTheConeWithoutGrowth),
       With("μ Wtt = \\|Wtn\\| ± 10⁻¹⁵", "stick or reversal of the rigid limit", CriticalFriction),
       With("B = Wnn − sμWtn = ± 10⁻¹⁵ Wnn", "cosine, line or cosh of time", NoLift),
       {"μ an ulp from another sequence of sections", "sections of some ulp, cones touched and left", Fork},
       With("slip stops at the end of compression ± 10⁻¹⁵", "two events in one", StopAtTheEndOfCompression),
-      With("slip stops at the end of contact ± 10⁻¹⁵", "the same", StopAtTheEndOfContact),
+      With("slip stops at the end of contact ± 10⁻¹⁵", "two events in one", StopAtTheEndOfContact),
       With("equal frequencies ± 10⁻¹⁵, Wtn to 10⁻²⁰ Wnn", "no eigenvector is better than another", EqualFrequencies),
       With(
           "ratio² = 10⁻⁹", "10³ periods along the surface in one along n",
@@ -280,7 +281,7 @@ std::vector<HardCase> HardCases() {
   };
 }
 
-// Energy lost to deformation, of itself.
+// The error of the energy lost to deformation, relative to that energy.
 HardCaseResult RunLoss() {
   HardCaseResult result = {.name = "η = 1 − 2⁻ᵏ, k to 53: the loss", .why = "1 − η² is what deformation takes"};
   SceneSource source(32);
@@ -301,7 +302,7 @@ HardCaseResult RunLoss() {
   return result;
 }
 
-// What fails on the hard cases is the arithmetic, not the path.
+// On everyday impacts the naive formulas serve: on the hard cases their arithmetic fails, not their path.
 TEST(CompliantHardCasesTest, NaiveFormulasServeEverydayProblems) {
   SceneSource source(33);
   for (int i = 0; i < 60; ++i) {

@@ -1,4 +1,4 @@
-// Long chains: what the contact sees of a linkage, against the same matrices in ball arithmetic.
+// The W of long chains is compared with the same matrices in ball arithmetic.
 
 #include <gtest/gtest.h>
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr slong kBits = 400;
 
-// M, J of a chain over T; angles are exact doubles. Sine and cosine come in by `sin` and `cos`.
+// M and J of a chain over T. Angles are exact doubles; `sin` and `cos` give their sines and cosines.
 template <typename T>
 struct Chain {
   std::vector<std::vector<T>> mass;
@@ -53,7 +53,7 @@ Chain<T> MakeChain(const Linkage& linkage, const Sine& sin, const Cosine& cos, c
   return chain;
 }
 
-// W = J M^-1 J^T by Gaussian elimination without a choice of pivots: tt, tn, nn.
+// Computes W = J M^-1 J^T by Gaussian elimination without pivoting: tt, tn, nn.
 template <typename T>
 std::array<T, 3> DelassusMatrix(Chain<T> chain, const T& zero) {
   auto& m = chain.mass;
@@ -188,7 +188,8 @@ TEST(LinkageHardCasesTest, KeepTheirPromise) {
       {"50 links, nearly straight", "rows of M are nearly parallel", MakeLinkage(50, 1e-3, 1.0)},
       {"50 links, masses up to 1 : 10⁶", "rows of M of unequal size", MakeLinkage(50, 3.0, 1e6)},
       {"10 links, 10⁻⁶ of the load at their end", "M is of rank two but for the links", LoadedChain(10, 3.0, 1e-6)},
-      {"10 links, 10⁻¹⁰ of the load", "the same, and M⁻¹ cancels in W", LoadedChain(10, 3.0, 1e-10)},
+      {"10 links, 10⁻¹⁰ of the load", "M is of rank two but for the links, and M⁻¹ cancels in W",
+       LoadedChain(10, 3.0, 1e-10)},
       {"10 links, 10⁻⁸ of the load, nearly straight", "M and W are all but singular", LoadedChain(10, 1e-2, 1e-8)},
       {"2 links in a line", "M is singular but for the links' own inertia", MakeLinkage(2, 1e-9, 1.0)},
   };

@@ -1,5 +1,5 @@
-// An impact with tangential compliance in plain doubles, as a textbook would have it: sines, cosines and their
-// hyperbolic kin of time, eigenvalues as the roots of a quadratic, and events looked for on a grid.
+// Solves an impact with tangential compliance in plain doubles, as a textbook would: by sines, cosines and their
+// hyperbolic kin of time, with eigenvalues as the roots of a quadratic, and with events looked for on a grid.
 
 #ifndef RICOCHET_TESTS_HARD_CASES_NAIVE_COMPLIANT_H_
 #define RICOCHET_TESTS_HARD_CASES_NAIVE_COMPLIANT_H_
@@ -8,7 +8,7 @@
 
 namespace ricochet::compliant {
 
-// Velocities NaN where it finds no end.
+// The velocities are NaN if it finds no end.
 struct NaiveImpact {
   Regime regime = Regime::kUnspecified;
   double u1 = 0.0, v1 = 0.0;

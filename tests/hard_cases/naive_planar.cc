@@ -134,7 +134,7 @@ class Path {
 
   Problem p_;
   double tau_ = 0.0, f_ = 0.0, u_, v_;
-  double work_n_ = 0.0, work_t_ = 0.0;  // Of this phase.
+  double work_n_ = 0.0, work_t_ = 0.0;  // Works of the current phase.
   bool restoring_ = false, sticks_ = false, stopped_ = false, in_compression_ = false, done_ = false;
   Impact impact_;
 };

@@ -1,4 +1,4 @@
-// A planar impact from event to event in plain doubles, as a textbook would have it.
+// Solves a planar impact from event to event in plain doubles, as a textbook would.
 
 #ifndef RICOCHET_TESTS_HARD_CASES_NAIVE_PLANAR_H_
 #define RICOCHET_TESTS_HARD_CASES_NAIVE_PLANAR_H_
@@ -7,7 +7,7 @@
 
 namespace ricochet::planar {
 
-// The problem must not be separating. W is taken as it stands: what rounding made of a rank of one is rank two.
+// The problem must not be separating. W is taken as it stands: a rank of one that rounding has spoilt is rank two.
 Impact NaiveSolve(const Problem& problem);
 
 }  // namespace ricochet::planar

@@ -66,7 +66,7 @@ double WorstError(const Problem& problem, const Impact& impact) {
   return worst;
 }
 
-// A wrong regime is worse than NaN, NaN than any number.
+// A wrong regime counts as worse than NaN, and NaN as worse than any number.
 double Worse(double x, double y) {
   if (x == kOtherRegime || y == kOtherRegime) return kOtherRegime;
   if (std::isnan(x) || std::isnan(y)) return std::numeric_limits<double>::quiet_NaN();
@@ -102,7 +102,7 @@ double Steps(double x, int steps) {
   return x;
 }
 
-// a so many ulp from the rounded product mu |b|.
+// `a` lies this many ulp from the rounded product mu |b|.
 std::vector<Problem> UlpsFromLocking(int first, int last) {
   std::vector<Problem> problems;
   for (const RestitutionLaw law : kLaws) {
@@ -222,7 +222,8 @@ std::vector<HardCase> HardCases() {
   const double r = (1.0 - x) / (1.0 + x);
   return {
       {"a − μ\\|b\\| 1 to 40 ulp above 0", "its last bits are those of a rounded product", UlpsFromLocking(1, 40)},
-      {"a − μ\\|b\\| 1 to 40 ulp below 0", "the same; locked", UlpsFromLocking(-40, -1)},
+      {"a − μ\\|b\\| 1 to 40 ulp below 0", "its last bits are those of a rounded product; locked",
+       UlpsFromLocking(-40, -1)},
       {"a − μ\\|b\\| less than an ulp", "the rounded product is a itself: the sign is in what was lost",
        UlpsFromLocking(0, 0)},
       {"μ within an ulp of a/b", "the quotient is rounded: on which side is 1?", FrictionOneUlpFromLocking()},
@@ -242,7 +243,7 @@ std::vector<HardCase> HardCases() {
   };
 }
 
-// The bounds of [55] and [31], of which 1 - sqrt(1 - x^2) cancels at both ends of x.
+// In the bounds of [55] and [31], 1 - sqrt(1 - x^2) cancels at both ends of x.
 HardCaseResult RunBounds() {
   HardCaseResult result = {.name = "bounds, x from 10⁻³⁰⁰ to 1", .why = "1 − √(1 − x²)", .promised = kPromisedUlps};
   for (const double ratio : FrictionRatios()) {
@@ -261,9 +262,10 @@ HardCaseResult RunBounds() {
   return result;
 }
 
-// Outputs of the order of x that the model's header grants 2^-100 of their scale: held to their own last digits.
+// The model's header grants outputs of the order of x an error of 2^-100 of their scale; here they are held to their own
+// last digits.
 HardCaseResult RunOwnDigits() {
-  constexpr double kLeastRatio = 1e-55;  // Below, the reference takes more bits than it goes to.
+  constexpr double kLeastRatio = 1e-55;  // Below this ratio the reference would need more bits than it has.
   HardCaseResult result = {.name = "coefficients of 1, x from 10⁻⁵⁰ to 1: what changes sign there, by its own size",
                            .why = "a − q and a + q differ by less than 2⁻¹⁰⁶",
                            .promised = kPromisedUlps};

@@ -49,7 +49,7 @@ HardCaseResult ResultOf(const HardCase& hard) {
   return result;
 }
 
-// 1e-15 to either side of the critical input, or at the double nearest to it.
+// The input lies 1e-15 to either side of the critical one, or is the double nearest to it.
 HardCase Near(const char* name, const char* why, SceneSource::SignChange change) {
   return {name, why, [change](SceneSource& source) {
             constexpr double kDistance = 1e-15;
@@ -76,7 +76,7 @@ Problem OfUnequalMasses(SceneSource& source) {
   return problem;
 }
 
-// Mobility along t 1e12 times that along n.
+// The mobility along t is 1e12 times that along n.
 Problem OfUnequalMobilities(SceneSource& source) {
   constexpr double kRatio = 1e12;
   Problem problem = source.Everyday();
@@ -101,7 +101,7 @@ std::vector<HardCase> HardCases() {
       Near("μ_s Wtt = \\|Wtn\\| ± 10⁻¹⁵", "stick or reversal", Change::kStick),
       Near("μ \\|Wtn\\| = Wnn ± 10⁻¹⁵", "v rises or falls, and hardly either", Change::kJam),
       Near("slip stops at the end of compression ± 10⁻¹⁵", "two events in one", Change::kStopAtRest),
-      Near("slip stops at the end of restitution ± 10⁻¹⁵", "the same", Change::kStopAtEnd),
+      Near("slip stops at the end of restitution ± 10⁻¹⁵", "two events in one", Change::kStopAtEnd),
       Near("f₁ = 0 ± 10⁻¹⁵", "impulses of two slips cancel", Change::kFrictionImpulse),
       Near("η = 1 ± 10⁻¹⁵ by Newton or Poisson", "the excess is a difference of works", Change::kDeformation),
       Near("E⁺ = E⁻ ± 10⁻¹⁵ by Newton or Poisson", "four works cancel", Change::kEnergy),
@@ -129,7 +129,7 @@ std::vector<HardCase> HardCases() {
   };
 }
 
-// What fails on the hard cases is the arithmetic, not the path.
+// On everyday impacts the naive formulas serve: on the hard cases their arithmetic fails, not their path.
 TEST(PlanarHardCasesTest, NaiveFormulasServeEverydayProblems) {
   SceneSource source(4);
   for (int i = 0; i < 1000; ++i) {

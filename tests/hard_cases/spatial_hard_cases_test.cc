@@ -72,7 +72,7 @@ class RungeKutta {
     return Stepped(state, low);
   }
 
-  // Under Poisson's law.
+  // The impact ends by Poisson's law.
   End Run(T step) const {
     State state = {static_cast<T>(p_.u0[0]), static_cast<T>(p_.u0[1]), static_cast<T>(p_.v0), T{0}};
     state = Reach(state, step, [](const State& at) { return at.v >= 0; });
@@ -98,8 +98,8 @@ class RungeKutta {
   bool in_xi_;
 };
 
-// Slip that comes as near to 0 as `least`, to the side from which it turns by 190 degrees (sign > 0) or by 170: found
-// by going back from there. `mu` = 0.1617 makes the angle between the directions in and out 190 degrees.
+// Slip comes as near to 0 as `least`, on the side from which it turns by 190 degrees (sign > 0) or by 170. The start is
+// found by going back from there. `mu` = 0.1617 makes the angle between the directions in and out 190 degrees.
 Problem NearMiss(double least, double mu, double sign) {
   Problem problem = TurningContact(0.0, 0.0, mu);
   problem.law = RestitutionLaw::kPoisson;
@@ -130,7 +130,7 @@ Problem NearMiss(double least, double mu, double sign) {
   return problem;
 }
 
-// Radians that slip turns by.
+// The angle in radians by which slip turns.
 double Turned(const Problem& problem) {
   using Method = RungeKutta<long double>;
   const Method method(problem, true);
@@ -148,7 +148,7 @@ double Turned(const Problem& problem) {
   return static_cast<double>(std::fabs(angle));
 }
 
-// Runge and Kutta's method in xi, with the leading term of its error taken out.
+// Applies Runge and Kutta's method in xi, and takes out the leading term of its error.
 End Reference(const Problem& problem) {
   const RungeKutta<long double> method(problem, true);
   const End coarse = method.Run(2e-3L);
@@ -157,8 +157,8 @@ End Reference(const Problem& problem) {
   return {limit(coarse.u1, fine.u1), limit(coarse.u2, fine.u2), limit(coarse.v, fine.v)};
 }
 
-// Under Poisson's law, with 64-bit mantissas: slip by its Taylor series in xi, in steps of an eighth of the time in
-// which it can change, until nothing is left of it; a stick, or slip that has one direction, in closed form.
+// Solves an impact under Poisson's law with 64-bit mantissas. Slip follows its Taylor series in xi, in steps of an eighth
+// of the time in which it can change, until nothing is left of it. Stick, and slip in one direction, have closed forms.
 class SlipSeries {
  public:
   explicit SlipSeries(const Problem& problem) : p_(problem), at_{problem.u0[0], problem.u0[1], problem.v0, 0.0L} {
@@ -254,7 +254,7 @@ class SlipSeries {
             p_.w33 - p_.mu * (p_.w13 * e1 + p_.w23 * e2), 1.0L};
   }
 
-  // At a constant d(u, v)/dtau to the end of the phase, or until slip stops.
+  // Goes on at a constant d(u, v)/dtau to the end of the phase, or until slip stops.
   void GoStraight(const Instant& rate, long double until_stop) {
     const long double until_end = restoring_ ? whole_ - at_[3] : rate[2] > 0.0L ? -at_[2] / rate[2] : kNever;
     const long double wait = std::min(until_end, until_stop);
@@ -263,7 +263,7 @@ class SlipSeries {
     if (until_end <= until_stop) EndPhase();
   }
 
-  // Within 4e-15 of the threshold both come to the same, but for as much.
+  // Within 4e-15 of the threshold, stick and slip end alike up to an error of that size.
   Instant RateFromRest() const {
     const long double w11 = p_.w11, w12 = p_.w12, w13 = p_.w13, w22 = p_.w22, w23 = p_.w23;
     const long double determinant = w11 * w22 - w12 * w12;
@@ -302,10 +302,10 @@ class SlipSeries {
   bool restoring_ = false, done_ = false;
 };
 
-// What plain integration of d/dtau makes of it, 4000 steps an impact.
+// Integrates d/dtau plainly, in 4000 steps an impact.
 End Naive(const Problem& problem) { return RungeKutta<double>(problem, false).Run(Solve(problem).tau1 / 4000.0); }
 
-// NaN is worse than any number.
+// NaN counts as worse than any number.
 double Worse(double x, double y) { return std::isnan(x) || std::isnan(y) ? x + y : std::max(x, y); }
 
 HardCaseResult RunNearMiss(const char* name, const char* why, const Problem& problem) {
@@ -321,7 +321,7 @@ HardCaseResult RunNearMiss(const char* name, const char* why, const Problem& pro
           .seen = Distance(problem, EndOf(impact), exact)};
 }
 
-// mu within 1e-15 of |Wtt^-1 wtn|: slip that stops sticks, or starts again at nearly no rate.
+// mu lies within 1e-15 of |Wtt^-1 wtn|: slip that stops then sticks, or starts again at nearly no rate.
 HardCaseResult RunStickThreshold() {
   HardCaseResult result = {.name = "stick threshold ± 10⁻¹⁵",
                            .why = "stick, or slip that starts again at 10⁻¹⁵ of a rate",
@@ -344,8 +344,8 @@ HardCaseResult RunStickThreshold() {
   return result;
 }
 
-// Slip along (3, 1), its invariant direction, that goes on to the end; v' = `slow` Wnn. Entries have few bits, so that
-// the direction is exact.
+// Slip along (3, 1), its invariant direction, goes on to the end, with v' = `slow` Wnn. Entries have few bits, so that the
+// direction is exact.
 Problem SlowV(SceneSource& source, double slow, RestitutionLaw law) {
   const auto rounded = [](double x) { return std::ldexp(std::floor(std::ldexp(x, 20)), -20); };
   Problem p = {.w33 = 1.0, .v0 = -1.0, .law = law, .coefficient = source.Uniform(0.1, 1.0), .tolerance = kTolerance};
@@ -362,7 +362,7 @@ Problem SlowV(SceneSource& source, double slow, RestitutionLaw law) {
   return p;
 }
 
-// The end of a straight path, by any law: v1 = -e v0, and u has its one rate all along.
+// The end of a straight path is the same by any law: v1 = -e v0, and u has one rate all along.
 End StraightEnd(const Problem& p) {
   constexpr slong kBits = 300;
   const auto exactly = [](double x) { return Ball(x, kBits); };
@@ -428,7 +428,8 @@ TEST(SpatialHardCasesTest, KeepTheirPromise) {
                   NearMiss(1e-10, kMu, -1.0)),
       RunNearMiss("slip of 10⁻¹⁴ left, turns by 170°", "it all but stops", NearMiss(1e-14, kMu, -1.0)),
       RunNearMiss("slip of 10⁻¹⁰ left, turns by 190°", "the long way round", NearMiss(1e-10, kMu, 1.0)),
-      RunNearMiss("slip of 10⁻¹⁴ left, turns by 190°", "the same", NearMiss(1e-14, kMu, 1.0)),
+      RunNearMiss("slip of 10⁻¹⁴ left, turns by 190°", "the long way round, and it all but stops",
+                  NearMiss(1e-14, kMu, 1.0)),
       RunStickThreshold(),
       RunSlowV(),
       RunRankTwo()};
