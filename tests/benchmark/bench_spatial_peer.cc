@@ -51,7 +51,8 @@ std::vector<Case> Cases(absl::FunctionRef<Problem()> next) {
   std::vector<Case> cases;
   for (int i = 0; i < kCount; ++i) {
     const Problem problem = next();
-    cases.push_back({problem, spatial::HWY_NAMESPACE::Solver<long double>(problem, 1e-16L).Run()});
+    cases.push_back(
+        {problem, spatial::HWY_NAMESPACE::Solver<long double>(problem, problem.Delassus().Rank(), 1e-16L).Run()});
   }
   return cases;
 }

@@ -1,12 +1,10 @@
-// Slip's Taylor series: one step of Keller's equations as power series in xi, d tau = s d xi.
+// The Taylor series of slip: one step of Keller's equations as power series in xi, where dtau = s dxi.
 //
-// With u the tangential velocity, s = |u| and A = -mu Wtt, slip obeys du/dxi = A u + s wtn. That is homogeneous: the
-// series starts from u = (1, 0) in the frame of its own direction, with no sine and no angle, and
-//
-//   (k + 1) u_{k+1} = A u_k + s_k wtn,   (s s)_k = (x x)_k + (y y)_k
-//
-// All else is an integral of u or s: normal impulse int s, friction impulse -mu int u, its work -mu int s^2. A slip of
-// 1e-14 that turns round costs as much as one of 1. Sums and products only: the same bits on every machine.
+// With u the tangential velocity, s = |u| and A = -mu Wtt, slip obeys du/dxi = A u + s wtn. The equation is homogeneous:
+// each series starts from u = (1, 0) in the frame of its own direction, and needs neither sine nor angle. Its
+// coefficients follow from (k + 1) u_{k+1} = A u_k + s_k wtn and (s s)_k = (x x)_k + (y y)_k.
+// Accuracy: Remainder bounds what the last term leaves out. Sums and products only, hence the same bits on every
+// machine. Source: Keller (1986); docs/theory/spatial.md.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_SPATIAL_SERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -22,6 +20,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "core/models/spatial/frame-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -41,8 +40,8 @@ constexpr auto MakeInverses() {
 template <typename T>
 inline constexpr auto kInverses = MakeInverses<T>();
 
-// x^(1/k) within 10 %, at most: a step size needs no more, and libm's pow has not the same bits everywhere. The bits of
-// a double are its logarithm, piecewise linear.
+// An approximation from below to x^(1/k), within 10 %. A step size needs no more, and pow of the C library does not have
+// the same bits everywhere. The bits of a double are its logarithm, piecewise linear.
 inline double RoughRoot(double x, int k) {
   constexpr auto kOne = std::bit_cast<int64_t>(1.0);
   const double logarithm =
@@ -62,19 +61,7 @@ T Power(T x, int k) {
 
 }  // namespace internal
 
-// The contact seen from a direction e = (c, s) of slip: A and wtn by components along and across e.
-template <typename T>
-struct Frame {
-  T c, s;
-  T a11, a12, a22;
-  T w1, w2;
-
-  T Growth() const { return a11 + w1; }           // h: ds/dxi = h s
-  T Turn() const { return a12 + w2; }             // g: dphi/dxi = g
-  T TurnSlope() const { return a22 - a11 - w1; }  // dg/dphi
-};
-
-// Integrals over xi, for a slip that starts as 1, and the slip itself.
+// Integrals over xi of a slip that starts as 1, and that slip itself.
 template <typename T>
 struct SeriesValues {
   T x_integral, y_integral;  // int u
@@ -86,14 +73,14 @@ struct SeriesValues {
 template <typename T>
 class SlipSeries {
  public:
-  // `order` is one of those for which Expand has code: 9, 11, 14, 17, 20; kMaxOrder stands for any other.
+  // Code exists for the orders 9, 11, 14, 17, 20 and kMaxOrder, which replaces every other order.
   void Expand(const Frame<T>& frame, int order);
   SeriesValues<T> At(T xi) const;
 
-  // The largest xi at which neither of the last two terms exceeds `bound` in an integral of u or s, `square_bound` in
-  // that of s^2, which converges more slowly.
-  T Reach(T bound, T square_bound) const;
-  // What the integrals of u and s lack at xi, and that of s^2: a bound, for the sums have the terms that it is made of.
+  // The largest xi at which neither of the last two terms exceeds `bound` in an integral of u or s, nor `square_bound`
+  // in the integral of s^2, which converges more slowly.
+  T LongestStep(T bound, T square_bound) const;
+  // Bounds on what the series leave out at xi: of the integrals of u and s, and of the integral of s^2.
   T Remainder(T xi) const {
     return Tail([this](int k) { return Size(k); }, xi);
   }
@@ -105,9 +92,10 @@ class SlipSeries {
   T Size(int k) const {
     return std::fabs(x_integral_[Index(k)]) + std::fabs(y_integral_[Index(k)]) + std::fabs(s_integral_[Index(k)]);
   }
-  // What follows the last term: no more than a multiple of it or of the one before, nor than three times a geometric
-  // series that goes on as the last four or eight terms do, from the largest of what the last three lead to. All of
-  // that, because a complex pair of singularities makes terms oscillate and some small by chance.
+  // A bound on the sum of the terms that follow the last one. It takes the largest of: a multiple of the last term or of
+  // the one before, and three times a geometric series that falls as the last four or eight terms do and starts at the
+  // largest value to which the last three lead. All are needed, because a complex pair of singularities makes terms
+  // oscillate, and some of them are small by chance.
   template <typename Sizes>
   T Tail(const Sizes& sizes, T xi) const {
     constexpr T kSmallest{1e-290};
@@ -137,7 +125,7 @@ class SlipSeries {
 
   Frame<T> frame_;
   int order_ = 0;
-  T square_;  // The last coefficient of s^2.
+  T square_;  // the newest coefficient of s^2
   Coefficients x_, y_, s_;
   Coefficients x_integral_, y_integral_, s_integral_, square_integral_;
 };
@@ -165,7 +153,7 @@ void SlipSeries<T>::Expand(const Frame<T>& frame, int order) {
   }
 }
 
-// Without loops: their counts would keep the processor guessing.
+// Templates unroll the loops over terms, whose changing counts a processor predicts badly.
 template <typename T>
 template <size_t kOrder, size_t k>
 HWY_INLINE void SlipSeries<T>::Terms() {
@@ -192,7 +180,7 @@ HWY_INLINE void SlipSeries<T>::Terms() {
   }
 }
 
-// The terms i + j = m with 0 < i < j, the newest coefficients last.
+// Adds the products with i + j = m and 0 < i < j, the newest coefficients last.
 template <typename T>
 template <size_t m, size_t i>
 HWY_INLINE void SlipSeries<T>::Products(T& u_terms, T& s_terms) const {
@@ -227,13 +215,13 @@ HWY_INLINE SeriesValues<T> SlipSeries<T>::At(T xi) const {
 }
 
 template <typename T>
-HWY_INLINE T SlipSeries<T>::Reach(T bound, T square_bound) const {
+HWY_INLINE T SlipSeries<T>::LongestStep(T bound, T square_bound) const {
   constexpr T kSmallest{1e-300};
-  const auto reach = [&](int k) {
+  const auto step_for = [&](int k) {
     const T size = std::max(Size(k) / bound, std::fabs(square_integral_[Index(k)]) / square_bound);
     return internal::RoughRoot(static_cast<double>(T{1} / (size + kSmallest)), k);
   };
-  return static_cast<T>(std::min(reach(order_), reach(order_ + 1)));
+  return static_cast<T>(std::min(step_for(order_), step_for(order_ + 1)));
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

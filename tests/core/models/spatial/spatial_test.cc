@@ -19,7 +19,9 @@ namespace ricochet::spatial {
 namespace {
 
 // The same solver at a tolerance of 1e-16 with 64-bit mantissas.
-Impact Reference(const Problem& problem) { return HWY_NAMESPACE::Solver<long double>(problem, 1e-16L).Run(); }
+Impact Reference(const Problem& problem) {
+  return HWY_NAMESPACE::Solver<long double>(problem, problem.Delassus().Rank(), 1e-16L).Run();
+}
 
 double Scale(const Problem& problem) {
   return std::max(std::hypot(problem.u0[0], problem.u0[1]), std::fabs(problem.v0));

@@ -1,0 +1,166 @@
+// The problem of the spatial solver, scaled by powers of two so that no product overflows.
+//
+// The largest of |u0| and |v0|, and the largest diagonal entry of W, come to lie in [1/2, 1). Scaling is exact.
+
+// Per-target include guard.
+#if defined(RICOCHET_CORE_MODELS_SPATIAL_PROBLEM_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_SPATIAL_PROBLEM_INL_H_
+#undef RICOCHET_CORE_MODELS_SPATIAL_PROBLEM_INL_H_
+#else
+#define RICOCHET_CORE_MODELS_SPATIAL_PROBLEM_INL_H_
+#endif
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+
+#include "core/models/restitution_law.h"
+#include "core/models/spatial/frame-inl.h"
+#include "core/models/spatial/matrix-inl.h"
+#include "core/models/spatial/spatial.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::spatial::HWY_NAMESPACE {
+
+// Numbers are given to a double's precision, however wide T is.
+template <typename T>
+inline constexpr T kEpsilon = std::numeric_limits<double>::epsilon();
+template <typename T>
+inline constexpr T kInfinity = std::numeric_limits<T>::infinity();
+
+namespace internal {
+
+// A power of two that may lie outside the range of doubles, as a product of three factors that do not.
+struct PowerOfTwo {
+  double first, second, third;
+
+  explicit PowerOfTwo(int exponent = 0) {
+    constexpr int kMost = 1000;
+    const auto factor = [](int e) { return std::bit_cast<double>(static_cast<int64_t>(e + 1023) << 52); };
+    const int first_part = std::clamp(exponent, -kMost, kMost);
+    const int second_part = std::clamp(exponent - first_part, -kMost, kMost);
+    first = factor(first_part);
+    second = factor(second_part);
+    third = factor(exponent - first_part - second_part);
+  }
+
+  template <typename T>
+  T operator*(T value) const {
+    return value * first * second * third;
+  }
+};
+
+inline int Exponent(double value) {
+  int exponent = 0;
+  (void)std::frexp(value, &exponent);
+  return exponent;
+}
+
+}  // namespace internal
+
+template <typename T>
+struct ScaledProblem {
+  // `rank` is the rank of the problem's W.
+  ScaledProblem(const Problem& problem, int rank);
+
+  // A frame of which mu must not be 0, and the slopes while slip has the direction e.
+  Frame<T> FrameAt(const Direction<T>& e) const;
+  Slopes<T> SlopesAlong(const Direction<T>& e) const;
+  // The direction near that of `frame` in which slip does not turn and which attracts its neighbours, if there is one.
+  std::optional<Direction<T>> AttractingDirectionNear(const Frame<T>& frame) const;
+
+  bool HasNoFriction() const { return mu == T{0} || w.HasNoTangentialMobility(); }
+
+  // Conversions to the units of the caller; adding 0.0 turns -0 into 0.
+  double Velocity(T value) const { return static_cast<double>(velocity_unit * value) + 0.0; }
+  double Impulse(T value) const { return static_cast<double>(impulse_unit * value) + 0.0; }
+  double Work(T value) const { return static_cast<double>(work_unit * value) + 0.0; }
+
+  internal::PowerOfTwo velocity_unit, impulse_unit, work_unit;
+  Matrix<T> w;
+  T u1, u2, v;  // before the impact
+  T mu, mu_static;
+  RestitutionLaw law;
+  T coefficient;
+
+  T velocity;      // max(|u0|, |v0|), to which errors are relative
+  T rate;          // mu |Wtt| + |wtn|, the unit of 1/xi
+  T largest_root;  // square roots of the eigenvalues of Wtt, the smaller one not below rounding
+  T smallest_root;
+  T normal_root;  // sqrt(Wnn)
+  T steepest;     // the largest |dv/dtau| of slip
+  bool may_jam;   // dv/dtau < 0 is possible.
+};
+
+template <typename T>
+ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
+    : mu(problem.mu), mu_static(problem.mu_static), law(problem.law), coefficient(problem.coefficient) {
+  const double largest_velocity =
+      std::max(std::max(std::fabs(problem.u0[0]), std::fabs(problem.u0[1])), std::fabs(problem.v0));
+  const int velocity_exponent = internal::Exponent(largest_velocity);
+  const int matrix_exponent = internal::Exponent(std::max(std::max(problem.w11, problem.w22), problem.w33));
+  velocity_unit = internal::PowerOfTwo(velocity_exponent);
+  impulse_unit = internal::PowerOfTwo(velocity_exponent - matrix_exponent);
+  work_unit = internal::PowerOfTwo(2 * velocity_exponent - matrix_exponent);
+  const internal::PowerOfTwo to_matrix(-matrix_exponent);
+  const internal::PowerOfTwo to_velocity(-velocity_exponent);
+  w = Matrix<T>(to_matrix * problem.w11, to_matrix * problem.w12, to_matrix * problem.w13, to_matrix * problem.w22,
+                to_matrix * problem.w23, to_matrix * problem.w33, rank);
+  u1 = static_cast<T>(to_velocity * problem.u0[0]);
+  u2 = static_cast<T>(to_velocity * problem.u0[1]);
+  v = static_cast<T>(to_velocity * problem.v0);
+  const T coupling = std::sqrt(w.w13 * w.w13 + w.w23 * w.w23);
+  const T largest = w.LargestTangentEigenvalue();
+  velocity = std::max(std::sqrt(u1 * u1 + u2 * u2), std::fabs(v));
+  rate = mu * largest + coupling;
+  largest_root = std::sqrt(largest);
+  smallest_root = std::sqrt(std::max(w.TangentDeterminant() / largest, kEpsilon<T> * largest));
+  normal_root = std::sqrt(w.w33);
+  steepest = w.w33 + mu * coupling;
+  may_jam = mu * coupling >= w.w33;
+}
+
+template <typename T>
+Frame<T> ScaledProblem<T>::FrameAt(const Direction<T>& e) const {
+  const T c = e.c;
+  const T s = e.s;
+  const T along = c * w.w11 + s * w.w12;  // Wtt e
+  const T across = c * w.w12 + s * w.w22;
+  const T a = -mu / rate;
+  return {.c = c,
+          .s = s,
+          .a11 = a * (c * along + s * across),
+          .a12 = a * (c * across - s * along),
+          .a22 = a * (s * s * w.w11 + c * c * w.w22 - T{2} * c * s * w.w12),
+          .w1 = (c * w.w13 + s * w.w23) / rate,
+          .w2 = (c * w.w23 - s * w.w13) / rate};
+}
+
+template <typename T>
+Slopes<T> ScaledProblem<T>::SlopesAlong(const Direction<T>& e) const {
+  return {.u1 = w.w13 - mu * (w.w11 * e.c + w.w12 * e.s),
+          .u2 = w.w23 - mu * (w.w12 * e.c + w.w22 * e.s),
+          .v = w.w33 - mu * (w.w13 * e.c + w.w23 * e.s)};
+}
+
+template <typename T>
+std::optional<Direction<T>> ScaledProblem<T>::AttractingDirectionNear(const Frame<T>& frame) const {
+  Frame<T> there = frame;
+  constexpr int kEnough = 8;
+  for (int i = 0; i < kEnough; ++i) {
+    const T turn = -there.Turn() / there.TurnSlope();
+    if (std::fabs(turn) <= kEpsilon<T>) break;
+    there = FrameAt(Normalized(there.c - turn * there.s, there.s + turn * there.c));
+  }
+  const T left = T{1} - (there.c * frame.c + there.s * frame.s);
+  if (!(left < T{0.1}) || !(there.TurnSlope() < T{0}) || !(std::fabs(there.Turn()) < T{1e-12})) return std::nullopt;
+  return Direction<T>{there.c, there.s};
+}
+
+}  // namespace ricochet::spatial::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

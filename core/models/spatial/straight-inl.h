@@ -1,0 +1,151 @@
+// The parts of a path that are straight in tau: slip that keeps its direction, a contact that sticks, and one without
+// friction. They have no error but rounding.
+
+// Per-target include guard.
+#if defined(RICOCHET_CORE_MODELS_SPATIAL_STRAIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_SPATIAL_STRAIGHT_INL_H_
+#undef RICOCHET_CORE_MODELS_SPATIAL_STRAIGHT_INL_H_
+#else
+#define RICOCHET_CORE_MODELS_SPATIAL_STRAIGHT_INL_H_
+#endif
+
+#include <algorithm>
+
+#include "core/models/spatial/frame-inl.h"
+#include "core/models/spatial/matrix-inl.h"
+#include "core/models/spatial/path-inl.h"
+#include "core/models/spatial/problem-inl.h"
+#include "core/models/spatial/progress-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::spatial::HWY_NAMESPACE {
+
+// A part of the path with constant slopes.
+template <typename T>
+struct StraightPiece {
+  Slopes<T> slopes;
+  T f1, f2;                  // df/dtau
+  T length;                  // the normal impulse after which slip stops
+  bool has_friction;         // Friction does work, as the contact slips.
+  bool ends_locked = false;  // The body will be locked where slip stops, and no event comes before.
+};
+
+namespace internal {
+
+template <typename T>
+void Advance(Progress<T>& impact, const StraightPiece<T>& piece, T length) {
+  State<T>& state = impact.path.state;
+  const T slip = state.Slip();
+  state.tau += length;
+  state.f1 += piece.f1 * length;
+  state.f2 += piece.f2 * length;
+  state.u1 += piece.slopes.u1 * length;
+  state.u2 += piece.slopes.u2 * length;
+  state.v += piece.slopes.v * length;
+  const T friction = piece.has_friction ? -impact.problem.mu : T{0};
+  state.friction_work += friction * length * T{0.5} * (slip + state.Slip());
+  impact.errors.AddStraight(piece.has_friction, length, slip, state.v);
+}
+
+// Follows a piece through the ends of phases on it, to its own end or that of the impact.
+template <typename T>
+void Follow(Progress<T>& impact, const StraightPiece<T>& piece) {
+  T left = piece.length;
+  while (!impact.path.ended) {
+    const T to_goal = piece.ends_locked ? kInfinity<T> : impact.path.ImpulseToGoal(piece.slopes);
+    const T length = std::min(to_goal, left);
+    if (!(length < kInfinity<T>)) return;
+    Advance(impact, piece, length);
+    if (!(to_goal <= left)) return;
+    left -= length;
+    impact.EndPhase(piece.slopes);
+  }
+}
+
+// Follows slip along e until it stops or the impact ends.
+template <typename T>
+void FollowSlip(Progress<T>& impact, const Direction<T>& e) {
+  const ScaledProblem<T>& problem = impact.problem;
+  const Slopes<T> slopes = problem.SlopesAlong(e);
+  const T slip = impact.path.state.Slip();
+  T growth = slopes.u1 * e.c + slopes.u2 * e.s;
+  // Slip that starts grows, however slowly: rounded to below 0, the growth would stop it where it is.
+  if (slip == T{0}) growth = std::max(growth, T{0});
+  impact.errors.AddFrictionError(impact.errors.SlipRounding(slip));
+  StraightPiece<T> piece = {.slopes = {growth * e.c, growth * e.s, slopes.v},
+                            .f1 = -problem.mu * e.c,
+                            .f2 = -problem.mu * e.s,
+                            .length = growth < T{0} ? -slip / growth : kInfinity<T>,
+                            .has_friction = problem.mu > T{0}};
+  // Where friction and the joints will lock the body, v vanishes with u, and rounding must not let it come first.
+  if (!impact.path.in_restitution && growth < T{0} && problem.w.rank < 3) {
+    const Sticking<T> sticking = problem.w.Stick(problem.mu_static);
+    piece.ends_locked = sticking.holds && sticking.v_slope == T{0};
+  }
+  impact.errors.SetSlopesOfSlip(piece.slopes);
+  Follow(impact, piece);
+}
+
+// Ends the impact at rest: no further impulse can move the body.
+template <typename T>
+void EndLocked(Progress<T>& impact) {
+  impact.path.SetRegime(Regime::kLocked, Regime::kStickInRestitution);
+  const Slopes<T> none = {T{0}, T{0}, T{0}};
+  impact.path.state.v = T{0};
+  if (!impact.path.in_restitution) impact.EndCompression(none);
+  if (!impact.path.ended) impact.EndImpact(none);
+}
+
+template <typename T>
+void FollowStick(Progress<T>& impact, const Sticking<T>& sticking) {
+  impact.errors.Stick(sticking);
+  if (sticking.v_slope == T{0}) return EndLocked(impact);
+  impact.path.SetRegime(Regime::kStickInCompression, Regime::kStickInRestitution);
+  Follow<T>(impact, {.slopes = {T{0}, T{0}, sticking.v_slope},
+                     .f1 = sticking.f1,
+                     .f2 = sticking.f2,
+                     .length = kInfinity<T>,
+                     .has_friction = false});
+}
+
+}  // namespace internal
+
+// Continues where slip is 0: the contact sticks, or slips in the direction in which slip grows. Slip that grows stops
+// again only where numbers leave the range of doubles; the path then stays there and has not ended.
+template <typename T>
+void ContinueFromStop(Progress<T>& impact) {
+  Path<T>& path = impact.path;
+  impact.errors.StopSlip(path.state.tau);
+  path.state.u1 = path.state.u2 = T{0};
+  const bool at_start = path.IsAtStart();
+  if (!at_start) path.Record(EventKind::kSlipStops);
+  const Sticking<T> sticking = impact.problem.w.Stick(impact.problem.mu_static);
+  if (sticking.holds) return internal::FollowStick(impact, sticking);
+  if (!at_start) path.SetRegime(Regime::kReversalInCompression, Regime::kReversalInRestitution);
+  internal::FollowSlip(impact, impact.problem.w.Restart(impact.problem.mu));
+  if (!path.ended) path.state.u1 = path.state.u2 = T{0};
+}
+
+// Follows slip along e, which has the direction of slip and does not turn, and what comes after its stop.
+template <typename T>
+void SlideStraight(Progress<T>& impact, const Direction<T>& e) {
+  internal::FollowSlip(impact, e);
+  if (!impact.path.ended) ContinueFromStop(impact);
+}
+
+// Follows a contact without a friction impulse. It may stick if its slip happens to vanish.
+template <typename T>
+void SlideFreely(Progress<T>& impact) {
+  const Matrix<T>& w = impact.problem.w;
+  const State<T>& state = impact.path.state;
+  const T cross = state.u1 * w.w23 - state.u2 * w.w13;
+  const T along = state.u1 * w.w13 + state.u2 * w.w23;
+  if (cross == T{0} && along < T{0}) return SlideStraight(impact, Normalized(state.u1, state.u2));
+  internal::Follow<T>(
+      impact, {.slopes = {w.w13, w.w23, w.w33}, .f1 = T{0}, .f2 = T{0}, .length = kInfinity<T>, .has_friction = false});
+}
+
+}  // namespace ricochet::spatial::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
