@@ -1,4 +1,4 @@
-// Rooms: who may look into whom, by the #include lines of every source file.
+// Rooms: which room may include which, read off the #include lines of every source file.
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ const std::vector<Room>& Rooms() {
   return rooms;
 }
 
-// The standard headers that the core does without: no stream, file, environment, process, thread or clock.
+// The core must not include these standard headers: it knows no stream, file, environment, process, thread or clock.
 const std::set<std::string>& BarredFromCore() {
   static const std::set<std::string> barred = {"iostream", "istream",  "ostream",      "fstream",
                                                "sstream",  "cstdio",   "filesystem",   "thread",
@@ -55,7 +55,7 @@ const std::set<std::string>& BarredFromCore() {
   return barred;
 }
 
-// Writes why the process aborts, and so needs a stream.
+// This file writes the reason why the process aborts, and needs a stream for it.
 constexpr char kLastWords[] = "core/numerics/invariant.cc";
 
 struct Include {
@@ -96,7 +96,7 @@ bool StartsWithAny(const std::string& text, const std::vector<std::string>& pref
                      [&](const std::string& prefix) { return text.rfind(prefix, 0) == 0; });
 }
 
-// Standard C++ headers have no folder; some of POSIX do.
+// Standard C++ headers have no folder, but some headers of POSIX have.
 bool IsSystemHeader(const std::string& header) {
   return header.find('/') == std::string::npos || StartsWithAny(header, {"arpa/", "netinet/", "sys/"});
 }
@@ -132,7 +132,7 @@ const std::vector<std::vector<std::string>>& Floors() {
   return floors;
 }
 
-// -1 for a folder that no floor lists.
+// The floor of a folder; -1 if no floor lists it.
 int FloorOf(const std::string& folder) {
   for (size_t i = 0; i < Floors().size(); ++i) {
     if (std::find(Floors()[i].begin(), Floors()[i].end(), folder) != Floors()[i].end()) return static_cast<int>(i);
@@ -142,7 +142,7 @@ int FloorOf(const std::string& folder) {
 
 std::string FolderOf(const std::string& file) { return file.substr(0, file.rfind('/')); }
 
-// The file behind one of our own headers, as a source of the core includes it.
+// The path of one of our own headers that a source of the core includes.
 std::string FileOf(const std::string& header) {
   return header.rfind("ricochet/", 0) == 0 ? "core/include/" + header : header;
 }
@@ -161,7 +161,7 @@ TEST(FloorsTest, AnIncludeInTheCoreStaysInItsRoomOrGoesToALowerFloor) {
   }
 }
 
-// Floors imply it; this one would also see a circle among rooms that somebody put on one floor.
+// Floors imply that there is no circle. This test also finds a circle among rooms that share a floor.
 TEST(FloorsTest, NoTwoFoldersOfTheCoreReachEachOther) {
   std::map<std::string, std::set<std::string>> reach;
   for (const Include& include : IncludesOf("core")) {
@@ -184,7 +184,7 @@ TEST(FloorsTest, NoTwoFoldersOfTheCoreReachEachOther) {
   std::cout << "folder circles in the core: " << circles << "\n";
 }
 
-// What is installed must not need what is not.
+// An installed header must not include one that is not installed.
 TEST(FloorsTest, PublicHeadersIncludePublicHeadersAlone) {
   for (const std::string folder : {"core/include", "client/include"}) {
     for (const Include& include : IncludesOf(folder)) {
@@ -226,7 +226,7 @@ TEST(RoomsTest, TheCoreAsksNoClockAndNoEnvironment) {
   }
 }
 
-// The C library's depend on the processor; core/numerics/elementary.h has those that do not.
+// The C library's functions depend on the processor; those of core/numerics/elementary.h do not.
 TEST(RoomsTest, TheCoreTakesNoElementaryFunctionFromTheCLibrary) {
   const std::regex calls(R"(\bstd::(a?(sin|cos|tan)h?|atan2|exp[2m]?1?|log(10|2|1p)?|pow|hypot|cbrt)\()");
   for (const fs::path& path : SourcesOf("core")) {
@@ -238,7 +238,7 @@ TEST(RoomsTest, TheCoreTakesNoElementaryFunctionFromTheCLibrary) {
   }
 }
 
-// Each of these libraries has one door.
+// Only one room may include each of these libraries.
 TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
   struct Library {
     std::string prefix;

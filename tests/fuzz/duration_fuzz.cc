@@ -1,8 +1,9 @@
-// Fuzzes impacts that take time: bytes are a v1::SolveRequest, solved if its plan chooses that model. A target of its
-// own, because an impact that never parts takes a thousand times as long as others until its budget is used up.
+// Fuzzes impacts that take time: bytes are a v1::SolveRequest, which is solved if its plan chooses that model. This
+// target is separate, because an impact that never parts takes a thousand times as long as others until its budget is
+// used up.
 //
-// Checked: tests/fuzz/outcome_claims.h; the history has its length; of what converges, the duration and the peaks are
-// not negative.
+// The target checks the claims of tests/fuzz/outcome_claims.h, and that the history has its length and a converged impact
+// has no negative duration or peak.
 //
 // Covers: core/models/finite_duration*.cc, core/contact/finite_forces.cc.
 

@@ -1,10 +1,10 @@
 // Fuzzes the door and all models without a duration: bytes are a v1::SolveRequest, which is solved, swept, bounded and
 // audited.
 //
-// Checked: tests/fuzz/outcome_claims.h; bounds are intervals, of the energetic coefficient within [0, 1]; what was
-// solved under the energetic coefficient breaks no limit in its own audit; any velocity can be audited; a
-// sweep has the bits of Solve; a certificate's numbers have a decimal or two ends, and are a
-// pendulum's to 2^-45.
+// The target checks the claims of tests/fuzz/outcome_claims.h. In addition, bounds are intervals, and the one of the
+// energetic coefficient is within [0, 1]; an impact under the energetic coefficient breaks no limit in its own audit; any
+// velocity can be audited; a sweep has the bits of Solve; the numbers of a certificate have a decimal or two ends, and
+// agree with a pendulum's to 2^-45.
 //
 // Covers: core/scene/*.cc but interval_reduction.cc; core/models/*.cc but finite_duration*.cc and scene_enclosure.cc;
 // core/engine/local_solver.cc; core/study/audit*.cc but audit_columns.cc.
@@ -52,7 +52,7 @@ absl::StatusOr<AuditResponse> AuditAndCheck(const AuditRequest& request) {
   return response;
 }
 
-// The numbers of the history stand for what somebody has seen.
+// The numbers of the history serve as the observed velocity.
 void CheckAnyAudit(const SolveRequest& request) {
   const std::vector<double>& seen = request.history_at_n_s;
   if (seen.size() < 2) return;
@@ -81,7 +81,7 @@ void CheckOwnAudit(const Scene& scene, const Outcome& outcome) {
   }
 }
 
-// A point of a sweep has the bits of the same impact solved alone; of the others only their number is known.
+// A point of a sweep has the bits of the same impact solved alone; for the other points only their number is checked.
 void CheckSweep(const SolveRequest& request, const absl::StatusOr<SolveResponse>& alone) {
   const double mu = request.scene.friction.kinetic_coefficient;
   const SweepRequest sweep = {
@@ -111,7 +111,7 @@ void CheckNumbers(const absl::StatusOr<Certificate>& certificate) {
 
 constexpr int kDigits = 20;
 
-// Where numbers of the outcome overflow there is no response, but the numbers themselves can be proved.
+// If numbers of the outcome overflow there is no response, but the numbers themselves can still be proved.
 void CheckCertificates(SolveRequest request, const absl::StatusOr<SolveResponse>& response) {
   constexpr double kRounding = 0x1p-45;
   const Scene& scene = request.scene;
@@ -134,7 +134,7 @@ void CheckCertificates(SolveRequest request, const absl::StatusOr<SolveResponse>
   }
 }
 
-// The numbers of the history stand for two rows of what was seen before and after, and for the coefficient of friction.
+// The numbers of the history serve as two rows of velocities before and after, and as the coefficient of friction.
 void CheckColumns(const SolveRequest& request) {
   const std::vector<double>& seen = request.history_at_n_s;
   AuditBatchRequest batch = {.scene = request.scene};

@@ -27,7 +27,7 @@ double Length(const std::vector<double>& numbers) {
   return length;
 }
 
-// How far rounding, and the model's own error, may move works and impulses.
+// Bounds on the changes of works and impulses by rounding and by the model's own error.
 struct Slack {
   double work = 0.0;
   double impulse = 0.0;
@@ -57,8 +57,7 @@ Slack SlackOf(const Scene& scene, const Outcome& outcome) {
 }
 
 bool IsCoulomb(const Scene& scene) { return std::holds_alternative<std::monostate>(scene.impact_law); }
-// Whether the caller has slip go on straight, or to first order, whatever that changes: friction is not against it
-// then.
+// True if the caller excludes that slip stops or turns, or higher orders: friction may then not oppose slip.
 bool ForcesSlip(const Outcome& outcome) {
   return std::any_of(outcome.plan.effects.begin(), outcome.plan.effects.end(), [](const PlannedEffect& planned) {
     const bool is_of_slip = planned.effect == Effect::kSlipStop || planned.effect == Effect::kSlipTurn ||
@@ -145,7 +144,8 @@ void CheckStatus(const absl::Status& status, bool valid_scene, bool inadmissible
 void CheckOutcome(const Scene& scene, const Outcome& outcome) {
   CheckNumbers(outcome);
   const Slack slack = SlackOf(scene, outcome);
-  if (!std::isfinite(slack.work)) return;  // Not converged, and said so; or beyond what doubles can be held against.
+  if (!std::isfinite(slack.work))
+    return;  // The answer says that it has not converged, or doubles cannot represent the limits.
   const double normal = outcome.impulse.normal_total_n_s;
   Require(normal >= -slack.impulse, "the surface pulls", normal, slack.impulse);
   CheckWorks(scene, outcome, slack.work);

@@ -1,5 +1,5 @@
-// Random impacts by the million, planar and in space, each under all three laws: does every one end, with finite
-// numbers, no energy gained under the energetic law, friction inside its cone and works that add up?
+// Solves millions of random impacts, planar and in space, each under all three laws. Every impact must end with finite
+// numbers, must not gain energy under the energetic law, must keep friction inside its cone, and its works must add up.
 //
 // usage: ricochet_soak [CASES]    of each model; exit code 1 if any impact fails, which is then printed
 
@@ -111,15 +111,15 @@ double LargestWork(const Impact& impact) {
   return largest;
 }
 
-// What one model's impacts came to.
+// The results of all impacts of one model.
 struct Tally {
   std::array<int64_t, kRegimeCount> regimes = {};
   int64_t solves = 0;
   int64_t failures = 0;
-  int64_t beyond_doubles = 0;  // An exact value above the largest double: infinite, as promised.
-  int64_t gains = 0;           // Newton's and Poisson's laws asked for energy that was not there, and it was flagged.
+  int64_t beyond_doubles = 0;  // An exact value is above the largest double, and comes out infinite as promised.
+  int64_t gains = 0;           // Newton's or Poisson's law asked for energy that was not stored, and this was flagged.
   int64_t most_steps = 0;
-  double largest_residual = 0.0;  // Of the ledger, in units of what it may be.
+  double largest_residual = 0.0;  // The largest residual of the works over its limit.
 
   void Fail(const std::string& what, const std::string& problem) {
     constexpr int64_t kPrinted = 20;
@@ -127,11 +127,11 @@ struct Tally {
   }
 };
 
-// The limits of one impact, in its own units.
+// The limits for one impact, in its own units.
 struct Limits {
-  double friction;     // Of |f1|.
-  double energy_gain;  // Under the energetic law.
-  double ledger;       // Of |sum of works - change of energy|.
+  double friction;     // Limit of |f1|.
+  double energy_gain;  // Limit of the gain under the energetic law.
+  double ledger;       // Limit of |sum of works - change of energy|.
 };
 
 Limits LimitsOf(const planar::Problem& problem, const planar::Impact& impact) {
@@ -146,11 +146,11 @@ Limits LimitsOf(const spatial::Problem& problem, const spatial::Impact& impact) 
   const double speed = std::max(std::hypot(problem.u0[0], problem.u0[1]), std::fabs(problem.v0));
   const double impulse = impact.tau1 + std::hypot(impact.f1[0], impact.f1[1]);
   const double work = speed * impulse;
-  // An error df of friction's impulse is an error Wtt df of u, whose size is at most the estimate; the solver bounds it
-  // through sqrt(df Wtt df). Where Wtt is singular f itself may be anything.
+  // An error df of friction's impulse is an error Wtt df of u, which is at most the estimate; the solver bounds it
+  // through sqrt(df Wtt df). If Wtt is singular, the error of f itself has no bound.
   const double det = std::max(problem.w11 * problem.w22 - problem.w12 * problem.w12, 0.0);
   const double friction_error = impact.error_estimate * speed / std::sqrt(det);
-  // Near rank two W times large impulses cancels to the velocities: an ulp of its terms.
+  // Near rank two, W times large impulses cancels to the velocities, with an error of an ulp of the terms.
   const double cancelled = 0x1p-52 * (problem.w11 + problem.w22 + problem.w33) * impulse;
   constexpr double kRounding = 1e-13;
   return {.friction = problem.mu_static * impact.tau1 * (1.0 + kRounding) + friction_error,
@@ -167,7 +167,7 @@ bool GaveUp(const spatial::Impact& impact) { return !impact.converged; }
 int64_t Steps(const planar::Impact& impact) { return impact.event_count; }
 int64_t Steps(const spatial::Impact& impact) { return impact.steps; }
 
-// Why this impact is not what it must be; empty if it is.
+// The reason why this impact breaks a claim; empty if it breaks none.
 template <typename Problem, typename Impact>
 std::string Complaint(const Problem& problem, const Impact& impact, const Limits& limits) {
   if (GaveUp(impact) || !Ended(impact)) return "did not end";
@@ -215,7 +215,7 @@ void CheckUnderAllLaws(Problem problem, bool any_exponent, Tally& tally) {
   }
 }
 
-// Every fourth over all doubles; the others typical, near rank one and near every threshold of the path.
+// Every fourth problem is drawn from all doubles; the others are typical, near rank one or near a threshold of the path.
 Tally PlanarCases(int64_t cases) {
   Tally tally;
   planar::SceneSource source(101);
@@ -267,7 +267,7 @@ spatial::Problem AnySpatial(spatial::SceneSource& source) {
   }
 }
 
-// Typical, near what is singular, without slip at first and of rank one and two, at tolerances from 1e-4 to 1e-12.
+// The problems are typical, nearly singular, without slip at first, or of rank one and two; tolerances are 1e-4 to 1e-12.
 Tally SpatialCases(int64_t cases) {
   Tally tally;
   spatial::SceneSource source(102);

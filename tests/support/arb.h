@@ -1,9 +1,8 @@
 // Ball: a real number enclosed by Arb, as a C++ value.
 //
-// Every operation encloses the exact result; exponents have no limit, so nothing overflows or underflows. A ball
-// carries the precision it is computed with, and an operation uses the larger of its operands' two: constants written
-// as doubles take on the other side's. With kExact, sums, differences and products are exact (and / and Sqrt must not
-// be used).
+// Every operation encloses the exact result; exponents have no limit, so that nothing overflows or underflows. A ball
+// carries its precision, and an operation uses the larger precision of its operands: constants written as doubles take
+// on that of the other side. With kExact, sums, differences and products are exact (/ and Sqrt must not be used).
 
 #ifndef RICOCHET_TESTS_SUPPORT_ARB_H_
 #define RICOCHET_TESTS_SUPPORT_ARB_H_
@@ -23,7 +22,7 @@ class Ball {
   static constexpr slong kExact = ARF_PREC_EXACT;
 
   Ball() { arb_init(value_); }
-  // Implicit, so that formulas read like formulas. `exact` must be finite.
+  // The conversion is implicit, so that formulas read like formulas. `exact` must be finite.
   Ball(double exact, slong bits = 53) : bits_(bits) {
     assert(std::isfinite(exact));
     arb_init(value_);
@@ -70,12 +69,12 @@ class Ball {
     arb_abs(x.value_, x.value_);
     return x;
   }
-  // The centre alone.
+  // The ball that has the centre alone.
   friend Ball Middle(Ball x) {
     mag_zero(arb_radref(x.value_));
     return x;
   }
-  // A ball around both.
+  // A ball that contains both.
   friend Ball Union(const Ball& x, const Ball& y) { return Apply(arb_union, x, y); }
   friend Ball Sqrt(const Ball& x) {
     Ball root(0.0, x.bits_);
@@ -88,7 +87,7 @@ class Ball {
   friend Ball Log(const Ball& x) { return Apply(arb_log, x); }
   friend Ball Pow(const Ball& x, const Ball& y) { return Apply(arb_pow, x, y); }
 
-  // True only where every point of one ball compares so with every point of the other. Exact balls are never in doubt.
+  // A comparison is true only if it holds for every point of one ball and every point of the other.
   friend bool operator<(const Ball& x, const Ball& y) { return arb_lt(x.value_, y.value_); }
   friend bool operator<=(const Ball& x, const Ball& y) { return arb_le(x.value_, y.value_); }
   friend bool operator>(const Ball& x, const Ball& y) { return arb_gt(x.value_, y.value_); }
@@ -141,9 +140,9 @@ class Ball {
   slong bits_ = 53;
 };
 
-// How far `computed` lies from `exact`, beyond what `allowance` grants, in units in the last place of the exact value
-// (never smaller than 2^-1074). An infinity stands for 2^1024, the double that would follow the largest one; exact
-// values from there on demand it. NaN is infinitely far away.
+// The distance of `computed` from `exact` beyond `allowance`, in units in the last place of the exact value (never
+// smaller than 2^-1074). An infinity stands for 2^1024, the double that would follow the largest one, and is the right
+// double for exact values from there on. NaN is infinitely far away.
 inline double ErrorInUlps(double computed, const Ball& exact, const Ball& allowance = Ball(0.0)) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (std::isnan(computed)) return kNever;

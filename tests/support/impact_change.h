@@ -1,4 +1,5 @@
-// How far apart two impacts of the same contact end, as the plan measures it (core/plan/sizes.h).
+// ChangeBetween: the difference between the ends of two impacts of one contact, as the plan measures it
+// (core/plan/sizes.h).
 
 #ifndef RICOCHET_TESTS_SUPPORT_IMPACT_CHANGE_H_
 #define RICOCHET_TESTS_SUPPORT_IMPACT_CHANGE_H_
@@ -16,7 +17,7 @@
 
 namespace ricochet {
 
-// Where an impact ends.
+// The end of an impact.
 template <size_t kTangential>
 struct Ending {
   std::array<double, kTangential> u1 = {};
@@ -25,7 +26,7 @@ struct Ending {
   std::array<double, kTangential> f1 = {};
 };
 
-// `wtt` is the trace of Wtt, `speed` max(|u0|, |v0|).
+// `wtt` is the trace of Wtt, and `speed` is max(|u0|, |v0|).
 template <size_t kTangential>
 double ChangeBetween(const Ending<kTangential>& a, const Ending<kTangential>& b, double wtt, double wnn, double speed) {
   double change = std::max(std::fabs(a.v1 - b.v1), wnn * std::fabs(a.tau1 - b.tau1));
@@ -35,7 +36,7 @@ double ChangeBetween(const Ending<kTangential>& a, const Ending<kTangential>& b,
   return change / speed;
 }
 
-// Of any planar model's Impact.
+// The end of an Impact of any planar model.
 Ending<1> EndingOf(const auto& impact) {
   return {.u1 = {impact.u1}, .v1 = impact.v1, .tau1 = impact.tau1, .f1 = {impact.f1}};
 }
@@ -83,7 +84,7 @@ inline sliding::Problem<2> LineOf(const spatial::Problem& problem) {
           .coefficient = problem.coefficient};
 }
 
-// A problem without friction, or with the kinetic coefficient for the static one.
+// The problem without friction, or with the kinetic coefficient in place of the static one.
 template <typename Problem>
 Problem Smooth(Problem problem) {
   problem.mu = problem.mu_static = 0.0;

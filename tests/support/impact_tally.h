@@ -1,4 +1,4 @@
-// How a bound on what an effect changes fares over many impacts.
+// ImpactTally: compares a bound on the change by an effect with the true change, over many impacts.
 
 #ifndef RICOCHET_TESTS_SUPPORT_IMPACT_TALLY_H_
 #define RICOCHET_TESTS_SUPPORT_IMPACT_TALLY_H_
@@ -15,13 +15,13 @@
 
 namespace ricochet {
 
-// Demands that no true change exceeds its bound and that, of the scenes whose true change is below a hundredth of a
-// tolerance, the bound lets at least 90 % leave the effect out. Prints a line of a table.
+// Requires that no true change exceeds its bound, and that the bound allows the effect to be left out of at least 90 % of
+// the scenes whose true change is below a hundredth of a tolerance. Prints a line of a table.
 class ImpactTally {
  public:
   explicit ImpactTally(std::string name) : name_(std::move(name)) {}
 
-  // `noise` is what the two impacts themselves may be off by.
+  // `noise` bounds the errors of the two impacts themselves.
   void Add(const Size& size, double change, double noise, double tolerance) {
     ++count_;
     EXPECT_LE(change, size.value + noise) << name_ << ", scene " << count_;
@@ -35,7 +35,7 @@ class ImpactTally {
     in_play_left_out_ += left_out;
   }
 
-  // At least so many scenes have to have had a change that is small.
+  // At least this many scenes must have had a small change.
   void Finish(int least) const {
     std::printf(
         "  %-26s %6d scenes, bounded in %5.1f %%; of %5d that are small %5.1f %% left out, in play %5.1f %% of %5d\n",
@@ -45,7 +45,7 @@ class ImpactTally {
     EXPECT_GE(small_, least) << name_;
   }
 
-  // The same of the scenes alone whose effect is not absent by proof.
+  // These count only the scenes whose effect is not absent by proof.
   void ExpectSharpInPlay() const { EXPECT_GE(in_play_left_out_, 0.9 * in_play_) << name_; }
 
  private:

@@ -1,4 +1,4 @@
-// Contacts that several tests know the numbers of, and a contact seen as that of another model.
+// Contacts whose numbers several tests know, and conversions of a contact to another model.
 
 #ifndef RICOCHET_TESTS_SUPPORT_KNOWN_CONTACTS_H_
 #define RICOCHET_TESTS_SUPPORT_KNOWN_CONTACTS_H_
@@ -37,7 +37,7 @@ inline spatial::Problem TurningContact(double u1, double u2, double mu) {
           .mu_static = mu};
 }
 
-// The contact of a pendulum, rank one but for the rounding of W.
+// The contact of a pendulum. W has rank one up to rounding.
 inline planar::Problem ContactOf(const pendulum::Problem& p) {
   return {.wtt = p.b * p.b / p.inertia,
           .wtn = p.a * p.b / p.inertia,

@@ -1,4 +1,4 @@
-// The main of every test executable.
+// This is the main function of every test executable.
 
 #include <gtest/gtest.h>
 

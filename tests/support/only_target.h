@@ -1,4 +1,4 @@
-// Dispatch to one SIMD target, to see that all give the same bits.
+// OnlyTarget: dispatches to one SIMD target, to test that all targets give the same bits.
 
 #ifndef RICOCHET_TESTS_SUPPORT_ONLY_TARGET_H_
 #define RICOCHET_TESTS_SUPPORT_ONLY_TARGET_H_
@@ -9,7 +9,7 @@
 
 namespace ricochet {
 
-// Restricts dispatch to one target; to all again when it goes.
+// Restricts dispatch to one target for its lifetime.
 class OnlyTarget {
  public:
   explicit OnlyTarget(int64_t target) { Set(target); }

@@ -1,4 +1,4 @@
-// Where test data lies in the source tree.
+// Paths of test data in the source tree.
 
 #ifndef RICOCHET_TESTS_SUPPORT_PATHS_H_
 #define RICOCHET_TESTS_SUPPORT_PATHS_H_

@@ -11,7 +11,7 @@ constexpr std::array<slong, 3> kPrecisions = {256, 1024, 8192};
 
 double SignOf(double x) { return x > 0.0 ? 1.0 : x < 0.0 ? -1.0 : 0.0; }
 
-// a, |b|, mu and what follows from them, with `bits` of precision.
+// a, |b|, mu and the quantities that depend on them alone, with `bits` of precision.
 struct Geometry {
   Geometry(const Problem& problem, slong bits)
       : a(problem.a, bits),
@@ -33,7 +33,7 @@ Regime RegimeOf(const Problem& problem) {
   return problem.mu == 0.0 || problem.b == 0.0 ? Regime::kFrictionless : Regime::kRebound;
 }
 
-// [29], [27] with the roots and quotients multiplied out, so that both sides are exact.
+// The limits [29] and [27], with roots and quotients multiplied out, so that both sides are exact.
 void DecideLimits(const Problem& problem, ExactImpact& impact) {
   const Geometry g(problem, Ball::kExact);
   const Ball c(problem.coefficient, Ball::kExact);
@@ -121,7 +121,7 @@ bool IsKnown(const Ball& value, const Ball& scale, bool granted) {
   return granted && value.Radius() <= Ball::PowerOfTwo(-170) * scale;
 }
 
-// Where the given coefficient is the output's own, the difference is of the given number itself: no sign to lose.
+// If the stated coefficient is the output's own, the difference is exact, and its sign is right.
 bool IsGranted(const Problem& problem, Output output) {
   switch (output) {
     case Output::kTangentialCoefficient:
@@ -137,7 +137,7 @@ bool IsGranted(const Problem& problem, Output output) {
   }
 }
 
-// Separating: nothing happens.
+// The contact separates: nothing happens.
 void SetUnchanged(const Problem& problem, ExactImpact& impact) {
   const auto set = [&impact](Output output, const Ball& value) { impact.values[static_cast<size_t>(output)] = value; };
   const Ball omega(problem.omega_minus, Ball::kExact);
@@ -171,7 +171,7 @@ ExactBounds EvaluateBounds(const Problem& problem, slong bits) {
   const Ball& r = bounds.slope_ratio;
   const Ball& x = bounds.friction_ratio;
   const Ball kappa = Sqrt(1.0 / r);
-  // [55], with its quotient by |b| only where there is one.
+  // [55], divided by |b| only if b is not 0.
   const Ball least = sign == 0.0 ? Ball(0.0) : -(g.a / std::fabs(problem.b) * (1.0 - Sqrt(1.0 - x * x)));
   bounds.sharp = {{0.0, Sqrt(r)}, {0.0, kappa}, {0.0, one}, tangential(least), {tau0, (1.0 + kappa) * tau0}};
   // [27], [28]; the others follow from Poisson's by [24], [51] and [10].
@@ -204,7 +204,7 @@ ExactImpact SolveExactly(const Problem& problem) {
     if (known) break;
   }
   for (size_t i = 0; i < kOutputCount; ++i) {
-    // No difference of these inputs is that small without being 0.
+    // A difference of these inputs that is so small is 0.
     const bool is_zero =
         impact.values[i].ContainsZero() && impact.values[i].Radius() <= Ball::PowerOfTwo(-6000) * impact.scales[i];
     if (is_zero) impact.values[i] = Ball(0.0);
@@ -241,7 +241,7 @@ ExactBounds SolveBoundsExactly(const Problem& problem) {
   ExactBounds bounds;
   for (const slong bits : kPrecisions) {
     bounds = EvaluateBounds(problem, bits);
-    // 1 - sqrt(1 - x^2) and a - mu |b| are what cancels.
+    // Only 1 - sqrt(1 - x^2) and a - mu |b| cancel.
     const auto known = [](const Ball& ball) { return ball.IsExact() || ball.RelativeAccuracyBits() >= 100; };
     const ExactRange& tangential = bounds.sharp.tangential;
     if (known(tangential.lower) && known(tangential.upper) && known(bounds.slope_ratio)) break;

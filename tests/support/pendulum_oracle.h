@@ -1,7 +1,7 @@
-// The pendulum's closed forms as the paper prints them, evaluated in ball arithmetic: the oracle of the core's kernel.
+// Pendulum oracle: the closed forms as Lubarda (2009) prints them, in ball arithmetic, to test the core's kernel.
 //
-// Lubarda (2009). Nothing here guards against cancellation; precision is raised until every result is known to 100 bits
-// or, where it cancels, to 2^-170 of its scale. Thresholds are decided in exact arithmetic. Shares no code with core/.
+// Nothing here guards against cancellation. Instead the precision is raised until every result is known to 100 bits or,
+// if it cancels, to 2^-170 of its scale. Thresholds are decided in exact arithmetic. No code is shared with core/.
 
 #ifndef RICOCHET_TESTS_SUPPORT_PENDULUM_ORACLE_H_
 #define RICOCHET_TESTS_SUPPORT_PENDULUM_ORACLE_H_
@@ -19,7 +19,7 @@ struct ExactImpact {
   bool sharp_limit_broken = false;
   bool energy_limit_broken = false;
   std::array<Ball, kOutputCount> values;
-  // What an output that changes sign inside its domain is measured by; 0 for those that do not.
+  // The scale of an output that changes sign inside its domain; 0 for all other outputs.
   std::array<Ball, kOutputCount> scales;
 
   const Ball& operator[](Output output) const { return values[static_cast<size_t>(output)]; }
@@ -27,7 +27,7 @@ struct ExactImpact {
 
 ExactImpact SolveExactly(const Problem& problem);
 
-// Error of output `i` in ulp, beyond the 2^-100 of its scale granted where it changes sign.
+// Error of output `i` in ulp. An output that changes its sign is allowed 2^-100 of its scale in addition.
 double OutputError(const ExactImpact& exact, size_t i, double computed);
 
 struct ExactInstant {
@@ -37,7 +37,7 @@ struct ExactInstant {
   Ball impulse_scale;  // mu tau0
 };
 
-// tau >= 0; beyond tau1 the restitution line is continued.
+// The state at tau >= 0. Beyond tau1 the line of restitution is continued.
 ExactInstant ExactlyAt(const Problem& problem, double tau);
 
 struct ExactRange {

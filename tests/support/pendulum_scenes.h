@@ -1,4 +1,4 @@
-// Random pendulums: over all doubles, of everyday size, and close to every threshold of the formulas.
+// SceneSource: random pendulums over all doubles, of everyday size, and close to every threshold of the formulas.
 
 #ifndef RICOCHET_TESTS_SUPPORT_PENDULUM_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_PENDULUM_SCENES_H_
@@ -19,7 +19,7 @@ class SceneSource {
  public:
   explicit SceneSource(uint64_t seed) : random_(seed) {}
 
-  // A valid problem of any kind below; one in 32 separates, one in 64 is smooth.
+  // A valid problem of any of the kinds below; one in 32 separates, one in 64 is smooth.
   Problem Any() {
     Problem problem = AnyImpact();
     if (Below(32) == 0) problem.omega_minus = -problem.omega_minus;
@@ -65,7 +65,8 @@ class SceneSource {
         .inertia = Positive(), .a = Positive(), .b = Sign() * Bits(), .omega_minus = -Positive(), .mu = Bits()};
     problem.mu_static = Below(4) == 0 ? std::max(problem.mu, Bits()) : problem.mu;
     SetCoefficient(problem, /*any_size=*/true);
-    // A slope of chance locks half the time or is all but 0; half of the time it is set between.
+    // With random b half of the problems lock and most others have hardly any coupling; half of the time b is chosen
+    // in between.
     if (Below(2) == 0) AimSlope(problem, std::exp2(-Uniform(0.0, 60.0)) * Uniform(0.5, 1.0));
     return problem;
   }
@@ -81,7 +82,7 @@ class SceneSource {
     return problem;
   }
 
-  // mu |b| within a few ulp of a, on either side.
+  // mu |b| lies within a few ulp of a, on either side.
   Problem NearLocking() {
     Problem problem = Below(2) == 0 ? Everyday() : OverAllDoubles();
     AimSlope(problem, 1.0);
@@ -90,7 +91,7 @@ class SceneSource {
     return problem;
   }
 
-  // The coefficient within a few ulp of its sharp bound or of 1.
+  // The coefficient lies within a few ulp of its sharp bound or of 1.
   Problem NearLimit() {
     Problem problem = Below(2) == 0 ? Everyday() : NearlyVertical();
     AimSlope(problem, Uniform(0.0, 1.0));
@@ -101,14 +102,14 @@ class SceneSource {
                           : problem.law == RestitutionLaw::kPoisson ? 1.0 / root
                                                                     : 1.0;
     if (Below(3) == 0) problem.coefficient = 1.0;
-    if (Below(6) == 0) problem.coefficient = root * root;        // Newton's that makes mu_hat vanish,
-    if (Below(6) == 0) problem.coefficient = 1.0 / root / root;  // Poisson's that creates no energy.
+    if (Below(6) == 0) problem.coefficient = root * root;        // Newton's coefficient that makes mu_hat vanish.
+    if (Below(6) == 0) problem.coefficient = 1.0 / root / root;  // Poisson's coefficient that conserves energy.
     problem.coefficient = Steps(problem.coefficient, Near(3));
     Admit(problem);
     return problem;
   }
 
-  // kappa near 1, where the friction impulse vanishes.
+  // kappa lies near 1, where the friction impulse vanishes.
   Problem NearUnitPoisson() {
     Problem problem = Everyday();
     AimSlope(problem, Uniform(0.0, 1.0));
@@ -123,11 +124,11 @@ class SceneSource {
     return problem;
   }
 
-  // Where an output changes its sign, or the impact its regime.
+  // The thresholds at which an output changes its sign, or the impact its regime.
   enum class SignChange { kLocking, kFrictionImpulse, kDeformation, kEnergy };
   static constexpr int kSignChanges = 4;
 
-  // At `factor` times the coefficient, of friction or of restitution, at which a double has the sign change.
+  // A problem at `factor` times the coefficient of friction or restitution nearest to the sign change.
   Problem NearSignChange(SignChange change, double factor) {
     Problem problem = Everyday();
     AimSlope(problem, Uniform(0.0, 1.0));
@@ -157,17 +158,17 @@ class SceneSource {
     return problem;
   }
 
-  // 1 +- a power of two with exponent in [-52, -20], any as likely as any other.
+  // 1 +- a power of two whose exponent is uniform in [-52, -20].
   double NearlyOne() { return 1.0 + Sign() * std::exp2(-Uniform(20.0, 52.0)); }
 
-  // x far below the last bit of 1.
+  // x lies far below the last bit of 1.
   Problem NearlyVertical() {
     Problem problem = Everyday();
     AimSlope(problem, std::exp2(-Uniform(1.0, 900.0)));
     return problem;
   }
 
-  // [0, 1) with every exponent as likely, and now and then the ends.
+  // A number in [0, 1) with a uniform exponent, and now and then an end of the range.
   double UnitByExponent() {
     const uint64_t kind = Below(8);
     if (kind == 0) return 0.0;
@@ -191,7 +192,7 @@ class SceneSource {
     return x == 0.0 ? 1.0 : x;
   }
 
-  // b such that mu |b|/a is near x, where a double allows it.
+  // A b for which mu |b|/a is near x, if a double allows it.
   void AimSlope(Problem& problem, double x) {
     int a_exponent = 0;
     int mu_exponent = 0;
@@ -211,7 +212,7 @@ class SceneSource {
       problem.coefficient = kind == 0 && any_size ? Bits() : kind < 2 ? Uniform(0.0, 3.0) : UnitByExponent();
     }
   }
-  // Keeps the one rule that depends on the law.
+  // Enforces the one rule that depends on the law.
   static void Admit(Problem& problem) {
     if (problem.law == RestitutionLaw::kEnergetic) problem.coefficient = std::min(problem.coefficient, 1.0);
   }

@@ -1,4 +1,4 @@
-// Random impacts for the plan: over many scales, near the thresholds of each effect, some of them absent.
+// Random impacts for the plan: over many scales and near the threshold of each effect, with some effects absent.
 
 #ifndef RICOCHET_TESTS_SUPPORT_PLAN_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_PLAN_SCENES_H_
@@ -67,9 +67,9 @@ class PlanScenes {
     return problem;
   }
 
-  // 10^-1 to 10^-12.
+  // A tolerance from 10^-12 to 10^-1.
   double Tolerance() { return Power(-12.0, -1.0); }
-  // 10 to a power between the two.
+  // 10 to a power between both arguments.
   double Power(double low, double high) { return std::pow(10.0, planar_.Uniform(low, high)); }
   double Uniform(double low, double high) { return planar_.Uniform(low, high); }
   uint64_t Below(uint64_t bound) { return planar_.Below(bound); }

@@ -12,7 +12,7 @@
 namespace ricochet::planar {
 namespace {
 
-// -1, 0 or 1; balls around 0 are 0.
+// The sign of a ball: -1, 0 or 1; a ball that contains 0 has the sign 0.
 int SignOf(const Ball& x) { return x > Ball(0.0) ? 1 : x < Ball(0.0) ? -1 : 0; }
 int Compare(const Ball& x, const Ball& y) { return SignOf(x - y); }
 Ball RootOf(const Ball& x) { return SignOf(x) == 0 ? Ball(0.0) : Sqrt(x); }
@@ -70,7 +70,7 @@ class Simulation {
 
   void Record(EventKind kind) { impact_.events.push_back({kind, tau_, f_, u_, v_}); }
 
-  // df/dtau now.
+  // The current df/dtau.
   Ball FrictionNow() {
     sticks_ = false;
     if (SignOf(wtt_) == 0) return Ball(0.0);
@@ -85,7 +85,7 @@ class Simulation {
     return Ball(-direction) * mu_;
   }
 
-  // How much impulse restitution still needs if v goes on with slope `rise`.
+  // The normal impulse up to the end of restitution if v goes on with slope `rise`.
   Ball WaitForEnd(const Ball& rise) const {
     switch (problem_.law) {
       case RestitutionLaw::kNewton:
@@ -100,7 +100,7 @@ class Simulation {
     std::abort();
   }
 
-  // One piece of the path; false at the end.
+  // Follows one piece of the path; returns false at its end.
   bool Step() {
     const Ball friction = FrictionNow();
     const Ball u_rise = wtn_ + wtt_ * friction;
@@ -131,7 +131,7 @@ class Simulation {
     return Handle(due);
   }
 
-  // Which mode follows the last stop of slip.
+  // The mode that follows the last stop of slip.
   void NoteMode() {
     if (!stop_pending_) return;
     stop_pending_ = false;
@@ -212,7 +212,7 @@ class Simulation {
   bool rank_one_ = false;
 
   Ball tau_, f_, u_, v_;
-  Ball normal_work_, tangential_work_;  // Of this phase.
+  Ball normal_work_, tangential_work_;  // Works of the current phase.
   bool restoring_ = false;
   bool sticks_ = false;
   bool stop_pending_ = false;
@@ -221,7 +221,7 @@ class Simulation {
   ExactImpact impact_;
 };
 
-// In ulp of the exact value, beyond `allowance`. Infinities stand for what rounds to 2^1024.
+// The error in ulp of the exact value, beyond `allowance`. An infinity stands for a value that rounds to 2^1024.
 double Error(double computed, const Ball& exact, const Ball& allowance) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (std::isnan(computed)) return kNever;
@@ -235,7 +235,7 @@ double Error(double computed, const Ball& exact, const Ball& allowance) {
   return std::max(0.0, error.UpperBound());
 }
 
-// Errors of values of one scale.
+// The errors of values that share a scale.
 class ErrorOnScale {
  public:
   ErrorOnScale(Ball scale, const Ball& conditioning)

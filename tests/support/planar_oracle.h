@@ -1,8 +1,8 @@
-// A planar impact by simulating its events in ball arithmetic: the oracle of core/models/planar.
+// Planar oracle: simulates the events of a planar impact in ball arithmetic, to test core/models/planar.
 //
-// A state (tau, f, u, v) is advanced to the next of: slip stops, v vanishes, restitution ends; whichever comes first,
-// by the naive formulas. Precision grows with the spread of the inputs' exponents, so that no difference of these
-// inputs can be so small as a ball without being 0: a ball around 0 is 0, two that overlap are equal. Shares no code
+// A state (tau, f, u, v) is advanced by the naive formulas to the first of these events: slip stops, v vanishes,
+// restitution ends. Precision grows with the spread of the inputs' exponents, so that a difference of these inputs is
+// either 0 or larger than a ball: a ball that contains 0 is 0, and two balls that overlap are equal. No code is shared
 // with core/.
 
 #ifndef RICOCHET_TESTS_SUPPORT_PLANAR_ORACLE_H_
@@ -33,7 +33,7 @@ struct ExactImpact {
   Ball newton, poisson, energetic;
   Ball energy_change;      // Sum of the works.
   Ball steepest_friction;  // Largest |df/dtau| of the path.
-  Ball conditioning;       // c of ErrorsOf.
+  Ball conditioning;       // The c of ErrorsOf.
 
   const ExactInstant& end() const { return events.back(); }
 };
@@ -41,7 +41,7 @@ struct ExactImpact {
 // The problem must not be separating.
 ExactImpact SolveExactly(const Problem& problem);
 
-// Outputs by which errors are told apart. The last four are the largest error at an event after the start.
+// The outputs whose errors are reported. The last four are the largest errors at an event after the start.
 inline constexpr std::array kOutputNames = {
     "u1",
     "v1",
@@ -67,9 +67,9 @@ inline constexpr std::array kOutputNames = {
 using OutputErrors = std::array<double, kOutputNames.size()>;
 
 // The error of each output in ulp of the exact value, beyond 2^-94 c of its scale, with
-// c = (Wtt Wnn/det W) (1 + mu |Wtn|/Wnn), at rank one 1. Scales: max(|u0|, |v0|) for velocities, tau1 for normal
-// impulses, the largest |f'| tau1 for tangential ones, the largest work for works, 1 for coefficients of restitution,
-// the largest |f'| for the tangential one; the value itself where that is larger.
+// c = (Wtt Wnn/det W) (1 + mu |Wtn|/Wnn), and c = 1 at rank one. The scale is max(|u0|, |v0|) for velocities, tau1 for
+// normal impulses, the largest |f'| tau1 for tangential ones, the largest work for works, 1 for coefficients of
+// restitution, and the largest |f'| for the tangential coefficient; it is the value itself if that is larger.
 OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact);
 
 // A problem as hexadecimal floats, to be pasted into a test.

@@ -1,4 +1,4 @@
-// Random planar impacts: of everyday size, near rank one, close to every threshold of the path, over all doubles.
+// Random planar impacts: of everyday size, near rank one, close to every threshold of the path, and over all doubles.
 
 #ifndef RICOCHET_TESTS_SUPPORT_PLANAR_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_PLANAR_SCENES_H_
@@ -18,7 +18,7 @@ class SceneSource {
  public:
   explicit SceneSource(uint64_t seed) : random_(seed) {}
 
-  // Any of those below that have everyday exponents.
+  // A problem of any of the kinds below that have everyday exponents.
   Problem Any() {
     switch (Below(10)) {
       case 0:
@@ -56,7 +56,7 @@ class SceneSource {
     return problem;
   }
 
-  // det W from 1e-3 down to some 8 eps of Wtt Wnn, and below.
+  // det W lies between 1e-3 and some 8 eps of Wtt Wnn, or below.
   Problem NearRankOne() {
     Problem problem = Everyday();
     const double cosine = std::sqrt(1.0 - std::exp2(-Uniform(10.0, 54.0)));
@@ -77,7 +77,7 @@ class SceneSource {
     return Admitted(problem);
   }
 
-  // mu Wtt within a few ulp of |Wtn|.
+  // mu Wtt lies within a few ulp of |Wtn|.
   Problem NearStick() {
     Problem problem = Below(3) == 0 ? NearRankOne() : Everyday();
     if (problem.wtn == 0.0) return problem;
@@ -86,7 +86,7 @@ class SceneSource {
     return Admitted(problem);
   }
 
-  // mu |Wtn| near Wnn, on the side where v falls at first, or all but does.
+  // mu |Wtn| lies near Wnn, so that v falls at first, or nearly does.
   Problem NearJam() {
     Problem problem = Everyday();
     if (problem.wtn == 0.0) return problem;
@@ -96,21 +96,21 @@ class SceneSource {
     return problem;
   }
 
-  // Slip stops within a few ulp of where compression ends.
+  // Slip stops within a few ulp of the end of compression.
   Problem NearStopAtRest() { return NearStop(Everyday(), 0.0); }
 
-  // Slip stops near where restitution ends; on one piece the three laws agree.
+  // Slip stops near the end of restitution; on one piece the three laws agree.
   Problem NearStopAtEnd() {
     const Problem problem = Everyday();
     return NearStop(problem, problem.coefficient);
   }
 
-  // Where an output changes its sign, or the impact its regime.
+  // The thresholds at which an output changes its sign, or the impact its regime.
   enum class SignChange {
     kStick,            // mu Wtt - |Wtn|
     kJam,              // Wnn - mu |Wtn|
-    kStopAtRest,       // Slip stops where compression ends,
-    kStopAtEnd,        // or restitution.
+    kStopAtRest,       // Slip stops where compression ends.
+    kStopAtEnd,        // Slip stops where restitution ends.
     kDeterminant,      // det W
     kFrictionImpulse,  // f1
     kDeformation,      // eta - 1
@@ -118,7 +118,7 @@ class SceneSource {
   };
   static constexpr int kSignChanges = 8;
 
-  // At `factor` times the input at which a double has the sign change.
+  // A problem at `factor` times the input nearest to the sign change.
   Problem NearSignChange(SignChange change, double factor) {
     while (true) {
       Problem problem = Everyday();
@@ -126,10 +126,10 @@ class SceneSource {
     }
   }
 
-  // 1 +- a power of two with exponent in [-52, -20], any as likely as any other.
+  // 1 +- a power of two whose exponent is uniform in [-52, -20].
   double NearlyOne() { return 1.0 + Sign() * std::exp2(-Uniform(20.0, 52.0)); }
 
-  // Numbers of a few bits, so that events coincide exactly.
+  // The numbers have a few bits only, so that events coincide exactly.
   Problem SmallIntegers() {
     Problem problem = {.wtt = Integer(1, 6),
                        .wtn = Integer(-6, 6),
@@ -160,7 +160,7 @@ class SceneSource {
     problem.wtt = std::ldexp(t * t, 2 * t_exponent);
     problem.wnn = std::ldexp(n * n, 2 * n_exponent);
     problem.wtn = Sign() * std::ldexp(t * n * (Below(4) == 0 ? 1.0 : Uniform(0.0, 1.0)), t_exponent + n_exponent);
-    // A friction that matters, half of the time.
+    // Half of the time friction is chosen so that it matters.
     if (Below(2) == 0) problem.mu = std::ldexp(Uniform(0.1, 3.0), n_exponent - t_exponent);
     problem.mu_static = std::max(problem.mu, problem.mu_static);
     SetCoefficient(problem);
@@ -168,7 +168,7 @@ class SceneSource {
     return std::isfinite(problem.u0) ? problem : OverAllDoubles();
   }
 
-  // Coefficients that every law allows, the ends now and then.
+  // The coefficient is one that every law allows, now and then an end of its range.
   double UnitCoefficient() {
     const uint64_t kind = Below(8);
     return kind == 0 ? 0.0 : kind == 1 ? 1.0 : Uniform(0.0, 1.0);
@@ -178,7 +178,7 @@ class SceneSource {
   uint64_t Below(uint64_t bound) { return random_() % bound; }
   double Sign() { return Below(2) == 0 ? 1.0 : -1.0; }
 
-  // Within 4 eps of rank one: then (u0, v0) is in the range of W.
+  // A W within 4 eps of rank one; (u0, v0) then lies in its range.
   static bool IsRankOne(const Problem& problem) {
     int t = 0;
     int n = 0;
@@ -199,7 +199,7 @@ class SceneSource {
   static double Steps(double x, int64_t steps) {
     return std::fabs(std::bit_cast<double>(std::bit_cast<int64_t>(x) + (x == 0.0 ? std::abs(steps) : steps)));
   }
-  // Slip stops within a few ulp of where 1 + `k` times the normal impulse of compression has been spent.
+  // Slip stops within a few ulp of 1 + `k` times the normal impulse of compression.
   Problem NearStop(Problem problem, double k) {
     const double sign = Sign();
     const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
@@ -307,7 +307,7 @@ class SceneSource {
     if (Below(64) == 0) problem.u0 *= 0x1p-40;
   }
 
-  // What is not positive definite is made rank one; velocities outside its range are put there.
+  // Gives a W that is not positive definite rank one, and moves velocities outside its range into it.
   static Problem Admitted(Problem problem) {
     if (!IsRankOne(problem)) return problem;
     if (problem.wtn == 0.0) problem.wtn = problem.wtt = 0.0;

@@ -19,7 +19,7 @@ namespace ricochet {
 template <size_t kTangential>
 struct Answer {
   Ending<kTangential> end;
-  double error = 0.0;  // An estimate, where the model makes one.
+  double error = 0.0;  // The model's estimate of its error, if it makes one.
 };
 
 inline compliant::Problem CompliantOf(const planar::Problem& problem, double ratio_squared) {

@@ -29,7 +29,7 @@ std::filesystem::path MakeDirectory() {
   return pattern;
 }
 
-// Between fork and exec only what is safe in the child of a process with threads.
+// Between fork and exec only functions are called that are safe in the child of a process with threads.
 [[noreturn]] void Exec(char* const* arguments, const char* output) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
   const int descriptor = open(output, O_WRONLY | O_CREAT | O_TRUNC | O_APPEND, 0600);
@@ -58,7 +58,7 @@ std::string ReadFile(const std::filesystem::path& path) {
   return text.str();
 }
 
-// Looks at `condition` until it holds or `time` is over; whether it held.
+// Polls `condition` until it holds or `time` is over; returns whether it held.
 template <typename Condition>
 bool WaitUntil(std::chrono::seconds time, Condition condition) {
   const auto end = steady_clock::now() + time;
@@ -72,7 +72,7 @@ bool WaitUntil(std::chrono::seconds time, Condition condition) {
 std::vector<std::string> ServerCommand(const std::vector<std::string>& arguments,
                                        const std::filesystem::path& port_file) {
   std::vector<std::string> command = {RICOCHETD_PATH, "--listen", "127.0.0.1:0", "--port-file", port_file};
-  // A client that is idle does not notice the drain at once; a test need not wait for it.
+  // An idle client does not notice the drain at once, and a test need not wait for it.
   const std::pair<std::string, std::string> defaults[] = {{"--drain-grace", "0"}, {"--drain-timeout", "1"}};
   for (const auto& [flag, value] : defaults) {
     if (std::find(arguments.begin(), arguments.end(), flag) == arguments.end()) {

@@ -11,24 +11,24 @@
 
 namespace ricochet {
 
-// A program in a directory of its own, its output in a file there. Both end with this object.
+// A ChildProcess runs a program in a directory of its own, with its output in a file there. Both end with this object.
 class ChildProcess {
  public:
   explicit ChildProcess(const std::vector<std::string>& command);
-  ~ChildProcess();  // Kills it if it still runs.
+  ~ChildProcess();  // Kills the program if it still runs.
   ChildProcess(const ChildProcess&) = delete;
   ChildProcess& operator=(const ChildProcess&) = delete;
 
   pid_t pid() const { return pid_; }
   void Signal(int signal) const;
 
-  // Waits for its end. The exit status, or minus the signal that killed it.
+  // Waits for the end of the program, and returns its exit status, or minus the signal that killed it.
   int Wait();
 
-  // Whether it still runs.
+  // True if the program still runs.
   bool running();
 
-  // Standard output and error so far.
+  // The standard output and error so far.
   std::string output() const;
 
  private:
@@ -40,9 +40,9 @@ class ChildProcess {
 
 class ServerProcess {
  public:
-  // Starts ricochetd with `arguments` beside --listen and --port-file and waits until it takes calls. The drain grace
-  // is 0 and its timeout 1 s unless they set them.
-  // Throws std::runtime_error with the log if it does not start within 20 s.
+  // Starts ricochetd with `arguments` besides --listen and --port-file, and waits until it takes calls. The drain
+  // grace is 0 and the drain timeout 1 s unless `arguments` set them.
+  // Throws std::runtime_error with the log if ricochetd does not start within 20 s.
   explicit ServerProcess(const std::vector<std::string>& arguments = {});
 
   // "127.0.0.1:PORT".
@@ -53,15 +53,15 @@ class ServerProcess {
   // Sends SIGTERM and returns at once.
   void Terminate() const;
 
-  // Waits for the end. The exit status, or minus the signal that killed it.
+  // Waits for the end of ricochetd, and returns its exit status, or minus the signal that killed it.
   int Wait() { return process_.Wait(); }
 
-  // Terminate and Wait.
+  // Calls Terminate and then Wait.
   int Stop();
 
   std::string log() const { return process_.output(); }
 
-  // The log once it contains `text`; what it is after 10 s without it.
+  // Waits until the log contains `text`, at most 10 s, and returns the log.
   std::string WaitForLog(const std::string& text) const;
 
  private:
@@ -70,13 +70,13 @@ class ServerProcess {
   int port_ = 0;
 };
 
-// How a ricochetd that ends by itself did.
+// The exit status and output of a ricochetd that has ended by itself.
 struct Ending {
   int exit_status = 0;
   std::string output;
 };
 
-// Runs ricochetd with exactly `arguments` to its end; kills it after 20 s.
+// Runs ricochetd with exactly `arguments` to its end, and kills it after 20 s.
 Ending RunServerToEnd(const std::vector<std::string>& arguments);
 
 }  // namespace ricochet

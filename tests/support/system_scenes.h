@@ -15,7 +15,7 @@ inline Linkage Chain() { return {{{1.0, 1.0, 0.5, 0.1, 0.3, -1.0}, {1.0, 1.0, 0.
 inline PlanarContact Contact() { return {2.0, 0.5, 1.0, 1.0, -1.0}; }
 inline SpatialContact ContactInSpace() { return {{1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, {1.0, 0.6}, -1.0}; }
 
-// All but the pendulum.
+// Every system but the pendulum.
 inline std::vector<System> Systems() {
   const PlanarBody flat = {2.0, 0.2, 0.1, 0.3, 0.0, 0.5, 0.0};
   const SpatialBody body = {2.0, {1, 0, 0, 1, 0, 1}, {0, 0, 0.5}, {0, 0, 1}, {1, 1, 0}};
@@ -23,7 +23,7 @@ inline std::vector<System> Systems() {
           Contact(), ContactInSpace()};
 }
 
-// With friction 0.5 and the energetic coefficient 0.5.
+// A scene of the system with friction 0.5 and the energetic coefficient 0.5.
 inline Scene With(const System& system) {
   return {.system = system, .friction = {.kinetic_coefficient = 0.5}, .restitution = EnergeticCoefficient{0.5}};
 }

@@ -23,7 +23,7 @@ inline std::vector<std::string> SplitCells(const std::string& line) {
   return cells;
 }
 
-// Every row of tests/data/`name`, whose first line names the columns.
+// Reads every row of tests/data/`name`, whose first line names the columns.
 inline std::vector<VectorRow> ReadVectors(const std::string& name) {
   std::ifstream file(TestDataPath(name));
   std::string line;

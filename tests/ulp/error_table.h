@@ -39,7 +39,7 @@ class ErrorTable {
   double Worst(size_t output) const { return worst_[output].error; }
   const Problem& WorstInput(size_t output) const { return worst_[output].problem; }
 
-  // Not below it, and by less than 2^-12 ulp above where it is below 2 ulp.
+  // The result is not below the percentile, and above it by less than 2^-12 ulp if the percentile is below 2 ulp.
   double Percentile999(size_t output) const {
     const int64_t needed = points_ - points_ / 1000;
     int64_t seen = 0;
@@ -61,7 +61,7 @@ class ErrorTable {
 
  private:
   static constexpr int kBinsPerUlp = 4096;
-  static constexpr size_t kBins = 2 * kBinsPerUlp + 1;  // The last holds all that is larger.
+  static constexpr size_t kBins = 2 * kBinsPerUlp + 1;  // The last bin holds all larger errors.
 
   struct Extreme {
     double error = -1.0;

@@ -1,4 +1,4 @@
-// Holds every output of the closed-form models to the accuracy that their headers promise, in bulk.
+// Compares every output of the closed-form models, in bulk, with the accuracy that their headers promise.
 //
 //   ricochet_ulp POINTS
 //
@@ -53,7 +53,7 @@ struct PendulumModel {
   static constexpr const char* kName = "pendulum";
   static constexpr int kSignChanges = Source::kSignChanges;
   static constexpr size_t kOutputs = pendulum::kOutputCount;
-  // Of the points that are not near a sign change, one in so many has any exponent that a double can have.
+  // Among the points that are not near a sign change, one in this many may have any exponent of a double.
   static constexpr uint64_t kOverAllDoubles = 2;
 
   static const std::array<const char*, kOutputs>& Names() { return pendulum::OutputNames(); }
@@ -81,7 +81,7 @@ struct PlanarModel {
   static constexpr const char* kName = "planar";
   static constexpr int kSignChanges = Source::kSignChanges;
   static constexpr size_t kOutputs = planar::kOutputNames.size();
-  // Few, as the oracle needs a hundred times longer for them.
+  // There are few of these, because the oracle takes a hundred times longer for them.
   static constexpr uint64_t kOverAllDoubles = 64;
 
   static const std::array<const char*, kOutputs>& Names() { return planar::kOutputNames; }
@@ -124,7 +124,7 @@ struct PlanarModel {
 
 // Points that are drawn from one seed.
 struct Block {
-  int sign_change;  // -1: none in particular.
+  int sign_change;  // -1 means no particular sign change.
   int64_t points;
 };
 

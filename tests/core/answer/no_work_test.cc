@@ -1,4 +1,4 @@
-// An absent effect does no work: whatever the plan leaves out, nothing of it is even constructed.
+// An effect that the plan leaves out costs nothing: none of its code is called.
 
 #include <cvode/cvode.h>
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@ namespace {
 int integrators = 0;
 }  // namespace
 
-// The linker sends the core's calls here (--wrap).
+// The linker redirects the core's calls to these functions (--wrap).
 extern "C" void* __real_CVodeCreate(int lmm, SUNContext context);
 extern "C" void* __wrap_CVodeCreate(int lmm, SUNContext context);
 void* __wrap_CVodeCreate(int lmm, SUNContext context) {

@@ -1,4 +1,4 @@
-// The impact of every kind of scene: which model answers, and what the systems' own velocities come out as.
+// The impact of every kind of scene: which model answers, and which velocities the system has afterwards.
 
 #include "core/answer/scene_outcome.h"
 
@@ -81,7 +81,7 @@ TEST(SceneOutcomeTest, BodyAndItsContactAgree) {
   EXPECT_THAT(contact.rates_after_rad_s, IsEmpty());
 }
 
-// Lubarda, footnote 3: where nothing couples, the three laws are one.
+// Lubarda, footnote 3: without coupling the three laws agree.
 TEST(SceneOutcomeTest, DiskBouncesTheSameUnderAllThreeLaws) {
   const Outcome newton = Solved(With(Disk(), 0.1, NewtonCoefficient{0.6}));
   for (const Restitution& law : {Restitution(PoissonCoefficient{0.6}), Restitution(EnergeticCoefficient{0.6})}) {
@@ -146,14 +146,15 @@ TEST(SceneOutcomeTest, OneLinkAnswersAsThePendulumDoes) {
 
 TEST(SceneOutcomeTest, PendulumOnAMovingSurfaceTurnsRelativeToIt) {
   Scene moving = With(Pendulum{2.0, 0.3, 1.0, -3.0}, 0.1, EnergeticCoefficient{0.5});
-  moving.surface_velocity = SurfaceVelocity{{-1.0}, -0.3};  // As if it turned by -1 rad/s.
+  moving.surface_velocity =
+      SurfaceVelocity{{-1.0}, -0.3};  // The contact then has the velocity that a rate of -1 rad/s gives.
   const Outcome still = Solved(With(Pendulum{2.0, 0.3, 1.0, -2.0}, 0.1, EnergeticCoefficient{0.5}));
   const Outcome outcome = Solved(moving);
   EXPECT_NEAR(outcome.rates_after_rad_s[0] + 1.0, still.rates_after_rad_s[0], kTight);
   EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, still.contact_velocity_after.normal_m_s, kTight);
 }
 
-// theory: Keller's contact, mu = 0.2, eta = 0.6.
+// The contact of Keller (1986) with mu = 0.2 and eta = 0.6.
 TEST(SceneOutcomeTest, ContactInSpaceMeetsTheKnownNumbers) {
   const Outcome outcome = Solved(With(ContactInSpace(), 0.2, EnergeticCoefficient{0.6}));
   EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[0], 1.1935907812616, 1e-10);
@@ -335,7 +336,7 @@ TEST(SceneOutcomeTest, EachLawHoldsItsNewtonCoefficient) {
 
 TEST(SceneOutcomeTest, ALawWithoutASolutionSaysSoAndChangesNothing) {
   Scene scene = With(PlanarContact{2.5, -1.5, 1.0, 1.0, -1.0}, 0.0, std::monostate());
-  scene.impact_law = BrachLaw{0.5, 1.0};  // Wnn + mu_hat Wtn = -0.5: the impulse would pull the contact in.
+  scene.impact_law = BrachLaw{0.5, 1.0};  // Wnn + mu_hat Wtn = -0.5: the impulse would increase the approach velocity.
   const Outcome outcome = Solved(scene);
   EXPECT_EQ(outcome.regime, Regime::kNoSolution);
   EXPECT_EQ(outcome.impulse.normal_total_n_s, 0.0);
@@ -344,7 +345,7 @@ TEST(SceneOutcomeTest, ALawWithoutASolutionSaysSoAndChangesNothing) {
 
 TEST(SceneOutcomeTest, KaneAndLevinsonListEverySolutionWhereThereAreSeveral) {
   Scene scene = With(PlanarContact{4.0, 2.0, 1.0, -2.0, -1.0}, 0.3, std::monostate());
-  scene.impact_law = KaneLevinsonLaw{0.0};  // Rank one: any impulse of the cone ends the approach.
+  scene.impact_law = KaneLevinsonLaw{0.0};  // W has rank one, so that any impulse of the cone ends the approach.
   const Outcome outcome = Solved(scene);
   ASSERT_THAT(outcome.alternatives, SizeIs(2));
   EXPECT_EQ(outcome.alternatives[0].contact_velocity_after, outcome.contact_velocity_after);

@@ -1,4 +1,4 @@
-// What finite forces alone give a contact: by hand, and from the potential of gravity.
+// The accelerations of a contact by finite forces alone, compared with values by hand and with the potential of gravity.
 
 #include "core/contact/finite_forces.h"
 
@@ -25,7 +25,7 @@ PlanarReduction Under(const FiniteForces& forces, const System& system) {
   return std::get<PlanarReduction>(Reduce({.system = system, .finite_forces = forces}));
 }
 
-// Of gravity (g_t, g_n) on the chain, whose centres of mass hang from the pin.
+// The potential of gravity (g_t, g_n) for the chain, whose centres of mass hang from the pin.
 double Potential(const Linkage& linkage, const Gravity& gravity) {
   double potential = 0.0;
   double t = 0.0;
@@ -75,7 +75,7 @@ TEST(FiniteForcesTest, AHangingRodSwingsByHand) {
               ElementsAre(DoubleEq(length * std::cos(theta) * turn), DoubleEq(length * std::sin(theta) * turn)));
 }
 
-// a = J M^-1 Q = (M^-1 J^T)^T Q, with Q from differences of the potential.
+// a = J M^-1 Q = (M^-1 J^T)^T Q, where Q is computed from differences of the potential.
 TEST(FiniteForcesTest, AChainsContactAcceleratesAsItsPotentialSays) {
   const Linkage chain = {
       {{1.2, 0.7, 0.4, 0.05, 0.3, -1.0}, {0.9, 1.5, -0.2, 0.1, -0.8, 0.5}, {0.5, 0.4, 0.6, 0.02, 2.0, 0}}};

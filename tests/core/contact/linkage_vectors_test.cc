@@ -1,6 +1,6 @@
-// Chains against tests/data/linkage.csv, written at 40 digits by an independent implementation.
+// Chains, compared with tests/data/linkage.csv, which an independent implementation computed with 40 digits.
 //
-// Rates, velocities and impulses hold to 1e-12 of the largest of their kind.
+// Rates, velocities and impulses agree to 1e-12 of the largest number of their kind.
 
 #include <gtest/gtest.h>
 

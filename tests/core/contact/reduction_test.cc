@@ -1,4 +1,4 @@
-// From systems to contacts: W, the contact velocity and the way back, by hand.
+// The reduction of systems to contacts: W, the contact velocity and the velocities after an impulse, worked by hand.
 
 #include "core/contact/reduction.h"
 
@@ -102,7 +102,7 @@ TEST(ReductionTest, StretchedDoublePendulumByHand) {
   EXPECT_LE(std::abs(RelativeDeterminant(reduction.w[0], reduction.w[1], reduction.w[2])), 4 * 0x1p-52);
 }
 
-// A stretched chain moves its tip along one line alone, whatever rounding makes of it.
+// The tip of a stretched chain moves along one line only; rounding must not change that.
 TEST(ReductionTest, StretchedChainsHaveRankOneExactlyEnough) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> number(0.1, 2.0);
@@ -124,7 +124,7 @@ TEST(ReductionTest, StretchedChainsHaveRankOneExactlyEnough) {
   }
 }
 
-// A body in the plane (t1, n) is a body in space that does not move out of it; counter-clockwise is against t2.
+// A body in the plane (t1, n) is a body in space that does not leave this plane; counter-clockwise is against t2.
 TEST(ReductionTest, BodyInSpaceIsThePlanarOneWhereItStaysInAPlane) {
   const PlanarBody flat = {.mass_kg = 1.5,
                            .inertia_com_kg_m2 = 0.2,
@@ -167,7 +167,7 @@ TEST(ReductionTest, SphereByHand) {
   EXPECT_EQ(sphere.v0, -3.0);
 }
 
-// What the contact does follows from what the bodies do: J (q'+ - q') = W p.
+// The change of the contact velocity follows from those of the bodies: J (q'+ - q') = W p.
 template <size_t kTangential>
 void ExpectConsistent(const System& before, const std::array<double, kTangential>& f, double tau,
                       void (*set)(const std::vector<double>&, System&)) {

@@ -1,8 +1,8 @@
-// The same bits everywhere: 10^5 scenes hash to what tests/data/golden/bits.txt says, whatever the build, the SIMD
-// target, the threads and the order. RICOCHET_UPDATE_GOLDEN=1 writes the file anew.
+// The bits of all answers are the same everywhere: 10^5 scenes give the hashes in tests/data/golden/bits.txt, whatever
+// the build, the SIMD target, the threads and the order are. RICOCHET_UPDATE_GOLDEN=1 writes the file anew.
 //
-// Every system, law and effect but those of SUNDIALS (a normal spring), which promises its bits on one machine only.
-// The scenes themselves come from sums and products of random bits, so that they are the same everywhere too.
+// The scenes cover every system, law and effect but a normal spring, because SUNDIALS promises its bits on one machine
+// only. They are made of sums and products of random bits, so that they are the same everywhere, too.
 
 #include <gtest/gtest.h>
 
@@ -90,7 +90,7 @@ ImpactLaw AnyImpactLaw(Random& random) {
   }
 }
 
-// Effects that not every scene has, each in one of a few.
+// Adds effects to the scene, each to a part of the scenes only.
 void AddEffects(Random& random, Scene& scene) {
   const bool planar = IsPlanar(scene.system);
   if (random.Below(4) == 0) scene.friction.static_coefficient = scene.friction.kinetic_coefficient * 1.25;
@@ -107,7 +107,7 @@ void AddEffects(Random& random, Scene& scene) {
   }
 }
 
-// One of the systems with each number off by up to `spread` of its size; valid.
+// One of the systems, with each number changed by up to `spread` of its size; the result is valid.
 Scene AnyScene(Random& random, const System& system) {
   while (true) {
     Scene scene = {.system = system};
@@ -176,7 +176,7 @@ Answer AnswerTo(const Question& question) {
   return {hash.value(), outcome.plan.model};
 }
 
-// In `threads` threads, each with every threads-th question.
+// Answers in `threads` threads, each of which takes every threads-th question.
 std::vector<Answer> AnswersTo(const std::vector<Question>& questions, size_t threads) {
   std::vector<Answer> answers(questions.size());
   std::vector<std::thread> workers;
@@ -189,7 +189,7 @@ std::vector<Answer> AnswersTo(const std::vector<Question>& questions, size_t thr
   return answers;
 }
 
-// A line a model: its number, how many scenes it solved and what these hash to.
+// One line for each model: its number, how many scenes it solved, and their hash.
 std::string Summary(const std::vector<Answer>& answers) {
   std::map<int, std::pair<int, StableHash>> by_model;
   for (const Answer& answer : answers) {
@@ -219,7 +219,7 @@ TEST(GoldenBitsTest, A100000ScenesHaveTheBitsOfEveryOtherBuildThreadAndTarget) {
   const std::vector<Answer> answers = AnswersTo(questions, 4);
   const std::string summary = Summary(answers);
   EXPECT_EQ(summary, Golden(summary));
-  // Every model but that of finite duration.
+  // Every model but that of finite duration occurs.
   for (int model = static_cast<int>(Model::kNone); model < kModelCount; ++model) {
     if (static_cast<Model>(model) == Model::kFiniteDuration) continue;
     EXPECT_NE(summary.find(absl::StrCat("model ", model, ": ")), std::string::npos) << model;
@@ -237,7 +237,7 @@ TEST(GoldenBitsTest, A100000ScenesHaveTheBitsOfEveryOtherBuildThreadAndTarget) {
   }
 }
 
-// Every value of the points [first, end).
+// All values of the points [first, end).
 std::vector<uint64_t> BitsOf(SweepRequest request, int64_t first, int64_t end) {
   request.first_index = first;
   request.end_index = end;

@@ -1,4 +1,4 @@
-// LocalSolver: what the kernel gives, as an answer with its timeline, history, limits and errors.
+// LocalSolver: answers with their timelines, histories, limits and errors.
 
 #include "core/engine/local_solver.h"
 

@@ -1,4 +1,4 @@
-// Elementary functions: close to the exact result for every argument, and the same bits everywhere.
+// Elementary functions are close to the exact result for every argument, and have the same bits everywhere.
 
 #include "core/numerics/elementary.h"
 
@@ -17,7 +17,7 @@ namespace ricochet {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr slong kBits = 1300;  // Enough for an argument of 2^1024 less its multiples of pi.
+constexpr slong kBits = 1300;  // These bits suffice to reduce an argument of 2^1024 by multiples of pi.
 constexpr slong kFewBits = 200;
 
 class Random {
@@ -33,7 +33,7 @@ class Random {
       if (std::isfinite(x)) return x;
     }
   }
-  // Everyday angles, any double, and the doubles on either side of the multiples of pi/2.
+  // The arguments are everyday angles, any doubles, and the doubles on either side of the multiples of pi/2.
   double Angle() {
     switch (Below(3)) {
       case 0:
@@ -144,10 +144,10 @@ TEST(ElementaryTest, LimitsAreThoseOfC) {
   EXPECT_TRUE(std::isnan(Sin(kInfinity)));
 }
 
-// A digest of 600,000 results, to be met by every machine: a last bit that differs anywhere changes it.
+// Every machine must reproduce this digest of 600,000 results: one last bit that differs changes it.
 TEST(ElementaryTest, BitsAreTheSameOnEveryMachine) {
   Random random(7);
-  uint64_t digest = 0xcbf29ce484222325;  // FNV-1a, a result at a time.
+  uint64_t digest = 0xcbf29ce484222325;  // FNV-1a over the results, one by one.
   const auto add = [&](double result) { digest = (digest ^ std::bit_cast<uint64_t>(result)) * 0x100000001b3; };
   for (int i = 0; i < 100'000; ++i) {
     const double angle = random.Angle();

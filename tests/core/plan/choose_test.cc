@@ -1,4 +1,4 @@
-// The choice: within the tolerance, the cheapest that is proved to be, and what the caller asks for.
+// The choice: the cheapest model that is proved to be within the tolerance and does what the caller asks for.
 
 #include "core/plan/choose.h"
 
@@ -20,7 +20,7 @@ namespace ricochet {
 namespace {
 
 constexpr int kScenes = 100'000;
-// Of a model that is exact to an ulp or two of its own answer.
+// The error of a model that is exact to an ulp or two of its own answer.
 constexpr double kUlps = 0x1p-50;
 
 class Usage {
@@ -41,7 +41,7 @@ class Usage {
 
 double SomeTolerance(PlanScenes& scenes) { return scenes.Below(32) == 0 ? 0.0 : scenes.Tolerance(); }
 
-// Half of the scenes with compliance, of a conditioning for which the compliant model does not chatter.
+// Half of the scenes have compliance, with a conditioning for which the compliant model does not chatter.
 struct PlanarScene {
   planar::Problem problem;
   ContactPhysics physics;
@@ -129,7 +129,7 @@ TEST(ChooseTest, AnswersInSpaceAreWithinTheTolerance) {
     const Answer<2> planned = PlannedAnswer(choice, problem);
     const double allowed = std::max(demand.relative_tolerance, planned.error) + full.error_estimate;
     Ending<2> end = EndingOf(full);
-    // The spatial model's tolerance is that of velocities; where it does not reach what it is asked for it says so.
+    // The tolerance of the spatial model is one of velocities; its estimate says so if it does not reach the tolerance.
     if (choice.model == Model::kSpatial) {
       end.f1 = planned.end.f1;
       end.tau1 = planned.end.tau1;
@@ -189,7 +189,7 @@ TEST(ChooseTest, ASmallerToleranceNeverTakesACheaperModel) {
 
 // ---- By hand ----
 
-// 1 kg that slides on and does not stop: mu |Wtn|/Wnn = 0.03.
+// A body of 1 kg slides on and does not stop: mu |Wtn|/Wnn = 0.03.
 planar::Problem Slider() {
   return {.wtt = 1.0, .wtn = 0.1, .wnn = 1.0, .u0 = 5.0, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3, .coefficient = 0.5};
 }

@@ -1,4 +1,4 @@
-// What tangential compliance changes never exceeds its size, and is nothing while the particle slides throughout.
+// The change by tangential compliance never exceeds its size, and is 0 if the contact slides throughout.
 
 #include <gtest/gtest.h>
 
@@ -18,7 +18,7 @@ namespace {
 
 constexpr int kScenes = 100'000;
 
-// Everyday conditioning: near rank one, or near locking, a compliant contact may rattle for ever.
+// The conditioning is moderate, because near rank one or near locking a compliant contact may rattle for ever.
 planar::Problem Scene(PlanScenes& scenes) {
   planar::Problem problem = scenes.OfManyScales();
   while (problem.wtn * problem.wtn > 0.99 * problem.wtt * problem.wnn) problem = scenes.OfManyScales();
@@ -34,7 +34,7 @@ TEST(ComplianceSizeTest, OfTangentialCompliance) {
   for (int i = 0; i < kScenes; ++i) {
     planar::Problem problem = Scene(scenes);
     const double ratio_squared = scenes.Power(-2.0, 1.0);
-    // Near where the particle sticks at once.
+    // These contacts nearly stick at once.
     if (scenes.Below(16) == 0) {
       problem.u0 = std::copysign(
           problem.mu * ratio_squared * problem.v0 * (1.0 + scenes.Sign() * scenes.Power(-12.0, 0.0)), problem.u0);

@@ -1,4 +1,4 @@
-// What a demand may not ask, each with its path and reason.
+// Demands that are refused, each with its path and reason.
 
 #include "core/plan/demand.h"
 
@@ -36,7 +36,7 @@ Scene Sprung(NormalSpring spring) {
   return scene;
 }
 
-// "path description" of each violation.
+// Each violation as "path description".
 std::vector<std::string> Texts(const Scene& scene, const Demand& demand) {
   std::vector<std::string> texts;
   for (const Violation& violation : CheckDemand(scene, demand)) {

@@ -1,4 +1,4 @@
-// A plan in words: every effect once, in order, each with its reason and numbers.
+// A plan in words has every effect once, in order, each with its reason and numbers.
 
 #include "core/plan/explain.h"
 

@@ -1,4 +1,4 @@
-// What finite forces change never exceeds its size; a spring alone changes nothing.
+// The change by finite forces never exceeds their size; a spring alone changes nothing.
 
 #include <gtest/gtest.h>
 

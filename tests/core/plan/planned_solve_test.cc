@@ -1,4 +1,4 @@
-// Plans as a caller meets them: through Solve, with the fields of a request.
+// Plans as a caller sees them: through Solve, with the fields of a request.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -91,8 +91,8 @@ TEST(PlannedSolveTest, AnExcludedEffectIsLeftOutAndItsSizeTold) {
   EXPECT_EQ(outcome.plan.neglected, friction.size);
 }
 
-// What the joints turn by, finite forces included, moves the tip as the contact's own equations say: q'+ and (u1, v1)
-// come from different integrals.
+// The rates of the joints after an impact with finite forces give the tip the velocity of the contact's own equations:
+// q'+ and (u1, v1) come from different integrals.
 TEST(PlannedSolveTest, RatesAfterAnImpactThatTakesTimeMoveTheContactAsItMoves) {
   const DemandFields demand = {.relative_tolerance = 1e-9, .required = {Effect::kFiniteDuration}};
   const Pendulum pendulum = {2.0, 0.7, 0.4, -1.5};

@@ -1,9 +1,9 @@
 // Each inequality by itself: the true change never exceeds it, and it is not vacuous.
 //
-// The true change is between two exact impacts, with the effect and without it. Not vacuous: of the scenes whose true
-// change is below a hundredth of a random tolerance, the size lets at least 90 % leave the effect out; once over all
-// scenes, once over those where it is not absent by proof. (Static friction in play is sized, but not sharply: no
-// model is cheaper without it.)
+// The true change is the difference between two exact impacts, with the effect and without it. An inequality is not
+// vacuous if it allows the effect to be left out of at least 90 % of the scenes whose true change is below a hundredth
+// of a random tolerance. This is counted once over all scenes, and once over those in which the effect is not absent by
+// proof. Static friction is not bounded sharply if it has an effect, because no model is cheaper without it.
 
 #include "core/plan/sizes.h"
 
@@ -22,7 +22,7 @@ namespace {
 
 constexpr int kScenes = 100'000;
 
-// Rounding of exact models, where an answer is large beside max(|u0|, |v0|).
+// The rounding error of exact models, which matters if an answer is large compared with max(|u0|, |v0|).
 double NoiseOf(const planar::Problem& problem, const Ending<1>& end) {
   return 0x1p-50 * (1.0 + ChangeBetween(problem, {}, end));
 }
@@ -119,7 +119,7 @@ TEST(SizesTest, FrictionInSpace) {
   tally.ExpectSharpInPlay();
 }
 
-// The form that leaves out the one leaves out the other.
+// The first-order form leaves out both effects together.
 TEST(SizesTest, SlipThatTurnsOrStopsInSpace) {
   PlanScenes scenes(7);
   ImpactTally tally("slip that turns and stops");

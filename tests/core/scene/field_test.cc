@@ -1,4 +1,4 @@
-// What an axis can drive.
+// The fields that an axis can drive.
 
 #include "core/scene/field.h"
 

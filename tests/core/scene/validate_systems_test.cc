@@ -1,4 +1,4 @@
-// The door for every system but the pendulum, and for what goes beside a system.
+// Validation of every system but the pendulum, and of the other parts of a scene.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@
 
 namespace ricochet {
 
-// Found by the test framework.
+// The test framework finds this function by its name.
 static void PrintTo(const Violation& violation, std::ostream* out) {
   *out << violation.field << " " << violation.description;
 }
@@ -338,7 +338,7 @@ TEST(ValidateSystemsTest, EverySystemHasAValidScene) {
   }
 }
 
-// 2 eps Wtt Wnn short of semidefinite is rounding, 8 is not.
+// A determinant of -2 eps Wtt Wnn counts as rounding, one of -8 eps Wtt Wnn does not.
 TEST(ValidateSystemsTest, ADeterminantWithinRoundingIsZero) {
   const double tn = 1.0 + kEpsilon;
   EXPECT_THAT(Validate(With(PlanarContact{1.0, tn, 1.0, -1.0, -1.0})), IsEmpty());
@@ -370,7 +370,7 @@ TEST(ValidateSystemsTest, RankOneWithItsVelocityInTheRangeIsValid) {
   EXPECT_THAT(Validate(With(SpatialContact{{1, 2, 1, 4, 2, 1}, {-1.0, -2.0}, -1.0})), IsEmpty());
 }
 
-// The tip does not feel a link of 10^20 kg, but moves with it.
+// An impulse at the tip does not move a link of 10^20 kg, but the tip moves with that link.
 TEST(ValidateSystemsTest, ALinkTooHeavyForTheTipToFeelMovesItOutOfTheRange) {
   const Link light = {.length_m = 1.0, .mass_kg = 1.0, .com_m = 0.5, .inertia_com_kg_m2 = 0.1, .theta_rad = 0.4};
   Linkage linkage = {.links = {light, light}};

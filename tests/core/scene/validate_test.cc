@@ -1,4 +1,4 @@
-// The door: each rule of ricochet/scene.h, with the field, the value and the rule in the message.
+// Validation: each rule of ricochet/scene.h gives a message with the field, the value and the rule.
 
 #include "core/scene/validate.h"
 
@@ -13,7 +13,7 @@
 
 namespace ricochet {
 
-// Found by the test framework.
+// The test framework finds this function by its name.
 static void PrintTo(const Violation& violation, std::ostream* out) {
   *out << violation.field << " " << violation.description;
 }
@@ -56,7 +56,7 @@ TEST_P(BadSceneTest, IsReportedWithFieldValueAndRule) {
   EXPECT_THAT(Validate(scene), ElementsAre(Violation{GetParam().field, GetParam().description}));
 }
 
-// Every number of a scene, so that each is tried with values that are not finite.
+// Lists every number of a scene, so that each is tried with values that are not finite.
 struct NumberField {
   std::string name;
   std::string path;

@@ -1,4 +1,4 @@
-// The comparison laws: by hand, where they create energy, where they have no or several answers, and at random.
+// The impact laws: cases worked by hand, cases that create energy, cases with no or several solutions, and random ones.
 
 #include "core/models/laws/impact_laws.h"
 
@@ -47,7 +47,7 @@ TEST(WhittakerTest, SlantedRodByHand) {
              {.f = 28.0 / 71, .tau1 = 40.0 / 71, .u1 = 59.0 / 71, .v1 = 1.0, .energy_change = -168.0 / 5041});
 }
 
-// The same with mu = 2: tau1 = 2/5.5 = 4/11, f = 8/11, u1 = -1 + 20/11 + 6/11 = 15/11, dE = 4/11 4/11 = 16/121.
+// With mu = 2 instead, tau1 = 2/5.5 = 4/11, f = 8/11, u1 = -1 + 20/11 + 6/11 = 15/11, dE = 4/11 4/11 = 16/121.
 TEST(WhittakerTest, CreatesEnergyWhereSlipReverses) {
   ExpectOnly(SolveWhittaker(SlantedRod(2.0), 1.0),
              {.f = 8.0 / 11, .tau1 = 4.0 / 11, .u1 = 15.0 / 11, .v1 = 1.0, .energy_change = 16.0 / 121});
@@ -164,7 +164,7 @@ TEST(KaneParadoxTest, WhittakersOneDirectionLosesEnergyThere) {
   ExpectGain(SolveWhittaker(DoublePendulum().Input(0.7), 1.0), -0.2276, 0.00005);
 }
 
-// The same linkage with less slip before: friction in one direction drives the reversed slip.
+// The linkage has less slip before the impact here: friction in one direction drives the reversed slip.
 TEST(KaneParadoxTest, WhittakerGainsEnergyOnceTheFirstRodSwingsBack) {
   PlanarImpactInput input = DoublePendulum().Input(0.7);
   input.u0 = -0.05;
@@ -247,7 +247,7 @@ TEST(KaneLevinsonTest, PlasticPendulumHasAnImpulseForEachSideOfTheCone) {
   ASSERT_EQ(result.solutions.size(), 2u);
   ExpectSolution(result.solutions[0], {.f = -1.0 / 7, .tau1 = 2.0 / 7, .energy_change = -0.5});
   ExpectSolution(result.solutions[1], {.f = 1.0 / 9, .tau1 = 2.0 / 9, .energy_change = -0.5});
-  // Where one side locks (16 - 4 4 = 0) only the other is left: tau1 = 4/32.
+  // One side of the cone locks (16 - 4 4 = 0), and only the other one is left: tau1 = 4/32.
   ExpectOnly(SolveKaneLevinson(Pendulum(4.0), 0.0), {.f = 0.5, .tau1 = 0.125, .energy_change = -0.5});
 }
 

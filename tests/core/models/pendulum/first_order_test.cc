@@ -1,4 +1,4 @@
-// The pendulum to first order, against the exact one: errors within the proved bounds, which are not far above them.
+// The first-order form, compared with the exact pendulum: errors stay within the proved bounds, and not far below them.
 
 #include "core/models/pendulum/first_order.h"
 
@@ -27,7 +27,7 @@ using pendulum::ToString;
 constexpr double kUlp = std::numeric_limits<double>::epsilon();
 constexpr std::array kLaws = {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic};
 
-// What the first-order bound [57] allows of the coefficient.
+// The largest coefficient that the first-order bound [57] allows.
 double LargestCoefficient(RestitutionLaw law, double x) {
   return law == RestitutionLaw::kNewton ? 1.0 - x : law == RestitutionLaw::kPoisson ? 1.0 + x : 1.0;
 }
@@ -51,7 +51,7 @@ struct Errors {
   double velocity, impulse;
 };
 
-// Of the model, relative as the bounds are; the exact one's rounding is added to `rounding`.
+// The errors of the model, relative to the same scale as the bounds; `rounding` grows by that of the exact solution.
 Errors TrueErrors(const Problem& p, const Impact& impact, const pendulum::Impact& exact, Errors& rounding) {
   const double normal = p.a * p.a / p.inertia;
   const double tangential = p.b * p.b / p.inertia;
@@ -98,7 +98,7 @@ TEST(FirstOrderTest, ErrorsAreWithinTheBoundsWhichAreNotFarAboveThem) {
   }
 }
 
-// Over decades of x in which rounding does not show.
+// These decades of x are so large that rounding does not matter.
 TEST(FirstOrderTest, ErrorsFallWithTheSquareOfXAndAreBelowTheConstantsStated) {
   for (const RestitutionLaw law : kLaws) {
     std::vector<double> velocity, impulse;
@@ -118,7 +118,7 @@ TEST(FirstOrderTest, ErrorsFallWithTheSquareOfXAndAreBelowTheConstantsStated) {
       impulse.push_back(largest.impulse);
     }
     for (size_t i = 1; i < velocity.size(); ++i) {
-      // A law's own coefficient is exact.
+      // The coefficient that the law states is exact.
       if (law == RestitutionLaw::kNewton) {
         EXPECT_LT(velocity[i], 4.0 * kUlp);
       } else {

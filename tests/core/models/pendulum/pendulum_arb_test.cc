@@ -1,4 +1,4 @@
-// The kernel against the paper's formulas in ball arithmetic, over the whole range of doubles.
+// The kernel, compared with the paper's formulas in ball arithmetic over the whole range of doubles.
 
 #include <gtest/gtest.h>
 
@@ -60,7 +60,7 @@ TEST(PendulumArbTest, EveryOutputOf100000ScenesIsWithinOneUlp) {
     cancelled += Abs(exact[Output::kEnergeticExcess]) < Ball(0x1p-50);
   }
   worst.Check(kPromisedUlps);
-  // The scenes reach what the test claims to cover.
+  // The scenes do reach the cases that the test claims to cover.
   EXPECT_GT(regimes[static_cast<size_t>(Regime::kRebound)], 40'000);
   EXPECT_GT(regimes[static_cast<size_t>(Regime::kFrictionless)], 100);
   EXPECT_GT(regimes[static_cast<size_t>(Regime::kLocked)], 5'000);

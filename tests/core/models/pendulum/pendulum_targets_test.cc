@@ -1,4 +1,4 @@
-// The SIMD targets that this machine can run all give the same bits.
+// All SIMD targets that this machine can run give the same bits.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ std::vector<uint64_t> BitsOfSolve(const std::vector<Problem>& problems) {
   return bits;
 }
 
-// In the order of BitsOfSolve.
+// The names are in the order of BitsOfSolve.
 std::vector<uint64_t> BitsOfSolveColumns(const std::vector<Problem>& problems) {
   std::vector<Output> outputs;
   std::vector<std::vector<double>> values(kOutputCount, std::vector<double>(problems.size()));

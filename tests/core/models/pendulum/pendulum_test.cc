@@ -33,7 +33,7 @@ Problem Make(double a, double b, double mu, RestitutionLaw law, double coefficie
           .coefficient = coefficient};
 }
 
-// Neither underflow nor overflow, so that identities hold to rounding.
+// These sizes neither underflow nor overflow, so that identities hold to rounding.
 std::vector<Impact> EverydayImpacts() {
   SceneSource source(24);
   std::vector<Impact> impacts;
@@ -68,7 +68,7 @@ TEST(PendulumPaperTest, ElasticImpactAtXOneThirdHasTangentialCoefficientMinusZer
   EXPECT_NEAR((impact[Output::kNormalImpulse] - tau0) / tau0, std::sqrt(2.0), 1e-15);
 }
 
-// Section 9: mu = 0.4, a = 4b: first order gives 1.1, 0.9 and -0.02; the exact values lie within x^2 = 1 %.
+// Section 9: for mu = 0.4 and a = 4b first order gives 1.1, 0.9 and -0.02; the exact values lie within x^2 = 1 %.
 TEST(PendulumPaperTest, NearlyVerticalExampleIsWithinOnePercentOfFirstOrder) {
   const Impact impact = Solve(Make(4.0, 1.0, 0.4, RestitutionLaw::kEnergetic, 1.0));
   EXPECT_NEAR(impact[Output::kPoisson], 1.1, 0.01);
@@ -85,7 +85,7 @@ TEST(PendulumPaperTest, Figure4NewtonRisesFromZeroWherePhiIsTheAngleOfFrictionTo
       const double a = std::sin(phi);
       const double b = std::cos(phi);
       const Impact impact = Solve(Make(a, b, mu, RestitutionLaw::kEnergetic, 1.0));
-      const double tangent = a / std::fabs(b);  // At the vertical, pi/2 rounded may lie beyond it.
+      const double tangent = a / std::fabs(b);  // The double for pi/2 may lie beyond the vertical.
       const double squared = tangent <= mu ? 0.0 : (tangent - mu) / (tangent + mu);
       EXPECT_NEAR(std::pow(impact[Output::kNewton], 2), squared, 1e-14) << "phi " << phi << " mu " << mu;
       EXPECT_GE(impact[Output::kNewton], previous);
@@ -95,7 +95,7 @@ TEST(PendulumPaperTest, Figure4NewtonRisesFromZeroWherePhiIsTheAngleOfFrictionTo
   }
 }
 
-// (46), whose right-hand side is free of the slip in its middle: W = -J mu b/(a + mu b) w-^2.
+// (46), without the misprint in the middle of its right-hand side: W = -J mu b/(a + mu b) w-^2.
 TEST(PendulumPaperTest, FrictionTakesAllTheEnergyThatAnElasticImpactLoses) {
   const Impact impact = Solve(Make(0.3, 1.0, 0.1, RestitutionLaw::kEnergetic, 1.0));
   EXPECT_EQ(impact[Output::kWorkNormal], 0.0);
@@ -257,7 +257,7 @@ TEST(PendulumIdentityTest, ScalingUnitsByPowersOfTwoIsExact) {
   }
 }
 
-// The wide path, taken by sizes out of the ordinary, gives the bits of the narrow one.
+// The path in Wide arithmetic, which extraordinary sizes take, gives the same bits as the path in DoubleDouble.
 TEST(PendulumIdentityTest, SizesThatLeaveTheFastPathScaleExactlyToo) {
   constexpr int kMass = 120;
   SceneSource source(3);
@@ -302,7 +302,7 @@ TEST(PendulumRegimeTest, ContactRightBesideThePinSlidesNowhereWhateverTheFrictio
   }
 }
 
-// Section 3: mu >= a/b sticks, equality included.
+// Section 3: the contact sticks for mu >= a/b, equality included.
 TEST(PendulumRegimeTest, LocksExactlyFromWhereFrictionReachesAOverB) {
   const double b = 5.0;
   const double a = 3.0;
@@ -316,7 +316,7 @@ TEST(PendulumRegimeTest, LocksExactlyFromWhereFrictionReachesAOverB) {
   EXPECT_EQ(Solve(Make(1.0, 1.0 + 0x1p-40, 1.0 - 0x1p-40, RestitutionLaw::kEnergetic, 1.0)).regime, Regime::kRebound);
 }
 
-// Section 6.1, for x > 1 with (8) and (42): compression alone, all energy lost.
+// Section 6.1 with (8) and (42) for x > 1: there is compression only, and all energy is lost.
 TEST(PendulumRegimeTest, LockedImpactEndsWithCompression) {
   for (const RestitutionLaw law : {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
     const Impact impact = Solve(Make(1.0, -4.0, 0.5, law, 1.0));
@@ -401,7 +401,7 @@ TEST(PendulumLimitTest, CoefficientExactlyAtItsBoundIsAdmissibleAndOneUlpAboveIs
   }
 }
 
-// mu b = p1 p2 2^-k = q (1 +- 2^-k/q) exactly: as close to the thresholds below as two doubles come by a product.
+// mu b = p1 p2 2^-k = q (1 +- 2^-k/q) exactly, which is as close to a threshold as a product of two doubles can be.
 struct NearProduct {
   double q;
   double p1, p2;
@@ -439,7 +439,7 @@ TEST(PendulumLimitTest, SharpLimitIsSeenFrom2ToTheMinus100OfTheTermsOn) {
       const Impact impact = Solve(MakeNear(near, a, RestitutionLaw::kNewton, e));
       EXPECT_EQ(impact.sharp_limit_broken, near.above) << e;
       EXPECT_EQ(impact[Output::kEnergeticExcess] > 0.0, near.above) << e;
-      if (e == 0.75 || e == 0.875) continue;  // 1/e is no double.
+      if (e == 0.75 || e == 0.875) continue;  // 1/e is not a double.
       EXPECT_EQ(Solve(MakeNear(near, a, RestitutionLaw::kPoisson, 1.0 / e)).sharp_limit_broken, !near.above) << e;
     }
   }

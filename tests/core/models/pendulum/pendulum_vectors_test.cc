@@ -31,7 +31,7 @@ Problem ProblemOf(const Row& row) {
           .coefficient = Number(row, "coefficient")};
 }
 
-// The regime that a row calls stick, or rebound whether or not there is friction.
+// The regime of a row: the file calls a locked impact "stick", and every other one "rebound", with friction or without.
 bool RegimeAgrees(const Row& row, Regime regime) {
   if (row.at("regime") == "stick") return regime == Regime::kLocked;
   return regime == Regime::kRebound || regime == Regime::kFrictionless;
@@ -58,7 +58,7 @@ constexpr Column kColumns[] = {
     {"energy_dissipated", Output::kEnergyChange, -1.0},
 };
 
-// What 25 printed digits leave open, and 2^-100 of the scale where the output changes sign.
+// The rounding to 25 printed digits, plus 2^-100 of the scale for an output that changes its sign.
 Ball Allowance(const Ball& expected, const Problem& problem, const Impact& impact, Output output) {
   Ball scale(0.0);
   if (output == Output::kTangentialCoefficient) scale = Ball(problem.mu);

@@ -1,4 +1,4 @@
-// The planar model against an event-by-event simulation in ball arithmetic.
+// The planar model, compared with an event-by-event simulation in ball arithmetic.
 
 #include <gtest/gtest.h>
 
@@ -38,7 +38,7 @@ class Comparison {
   int Count(Regime regime) const { return regimes_[static_cast<size_t>(regime)]; }
 
  private:
-  // Where an excess is clearly one or clearly none.
+  // The excess is clearly above 0 or clearly not.
   static void CheckLimits(const Problem& problem, const Impact& impact, const ExactImpact& exact) {
     const Ball excess = exact.energetic - 1.0;
     const Ball margin = exact.conditioning * Ball::PowerOfTwo(-90);
@@ -62,7 +62,7 @@ TEST(PlanarArbTest, EveryOutputOf100000ScenesIsWithinOneUlp) {
   Comparison comparison;
   for (int i = 0; i < 100'000 && !testing::Test::HasFailure(); ++i) comparison.Add(source.Any());
   std::printf("  worst error %.4f ulp\n", comparison.worst());
-  // The scenes reach what the test claims to cover.
+  // The scenes do reach the cases that the test claims to cover.
   for (const Regime regime :
        {Regime::kFrictionless, Regime::kSliding, Regime::kStickInCompression, Regime::kStickInRestitution,
         Regime::kReversalInCompression, Regime::kReversalInRestitution, Regime::kLocked}) {

@@ -109,7 +109,7 @@ TEST(PlanarRodTest, PoissonsLawDoublesTheImpulseOfCompression) {
   EXPECT_FALSE(impact.sharp_limit_broken);
 }
 
-// All that is lost is what friction takes: 0.7/2 4/13.
+// Only friction takes energy: 0.7/2 4/13.
 TEST(PlanarRodTest, EnergeticLawLosesSevenSixtyFifthsOfAJoule) {
   const Impact impact = Solve(FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 1.0));
   EXPECT_NEAR(impact.energy_change, -7.0 / 65.0, 1e-15);
@@ -133,7 +133,7 @@ TEST(PlanarSelfLockingTest, CompressionGoesOnUntilSlipHasStopped) {
   EXPECT_EQ(impact.u1, 0.0);
 }
 
-// v' = 0 exactly while the contact slips: v waits.
+// v' = 0 exactly while the contact slips: v stays constant.
 TEST(PlanarSelfLockingTest, CompressionEndsAlsoIfVStandsStillWhileTheContactSlips) {
   const Impact impact = Solve(Contact(4.0, 1.0, 1.0, 3.0, 1.0, 1.0, RestitutionLaw::kNewton, 0.5));
   EXPECT_EQ(impact.events[1].tau, 1.0);
@@ -263,7 +263,7 @@ TEST(PlanarRegimeTest, LockedContactsStopAndUseNoCoefficient) {
   }
 }
 
-// Wtt = 0: nothing can be moved along t, and no friction impulse acts.
+// If Wtt = 0, no impulse moves the contact along t, and no friction impulse acts.
 TEST(PlanarRegimeTest, ContactsWithoutTangentialMobilityGetNoFriction) {
   const Impact impact = Solve(Contact(0.0, 0.0, 2.0, 0.0, 0.5, 0.5, RestitutionLaw::kPoisson, 0.5));
   EXPECT_EQ(impact.w_rank, 1);
@@ -408,7 +408,7 @@ TEST(PlanarSymmetryTest, MirroringTheTangentMirrorsTheOutcomeBitByBit) {
   }
 }
 
-// W by 2^w, velocities by 2^s and the unit of u by 2^t, between them beyond what double-double arithmetic can take.
+// W is scaled by 2^w, velocities by 2^s and the unit of u by 2^t, so far that DoubleDouble arithmetic cannot be used.
 Problem Scaled(const Problem& problem, int w, int s, int t) {
   Problem scaled = problem;
   scaled.wtt = std::ldexp(problem.wtt, w + 2 * t);
@@ -535,7 +535,7 @@ TEST(PlanarPendulumTest, WhereWIsExactThePendulumsClosedFormIsReproducedToOneUlp
   EXPECT_GT(locked, kScenes / 10);
 }
 
-// W is known to some eps only, which a - mu |b| magnifies.
+// The rounding of W, of some eps, is magnified by a - mu |b|.
 TEST(PlanarPendulumTest, WhereWIsRoundedThePendulumIsReproducedWithinItsConditioning) {
   SceneSource source(11);
   for (int i = 0; i < kScenes; ++i) {

@@ -70,7 +70,7 @@ double ErrorOf(const VectorRow& row, const Problem& problem, const Impact& impac
   return errors.worst();
 }
 
-// Rows with det W down to 1e-14 of Wtt Wnn included.
+// These rows include det W down to 1e-14 of Wtt Wnn.
 TEST(PlanarVectorsTest, EveryColumnOfEveryRowIsWithinFourRoundings) {
   const std::vector<VectorRow> rows = ReadVectors("planar.csv");
   ASSERT_EQ(rows.size(), 240U);
