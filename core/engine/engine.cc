@@ -17,7 +17,7 @@
 namespace ricochet {
 namespace {
 
-// 64 impacts that between them reach every law and regime.
+// One of 64 pendulums, which together reach every law and regime.
 pendulum::Problem Probe(int i) {
   const int step = i / 8;  // 0 ... 7
   return {.inertia = 1.0 + 0.1 * i,
@@ -30,7 +30,7 @@ pendulum::Problem Probe(int i) {
           .coefficient = (i % 11) / 10.0};
 }
 
-// 16 impacts of planar contacts and 16 in space: every law, slip that goes on, turns, reverses and stops.
+// One of 16 planar contacts, or of 16 contacts in space: every law, and slip that goes on, turns, reverses and stops.
 planar::Problem PlanarProbe(int i) {
   return {.wtt = 2.5,
           .wtn = -1.5 + 0.2 * i,
@@ -58,7 +58,7 @@ spatial::Problem SpatialProbe(int i) {
           .coefficient = (i % 11) / 10.0};
 }
 
-// The same contacts, compliant along t: sticks that end and impacts that do not.
+// One of the planar contacts with a compliance along t: some sticks end and some impacts do not.
 compliant::Problem CompliantProbe(int i) {
   const planar::Problem p = PlanarProbe(i);
   return {.wtt = p.wtt,
@@ -83,7 +83,7 @@ sliding::Problem<2> SpatialSlidingProbe(int i) {
           .coefficient = i / 16.0};
 }
 
-// Chains of one to four links: angles, and a matrix to factorise.
+// A chain of one to four links, which needs elementary functions and the factors of a matrix.
 Linkage LinkageProbe(int i) {
   Linkage linkage;
   for (int k = 0; k <= i % 4; ++k) {

@@ -1,4 +1,4 @@
-// This engine's version and fingerprint.
+// ThisEngine: the version and the fingerprint of this engine.
 
 #ifndef RICOCHET_CORE_ENGINE_ENGINE_H_
 #define RICOCHET_CORE_ENGINE_ENGINE_H_
@@ -8,7 +8,7 @@
 
 namespace ricochet {
 
-// Computed at the first call, thread-safe.
+// The first call computes the fingerprint. Thread safety: any number of threads may call it.
 const EngineInfo& ThisEngine();
 
 }  // namespace ricochet

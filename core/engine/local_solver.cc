@@ -33,14 +33,14 @@ absl::Status Inadmissible(const Outcome& outcome) {
   return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
 }
 
-// Forces have a history only where time has.
+// A history of forces requires an impact that takes time.
 Demand DemandOf(const SolveRequest& request) {
   Demand demand = ToDemand(request.demand);
   if (request.force_intervals > 0) demand.required.Add(Effect::kFiniteDuration);
   return demand;
 }
 
-// What is wrong with a request whose scene is valid.
+// Lists the violations of a request whose scene is valid.
 std::vector<Violation> CheckSolve(const SolveRequest& request) {
   std::vector<Violation> violations = CheckDemand(request.scene, request.demand);
   const int64_t intervals = request.force_intervals;

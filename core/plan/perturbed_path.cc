@@ -18,8 +18,8 @@ class Comparison {
     const bool known = change.slope_low > 0.0;
     growth_ = known ? std::min(reference.slope_low, change.slope_low) : reference.slope_low - slope_;
     slack_ = known ? 0.0 : 2.0 * jump_;
-    latest_rest_ = 1.0 / reference.slope_low;
-    rest_shift_ = OfV(latest_rest_) / growth_;
+    latest_compression_end_ = 1.0 / reference.slope_low;
+    compression_end_shift_ = OfV(latest_compression_end_) / growth_;
   }
 
   double OfF(double tau) const { return change_.f_jump + change_.f_slope * Past(tau); }
@@ -33,10 +33,10 @@ class Comparison {
     return jump_ * (end - begin) + 0.5 * slope_ * (after - before) * (after + before);
   }
 
-  double growth() const { return growth_; }            // L
-  double slack() const { return slack_; }              // z
-  double latest_rest() const { return latest_rest_; }  // 1/lo
-  double rest_shift() const { return rest_shift_; }    // Dc
+  double growth() const { return growth_; }                                  // L
+  double slack() const { return slack_; }                                    // z
+  double latest_compression_end() const { return latest_compression_end_; }  // 1/lo
+  double compression_end_shift() const { return compression_end_shift_; }    // Dc
   const ReferencePath& reference() const { return reference_; }
 
  private:
@@ -45,7 +45,7 @@ class Comparison {
   const Mobility& mobility_;
   const ReferencePath& reference_;
   const Perturbation& change_;
-  double jump_, slope_, growth_, slack_, latest_rest_, rest_shift_;
+  double jump_, slope_, growth_, slack_, latest_compression_end_, compression_end_shift_;
 };
 
 struct EndShift {
@@ -55,33 +55,33 @@ struct EndShift {
 };
 
 EndShift NewtonShift(const Comparison& by, double e) {
-  const double tau1 = (1.0 + e) * by.latest_rest();
+  const double tau1 = (1.0 + e) * by.latest_compression_end();
   const double shift = by.OfV(tau1) / by.growth();
   return {.v1 = 0.0, .tau1 = shift, .last = tau1 + shift};
 }
 
 EndShift PoissonShift(const Comparison& by, double k) {
-  const double shift = (1.0 + k) * by.rest_shift();
-  const double last = (1.0 + k) * by.latest_rest() + shift;
+  const double shift = (1.0 + k) * by.compression_end_shift();
+  const double last = (1.0 + k) * by.latest_compression_end() + shift;
   return {.v1 = by.OfV(last) + by.reference().slope_high * shift, .tau1 = shift, .last = last};
 }
 
 EndShift EnergeticShift(const Comparison& by, double eta) {
-  const double rest = by.latest_rest() + by.rest_shift();
-  if (eta == 0.0) return {.v1 = 0.0, .tau1 = by.rest_shift(), .last = rest};
+  const double compression_end = by.latest_compression_end() + by.compression_end_shift();
+  if (eta == 0.0) return {.v1 = 0.0, .tau1 = by.compression_end_shift(), .last = compression_end};
   const double low = by.reference().slope_low;
   const double high = by.reference().slope_high;
   const double square = eta * eta;
-  const double stored = by.Area(0.0, rest);
-  const double returned = square * (0.5 * by.latest_rest() + stored);
+  const double stored = by.Area(0.0, compression_end);
+  const double returned = square * (0.5 * by.latest_compression_end() + stored);
   const double z = by.slack();
-  const double last = rest + (z + std::sqrt(z * z + 2.0 * by.growth() * returned)) / by.growth();
-  const double difference = square * stored + by.Area(std::max(1.0 / high - by.rest_shift(), 0.0), last);
+  const double last = compression_end + (z + std::sqrt(z * z + 2.0 * by.growth() * returned)) / by.growth();
+  const double difference = square * stored + by.Area(std::max(1.0 / high - by.compression_end_shift(), 0.0), last);
   const double of_square = 2.0 * high * difference * (1.0 + 0x1p-30);
   const double least_square = square * low / high;
   const double along = least_square > of_square
                            ? of_square / (std::sqrt(least_square) + std::sqrt(least_square - of_square))
-                           : std::sqrt(of_square) + high * by.rest_shift();
+                           : std::sqrt(of_square) + high * by.compression_end_shift();
   return {.v1 = along + by.OfV(last), .tau1 = along / low, .last = last};
 }
 

@@ -15,10 +15,10 @@
 
 namespace ricochet {
 
-// Whether a pendulum's own models answer the scene: no surface that moves, no impact law.
+// True if the closed form of the pendulum answers the scene: a pendulum over a surface at rest, without an impact law.
 bool HasClosedForm(const Scene& scene);
 
-// The pendulum's problem with the coefficients at the approach speed. `scene` is valid and HasClosedForm.
+// The pendulum's problem with the coefficients at the approach speed. `scene` must be valid and HasClosedForm.
 pendulum::Problem ClosedFormProblem(const Scene& scene);
 
 namespace pendulum {

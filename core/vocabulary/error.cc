@@ -18,7 +18,7 @@ constexpr char kReasonUrl[] = "ricochet/reason";
 constexpr char kViolationsUrl[] = "ricochet/violations";
 constexpr char kRetryDelayUrl[] = "ricochet/retry_delay_ms";
 
-// Control characters, which neither a field path nor a description contains, part the list's entries.
+// These control characters separate the entries of the list, because no field path or description contains them.
 constexpr char kFieldEnd = '\x1f';
 constexpr char kEntryEnd = '\x1e';
 
