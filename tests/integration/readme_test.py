@@ -17,7 +17,9 @@ ADDRESS = "127.0.0.1:50051"  # The pages write this address; the server of this 
 README = SOURCE / "README.md"
 PAGES = {
     path: path.read_text()
-    for path in [README, *sorted(SOURCE.glob("C*.md")), *sorted((SOURCE / "docs").rglob("*.md"))]
+    for path in [
+        README, *sorted(SOURCE.glob("C*.md")), SOURCE / "deploy/README.md", SOURCE / "tests/data/README.md",
+        *sorted((SOURCE / "docs").rglob("*.md"))]
 }
 EQUATIONS = 60
 MOST_README_LINES = 220
@@ -126,6 +128,11 @@ class PagesTest(unittest.TestCase):
                 headings = re.findall(r"^#+ (.*)$", PAGES[linked], re.MULTILINE)
                 anchors = [re.sub(r"[^\w -]", "", line.lower()).replace(" ", "-") for line in headings]
                 self.assertIn(heading, anchors, f"{page}: {linked}")
+
+    def test_every_page_on_the_theory_is_listed(self):
+        listed = re.findall(r"^\| \[([\w.]+)\]\(\1\) \|", PAGES[SOURCE / "docs/theory/README.md"], re.MULTILINE)
+        pages = [page.name for page in (SOURCE / "docs/theory").glob("*.md") if page.name != "README.md"]
+        self.assertEqual(sorted(listed), sorted(pages))
 
     def test_every_equation_of_the_paper_is_mapped(self):
         mapped = set()
