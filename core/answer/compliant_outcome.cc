@@ -16,13 +16,13 @@ Event MakeEvent(EventKind kind, const Section& section, const PlanarReduction& r
 }
 
 // What begins with `section`, after one of the mode `before`.
-void AddEvents(const Section& section, Mode before, double tau_compression, const PlanarReduction& reduction,
+void AddEvents(const Section& section, FrictionState before, double tau_compression, const PlanarReduction& reduction,
                std::vector<Event>& timeline) {
   if (section.tau == tau_compression) {
     timeline.push_back(MakeEvent(EventKind::kCompressionEnds, section, reduction));
   }
-  if (section.mode == before) return;
-  const EventKind kind = section.mode == Mode::kStick ? EventKind::kStickStarts : EventKind::kSlipStarts;
+  if (section.friction == before) return;
+  const EventKind kind = section.friction == FrictionState::kStick ? EventKind::kStickStarts : EventKind::kSlipStarts;
   timeline.push_back(MakeEvent(kind, section, reduction));
 }
 
@@ -31,7 +31,7 @@ std::vector<Event> TimelineOf(const Impact& impact, const PlanarReduction& reduc
   if (impact.sections.empty()) return timeline;
   timeline.push_back(MakeEvent(EventKind::kStart, impact.sections.front(), reduction));
   for (size_t i = 1; i < impact.sections.size() && timeline.size() + 2 < kMostEvents; ++i) {
-    AddEvents(impact.sections[i], impact.sections[i - 1].mode, impact.tau_compression, reduction, timeline);
+    AddEvents(impact.sections[i], impact.sections[i - 1].friction, impact.tau_compression, reduction, timeline);
   }
   const Section end = {.tau = impact.tau1, .f = impact.f1, .u = impact.u1, .v = impact.v1};
   timeline.push_back(MakeEvent(EventKind::kRestitutionEnds, end, reduction));

@@ -155,7 +155,7 @@ Problem Fork(SceneSource& source) {
     const Impact y = Solve(b);
     return !std::equal(
         x.sections.begin(), x.sections.end(), y.sections.begin(), y.sections.end(),
-        [](const Section& s, const Section& t) { return s.mode == t.mode && s.indenting == t.indenting; });
+        [](const Section& s, const Section& t) { return s.friction == t.friction && s.indenting == t.indenting; });
   };
   for (;;) {
     Problem low = Everyday(source);

@@ -84,7 +84,7 @@ class FirstRoot {
   slong bits_;
 };
 
-// What a section's first event is; several coincide where the other events are that near.
+// The first event of a section; several coincide where the other events are that near.
 struct Event {
   bool turns = false, stops = false, line_ends = false;
   int breaks_away = 0;
@@ -278,9 +278,9 @@ class Simulation {
 
   void Record() {
     sticks_ |= side_ == 0;
-    impact_.sections.push_back({.mode = side_ == 0  ? Mode::kStick
-                                        : side_ > 0 ? Mode::kSlideForward
-                                                    : Mode::kSlideBackward,
+    impact_.sections.push_back({.friction = side_ == 0  ? FrictionState::kStick
+                                            : side_ > 0 ? FrictionState::kSlideForward
+                                                        : FrictionState::kSlideBackward,
                                 .first_loading = first_loading_,
                                 .indenting = indenting_,
                                 .tau = tau_.Nearest(),

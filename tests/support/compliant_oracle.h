@@ -30,7 +30,7 @@ struct ExactImpact {
   Ball work_normal_compression, work_normal_restitution, work_normal;
   Ball energy_change;
   Ball spring_energy;
-  Ball friction_dissipation;  // What of the change of energy is neither normal work nor the spring's.
+  Ball friction_dissipation;  // The part of the energy lost that is neither normal work nor the spring's.
 };
 
 // The problem must not be separating.

@@ -13,7 +13,7 @@
 
 namespace ricochet::compliant {
 
-// Of a row of compliant.csv.
+// Returns the problem of a row of compliant.csv.
 inline Problem ProblemOf(const VectorRow& row) {
   return {.wtt = Number(row, "wtt"),
           .wtn = Number(row, "wtn"),

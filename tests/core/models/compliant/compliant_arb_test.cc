@@ -20,7 +20,7 @@ namespace {
 
 bool SameModes(const Impact& impact, const ExactImpact& exact) {
   const auto same = [](const Section& a, const Section& b) {
-    return a.mode == b.mode && a.first_loading == b.first_loading && a.indenting == b.indenting;
+    return a.friction == b.friction && a.first_loading == b.first_loading && a.indenting == b.indenting;
   };
   return std::equal(impact.sections.begin(), impact.sections.end(), exact.sections.begin(), exact.sections.end(), same);
 }
@@ -111,7 +111,8 @@ TEST(CompliantArbTest, TheStartIsAStickOrASlideByTheExactSign) {
     if ((exact - Ball(product)).ContainsZero()) continue;
     problem.u0 = product;
     const bool sticks = Ball(problem.u0, Ball::kExact) < exact;
-    ASSERT_EQ(Solve(problem).sections.front().mode, sticks ? Mode::kStick : Mode::kSlideForward) << ToString(problem);
+    ASSERT_EQ(Solve(problem).sections.front().friction, sticks ? FrictionState::kStick : FrictionState::kSlideForward)
+        << ToString(problem);
     ++close;
   }
   EXPECT_GT(close, 9'000);

@@ -108,7 +108,7 @@ TEST(CompliantKharazTest, TwentyDegreesNeedsTheSpringAndFiftyDoesNot) {
 
 class CompliantIdentityTest : public testing::Test {
  protected:
-  // What rounding the terms of P . (v- + v+)/2 may leave.
+  // The size of the rounding errors of the terms of P . (v- + v+)/2.
   static double EnergyRounding(const Problem& p, const Impact& impact) {
     return 1e-14 * (std::fabs(impact.f1) * (std::fabs(p.u0) + std::fabs(impact.u1)) +
                     impact.tau1 * (std::fabs(p.v0) + impact.v1) + LargestWork(impact));
@@ -214,7 +214,8 @@ TEST_F(CompliantIdentityTest, SectionsFollowOneAnotherAndSlipNeverTurnsWithoutAS
       const Section& before = impact.sections[j - 1];
       const Section& section = impact.sections[j];
       ASSERT_GE(section.tau, before.tau);
-      ASSERT_TRUE(section.mode == before.mode || section.mode == Mode::kStick || before.mode == Mode::kStick);
+      ASSERT_TRUE(section.friction == before.friction || section.friction == FrictionState::kStick ||
+                  before.friction == FrictionState::kStick);
       ASSERT_TRUE(!section.first_loading || section.indenting);
       ASSERT_TRUE(section.indenting ? section.v <= 0.0 : section.v >= 0.0);
     }
@@ -341,10 +342,10 @@ TEST(CompliantSecondMethodTest, SmallStepsOfTimeComeToTheSameEnd) {
 
 struct LimitCase {
   const char* name;
-  Regime regime;  // Of the rigid contact.
+  Regime regime;  // The regime of the rigid contact.
   double wtt, wtn, wnn, u0, mu, eta;
-  double order;              // Of the error of the velocities, in ratio; 0: exact.
-  double compression_order;  // Of that of the impulse of compression.
+  double order;              // The velocities err by ratio to this power; 0: not at all.
+  double compression_order;  // The same power for the impulse of compression.
 };
 
 planar::Impact Rigid(const LimitCase& c) {
@@ -417,7 +418,7 @@ TEST(CompliantLimitTest, AnEndlesslySoftTangentialSpringIsNoFriction) {
       const Impact impact = Solve(problem);
       const double difference =
           std::max(std::fabs(impact.u1 - limit.u1), std::fabs(impact.v1 - limit.v1)) / Speed(problem);
-      // What the deflection, of order u/sqrt(Wnn), makes of 1/ratio^2.
+      // The deflection is of order u/sqrt(Wnn), and 1/ratio^2 multiplies it.
       ASSERT_LE(difference, 1e4 / ratio_squared + impact.error_estimate) << i << " " << ratio_squared;
     }
   }
@@ -432,7 +433,7 @@ TEST(CompliantLimitTest, WithoutFrictionNoTangentialForceActsAndNothingIsSearche
   EXPECT_NEAR(impact.v1, 0.6, 1e-15);
   EXPECT_NEAR(impact.tau1, 1.6 / 1.5, 1e-15);
   EXPECT_NEAR(impact.u1, -0.4 + 0.7 * 1.6 / 1.5, 1e-15);
-  for (const Section& section : impact.sections) EXPECT_NE(section.mode, Mode::kStick);
+  for (const Section& section : impact.sections) EXPECT_NE(section.friction, FrictionState::kStick);
   problem.ratio_squared = 1e-5;
   EXPECT_EQ(Solve(problem).u1, impact.u1);
 }
@@ -541,8 +542,8 @@ TEST(CompliantCornerTest, NormalImpactOfASphereSticksToTheEnd) {
 
 // S = |u0| - mu ratio^2 |v0| = 0: the sign of A decides.
 TEST(CompliantCornerTest, StartOnTheConeSlidesWhereSlipGrowsAndSticksWhereItShrinks) {
-  EXPECT_EQ(Solve(Contact(0.25, 0.0, 1.0, 0.5, 0.5, 0.6, 1.0)).sections.front().mode, Mode::kSlideForward);
-  EXPECT_EQ(Solve(Contact(3.5, 0.0, 1.0, 0.5, 0.5, 0.6, 1.0)).sections.front().mode, Mode::kStick);
+  EXPECT_EQ(Solve(Contact(0.25, 0.0, 1.0, 0.5, 0.5, 0.6, 1.0)).sections.front().friction, FrictionState::kSlideForward);
+  EXPECT_EQ(Solve(Contact(3.5, 0.0, 1.0, 0.5, 0.5, 0.6, 1.0)).sections.front().friction, FrictionState::kStick);
 }
 
 // At rank one slip stops where v does: u = v Wtn/Wnn.
@@ -551,14 +552,14 @@ TEST(CompliantCornerTest, PendulumSlipsToTheEndOfCompressionAndGoesOnByTheSignOf
   Problem problem = Contact(b * b, b, 1.0, -b, 0.3, 0.5, 1.0);
   const Impact slides = Solve(problem);
   ASSERT_EQ(slides.sections.size(), 2U);
-  EXPECT_EQ(slides.sections[1].mode, Mode::kSlideBackward) << "A > 0 on the steep line of unloading";
+  EXPECT_EQ(slides.sections[1].friction, FrictionState::kSlideBackward) << "A > 0 on the steep line of unloading";
   EXPECT_EQ(slides.sections[1].v, 0.0);
   problem.energetic = 1.0;
-  EXPECT_EQ(Solve(problem).sections[1].mode, Mode::kStick);
+  EXPECT_EQ(Solve(problem).sections[1].friction, FrictionState::kStick);
 }
 
 bool IsEmpty(const Section& section, const Section& next) {
-  return next.mode == section.mode && next.first_loading == section.first_loading &&
+  return next.friction == section.friction && next.first_loading == section.first_loading &&
          next.indenting == section.indenting && next.tau == section.tau;
 }
 

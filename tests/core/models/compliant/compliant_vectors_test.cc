@@ -16,7 +16,7 @@
 namespace ricochet::compliant {
 namespace {
 
-// What the file puts between two sections on different lines of the normal spring, or of different sign of v.
+// The file puts this mark between two sections on different branches of the normal spring, or of different sign of v.
 std::string Between(const Section& before, const Section& after) {
   if (before.first_loading != after.first_loading) return before.first_loading ? " |" : " /";
   if (before.indenting != after.indenting) return before.indenting ? " _" : " ^";
@@ -28,14 +28,14 @@ std::string ModesOf(const Impact& impact) {
   const Section* before = nullptr;
   for (const Section& section : impact.sections) {
     if (before != nullptr) modes += Between(*before, section) + " ";
-    switch (section.mode) {
-      case Mode::kStick:
+    switch (section.friction) {
+      case FrictionState::kStick:
         modes += "stick";
         break;
-      case Mode::kSlideForward:
+      case FrictionState::kSlideForward:
         modes += "slide+";
         break;
-      case Mode::kSlideBackward:
+      case FrictionState::kSlideBackward:
         modes += "slide-";
         break;
     }

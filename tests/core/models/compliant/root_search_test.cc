@@ -1,5 +1,7 @@
 // The first root of a sum of two sinusoids, against all its values on a fine grid.
 
+#include "core/models/compliant/root_search.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -7,9 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "core/models/compliant/vibration-inl.h"
-
-namespace ricochet::compliant::internal {
+namespace ricochet::compliant {
 namespace {
 
 double AmplitudeOf(const Signal& signal, const Frequencies& w) {
@@ -77,7 +77,7 @@ TEST_F(RootSearchTest, LeavesADoubleRootAtTheStartBehind) {
   }
 }
 
-TEST_F(RootSearchTest, LooksOnlyFromTheOutsetOn) {
+TEST_F(RootSearchTest, LooksOnlyFromTheStartOn) {
   const Frequencies w = {.fast = 1.0, .slow = 0.0};
   const RootSearch search({.a = {1.0, 0.0}, .b = {0.0, 0.0}}, w);  // cos t
   const double first = std::numbers::pi / 2.0;
@@ -117,4 +117,4 @@ TEST_F(RootSearchTest, AnglesAreRightToTheErrorThatTheSearchAllowsFor) {
 }
 
 }  // namespace
-}  // namespace ricochet::compliant::internal
+}  // namespace ricochet::compliant

@@ -1,0 +1,32 @@
+// FollowPath: the path of a compliant impact (core/models/compliant/compliant.h), section by section to its end.
+//
+// Units are chosen so that the stiffness of first loading is k = 1; |v0| and Wnn must be of everyday size.
+
+#ifndef RICOCHET_CORE_MODELS_COMPLIANT_PATH_H_
+#define RICOCHET_CORE_MODELS_COMPLIANT_PATH_H_
+
+#include <vector>
+
+#include "core/models/compliant/perturbation.h"
+#include "core/models/compliant/spring_contact.h"
+
+namespace ricochet::compliant {
+
+enum class FirstStick { kNever, kInCompression, kInRestitution };
+
+// Where the impact has no end, the state reached stands for it. Where it overflows, u and v of that are NaN.
+struct PathResult {
+  bool ends = false;
+  ContactState end;
+  ContactState compression_end;       // The last time that the indentation is the largest so far.
+  double largest_normal_force = 0.0;  // N at `compression_end`.
+  FirstStick first_stick = FirstStick::kNever;
+};
+
+// Appends to `sections` each section's start, unless it is null. The perturbation is put on every section.
+PathResult FollowPath(const SpringContact& contact, double u0, double v0, Perturbation perturbation,
+                      std::vector<Section>* sections);
+
+}  // namespace ricochet::compliant
+
+#endif  // RICOCHET_CORE_MODELS_COMPLIANT_PATH_H_
