@@ -4,22 +4,23 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "core/numerics/invariant.h"
 
 namespace ricochet::finite_duration {
 namespace {
 
 Motion& StateOf(N_Vector vector) { return *reinterpret_cast<Motion*>(NV_DATA_S(vector)); }
 
-// For calls that fail only where this program is wrong.
-void Require([[maybe_unused]] int flag) { assert(flag >= 0); }
+// Checks a call that fails only where this program is wrong.
+void Require(int flag) { CheckInvariant(flag >= 0, "CVODE refused a call"); }
 
-void Silent(int /*code*/, const char* /*module*/, const char* /*function*/, char* /*message*/, void* /*data*/) {}
+void IgnoreMessage(int /*code*/, const char* /*module*/, const char* /*function*/, char* /*message*/, void* /*data*/) {}
 
 }  // namespace
 
-Integrator::Integrator(const Contact& contact)
+Integrator::Integrator(const ScaledContact& contact)
     : contact_(contact),
       y_(N_VNew_Serial(kParts, context_)),
       absolute_(N_VNew_Serial(kParts, context_)),
@@ -37,7 +38,7 @@ Integrator::Integrator(const Contact& contact)
   std::fill_n(directions.begin(), static_cast<size_t>(kModeGuards), -1);
   Require(CVodeSetRootDirection(memory_, directions.data()));
   Require(CVodeSetNoInactiveRootWarn(memory_));
-  Require(CVodeSetErrHandlerFn(memory_, Silent, nullptr));
+  Require(CVodeSetErrHandlerFn(memory_, IgnoreMessage, nullptr));
 }
 
 Integrator::~Integrator() {
@@ -59,21 +60,21 @@ void Integrator::Begin(const Mode& mode, const Motion& y, double tolerance) {
   absolute[kTangentWork] *= slip;
   absolute[kFrictionLoss] *= slip;
   absolute[kV] *= Pace(contact_, mode);
-  for (const Part part : kOfForces) absolute[part] *= contact_.stiffness;
+  for (const Part part : kForceParts) absolute[part] *= contact_.stiffness;
   Require(CVodeReInit(memory_, 0.0, y_));
   Require(CVodeSVtolerances(memory_, tolerance, absolute_));
   s_ = previous_s_ = 0.0;
-  counted_ = {0, 0};
-  judged_ = 0;
+  counted_since_begin_ = {0, 0};
+  step_of_errors_ = 0;
 }
 
 Integrator::Progress Integrator::Step(std::array<bool, kModeGuards>& fallen) {
-  // All that CVODE makes of it is the direction and the size of the first step.
+  // CVODE takes from it only the direction and the size of the first step.
   constexpr double kAhead = 1.0;
   fallen.fill(false);
   previous_s_ = s_;
   const int flag = CVode(memory_, s_ + kAhead, y_, &s_, CV_ONE_STEP);
-  if (flag == CV_ILL_INPUT) return Progress::kCrowded;
+  if (flag == CV_ILL_INPUT) return Progress::kBeginAnew;
   if (flag < 0) return Progress::kFailed;
   AddLocalErrors();
   if (flag != CV_ROOT_RETURN) return Progress::kStep;
@@ -114,8 +115,8 @@ int Integrator::Roots(realtype /*s*/, N_Vector y, realtype* values, void* data) 
 void Integrator::AddLocalErrors() {
   long steps = 0;
   Require(CVodeGetNumSteps(memory_, &steps));
-  if (steps == judged_) return;
-  judged_ = steps;
+  if (steps == step_of_errors_) return;
+  step_of_errors_ = steps;
   Require(CVodeGetEstLocalErrors(memory_, errors_));
   for (size_t i = 0; i < kParts; ++i) local_errors_[i] += std::fabs(StateOf(errors_)[i]);
 }
@@ -125,9 +126,9 @@ void Integrator::Count() {
   long right_hand_sides = 0;
   Require(CVodeGetNumSteps(memory_, &steps));
   Require(CVodeGetNumRhsEvals(memory_, &right_hand_sides));
-  steps_ += steps - counted_.first;
-  right_hand_sides_ += right_hand_sides - counted_.second;
-  counted_ = {steps, right_hand_sides};
+  steps_ += steps - counted_since_begin_.first;
+  right_hand_sides_ += right_hand_sides - counted_since_begin_.second;
+  counted_since_begin_ = {steps, right_hand_sides};
 }
 
 }  // namespace ricochet::finite_duration

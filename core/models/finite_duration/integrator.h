@@ -1,5 +1,6 @@
-// CVODE for one contact of core/models/finite_duration/finite_duration.h: Adams' formulas of variable order, step by step, with the
-// roots of the guards. The only file, with its source, that knows SUNDIALS.
+// Integrator: CVODE for one contact of finite duration, step by step, with the roots of its guards.
+//
+// It uses Adams' formulas of variable order. This header and its source are the only files that know SUNDIALS.
 
 #ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_INTEGRATOR_H_
 #define RICOCHET_CORE_MODELS_FINITE_DURATION_INTEGRATOR_H_
@@ -12,26 +13,26 @@
 #include <cstdint>
 #include <utility>
 
-#include "core/models/finite_duration/motion.h"
+#include "core/models/finite_duration/guards.h"
 
 namespace ricochet::finite_duration {
 
 class Integrator {
  public:
-  explicit Integrator(const Contact& contact);
+  explicit Integrator(const ScaledContact& contact);
   ~Integrator();
   Integrator(const Integrator&) = delete;
   Integrator& operator=(const Integrator&) = delete;
 
-  // From s = 0 anew, in `mode`.
+  // Starts anew at s = 0, in `mode`.
   void Begin(const Mode& mode, const Motion& y, double tolerance);
 
   enum class Progress {
     kStep,
-    kCrowded,  // A guard is 0 where the last root was and just after it: begin anew from there.
+    kBeginAnew,  // A guard is 0 at the last root and just after it: the integration has to begin anew from there.
     kFailed
   };
-  // To the end of a step or the next root. `fallen`: guards that it found at 0.
+  // Goes to the end of a step or the next root, and marks in `fallen` the guards that are 0 there.
   Progress Step(std::array<bool, kModeGuards>& fallen);
 
   const Motion& y() const;
@@ -40,9 +41,9 @@ class Integrator {
   // The motion anywhere in the last step.
   Motion Between(double s);
 
-  // For each part, the sum of the sizes of its local errors since the last call, as CVODE estimates them.
+  // Returns the sum of the sizes of the local errors of each part since the last call, as CVODE estimates them.
   Motion TakeLocalErrors() { return std::exchange(local_errors_, Motion{}); }
-  // Steps and evaluations of the rates since the last call.
+  // Returns the steps and the evaluations of the rates since the last call.
   std::pair<int64_t, int64_t> TakeCosts();
 
  private:
@@ -51,7 +52,7 @@ class Integrator {
   void AddLocalErrors();
   void Count();
 
-  const Contact& contact_;
+  const ScaledContact& contact_;
   Mode mode_;
   sundials::Context context_;
   N_Vector y_;
@@ -63,8 +64,8 @@ class Integrator {
   double previous_s_ = 0.0;
   int64_t steps_ = 0;
   int64_t right_hand_sides_ = 0;
-  std::pair<int64_t, int64_t> counted_ = {0, 0};  // Of those, since the integrator last began.
-  long judged_ = 0;                               // The step whose local errors were taken last.
+  std::pair<int64_t, int64_t> counted_since_begin_ = {0, 0};  // These steps and evaluations are in the sums above.
+  long step_of_errors_ = 0;                                   // The step whose local errors were taken last.
   Motion local_errors_ = {};
 };
 

@@ -1,4 +1,6 @@
-// One integration of core/models/finite_duration/finite_duration.h, mode by mode, with what it meets on its way. Natural units.
+// FollowPath: one integration of an impact of finite duration, mode by mode, with its events, peaks and works.
+//
+// All numbers are in natural units (core/models/finite_duration/scaled_contact.h).
 
 #ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_PATH_H_
 #define RICOCHET_CORE_MODELS_FINITE_DURATION_PATH_H_
@@ -6,8 +8,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/models/finite_duration/history.h"
 #include "core/models/finite_duration/integrator.h"
 #include "core/models/finite_duration/motion.h"
+#include "core/models/finite_duration/stop_check.h"
 #include "ricochet/outcome.h"
 
 namespace ricochet::finite_duration {
@@ -21,36 +25,47 @@ struct Works {
   double normal = 0.0, tangential = 0.0;
 };
 
-// Where slip stopped for the first time, or the particle stuck.
-enum class Stop { kNever, kInCompression, kInRestitution };
+// The phase in which slip stops, or the particle sticks, for the first time.
+enum class FirstStop { kNever, kInCompression, kInRestitution };
+
+enum class PathEnd {
+  kUnderway,
+  kParted,      // N = 0, or eta = 0 and v = 0.
+  kHeld,        // Friction and the spring hold the contact at rest where compression ends.
+  kUnfinished,  // It never ends, a budget ran out, or it is lost in rounding.
+  kStopped      // The caller wanted no more.
+};
+
+// The largest values on the path.
+struct Peaks {
+  double normal = 0.0, tangential = 0.0;  // Sizes of the forces.
+  double indentation = 0.0;
+  double place = 0.0;  // kPlace
+  double restitution_speed = 0.0;
+
+  void Add(const ScaledContact& contact, const Mode& mode, const Motion& y);
+};
 
 struct Path {
+  PathEnd how = PathEnd::kUnderway;
   Motion end = {};
-  Motion compression = {};  // At the last end of compression.
+  Motion compression = {};  // The state at the last end of compression.
   Works compression_works;
   std::vector<Instant> events;
-  Stop stop = Stop::kNever;
+  FirstStop first_stop = FirstStop::kNever;
   bool first_stop_sticks = false;
   bool ever_sticks = false;
-  bool held = false;    // Ended at rest, where friction and the spring keep it.
-  bool parted = false;  // Or ended where compression does, because eta = 0 or it is held.
-  double peak_normal = 0.0, peak_tangential = 0.0, indentation = 0.0;
-  double largest_place = 0.0;
-  double fastest = 0.0;       // Of restitution, along n.
-  double spring_force = 0.0;  // Of the tangential spring at the end.
-  Motion local_errors = {};
+  Peaks peaks;
+  double spring_force = 0.0;  // F of the tangential spring at the end.
+  Motion local_errors = {};   // The sum of the sizes of the local errors.
   int64_t steps = 0, right_hand_sides = 0;
+
+  bool HasEnd() const { return how == PathEnd::kParted || how == PathEnd::kHeld; }
 };
 
-// Forces at equal steps of time, in natural units.
-struct History {
-  int64_t intervals = 0;
-  double duration = 0.0;
-  std::vector<ForceSample> samples;
-};
-
-// Errors of each step within `tolerance`. `history` may be null.
-Path Follow(const Contact& contact, Integrator& integrator, double tolerance, History* history);
+// The local error of each step is within `tolerance`. `history` may be null.
+Path FollowPath(const ScaledContact& contact, Integrator& integrator, double tolerance, StopCheck& stop,
+                HistoryRecorder* history);
 
 }  // namespace ricochet::finite_duration
 

@@ -331,7 +331,7 @@ TEST(FiniteDurationTest, WhereNothingMovesAlongTFrictionTakesNothing) {
   EXPECT_EQ(impact.spring_energy, 0.0);
 }
 
-// What the trapezoidal rule makes of a history.
+// The integral of a force over a history, by the trapezoidal rule.
 double Integral(const std::vector<ForceSample>& history, double ForceSample::*force) {
   double sum = 0.0;
   for (size_t i = 1; i < history.size(); ++i) {
@@ -358,7 +358,7 @@ TEST(FiniteDurationTest, HistoriesIntegrateToTheImpulsesAndKeepTheCone) {
         EXPECT_EQ(contact.history.back().time_s, contact.duration_s);
         const double normal = Integral(contact.history, &ForceSample::normal_n) - impact.tau1;
         const double tangential = Integral(contact.history, &ForceSample::tangential_n) - impact.f1;
-        // Of second order within a piece; each jump of the friction force adds its part of a step.
+        // The rule is of second order within a piece; each jump of the friction force adds its part of a step.
         const double step = 1.0 / static_cast<double>(intervals);
         EXPECT_LE(std::fabs(normal), 4.0 * step * step * impact.tau1);
         EXPECT_LE(std::fabs(tangential), 4.0 * step * impact.tau1);
@@ -576,7 +576,7 @@ TEST(FiniteDurationTest, WhatDoesNotPartEndsByItsBudget) {
     EXPECT_FALSE(impact.converged);
     EXPECT_EQ(impact.regime, Regime::kWedged);
     EXPECT_EQ(impact.error_estimate, std::numeric_limits<double>::infinity());
-    // Of the impact and of its history.
+    // The budget holds for the impact and for its history.
     EXPECT_LE(impact.steps, 2 * 50'000);
     EXPECT_TRUE(std::isfinite(impact.u1) && std::isfinite(impact.v1) && std::isfinite(impact.contact.duration_s));
     EXPECT_EQ(impact.contact.history.size(), 5U);
@@ -711,6 +711,51 @@ TEST(FiniteDurationTest, AContactThatDoesNotApproachIsLeftAlone) {
     EXPECT_EQ(impact.steps, 0);
     EXPECT_TRUE(impact.events.empty());
   }
+}
+
+TEST(FiniteDurationTest, AStoppedImpactSaysSoAndNothingElse) {
+  const Impact impact = Solve(Rod(HertzSpring{1e6}), [] { return true; });
+  EXPECT_TRUE(impact.stopped);
+  EXPECT_FALSE(impact.converged);
+  EXPECT_EQ(impact.regime, Regime::kUnspecified);
+  EXPECT_FALSE(Solve(Rod(HertzSpring{1e6}), [] { return false; }).stopped);
+}
+
+// Counts how often an impact asks, and stops it at the question of that number.
+struct Questions {
+  explicit Questions(int64_t at) : stop_at(at) {}
+  bool operator()() { return ++asked >= stop_at; }
+
+  int64_t asked = 0;
+  int64_t stop_at;
+};
+
+TEST(FiniteDurationTest, AnImpactThatNeverPartsAsksEvery64StepsAndEndsOnceItIsStopped) {
+  Problem problem = Rod(LinearSpring{1e3});
+  problem.normal_acceleration = -1e4;
+  Questions all(std::numeric_limits<int64_t>::max());
+  const Impact whole = Solve(problem, all);
+  ASSERT_FALSE(whole.converged);
+  EXPECT_FALSE(whole.stopped);
+  EXPECT_GE(64 * all.asked, whole.steps);
+  ASSERT_GT(all.asked, 3);
+  Questions some(3);
+  EXPECT_TRUE(Solve(problem, some).stopped);
+  EXPECT_EQ(some.asked, 3) << "nothing is asked after the answer";
+}
+
+TEST(FiniteDurationTest, AHistoryAsksAsOftenPerSampleAndIsStopped) {
+  Problem problem = Rod(LinearSpring{1e5});
+  Questions without(std::numeric_limits<int64_t>::max());
+  EXPECT_FALSE(Solve(problem, without).stopped);
+  problem.intervals = 10'000;
+  Questions with(std::numeric_limits<int64_t>::max());
+  EXPECT_EQ(Solve(problem, with).contact.history.size(), 10'001U);
+  EXPECT_GE(64 * (with.asked - without.asked), 10'000);
+  Questions late(without.asked + 50);
+  const Impact impact = Solve(problem, late);
+  EXPECT_TRUE(impact.stopped);
+  EXPECT_TRUE(impact.contact.history.empty());
 }
 
 TEST(FiniteDurationTest, TheSameProblemHasTheSameBits) {

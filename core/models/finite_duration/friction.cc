@@ -1,0 +1,66 @@
+#include "core/models/finite_duration/friction.h"
+
+#include <cmath>
+
+namespace ricochet::finite_duration {
+namespace {
+
+// d/dt of the sliding particle's speed decides between sliding and sticking where that speed is 0.
+double ParticleAcceleration(const ScaledContact& contact, const Mode& mode, const Motion& y, double direction) {
+  Mode sliding = mode;
+  sliding.friction = SlipTowards(direction);
+  const double share = ParticleShare(contact, mode);
+  const Forces forces = ForcesAt(contact, sliding, y);
+  const Acceleration rate = AccelerationAt(contact, sliding, forces);
+  const double pull = direction * rate.u + share * rate.v;
+  if (forces.normal != 0.0 || pull != 0.0) return pull;
+  const Acceleration& slope = direction < 0.0 ? contact.backward_slope : contact.forward_slope;
+  return direction * slope.u + share * slope.v;
+}
+
+FrictionState CompliantFrictionAfter(const ScaledContact& contact, const Mode& mode, const Motion& y, Guard fallen) {
+  if (!mode.Sticks()) {
+    return ParticleAcceleration(contact, mode, y, SlipSign(mode.friction)) < 0.0 ? FrictionState::kStick
+                                                                                 : mode.friction;
+  }
+  // The upper side is that of F > 0, which acts on a particle that slides backwards.
+  const double direction = fallen == kUpper ? -1.0 : 1.0;
+  const double speed = direction * y[kU] + ParticleShare(contact, mode) * y[kV];
+  const bool slides = speed > 0.0 || (speed == 0.0 && ParticleAcceleration(contact, mode, y, direction) >= 0.0);
+  return slides ? SlipTowards(direction) : mode.friction;
+}
+
+}  // namespace
+
+FrictionState FrictionAtRest(const ScaledContact& contact, double normal) {
+  if (contact.smooth) return FrictionState::kNone;
+  // Nothing else pulls, so the comparison is the same at every N; this form of it has no rounding.
+  if (contact.at == 0.0) return contact.holds_freely ? FrictionState::kStick : SlipTowards(contact.wtn);
+  const double drive = contact.wtn * normal + contact.at;
+  return std::fabs(drive) <= contact.mu_static * contact.wtt * normal ? FrictionState::kStick : SlipTowards(drive);
+}
+
+FrictionState FrictionAtStart(const ScaledContact& contact) {
+  if (contact.smooth) return FrictionState::kNone;
+  if (!contact.compliant) return contact.u0 == 0.0 ? FrictionAtRest(contact, 0.0) : SlipTowards(contact.u0);
+  const double speed = std::fabs(contact.u0) - contact.mu * contact.ratio_squared;
+  const double direction = contact.u0 < 0.0 ? -1.0 : 1.0;
+  const bool slides =
+      speed > 0.0 || (speed == 0.0 && ParticleAcceleration(contact, {}, MotionAtStart(contact), direction) >= 0.0);
+  return slides ? SlipTowards(direction) : FrictionState::kStick;
+}
+
+FrictionState FrictionAfter(const ScaledContact& contact, const Mode& mode, const Motion& y, Guard fallen) {
+  if (contact.compliant) return CompliantFrictionAfter(contact, mode, y, fallen);
+  if (mode.Sticks()) return fallen == kUpper ? FrictionState::kSlipForward : FrictionState::kSlipBackward;
+  return FrictionAtRest(contact, ForcesAt(contact, mode, y).normal);
+}
+
+bool NeverReverses(const ScaledContact& contact, const Mode& mode, const Motion& y) {
+  if (!mode.Sticks() || contact.compliant || contact.stick_slope != 0.0 || y[kV] >= 0.0) return false;
+  // The friction cone is linear in N, so that it holds everywhere if it holds here and at infinity.
+  const Forces forces = ForcesAt(contact, mode, y);
+  return contact.holds_freely && AccelerationAt(contact, mode, forces).v <= 0.0;
+}
+
+}  // namespace ricochet::finite_duration

@@ -1,0 +1,68 @@
+#include "core/models/finite_duration/guards.h"
+
+namespace ricochet::finite_duration {
+namespace {
+
+void SetRigidGuards(const ScaledContact& contact, const Mode& mode, const Motion& y, const Forces& forces,
+                    const Acceleration& rate, Guards& guards) {
+  if (mode.Sticks()) {
+    // The cone is left nowhere unless a finite force acts along t.
+    if (contact.at == 0.0) return;
+    const double hold = contact.mu_static * contact.wtt * forces.normal;
+    const double drive = contact.wtn * forces.normal + contact.at;
+    guards[kUpper] = hold - drive;
+    guards[kLower] = hold + drive;
+  } else if (!contact.coupled) {
+    const double sign = SlipSign(mode.friction);
+    guards[kUpper] = sign * y[kU];
+    if (contact.at != 0.0) guards[kUpperExtreme] = sign * rate.u;
+  }
+}
+
+void SetCompliantGuards(const ScaledContact& contact, const Mode& mode, const Motion& y, const Forces& forces,
+                        const Acceleration& rate, Guards& guards) {
+  const double share = ParticleShare(contact, mode);
+  if (mode.Sticks()) {
+    const double cone = contact.mu * forces.normal;
+    guards[kUpper] = cone - forces.tangential;
+    guards[kLower] = cone + forces.tangential;
+    guards[kUpperExtreme] = y[kU] - share * y[kV];
+    guards[kLowerExtreme] = y[kU] + share * y[kV];
+    guards[kForceExtreme] = y[kU];
+  } else {
+    const double sign = SlipSign(mode.friction);
+    guards[kUpper] = sign * y[kU] + share * y[kV];
+    guards[kUpperExtreme] = sign * rate.u + share * rate.v;
+  }
+}
+
+}  // namespace
+
+Guards GuardsAt(const ScaledContact& contact, const Mode& mode, const Motion& y) {
+  Guards guards;
+  guards.fill(1.0);
+  const Forces forces = ForcesAt(contact, mode, y);
+  const Acceleration rate = AccelerationAt(contact, mode, forces);
+  guards[kReversal] = mode.Unloads() ? y[kV] : -y[kV];
+  // If no finite force acts, the acceleration is N times a constant, whose sign rounding may lose.
+  const bool may_return = contact.at != 0.0 || contact.an != 0.0 || contact.compliant;
+  if (may_return) guards[kReversalExtreme] = rate.v;
+  if (mode.Unloads()) guards[kBranchEnd] = y[kPlace];
+  if (mode.branch == LoadingBranch::kReloading) guards[kBranchEnd] = mode.largest_place - y[kPlace];
+  if (contact.damped) {
+    // N' over x^(p-1).
+    const double x = contact.rooted ? Square(y[kPlace]) : y[kPlace];
+    const double stretch = 1.0 - contact.damping * y[kV];
+    guards[kForceExtreme] = -contact.exponent * y[kV] * stretch - x * contact.damping * rate.v;
+    if (mode.Unloads()) guards[kTension] = stretch;
+  }
+  if (mode.friction == FrictionState::kNone) return guards;
+  if (contact.compliant) {
+    SetCompliantGuards(contact, mode, y, forces, rate, guards);
+  } else {
+    SetRigidGuards(contact, mode, y, forces, rate, guards);
+  }
+  return guards;
+}
+
+}  // namespace ricochet::finite_duration

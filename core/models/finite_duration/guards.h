@@ -1,0 +1,36 @@
+// Guards: the event functions of a mode. A mode lasts while its guards are >= 0.
+//
+// The turning points of what may leave and come back within one step, and those of the forces, are watched too.
+
+#ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_GUARDS_H_
+#define RICOCHET_CORE_MODELS_FINITE_DURATION_GUARDS_H_
+
+#include <array>
+#include <cstddef>
+
+#include "core/models/finite_duration/motion.h"
+
+namespace ricochet::finite_duration {
+
+// The first kModeGuards end the mode where they fall below 0; the others have a turning point at 0.
+enum Guard : size_t {
+  kReversal,   // v is about to change sign.
+  kBranchEnd,  // Unloading: the spring is free. Reloading: d_max is reached again.
+  kTension,    // Hunt and Crossley: N is about to pull.
+  kUpper,      // Slip, the particle's slip, or the upper side of the friction cone.
+  kLower,      // The lower side of the friction cone.
+  kModeGuards,
+  kReversalExtreme = kModeGuards,
+  kUpperExtreme,
+  kLowerExtreme,
+  kForceExtreme,
+  kGuards
+};
+using Guards = std::array<double, kGuards>;
+
+// A guard that does not apply is 1.
+Guards GuardsAt(const ScaledContact& contact, const Mode& mode, const Motion& y);
+
+}  // namespace ricochet::finite_duration
+
+#endif  // RICOCHET_CORE_MODELS_FINITE_DURATION_GUARDS_H_

@@ -1,0 +1,104 @@
+#include "core/models/finite_duration/scaled_contact.h"
+
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "core/contact/delassus.h"
+#include "core/numerics/elementary.h"
+#include "core/numerics/invariant.h"
+
+namespace ricochet::finite_duration {
+namespace {
+
+constexpr double kEps = std::numeric_limits<double>::epsilon();
+
+struct Curve {
+  double stiffness = 0.0, exponent = 1.0, damping = 0.0;
+  bool damped = false;
+};
+
+struct CurveOf {
+  Curve operator()(std::monostate) const {
+    StopOnBrokenInvariant("a contact of finite duration has a normal spring", __FILE__, __LINE__);
+  }
+  Curve operator()(const LinearSpring& spring) const { return {.stiffness = spring.stiffness_n_m}; }
+  Curve operator()(const HertzSpring& spring) const { return {.stiffness = spring.stiffness_n_m1_5, .exponent = 1.5}; }
+  Curve operator()(const HuntCrossleySpring& spring) const {
+    return {spring.stiffness_n_m_p, spring.exponent, spring.damping_s_m, true};
+  }
+};
+
+// T of k Wnn |v0|^(p-1) T^(p+1) = 1. The roots are taken one by one, so that no power leaves the range of doubles.
+double NaturalTime(const Curve& curve, double wnn, double speed) {
+  const double root = 1.0 / (curve.exponent + 1.0);
+  return Pow(curve.stiffness, -root) * Pow(wnn, -root) * Pow(speed, -(curve.exponent - 1.0) * root);
+}
+
+void SetUnits(const Problem& problem, ScaledContact& contact) {
+  const Curve curve = std::visit(CurveOf(), problem.spring);
+  contact.exponent = curve.exponent;
+  contact.rooted = curve.exponent != 1.0;
+  contact.damped = curve.damped;
+  contact.speed = -problem.v0;
+  contact.time = NaturalTime(curve, problem.wnn, contact.speed);
+  const double turn = contact.speed / problem.normal_acceleration;
+  if (turn > 0.0 && turn < contact.time) {
+    contact.stiffness = Pow(turn / contact.time, curve.exponent + 1.0);
+    contact.time = turn;
+  }
+  contact.mass = 1.0 / problem.wnn;
+  contact.damping = curve.damping * contact.speed;
+  const bool returns = Square(problem.energetic) >= std::numeric_limits<double>::min();
+  contact.eta = curve.damped ? 1.0 : returns ? problem.energetic : 0.0;
+}
+
+// The slope of slip towards +t for mu > 0, towards -t for mu < 0.
+Acceleration SlopeOf(const Problem& problem, double mu) {
+  return {std::fma(-mu, problem.wtt, problem.wtn) / problem.wnn, std::fma(-mu, problem.wtn, problem.wnn) / problem.wnn};
+}
+
+void SetInertia(const Problem& problem, ScaledContact& contact) {
+  constexpr double kInRange = 8.0 * kEps;
+  const PlanarDelassus w = {problem.wtt, problem.wtn, problem.wnn};
+  contact.rank = w.Rank();
+  contact.wtn = problem.wtn / problem.wnn;
+  contact.wtt = problem.wtt / problem.wnn;
+  contact.forward_slope = SlopeOf(problem, problem.mu);
+  contact.backward_slope = SlopeOf(problem, -problem.mu);
+  contact.stick_slope = w.RelativeDeterminant();
+  if (contact.rank == 2) return;
+  contact.wtt = Square(contact.wtn);
+  contact.stick_slope = 0.0;
+  if (problem.wtn == 0.0) return;
+  // u is then v Wtn/Wnn, unless a force of its own drives it off.
+  const double in_range = contact.an * contact.wtn;
+  contact.coupled = std::fabs(contact.at - in_range) <= kInRange * (std::fabs(contact.at) + std::fabs(in_range));
+  contact.u0 = -contact.wtn;
+  if (contact.coupled) contact.at = in_range;
+}
+
+bool HoldsFreely(const Problem& problem, int rank) {
+  if (rank == 1) return std::fma(problem.mu_static, std::fabs(problem.wtn), -problem.wnn) >= 0.0;
+  return std::fma(problem.mu_static, problem.wtt, -std::fabs(problem.wtn)) >= 0.0;
+}
+
+}  // namespace
+
+ScaledContact MakeScaledContact(const Problem& problem) {
+  ScaledContact contact;
+  SetUnits(problem, contact);
+  contact.u0 = problem.u0 / contact.speed;
+  contact.at = problem.tangential_acceleration * contact.time / contact.speed;
+  contact.an = problem.normal_acceleration * contact.time / contact.speed;
+  contact.mu = problem.mu;
+  contact.mu_static = problem.mu_static;
+  contact.compliant = problem.ratio_squared.has_value();
+  contact.ratio_squared = problem.ratio_squared.value_or(0.0);
+  SetInertia(problem, contact);
+  contact.smooth = problem.mu_static == 0.0 || contact.wtt == 0.0;
+  contact.holds_freely = HoldsFreely(problem, contact.rank);
+  return contact;
+}
+
+}  // namespace ricochet::finite_duration

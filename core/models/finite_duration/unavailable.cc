@@ -1,0 +1,18 @@
+// Stands for the model of finite duration in a build without SUNDIALS. A request for it is refused before a Solve.
+
+#include "core/models/finite_duration/finite_duration.h"
+#include "core/numerics/invariant.h"
+
+namespace ricochet::finite_duration {
+
+bool IsAvailable() { return false; }
+
+Impact Solve(const Problem& /*problem*/, absl::FunctionRef<bool()> /*stopped*/) {
+  StopOnBrokenInvariant("this build has no model of finite duration", __FILE__, __LINE__);
+}
+
+Impact Solve(const Problem& problem) {
+  return Solve(problem, [] { return false; });
+}
+
+}  // namespace ricochet::finite_duration
