@@ -724,9 +724,9 @@ TEST(FiniteDurationTest, AStoppedImpactSaysSoAndNothingElse) {
 // Counts how often an impact asks, and stops it at the question of that number.
 struct Questions {
   explicit Questions(int64_t at) : stop_at(at) {}
-  bool operator()() { return ++asked >= stop_at; }
+  bool operator()() const { return ++asked >= stop_at; }
 
-  int64_t asked = 0;
+  mutable int64_t asked = 0;
   int64_t stop_at;
 };
 
