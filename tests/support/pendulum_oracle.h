@@ -33,7 +33,7 @@ double OutputError(const ExactImpact& exact, size_t i, double computed);
 struct ExactInstant {
   Ball omega;
   Ball tangential_impulse;
-  Ball omega_scale;    // |w-|
+  Ball omega_scale;    // |omega-|
   Ball impulse_scale;  // mu tau0
 };
 

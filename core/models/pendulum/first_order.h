@@ -75,7 +75,7 @@ inline Approximation Approximate(const Problem& problem) {
   const double one_plus_x = 1.0 + x;
   const auto forms = pendulum::CoefficientForms(problem.law, problem.coefficient, x, 1.0 - x, one_plus_x);
   const double kappa = forms.poisson.value;
-  // The larger of a |w-| and x |b| |w-|, over (1 + x) V.
+  // The larger of a |omega-| and x |b| |omega-|, over (1 + x) V.
   const double share = std::max(problem.a, x * size) / (std::max(problem.a, size) * one_plus_x);
   return {.x = x,
           .one_minus_x = 1.0 - x,
@@ -149,7 +149,7 @@ Impact Solve(const Problem& problem);
 inline Regime RegimeOf(const Problem& problem) { return problem.mu > 0.0 ? Regime::kRebound : Regime::kFrictionless; }
 
 // The state at normal impulse tau in [0, tau1], by [7], [12] and [48] with tau0, tau1 and omega+ of the model.
-// Accuracy: 4 ulp of |w-| or of mu tau0.
+// Accuracy: 4 ulp of |omega-| or of mu tau0.
 Instant At(const Problem& problem, double tau);
 
 }  // namespace ricochet::first_order

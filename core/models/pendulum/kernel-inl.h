@@ -27,9 +27,9 @@ using ricochet::HWY_NAMESPACE::Not;
 // The inputs of problems of one law, one problem in each lane.
 template <typename N, typename Mask>
 struct Inputs {
-  N inertia, a, b, omega;  // omega is w-
+  N inertia, a, b, omega;  // omega is omega-
   N mu;                    // mu with the sign of b; 0 if b = 0.
-  N static_q;           // mu_s |b|
+  N static_q;              // mu_s |b|
   N coefficient;
   Mask near_one;  // Selects the second form of a numerator: coefficient > 1/2, Poisson's < 2.
 };

@@ -281,7 +281,7 @@ Instant At(const Problem& problem, double tau) {
   const WideSolution x = SolveGeometry(problem);
   const Wide momentum = x.inertia * x.omega;
   const Wide impulse = Wide::Exactly(tau);
-  // J w(tau) in compression. From the end of compression on the slope is d instead of s.
+  // J omega(tau) in compression. From the end of compression on the slope is d instead of s.
   const Wide compression = momentum + x.s * impulse;
   if (!IsPositive(compression)) {
     return {Rounded(compression / x.inertia) + 0.0, Rounded(x.mu * impulse) + 0.0};

@@ -1,20 +1,20 @@
 // Pendulum: the frictional impact of a rigid pendulum in closed form.
 //
 // Lubarda (2009), doi:10.1115/1.3172198. The pendulum has the moment of inertia J about the pin, its contact at (a, -b),
-// the angular velocity w- < 0 before the impact, kinetic friction mu and static friction mu_s. With q = mu |b|, x = q/a
+// the angular velocity omega- < 0 before the impact, kinetic friction mu and static friction mu_s. With q = mu |b|, x = q/a
 // and r = (a - q)/(a + q):
 //
-//   tau0 = -J w-/(a + q)                           impulse of compression                                  [8]
+//   tau0 = -J omega-/(a + q)                       impulse of compression                                  [8]
 //   kappa_hat = eta sqrt(r) = kappa r              Newton's, energetic, Poisson's coefficient              [15], [23-25]
-//   w+ = -kappa_hat w-                             angular velocity after                                  [11]
+//   omega+ = -kappa_hat omega-                     angular velocity after                                  [11]
 //   tau1 = (1 + kappa) tau0                        whole normal impulse                                    [10]
 //   f1 = sgn(b) mu (1 - kappa) tau0                friction impulse                                        [48], [51]
 //   mu_hat = f1/tau1                               Brach's coefficient                                     [49-51]
-//   Wc_n = a tau0 w-/2,  Wr_n = -eta^2 Wc_n        works of the normal impulse                             [22], [40]
-//   Wc_t = q tau0 w-/2,  Wr_t = eta^2 Wc_t         works of friction                                       [34], [40]
-//   dE = J w-^2 (1 - kappa_hat^2)/2                energy lost                                             [16], [52]
+//   Wc_n = a tau0 omega-/2,  Wr_n = -eta^2 Wc_n    works of the normal impulse                             [22], [40]
+//   Wc_t = q tau0 omega-/2,  Wr_t = eta^2 Wc_t     works of friction                                       [34], [40]
+//   dE = J omega-^2 (1 - kappa_hat^2)/2            energy lost                                             [16], [52]
 //
-// The contact separates if w- >= 0. It locks if mu_s |b| >= a: there is no restitution, all three coefficients are 0 and
+// The contact separates if omega- >= 0. It locks if mu_s |b| >= a: there is no restitution, all three coefficients are 0 and
 // tau1 = tau0. It is frictionless if x = 0, and rebounds otherwise. Every threshold is decided exactly.
 //
 // Accuracy: each output is within 1 ulp of its exact value over the whole range of doubles; an output that changes its
@@ -38,7 +38,7 @@ struct Problem {
   double inertia = 0.0;  // J
   double a = 0.0;
   double b = 0.0;
-  double omega_minus = 0.0;  // w-
+  double omega_minus = 0.0;  // omega-
   double mu = 0.0;
   double mu_static = 0.0;  // mu_s
   RestitutionLaw law = RestitutionLaw::kEnergetic;
@@ -52,8 +52,8 @@ enum class Output {
   kEnergetic,
   kTangentialCoefficient,  // mu_hat
   kOmegaPlus,
-  kTangentialVelocityAfter,       // b w+
-  kNormalVelocityAfter,           // a w+
+  kTangentialVelocityAfter,       // b omega+
+  kNormalVelocityAfter,           // a omega+
   kNormalImpulseCompression,      // tau0
   kNormalImpulse,                 // tau1
   kTangentialImpulse,             // f1
@@ -88,11 +88,11 @@ void SolveColumns(absl::Span<const Problem> problems, absl::Span<const Output> o
 
 // The state of the pendulum at normal impulse tau in [0, tau1]: Fig. 3 and Fig. 5 of the paper.
 struct Instant {
-  double omega = 0.0;               // w(tau), [9]
+  double omega = 0.0;               // omega(tau), [9]
   double tangential_impulse = 0.0;  // f(tau), [48]
 };
 
-// The problem must not separate. Accuracy: 1 ulp, or 2^-100 of |w-| for omega and of mu tau0 for the impulse.
+// The problem must not separate. Accuracy: 1 ulp, or 2^-100 of |omega-| for omega and of mu tau0 for the impulse.
 Instant At(const Problem& problem, double tau);
 
 }  // namespace ricochet::pendulum

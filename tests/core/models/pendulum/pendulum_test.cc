@@ -95,7 +95,7 @@ TEST(PendulumPaperTest, Figure4NewtonRisesFromZeroWherePhiIsTheAngleOfFrictionTo
   }
 }
 
-// (46), without the misprint in the middle of its right-hand side: W = -J mu b/(a + mu b) w-^2.
+// (46), without the misprint in the middle of its right-hand side: W = -J mu b/(a + mu b) omega-^2.
 TEST(PendulumPaperTest, FrictionTakesAllTheEnergyThatAnElasticImpactLoses) {
   const Impact impact = Solve(Make(0.3, 1.0, 0.1, RestitutionLaw::kEnergetic, 1.0));
   EXPECT_EQ(impact[Output::kWorkNormal], 0.0);
@@ -549,7 +549,7 @@ TEST(PendulumColumnsTest, NoProblemsAndNoOutputsAreFine) {
   EXPECT_FALSE(inadmissible[0]);
 }
 
-// Fig. 3: two straight lines through (0, w-), (tau0, 0), (tau1, w+).
+// Fig. 3: two straight lines through (0, omega-), (tau0, 0), (tau1, omega+).
 TEST(PendulumHistoryTest, AngularVelocityIsBilinearAndVanishesAtTheEndOfCompression) {
   const Problem problem = Make(0.75, 1.0, 0.25, RestitutionLaw::kPoisson, 1.0);  // tau0 = 6, r = 1/2
   EXPECT_EQ(At(problem, 0.0).omega, -3.0);
