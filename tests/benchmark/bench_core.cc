@@ -14,12 +14,12 @@
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
-#include "core/numerics/ulp.h"
 #include "core/sweep/sweep_run.h"
 #include "ricochet/solver.h"
 #include "tests/benchmark/measure.h"
 #include "tests/support/known_contacts.h"
 #include "tests/support/planar_scenes.h"
+#include "tests/support/ulp.h"
 
 namespace ricochet::bench {
 namespace {

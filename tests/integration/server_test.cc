@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "core/engine/engine.h"
-#include "core/numerics/ulp.h"
 #include "core/sweep/sweep_run.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "proto/wire/engine.h"
@@ -27,6 +26,7 @@
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "tests/support/server_process.h"
+#include "tests/support/ulp.h"
 
 namespace ricochet {
 namespace {

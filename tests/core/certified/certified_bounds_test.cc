@@ -12,12 +12,12 @@
 #include "core/bounds/pendulum_bounds.h"
 #include "core/certified/certified.h"
 #include "core/models/restitution_law.h"
-#include "core/numerics/ulp.h"
 #include "ricochet/solver.h"
 #include "tests/support/certificates.h"
 #include "tests/support/pendulum_scenes.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/system_scenes.h"
+#include "tests/support/ulp.h"
 
 namespace ricochet {
 namespace {

@@ -16,13 +16,13 @@
 
 #include "core/answer/pendulum_outcome.h"
 #include "core/models/restitution_law.h"
-#include "core/numerics/ulp.h"
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/solver.h"
 #include "tests/support/certificates.h"
 #include "tests/support/pendulum_scenes.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/system_scenes.h"
+#include "tests/support/ulp.h"
 #include "tests/support/vectors.h"
 
 namespace ricochet {

@@ -1,4 +1,4 @@
-#include "core/numerics/ulp.h"
+#include "tests/support/ulp.h"
 
 #include <gtest/gtest.h>
 

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "core/models/restitution_law.h"
-#include "core/numerics/ulp.h"
 #include "tests/support/pendulum_oracle.h"
 #include "tests/support/pendulum_scenes.h"
+#include "tests/support/ulp.h"
 
 namespace ricochet::pendulum {
 namespace {

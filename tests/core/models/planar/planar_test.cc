@@ -15,12 +15,12 @@
 
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
-#include "core/numerics/ulp.h"
 #include "hwy/targets.h"
 #include "tests/support/known_contacts.h"
 #include "tests/support/only_target.h"
 #include "tests/support/planar_oracle.h"
 #include "tests/support/planar_scenes.h"
+#include "tests/support/ulp.h"
 
 namespace ricochet::planar {
 namespace {

@@ -4,8 +4,8 @@
 // +0 and -0 are the same number, at distance 0, and distances are counted through zero. A NaN has distance 0 from any
 // NaN and kNotComparable from everything else.
 
-#ifndef RICOCHET_CORE_NUMERICS_ULP_H_
-#define RICOCHET_CORE_NUMERICS_ULP_H_
+#ifndef RICOCHET_TESTS_SUPPORT_ULP_H_
+#define RICOCHET_TESTS_SUPPORT_ULP_H_
 
 #include <bit>
 #include <cstdint>
@@ -32,4 +32,4 @@ constexpr uint64_t UlpDistance(double x, double y) {
 
 }  // namespace ricochet
 
-#endif  // RICOCHET_CORE_NUMERICS_ULP_H_
+#endif  // RICOCHET_TESTS_SUPPORT_ULP_H_
