@@ -65,7 +65,7 @@ class SceneSource {
         .inertia = Positive(), .a = Positive(), .b = Sign() * Bits(), .omega_minus = -Positive(), .mu = Bits()};
     problem.mu_static = Below(4) == 0 ? std::max(problem.mu, Bits()) : problem.mu;
     SetCoefficient(problem, /*any_size=*/true);
-    // With random b half of the problems lock and most others have hardly any coupling; half of the time b is chosen
+    // If b is random, half of the problems lock and most others have hardly any coupling; half of the time b is chosen
     // in between.
     if (Below(2) == 0) AimSlope(problem, std::exp2(-Uniform(0.0, 60.0)) * Uniform(0.5, 1.0));
     return problem;

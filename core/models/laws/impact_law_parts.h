@@ -1,6 +1,6 @@
 // NewtonImpact: the algebra that the impact laws share (core/models/laws/impact_law.h), private to core/models/laws.
 //
-// With c = -(1 + e) v0, the change of the normal velocity, W^-1 (-u0, c) is the impulse that ends without slip:
+// Let c = -(1 + e) v0 be the change of the normal velocity. W^-1 (-u0, c) is the impulse that ends without slip:
 //
 //   (f, tau)_stick = (-G, T)/det W,   G = u0 wnn + c wtn,   T = c wtt + u0 wtn
 //

@@ -47,7 +47,7 @@ TEST(WhittakerTest, SlantedRodByHand) {
              {.f = 28.0 / 71, .tau1 = 40.0 / 71, .u1 = 59.0 / 71, .v1 = 1.0, .energy_change = -168.0 / 5041});
 }
 
-// With mu = 2 instead, tau1 = 2/5.5 = 4/11, f = 8/11, u1 = -1 + 20/11 + 6/11 = 15/11, dE = 4/11 4/11 = 16/121.
+// mu = 2 instead gives tau1 = 2/5.5 = 4/11, f = 8/11, u1 = -1 + 20/11 + 6/11 = 15/11, dE = 4/11 4/11 = 16/121.
 TEST(WhittakerTest, CreatesEnergyWhereSlipReverses) {
   ExpectOnly(SolveWhittaker(SlantedRod(2.0), 1.0),
              {.f = 8.0 / 11, .tau1 = 4.0 / 11, .u1 = 15.0 / 11, .v1 = 1.0, .energy_change = 16.0 / 121});
