@@ -1,5 +1,5 @@
-// What accuracy costs: the pendulum's closed form against the same formulas written down plainly, in time and in ulp;
-// and what generality does: the planar model against the pendulum's closed form.
+// The price of accuracy: the pendulum's closed form is compared with the plain formulas, in time and in ulp. The price of
+// generality: the planar model is compared with the pendulum's closed form.
 
 #include <cmath>
 #include <cstdio>
@@ -30,8 +30,8 @@ using pendulum::Problem;
 
 constexpr int kRounds = 21;
 
-// The paper's formulas for a given energetic coefficient, as one would first write them. Not inlined: a caller that
-// uses one output must not spare the others.
+// The paper's formulas for a given energetic coefficient, written plainly. The function is not inlined, because a caller
+// that uses one output must not spare the others.
 [[gnu::noinline]] Impact PlainSolve(const Problem& p) {
   Impact impact;
   const auto set = [&](Output output, double value) { impact.values[static_cast<size_t>(output)] = value; };
@@ -87,7 +87,7 @@ std::vector<Problem> TypicalProblems(size_t count) {
   return problems;
 }
 
-// The same, a few ulp to 1e-3 below the friction that locks, or with a coefficient as close to 1.
+// These scenes lie a few ulp to 1e-3 below the friction that locks, or their coefficient is as close to 1.
 std::vector<Problem> HardProblems(size_t count) {
   std::mt19937_64 random(2);
   std::vector<Problem> problems = TypicalProblems(count);
@@ -169,7 +169,7 @@ void Columns() {
         absl::StrFormat("%.2f x eight columns: only what is asked for is computed", one.ratio));
 }
 
-// What a sweep adds to the columns of its problems: the grid, the door, the summary.
+// Measures what a sweep adds to the columns of its problems: the grid, the validation and the summary.
 void CompareSweep(const std::string& what, const std::vector<std::string>& names, const std::vector<Output>& outputs) {
   constexpr int64_t kPoints = 65536;
   const SweepRequest request = {

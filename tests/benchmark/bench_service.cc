@@ -1,4 +1,4 @@
-// What serving costs: the service on loopback against one that moves the same messages and computes nothing.
+// The price of serving: the service on loopback is compared with one that moves the same messages and computes nothing.
 
 #include <grpcpp/grpcpp.h>
 

@@ -1,4 +1,4 @@
-// What the spatial model costs: nanoseconds and achieved error by tolerance, and ratios to the planar closed form.
+// The price of the spatial model: nanoseconds and achieved error by tolerance, and ratios to the planar closed form.
 
 #include <algorithm>
 #include <cmath>
@@ -31,7 +31,7 @@ std::vector<Problem> Problems(double tolerance, const Next& next) {
   return problems;
 }
 
-// Median and largest error over max(|u0|, |v0|), against the tightest tolerance on offer.
+// The median and the largest error over max(|u0|, |v0|), compared with the solution at the tightest tolerance.
 struct Errors {
   double median, largest;
 };

@@ -1,4 +1,4 @@
-// What the spatial model spares its users: one solve beside CVODE on the equations as they stand, at the same accuracy.
+// The spatial model, compared with CVODE on the original equations at the same accuracy.
 
 #include <algorithm>
 #include <array>
@@ -29,15 +29,15 @@ constexpr int kRounds = 5;
 // A solver's answer to one problem.
 struct Answer {
   bool ended = false;
-  double error = 0.0;  // Of the velocities, over max(|u0|, |v0|).
+  double error = 0.0;  // Error of the velocities over max(|u0|, |v0|).
 };
 
-// The reference: the model's own solver with 64-bit mantissas and a tolerance that leaves nothing for doubles to show.
+// The reference is the model's own solver with 64-bit mantissas and a tolerance below the resolution of doubles.
 struct Case {
   Problem problem;
   Impact reference;
 
-  // Some W near rank two leave a velocity open whatever the arithmetic.
+  // Some W near rank two do not determine a velocity in any arithmetic.
   bool known() const { return reference.converged && reference.error_estimate <= 1e-12; }
 
   Answer Judge(bool ended, const std::array<double, 2>& u1, double v1) const {
@@ -57,11 +57,11 @@ std::vector<Case> Cases(absl::FunctionRef<Problem()> next) {
   return cases;
 }
 
-// A solver over all cases.
+// The results of one solver over all cases.
 struct Run {
   int gave_up = 0;
-  std::vector<double> errors;  // Of those that ended and whose answer is known.
-  int within = 0;              // Of these, those with no more error than asked.
+  std::vector<double> errors;  // Errors of the cases that ended and whose answer is known.
+  int within = 0;              // Number of these errors that are within the tolerance.
 };
 Run RunOver(const std::vector<Case>& cases, double asked, absl::FunctionRef<Answer(const Case&)> solve) {
   Run run;
@@ -87,8 +87,8 @@ Answer Theirs(CvodePeer& peer, const Case& c, double tolerance) {
   return c.Judge(impact.ended, impact.u1, impact.v1);
 }
 
-// CVODE controls local errors: the loosest tolerance, by half decades, that brings 99 of 100 answers within what is
-// asked.
+// CVODE controls local errors. This finds the loosest tolerance, by half decades, at which 99 of 100 answers are within
+// the error asked for.
 double ToleranceForSameAccuracy(CvodePeer& peer, const std::vector<Case>& cases, double asked) {
   constexpr double kTightest = 1e-14;
   double tolerance = asked;
@@ -100,7 +100,7 @@ double ToleranceForSameAccuracy(CvodePeer& peer, const std::vector<Case>& cases,
   return tolerance;
 }
 
-// Seconds by case, medians of rounds, of the cases that CVODE ends.
+// Seconds for each case that CVODE ends, as medians over the rounds.
 struct Times {
   std::vector<double> ours, theirs, ratios;
 };
@@ -144,8 +144,7 @@ void Measure(CvodePeer& peer, const char* what, const std::vector<Case>& cases, 
                         Mean(times.theirs) / Mean(times.ours)));
 }
 
-// Slip that is never near 0, of cases where it never stops: there the equations are smooth, and CVODE is a second
-// opinion.
+// Cases whose slip never stops and is never near 0. Their equations are smooth, so that CVODE is an independent check.
 void CrossCheck(CvodePeer& peer, const std::vector<Case>& cases) {
   constexpr double kTolerance = 1e-13;
   constexpr double kLeastSlip = 0.1;

@@ -15,7 +15,7 @@ namespace {
 
 using spatial::Problem;
 
-// A call that fails only where this program is wrong.
+// Checks a call that fails only if this program is wrong.
 void Require(int flag) {
   if (flag >= 0) return;
   std::fprintf(stderr, "CVODE refused a setting with %d\n", flag);
@@ -47,7 +47,7 @@ struct Impact {
     return {w11 * f1 + w12 * f2 + w13, w12 * f1 + w22 * f2 + w23, w13 * f1 + w23 * f2 + 1.0, y[2]};
   }
 
-  // False if there is no restitution.
+  // Begins restitution; returns false if there is none.
   bool BeginRestitution(double tau, const State& y, double v0) {
     restitution = true;
     target = law == RestitutionLaw::kNewton    ? -coefficient * v0
@@ -63,7 +63,7 @@ int Rate(realtype /*tau*/, N_Vector y, N_Vector rate, void* data) {
   const Impact& impact = *static_cast<const Impact*>(data);
   const State& at = StateOf(y);
   const double slip = std::sqrt(at[0] * at[0] + at[1] * at[1]);
-  if (slip == 0.0) return 1;  // Recoverable: CVODE tries a smaller step.
+  if (slip == 0.0) return 1;  // This error is recoverable: CVODE tries a smaller step.
   StateOf(rate) = impact.Rate(at, -impact.mu * at[0] / slip, -impact.mu * at[1] / slip);
   return 0;
 }
@@ -100,7 +100,7 @@ State RateFromRest(const Impact& impact) {
   return impact.Rate({}, -impact.mu * e[0], -impact.mu * e[1]);
 }
 
-// tau from here to the end of the phase on a straight path with slope `slope` of v.
+// The normal impulse up to the end of the phase on a straight path with slope `slope` of v.
 double StraightLength(const Impact& impact, double tau, const State& y, double slope) {
   const double missing = impact.target - impact.Value(tau, y);
   if (impact.restitution && impact.law == RestitutionLaw::kPoisson) return missing;
@@ -110,7 +110,7 @@ double StraightLength(const Impact& impact, double tau, const State& y, double s
   return missing / slope;
 }
 
-// From rest to the end of the impact.
+// Follows the path from the stop of slip to the end of the impact.
 bool FinishStraight(Impact& impact, double tau, State& y, double v0) {
   const State rate = RateFromRest(impact);
   for (;;) {
@@ -154,7 +154,7 @@ struct CvodePeer::Solver {
   Solver(const Solver&) = delete;
   Solver& operator=(const Solver&) = delete;
 
-  // Until the impact ends or slip stops; false if CVODE gives up.
+  // Integrates until the impact ends or slip stops; returns false if CVODE gives up.
   bool Slide(double v0, double& tau, bool& stopped) {
     constexpr double kFar = 1e9;
     for (;;) {

@@ -1,11 +1,11 @@
-// CvodePeer: the spatial impact by SUNDIALS CVODE, as one would do it without a model made for it. The yardstick.
+// CvodePeer: the spatial impact by SUNDIALS CVODE, for comparison with the spatial model.
 //
-// Keller's equations as they stand, over the normal impulse tau and with the normal work:
+// It integrates Keller's original equations over the normal impulse tau, together with the normal work:
 //
 //   d(u, v, w)/dtau = (W (f', 1), v),   f' = -mu u/|u|
 //
-// by Adams' formulas of variable order; root finding for the ends of the phases and for slip that all but stops. From
-// there on the path is straight, and closed forms end it.
+// by Adams' formulas of variable order. Root finding finds the ends of the phases and the point where slip has nearly
+// stopped. From there on the path is straight, and closed forms end it.
 
 #ifndef RICOCHET_TESTS_BENCHMARK_CVODE_PEER_H_
 #define RICOCHET_TESTS_BENCHMARK_CVODE_PEER_H_
@@ -19,7 +19,7 @@
 namespace ricochet::bench {
 
 struct PeerImpact {
-  bool ended = false;  // False: CVODE gave up, or took more steps than its budget.
+  bool ended = false;  // False if CVODE gave up, or took more steps than its budget.
   std::array<double, 2> u1 = {};
   double v1 = 0.0;
   int64_t steps = 0;
@@ -29,8 +29,8 @@ struct PeerImpact {
 class CvodePeer {
  public:
   static constexpr int64_t kStepBudget = 100'000;
-  // Slip below this many tolerances counts as stopped: the velocities are wrong by no more than that, for friction
-  // makes paths converge. At 1 CVODE tends to step over the stop and to rattle about it until its budget is spent.
+  // Slip below this many tolerances counts as stopped. The error of the velocities is no larger, because friction makes
+  // paths converge. At 1 CVODE tends to step over the stop and to oscillate about it until its budget is spent.
   static constexpr double kStopSlip = 10.0;
 
   CvodePeer();

@@ -1,4 +1,4 @@
-// EchoService: the same calls and message sizes as the impact service, without any computation. The yardstick.
+// EchoService: a service with the calls and message sizes of the impact service but no computation, for comparison.
 
 #ifndef RICOCHET_TESTS_BENCHMARK_ECHO_SERVICE_H_
 #define RICOCHET_TESTS_BENCHMARK_ECHO_SERVICE_H_

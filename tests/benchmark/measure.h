@@ -1,4 +1,4 @@
-// Measuring on a noisy machine: medians of several repeats, ratios of things timed in turn.
+// Measurements on a noisy machine: medians of several repeats, and ratios of two things timed in turn.
 
 #ifndef RICOCHET_TESTS_BENCHMARK_MEASURE_H_
 #define RICOCHET_TESTS_BENCHMARK_MEASURE_H_
@@ -10,7 +10,7 @@
 
 namespace ricochet::bench {
 
-// Middle value; the lower one of an even number. `values` must not be empty.
+// The middle value, or the lower one of both if their number is even. `values` must not be empty.
 double Median(std::vector<double> values);
 
 // Value at the quantile 0 <= q <= 1.
@@ -19,7 +19,7 @@ double Quantile(std::vector<double> values, double q);
 // Seconds that `run` takes by the wall clock.
 double Seconds(absl::FunctionRef<void()> run);
 
-// Two things timed in turn, A B A B ..., after one round that is not counted.
+// The times of two things that run in turn, A B A B ..., after one round that is not counted.
 struct Comparison {
   double seconds_a = 0.0;  // Medians.
   double seconds_b = 0.0;
@@ -27,10 +27,10 @@ struct Comparison {
 };
 Comparison Compare(int rounds, absl::FunctionRef<void()> a, absl::FunctionRef<void()> b);
 
-// A line of a report: what, the value with its unit, what it is compared with.
+// Prints a line of a report: the name, the value with its unit, and the comparison.
 void Print(const std::string& what, const std::string& value, const std::string& note);
 
-// Keeps the compiler from dropping what computes `value`.
+// Keeps the compiler from dropping the computation of `value`.
 void Keep(double value);
 
 }  // namespace ricochet::bench

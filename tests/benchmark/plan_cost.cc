@@ -86,7 +86,7 @@ Scene Heavy(Scene scene) {
   return scene;
 }
 
-// Two cases an effect, EFFECT.off and EFFECT.on, and cases of their own with the defaults of a request.
+// Each effect has two cases, EFFECT.off and EFFECT.on. Further cases have the defaults of a request.
 std::vector<Case> Cases() {
   const DemandFields exact = {.relative_tolerance = 1e-10};
   const DemandFields in_time = {.relative_tolerance = 1e-6, .required = {Effect::kFiniteDuration}};
@@ -119,7 +119,7 @@ std::vector<Case> Cases() {
   };
 }
 
-// From a request to an answer that has been freed again. Not inlined, as plan_cost.py looks for it by name.
+// Solves a request and frees the answer. It is not inlined, because plan_cost.py looks for it by name.
 [[gnu::noinline]] double SolveOnce(const SolveRequest& request) {
   const LocalSolver solver;
   const absl::StatusOr<SolveResponse> response = solver.Solve(request);
@@ -130,7 +130,7 @@ std::vector<Case> Cases() {
   return response->outcome.contact_velocity_after.normal_m_s;
 }
 
-// Not inlined, as plan_cost.py counts instructions inside it alone.
+// It is not inlined, because plan_cost.py counts the instructions inside it.
 [[gnu::noinline]] void SolveRepeatedly(const SolveRequest& request, int count) {
   double sum = 0.0;
   const int64_t before = allocations;
