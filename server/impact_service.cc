@@ -2,10 +2,8 @@
 
 #include <chrono>
 #include <utility>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/types/span.h"
 #include "core/engine/engine.h"
 #include "core/engine/local_solver.h"
 #include "core/sweep/sweep_run.h"
@@ -41,26 +39,6 @@ absl::Status WhyStopped(const grpc::ServerContext& context, bool draining) {
   }
   if (draining) return Draining();
   return absl::CancelledError("the client cancelled the call or went away");
-}
-
-// Computes the next chunk into `response`, whose memory is reused. Returns false if it was stopped.
-bool NextChunk(SweepRun& run, absl::FunctionRef<bool()> stopped, std::vector<Regime>& regimes,
-               v1::SweepResponse& response) {
-  const SweepRun::Extent extent = run.Next();
-  auto& values = *response.mutable_values();
-  values.Resize(static_cast<int>(extent.count * run.column_count()), 0.0);
-  if (!regimes.empty()) regimes.resize(static_cast<size_t>(extent.count));
-  if (!run.Compute(extent, absl::MakeSpan(values.mutable_data(), static_cast<size_t>(values.size())),
-                   absl::MakeSpan(regimes), stopped)) {
-    return false;
-  }
-  response.set_first_index(extent.first_index);
-  response.set_count(extent.count);
-  response.set_points_done(run.points_done());
-  response.set_points_total(run.points_total());
-  response.clear_regimes();
-  for (const Regime regime : regimes) response.add_regimes(ToProto(regime));
-  return true;
 }
 
 }  // namespace
@@ -126,20 +104,17 @@ absl::Status ImpactService::StreamSweep(const SweepRequest& request, const grpc:
   }
   const auto stopped = [&] { return drain_.stop_requested() || context.IsCancelled(); };
   v1::SweepResponse response;
-  *response.mutable_engine() = ToProto(ThisEngine());
-  std::vector<Regime> regimes(request.with_regime ? 1 : 0);
-  do {
-    const bool computed = NextChunk(*run, stopped, regimes, response);
+  while (!run->ended()) {
+    absl::StatusOr<SweepChunk> chunk = run->NextChunk(stopped);
     call.set_points(run->points_done());
-    if (!computed) return WhyStopped(context, drain_.stop_requested());
+    if (!chunk.ok()) return WhyStopped(context, drain_.stop_requested());
+    chunk->engine = ThisEngine();
+    if (chunk->summary.has_value()) chunk->summary->elapsed_s = call.elapsed_s();
+    ToProto(*chunk, response);
     grpc::WriteOptions options;
-    if (run->done()) {
-      *response.mutable_summary() = ToProto(run->summary());
-      response.mutable_summary()->set_elapsed_s(call.elapsed_s());
-      options.set_last_message();
-    }
+    if (run->ended()) options.set_last_message();
     if (!writer.Write(response, options)) return WhyStopped(context, drain_.stop_requested());
-  } while (!run->done());
+  }
   return absl::OkStatus();
 }
 

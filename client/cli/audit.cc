@@ -17,7 +17,7 @@
 #include "client/cli/output.h"
 #include "client/cli/scene_input.h"
 #include "core/contact/reduction.h"
-#include "core/study/audit_columns.h"
+#include "core/study/audit_scene.h"
 #include "proto/wire/audit.h"
 
 namespace ricochet::cli {

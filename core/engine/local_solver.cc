@@ -134,13 +134,13 @@ absl::StatusOr<BoundsResponse> AnswerBounds(const BoundsRequest& request, absl::
 }
 
 absl::StatusOr<AuditResponse> LocalSolver::Audit(const AuditRequest& request) const {
-  absl::StatusOr<AuditResponse> response = AuditScene(request);
+  absl::StatusOr<AuditResponse> response = AuditScene(request, [] { return false; });
   if (response.ok()) response->engine = ThisEngine();
   return response;
 }
 
 absl::StatusOr<AuditBatchResponse> LocalSolver::AuditBatch(const AuditBatchRequest& request) const {
-  absl::StatusOr<AuditBatchResponse> response = AuditScene(request);
+  absl::StatusOr<AuditBatchResponse> response = AuditScene(request, [] { return false; });
   if (response.ok()) response->engine = ThisEngine();
   return response;
 }
@@ -148,22 +148,10 @@ absl::StatusOr<AuditBatchResponse> LocalSolver::AuditBatch(const AuditBatchReque
 SweepStream LocalSolver::Sweep(const SweepRequest& request, std::stop_token stop) const {
   absl::StatusOr<SweepRun> made = SweepRun::Make(request);
   if (!made.ok()) return SweepStream(made.status());
-  auto next = [run = *std::move(made), stop = std::move(stop), with_regime = request.with_regime,
-               summary_sent = false]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
-    if (summary_sent) return std::nullopt;
-    const SweepRun::Extent extent = run.Next();
-    SweepChunk chunk = {.first_index = extent.first_index, .count = extent.count};
-    chunk.values.resize(static_cast<size_t>(extent.count * run.column_count()));
-    if (with_regime) chunk.regimes.resize(static_cast<size_t>(extent.count));
-    if (!run.Compute(extent, absl::MakeSpan(chunk.values), absl::MakeSpan(chunk.regimes),
-                     [&stop] { return stop.stop_requested(); })) {
-      return absl::CancelledError("the sweep was stopped by its caller");
-    }
-    chunk.points_done = run.points_done();
-    chunk.points_total = run.points_total();
-    chunk.engine = ThisEngine();
-    summary_sent = run.done();
-    if (run.done()) chunk.summary = run.summary();
+  auto next = [run = *std::move(made), stop = std::move(stop)]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
+    if (run.ended()) return std::nullopt;
+    absl::StatusOr<SweepChunk> chunk = run.NextChunk([&stop] { return stop.stop_requested(); });
+    if (chunk.ok()) chunk->engine = ThisEngine();
     return chunk;
   };
   return SweepStream(std::move(next));

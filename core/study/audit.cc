@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 
-#include "absl/functional/function_ref.h"
+#include "absl/status/status.h"
+#include "core/contact/delassus.h"
 #include "core/models/restitution_law.h"
 #include "core/numerics/elementary.h"
 #include "core/numerics/wide.h"
@@ -15,17 +17,17 @@
 namespace ricochet::audit {
 namespace {
 
-// Of the terms of W p = v+ - v-: what doubles, and the models that compute them, cannot tell.
+// Doubles, and the models that compute with them, do not tell the terms of W p = v+ - v- apart by less than this share.
 constexpr double kRounding = 0x1p-46;
 
 template <size_t N>
 using Vector = std::array<double, N>;
-// Of a number type with 100 bits.
+// Number has about 100 bits: Moderate within IsModerate's range, else Wide.
 template <typename Number, size_t N>
 using Matrix = std::array<std::array<Number, N>, N>;
 using Moderate = HWY_NAMESPACE::DoubleDouble<double>;
 
-// The contact and what was seen of it; the normal direction is the last.
+// Contact is W, the velocity before and the observed one after; the normal direction is the last.
 template <size_t N>
 struct Contact {
   std::array<Vector<N>, N> w;
@@ -33,15 +35,15 @@ struct Contact {
   double mu_static, uncertainty;
 };
 
-Contact<2> MakeContact(const planar::Problem& in, const PlanarObservation& seen) {
+Contact<2> MakeContact(const planar::Problem& in, const Observation& seen) {
   return {.w = {{{in.wtt, in.wtn}, {in.wtn, in.wnn}}},
           .before = {in.u0, in.v0},
-          .after = {seen.u1, seen.v1},
+          .after = {seen.u1[0], seen.v1},
           .mu_static = std::max(in.mu, in.mu_static),
           .uncertainty = seen.uncertainty};
 }
 
-Contact<3> MakeContact(const spatial::Problem& in, const SpatialObservation& seen) {
+Contact<3> MakeContact(const spatial::Problem& in, const Observation& seen) {
   return {.w = {{{in.w11, in.w12, in.w13}, {in.w12, in.w22, in.w23}, {in.w13, in.w23, in.w33}}},
           .before = {in.u0[0], in.u0[1], in.v0},
           .after = {seen.u1[0], seen.u1[1], seen.v1},
@@ -49,8 +51,8 @@ Contact<3> MakeContact(const spatial::Problem& in, const SpatialObservation& see
           .uncertainty = seen.uncertainty};
 }
 
-// Whether the exact quantities can do without exponents of their own: no product of three entries over det W, which is
-// above 2^-50 times one, leaves the range of doubles.
+// Decides whether the exact quantities can do without exponents of their own: det W is above 2^-50 times a product of
+// three of its entries, so that within these sizes no quotient of the two leaves the range of doubles.
 template <size_t N>
 bool IsModerate(const Contact<N>& contact) {
   const auto moderate = [](double value) {
@@ -108,7 +110,7 @@ std::array<Number, N> Times(const Matrix<Number, N>& matrix, const std::array<Nu
   return product;
 }
 
-// sum |x_i| weight_i, of rounded terms: an allowance needs no more.
+// Sums |x_i| weight_i in doubles, which is exact enough for an allowance.
 template <typename Number, size_t N>
 double Charge(const std::array<Number, N>& x, const Vector<N>& weight) {
   double sum = 0.0;
@@ -116,7 +118,7 @@ double Charge(const std::array<Number, N>& x, const Vector<N>& weight) {
   return sum;
 }
 
-// A number with its sign in a plane, a length in space.
+// Returns p_t/p_n in a plane, |p_t|/p_n in space.
 template <size_t N>
 double TangentialRatio(const std::array<double, 2>& tangential, double normal) {
   if (!(normal > 0.0)) return 0.0;
@@ -138,7 +140,8 @@ void Judge(AuditReport& report) {
   report.admissible = !report.unexplained && !broken;
 }
 
-// The velocities of the path are off by as much, so the work of restitution by that times tau.
+// Bounds the error of the energetic coefficient: the path's velocities are off by velocity_error, so the work of
+// restitution by that times tau.
 double EnergeticError(const PathPoint& point) {
   const double work = -point.work_normal_compression;
   if (!(work > 0.0) || !(point.energetic > 0.0)) return 0.0;
@@ -146,7 +149,7 @@ double EnergeticError(const PathPoint& point) {
   return 0.5 * square / point.energetic;
 }
 
-// `moved_back` is the path where the uncertainty could have put the observation.
+// `moved_back` gives the earliest point of the path that the uncertainty allows.
 void CheckSharp(const PathPoint& point, absl::FunctionRef<PathPoint()> moved_back, AuditReport& report) {
   double allowance = 0.0;
   if (point.energetic_excess > 0.0) {
@@ -155,7 +158,7 @@ void CheckSharp(const PathPoint& point, absl::FunctionRef<PathPoint()> moved_bac
   Check(AuditLimit::kSharp, point.energetic, 1.0, point.energetic_excess, allowance, report);
 }
 
-// What a report takes from the path.
+// Fills the fields of a report that describe a point of the path.
 AuditReport OnPath(const PathPoint& point) {
   return {.regime = point.regime,
           .w_rank = point.w_rank,
@@ -180,7 +183,7 @@ void CloseLedger(AuditReport& report) {
                     (report.work_tangential_compression + report.work_tangential_restitution) - report.energy_change;
 }
 
-// The observation through W^-1.
+// UniqueImpulse is the one impulse W^-1 (v+ - v-) that explains an observation where W has full rank.
 template <typename Number, size_t N>
 class UniqueImpulse {
  public:
@@ -201,7 +204,7 @@ class UniqueImpulse {
   double normal() const { return Rounded(impulse_[kNormal]); }
   double normal_uncertainty() const { return Uncertainty(kNormal); }
 
-  // The impulse, its energy and every limit but the sharp one.
+  // Fills in the impulse, its energy and every limit but the sharp one.
   void Fill(AuditReport& report) const {
     report.normal_impulse = normal();
     report.normal_impulse_uncertainty = normal_uncertainty();
@@ -218,7 +221,7 @@ class UniqueImpulse {
     Check(AuditLimit::kEnergy, report.energy_change, 0.0, report.energy_change, EnergyAllowance(), report);
   }
 
-  // Whether v+ is v-.
+  // Decides whether v+ equals v- to within the errors.
   bool Unchanged() const {
     for (size_t i = 0; i < N; ++i) {
       if (std::abs(Rounded(change_[i])) > error_[i]) return false;
@@ -304,7 +307,7 @@ AuditReport AuditFullRank(const Problem& problem, const Contact<N>& contact, con
   return AuditUnique<Wide>(problem, contact, start);
 }
 
-// Without a W^-1: the limits that a point of the path can break, and the observed normal velocity's.
+// Reports a point of the path, where no W^-1 gives the impulse, and the limit of the observed normal velocity.
 template <size_t N>
 AuditReport AuditPoint(const PathPoint& point, const PathPoint& moved_back, const Contact<N>& contact,
                        double normal_error) {
@@ -320,10 +323,10 @@ AuditReport AuditPoint(const PathPoint& point, const PathPoint& moved_back, cons
   const double energy_error = std::max(point.energy_change - moved_back.energy_change, 0.0);
   Check(AuditLimit::kNormalImpulse, point.tau, 0.0, -point.tau, 0.0, report);
   Check(AuditLimit::kPenetration, v1, 0.0, -v1, normal_error, report);
-  // A subnormal tau has fewer bits, of which mu makes what it will.
-  const double of_tau = contact.mu_static * std::numeric_limits<double>::denorm_min();
-  Check(AuditLimit::kCone, size, cone, size - cone, kRounding * cone + of_tau + point.velocity_error * point.tau,
-        report);
+  // A subnormal tau has lost bits, and mu may magnify what is missing.
+  const double subnormal_error = contact.mu_static * std::numeric_limits<double>::denorm_min();
+  const double cone_error = kRounding * cone + subnormal_error + point.velocity_error * point.tau;
+  Check(AuditLimit::kCone, size, cone, size - cone, cone_error, report);
   Check(AuditLimit::kEnergy, point.energy_change, 0.0, point.energy_change,
         energy_error + point.velocity_error * point.tau, report);
   CheckSharp(
@@ -332,9 +335,9 @@ AuditReport AuditPoint(const PathPoint& point, const PathPoint& moved_back, cons
   return report;
 }
 
-// The line that all velocities of a rank-one W lie on.
-struct Line {
-  double t, n;  // Unit vector, n > 0.
+// RangeDirection is the unit vector along which a W of rank one changes the velocity.
+struct RangeDirection {
+  double t, n;  // n > 0
 };
 
 Vector<2> Errors(const Contact<2>& contact) {
@@ -345,38 +348,39 @@ Vector<2> Errors(const Contact<2>& contact) {
   return error;
 }
 
-// `reach(v)` is the point of the path at the normal velocity v >= v0, or its end.
-AuditReport AuditRankOne(const Contact<2>& contact, const Line& line, absl::FunctionRef<PathPoint(double)> reach) {
+// `path_at(v)` is the point of the path at the normal velocity v >= v0, or the path's end if it stops before.
+AuditReport AuditRankOne(const Contact<2>& contact, const RangeDirection& range,
+                         absl::FunctionRef<PathPoint(double)> path_at) {
   const Vector<2> error = Errors(contact);
   const auto [u1, v1] = contact.after;
   const double v0 = contact.before[1];
-  const double along = line.t * u1 + line.n * v1;
-  const double along_error = std::abs(line.t) * error[0] + line.n * error[1];
-  // Where v+ is on the line it is its own nearest point: no rounding.
-  const bool on_line = std::abs(line.n * u1 - line.t * v1) <= line.n * error[0] + std::abs(line.t) * error[1];
-  const double nearest = on_line && contact.uncertainty == 0.0 ? v1 : along * line.n;
-  const PathPoint point = reach(std::max(nearest, v0));
-  const PathPoint moved_back = reach(std::max(nearest - along_error * line.n, v0));
+  const double component = range.t * u1 + range.n * v1;
+  const double component_error = std::abs(range.t) * error[0] + range.n * error[1];
+  // Where v+ is in the range it is its own nearest point, which needs no rounded projection.
+  const bool in_range = std::abs(range.n * u1 - range.t * v1) <= range.n * error[0] + std::abs(range.t) * error[1];
+  const double nearest = in_range && contact.uncertainty == 0.0 ? v1 : component * range.n;
+  const PathPoint point = path_at(std::max(nearest, v0));
+  const PathPoint moved_back = path_at(std::max(nearest - component_error * range.n, v0));
   AuditReport report = AuditPoint(point, moved_back, contact, error[1]);
-  const double beyond = std::abs(along - (line.t * point.u[0] + line.n * point.v));
-  report.unexplained = !on_line || beyond > along_error;
+  const double beyond = std::abs(component - (range.t * point.u[0] + range.n * point.v));
+  report.unexplained = !in_range || beyond > component_error;
   report.distance = report.unexplained ? Hypot(u1 - point.u[0], v1 - point.v) : 0.0;
   Judge(report);
   return report;
 }
 
-// The start of the path where the contact does not approach, else by Newton's law; compression is one straight piece,
-// since u and v vanish together.
+// The path of rank one is a point where the contact does not approach. Else compression is one straight piece, since u
+// and v vanish together, and Newton's law gives the points after it.
 AuditReport AuditPlanarRankOne(const planar::Problem& problem, const Contact<2>& contact,
                                const PathPoint& compression) {
   const double size = Hypot(problem.wtn, problem.wnn);
-  const Line line = {problem.wtn / size, problem.wnn / size};
-  const auto reach = [&](double v) {
+  const RangeDirection range = {problem.wtn / size, problem.wnn / size};
+  const auto path_at = [&](double v) {
     if (problem.v0 >= 0.0) return compression;
     if (v >= 0.0) return PathWhereNormalIs(problem, v);
     return PathAt(problem, (1.0 - v / problem.v0) * compression.tau_compression);
   };
-  return AuditRankOne(contact, line, reach);
+  return AuditRankOne(contact, range, path_at);
 }
 
 PathPoint PendulumCompression(const pendulum::Problem& problem, const pendulum::Impact& impact, double omega) {
@@ -427,34 +431,40 @@ PathPoint PendulumAt(pendulum::Problem problem, double omega) {
   return compressing ? PendulumCompression(problem, impact, omega) : EndOf(impact);
 }
 
-// The nearest point of a spatial path by golden section around the best of equal steps.
+// NearestPoint searches the point of a spatial path nearest to v+, for tau in [0, end]: the best of equal steps, then
+// golden section around it. Each step solves an impact, and `stopped` is asked before each.
 class NearestPoint {
  public:
-  NearestPoint(const spatial::Problem& problem, const Contact<3>& contact, double end)
-      : problem_(problem), contact_(contact), end_(end) {}
+  NearestPoint(const spatial::Problem& problem, const Contact<3>& contact, absl::FunctionRef<bool()> stopped)
+      : problem_(problem), contact_(contact), stopped_(stopped) {}
 
   double DistanceTo(const PathPoint& point) const {
     return Hypot(Hypot(contact_.after[0] - point.u[0], contact_.after[1] - point.u[1]), contact_.after[2] - point.v);
   }
 
-  double Find() const {
+  // Returns tau of the nearest point; nothing once it was stopped.
+  std::optional<double> Find(double end) const {
     constexpr int kSteps = 64;
     int best = 0;
+    double least = DistanceAt(0.0);
     for (int i = 1; i <= kSteps; ++i) {
-      if (DistanceAt(end_ * i / kSteps) < DistanceAt(end_ * best / kSteps)) best = i;
+      if (stopped_()) return std::nullopt;
+      const double distance = DistanceAt(end * i / kSteps);
+      if (distance < least) best = i, least = distance;
     }
-    return Refined(end_ * std::max(best - 1, 0) / kSteps, end_ * std::min(best + 1, kSteps) / kSteps);
+    return Refined(end * std::max(best - 1, 0) / kSteps, end * std::min(best + 1, kSteps) / kSteps);
   }
 
  private:
   double DistanceAt(double tau) const { return DistanceTo(PathAt(problem_, tau)); }
 
   // Halves the interval every 1.44 steps, down to the rounding of its end.
-  double Refined(double low, double high) const {
+  std::optional<double> Refined(double low, double high) const {
     constexpr double kGolden = 0.6180339887498949;
     double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
     double left_distance = DistanceAt(left), right_distance = DistanceAt(right);
     while (high - low > 0x1p-48 * high) {
+      if (stopped_()) return std::nullopt;
       if (left_distance <= right_distance) {
         high = right;
         right = left, right_distance = left_distance;
@@ -471,73 +481,76 @@ class NearestPoint {
 
   const spatial::Problem& problem_;
   const Contact<3>& contact_;
-  double end_;
+  absl::FunctionRef<bool()> stopped_;
 };
 
-// The path no longer comes nearer once its normal velocity is above v+_n by the distance from its start.
-AuditReport AuditSpatialDeficient(const spatial::Problem& problem, const Contact<3>& contact, const PathPoint& start) {
-  const NearestPoint start_search(problem, contact, 0.0);
-  PathPoint point = start;
+// Moves a point of the path back by `change` (m/s), to first order in the way that the velocity goes with tau.
+PathPoint MovedBack(const spatial::Problem& problem, const PathPoint& point, double change) {
+  const double step = 0x1p-10 * point.tau;
+  const PathPoint before = PathAt(problem, point.tau - step);
+  const double moved = Hypot(Hypot(point.u[0] - before.u[0], point.u[1] - before.u[1]), point.v - before.v);
+  const double back = moved > 0.0 ? std::min(change / moved * step, point.tau) : 0.0;
+  return PathAt(problem, point.tau - back);
+}
+
+absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& problem, const Contact<3>& contact,
+                                                  const PathPoint& start, absl::FunctionRef<bool()> stopped) {
+  const NearestPoint search(problem, contact, stopped);
   double error = contact.uncertainty + start.velocity_error;
   for (size_t i = 0; i < 3; ++i) error += kRounding * (std::abs(contact.after[i]) + std::abs(contact.before[i]));
+  PathPoint point = start;
   PathPoint moved_back = start;
   if (start.regime != Regime::kSeparating) {
-    const double reach = std::max(contact.after[2], 0.0) + start_search.DistanceTo(start);
-    const double end = PathWhereNormalIs(problem, reach).tau;
-    point = PathAt(problem, NearestPoint(problem, contact, end).Find());
-    // First order: how far the path goes in that much velocity.
-    const double step = 0x1p-10 * point.tau;
-    const PathPoint before = PathAt(problem, point.tau - step);
-    const double way = Hypot(Hypot(point.u[0] - before.u[0], point.u[1] - before.u[1]), point.v - before.v);
-    const double back = way > 0.0 ? std::min(error / way * step, point.tau) : 0.0;
-    moved_back = PathAt(problem, point.tau - back);
+    // The path comes no nearer once its normal velocity is above v+_n by the distance from its start.
+    const double farthest = std::max(contact.after[2], 0.0) + search.DistanceTo(start);
+    const std::optional<double> tau = search.Find(PathWhereNormalIs(problem, farthest).tau);
+    if (!tau.has_value()) return absl::CancelledError("the audit was stopped by its caller");
+    point = PathAt(problem, *tau);
+    moved_back = MovedBack(problem, point, error);
   }
   AuditReport report = AuditPoint(point, moved_back, contact, error);
-  const double distance = start_search.DistanceTo(point);
+  const double distance = search.DistanceTo(point);
   report.unexplained = distance > std::sqrt(3.0) * error;
   report.distance = report.unexplained ? distance : 0.0;
   Judge(report);
   return report;
 }
 
-// Of W, also where the contact does not approach and the model has no rank to tell.
-int RankOf(spatial::Problem problem, const PathPoint& start) {
-  if (start.regime != Regime::kSeparating) return start.w_rank;
-  problem.v0 = -1.0;
-  return PathAt(problem, 0.0).w_rank;
-}
-
 }  // namespace
 
-AuditReport Audit(const planar::Problem& problem, const PlanarObservation& observation) {
+AuditReport Audit(const planar::Problem& problem, const Observation& observation) {
   const Contact<2> contact = MakeContact(problem, observation);
   const PathPoint start = PathAt(problem, 0.0);
-  return start.w_rank == 2 ? AuditFullRank(problem, contact, start) : AuditPlanarRankOne(problem, contact, start);
+  return PlanarDelassus{problem.wtt, problem.wtn, problem.wnn}.Rank() == 2
+             ? AuditFullRank(problem, contact, start)
+             : AuditPlanarRankOne(problem, contact, start);
 }
 
-AuditReport Audit(const spatial::Problem& problem, const SpatialObservation& observation) {
-  const Contact<3> contact = MakeContact(problem, observation);
-  PathPoint start = PathAt(problem, 0.0);
-  start.w_rank = RankOf(problem, start);
-  return start.w_rank == 3 ? AuditFullRank(problem, contact, start) : AuditSpatialDeficient(problem, contact, start);
+absl::StatusOr<AuditReport> Audit(const spatial::Problem& in, const Observation& observation,
+                                  absl::FunctionRef<bool()> stopped) {
+  const Contact<3> contact = MakeContact(in, observation);
+  PathPoint start = PathAt(in, 0.0);
+  start.w_rank = SpatialDelassus{{in.w11, in.w12, in.w13, in.w22, in.w23, in.w33}}.Rank();
+  if (start.w_rank == 3) return AuditFullRank(in, contact, start);
+  return AuditSpatialDeficient(in, contact, start, stopped);
 }
 
-AuditReport Audit(const pendulum::Problem& problem, const PlanarObservation& observation) {
+AuditReport Audit(const pendulum::Problem& problem, const Observation& observation) {
   const Contact<2> contact{.w = {},
                            .before = {problem.b * problem.omega_minus, problem.a * problem.omega_minus},
-                           .after = {observation.u1, observation.v1},
+                           .after = {observation.u1[0], observation.v1},
                            .mu_static = std::max(problem.mu, problem.mu_static),
                            .uncertainty = observation.uncertainty};
   const double size = Hypot(problem.a, problem.b);
-  const Line line = {problem.b / size, problem.a / size};
-  return AuditRankOne(contact, line, [&](double v) { return PendulumAt(problem, v / problem.a); });
+  const RangeDirection range = {problem.b / size, problem.a / size};
+  return AuditRankOne(contact, range, [&](double v) { return PendulumAt(problem, v / problem.a); });
 }
 
-AuditReport AuditRate(const pendulum::Problem& problem, double omega_plus, double uncertainty) {
-  const double size = Hypot(problem.a, problem.b);
-  // |along| of the line moves by the sum of its parts.
-  const double per_component = uncertainty * size * size / (problem.a + std::abs(problem.b));
-  return Audit(problem, {problem.b * omega_plus, problem.a * omega_plus, per_component});
+absl::StatusOr<AuditReport> Audit(const AnyProblem& any, const Observation& observation,
+                                  absl::FunctionRef<bool()> stopped) {
+  if (const auto* spatial = std::get_if<spatial::Problem>(&any)) return Audit(*spatial, observation, stopped);
+  if (const auto* planar = std::get_if<planar::Problem>(&any)) return Audit(*planar, observation);
+  return Audit(std::get<pendulum::Problem>(any), observation);
 }
 
 const char* OverflowIn(const AuditReport& report) {

@@ -9,7 +9,7 @@
 namespace ricochet::audit {
 namespace {
 
-// The planar model is exact but for the rounding of a handful of operations an event.
+// The planar model rounds a handful of operations at each event and is exact otherwise.
 constexpr double kPlanarError = 0x1p-46;
 
 std::array<double, 2> Tangential(double value) { return {value, 0.0}; }
@@ -24,7 +24,7 @@ bool Slips(const spatial::Problem& problem) { return problem.u0[0] != 0.0 || pro
 double VelocityError(const planar::Problem& problem) { return kPlanarError * Scale(problem); }
 double VelocityError(const spatial::Problem& problem) { return problem.tolerance * Scale(problem); }
 
-// What an impact and a point of the path have in common.
+// The end of an impact is a point of the path.
 template <typename Problem, typename Impact>
 PathPoint EndOf(const Problem& problem, const Impact& impact) {
   return {.regime = impact.regime,
@@ -53,7 +53,7 @@ auto SolveBy(Problem problem, RestitutionLaw law, double coefficient) {
   return Solve(problem);
 }
 
-// A point before the end of compression: all but its works, from the state there.
+// Fills in a point before the end of compression, all but its impulses, velocities and works.
 template <typename Problem, typename Impact>
 PathPoint DuringCompression(const Problem& problem, const Impact& impact, double tau) {
   PathPoint point{
@@ -68,7 +68,7 @@ PathPoint DuringCompression(const Problem& problem, const Impact& impact, double
   return point;
 }
 
-// Straight between two events.
+// The planar path is straight between two events, so trapezoids give its works exactly.
 PathPoint BeforeCompressionEnds(const planar::Problem& problem, const planar::Impact& impact, double tau) {
   PathPoint point = DuringCompression(problem, impact, tau);
   const planar::Instant end = planar::At(problem, impact, tau);
@@ -90,7 +90,8 @@ PathPoint BeforeCompressionEnds(const planar::Problem& problem, const planar::Im
   return point;
 }
 
-// By the contact that has come to the end of its compression long before.
+// Solves another contact that has the same slip and ends its compression earlier, and shifts its normal velocity. The
+// factors 2 and 0.5 make it end there by tau/2 (docs/theory/audit.md).
 PathPoint BeforeCompressionEnds(const spatial::Problem& problem, const spatial::Impact& impact, double tau) {
   PathPoint point = DuringCompression(problem, impact, tau);
   point.u = problem.u0;
@@ -120,10 +121,10 @@ template <typename Problem>
 PathPoint PointAt(const Problem& problem, double tau) {
   const auto compression = SolveBy(problem, RestitutionLaw::kPoisson, 0.0);
   if (compression.regime == Regime::kSeparating) return EndOf(problem, compression);
-  const double rest = tau - compression.tau_compression;
-  if (rest < 0.0) return BeforeCompressionEnds(problem, compression, tau);
+  const double restitution = tau - compression.tau_compression;
+  if (restitution < 0.0) return BeforeCompressionEnds(problem, compression, tau);
   if (compression.regime == Regime::kLocked) return EndOf(problem, compression);
-  return EndOf(problem, SolveBy(problem, RestitutionLaw::kPoisson, rest / compression.tau_compression));
+  return EndOf(problem, SolveBy(problem, RestitutionLaw::kPoisson, restitution / compression.tau_compression));
 }
 
 }  // namespace

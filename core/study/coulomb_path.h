@@ -1,12 +1,10 @@
-// Coulomb path: where the contact is once the normal impulse has reached tau, whatever ends the impact.
+// Coulomb path: the state of a contact once its normal impulse has reached tau, whatever ends the impact.
 //
-// Friction alone decides the path; a law of restitution only says where on it the impact ends (core/models/planar/planar.h,
-// spatial.h). Poisson's law ends it at tau1 = (1 + k) tau_c, so k = tau/tau_c - 1 runs it to any tau >= tau_c. Before
-// tau_c the planar path is straight between two events. The spatial one need not be, but slip depends on Wtt, wtn and
-// u0 only: a contact with Wnn* = 2 (Wnn + mu |wtn|), for which dv*/dtau >= Wnn in slip and in stick, and with
-// v0* = -Wnn tau/2 has come to its tau_c* by tau/2, and at tau
-//
-//   v = v* + (v0 - v0*) - (Wnn* - Wnn) tau,   integral of v = that of v* + (v0 - v0*) tau - (Wnn* - Wnn) tau^2/2
+// Friction alone decides the path; a law of restitution only says where on it the impact ends
+// (core/models/planar/planar.h, core/models/spatial/spatial.h). So the models give every point of it: Poisson's law ends
+// an impact at tau = (1 + kappa) tau_c, which reaches any tau >= tau_c. Before tau_c the planar path is straight between
+// two events, and the spatial one is that of another contact which ends its compression earlier (docs/theory/audit.md).
+// Accuracy: that of the models; velocity_error says it.
 
 #ifndef RICOCHET_CORE_STUDY_COULOMB_PATH_H_
 #define RICOCHET_CORE_STUDY_COULOMB_PATH_H_
@@ -19,9 +17,9 @@
 
 namespace ricochet::audit {
 
-// A plane uses the first tangential direction only; the other is 0.
+// A plane uses the first tangential direction only; the other is 0. Impulses in N s, velocities in m/s, works in J.
 struct PathPoint {
-  Regime regime = Regime::kUnspecified;  // What the contact has done so far.
+  Regime regime = Regime::kUnspecified;  // The regime of the path up to this point.
   int w_rank = 0;
   double tau_compression = 0.0;  // Where compression ends, even if tau is less.
   double tau = 0.0;              // Less than asked for where the contact locks before: the path ends there.
@@ -35,14 +33,15 @@ struct PathPoint {
   double work_normal_compression = 0.0, work_normal_restitution = 0.0;
   double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
   double energy_change = 0.0;   // Since the start.
-  double velocity_error = 0.0;  // m/s: what the path's velocities are held to.
+  double velocity_error = 0.0;  // Bound on the error of u and v.
 };
 
-// The law and the coefficient of the problem are not used. tau >= 0. A contact that does not approach has one point.
+// Gives the point at tau >= 0. A contact that does not approach has one point. The law and the coefficient of the
+// problem are not used.
 PathPoint PathAt(const planar::Problem& problem, double tau);
 PathPoint PathAt(const spatial::Problem& problem, double tau);
 
-// The point at which v first is `normal_m_s` >= 0. Where the contact locks, the end of the path.
+// Gives the point at which v first is `normal_m_s` >= 0. Where the contact locks it is the end of the path.
 PathPoint PathWhereNormalIs(const planar::Problem& problem, double normal_m_s);
 PathPoint PathWhereNormalIs(const spatial::Problem& problem, double normal_m_s);
 

@@ -9,7 +9,7 @@
 namespace ricochet {
 namespace {
 
-// How many entries the system's lists have.
+// Shape is the length of the lists that an outcome of the system has.
 struct Shape {
   size_t rates = 0;
   size_t bodies = 0;
@@ -46,18 +46,6 @@ std::vector<std::string> Columns(const Scene& scene) {
 void ReadColumns(const Outcome& outcome, std::vector<double>& numbers) {
   numbers.clear();
   VisitOutcomeNumbers(outcome, [&](const NumberPath& /*path*/, double number) { numbers.push_back(number); });
-}
-
-const std::vector<std::string>& PendulumColumns() {
-  static const std::vector<std::string> columns = [] {
-    std::vector<std::string> paths;
-    for (int i = 0; i < pendulum::kOutputCount; ++i) {
-      std::string path = pendulum::OutputPath(static_cast<pendulum::Output>(i));
-      if (!path.empty()) paths.push_back(std::move(path));
-    }
-    return paths;
-  }();
-  return columns;
 }
 
 std::optional<pendulum::Output> PendulumColumn(const std::string& name) {

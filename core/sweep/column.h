@@ -1,4 +1,4 @@
-// Columns: the fields of an Outcome that a sweep can ask for, by path.
+// Columns: the numbers of an Outcome that a sweep can ask for, by path.
 
 #ifndef RICOCHET_CORE_SWEEP_COLUMN_H_
 #define RICOCHET_CORE_SWEEP_COLUMN_H_
@@ -13,17 +13,14 @@
 
 namespace ricochet {
 
-// Every column of a sweep over the scene, as ricochet.v1.Outcome spells it: "coefficients.newton",
-// "rates_after_rad_s[0]". Which there are depends on the system: its links, its bodies, plane or space.
+// Lists every column of a sweep over the scene, as ricochet.v1.Outcome spells it: "coefficients.newton",
+// "rates_after_rad_s[0]". The list depends on the system: its links, its bodies, plane or space.
 std::vector<std::string> Columns(const Scene& scene);
 
-// The number behind each of Columns(scene), in that order, for an outcome of that scene. `numbers` is reused.
+// Replaces `numbers` by the number behind each of Columns(scene), in that order, for an outcome of that scene.
 void ReadColumns(const Outcome& outcome, std::vector<double>& numbers);
 
-// Those of a pendulum that its closed form gives in SIMD lanes.
-const std::vector<std::string>& PendulumColumns();
-
-// The output behind a column; nothing for an unknown name.
+// The output of a pendulum's closed form behind a column; nothing for a name that it does not give in SIMD lanes.
 std::optional<pendulum::Output> PendulumColumn(const std::string& name);
 
 }  // namespace ricochet

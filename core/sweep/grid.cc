@@ -1,11 +1,11 @@
 #include "core/sweep/grid.h"
 
-#include <cassert>
 #include <cmath>
 #include <optional>
 
 #include "absl/strings/str_cat.h"
 #include "core/numerics/elementary.h"
+#include "core/numerics/invariant.h"
 
 namespace ricochet {
 namespace {
@@ -53,7 +53,7 @@ void CheckValues(size_t i, const Logspace& logspace, std::vector<Violation>& vio
   CheckCount(AxisPath(i, "logspace.count"), logspace.count, violations);
 }
 
-// What makes the axes, each valid by itself, no grid.
+// Finds why axes that are each valid by themselves make no grid.
 std::optional<Violation> CheckCombination(const Grid& grid) {
   switch (grid.combination) {
     case Combination::kZip:
@@ -84,7 +84,7 @@ int64_t CountOf(const ListValues& list) { return static_cast<int64_t>(list.value
 int64_t CountOf(const Linspace& linspace) { return linspace.count; }
 int64_t CountOf(const Logspace& logspace) { return logspace.count; }
 
-// i/(count - 1), exactly 0 and 1 at the ends.
+// Computes i/(count - 1), which is exactly 0 and 1 at the ends.
 double Fraction(int64_t i, int64_t count) {
   return count == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(count - 1);
 }
@@ -136,7 +136,7 @@ void AxisPositions(const Grid& grid, int64_t index, absl::Span<int64_t> position
       continue;
     }
     const int64_t count = AxisCount(grid.axes[k]);
-    assert(count > 0);
+    CheckInvariant(count > 0, "an axis of a valid grid has values");
     positions[k] = index % count;
     index /= count;
   }

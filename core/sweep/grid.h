@@ -12,10 +12,11 @@
 
 namespace ricochet {
 
-// Every rule that the axes break (not the scene: core/sweep/sweep_run.h). Paths: "axes[0].linspace.count".
+// Lists every rule that the axes and their combination break, by path ("axes[0].linspace.count"). Whether the scene has
+// the fields that they drive is checked in core/sweep/driven_scene.h.
 std::vector<Violation> ValidateAxes(const Grid& grid);
 
-// Below here the axes are valid.
+// The functions below take valid axes.
 
 // Number of values of one axis.
 int64_t AxisCount(const Axis& axis);
@@ -23,10 +24,10 @@ int64_t AxisCount(const Axis& axis);
 // Number of points of the grid.
 int64_t PointCount(const Grid& grid);
 
-// Value `i` of an axis, 0 <= i < AxisCount(axis). The same bits whichever points are asked for.
+// Value `i` of an axis, 0 <= i < AxisCount(axis). It has the same bits whatever part of the grid is asked for.
 double AxisValue(const Axis& axis, int64_t i);
 
-// The position on each axis of point `index`. `positions` has one entry an axis.
+// Writes the position of point `index` on each axis. `positions` has one entry an axis.
 void AxisPositions(const Grid& grid, int64_t index, absl::Span<int64_t> positions);
 
 }  // namespace ricochet

@@ -1,14 +1,14 @@
-// SweepRun: a sweep being computed. What LocalSolver and the service share: chunk sizes, the points, the tallies.
+// SweepRun: a sweep computed chunk by chunk: its points, their tallies and the size of each chunk.
 //
 //   absl::StatusOr<SweepRun> run = SweepRun::Make(request);
-//   do {
-//     const SweepRun::Extent extent = run->Next();
-//     if (!run->Compute(extent, values, regimes, stopped)) return cancelled;
-//     send(values, run->points_done(), run->done() ? run->summary() : nothing);
-//   } while (!run->done());
+//   while (!run->ended()) {
+//     absl::StatusOr<SweepChunk> chunk = run->NextChunk(stopped);
+//     if (!chunk.ok()) return chunk.status();
+//     Send(*chunk);
+//   }
 //
-// Each point goes through the model that a Solve of its scene would use, so both give the same bits. Memory does not
-// depend on the number of points.
+// Each point goes through the model that a Solve of its scene would use, so both give the same bits, whatever the range
+// asked for and the sizes of the chunks. Memory does not depend on the number of points.
 
 #ifndef RICOCHET_CORE_SWEEP_SWEEP_RUN_H_
 #define RICOCHET_CORE_SWEEP_SWEEP_RUN_H_
@@ -18,21 +18,14 @@
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
-#include "absl/types/span.h"
 #include "ricochet/sweep.h"
 
 namespace ricochet {
 
 class SweepRun {
  public:
-  // Points between two looks at `stopped`.
+  // The most points between two looks at `stopped`. A point that a closed form answers takes at most some microseconds.
   static constexpr int64_t kPointsBetweenStops = 1024;
-
-  // A run of consecutive points: grid index of the first, and how many.
-  struct Extent {
-    int64_t first_index = 0;
-    int64_t count = 0;
-  };
 
   // Errors: INVALID_ARGUMENT with every violation of the scene's undriven fields, the axes, the columns and the range.
   static absl::StatusOr<SweepRun> Make(const SweepRequest& request);
@@ -41,22 +34,16 @@ class SweepRun {
   SweepRun& operator=(SweepRun&&) noexcept;
   ~SweepRun();
 
-  int64_t column_count() const;
-  int64_t points_total() const;  // Of the range asked for.
-  int64_t points_done() const;
+  int64_t points_total() const;  // Points of the range asked for.
+  int64_t points_done() const;   // Points computed so far; after a stop these may be more than the chunks have.
+  bool ended() const;            // True once the last chunk has been made.
 
-  bool done() const { return points_done() == points_total(); }
-
-  // The next chunk: a small first one, then up to 512 KiB of values. Empty when all points are done.
-  Extent Next() const;
-
-  // Computes the points of `extent`, which must be Next(): column c of point i to values[c * count + i], its regime to
-  // regimes[i] unless `regimes` is empty. Looks at `stopped` before every kPointsBetweenStops points, and before each
-  // that has to be integrated; once it holds, returns false and the run is over.
-  bool Compute(Extent extent, absl::Span<double> values, absl::Span<Regime> regimes, absl::FunctionRef<bool()> stopped);
-
-  // Of the points done so far.
-  const SweepSummary& summary() const;
+  // Computes the next chunk: a small first one, then up to 512 KiB of values each. The last one has the summary; a range
+  // without points has that one chunk. The engine is left to the caller. Not to be called once the run has ended.
+  // `stopped` is asked before every kPointsBetweenStops points, and before each point that may be integrated (in space,
+  // with compliance, of finite duration).
+  // Errors: CANCELLED once `stopped` returns true; the run must not be used any more.
+  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped);
 
  private:
   class Impl;

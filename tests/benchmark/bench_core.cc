@@ -178,14 +178,9 @@ void CompareSweep(const std::string& what, const std::vector<std::string>& names
                .axes = {{"friction.kinetic_coefficient", Linspace{0.0, 0.25, 256}},
                         {"restitution.energetic", Linspace{0.0, 1.0, 256}}}},
       .columns = names};
-  std::vector<double> values;
   const auto sweep = [&] {
     absl::StatusOr<SweepRun> run = SweepRun::Make(request);
-    while (!run->done()) {
-      const SweepRun::Extent extent = run->Next();
-      values.resize(static_cast<size_t>(extent.count) * names.size());
-      Keep(run->Compute(extent, absl::MakeSpan(values), {}, [] { return false; }));
-    }
+    while (!run->ended()) Keep(run->NextChunk([] { return false; }).ok());
   };
   const std::vector<Problem> problems = TypicalProblems(kPoints);
   std::vector<double> solved(problems.size() * outputs.size());

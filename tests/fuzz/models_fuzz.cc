@@ -7,7 +7,7 @@
 // agree with a pendulum's to 2^-45.
 //
 // Covers: core/scene/*.cc but interval_reduction.cc; core/models/*.cc but finite_duration*.cc and scene_enclosure.cc;
-// core/engine/local_solver.cc; core/study/audit*.cc but audit_columns.cc.
+// core/engine/local_solver.cc; core/study/*.cc but audit_batch.cc.
 
 #include <algorithm>
 #include <cmath>

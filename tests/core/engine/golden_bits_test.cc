@@ -244,12 +244,13 @@ std::vector<uint64_t> BitsOf(SweepRequest request, int64_t first, int64_t end) {
   absl::StatusOr<SweepRun> run = SweepRun::Make(request);
   EXPECT_TRUE(run.ok()) << run.status();
   std::vector<std::vector<uint64_t>> columns(request.columns.size());
-  while (!run->done()) {
-    const SweepRun::Extent extent = run->Next();
-    const auto count = static_cast<size_t>(extent.count);
-    std::vector<double> values(count * columns.size());
-    EXPECT_TRUE(run->Compute(extent, absl::MakeSpan(values), {}, [] { return false; }));
-    for (size_t i = 0; i < values.size(); ++i) columns[i / count].push_back(std::bit_cast<uint64_t>(values[i]));
+  while (!run->ended()) {
+    const absl::StatusOr<SweepChunk> chunk = run->NextChunk([] { return false; });
+    EXPECT_TRUE(chunk.ok()) << chunk.status();
+    if (!chunk.ok()) break;
+    for (size_t i = 0; i < chunk->values.size(); ++i) {
+      columns[i / static_cast<size_t>(chunk->count)].push_back(std::bit_cast<uint64_t>(chunk->values[i]));
+    }
   }
   std::vector<uint64_t> bits;
   for (const auto& column : columns) bits.insert(bits.end(), column.begin(), column.end());

@@ -20,6 +20,7 @@
 #include "core/sweep/sweep_run.h"
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
+#include "tests/support/pendulum_columns.h"
 
 namespace ricochet {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/models/restitution_law.h"
-#include "core/study/audit_columns.h"
+#include "core/study/audit_scene.h"
 #include "core/study/coulomb_path.h"
 #include "tests/support/known_contacts.h"
 
@@ -24,8 +24,23 @@ constexpr double kUlp = 0x1p-52;
 // W = I, v- = (1, -1), mu = 1/2: p = v+ - v- by hand, and compression ends at tau = 1.
 const planar::Problem kByHand = {.wtt = 1.0, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5};
 
-PlanarObservation Seen(const planar::Impact& impact, double uncertainty = 0.0) {
-  return {impact.u1, impact.v1, uncertainty};
+Observation Seen(const planar::Impact& impact, double uncertainty = 0.0) {
+  return {{impact.u1}, impact.v1, uncertainty};
+}
+
+bool Never() { return false; }
+
+using audit::Audit;
+AuditReport Audit(const spatial::Problem& problem, const Observation& observation) {
+  return *audit::Audit(problem, observation, Never);
+}
+
+// Audits the angular velocity after the impact, of which the uncertainty is in rad/s.
+AuditReport AuditRate(const pendulum::Problem& problem, double omega_plus, double uncertainty) {
+  const double size = std::hypot(problem.a, problem.b);
+  // The component along the range of W moves by the sum of the errors of both components of the velocity.
+  const double per_component = uncertainty * size * size / (problem.a + std::abs(problem.b));
+  return Audit(problem, {{problem.b * omega_plus}, problem.a * omega_plus, per_component});
 }
 
 double CoefficientOf(RestitutionLaw law, const AuditReport& report) {
@@ -119,7 +134,7 @@ double Conditioning(const planar::Problem& p, const planar::Impact& impact) {
 TEST(AuditTest, WorksTheFortyFiveDegreeRodByHand) {
   // v+ = (0, 1), so p = W^-1 (1, 2) = (-1/8, 7/8), and E+ - E- = p . (v- + v+)/2 = 1/16. The path slips until
   // tau = 4/13, where v = 6/65, and then sticks: it comes to tau = 7/8 at (0, 1) too. tau_c = 20/71.
-  const AuditReport report = Audit(FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.0), {.u1 = 0.0, .v1 = 1.0});
+  const AuditReport report = Audit(FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.0), {.u1 = {0.0}, .v1 = 1.0});
   EXPECT_EQ(report.regime, Regime::kStickInRestitution);
   EXPECT_EQ(report.w_rank, 2);
   EXPECT_EQ(report.normal_impulse, 7.0 / 8.0);
@@ -146,7 +161,7 @@ TEST(AuditTest, WorksTheFortyFiveDegreeRodByHand) {
   EXPECT_NEAR(report[AuditLimit::kCone].excess, 1.0 / 8.0 - 0.7 * 7.0 / 8.0, kUlp);
 }
 
-// What comes back of an impact, and how often it broke a limit.
+// Counts how often the impacts of a round trip broke a limit.
 struct RoundTrip {
   int sharp = 0, energy = 0;
 };
@@ -247,7 +262,7 @@ TEST(AuditTest, SeesASpringThatGivesBackMoreThanItStored) {
 }
 
 TEST(AuditTest, NamesEachLimitAnImpossibleRowBreaks) {
-  const AuditReport pulled = Audit(kByHand, {.u1 = 1.0, .v1 = -1.25});
+  const AuditReport pulled = Audit(kByHand, {.u1 = {1.0}, .v1 = -1.25});
   EXPECT_EQ(pulled[AuditLimit::kNormalImpulse].verdict, Verdict::kBroken);
   EXPECT_EQ(pulled[AuditLimit::kNormalImpulse].excess, 0.25);
   EXPECT_EQ(pulled[AuditLimit::kPenetration].verdict, Verdict::kBroken);
@@ -255,7 +270,7 @@ TEST(AuditTest, NamesEachLimitAnImpossibleRowBreaks) {
   EXPECT_EQ(pulled.poisson, -1.25);
   EXPECT_FALSE(pulled.compression_ended);
 
-  const AuditReport grabbed = Audit(kByHand, {.u1 = 0.0, .v1 = 0.5});
+  const AuditReport grabbed = Audit(kByHand, {.u1 = {0.0}, .v1 = 0.5});
   EXPECT_EQ(grabbed[AuditLimit::kCone].verdict, Verdict::kBroken);
   EXPECT_EQ(grabbed[AuditLimit::kCone].value, 1.0);
   EXPECT_EQ(grabbed[AuditLimit::kCone].limit, 0.75);
@@ -268,7 +283,7 @@ TEST(AuditTest, NamesEachLimitAnImpossibleRowBreaks) {
 
 TEST(AuditTest, RunsThePathToAnImpulseWithinCompression) {
   // Stopped half way: f = -1/4, v = -1/2, works -3/8 and -(1/4)(7/8).
-  const AuditReport report = Audit(kByHand, {.u1 = 0.75, .v1 = -0.5});
+  const AuditReport report = Audit(kByHand, {.u1 = {0.75}, .v1 = -0.5});
   EXPECT_FALSE(report.compression_ended);
   EXPECT_EQ(report.regime, Regime::kSliding);
   EXPECT_EQ(report.normal_impulse_compression, 1.0);
@@ -286,7 +301,7 @@ TEST(AuditTest, AllowsEachLimitWhatTheUncertaintyMakesOfIt) {
   // |.625 + .7 .375| + |.375 + .7 .625| where p_t > 0.
   const planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.0);
   const double uncertainty = 0x1p-10;
-  const AuditReport report = Audit(problem, {.u1 = 1.0, .v1 = 0.5, .uncertainty = uncertainty});
+  const AuditReport report = Audit(problem, {.u1 = {1.0}, .v1 = 0.5, .uncertainty = uncertainty});
   ASSERT_GT(report.tangential_impulse[0], 0.0);
   EXPECT_NEAR(report[AuditLimit::kNormalImpulse].allowance, uncertainty, 1e-12);
   EXPECT_NEAR(report[AuditLimit::kPenetration].allowance, uncertainty, 1e-12);
@@ -297,7 +312,7 @@ TEST(AuditTest, AllowsEachLimitWhatTheUncertaintyMakesOfIt) {
 TEST(AuditTest, CallsBrokenOnlyWhatNoVelocityWithinTheUncertaintyKeeps) {
   const planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 1.0);
   const planar::Impact impact = Solve(problem);
-  const PlanarObservation noisy{impact.u1, impact.v1 + 1e-3, 0.0};
+  const Observation noisy{{impact.u1}, impact.v1 + 1e-3, 0.0};
   const AuditReport exact = Audit(problem, noisy);
   EXPECT_EQ(exact[AuditLimit::kSharp].verdict, Verdict::kBroken);
   const AuditReport measured = Audit(problem, {noisy.u1, noisy.v1, 1e-3});
@@ -314,8 +329,9 @@ TEST(AuditTest, NeverCallsANoisyAdmissibleImpactBroken) {
     problem.law = RestitutionLaw::kEnergetic;
     const planar::Impact impact = Solve(problem);
     const double uncertainty = random.In(0.0, 0.05);
-    const PlanarObservation seen{impact.u1 + random.In(-uncertainty, uncertainty),
-                                 impact.v1 + random.In(-uncertainty, uncertainty), uncertainty};
+    const Observation seen{{impact.u1 + random.In(-uncertainty, uncertainty)},
+                           impact.v1 + random.In(-uncertainty, uncertainty),
+                           uncertainty};
     SCOPED_TRACE(Text(problem));
     ASSERT_TRUE(Audit(problem, seen).admissible);
   }
@@ -329,7 +345,7 @@ TEST(AuditTest, AuditsContactsFarFromTheScaleOfDoublesToo) {
   for (double* w : {&problem.wtt, &problem.wtn, &problem.wnn}) *w *= kMobility;
   problem.u0 *= kSpeed;
   problem.v0 *= kSpeed;
-  const AuditReport report = Audit(problem, {.u1 = 0.0, .v1 = kSpeed});
+  const AuditReport report = Audit(problem, {.u1 = {0.0}, .v1 = kSpeed});
   EXPECT_EQ(report.normal_impulse, 7.0 / 8.0 * (kSpeed / kMobility));
   EXPECT_EQ(report.energy_change, 1.0 / 16.0 * (kSpeed / kMobility) * kSpeed);
   EXPECT_NEAR(report.poisson, 337.0 / 160.0, 8 * kUlp);
@@ -366,11 +382,11 @@ TEST(AuditTest, HoldsAContactThatSticksToTheStaticCone) {
 TEST(AuditTest, ExplainsASeparatingContactOnlyByNoChange) {
   planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.5);
   problem.v0 = 0.25;
-  const AuditReport same = Audit(problem, {.u1 = -1.0, .v1 = 0.25});
+  const AuditReport same = Audit(problem, {.u1 = {-1.0}, .v1 = 0.25});
   EXPECT_EQ(same.regime, Regime::kSeparating);
   EXPECT_TRUE(same.admissible);
   EXPECT_EQ(same.normal_impulse, 0.0);
-  const AuditReport kicked = Audit(problem, {.u1 = -1.0, .v1 = 0.5});
+  const AuditReport kicked = Audit(problem, {.u1 = {-1.0}, .v1 = 0.5});
   EXPECT_TRUE(kicked.unexplained);
   EXPECT_EQ(kicked.distance, 0.25);
   EXPECT_FALSE(kicked.admissible);
@@ -435,7 +451,7 @@ planar::Problem RankOneContact(double mu) {
 }
 
 TEST(AuditTest, TakesTheRankOnePathToTheObservedVelocity) {
-  const AuditReport report = Audit(RankOneContact(0.25), {.u1 = 0.5, .v1 = 0.25});
+  const AuditReport report = Audit(RankOneContact(0.25), {.u1 = {0.5}, .v1 = 0.25});
   EXPECT_EQ(report.w_rank, 1);
   EXPECT_FALSE(report.unexplained);
   EXPECT_TRUE(report.admissible);
@@ -447,7 +463,7 @@ TEST(AuditTest, TakesTheRankOnePathToTheObservedVelocity) {
   EXPECT_NEAR(report.energetic, 0.25 * std::sqrt(3.0), 4 * kUlp);
   EXPECT_NEAR(report.residual, 0.0, 4 * kUlp);
 
-  const AuditReport compressing = Audit(RankOneContact(0.25), {.u1 = -1.0, .v1 = -0.5});
+  const AuditReport compressing = Audit(RankOneContact(0.25), {.u1 = {-1.0}, .v1 = -0.5});
   EXPECT_FALSE(compressing.unexplained);
   EXPECT_NEAR(compressing.normal_impulse, 1.0 / 3.0, 2 * kUlp);
   EXPECT_EQ(compressing[AuditLimit::kPenetration].verdict, Verdict::kBroken);
@@ -455,25 +471,25 @@ TEST(AuditTest, TakesTheRankOnePathToTheObservedVelocity) {
 
 TEST(AuditTest, NamesTheNearestPointWhereRankOneCannotHaveMovedSo) {
   // (0, 1) lies 2/sqrt 5 beside the line of (2, 1), and nearest to (.4, .2).
-  const AuditReport off = Audit(RankOneContact(0.25), {.u1 = 0.0, .v1 = 1.0});
+  const AuditReport off = Audit(RankOneContact(0.25), {.u1 = {0.0}, .v1 = 1.0});
   EXPECT_TRUE(off.unexplained);
   EXPECT_FALSE(off.admissible);
   EXPECT_NEAR(off.distance, 2.0 / std::sqrt(5.0), 4 * kUlp);
   EXPECT_NEAR(off.path_normal_velocity, 0.2, 2 * kUlp);
   EXPECT_NEAR(off.newton, 0.2, 2 * kUlp);
-  EXPECT_FALSE(Audit(RankOneContact(0.25), {.u1 = 0.0, .v1 = 1.0, .uncertainty = 0.7}).unexplained);
+  EXPECT_FALSE(Audit(RankOneContact(0.25), {.u1 = {0.0}, .v1 = 1.0, .uncertainty = 0.7}).unexplained);
 
   // Locked: mu = 1/2 holds it, and any rebound is unexplained.
-  const AuditReport held = Audit(RankOneContact(0.5), {.u1 = 0.0, .v1 = 0.0});
+  const AuditReport held = Audit(RankOneContact(0.5), {.u1 = {0.0}, .v1 = 0.0});
   EXPECT_TRUE(held.admissible);
   EXPECT_EQ(held.regime, Regime::kLocked);
-  const AuditReport rebound = Audit(RankOneContact(0.5), {.u1 = 0.2, .v1 = 0.1});
+  const AuditReport rebound = Audit(RankOneContact(0.5), {.u1 = {0.2}, .v1 = 0.1});
   EXPECT_TRUE(rebound.unexplained);
   EXPECT_NEAR(rebound.distance, std::hypot(0.2, 0.1), kUlp);
-  EXPECT_FALSE(Audit(RankOneContact(0.5), {.u1 = 0.2, .v1 = 0.1, .uncertainty = 0.2}).unexplained);
+  EXPECT_FALSE(Audit(RankOneContact(0.5), {.u1 = {0.2}, .v1 = 0.1, .uncertainty = 0.2}).unexplained);
 
   // The velocity cannot have gone backwards either.
-  const AuditReport backwards = Audit(RankOneContact(0.25), {.u1 = -4.0, .v1 = -2.0});
+  const AuditReport backwards = Audit(RankOneContact(0.25), {.u1 = {-4.0}, .v1 = -2.0});
   EXPECT_TRUE(backwards.unexplained);
   EXPECT_EQ(backwards.normal_impulse, 0.0);
   EXPECT_NEAR(backwards.distance, std::sqrt(5.0), 4 * kUlp);
@@ -514,7 +530,7 @@ TEST(AuditTest, SeesTheSameInSpaceWhereWDecouples) {
                                  .mu_static = plane.mu_static};
     const double u1 = random.In(-1.0, 1.0);
     const double v1 = random.In(-0.5, 1.0);
-    const AuditReport in_plane = Audit(plane, {u1, v1});
+    const AuditReport in_plane = Audit(plane, {{u1}, v1});
     const AuditReport in_space = Audit(space, {{u1, 0.0}, v1});
     SCOPED_TRACE(Text(plane));
     const double scale = std::abs(plane.u0) - plane.v0 + 1.0;
@@ -579,140 +595,142 @@ TEST(AuditTest, SearchesTheNearestPointOfARankDeficientSpatialPath) {
   EXPECT_NEAR(beside.energetic, 0.6, 1e-4);
 }
 
-// A column with one value for all rows.
-absl::Span<const double> Fixed(const double& value) { return {&value, 1}; }
-
-// `rows` rows at one contact, which must outlive them; the velocity after is left out.
-PlanarColumns RowsAt(const planar::Problem& contact, int64_t rows) {
-  return {.rows = rows,
-          .wtt = Fixed(contact.wtt),
-          .wtn = Fixed(contact.wtn),
-          .wnn = Fixed(contact.wnn),
-          .mu = Fixed(contact.mu),
-          .mu_static = {},
-          .u0 = Fixed(contact.u0),
-          .v0 = Fixed(contact.v0),
-          .u1 = {},
-          .v1 = {},
-          .uncertainty = {}};
+// The scene of a contact without restitution, which an audit does not need.
+Scene SceneOf(const planar::Problem& contact) {
+  return {.system = PlanarContact{contact.wtt, contact.wtn, contact.wnn, contact.u0, contact.v0},
+          .friction = {.kinetic_coefficient = contact.mu, .static_coefficient = contact.mu_static}};
 }
 
-TEST(AuditColumnsTest, CountsWhatARunBreaksAndWhereFirst) {
+Scene SceneOf(const spatial::Problem& contact) {
+  return {.system = SpatialContact{{contact.w11, contact.w12, contact.w13, contact.w22, contact.w23, contact.w33},
+                                   {contact.u0[0], contact.u0[1]},
+                                   contact.v0},
+          .friction = {.kinetic_coefficient = contact.mu, .static_coefficient = contact.mu_static}};
+}
+
+TEST(AuditBatchTest, CountsTheLimitsThatRowsBreakAndWhereFirst) {
   // Admissible, pulled, admissible, grabbed, NaN, energetic coefficients of 1.5 and of 1.05 +- .1.
-  const std::vector<double> u1 = {0.25, 1.0, 0.5, 0.0, std::nan(""), 0.0, 0.0};
-  const std::vector<double> v1 = {0.5, -1.25, 0.0, 0.5, 0.0, 1.5, 1.05};
-  const std::vector<double> uncertainty = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1};
-  PlanarColumns columns = RowsAt(kByHand, 7);
-  columns.u1 = u1;
-  columns.v1 = v1;
-  columns.uncertainty = uncertainty;
-  std::vector<AuditReport> reports;
-  const auto summary = AuditColumns(columns, [&](int64_t row, const AuditReport& report) {
-    EXPECT_EQ(row, static_cast<int64_t>(reports.size()));
-    reports.push_back(report);
-  });
-  ASSERT_TRUE(summary.ok()) << summary.status();
+  const AuditColumns columns = {.tangential_after_m_s = {0.25, 1.0, 0.5, 0.0, std::nan(""), 0.0, 0.0},
+                                .normal_after_m_s = {0.5, -1.25, 0.0, 0.5, 0.0, 1.5, 1.05},
+                                .velocity_uncertainty_m_s = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1}};
+  const auto response = AuditScene(AuditBatchRequest{.scene = SceneOf(kByHand), .columns = columns}, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  const std::vector<AuditReport>& reports = response->reports;
+  const AuditSummary& summary = response->summary;
   ASSERT_EQ(reports.size(), 7U);
-  EXPECT_EQ(summary->rows, 7);
-  EXPECT_EQ(summary->admissible, 3);
-  EXPECT_EQ(summary->invalid, (Tally{1, 4}));
+  EXPECT_EQ(summary.rows, 7);
+  EXPECT_EQ(summary.admissible, 3);
+  EXPECT_EQ(summary.invalid, (Tally{1, 4}));
   EXPECT_EQ(reports[4].regime, Regime::kInvalid);
-  EXPECT_EQ(summary->unexplained, (Tally{0, -1}));
-  const auto broken = [&](AuditLimit limit) { return summary->broken[static_cast<size_t>(limit)]; };
+  EXPECT_EQ(summary.unexplained, (Tally{0, -1}));
+  const auto broken = [&](AuditLimit limit) { return summary.broken[static_cast<size_t>(limit)]; };
   EXPECT_EQ(broken(AuditLimit::kNormalImpulse), (Tally{1, 1}));
   EXPECT_EQ(broken(AuditLimit::kPenetration), (Tally{1, 1}));
   EXPECT_EQ(broken(AuditLimit::kCone), (Tally{2, 1}));
   EXPECT_EQ(broken(AuditLimit::kSharp), (Tally{1, 5}));
   EXPECT_EQ(broken(AuditLimit::kEnergy), (Tally{2, 1}));
-  EXPECT_EQ(summary->within_uncertainty[static_cast<size_t>(AuditLimit::kSharp)], (Tally{1, 6}));
-  EXPECT_EQ(summary->largest_excess[static_cast<size_t>(AuditLimit::kSharp)], 0.5);
-  EXPECT_EQ(reports[3].friction_mismatch[0], Audit(kByHand, {.u1 = 0.0, .v1 = 0.5}).friction_mismatch[0]);
+  EXPECT_EQ(summary.within_uncertainty[static_cast<size_t>(AuditLimit::kSharp)], (Tally{1, 6}));
+  EXPECT_EQ(summary.largest_excess[static_cast<size_t>(AuditLimit::kSharp)], 0.5);
+  EXPECT_EQ(reports[3], Audit(kByHand, {.u1 = {0.0}, .v1 = 0.5}));
 }
 
-TEST(AuditColumnsTest, NamesTheColumnWhoseLengthIsWrong) {
-  const std::vector<double> two = {1.0, 1.0};
-  PlanarColumns columns = RowsAt(kByHand, 3);
-  columns.wtt = two;
-  columns.mu = {};
-  columns.u1 = Fixed(kByHand.u0);
-  columns.v1 = Fixed(kByHand.v0);
-  const auto summary = AuditColumns(columns, [](int64_t, const AuditReport&) { FAIL(); });
-  ASSERT_FALSE(summary.ok());
-  EXPECT_EQ(summary.status().code(), absl::StatusCode::kInvalidArgument);
-  const std::string message(summary.status().message());
-  EXPECT_NE(message.find("wtt"), std::string::npos) << message;
-  EXPECT_NE(message.find("has 2 values: must have 1 or 3"), std::string::npos) << message;
-  EXPECT_NE(message.find("mu"), std::string::npos) << message;
+TEST(AuditBatchTest, NamesTheColumnWhoseLengthIsWrong) {
+  const AuditColumns columns = {
+      .tangential_after_m_s = {1.0, 1.0, 1.0}, .normal_after_m_s = {-1.0}, .friction = {0.5, 0.5}};
+  const auto response = AuditScene(AuditBatchRequest{.scene = SceneOf(kByHand), .columns = columns}, Never);
+  EXPECT_EQ(response.status().code(), absl::StatusCode::kInvalidArgument);
+  const std::string message(response.status().message());
+  EXPECT_NE(message.find("columns.friction has 2 values: must have 1 or 3"), std::string::npos) << message;
 }
 
-TEST(AuditColumnsTest, MarksRowsThatAreNoContact) {
-  // Indefinite, mu < 0, mu_s < mu, Wnn = 0, rank one with a velocity outside its range, a good one.
-  const std::vector<double> wtn = {2.0, 0.0, 0.0, 0.0, 1.0, 0.0};
-  const std::vector<double> wnn = {1.0, 1.0, 1.0, 0.0, 1.0, 1.0};
-  const std::vector<double> mu = {0.5, -0.1, 0.5, 0.5, 0.5, 0.5};
-  const std::vector<double> mu_static = {0.5, 0.1, 0.4, 0.5, 0.5, 0.5};
-  const double zero = 0.0;
-  PlanarColumns columns = RowsAt(kByHand, 6);
-  columns.wtn = wtn;
-  columns.wnn = wnn;
-  columns.mu = mu;
-  columns.mu_static = mu_static;
-  columns.u1 = Fixed(kByHand.u0);
-  columns.v1 = Fixed(zero);
-  const auto summary = AuditColumns(columns, [](int64_t row, const AuditReport& report) {
-    EXPECT_EQ(report.regime == Regime::kInvalid, row < 5) << row;
-  });
-  ASSERT_TRUE(summary.ok());
-  EXPECT_EQ(summary->invalid, (Tally{5, 0}));
+TEST(AuditBatchTest, MarksRowsThatTheContactCannotHave) {
+  // Friction below 0 or not finite, a negative uncertainty, no velocity; the last row is good.
+  const double nan = std::nan("");
+  const AuditColumns columns = {.tangential_m_s = {1.0, 1.0, 1.0, nan, 1.0},
+                                .normal_m_s = {-1.0},
+                                .tangential_after_m_s = {1.0},
+                                .normal_after_m_s = {0.0},
+                                .friction = {-0.1, nan, 0.5, 0.5, 0.5},
+                                .velocity_uncertainty_m_s = {0.0, 0.0, -1.0, 0.0, 0.0}};
+  const auto response = AuditScene(AuditBatchRequest{.scene = SceneOf(kByHand), .columns = columns}, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->summary.invalid, (Tally{4, 0}));
+  EXPECT_NE(response->reports[4].regime, Regime::kInvalid);
+
+  // The velocities of a contact of rank one are multiples of (2, 1).
+  const AuditColumns along = {.tangential_m_s = {-2.0, -1.0, -4.0},
+                              .normal_m_s = {-1.0, -1.0, -2.0},
+                              .tangential_after_m_s = {0.0},
+                              .normal_after_m_s = {0.0}};
+  const auto rank_one = AuditScene(AuditBatchRequest{.scene = SceneOf(RankOneContact(0.25)), .columns = along}, Never);
+  ASSERT_TRUE(rank_one.ok()) << rank_one.status();
+  EXPECT_EQ(rank_one->summary.invalid, (Tally{1, 1}));
 }
 
-TEST(AuditColumnsTest, SinglesOutTheRowThatOverflows) {
+TEST(AuditBatchTest, SinglesOutTheRowThatOverflows) {
   // p_n = (v+ - v-)/Wnn: 1e308/1e-3 exceeds the largest double.
-  const std::vector<double> v1 = {0.5, 1e308, 0.25};
   planar::Problem contact = kByHand;
   contact.wnn = 1e-3;
-  PlanarColumns columns = RowsAt(contact, 3);
-  columns.u1 = Fixed(contact.u0);
-  columns.v1 = v1;
-  std::vector<AuditReport> reports;
-  const auto keep = [&](int64_t /*row*/, const AuditReport& report) { reports.push_back(report); };
-  const auto summary = AuditColumns(columns, keep);
-  ASSERT_TRUE(summary.ok()) << summary.status();
-  EXPECT_EQ(summary->rows, 3);
-  EXPECT_EQ(summary->invalid, (Tally{1, 1}));
-  EXPECT_EQ(reports[1], AuditReport{.regime = Regime::kInvalid});
-  EXPECT_EQ(reports[2], Audit(contact, {.u1 = contact.u0, .v1 = 0.25}));
-  EXPECT_STREQ(OverflowIn(Audit(contact, {.u1 = contact.u0, .v1 = 1e308})), "report.normal_impulse_n_s");
-  EXPECT_EQ(OverflowIn(reports[2]), nullptr);
+  const AuditColumns columns = {.tangential_after_m_s = {contact.u0}, .normal_after_m_s = {0.5, 1e308, 0.25}};
+  const auto response = AuditScene(AuditBatchRequest{.scene = SceneOf(contact), .columns = columns}, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->summary.rows, 3);
+  EXPECT_EQ(response->summary.invalid, (Tally{1, 1}));
+  EXPECT_EQ(response->reports[1], AuditReport{.regime = Regime::kInvalid});
+  EXPECT_EQ(response->reports[2], Audit(contact, {.u1 = {contact.u0}, .v1 = 0.25}));
+  EXPECT_STREQ(OverflowIn(Audit(contact, {.u1 = {contact.u0}, .v1 = 1e308})), "report.normal_impulse_n_s");
+  EXPECT_EQ(OverflowIn(response->reports[2]), nullptr);
 }
 
-TEST(AuditColumnsTest, AuditsSpatialRowsAsItAuditsOne) {
-  const spatial::Problem problem = TurningContact(1.0, 0.6, 0.4);
+TEST(AuditBatchTest, AuditsSpatialRowsAsItAuditsOne) {
+  const Scene scene = SceneOf(TurningContact(1.0, 0.6, 0.4));
   const std::vector<double> v1 = {0.5, 1.0};
-  const double u1 = 0.8, u2 = -0.3;
-  const SpatialColumns columns{.rows = 2,
-                               .w11 = Fixed(problem.w11),
-                               .w12 = Fixed(problem.w12),
-                               .w13 = Fixed(problem.w13),
-                               .w22 = Fixed(problem.w22),
-                               .w23 = Fixed(problem.w23),
-                               .w33 = Fixed(problem.w33),
-                               .mu = Fixed(problem.mu),
-                               .mu_static = {},
-                               .u0 = {Fixed(problem.u0[0]), Fixed(problem.u0[1])},
-                               .u1 = {Fixed(u1), Fixed(u2)},
-                               .v0 = Fixed(problem.v0),
-                               .v1 = v1,
-                               .uncertainty = {}};
-  const auto summary = AuditColumns(columns, [&](int64_t row, const AuditReport& report) {
-    const AuditReport one = Audit(problem, {{u1, u2}, v1[static_cast<size_t>(row)]});
-    EXPECT_EQ(report.poisson, one.poisson);
-    EXPECT_EQ(report.energy_change, one.energy_change);
-    EXPECT_EQ(report.admissible, one.admissible);
-  });
-  ASSERT_TRUE(summary.ok());
-  EXPECT_EQ(summary->rows, 2);
-  EXPECT_EQ(summary->invalid.count, 0);
+  const AuditColumns columns = {
+      .tangential_after_m_s = {0.8}, .tangential_2_after_m_s = {-0.3}, .normal_after_m_s = v1};
+  const auto response = AuditScene(AuditBatchRequest{.scene = scene, .columns = columns}, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  ASSERT_EQ(response->reports.size(), 2U);
+  for (size_t row = 0; row < 2; ++row) {
+    const ContactVelocity seen = {.tangential_m_s = {0.8, -0.3}, .normal_m_s = v1[row]};
+    const auto one = AuditScene(AuditRequest{.scene = scene, .observed = seen}, Never);
+    ASSERT_TRUE(one.ok()) << one.status();
+    EXPECT_EQ(response->reports[row], one->report);
+  }
+  EXPECT_EQ(response->summary.invalid.count, 0);
+}
+
+// ---- Stops ----
+
+TEST(AuditStopTest, ABatchLooksBeforeEachRow) {
+  const AuditColumns columns = {.tangential_after_m_s = {0.25}, .normal_after_m_s = {0.5, 0.5, 0.5, 0.5, 0.5}};
+  int looks = 0;
+  const auto response =
+      AuditScene(AuditBatchRequest{.scene = SceneOf(kByHand), .columns = columns}, [&looks] { return ++looks == 4; });
+  EXPECT_EQ(response.status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(looks, 4);
+}
+
+// Nothing moves along the second direction, so the nearest point of the path is searched for.
+TEST(AuditStopTest, TheSearchOfARankDeficientSpatialPathEndsAtItsNextStep) {
+  const spatial::Problem problem{
+      .w11 = 2.0, .w13 = 1.0, .w33 = 3.0, .u0 = {1.0, 0.0}, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3};
+  int64_t all = 0;
+  const auto count = [&all] {
+    ++all;
+    return false;
+  };
+  ASSERT_TRUE(audit::Audit(problem, {{0.5, 0.0}, 0.5}, count).ok());
+  EXPECT_GT(all, 100);
+  // Stops in the equal steps, in the golden section, and at the last look.
+  for (const int64_t stop : {int64_t{1}, int64_t{40}, int64_t{70}, all}) {
+    int64_t looks = 0;
+    const auto stopped = audit::Audit(problem, {{0.5, 0.0}, 0.5}, [&] { return ++looks == stop; });
+    EXPECT_EQ(stopped.status().code(), absl::StatusCode::kCancelled);
+    EXPECT_EQ(looks, stop);
+  }
+  const AuditRequest request = {.scene = SceneOf(problem),
+                                .observed = ContactVelocity{.tangential_m_s = {0.5, 0.0}, .normal_m_s = 0.5}};
+  EXPECT_EQ(AuditScene(request, [] { return true; }).status().code(), absl::StatusCode::kCancelled);
 }
 
 }  // namespace

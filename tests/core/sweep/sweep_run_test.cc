@@ -16,6 +16,7 @@
 #include "core/sweep/column.h"
 #include "core/sweep/grid.h"
 #include "ricochet/solver.h"
+#include "tests/support/pendulum_columns.h"
 
 namespace ricochet {
 namespace {
@@ -62,24 +63,25 @@ struct Points {
 };
 
 Points RunAll(const SweepRequest& request) {
-  absl::StatusOr<SweepRun> run = SweepRun::Make(request);
+  SweepRequest with_regime = request;
+  with_regime.with_regime = true;
+  absl::StatusOr<SweepRun> run = SweepRun::Make(with_regime);
   EXPECT_TRUE(run.ok()) << run.status();
   Points points;
-  if (!run.ok()) return points;
-  while (!run->done()) {
-    const SweepRun::Extent extent = run->Next();
-    std::vector<double> values(static_cast<size_t>(extent.count * run->column_count()));
-    std::vector<Regime> regimes(static_cast<size_t>(extent.count));
-    EXPECT_TRUE(run->Compute(extent, absl::MakeSpan(values), absl::MakeSpan(regimes), Never));
-    for (int64_t i = 0; i < extent.count; ++i) {
+  while (run.ok() && !run->ended()) {
+    const absl::StatusOr<SweepChunk> chunk = run->NextChunk(Never);
+    EXPECT_TRUE(chunk.ok()) << chunk.status();
+    if (!chunk.ok()) break;
+    for (int64_t i = 0; i < chunk->count; ++i) {
       std::vector<double>& point = points.values.emplace_back();
-      for (int64_t c = 0; c < run->column_count(); ++c) {
-        point.push_back(values[static_cast<size_t>(c * extent.count + i)]);
+      for (size_t c = 0; c < request.columns.size(); ++c) {
+        point.push_back(chunk->values[c * static_cast<size_t>(chunk->count) + static_cast<size_t>(i)]);
       }
-      points.regimes.push_back(regimes[static_cast<size_t>(i)]);
     }
+    points.regimes.insert(points.regimes.end(), chunk->regimes.begin(), chunk->regimes.end());
+    EXPECT_EQ(chunk->summary.has_value(), run->ended());
+    if (run->ended()) points.summary = *chunk->summary;
   }
-  points.summary = run->summary();
   return points;
 }
 
@@ -306,74 +308,69 @@ TEST(SweepRunTest, PhiSweepsTheAngleOfFigure4) {
 
 TEST(SweepRunTest, ChunksStartSmallAndHoldAtMost512KiB) {
   for (const size_t columns : {size_t{1}, size_t{8}, PendulumColumns().size()}) {
-    SweepRequest request = MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 1'000'000'000)});
-    request.columns.assign(PendulumColumns().begin(), PendulumColumns().begin() + static_cast<std::ptrdiff_t>(columns));
+    SweepRequest request = MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 1'000'000'000)}, PendulumColumns());
+    request.columns.resize(columns);
     absl::StatusOr<SweepRun> run = SweepRun::Make(request);
     ASSERT_TRUE(run.ok());
     EXPECT_EQ(run->points_total(), 1'000'000'000);
-    const SweepRun::Extent first = run->Next();
-    EXPECT_EQ(first.first_index, 0);
-    EXPECT_LE(first.count * static_cast<int64_t>(columns * sizeof(double)), 256 << 10);
-    std::vector<double> values(static_cast<size_t>(first.count) * columns);
-    ASSERT_TRUE(run->Compute(first, absl::MakeSpan(values), {}, Never));
-    const SweepRun::Extent second = run->Next();
-    EXPECT_EQ(second.first_index, first.count);
-    const int64_t bytes = second.count * static_cast<int64_t>(columns * sizeof(double));
-    EXPECT_GE(bytes, 256 << 10);
-    EXPECT_LE(bytes, 512 << 10);
+    const absl::StatusOr<SweepChunk> first = run->NextChunk(Never);
+    ASSERT_TRUE(first.ok());
+    EXPECT_EQ(first->first_index, 0);
+    EXPECT_LE(first->values.size() * sizeof(double), size_t{256} << 10);
+    const absl::StatusOr<SweepChunk> second = run->NextChunk(Never);
+    ASSERT_TRUE(second.ok());
+    EXPECT_EQ(second->first_index, first->count);
+    EXPECT_GE(second->values.size() * sizeof(double), size_t{256} << 10);
+    EXPECT_LE(second->values.size() * sizeof(double), size_t{512} << 10);
   }
 }
 
-TEST(SweepRunTest, ExtentsTileTheRangeWithoutGapOrOverlap) {
+TEST(SweepRunTest, ChunksTileTheRangeWithoutGapOrOverlap) {
   SweepRequest request = MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 300'000)});
   request.first_index = 5;
   request.end_index = 250'000;
   absl::StatusOr<SweepRun> run = SweepRun::Make(request);
   ASSERT_TRUE(run.ok());
   int64_t next = 5;
-  std::vector<double> values;
-  while (!run->done()) {
-    const SweepRun::Extent extent = run->Next();
-    ASSERT_EQ(extent.first_index, next);
-    ASSERT_GT(extent.count, 0);
-    values.resize(static_cast<size_t>(extent.count));
-    ASSERT_TRUE(run->Compute(extent, absl::MakeSpan(values), {}, Never));
-    next += extent.count;
-    EXPECT_EQ(run->points_done(), next - 5);
+  while (!run->ended()) {
+    const absl::StatusOr<SweepChunk> chunk = run->NextChunk(Never);
+    ASSERT_TRUE(chunk.ok());
+    ASSERT_EQ(chunk->first_index, next);
+    ASSERT_GT(chunk->count, 0);
+    EXPECT_EQ(chunk->values.size(), static_cast<size_t>(chunk->count));
+    EXPECT_TRUE(chunk->regimes.empty());
+    next += chunk->count;
+    EXPECT_EQ(chunk->points_done, next - 5);
+    EXPECT_EQ(chunk->points_total, 249'995);
   }
   EXPECT_EQ(next, 250'000);
-  EXPECT_EQ(run->Next().count, 0);
 }
 
 TEST(SweepRunTest, AStopIsLookedForBeforeEvery1024Points) {
   absl::StatusOr<SweepRun> run = SweepRun::Make(MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 60'000)}));
   ASSERT_TRUE(run.ok());
-  std::vector<double> values;
   int64_t looks = 0;
-  while (!run->done()) {
-    const SweepRun::Extent extent = run->Next();
-    values.resize(static_cast<size_t>(extent.count));
+  while (!run->ended()) {
     const int64_t looks_before = looks;
-    ASSERT_TRUE(run->Compute(extent, absl::MakeSpan(values), {}, [&looks] {
+    const absl::StatusOr<SweepChunk> chunk = run->NextChunk([&looks] {
       ++looks;
       return false;
-    }));
-    EXPECT_GE((looks - looks_before) * SweepRun::kPointsBetweenStops, extent.count);
+    });
+    ASSERT_TRUE(chunk.ok());
+    EXPECT_GE((looks - looks_before) * SweepRun::kPointsBetweenStops, chunk->count);
   }
 }
 
 TEST(SweepRunTest, AfterAStopNoMoreThan1024PointsAreComputed) {
   absl::StatusOr<SweepRun> run = SweepRun::Make(MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 60'000)}));
   ASSERT_TRUE(run.ok());
-  std::vector<double> values(static_cast<size_t>(run->Next().count));
-  ASSERT_TRUE(run->Compute(run->Next(), absl::MakeSpan(values), {}, Never));
-  const SweepRun::Extent extent = run->Next();
-  ASSERT_GT(extent.count, 10'000);
-  values.assign(static_cast<size_t>(extent.count), -7.0);
+  const absl::StatusOr<SweepChunk> first = run->NextChunk(Never);
+  ASSERT_TRUE(first.ok());
   int looks = 0;
-  EXPECT_FALSE(run->Compute(extent, absl::MakeSpan(values), {}, [&looks] { return ++looks == 4; }));
+  const absl::StatusOr<SweepChunk> second = run->NextChunk([&looks] { return ++looks == 4; });
+  EXPECT_EQ(second.status().code(), absl::StatusCode::kCancelled);
   EXPECT_EQ(looks, 4);
-  EXPECT_EQ(std::count(values.begin(), values.end(), -7.0), extent.count - 3 * SweepRun::kPointsBetweenStops);
+  EXPECT_EQ(run->points_done(), first->count + 3 * SweepRun::kPointsBetweenStops);
 }
 
 // ---- Bad requests ----

@@ -15,6 +15,7 @@
 #include "core/sweep/sweep_run.h"
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/solver.h"
+#include "tests/support/pendulum_columns.h"
 #include "tests/support/system_scenes.h"
 
 namespace ricochet {
@@ -237,18 +238,24 @@ TEST(SystemsSweepTest, AListOfTheWrongLengthIsNotCuredByDrivingOneOfItsEntries) 
       HasSubstr("has 5 entries: must have 6"));
 }
 
-// An integrated point may take long, so that a stop is looked at before each.
-TEST(SystemsSweepTest, AStopEndsASweepInSpaceAtTheNextPoint) {
-  absl::StatusOr<SweepRun> run = SweepRun::Make(
-      {.grid = {.scene = With(ContactInSpace()), .axes = {{"friction.kinetic_coefficient", Linspace{0.1, 1.0, 1000}}}},
-       .columns = {"energy_change_j"}});
-  ASSERT_TRUE(run.ok());
-  const SweepRun::Extent extent = run->Next();
-  std::vector<double> values(static_cast<size_t>(extent.count));
-  int looks = 0;
-  EXPECT_FALSE(run->Compute(extent, absl::MakeSpan(values), {}, [&] { return ++looks > 5; }));
-  EXPECT_EQ(looks, 6);
-  EXPECT_EQ(run->points_done(), 0);
+// An integrated point may take long, so a stop is looked for before each one.
+TEST(SystemsSweepTest, AStopEndsASweepOfIntegratedPointsAtTheNextPoint) {
+  Scene with_springs = With(Contact());
+  with_springs.compliance = {.tangential_ratio_squared = 1.2, .normal = LinearSpring{1e6}};
+  Scene with_damping = With(Contact());
+  with_damping.restitution = std::monostate();
+  with_damping.compliance = {.tangential_ratio_squared = {}, .normal = HuntCrossleySpring{1e6, 1.5, 0.1}};
+  for (const Scene& scene : {With(ContactInSpace()), with_springs, with_damping}) {
+    absl::StatusOr<SweepRun> run =
+        SweepRun::Make({.grid = {.scene = scene, .axes = {{"friction.kinetic_coefficient", Linspace{0.1, 1.0, 1000}}}},
+                        .columns = {"energy_change_j"}});
+    ASSERT_TRUE(run.ok()) << run.status();
+    int looks = 0;
+    const absl::StatusOr<SweepChunk> chunk = run->NextChunk([&looks] { return ++looks > 5; });
+    EXPECT_EQ(chunk.status().code(), absl::StatusCode::kCancelled);
+    EXPECT_EQ(looks, 6);
+    EXPECT_EQ(run->points_done(), 0);
+  }
 }
 
 }  // namespace

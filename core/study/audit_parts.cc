@@ -1,0 +1,62 @@
+#include "core/study/audit_parts.h"
+
+#include <utility>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+#include "core/contact/effective.h"
+#include "core/problem/scene_problem.h"
+#include "core/scene/validate.h"
+
+namespace ricochet::audit {
+
+std::vector<Violation> CheckScene(const Scene& scene) {
+  std::vector<Violation> violations = Validate(scene, RestitutionIs::kOptional);
+  if (!violations.empty()) return violations;
+  const AnyReduction any = Reduce(scene);
+  if (std::visit([](const auto& reduction) { return reduction.w.back() == 0.0; }, any)) {
+    violations.push_back({"system", "makes Wnn = 0: must be > 0 for an audit, no normal impulse moves the contact",
+                          ViolationKind::kContact});
+  }
+  return violations;
+}
+
+std::optional<size_t> RateCount(const System& system) {
+  if (const auto* linkage = std::get_if<Linkage>(&system); linkage != nullptr) return linkage->links.size();
+  if (std::holds_alternative<Pendulum>(system)) return 1;
+  return std::nullopt;
+}
+
+std::string CountText(size_t found, size_t wanted) {
+  return absl::StrCat("has ", found, found == 1 ? " entry" : " entries", ": must have ", wanted);
+}
+
+Scene WithoutRestitution(Scene scene) {
+  scene.restitution = std::monostate();
+  scene.restitution_by_speed.reset();
+  scene.impact_law = std::monostate();
+  return scene;
+}
+
+ContactVelocity VelocityOf(const ObservedRates& observed, Scene scene) {
+  if (auto* pendulum = std::get_if<Pendulum>(&scene.system); pendulum != nullptr) {
+    pendulum->omega_minus_rad_s = observed.rates_rad_s[0];
+  } else {
+    std::vector<Link>& links = std::get<Linkage>(scene.system).links;
+    for (size_t i = 0; i < links.size(); ++i) links[i].rate_rad_s = observed.rates_rad_s[i];
+  }
+  const auto reduction = std::get<PlanarReduction>(Reduce(scene));
+  return {.tangential_m_s = {reduction.u0[0]}, .normal_m_s = reduction.v0};
+}
+
+AnyProblem MakeProblem(const Scene& scene, const AnyReduction& any, bool from_own_velocity) {
+  if (from_own_velocity && HasClosedForm(scene)) return ClosedFormProblem(scene);
+  const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
+  if (const auto* planar = std::get_if<PlanarReduction>(&any)) {
+    return planar::MakeProblem(*planar, EnergeticCoefficient(), effective);
+  }
+  return spatial::MakeProblem(std::get<SpatialReduction>(any), EnergeticCoefficient(), effective,
+                              spatial::kStudyTolerance);
+}
+
+}  // namespace ricochet::audit

@@ -1,0 +1,67 @@
+// DrivenScene: the scene of each point of a grid in turn, as the axes drive the fields of the base scene.
+//
+//   DrivenScene driven(grid);                  // Refuse the grid if driven.violations() has any.
+//   driven.GoTo(first);
+//   for (int64_t i = first; i < end; ++i, driven.Advance()) {
+//     if (driven.IsValid()) Solve(driven.scene());
+//   }
+
+#ifndef RICOCHET_CORE_SWEEP_DRIVEN_SCENE_H_
+#define RICOCHET_CORE_SWEEP_DRIVEN_SCENE_H_
+
+#include <cstdint>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "core/scene/field.h"
+#include "ricochet/error.h"
+#include "ricochet/grid.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+class DrivenScene {
+ public:
+  // Resolves the path of each axis in a copy of the grid's scene, which the resolved fields then point into.
+  explicit DrivenScene(const Grid& grid);
+  DrivenScene(const DrivenScene&) = delete;
+  DrivenScene& operator=(const DrivenScene&) = delete;
+
+  // The axes whose path names no field of the scene, or one that another axis drives: "axes[1].path".
+  const std::vector<Violation>& violations() const { return violations_; }
+
+  // Removes from the base scene's violations those that driving a field can cure. IsValid decides them at each point.
+  std::vector<Violation> WithoutCurable(std::vector<Violation> violations) const;
+
+  // The scene of the current point; before GoTo it is the base scene.
+  const Scene& scene() const { return scene_; }
+
+  // Below, `grid` is valid (ValidateAxes), there are no violations, and the base scene has none that cannot be cured.
+  // Makes point `index` of the grid the current one.
+  void GoTo(int64_t index);
+  // Makes the next point the current one, at the cost of setting the fields that change. After the last comes the first.
+  void Advance();
+  // Decides whether Validate would find nothing in the current scene.
+  bool IsValid() const;
+
+ private:
+  void Resolve();
+  void SetField(size_t k);
+  bool CanBeCured(const Violation& violation) const;
+
+  Grid grid_;
+  Scene scene_;
+  std::vector<Field> fields_;  // One an axis.
+  std::vector<Violation> violations_;
+  std::set<std::string> driven_;  // Paths of the numbers that an axis sets whatever their base value.
+  bool has_relations_ = false;    // True if the scene has rules beyond those of single numbers.
+  std::vector<int64_t> counts_;   // Values of each axis.
+  std::vector<int64_t> positions_;
+  std::vector<uint8_t> is_bad_;  // 1 for each field whose value breaks the rule of its number.
+  int64_t bad_fields_ = 0;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_SWEEP_DRIVEN_SCENE_H_
