@@ -17,17 +17,17 @@
 namespace ricochet::audit {
 namespace {
 
-// Doubles, and the models that compute with them, do not tell the terms of W p = v+ - v- apart by less than this share.
+// The share of the terms of W p = v+ - v- below which doubles, and models that compute with them, see no difference.
 constexpr double kRounding = 0x1p-46;
 
 template <size_t N>
 using Vector = std::array<double, N>;
-// Number has about 100 bits: Moderate within IsModerate's range, else Wide.
+// A matrix of numbers with about 100 bits: Moderate within IsModerate's range, else Wide.
 template <typename Number, size_t N>
 using Matrix = std::array<std::array<Number, N>, N>;
 using Moderate = HWY_NAMESPACE::DoubleDouble<double>;
 
-// Contact is W, the velocity before and the observed one after; the normal direction is the last.
+// Contact holds W, the velocity before and the observed one after; the normal direction is the last.
 template <size_t N>
 struct Contact {
   std::array<Vector<N>, N> w;
@@ -67,28 +67,28 @@ bool IsModerate(const Contact<N>& contact) {
   return all;
 }
 
-// Gauss-Jordan without pivoting, which a positive definite W does not need.
+// Inverts W by Gauss-Jordan elimination without pivoting, which a positive definite matrix does not need.
 template <typename Number, size_t N>
 Matrix<Number, N> InverseOf(const std::array<Vector<N>, N>& w) {
-  Matrix<Number, N> rest;
+  Matrix<Number, N> left;
   Matrix<Number, N> inverse;
   for (size_t i = 0; i < N; ++i) {
     for (size_t j = 0; j < N; ++j) {
-      rest[i][j] = Number::Exactly(w[i][j]);
+      left[i][j] = Number::Exactly(w[i][j]);
       inverse[i][j] = Number::Constant(i == j ? 1.0 : 0.0);
     }
   }
   for (size_t pivot = 0; pivot < N; ++pivot) {
-    const Number reciprocal = Inverse(rest[pivot][pivot]);
+    const Number reciprocal = Inverse(left[pivot][pivot]);
     for (size_t j = 0; j < N; ++j) {
-      rest[pivot][j] = rest[pivot][j] * reciprocal;
+      left[pivot][j] = left[pivot][j] * reciprocal;
       inverse[pivot][j] = inverse[pivot][j] * reciprocal;
     }
     for (size_t i = 0; i < N; ++i) {
       if (i == pivot) continue;
-      const Number factor = rest[i][pivot];
+      const Number factor = left[i][pivot];
       for (size_t j = 0; j < N; ++j) {
-        rest[i][j] = rest[i][j] - factor * rest[pivot][j];
+        left[i][j] = left[i][j] - factor * left[pivot][j];
         inverse[i][j] = inverse[i][j] - factor * inverse[pivot][j];
       }
     }

@@ -21,7 +21,7 @@ namespace ricochet::audit {
 struct PathPoint {
   Regime regime = Regime::kUnspecified;  // The regime of the path up to this point.
   int w_rank = 0;
-  double tau_compression = 0.0;  // Where compression ends, even if tau is less.
+  double tau_compression = 0.0;  // The end of compression, even if tau is less.
   double tau = 0.0;              // Less than asked for where the contact locks before: the path ends there.
   std::array<double, 2> f = {};
   std::array<double, 2> u = {};

@@ -114,7 +114,7 @@ class SweepRun::Impl {
   std::vector<Model> models_;
   std::unique_ptr<bool[]> valid_;
   std::unique_ptr<bool[]> inadmissible_;
-  std::vector<double*> columns_;  // Where the block's values of each column go.
+  std::vector<double*> columns_;  // The place of the block's values of each column.
 };
 
 absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
@@ -246,7 +246,7 @@ void SweepRun::Impl::GatherProblems(int64_t count) {
   }
 }
 
-// Most demands are a tolerance alone, and most points are cheap: so must their plan be.
+// A demand that is a tolerance alone, as most are, takes a plan that costs less than the point.
 void SweepRun::Impl::PlanPendulum(size_t i) {
   if (demand_.required.IsEmpty() && demand_.excluded.IsEmpty()) {
     models_[i] = ModelOfPendulum(problems_[i], demand_.relative_tolerance);

@@ -1,4 +1,4 @@
-// Audit: what went into an impact comes out of its velocities again, and what cannot have happened is found.
+// Audits give back the coefficients of an impact from its velocities, and find the limits that an impossible one breaks.
 
 #include "core/study/audit.h"
 
@@ -123,7 +123,7 @@ std::string Text(const planar::Problem& p) {
   return text + ", law " + std::to_string(static_cast<int>(p.law)) + ", " + std::to_string(p.coefficient);
 }
 
-// How far an ulp of the velocities and of W moves Poisson's coefficient and its like; see core/study/audit.h.
+// Bounds how far an ulp of the velocities and of W moves Poisson's coefficient (docs/theory/audit.md).
 double Conditioning(const planar::Problem& p, const planar::Impact& impact) {
   const double det = p.wtt * p.wnn - p.wtn * p.wtn;
   const double terms = std::abs(p.u0) + std::abs(p.v0) + std::abs(impact.u1) + impact.v1 +
@@ -173,7 +173,7 @@ void ExpectRoundTrip(const planar::Problem& problem, RoundTrip& seen) {
   SCOPED_TRACE(Text(problem));
   ASSERT_NEAR(report.newton, impact.newton, 16 * kUlp * (1.0 + impact.newton));
   ASSERT_NEAR(report.poisson, impact.poisson, close);
-  // A root: an error of the work of restitution counts by 1/(2 energetic).
+  // The coefficient is a root, so an error of the work of restitution counts by 1/(2 energetic).
   const double energetic_close = close * (impact.energetic + 1.0 / impact.energetic);
   ASSERT_NEAR(report.energetic, impact.energetic, energetic_close);
   ASSERT_NEAR(CoefficientOf(problem.law, report), problem.coefficient, std::max(close, energetic_close));
@@ -210,7 +210,7 @@ TEST(AuditTest, GivesBackTheCoefficientAsFarAsANearlySingularWTells) {
     ASSERT_NEAR(report.newton, impact.newton, 16 * kUlp * (1.0 + impact.newton));
     ASSERT_NEAR(report.poisson, impact.poisson, close);
     ASSERT_NEAR(report.normal_impulse, impact.tau1, report.normal_impulse_uncertainty);
-    // Never called broken for rounding alone.
+    // Rounding alone never makes a limit count as broken.
     ASSERT_TRUE(report.admissible || impact.sharp_limit_broken || impact.energy_limit_broken);
   }
 }
@@ -282,7 +282,7 @@ TEST(AuditTest, NamesEachLimitAnImpossibleRowBreaks) {
 }
 
 TEST(AuditTest, RunsThePathToAnImpulseWithinCompression) {
-  // Stopped half way: f = -1/4, v = -1/2, works -3/8 and -(1/4)(7/8).
+  // The impact is stopped half way: f = -1/4, v = -1/2, the works are -3/8 and -(1/4)(7/8).
   const AuditReport report = Audit(kByHand, {.u1 = {0.75}, .v1 = -0.5});
   EXPECT_FALSE(report.compression_ended);
   EXPECT_EQ(report.regime, Regime::kSliding);
@@ -338,7 +338,7 @@ TEST(AuditTest, NeverCallsANoisyAdmissibleImpactBroken) {
 }
 
 TEST(AuditTest, AuditsContactsFarFromTheScaleOfDoublesToo) {
-  // Units of 2^-600 m/s and 2^-1020 kg^-1 for those of the hand-worked rod.
+  // The contact is the hand-worked rod in units of 2^-600 m/s and 2^-1020 kg^-1.
   constexpr double kSpeed = 0x1p-600;
   constexpr double kMobility = 0x1p-1020;
   planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.0);
@@ -421,7 +421,7 @@ TEST(AuditTest, GivesBackTheCoefficientsOfThePendulum) {
   }
 }
 
-// tau1 is so many least doubles; mu makes of a half of one what leaves the cone.
+// tau1 is a few times the least double, and mu times half of that is large enough to leave the cone.
 TEST(AuditTest, ASubnormalNormalImpulseBreaksNoCone) {
   const pendulum::Problem problem = {.inertia = 0.1308892775068743,
                                      .a = 0.3,
@@ -479,7 +479,7 @@ TEST(AuditTest, NamesTheNearestPointWhereRankOneCannotHaveMovedSo) {
   EXPECT_NEAR(off.newton, 0.2, 2 * kUlp);
   EXPECT_FALSE(Audit(RankOneContact(0.25), {.u1 = {0.0}, .v1 = 1.0, .uncertainty = 0.7}).unexplained);
 
-  // Locked: mu = 1/2 holds it, and any rebound is unexplained.
+  // A friction of mu = 1/2 locks the contact, so that any rebound is unexplained.
   const AuditReport held = Audit(RankOneContact(0.5), {.u1 = {0.0}, .v1 = 0.0});
   EXPECT_TRUE(held.admissible);
   EXPECT_EQ(held.regime, Regime::kLocked);
@@ -547,7 +547,7 @@ TEST(AuditTest, SeesTheSameInSpaceWhereWDecouples) {
   }
 }
 
-// The work of a turning slip before compression ends, by the trapezoids of a fine path.
+// The works of a slip that turns before compression ends are compared with the trapezoids of a fine path.
 TEST(AuditTest, RunsASpatialPathToAnImpulseWithinCompression) {
   spatial::Problem problem = TurningContact(1.0, 0.6, 0.4);
   problem.tolerance = 1e-11;
@@ -595,7 +595,7 @@ TEST(AuditTest, SearchesTheNearestPointOfARankDeficientSpatialPath) {
   EXPECT_NEAR(beside.energetic, 0.6, 1e-4);
 }
 
-// The scene of a contact without restitution, which an audit does not need.
+// Returns the scene of a contact, without the restitution that an audit does not need.
 Scene SceneOf(const planar::Problem& contact) {
   return {.system = PlanarContact{contact.wtt, contact.wtn, contact.wnn, contact.u0, contact.v0},
           .friction = {.kinetic_coefficient = contact.mu, .static_coefficient = contact.mu_static}};
@@ -609,7 +609,7 @@ Scene SceneOf(const spatial::Problem& contact) {
 }
 
 TEST(AuditBatchTest, CountsTheLimitsThatRowsBreakAndWhereFirst) {
-  // Admissible, pulled, admissible, grabbed, NaN, energetic coefficients of 1.5 and of 1.05 +- .1.
+  // The rows are: admissible, pulled, admissible, grabbed, NaN, energetic coefficients of 1.5 and of 1.05 +- .1.
   const AuditColumns columns = {.tangential_after_m_s = {0.25, 1.0, 0.5, 0.0, std::nan(""), 0.0, 0.0},
                                 .normal_after_m_s = {0.5, -1.25, 0.0, 0.5, 0.0, 1.5, 1.05},
                                 .velocity_uncertainty_m_s = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.1}};
@@ -644,7 +644,7 @@ TEST(AuditBatchTest, NamesTheColumnWhoseLengthIsWrong) {
 }
 
 TEST(AuditBatchTest, MarksRowsThatTheContactCannotHave) {
-  // Friction below 0 or not finite, a negative uncertainty, no velocity; the last row is good.
+  // The rows have a friction below 0 or not finite, a negative uncertainty, no velocity; the last one is good.
   const double nan = std::nan("");
   const AuditColumns columns = {.tangential_m_s = {1.0, 1.0, 1.0, nan, 1.0},
                                 .normal_m_s = {-1.0},
@@ -710,7 +710,7 @@ TEST(AuditStopTest, ABatchLooksBeforeEachRow) {
   EXPECT_EQ(looks, 4);
 }
 
-// Nothing moves along the second direction, so the nearest point of the path is searched for.
+// No impulse moves the contact along the second direction, so the nearest point of its path is searched for.
 TEST(AuditStopTest, TheSearchOfARankDeficientSpatialPathEndsAtItsNextStep) {
   const spatial::Problem problem{
       .w11 = 2.0, .w13 = 1.0, .w33 = 3.0, .u0 = {1.0, 0.0}, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3};
@@ -721,7 +721,7 @@ TEST(AuditStopTest, TheSearchOfARankDeficientSpatialPathEndsAtItsNextStep) {
   };
   ASSERT_TRUE(audit::Audit(problem, {{0.5, 0.0}, 0.5}, count).ok());
   EXPECT_GT(all, 100);
-  // Stops in the equal steps, in the golden section, and at the last look.
+  // The stops fall into the equal steps, into the golden section, and on the last look.
   for (const int64_t stop : {int64_t{1}, int64_t{40}, int64_t{70}, all}) {
     int64_t looks = 0;
     const auto stopped = audit::Audit(problem, {{0.5, 0.0}, 0.5}, [&] { return ++looks == stop; });

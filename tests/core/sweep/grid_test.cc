@@ -1,4 +1,4 @@
-// Index <-> axis values, and the rules of axes.
+// Grids: a point's index gives the value of each axis, and axes that break a rule are refused.
 
 #include "core/sweep/grid.h"
 
@@ -118,7 +118,7 @@ TEST(GridTest, BillionsOfPointsCostNothing) {
 TEST(GridTest, ProductsBeyond2To53PointsAreRejected) {
   EXPECT_THAT(ValidateAxes({.axes = {Lin(0, 1, kMaxPoints)}}), IsEmpty());
   EXPECT_THAT(FieldsOf(ValidateAxes({.axes = {Lin(0, 1, kMaxPoints), Lin(0, 1, 2)}})), ElementsAre("axes"));
-  // 2^64 would wrap to 0, 2^66 to 0 too.
+  // A product of 2^64 would wrap to 0, and so would 2^66.
   const Axis huge = Lin(0, 1, int64_t{1} << 32);
   EXPECT_THAT(FieldsOf(ValidateAxes({.axes = {huge, huge}})), ElementsAre("axes"));
   const Axis large = Lin(0, 1, int64_t{1} << 22);

@@ -1,4 +1,4 @@
-// Sweeps as they are computed: the same bits whatever the range and the chunks, bad points kept apart, stops honoured.
+// SweepRun: points have the same bits whatever the range and the chunks, bad points are kept apart, stops are honoured.
 
 #include "core/sweep/sweep_run.h"
 
@@ -42,7 +42,7 @@ SweepRequest MakeRequest(std::vector<Axis> axes, std::vector<std::string> column
   return {.grid = {.scene = BaseScene(), .axes = std::move(axes)}, .columns = std::move(columns)};
 }
 
-// Every regime, bad points and inadmissible ones: 60 x 51 points, more than three blocks.
+// Returns a sweep with every regime, bad points and inadmissible ones: 60 x 51 points, less than three blocks.
 SweepRequest MixedRequest() {
   std::vector<double> frictions = {-0.02};
   while (frictions.size() < 60) frictions.push_back(0.01 * static_cast<double>(frictions.size() - 1));
@@ -55,7 +55,7 @@ SweepRequest MixedRequest() {
 
 bool Never() { return false; }
 
-// All points of a run, point after point.
+// Points holds every point of a run in index order.
 struct Points {
   std::vector<std::vector<double>> values;
   std::vector<Regime> regimes;
@@ -91,7 +91,7 @@ bool SameBits(const std::vector<double>& x, const std::vector<double>& y) {
   });
 }
 
-// The scene of point `index`, set by hand.
+// Sets the scene of point `index` by hand.
 Scene SceneAt(const SweepRequest& request, int64_t index) {
   Scene scene = request.grid.scene;
   std::vector<int64_t> positions(request.grid.axes.size());
@@ -227,7 +227,7 @@ TEST(SweepRunTest, PointsAfterABadOneAreAsIfItWereNotThere) {
 TEST(SweepRunTest, ARequestedOutputThatOverflowsMakesItsPointInvalid) {
   SweepRequest request = MakeRequest({List("pendulum.inertia_kg_m2", {2.0, 1e308})}, {"energy_change_j"});
   EXPECT_THAT(RunAll(request).regimes, ElementsAre(Regime::kRebound, Regime::kInvalid));
-  request.columns = {"coefficients.newton"};  // The same point is fine where the energy is not asked for.
+  request.columns = {"coefficients.newton"};  // The point is valid if its energy is not asked for.
   EXPECT_THAT(RunAll(request).regimes, ElementsAre(Regime::kRebound, Regime::kRebound));
 }
 
@@ -262,7 +262,8 @@ TEST(SweepRunTest, TheSummaryTalliesEveryRegimeAndInadmissiblePoints) {
   EXPECT_GT(expected.inadmissible.count, 0);
 }
 
-// From x = 3e-6 to x = 0.9: at 1e-3 the plan goes from the frictionless impact by first order to the closed form.
+// The axis goes from x = 3e-6 to x = 0.9. At a tolerance of 1e-3 the plan takes the frictionless impact first, then the
+// first order in x, then the closed form.
 TEST(SweepRunTest, EachRunOfPointsIsSolvedByTheModelOfItsPlanWithTheBitsOfSolve) {
   SweepRequest request = MakeRequest(
       {{"friction.kinetic_coefficient", Logspace{1e-6, 0.27, 500}}, List("pendulum.omega_minus_rad_s", {-3.0, -1.0})},
@@ -293,7 +294,7 @@ TEST(SweepRunTest, FirstIndicesOfASubRangeAreThoseOfTheGrid) {
   EXPECT_EQ(summary.by_regime[static_cast<size_t>(Regime::kInvalid)], (Tally{.count = 1, .first_index = 2}));
 }
 
-// Fig. 4 as a sweep: Newton over phi.
+// Figure 4 of the paper is a sweep of Newton's coefficient over phi.
 TEST(SweepRunTest, PhiSweepsTheAngleOfFigure4) {
   SweepRequest request = MakeRequest({Lin("pendulum.phi_rad", 0.2, 1.5, 14)});
   request.grid.scene.restitution = EnergeticCoefficient{1.0};

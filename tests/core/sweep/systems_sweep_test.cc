@@ -1,4 +1,4 @@
-// Sweeps over every system: the paths of their fields and of their outcomes, and the bits of Solve.
+// Sweeps over every system drive its fields by path, give its outcome by path, and have the bits of Solve.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,7 +27,7 @@ using testing::IsSupersetOf;
 using testing::Not;
 
 struct Points {
-  std::vector<std::vector<double>> values;  // By point, then by column.
+  std::vector<std::vector<double>> values;  // One vector a point, one number a column.
   std::vector<Regime> regimes;
 };
 
@@ -92,7 +92,7 @@ TEST(SystemsSweepTest, EveryFieldOfEverySystemCanBeDriven) {
   }
 }
 
-// Each number of each system driven across its rules, and across those that tie it to others.
+// The axis drives each number of each system across its own rules, and across those that tie it to others.
 TEST(SystemsSweepTest, APointIsInvalidExactlyWhereSolveRefusesItsScene) {
   const std::vector<double> values = {-2.0, -0.5, -0.0, 0.0, 0.25, 0.5, 0.75, 1.0, 1.5, 4.0};
   int valid = 0, invalid = 0;
@@ -165,7 +165,7 @@ TEST(SystemsSweepTest, DrivingTheSurfaceMakesItMove) {
   EXPECT_EQ(points.values[1][0], response->outcome.contact_velocity_after.tangential_m_s[0]);
 }
 
-// Not even the regime is known then, so it does not matter which column is asked for.
+// An overflow leaves not even the regime known, so the point is invalid whichever column is asked for.
 TEST(SystemsSweepTest, ACompliantPathThatOverflowsMakesItsPointInvalidAsSolveRefusesIt) {
   Scene scene = With(PlanarContact{2.0, -0.9, 1.5, -1.2e152, -0.85});
   scene.restitution = EnergeticCoefficient{0.15};
@@ -221,7 +221,7 @@ TEST(SystemsSweepTest, ARuleBetweenFieldsDoesNotExcuseANumberThatBreaksItsOwn) {
 TEST(SystemsSweepTest, WhatFollowsFromTheWholeContactIsAMatterOfEachPointWhateverAxisThereIs) {
   Scene scene = With(Pendulum{.inertia_kg_m2 = 1.0, .a_m = 1.0, .b_m = 0.5, .omega_minus_rad_s = -2.0});
   scene.friction.kinetic_coefficient = 0.1;
-  scene.restitution_by_speed = PowerLaw{.alpha = -1.0, .exponent = 1.0};  // Below 0 above 1 m/s.
+  scene.restitution_by_speed = PowerLaw{.alpha = -1.0, .exponent = 1.0};  // The coefficient is negative above 1 m/s.
   EXPECT_FALSE(FailureOf({.grid = {.scene = scene}, .columns = {"energy_change_j"}}).ok());
   const Axis angle = {"pendulum.phi_rad", ListValues{{1.0, 0.25}}};  // a = R sin phi
   const Points points = RunAll({.grid = {.scene = scene, .axes = {angle}}, .columns = {"energy_change_j"}});
