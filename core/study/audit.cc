@@ -530,7 +530,7 @@ absl::StatusOr<AuditReport> Audit(const spatial::Problem& in, const Observation&
                                   absl::FunctionRef<bool()> stopped) {
   const Contact<3> contact = MakeContact(in, observation);
   PathPoint start = PathAt(in, 0.0);
-  start.w_rank = SpatialDelassus{{in.w11, in.w12, in.w13, in.w22, in.w23, in.w33}}.Rank();
+  start.w_rank = in.Delassus().Rank();
   if (start.w_rank == 3) return AuditFullRank(in, contact, start);
   return AuditSpatialDeficient(in, contact, start, stopped);
 }
