@@ -32,18 +32,10 @@ Bounds PendulumBounds(const Scene& scene) {
   return bounds;
 }
 
-absl::StatusOr<Bounds> ReducedBounds(const PlanarReduction& reduction, const EffectiveCoefficients& effective) {
-  const planar::ContactBounds contact = planar::SolveBounds(planar::MakeProblem(reduction, {}, effective));
-  return Bounds{.regime = contact.regime,
-                .sharp = contact.sharp,
-                .energy_only = contact.energy_only,
-                .nearly_vertical = std::nullopt,
-                .critical = contact.critical};
-}
-
-void Include(double value, Range& range) {
-  range.lower = std::min(range.lower, value);
-  range.upper = std::max(range.upper, value);
+// Widens the range to the value of impact `i`; the first one alone makes the range.
+void Include(int i, double value, Range& range) {
+  range.lower = i == 0 ? value : std::min(range.lower, value);
+  range.upper = i == 0 ? value : std::max(range.upper, value);
 }
 
 absl::Status NotEnded() {
@@ -51,40 +43,34 @@ absl::Status NotEnded() {
                    "bounds.sharp: an impact of its sample has not ended within the steps that the model has");
 }
 
-absl::StatusOr<Bounds> ReducedBounds(const SpatialReduction& reduction, const EffectiveCoefficients& effective) {
+absl::StatusOr<Bounds> SampledBounds(const SpatialReduction& reduction, const EffectiveCoefficients& effective,
+                                     absl::FunctionRef<bool()> stopped) {
   spatial::Problem problem =
       spatial::MakeProblem(reduction, EnergeticCoefficient{}, effective, spatial::kStudyTolerance);
-  problem.coefficient = 0.0;
-  const spatial::Impact dead = spatial::Solve(problem);
-  if (!dead.converged) return NotEnded();
   Bounds bounds;
   bounds.sampled = true;
-  bounds.regime = dead.regime;
   CoefficientBounds& sharp = bounds.sharp;
-  sharp = {.newton = {dead.newton, dead.newton},
-           .poisson = {dead.poisson, dead.poisson},
-           .energetic = {dead.energetic, dead.energetic},
-           .tangential = {dead.tangential, dead.tangential},
-           .normal_total_n_s = {dead.tau1, dead.tau1}};
-  for (int i = 1; i < kSpatialImpacts; ++i) {
+  for (int i = 0; i < kSpatialImpacts; ++i) {
+    if (stopped()) return absl::CancelledError("the bounds were stopped by their caller");
     problem.coefficient = static_cast<double>(i) / (kSpatialImpacts - 1);
     const spatial::Impact impact = spatial::Solve(problem);
     if (!impact.converged) return NotEnded();
     bounds.regime = impact.regime;
-    Include(impact.newton, sharp.newton);
-    Include(impact.poisson, sharp.poisson);
-    Include(impact.energetic, sharp.energetic);
-    Include(impact.tangential, sharp.tangential);
-    Include(impact.tau1, sharp.normal_total_n_s);
+    Include(i, impact.newton, sharp.newton);
+    Include(i, impact.poisson, sharp.poisson);
+    Include(i, impact.energetic, sharp.energetic);
+    Include(i, impact.tangential, sharp.tangential);
+    Include(i, impact.tau1, sharp.normal_total_n_s);
   }
   return bounds;
 }
 
-absl::StatusOr<Bounds> ReducedBounds(const Scene& scene) {
+absl::StatusOr<Bounds> ReducedBounds(const Scene& scene, absl::FunctionRef<bool()> stopped) {
   const AnyReduction any = Reduce(scene);
   if (!FitsDoubles(any)) return ContactOverflow();
   const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
-  return std::visit([&](const auto& reduction) { return ReducedBounds(reduction, effective); }, any);
+  if (const auto* spatial = std::get_if<SpatialReduction>(&any)) return SampledBounds(*spatial, effective, stopped);
+  return planar::SolveBounds(planar::MakeProblem(std::get<PlanarReduction>(any), {}, effective));
 }
 
 absl::Status CheckFinite(const CoefficientBounds& bounds, const std::string& path) {
@@ -111,8 +97,8 @@ absl::Status CheckFinite(const Bounds& bounds) {
 
 }  // namespace
 
-absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene) {
-  const absl::StatusOr<Bounds> bounds = HasClosedForm(scene) ? PendulumBounds(scene) : ReducedBounds(scene);
+absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene, absl::FunctionRef<bool()> stopped) {
+  const absl::StatusOr<Bounds> bounds = HasClosedForm(scene) ? PendulumBounds(scene) : ReducedBounds(scene, stopped);
   if (!bounds.ok()) return bounds;
   const absl::Status finite = CheckFinite(*bounds);
   if (!finite.ok()) return finite;

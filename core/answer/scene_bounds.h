@@ -1,18 +1,18 @@
 // SolveSceneBounds: the bounds of any scene.
 //
-//   a pendulum over a surface at rest   closed form                           core/bounds/pendulum_bounds.h
-//   any other planar system             ends of the path's restitution        core/bounds/contact_bounds.h
-//   a system in space                   a sample of impacts, Bounds::sampled
+//   a pendulum over a surface at rest   closed form                              core/bounds/pendulum_bounds.h
+//   any other planar system             plastic and elastic end of the path      core/bounds/contact_bounds.h
+//   a system in space                   hull of a sample of kSpatialImpacts impacts, Bounds::sampled
 //
-// In space the path does not depend on restitution either, but slip that turns can press the bodies together again, and
-// friction's share of the impulse may turn anywhere on the way: nothing proves that the ends are the extremes. What is
-// answered is the hull of kSpatialImpacts impacts, the energetic coefficient at equal steps from 0 to 1, each solved to
-// spatial::kStudyTolerance: it lies within the true range, to that tolerance. There are no bounds by energy alone and
-// no critical coefficients.
+// The sample's energetic coefficients lie at equal steps from 0 to 1, and each impact is solved to
+// spatial::kStudyTolerance. Its hull lies within the true range, to that tolerance; docs/theory/bounds.md says why no more
+// is known in space, and why there are no bounds by energy alone and no critical coefficients.
+// Units are those of ricochet/bounds.h.
 
 #ifndef RICOCHET_CORE_ANSWER_SCENE_BOUNDS_H_
 #define RICOCHET_CORE_ANSWER_SCENE_BOUNDS_H_
 
+#include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
 #include "ricochet/bounds.h"
 #include "ricochet/scene.h"
@@ -21,10 +21,10 @@ namespace ricochet {
 
 inline constexpr int kSpatialImpacts = 65;
 
-// `scene` is valid, its restitution set or not, and has no impact law.
-// Errors: OUT_OF_RANGE if W, the contact velocity or a bound, which is named, exceeds the largest double, or W_nn is
-// below the smallest, or where an impact of a sample does not end.
-absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene);
+// `scene` is valid, its restitution set or not, and has no impact law. `stopped` is asked before each impact of a sample.
+// Errors: OUT_OF_RANGE if W, the contact velocity or a bound, which is named, exceeds the largest double, if W_nn is
+// below the smallest, or if an impact of a sample does not end; CANCELLED once `stopped` says true.
+absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene, absl::FunctionRef<bool()> stopped);
 
 }  // namespace ricochet
 

@@ -6,18 +6,18 @@
 #include <string>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "core/answer/planar_outcome.h"
 #include "core/bounds/enclosure.h"
+#include "core/contact/delassus.h"
 #include "core/contact/effective.h"
 #include "core/contact/interval_reduction.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
-#include "core/problem/scene_problem.h"
 #include "core/scene/check.h"
 #include "core/scene/field.h"
 
@@ -28,78 +28,112 @@ constexpr char kPhi[] = "pendulum.phi_rad";
 
 // ---- The paths of ranges ----
 
-// Why a field that an axis may drive has no range; null if it may have one.
+constexpr char kNotImpulsive[] = "bounds are those of the impulsive impact, which does not know it";
+
+// Fields that an axis may drive but that have no range, by the start of their paths, and why.
+struct FieldsWithoutRange {
+  const char* prefix;
+  const char* why;
+};
+constexpr FieldsWithoutRange kWithoutRange[] = {
+    {"compliance.", kNotImpulsive},
+    {"gravity.", kNotImpulsive},
+    {"pin_moment.", kNotImpulsive},
+    {"contact_acceleration.", kNotImpulsive},
+    {"restitution.", "bounds hold for every coefficient of restitution"},
+    {"friction.by_speed.", "an enclosure takes friction.by_speed as it stands"},
+};
+
+// Says why a field that an axis may drive has no range; null if it may have one.
 const char* WhyNoRange(const Scene& scene, const std::string& path) {
-  for (const char* effect : {"compliance.", "gravity.", "pin_moment.", "contact_acceleration."}) {
-    if (absl::StartsWith(path, effect)) return "bounds are those of the impulsive impact, which does not know it";
+  for (const FieldsWithoutRange& fields : kWithoutRange) {
+    if (absl::StartsWith(path, fields.prefix)) return fields.why;
   }
-  if (absl::StartsWith(path, "restitution.")) return "bounds hold for every coefficient of restitution";
-  if (absl::StartsWith(path, "friction.by_speed.")) return "an enclosure takes friction.by_speed as it stands";
   if (absl::StartsWith(path, "surface_velocity.") && IsOfRankOne(scene.system)) {
     return "with the surface in motion next to no velocity would be in the range of W, whose rank is one";
   }
   return nullptr;
 }
 
-std::vector<std::string> RangePaths(const Scene& scene) {
-  std::vector<std::string> paths = FieldPaths(scene);
-  const auto has_none = [&](const std::string& path) { return WhyNoRange(scene, path) != nullptr; };
-  paths.erase(std::remove_if(paths.begin(), paths.end(), has_none), paths.end());
-  return paths;
-}
+// Checks the ranges of one scene, of which it keeps a single copy for all of them to drive.
+class RangeCheck {
+ public:
+  RangeCheck(const Scene& scene, absl::Span<const FieldRange> ranges, Check& check)
+      : scene_(scene), ranges_(ranges), paths_(FieldPaths(scene)), driven_(scene), check_(check) {}
 
-void CheckEnds(const Scene& scene, int index, const FieldRange& range, Check& check) {
-  Scene with_field = scene;
-  if (!ResolveField(range.path, with_field).ok()) return;
-  const auto check_ends = [&](NumberRule rule) {
-    check.Number(NumberPath{"ranges", index, "low"}, range.low, rule);
-    check.Number(NumberPath{"ranges", index, "high"}, range.high, rule);
-  };
-  if (range.path == kPhi) check_ends(NumberRule::kFinite);
-  VisitNumbers(with_field, [&](const NumberPath& path, double& /*number*/, NumberRule rule) {
-    if (path.Text() == range.path) check_ends(rule);
-  });
-  check.Require(!(range.low > range.high), [&] {
-    return MakeViolation(absl::StrCat("ranges[", index, "].high"), range.high,
-                         absl::StrCat("be >= low = ", ShortestDecimal(range.low)));
-  });
-}
-
-// The fields that a range drives.
-std::vector<std::string> Drives(const Scene& scene, const FieldRange& range) {
-  Scene copy = scene;
-  const absl::StatusOr<Field> field = ResolveField(range.path, copy);
-  return field.ok() ? field->sets() : std::vector<std::string>{range.path};
-}
-
-bool Overlap(const std::vector<std::string>& x, const std::vector<std::string>& y) {
-  return std::any_of(x.begin(), x.end(),
-                     [&](const std::string& path) { return std::find(y.begin(), y.end(), path) != y.end(); });
-}
-
-void CheckPath(const Scene& scene, absl::Span<const FieldRange> ranges, size_t index, Check& check) {
-  const std::string& path = ranges[index].path;
-  const std::string field = absl::StrCat("ranges[", index, "].path");
-  const std::string found = absl::StrCat("= \"", absl::CEscape(path), "\": must ");
-  const std::vector<std::string> all = FieldPaths(scene);
-  const bool is_field = std::find(all.begin(), all.end(), path) != all.end();
-  const char* const why_none = is_field ? WhyNoRange(scene, path) : nullptr;
-  check.Require(why_none == nullptr, [&] {
-    return Violation{field, absl::StrCat("= \"", path, "\": must not have a range: ", why_none)};
-  });
-  check.Require(is_field, [&] {
-    return Violation{field, absl::StrCat(found, "be one of ", absl::StrJoin(RangePaths(scene), ", "))};
-  });
-  for (size_t i = 0; i < index; ++i) {
-    if (!Overlap(Drives(scene, ranges[i]), Drives(scene, ranges[index]))) continue;
-    check.Require(false, [&] {
-      return Violation{field, path == ranges[i].path
-                                  ? absl::StrCat(found, "not be that of ranges[", i, "] too")
-                                  : absl::StrCat(found, "not drive what ranges[", i, "] drives, ", ranges[i].path)};
-    });
-    return;
+  // Checks range after range, each against those before it.
+  void CheckNext() {
+    const int index = static_cast<int>(drives_.size());
+    const FieldRange& range = ranges_[drives_.size()];
+    const absl::StatusOr<Field> field = ResolveField(range.path, driven_);
+    drives_.push_back(field.ok() ? field->sets() : std::vector<std::string>{range.path});
+    CheckPath(index, range.path);
+    if (field.ok()) CheckEnds(index, range);
   }
-}
+
+ private:
+  static std::string PathOf(int index) { return absl::StrCat("ranges[", index, "].path"); }
+
+  std::string PathsWithRange() const {
+    std::vector<std::string> paths;
+    for (const std::string& path : paths_) {
+      if (WhyNoRange(scene_, path) == nullptr) paths.push_back(path);
+    }
+    return absl::StrJoin(paths, ", ");
+  }
+
+  void CheckPath(int index, const std::string& path) {
+    const std::string found = absl::StrCat("= \"", absl::CEscape(path), "\": must ");
+    const bool is_field = std::find(paths_.begin(), paths_.end(), path) != paths_.end();
+    const char* const why_none = is_field ? WhyNoRange(scene_, path) : nullptr;
+    check_.Require(why_none == nullptr, [&] {
+      return Violation{PathOf(index), absl::StrCat(found, "not have a range: ", why_none)};
+    });
+    check_.Require(is_field, [&] {
+      return Violation{PathOf(index), absl::StrCat(found, "be one of ", PathsWithRange())};
+    });
+    const std::optional<int> other = FirstThatDrivesTheSame(index);
+    check_.Require(!other.has_value(), [&] {
+      const std::string& other_path = ranges_[static_cast<size_t>(*other)].path;
+      return Violation{PathOf(index),
+                       path == other_path
+                           ? absl::StrCat(found, "not be that of ranges[", *other, "] too")
+                           : absl::StrCat(found, "not drive what ranges[", *other, "] drives, ", other_path)};
+    });
+  }
+
+  std::optional<int> FirstThatDrivesTheSame(int index) const {
+    const std::vector<std::string>& own = drives_.back();
+    for (int other = 0; other < index; ++other) {
+      for (const std::string& path : drives_[static_cast<size_t>(other)]) {
+        if (std::find(own.begin(), own.end(), path) != own.end()) return other;
+      }
+    }
+    return std::nullopt;
+  }
+
+  void CheckEnds(int index, const FieldRange& range) {
+    const auto check_ends = [&](NumberRule rule) {
+      check_.Number(NumberPath{"ranges", index, "low"}, range.low, rule);
+      check_.Number(NumberPath{"ranges", index, "high"}, range.high, rule);
+    };
+    if (range.path == kPhi) check_ends(NumberRule::kFinite);
+    VisitNumbers(driven_, [&](const NumberPath& path, double& /*number*/, NumberRule rule) {
+      if (path.Text() == range.path) check_ends(rule);
+    });
+    check_.Require(!(range.low > range.high), [&] {
+      return MakeViolation(absl::StrCat("ranges[", index, "].high"), range.high,
+                           absl::StrCat("be >= low = ", ShortestDecimal(range.low)));
+    });
+  }
+
+  const Scene& scene_;
+  const absl::Span<const FieldRange> ranges_;
+  const std::vector<std::string> paths_;          // The paths of every field that an axis may drive.
+  Scene driven_;                                  // The scene with every optional field that a range drives.
+  std::vector<std::vector<std::string>> drives_;  // The fields that each range so far drives.
+  Check& check_;
+};
 
 bool IsPlanar(const System& system) {
   const auto* const pair = std::get_if<BodyPair>(&system);
@@ -110,7 +144,7 @@ bool IsPlanar(const System& system) {
 
 // ---- The box ----
 
-// A scene with its ranges as numbers in intervals.
+// A scene whose ranges are intervals.
 class UncertainScene {
  public:
   UncertainScene(const Scene& scene, absl::Span<const FieldRange> ranges) : box_{scene, scene, std::nullopt} {
@@ -120,7 +154,7 @@ class UncertainScene {
     }
     Set(whole_);
   }
-  // Holds pointers into itself.
+  // It holds pointers into itself, so it cannot be copied.
   UncertainScene(const UncertainScene&) = delete;
   UncertainScene& operator=(const UncertainScene&) = delete;
 
@@ -149,18 +183,19 @@ class UncertainScene {
 
   SceneBox box_;
   std::vector<Interval> whole_;
-  std::vector<Ends> ends_;  // Unset for phi.
+  std::vector<Ends> ends_;  // An entry is unset for phi.
 };
 
 // ---- Friction ----
 
-// Both at the approach speed of the scenes, the factor enclosed over all of it.
+// The coefficients of friction, with the factor for speed enclosed over all approach speeds of the scenes.
 struct FrictionForm {
   SlopeForm kinetic;
-  std::optional<SlopeForm> fixed;  // Static friction; unset where it follows kinetic: it would not be the same scene's.
+  // Unset if static friction equals kinetic friction, because two forms would not know that they are of one scene.
+  std::optional<SlopeForm> static_of_its_own;
 };
 
-// `approach` is -v0; what separates does not matter.
+// `approach` is -v0. Scenes that separate do not matter.
 FrictionForm FrictionAt(const SceneBox& box, const SlopeForm& approach, SlopeParameters& parameters) {
   const Friction& low = box.low.friction;
   const Friction& high = box.high.friction;
@@ -169,9 +204,10 @@ FrictionForm FrictionAt(const SceneBox& box, const SlopeForm& approach, SlopePar
   const SlopeForm factor = FactorAt(low.by_speed, speed);
   FrictionForm friction = {
       .kinetic = factor * SlopeForm::Parameter({low.kinetic_coefficient, high.kinetic_coefficient}, parameters),
-      .fixed = std::nullopt};
+      .static_of_its_own = std::nullopt};
   if (low.static_coefficient.has_value()) {
-    friction.fixed = factor * SlopeForm::Parameter({*low.static_coefficient, *high.static_coefficient}, parameters);
+    friction.static_of_its_own =
+        factor * SlopeForm::Parameter({*low.static_coefficient, *high.static_coefficient}, parameters);
   }
   return friction;
 }
@@ -188,7 +224,7 @@ ContactBox WithFriction(const SceneBox& box, const IntervalPendulum& pendulum, S
                          .mu = AtLeast(friction.kinetic.range(), 0.0),
                          .mu_static = std::nullopt,
                          .slope = pendulum.slope};
-  if (friction.fixed.has_value()) contact.mu_static = AtLeast(friction.fixed->range(), 0.0);
+  if (friction.static_of_its_own.has_value()) contact.mu_static = AtLeast(friction.static_of_its_own->range(), 0.0);
   return contact;
 }
 
@@ -200,7 +236,7 @@ ContactBox WithFriction(const SceneBox& box, const ContactForm& contact, SlopePa
                     .u0 = contact.u0,
                     .v0 = contact.v0,
                     .mu = friction.kinetic,
-                    .mu_static = friction.fixed,
+                    .mu_static = friction.static_of_its_own,
                     .stick_slope = contact.stick_slope};
 }
 
@@ -210,22 +246,33 @@ ContactBox ContactOf(const SceneBox& box, SlopeParameters& parameters) {
                     Reduce(box, parameters));
 }
 
-// Whether its corners tell everything: a pendulum whose own numbers and friction's have ranges.
+// Tells whether the corners of the box are enough: the case of a pendulum whose own numbers and friction have ranges.
 bool IsSolvedAtCorners(const SceneBox& box) {
   return std::holds_alternative<Pendulum>(box.low.system) && !box.phi.has_value() &&
          !box.low.friction.by_speed.has_value();
 }
 
-// Whether the W of every scene has rank one though those of its kind do not.
-bool HasRankOneThroughout(const Scene& scene, absl::Span<const FieldRange> ranges) {
-  if (IsOfRankOne(scene.system)) return false;
-  const bool moves_w = std::any_of(ranges.begin(), ranges.end(), [](const FieldRange& range) {
-    return range.low < range.high &&
-           (absl::StartsWith(range.path, "planar_contact.w_") || absl::EndsWith(range.path, ".theta_rad"));
-  });
-  if (moves_w) return false;
-  const planar::Problem problem = planar::MakeProblem(std::get<PlanarReduction>(Reduce(scene)), {}, {});
-  return planar::Solve(problem).w_rank == 1;
+// Tells whether the box holds systems whose W may have another rank than the scene's. Masses, lengths and inertias do
+// not change the rank of a linkage; a body's W has rank two.
+bool RankMayVary(const SceneBox& box) {
+  if (const auto* low = std::get_if<PlanarContact>(&box.low.system)) {
+    const auto& high = std::get<PlanarContact>(box.high.system);
+    return low->w_tt_per_kg < high.w_tt_per_kg || low->w_tn_per_kg < high.w_tn_per_kg ||
+           low->w_nn_per_kg < high.w_nn_per_kg;
+  }
+  if (const auto* low = std::get_if<Linkage>(&box.low.system)) {
+    const auto& high = std::get<Linkage>(box.high.system);
+    return !std::equal(low->links.begin(), low->links.end(), high.links.begin(),
+                       [](const Link& x, const Link& y) { return x.theta_rad == y.theta_rad; });
+  }
+  return false;
+}
+
+// Tells whether the W of every scene has rank one though other systems of its kind have rank two.
+bool HasRankOneThroughout(const Scene& scene, const SceneBox& box) {
+  if (IsOfRankOne(scene.system) || RankMayVary(box)) return false;
+  const PlanarReduction reduction = std::get<PlanarReduction>(Reduce(scene));
+  return PlanarDelassus{.tt = reduction.w[0], .tn = reduction.w[1], .nn = reduction.w[2]}.Rank() < 2;
 }
 
 absl::Status RankOneThroughout(const System& system) {
@@ -248,17 +295,15 @@ std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRan
     return Violation{"surface_velocity", "is set: must not be, with ranges, for a system whose W has rank one"};
   });
   if (check.failed()) return std::move(check).violations();
-  for (size_t i = 0; i < ranges.size(); ++i) {
-    CheckPath(scene, ranges, i, check);
-    CheckEnds(scene, static_cast<int>(i), ranges[i], check);
-  }
+  RangeCheck range_check(scene, ranges, check);
+  for (size_t i = 0; i < ranges.size(); ++i) range_check.CheckNext();
   return std::move(check).violations();
 }
 
 absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const FieldRange> ranges,
                                        absl::FunctionRef<bool()> stopped) {
-  if (HasRankOneThroughout(scene, ranges)) return RankOneThroughout(scene.system);
   UncertainScene uncertain(scene, ranges);
+  if (HasRankOneThroughout(scene, uncertain.box())) return RankOneThroughout(scene.system);
   SlopeParameters parameters;
   const auto contact_in = [&](absl::Span<const Interval> values) {
     uncertain.Set(values);

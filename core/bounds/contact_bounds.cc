@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
+#include "core/contact/critical_friction.h"
 #include "core/models/restitution_law.h"
 
 namespace ricochet::planar {
@@ -15,7 +15,7 @@ Impact SolveAt(Problem problem, RestitutionLaw law, double coefficient) {
   return Solve(problem);
 }
 
-// The largest double not above `bound`, but for a few, that Solve accepts as admissible.
+// Returns the largest double, or one a few doubles below it, that is <= `bound` and that Solve accepts as admissible.
 double LargestAdmissible(const Problem& problem, RestitutionLaw law, double bound) {
   for (double step = 0x1p-53; SolveAt(problem, law, bound).sharp_limit_broken; step *= 2.0) {
     bound = std::nextafter(bound - step * bound, 0.0);
@@ -23,19 +23,20 @@ double LargestAdmissible(const Problem& problem, RestitutionLaw law, double boun
   return bound;
 }
 
-CoefficientBounds SharpBounds(const Problem& problem, const Impact& dead, const Impact& elastic) {
+CoefficientBounds SharpBounds(const Problem& problem, const Impact& plastic, const Impact& elastic) {
   CoefficientBounds bounds;
   if (elastic.regime != Regime::kLocked) {
     bounds.newton.upper = LargestAdmissible(problem, RestitutionLaw::kNewton, elastic.newton);
     bounds.poisson.upper = LargestAdmissible(problem, RestitutionLaw::kPoisson, elastic.poisson);
     bounds.energetic.upper = 1.0;
   }
-  bounds.tangential = {std::min(dead.tangential, elastic.tangential), std::max(dead.tangential, elastic.tangential)};
-  bounds.normal_total_n_s = {dead.tau1, elastic.tau1};
+  bounds.tangential = {std::min(plastic.tangential, elastic.tangential),
+                       std::max(plastic.tangential, elastic.tangential)};
+  bounds.normal_total_n_s = {plastic.tau1, elastic.tau1};
   return bounds;
 }
 
-// d(u, v, f)/dtau, and the slope of E'.
+// d(u, v, f)/dtau, and in `power` the slope of E'.
 struct Slopes {
   double u, v, f, power;
 };
@@ -46,11 +47,11 @@ Slopes SlopesAt(const Problem& problem, int w_rank, double f) {
   const double square_error = std::fma(problem.wtn, problem.wtn, -square);
   const double det = w_rank == 1 ? 0.0 : std::fma(problem.wtt, problem.wnn, -square) - square_error;
   const double u = w_rank == 1 ? v * problem.wtn / problem.wnn : std::fma(f, problem.wtt, problem.wtn);
-  // (f, 1) W (f, 1)^T by its square completed: no cancellation.
+  // (f, 1) W (f, 1)^T with its square completed, so that nothing cancels.
   return {.u = u, .v = v, .f = f, .power = (v * v + f * f * det) / problem.wnn};
 }
 
-// After slip has stopped.
+// The slopes after slip has stopped.
 Slopes SlopesAfterStop(const Problem& problem, int w_rank) {
   const bool sticks = w_rank == 2 && std::fabs(problem.wtn) <= problem.mu_static * problem.wtt;
   if (!sticks) return SlopesAt(problem, w_rank, -std::copysign(problem.mu, problem.wtn));
@@ -60,11 +61,11 @@ Slopes SlopesAfterStop(const Problem& problem, int w_rank) {
   return slopes;
 }
 
-// The contact on its way to where it has the energy that it came with.
-struct Traveller {
+// Follows the path to the point at which the contact has the energy that it came with.
+struct EnergyWalk {
   double tau, f, u, v;
-  double energy;  // E - E-, <= 0.
-  double work;    // Normal work of restitution.
+  double energy;  // E - E- <= 0, J
+  double work;    // The normal work of restitution, J
 
   void Advance(const Slopes& slopes, double step) {
     const double v_new = v + slopes.v * step;
@@ -76,7 +77,7 @@ struct Traveller {
     v = v_new;
   }
 
-  // How far along `slopes` the energy is back.
+  // Returns the step along `slopes` after which `energy` is 0.
   double StepToZero(const Slopes& slopes) const {
     const double power = slopes.f * u + v;
     const double root = std::sqrt(power * power - 2.0 * energy * slopes.power);
@@ -89,14 +90,14 @@ bool HasStopped(const Impact& impact) {
                      [](const Instant& instant) { return instant.kind == EventKind::kSlipStops; });
 }
 
-// Where the energy is back, from the end of the elastic impact on.
-Traveller WhereEnergyIsBack(const Problem& problem, const Impact& elastic) {
-  Traveller at = {.tau = elastic.tau1,
-                  .f = elastic.f1,
-                  .u = elastic.u1,
-                  .v = elastic.v1,
-                  .energy = std::min(elastic.energy_change, 0.0),
-                  .work = elastic.work_normal_restitution};
+// Walks from the end of the elastic impact to the point at which the energy is back.
+EnergyWalk WhereEnergyIsBack(const Problem& problem, const Impact& elastic) {
+  EnergyWalk at = {.tau = elastic.tau1,
+                   .f = elastic.f1,
+                   .u = elastic.u1,
+                   .v = elastic.v1,
+                   .energy = std::min(elastic.energy_change, 0.0),
+                   .work = elastic.work_normal_restitution};
   Slopes slopes;
   if (problem.wtt == 0.0) {
     slopes = SlopesAt(problem, elastic.w_rank, 0.0);
@@ -115,46 +116,25 @@ Traveller WhereEnergyIsBack(const Problem& problem, const Impact& elastic) {
   return at;
 }
 
-CoefficientBounds EnergyOnlyBounds(const Problem& problem, const Impact& dead, const Impact& elastic) {
-  const Traveller end = WhereEnergyIsBack(problem, elastic);
+CoefficientBounds EnergyOnlyBounds(const Problem& problem, const Impact& plastic, const Impact& elastic) {
+  const EnergyWalk end = WhereEnergyIsBack(problem, elastic);
   CoefficientBounds bounds;
   const double tangential = end.f / end.tau;
   bounds.newton.upper = end.v / -problem.v0;
-  bounds.poisson.upper = (end.tau - dead.tau1) / dead.tau1;
+  bounds.poisson.upper = (end.tau - plastic.tau1) / plastic.tau1;
   bounds.energetic.upper = std::sqrt(end.work / -elastic.work_normal_compression);
-  bounds.tangential = {std::min(dead.tangential, tangential), std::max(dead.tangential, tangential)};
-  bounds.normal_total_n_s = {dead.tau1, end.tau};
+  bounds.tangential = {std::min(plastic.tangential, tangential), std::max(plastic.tangential, tangential)};
+  bounds.normal_total_n_s = {plastic.tau1, end.tau};
   return bounds;
 }
 
-// n/d as a least coefficient of friction, which is not below 0; absent if d is not above 0.
-std::optional<double> LeastFriction(double n, double d) {
-  if (!(d > 0.0)) return std::nullopt;
-  return std::max(n / d, 0.0);
-}
-
-CriticalFriction FindCriticalFriction(const Problem& problem, int w_rank) {
-  const double p = std::fabs(problem.u0);
-  const double w = -problem.v0;
-  const double q = std::signbit(problem.u0) ? -problem.wtn : problem.wtn;
-  CriticalFriction critical;
-  if (problem.wtt == 0.0) return critical;
-  critical.stick = std::fabs(problem.wtn) / problem.wtt;
-  if (problem.u0 == 0.0) return critical;
-  // At rank one slip stops just where compression ends, and what is left of these differences is rounding.
-  if (w_rank == 2) {
-    critical.stop_compression = LeastFriction(problem.wnn * p + w * q, w * problem.wtt + q * p);
-  }
-  critical.stop = LeastFriction(problem.wnn * p + 2.0 * w * q, 2.0 * w * problem.wtt + q * p);
-  if (q < 0.0 && critical.stop.has_value() && *critical.stop < *critical.stick) critical.reversal = critical.stop;
-  if (q > 0.0) critical.jam = problem.wnn / q;
-  return critical;
-}
-
-// An infinite coefficient of friction is none.
-CriticalFriction OnlyFinite(CriticalFriction critical) {
+CriticalFriction Critical(const Problem& problem, int w_rank) {
+  const auto is_positive = [](double x) { return x > 0.0; };
+  auto critical = FindCriticalFriction<CriticalFriction>(problem.wtt, problem.wtn, problem.wnn, problem.u0, problem.v0,
+                                                         w_rank == 2, is_positive);
   for (auto* const one :
        {&critical.stick, &critical.stop_compression, &critical.stop, &critical.reversal, &critical.jam}) {
+    // No friction is infinite.
     if (one->has_value() && !std::isfinite(**one)) one->reset();
   }
   return critical;
@@ -162,16 +142,16 @@ CriticalFriction OnlyFinite(CriticalFriction critical) {
 
 }  // namespace
 
-ContactBounds SolveBounds(const Problem& problem) {
-  const Impact dead = SolveAt(problem, RestitutionLaw::kEnergetic, 0.0);
+Bounds SolveBounds(const Problem& problem) {
+  const Impact plastic = SolveAt(problem, RestitutionLaw::kEnergetic, 0.0);
   const Impact elastic = SolveAt(problem, RestitutionLaw::kEnergetic, 1.0);
-  ContactBounds bounds;
+  Bounds bounds;
   bounds.regime = elastic.regime;
-  bounds.w_rank = elastic.w_rank;
+  bounds.energy_only = CoefficientBounds();
   if (bounds.regime == Regime::kSeparating) return bounds;
-  bounds.critical = OnlyFinite(FindCriticalFriction(problem, bounds.w_rank));
-  bounds.sharp = SharpBounds(problem, dead, elastic);
-  bounds.energy_only = bounds.regime == Regime::kLocked ? bounds.sharp : EnergyOnlyBounds(problem, dead, elastic);
+  bounds.critical = Critical(problem, elastic.w_rank);
+  bounds.sharp = SharpBounds(problem, plastic, elastic);
+  bounds.energy_only = bounds.regime == Regime::kLocked ? bounds.sharp : EnergyOnlyBounds(problem, plastic, elastic);
   return bounds;
 }
 

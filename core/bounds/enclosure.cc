@@ -19,7 +19,7 @@ using Box = std::vector<Interval>;
 
 Range ToRange(const Interval& x) { return {x.lower, x.upper}; }
 
-// By how much `outer` is wider than `attained`, relative to the latter. A few ulp are rounding.
+// Returns by how much `outer` is wider than `attained`, relative to the latter. A few ulp count as rounding.
 double ExcessOf(const Range& outer, const Range& attained) {
   const double excess = std::max(attained.lower - outer.lower, 0.0) + std::max(outer.upper - attained.upper, 0.0);
   if (outer.lower > outer.upper) return 0.0;
@@ -35,7 +35,7 @@ double ExcessOf(const CoefficientBounds& outer, const CoefficientBounds& attaine
                    ExcessOf(outer.normal_total_n_s, attained.normal_total_n_s)});
 }
 
-// Leaves out what no valid scene has: static friction below kinetic.
+// Leaves out scenes whose static friction is below kinetic friction, because they are not valid.
 void KeepValidFriction(Interval& mu, std::optional<Interval>& mu_static) {
   if (!mu_static) return;
   mu = AtMost(mu, mu_static->upper);
@@ -44,14 +44,14 @@ void KeepValidFriction(Interval& mu, std::optional<Interval>& mu_static) {
 
 // ---- Branch and bound ----
 
-// An end of a range that depends on the scene, as something to be made as large as possible.
+// An end of a range that depends on the scene. The search makes each as large as possible.
 enum class Goal { kNewton, kPoisson, kTangentialLow, kTangentialHigh, kNormalLow, kNormalHigh };
 constexpr std::array kGoals = {Goal::kNewton,         Goal::kPoisson,   Goal::kTangentialLow,
                                Goal::kTangentialHigh, Goal::kNormalLow, Goal::kNormalHigh};
 
 size_t Index(Goal goal) { return static_cast<size_t>(goal); }
 
-// The range of the goal over the scenes that `ends` are for.
+// Returns the range of the goal over the scenes that `ends` describe.
 Interval RangeOf(const PlanarEnds& ends, Goal goal) {
   const auto larger = [](const Interval& x, const Interval& y) {
     return Interval(std::max(x.lower, y.lower), std::max(x.upper, y.upper));
@@ -62,11 +62,11 @@ Interval RangeOf(const PlanarEnds& ends, Goal goal) {
     case Goal::kPoisson:
       return ends.poisson;
     case Goal::kTangentialLow:
-      return larger(-ends.tangential_dead, -ends.tangential_elastic);
+      return larger(-ends.tangential_plastic, -ends.tangential_elastic);
     case Goal::kTangentialHigh:
-      return larger(ends.tangential_dead, ends.tangential_elastic);
+      return larger(ends.tangential_plastic, ends.tangential_elastic);
     case Goal::kNormalLow:
-      return -ends.normal_dead;
+      return -ends.normal_plastic;
     case Goal::kNormalHigh:
       return ends.normal_elastic;
   }
@@ -74,11 +74,11 @@ Interval RangeOf(const PlanarEnds& ends, Goal goal) {
 }
 
 bool Reaches(const PlanarEnds& ends, Goal goal) {
-  return !IsEmpty(goal == Goal::kNormalLow || goal == Goal::kNormalHigh ? ends.normal_dead : ends.newton);
+  return !IsEmpty(goal == Goal::kNormalLow || goal == Goal::kNormalHigh ? ends.normal_plastic : ends.newton);
 }
 
 struct Part {
-  double bound;  // The goal is nowhere in it larger.
+  double bound;  // The goal is nowhere larger in this part.
   Box box;
   friend bool operator<(const Part& x, const Part& y) { return x.bound < y.bound; }
 };
@@ -94,22 +94,22 @@ class BranchAndBound {
   Enclosure Run() {
     const PlanarEnds ends = Evaluate(whole_);
     energetic_ = ends.energetic;
-    if (!IsEmpty(ends.normal_dead) && IsEmpty(ends.newton)) return {.boxes = boxes_};  // All separate.
+    if (!IsEmpty(ends.normal_plastic) && IsEmpty(ends.newton)) return {.boxes = boxes_};  // All scenes separate.
     AttainAtCorners(0, whole_);
     AttainAt(CentreOf(whole_));
     for (const Goal goal : kGoals) {
       if (Reaches(ends, goal)) parts_[Index(goal)].push({RangeOf(ends, goal).upper, whole_});
     }
     UpdateBounds();
-    const int64_t cost = 2 * static_cast<int64_t>(whole_.size()) + 2;  // Of a split.
-    while (boxes_ + cost <= options_.budget && !IsStopped()) {
+    const int64_t boxes_of_split = 2 * static_cast<int64_t>(whole_.size()) + 2;
+    while (boxes_ + boxes_of_split <= options_.budget && !IsStopped()) {
       const std::optional<Goal> goal = WorstGoal();
       if (!goal) break;
       if (!Split(*goal)) given_up_[Index(*goal)] = true;
       UpdateBounds();
     }
     Enclosure enclosure = {.outer = ToBounds(bounds_), .attained = ToBounds(attained_), .boxes = boxes_};
-    // All scenes reach one value, known to rounding.
+    // If no values are attained, all scenes reach one value, which is known to rounding.
     Range& tangential = enclosure.attained.tangential;
     if (tangential.lower > tangential.upper && !std::isinf(tangential.lower)) tangential = enclosure.outer.tangential;
     enclosure.excess = ExcessOf(enclosure.outer, enclosure.attained);
@@ -118,9 +118,10 @@ class BranchAndBound {
 
  private:
   using Values = std::array<double, kGoals.size()>;
-  // What helps most at once may help little in the end: no part gets thinner than this, relative to its longest side.
+  // The cut that helps most at once may help little in the end, so no part gets thinner than this, relative to its
+  // longest side.
   static constexpr double kThinnest = 0x1p-3;
-  static constexpr size_t kMostCorners = 10;  // Dimensions whose every corner is tried.
+  static constexpr size_t kCornerDimensions = 10;  // The dimensions of which every corner is tried.
 
   PlanarEnds Evaluate(const Box& box) {
     ++boxes_;
@@ -128,9 +129,7 @@ class BranchAndBound {
   }
 
   bool IsStopped() {
-    if (is_stopped_ || boxes_ < asked_at_ + kBoxesUnasked) return is_stopped_;
-    asked_at_ = boxes_;
-    is_stopped_ = stopped_();
+    is_stopped_ = is_stopped_ || stopped_();
     return is_stopped_;
   }
 
@@ -139,7 +138,7 @@ class BranchAndBound {
     return box;
   }
 
-  // Raises what is attained to what the scene at `point` reaches for certain.
+  // Raises the attained values to those that the scene at `point` reaches for certain.
   void AttainAt(const Box& point) {
     if (boxes_ >= options_.budget || IsStopped()) return;
     const PlanarEnds ends = Evaluate(point);
@@ -150,7 +149,7 @@ class BranchAndBound {
   }
 
   void AttainAtCorners(size_t dimension, Box box) {
-    if (dimension == box.size() || dimension == kMostCorners) return AttainAt(CentreOf(std::move(box)));
+    if (dimension == box.size() || dimension == kCornerDimensions) return AttainAt(CentreOf(std::move(box)));
     const Interval range = box[dimension];
     box[dimension] = range.lower;
     AttainAtCorners(dimension + 1, box);
@@ -166,8 +165,8 @@ class BranchAndBound {
     }
   }
 
-  // The goal whose bound is too far above what is attained, and farthest of those. An infinite bound may be the truth:
-  // it comes last.
+  // Returns the goal whose bound lies farthest above the attained value, among those for which that is too far. An
+  // infinite bound may be the truth, so it comes last.
   std::optional<Goal> WorstGoal() const {
     const CoefficientBounds reached = ToBounds(attained_);
     std::optional<Goal> worst;
@@ -183,7 +182,7 @@ class BranchAndBound {
     return worst;
   }
 
-  // The tolerance on a range's width, shared by its ends if both depend on the scene.
+  // Returns the tolerance on a range's width, which its ends share if both depend on the scene.
   double AllowedGap(const CoefficientBounds& reached, Goal goal, double bound) const {
     const auto width = [](const Range& range) { return std::max(range.upper - range.lower, 0.0); };
     const double rounding = std::isinf(bound) ? 0.0 : 0x1p-42 * std::fabs(bound);
@@ -207,7 +206,7 @@ class BranchAndBound {
     return std::max(options_.tolerance * share, rounding);
   }
 
-  // Of the whole box's length along dimension i.
+  // Returns the length of `box` along dimension i as a share of the whole box's.
   double ShareOf(const Box& box, size_t i) const {
     return IsPoint(whole_[i]) ? 0.0 : (box[i].upper - box[i].lower) / (whole_[i].upper - whole_[i].lower);
   }
@@ -218,7 +217,7 @@ class BranchAndBound {
     return longest;
   }
 
-  // Replaces the goal's worst part by two halves of it; false if it is a point.
+  // Replaces the goal's worst part by two halves of it. Returns false if that part is a point, or once stopped.
   bool Split(Goal goal) {
     std::priority_queue<Part>& parts = parts_[Index(goal)];
     const Part worst = parts.top();
@@ -230,11 +229,12 @@ class BranchAndBound {
       const double middle = Midpoint(worst.box[i]);
       if (middle == worst.box[i].lower || middle == worst.box[i].upper) continue;
       if (ShareOf(worst.box, i) < kThinnest * longest) continue;
+      if (IsStopped()) return false;
       std::array<Part, 2> halves = {Half(goal, worst, i, {worst.box[i].lower, middle}),
                                     Half(goal, worst, i, {middle, worst.box[i].upper})};
       const double high = std::max(halves[0].bound, halves[1].bound);
       const double low = std::min(halves[0].bound, halves[1].bound);
-      // Where no cut helps, the longest side.
+      // If no cut helps, the longest side is cut.
       const std::pair<double, double> score = {high, high < worst.bound ? low : -ShareOf(worst.box, i)};
       if (any && !(score < best_score)) continue;
       any = true;
@@ -274,13 +274,12 @@ class BranchAndBound {
   const ToBox to_box_;
   const EnclosureOptions options_;
   const Stopped stopped_;
-  std::array<std::priority_queue<Part>, kGoals.size()> parts_;  // What may still exceed what is attained.
-  std::array<bool, kGoals.size()> given_up_ = {};               // The worst part is a point.
+  std::array<std::priority_queue<Part>, kGoals.size()> parts_;  // The parts that may exceed the attained value.
+  std::array<bool, kGoals.size()> given_up_ = {};               // The goal's worst part is a point.
   Values attained_;
   Values bounds_;
   Interval energetic_;
   int64_t boxes_ = 0;
-  int64_t asked_at_ = 0;
   bool is_stopped_ = false;
 };
 
@@ -306,12 +305,12 @@ Pendulums MakePendulums(const PendulumBox& box) {
   return all;
 }
 
-// The scenes that slip: x = mu |b|/a < mu/mu_s. `most` encloses the largest x, `mu` the largest friction.
-struct Slipping {
-  Interval most, mu;
+// The largest values of the scenes that slip, for which x = mu |b|/a < mu/mu_s.
+struct MostSlipping {
+  Interval x, mu;
 };
 
-Slipping MostSlip(const Pendulums& all) {
+MostSlipping MostSlip(const Pendulums& all) {
   const Interval slope = all.arm / all.a;
   // mu |b| < a
   const Interval free = slope.lower > 0.0 ? Interval(1.0) / Interval(slope.lower) : Interval(kInfinity);
@@ -324,38 +323,38 @@ Slipping MostSlip(const Pendulums& all) {
   return {most, mu};
 }
 
-// An upper bound of J |w-| (1/(a + q) + 1/sqrt((a - q)(a + q))), convex in q.
-double MostNormalImpulse(const Pendulums& all, const Slipping& slipping) {
+// Returns an upper bound of J |w-| (1/(a + q) + 1/sqrt((a - q)(a + q))), which is convex in q.
+double MostNormalImpulse(const Pendulums& all, const MostSlipping& slipping) {
   const Interval a(all.a.lower);
   const auto at = [&](const Interval& q) {
     const Interval sum = a + q;
     return (Interval(1.0) / sum + Interval(1.0) / Sqrt(AtLeast(a - q, 0.0) * sum)).upper;
   };
   const Interval least = Interval(all.mu.lower) * Interval(all.arm.lower);
-  const Interval most = all.may_lock ? slipping.most * a : Interval(slipping.mu.upper) * Interval(all.arm.upper);
+  const Interval most = all.may_lock ? slipping.x * a : Interval(slipping.mu.upper) * Interval(all.arm.upper);
   const double h = std::max(at(Interval(std::min(least.upper, most.upper))), at(most));
   return (Interval(all.inertia.upper) * Interval(all.speed.upper) * Interval(h)).upper;
 }
 
-// The bounds of the scenes that slip, for b > 0.
+// Returns the bounds of the scenes that slip, for b > 0.
 CoefficientBounds BoundsOfSlip(const Pendulums& all) {
   const Interval one(1.0);
-  const Slipping slipping = MostSlip(all);
+  const MostSlipping slipping = MostSlip(all);
   const Interval least_q = Interval(all.mu.lower) * Interval(all.arm.lower);
   const Interval a_high(all.a.upper);
   const Interval a_low(all.a.lower);
-  const Interval most_q = all.may_lock ? slipping.most * a_low : slipping.mu * Interval(all.arm.upper);
+  const Interval most_q = all.may_lock ? slipping.x * a_low : slipping.mu * Interval(all.arm.upper);
   const Interval cosine = Sqrt(AtLeast((a_low - most_q) * (a_low + most_q), 0.0)) / a_low;
   CoefficientBounds bounds;
   bounds.newton.upper = Sqrt(AtLeast((a_high - least_q) / (a_high + least_q), 0.0)).upper;
   bounds.poisson.upper = Sqrt((a_low + most_q) / AtLeast(a_low - most_q, 0.0)).upper;
   bounds.energetic.upper = 1.0;
-  bounds.tangential = {-(slipping.mu * slipping.most / (one + cosine)).upper, all.mu.upper};
+  bounds.tangential = {-(slipping.mu * slipping.x / (one + cosine)).upper, all.mu.upper};
   bounds.normal_total_n_s = {0.0, MostNormalImpulse(all, slipping)};
   return bounds;
 }
 
-// mu_hat of scenes on either side of the pin, given that of b > 0.
+// Returns the range of mu_hat for contacts on either side of the pin, given the range for b > 0.
 Range OnBothSides(const Range& right, const Interval& b) {
   Interval sides = kNothing;
   if (b.upper > 0.0) sides = Hull(sides, {right.lower, right.upper});
@@ -366,17 +365,17 @@ Range OnBothSides(const Range& right, const Interval& b) {
 
 CoefficientBounds OuterBounds(const PendulumBox& box) {
   const Pendulums all = MakePendulums(box);
-  const Interval dead = all.inertia * all.speed / (all.a + all.mu * all.arm);
+  const Interval plastic = all.inertia * all.speed / (all.a + all.mu * all.arm);
   CoefficientBounds outer;
   outer.tangential = {all.mu.lower, all.mu.upper};
-  outer.normal_total_n_s = {dead.lower, dead.upper};
+  outer.normal_total_n_s = {plastic.lower, plastic.upper};
   if (all.may_slip) {
     const CoefficientBounds slip = BoundsOfSlip(all);
     outer.newton = slip.newton;
     outer.poisson = slip.poisson;
     outer.energetic = slip.energetic;
     outer.tangential.lower = slip.tangential.lower;
-    outer.normal_total_n_s.upper = std::max(dead.upper, slip.normal_total_n_s.upper);
+    outer.normal_total_n_s.upper = std::max(plastic.upper, slip.normal_total_n_s.upper);
   }
   outer.tangential = OnBothSides(outer.tangential, box.b);
   if (box.omega_minus.upper >= 0.0) outer.normal_total_n_s.lower = 0.0;
@@ -448,22 +447,6 @@ Enclosure Enclose(const PendulumBox& whole) {
 
 Enclosure Enclose(absl::Span<const Interval> ranges, ToBox to_box, const EnclosureOptions& options, Stopped stopped) {
   return BranchAndBound(ranges, to_box, options, stopped).Run();
-}
-
-Enclosure Enclose(const PlanarBox& whole, const EnclosureOptions& options) {
-  PlanarBox box = whole;
-  KeepValidFriction(box.mu, box.mu_static);
-  std::vector<Interval> ranges = {box.wtt, box.wtn, box.wnn, box.u0, box.v0, box.mu};
-  if (box.mu_static) ranges.push_back(*box.mu_static);
-  SlopeParameters parameters;
-  const auto to_box = [&](absl::Span<const Interval> x) -> std::variant<PlanarForm, PendulumBox> {
-    parameters = SlopeParameters();
-    const auto at = [&](size_t i) { return SlopeForm::Parameter(x[i], parameters); };
-    PlanarForm part = {.wtt = at(0), .wtn = at(1), .wnn = at(2), .u0 = at(3), .v0 = at(4), .mu = at(5)};
-    if (x.size() > 6) part.mu_static = at(6);
-    return part;
-  };
-  return Enclose(ranges, to_box, options, [] { return false; });
 }
 
 }  // namespace ricochet

@@ -9,13 +9,13 @@
 namespace ricochet::pendulum {
 namespace {
 
-// An error bound that also covers the rounding of the value it belongs to, and its own.
+// Widens an error bound so that it also covers the rounding of the value it belongs to, and its own.
 double Enclosing(const Wide& error, const Wide& value) {
   constexpr double kUlp = std::numeric_limits<double>::epsilon();
   const Wide size = IsNegative(value) ? -value : value;
   const Wide padded = error * Wide::Exactly(1.0 + 4.0 * kUlp) + size * Wide::Exactly(8.0 * kUlp);
   const double bound = Rounded(padded);
-  // Below the normal doubles an ulp is no fraction of the value.
+  // An ulp of a subnormal double is no fixed fraction of the value.
   const bool subnormal = IsPositive(padded) && bound < std::numeric_limits<double>::min();
   return subnormal ? bound + 2.0 * std::numeric_limits<double>::denorm_min() : bound;
 }
@@ -28,7 +28,7 @@ NearlyVertical SolveNearlyVertical(const Problem& problem, bool with_coefficient
   const Wide one_minus_x = geometry.d / geometry.a;
   const Wide one_plus_x = geometry.s / geometry.a;
   const Wide tau0 = problem.omega_minus >= 0.0 ? Wide() : geometry.inertia * -geometry.omega / geometry.s;
-  const Wide mu = geometry.mu;  // Carries the sign of b.
+  const Wide mu = geometry.mu;  // It carries the sign of b.
   const double mu_size = std::fabs(Rounded(mu));
   const Wide half = Wide::Exactly(0.5);
   const Wide square = x * x;

@@ -12,15 +12,16 @@ Interval Tighter(const Interval& x, const SlopeForm& form) {
   return IsEmpty(both) ? x : both;
 }
 
-// A contact that slips towards +t at first, everything seen along that way, with the slopes of core/bounds/enclosure.h.
+// A contact whose slip starts in one direction. Tangential numbers are stated along that direction; docs/theory/bounds.md
+// has the slopes.
 struct Slipping {
   SlopeForm wtt, q, wnn, slip, speed, mu;
   SlopeForm first;    // A1
   SlopeForm braking;  // B
 };
 
-// How slip goes on once it has stopped.
-struct Afterwards {
+// The path after slip has stopped.
+struct AfterStop {
   SlopeForm second;  // A2
   SlopeForm drag;    // -f'
 };
@@ -41,15 +42,15 @@ std::optional<Slipping> MakeSlipping(const PlanarForm& form) {
                   .braking = form.mu * form.wtt - q};
 }
 
-// Unset where some scenes stick and others do not, or where W comes near to rank one.
-std::optional<Afterwards> AfterStop(const PlanarForm& form, const Slipping& slipping) {
+// Returns nothing if some scenes stick and others do not, or if W comes near to rank one.
+std::optional<AfterStop> FindAfterStop(const PlanarForm& form, const Slipping& slipping) {
   const SlopeForm hold = form.mu_static.value_or(form.mu) * form.wtt;
   const SlopeForm stick_slope = form.stick_slope.value_or(form.wnn - Square(form.wtn) / form.wtt);
-  std::optional<Afterwards> after;
+  std::optional<AfterStop> after;
   if ((hold - slipping.q).range().lower >= 0.0 && (hold + slipping.q).range().lower >= 0.0) {
-    after = Afterwards{stick_slope, slipping.q / slipping.wtt};
+    after = AfterStop{stick_slope, slipping.q / slipping.wtt};
   } else if ((hold + slipping.q).range().upper < 0.0) {
-    after = Afterwards{slipping.wnn + slipping.mu * slipping.q, -slipping.mu};
+    after = AfterStop{slipping.wnn + slipping.mu * slipping.q, -slipping.mu};
   }
   const bool is_full_rank = stick_slope.range().lower > 0.0;
   if (!after.has_value() || !is_full_rank || after->second.range().lower <= 0.0) return std::nullopt;
@@ -57,26 +58,26 @@ std::optional<Afterwards> AfterStop(const PlanarForm& form, const Slipping& slip
 }
 
 struct Forms {
-  SlopeForm newton, poisson, dead, elastic, drag_dead, drag_elastic;
+  SlopeForm newton, poisson, plastic, elastic, drag_plastic, drag_elastic;
 };
 
 Forms Sliding(const Slipping& slipping) {
   const SlopeForm compression = slipping.speed / slipping.first;
   return {.newton = kOne,
           .poisson = kOne,
-          .dead = compression,
+          .plastic = compression,
           .elastic = compression + compression,
-          .drag_dead = slipping.mu,
+          .drag_plastic = slipping.mu,
           .drag_elastic = slipping.mu};
 }
 
-// The mean of -f' over an impulse of which slip takes `share`.
-SlopeForm Blend(const Slipping& slipping, const Afterwards& after, const SlopeForm& share) {
+// Returns the mean of -f' over an impulse of which slip takes the share `share`.
+SlopeForm Blend(const Slipping& slipping, const AfterStop& after, const SlopeForm& share) {
   return after.drag + share * (slipping.mu - after.drag);
 }
 
-Forms StopInRestitution(const Slipping& slipping, const Afterwards& after, const SlopeForm& reach) {
-  const SlopeForm sigma = Within(reach - kOne, {0.0, 1.0});
+Forms StopInRestitution(const Slipping& slipping, const AfterStop& after, const SlopeForm& stop_ratio) {
+  const SlopeForm sigma = Within(stop_ratio - kOne, {0.0, 1.0});
   const SlopeForm rho = after.second / slipping.first;
   const SlopeForm square = Square(sigma);
   const SlopeForm newton = Sqrt(square + rho * (kOne - square));
@@ -84,41 +85,41 @@ Forms StopInRestitution(const Slipping& slipping, const Afterwards& after, const
   const SlopeForm compression = slipping.speed / slipping.first;
   return {.newton = newton,
           .poisson = poisson,
-          .dead = compression,
+          .plastic = compression,
           .elastic = compression * (kOne + poisson),
-          .drag_dead = slipping.mu,
+          .drag_plastic = slipping.mu,
           .drag_elastic = Blend(slipping, after, (sigma + newton) / (kOne + newton))};
 }
 
-Forms StopInCompression(const Slipping& slipping, const Afterwards& after, const SlopeForm& ratio,
-                        const SlopeForm& reach) {
-  const SlopeForm m = Within(kOne - reach, {0.0, rounding::kInfinity});
+Forms StopInCompression(const Slipping& slipping, const AfterStop& after, const SlopeForm& ratio,
+                        const SlopeForm& stop_ratio) {
+  const SlopeForm m = Within(kOne - stop_ratio, {0.0, rounding::kInfinity});
   const SlopeForm h = after.second * ratio / slipping.braking;
-  const SlopeForm rest = h + m;
+  const SlopeForm compression_end = h + m;  // A2 tau_c/w
   const SlopeForm newton = Sqrt(h * (kOne + m) + Square(m));
-  const SlopeForm poisson = newton / rest;
+  const SlopeForm poisson = newton / compression_end;
   const SlopeForm scale = slipping.speed / after.second;
   return {.newton = newton,
           .poisson = poisson,
-          .dead = scale * rest,
-          .elastic = scale * (rest + newton),
-          .drag_dead = Blend(slipping, after, h / rest),
-          .drag_elastic = Blend(slipping, after, h / (rest + newton))};
+          .plastic = scale * compression_end,
+          .elastic = scale * (compression_end + newton),
+          .drag_plastic = Blend(slipping, after, h / compression_end),
+          .drag_elastic = Blend(slipping, after, h / (compression_end + newton))};
 }
 
-// Unset where the scenes of the box may go different ways.
+// Returns nothing if the scenes of the box may go different ways.
 std::optional<Forms> FormsOf(const PlanarForm& form, const Slipping& slipping) {
   const bool never_jams = slipping.first.range().lower > 0.0;
   if (slipping.braking.range().upper <= 0.0 && never_jams) return Sliding(slipping);
   if (slipping.braking.range().lower <= 0.0) return std::nullopt;
   const SlopeForm ratio = slipping.slip / slipping.speed;
-  const SlopeForm reach = slipping.first / slipping.braking * ratio;  // 1 + sigma
-  if (reach.range().lower >= 2.0) return Sliding(slipping);
-  const std::optional<Afterwards> after = AfterStop(form, slipping);
+  const SlopeForm stop_ratio = slipping.first / slipping.braking * ratio;  // 1 + sigma
+  if (stop_ratio.range().lower >= 2.0) return Sliding(slipping);
+  const std::optional<AfterStop> after = FindAfterStop(form, slipping);
   if (!after.has_value()) return std::nullopt;
-  if (reach.range().upper <= 1.0) return StopInCompression(slipping, *after, ratio, reach);
-  if (reach.range().lower < 1.0 || reach.range().upper > 2.0 || !never_jams) return std::nullopt;
-  return StopInRestitution(slipping, *after, reach);
+  if (stop_ratio.range().upper <= 1.0) return StopInCompression(slipping, *after, ratio, stop_ratio);
+  if (stop_ratio.range().lower < 1.0 || stop_ratio.range().upper > 2.0 || !never_jams) return std::nullopt;
+  return StopInRestitution(slipping, *after, stop_ratio);
 }
 
 PlanarBox RangesOf(const PlanarForm& form) {
@@ -145,9 +146,9 @@ PlanarEnds EncloseEnds(const PlanarForm& form) {
   const auto along = [&](const SlopeForm& drag) { return backwards ? drag : -drag; };
   ends.newton = Tighter(ends.newton, forms->newton);
   ends.poisson = Tighter(ends.poisson, forms->poisson);
-  ends.normal_dead = Tighter(ends.normal_dead, forms->dead);
+  ends.normal_plastic = Tighter(ends.normal_plastic, forms->plastic);
   ends.normal_elastic = Tighter(ends.normal_elastic, forms->elastic);
-  ends.tangential_dead = Tighter(ends.tangential_dead, along(forms->drag_dead));
+  ends.tangential_plastic = Tighter(ends.tangential_plastic, along(forms->drag_plastic));
   ends.tangential_elastic = Tighter(ends.tangential_elastic, along(forms->drag_elastic));
   return ends;
 }

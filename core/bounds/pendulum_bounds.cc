@@ -8,10 +8,10 @@
 namespace ricochet::pendulum {
 namespace {
 
-// The largest double not above `bound` that Solve accepts as admissible.
+// Returns the largest double <= `bound` that Solve accepts as admissible.
 double LargestAdmissible(Problem problem, RestitutionLaw law, double bound) {
   problem.law = law;
-  // Whether a coefficient is admissible does not depend on how fast the pendulum comes in.
+  // The rate of the pendulum does not matter to whether a coefficient is admissible.
   problem.omega_minus = -1.0;
   problem.coefficient = bound;
   while (Solve(problem).sharp_limit_broken) {
@@ -20,7 +20,7 @@ double LargestAdmissible(Problem problem, RestitutionLaw law, double bound) {
   return problem.coefficient;
 }
 
-// [lower, upper] of mu_hat for b > 0, mirrored for b < 0.
+// The range [lower, upper] of mu_hat is stated for b > 0; it is mirrored for b < 0.
 Range Signed(double lower, double upper, double b) {
   if (b < 0.0) return {0.0 - upper, 0.0 - lower};
   return {lower, upper};
@@ -62,8 +62,8 @@ CoefficientBounds EnergyOnlyBounds(const Problem& problem, const WideSolution& x
   return bounds;
 }
 
-// The planar formulas (core/bounds/contact_bounds.h) at rank one: slip stops where compression ends, by any friction, and
-// reverses unless the contact locks.
+// Because W has rank one, any friction stops slip exactly where compression ends, and slip then reverses unless the
+// contact locks.
 CriticalFriction FindCriticalFriction(const Problem& problem) {
   const double lock = problem.a / std::fabs(problem.b);
   CriticalFriction critical;

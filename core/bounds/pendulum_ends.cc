@@ -5,13 +5,13 @@
 namespace ricochet {
 namespace {
 
-// The hull of a function's values at both ends, for a function that is monotone.
+// Returns the hull of a monotone function's values, which it takes at both ends.
 template <typename Function>
 Interval AtEnds(const Interval& x, Function function) {
   return Hull(function(Interval(x.lower)), function(Interval(x.upper)));
 }
 
-// mu_hat, that of a contact ahead of the pin (b/a > 0) or behind it.
+// Gives mu_hat the sign of b/a; `ahead` is its range for a contact ahead of the pin, b/a > 0.
 Interval OnItsSide(const Interval& ahead, const Interval& slope) {
   Interval sides = kNothing;
   if (slope.upper > 0.0) sides = Hull(sides, ahead);
@@ -20,7 +20,7 @@ Interval OnItsSide(const Interval& ahead, const Interval& slope) {
   return sides;
 }
 
-// |w-| of the scenes that approach.
+// Returns |w-| for the scenes that approach.
 Interval ApproachRate(const PendulumBox& box) {
   if (box.a.lower >= 0.0) return AtLeast(-box.omega_minus, 0.0);
   if (box.a.upper <= 0.0) return AtLeast(box.omega_minus, 0.0);
@@ -33,7 +33,7 @@ PlanarEnds EncloseEnds(const PendulumBox& box) {
   PlanarEnds ends;
   if (IsEmpty(box.a) || IsEmpty(box.mu) || (box.mu_static && box.mu_static->upper < box.mu.lower)) return ends;
   const Interval approach = -(box.a * box.omega_minus);
-  if (approach.lower <= 0.0) ends.normal_dead = ends.normal_elastic = 0.0;
+  if (approach.lower <= 0.0) ends.normal_plastic = ends.normal_elastic = 0.0;
   if (approach.upper <= 0.0) return ends;
 
   const Interval one(1.0);
@@ -44,18 +44,18 @@ PlanarEnds EncloseEnds(const PendulumBox& box) {
   const Interval q = box.mu * depth;
   const Interval slope = box.slope.value_or(box.b / box.a);
   const Interval steepness = Intersect(Abs(slope), AtLeast(depth / lever, 0.0));
-  const Interval dead = Intersect(momentum / (lever + q), momentum / (lever * (one + box.mu * steepness)));
+  const Interval plastic = Intersect(momentum / (lever + q), momentum / (lever * (one + box.mu * steepness)));
   const Interval hold = mu_static * steepness - one;
-  ends.tangential_dead = OnItsSide(box.mu, slope);
-  ends.normal_dead = Hull(ends.normal_dead, dead);
+  ends.tangential_plastic = OnItsSide(box.mu, slope);
+  ends.normal_plastic = Hull(ends.normal_plastic, plastic);
   if (hold.upper >= 0.0) {
     ends.newton = ends.poisson = ends.energetic = 0.0;
-    ends.tangential_elastic = ends.tangential_dead;
-    ends.normal_elastic = Hull(ends.normal_elastic, dead);
+    ends.tangential_elastic = ends.tangential_plastic;
+    ends.normal_elastic = Hull(ends.normal_elastic, plastic);
   }
   if (hold.lower >= 0.0) return ends;
 
-  // Of the scenes that slip: x = mu |b|/a < mu/mu_s <= 1.
+  // The rest is for the scenes that slip, which have x = mu |b|/a < mu/mu_s <= 1.
   Interval x = AtMost(AtLeast(box.mu * steepness, 0.0), 1.0);
   if (mu_static.lower > 0.0) x = AtMost(x, (box.mu / mu_static).upper);
   if (IsEmpty(x)) return ends;
@@ -68,7 +68,7 @@ PlanarEnds EncloseEnds(const PendulumBox& box) {
   ends.poisson = Hull(ends.poisson, poisson);
   ends.energetic = Hull(ends.energetic, 1.0);
   ends.tangential_elastic = Hull(ends.tangential_elastic, OnItsSide(box.mu * elastic, slope));
-  ends.normal_elastic = Hull(ends.normal_elastic, Intersect(dead * (one + poisson), dead + momentum / root));
+  ends.normal_elastic = Hull(ends.normal_elastic, Intersect(plastic * (one + poisson), plastic + momentum / root));
   return ends;
 }
 

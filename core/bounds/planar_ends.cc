@@ -4,23 +4,23 @@
 #include <cmath>
 #include <optional>
 
+#include "core/contact/delassus.h"
+
 namespace ricochet {
 namespace {
 
-// Products that rounding takes off rank one: core/models/planar/planar.h.
-constexpr double kRankTolerance = 0x1p-50;
-// How far from the range of a W of rank one rounding takes (u0, v0), relative to |u0| Wnn + |v0 Wtn|.
+// Rounding takes (u0, v0) so far from the range of a W of rank one, relative to |u0| Wnn + |v0 Wtn|.
 constexpr double kRangeTolerance = 0x1p-49;
 
 Interval Join(const Interval& x, const Interval& y) { return IsEmpty(x) ? y : IsEmpty(y) ? x : Hull(x, y); }
 
-// Two enclosures of the same: their members in common; rounding never parts them.
+// Returns the members that two enclosures of one number have in common; rounding never leaves them without any.
 Interval Both(const Interval& x, const Interval& y) {
   const Interval both = Intersect(x, y);
   return IsEmpty(both) ? x : both;
 }
 
-// The hull of a function's values at the ends of both arguments, for functions that are monotone in each.
+// Returns the hull of a function that is monotone in each argument, from its values at the ends of both.
 template <typename Function>
 Interval AtVertices(const Interval& x, const Interval& y, Function function) {
   Interval hull = function(Interval(x.lower), Interval(y.lower));
@@ -30,7 +30,7 @@ Interval AtVertices(const Interval& x, const Interval& y, Function function) {
   return IsPoint(y) ? hull : Hull(hull, function(Interval(x.upper), Interval(y.upper)));
 }
 
-// e of the elastic impact; grows with rho, and monotone in sigma^2.
+// Returns e of the elastic impact, which grows with rho and is monotone in sigma^2.
 Interval NewtonOf(const Interval& sigma_size, const Interval& rho) {
   const auto newton = [](const Interval& sigma, const Interval& r) {
     const Interval square = Square(sigma);
@@ -40,7 +40,7 @@ Interval NewtonOf(const Interval& sigma_size, const Interval& rho) {
   return {AtVertices(sigma_size, Interval(rho.lower), newton).lower, rounding::kInfinity};
 }
 
-// k where slip stops in restitution; falls with rho, to sigma at last, and monotone in sigma.
+// Returns k for slip that stops in restitution. k falls with rho, towards sigma, and is monotone in sigma.
 Interval PoissonInRestitution(const Interval& sigma, const Interval& rho) {
   const auto poisson = [](const Interval& s, const Interval& r) {
     const Interval e = NewtonOf(s, r);
@@ -50,8 +50,8 @@ Interval PoissonInRestitution(const Interval& sigma, const Interval& rho) {
   return {sigma.lower, AtVertices(sigma, Interval(rho.lower), poisson).upper};
 }
 
-// k where slip stops in compression; monotone in m, and in rho it grows up to m/(1 + m), where it is (1 + m)/(2
-// sqrt(m)), and falls after it, to 0 at last.
+// Returns k for slip that stops in compression. k is monotone in m. In rho it grows up to rho = m/(1 + m), where it is
+// (1 + m)/(2 sqrt(m)), and then falls towards 0.
 Interval PoissonInCompression(const Interval& m, const Interval& rho) {
   const Interval one(1.0);
   const auto poisson = [&](const Interval& x, const Interval& r) { return NewtonOf(x, r) / (r * (one - x) + x); };
@@ -65,13 +65,13 @@ Interval PoissonInCompression(const Interval& m, const Interval& rho) {
   return range;
 }
 
-// x/(x + y) for x, y >= 0.
+// Returns x/(x + y) for x, y >= 0.
 Interval Share(const Interval& x, const Interval& y) {
   if (x.upper == 0.0 && y.lower > 0.0) return 0.0;
   return AtMost(AtLeast(Interval(1.0) / (Interval(1.0) + AtLeast(y / x, 0.0)), 0.0), 1.0);
 }
 
-// tau_s/tau_e where slip stops in restitution: (sigma + e)/(1 + e) grows with both.
+// Returns tau_s/tau_e for slip that stops in restitution: (sigma + e)/(1 + e), which grows with sigma and with e.
 Interval ShareInRestitution(const Interval& sigma, const Interval& rho) {
   const auto share = [](const Interval& s, const Interval& r) {
     const Interval e = NewtonOf(s, r);
@@ -81,13 +81,14 @@ Interval ShareInRestitution(const Interval& sigma, const Interval& rho) {
   return {AtVertices(sigma, Interval(rho.lower), share).lower, 1.0};
 }
 
-// sqrt(h (1 + m) + m^2), e where slip stops in compression.
+// Returns e for slip that stops in compression: sqrt(h (1 + m) + m^2).
 Interval NewtonInCompression(const Interval& h, const Interval& m) { return Sqrt(h * (Interval(1.0) + m) + Square(m)); }
 
-// The scenes of a box in which slip first goes one way, u towards +t (`backwards` false) or -t, seen along that way.
-class OneWay {
+// The scenes of a box whose slip starts in one direction, towards +t or, if `backwards`, towards -t. Tangential numbers
+// are stated along that direction.
+class OneSlipDirection {
  public:
-  OneWay(const PlanarBox& box, bool backwards, PlanarEnds& ends)
+  OneSlipDirection(const PlanarBox& box, bool backwards, PlanarEnds& ends)
       : backwards_(backwards),
         wtt_(AtLeast(box.wtt, 0.0)),
         wnn_(AtLeast(box.wnn, 0.0)),
@@ -99,7 +100,7 @@ class OneWay {
         stick_slope_(box.stick_slope),
         ends_(ends) {}
 
-  // Wtn drives slip on, and the contact in: q >= 0.
+  // Adds scenes with q >= 0, in which Wtn drives slip on and the contact in.
   void AddDriving(const Interval& q) {
     if (wtt_.upper == 0.0) return AddSliding(wnn_);
     const Interval determinant = Determinant(q);
@@ -117,7 +118,7 @@ class OneWay {
     if (own_static_ && braking.lower <= 0.0) AddHeld(q, stuck);
   }
 
-  // Wtn brakes slip: q = -r <= 0.
+  // Adds scenes with q = -r <= 0, in which Wtn brakes slip.
   void AddOpposing(const Interval& r) {
     if (wtt_.upper == 0.0) return;
     const Interval determinant = Determinant(r);
@@ -132,7 +133,7 @@ class OneWay {
     if (braking.lower <= 0.0) AddSliding(first);
     if (hold.upper >= 0.0) AddStop({-r, first, braking, stuck, StuckRatio(-r, first, braking), true}, slip_);
     if (hold.lower < 0.0) {
-      // Where slip reverses, mu r < r^2/Wtt.
+      // Slip reverses only if mu r < r^2/Wtt.
       const Interval second = AtLeast(wnn_ - mu_ * r, stuck.lower);
       if (!IsEmpty(second)) AddStop({-r, first, braking, second, ReversedRatio(r), false}, slip_);
     }
@@ -144,7 +145,7 @@ class OneWay {
     Interval first;    // A1
     Interval braking;  // B, >= 0
     Interval second;   // A2, >= 0
-    Interval rho;      // A2/A1 where A1 > 0
+    Interval rho;      // A2/A1 for the scenes with A1 > 0
     bool sticks;
   };
 
@@ -155,13 +156,13 @@ class OneWay {
     return stick_slope_ ? Both(plain, wtt_ * *stick_slope_) : plain;
   }
 
-  // Wnn - q^2/Wtt
+  // Returns C = Wnn - q^2/Wtt, the slope of v while the contact sticks.
   Interval StuckSlope(const Interval& q) const {
     const Interval plain = AtMost(AtLeast(wnn_ - Square(q) / wtt_, 0.0), wnn_.upper);
     return stick_slope_ ? Both(plain, AtLeast(*stick_slope_, 0.0)) : plain;
   }
 
-  // A1/B, monotone in each of its four parameters: it grows with Wnn and, where A1 > 0, falls with Wtt.
+  // Returns A1/B, which is monotone in each of its four parameters. It grows with Wnn and, if A1 > 0, falls with Wtt.
   Interval FirstOverBraking(const Stop& stop) const {
     const Interval plain = stop.first / stop.braking;
     if (stop.first.lower <= 0.0 || stop.braking.lower <= 0.0) return plain;
@@ -173,7 +174,7 @@ class OneWay {
     return Both(plain, {corner(wnn_.lower, wtt_.upper).lower, corner(wnn_.upper, wtt_.lower).upper});
   }
 
-  // C/A1 = 1 + (q/Wtt)(B/A1)
+  // Returns C/A1 = 1 + (q/Wtt)(B/A1).
   Interval StuckRatio(const Interval& q, const Interval& first, const Interval& braking) const {
     const Interval slope = AtLeast(first, 0.0);
     if (IsEmpty(slope)) return {0.0, rounding::kInfinity};
@@ -182,7 +183,7 @@ class OneWay {
     return Both(plain, AtLeast(other, 0.0));
   }
 
-  // (1 - c)/(1 + c), c = mu r/Wnn < 1
+  // Returns (1 - c)/(1 + c) with c = mu r/Wnn < 1.
   Interval ReversedRatio(const Interval& r) const {
     const Interval c = AtMost(mu_ * r / wnn_, 1.0);
     const auto ratio = [](double end) { return (Interval(1.0) - Interval(end)) / (Interval(1.0) + Interval(end)); };
@@ -191,25 +192,26 @@ class OneWay {
 
   Interval Along(const Interval& x) const { return backwards_ ? -x : x; }
 
-  void Add(const Interval& newton, const Interval& poisson, double energetic, const Interval& tangential_dead,
-           const Interval& tangential_elastic, const Interval& normal_dead, const Interval& normal_elastic) {
+  void Add(const Interval& newton, const Interval& poisson, double energetic, const Interval& tangential_plastic,
+           const Interval& tangential_elastic, const Interval& normal_plastic, const Interval& normal_elastic) {
     ends_.newton = Join(ends_.newton, newton);
     ends_.poisson = Join(ends_.poisson, poisson);
     ends_.energetic = Join(ends_.energetic, energetic);
-    ends_.tangential_dead = Join(ends_.tangential_dead, Along(tangential_dead));
+    ends_.tangential_plastic = Join(ends_.tangential_plastic, Along(tangential_plastic));
     ends_.tangential_elastic = Join(ends_.tangential_elastic, Along(tangential_elastic));
-    ends_.normal_dead = Join(ends_.normal_dead, normal_dead);
+    ends_.normal_plastic = Join(ends_.normal_plastic, normal_plastic);
     ends_.normal_elastic = Join(ends_.normal_elastic, normal_elastic);
   }
 
-  // u0 = 0 and static friction holds what kinetic friction could not stop: mu Wtt <= q <= mu_s Wtt.
+  // Adds scenes with u0 = 0 in which static friction holds a slip that kinetic friction could not stop:
+  // mu Wtt <= q <= mu_s Wtt.
   void AddHeld(const Interval& q, const Interval& stuck) {
     if (slip_.lower > 0.0 || (mu_static_ * wtt_ - q).upper < 0.0) return;
     const Interval unknown(0.0, rounding::kInfinity);
     AddStop({q, unknown, unknown, stuck, unknown, true}, 0.0);
   }
 
-  // Slip does not stop.
+  // Adds scenes in which slip does not stop.
   void AddSliding(const Interval& slope) {
     if (IsEmpty(slope) || slope.upper <= 0.0) return;
     const Interval compression = speed_ / AtLeast(slope, 0.0);
@@ -219,7 +221,8 @@ class OneWay {
     Add(1.0, 1.0, 1.0, friction, friction, compression, Interval(2.0) * compression);
   }
 
-  // W of rank one is Wnn (g, 1)(g, 1)^T whatever Wtt says, and slip stops where compression ends.
+  // Adds scenes whose W has rank one. W then counts as Wnn (g, 1)(g, 1)^T whatever Wtt says, and slip stops where
+  // compression ends.
   void AddRankOne(const Interval& r) {
     const Interval tangential = slip_ * wnn_;
     const Interval normal = speed_ * r;
@@ -241,22 +244,22 @@ class OneWay {
   void AddStop(const Stop& stop, const Interval& slip) {
     const Interval ratio = AtLeast(slip / speed_, 0.0);
     const Interval over = FirstOverBraking(stop);
-    const Interval reach = over * ratio;  // 1 + sigma
-    // 1 + sigma = (A1/B)(p/w) says how large A1 is where slip stops late.
+    const Interval stop_ratio = over * ratio;  // 1 + sigma
+    // Slip that stops in restitution has 1 + sigma = (A1/B)(p/w) >= 1, so A1 >= B w/p.
     const Interval least = AtLeast(stop.braking / ratio, 0.0);
-    if (reach.upper >= 2.0) AddSliding(AtLeast(stop.first, (Interval(2.0) * least).lower));
-    if (reach.upper >= 1.0 && reach.lower <= 2.0) {
-      Stop late = stop;
-      late.first = AtLeast(stop.first, least.lower);
-      late.rho = Both(stop.rho, AtLeast(late.second / late.first, 0.0));
-      if (!IsEmpty(late.first)) AddStopInRestitution(late, Intersect(reach, {1.0, 2.0}));
+    if (stop_ratio.upper >= 2.0) AddSliding(AtLeast(stop.first, (Interval(2.0) * least).lower));
+    if (stop_ratio.upper >= 1.0 && stop_ratio.lower <= 2.0) {
+      Stop in_restitution = stop;
+      in_restitution.first = AtLeast(stop.first, least.lower);
+      in_restitution.rho = Both(stop.rho, AtLeast(in_restitution.second / in_restitution.first, 0.0));
+      if (!IsEmpty(in_restitution.first)) AddStopInRestitution(in_restitution, Intersect(stop_ratio, {1.0, 2.0}));
     }
-    if (reach.lower < 1.0) AddStopInCompression(stop, slip, ratio, AtMost(reach, 1.0));
+    if (stop_ratio.lower < 1.0) AddStopInCompression(stop, slip, ratio, AtMost(stop_ratio, 1.0));
   }
 
-  void AddStopInRestitution(const Stop& stop, const Interval& reach) {
+  void AddStopInRestitution(const Stop& stop, const Interval& stop_ratio) {
     const Interval one(1.0);
-    const Interval sigma = AtMost(AtLeast(reach - one, 0.0), 1.0);
+    const Interval sigma = AtMost(AtLeast(stop_ratio - one, 0.0), 1.0);
     const Interval compression = speed_ / stop.first;
     const Interval newton = NewtonOf(sigma, stop.rho);
     const Interval poisson = PoissonInRestitution(sigma, stop.rho);
@@ -264,24 +267,25 @@ class OneWay {
     Add(newton, poisson, 1.0, -mu_, Blend(stop, share), compression, (one + poisson) * compression);
   }
 
-  // h = A2 tau_s/w, m = -sigma; A2 tau_c/w = h + m and e^2 = h (1 + m) + m^2, whatever the sign of A1.
-  void AddStopInCompression(const Stop& stop, const Interval& slip, const Interval& ratio, const Interval& reach) {
+  // Adds scenes in which slip stops in compression. With h = A2 tau_s/w and m = -sigma, A2 tau_c/w = h + m and
+  // e^2 = h (1 + m) + m^2, whatever the sign of A1.
+  void AddStopInCompression(const Stop& stop, const Interval& slip, const Interval& ratio, const Interval& stop_ratio) {
     const Interval one(1.0);
-    const Interval m = AtLeast(one - reach, 0.0);
+    const Interval m = AtLeast(one - stop_ratio, 0.0);
     const bool never_jams = stop.first.lower > 0.0;
-    Interval stop_time = AtLeast(ratio / stop.braking, 0.0);  // tau_s/w
-    if (never_jams) stop_time = Both(stop_time, AtLeast(reach, 0.0) / stop.first);
-    Interval h = stop.second * stop_time;
+    Interval stop_impulse = AtLeast(ratio / stop.braking, 0.0);  // tau_s/w
+    if (never_jams) stop_impulse = Both(stop_impulse, AtLeast(stop_ratio, 0.0) / stop.first);
+    Interval h = stop.second * stop_impulse;
     if (never_jams) h = Both(h, stop.rho * AtLeast(one - m, 0.0));
-    Interval rest = h + m;
-    // The path to rest ends stuck: W^-1 gives the impulse.
-    if (stop.sticks) rest = Both(rest, AtLeast(one + stop.q / wtt_ * ratio, 0.0));
+    Interval compression_end = h + m;  // A2 tau_c/w
+    // If compression ends in stick, u = v = 0 there, and W^-1 gives the impulse.
+    if (stop.sticks) compression_end = Both(compression_end, AtLeast(one + stop.q / wtt_ * ratio, 0.0));
     Interval newton = AtVertices(h, m, NewtonInCompression);
-    Interval poisson = newton / rest;
-    Interval compression = AtLeast(speed_ * rest / stop.second, 0.0);
+    Interval poisson = newton / compression_end;
+    Interval compression = AtLeast(speed_ * compression_end / stop.second, 0.0);
     if (stop.sticks) compression = Both(compression, AtLeast((speed_ + stop.q / wtt_ * slip) / stop.second, 0.0));
-    // Both fall with m and grow with h.
-    Interval dead_share = AtVertices(h, m, Share);
+    // Both shares fall with m and grow with h.
+    Interval plastic_share = AtVertices(h, m, Share);
     const auto share = [](const Interval& x, const Interval& y) { return Share(x, y + NewtonInCompression(x, y)); };
     Interval elastic_share = AtVertices(h, m, share);
     if (never_jams) {
@@ -289,25 +293,25 @@ class OneWay {
       poisson = Both(poisson, PoissonInCompression(m, stop.rho));
       compression = Both(compression, speed_ / stop.first * (one + m * (one / stop.rho - one)));
       if (!std::isinf(stop.rho.upper)) {
-        dead_share = Both(dead_share, AtVertices(stop.rho, m, [&](const Interval& r, const Interval& x) {
-                            return Share(r * (one - x), x);
-                          }));
+        plastic_share = Both(plastic_share, AtVertices(stop.rho, m, [&](const Interval& r, const Interval& x) {
+                               return Share(r * (one - x), x);
+                             }));
         elastic_share = Both(elastic_share, AtVertices(stop.rho, m, [&](const Interval& r, const Interval& x) {
                                return share(r * (one - x), x);
                              }));
       }
     }
     const Interval total = Both(compression * (one + poisson), compression + speed_ * newton / stop.second);
-    Interval dead = Blend(stop, dead_share);
+    Interval plastic = Blend(stop, plastic_share);
     Interval elastic = Blend(stop, elastic_share);
     if (stop.sticks) {
-      dead = Both(dead, -((stop.q + slip / compression) / wtt_));
+      plastic = Both(plastic, -((stop.q + slip / compression) / wtt_));
       elastic = Both(elastic, -((stop.q + slip / total) / wtt_));
     }
-    Add(newton, poisson, 1.0, dead, elastic, compression, total);
+    Add(newton, poisson, 1.0, plastic, elastic, compression, total);
   }
 
-  // f/tau where slip has taken `share` of tau.
+  // Returns f/tau if slip has taken the share `share` of tau.
   Interval Blend(const Stop& stop, const Interval& share) const {
     if (!stop.sticks) return mu_ * (Interval(1.0) - Interval(2.0) * share);
     const Interval hold = Intersect(stop.q / wtt_, {-mu_static_.upper, mu_static_.upper});
@@ -329,16 +333,16 @@ class OneWay {
 PlanarEnds EncloseEnds(const PlanarBox& box) {
   PlanarEnds ends;
   if (IsEmpty(box.mu) || (box.mu_static && box.mu_static->upper < box.mu.lower)) return ends;
-  if (box.v0.upper >= 0.0) ends.normal_dead = ends.normal_elastic = 0.0;
+  if (box.v0.upper >= 0.0) ends.normal_plastic = ends.normal_elastic = 0.0;
   if (box.v0.lower >= 0.0) return ends;
   for (const bool backwards : {false, true}) {
-    // u0 = 0 goes with the slip towards +t: both ways have the same limit.
+    // u0 = 0 goes with the slip towards +t, because both directions have the same limit.
     const bool occurs = backwards ? box.u0.lower < 0.0 : box.u0.upper >= 0.0;
     if (!occurs) continue;
     const Interval q = backwards ? -box.wtn : box.wtn;
-    OneWay way(box, backwards, ends);
-    if (q.upper >= 0.0) way.AddDriving(AtLeast(q, 0.0));
-    if (q.lower < 0.0) way.AddOpposing(AtLeast(-q, 0.0));
+    OneSlipDirection direction(box, backwards, ends);
+    if (q.upper >= 0.0) direction.AddDriving(AtLeast(q, 0.0));
+    if (q.lower < 0.0) direction.AddOpposing(AtLeast(-q, 0.0));
   }
   return ends;
 }

@@ -1,5 +1,7 @@
-// The two ends of a planar impact's bounds, the dead impact and the elastic one, over a box of parameters; private to
-// core/laws. core/bounds/enclosure.h has the formulas. A pendulum's `a` may be of either sign.
+// EncloseEnds: both ends of the bounds of a planar impact, the plastic and the elastic impact, over a box of parameters.
+//
+// core/bounds/enclosure.h searches with them; docs/theory/bounds.md has the formulas. A pendulum's `a` may be of either
+// sign. Every result is rounded outward. If no scene of the box is valid the ends are kNothing.
 
 #ifndef RICOCHET_CORE_BOUNDS_PLANAR_ENDS_H_
 #define RICOCHET_CORE_BOUNDS_PLANAR_ENDS_H_
@@ -12,10 +14,10 @@ inline constexpr Interval kNothing = {rounding::kInfinity, -rounding::kInfinity}
 
 // Each contains the values of all scenes; kNothing where there are none.
 struct PlanarEnds {
-  Interval newton = kNothing, poisson = kNothing;  // Elastic; 0 where locked.
-  Interval energetic = kNothing;                   // 1; 0 where locked.
-  Interval tangential_dead = kNothing, tangential_elastic = kNothing;
-  Interval normal_dead = kNothing, normal_elastic = kNothing;  // tau1; 0 where separating.
+  Interval newton = kNothing, poisson = kNothing;  // The elastic impact's coefficients, 0 for scenes that lock.
+  Interval energetic = kNothing;                   // 1, or 0 for scenes that lock.
+  Interval tangential_plastic = kNothing, tangential_elastic = kNothing;  // f/tau at the end of the impact.
+  Interval normal_plastic = kNothing, normal_elastic = kNothing;          // tau1 (N s), 0 for scenes that separate.
 };
 
 PlanarEnds EncloseEnds(const PlanarBox& box);

@@ -14,6 +14,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/certified/contact_path.h"
 #include "core/certified/system.h"
+#include "core/contact/critical_friction.h"
 #include "core/models/restitution_law.h"
 
 namespace ricochet::certified {
@@ -154,54 +155,35 @@ void AddRanges(const std::string& prefix, const RangesOfCoefficients<N>& ranges,
 }
 
 template <typename N>
-using MaybeN = std::optional<Number<N>>;
-
-// Returns n/d as a least coefficient of friction, which is not below 0; nothing if d is not above 0.
-template <typename N>
-MaybeN<N> LeastFriction(const N& n, const N& d, Branches& branches) {
-  if (!IsPositive(d, branches)) return std::nullopt;
-  return Number<N>{Max(n / d, N(0.0))};
-}
-
-template <typename N>
 struct CriticalFrictionOf {
-  MaybeN<N> stick, stop_compression, stop, reversal, jam;
+  std::optional<N> stick, stop_compression, stop, reversal, jam;
 };
 
-// The formulas of core/bounds/contact_bounds.h.
 template <typename N>
 CriticalFrictionOf<N> FindCriticalFriction(const Contact<N>& contact, Branches& branches) {
-  CriticalFrictionOf<N> critical;
-  if (contact.rank_one) {
-    if (!IsPositive(Abs(contact.rho), branches)) return critical;
-    critical.stick = Number<N>{N(1.0) / Abs(contact.rho)};
-    critical.stop = critical.reversal = Number<N>{N(0.0)};
-    return critical;
+  if (!contact.rank_one) {
+    return ricochet::FindCriticalFriction<CriticalFrictionOf<N>>(contact.wtt, contact.wtn, contact.wnn, contact.u0,
+                                                                 contact.v0, true,
+                                                                 [&](const N& x) { return IsPositive(x, branches); });
   }
-  if (!IsPositive(contact.wtt, branches)) return critical;
-  critical.stick = Number<N>{Abs(contact.wtn) / contact.wtt};
-  const bool backwards = IsNegative(contact.u0, branches);
-  if (!backwards && !IsPositive(contact.u0, branches)) return critical;
-  const N p = Abs(contact.u0);
-  const N w = -contact.v0;
-  const N q = backwards ? -contact.wtn : contact.wtn;
-  const N wnn_p = contact.wnn * p;
-  critical.stop_compression = LeastFriction(wnn_p + w * q, w * contact.wtt + q * p, branches);
-  critical.stop = LeastFriction(wnn_p + N(2.0) * w * q, N(2.0) * w * contact.wtt + q * p, branches);
-  const bool reverses = critical.stop.has_value() && IsNegative(q, branches) &&
-                        IsNegative(critical.stop->value - critical.stick->value, branches);
-  if (reverses) critical.reversal = critical.stop;
-  if (IsPositive(q, branches)) critical.jam = Number<N>{contact.wnn / q};
+  CriticalFrictionOf<N> critical;
+  if (!IsPositive(Abs(contact.rho), branches)) return critical;
+  critical.stick = N(1.0) / Abs(contact.rho);
+  critical.stop = critical.reversal = N(0.0);
   return critical;
 }
 
 template <typename N>
 void AddCriticalFriction(const CriticalFrictionOf<N>& critical, Answer<N>& answer) {
-  answer.numbers.push_back({"critical.stick", critical.stick});
-  answer.numbers.push_back({"critical.stop_compression", critical.stop_compression});
-  answer.numbers.push_back({"critical.stop", critical.stop});
-  answer.numbers.push_back({"critical.reversal", critical.reversal});
-  answer.numbers.push_back({"critical.jam", critical.jam});
+  const auto add = [&](const char* path, const std::optional<N>& friction) {
+    answer.numbers.push_back({path, std::nullopt});
+    if (friction.has_value()) answer.numbers.back().number = Number<N>{*friction};
+  };
+  add("critical.stick", critical.stick);
+  add("critical.stop_compression", critical.stop_compression);
+  add("critical.stop", critical.stop);
+  add("critical.reversal", critical.reversal);
+  add("critical.jam", critical.jam);
 }
 
 // Adds the pendulum's x = mu |b|/a and r = (1 - x)/(1 + x).

@@ -80,11 +80,11 @@ struct Rounded {
 // Rounds x >= 0 to an integer.
 Rounded Round(const Rational& x, Rounding rounding) {
   Rounded rounded;
-  Integer rest;
-  fmpz_fdiv_qr(rounded.digits.get(), rest.get(), fmpq_numref(x.get()), fmpq_denref(x.get()));
-  rounded.is_exact = fmpz_is_zero(rest.get()) != 0;
-  fmpz_mul_2exp(rest.get(), rest.get(), 1);
-  const int against_half = fmpz_cmp(rest.get(), fmpq_denref(x.get()));
+  Integer remainder;
+  fmpz_fdiv_qr(rounded.digits.get(), remainder.get(), fmpq_numref(x.get()), fmpq_denref(x.get()));
+  rounded.is_exact = fmpz_is_zero(remainder.get()) != 0;
+  fmpz_mul_2exp(remainder.get(), remainder.get(), 1);
+  const int against_half = fmpz_cmp(remainder.get(), fmpq_denref(x.get()));
   const bool is_odd = fmpz_is_odd(rounded.digits.get()) != 0;
   const bool nearest_is_up = against_half > 0 || (against_half == 0 && is_odd);
   if (rounding == Rounding::kNearest ? nearest_is_up : rounding == Rounding::kUp && !rounded.is_exact) {

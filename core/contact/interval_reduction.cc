@@ -11,7 +11,7 @@ namespace {
 
 const Interval kNone = {rounding::kInfinity, -rounding::kInfinity};
 
-// The numbers of two structs of one kind, each in between.
+// Makes a parameter of each number that lies between those of two structs of one kind.
 template <typename T>
 auto ParametersBetween(const T& low, const T& high, SlopeParameters& parameters) {
   return [&](double T::*number) { return SlopeForm::Parameter({low.*number, high.*number}, parameters); };
@@ -84,18 +84,18 @@ std::vector<LinkForm> Between(const Linkage& low, const Linkage& high, SlopePara
 
 using Row = std::vector<SlopeForm>;
 
-// The lower triangle; MassMatrix in core/contact/reduction.cc has the formula.
+// Returns the lower triangle; MassMatrix in core/contact/linkage_matrices.h has the formula.
 std::vector<Row> MassMatrix(const std::vector<LinkForm>& links) {
   std::vector<Row> mass(links.size());
-  SlopeForm beyond(0.0);
+  SlopeForm outer_mass(0.0);
   for (size_t k = links.size(); k-- > 0;) {
     const LinkForm& link = links[k];
-    const SlopeForm moment = link.mass * link.com + beyond * link.length;
+    const SlopeForm moment = link.mass * link.com + outer_mass * link.length;
     for (size_t i = 0; i < k; ++i) {
       mass[k].push_back(moment * links[i].length * Cos(links[i].theta - link.theta));
     }
-    mass[k].push_back(link.inertia + link.mass * Square(link.com) + beyond * Square(link.length));
-    beyond = beyond + link.mass;
+    mass[k].push_back(link.inertia + link.mass * Square(link.com) + outer_mass * Square(link.length));
+    outer_mass = outer_mass + link.mass;
   }
   return mass;
 }
@@ -105,7 +105,7 @@ struct Gram {
   Row d, t, n;
 };
 
-// By elimination, row by row.
+// Eliminates row by row.
 Gram Eliminate(const std::vector<LinkForm>& links) {
   const std::vector<Row> mass = MassMatrix(links);
   Gram gram;
@@ -145,7 +145,7 @@ ContactForm Contact(const std::vector<LinkForm>& links) {
   return {.wtt = wtt, .wtn = wtn, .wnn = wnn, .stick_slope = determinant / wtt, .u0 = u0, .v0 = v0};
 }
 
-// cos/sin, which falls between its poles; of the angles whose sine is in `sine`.
+// Returns cos/sin, which falls between its poles, over the angles whose sine lies in `sine`.
 Interval Cotangent(const Interval& radians, const Interval& sine) {
   const Interval plain = Cos(radians) / sine;
   if (Contains(Sin(radians), 0.0)) return plain;
@@ -164,7 +164,7 @@ IntervalPendulum OneLink(const Link& low, const Link& high) {
           .omega_minus = {low.rate_rad_s, high.rate_rad_s}};
 }
 
-// --- Systems; both scenes' are of the same kind. ---
+// --- Systems: those of both scenes are of the same kind ---
 
 IntervalPendulum Between(const SceneBox& box, const Pendulum& low, const Pendulum& high) {
   IntervalPendulum pendulum = {.inertia = {low.inertia_kg_m2, high.inertia_kg_m2},

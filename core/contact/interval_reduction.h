@@ -1,16 +1,10 @@
-// IntervalReduction: what an impact depends on (core/contact/reduction.h), over all scenes of a box.
+// Reduce: the contact (core/contact/reduction.h) of every scene of a box, enclosed in intervals.
 //
-//   planar body   Wtt = 1/m + sn^2/J, Wtn = -st sn/J, Wnn = 1/m + st^2/J, C = 1/m + st^2/(J + m sn^2)
-//   pair          the sums over both bodies; with M = 1/m1 + 1/m2, T and N the sums of sn^2/J and st^2/J,
-//                 C = M + N/(1 + T/M) + X^2/(M + T), X^2 = (sn1 st2 - st1 sn2)^2/(J1 J2)
-//   linkage       M = L D L^T, y = L^-1 J^T, W = y^T D^-1 y, C Wtt = sum_{i<j} (yt_i yn_j - yt_j yn_i)^2/(D_i D_j)
-//   pendulum, linkage of one link   W of rank one: inertia about the pin and the lever arms
-//
-// with st, sn the offsets, J the inertia, and C = Wnn - Wtn^2/Wtt = det W/Wtt, the slope of v while the contact sticks,
-// free of the difference: it tells a W of full rank from others where its entries do not.
-// Contained is the contact of every scene of the box, as exact arithmetic has it; every operation is rounded outward.
-// Each of these depends on the box's parameters to first order (core/numerics/slope_form.h) and is too wide by the
-// square of the box's size at most; a pendulum's are no wider than they must be.
+// Entries are forms to first order in the parameters of the box (core/numerics/slope_form.h). Every operation is rounded
+// outward, so they contain the exact contact of every scene. They are too wide by at most the square of the box's size;
+// those of a pendulum are no wider than they must be. `stick_slope` is C = Wnn - Wtn^2/Wtt = det W/Wtt in a form without
+// that difference, because the entries of W alone cannot tell a W of full rank from others.
+// docs/theory/bounds.md has the formulas. Bad input: none gets here (core/answer/scene_enclosure.h).
 
 #ifndef RICOCHET_CORE_CONTACT_INTERVAL_REDUCTION_H_
 #define RICOCHET_CORE_CONTACT_INTERVAL_REDUCTION_H_
@@ -24,7 +18,7 @@
 
 namespace ricochet {
 
-// All scenes whose every number lies between that of `low` and that of `high`; these differ in numbers alone.
+// The scenes each of whose numbers lies between the one in `low` and the one in `high`. Only numbers differ in the two.
 struct SceneBox {
   Scene low;
   Scene high;
@@ -32,23 +26,23 @@ struct SceneBox {
 };
 
 struct IntervalPendulum {
-  Interval inertia, a, b;         // a of either sign; empty where no pendulum of the box has an a > 0.
-  std::optional<Interval> slope;  // b/a, where more is known of it than from the two.
+  Interval inertia, a, b;         // `a` may have either sign, and is empty if no pendulum of the box has an a > 0.
+  std::optional<Interval> slope;  // b/a, set if more is known of it than a and b tell.
   Interval omega_minus;
 };
 
 struct ContactForm {
   SlopeForm wtt, wtn, wnn;
   SlopeForm stick_slope;  // C
-  SlopeForm u0, v0;       // Relative to the surface.
+  SlopeForm u0, v0;       // The velocity relative to the surface.
 };
 
 using IntervalReduction = std::variant<IntervalPendulum, ContactForm>;
 
-// Whether the system's W has rank one by its nature: a pendulum, a linkage of one link.
+// Tells whether the system's W has rank one by construction: a pendulum, or a linkage of one link.
 bool IsOfRankOne(const System& system);
 
-// The scenes' system is planar and set; where IsOfRankOne, the surface is at rest. The numbers that differ become
+// The scenes must state a planar system, and a surface at rest if IsOfRankOne. The numbers that differ become
 // `parameters`.
 IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters);
 

@@ -121,7 +121,7 @@ absl::StatusOr<BoundsResponse> AnswerBounds(const BoundsRequest& request, absl::
   for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
   CheckDigits(request.scene, request.certified_digits, violations);
   if (!violations.empty()) return InvalidRequest(violations);
-  const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene);
+  const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene, stopped);
   if (!bounds.ok()) return bounds.status();
   BoundsResponse response{.bounds = *bounds, .engine = ThisEngine()};
   const absl::Status certified = Certify(request, stopped, response.certificate);

@@ -1,12 +1,13 @@
 // Interval: the reals between two doubles, and operations whose result contains every result of the operands' members.
 //
-// Each end is the one that rounding down or up would give: the nearest double, or its neighbour where the sign of the
-// rounding error, which is itself exact (TwoSum, fma), says that the nearest lies on the wrong side. Exact results get
-// no wider, so intervals of one member stay so as long as arithmetic is exact. Within underflow the neighbour is taken
-// unasked. The rounding mode is never touched, unlike in Boost.Interval, which needs -frounding-math for that.
+// Each end is the one that rounding down or up would give. It is the nearest double, or its neighbour if the sign of the
+// rounding error says that the nearest lies on the wrong side; that error is itself exact (TwoSum, fma). An exact result
+// does not widen, so an interval of one member stays one as long as arithmetic is exact. In the range of underflow, where
+// the error is not known, the neighbour is always taken. The rounding mode is never touched; Boost.Interval, which does
+// touch it, needs -frounding-math.
 //
-// Members are finite; an infinite end says that there is no bound. Operations on an empty interval (lower > upper) are
-// not defined, but for IsEmpty and Intersect.
+// Members are finite; an infinite end says that there is no bound. IsEmpty and Intersect alone are defined for an empty
+// interval (lower > upper).
 
 #ifndef RICOCHET_CORE_NUMERICS_INTERVAL_H_
 #define RICOCHET_CORE_NUMERICS_INTERVAL_H_
@@ -22,10 +23,10 @@ namespace ricochet {
 namespace rounding {
 
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// Above this a product's, quotient's or root's rounding error is a double.
+// The rounding error of a product, quotient or root above this size is exactly a double.
 inline constexpr double kErrorIsExact = 0x1p-960;
 
-// The neighbours of a double; inline, because every operation comes here. An infinity has but one.
+// The neighbours of a double. They are inline because every operation calls them. An infinity has only one.
 inline double Next(double value) {
   if (!(value < kInfinity)) return value;
   if (value == 0.0) return std::numeric_limits<double>::denorm_min();
@@ -38,7 +39,7 @@ inline double Up(double value, double error) { return error <= 0.0 ? value : Nex
 
 struct Rounded {
   double value;
-  double error;  // Has the sign of (exact - value); NaN where that is not known.
+  double error;  // It has the sign of (exact - value), and is NaN if that sign is not known.
 };
 
 inline Rounded Add(double a, double b) {
@@ -55,13 +56,13 @@ inline Rounded Multiply(double a, double b) {
   return {product, known ? std::fma(a, b, -product) : std::numeric_limits<double>::quiet_NaN()};
 }
 
-// b is not 0.
+// Requires b != 0.
 inline Rounded Divide(double a, double b) {
   if (a == 0.0 || std::isinf(b)) return {0.0, 0.0};
   const double quotient = a / b;
   const bool known = std::fabs(a) >= kErrorIsExact && std::fabs(quotient) >= kErrorIsExact;
-  const double rest = std::fma(-quotient, b, a);
-  return {quotient, known ? (b > 0.0 ? rest : -rest) : std::numeric_limits<double>::quiet_NaN()};
+  const double remainder = std::fma(-quotient, b, a);
+  return {quotient, known ? (b > 0.0 ? remainder : -remainder) : std::numeric_limits<double>::quiet_NaN()};
 }
 
 inline Rounded SquareRoot(double x) {
@@ -88,7 +89,7 @@ inline bool IsEmpty(const Interval& x) { return !(x.lower <= x.upper); }
 inline bool Contains(const Interval& x, double value) { return x.lower <= value && value <= x.upper; }
 inline bool IsPoint(const Interval& x) { return x.lower == x.upper; }
 
-// Within the interval; finite where an end is.
+// Returns a member of the interval, which is finite if an end is.
 inline double Midpoint(const Interval& x) { return std::clamp(0.5 * x.lower + 0.5 * x.upper, x.lower, x.upper); }
 
 inline Interval Intersect(const Interval& x, const Interval& y) {
@@ -113,7 +114,7 @@ inline Interval operator+(const Interval& x, const Interval& y) {
 
 inline Interval operator-(const Interval& x, const Interval& y) { return x + -y; }
 
-// The ends of x y, given which ends of x and y multiply to them.
+// Returns x y, given which ends of x and y multiply to its ends.
 inline Interval ProductOfEnds(double x_low, double y_low, double x_high, double y_high) {
   const rounding::Rounded low = rounding::Multiply(x_low, y_low);
   const rounding::Rounded high = rounding::Multiply(x_high, y_high);
@@ -128,7 +129,7 @@ inline Interval operator*(const Interval& x, const Interval& y) {
   return Hull(ProductOfEnds(x.lower, y.upper, x.lower, y.lower), ProductOfEnds(x.upper, y.lower, x.upper, y.upper));
 }
 
-// By the members of y other than 0; unbounded where they come near it.
+// Divides by the members of y other than 0; the result is unbounded if they come near 0.
 inline Interval operator/(const Interval& x, const Interval& y) {
   if (y.lower < 0.0 && y.upper > 0.0) return {-rounding::kInfinity, rounding::kInfinity};
   if (y.upper <= 0.0 && y.lower < 0.0) return -x / -y;
@@ -150,7 +151,7 @@ inline Interval Square(const Interval& x) {
   return {rounding::Down(low.value, low.error), rounding::Up(high.value, high.error)};
 }
 
-// Of the members that are not negative.
+// The root of the members that are not negative.
 inline Interval Sqrt(const Interval& x) {
   const rounding::Rounded low = rounding::SquareRoot(x.lower);
   const rounding::Rounded high = rounding::SquareRoot(x.upper);

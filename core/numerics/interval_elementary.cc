@@ -10,14 +10,14 @@ namespace {
 
 constexpr Interval kHalfPi = {0x1.921fb54442d18p+0, 0x1.921fb54442d19p+0};
 
-// All that a function may be whose computed value this is.
+// Returns an interval that contains the exact value of a function, given the value computed to within kElementaryUlps.
 Interval Around(double value) {
   constexpr double kInfinity = rounding::kInfinity;
   return {std::nextafter(std::nextafter(value, -kInfinity), -kInfinity),
           std::nextafter(std::nextafter(value, kInfinity), kInfinity)};
 }
 
-// Whether a whole number of quarter turns with this remainder of 4 may lie in between.
+// Tells whether an integer of this remainder modulo 4 may lie in `quarters`.
 bool HoldsQuarter(const Interval& quarters, int remainder) {
   const double first = std::ceil(quarters.lower);
   for (double n = first; n <= std::min(quarters.upper, first + 3.0); n += 1.0) {
@@ -26,7 +26,7 @@ bool HoldsQuarter(const Interval& quarters, int remainder) {
   return false;
 }
 
-// Of a function of period 4 quarters that is 1 at `top` and -1 two quarters further on.
+// Encloses a sine or cosine: it has the period of 4 quarter turns, is 1 at quarter turn `top` and -1 two further on.
 Interval Wave(const Interval& radians, double (*function)(double), int top) {
   const Interval unit(-1.0, 1.0);
   const Interval low = Around(function(radians.lower));

@@ -1,8 +1,9 @@
 // Sin, Cos and Pow of intervals: they contain the value at every member.
 //
-// At an end the function is that of core/numerics/elementary.h, two doubles outward: one for its kElementaryUlps = 1,
-// one for an exact value in the binade above. In between Sin and Cos reach 1 or -1 where x/(pi/2), enclosed, holds an
-// integer that says so; above kMostQuarters an interval that is not a point gives [-1, 1].
+// At each end they take the function of core/numerics/elementary.h and move two doubles outward: one for its
+// kElementaryUlps = 1, and one in case the exact value lies in the binade above. Between the ends Sin and Cos reach 1 or
+// -1 if an enclosure of x/(pi/2) holds an integer at which they do. Above kMostQuarters any interval other than a point
+// gives [-1, 1].
 
 #ifndef RICOCHET_CORE_NUMERICS_INTERVAL_ELEMENTARY_H_
 #define RICOCHET_CORE_NUMERICS_INTERVAL_ELEMENTARY_H_
@@ -16,7 +17,7 @@ inline constexpr double kMostQuarters = 0x1p40;
 Interval Sin(const Interval& radians);
 Interval Cos(const Interval& radians);
 
-// base >= 0, where the exponent is negative 0 gives infinity. Exact for the exponents 0 and 1.
+// Requires base >= 0. A base of 0 with a negative exponent gives infinity. The exponents 0 and 1 give exact results.
 Interval Pow(const Interval& base, double exponent);
 
 }  // namespace ricochet

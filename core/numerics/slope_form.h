@@ -1,12 +1,12 @@
 // SlopeForm: a function of the parameters of a box, enclosed to first order.
 //
-// For every point x of the box, with its centre c,  f(x) in f(c) + sum_i s_i (x_i - c_i),  s_i the slopes. Sums,
-// products and quotients carry slopes on exactly (Krawczyk and Neumaier 1985), those of another function
-// are bounded by its derivative. The range is what the slopes and what interval arithmetic alone allow: where
-// parameters enter a formula several times it is too wide by the square of the box's size, not by the size. All is
-// rounded outward (core/numerics/interval.h).
+// For every point x of a box with the centre c, f(x) lies in f(c) + sum_i s_i (x_i - c_i), where the s_i are the slopes.
+// Sums, products and quotients carry the slopes on exactly (Krawczyk and Neumaier 1985); the derivative bounds those of
+// another function. The range is the intersection of what the slopes allow with what interval arithmetic allows. If
+// parameters enter a formula several times, it is too wide by the square of the box's size rather than by the size. All
+// operations are rounded outward (core/numerics/interval.h).
 //
-// Parameters beyond the first kMostSlopes have no slopes: they count as intervals at the centre too.
+// Parameters beyond the first kMostSlopes have no slopes; they are intervals at the centre, too.
 
 #ifndef RICOCHET_CORE_NUMERICS_SLOPE_FORM_H_
 #define RICOCHET_CORE_NUMERICS_SLOPE_FORM_H_
@@ -26,22 +26,22 @@ class SlopeParameters {
 
   size_t size() const { return size_; }
   // x_i - c_i
-  const Interval& reach(size_t i) const { return reaches_[i]; }
+  const Interval& offset(size_t i) const { return offsets_[i]; }
 
  private:
   friend class SlopeForm;
   size_t size_ = 0;
-  std::array<Interval, kMostSlopes> reaches_;
+  std::array<Interval, kMostSlopes> offsets_;
 };
 
 class SlopeForm {
  public:
   SlopeForm() = default;
-  // A number that is the same all over the box, or of which no more is known than this.
+  // A number that is the same all over the box, or of which nothing but this range is known.
   SlopeForm(const Interval& value) : centre_(value), range_(value) {}  // NOLINT(google-explicit-constructor)
 
   SlopeForm(double value) : SlopeForm(Interval(value)) {}  // NOLINT(google-explicit-constructor)
-  // A further parameter of the box. `parameters` must outlive every form that stems from it.
+  // A further parameter of the box. `parameters` must outlive every form that is computed from it.
   static SlopeForm Parameter(const Interval& range, SlopeParameters& parameters) {
     if (IsPoint(range) || parameters.size_ == SlopeParameters::kMostSlopes) return range;
     const size_t i = parameters.size_++;
@@ -50,14 +50,14 @@ class SlopeForm {
     form.centre_ = Midpoint(range);
     form.range_ = range;
     form.slopes_[i] = 1.0;
-    parameters.reaches_[i] = range - form.centre_;
+    parameters.offsets_[i] = range - form.centre_;
     return form;
   }
 
   const Interval& centre() const { return centre_; }
   const Interval& range() const { return range_; }
 
-  // The same where it is known to lie in `limits`.
+  // Cuts the range to the limits in which the function is known to lie.
   friend SlopeForm Within(SlopeForm x, const Interval& limits) {
     x.range_ = Intersect(x.range_, limits);
     return x;
@@ -87,7 +87,7 @@ class SlopeForm {
     return Make(x, x, Square(x.centre_), Square(x.range_),
                 [&](size_t i) { return x.slopes_[i] * (x.range_ + x.centre_); });
   }
-  // Of the members that are not negative; sqrt(x) - sqrt(x_c) = (x - x_c)/(sqrt(x) + sqrt(x_c)).
+  // The root of the members that are not negative: sqrt(x) - sqrt(x_c) = (x - x_c)/(sqrt(x) + sqrt(x_c)).
   friend SlopeForm Sqrt(const SlopeForm& x) {
     const Interval centre = Sqrt(x.centre_);
     const Interval range = Sqrt(x.range_);
@@ -101,7 +101,7 @@ class SlopeForm {
                      Interval(exponent) * Pow(x.range_, exponent - 1.0));
   }
 
-  // A function of this, by its value at the centre, its range and its slopes.
+  // Returns a function of this form, given the function's value at the centre, its range and its derivative.
   SlopeForm Through(const Interval& centre, const Interval& range, const Interval& slope) const {
     return Make(*this, *this, centre, range, [&](size_t i) { return slopes_[i] * slope; });
   }
@@ -119,7 +119,7 @@ class SlopeForm {
     for (size_t i = 0; i < form.parameters_->size(); ++i) {
       if (x.slopes_[i] == Interval() && y.slopes_[i] == Interval()) continue;
       form.slopes_[i] = slope_of(i);
-      linear = linear + form.slopes_[i] * form.parameters_->reach(i);
+      linear = linear + form.slopes_[i] * form.parameters_->offset(i);
     }
     form.range_ = Intersect(range, linear);
     return form;

@@ -30,7 +30,7 @@ namespace ricochet {
 namespace {
 
 constexpr size_t kMostRanges = 8;
-constexpr int kMostLooks = 8;  // Of EncloseScene at whether it should stop.
+constexpr int kMostLooks = 2'000;  // So often EncloseScene asks whether to stop before the answer is yes.
 
 // `least`: what counts as a size at least.
 void CheckRange(const Range& inner, const Range& outer, double slack, double least, const char* what) {

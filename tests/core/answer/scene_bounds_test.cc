@@ -55,6 +55,23 @@ bool IsInSpace(const System& system) { return TangentialDirections(system) == 2;
 
 // ---- Every system ----
 
+TEST(SceneBoundsTest, AsksBeforeEachImpactOfASampleWhetherToStop) {
+  for (const System& system : Systems()) {
+    int looks = 0;
+    const auto count = [&looks] {
+      ++looks;
+      return false;
+    };
+    ASSERT_TRUE(SolveSceneBounds(With(system), count).ok());
+    EXPECT_EQ(looks, IsInSpace(system) ? kSpatialImpacts : 0) << system.index();
+    if (looks == 0) continue;
+    looks = 0;
+    const auto stopped = [&looks] { return ++looks > 10; };
+    EXPECT_TRUE(absl::IsCancelled(SolveSceneBounds(With(system), stopped).status())) << system.index();
+    EXPECT_EQ(looks, 11);
+  }
+}
+
 TEST(SceneBoundsTest, EverySystemHasBoundsThatHoldItsImpacts) {
   for (const System& system : Systems()) {
     SCOPED_TRACE(system.index());

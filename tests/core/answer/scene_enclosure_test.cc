@@ -25,6 +25,8 @@
 namespace ricochet {
 namespace {
 
+bool Never() { return false; }
+
 using testing::ElementsAre;
 using testing::Field;
 using testing::HasSubstr;
@@ -119,9 +121,9 @@ System RandomSystem(const std::string& kind, Random& random) {
 
 bool IsValidForBounds(const Scene& scene) { return Validate(scene, RestitutionIs::kOptional).empty(); }
 
-// What happens in the elastic impact of a scene that is valid; else unspecified.
+// Returns the regime of the elastic impact, unspecified if the scene is not valid.
 Regime RegimeOf(const Scene& scene) {
-  const auto bounds = IsValidForBounds(scene) ? SolveSceneBounds(scene) : Bounds();
+  const auto bounds = IsValidForBounds(scene) ? SolveSceneBounds(scene, Never) : Bounds();
   return bounds.ok() ? bounds->regime : Regime::kUnspecified;
 }
 
@@ -156,7 +158,7 @@ FieldRange Around(const Scene& scene, const std::string& path, double relative) 
   return {path, value - reach, value + reach};
 }
 
-// Up to three, drawn from all that there may be and that the scene states.
+// Draws up to three ranges from all that there may be and that the scene states.
 std::vector<FieldRange> RandomRanges(const Scene& scene, double relative, Random& random) {
   std::vector<std::string> paths = FieldPaths(scene);
   random.Shuffle(paths);
@@ -188,12 +190,12 @@ std::string Text(const std::vector<FieldRange>& ranges) {
 }
 
 Enclosure EncloseOrFail(const Scene& scene, const std::vector<FieldRange>& ranges) {
-  const auto enclosure = EncloseScene(scene, ranges, [] { return false; });
+  const auto enclosure = EncloseScene(scene, ranges, Never);
   EXPECT_TRUE(enclosure.ok()) << enclosure.status() << Text(ranges);
   return enclosure.value_or(Enclosure());
 }
 
-// Up to the rounding of the scene's own W and bounds.
+// Allows for the rounding of the scene's own W and bounds.
 bool Contains(const Range& outer, const Range& inner) {
   const auto slack = [](double end) { return std::isinf(end) ? 0.0 : 1e-13 * std::fabs(end); };
   return inner.lower >= outer.lower - slack(outer.lower) && inner.upper <= outer.upper + slack(outer.upper);
@@ -212,7 +214,7 @@ void ExpectContainment(const Scene& scene, const std::vector<FieldRange>& ranges
   for (int i = 0; i < samples; ++i) {
     const Scene sample = Inside(scene, ranges, random);
     if (!IsValidForBounds(sample)) continue;
-    const auto bounds = SolveSceneBounds(sample);
+    const auto bounds = SolveSceneBounds(sample, Never);
     ASSERT_TRUE(bounds.ok()) << bounds.status();
     ASSERT_TRUE(Contains(enclosure.outer, *bounds)) << Text(ranges);
   }
@@ -278,17 +280,17 @@ double Wider(const Range& outer, const Range& seen) {
   return (outer.upper - outer.lower) / (seen.upper - seen.lower) - 1.0;
 }
 
-// By how much the widest is wider than over `samples` scenes.
+// Returns by how much the widest range is wider than its hull over `samples` scenes.
 double WiderThanSeen(const Scene& scene, const std::vector<FieldRange>& ranges, int samples) {
   Random random(4);
   const CoefficientBounds outer = EncloseOrFail(scene, ranges).outer;
-  CoefficientBounds seen = SolveSceneBounds(Inside(scene, ranges, random))->sharp;
+  CoefficientBounds seen = SolveSceneBounds(Inside(scene, ranges, random), Never)->sharp;
   Scene sample = scene;
   std::vector<ricochet::Field> fields;
   for (const FieldRange& range : ranges) fields.push_back(*ResolveField(range.path, sample));
   for (int i = 0; i < samples; ++i) {
     for (size_t k = 0; k < ranges.size(); ++k) fields[k].Set(random.Uniform(ranges[k].low, ranges[k].high));
-    const CoefficientBounds sharp = SolveSceneBounds(sample)->sharp;
+    const CoefficientBounds sharp = SolveSceneBounds(sample, Never)->sharp;
     Include(sharp.newton, seen.newton);
     Include(sharp.poisson, seen.poisson);
     Include(sharp.tangential, seen.tangential);

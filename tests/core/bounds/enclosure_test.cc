@@ -35,6 +35,26 @@ PlanarBox ToPlanarBox(const Box& x) {
   return box;
 }
 
+bool Never() { return false; }
+
+// Encloses the contacts whose own numbers lie in the box.
+Enclosure EnclosePlanar(const PlanarBox& box, const EnclosureOptions& options) {
+  Box ranges = {box.wtt, box.wtn, box.wnn, box.u0, box.v0, box.mu};
+  if (box.mu_static) {
+    ranges[5] = AtMost(box.mu, box.mu_static->upper);
+    ranges.push_back(AtLeast(*box.mu_static, box.mu.lower));
+  }
+  SlopeParameters parameters;
+  const auto to_form = [&](absl::Span<const Interval> x) -> std::variant<PlanarForm, PendulumBox> {
+    parameters = SlopeParameters();
+    const auto at = [&](size_t i) { return SlopeForm::Parameter(x[i], parameters); };
+    PlanarForm form = {.wtt = at(0), .wtn = at(1), .wnn = at(2), .u0 = at(3), .v0 = at(4), .mu = at(5)};
+    if (x.size() > 6) form.mu_static = at(6);
+    return form;
+  };
+  return Enclose(ranges, to_form, options, Never);
+}
+
 planar::Problem ToPlanarProblem(const Numbers& x) {
   return {.wtt = x[0],
           .wtn = x[1],
@@ -57,18 +77,19 @@ pendulum::Problem ToPendulumProblem(const Numbers& x) {
       .inertia = x[0], .a = x[1], .b = x[2], .omega_minus = x[3], .mu = x[4], .mu_static = x.size() > 5 ? x[5] : x[4]};
 }
 
-// The bounds of the elastic and the dead impact, which core/bounds/contact_bounds.h shows to be all that is needed.
+// The bounds of the elastic and the plastic impact, which core/bounds/contact_bounds.h shows to be all that is needed.
 CoefficientBounds PlanarBounds(const Numbers& x) {
   planar::Problem problem = ToPlanarProblem(x);
   problem.coefficient = 0.0;
-  const planar::Impact dead = Solve(problem);
+  const planar::Impact plastic = Solve(problem);
   problem.coefficient = 1.0;
   const planar::Impact elastic = Solve(problem);
   return {.newton = {0.0, elastic.newton},
           .poisson = {0.0, elastic.poisson},
           .energetic = {0.0, elastic.energetic},
-          .tangential = {std::min(dead.tangential, elastic.tangential), std::max(dead.tangential, elastic.tangential)},
-          .normal_total_n_s = {dead.tau1, elastic.tau1}};
+          .tangential = {std::min(plastic.tangential, elastic.tangential),
+                         std::max(plastic.tangential, elastic.tangential)},
+          .normal_total_n_s = {plastic.tau1, elastic.tau1}};
 }
 
 CoefficientBounds PendulumBounds(const Numbers& x) { return pendulum::SolveBounds(ToPendulumProblem(x)).sharp; }
@@ -120,7 +141,7 @@ std::string ToString(const Box& box) {
 
 std::string ToString(const Numbers& point) { return ToString(PointBox(point)); }
 
-// Up to the rounding of the point's own bounds.
+// Allows for the rounding of the point's own bounds.
 bool Contains(const Range& outer, const Range& inner, double slack = 1e-15) {
   const auto reach = [&](double end) { return std::isinf(end) ? 0.0 : slack * std::fabs(end); };
   return inner.lower >= outer.lower - reach(outer.lower) && inner.upper <= outer.upper + reach(outer.upper);
@@ -182,7 +203,7 @@ bool IsValid(const Numbers& x) {
 // ---- Containment ----
 
 void ExpectPlanarContainment(const Box& box, int samples, Random& random, const EnclosureOptions& options = kDefault) {
-  const Enclosure enclosure = Enclose(ToPlanarBox(box), options);
+  const Enclosure enclosure = EnclosePlanar(ToPlanarBox(box), options);
   ASSERT_LE(enclosure.boxes, options.budget);
   if (!IsEmpty({enclosure.attained.newton.lower, enclosure.attained.newton.upper})) {
     ASSERT_TRUE(Contains(enclosure.outer, enclosure.attained, 0.0)) << ToString(box);
@@ -204,7 +225,7 @@ TEST(EnclosureTest, ContainsEveryPlanarSceneOfRandomBoxes) {
   }
 }
 
-// All parameters at once, a box a budget cannot do much about.
+// All parameters have ranges at once, and a budget cannot do much about such a box.
 TEST(EnclosureTest, ContainsEveryPlanarSceneOfWideBoxes) {
   Random random(2);
   for (int i = 0; i < 300; ++i) {
@@ -258,7 +279,7 @@ TEST(EnclosureTest, ContainsScenesOfRankOneAmongOthers) {
                            .u0 = x[2] * x[3],
                            .v0 = x[1] * x[3],
                            .mu = x[4]};
-    const Enclosure enclosure = Enclose(box, {.budget = 300});
+    const Enclosure enclosure = EnclosePlanar(box, {.budget = 300});
     for (int k = 0; k < 100; ++k) {
       const Numbers p = random.In(x);
       const Numbers contact = {p[2] * p[2] / p[0], p[1] * p[2] / p[0], p[1] * p[1] / p[0],
@@ -321,7 +342,7 @@ std::vector<Case> PlanarCases() {
 
 TEST(EnclosureTest, PlanarIsAtMostOnePercentWiderThanWhatSamplesReach) {
   for (const Case& one : PlanarCases()) {
-    const Enclosure enclosure = Enclose(ToPlanarBox(one.box), kDefault);
+    const Enclosure enclosure = EnclosePlanar(ToPlanarBox(one.box), kDefault);
     const CoefficientBounds seen = Sampled(one.box, one.samples, 7, PlanarBounds);
     EXPECT_TRUE(Contains(enclosure.outer, seen)) << one.name;
     EXPECT_LE(Wider(enclosure.outer, seen), 0.01) << one.name;
@@ -360,7 +381,7 @@ TEST(EnclosureTest, DefaultBudgetSufficesForRandomBoxesOfThreeRanges) {
     Numbers centre = EverydayContact(random);
     centre[1] *= 0.8;
     const Box box = RandomBox(centre, 3, 0.1, random);
-    const Enclosure enclosure = Enclose(ToPlanarBox(box), kDefault);
+    const Enclosure enclosure = EnclosePlanar(ToPlanarBox(box), kDefault);
     EXPECT_LE(enclosure.excess, 0.01) << ToString(box);
     boxes.push_back(static_cast<double>(enclosure.boxes));
   }
@@ -372,7 +393,7 @@ TEST(EnclosureTest, MoreBudgetIsNeverWider) {
   const Box box = PlanarCases()[1].box;
   double excess = kInfinity;
   for (const int64_t budget : {1, 100, 1'000, 10'000}) {
-    const Enclosure enclosure = Enclose(ToPlanarBox(box), {.tolerance = 1e-4, .budget = budget});
+    const Enclosure enclosure = EnclosePlanar(ToPlanarBox(box), {.tolerance = 1e-4, .budget = budget});
     EXPECT_LE(enclosure.boxes, budget);
     EXPECT_LE(enclosure.excess, excess);
     excess = enclosure.excess;
@@ -399,7 +420,7 @@ TEST(EnclosureTest, APointHasItsOwnBounds) {
   Random random(10);
   for (int i = 0; i < 5'000; ++i) {
     const Numbers point = EverydayContact(random);
-    const Enclosure enclosure = Enclose(ToPlanarBox(PointBox(point)), kDefault);
+    const Enclosure enclosure = EnclosePlanar(ToPlanarBox(PointBox(point)), kDefault);
     ExpectSame(enclosure.outer, PlanarBounds(point), 1e-12);
     EXPECT_EQ(enclosure.excess, 0.0) << ToString(point);
     EXPECT_LE(enclosure.boxes, 3);
@@ -421,7 +442,7 @@ TEST(EnclosureTest, APointOfRankOneIsThePendulum) {
                            .mu = p.mu,
                            .mu_static = p.mu_static};
     const double tolerance = 1e-13 * (1.0 + 1.0 / std::fabs(1.0 - want.friction_ratio));
-    ExpectSame(Enclose(box, kDefault).outer, want.sharp, tolerance);
+    ExpectSame(EnclosePlanar(box, kDefault).outer, want.sharp, tolerance);
     ASSERT_FALSE(::testing::Test::HasFailure()) << pendulum::ToString(p);
   }
 }
@@ -460,14 +481,15 @@ TEST(EnclosureTest, StaticFrictionThatLocksEarlyKeepsPoissonFinite) {
 }
 
 TEST(EnclosureTest, ABoxThatSeparatesHasNoImpulse) {
-  const Enclosure all = Enclose({.wtt = 1.0, .wnn = 1.0, .v0 = {0.0, 1.0}, .mu = 0.5}, kDefault);
+  const Enclosure all = EnclosePlanar({.wtt = 1.0, .wnn = 1.0, .v0 = {0.0, 1.0}, .mu = 0.5}, kDefault);
   EXPECT_EQ(all.outer, CoefficientBounds());
-  const Enclosure some = Enclose({.wtt = 1.0, .wnn = 1.0, .u0 = 1.0, .v0 = {-1.0, 1.0}, .mu = 0.5}, kDefault);
+  const Enclosure some = EnclosePlanar({.wtt = 1.0, .wnn = 1.0, .u0 = 1.0, .v0 = {-1.0, 1.0}, .mu = 0.5}, kDefault);
   EXPECT_EQ(some.outer.normal_total_n_s, (Range{0.0, 2.0}));
 }
 
 TEST(EnclosureTest, WithoutFrictionEverythingIsExact) {
-  const Enclosure enclosure = Enclose({.wtt = 2.0, .wtn = {0.4, 0.6}, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0}, kDefault);
+  const Enclosure enclosure =
+      EnclosePlanar({.wtt = 2.0, .wtn = {0.4, 0.6}, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0}, kDefault);
   EXPECT_EQ(enclosure.outer.newton, (Range{0.0, 1.0}));
   EXPECT_EQ(enclosure.outer.poisson, (Range{0.0, 1.0}));
   EXPECT_EQ(enclosure.outer.tangential, Range());
@@ -476,14 +498,12 @@ TEST(EnclosureTest, WithoutFrictionEverythingIsExact) {
 }
 
 TEST(EnclosureTest, ABoxWithoutAValidSceneIsEmpty) {
-  const Enclosure enclosure = Enclose({.wtt = 1.0, .wtn = {2.0, 3.0}, .wnn = 1.0, .v0 = -1.0}, kDefault);
+  const Enclosure enclosure = EnclosePlanar({.wtt = 1.0, .wtn = {2.0, 3.0}, .wnn = 1.0, .v0 = -1.0}, kDefault);
   EXPECT_LT(enclosure.outer.newton.upper, enclosure.outer.newton.lower);
   EXPECT_LT(enclosure.outer.normal_total_n_s.upper, enclosure.outer.normal_total_n_s.lower);
 }
 
 // ---- A system that is not a bare contact ----
-
-bool Never() { return false; }
 
 // A free body, contact offset (x, y) and mass m uncertain: W = [1/m + y^2/I, -xy/I; ., 1/m + x^2/I].
 std::variant<PlanarForm, PendulumBox> BodyContact(absl::Span<const Interval> range) {
@@ -495,6 +515,17 @@ std::variant<PlanarForm, PendulumBox> BodyContact(absl::Span<const Interval> ran
                     .u0 = 1.0,
                     .v0 = -1.0,
                     .mu = 0.4};
+}
+
+TEST(EnclosureTest, AsksBeforeEachBoxWhetherToStop) {
+  const Box box = {Around(0.3, 0.1), Around(-0.4, 0.1), Around(1.0, 0.1)};
+  for (const int64_t enough : {1, 5, 20, 100}) {
+    int64_t looks = 0;
+    const Enclosure enclosure = Enclose(box, BodyContact, kDefault, [&] { return ++looks > enough; });
+    EXPECT_LE(looks, enough + 1);
+    // A look goes with at most the two boxes of a cut.
+    EXPECT_LE(enclosure.boxes, 2 * enough + 1);
+  }
 }
 
 TEST(EnclosureTest, EnclosesABodyThroughItsOwnParameters) {

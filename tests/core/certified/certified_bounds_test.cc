@@ -119,11 +119,11 @@ TEST(CertifiedBoundsTest, ThoseOfContactsInDoublesAreWithinTheirPromise) {
   for (int i = 0; i < 2000; ++i) {
     SCOPED_TRACE(i);
     const planar::Problem problem = source.Everyday();
-    const planar::ContactBounds bounds = planar::SolveBounds(problem);
+    const Bounds bounds = planar::SolveBounds(problem);
     const Certificate certificate = *CertifyBounds(SceneOf(problem), {17}, Never);
     EXPECT_EQ(certificate.regimes, std::vector<Regime>{bounds.regime});
     ExpectBounds(certificate, "sharp.", bounds.sharp, 1e-14);
-    ExpectBounds(certificate, "energy_only.", bounds.energy_only, 1e-10);
+    ExpectBounds(certificate, "energy_only.", *bounds.energy_only, 1e-10);
     const auto check = [&](const char* path, const std::optional<double>& critical) {
       const CertifiedNumber number = NumberAt(certificate, path);
       ASSERT_EQ(critical.has_value(), !number.path.empty()) << path;

@@ -44,7 +44,7 @@ TEST(CertifiedCapTest, AZeroThatNoPrecisionProvesIsAnsweredAsASetAroundIt) {
   EXPECT_EQ(DecimalAt(*certificate, "coefficients.newton"), "0.5");
 }
 
-// Whether slip would stop in the end no precision decides, but both answers have the same digits.
+// No precision decides whether slip would stop in the end, but both answers have the same digits.
 TEST(CertifiedCapTest, ATieThatChangesNoDigitIsNoSet) {
   Scene scene = SymmetricChain();
   auto& links = std::get<Linkage>(scene.system).links;

@@ -41,7 +41,7 @@ Restitution RestitutionOf(const VectorRow& row) {
 
 using Columns = std::vector<std::pair<const char*, const char*>>;
 
-// Whether they agree in the rows' 25 printed digits. What is proved to be 0 the rows have as what is left of a
+// Tells whether they agree in the rows' 25 printed digits. What is proved to be 0 the rows have as what is left of a
 // difference of some 40 or 60 digits.
 bool AgreesWith(const std::string& printed, const CertifiedNumber& number) {
   if (number.decimal == "0" && number.exact) return std::fabs(std::stod(printed)) < 1e-35;
@@ -189,7 +189,7 @@ TEST(CertifiedDoublesTest, TheClosedFormIsWithinOneUlpOfTheCertifiedNumberOver10
   }
 }
 
-// What core/models/planar/planar.h promises beyond an ulp.
+// Tells whether a double is as accurate as core/models/planar/planar.h promises: 1 ulp, or `scale`.
 bool IsPromised(double computed, double exact, double scale) {
   return UlpDistance(computed, exact) <= 1 || std::fabs(computed - exact) <= scale;
 }
