@@ -53,8 +53,8 @@ inline Ending<2> EndingOf(const spatial::Impact& impact) {
 }
 
 template <size_t kTangential>
-Ending<kTangential> EndingOf(const sliding::End<kTangential>& end) {
-  return {.u1 = end.u1, .v1 = end.v1, .tau1 = end.tau1, .f1 = end.f1};
+Ending<kTangential> EndingOf(const sliding::Impact<kTangential>& impact) {
+  return {.u1 = impact.u1, .v1 = impact.v1, .tau1 = impact.tau1, .f1 = impact.f1};
 }
 
 inline double SpeedOf(const planar::Problem& problem) { return std::max(std::fabs(problem.u0), -problem.v0); }

@@ -45,9 +45,9 @@ inline Answer<1> PlannedAnswer(const Choice& choice, const planar::Problem& full
     case Model::kNone:
       return {.end = {.u1 = {full.u0}, .v1 = full.v0}};
     case Model::kFrictionless:
-      return {.end = EndingOf(sliding::SolveFrictionlessEnd(LineOf(problem)))};
+      return {.end = EndingOf(sliding::SolveFrictionless(LineOf(problem)))};
     case Model::kSliding:
-      return {.end = EndingOf(sliding::SolveEnd(LineOf(problem)))};
+      return {.end = EndingOf(sliding::Solve(LineOf(problem)))};
     case Model::kPlanar:
       return {.end = EndingOf(planar::Solve(problem))};
     case Model::kCompliant:
@@ -62,7 +62,7 @@ inline Answer<1> PlannedAnswer(const Choice& choice, const pendulum::Problem& fu
   const pendulum::Problem problem = Without(choice, full);
   switch (choice.model) {
     case Model::kFrictionless:
-      return {.end = EndingOf(sliding::SolveFrictionlessEnd(LineOf(PlanarOf(problem))))};
+      return {.end = EndingOf(sliding::SolveFrictionless(LineOf(PlanarOf(problem))))};
     case Model::kFirstOrder:
       return {.end = EndingOf(first_order::Solve(problem))};
     case Model::kPendulum:
@@ -77,9 +77,9 @@ inline Answer<2> PlannedAnswer(const Choice& choice, const spatial::Problem& ful
   spatial::Problem problem = Without(choice, full);
   switch (choice.model) {
     case Model::kFrictionless:
-      return {.end = EndingOf(sliding::SolveFrictionlessEnd(LineOf(problem)))};
+      return {.end = EndingOf(sliding::SolveFrictionless(LineOf(problem)))};
     case Model::kSliding:
-      return {.end = EndingOf(sliding::SolveEnd(LineOf(problem)))};
+      return {.end = EndingOf(sliding::Solve(LineOf(problem)))};
     case Model::kSpatial: {
       problem.tolerance = choice.model_tolerance;
       const spatial::Impact impact = spatial::Solve(problem);

@@ -1,4 +1,4 @@
-// Random spatial impacts: of everyday size, and near everything that is singular for the spatial model.
+// Random spatial impacts, of everyday size and close to everything that is singular for the spatial model.
 
 #ifndef RICOCHET_TESTS_SUPPORT_SPATIAL_SCENES_H_
 #define RICOCHET_TESTS_SUPPORT_SPATIAL_SCENES_H_
@@ -53,7 +53,8 @@ class SceneSource {
     return problem;
   }
 
-  // Slip against the flow of an invariant direction where there is one: it falls to nearly nothing, turns and grows.
+  // Slip starts almost along a direction in which it would stop, if there is one: it falls to nearly nothing, turns and
+  // grows.
   Problem NearMiss() {
     Problem problem = Typical();
     double phi = NearestInvariant(problem);
@@ -113,7 +114,7 @@ class SceneSource {
   double Sign() { return Below(2) == 0 ? -1.0 : 1.0; }
 
  private:
-  // 10 to a power between -`least` and -`most`.
+  // A random power of 10, with an exponent between -`least` and -`most`.
   double Power(double least, double most) { return std::pow(10.0, -Uniform(least, most)); }
 
   // W = sum of `rank` random dyads, plus `ridge` on the diagonal.
@@ -144,7 +145,7 @@ class SceneSource {
     return {c * u1 + s * u2, c * u2 - s * u1};
   }
 
-  // Where slip slows and does not turn: a sign change of the turning rate, bisected.
+  // Bisects a sign change of the turning rate, for a direction in which slip slows and does not turn.
   double NearestInvariant(const Problem& problem) {
     constexpr int kSamples = 64;
     constexpr double kTurn = 6.283185307179586;

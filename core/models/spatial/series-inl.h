@@ -1,7 +1,7 @@
 // The Taylor series of slip: one step of Keller's equations as power series in xi, where dtau = s dxi.
 //
-// With u the tangential velocity, s = |u| and A = -mu Wtt, slip obeys du/dxi = A u + s wtn. The equation is homogeneous:
-// each series starts from u = (1, 0) in the frame of its own direction, and needs neither sine nor angle. Its
+// Slip obeys du/dxi = A u + s wtn, where u is the tangential velocity, s = |u| and A = -mu Wtt. This is homogeneous: each
+// series starts from u = (1, 0) in the frame of its own direction, and needs neither sine nor angle. Its
 // coefficients follow from (k + 1) u_{k+1} = A u_k + s_k wtn and (s s)_k = (x x)_k + (y y)_k.
 // Accuracy: Remainder bounds what the last term leaves out. Sums and products only, hence the same bits on every
 // machine. Source: Keller (1986); docs/theory/spatial.md.

@@ -50,7 +50,7 @@ TEST(SizesTest, SlipThatStopsInAPlane) {
     if (problem.u0 == 0.0 || problem.mu == 0.0 || planar::SceneSource::IsRankOne(problem)) continue;
     if (problem.coefficient > 1.0 || !(sliding::SlidingSlopes(LineOf(problem)).v > 1e-6 * problem.wnn)) continue;
     const auto with = EndingOf(planar::Solve(problem));
-    const auto without = EndingOf(sliding::SolveEnd(LineOf(problem)));
+    const auto without = EndingOf(sliding::Solve(LineOf(problem)));
     const double noise = NoiseOf(problem, with) + sliding::ErrorsOf(LineOf(problem)).Largest();
     tally.Add(size, ChangeBetween(problem, with, without), noise, scenes.Tolerance());
   }
@@ -132,8 +132,7 @@ TEST(SizesTest, SlipThatTurnsOrStopsInSpace) {
     Size size = sizes[Effect::kSlipTurn];
     size.value += sizes[Effect::kSlipStop].value;
     const double noise = with.error_estimate + sliding::ErrorsOf(line).Largest();
-    tally.Add(size, ChangeBetween(problem, EndingOf(with), EndingOf(sliding::SolveEnd(line))), noise,
-              scenes.Tolerance());
+    tally.Add(size, ChangeBetween(problem, EndingOf(with), EndingOf(sliding::Solve(line))), noise, scenes.Tolerance());
   }
   tally.Finish(1000);
   tally.ExpectSharpInPlay();

@@ -1,5 +1,5 @@
-// Slip that neither stops nor turns, and no friction at all: against the exact planar model, the spatial one, and the
-// header's formulas in extended precision.
+// Compares slip that neither stops nor turns, and no friction at all, with the exact planar model, the spatial one, and
+// the header's formulas in extended precision.
 
 #include "core/models/sliding/sliding.h"
 
@@ -19,6 +19,7 @@
 #include "core/models/planar/planar.h"
 #include "core/models/spatial/spatial.h"
 #include "core/problem/scene_problem.h"
+#include "tests/support/impact_change.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/spatial_scenes.h"
 #include "tests/support/system_scenes.h"
@@ -33,18 +34,6 @@ constexpr double kUlp = std::numeric_limits<double>::epsilon();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-Problem<1> Of(const planar::Problem& p) {
-  return {.w = {p.wtt, p.wtn, p.wnn}, .u0 = {p.u0}, .v0 = p.v0, .mu = p.mu, .coefficient = p.coefficient};
-}
-
-Problem<2> Of(const spatial::Problem& p) {
-  return {.w = {p.w11, p.w12, p.w13, p.w22, p.w23, p.w33},
-          .u0 = p.u0,
-          .v0 = p.v0,
-          .mu = p.mu,
-          .coefficient = p.coefficient};
-}
-
 template <size_t kTangential>
 double ScaleOf(const Problem<kTangential>& p) {
   double scale = std::fabs(p.v0);
@@ -52,7 +41,7 @@ double ScaleOf(const Problem<kTangential>& p) {
   return scale;
 }
 
-// The largest of errors over what is allowed for them.
+// Keeps the largest ratio of an error to what is allowed for it.
 class Worst {
  public:
   void Add(double error, double allowed) { ratio_ = std::max(ratio_, error == 0.0 ? 0.0 : error / allowed); }
@@ -63,7 +52,7 @@ class Worst {
 };
 
 // `exact` is itself within an ulp.
-void Compare(const Problem<1>& p, const End<1>& end, const planar::Impact& exact, const RelativeErrors& bound,
+void Compare(const Problem<1>& p, const Impact<1>& end, const planar::Impact& exact, const RelativeErrors& bound,
              Worst& worst) {
   const double scale = ScaleOf(p);
   worst.Add(std::fabs(end.u1[0] - exact.u1), bound.velocity * scale + kUlp * std::fabs(exact.u1));
@@ -86,8 +75,8 @@ TEST(SlidingTest, InAPlaneItIsTheExactImpactWithinItsBound) {
   Worst worst;
   for (int i = 0; i < kScenes; ++i) {
     const planar::Problem p = AnySliding(source);
-    const Problem<1> problem = Of(p);
-    Compare(problem, SolveEnd(problem), planar::Solve(p), ErrorsOf(problem), worst);
+    const Problem<1> problem = LineOf(p);
+    Compare(problem, Solve(problem), planar::Solve(p), ErrorsOf(problem), worst);
     ASSERT_LE(worst.ratio(), 1.0) << i;
   }
   std::printf("  sliding in a plane        worst error %.3f of its bound\n", worst.ratio());
@@ -99,7 +88,7 @@ TEST(SlidingTest, AllTheRestOfAPlanarImpactIsThatOfTheExactOne) {
   for (int i = 0; i < 20'000; ++i) {
     const planar::Problem p = AnySliding(source);
     const planar::Impact exact = planar::Solve(p);
-    const Problem<1> problem = Of(p);
+    const Problem<1> problem = LineOf(p);
     const Impact<1> impact = Solve(problem);
     const RelativeErrors bound = ErrorsOf(problem);
     ASSERT_EQ(impact.regime, Regime::kSliding);
@@ -111,7 +100,7 @@ TEST(SlidingTest, AllTheRestOfAPlanarImpactIsThatOfTheExactOne) {
     ASSERT_NEAR(impact.energetic_excess, exact.energetic_excess, 8.0 * kUlp);
     ASSERT_DOUBLE_EQ(impact.tangential, exact.tangential);
     ASSERT_FALSE(exact.energy_limit_broken);
-    // An impulse times a velocity, each with its error.
+    // A work is an impulse times a velocity, each with its error.
     const double work = 8.0 * (exact.tau1 + std::fabs(exact.f1)) * ScaleOf(problem) *
                         (bound.velocity + kUlp * (1.0 + std::fabs(exact.u1) / ScaleOf(problem)));
     ASSERT_NEAR(impact.work_normal_compression, exact.work_normal_compression, work);
@@ -129,7 +118,7 @@ TEST(SlidingTest, AllTheRestOfAPlanarImpactIsThatOfTheExactOne) {
   }
 }
 
-// The formulas of the header, in extended precision, straight away.
+// Evaluates the formulas of the header in extended precision.
 struct Extended {
   long double u1[2], f1[2], v1, tau1;
 };
@@ -148,7 +137,8 @@ Extended SolveExtended(const Problem<2>& p, bool friction) {
           .tau1 = tau1};
 }
 
-void Compare(const Problem<2>& p, const End<2>& end, const Extended& exact, const RelativeErrors& bound, Worst& worst) {
+void Compare(const Problem<2>& p, const Impact<2>& end, const Extended& exact, const RelativeErrors& bound,
+             Worst& worst) {
   const double scale = ScaleOf(p);
   const auto error = [](double x, long double y) { return static_cast<double>(std::fabs(x - y)); };
   for (size_t i = 0; i < 2; ++i) {
@@ -163,10 +153,10 @@ TEST(SlidingTest, InSpaceItsFormulasAreEvaluatedWithinTheirBound) {
   spatial::SceneSource source(403);
   Worst worst;
   for (int i = 0; i < kScenes;) {
-    const Problem<2> problem = Of(i % 4 == 0 ? source.NearJam() : source.Typical());
-    // Nearer to standing still, extended precision does not serve as a reference.
+    const Problem<2> problem = LineOf(i % 4 == 0 ? source.NearJam() : source.Typical());
+    // If v grows more slowly, extended precision does not serve as a reference.
     if (!(SlidingSlopes(problem).v > 1e-4 * problem.Wnn())) continue;
-    Compare(problem, SolveEnd(problem), SolveExtended(problem, true), ErrorsOf(problem), worst);
+    Compare(problem, Solve(problem), SolveExtended(problem, true), ErrorsOf(problem), worst);
     ASSERT_LE(worst.ratio(), 1.0) << i;
     ++i;
   }
@@ -174,7 +164,7 @@ TEST(SlidingTest, InSpaceItsFormulasAreEvaluatedWithinTheirBound) {
   EXPECT_GT(worst.ratio(), 0.1);
 }
 
-// A planar impact in a tangent frame turned by any angle, with any mobility across it.
+// Puts a planar impact into a tangent frame that is turned by any angle, with any mobility across it.
 spatial::Problem InSpace(const planar::Problem& p, double across, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
@@ -203,7 +193,7 @@ TEST(SlidingTest, InSpaceItIsTheSpatialModelWhereSlipDoesNotTurn) {
     const spatial::Problem p = InSpace(plane, source.Uniform(0.1, 3.0), source.Uniform(0.0, 6.0));
     const spatial::Impact other = spatial::Solve(p);
     if (!other.closed_form || other.regime != Regime::kSliding) continue;
-    const Problem<2> problem = Of(p);
+    const Problem<2> problem = LineOf(p);
     const Impact<2> impact = Solve(problem);
     const double allowed = (ErrorsOf(problem).velocity + p.tolerance) * ScaleOf(problem);
     for (size_t k = 0; k < 2; ++k) worst.Add(std::fabs(impact.u1[k] - other.u1[k]), allowed);
@@ -226,8 +216,8 @@ TEST(FrictionlessTest, InAPlaneItIsTheExactImpactWithinItsBound) {
     p.coefficient = std::min(p.coefficient, 1.0);
     const planar::Impact exact = planar::Solve(p);
     if (exact.w_rank < 2) continue;
-    const Problem<1> problem = Of(p);
-    Compare(problem, SolveFrictionlessEnd(problem), exact, FrictionlessErrorsOf(problem), worst);
+    const Problem<1> problem = LineOf(p);
+    Compare(problem, SolveFrictionless(problem), exact, FrictionlessErrorsOf(problem), worst);
     ASSERT_LE(worst.ratio(), 1.0) << i;
     ASSERT_EQ(SolveFrictionless(problem).regime, exact.regime);
     ASSERT_NEAR(SolveFrictionless(problem).energy_change, exact.energy_change,
@@ -245,8 +235,8 @@ TEST(FrictionlessTest, InSpaceItIsTheSpatialModelAndWithinItsBoundOfTheFormulas)
     spatial::Problem p = source.Typical();
     p.mu = p.mu_static = 0.0;
     p.tolerance = 1e-12;
-    const Problem<2> problem = Of(p);
-    const End<2> end = SolveFrictionlessEnd(problem);
+    const Problem<2> problem = LineOf(p);
+    const Impact<2> end = SolveFrictionless(problem);
     const RelativeErrors bound = FrictionlessErrorsOf(problem);
     Compare(problem, end, SolveExtended(problem, false), bound, worst);
     ASSERT_LE(worst.ratio(), 1.0) << i;
@@ -263,8 +253,8 @@ TEST(FrictionlessTest, ReadsNoFrictionAndNoTangentialMobility) {
   const Problem<2> problem = {.w = {2.0, 0.3, 0.4, 1.5, -0.2, 1.2}, .u0 = {1.0, -0.5}, .v0 = -1.0, .coefficient = 0.5};
   Problem<2> poisoned = problem;
   poisoned.mu = poisoned.w[0] = poisoned.w[1] = poisoned.w[3] = kNaN;
-  const End<2> end = SolveFrictionlessEnd(problem);
-  const End<2> other = SolveFrictionlessEnd(poisoned);
+  const Impact<2> end = SolveFrictionless(problem);
+  const Impact<2> other = SolveFrictionless(poisoned);
   EXPECT_EQ(end.u1, other.u1);
   EXPECT_EQ(end.v1, other.v1);
   EXPECT_EQ(end.tau1, other.tau1);
@@ -330,14 +320,14 @@ TEST(SlidingTest, HistoriesAreStraightMeetTheEventsAndWorksAddUp) {
   planar::SceneSource plane(407);
   spatial::SceneSource space(408);
   for (int i = 0; i < 5'000; ++i) {
-    const Problem<1> flat = Of(AnySliding(plane));
+    const Problem<1> flat = LineOf(AnySliding(plane));
     ExpectLinear(flat, Solve(flat));
     ExpectLinear(flat, SolveFrictionless(flat));
     ExpectLedger(Solve(flat));
     ExpectLedger(SolveFrictionless(flat));
     spatial::Problem p = space.Typical();
     p.mu *= 0.1;
-    const Problem<2> problem = Of(p);
+    const Problem<2> problem = LineOf(p);
     ExpectLinear(problem, Solve(problem));
     ExpectLinear(problem, SolveFrictionless(problem));
     ExpectLedger(Solve(problem));
@@ -358,7 +348,7 @@ void ExpectNear(const std::vector<double>& x, const std::vector<double>& y) {
   for (size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 1e-12 * (1.0 + std::fabs(y[i])));
 }
 
-// All but accuracy and history.
+// Compares everything but accuracy and history.
 void ExpectSameImpact(const Outcome& x, const Outcome& y) {
   EXPECT_EQ(x.regime, y.regime);
   EXPECT_EQ(x.w_rank, y.w_rank);

@@ -18,7 +18,7 @@
 namespace ricochet::spatial {
 namespace {
 
-// The same solver at a tolerance of 1e-16 with 64-bit mantissas.
+// Solves with 64-bit mantissas to a tolerance of 1e-16.
 Impact Reference(const Problem& problem) {
   return HWY_NAMESPACE::Solver<long double>(problem, problem.Delassus().Rank(), 1e-16L).Run();
 }
@@ -27,12 +27,12 @@ double Scale(const Problem& problem) {
   return std::max(std::hypot(problem.u0[0], problem.u0[1]), std::fabs(problem.v0));
 }
 
-// Largest difference of a velocity after the impact over max(|u0|, |v0|).
+// The largest difference of a velocity after the impact over max(|u0|, |v0|).
 double Distance(const Problem& problem, const Impact& a, const Impact& b) {
   return std::max(std::hypot(a.u1[0] - b.u1[0], a.u1[1] - b.u1[1]), std::fabs(a.v1 - b.v1)) / Scale(problem);
 }
 
-// The contact of theory and its impacts, each computed independently at 25 digits.
+// A contact and four of its impacts were computed independently at 25 digits.
 Problem Known(double u1, double u2, double mu) {
   Problem problem = TurningContact(u1, u2, mu);
   problem.law = RestitutionLaw::kEnergetic;
@@ -70,14 +70,14 @@ TEST_P(KnownImpactTest, IsReproduced) {
 INSTANTIATE_TEST_SUITE_P(SpatialTest, KnownImpactTest, testing::ValuesIn(kKnownImpacts),
                          [](const auto& test) { return std::string(test.param.name); });
 
-// Keller's equations as they stand, d/dtau of (u, v, normal work) by the classical Runge-Kutta method at a fixed step:
-// shares nothing with the solver. Fine as long as slip stays away from 0.
+// Integrates Keller's equations as they stand, d/dtau of (u, v, normal work), by the classical Runge-Kutta method at a
+// fixed step. It shares nothing with the solver, and is accurate as long as slip stays away from 0.
 class PlainIntegrator {
  public:
   explicit PlainIntegrator(const Problem& problem)
       : p_(problem), state_{problem.u0[0], problem.u0[1], problem.v0, 0.0L} {}
 
-  // The state at which `goal` is reached, by bisecting the last step.
+  // Runs to the state at which `goal` is reached, by bisecting the last step.
   template <typename Goal>
   void RunTo(long double step, const Goal& goal) {
     while (!goal(Stepped(step))) state_ = Stepped(step);
@@ -158,7 +158,8 @@ struct Statistics {
   int above_tolerance = 0;
 };
 
-// Error estimate over true error; a true error below the rounding of the output counts as that rounding.
+// The ratio of the error estimate to the true error. A true error below the rounding of the output counts as that
+// rounding.
 template <typename NextProblem>
 Statistics EstimateStatistics(double tolerance, int count, const NextProblem& next_problem) {
   constexpr double kRounding = 0x1p-54;
@@ -205,12 +206,12 @@ TEST_P(EstimateTest, IsNeverBelowTheErrorOfNearlySingularImpacts) {
 
 INSTANTIATE_TEST_SUITE_P(SpatialTest, EstimateTest, testing::Values(1e-4, 1e-6, 1e-10, 1e-12));
 
-// Slip along its invariant direction (p, q) from the start, v' from everyday size down to a ten-thousandth of Wnn.
+// Slip follows its invariant direction (p, q) from the start, and v' goes from everyday size down to 1e-4 Wnn.
 Problem StraightAndNearlyJamming(SceneSource& source, double p, double q) {
   Problem problem = source.Typical();
   problem.w12 = 0.0;
   if (p != 0.0) problem.w22 = problem.w11;
-  // Few bits, so that wtn and u0 are exactly along (p, q).
+  // The numbers have few bits, so that wtn and u0 are exactly along (p, q).
   const double coupling = std::ldexp(std::floor(std::ldexp(source.Uniform(0.1, 0.6), 20)), -20);
   const double slip = std::ldexp(std::floor(std::ldexp(std::exp2(source.Uniform(-3.0, 7.0)), 20)), -20);
   problem.w13 = coupling * p;
@@ -232,7 +233,7 @@ TEST(SpatialTest, EstimateOfAClosedFormIsNotBelowItsErrorHoweverSlowlyVGrows) {
         oblique ? StraightAndNearlyJamming(source, 3.0, 1.0) : StraightAndNearlyJamming(source, 0.0, 1.0);
     const Impact impact = Solve(problem);
     ASSERT_TRUE(impact.closed_form) << i;
-    Problem second = problem;  // In the plane of t2 and n, where there is an exact model.
+    Problem second = problem;  // The plane of t2 and n has an exact model.
     second.w11 = problem.w22;
     second.w13 = problem.w23;
     second.u0 = {problem.u0[1], 0.0};
@@ -275,7 +276,7 @@ TEST(SpatialTest, EveryImpactEndsConservesTheLedgerStaysInTheConeAndGainsNoEnerg
     ASSERT_TRUE(std::isfinite(impact.error_estimate)) << i;
     most_steps = std::max(most_steps, impact.steps);
     const double f1 = std::hypot(impact.f1[0], impact.f1[1]);
-    // The impulses' works, before they cancel.
+    // The works of the impulses count before they cancel.
     const double scale = Scale(problem) * (impact.tau1 + f1) + std::fabs(impact.work_tangential_compression) +
                          (problem.w11 + problem.w22 + problem.w33) * (impact.tau1 + f1) * (impact.tau1 + f1);
     const double ledger = impact.work_normal_compression + impact.work_normal_restitution +
@@ -330,7 +331,7 @@ TEST(SpatialTest, IsThePlanarModelWhereOneDirectionDecouples) {
   }
 }
 
-// The same contact in a tangent frame turned by the angle of (c, s).
+// Turns the tangent frame of a contact by the angle of (c, s).
 Problem Turned(const Problem& p, double c, double s) {
   Problem turned = p;
   turned.w11 = c * c * p.w11 + 2.0 * c * s * p.w12 + s * s * p.w22;
@@ -403,7 +404,7 @@ TEST(SpatialTest, WithoutFrictionTheThreeLawsAgree) {
   }
 }
 
-// A sphere: Wtt is 7/2 of Wnn in every direction, nothing couples, slip never turns.
+// A sphere has a Wtt of 7/2 Wnn in every direction and no coupling, so that slip never turns.
 Problem Sphere(double u1, double u2) {
   return {
       .w11 = 3.5, .w22 = 3.5, .w33 = 1.0, .u0 = {u1, u2}, .v0 = -1.0, .mu = 0.1, .mu_static = 0.1, .coefficient = 1.0};
@@ -432,7 +433,7 @@ TEST(SpatialTest, ASlowSphereEndsRolling) {
 }
 
 TEST(SpatialTest, SlipThatStopsStartsAgainAlongTheGrowingDirection) {
-  // Straight against wtn: stops at tau = 0.1/0.7, then slips along +t1 with h = 0.5 - 0.2.
+  // Slip straight against wtn stops at tau = 0.1/0.7, then slips along +t1 with h = 0.5 - 0.2.
   Problem problem = {.w11 = 1.0,
                      .w13 = 0.5,
                      .w22 = 2.0,
@@ -507,7 +508,7 @@ TEST(SpatialTest, NearMissesAreAsSmoothAsAnyOther) {
 }
 
 TEST(SpatialTest, SelfLockingAtFirstEndsOnceSlipHasStopped) {
-  // Moving along wtn with mu |wtn| > Wnn: friction drives the bodies together until slip stops.
+  // The contact moves along wtn with mu |wtn| > Wnn, so that friction drives the bodies together until slip stops.
   const Problem problem = {.w11 = 2.0,
                            .w12 = 0.1,
                            .w13 = 1.2,
@@ -528,7 +529,7 @@ TEST(SpatialTest, SelfLockingAtFirstEndsOnceSlipHasStopped) {
 }
 
 TEST(SpatialTest, RankOneIsPlanarAlongItsTangentialDirection) {
-  // W = g g^T with g = (0.3, 0.4, 1): a pendulum, a/|b| = 2.
+  // W = g g^T with g = (0.3, 0.4, 1) is that of a pendulum with a/|b| = 2.
   for (const double mu : {0.5, 3.0}) {
     const Problem problem = {.w11 = 0.09,
                              .w12 = 0.12,
@@ -562,7 +563,7 @@ TEST(SpatialTest, RankOneIsPlanarAlongItsTangentialDirection) {
 }
 
 TEST(SpatialTest, RankTwoThatSticksIsLocked) {
-  // wtn = Wtt (1/2, 1/2) and Wnn to match: u and v vanish together once slip has stopped.
+  // Because wtn = Wtt (1/2, 1/2) and Wnn matches, u and v vanish together once slip has stopped.
   const Problem problem = {.w11 = 1.0,
                            .w13 = 0.5,
                            .w22 = 1.0,
@@ -582,7 +583,7 @@ TEST(SpatialTest, RankTwoThatSticksIsLocked) {
 }
 
 TEST(SpatialTest, ASingularTangentMatrixSticksByTheSmallestForce) {
-  // Nothing moves along t2: the contact sticks as in the plane of t1 and n.
+  // Nothing moves along t2, so that the contact sticks as in the plane of t1 and n.
   const Problem problem = {.w11 = 1.0,
                            .w13 = 0.5,
                            .w33 = 1.0,
@@ -619,7 +620,7 @@ TEST(SpatialTest, NewtonsLawMayCreateEnergyAndSaysSo) {
 }
 
 TEST(SpatialTest, ABudgetThatRunsOutIsSaidSo) {
-  // Next to no impact of a valid problem gets there; one that is not a number does not end either, and must.
+  // Hardly any impact of a valid problem exhausts the budget. One whose numbers are NaN does, and has to return.
   Problem problem = Known(1.0, 0.6, 0.2);
   problem.w12 = std::numeric_limits<double>::quiet_NaN();
   const Impact impact = Solve(problem);
