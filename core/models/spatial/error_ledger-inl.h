@@ -27,22 +27,37 @@ class ErrorLedger {
  public:
   explicit ErrorLedger(const ScaledProblem<T>& problem) : problem_(problem) {}
 
-  // An error of the friction impulse, in the norm sqrt(df^T Wtt df), and the rounding of a slip that was normalized.
+  // Adds an error of the friction impulse, in the norm sqrt(df^T Wtt df).
   void AddFrictionError(T error) { friction_ += error; }
+  // The rounding of the direction of slip, in the same norm.
   T SlipRounding(T slip) const { return kEpsilon<T> * slip / problem_.smallest_root; }
-  // A turn of slip onto a direction that is off by `error` in that norm.
-  void AddTurn(T error, T slip);
-  // A step of curved slip over the normal impulse `length` that ends with the velocity v.
-  void AddStep(T friction_error, T work_error, T length, T v);
-  // A straight piece over `length`: `slip` is its slip at the start, v its velocity at the end.
-  void AddStraight(bool slips, T length, T slip, T v);
-  // The distance in normal impulse at which root finding stopped from the event.
+  // Adds the turn of slip onto a direction that is off by `error` in that norm.
+  void AddTurn(T error, T slip) {
+    AddFrictionError(T{2} * error);
+    work_ += slip * error;
+  }
+  // Adds a step of curved slip over the normal impulse `length` that ends with the velocity v.
+  void AddStep(T friction_error, T work_error, T length, T v) {
+    AddFrictionError(friction_error);
+    work_ += problem_.normal_root * friction_ * length + work_error;
+    v_rounding_ += kEpsilon<T> * (problem_.w.w33 * length + std::fabs(v));
+  }
+  // Adds a straight piece over `length`, with `slip` at its start and v at its end.
+  void AddStraight(bool slips, T length, T slip, T v) {
+    v_rounding_ += kEpsilon<T> * ((slips ? problem_.steepest : problem_.w.w33) * length + std::fabs(v));
+    if (slips) u_rounding_ += kEpsilon<T> * (problem_.rate * length + slip);
+    work_ += VelocityError() * length;
+  }
+  // Sets the distance from an event, in normal impulse, at which root finding stopped.
   void SetEventOffset(T offset) { event_offset_ = offset; }
 
+  // Sets the slopes of the last straight slip, or of slip just before it stops.
   void SetSlopesOfSlip(const Slopes<T>& slopes) { slip_slopes_ = slopes; }
+  // Slip stops at tau.
   void StopSlip(T tau) { stop_tau_ = tau; }
+  // The contact sticks: errors of the path of u no longer matter.
   void Stick(const Sticking<T>& sticking);
-  // Compression ends at the state of `path`, which has these slopes there.
+  // Closes the account of compression, which ends at the state of `path` with these slopes.
   void EndCompression(const Path<T>& path, const Slopes<T>& slopes);
   // A bound on the error of each velocity at the end of the impact, relative to max(|u0|, |v0|).
   T EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) const;
@@ -51,43 +66,30 @@ class ErrorLedger {
   T VelocityError() const { return problem_.normal_root * friction_ + v_rounding_; }
   // A bound on the error, in normal impulse, of the event at which v reaches its target. For a slope near 0 it is the
   // bound of a double root.
-  T ImpulseErrorOfVelocityEvent(const Slopes<T>& slopes) const;
+  T ImpulseErrorOfVelocityEvent(const Slopes<T>& slopes) const {
+    const T error = VelocityError();
+    return error == T{0} ? T{0} : error / std::max(slopes.v, std::sqrt(error));
+  }
   T ImpulseErrorOfEnd(const Path<T>& path, const Slopes<T>& slopes) const;
   // The rounding of the normal work, whose terms may cancel.
-  T WorkRounding(const State<T>& at) const;
+  T WorkRounding(const State<T>& at) const {
+    const T f = std::fabs(at.f1) + std::fabs(at.f2);
+    return T{2} * kEpsilon<T> * (f + at.tau) * problem_.velocity;
+  }
 
   const ScaledProblem<T>& problem_;
-  T friction_{0};  // error of the friction impulse, in the norm above
+  // The scaled errors so far.
+  T friction_{0};  // of the friction impulse, in the norm above
   T v_rounding_{0};
   T u_rounding_{0};
-  T work_{0};                 // error of the normal work of this phase
-  T compression_impulse_{0};  // error of the normal impulse at the end of compression
+  T work_{0};                 // of the normal work in this phase
+  T compression_impulse_{0};  // of the normal impulse at the end of compression
   T compression_work_{0};
   T event_offset_{0};
-  T compression_end_v_{0};      // found in place of 0
+  T compression_end_v_{0};      // the v found in place of 0
   T stop_tau_ = -kInfinity<T>;  // where slip stopped, from the start of the phase
   Slopes<T> slip_slopes_ = {T{0}, T{0}, T{0}};
 };
-
-template <typename T>
-void ErrorLedger<T>::AddTurn(T error, T slip) {
-  AddFrictionError(T{2} * error);
-  work_ += slip * error;
-}
-
-template <typename T>
-void ErrorLedger<T>::AddStep(T friction_error, T work_error, T length, T v) {
-  AddFrictionError(friction_error);
-  work_ += problem_.normal_root * friction_ * length + work_error;
-  v_rounding_ += kEpsilon<T> * (problem_.w.w33 * length + std::fabs(v));
-}
-
-template <typename T>
-void ErrorLedger<T>::AddStraight(bool slips, T length, T slip, T v) {
-  v_rounding_ += kEpsilon<T> * ((slips ? problem_.steepest : problem_.w.w33) * length + std::fabs(v));
-  if (slips) u_rounding_ += kEpsilon<T> * (problem_.rate * length + slip);
-  work_ += VelocityError() * length;
-}
 
 template <typename T>
 void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
@@ -110,12 +112,6 @@ void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes
 }
 
 template <typename T>
-T ErrorLedger<T>::ImpulseErrorOfVelocityEvent(const Slopes<T>& slopes) const {
-  const T error = VelocityError();
-  return error == T{0} ? T{0} : error / std::max(slopes.v, std::sqrt(error));
-}
-
-template <typename T>
 T ErrorLedger<T>::ImpulseErrorOfEnd(const Path<T>& path, const Slopes<T>& slopes) const {
   const T coefficient = problem_.coefficient;
   if (coefficient == T{0}) return compression_impulse_;
@@ -130,12 +126,6 @@ T ErrorLedger<T>::ImpulseErrorOfEnd(const Path<T>& path, const Slopes<T>& slopes
   if (!(path.state.v > T{0})) return T{0};
   const T work = coefficient * coefficient * compression_work_ + work_ + WorkRounding(path.state);
   return (work + compression_end_v_ * compression_end_v_ / std::max(slopes.v, kEpsilon<T>)) / path.state.v;
-}
-
-template <typename T>
-T ErrorLedger<T>::WorkRounding(const State<T>& at) const {
-  const T f = std::fabs(at.f1) + std::fabs(at.f2);
-  return T{2} * kEpsilon<T> * (f + at.tau) * problem_.velocity;
 }
 
 template <typename T>

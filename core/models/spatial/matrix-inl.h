@@ -1,4 +1,5 @@
-// The Delassus matrix of the spatial solver: how the contact sticks, and in which direction slip starts again.
+// The Delassus matrix of the spatial solver, as seen from a direction of slip: how the contact sticks, and in which
+// direction slip starts again.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_SPATIAL_MATRIX_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -13,14 +14,44 @@
 #include <limits>
 
 #include "core/contact/delassus.h"
-#include "core/models/spatial/frame-inl.h"
 #include "core/numerics/double_double-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
-// A contact that sticks: the friction impulse per normal impulse that keeps u as it is, of the smallest norm if there is
-// a choice.
+// A unit vector e = (c, s) = (cos phi, sin phi) in the tangent plane.
+template <typename T>
+struct Direction {
+  T c, s;
+};
+
+// The direction of (x, y), which must not be zero.
+template <typename T>
+Direction<T> Normalized(T x, T y) {
+  const T inverse = T{1} / std::sqrt(x * x + y * y);
+  return {x * inverse, y * inverse};
+}
+
+// The matrix A = -mu Wtt and the vector wtn by their components along (1) and across (2) a direction e = (c, s), both
+// divided by the rate mu |Wtt| + |wtn|, so that no component exceeds 1.
+template <typename T>
+struct Frame {
+  T c, s;
+  T a11, a12, a22;
+  T w1, w2;
+
+  T Turn() const { return a12 + w2; }             // g = dphi/dxi of slip along e
+  T TurnSlope() const { return a22 - a11 - w1; }  // dg/dphi
+};
+
+// Slopes of the contact velocity over the normal impulse tau.
+template <typename T>
+struct Slopes {
+  T u1, u2, v;
+};
+
+// A contact that sticks: the friction impulse per normal impulse that keeps u as it is, with the smallest norm if there
+// is a choice.
 template <typename T>
 struct Sticking {
   T f1, f2;
@@ -54,7 +85,7 @@ struct Matrix {
 
   T w11, w12, w13, w22, w23, w33;
   int rank;
-  bool tangent_is_singular;  // within the rounding of the entries of Wtt
+  bool tangent_is_singular;  // Wtt is singular within the rounding of its entries
 };
 
 template <typename T>

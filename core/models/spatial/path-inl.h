@@ -14,13 +14,18 @@
 #include <limits>
 
 #include "core/models/restitution_law.h"
-#include "core/models/spatial/frame-inl.h"
+#include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/problem-inl.h"
-#include "core/models/spatial/root-inl.h"
 #include "core/models/spatial/spatial.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
+
+// The value of a function and its slope.
+template <typename T>
+struct Rates {
+  T value, slope;
+};
 
 // Impulses and work count from the start of the phase, so that a short restitution keeps its digits.
 template <typename T>
@@ -44,24 +49,55 @@ template <typename T>
 struct Path {
   explicit Path(const ScaledProblem<T>& its_problem);
 
-  // The value of the goal's quantity, and that value less the target with its slope over xi.
-  T Value(const State<T>& at) const;
-  Rates<T> GoalRates(const State<T>& at) const;
-  T VelocityRate(const State<T>& at) const;  // dv/dxi
+  // The value of the goal's quantity.
+  T Value(const State<T>& at) const {
+    switch (goal.quantity) {
+      case Quantity::kVelocity:
+        return at.v;
+      case Quantity::kImpulse:
+        return at.tau;
+      case Quantity::kWork:
+        break;
+    }
+    return NormalWork(at);
+  }
+  // The goal's quantity less its target, with its slope over xi.
+  Rates<T> GoalRates(const State<T>& at) const {
+    const T value = Value(at) - goal.target;
+    if (goal.quantity == Quantity::kVelocity) return {value, VelocityRate(at)};
+    const T tau_rate = at.Slip() / problem.rate;
+    return {value, goal.quantity == Quantity::kImpulse ? tau_rate : at.v * tau_rate};
+  }
+  // dv/dxi
+  T VelocityRate(const State<T>& at) const {
+    const Matrix<T>& w = problem.w;
+    return (w.w33 * at.Slip() - problem.mu * (w.w13 * at.u1 + w.w23 * at.u2)) / problem.rate;
+  }
   // The normal work of this phase, which is the change of energy that friction did not make.
-  T NormalWork(const State<T>& at) const;
+  T NormalWork(const State<T>& at) const {
+    return T{0.5} *
+               (at.f1 * (at.u1 + phase_start.u1) + at.f2 * (at.u2 + phase_start.u2) + at.tau * (at.v + phase_start.v)) -
+           at.friction_work;
+  }
   // The normal impulse left until the goal if the slopes stay as they are; infinity if the goal is never reached.
   T ImpulseToGoal(const Slopes<T>& slopes) const;
 
   bool IsAtStart() const { return event_count == 1 && state.tau == T{0}; }
-  bool Sticks() const;
+  bool Sticks() const {
+    return regime == Regime::kStickInCompression || regime == Regime::kStickInRestitution || regime == Regime::kLocked;
+  }
   void Record(EventKind kind);
   void SetRegime(Regime of_compression, Regime of_restitution) {
     regime = in_restitution ? of_restitution : of_compression;
   }
   // Ends compression at the present state, and sets the goal of restitution according to the law.
   void StartRestitution();
-  void End();
+  void End() {
+    if (regime != Regime::kLocked) Record(EventKind::kRestitutionEnds);
+    if (!Sticks() && problem.HasNoFriction()) regime = Regime::kFrictionless;
+    if (regime == Regime::kUnspecified) regime = Regime::kSliding;
+    ended = true;
+  }
 
   const ScaledProblem<T>& problem;
   State<T> state;
@@ -83,40 +119,6 @@ Path<T>::Path(const ScaledProblem<T>& its_problem)
 }
 
 template <typename T>
-T Path<T>::Value(const State<T>& at) const {
-  switch (goal.quantity) {
-    case Quantity::kVelocity:
-      return at.v;
-    case Quantity::kImpulse:
-      return at.tau;
-    case Quantity::kWork:
-      break;
-  }
-  return NormalWork(at);
-}
-
-template <typename T>
-Rates<T> Path<T>::GoalRates(const State<T>& at) const {
-  const T value = Value(at) - goal.target;
-  if (goal.quantity == Quantity::kVelocity) return {value, VelocityRate(at)};
-  const T tau_rate = at.Slip() / problem.rate;
-  return {value, goal.quantity == Quantity::kImpulse ? tau_rate : at.v * tau_rate};
-}
-
-template <typename T>
-T Path<T>::VelocityRate(const State<T>& at) const {
-  const Matrix<T>& w = problem.w;
-  return (w.w33 * at.Slip() - problem.mu * (w.w13 * at.u1 + w.w23 * at.u2)) / problem.rate;
-}
-
-template <typename T>
-T Path<T>::NormalWork(const State<T>& at) const {
-  return T{0.5} *
-             (at.f1 * (at.u1 + phase_start.u1) + at.f2 * (at.u2 + phase_start.u2) + at.tau * (at.v + phase_start.v)) -
-         at.friction_work;
-}
-
-template <typename T>
 T Path<T>::ImpulseToGoal(const Slopes<T>& slopes) const {
   const T missing = goal.target - Value(state);
   if (!(missing > T{0})) return T{0};
@@ -133,11 +135,6 @@ T Path<T>::ImpulseToGoal(const Slopes<T>& slopes) const {
   const T root = std::sqrt(square);
   if (state.v >= T{0}) return root > T{0} ? T{2} * missing / (state.v + root) : kInfinity<T>;
   return slopes.v > T{0} ? (root - state.v) / slopes.v : kInfinity<T>;
-}
-
-template <typename T>
-bool Path<T>::Sticks() const {
-  return regime == Regime::kStickInCompression || regime == Regime::kStickInRestitution || regime == Regime::kLocked;
 }
 
 template <typename T>
@@ -175,14 +172,6 @@ void Path<T>::StartRestitution() {
   // Restitution continues from the v at which root finding stopped, which is not exactly 0, so that v does not jump.
   state.v = v_found;
   phase_start = state;
-}
-
-template <typename T>
-void Path<T>::End() {
-  if (regime != Regime::kLocked) Record(EventKind::kRestitutionEnds);
-  if (!Sticks() && problem.HasNoFriction()) regime = Regime::kFrictionless;
-  if (regime == Regime::kUnspecified) regime = Regime::kSliding;
-  ended = true;
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

@@ -18,7 +18,6 @@
 #include <optional>
 
 #include "core/models/restitution_law.h"
-#include "core/models/spatial/frame-inl.h"
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/spatial.h"
 

@@ -9,7 +9,7 @@
 #endif
 
 #include "core/models/spatial/error_ledger-inl.h"
-#include "core/models/spatial/frame-inl.h"
+#include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
 #include "core/models/spatial/problem-inl.h"
 #include "core/models/spatial/spatial.h"

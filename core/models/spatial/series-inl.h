@@ -1,7 +1,7 @@
 // The Taylor series of slip: one step of Keller's equations as power series in xi, where dtau = s dxi.
 //
-// Slip obeys du/dxi = A u + s wtn, where u is the tangential velocity, s = |u| and A = -mu Wtt. This is homogeneous: each
-// series starts from u = (1, 0) in the frame of its own direction, and needs neither sine nor angle. Its
+// Slip obeys du/dxi = A u + s wtn, where u is the tangential velocity, s = |u| and A = -mu Wtt. This is homogeneous:
+// each series starts from u = (1, 0) in the frame of its own direction, and needs neither sine nor angle. Its
 // coefficients follow from (k + 1) u_{k+1} = A u_k + s_k wtn and (s s)_k = (x x)_k + (y y)_k.
 // Accuracy: Remainder bounds what the last term leaves out. Sums and products only, hence the same bits on every
 // machine. Source: Keller (1986); docs/theory/spatial.md.
@@ -20,7 +20,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/models/spatial/frame-inl.h"
+#include "core/models/spatial/matrix-inl.h"
 #include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -40,8 +40,8 @@ constexpr auto MakeInverses() {
 template <typename T>
 inline constexpr auto kInverses = MakeInverses<T>();
 
-// An approximation from below to x^(1/k), within 10 %. A step size needs no more, and pow of the C library does not have
-// the same bits everywhere. The bits of a double are its logarithm, piecewise linear.
+// Approximates x^(1/k) from below, within 10 %. A step size needs no more, and pow of the C library does not have the
+// same bits everywhere. The bits of a double are its logarithm, piecewise linear.
 inline double RoughRoot(double x, int k) {
   constexpr auto kOne = std::bit_cast<int64_t>(1.0);
   const double logarithm =
@@ -92,9 +92,9 @@ class SlipSeries {
   T Size(int k) const {
     return std::fabs(x_integral_[Index(k)]) + std::fabs(y_integral_[Index(k)]) + std::fabs(s_integral_[Index(k)]);
   }
-  // A bound on the sum of the terms that follow the last one. It takes the largest of: a multiple of the last term or of
+  // A bound on the sum of the terms that follow the last one. It is the largest of two: a multiple of the last term or
   // the one before, and three times a geometric series that falls as the last four or eight terms do and starts at the
-  // largest value to which the last three lead. All are needed, because a complex pair of singularities makes terms
+  // largest value to which the last three lead. Both are needed, because a complex pair of singularities makes terms
   // oscillate, and some of them are small by chance.
   template <typename Sizes>
   T Tail(const Sizes& sizes, T xi) const {

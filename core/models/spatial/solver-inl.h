@@ -15,13 +15,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "core/models/spatial/frame-inl.h"
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
 #include "core/models/spatial/problem-inl.h"
 #include "core/models/spatial/progress-inl.h"
 #include "core/models/spatial/report-inl.h"
-#include "core/models/spatial/root-inl.h"
 #include "core/models/spatial/spatial.h"
 #include "core/models/spatial/step-inl.h"
 #include "core/models/spatial/straight-inl.h"

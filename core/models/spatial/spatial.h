@@ -1,9 +1,9 @@
 // Spatial: one frictional impact at one point in space, with slip that turns, stops, sticks and starts again.
 //
-// From W, a symmetric positive semidefinite 3 x 3 matrix (t1, t2, n), the contact velocity before the impact and the
-// coefficients of friction and restitution, Solve follows Keller's equations over the normal impulse tau: slip loses and
-// gains speed and turns until it stops; then the contact sticks if mu_s >= |Wtt^-1 wtn|, and else slips again in the one
-// direction in which slip grows. Compression ends at the first v = 0. Regimes are those of core/models/planar/planar.h.
+// W is a symmetric positive semidefinite 3 x 3 matrix (t1, t2, n). Solve follows Keller's equations over the normal
+// impulse tau: slip changes its speed and direction until it stops. Then the contact sticks if mu_s >= |Wtt^-1 wtn|,
+// and otherwise slips again in the one direction in which slip grows. Compression ends at the first v = 0. Regimes are
+// those of core/models/planar/planar.h.
 // Units: SI. Accuracy: `tolerance`, as far as double precision has it; error_estimate says what was reached.
 // Bad input: none gets here (core/scene/validate.h). That includes (u0, v0) outside the range of a singular W.
 // Source: Keller (1986). docs/theory/spatial.md has the equations, the method and the error estimate.

@@ -11,14 +11,35 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/models/spatial/frame-inl.h"
+#include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
 #include "core/models/spatial/problem-inl.h"
-#include "core/models/spatial/root-inl.h"
 #include "core/models/spatial/series-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
+
+// The root of an increasing function with f(0) < 0 <= f(end), from a first guess. A step that would leave the bracket
+// is replaced by a bisection, and the first step of at most `last` times the root is the last one.
+template <typename T, typename Function>
+T FindRoot(const Function& function, T guess, T end, T last) {
+  T low{0};
+  T high = end;
+  T x = guess > T{0} && guess < end ? guess : end;
+  constexpr int kEnough = 200;
+  for (int i = 0; i < kEnough && high > low; ++i) {
+    const Rates<T> at = function(x);
+    (at.value < T{0} ? low : high) = x;
+    T next = x - at.value / at.slope;
+    if (!(next > low && next < high)) {
+      if (at.value == T{0} || std::fabs(next - x) <= last * x) return x;
+      next = T{0.5} * (low + high);
+    }
+    if (std::fabs(next - x) <= last * next) return next;
+    x = next;
+  }
+  return x;
+}
 
 template <typename T>
 class Step {
@@ -30,9 +51,17 @@ class Step {
   // The largest xi at which the errors of the velocities stay below `allowed`.
   T AccurateEnd(T allowed) const;
   // `end`, or an earlier xi up to which the quantity that ends the phase grows monotonically.
-  T MonotonicEnd(T end) const;
+  T MonotonicEnd(T end) const {
+    end = EndAtSignChange([this](T xi) { return SlipAcrossCoupling(xi); }, end);
+    end = EndAtSignChange([this](T xi) { return NormalRate(xi); }, end);
+    if (!path_.in_restitution || path_.state.v == T{0}) return end;
+    return EndAtSignChange([this](T xi) { return NormalVelocity(xi); }, end);
+  }
   // The xi at which the phase reaches its goal, which is at most `end`; found to `relative` of itself.
-  T GoalWithin(T end, T relative) const;
+  T GoalWithin(T end, T relative) const {
+    const T guess = path_.ImpulseToGoal(problem_.SlopesAlong({frame_.c, frame_.s})) * problem_.rate / slip_;
+    return FindRoot<T>([this](T xi) { return path_.GoalRates(At(xi)); }, guess, end, relative);
+  }
 
   // The truncation error at xi of the friction impulse, in the norm of the ledger, and of the normal work.
   T FrictionError(T xi) const { return friction_unit_ * series_.Remainder(xi); }
@@ -45,10 +74,16 @@ class Step {
     T x_slope, y_slope;
   };
   SlipRates SlipAt(T xi) const;
-  // Three quantities over xi: the component of slip across wtn, where v' is extremal as it vanishes; v' times slip; v.
-  Rates<T> SlipAcrossCoupling(T xi) const;
+  // Three quantities over xi: the component of slip across wtn, which vanishes where v' is extremal; v' times slip; v.
+  Rates<T> SlipAcrossCoupling(T xi) const {
+    const SlipRates at = SlipAt(xi);
+    return {-frame_.w2 * at.x + frame_.w1 * at.y, -frame_.w2 * at.x_slope + frame_.w1 * at.y_slope};
+  }
   Rates<T> NormalRate(T xi) const;
-  Rates<T> NormalVelocity(T xi) const;
+  Rates<T> NormalVelocity(T xi) const {
+    const State<T> at = At(xi);
+    return {at.v, path_.VelocityRate(at)};
+  }
   // `end`, or the xi before it where the quantity changes its sign.
   template <typename Function>
   static T EndAtSignChange(const Function& quantity, T end);
@@ -106,20 +141,6 @@ T Step<T>::AccurateEnd(T allowed) const {
 }
 
 template <typename T>
-T Step<T>::GoalWithin(T end, T relative) const {
-  const T guess = path_.ImpulseToGoal(problem_.SlopesAlong({frame_.c, frame_.s})) * problem_.rate / slip_;
-  return FindRoot<T>([this](T xi) { return path_.GoalRates(At(xi)); }, guess, end, relative);
-}
-
-template <typename T>
-T Step<T>::MonotonicEnd(T end) const {
-  end = EndAtSignChange([this](T xi) { return SlipAcrossCoupling(xi); }, end);
-  end = EndAtSignChange([this](T xi) { return NormalRate(xi); }, end);
-  if (!path_.in_restitution || path_.state.v == T{0}) return end;
-  return EndAtSignChange([this](T xi) { return NormalVelocity(xi); }, end);
-}
-
-template <typename T>
 template <typename Function>
 T Step<T>::EndAtSignChange(const Function& quantity, T end) {
   constexpr T kNegligible{1e-6};
@@ -147,24 +168,12 @@ typename Step<T>::SlipRates Step<T>::SlipAt(T xi) const {
 }
 
 template <typename T>
-Rates<T> Step<T>::SlipAcrossCoupling(T xi) const {
-  const SlipRates at = SlipAt(xi);
-  return {-frame_.w2 * at.x + frame_.w1 * at.y, -frame_.w2 * at.x_slope + frame_.w1 * at.y_slope};
-}
-
-template <typename T>
 Rates<T> Step<T>::NormalRate(T xi) const {
   const SlipRates at = SlipAt(xi);
   const T wnn = problem_.w.w33 / problem_.rate;
   const T size_slope = (at.x * at.x_slope + at.y * at.y_slope) / at.size;
   return {wnn * at.size - problem_.mu * (frame_.w1 * at.x + frame_.w2 * at.y),
           wnn * size_slope - problem_.mu * (frame_.w1 * at.x_slope + frame_.w2 * at.y_slope)};
-}
-
-template <typename T>
-Rates<T> Step<T>::NormalVelocity(T xi) const {
-  const State<T> at = At(xi);
-  return {at.v, path_.VelocityRate(at)};
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

@@ -1,5 +1,5 @@
-// The parts of a path that are straight in tau: slip that keeps its direction, a contact that sticks, and one without
-// friction. They have no error but rounding.
+// Parts of a path are straight in tau: slip that keeps its direction, a contact that sticks, and one without friction.
+// They have no error but rounding.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_SPATIAL_STRAIGHT_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -11,7 +11,6 @@
 
 #include <algorithm>
 
-#include "core/models/spatial/frame-inl.h"
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
 #include "core/models/spatial/problem-inl.h"
