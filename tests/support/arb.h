@@ -7,13 +7,13 @@
 #ifndef RICOCHET_TESTS_SUPPORT_ARB_H_
 #define RICOCHET_TESTS_SUPPORT_ARB_H_
 
-#include <arb.h>
-
 #include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <limits>
 #include <string>
+
+#include "core/certified/flint.h"
 
 namespace ricochet {
 
