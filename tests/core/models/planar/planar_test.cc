@@ -143,7 +143,7 @@ TEST(PlanarSelfLockingTest, CompressionEndsAlsoIfVStandsStillWhileTheContactSlip
 }
 
 // s = 1, u' = 1.5 - 2.5 = -1, v' = 2.5 - 1.5 = 1: after slip has stopped v rises faster, 1.6, than in compression.
-TEST(PlanarLawsTest, PoissonsLawMayImplyASpringThatGivesBackMoreThanItStoredWithoutAGainOfEnergy) {
+TEST(PlanarTest, PoissonsLawMayImplyASpringThatGivesBackMoreThanItStoredWithoutAGainOfEnergy) {
   const Impact impact = Solve(Contact(2.5, 1.5, 2.5, 1.5, 1.0, 1.0, RestitutionLaw::kPoisson, 1.0));
   EXPECT_EQ(impact.regime, Regime::kStickInRestitution);
   EXPECT_NEAR(impact.v1, 1.3, 1e-15);
@@ -155,7 +155,7 @@ TEST(PlanarLawsTest, PoissonsLawMayImplyASpringThatGivesBackMoreThanItStoredWith
   EXPECT_FALSE(impact.energy_limit_broken);
 }
 
-TEST(PlanarLawsTest, NoLawRestoresAnythingIfItsCoefficientIsZero) {
+TEST(PlanarTest, NoLawRestoresAnythingIfItsCoefficientIsZero) {
   for (const RestitutionLaw law : {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
     const Impact impact = Solve(FortyFiveDegreeRod(law, 0.0));
     EXPECT_EQ(impact.v1, 0.0);
@@ -169,7 +169,7 @@ TEST(PlanarLawsTest, NoLawRestoresAnythingIfItsCoefficientIsZero) {
 }
 
 // A disk: Wtn = 0.
-TEST(PlanarLawsTest, WithoutCouplingTheThreeLawsAgreeWhateverFrictionDoes) {
+TEST(PlanarTest, WithoutCouplingTheThreeLawsAgreeWhateverFrictionDoes) {
   for (const double u0 : {0.0, 0.5, -2.0, 20.0}) {
     const Impact newton = Solve(Contact(3.0, 0.0, 1.0, u0, 0.3, 0.3, RestitutionLaw::kNewton, 0.6));
     for (const RestitutionLaw law : {RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
@@ -222,7 +222,7 @@ std::vector<RegimeCase> RegimeCases() {
   };
 }
 
-TEST(PlanarRegimeTest, EveryRegimeIsReachedByItsCases) {
+TEST(PlanarTest, EveryRegimeIsReachedByItsCases) {
   for (const RegimeCase& c : RegimeCases()) {
     const Impact impact = Solve(c.problem);
     EXPECT_EQ(impact.regime, c.regime) << c.reason;
@@ -230,7 +230,7 @@ TEST(PlanarRegimeTest, EveryRegimeIsReachedByItsCases) {
   }
 }
 
-TEST(PlanarRegimeTest, SeparatingContactsKeepTheirVelocitiesAndGetNoImpulse) {
+TEST(PlanarTest, SeparatingContactsKeepTheirVelocitiesAndGetNoImpulse) {
   for (const double v0 : {0.0, 2.0}) {
     Problem problem = FortyFiveDegreeRod(RestitutionLaw::kNewton, 0.5);
     problem.v0 = v0;
@@ -245,7 +245,7 @@ TEST(PlanarRegimeTest, SeparatingContactsKeepTheirVelocitiesAndGetNoImpulse) {
   }
 }
 
-TEST(PlanarRegimeTest, LockedContactsStopAndUseNoCoefficient) {
+TEST(PlanarTest, LockedContactsStopAndUseNoCoefficient) {
   for (const RestitutionLaw law : {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
     const Impact impact = Solve(Contact(4.0, 2.0, 1.0, -2.0, 1.0, 1.0, law, 0.5));
     EXPECT_EQ(impact.w_rank, 1);
@@ -264,7 +264,7 @@ TEST(PlanarRegimeTest, LockedContactsStopAndUseNoCoefficient) {
 }
 
 // If Wtt = 0, no impulse moves the contact along t, and no friction impulse acts.
-TEST(PlanarRegimeTest, ContactsWithoutTangentialMobilityGetNoFriction) {
+TEST(PlanarTest, ContactsWithoutTangentialMobilityGetNoFriction) {
   const Impact impact = Solve(Contact(0.0, 0.0, 2.0, 0.0, 0.5, 0.5, RestitutionLaw::kPoisson, 0.5));
   EXPECT_EQ(impact.w_rank, 1);
   EXPECT_EQ(impact.u1, 0.0);
@@ -273,7 +273,7 @@ TEST(PlanarRegimeTest, ContactsWithoutTangentialMobilityGetNoFriction) {
   EXPECT_EQ(impact.tau1, 0.75);
 }
 
-TEST(PlanarRegimeTest, SlipThatStopsWhereCompressionEndsStopsFirst) {
+TEST(PlanarTest, SlipThatStopsWhereCompressionEndsStopsFirst) {
   const Impact impact = Solve(Contact(4.0, 0.0, 1.0, 2.0, 0.5, 0.5, RestitutionLaw::kEnergetic, 0.5));
   EXPECT_EQ(KindsOf(impact), (std::vector<EventKind>{EventKind::kStart, EventKind::kSlipStops,
                                                      EventKind::kCompressionEnds, EventKind::kRestitutionEnds}));
