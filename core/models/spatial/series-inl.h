@@ -103,7 +103,7 @@ class SlipSeries {
     constexpr double kRoughness = 1.1;
     const T last = sizes(order_ + 1) + kSmallest;
     const auto root = [&](int k, int before) {
-      const double fall = static_cast<double>(last / (sizes(before) + kSmallest));
+      const auto fall = static_cast<double>(last / (sizes(before) + kSmallest));
       return static_cast<T>(kRoughness * internal::RoughRoot(fall, k));
     };
     const T fourth_root = root(4, order_ - 3);

@@ -32,7 +32,7 @@ HWY_EXPORT(SolveTo);
 Impact Solve(const Problem& problem) {
   const int rank = problem.Delassus().Rank();
   if (problem.v0 >= 0.0) {
-    Impact impact = Separating<Impact>(rank, problem.u0, problem.v0);
+    auto impact = Separating<Impact>(rank, problem.u0, problem.v0);
     impact.closed_form = true;
     return impact;
   }
