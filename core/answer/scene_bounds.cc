@@ -14,7 +14,7 @@
 #include "core/bounds/contact_bounds.h"
 #include "core/bounds/nearly_vertical.h"
 #include "core/bounds/pendulum_bounds.h"
-#include "core/contact/effective.h"
+#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
 #include "core/plan/planned_scene.h"
 #include "core/problem/scene_problem.h"
@@ -68,7 +68,7 @@ absl::StatusOr<Bounds> SampledBounds(const SpatialReduction& reduction, const Ef
 absl::StatusOr<Bounds> ReducedBounds(const Scene& scene, absl::FunctionRef<bool()> stopped) {
   const AnyReduction any = Reduce(scene);
   if (!FitsDoubles(any)) return ContactOverflow();
-  const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
+  const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, ApproachSpeed(any));
   if (const auto* spatial = std::get_if<SpatialReduction>(&any)) return SampledBounds(*spatial, effective, stopped);
   return planar::SolveBounds(planar::MakeProblem(std::get<PlanarReduction>(any), {}, effective));
 }

@@ -13,7 +13,7 @@
 #include "core/certified/digits.h"
 #include "core/certified/flint.h"
 #include "core/certified/system.h"
-#include "core/contact/effective.h"
+#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
 #include "core/problem/scene_problem.h"
 
@@ -159,7 +159,7 @@ absl::StatusOr<Certificate> CertifyLinkage(Question question, const Scene& scene
 // --- Scenes ---
 
 EffectiveCoefficients EffectiveOf(const Scene& scene) {
-  if (!HasClosedForm(scene)) return EffectiveAt(scene, ApproachSpeed(Reduce(scene)));
+  if (!HasClosedForm(scene)) return CoefficientsAtSpeed(scene, ApproachSpeed(Reduce(scene)));
   const pendulum::Problem problem = ClosedFormProblem(scene);
   return {.kinetic_friction = problem.mu, .static_friction = problem.mu_static, .restitution = problem.coefficient};
 }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "core/contact/effective.h"
+#include "core/contact/coefficients_at_speed.h"
 #include "core/plan/explain.h"
 #include "core/problem/scene_problem.h"
 
@@ -67,7 +67,7 @@ PlannedScene PlanScene(const Scene& scene, const Demand& demand) {
   }
   AnyReduction any = Reduce(scene);
   if (!FitsDoubles(any)) return planned;
-  planned.effective = EffectiveAt(scene, ApproachSpeed(any));
+  planned.effective = CoefficientsAtSpeed(scene, ApproachSpeed(any));
   std::visit([&](auto& reduction) { PlanReduced(scene, demand, std::move(reduction), planned); }, any);
   return planned;
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "core/contact/effective.h"
+#include "core/contact/coefficients_at_speed.h"
 #include "core/models/restitution_law.h"
 
 namespace ricochet {
@@ -21,7 +21,7 @@ bool HasClosedForm(const Scene& scene) {
 pendulum::Problem ClosedFormProblem(const Scene& scene) {
   pendulum::Problem problem = pendulum::MakeProblem(scene);
   if (!DependsOnSpeed(scene)) return problem;
-  const EffectiveCoefficients effective = EffectiveAt(scene, PendulumSpeed(std::get<Pendulum>(scene.system)));
+  const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, PendulumSpeed(std::get<Pendulum>(scene.system)));
   problem.mu = effective.kinetic_friction;
   problem.mu_static = effective.static_friction;
   problem.coefficient = effective.restitution;

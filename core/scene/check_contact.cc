@@ -4,8 +4,8 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/delassus.h"
-#include "core/contact/effective.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
 #include "core/numerics/products.h"
@@ -68,7 +68,7 @@ void CheckProduct(const char* field, double product, double speed, double most, 
 
 void CheckEffective(const Scene& scene, double speed, Check& check) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const EffectiveCoefficients effective = EffectiveAt(scene, speed);
+  const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, speed);
   if (scene.friction.by_speed.has_value()) {
     CheckProduct("friction.by_speed", effective.kinetic_friction, speed, kInfinity, check);
     // The static coefficient may overflow although the kinetic one does not.
@@ -122,7 +122,7 @@ void CheckContact(const Scene& scene, Check& check) {
   if (!RangeIsSure(scene)) CheckRange(scene, reduction, check);
   if (DependsOnSpeed(scene)) CheckEffective(scene, ApproachSpeed(reduction), check);
   if (with_spring) {
-    const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(reduction));
+    const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, ApproachSpeed(reduction));
     CheckSpring(scene, std::get<PlanarReduction>(reduction), effective, check);
   }
 }

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
-#include "core/contact/effective.h"
+#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/check.h"

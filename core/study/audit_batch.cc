@@ -8,8 +8,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/answer/scene_outcome.h"
+#include "core/contact/coefficients_at_speed.h"
 #include "core/contact/delassus.h"
-#include "core/contact/effective.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/products.h"
 #include "core/scene/numbers.h"
@@ -171,7 +171,8 @@ class Rows {
     if (!columns_.friction.empty()) {
       mu = mu_static = ValueAt(columns_.friction, row);
     } else if (scene_.friction.by_speed.has_value() && !columns_.normal_m_s.empty()) {
-      const EffectiveCoefficients effective = EffectiveAt(scene_, std::max(0.0, -ValueAt(columns_.normal_m_s, row)));
+      const EffectiveCoefficients effective =
+          CoefficientsAtSpeed(scene_, std::max(0.0, -ValueAt(columns_.normal_m_s, row)));
       mu = effective.kinetic_friction;
       mu_static = effective.static_friction;
     }

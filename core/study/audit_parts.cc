@@ -4,7 +4,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
-#include "core/contact/effective.h"
+#include "core/contact/coefficients_at_speed.h"
 #include "core/problem/scene_problem.h"
 #include "core/scene/validate.h"
 
@@ -51,7 +51,7 @@ ContactVelocity VelocityOf(const ObservedRates& observed, Scene scene) {
 
 AnyProblem MakeProblem(const Scene& scene, const AnyReduction& any, bool from_own_velocity) {
   if (from_own_velocity && HasClosedForm(scene)) return ClosedFormProblem(scene);
-  const EffectiveCoefficients effective = EffectiveAt(scene, ApproachSpeed(any));
+  const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, ApproachSpeed(any));
   if (const auto* planar = std::get_if<PlanarReduction>(&any)) {
     return planar::MakeProblem(*planar, EnergeticCoefficient(), effective);
   }

@@ -1,4 +1,4 @@
-#include "core/contact/effective.h"
+#include "core/contact/coefficients_at_speed.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +91,7 @@ SlopeForm FactorAt(const std::optional<SpeedDependence>& dependence, const Slope
   return std::visit([&speed](const auto& form) { return Factor(form, speed); }, *dependence);
 }
 
-EffectiveCoefficients EffectiveAt(const Scene& scene, double speed) {
+EffectiveCoefficients CoefficientsAtSpeed(const Scene& scene, double speed) {
   const double friction = FactorAt(scene.friction.by_speed, speed);
   const double kinetic = scene.friction.kinetic_coefficient;
   const bool has_law = !std::holds_alternative<std::monostate>(scene.impact_law);

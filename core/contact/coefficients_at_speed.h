@@ -1,7 +1,7 @@
-// EffectiveAt: the coefficients of a scene at its approach speed.
+// CoefficientsAtSpeed: the coefficients of a scene at its approach speed.
 
-#ifndef RICOCHET_CORE_CONTACT_EFFECTIVE_H_
-#define RICOCHET_CORE_CONTACT_EFFECTIVE_H_
+#ifndef RICOCHET_CORE_CONTACT_COEFFICIENTS_AT_SPEED_H_
+#define RICOCHET_CORE_CONTACT_COEFFICIENTS_AT_SPEED_H_
 
 #include <optional>
 
@@ -23,8 +23,8 @@ inline bool DependsOnSpeed(const Scene& scene) {
 }
 
 // The scene's coefficients, each multiplied by its factor. A restitution that is left open counts as 0.
-EffectiveCoefficients EffectiveAt(const Scene& scene, double speed);
+EffectiveCoefficients CoefficientsAtSpeed(const Scene& scene, double speed);
 
 }  // namespace ricochet
 
-#endif  // RICOCHET_CORE_CONTACT_EFFECTIVE_H_
+#endif  // RICOCHET_CORE_CONTACT_COEFFICIENTS_AT_SPEED_H_
