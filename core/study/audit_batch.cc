@@ -37,16 +37,16 @@ std::vector<ColumnRule> Rules(const AuditColumns& in, size_t directions) {
   const bool by_rates = !in.rates_after_rad_s.empty();
   const Presence after = by_rates ? Presence::kRefused : Presence::kRequired;
   const bool planar = directions == 1;
-  const char* const kPlanar = "for a planar system";
-  const char* const kByRates = "beside rates_after";
+  const char* const for_planar = "for a planar system";
+  const char* const beside_rates = "beside rates_after";
   std::vector<ColumnRule> rules = {
       {"columns.tangential_m_s", in.tangential_m_s, first},
-      {"columns.tangential_2_m_s", in.tangential_2_m_s, planar ? Presence::kRefused : first, kPlanar},
+      {"columns.tangential_2_m_s", in.tangential_2_m_s, planar ? Presence::kRefused : first, for_planar},
       {"columns.normal_m_s", in.normal_m_s, first},
-      {"columns.tangential_after_m_s", in.tangential_after_m_s, after, kByRates},
+      {"columns.tangential_after_m_s", in.tangential_after_m_s, after, beside_rates},
       {"columns.tangential_2_after_m_s", in.tangential_2_after_m_s, planar ? Presence::kRefused : after,
-       planar ? kPlanar : kByRates},
-      {"columns.normal_after_m_s", in.normal_after_m_s, after, kByRates},
+       planar ? for_planar : beside_rates},
+      {"columns.normal_after_m_s", in.normal_after_m_s, after, beside_rates},
       {"columns.friction", in.friction, Presence::kOptional},
       {"columns.velocity_uncertainty_m_s", in.velocity_uncertainty_m_s, Presence::kOptional}};
   for (size_t i = 0; i < in.rates_after_rad_s.size(); ++i) {

@@ -160,7 +160,7 @@ void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, con
 
 // The first chunk is small, so that a caller soon sees something.
 int64_t SweepRun::Impl::NextCount() const {
-  const int64_t bytes_a_point = static_cast<int64_t>(columns_.size() * sizeof(double));
+  const auto bytes_a_point = static_cast<int64_t>(columns_.size() * sizeof(double));
   return std::min(next_ == first_ ? kFirstChunkPoints : kChunkBytes / bytes_a_point, end_ - next_);
 }
 
