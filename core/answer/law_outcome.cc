@@ -15,9 +15,9 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // The laws' headers promise a few rounding errors.
 constexpr double kError = 16.0 * kEpsilon;
 
-laws::ImpactLawResult SolveLaw(const ImpactLaw& law, const laws::PlanarImpactInput& input) {
+laws::ImpactLawResult SolveLaw(const ImpactLaw& law, const PlanarProblem& input) {
   struct Solver {
-    const laws::PlanarImpactInput& input;
+    const PlanarProblem& input;
     laws::ImpactLawResult operator()(std::monostate) const { return {}; }
     laws::ImpactLawResult operator()(WhittakerLaw law) const { return laws::SolveWhittaker(input, law.e); }
     laws::ImpactLawResult operator()(KaneLevinsonLaw law) const { return laws::SolveKaneLevinson(input, law.e); }
@@ -74,12 +74,9 @@ absl::StatusOr<Outcome> MakeLawOutcome(const ImpactLaw& law, double mu, const Pl
   if (const auto violations = RefuseHistory(history_at_n_s, "an impact law, which has no path"); !violations.empty()) {
     return InvalidRequest(violations);
   }
-  const laws::ImpactLawResult result = SolveLaw(law, {.wtt = reduction.w[0],
-                                                      .wtn = reduction.w[1],
-                                                      .wnn = reduction.w[2],
-                                                      .u0 = reduction.u0[0],
-                                                      .v0 = reduction.v0,
-                                                      .mu = mu});
+  const laws::ImpactLawResult result = SolveLaw(
+      law,
+      {.w = {reduction.w[0], reduction.w[1], reduction.w[2]}, .u0 = reduction.u0[0], .v0 = reduction.v0, .mu = mu});
   Outcome outcome;
   outcome.regime = RegimeOf(reduction, result);
   laws::ImpactSolution solution = {.u1 = reduction.u0[0], .v1 = reduction.v0};

@@ -15,7 +15,7 @@ constexpr double kNearlySingularError = 1e-9;
 Accuracy AccuracyOf(const Problem& problem, const PlanarReduction& reduction, const Impact& impact) {
   Accuracy accuracy = {.kind = AccuracyKind::kEstimate};
   if (impact.regime == Regime::kSeparating) return accuracy;
-  const double det = std::abs(RelativeDeterminant(problem.wtt, problem.wtn, problem.wnn));
+  const double det = std::abs(RelativeDeterminant(problem.w.tt, problem.w.tn, problem.w.nn));
   const double error = impact.w_rank > 1 && det < kNearlySingular ? kNearlySingularError : kError;
   accuracy.relative_error = RelativeToBefore<1>(error, reduction, {impact.u1}, impact.v1);
   return accuracy;

@@ -42,20 +42,20 @@ struct Slopes {
 };
 
 Slopes SlopesAt(const Problem& problem, int w_rank, double f) {
-  const double v = std::fma(f, problem.wtn, problem.wnn);
-  const double square = problem.wtn * problem.wtn;
-  const double square_error = std::fma(problem.wtn, problem.wtn, -square);
-  const double det = w_rank == 1 ? 0.0 : std::fma(problem.wtt, problem.wnn, -square) - square_error;
-  const double u = w_rank == 1 ? v * problem.wtn / problem.wnn : std::fma(f, problem.wtt, problem.wtn);
+  const double v = std::fma(f, problem.w.tn, problem.w.nn);
+  const double square = problem.w.tn * problem.w.tn;
+  const double square_error = std::fma(problem.w.tn, problem.w.tn, -square);
+  const double det = w_rank == 1 ? 0.0 : std::fma(problem.w.tt, problem.w.nn, -square) - square_error;
+  const double u = w_rank == 1 ? v * problem.w.tn / problem.w.nn : std::fma(f, problem.w.tt, problem.w.tn);
   // (f, 1) W (f, 1)^T with its square completed, so that nothing cancels.
-  return {.u = u, .v = v, .f = f, .power = (v * v + f * f * det) / problem.wnn};
+  return {.u = u, .v = v, .f = f, .power = (v * v + f * f * det) / problem.w.nn};
 }
 
 // The slopes after slip has stopped.
 Slopes SlopesAfterStop(const Problem& problem, int w_rank) {
-  const bool sticks = w_rank == 2 && std::fabs(problem.wtn) <= problem.mu_static * problem.wtt;
-  if (!sticks) return SlopesAt(problem, w_rank, -std::copysign(problem.mu, problem.wtn));
-  Slopes slopes = SlopesAt(problem, w_rank, -problem.wtn / problem.wtt);
+  const bool sticks = w_rank == 2 && std::fabs(problem.w.tn) <= problem.mu_static * problem.w.tt;
+  if (!sticks) return SlopesAt(problem, w_rank, -std::copysign(problem.mu, problem.w.tn));
+  Slopes slopes = SlopesAt(problem, w_rank, -problem.w.tn / problem.w.tt);
   slopes.u = 0.0;
   slopes.v = slopes.power;
   return slopes;
@@ -99,7 +99,7 @@ EnergyWalk WhereEnergyIsBack(const Problem& problem, const Impact& elastic) {
                    .energy = std::min(elastic.energy_change, 0.0),
                    .work = elastic.work_normal_restitution};
   Slopes slopes;
-  if (problem.wtt == 0.0) {
+  if (problem.w.tt == 0.0) {
     slopes = SlopesAt(problem, elastic.w_rank, 0.0);
   } else if (HasStopped(elastic) || problem.u0 == 0.0) {
     slopes = SlopesAfterStop(problem, elastic.w_rank);
@@ -130,8 +130,8 @@ CoefficientBounds EnergyOnlyBounds(const Problem& problem, const Impact& plastic
 
 CriticalFriction Critical(const Problem& problem, int w_rank) {
   const auto is_positive = [](double x) { return x > 0.0; };
-  auto critical = FindCriticalFriction<CriticalFriction>(problem.wtt, problem.wtn, problem.wnn, problem.u0, problem.v0,
-                                                         w_rank == 2, is_positive);
+  auto critical = FindCriticalFriction<CriticalFriction>(problem.w.tt, problem.w.tn, problem.w.nn, problem.u0,
+                                                         problem.v0, w_rank == 2, is_positive);
   for (auto* const one :
        {&critical.stick, &critical.stop_compression, &critical.stop, &critical.reversal, &critical.jam}) {
     // No friction is infinite.

@@ -32,9 +32,7 @@ pendulum::Problem Probe(int i) {
 
 // One of 16 planar contacts, or of 16 contacts in space: every law, and slip that goes on, turns, reverses and stops.
 planar::Problem PlanarProbe(int i) {
-  return {.wtt = 2.5,
-          .wtn = -1.5 + 0.2 * i,
-          .wnn = 2.5,
+  return {.w = {2.5, -1.5 + 0.2 * i, 2.5},
           .u0 = i % 4 == 3 ? 0.0 : -1.0 + 0.1 * i,
           .v0 = -1.0,
           .mu = 0.1 * (i % 9),
@@ -61,9 +59,9 @@ spatial::Problem SpatialProbe(int i) {
 // One of the planar contacts with a compliance along t: some sticks end and some impacts do not.
 compliant::Problem CompliantProbe(int i) {
   const planar::Problem p = PlanarProbe(i);
-  return {.wtt = p.wtt,
-          .wtn = p.wtn,
-          .wnn = p.wnn,
+  return {.wtt = p.w.tt,
+          .wtn = p.w.tn,
+          .wnn = p.w.nn,
           .u0 = p.u0,
           .v0 = p.v0,
           .mu = 0.1 * (i % 7),

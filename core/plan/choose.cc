@@ -123,7 +123,7 @@ bool HasForces(const ContactPhysics& physics) {
 }
 
 sliding::Problem<1> LineOf(const planar::Problem& problem) {
-  return {.w = {problem.wtt, problem.wtn, problem.wnn},
+  return {.w = {problem.w.tt, problem.w.tn, problem.w.nn},
           .u0 = {problem.u0},
           .v0 = problem.v0,
           .mu = problem.mu,
@@ -147,9 +147,9 @@ double LineError(bool serves, bool slips, const auto& line) {
 }
 
 bool LinesServe(const planar::Problem& problem) {
-  const bool full_rank = std::fabs(RelativeDeterminant(problem.wtt, problem.wtn, problem.wnn)) > 0x1p-40;
-  const double cone = problem.mu * std::fabs(problem.wtn) / problem.wnn;
-  return problem.coefficient <= 1.0 && (full_rank || problem.wtt == 0.0) && 1.0 - cone >= kLeastSlope;
+  const bool full_rank = std::fabs(RelativeDeterminant(problem.w.tt, problem.w.tn, problem.w.nn)) > 0x1p-40;
+  const double cone = problem.mu * std::fabs(problem.w.tn) / problem.w.nn;
+  return problem.coefficient <= 1.0 && (full_rank || problem.w.tt == 0.0) && 1.0 - cone >= kLeastSlope;
 }
 
 // True if det W over the product of the diagonal is above 2^-40, far above its value for a W of less than full rank.

@@ -50,8 +50,8 @@ struct Scaled {
 Scaled Scale(const planar::Problem& problem) {
   Scaled contact;
   const double speed = -problem.v0;
-  const double w = problem.wtn / problem.wnn;
-  contact.mobility = {.tangential = problem.wtt / problem.wnn, .coupling = std::fabs(w)};
+  const double w = problem.w.tn / problem.w.nn;
+  contact.mobility = {.tangential = problem.w.tt / problem.w.nn, .coupling = std::fabs(w)};
   contact.along = problem.u0 == 0.0 ? contact.mobility.coupling : std::copysign(1.0, problem.u0) * w;
   contact.slip = std::fabs(problem.u0) / speed;
   contact.mu = problem.mu;
@@ -156,9 +156,9 @@ Size StopSize(const Scaled& contact, const planar::Problem& problem) {
 // the criterion for a W of rank one.
 bool CoefficientsDisagree(const planar::Problem& problem, double relative_determinant) {
   const bool rank_one = std::fabs(relative_determinant) <= 0x1p-50;
-  const double normal = std::fabs(problem.wtn);
-  const double from = rank_one ? normal : problem.wtt;
-  const double against = rank_one ? problem.wnn : normal;
+  const double normal = std::fabs(problem.w.tn);
+  const double from = rank_one ? normal : problem.w.tt;
+  const double against = rank_one ? problem.w.nn : normal;
   return std::fma(problem.mu, from, -against) < 0.0 && std::fma(problem.mu_static, from, -against) >= 0.0;
 }
 
@@ -246,11 +246,11 @@ struct Drift {
 };
 
 Drift DriftOf(const planar::Problem& problem, const ContactPhysics& physics) {
-  const double cone = problem.mu_static * std::fabs(problem.wtn);
-  if (!(problem.wnn - cone >= kLeastSlope * problem.wnn)) return {.seconds = kUnbounded};
+  const double cone = problem.mu_static * std::fabs(problem.w.tn);
+  if (!(problem.w.nn - cone >= kLeastSlope * problem.w.nn)) return {.seconds = kUnbounded};
   const double normal = std::fabs(physics.normal_acceleration);
-  const double time = LongestContact(physics.spring, {.slope_low = problem.wnn - cone,
-                                                      .slope_high = problem.wnn + cone,
+  const double time = LongestContact(physics.spring, {.slope_low = problem.w.nn - cone,
+                                                      .slope_high = problem.w.nn + cone,
                                                       .v0 = problem.v0,
                                                       .energetic = problem.coefficient,
                                                       .acceleration = normal});
@@ -327,7 +327,7 @@ Sizes PlanarSizes(const planar::Problem& problem, const ContactPhysics& physics,
   sizes[Effect::kSlipTurn].ground = Ground::kNotOfSystem;
   sizes[Effect::kStaticFriction] = StaticSize(contact, problem);
   sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, problem, physics, sizes[Effect::kFriction].value);
-  if (problem.wtt == 0.0) {
+  if (problem.w.tt == 0.0) {
     for (const Effect effect : {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction}) {
       sizes[effect] = {.ground = Ground::kImmobile};
     }
@@ -341,9 +341,8 @@ Sizes PlanarSizes(const planar::Problem& problem, const ContactPhysics& physics,
 
 planar::Problem PlanarOf(const pendulum::Problem& problem) {
   const double per_inertia = 1.0 / problem.inertia;
-  return {.wtt = problem.b * problem.b * per_inertia,
-          .wtn = problem.a * problem.b * per_inertia,
-          .wnn = problem.a * problem.a * per_inertia,
+  return {.w = {problem.b * problem.b * per_inertia, problem.a * problem.b * per_inertia,
+                problem.a * problem.a * per_inertia},
           .u0 = problem.b * problem.omega_minus,
           .v0 = problem.a * problem.omega_minus,
           .mu = problem.mu,

@@ -49,9 +49,7 @@ namespace planar {
 
 Problem MakeProblem(const PlanarReduction& reduction, const Restitution& restitution,
                     const EffectiveCoefficients& effective) {
-  return {.wtt = reduction.w[0],
-          .wtn = reduction.w[1],
-          .wnn = reduction.w[2],
+  return {.w = {reduction.w[0], reduction.w[1], reduction.w[2]},
           .u0 = reduction.u0[0],
           .v0 = reduction.v0,
           .mu = effective.kinetic_friction,

@@ -46,6 +46,9 @@ PathPoint EndOf(const Problem& problem, const Impact& impact) {
           .velocity_error = VelocityError(problem)};
 }
 
+using planar::Solve;
+using spatial::Solve;
+
 template <typename Problem>
 auto SolveBy(Problem problem, RestitutionLaw law, double coefficient) {
   problem.law = law;

@@ -60,7 +60,7 @@ void Measure(const char* what, const std::vector<Problem>& problems) {
       },
       [&] {
         double sum = 0.0;
-        for (const planar::Problem& problem : planar_problems) sum += Solve(problem).v1;
+        for (const planar::Problem& problem : planar_problems) sum += planar::Solve(problem).v1;
         Keep(sum);
       });
   double terms = 0.0;

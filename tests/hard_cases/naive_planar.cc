@@ -12,7 +12,7 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 class Path {
  public:
   explicit Path(const Problem& problem) : p_(problem), u_(problem.u0), v_(problem.v0) {
-    impact_.w_rank = p_.wtt * p_.wnn - p_.wtn * p_.wtn > 0.0 ? 2 : 1;
+    impact_.w_rank = p_.w.tt * p_.w.nn - p_.w.tn * p_.w.tn > 0.0 ? 2 : 1;
     Record(EventKind::kStart);
   }
 
@@ -25,12 +25,12 @@ class Path {
  private:
   double Friction() {
     sticks_ = false;
-    if (p_.wtt == 0.0) return 0.0;
+    if (p_.w.tt == 0.0) return 0.0;
     double direction = u_;
     if (direction == 0.0) {
-      sticks_ = std::fabs(p_.wtn) <= p_.mu_static * p_.wtt;
-      if (sticks_) return -p_.wtn / p_.wtt;
-      direction = p_.wtn;
+      sticks_ = std::fabs(p_.w.tn) <= p_.mu_static * p_.w.tt;
+      if (sticks_) return -p_.w.tn / p_.w.tt;
+      direction = p_.w.tn;
     }
     return -std::copysign(p_.mu, direction);
   }
@@ -52,8 +52,8 @@ class Path {
 
   void Advance() {
     const double f = Friction();
-    const double u_rise = sticks_ ? 0.0 : p_.wtn + p_.wtt * f;
-    const double v_rise = p_.wnn + p_.wtn * f;
+    const double u_rise = sticks_ ? 0.0 : p_.w.tn + p_.w.tt * f;
+    const double v_rise = p_.w.nn + p_.w.tn * f;
     if (sticks_ && v_rise <= 0.0) {
       impact_.regime = Regime::kLocked;
       done_ = true;
@@ -116,7 +116,7 @@ class Path {
 
   Impact Report() {
     if (impact_.regime == Regime::kUnspecified) impact_.regime = Regime::kSliding;
-    if (impact_.regime == Regime::kSliding && (p_.mu == 0.0 || p_.wtt == 0.0)) impact_.regime = Regime::kFrictionless;
+    if (impact_.regime == Regime::kSliding && (p_.mu == 0.0 || p_.w.tt == 0.0)) impact_.regime = Regime::kFrictionless;
     if (p_.mu_static == 0.0) impact_.regime = Regime::kFrictionless;
     impact_.u1 = u_;
     impact_.v1 = v_;

@@ -70,9 +70,9 @@ Problem OfUnequalMasses(SceneSource& source) {
   constexpr double kRatio = 1e12;
   Problem problem = source.Everyday();
   const double offset = source.Uniform(-1.0, 1.0);
-  problem.wtt += (1.0 + offset * offset) / kRatio;
-  problem.wtn += offset / kRatio;
-  problem.wnn += 1.0 / kRatio;
+  problem.w.tt += (1.0 + offset * offset) / kRatio;
+  problem.w.tn += offset / kRatio;
+  problem.w.nn += 1.0 / kRatio;
   return problem;
 }
 
@@ -80,8 +80,8 @@ Problem OfUnequalMasses(SceneSource& source) {
 Problem OfUnequalMobilities(SceneSource& source) {
   constexpr double kRatio = 1e12;
   Problem problem = source.Everyday();
-  problem.wtt *= kRatio;
-  problem.wtn *= std::sqrt(kRatio);
+  problem.w.tt *= kRatio;
+  problem.w.tn *= std::sqrt(kRatio);
   problem.mu /= std::sqrt(kRatio);
   problem.mu_static = problem.mu;
   return problem;
@@ -115,15 +115,15 @@ std::vector<HardCase> HardCases() {
       {"mobilities 10¹² : 1", "W is of unequals", OfUnequalMobilities},
       With("self-locking, μ up to 10³ Wnn/\\|Wtn\\|", "v falls first; slip has to stop before it rises",
            [](SceneSource& source, Problem& problem) {
-             if (problem.wtn == 0.0) problem.wtn = 0.1 * std::sqrt(problem.wtt * problem.wnn);
+             if (problem.w.tn == 0.0) problem.w.tn = 0.1 * std::sqrt(problem.w.tt * problem.w.nn);
              problem.mu = problem.mu_static =
-                 problem.wnn / std::fabs(problem.wtn) * std::exp2(source.Uniform(0.0, 10.0));
-             problem.u0 = std::copysign(problem.u0, problem.wtn);
+                 problem.w.nn / std::fabs(problem.w.tn) * std::exp2(source.Uniform(0.0, 10.0));
+             problem.u0 = std::copysign(problem.u0, problem.w.tn);
            }),
       {"locked", "rank one and friction: nothing may be left of u and v",
        [](SceneSource& source) {
          Problem problem = source.RankOne();
-         problem.mu = problem.mu_static = problem.wnn / std::fabs(problem.wtn) * (1.0 + 0x1p-40);
+         problem.mu = problem.mu_static = problem.w.nn / std::fabs(problem.w.tn) * (1.0 + 0x1p-40);
          return problem;
        }},
   };

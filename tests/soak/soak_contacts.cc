@@ -44,8 +44,8 @@ const char* NameOf(Regime regime) {
 }
 
 std::string ToString(const planar::Problem& p) {
-  return absl::StrFormat("W %a %a %a u0 %a v0 %a mu %a mu_s %a law %d coefficient %a", p.wtt, p.wtn, p.wnn, p.u0, p.v0,
-                         p.mu, p.mu_static, static_cast<int>(p.law), p.coefficient);
+  return absl::StrFormat("W %a %a %a u0 %a v0 %a mu %a mu_s %a law %d coefficient %a", p.w.tt, p.w.tn, p.w.nn, p.u0,
+                         p.v0, p.mu, p.mu_static, static_cast<int>(p.law), p.coefficient);
 }
 
 std::string ToString(const spatial::Problem& p) {
@@ -180,6 +180,9 @@ std::string Complaint(const Problem& problem, const Impact& impact, const Limits
   if (impact.sharp_limit_broken || impact.energy_limit_broken) return "flagged as inadmissible";
   return "";
 }
+
+using planar::Solve;
+using spatial::Solve;
 
 template <typename Problem>
 void Check(const Problem& problem, bool any_exponent, Tally& tally) {

@@ -69,7 +69,7 @@ inline Scene SceneOf(const pendulum::Problem& p) {
 }
 
 inline Scene SceneOf(const planar::Problem& p) {
-  return {.system = PlanarContact{p.wtt, p.wtn, p.wnn, p.u0, p.v0},
+  return {.system = PlanarContact{p.w.tt, p.w.tn, p.w.nn, p.u0, p.v0},
           .friction = {.kinetic_coefficient = p.mu, .static_coefficient = p.mu_static},
           .restitution = RestitutionOf(p.law, p.coefficient)};
 }

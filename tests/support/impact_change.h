@@ -63,14 +63,14 @@ inline double SpeedOf(const spatial::Problem& problem) {
 }
 
 inline double ChangeBetween(const planar::Problem& problem, const Ending<1>& a, const Ending<1>& b) {
-  return ChangeBetween(a, b, problem.wtt, problem.wnn, SpeedOf(problem));
+  return ChangeBetween(a, b, problem.w.tt, problem.w.nn, SpeedOf(problem));
 }
 inline double ChangeBetween(const spatial::Problem& problem, const Ending<2>& a, const Ending<2>& b) {
   return ChangeBetween(a, b, problem.w11 + problem.w22, problem.w33, SpeedOf(problem));
 }
 
 inline sliding::Problem<1> LineOf(const planar::Problem& problem) {
-  return {.w = {problem.wtt, problem.wtn, problem.wnn},
+  return {.w = {problem.w.tt, problem.w.tn, problem.w.nn},
           .u0 = {problem.u0},
           .v0 = problem.v0,
           .mu = problem.mu,

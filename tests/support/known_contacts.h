@@ -12,9 +12,7 @@ namespace ricochet {
 
 // A uniform rod at 45 degrees that strikes with its end, m = l = 1; mu = 0.7.
 inline planar::Problem FortyFiveDegreeRod(RestitutionLaw law = RestitutionLaw::kEnergetic, double coefficient = 0.0) {
-  return {.wtt = 2.5,
-          .wtn = 1.5,
-          .wnn = 2.5,
+  return {.w = {2.5, 1.5, 2.5},
           .u0 = -1.0,
           .v0 = -1.0,
           .mu = 0.7,
@@ -39,9 +37,7 @@ inline spatial::Problem TurningContact(double u1, double u2, double mu) {
 
 // The contact of a pendulum. W has rank one up to rounding.
 inline planar::Problem ContactOf(const pendulum::Problem& p) {
-  return {.wtt = p.b * p.b / p.inertia,
-          .wtn = p.a * p.b / p.inertia,
-          .wnn = p.a * p.a / p.inertia,
+  return {.w = {p.b * p.b / p.inertia, p.a * p.b / p.inertia, p.a * p.a / p.inertia},
           .u0 = p.b * p.omega_minus,
           .v0 = p.a * p.omega_minus,
           .mu = p.mu,
@@ -52,9 +48,7 @@ inline planar::Problem ContactOf(const pendulum::Problem& p) {
 
 // A contact in space with its second direction left out.
 inline planar::Problem InPlane(const spatial::Problem& p) {
-  return {.wtt = p.w11,
-          .wtn = p.w13,
-          .wnn = p.w33,
+  return {.w = {p.w11, p.w13, p.w33},
           .u0 = p.u0[0],
           .v0 = p.v0,
           .mu = p.mu,

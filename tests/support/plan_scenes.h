@@ -79,11 +79,8 @@ class PlanScenes {
     const double wnn = Power(-2.0, 2.0);
     const double wtt = wnn * Power(-1.5, 1.5);
     const double cosine = Below(2) == 0 ? Uniform(0.0, 1.0) : Power(-8.0, 0.0);
-    planar::Problem problem = {.wtt = wtt,
-                               .wtn = Sign() * cosine * std::sqrt(wtt * wnn),
-                               .wnn = wnn,
-                               .v0 = -Power(-3.0, 2.0),
-                               .mu = Power(-8.0, 0.5)};
+    planar::Problem problem = {
+        .w = {wtt, Sign() * cosine * std::sqrt(wtt * wnn), wnn}, .v0 = -Power(-3.0, 2.0), .mu = Power(-8.0, 0.5)};
     problem.u0 = Sign() * -problem.v0 * Power(-6.0, 3.0);
     problem.mu_static = Below(4) == 0 ? problem.mu * (1.0 + Power(-3.0, 1.0)) : problem.mu;
     SetRestitution(problem);
@@ -101,15 +98,15 @@ class PlanScenes {
   void StopNear(double periods, planar::Problem& problem) {
     if (problem.mu == 0.0 || planar::SceneSource::IsRankOne(problem)) return;
     const double sign = Sign();
-    const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
-    const double v_slope = problem.wnn - sign * problem.mu * problem.wtn;
+    const double u_slope = sign * problem.w.tn - problem.mu * problem.w.tt;
+    const double v_slope = problem.w.nn - sign * problem.mu * problem.w.tn;
     if (!(u_slope < 0.0 && v_slope > 0.0)) return;
     problem.u0 = sign * problem.v0 * u_slope / v_slope * periods * (1.0 + Sign() * Power(-14.0, -0.5));
   }
 
   void JamNear(planar::Problem& problem) {
-    if (problem.wtn == 0.0 || planar::SceneSource::IsRankOne(problem)) return;
-    problem.mu = problem.mu_static = problem.wnn / std::fabs(problem.wtn) * (1.0 - Power(-7.0, -0.3));
+    if (problem.w.tn == 0.0 || planar::SceneSource::IsRankOne(problem)) return;
+    problem.mu = problem.mu_static = problem.w.nn / std::fabs(problem.w.tn) * (1.0 - Power(-7.0, -0.3));
   }
 
   void NearlyASphere(spatial::Problem& problem) {

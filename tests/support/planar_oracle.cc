@@ -21,7 +21,7 @@ Ball Larger(const Ball& x, const Ball& y) { return Compare(x, y) < 0 ? y : x; }
 slong PrecisionFor(const Problem& problem) {
   int least = std::numeric_limits<int>::max();
   int most = std::numeric_limits<int>::min();
-  for (const double value : {problem.wtt, problem.wtn, problem.wnn, problem.u0, problem.v0, problem.mu,
+  for (const double value : {problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0, problem.mu,
                              problem.mu_static, problem.coefficient, 1.0}) {
     if (value == 0.0) continue;
     least = std::min(least, std::ilogb(value));
@@ -35,9 +35,9 @@ class Simulation {
   explicit Simulation(const Problem& problem)
       : problem_(problem),
         bits_(PrecisionFor(problem)),
-        wtt_(problem.wtt, bits_),
-        wtn_(problem.wtn, bits_),
-        wnn_(problem.wnn, bits_),
+        wtt_(problem.w.tt, bits_),
+        wtn_(problem.w.tn, bits_),
+        wnn_(problem.w.nn, bits_),
         u0_(problem.u0, bits_),
         v0_(problem.v0, bits_),
         mu_(problem.mu, bits_),
@@ -45,7 +45,7 @@ class Simulation {
         coefficient_(problem.coefficient, bits_) {
     const Ball square = wtt_ * wnn_;
     rank_one_ = Compare(Abs(square - wtn_ * wtn_), Ball(0x1p-50) * square) <= 0;
-    if (rank_one_ && problem.wtt != 0.0) {
+    if (rank_one_ && problem.w.tt != 0.0) {
       wtt_ = wtn_ * wtn_ / wnn_;
       u0_ = v0_ * wtn_ / wnn_;
     }
@@ -182,7 +182,7 @@ class Simulation {
     if (locked_) return Regime::kLocked;
     const bool started_stuck = problem_.u0 == 0.0 && !rank_one_ && Compare(Abs(wtn_), mu_static_ * wtt_) <= 0;
     const bool ever_stuck = started_stuck || (stopped_ && stuck_);
-    if (problem_.wtt == 0.0 || problem_.mu_static == 0.0) return Regime::kFrictionless;
+    if (problem_.w.tt == 0.0 || problem_.mu_static == 0.0) return Regime::kFrictionless;
     if (problem_.mu == 0.0 && !ever_stuck) return Regime::kFrictionless;
     if (started_stuck) return Regime::kStickInCompression;
     if (!stopped_) return Regime::kSliding;
@@ -294,7 +294,7 @@ OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactI
 
 std::string ToString(const Problem& problem) {
   std::ostringstream text;
-  text << std::hexfloat << "W " << problem.wtt << " " << problem.wtn << " " << problem.wnn << " u0 " << problem.u0
+  text << std::hexfloat << "W " << problem.w.tt << " " << problem.w.tn << " " << problem.w.nn << " u0 " << problem.u0
        << " v0 " << problem.v0 << " mu " << problem.mu << " mu_s " << problem.mu_static << " law "
        << static_cast<int>(problem.law) << " c " << problem.coefficient;
   return text.str();

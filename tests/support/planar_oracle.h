@@ -77,4 +77,11 @@ std::string ToString(const Problem& problem);
 
 }  // namespace ricochet::planar
 
+namespace ricochet {
+
+// Lets templates find it for a PlanarProblem, which all planar models share.
+using planar::ToString;
+
+}  // namespace ricochet
+
 #endif  // RICOCHET_TESTS_SUPPORT_PLANAR_ORACLE_H_

@@ -45,9 +45,7 @@ class SceneSource {
   Problem Everyday() {
     const double t = Uniform(0.1, 3.0);
     const double n = Uniform(0.1, 3.0);
-    Problem problem = {.wtt = t * t,
-                       .wtn = t * n * Uniform(-1.0, 1.0),
-                       .wnn = n * n,
+    Problem problem = {.w = {t * t, t * n * Uniform(-1.0, 1.0), n * n},
                        .u0 = Uniform(-3.0, 3.0),
                        .v0 = -Uniform(0.1, 3.0),
                        .mu = Uniform(0.0, 1.5)};
@@ -60,8 +58,8 @@ class SceneSource {
   Problem NearRankOne() {
     Problem problem = Everyday();
     const double cosine = std::sqrt(1.0 - std::exp2(-Uniform(10.0, 54.0)));
-    problem.wtn = Sign() * cosine * std::sqrt(problem.wtt * problem.wnn);
-    if (Below(2) == 0) problem.u0 = problem.v0 * problem.wtn / problem.wnn * (1.0 + Uniform(-0.1, 0.1));
+    problem.w.tn = Sign() * cosine * std::sqrt(problem.w.tt * problem.w.nn);
+    if (Below(2) == 0) problem.u0 = problem.v0 * problem.w.tn / problem.w.nn * (1.0 + Uniform(-0.1, 0.1));
     return Admitted(problem);
   }
 
@@ -71,17 +69,17 @@ class SceneSource {
     const double a = Uniform(0.1, 10.0);
     const double b = Uniform(-10.0, 10.0);
     Problem problem = Everyday();
-    problem.wtt = b * b / inertia;
-    problem.wtn = a * b / inertia;
-    problem.wnn = a * a / inertia;
+    problem.w.tt = b * b / inertia;
+    problem.w.tn = a * b / inertia;
+    problem.w.nn = a * a / inertia;
     return Admitted(problem);
   }
 
   // mu Wtt lies within a few ulp of |Wtn|.
   Problem NearStick() {
     Problem problem = Below(3) == 0 ? NearRankOne() : Everyday();
-    if (problem.wtn == 0.0) return problem;
-    problem.mu = Steps(std::fabs(problem.wtn) / problem.wtt, Near(3));
+    if (problem.w.tn == 0.0) return problem;
+    problem.mu = Steps(std::fabs(problem.w.tn) / problem.w.tt, Near(3));
     problem.mu_static = Below(2) == 0 ? problem.mu : Steps(problem.mu, static_cast<int64_t>(Below(3)));
     return Admitted(problem);
   }
@@ -89,10 +87,10 @@ class SceneSource {
   // mu |Wtn| lies near Wnn, so that v falls at first, or nearly does.
   Problem NearJam() {
     Problem problem = Everyday();
-    if (problem.wtn == 0.0) return problem;
-    problem.mu = problem.wnn / std::fabs(problem.wtn) * (1.0 + Uniform(-1.0, 1.0) * std::exp2(-Uniform(0.0, 54.0)));
+    if (problem.w.tn == 0.0) return problem;
+    problem.mu = problem.w.nn / std::fabs(problem.w.tn) * (1.0 + Uniform(-1.0, 1.0) * std::exp2(-Uniform(0.0, 54.0)));
     problem.mu_static = problem.mu;
-    problem.u0 = std::copysign(problem.u0, problem.wtn);
+    problem.u0 = std::copysign(problem.u0, problem.w.tn);
     return problem;
   }
 
@@ -131,9 +129,7 @@ class SceneSource {
 
   // The numbers have a few bits only, so that events coincide exactly.
   Problem SmallIntegers() {
-    Problem problem = {.wtt = Integer(1, 6),
-                       .wtn = Integer(-6, 6),
-                       .wnn = Integer(1, 6),
+    Problem problem = {.w = {Integer(1, 6), Integer(-6, 6), Integer(1, 6)},
                        .u0 = Integer(-4, 4),
                        .v0 = -Integer(1, 4),
                        .mu = Integer(0, 8) / 4.0};
@@ -157,9 +153,9 @@ class SceneSource {
     const double n = Uniform(0.5, 1.0);
     const int t_exponent = static_cast<int>(Below(1000)) - 500;
     const int n_exponent = static_cast<int>(Below(1000)) - 500;
-    problem.wtt = std::ldexp(t * t, 2 * t_exponent);
-    problem.wnn = std::ldexp(n * n, 2 * n_exponent);
-    problem.wtn = Sign() * std::ldexp(t * n * (Below(4) == 0 ? 1.0 : Uniform(0.0, 1.0)), t_exponent + n_exponent);
+    problem.w.tt = std::ldexp(t * t, 2 * t_exponent);
+    problem.w.nn = std::ldexp(n * n, 2 * n_exponent);
+    problem.w.tn = Sign() * std::ldexp(t * n * (Below(4) == 0 ? 1.0 : Uniform(0.0, 1.0)), t_exponent + n_exponent);
     // Half of the time friction is chosen so that it matters.
     if (Below(2) == 0) problem.mu = std::ldexp(Uniform(0.1, 3.0), n_exponent - t_exponent);
     problem.mu_static = std::max(problem.mu, problem.mu_static);
@@ -183,10 +179,10 @@ class SceneSource {
     int t = 0;
     int n = 0;
     int c = 0;
-    const double tt = std::frexp(problem.wtt, &t);
-    const double nn = std::frexp(problem.wnn, &n);
-    const double tn = std::frexp(problem.wtn, &c);
-    if (problem.wtn == 0.0 || t + n - 2 * c > 60) return problem.wtt == 0.0;
+    const double tt = std::frexp(problem.w.tt, &t);
+    const double nn = std::frexp(problem.w.nn, &n);
+    const double tn = std::frexp(problem.w.tn, &c);
+    if (problem.w.tn == 0.0 || t + n - 2 * c > 60) return problem.w.tt == 0.0;
     // tt nn - tn^2 as a difference of products with one rounding each.
     const double square = std::ldexp(tt, t + n - 2 * c) * nn;
     const double low = std::fma(std::ldexp(tt, t + n - 2 * c), nn, -square);
@@ -202,8 +198,8 @@ class SceneSource {
   // Slip stops within a few ulp of 1 + `k` times the normal impulse of compression.
   Problem NearStop(Problem problem, double k) {
     const double sign = Sign();
-    const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
-    const double v_slope = problem.wnn - sign * problem.mu * problem.wtn;
+    const double u_slope = sign * problem.w.tn - problem.mu * problem.w.tt;
+    const double v_slope = problem.w.nn - sign * problem.mu * problem.w.tn;
     if (u_slope < 0.0 && v_slope > 0.0) {
       problem.u0 = sign * Steps(problem.v0 * u_slope / v_slope * (1.0 + k), Near(3));
     }
@@ -212,21 +208,21 @@ class SceneSource {
 
   // Moves one input of `problem` to `factor` times its critical value; false if it has none.
   bool Approach(SignChange change, double factor, Problem& problem) {
-    if (problem.wtn == 0.0) return false;
+    if (problem.w.tn == 0.0) return false;
     switch (change) {
       case SignChange::kStick:
-        problem.mu = problem.mu_static = std::fabs(problem.wtn) / problem.wtt * factor;
+        problem.mu = problem.mu_static = std::fabs(problem.w.tn) / problem.w.tt * factor;
         return true;
       case SignChange::kJam:
-        problem.mu = problem.mu_static = problem.wnn / std::fabs(problem.wtn) * factor;
-        problem.u0 = std::copysign(problem.u0, problem.wtn);
+        problem.mu = problem.mu_static = problem.w.nn / std::fabs(problem.w.tn) * factor;
+        problem.u0 = std::copysign(problem.u0, problem.w.tn);
         return true;
       case SignChange::kStopAtRest:
         return ApproachStop(0.0, factor, problem);
       case SignChange::kStopAtEnd:
         return ApproachStop(problem.coefficient, factor, problem);
       case SignChange::kDeterminant:
-        problem.wtn = Sign() * std::sqrt(1.0 - std::fabs(1.0 - factor)) * std::sqrt(problem.wtt * problem.wnn);
+        problem.w.tn = Sign() * std::sqrt(1.0 - std::fabs(1.0 - factor)) * std::sqrt(problem.w.tt * problem.w.nn);
         return true;
       case SignChange::kFrictionImpulse:
         return ApproachNoFrictionImpulse(factor, problem);
@@ -242,8 +238,8 @@ class SceneSource {
 
   bool ApproachStop(double k, double factor, Problem& problem) {
     const double sign = Sign();
-    const double u_slope = sign * problem.wtn - problem.mu * problem.wtt;
-    const double v_slope = problem.wnn - sign * problem.mu * problem.wtn;
+    const double u_slope = sign * problem.w.tn - problem.mu * problem.w.tt;
+    const double v_slope = problem.w.nn - sign * problem.mu * problem.w.tn;
     problem.u0 = sign * (problem.v0 * u_slope / v_slope * (1.0 + k)) * factor;
     return u_slope < 0.0 && v_slope > 0.0;
   }
@@ -303,16 +299,16 @@ class SceneSource {
     SetCoefficient(problem);
     problem.mu_static = Below(4) == 0 ? problem.mu * Uniform(1.0, 1.5) : problem.mu;
     if (Below(64) == 0) problem.mu = 0.0;
-    if (Below(64) == 0) problem.wtn = 0.0;
+    if (Below(64) == 0) problem.w.tn = 0.0;
     if (Below(64) == 0) problem.u0 *= 0x1p-40;
   }
 
   // Gives a W that is not positive definite rank one, and moves velocities outside its range into it.
   static Problem Admitted(Problem problem) {
     if (!IsRankOne(problem)) return problem;
-    if (problem.wtn == 0.0) problem.wtn = problem.wtt = 0.0;
-    problem.wtt = problem.wtn * (problem.wtn / problem.wnn);
-    problem.u0 = problem.v0 * (problem.wtn / problem.wnn);
+    if (problem.w.tn == 0.0) problem.w.tn = problem.w.tt = 0.0;
+    problem.w.tt = problem.w.tn * (problem.w.tn / problem.w.nn);
+    problem.u0 = problem.v0 * (problem.w.tn / problem.w.nn);
     return problem;
   }
 

@@ -23,9 +23,9 @@ struct Answer {
 };
 
 inline compliant::Problem CompliantOf(const planar::Problem& problem, double ratio_squared) {
-  return {.wtt = problem.wtt,
-          .wtn = problem.wtn,
-          .wnn = problem.wnn,
+  return {.wtt = problem.w.tt,
+          .wtn = problem.w.tn,
+          .wnn = problem.w.nn,
           .u0 = problem.u0,
           .v0 = problem.v0,
           .mu = problem.mu,

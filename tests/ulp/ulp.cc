@@ -117,7 +117,7 @@ struct PlanarModel {
   }
 
   static bool IsRefused(const Problem& problem) {
-    const Scene scene = {.system = PlanarContact{problem.wtt, problem.wtn, problem.wnn, problem.u0, problem.v0}};
+    const Scene scene = {.system = PlanarContact{problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0}};
     return IsRefusedByName(planar::MakeOutcome(problem, std::get<PlanarReduction>(Reduce(scene)), {}));
   }
 };

@@ -6,7 +6,7 @@
 
 namespace ricochet::laws {
 
-ImpactLawResult SolveBrach(const PlanarImpactInput& input, double e, double mu_hat) {
+ImpactLawResult SolveBrach(const PlanarProblem& input, double e, double mu_hat) {
   const NewtonImpact impact(input, e);
   if (auto trivial = impact.Trivial()) return *std::move(trivial);
   return AtMostOne(impact.AtRatio(mu_hat));

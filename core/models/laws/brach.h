@@ -16,7 +16,7 @@ namespace ricochet::laws {
 
 // e must be >= 0. There is one solution, or none if wnn + mu_hat wtn <= 0. core/models/laws/impact_law.h states units,
 // degenerate inputs and accuracy.
-ImpactLawResult SolveBrach(const PlanarImpactInput& input, double e, double mu_hat);
+ImpactLawResult SolveBrach(const PlanarProblem& input, double e, double mu_hat);
 
 }  // namespace ricochet::laws
 

@@ -9,14 +9,14 @@ namespace ricochet::laws {
 namespace {
 
 // The tangential part of P_II - P_I. The normal part is -wtn/wnn times the tangential one.
-double StickingImpulse(const PlanarImpactInput& in, const NewtonImpact& impact) {
-  if (impact.rank_one()) return -in.v0 * (in.wtn / in.wnn) / (in.wtt + in.wnn);
+double StickingImpulse(const PlanarProblem& in, const NewtonImpact& impact) {
+  if (impact.rank_one()) return -in.v0 * (in.w.tn / in.w.nn) / (in.w.tt + in.w.nn);
   return -impact.frictionless_slip() / impact.det();
 }
 
 }  // namespace
 
-ImpactLawResult SolveChatterjeeRuina(const PlanarImpactInput& input, double e, double e_t) {
+ImpactLawResult SolveChatterjeeRuina(const PlanarProblem& input, double e, double e_t) {
   const NewtonImpact impact(input, e);
   if (auto trivial = impact.Trivial()) return *std::move(trivial);
 
@@ -25,10 +25,10 @@ ImpactLawResult SolveChatterjeeRuina(const PlanarImpactInput& input, double e, d
   if (std::abs(f) * impact.NormalSlope(on_cone) > input.mu * impact.normal_change()) {
     return AtMostOne(impact.AtRatio(on_cone));
   }
-  const double tau1 = std::fma(-f, input.wtn, impact.normal_change()) / input.wnn;
+  const double tau1 = std::fma(-f, input.w.tn, impact.normal_change()) / input.w.nn;
   const double slip = impact.rank_one() ? impact.tangential_numerator()
-                                        : -std::fma(e_t, impact.frictionless_slip(), e * input.v0 * input.wtn);
-  return AtMostOne(impact.Solution(f, tau1, slip / input.wnn));
+                                        : -std::fma(e_t, impact.frictionless_slip(), e * input.v0 * input.w.tn);
+  return AtMostOne(impact.Solution(f, tau1, slip / input.w.nn));
 }
 
 }  // namespace ricochet::laws

@@ -18,7 +18,7 @@ namespace ricochet::laws {
 
 // e must be >= 0, and e_t in [-1, 1]. There is exactly one solution, or none if wnn <= 0. core/models/laws/impact_law.h
 // states units, degenerate inputs and accuracy.
-ImpactLawResult SolveChatterjeeRuina(const PlanarImpactInput& input, double e, double e_t);
+ImpactLawResult SolveChatterjeeRuina(const PlanarProblem& input, double e, double e_t);
 
 }  // namespace ricochet::laws
 

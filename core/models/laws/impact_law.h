@@ -17,16 +17,9 @@
 
 #include <vector>
 
-namespace ricochet::laws {
+#include "core/models/planar_problem.h"
 
-struct PlanarImpactInput {
-  double wtt = 0.0;  // 1/kg
-  double wtn = 0.0;
-  double wnn = 0.0;
-  double u0 = 0.0;  // m/s
-  double v0 = 0.0;
-  double mu = 0.0;
-};
+namespace ricochet::laws {
 
 struct ImpactSolution {
   double f = 0.0;     // Total tangential impulse, N s.

@@ -10,16 +10,16 @@ namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
-double Determinant(const PlanarImpactInput& in) {
-  const double det = DifferenceOfProducts(in.wtt, in.wnn, in.wtn, in.wtn);
-  return det <= 4.0 * kEpsilon * in.wtt * in.wnn ? 0.0 : det;
+double Determinant(const PlanarProblem& in) {
+  const double det = DifferenceOfProducts(in.w.tt, in.w.nn, in.w.tn, in.w.tn);
+  return det <= 4.0 * kEpsilon * in.w.tt * in.w.nn ? 0.0 : det;
 }
 
 // The slip after frictionless compression, times wnn. If W has rank one, velocities in its range have no such slip, so
 // that a difference within the rounding of its terms counts as 0.
-double FrictionlessSlip(const PlanarImpactInput& in, bool rank_one) {
-  const double slip = DifferenceOfProducts(in.u0, in.wnn, in.v0, in.wtn);
-  const double rounding = 8.0 * kEpsilon * (std::abs(in.u0) * in.wnn + std::abs(in.v0 * in.wtn));
+double FrictionlessSlip(const PlanarProblem& in, bool rank_one) {
+  const double slip = DifferenceOfProducts(in.u0, in.w.nn, in.v0, in.w.tn);
+  const double rounding = 8.0 * kEpsilon * (std::abs(in.u0) * in.w.nn + std::abs(in.v0 * in.w.tn));
   return rank_one && std::abs(slip) <= rounding ? 0.0 : slip;
 }
 
@@ -48,24 +48,24 @@ double StickingNumerator(double u0, double w, Unrounded c, double w2) {
 
 double Sign(double x) { return static_cast<double>(x > 0.0) - static_cast<double>(x < 0.0); }
 
-NewtonImpact::NewtonImpact(const PlanarImpactInput& input, double e)
+NewtonImpact::NewtonImpact(const PlanarProblem& input, double e)
     : in_(input),
       e_(e),
       c_(std::fma(-e, input.v0, -input.v0)),
       det_(Determinant(input)),
       h_(FrictionlessSlip(input, det_ == 0.0)) {
   const Unrounded gain = NormalGain(input.v0, e);
-  t_ = StickingNumerator(input.u0, input.wtn, gain, input.wtt);
-  g_ = rank_one() ? std::fma(-e * input.v0, input.wtn, h_) : StickingNumerator(input.u0, input.wnn, gain, input.wtn);
+  t_ = StickingNumerator(input.u0, input.w.tn, gain, input.w.tt);
+  g_ = rank_one() ? std::fma(-e * input.v0, input.w.tn, h_) : StickingNumerator(input.u0, input.w.nn, gain, input.w.tn);
 }
 
 std::optional<ImpactLawResult> NewtonImpact::Trivial() const {
   if (in_.v0 >= 0.0) return ImpactLawResult{{{.u1 = in_.u0, .v1 = in_.v0}}};
-  if (in_.wnn <= 0.0) return ImpactLawResult{};
+  if (in_.w.nn <= 0.0) return ImpactLawResult{};
   return std::nullopt;
 }
 
-double NewtonImpact::NormalSlope(double ratio) const { return std::fma(ratio, in_.wtn, in_.wnn); }
+double NewtonImpact::NormalSlope(double ratio) const { return std::fma(ratio, in_.w.tn, in_.w.nn); }
 
 ImpactSolution NewtonImpact::Solution(double f, double tau1, double u1) const {
   const double twice_mean_v = std::fma(-e_, in_.v0, in_.v0);
@@ -82,7 +82,7 @@ std::optional<ImpactSolution> NewtonImpact::AtRatio(double ratio) const {
   const double slope = NormalSlope(ratio);
   if (!(slope > 0.0)) return std::nullopt;
   const double tau1 = c_ / slope;
-  const double u1 = rank_one() ? g_ / in_.wnn : std::fma(tau1, std::fma(ratio, in_.wtt, in_.wtn), in_.u0);
+  const double u1 = rank_one() ? g_ / in_.w.nn : std::fma(tau1, std::fma(ratio, in_.w.tt, in_.w.tn), in_.u0);
   return Solution(ratio * tau1, tau1, u1);
 }
 

@@ -20,7 +20,7 @@ double Sign(double x);
 
 class NewtonImpact {
  public:
-  NewtonImpact(const PlanarImpactInput& input, double e);
+  NewtonImpact(const PlanarProblem& input, double e);
 
   // The result if the contact separates or cannot move along the normal, which is the same for all laws.
   std::optional<ImpactLawResult> Trivial() const;
@@ -37,7 +37,7 @@ class NewtonImpact {
   std::optional<ImpactSolution> AtRatio(double ratio) const;
 
  private:
-  PlanarImpactInput in_;
+  PlanarProblem in_;
   double e_;
   double c_;
   double det_;

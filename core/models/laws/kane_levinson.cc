@@ -12,12 +12,12 @@ void AppendAtRatio(const NewtonImpact& impact, double ratio, ImpactLawResult& re
   if (const auto solution = impact.AtRatio(ratio)) result.solutions.push_back(*solution);
 }
 
-ImpactLawResult SolveRankOne(const PlanarImpactInput& input, const NewtonImpact& impact) {
+ImpactLawResult SolveRankOne(const PlanarProblem& input, const NewtonImpact& impact) {
   ImpactLawResult result;
   const double final_slip = impact.tangential_numerator();
   if (final_slip != 0.0) {
     AppendAtRatio(impact, -input.mu * Sign(final_slip), result);
-  } else if (input.wtn == 0.0 || input.mu == 0.0) {
+  } else if (input.w.tn == 0.0 || input.mu == 0.0) {
     AppendAtRatio(impact, 0.0, result);
   } else {
     AppendAtRatio(impact, -input.mu, result);
@@ -28,7 +28,7 @@ ImpactLawResult SolveRankOne(const PlanarImpactInput& input, const NewtonImpact&
 
 }  // namespace
 
-ImpactLawResult SolveKaneLevinson(const PlanarImpactInput& input, double e) {
+ImpactLawResult SolveKaneLevinson(const PlanarProblem& input, double e) {
   const NewtonImpact impact(input, e);
   if (auto trivial = impact.Trivial()) return *std::move(trivial);
   if (impact.rank_one()) return SolveRankOne(input, impact);

@@ -19,7 +19,7 @@ namespace ricochet::laws {
 
 // e must be >= 0. All solutions are given: stick first, then slip towards +t, then slip towards -t.
 // core/models/laws/impact_law.h states units, degenerate inputs and accuracy.
-ImpactLawResult SolveKaneLevinson(const PlanarImpactInput& input, double e);
+ImpactLawResult SolveKaneLevinson(const PlanarProblem& input, double e);
 
 }  // namespace ricochet::laws
 

@@ -6,7 +6,7 @@
 
 namespace ricochet::laws {
 
-ImpactLawResult SolveWhittaker(const PlanarImpactInput& input, double e) {
+ImpactLawResult SolveWhittaker(const PlanarProblem& input, double e) {
   const NewtonImpact impact(input, e);
   if (auto trivial = impact.Trivial()) return *std::move(trivial);
   return AtMostOne(impact.AtRatio(-input.mu * Sign(input.u0)));

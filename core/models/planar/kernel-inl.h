@@ -90,9 +90,9 @@ HWY_INLINE N Signed(const N& x, bool negative) {
 
 template <typename N>
 HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
-  Inputs<N> in = {.wtt = N::Exactly(problem.wtt),
-                  .wtn = N::Exactly(problem.wtn),
-                  .wnn = N::Exactly(problem.wnn),
+  Inputs<N> in = {.wtt = N::Exactly(problem.w.tt),
+                  .wtn = N::Exactly(problem.w.tn),
+                  .wnn = N::Exactly(problem.w.nn),
                   .u0 = N::Exactly(problem.u0),
                   .v0 = N::Exactly(problem.v0),
                   .mu = N::Exactly(problem.mu),

@@ -39,7 +39,7 @@ bool FitsDoubleDouble(const Problem& problem) {
     const double size = std::fabs(value);
     return static_cast<unsigned>(size == 0.0) | static_cast<unsigned>((size >= 0x1p-40) & (size <= 0x1p40));
   };
-  return (moderate(problem.wtt) & moderate(problem.wtn) & moderate(problem.wnn) & moderate(problem.u0) &
+  return (moderate(problem.w.tt) & moderate(problem.w.tn) & moderate(problem.w.nn) & moderate(problem.u0) &
           moderate(problem.v0) & moderate(problem.mu) & moderate(problem.mu_static) & moderate(problem.coefficient)) !=
          0;
 }

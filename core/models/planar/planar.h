@@ -19,22 +19,12 @@
 #include <cstdint>
 
 #include "core/models/impact_end.h"
-#include "core/models/restitution_law.h"
+#include "core/models/planar_problem.h"
 #include "ricochet/outcome.h"
 
 namespace ricochet::planar {
 
-struct Problem {
-  double wtt = 0.0;  // 1/kg, >= 0
-  double wtn = 0.0;
-  double wnn = 0.0;  // > 0
-  double u0 = 0.0;   // m/s
-  double v0 = 0.0;   // m/s; >= 0 is separating
-  double mu = 0.0;
-  double mu_static = 0.0;  // mu_s >= mu
-  RestitutionLaw law = RestitutionLaw::kEnergetic;
-  double coefficient = 0.0;  // e, k or eta
-};
+using Problem = PlanarProblem;
 
 using Instant = ImpactInstant<double>;
 

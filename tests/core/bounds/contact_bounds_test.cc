@@ -22,7 +22,7 @@ namespace {
 // A rod at 45 degrees, W = [[2.5, 1.5], [1.5, 2.5]], (u, v) = (-1, -1), mu = 0.7.
 const Problem kRod = FortyFiveDegreeRod();
 // Wtn drives slip on: u and Wtn have one sign.
-const Problem kDriven = {.wtt = 1.0, .wtn = 0.8, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0, .mu = 1.0, .mu_static = 1.0};
+const Problem kDriven = {.w = {1.0, 0.8, 1.0}, .u0 = 1.0, .v0 = -1.0, .mu = 1.0, .mu_static = 1.0};
 
 Impact SolveAt(Problem problem, RestitutionLaw law, double coefficient) {
   problem.law = law;
@@ -37,7 +37,7 @@ bool Within(const Range& range, double value) {
 
 std::string ToString(const Problem& problem) {
   std::ostringstream text;
-  text << std::hexfloat << "wtt " << problem.wtt << " wtn " << problem.wtn << " wnn " << problem.wnn << " u0 "
+  text << std::hexfloat << "wtt " << problem.w.tt << " wtn " << problem.w.tn << " wnn " << problem.w.nn << " u0 "
        << problem.u0 << " v0 " << problem.v0 << " mu " << problem.mu << " mu_s " << problem.mu_static;
   return text.str();
 }

@@ -56,13 +56,7 @@ Enclosure EnclosePlanar(const PlanarBox& box, const EnclosureOptions& options) {
 }
 
 planar::Problem ToPlanarProblem(const Numbers& x) {
-  return {.wtt = x[0],
-          .wtn = x[1],
-          .wnn = x[2],
-          .u0 = x[3],
-          .v0 = x[4],
-          .mu = x[5],
-          .mu_static = x.size() > 6 ? x[6] : x[5]};
+  return {.w = {x[0], x[1], x[2]}, .u0 = x[3], .v0 = x[4], .mu = x[5], .mu_static = x.size() > 6 ? x[6] : x[5]};
 }
 
 // inertia, a, b, omega_minus, mu and, if there is one, mu_s.
@@ -81,9 +75,9 @@ pendulum::Problem ToPendulumProblem(const Numbers& x) {
 CoefficientBounds PlanarBounds(const Numbers& x) {
   planar::Problem problem = ToPlanarProblem(x);
   problem.coefficient = 0.0;
-  const planar::Impact plastic = Solve(problem);
+  const planar::Impact plastic = planar::Solve(problem);
   problem.coefficient = 1.0;
-  const planar::Impact elastic = Solve(problem);
+  const planar::Impact elastic = planar::Solve(problem);
   return {.newton = {0.0, elastic.newton},
           .poisson = {0.0, elastic.poisson},
           .energetic = {0.0, elastic.energetic},
@@ -245,7 +239,7 @@ TEST(EnclosureTest, ContainsScenesOnBothSidesOfEveryThreshold) {
   int boxes = 0;
   while (boxes < 1'000) {
     const planar::Problem p = source.Any();
-    const Numbers centre = {p.wtt, p.wtn, p.wnn, p.u0, p.v0, p.mu};
+    const Numbers centre = {p.w.tt, p.w.tn, p.w.nn, p.u0, p.v0, p.mu};
     if (!IsValid(centre)) continue;
     ++boxes;
     const double reach = std::exp2(-random.Uniform(2.0, 50.0));

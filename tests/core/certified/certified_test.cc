@@ -202,16 +202,16 @@ TEST(CertifiedDoublesTest, ThePlanarModelKeepsItsPromiseOver10000Contacts) {
     const planar::Impact impact = planar::Solve(p);
     const absl::StatusOr<Certificate> certificate = CertifySolve(SceneOf(p), {17}, Never);
     const bool near_rank_one = planar::SceneSource::IsRankOne(p);
-    if (near_rank_one && p.wtt != 0.0) continue;  // The certificate takes W at its word.
+    if (near_rank_one && p.w.tt != 0.0) continue;  // The certificate takes W at its word.
     ASSERT_TRUE(certificate.ok()) << i << certificate.status();
     ++compared;
     ASSERT_EQ(certificate->regimes, std::vector<Regime>{impact.regime}) << i;
-    const double product = p.wtt * p.wnn;
-    const double det = std::fma(p.wtt, p.wnn, -p.wtn * p.wtn);
-    const double c = p.wtt == 0.0 ? 1.0 : 2.0 * product / det * (1.0 + p.mu * std::fabs(p.wtn) / p.wnn);
+    const double product = p.w.tt * p.w.nn;
+    const double det = std::fma(p.w.tt, p.w.nn, -p.w.tn * p.w.tn);
+    const double c = p.w.tt == 0.0 ? 1.0 : 2.0 * product / det * (1.0 + p.mu * std::fabs(p.w.tn) / p.w.nn);
     const double tiny = 0x1p-94 * c;
     const double speed = std::max(std::fabs(p.u0), std::fabs(p.v0));
-    const double friction = std::max(p.mu, p.wtt == 0.0 ? 0.0 : std::fabs(p.wtn) / p.wtt);
+    const double friction = std::max(p.mu, p.w.tt == 0.0 ? 0.0 : std::fabs(p.w.tn) / p.w.tt);
     const double work =
         std::max({std::fabs(impact.work_normal_compression), std::fabs(impact.work_normal_restitution),
                   std::fabs(impact.work_tangential_compression), std::fabs(impact.work_tangential_restitution)});
@@ -315,7 +315,7 @@ TEST(CertifiedTiesTest, WhetherAPendulumLocksIsTheSignOfTheExactDifference) {
 
 // u and v both vanish at tau = 1 where u0 = 1.
 planar::Problem StopAtRest(double u0, double eta) {
-  return {.wtt = 2.0, .wtn = 0.0, .wnn = 1.0, .u0 = u0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5, .coefficient = eta};
+  return {.w = {2.0, 0.0, 1.0}, .u0 = u0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5, .coefficient = eta};
 }
 
 TEST(CertifiedTiesTest, SlipThatStopsJustWhereCompressionEndsStopsInRestitution) {
@@ -337,8 +337,8 @@ TEST(CertifiedTiesTest, SlipThatStopsJustWhereEnergeticRestitutionEndsStopsBefor
 
 TEST(CertifiedTiesTest, ContactThatHasStoppedSticksFromTheThresholdOnToTheLastUlp) {
   const auto regime = [](double mu) {
-    return CertifiedRegime(SceneOf(planar::Problem{
-        .wtt = 2.0, .wtn = 1.0, .wnn = 2.0, .u0 = -1.0, .v0 = -2.0, .mu = mu, .mu_static = mu, .coefficient = 0.5}));
+    return CertifiedRegime(SceneOf(
+        planar::Problem{.w = {2.0, 1.0, 2.0}, .u0 = -1.0, .v0 = -2.0, .mu = mu, .mu_static = mu, .coefficient = 0.5}));
   };
   EXPECT_EQ(regime(0.5), Regime::kStickInCompression);
   EXPECT_EQ(regime(std::nextafter(0.5, 0.0)), Regime::kReversalInCompression);
@@ -346,7 +346,7 @@ TEST(CertifiedTiesTest, ContactThatHasStoppedSticksFromTheThresholdOnToTheLastUl
 
 // W = [1, 3; 3, 9] has rank one; its neighbours are of rank two, or no W at all.
 TEST(CertifiedTiesTest, ARankOfOneIsThatOfTheDoublesThemselves) {
-  planar::Problem problem = {.wtt = 1.0, .wtn = 3.0, .wnn = 9.0, .u0 = -1.0, .v0 = -3.0, .mu = 0.25, .mu_static = 3.0};
+  planar::Problem problem = {.w = {1.0, 3.0, 9.0}, .u0 = -1.0, .v0 = -3.0, .mu = 0.25, .mu_static = 3.0};
   problem.coefficient = 0.5;
   EXPECT_EQ(CertifiedRegime(SceneOf(problem)), Regime::kLocked);
   problem.wtn = std::nextafter(3.0, 0.0);
@@ -419,7 +419,7 @@ TEST(CertifiedDigitsTest, WhatIsExactSaysSo) {
 TEST(CertifiedDigitsTest, DigitsAreRoundedToTheNearestAndHalvesToEven) {
   const auto after = [](double v0, int digits) {
     return DecimalAt(
-        *CertifySolve(SceneOf(planar::Problem{.wtt = 1.0, .wnn = 1.0, .v0 = -v0, .coefficient = 1.0}), {digits}, Never),
+        *CertifySolve(SceneOf(planar::Problem{.w = {1.0, 0.0, 1.0}, .v0 = -v0, .coefficient = 1.0}), {digits}, Never),
         "contact_velocity_after.normal_m_s");
   };
   EXPECT_EQ(after(2.5, 1), "2");
@@ -436,7 +436,7 @@ TEST(CertifiedDigitsTest, DigitsAreRoundedToTheNearestAndHalvesToEven) {
 // The middle of two doubles, and just beyond it.
 TEST(CertifiedDigitsTest, TheValueIsTheNearestDouble) {
   const auto value = [](double e, double v0) {
-    planar::Problem problem = {.wtt = 1.0, .wnn = 1.0, .v0 = -v0, .law = RestitutionLaw::kNewton, .coefficient = e};
+    planar::Problem problem = {.w = {1.0, 0.0, 1.0}, .v0 = -v0, .law = RestitutionLaw::kNewton, .coefficient = e};
     return NumberAt(*CertifySolve(SceneOf(problem), {3}, Never), "contact_velocity_after.normal_m_s").value;
   };
   EXPECT_EQ(value(0.5, 0x3p-1074), 0x2p-1074);

@@ -52,10 +52,10 @@ PlanarScene SomePlanarScene(PlanScenes& scenes) {
   planar::Problem& problem = scene.problem;
   do {
     problem = scenes.OfManyScales();
-  } while (problem.wtn * problem.wtn > 0.99 * problem.wtt * problem.wnn);
+  } while (problem.w.tn * problem.w.tn > 0.99 * problem.w.tt * problem.w.nn);
   problem.law = RestitutionLaw::kEnergetic;
   problem.coefficient = std::min(problem.coefficient, 1.0);
-  problem.mu = std::min(problem.mu, 0.9 * problem.wnn / std::fabs(problem.wtn));
+  problem.mu = std::min(problem.mu, 0.9 * problem.w.nn / std::fabs(problem.w.tn));
   problem.mu_static = problem.mu;
   scene.physics.ratio_squared = scenes.Power(-2.0, 1.0);
   return scene;
@@ -150,8 +150,8 @@ TEST(ChooseTest, NoCheaperModelIsProvedToDo) {
   int dearer = 0;
   for (int i = 0; i < kScenes; ++i) {
     const auto [problem, physics] = SomePlanarScene(scenes);
-    const double cone = problem.mu * std::fabs(problem.wtn) / problem.wnn;
-    const bool rank_one = problem.wtn * problem.wtn > (1.0 - 1e-6) * problem.wtt * problem.wnn;
+    const double cone = problem.mu * std::fabs(problem.w.tn) / problem.w.nn;
+    const bool rank_one = problem.w.tn * problem.w.tn > (1.0 - 1e-6) * problem.w.tt * problem.w.nn;
     if (problem.coefficient > 1.0 || cone > 0.99 || rank_one) continue;
     const Demand demand = {.relative_tolerance = SomeTolerance(scenes)};
     const Choice choice = ChoosePlanar(problem, physics, demand);
@@ -191,7 +191,7 @@ TEST(ChooseTest, ASmallerToleranceNeverTakesACheaperModel) {
 
 // A body of 1 kg slides on and does not stop: mu |Wtn|/Wnn = 0.03.
 planar::Problem Slider() {
-  return {.wtt = 1.0, .wtn = 0.1, .wnn = 1.0, .u0 = 5.0, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3, .coefficient = 0.5};
+  return {.w = {1.0, 0.1, 1.0}, .u0 = 5.0, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3, .coefficient = 0.5};
 }
 
 Decision On(const Choice& choice, Effect effect) { return choice.decisions[static_cast<size_t>(effect)]; }
@@ -250,7 +250,7 @@ TEST(ChooseTest, SlipThatIsNotToStopSlidesOn) {
 TEST(ChooseTest, StaticFrictionCanBeExcludedAlone) {
   planar::Problem problem = Slider();
   problem.u0 = -0.1;
-  problem.wtn = 0.4;
+  problem.w.tn = 0.4;
   problem.mu_static = 0.5;
   const Choice all = ChoosePlanar(problem, {}, {});
   EXPECT_EQ(all.model, Model::kPlanar);
@@ -267,7 +267,7 @@ TEST(ChooseTest, OnlyExactModelsServeAnInadmissibleRequestOrPossibleSelfLocking)
   inadmissible.coefficient = 1.1;
   EXPECT_EQ(ChoosePlanar(inadmissible, {}, {.relative_tolerance = 0.1}).model, Model::kPlanar);
   planar::Problem jam = Slider();
-  jam.wtn = 0.9;
+  jam.w.tn = 0.9;
   jam.mu = jam.mu_static = 1.2;
   EXPECT_EQ(ChoosePlanar(jam, {}, {.relative_tolerance = 0.1}).model, Model::kPlanar);
 }
@@ -352,8 +352,7 @@ TEST(ChooseTest, InSpaceTheModelIsGivenTheBudget) {
 planar::Problem KharazSphere(double degrees) {
   constexpr double kPerMass = 1.0;  // Velocities do not depend on it.
   const double radians = degrees * 3.14159265358979323846 / 180.0;
-  return {.wtt = 3.5 * kPerMass,
-          .wnn = kPerMass,
+  return {.w = {3.5 * kPerMass, 0.0, kPerMass},
           .u0 = 3.9 * std::sin(radians),
           .v0 = -3.9 * std::cos(radians),
           .mu = 0.092,

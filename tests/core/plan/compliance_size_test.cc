@@ -21,9 +21,9 @@ constexpr int kScenes = 100'000;
 // The conditioning is moderate, because near rank one or near locking a compliant contact may rattle for ever.
 planar::Problem Scene(PlanScenes& scenes) {
   planar::Problem problem = scenes.OfManyScales();
-  while (problem.wtn * problem.wtn > 0.99 * problem.wtt * problem.wnn) problem = scenes.OfManyScales();
+  while (problem.w.tn * problem.w.tn > 0.99 * problem.w.tt * problem.w.nn) problem = scenes.OfManyScales();
   problem.law = RestitutionLaw::kEnergetic;
-  problem.mu = std::min(problem.mu, 0.9 * problem.wnn / std::fabs(problem.wtn));
+  problem.mu = std::min(problem.mu, 0.9 * problem.w.nn / std::fabs(problem.w.tn));
   problem.mu_static = problem.mu;
   return problem;
 }

@@ -13,7 +13,7 @@ namespace ricochet {
 namespace {
 
 planar::Problem Slider() {
-  return {.wtt = 1.0, .wtn = 0.1, .wnn = 1.0, .u0 = 5.0, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3, .coefficient = 0.5};
+  return {.w = {1.0, 0.1, 1.0}, .u0 = 5.0, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3, .coefficient = 0.5};
 }
 
 const PlannedEffect& On(const Plan& plan, Effect effect) { return plan.effects[static_cast<size_t>(effect) - 1]; }
@@ -88,7 +88,7 @@ TEST(ExplainTest, WhatLivesOnFrictionIsCountedThere) {
 
 TEST(ExplainTest, SelfLockingAndDampingHaveNoBound) {
   planar::Problem jam = Slider();
-  jam.wtn = 0.9;
+  jam.w.tn = 0.9;
   jam.mu = jam.mu_static = 1.2;
   const Plan locked = PlanOf(jam, {}, {});
   EXPECT_TRUE(std::isinf(On(locked, Effect::kFriction).size));

@@ -27,10 +27,10 @@ struct Forced {
 Forced Scene(PlanScenes& scenes) {
   Forced scene = {.problem = scenes.OfManyScales()};
   planar::Problem& problem = scene.problem;
-  while (problem.wtn * problem.wtn > 0.99 * problem.wtt * problem.wnn) problem = scenes.OfManyScales();
+  while (problem.w.tn * problem.w.tn > 0.99 * problem.w.tt * problem.w.nn) problem = scenes.OfManyScales();
   problem.law = RestitutionLaw::kEnergetic;
   problem.coefficient = scenes.Uniform(0.1, 1.0);
-  problem.mu = std::min(problem.mu, 0.9 * problem.wnn / std::fabs(problem.wtn));
+  problem.mu = std::min(problem.mu, 0.9 * problem.w.nn / std::fabs(problem.w.tn));
   problem.mu_static = problem.mu;
   const double stiffness = scenes.Power(3.0, 9.0);
   if (scenes.Below(2) == 0) {
@@ -45,9 +45,9 @@ Forced Scene(PlanScenes& scenes) {
 
 finite_duration::Problem TimedOf(const Forced& scene) {
   const auto& [problem, physics] = scene;
-  return {.wtt = problem.wtt,
-          .wtn = problem.wtn,
-          .wnn = problem.wnn,
+  return {.wtt = problem.w.tt,
+          .wtn = problem.w.tn,
+          .wnn = problem.w.nn,
           .u0 = problem.u0,
           .v0 = problem.v0,
           .tangential_acceleration = physics.tangential_acceleration,
@@ -86,10 +86,10 @@ TEST(ForcesSizeTest, ContactLastsNoLongerThanItsBound) {
   int bounded = 0;
   for (int i = 0; i < kScenes; ++i) {
     const Forced scene = Scene(scenes);
-    const double cone = scene.problem.mu * std::fabs(scene.problem.wtn);
+    const double cone = scene.problem.mu * std::fabs(scene.problem.w.tn);
     const double longest =
-        LongestContact(scene.physics.spring, {.slope_low = scene.problem.wnn - cone,
-                                              .slope_high = scene.problem.wnn + cone,
+        LongestContact(scene.physics.spring, {.slope_low = scene.problem.w.nn - cone,
+                                              .slope_high = scene.problem.w.nn + cone,
                                               .v0 = scene.problem.v0,
                                               .energetic = scene.problem.coefficient,
                                               .acceleration = std::fabs(scene.physics.normal_acceleration)});
@@ -97,7 +97,7 @@ TEST(ForcesSizeTest, ContactLastsNoLongerThanItsBound) {
     const double time = finite_duration::Solve(TimedOf(scene)).contact.duration_s;
     ++bounded;
     EXPECT_LE(time, longest * (1.0 + 1e-6));
-    if (cone < 0.1 * scene.problem.wnn) sharp += time > 0.5 * longest ? 1 : 0;
+    if (cone < 0.1 * scene.problem.w.nn) sharp += time > 0.5 * longest ? 1 : 0;
   }
   EXPECT_GT(bounded, kScenes / 2);
   EXPECT_GT(sharp, bounded / 4);

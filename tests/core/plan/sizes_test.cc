@@ -48,7 +48,7 @@ TEST(SizesTest, SlipThatStopsInAPlane) {
     const planar::Problem problem = scenes.Planar();
     const Size size = PlanarSizes(problem, {})[Effect::kSlipStop];
     if (problem.u0 == 0.0 || problem.mu == 0.0 || planar::SceneSource::IsRankOne(problem)) continue;
-    if (problem.coefficient > 1.0 || !(sliding::SlidingSlopes(LineOf(problem)).v > 1e-6 * problem.wnn)) continue;
+    if (problem.coefficient > 1.0 || !(sliding::SlidingSlopes(LineOf(problem)).v > 1e-6 * problem.w.nn)) continue;
     const auto with = EndingOf(planar::Solve(problem));
     const auto without = EndingOf(sliding::Solve(LineOf(problem)));
     const double noise = NoiseOf(problem, with) + sliding::ErrorsOf(LineOf(problem)).Largest();
@@ -63,7 +63,7 @@ TEST(SizesTest, StaticFrictionInAPlane) {
   ImpactTally tally("static friction");
   for (int i = 0; i < kScenes; ++i) {
     planar::Problem problem = scenes.Planar();
-    if (scenes.Below(8) == 0) problem.mu = std::fabs(problem.wtn) / problem.wtt * (1.0 - scenes.Power(-6.0, -0.5));
+    if (scenes.Below(8) == 0) problem.mu = std::fabs(problem.w.tn) / problem.w.tt * (1.0 - scenes.Power(-6.0, -0.5));
     problem.mu_static = problem.mu * (1.0 + scenes.Power(-4.0, 1.0));
     if (!std::isfinite(problem.mu)) continue;
     const auto with = EndingOf(planar::Solve(problem));

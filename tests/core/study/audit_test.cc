@@ -19,10 +19,14 @@
 namespace ricochet::audit {
 namespace {
 
+using pendulum::Solve;
+using planar::Solve;
+using spatial::Solve;
+
 constexpr double kUlp = 0x1p-52;
 
 // W = I, v- = (1, -1), mu = 1/2: p = v+ - v- by hand, and compression ends at tau = 1.
-const planar::Problem kByHand = {.wtt = 1.0, .wnn = 1.0, .u0 = 1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5};
+const planar::Problem kByHand = {.w = {1.0, 0.0, 1.0}, .u0 = 1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5};
 
 Observation Seen(const planar::Impact& impact, double uncertainty = 0.0) {
   return {{impact.u1}, impact.v1, uncertainty};
@@ -61,9 +65,7 @@ planar::Problem DoublePendulum(RestitutionLaw law, double coefficient) {
     return (m22 * a1 * b1 - m12 * (a1 * b2 + a2 * b1) + m11 * a2 * b2) / det;
   };
   const double c1 = std::cos(angle1), c2 = std::cos(angle2), s1 = std::sin(angle1), s2 = std::sin(angle2);
-  return {.wtt = w(c1, c2, c1, c2),
-          .wtn = w(c1, c2, s1, s2),
-          .wnn = w(s1, s2, s1, s2),
+  return {.w = {w(c1, c2, c1, c2), w(c1, c2, s1, s2), w(s1, s2, s1, s2)},
           .u0 = -0.1 * c1 - 0.2 * c2,
           .v0 = -0.1 * s1 - 0.2 * s2,
           .mu = 0.7,
@@ -82,8 +84,10 @@ class RandomContacts {
   double In(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
 
   planar::Problem Planar() {
-    planar::Problem problem{.wtt = std::exp(In(-2.0, 2.0)), .wnn = std::exp(In(-2.0, 2.0))};
-    problem.wtn = In(-0.95, 0.95) * std::sqrt(problem.wtt * problem.wnn);
+    planar::Problem problem;
+    problem.w.tt = std::exp(In(-2.0, 2.0));
+    problem.w.nn = std::exp(In(-2.0, 2.0));
+    problem.w.tn = In(-0.95, 0.95) * std::sqrt(problem.w.tt * problem.w.nn);
     problem.u0 = In(-2.0, 2.0);
     problem.v0 = In(-2.0, -0.1);
     problem.mu = In(0.0, 1.5);
@@ -118,17 +122,17 @@ class RandomContacts {
 };
 
 std::string Text(const planar::Problem& p) {
-  std::string text = "W = [" + std::to_string(p.wtt) + ", " + std::to_string(p.wtn) + ", " + std::to_string(p.wnn);
+  std::string text = "W = [" + std::to_string(p.w.tt) + ", " + std::to_string(p.w.tn) + ", " + std::to_string(p.w.nn);
   text += "], v- = (" + std::to_string(p.u0) + ", " + std::to_string(p.v0) + "), mu = " + std::to_string(p.mu);
   return text + ", law " + std::to_string(static_cast<int>(p.law)) + ", " + std::to_string(p.coefficient);
 }
 
 // Bounds how far an ulp of the velocities and of W moves Poisson's coefficient (docs/theory/audit.md).
 double Conditioning(const planar::Problem& p, const planar::Impact& impact) {
-  const double det = p.wtt * p.wnn - p.wtn * p.wtn;
+  const double det = p.w.tt * p.w.nn - p.w.tn * p.w.tn;
   const double terms = std::abs(p.u0) + std::abs(p.v0) + std::abs(impact.u1) + impact.v1 +
-                       (p.wtt + std::abs(p.wtn)) * std::abs(impact.f1) + (p.wnn + std::abs(p.wtn)) * impact.tau1;
-  return terms * (p.wtt + std::abs(p.wtn)) / det / impact.tau_compression;
+                       (p.w.tt + std::abs(p.w.tn)) * std::abs(impact.f1) + (p.w.nn + std::abs(p.w.tn)) * impact.tau1;
+  return terms * (p.w.tt + std::abs(p.w.tn)) / det / impact.tau_compression;
 }
 
 TEST(AuditTest, WorksTheFortyFiveDegreeRodByHand) {
@@ -202,7 +206,7 @@ TEST(AuditTest, GivesBackTheCoefficientAsFarAsANearlySingularWTells) {
   for (int i = 0; i < 5000 && !HasFatalFailure(); ++i) {
     planar::Problem problem = random.Planar();
     const double missing = std::pow(10.0, random.In(-8.0, -2.0));
-    problem.wtn = std::copysign((1.0 - missing) * std::sqrt(problem.wtt * problem.wnn), problem.wtn);
+    problem.w.tn = std::copysign((1.0 - missing) * std::sqrt(problem.w.tt * problem.w.nn), problem.w.tn);
     const planar::Impact impact = Solve(problem);
     const AuditReport report = Audit(problem, Seen(impact));
     const double close = 16 * kUlp * Conditioning(problem, impact) * (1.0 + impact.poisson);
@@ -342,7 +346,7 @@ TEST(AuditTest, AuditsContactsFarFromTheScaleOfDoublesToo) {
   constexpr double kSpeed = 0x1p-600;
   constexpr double kMobility = 0x1p-1020;
   planar::Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.0);
-  for (double* w : {&problem.wtt, &problem.wtn, &problem.wnn}) *w *= kMobility;
+  for (double* w : {&problem.w.tt, &problem.w.tn, &problem.w.nn}) *w *= kMobility;
   problem.u0 *= kSpeed;
   problem.v0 *= kSpeed;
   const AuditReport report = Audit(problem, {.u1 = {0.0}, .v1 = kSpeed});
@@ -447,7 +451,7 @@ TEST(AuditTest, FlagsAPendulumAboveItsSharpBound) {
 
 // W = [4, 2; 2, 1], v- = -(2, 1), mu = 1/4: x = 1/2, tau_c = 2/3.
 planar::Problem RankOneContact(double mu) {
-  return {.wtt = 4.0, .wtn = 2.0, .wnn = 1.0, .u0 = -2.0, .v0 = -1.0, .mu = mu, .mu_static = mu};
+  return {.w = {4.0, 2.0, 1.0}, .u0 = -2.0, .v0 = -1.0, .mu = mu, .mu_static = mu};
 }
 
 TEST(AuditTest, TakesTheRankOnePathToTheObservedVelocity) {
@@ -520,10 +524,10 @@ TEST(AuditTest, SeesTheSameInSpaceWhereWDecouples) {
   RandomContacts random;
   for (int i = 0; i < 200; ++i) {
     const planar::Problem plane = random.Planar();
-    const spatial::Problem space{.w11 = plane.wtt,
-                                 .w13 = plane.wtn,
-                                 .w22 = plane.wtt,
-                                 .w33 = plane.wnn,
+    const spatial::Problem space{.w11 = plane.w.tt,
+                                 .w13 = plane.w.tn,
+                                 .w22 = plane.w.tt,
+                                 .w33 = plane.w.nn,
                                  .u0 = {plane.u0, 0.0},
                                  .v0 = plane.v0,
                                  .mu = plane.mu,

@@ -88,9 +88,7 @@ TEST(CompliantKharazTest, TwentyDegreesNeedsTheSpringAndFiftyDoesNot) {
     const double angle = kRows[i].degrees * M_PI / 180.0;
     const Problem problem = Sphere(3.9 * std::sin(angle), -3.9 * std::cos(angle), 0.092, 0.98, 0.23);
     lumped[i] = TangentialRestitution(problem, Solve(problem).f1);
-    const planar::Problem rigid = {.wtt = problem.wtt,
-                                   .wtn = 0.0,
-                                   .wnn = problem.wnn,
+    const planar::Problem rigid = {.w = {problem.wtt, 0.0, problem.wnn},
                                    .u0 = problem.u0,
                                    .v0 = problem.v0,
                                    .mu = problem.mu,
@@ -349,14 +347,8 @@ struct LimitCase {
 };
 
 planar::Impact Rigid(const LimitCase& c) {
-  return planar::Solve({.wtt = c.wtt,
-                        .wtn = c.wtn,
-                        .wnn = c.wnn,
-                        .u0 = c.u0,
-                        .v0 = -1.0,
-                        .mu = c.mu,
-                        .mu_static = c.mu,
-                        .coefficient = c.eta});
+  return planar::Solve(
+      {.w = {c.wtt, c.wtn, c.wnn}, .u0 = c.u0, .v0 = -1.0, .mu = c.mu, .mu_static = c.mu, .coefficient = c.eta});
 }
 
 struct Envelope {

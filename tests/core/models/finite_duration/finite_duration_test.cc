@@ -26,9 +26,9 @@ namespace {
 double SpeedOf(const Problem& problem) { return std::max(std::fabs(problem.u0), std::fabs(problem.v0)); }
 
 Problem ProblemOf(const planar::Problem& rigid, const NormalSpring& spring, double tolerance) {
-  return {.wtt = rigid.wtt,
-          .wtn = rigid.wtn,
-          .wnn = rigid.wnn,
+  return {.wtt = rigid.w.tt,
+          .wtn = rigid.w.tn,
+          .wnn = rigid.w.nn,
           .u0 = rigid.u0,
           .v0 = rigid.v0,
           .mu = rigid.mu,
@@ -125,8 +125,8 @@ TEST(FiniteDurationTest, WithoutFiniteForcesItIsTheRigidImpactAtAnyStiffness) {
       if (StopsNearAnEnd(exact, SpeedOf(problem), tolerance)) continue;
       EXPECT_EQ(impact.regime, exact.regime) << what;
       // Impulses and works near rank one are large numbers that velocities hardly depend on.
-      const double det = rigid.wtt * rigid.wnn - rigid.wtn * rigid.wtn;
-      if (exact.w_rank == 2 && det < 0.01 * rigid.wtt * rigid.wnn) continue;
+      const double det = rigid.w.tt * rigid.w.nn - rigid.w.tn * rigid.w.tn;
+      if (exact.w_rank == 2 && det < 0.01 * rigid.w.tt * rigid.w.nn) continue;
       const double slack = 100.0 * tolerance;
       const double scale = exact.tau1 * (1.0 + rigid.mu_static);
       EXPECT_NEAR(impact.tau_compression, exact.tau_compression, slack * scale) << what;

@@ -36,9 +36,7 @@ void ExpectOnly(const ImpactLawResult& got, const ImpactSolution& want) {
 
 // A rod of 1 kg and 1 m (J = 1/12) that strikes with its end at 45 degrees: r = (1, 1) sqrt(1/8) from the centre,
 // W = [1 + 12/8, 12/8; 12/8, 1 + 12/8] up to the sign of t.
-PlanarImpactInput SlantedRod(double mu) {
-  return {.wtt = 2.5, .wtn = 1.5, .wnn = 2.5, .u0 = -1.0, .v0 = -1.0, .mu = mu};
-}
+PlanarProblem SlantedRod(double mu) { return {.w = {2.5, 1.5, 2.5}, .u0 = -1.0, .v0 = -1.0, .mu = mu}; }
 
 // sgn(u0) = -1: tau1 = 2/(2.5 + .7 1.5) = 2/3.55 = 40/71, f = .7 40/71 = 28/71,
 // u1 = -1 + 2.5 28/71 + 1.5 40/71 = 59/71, dE = (f (u0 + u1) + 0)/2 = 14/71 (-12/71) = -168/5041.
@@ -90,7 +88,7 @@ TEST(ChatterjeeRuinaTest, SlantedRodOnTheConeByHand) {
 TEST(KaneLevinsonTest, StickingImpulseIsExactNearRankOne) {
   const double d = 0x1p-40;
   const double e = 1e-6;
-  const PlanarImpactInput input = {.wtt = 1.0, .wtn = 1.0, .wnn = 1.0 + d, .u0 = -1.0, .v0 = -1.0, .mu = 1.0};
+  const PlanarProblem input = {.w = {1.0, 1.0, 1.0 + d}, .u0 = -1.0, .v0 = -1.0, .mu = 1.0};
   const ImpactLawResult result = SolveKaneLevinson(input, e);
   ASSERT_EQ(result.solutions.size(), 1u);
   EXPECT_DOUBLE_EQ(result.solutions.front().f, -(e - d) / d);
@@ -118,10 +116,8 @@ struct DoublePendulum {
   static double Dot(const std::array<double, 2>& a, const std::array<double, 2>& b) {
     return a[0] * b[0] + a[1] * b[1];
   }
-  PlanarImpactInput Input(double mu) const {
-    return {.wtt = Dot(along, Response(along)),
-            .wtn = Dot(along, Response(normal)),
-            .wnn = Dot(normal, Response(normal)),
+  PlanarProblem Input(double mu) const {
+    return {.w = {Dot(along, Response(along)), Dot(along, Response(normal)), Dot(normal, Response(normal))},
             .u0 = Dot(along, rates),
             .v0 = Dot(normal, rates),
             .mu = mu};
@@ -148,7 +144,7 @@ void ExpectGain(const ImpactLawResult& result, double gain, double tolerance) {
 }
 
 TEST(KaneParadoxTest, KaneLevinsonMultipliesTheDoublePendulumsEnergy) {
-  const PlanarImpactInput input = DoublePendulum().Input(0.7);
+  const PlanarProblem input = DoublePendulum().Input(0.7);
   ExpectGain(SolveKaneLevinson(input, 1.0), 5.35, 0.005);
   ExpectGain(SolveKaneLevinson(input, 0.7), 2.11, 0.005);
   ExpectGain(SolveKaneLevinson(input, 0.5), 0.587, 0.0005);
@@ -166,7 +162,7 @@ TEST(KaneParadoxTest, WhittakersOneDirectionLosesEnergyThere) {
 
 // The linkage has less slip before the impact here: friction in one direction drives the reversed slip.
 TEST(KaneParadoxTest, WhittakerGainsEnergyOnceTheFirstRodSwingsBack) {
-  PlanarImpactInput input = DoublePendulum().Input(0.7);
+  PlanarProblem input = DoublePendulum().Input(0.7);
   input.u0 = -0.05;
   const ImpactLawResult result = SolveWhittaker(input, 1.0);
   ASSERT_EQ(result.solutions.size(), 1u);
@@ -184,28 +180,28 @@ TEST(KaneParadoxTest, ChatterjeeRuinaLosesEnergyThere) {
 
 // ---- Degenerate contacts ----
 
-std::vector<ImpactLawResult> AllLaws(const PlanarImpactInput& input, double e) {
+std::vector<ImpactLawResult> AllLaws(const PlanarProblem& input, double e) {
   return {SolveWhittaker(input, e), SolveKaneLevinson(input, e), SolveBrach(input, e, input.mu),
           SolveChatterjeeRuina(input, e, 0.5)};
 }
 
 TEST(ImpactLawsTest, SeparatingContactIsLeftAlone) {
   for (const double v0 : {0.0, 2.0}) {
-    PlanarImpactInput input = SlantedRod(0.7);
+    PlanarProblem input = SlantedRod(0.7);
     input.v0 = v0;
     for (const ImpactLawResult& result : AllLaws(input, 0.5)) ExpectOnly(result, {.u1 = -1.0, .v1 = v0});
   }
 }
 
 TEST(ImpactLawsTest, ContactThatCannotMoveAlongTheNormalHasNoSolution) {
-  for (const ImpactLawResult& result : AllLaws({.wtt = 1.0, .u0 = 1.0, .v0 = -1.0, .mu = 0.5}, 0.5)) {
+  for (const ImpactLawResult& result : AllLaws({.w = {.tt = 1.0}, .u0 = 1.0, .v0 = -1.0, .mu = 0.5}, 0.5)) {
     EXPECT_TRUE(result.solutions.empty());
   }
 }
 
 // wnn - mu wtn = 2.5 - 3 for slip towards +t.
 TEST(ImpactLawsTest, SelfLockingHasNoWhittakerAndNoBrachSolution) {
-  PlanarImpactInput input = SlantedRod(2.0);
+  PlanarProblem input = SlantedRod(2.0);
   input.u0 = 1.0;
   EXPECT_TRUE(SolveWhittaker(input, 0.5).solutions.empty());
   EXPECT_TRUE(SolveBrach(input, 0.5, -2.0).solutions.empty());
@@ -214,15 +210,13 @@ TEST(ImpactLawsTest, SelfLockingHasNoWhittakerAndNoBrachSolution) {
 }
 
 TEST(WhittakerTest, WithoutInitialSlipThereIsNoFriction) {
-  PlanarImpactInput input = SlantedRod(0.7);
+  PlanarProblem input = SlantedRod(0.7);
   input.u0 = 0.0;
   ExpectOnly(SolveWhittaker(input, 1.0), {.f = 0.0, .tau1 = 0.8, .u1 = 1.2, .v1 = 1.0, .energy_change = 0.0});
 }
 
 // The pendulum a = 4, b = 1, J0 = 1, w- = -1: rank one, x = mu/4, and every law has u1 = -e u0.
-PlanarImpactInput Pendulum(double mu) {
-  return {.wtt = 1.0, .wtn = 4.0, .wnn = 16.0, .u0 = -1.0, .v0 = -4.0, .mu = mu};
-}
+PlanarProblem Pendulum(double mu) { return {.w = {1.0, 4.0, 16.0}, .u0 = -1.0, .v0 = -4.0, .mu = mu}; }
 
 TEST(ImpactLawsTest, RankOneVelocitiesDoNotDependOnFriction) {
   for (const ImpactLawResult& result : AllLaws(Pendulum(0.5), 0.5)) {
@@ -264,14 +258,12 @@ constexpr int kCases = 100'000;
 class Cases {
  public:
   // Every eighth W is within 1e-12 ... 1e-2 of rank one.
-  PlanarImpactInput Next() {
+  PlanarProblem Next() {
     const double wtt = std::pow(10.0, Between(-1.0, 1.0));
     const double wnn = std::pow(10.0, Between(-1.0, 1.0));
     double rho = Between(-1.0, 1.0);
     if (++count_ % 8 == 0) rho = std::copysign(1.0 - std::pow(10.0, Between(-12.0, -2.0)), rho);
-    return {.wtt = wtt,
-            .wtn = rho * std::sqrt(wtt * wnn),
-            .wnn = wnn,
+    return {.w = {wtt, rho * std::sqrt(wtt * wnn), wnn},
             .u0 = Between(-3.0, 3.0),
             .v0 = -Between(0.01, 3.0),
             .mu = Between(0.0, 2.0)};
@@ -283,21 +275,22 @@ class Cases {
   int64_t count_ = 0;
 };
 
-std::string Print(const PlanarImpactInput& in) {
+std::string Print(const PlanarProblem& in) {
   std::ostringstream text;
   text.precision(17);
-  text << "W = " << in.wtt << " " << in.wtn << " " << in.wnn << ", v = " << in.u0 << " " << in.v0 << ", mu = " << in.mu;
+  text << "W = " << in.w.tt << " " << in.w.tn << " " << in.w.nn << ", v = " << in.u0 << " " << in.v0
+       << ", mu = " << in.mu;
   return text.str();
 }
 
 // Momentum balance and energy, in more digits. `scale` bounds the terms of the sums; two impulses of some 4 ulp each.
-void ExpectConsistent(const PlanarImpactInput& in, double e, const ImpactSolution& s) {
+void ExpectConsistent(const PlanarProblem& in, double e, const ImpactSolution& s) {
   const long double f = s.f;
   const long double tau = s.tau1;
-  const long double du = in.wtt * f + in.wtn * tau;
-  const long double dv = in.wtn * f + in.wnn * tau;
+  const long double du = in.w.tt * f + in.w.tn * tau;
+  const long double dv = in.w.tn * f + in.w.nn * tau;
   const double impulse = std::max(std::abs(s.f), s.tau1);
-  const double scale = std::abs(in.u0) + std::abs(in.v0) + std::max(in.wtt, in.wnn) * impulse;
+  const double scale = std::abs(in.u0) + std::abs(in.v0) + std::max(in.w.tt, in.w.nn) * impulse;
   EXPECT_NEAR(s.v1, -e * in.v0, kEpsilon * std::abs(in.v0)) << Print(in);
   EXPECT_NEAR(static_cast<double>(in.v0 + dv), s.v1, 8.0 * kEpsilon * scale) << Print(in);
   EXPECT_NEAR(static_cast<double>(in.u0 + du), s.u1, 8.0 * kEpsilon * scale) << Print(in);
@@ -307,7 +300,7 @@ void ExpectConsistent(const PlanarImpactInput& in, double e, const ImpactSolutio
   EXPECT_GT(s.tau1, 0.0) << Print(in);
 }
 
-void ExpectInCone(const PlanarImpactInput& in, const ImpactSolution& s) {
+void ExpectInCone(const PlanarProblem& in, const ImpactSolution& s) {
   EXPECT_LE(std::abs(s.f), in.mu * s.tau1 * (1.0 + 8.0 * kEpsilon)) << Print(in);
 }
 
@@ -315,10 +308,10 @@ TEST(ImpactLawsTest, WhittakerHoldsAtRandom) {
   Cases cases;
   int locked = 0;
   for (int i = 0; i < kCases; ++i) {
-    const PlanarImpactInput in = cases.Next();
+    const PlanarProblem in = cases.Next();
     const double e = cases.Between(0.0, 1.0);
     const ImpactLawResult result = SolveWhittaker(in, e);
-    const double slope = std::fma(-std::copysign(in.mu, in.u0), in.wtn, in.wnn);
+    const double slope = std::fma(-std::copysign(in.mu, in.u0), in.w.tn, in.w.nn);
     ASSERT_EQ(result.solutions.size(), slope > 0.0 ? 1u : 0u) << Print(in);
     locked += result.solutions.empty() ? 1 : 0;
     for (const ImpactSolution& s : result.solutions) {
@@ -332,7 +325,7 @@ TEST(ImpactLawsTest, WhittakerHoldsAtRandom) {
 TEST(ImpactLawsTest, BrachHoldsAtRandom) {
   Cases cases;
   for (int i = 0; i < kCases; ++i) {
-    const PlanarImpactInput in = cases.Next();
+    const PlanarProblem in = cases.Next();
     const double e = cases.Between(0.0, 1.0);
     const double mu_hat = cases.Between(-1.0, 1.0);
     for (const ImpactSolution& s : SolveBrach(in, e, mu_hat).solutions) {
@@ -347,7 +340,7 @@ TEST(ImpactLawsTest, KaneLevinsonHasExactlyOneCoulombSolutionAtRandom) {
   int stuck = 0;
   int gained = 0;
   for (int i = 0; i < kCases; ++i) {
-    const PlanarImpactInput in = cases.Next();
+    const PlanarProblem in = cases.Next();
     const double e = cases.Between(0.0, 1.0);
     const ImpactLawResult result = SolveKaneLevinson(in, e);
     ASSERT_EQ(result.solutions.size(), 1u) << Print(in);
@@ -372,13 +365,13 @@ struct VectorFormImpulse {
 };
 
 // The law in its vector form, from P_I, P_II and kappa, in more digits.
-VectorFormImpulse ChatterjeeRuinaInVectorForm(const PlanarImpactInput& in, double e, double e_t) {
-  const long double det = static_cast<long double>(in.wtt) * in.wnn - static_cast<long double>(in.wtn) * in.wtn;
-  const long double first_n = -static_cast<long double>(in.v0) / in.wnn;
+VectorFormImpulse ChatterjeeRuinaInVectorForm(const PlanarProblem& in, double e, double e_t) {
+  const long double det = static_cast<long double>(in.w.tt) * in.w.nn - static_cast<long double>(in.w.tn) * in.w.tn;
+  const long double first_n = -static_cast<long double>(in.v0) / in.w.nn;
   const long double second_t =
-      -(static_cast<long double>(in.wnn) * in.u0 - static_cast<long double>(in.wtn) * in.v0) / det;
+      -(static_cast<long double>(in.w.nn) * in.u0 - static_cast<long double>(in.w.tn) * in.v0) / det;
   const long double second_n =
-      -(static_cast<long double>(in.wtt) * in.v0 - static_cast<long double>(in.wtn) * in.u0) / det;
+      -(static_cast<long double>(in.w.tt) * in.v0 - static_cast<long double>(in.w.tn) * in.u0) / det;
   const auto weighted = [&](long double k) {
     return VectorFormImpulse{.f = k * second_t, .tau1 = (1.0L + e) * first_n + k * (second_n - first_n)};
   };
@@ -394,7 +387,7 @@ TEST(ImpactLawsTest, ChatterjeeRuinaAgreesWithItsVectorFormAndNeverCreatesEnergy
   Cases cases;
   int on_cone = 0;
   for (int i = 0; i < kCases; ++i) {
-    const PlanarImpactInput in = cases.Next();
+    const PlanarProblem in = cases.Next();
     const double e = cases.Between(0.0, 1.0);
     const double e_t = cases.Between(-1.0, 1.0);
     const ImpactLawResult result = SolveChatterjeeRuina(in, e, e_t);
@@ -403,8 +396,8 @@ TEST(ImpactLawsTest, ChatterjeeRuinaAgreesWithItsVectorFormAndNeverCreatesEnergy
     ExpectConsistent(in, e, s);
     ExpectInCone(in, s);
     const VectorFormImpulse reference = ChatterjeeRuinaInVectorForm(in, e, e_t);
-    const double impulse = std::max(std::abs(s.f) * std::max(1.0, std::abs(in.wtn) / in.wnn), s.tau1);
-    const long double conditioning = in.wtt * in.wnn / std::fma(in.wtt, in.wnn, -in.wtn * in.wtn);
+    const double impulse = std::max(std::abs(s.f) * std::max(1.0, std::abs(in.w.tn) / in.w.nn), s.tau1);
+    const long double conditioning = in.w.tt * in.w.nn / std::fma(in.w.tt, in.w.nn, -in.w.tn * in.w.tn);
     const double reference_error =
         static_cast<double>(64.0L * std::numeric_limits<long double>::epsilon() * conditioning);
     EXPECT_NEAR(static_cast<double>(reference.f), s.f, (16.0 * kEpsilon + reference_error) * impulse) << Print(in);
@@ -421,16 +414,16 @@ TEST(ImpactLawsTest, ChatterjeeRuinaAgreesWithItsVectorFormAndNeverCreatesEnergy
 TEST(ImpactLawsTest, WithoutFrictionAllLawsAgreeAtRandom) {
   Cases cases;
   for (int i = 0; i < kCases; ++i) {
-    PlanarImpactInput in = cases.Next();
+    PlanarProblem in = cases.Next();
     in.mu = 0.0;
     const double e = cases.Between(0.0, 1.0);
-    const double tau1 = std::fma(-e, in.v0, -in.v0) / in.wnn;
+    const double tau1 = std::fma(-e, in.v0, -in.v0) / in.w.nn;
     for (const ImpactLawResult& result : AllLaws(in, e)) {
       ASSERT_EQ(result.solutions.size(), 1u) << Print(in);
       const ImpactSolution& s = result.solutions.front();
       EXPECT_EQ(s.f, 0.0) << Print(in);
       EXPECT_EQ(s.tau1, tau1) << Print(in);
-      EXPECT_EQ(s.u1, std::fma(tau1, in.wtn, in.u0)) << Print(in);
+      EXPECT_EQ(s.u1, std::fma(tau1, in.w.tn, in.u0)) << Print(in);
     }
   }
 }
@@ -449,9 +442,9 @@ void ExpectMirrored(const ImpactLawResult& one, const ImpactLawResult& other, co
 TEST(ImpactLawsTest, MirroredContactHasTheMirroredAnswerBitForBit) {
   Cases cases;
   for (int i = 0; i < kCases; ++i) {
-    const PlanarImpactInput in = cases.Next();
-    PlanarImpactInput mirrored = in;
-    mirrored.wtn = -in.wtn;
+    const PlanarProblem in = cases.Next();
+    PlanarProblem mirrored = in;
+    mirrored.w.tn = -in.w.tn;
     mirrored.u0 = -in.u0;
     const double e = cases.Between(0.0, 1.0);
     const double e_t = cases.Between(-1.0, 1.0);

@@ -82,7 +82,7 @@ TEST(PlanarArbTest, EveryOutputIsWithinOneUlpOverTheWholeRangeOfDoubles) {
 }
 
 TEST(PlanarArbTest, AnErrorOfTwoUlpWouldBeSeen) {
-  const Problem problem = {.wtt = 2.5, .wtn = 1.5, .wnn = 2.5, .u0 = -1.0, .v0 = -1.0, .mu = 0.7, .mu_static = 0.7};
+  const Problem problem = {.w = {2.5, 1.5, 2.5}, .u0 = -1.0, .v0 = -1.0, .mu = 0.7, .mu_static = 0.7};
   const ExactImpact exact = SolveExactly(problem);
   Impact impact = Solve(problem);
   impact.tau1 += 0x1p-53;  // tau1 is in [1/4, 1/2).

@@ -29,9 +29,7 @@ constexpr int kScenes = 100'000;
 
 Problem Contact(double wtt, double wtn, double wnn, double u0, double mu, double mu_static, RestitutionLaw law,
                 double coefficient) {
-  return {.wtt = wtt,
-          .wtn = wtn,
-          .wnn = wnn,
+  return {.w = {wtt, wtn, wnn},
           .u0 = u0,
           .v0 = -1.0,
           .mu = mu,
@@ -395,7 +393,7 @@ TEST(PlanarSymmetryTest, MirroringTheTangentMirrorsTheOutcomeBitByBit) {
     const Problem problem = source.Any();
     Problem mirrored = problem;
     mirrored.u0 = -problem.u0;
-    mirrored.wtn = -problem.wtn;
+    mirrored.w.tn = -problem.w.tn;
     Impact expected = Solve(problem);
     for (double* value : {&expected.u1, &expected.f1, &expected.f_compression, &expected.tangential}) *value = -*value;
     for (Instant& event : expected.events) {
@@ -411,9 +409,9 @@ TEST(PlanarSymmetryTest, MirroringTheTangentMirrorsTheOutcomeBitByBit) {
 // W is scaled by 2^w, velocities by 2^s and the unit of u by 2^t, so far that DoubleDouble arithmetic cannot be used.
 Problem Scaled(const Problem& problem, int w, int s, int t) {
   Problem scaled = problem;
-  scaled.wtt = std::ldexp(problem.wtt, w + 2 * t);
-  scaled.wtn = std::ldexp(problem.wtn, w + t);
-  scaled.wnn = std::ldexp(problem.wnn, w);
+  scaled.w.tt = std::ldexp(problem.w.tt, w + 2 * t);
+  scaled.w.tn = std::ldexp(problem.w.tn, w + t);
+  scaled.w.nn = std::ldexp(problem.w.nn, w);
   scaled.u0 = std::ldexp(problem.u0, s + t);
   scaled.v0 = std::ldexp(problem.v0, s);
   scaled.mu = std::ldexp(problem.mu, -t);
@@ -475,9 +473,7 @@ Pendulum MakePendulum(double inertia, double a, double b, double omega, double m
                   .mu_static = mu,
                   .law = law,
                   .coefficient = coefficient},
-          .planar = {.wtt = b * b / inertia,
-                     .wtn = a * b / inertia,
-                     .wnn = a * a / inertia,
+          .planar = {.w = {b * b / inertia, a * b / inertia, a * a / inertia},
                      .u0 = b * omega,
                      .v0 = a * omega,
                      .mu = mu,

@@ -21,9 +21,7 @@ Problem ProblemOf(const VectorRow& row) {
                                                       {"poisson", RestitutionLaw::kPoisson},
                                                       {"energetic", RestitutionLaw::kEnergetic}};
   const double mu = Number(row, "mu");
-  return {.wtt = Number(row, "wtt"),
-          .wtn = Number(row, "wtn"),
-          .wnn = Number(row, "wnn"),
+  return {.w = {Number(row, "wtt"), Number(row, "wtn"), Number(row, "wnn")},
           .u0 = Number(row, "u0"),
           .v0 = Number(row, "v0"),
           .mu = mu,

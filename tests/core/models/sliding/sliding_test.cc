@@ -168,12 +168,12 @@ TEST(SlidingTest, InSpaceItsFormulasAreEvaluatedWithinTheirBound) {
 spatial::Problem InSpace(const planar::Problem& p, double across, double angle) {
   const double c = std::cos(angle);
   const double s = std::sin(angle);
-  return {.w11 = c * c * p.wtt + s * s * across,
-          .w12 = c * s * (p.wtt - across),
-          .w13 = c * p.wtn,
-          .w22 = s * s * p.wtt + c * c * across,
-          .w23 = s * p.wtn,
-          .w33 = p.wnn,
+  return {.w11 = c * c * p.w.tt + s * s * across,
+          .w12 = c * s * (p.w.tt - across),
+          .w13 = c * p.w.tn,
+          .w22 = s * s * p.w.tt + c * c * across,
+          .w23 = s * p.w.tn,
+          .w33 = p.w.nn,
           .u0 = {c * p.u0, s * p.u0},
           .v0 = p.v0,
           .mu = p.mu,

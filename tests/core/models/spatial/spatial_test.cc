@@ -543,9 +543,7 @@ TEST(SpatialTest, RankOneIsPlanarAlongItsTangentialDirection) {
                              .mu_static = mu,
                              .coefficient = 1.0};
     const Impact impact = Solve(problem);
-    const planar::Impact planar = planar::Solve({.wtt = 0.25,
-                                                 .wtn = 0.5,
-                                                 .wnn = 1.0,
+    const planar::Impact planar = planar::Solve({.w = {0.25, 0.5, 1.0},
                                                  .u0 = -0.5,
                                                  .v0 = -1.0,
                                                  .mu = mu,
