@@ -36,7 +36,7 @@ struct Contact {
 };
 
 Contact<2> MakeContact(const planar::Problem& in, const Observation& seen) {
-  return {.w = {{{in.wtt, in.wtn}, {in.wtn, in.wnn}}},
+  return {.w = {{{in.w.tt, in.w.tn}, {in.w.tn, in.w.nn}}},
           .before = {in.u0, in.v0},
           .after = {seen.u1[0], seen.v1},
           .mu_static = std::max(in.mu, in.mu_static),
@@ -373,8 +373,8 @@ AuditReport AuditRankOne(const Contact<2>& contact, const RangeDirection& range,
 // and v vanish together, and Newton's law gives the points after it.
 AuditReport AuditPlanarRankOne(const planar::Problem& problem, const Contact<2>& contact,
                                const PathPoint& compression) {
-  const double size = Hypot(problem.wtn, problem.wnn);
-  const RangeDirection range = {problem.wtn / size, problem.wnn / size};
+  const double size = Hypot(problem.w.tn, problem.w.nn);
+  const RangeDirection range = {problem.w.tn / size, problem.w.nn / size};
   const auto path_at = [&](double v) {
     if (problem.v0 >= 0.0) return compression;
     if (v >= 0.0) return PathWhereNormalIs(problem, v);
@@ -521,9 +521,7 @@ absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& proble
 AuditReport Audit(const planar::Problem& problem, const Observation& observation) {
   const Contact<2> contact = MakeContact(problem, observation);
   const PathPoint start = PathAt(problem, 0.0);
-  return PlanarDelassus{problem.wtt, problem.wtn, problem.wnn}.Rank() == 2
-             ? AuditFullRank(problem, contact, start)
-             : AuditPlanarRankOne(problem, contact, start);
+  return problem.w.Rank() == 2 ? AuditFullRank(problem, contact, start) : AuditPlanarRankOne(problem, contact, start);
 }
 
 absl::StatusOr<AuditReport> Audit(const spatial::Problem& in, const Observation& observation,

@@ -98,7 +98,7 @@ double ValueAt(const std::vector<double>& column, size_t row) { return column.si
 
 // Decides whether (u0, v0) lies in the range of W, which all velocities do where its rank is full.
 bool IsInRange(const planar::Problem& in) {
-  const PlanarDelassus w = {in.wtt, in.wtn, in.wnn};
+  const PlanarDelassus& w = in.w;
   if (w.Rank() == 2) return true;
   return std::abs(DifferenceOfProducts(in.u0, w.nn, in.v0, w.tn)) <=
          8.0 * std::numeric_limits<double>::epsilon() * (std::abs(in.u0) * w.nn + std::abs(in.v0 * w.tn));

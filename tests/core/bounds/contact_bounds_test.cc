@@ -129,8 +129,7 @@ TEST(ContactBoundsTest, RankOneIsThePendulum) {
 }
 
 TEST(ContactBoundsTest, LockedContactHasOneValueOfEverything) {
-  const Bounds bounds =
-      SolveBounds({.wtt = 16.0, .wtn = 4.0, .wnn = 1.0, .u0 = -4.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5});
+  const Bounds bounds = SolveBounds({.w = {16.0, 4.0, 1.0}, .u0 = -4.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5});
   EXPECT_EQ(bounds.regime, Regime::kLocked);
   EXPECT_EQ(bounds.sharp.newton, Range());
   EXPECT_EQ(bounds.sharp.poisson, Range());
@@ -198,7 +197,7 @@ TEST(ContactBoundsTest, EnergyIsBackWhereItsBoundSays) {
   for (int i = 0; i < 20'000; ++i) {
     const Problem problem = source.Everyday();
     const Bounds bounds = SolveBounds(problem);
-    if (problem.wtt * problem.wnn - problem.wtn * problem.wtn < 1e-3 * problem.wtt * problem.wnn) continue;
+    if (problem.w.tt * problem.w.nn - problem.w.tn * problem.w.tn < 1e-3 * problem.w.tt * problem.w.nn) continue;
     const Impact impact = SolveAt(problem, RestitutionLaw::kPoisson, bounds.energy_only->poisson.upper);
     const double scale = impact.tau1 * (std::fabs(problem.v0) + impact.v1) +
                          std::fabs(impact.f1) * (std::fabs(problem.u0) + std::fabs(impact.u1));

@@ -349,13 +349,13 @@ TEST(CertifiedTiesTest, ARankOfOneIsThatOfTheDoublesThemselves) {
   planar::Problem problem = {.w = {1.0, 3.0, 9.0}, .u0 = -1.0, .v0 = -3.0, .mu = 0.25, .mu_static = 3.0};
   problem.coefficient = 0.5;
   EXPECT_EQ(CertifiedRegime(SceneOf(problem)), Regime::kLocked);
-  problem.wtn = std::nextafter(3.0, 0.0);
+  problem.w.tn = std::nextafter(3.0, 0.0);
   EXPECT_NE(CertifiedRegime(SceneOf(problem)), Regime::kLocked);
-  problem.wtn = std::nextafter(3.0, 4.0);
+  problem.w.tn = std::nextafter(3.0, 4.0);
   EXPECT_EQ(CertifySolve(SceneOf(problem), {5}, Never).status().message(),
             "planar_contact.w_tn_per_kg makes det W < 0: must leave it >= 0 exactly, not to rounding, with "
             "certified_digits");
-  problem.wtn = 3.0;
+  problem.w.tn = 3.0;
   problem.u0 = std::nextafter(-1.0, 0.0);
   EXPECT_EQ(CertifySolve(SceneOf(problem), {5}, Never).status().message(),
             "planar_contact.tangential_m_s makes (u0, v0) lie beside the range of W, whose rank is one: must lie in it "

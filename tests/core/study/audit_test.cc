@@ -601,7 +601,7 @@ TEST(AuditTest, SearchesTheNearestPointOfARankDeficientSpatialPath) {
 
 // Returns the scene of a contact, without the restitution that an audit does not need.
 Scene SceneOf(const planar::Problem& contact) {
-  return {.system = PlanarContact{contact.wtt, contact.wtn, contact.wnn, contact.u0, contact.v0},
+  return {.system = PlanarContact{contact.w.tt, contact.w.tn, contact.w.nn, contact.u0, contact.v0},
           .friction = {.kinetic_coefficient = contact.mu, .static_coefficient = contact.mu_static}};
 }
 
@@ -674,7 +674,7 @@ TEST(AuditBatchTest, MarksRowsThatTheContactCannotHave) {
 TEST(AuditBatchTest, SinglesOutTheRowThatOverflows) {
   // p_n = (v+ - v-)/Wnn: 1e308/1e-3 exceeds the largest double.
   planar::Problem contact = kByHand;
-  contact.wnn = 1e-3;
+  contact.w.nn = 1e-3;
   const AuditColumns columns = {.tangential_after_m_s = {contact.u0}, .normal_after_m_s = {0.5, 1e308, 0.25}};
   const auto response = AuditScene(AuditBatchRequest{.scene = SceneOf(contact), .columns = columns}, Never);
   ASSERT_TRUE(response.ok()) << response.status();
