@@ -15,7 +15,7 @@ Event MakeEvent(EventKind kind, const Section& section, const PlanarReduction& r
   return {kind, MakeState(reduction, section)};
 }
 
-// What begins with `section`, after one of the mode `before`.
+// Adds the events that begin `section`, which follows a section in the friction state `before`.
 void AddEvents(const Section& section, FrictionState before, double tau_compression, const PlanarReduction& reduction,
                std::vector<Event>& timeline) {
   if (section.tau == tau_compression) {
@@ -51,7 +51,7 @@ absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReductio
   outcome.work.friction_dissipation_j = impact.friction_dissipation;
   outcome.work.tangential_spring_j = impact.spring_energy;
   outcome.accuracy = {.relative_error = impact.error_estimate, .kind = AccuracyKind::kEstimate};
-  // Of a path that overflows not even the regime is known, whatever numbers are wanted.
+  // If the path overflows, not even the regime is known, so that the outcome is checked in every case.
   if (detail == Detail::kNumbers && std::isfinite(impact.u1)) return outcome;
   outcome.timeline = TimelineOf(impact, reduction);
   const absl::Status finite = CheckFinite(outcome);

@@ -1,4 +1,4 @@
-// An impact with tangential compliance as an Outcome.
+// MakeOutcome for an impact with tangential compliance.
 
 #ifndef RICOCHET_CORE_ANSWER_COMPLIANT_OUTCOME_H_
 #define RICOCHET_CORE_ANSWER_COMPLIANT_OUTCOME_H_
@@ -12,12 +12,12 @@
 
 namespace ricochet::compliant {
 
-// The most events of a timeline; where there are more, it has the first ones and the end.
+// A timeline has at most this many events; if the impact has more, it has the first ones and the end.
 inline constexpr size_t kMostEvents = 8192;
 
-// `problem` is of `reduction`.
-// Errors: OUT_OF_RANGE naming the first output that exceeds the largest double; INVALID_ARGUMENT if `history_at_n_s` is
-// not empty: what the springs do between two events is no line in the normal impulse.
+// `problem` must be that of `reduction`.
+// Errors: OUT_OF_RANGE names the first output that exceeds the largest double; INVALID_ARGUMENT if `history_at_n_s` is
+// not empty, because the path between two events is not linear in the normal impulse.
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
                                     absl::Span<const double> history_at_n_s, Detail detail = Detail::kAll);
 

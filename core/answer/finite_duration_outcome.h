@@ -1,4 +1,4 @@
-// An impact that takes time as an Outcome.
+// MakeOutcome for an impact that takes time.
 
 #ifndef RICOCHET_CORE_ANSWER_FINITE_DURATION_OUTCOME_H_
 #define RICOCHET_CORE_ANSWER_FINITE_DURATION_OUTCOME_H_
@@ -12,9 +12,9 @@
 
 namespace ricochet::finite_duration {
 
-// `problem` is of `reduction`.
-// Errors: OUT_OF_RANGE naming the first output that exceeds the largest double; INVALID_ARGUMENT if `history_at_n_s` is
-// not empty: its histories are in time (Problem::intervals).
+// `problem` must be that of `reduction`.
+// Errors: OUT_OF_RANGE names the first output that exceeds the largest double; INVALID_ARGUMENT if `history_at_n_s` is
+// not empty, because histories of such an impact are in time (Problem::intervals).
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
                                     absl::Span<const double> history_at_n_s, Detail detail = Detail::kAll);
 

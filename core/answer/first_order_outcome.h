@@ -1,4 +1,4 @@
-// A nearly vertical pendulum's impact to first order as an Outcome.
+// MakeOutcome for a nearly vertical pendulum to first order.
 
 #ifndef RICOCHET_CORE_ANSWER_FIRST_ORDER_OUTCOME_H_
 #define RICOCHET_CORE_ANSWER_FIRST_ORDER_OUTCOME_H_
@@ -11,8 +11,7 @@
 
 namespace ricochet::first_order {
 
-// As pendulum::MakeOutcome, whose paths it uses (core/answer/pendulum_outcome.h). `problem` is one that the model
-// serves.
+// Outputs have the paths of pendulum::MakeOutcome (core/answer/pendulum_outcome.h). The model must serve `problem`.
 // Errors: INVALID_ARGUMENT for each history_at_n_s that is not in [0, tau1].
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s,
                                     Detail detail = Detail::kAll);

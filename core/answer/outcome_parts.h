@@ -1,4 +1,5 @@
-// What the outcomes of all models share: limits, ledger, history, the way back to the system's own velocities.
+// Outcome parts: the parts of an outcome that all models share, which are limits, works, history and the velocities of
+// the system.
 
 #ifndef RICOCHET_CORE_ANSWER_OUTCOME_PARTS_H_
 #define RICOCHET_CORE_ANSWER_OUTCOME_PARTS_H_
@@ -21,16 +22,16 @@
 
 namespace ricochet {
 
-// The most history points of one request.
+// A request may have at most this many history points.
 inline constexpr size_t kMaxHistory = 65536;
 
-// How much of an outcome somebody will look at.
+// The part of an outcome that the caller needs.
 enum class Detail {
-  kNumbers,  // What VisitOutcomeNumbers visits, regime and limits, finite or not: a point of a sweep.
+  kNumbers,  // A sweep needs the numbers of VisitOutcomeNumbers, the regime and the limits, finite or not.
   kAll,
 };
 
-// Which of the two limits are broken, as every model's Impact says it.
+// The limits that an impact breaks, with their values.
 struct LimitFindings {
   bool sharp_broken = false;
   double energetic = 0.0;
@@ -44,13 +45,13 @@ std::vector<BrokenLimit> BrokenLimits(const LimitFindings& findings);
 WorkLedger MakeLedger(double normal_compression, double normal_restitution, double tangential_compression,
                       double tangential_restitution, double energy_change);
 
-// A violation for each tau that is not in [0, tau1], or for too many of them.
+// Gives a violation for each tau that is not in [0, tau1], and one if there are too many.
 std::vector<Violation> CheckHistory(absl::Span<const double> taus, double tau1);
 
-// A violation if there are any: `whom` has no path to look them up on.
+// Gives a violation if there are any, because `whom` keeps no path on which to look them up.
 std::vector<Violation> RefuseHistory(absl::Span<const double> taus, const std::string& whom);
 
-// `error`, of the largest of the velocities, over the larger one before the impact.
+// Converts `error`, which is relative to the largest of all velocities, to one relative to the velocity before the impact.
 template <size_t kTangential>
 double RelativeToBefore(double error, const Reduction<kTangential>& reduction,
                         const std::array<double, kTangential>& u1, double v1) {
@@ -63,11 +64,11 @@ double RelativeToBefore(double error, const Reduction<kTangential>& reduction,
   return error * std::max(1.0, after / before);
 }
 
-// OUT_OF_RANGE naming the first number of the outcome, or of a state of its timeline, that is not finite, but for
-// an error estimate, which is infinite where an integration did not converge.
+// Gives OUT_OF_RANGE that names the first number of the outcome, or of a state of its timeline, that is not finite. The
+// error estimate is not checked: it is infinite if an integration did not converge.
 absl::Status CheckFinite(const Outcome& outcome);
 
-// The contact's state at normal impulse tau, the rates of the system's joints with it.
+// The state of the contact at normal impulse tau, with the rates of the system's joints.
 template <size_t kTangential>
 State MakeState(const Reduction<kTangential>& reduction, double tau, const std::array<double, kTangential>& f,
                 const std::array<double, kTangential>& u, double v) {
@@ -78,7 +79,7 @@ State MakeState(const Reduction<kTangential>& reduction, double tau, const std::
   return state;
 }
 
-// Sets what the system's own velocities are after the impulse: rates_after_rad_s or bodies_after.
+// Sets the system's own velocities after the impulse: rates_after_rad_s or bodies_after.
 template <size_t kTangential>
 void SetVelocities(const Reduction<kTangential>& reduction, const std::array<double, kTangential>& f, double tau1,
                    double duration, Outcome& outcome) {
@@ -96,15 +97,15 @@ void SetVelocities(const Reduction<kTangential>& reduction, const std::array<dou
   }
 }
 
-// One entry a tangential direction, of a scalar too.
+// Gives a list with one entry for each tangential direction, also for a scalar.
 inline std::array<double, 1> ByDirection(double t) { return {t}; }
 template <size_t kTangential>
 std::array<double, kTangential> ByDirection(const std::array<double, kTangential>& t) {
   return t;
 }
 
-// What the path of an impact ends with: all of an outcome but its effective coefficients, accuracy, timeline and
-// history.
+// Makes the part of an outcome that the end of the path determines: all but its effective coefficients, accuracy,
+// timeline and history.
 template <size_t kTangential, typename Along>
 Outcome MakeEnd(const ImpactEnd<Along>& impact, const Reduction<kTangential>& reduction, double duration = 0.0) {
   const std::array<double, kTangential> u1 = ByDirection(impact.u1);
@@ -140,7 +141,7 @@ State MakeState(const Reduction<kTangential>& reduction, const SomeInstant& inst
   return MakeState<kTangential>(reduction, instant.tau, ByDirection(instant.f), ByDirection(instant.u), instant.v);
 }
 
-// The events of an impact; none where separating.
+// The events of an impact; none if the contact separates.
 template <size_t kTangential, typename SomeImpact>
 std::vector<Event> MakeTimeline(const SomeImpact& impact, const Reduction<kTangential>& reduction) {
   std::vector<Event> timeline;

@@ -12,7 +12,7 @@ namespace {
 // 4 ulp of a velocity whose size is at most 1.
 constexpr double kUlps = 0x1p-50;
 
-// The state of the contact at angular velocity `omega`; one rounding a product.
+// The state of the contact at angular velocity `omega`. Each product is rounded once.
 State MakeState(const Problem& problem, double tau, double omega, double tangential_impulse) {
   return {.normal_impulse_n_s = tau,
           .tangential_impulse_n_s = {tangential_impulse},

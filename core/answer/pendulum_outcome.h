@@ -1,4 +1,4 @@
-// A pendulum's impact as an Outcome: contact velocities, ledger, timeline, limits broken.
+// MakeOutcome for a pendulum: contact velocities, works, timeline, and the limits broken.
 
 #ifndef RICOCHET_CORE_ANSWER_PENDULUM_OUTCOME_H_
 #define RICOCHET_CORE_ANSWER_PENDULUM_OUTCOME_H_
@@ -13,22 +13,22 @@
 
 namespace ricochet::pendulum {
 
-// Where an output stands in ricochet.v1.Outcome: "coefficients.newton". Empty for those that stand nowhere.
+// The path of an output in ricochet.v1.Outcome, such as "coefficients.newton"; empty if it is not in an outcome.
 std::string OutputPath(Output output);
 
-// What a model of the pendulum found.
+// The result of a model of the pendulum.
 struct Findings {
   Impact impact;
-  double error = 0.0;                                 // Proved, of the contact velocity over max(|u0|, |v0|).
-  Instant (*at)(const Problem& problem, double tau);  // The contact on the way, where it does not separate.
+  double error = 0.0;                                 // Proved bound for the contact velocity over max(|u0|, |v0|).
+  Instant (*at)(const Problem& problem, double tau);  // State at tau; not called if the contact separates.
 };
 
-// Errors: OUT_OF_RANGE naming the first output that exceeds the largest double; INVALID_ARGUMENT for each
+// Errors: OUT_OF_RANGE names the first output that exceeds the largest double; INVALID_ARGUMENT for each
 // history_at_n_s that is not in [0, tau1].
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const Findings& findings,
                                     absl::Span<const double> history_at_n_s, Detail detail);
 
-// The exact impact.
+// Makes the outcome of the exact model.
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s,
                                     Detail detail = Detail::kAll);
 

@@ -1,4 +1,4 @@
-// A planar impact as an Outcome: contact velocities, ledger, timeline, limits broken, velocities of the system.
+// MakeOutcome for a planar impact: contact velocities, works, timeline, limits broken, velocities of the system.
 
 #ifndef RICOCHET_CORE_ANSWER_PLANAR_OUTCOME_H_
 #define RICOCHET_CORE_ANSWER_PLANAR_OUTCOME_H_
@@ -13,8 +13,8 @@
 
 namespace ricochet::planar {
 
-// `problem` is of `reduction`.
-// Errors: OUT_OF_RANGE naming the first output that exceeds the largest double; INVALID_ARGUMENT for each
+// `problem` must be that of `reduction`.
+// Errors: OUT_OF_RANGE names the first output that exceeds the largest double; INVALID_ARGUMENT for each
 // history_at_n_s that is not in [0, tau1].
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
                                     absl::Span<const double> history_at_n_s, Detail detail = Detail::kAll);

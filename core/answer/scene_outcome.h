@@ -22,8 +22,8 @@ struct SolveOptions {
   Detail detail = Detail::kAll;
 };
 
-// `scene` is valid and CheckDemand finds nothing. With Detail::kNumbers the outcome's plan has the model alone.
-// Errors: those of the models' MakeOutcome; OUT_OF_RANGE as ContactOverflow.
+// Solves a valid scene in which CheckDemand finds nothing. With Detail::kNumbers the outcome's plan has the model alone.
+// Errors are those of the models' MakeOutcome, and ContactOverflow.
 absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& options);
 
 // The plan alone, in an outcome that has nothing else.

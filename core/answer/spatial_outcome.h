@@ -1,4 +1,4 @@
-// An impact in space as an Outcome: contact velocities, ledger, timeline, limits broken, velocities of the system.
+// MakeOutcome for an impact in space: contact velocities, works, timeline, limits broken, velocities of the system.
 
 #ifndef RICOCHET_CORE_ANSWER_SPATIAL_OUTCOME_H_
 #define RICOCHET_CORE_ANSWER_SPATIAL_OUTCOME_H_
@@ -13,8 +13,8 @@
 
 namespace ricochet::spatial {
 
-// `problem` is of `reduction`. The path between events is not kept, so that there is no history.
-// Errors: OUT_OF_RANGE naming the first output that exceeds the largest double; INVALID_ARGUMENT if
+// `problem` must be that of `reduction`. The path between events is not kept, so that there is no history.
+// Errors: OUT_OF_RANGE names the first output that exceeds the largest double; INVALID_ARGUMENT if
 // `history_at_n_s` is not empty.
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const SpatialReduction& reduction,
                                     absl::Span<const double> history_at_n_s, Detail detail = Detail::kAll);

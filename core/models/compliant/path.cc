@@ -91,7 +91,7 @@ class PathFollower {
     return true;
   }
 
-  // With eta = 0 the first such reversal is the end.
+  // If eta = 0, the first such reversal is the end.
   bool ReverseNormalVelocity() {
     state_.v = 0.0;
     if (contact_.u_follows_v) state_.u = 0.0;
