@@ -9,16 +9,17 @@
 #include "core/models/pendulum/first_order.h"
 #include "core/models/restitution_law.h"
 #include "core/models/sliding/sliding.h"
-#include "core/numerics/determinant.h"
 #include "core/plan/perturbed_path.h"
 
 namespace ricochet {
 namespace {
 
-constexpr EffectSet kOfPlanar = {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction, Effect::kHigherOrder};
-constexpr EffectSet kOfSpatial = {Effect::kFriction, Effect::kSlipStop, Effect::kSlipTurn, Effect::kStaticFriction};
-constexpr EffectSet kOfCompliant = kOfPlanar | EffectSet{Effect::kTangentialCompliance};
-constexpr EffectSet kOfDuration = kOfCompliant | EffectSet{Effect::kFiniteDuration, Effect::kFiniteForces};
+constexpr EffectSet kPlanarEffects = {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction,
+                                      Effect::kHigherOrder};
+constexpr EffectSet kSpatialEffects = {Effect::kFriction, Effect::kSlipStop, Effect::kSlipTurn,
+                                       Effect::kStaticFriction};
+constexpr EffectSet kCompliantEffects = kPlanarEffects | EffectSet{Effect::kTangentialCompliance};
+constexpr EffectSet kDurationEffects = kCompliantEffects | EffectSet{Effect::kFiniteDuration, Effect::kFiniteForces};
 // Any model leaves these effects out if the corresponding input is 0.
 constexpr EffectSet kSwitched = {Effect::kFriction, Effect::kStaticFriction, Effect::kTangentialCompliance,
                                  Effect::kFiniteForces};
@@ -70,14 +71,14 @@ Decision DecisionOn(const Context& context, const Sizes& of_all, EffectSet simul
 // The first candidate within the tolerance. There may be none if the caller excludes an effect that every exact model
 // has; then the last candidate is taken that leaves out nothing else.
 const Candidate* Cheapest(const Context& context, absl::Span<const Candidate> candidates) {
-  const Candidate* rest = nullptr;
+  const Candidate* fallback = nullptr;
   for (const Candidate& candidate : candidates) {
     if (!context.Allows(candidate.simulates) || !(candidate.error < kUnbounded)) continue;
     const double neglected = context.Neglected(candidate.simulates);
     if (neglected + candidate.error <= context.demand.relative_tolerance) return &candidate;
-    if (neglected == 0.0) rest = &candidate;
+    if (neglected == 0.0) fallback = &candidate;
   }
-  return rest;
+  return fallback;
 }
 
 void Decide(const Context& context, const Candidate& candidate, const Sizes& of_all, Choice& choice) {
@@ -113,7 +114,7 @@ Choice Separating() {
 }
 
 // The part of the tolerance that is left for the model's own error, in [least, most].
-double Left(const Choice& choice, const Demand& demand, double least, double most) {
+double RemainingTolerance(const Choice& choice, const Demand& demand, double least, double most) {
   return std::clamp(demand.relative_tolerance - choice.Negligible(), least, most);
 }
 
@@ -122,7 +123,7 @@ bool HasForces(const ContactPhysics& physics) {
          !std::holds_alternative<std::monostate>(physics.spring);
 }
 
-sliding::Problem<1> LineOf(const planar::Problem& problem) {
+sliding::Problem<1> SlidingProblemOf(const planar::Problem& problem) {
   return {.w = {problem.w.tt, problem.w.tn, problem.w.nn},
           .u0 = {problem.u0},
           .v0 = problem.v0,
@@ -130,7 +131,7 @@ sliding::Problem<1> LineOf(const planar::Problem& problem) {
           .coefficient = problem.coefficient};
 }
 
-sliding::Problem<2> LineOf(const spatial::Problem& problem) {
+sliding::Problem<2> SlidingProblemOf(const spatial::Problem& problem) {
   return {.w = {problem.w11, problem.w12, problem.w13, problem.w22, problem.w23, problem.w33},
           .u0 = problem.u0,
           .v0 = problem.v0,
@@ -138,16 +139,16 @@ sliding::Problem<2> LineOf(const spatial::Problem& problem) {
           .coefficient = problem.coefficient};
 }
 
-double SmoothError(bool serves, const auto& line) {
-  return serves ? sliding::FrictionlessErrorsOf(line).Largest() : kUnbounded;
+double FrictionlessError(bool serves, const auto& straight) {
+  return serves ? sliding::FrictionlessErrorsOf(straight).Largest() : kUnbounded;
 }
 
-double LineError(bool serves, bool slips, const auto& line) {
-  return serves && slips && line.mu > 0.0 ? sliding::ErrorsOf(line).Largest() : kUnbounded;
+double SlidingError(bool serves, bool slips, const auto& straight) {
+  return serves && slips && straight.mu > 0.0 ? sliding::ErrorsOf(straight).Largest() : kUnbounded;
 }
 
-bool LinesServe(const planar::Problem& problem) {
-  const bool full_rank = std::fabs(RelativeDeterminant(problem.w.tt, problem.w.tn, problem.w.nn)) > 0x1p-40;
+bool StraightPathServes(const planar::Problem& problem) {
+  const bool full_rank = std::fabs(problem.w.RelativeDeterminant()) > 0x1p-40;
   const double cone = problem.mu * std::fabs(problem.w.tn) / problem.w.nn;
   return problem.coefficient <= 1.0 && (full_rank || problem.w.tt == 0.0) && 1.0 - cone >= kLeastSlope;
 }
@@ -160,7 +161,7 @@ bool HasFullRank(const spatial::Problem& w) {
   return 1.0 + 2.0 * c12 * c13 * c23 - (c12 * c12 + c13 * c13 + c23 * c23) > 0x1p-40;
 }
 
-bool LinesServe(const spatial::Problem& problem) {
+bool StraightPathServes(const spatial::Problem& problem) {
   const double coupling = std::sqrt(problem.w13 * problem.w13 + problem.w23 * problem.w23);
   return problem.coefficient <= 1.0 && HasFullRank(problem) && 1.0 - problem.mu * coupling / problem.w33 >= kLeastSlope;
 }
@@ -169,14 +170,14 @@ Choice ChooseRigidOrCompliant(const Sizes& sizes, const Sizes& of_all, const Con
                               const Demand& demand, EffectSet excluded, absl::Span<const Candidate> rigid) {
   std::array<Candidate, 5> candidates;
   auto* end = std::copy(rigid.begin(), rigid.end(), candidates.begin());
-  if (physics.ratio_squared > 0.0) *end++ = {.model = Model::kCompliant, .simulates = kOfCompliant};
+  if (physics.ratio_squared > 0.0) *end++ = {.model = Model::kCompliant, .simulates = kCompliantEffects};
   if (!std::holds_alternative<std::monostate>(physics.spring)) {
-    *end++ = {.model = Model::kFiniteDuration, .simulates = kOfDuration};
+    *end++ = {.model = Model::kFiniteDuration, .simulates = kDurationEffects};
   }
   Choice choice = ChooseAmong(sizes, of_all, demand, excluded,
                               absl::MakeConstSpan(candidates.data(), static_cast<size_t>(end - candidates.begin())));
   if (choice.model == Model::kFiniteDuration) {
-    choice.model_tolerance = Left(choice, demand, 1e-12, 1e-1);
+    choice.model_tolerance = RemainingTolerance(choice, demand, 1e-12, 1e-1);
   }
   return choice;
 }
@@ -196,9 +197,9 @@ Choice ForcedContact() {
 
 // The error of the frictionless model for a pendulum as a planar contact, whose W and velocities are rounded products of
 // the pendulum's numbers.
-double PendulumSmoothError(const pendulum::Problem& problem) {
+double PendulumFrictionlessError(const pendulum::Problem& problem) {
   constexpr double kReduction = 0x1p-49;
-  return kReduction + SmoothError(problem.coefficient <= 1.0, LineOf(PlanarOf(problem)));
+  return kReduction + FrictionlessError(problem.coefficient <= 1.0, SlidingProblemOf(PlanarOf(problem)));
 }
 
 // True if cheap lower bounds show that neither friction nor higher orders can be left out. The first-order form has an
@@ -245,12 +246,14 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   const planar::Problem kept = Without(excluded, problem);
   const Sizes of_all = PlanarSizes(problem, physics);
   const Sizes sizes = excluded.IsEmpty() ? of_all : PlanarSizes(kept, kept_physics, excluded.Has(Effect::kSlipStop));
-  const bool serves = LinesServe(kept);
-  const auto line = LineOf(kept);
+  const bool serves = StraightPathServes(kept);
+  const auto straight = SlidingProblemOf(kept);
   const Candidate rigid[] = {
-      {.model = Model::kFrictionless, .simulates = {}, .error = SmoothError(serves, line)},
-      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = LineError(serves, kept.u0 != 0.0, line)},
-      {.model = Model::kPlanar, .simulates = kOfPlanar},
+      {.model = Model::kFrictionless, .simulates = {}, .error = FrictionlessError(serves, straight)},
+      {.model = Model::kSliding,
+       .simulates = {Effect::kFriction},
+       .error = SlidingError(serves, kept.u0 != 0.0, straight)},
+      {.model = Model::kPlanar, .simulates = kPlanarEffects},
   };
   return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
 }
@@ -260,7 +263,7 @@ Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance) {
   if (problem.omega_minus >= 0.0) return Model::kNone;
   if (IsFarFromSimple(problem, tolerance)) return Model::kPendulum;
   const double friction = PendulumFrictionSize(problem).value;
-  if (friction <= tolerance && friction + PendulumSmoothError(problem) <= tolerance) return Model::kFrictionless;
+  if (friction <= tolerance && friction + PendulumFrictionlessError(problem) <= tolerance) return Model::kFrictionless;
   const bool serves = first_order::Serves(problem);
   return serves && PendulumHigherOrderSize(problem).value <= tolerance ? Model::kFirstOrder : Model::kPendulum;
 }
@@ -273,11 +276,11 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
   const Sizes of_all = PendulumSizes(problem, physics);
   const Sizes sizes = excluded.IsEmpty() ? of_all : PendulumSizes(kept, kept_physics);
   const Candidate rigid[] = {
-      {.model = Model::kFrictionless, .simulates = {}, .error = PendulumSmoothError(kept)},
+      {.model = Model::kFrictionless, .simulates = {}, .error = PendulumFrictionlessError(kept)},
       {.model = Model::kFirstOrder,
        .simulates = {Effect::kFriction, Effect::kSlipStop},
        .error = first_order::Serves(kept) ? 0.0 : kUnbounded},
-      {.model = Model::kPendulum, .simulates = kOfPlanar},
+      {.model = Model::kPendulum, .simulates = kPlanarEffects},
   };
   return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
 }
@@ -288,17 +291,17 @@ Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
   const spatial::Problem kept = Without(excluded, problem);
   const Sizes of_all = SpatialSizes(problem);
   const Sizes sizes = excluded.IsEmpty() ? of_all : SpatialSizes(kept);
-  const bool serves = LinesServe(kept);
-  const auto line = LineOf(kept);
+  const bool serves = StraightPathServes(kept);
+  const auto straight = SlidingProblemOf(kept);
   const bool slips = kept.u0[0] != 0.0 || kept.u0[1] != 0.0;
   const Candidate candidates[] = {
-      {.model = Model::kFrictionless, .simulates = {}, .error = SmoothError(serves, line)},
-      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = LineError(serves, slips, line)},
-      {.model = Model::kSpatial, .simulates = kOfSpatial},
+      {.model = Model::kFrictionless, .simulates = {}, .error = FrictionlessError(serves, straight)},
+      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = SlidingError(serves, slips, straight)},
+      {.model = Model::kSpatial, .simulates = kSpatialEffects},
   };
   Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);
   if (choice.model == Model::kSpatial)
-    choice.model_tolerance = Left(choice, demand, spatial::kLeastTolerance, spatial::kMostTolerance);
+    choice.model_tolerance = RemainingTolerance(choice, demand, spatial::kLeastTolerance, spatial::kMostTolerance);
   return choice;
 }
 

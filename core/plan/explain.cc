@@ -117,7 +117,7 @@ std::string ReasonOf(Effect effect, const Size& size, const Sizes& sizes) {
                           " Wnn: no bound is known");
     case Ground::kStaysAtRest:
       return "there is no slip at the start, and the contact sticks";
-    case Ground::kStopsAtRest:
+    case Ground::kStopsAtCompressionEnd:
       return "slip stops at the end of compression, as for every pendulum";
     case Ground::kNoInequality:
       return WithoutInequality(effect, size);

@@ -154,8 +154,8 @@ Size StopSize(const Scaled& contact, const planar::Problem& problem) {
 
 // True if the contact sticks by the static coefficient and slides by the kinetic one. core/models/planar/planar.h states
 // the criterion for a W of rank one.
-bool CoefficientsDisagree(const planar::Problem& problem, double relative_determinant) {
-  const bool rank_one = std::fabs(relative_determinant) <= 0x1p-50;
+bool CoefficientsDisagree(const planar::Problem& problem) {
+  const bool rank_one = problem.w.Rank() == 1;
   const double normal = std::fabs(problem.w.tn);
   const double from = rank_one ? normal : problem.w.tt;
   const double against = rank_one ? problem.w.nn : normal;
@@ -164,8 +164,7 @@ bool CoefficientsDisagree(const planar::Problem& problem, double relative_determ
 
 Size StaticSize(const Scaled& contact, const planar::Problem& problem) {
   if (!(problem.mu_static > problem.mu)) return {};
-  const double square = contact.mobility.coupling * contact.Holding();
-  if (!CoefficientsDisagree(problem, 1.0 - square)) return {.ground = Ground::kDecidesNothing};
+  if (!CoefficientsDisagree(problem)) return {.ground = Ground::kDecidesNothing};
   if (contact.slip > 0.0 && SlidesThroughout(contact)) return SlidingThroughout(contact, problem);
   const double cone = contact.mu * contact.mobility.coupling;
   const double first = contact.slip == 0.0 ? 1.0 - cone : contact.SlideSlope();
@@ -188,10 +187,10 @@ Size StaticSize(const Scaled& contact, const planar::Problem& problem) {
 double EarliestParting(const Scaled& contact, double lag) {
   const double start = contact.slip - lag * (1.0 + kRounding);
   if (start <= 0.0 || !(contact.SlideSlope() >= kLeastSlope)) return 0.0;
-  const double rest = 1.0 / contact.SlideSlope();
-  const double at_rest = contact.LeastSlip(rest);
-  if (at_rest > 0.0) return contact.EarliestStop();
-  return start / (start - at_rest) * rest * (1.0 - contact.TimeError());
+  const double compression_end = 1.0 / contact.SlideSlope();
+  const double at_compression_end = contact.LeastSlip(compression_end);
+  if (at_compression_end > 0.0) return contact.EarliestStop();
+  return start / (start - at_compression_end) * compression_end * (1.0 - contact.TimeError());
 }
 
 // The normal impulse after which a compliant and a rigid contact that cannot stick both slide towards sgn Wtn. It is
@@ -263,10 +262,10 @@ Drift DriftOf(const planar::Problem& problem, const ContactPhysics& physics) {
 double ForcesOnSlide(const Scaled& contact, const ContactPhysics& physics, const Drift& drift) {
   if (contact.slip == 0.0 || !(contact.SlideSlope() >= kLeastSlope)) return kUnbounded;
   const double end = contact.SlideImpulse();
-  const double rest = 1.0 / contact.SlideSlope();
+  const double compression_end = 1.0 / contact.SlideSlope();
   const double lag = contact.mu * physics.ratio_squared;
-  const double least =
-      std::min({contact.slip - lag * (1.0 + kRounding), contact.LeastSlip(rest), contact.LeastSlip(1.25 * end)});
+  const double least = std::min(
+      {contact.slip - lag * (1.0 + kRounding), contact.LeastSlip(compression_end), contact.LeastSlip(1.25 * end)});
   if (!(least > (drift.u + lag * drift.v) * (1.0 + kRounding))) return kUnbounded;
   const double change =
       LargestChange(contact.mobility, contact.restoring, Sliding(contact), {.u = drift.u, .v = drift.v});
@@ -402,7 +401,7 @@ Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& phys
   sizes[Effect::kFriction] = PendulumFrictionSize(problem);
   const bool rubs = problem.mu_static > 0.0 && b > 0.0;
   if (rubs && !sizes[Effect::kFriction].IsAbsent()) {
-    sizes[Effect::kSlipStop] = {.value = kUnbounded, .ground = Ground::kStopsAtRest};
+    sizes[Effect::kSlipStop] = {.value = kUnbounded, .ground = Ground::kStopsAtCompressionEnd};
   }
   sizes[Effect::kSlipTurn].ground = Ground::kNotOfSystem;
   if (problem.mu_static > problem.mu) {

@@ -36,20 +36,20 @@ struct ContactPhysics {
 
 // The reason for a size. Sizes are 0 up to kSameImpulses, and infinite from kSelfLocking on.
 enum class Ground {
-  kNotInScene,        // The scene does not have the effect.
-  kNotOfSystem,       // Such a system cannot have the effect.
-  kImmobile,          // Wtt = 0: impulses along t move nothing.
-  kSlidesThroughout,  // Slip never stops. number: |u| at the end, m/s; in space a lower bound on it.
-  kStraight,          // Slip keeps its direction.
-  kDecidesNothing,    // The contact sticks by both coefficients of friction, or slides by both.
-  kNoSpring,          // The impact takes no time, so that finite forces do not act.
-  kSameImpulses,      // The impact takes time, but its impulses are those of the rigid impact.
-  kInequality,        // An inequality bounds the size. number: see Size.
-  kSelfLocking,       // Self-locking is possible. number: c >= 1
-  kStaysAtRest,       // The contact sticks from the start.
-  kStopsAtRest,       // The slip of a pendulum stops where compression ends.
-  kNoInequality,      // No bound is known.
-  kDamped,            // The damping of the spring is the restitution.
+  kNotInScene,             // The scene does not have the effect.
+  kNotOfSystem,            // Such a system cannot have the effect.
+  kImmobile,               // Wtt = 0: impulses along t move nothing.
+  kSlidesThroughout,       // Slip never stops. number: |u| at the end, m/s; in space a lower bound on it.
+  kStraight,               // Slip keeps its direction.
+  kDecidesNothing,         // The contact sticks by both coefficients of friction, or slides by both.
+  kNoSpring,               // The impact takes no time, so that finite forces do not act.
+  kSameImpulses,           // The impact takes time, but its impulses are those of the rigid impact.
+  kInequality,             // An inequality bounds the size. number: see Size.
+  kSelfLocking,            // Self-locking is possible. number: c >= 1
+  kStaysAtRest,            // The contact sticks from the start.
+  kStopsAtCompressionEnd,  // The slip of a pendulum stops where compression ends.
+  kNoInequality,           // No bound is known.
+  kDamped,                 // The damping of the spring is the restitution.
 };
 
 // For kInequality, `number` is c for friction (x for a pendulum), the least share of the normal impulse before slip stops

@@ -11,8 +11,7 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 double Determinant(const PlanarProblem& in) {
-  const double det = DifferenceOfProducts(in.w.tt, in.w.nn, in.w.tn, in.w.tn);
-  return det <= 4.0 * kEpsilon * in.w.tt * in.w.nn ? 0.0 : det;
+  return in.w.Rank() == 2 ? DifferenceOfProducts(in.w.tt, in.w.nn, in.w.tn, in.w.tn) : 0.0;
 }
 
 // The slip after frictionless compression, times wnn. If W has rank one, velocities in its range have no such slip, so

@@ -41,8 +41,8 @@ struct Path {
   bool slips_first;
   bool stops;  // Slip stops if the impact lasts long enough; true if u0 = 0.
   bool sticks;
-  N v_stop;  // v where slip stops.
-  N u_rest;  // u where v = 0, if slip has not stopped before.
+  N v_stop;             // v where slip stops.
+  N u_compression_end;  // u where v = 0, if slip has not stopped before.
 };
 
 // The contact at one instant.
@@ -66,7 +66,7 @@ struct Rebound {
 
 template <typename N>
 struct Solution {
-  State<N> stop, rest, end;
+  State<N> stop, compression_end, end;
   TwiceWork<N> compression, restitution;
   bool stops_in_compression;
   bool stops_in_restitution;
@@ -100,10 +100,9 @@ HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
                   .coefficient = N::Exactly(problem.coefficient),
                   .det = Zero<N>(),
                   .rank_one = false};
-  constexpr double kFourEps = 0x1p-50;
   const N square = in.wtt * in.wnn;
   in.det = square - in.wtn * in.wtn;
-  in.rank_one = !IsPositive(Abs(in.det) - N::Constant(kFourEps) * square);
+  in.rank_one = !IsPositive(Abs(in.det) - N::Constant(kRankTolerance) * square);
   return in;
 }
 
@@ -127,7 +126,7 @@ HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
     const N d = in.v0 * path.first.u - in.u0 * path.first.v;
     if (path.stops) path.v_stop = d / path.first.u;
     // If v' <= 0, slip stops before v = 0.
-    if (IsPositive(path.first.v)) path.u_rest = -d / path.first.v;
+    if (IsPositive(path.first.v)) path.u_compression_end = -d / path.first.v;
   }
   if (!path.stops) return path;
   path.sticks = !IsNegative(in.mu_static * in.wtt - Abs(in.wtn));
@@ -147,11 +146,11 @@ HWY_INLINE Path<N> RankOnePath(Inputs<N>& in) {
   Path<N> path;
   path.slips_first = true;
   path.v_stop = Zero<N>();
-  path.u_rest = Zero<N>();
+  path.u_compression_end = Zero<N>();
   path.stops = IsPositive(in.wtt);
   if (!path.stops) {
     path.first = {.u = Zero<N>(), .v = in.wnn, .f = Zero<N>()};
-    path.u_rest = in.u0;
+    path.u_compression_end = in.u0;
     return path;
   }
   const N ratio = in.wtn / in.wnn;
@@ -182,7 +181,7 @@ HWY_INLINE void Compress(const Inputs<N>& in, const Path<N>& path, Solution<N>& 
   x.stops_in_compression = path.stops && IsNegative(path.v_stop);
   x.stop = at;
   if (!x.stops_in_compression) {
-    Advance(path.first, -in.v0 / path.first.v, path.u_rest, Zero<N>(), at, x.compression);
+    Advance(path.first, -in.v0 / path.first.v, path.u_compression_end, Zero<N>(), at, x.compression);
   } else {
     if (path.slips_first) {
       Advance(path.first, -in.u0 / path.first.u, Zero<N>(), path.v_stop, at, x.compression);
@@ -191,7 +190,7 @@ HWY_INLINE void Compress(const Inputs<N>& in, const Path<N>& path, Solution<N>& 
     const N step = -path.v_stop / path.second.v;
     Advance(path.second, step, path.second.u * step, Zero<N>(), at, x.compression);
   }
-  x.rest = at;
+  x.compression_end = at;
 }
 
 // `stop_ahead` is true if slip has not stopped yet but will at path.v_stop.
@@ -241,7 +240,7 @@ HWY_INLINE Rebound<N> FindRebound(RestitutionLaw law, const Inputs<N>& in, const
     case RestitutionLaw::kNewton:
       return FindNewton(in, path, slope, stop_ahead);
     case RestitutionLaw::kPoisson:
-      return FindPoisson(in, path, x.rest.tau, slope, stop_ahead);
+      return FindPoisson(in, path, x.compression_end.tau, slope, stop_ahead);
     case RestitutionLaw::kEnergetic:
       break;
   }
@@ -250,7 +249,7 @@ HWY_INLINE Rebound<N> FindRebound(RestitutionLaw law, const Inputs<N>& in, const
 
 template <typename N>
 HWY_INLINE void Restore(RestitutionLaw law, const Inputs<N>& in, const Path<N>& path, Solution<N>& x) {
-  State<N> at = x.rest;
+  State<N> at = x.compression_end;
   x.restitution = {Zero<N>(), Zero<N>()};
   const Slopes<N>& slopes = x.stops_in_compression ? path.second : path.first;
   const bool stop_ahead = path.stops && !x.stops_in_compression;
@@ -294,12 +293,12 @@ HWY_INLINE void WriteEvents(const Problem& problem, const Solution<N>& x, bool s
   };
   const bool locked = impact.regime == Regime::kLocked;
   add({.kind = EventKind::kStart, .tau = 0.0, .f = 0.0, .u = problem.u0, .v = problem.v0});
-  const bool stops_at_rest = x.stops_in_restitution && !IsPositive(x.stop.v);
-  const bool stops_before = (x.stops_in_compression && slips_first) || stops_at_rest || locked;
+  const bool stops_at_compression_end = x.stops_in_restitution && !IsPositive(x.stop.v);
+  const bool stops_before = (x.stops_in_compression && slips_first) || stops_at_compression_end || locked;
   if (stops_before) add(MakeInstant(EventKind::kSlipStops, x.stop));
-  add(MakeInstant(EventKind::kCompressionEnds, x.rest));
+  add(MakeInstant(EventKind::kCompressionEnds, x.compression_end));
   if (locked) return;
-  if (x.stops_in_restitution && !stops_at_rest) add(MakeInstant(EventKind::kSlipStops, x.stop));
+  if (x.stops_in_restitution && !stops_at_compression_end) add(MakeInstant(EventKind::kSlipStops, x.stop));
   add(MakeInstant(EventKind::kRestitutionEnds, x.end));
 }
 
@@ -321,8 +320,9 @@ HWY_INLINE void WriteCoefficients(const Problem& problem, const Inputs<N>& in, c
   impact.energetic_excess = -1.0;
   if (impact.regime == Regime::kLocked || problem.coefficient == 0.0) return;
   impact.newton = problem.law == RestitutionLaw::kNewton ? problem.coefficient : Out(x.end.v / -in.v0);
-  impact.poisson =
-      problem.law == RestitutionLaw::kPoisson ? problem.coefficient : Out((x.end.tau - x.rest.tau) / x.rest.tau);
+  impact.poisson = problem.law == RestitutionLaw::kPoisson
+                       ? problem.coefficient
+                       : Out((x.end.tau - x.compression_end.tau) / x.compression_end.tau);
   if (problem.law == RestitutionLaw::kEnergetic) {
     impact.energetic = problem.coefficient;
     impact.energetic_excess = problem.coefficient - 1.0;
@@ -361,9 +361,9 @@ HWY_INLINE Impact SolveOne(const Problem& problem) {
   Compress(in, path, x);
   x.stops_in_restitution = false;
   x.restitution = {Zero<N>(), Zero<N>()};
-  x.end = x.rest;
+  x.end = x.compression_end;
   if (locked) {
-    x.stop = x.rest;
+    x.stop = x.compression_end;
   } else {
     Restore(problem.law, in, path, x);
   }
@@ -373,9 +373,9 @@ HWY_INLINE Impact SolveOne(const Problem& problem) {
   impact.w_rank = in.rank_one ? 1 : 2;
   impact.u1 = Out(x.end.u);
   impact.v1 = Out(x.end.v);
-  impact.tau_compression = Out(x.rest.tau);
+  impact.tau_compression = Out(x.compression_end.tau);
   impact.tau1 = Out(x.end.tau);
-  impact.f_compression = Out(x.rest.f);
+  impact.f_compression = Out(x.compression_end.f);
   impact.f1 = Out(x.end.f);
   WriteCoefficients(problem, in, x, impact);
   WriteWorks(in, x, impact);
