@@ -20,7 +20,8 @@ absl::StatusOr<int32_t> ReadCertifiedDigits(const std::string& digits) {
   if (digits.empty()) return 0;
   const absl::StatusOr<int64_t> count = ParseCount(digits, "--certified");
   if (!count.ok()) return count.status();
-  if (*count < 1 || *count > kMostCertifiedDigits) return InputError("--certified", digits, "be in [1, 1000]");
+  if (*count < 1 || *count > kMostCertifiedDigits)
+    return InputError("--certified", digits, absl::StrCat("be in [1, ", kMostCertifiedDigits, "]"));
   return static_cast<int32_t>(*count);
 }
 

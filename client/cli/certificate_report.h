@@ -14,7 +14,7 @@ namespace ricochet::cli {
 
 void AddCertifiedOption(CLI::App& sub, std::string& digits);
 
-// Returns the number of digits, or 0 if the option is not given. Errors: INVALID_ARGUMENT outside [1, 1000].
+// Returns the number of digits, or 0 if the option is not given. Errors: INVALID_ARGUMENT outside [1, kMostCertifiedDigits].
 absl::StatusOr<int32_t> ReadCertifiedDigits(const std::string& digits);
 
 // Returns one line for each number: its path and its digits, or the range that is proved to contain it.

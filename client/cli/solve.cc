@@ -47,7 +47,8 @@ struct SolveOptions {
 
 absl::StatusOr<int64_t> ParseIntervals(const std::string& text, const char* flag) {
   absl::StatusOr<int64_t> count = ParseCount(text, flag);
-  if (count.ok() && (*count < 1 || *count > kMostHistory)) return InputError(flag, text, "be in [1, 65535]");
+  if (count.ok() && (*count < 1 || *count > kMostHistory))
+    return InputError(flag, text, absl::StrCat("be in [1, ", kMostHistory, "]"));
   return count;
 }
 

@@ -170,7 +170,8 @@ EffectSet WithImplied(EffectSet excluded, bool in_space) {
 std::vector<Violation> CheckDemand(const Scene& scene, const Demand& demand) {
   std::vector<Violation> violations;
   if (!(demand.relative_tolerance >= 0.0 && demand.relative_tolerance <= kLargestTolerance)) {
-    violations.push_back(MakeViolation("relative_tolerance", demand.relative_tolerance, "be in [0, 0.1]"));
+    violations.push_back(MakeViolation("relative_tolerance", demand.relative_tolerance,
+                                       absl::StrCat("be in [0, ", kLargestTolerance, "]")));
   }
   if (!std::holds_alternative<std::monostate>(scene.impact_law)) {
     const auto refuse = [&](Effect effect, std::string path) {
