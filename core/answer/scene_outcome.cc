@@ -33,32 +33,17 @@ struct Job {
 };
 
 absl::StatusOr<Outcome> SolveCompliant(const Job& job, const PlanarReduction& reduction) {
-  const EffectiveCoefficients effective = job.Effective();
-  const compliant::Problem problem = {.wtt = reduction.w[0],
-                                      .wtn = reduction.w[1],
-                                      .wnn = reduction.w[2],
-                                      .u0 = reduction.u0[0],
-                                      .v0 = reduction.v0,
-                                      .mu = effective.kinetic_friction,
-                                      .energetic = effective.restitution,
+  const compliant::Problem problem = {.contact = planar::MakeProblem(reduction, job.scene.restitution, job.Effective()),
                                       .ratio_squared = job.planned.physics.ratio_squared};
   return compliant::MakeOutcome(problem, reduction, job.options.history_at_n_s, job.options.detail);
 }
 
 absl::StatusOr<Outcome> SolveFiniteDuration(const Job& job, const PlanarReduction& reduction) {
-  const EffectiveCoefficients effective = job.Effective();
   const ContactPhysics physics = Without(job.planned.choice, job.planned.physics);
-  finite_duration::Problem problem = {.wtt = reduction.w[0],
-                                      .wtn = reduction.w[1],
-                                      .wnn = reduction.w[2],
-                                      .u0 = reduction.u0[0],
-                                      .v0 = reduction.v0,
+  finite_duration::Problem problem = {.contact = planar::MakeProblem(reduction, job.scene.restitution, job.Effective()),
                                       .tangential_acceleration = physics.tangential_acceleration,
                                       .normal_acceleration = physics.normal_acceleration,
-                                      .mu = effective.kinetic_friction,
-                                      .mu_static = effective.static_friction,
                                       .spring = physics.spring,
-                                      .energetic = effective.restitution,
                                       .tolerance = job.planned.choice.model_tolerance,
                                       .intervals = job.options.force_intervals};
   if (physics.ratio_squared > 0.0) problem.ratio_squared = physics.ratio_squared;

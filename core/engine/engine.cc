@@ -58,15 +58,10 @@ spatial::Problem SpatialProbe(int i) {
 
 // One of the planar contacts with a compliance along t: some sticks end and some impacts do not.
 compliant::Problem CompliantProbe(int i) {
-  const planar::Problem p = PlanarProbe(i);
-  return {.wtt = p.w.tt,
-          .wtn = p.w.tn,
-          .wnn = p.w.nn,
-          .u0 = p.u0,
-          .v0 = p.v0,
-          .mu = 0.1 * (i % 7),
-          .energetic = 0.1 + 0.05 * i,
-          .ratio_squared = 0.25 + 0.1 * i};
+  planar::Problem contact = PlanarProbe(i);
+  contact.mu = 0.1 * (i % 7);
+  contact.coefficient = 0.1 + 0.05 * i;
+  return {.contact = contact, .ratio_squared = 0.25 + 0.1 * i};
 }
 
 sliding::Problem<1> SlidingProbe(int i) {

@@ -45,10 +45,10 @@ double NaiveError(const Problem& problem, const ExactImpact& exact) {
 
 // The model promises the answer of inputs within 16 eps of those given (core/models/compliant/compliant.h).
 bool IsRegimeNear(Regime regime, const Problem& problem) {
-  for (double Problem::*input : {&Problem::u0, &Problem::mu}) {
+  for (double PlanarProblem::*input : {&PlanarProblem::u0, &PlanarProblem::mu}) {
     for (const double factor : {1.0, 1.0 - 0x1p-48, 1.0 + 0x1p-48}) {
       Problem other = problem;
-      other.*input *= factor;
+      other.contact.*input *= factor;
       if (SolveExactly(other).regime == regime) return true;
     }
   }
@@ -82,8 +82,9 @@ double Nearly(SceneSource& source, double value) { return value * (1.0 + kDistan
 // Friction that cannot hold the body, and enough of it to matter.
 Problem Everyday(SceneSource& source) {
   Problem problem = source.Everyday(0.1, 4.0);
-  problem.mu = source.Uniform(0.1, std::min(1.5, 0.9 * problem.wnn / (std::fabs(problem.wtn) + 1e-3)));
-  if (problem.u0 == 0.0) problem.u0 = 0.5 * problem.v0;
+  problem.contact.mu =
+      source.Uniform(0.1, std::min(1.5, 0.9 * problem.contact.w.nn / (std::fabs(problem.contact.w.tn) + 1e-3)));
+  if (problem.contact.u0 == 0.0) problem.contact.u0 = 0.5 * problem.contact.v0;
   return problem;
 }
 
@@ -97,55 +98,55 @@ HardCase With(const char* name, const char* why, void (*change)(SceneSource&, Pr
           problems};
 }
 
-double SideOf(const Problem& problem) { return problem.u0 < 0.0 ? -1.0 : 1.0; }
+double SideOf(const Problem& problem) { return problem.contact.u0 < 0.0 ? -1.0 : 1.0; }
 
-double B(const Problem& p) { return p.wnn - SideOf(p) * p.mu * p.wtn; }
+double B(const Problem& p) { return p.contact.w.nn - SideOf(p) * p.contact.mu * p.contact.w.tn; }
 
 // The slope of u towards the side on which it slides, per normal impulse.
-double SlipSlope(const Problem& p) { return SideOf(p) * p.wtn - p.mu * p.wtt; }
+double SlipSlope(const Problem& p) { return SideOf(p) * p.contact.w.tn - p.contact.mu * p.contact.w.tt; }
 
 void StartOnTheCone(SceneSource& source, Problem& p) {
-  p.u0 = Nearly(source, SideOf(p) * p.mu * p.ratio_squared * -p.v0);
+  p.contact.u0 = Nearly(source, SideOf(p) * p.contact.mu * p.ratio_squared * -p.contact.v0);
 }
 
 void StartOnTheConeWithoutGrowth(SceneSource& source, Problem& p) {
   while (SlipSlope(p) >= 0.0) p = Everyday(source);
-  p.ratio_squared = Nearly(source, -SlipSlope(p) / (p.mu * B(p)));
+  p.ratio_squared = Nearly(source, -SlipSlope(p) / (p.contact.mu * B(p)));
   StartOnTheCone(source, p);
 }
 
 void CriticalFriction(SceneSource& source, Problem& p) {
-  while (p.mu * p.mu * p.wtt > 0.9 * p.wnn) p = Everyday(source);
-  p.wtn = Nearly(source, p.mu * p.wtt * (source.Below(2) == 0 ? 1.0 : -1.0));
+  while (p.contact.mu * p.contact.mu * p.contact.w.tt > 0.9 * p.contact.w.nn) p = Everyday(source);
+  p.contact.w.tn = Nearly(source, p.contact.mu * p.contact.w.tt * (source.Below(2) == 0 ? 1.0 : -1.0));
 }
 
 // The contact slips to the side on which friction pushes the body in as much as the spring pushes it out.
 void NoLift(SceneSource& source, Problem& p) {
-  p.wtn = std::copysign(source.Uniform(0.3, 0.9) * std::sqrt(p.wtt * p.wnn), p.u0);
-  p.mu = Nearly(source, p.wnn / std::fabs(p.wtn));
+  p.contact.w.tn = std::copysign(source.Uniform(0.3, 0.9) * std::sqrt(p.contact.w.tt * p.contact.w.nn), p.contact.u0);
+  p.contact.mu = Nearly(source, p.contact.w.nn / std::fabs(p.contact.w.tn));
 }
 
 void StopAtTheEndOfCompression(SceneSource& source, Problem& p) {
-  while (SlipSlope(p) >= 0.0 || p.mu * p.ratio_squared * B(p) >= -SlipSlope(p)) p = Everyday(source);
-  p.u0 = Nearly(source, SideOf(p) * SlipSlope(p) * p.v0 / B(p));
+  while (SlipSlope(p) >= 0.0 || p.contact.mu * p.ratio_squared * B(p) >= -SlipSlope(p)) p = Everyday(source);
+  p.contact.u0 = Nearly(source, SideOf(p) * SlipSlope(p) * p.contact.v0 / B(p));
 }
 
 void StopAtTheEndOfContact(SceneSource& source, Problem& p) {
   const auto slip_left = [](const Problem& at) {
-    const double eta = at.energetic;
-    return SlipSlope(at) * (1.0 + eta) / B(at) + at.mu * at.ratio_squared / eta;
+    const double eta = at.contact.coefficient;
+    return SlipSlope(at) * (1.0 + eta) / B(at) + at.contact.mu * at.ratio_squared / eta;
   };
   while (slip_left(p) >= -0.1) {
     p = Everyday(source);
-    p.energetic = std::max(p.energetic, 0.3);
+    p.contact.coefficient = std::max(p.contact.coefficient, 0.3);
     p.ratio_squared *= 0.1;
   }
-  p.u0 = Nearly(source, SideOf(p) * slip_left(p) * p.v0);
+  p.contact.u0 = Nearly(source, SideOf(p) * slip_left(p) * p.contact.v0);
 }
 
 void EqualFrequencies(SceneSource& source, Problem& p) {
-  p.ratio_squared = Nearly(source, p.wtt / p.wnn);
-  p.wtn = (source.Below(2) == 0 ? -1.0 : 1.0) * source.LogUniform(1e-20, 1e-8) * p.wnn;
+  p.ratio_squared = Nearly(source, p.contact.w.tt / p.contact.w.nn);
+  p.contact.w.tn = (source.Below(2) == 0 ? -1.0 : 1.0) * source.LogUniform(1e-20, 1e-8) * p.contact.w.nn;
 }
 
 // Halving finds a double on both sides of which the modes differ.
@@ -161,12 +162,13 @@ Problem Fork(SceneSource& source) {
     Problem low = Everyday(source);
     low.ratio_squared = source.Uniform(0.1, 1.0);
     Problem high = low;
-    high.mu *= 1.5;
+    high.contact.mu *= 1.5;
     if (!paths_differ(low, high)) continue;
     for (;;) {
       Problem half = low;
-      half.mu = 0.5 * (low.mu + high.mu);
-      if (half.mu <= low.mu || half.mu >= high.mu) return source.Below(2) == 0 ? low : high;
+      half.contact.mu = 0.5 * (low.contact.mu + high.contact.mu);
+      if (half.contact.mu <= low.contact.mu || half.contact.mu >= high.contact.mu)
+        return source.Below(2) == 0 ? low : high;
       (paths_differ(low, half) ? high : low) = half;
     }
   }
@@ -174,39 +176,39 @@ Problem Fork(SceneSource& source) {
 
 Problem Rod(SceneSource& source) {
   Problem p = source.RankOne();
-  p.mu = source.Uniform(0.1, 0.9 * p.wnn / (std::fabs(p.wtn) + 0.1 * p.wnn));
+  p.contact.mu = source.Uniform(0.1, 0.9 * p.contact.w.nn / (std::fabs(p.contact.w.tn) + 0.1 * p.contact.w.nn));
   const double scale = source.Uniform(0.5, 2.0);
-  for (double* w : {&p.wtt, &p.wtn, &p.wnn}) *w *= scale;
+  for (double* w : {&p.contact.w.tt, &p.contact.w.tn, &p.contact.w.nn}) *w *= scale;
   return p;
 }
 
 void NearlyARod(SceneSource& source, Problem& p) {
   const double cosine = std::sqrt(1.0 - source.LogUniform(1e-14, 1e-6));
-  p.wtn = std::copysign(cosine * std::sqrt(p.wtt * p.wnn), p.wtn);
-  p.mu = source.Uniform(0.1, 0.9) * p.wnn / std::fabs(p.wtn);
+  p.contact.w.tn = std::copysign(cosine * std::sqrt(p.contact.w.tt * p.contact.w.nn), p.contact.w.tn);
+  p.contact.mu = source.Uniform(0.1, 0.9) * p.contact.w.nn / std::fabs(p.contact.w.tn);
 }
 
 // Friction pushes the body in as much as the spring out: it comes back along the slow oscillation alone.
 void HeldForLong(SceneSource& source, Problem& p) {
   const double cosine = std::sqrt(1.0 - source.LogUniform(1e-4, 1e-3));
-  p.wtn = std::copysign(cosine * std::sqrt(p.wtt * p.wnn), p.u0);
-  p.mu = source.Uniform(1.1, 1.5) * p.wnn / std::fabs(p.wtn);
-  p.energetic = std::max(p.energetic, 0.2);
+  p.contact.w.tn = std::copysign(cosine * std::sqrt(p.contact.w.tt * p.contact.w.nn), p.contact.u0);
+  p.contact.mu = source.Uniform(1.1, 1.5) * p.contact.w.nn / std::fabs(p.contact.w.tn);
+  p.contact.coefficient = std::max(p.contact.coefficient, 0.2);
 }
 
 // The heavy body of a pair adds a trillionth of W.
 void UnequalMasses(SceneSource& source, Problem& p) {
   const double offset = source.Uniform(-1.0, 1.0);
-  p.wtt += 1e-12 * (1.0 + offset * offset);
-  p.wtn += 1e-12 * offset;
-  p.wnn += 1e-12;
+  p.contact.w.tt += 1e-12 * (1.0 + offset * offset);
+  p.contact.w.tn += 1e-12 * offset;
+  p.contact.w.nn += 1e-12;
 }
 
 void UnequalMobilities(SceneSource& source, Problem& p) {
-  p.wtt *= 1e12;
-  p.wtn *= 1e6;
-  p.mu *= 1e-6;
-  p.u0 *= 1e6;
+  p.contact.w.tt *= 1e12;
+  p.contact.w.tn *= 1e6;
+  p.contact.mu *= 1e-6;
+  p.contact.u0 *= 1e6;
   p.ratio_squared = 1e9 * source.Uniform(0.5, 1.0);
 }
 
@@ -214,8 +216,8 @@ void UnequalMobilities(SceneSource& source, Problem& p) {
 void OtherUnits(SceneSource& source, Problem& p) {
   const double speeds = source.Below(2) == 0 ? 1e250 : 1e-250;
   const double masses = source.Below(2) == 0 ? 1e250 : 1e-250;
-  for (double* speed : {&p.u0, &p.v0}) *speed *= speeds;
-  for (double* w : {&p.wtt, &p.wtn, &p.wnn}) *w *= masses;
+  for (double* speed : {&p.contact.u0, &p.contact.v0}) *speed *= speeds;
+  for (double* w : {&p.contact.w.tt, &p.contact.w.tn, &p.contact.w.nn}) *w *= masses;
 }
 
 std::vector<HardCase> HardCases() {
@@ -233,50 +235,52 @@ std::vector<HardCase> HardCases() {
           "ratio² = 10⁻⁹", "10³ periods along the surface in one along n",
           [](SceneSource& source, Problem& p) {
             p.ratio_squared = 1e-9;
-            p.wtt = 0.01 * p.wnn;
-            p.wtn = source.Uniform(-0.5, 0.5) * std::sqrt(p.wtt * p.wnn);
+            p.contact.w.tt = 0.01 * p.contact.w.nn;
+            p.contact.w.tn = source.Uniform(-0.5, 0.5) * std::sqrt(p.contact.w.tt * p.contact.w.nn);
           },
           2),
       With("ratio² = 10⁹", "the tangential force is 10⁻⁹ of the normal one",
            [](SceneSource&, Problem& p) { p.ratio_squared = 1e9; }),
       With("Wtn = 0 or 10⁻³⁰⁰", "angles and eigenvectors of 0",
-           [](SceneSource& source, Problem& p) { p.wtn = source.Below(2) == 0 ? 0.0 : 1e-300; }),
+           [](SceneSource& source, Problem& p) { p.contact.w.tn = source.Below(2) == 0 ? 0.0 : 1e-300; }),
       {"W of rank one up to rounding", "det W is noise: u and v have to vanish together", Rod},
       With("det W from 10⁻⁶ to 10⁻¹⁴ of Wtt Wnn", "the slow frequency is its root", NearlyARod),
       With("det W from 10⁻³ to 10⁻⁴, and \\|μWtn\\| > Wnn", "all but wedged", HeldForLong, 2),
       With("masses 1 : 10¹²", "W is a sum of unequals", UnequalMasses),
       With("mobilities 10¹² : 1", "W is of unequals", UnequalMobilities, 3),
-      With("η = 1", "nothing may be lost to deformation", [](SceneSource&, Problem& p) { p.energetic = 1.0; }),
+      With("η = 1", "nothing may be lost to deformation",
+           [](SceneSource&, Problem& p) { p.contact.coefficient = 1.0; }),
       With("η from 10⁻¹² to 10⁻³", "the line of unloading is as steep as 10²⁴",
-           [](SceneSource& source, Problem& p) { p.energetic = source.LogUniform(1e-12, 1e-3); }),
-      With("η = 0", "no line of unloading", [](SceneSource&, Problem& p) { p.energetic = 0.0; }),
-      With("u₀ = 0", "no slip to have a direction", [](SceneSource&, Problem& p) { p.u0 = 0.0; }),
-      With("u₀ = ±10⁻³⁰⁰", "a direction and nothing else", [](SceneSource&, Problem& p) { p.u0 *= 1e-300; }),
+           [](SceneSource& source, Problem& p) { p.contact.coefficient = source.LogUniform(1e-12, 1e-3); }),
+      With("η = 0", "no line of unloading", [](SceneSource&, Problem& p) { p.contact.coefficient = 0.0; }),
+      With("u₀ = 0", "no slip to have a direction", [](SceneSource&, Problem& p) { p.contact.u0 = 0.0; }),
+      With("u₀ = ±10⁻³⁰⁰", "a direction and nothing else", [](SceneSource&, Problem& p) { p.contact.u0 *= 1e-300; }),
       With("v₀ = −10⁻³⁰⁰, u₀ = 0", "squares below the smallest double",
            [](SceneSource&, Problem& p) {
-             p.u0 = 0.0;
-             p.v0 = -1e-300;
+             p.contact.u0 = 0.0;
+             p.contact.v0 = -1e-300;
            }),
       With("v₀ = −2⁻¹⁰⁷⁴, u₀ = 0", "one bit of velocity",
            [](SceneSource&, Problem& p) {
-             p.u0 = 0.0;
-             p.v0 = -0x1p-1074;
+             p.contact.u0 = 0.0;
+             p.contact.v0 = -0x1p-1074;
            }),
       With("W and velocities at 10^±250", "squares and products leave the range", OtherUnits),
       With(
           "ratio² from 10⁻⁶ to 10⁻³", "the rigid limit: hundreds of sections",
           [](SceneSource& source, Problem& p) { p.ratio_squared = source.LogUniform(1e-6, 1e-3); }, 5),
       With("μ from 10⁻³⁰⁰ to 10⁻¹²", "the limit of no friction",
-           [](SceneSource& source, Problem& p) { p.mu = source.LogUniform(1e-300, 1e-12); }),
+           [](SceneSource& source, Problem& p) { p.contact.mu = source.LogUniform(1e-300, 1e-12); }),
       With("μ from 10 to 10³ Wnn/\\|Wtn\\|", "coupled oscillations all along, and friction that can push the body in",
            [](SceneSource& source, Problem& p) {
-             p.wtn = std::copysign(source.Uniform(0.1, 0.8) * std::sqrt(p.wtt * p.wnn), p.wtn);
-             p.mu = source.LogUniform(10.0, 1e3) * p.wnn / std::fabs(p.wtn);
+             p.contact.w.tn =
+                 std::copysign(source.Uniform(0.1, 0.8) * std::sqrt(p.contact.w.tt * p.contact.w.nn), p.contact.w.tn);
+             p.contact.mu = source.LogUniform(10.0, 1e3) * p.contact.w.nn / std::fabs(p.contact.w.tn);
            }),
       With("μ from 10⁶ to 10¹⁵, Wtn = 0", "the particle slips at the tip of the cone alone",
            [](SceneSource& source, Problem& p) {
-             p.wtn = 0.0;
-             p.mu = source.LogUniform(1e6, 1e15);
+             p.contact.w.tn = 0.0;
+             p.contact.mu = source.LogUniform(1e6, 1e15);
            }),
   };
 }
@@ -287,10 +291,11 @@ HardCaseResult RunLoss() {
   SceneSource source(32);
   for (int k = 1; k <= 53; ++k) {
     Problem problem = Everyday(source);
-    problem.energetic = 1.0 - std::ldexp(1.0, -k);
+    problem.contact.coefficient = 1.0 - std::ldexp(1.0, -k);
     const ExactImpact exact = SolveExactly(problem);
-    const PlanarReduction reduction = {
-        .w = {problem.wtt, problem.wtn, problem.wnn}, .u0 = {problem.u0}, .v0 = problem.v0};
+    const PlanarReduction reduction = {.w = {problem.contact.w.tt, problem.contact.w.tn, problem.contact.w.nn},
+                                       .u0 = {problem.contact.u0},
+                                       .v0 = problem.contact.v0};
     const Outcome outcome = MakeOutcome(problem, reduction, {}, Detail::kNumbers).value();
     const auto error = [&exact](double loss) {
       return (Abs(Ball(loss, 192) - exact.work_normal) / Abs(exact.work_normal)).UpperBound();

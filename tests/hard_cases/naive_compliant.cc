@@ -16,9 +16,9 @@ struct State {
 
 class Path {
  public:
-  explicit Path(const Problem& problem) : pr_(problem), x_({.u = problem.u0, .v = problem.v0}) {
+  explicit Path(const Problem& problem) : pr_(problem), x_({.u = problem.contact.u0, .v = problem.contact.v0}) {
     side_ = x_.u < 0.0 ? -1 : 1;
-    if (std::fabs(x_.u) < pr_.mu * pr_.ratio_squared * std::fabs(x_.v)) side_ = 0;
+    if (std::fabs(x_.u) < pr_.contact.mu * pr_.ratio_squared * std::fabs(x_.v)) side_ = 0;
   }
 
   NaiveImpact Run() {
@@ -29,18 +29,18 @@ class Path {
     }
     if (!done_) x_.u = x_.v = kNaN;
     const double compression = -0.5 * n_max_ * n_max_;
-    const double restitution = 0.5 * pr_.energetic * pr_.energetic * n_max_ * n_max_;
+    const double restitution = 0.5 * pr_.contact.coefficient * pr_.contact.coefficient * n_max_ * n_max_;
     return {.regime = RegimeOf(), .u1 = x_.u, .v1 = x_.v, .work_normal = compression + restitution};
   }
 
  private:
-  double Kn() const { return first_loading_ ? 1.0 : 1.0 / (pr_.energetic * pr_.energetic); }
+  double Kn() const { return first_loading_ ? 1.0 : 1.0 / (pr_.contact.coefficient * pr_.contact.coefficient); }
 
   State At(double t) const { return side_ == 0 ? Stuck(t) : Slid(t); }
 
   State Slid(double t) const {
-    const double b = pr_.wnn - side_ * pr_.mu * pr_.wtn;
-    const double u_slope = pr_.wtn - side_ * pr_.mu * pr_.wtt;
+    const double b = pr_.contact.w.nn - side_ * pr_.contact.mu * pr_.contact.w.tn;
+    const double u_slope = pr_.contact.w.tn - side_ * pr_.contact.mu * pr_.contact.w.tt;
     const double w = std::sqrt(Kn() * std::fabs(b));
     State x;
     if (b == 0.0) {
@@ -54,16 +54,16 @@ class Path {
       x.n = x_.n * c - Kn() * x_.v * s;
       x.u = x_.u + u_slope / b * (x.v - x_.v);
     }
-    x.p = side_ * pr_.mu * x.n;
+    x.p = side_ * pr_.contact.mu * x.n;
     return x;
   }
 
   // y = (ratio p, n/sqrt(kn)), y'' = -K y.
   State Stuck(double t) const {
     const double r = std::sqrt(pr_.ratio_squared);
-    const double k11 = pr_.wtt / pr_.ratio_squared;
-    const double k12 = -pr_.wtn * std::sqrt(Kn()) / r;
-    const double k22 = Kn() * pr_.wnn;
+    const double k11 = pr_.contact.w.tt / pr_.ratio_squared;
+    const double k12 = -pr_.contact.w.tn * std::sqrt(Kn()) / r;
+    const double k22 = Kn() * pr_.contact.w.nn;
     const double root = std::sqrt((k11 - k22) * (k11 - k22) + 4.0 * k12 * k12);
     const std::array<double, 2> values = {0.5 * (k11 + k22 + root), 0.5 * (k11 + k22 - root)};
     double c = k12, s = values[0] - k11;
@@ -94,8 +94,9 @@ class Path {
   std::array<double, 4> Margins(const State& x) const {
     const double turn = indenting_ ? -x.v : x.v;
     const double line = !indenting_ ? x.n : first_loading_ ? 1.0 : n_max_ - x.n;
-    if (side_ == 0) return {turn, line, pr_.mu * x.n - x.p, pr_.mu * x.n + x.p};
-    return {turn, line, pr_.mu == 0.0 ? 1.0 : side_ * x.u + pr_.mu * pr_.ratio_squared * Kn() * x.v, 1.0};
+    if (side_ == 0) return {turn, line, pr_.contact.mu * x.n - x.p, pr_.contact.mu * x.n + x.p};
+    return {turn, line, pr_.contact.mu == 0.0 ? 1.0 : side_ * x.u + pr_.contact.mu * pr_.ratio_squared * Kn() * x.v,
+            1.0};
   }
 
   static int Below(const std::array<double, 4>& margins) {
@@ -106,7 +107,8 @@ class Path {
   }
 
   void Section() {
-    const double fastest = std::sqrt(pr_.wtt / pr_.ratio_squared + Kn() * pr_.wnn + pr_.mu * std::fabs(pr_.wtn) * Kn());
+    const double fastest = std::sqrt(pr_.contact.w.tt / pr_.ratio_squared + Kn() * pr_.contact.w.nn +
+                                     pr_.contact.mu * std::fabs(pr_.contact.w.tn) * Kn());
     const double step = 0.02 / fastest;
     constexpr int kMostSteps = 100'000;
     int event = -1;
@@ -144,14 +146,14 @@ class Path {
     first_loading_ = false;
     n_max_ = x_.n;
     sticks_before_turn_ = sticks_;
-    done_ = pr_.energetic == 0.0;
+    done_ = pr_.contact.coefficient == 0.0;
   }
 
   Regime RegimeOf() const {
     if (!done_) return Regime::kUnspecified;
-    if (pr_.mu == 0.0) return Regime::kFrictionless;
+    if (pr_.contact.mu == 0.0) return Regime::kFrictionless;
     if (!sticks_) return Regime::kSliding;
-    const bool stays = std::fabs(pr_.wtn) <= pr_.mu * pr_.wtt;
+    const bool stays = std::fabs(pr_.contact.w.tn) <= pr_.contact.mu * pr_.contact.w.tt;
     if (sticks_before_turn_) return stays ? Regime::kStickInCompression : Regime::kReversalInCompression;
     return stays ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
   }

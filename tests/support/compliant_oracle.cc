@@ -99,24 +99,27 @@ class Simulation {
   Simulation(const Problem& problem, slong bits)
       : problem_(problem),
         bits_(bits),
-        wtt_(problem.wtt, bits),
-        wtn_(problem.wtn, bits),
-        wnn_(problem.wnn, bits),
-        mu_(problem.mu, bits),
+        wtt_(problem.contact.w.tt, bits),
+        wtn_(problem.contact.w.tn, bits),
+        wnn_(problem.contact.w.nn, bits),
+        mu_(problem.contact.mu, bits),
         r2_(problem.ratio_squared, bits),
-        eta2_(Ball(problem.energetic, bits) * Ball(problem.energetic, bits)),
-        u_(problem.u0, bits),
-        v_(problem.v0, bits) {
+        eta2_(Ball(problem.contact.coefficient, bits) * Ball(problem.contact.coefficient, bits)),
+        u_(problem.contact.u0, bits),
+        v_(problem.contact.v0, bits) {
     const Ball exact(1.0, Ball::kExact);
     const Ball square = exact * wtt_ * wnn_;
     rank_one_ = Abs(square - exact * wtn_ * wtn_) <= exact * Ball(0x1p-50) * square;
-    in_range_ = rank_one_ && problem.wtt > 0.0;
+    in_range_ = rank_one_ && problem.contact.w.tt > 0.0;
     if (in_range_) {
       wtt_ = Middle(wtn_ * wtn_ / wnn_);
       u_ = Middle(v_ * wtn_ / wnn_);
     }
     for (Ball* zero : {&n_, &p_, &tau_, &f_, &n_max_}) *zero = Ball(0.0, bits);
-    side_ = problem.u0 < 0.0 || (problem.u0 == 0.0 && problem.mu == 0.0 && problem.wtn < 0.0) ? -1 : 1;
+    side_ = problem.contact.u0 < 0.0 ||
+                    (problem.contact.u0 == 0.0 && problem.contact.mu == 0.0 && problem.contact.w.tn < 0.0)
+                ? -1
+                : 1;
     Settle();
   }
 
@@ -151,7 +154,7 @@ class Simulation {
 
   // Where the particle is on the edge of the cone at side_: does it slide there?
   void Settle() {
-    if (problem_.mu == 0.0) return;
+    if (problem_.contact.mu == 0.0) return;
     const int slip = SlipSign(side_);
     if (slip > 0 || (slip == 0 && GrowthSign(side_) >= 0)) return;
     side_ = 0;
@@ -254,7 +257,7 @@ class Simulation {
   }
 
   void StopSlip(const Event& event) {
-    if (problem_.mu == 0.0) {
+    if (problem_.contact.mu == 0.0) {
       side_ = -side_;
       return;
     }
@@ -273,7 +276,7 @@ class Simulation {
     impact_.tau_compression = tau_;
     impact_.f_compression = f_;
     sticks_before_turn_ = sticks_;
-    done_ = problem_.energetic == 0.0;
+    done_ = problem_.contact.coefficient == 0.0;
   }
 
   void Record() {
@@ -290,7 +293,7 @@ class Simulation {
   }
 
   Regime RegimeOf() const {
-    if (problem_.mu == 0.0) return Regime::kFrictionless;
+    if (problem_.contact.mu == 0.0) return Regime::kFrictionless;
     if (!sticks_) return Regime::kSliding;
     const Ball exact(1.0, Ball::kExact);
     const bool stays = in_range_ ? exact * mu_ * Abs(wtn_) >= wnn_ : exact * mu_ * wtt_ >= Abs(wtn_);
@@ -308,8 +311,8 @@ class Simulation {
     impact_.work_normal_compression = -(half * n_max_ * n_max_);
     impact_.work_normal_restitution = half * eta2_ * n_max_ * n_max_;
     impact_.work_normal = impact_.work_normal_compression + impact_.work_normal_restitution;
-    const Ball u0 = in_range_ ? Ball(problem_.v0) * wtn_ / wnn_ : Ball(problem_.u0, bits_);
-    impact_.energy_change = half * (f_ * (u0 + u_) + tau_ * (Ball(problem_.v0, bits_) + v_));
+    const Ball u0 = in_range_ ? Ball(problem_.contact.v0) * wtn_ / wnn_ : Ball(problem_.contact.u0, bits_);
+    impact_.energy_change = half * (f_ * (u0 + u_) + tau_ * (Ball(problem_.contact.v0, bits_) + v_));
     impact_.spring_energy = half * r2_ * p_ * p_;
     impact_.friction_dissipation = impact_.work_normal - impact_.energy_change - impact_.spring_energy;
   }
@@ -333,7 +336,7 @@ ExactImpact SolveExactly(const Problem& problem, slong bits) { return Simulation
 
 double VelocityError(const Problem& problem, double u1, double v1, const ExactImpact& exact) {
   if (!std::isfinite(u1) || !std::isfinite(v1)) return std::nan("");
-  const Ball speed(std::max(std::fabs(problem.u0), std::fabs(problem.v0)), 192);
+  const Ball speed(std::max(std::fabs(problem.contact.u0), std::fabs(problem.contact.v0)), 192);
   const Ball u = Abs(Ball(u1, 192) - exact.u1) / speed;
   const Ball v = Abs(Ball(v1, 192) - exact.v1) / speed;
   return std::max(u.UpperBound(), v.UpperBound());
@@ -341,8 +344,9 @@ double VelocityError(const Problem& problem, double u1, double v1, const ExactIm
 
 std::string ToString(const Problem& p) {
   return absl::StrFormat(
-      "{.wtt = %a, .wtn = %a, .wnn = %a, .u0 = %a, .v0 = %a, .mu = %a, .energetic = %a, .ratio_squared = %a}", p.wtt,
-      p.wtn, p.wnn, p.u0, p.v0, p.mu, p.energetic, p.ratio_squared);
+      "{.contact = {.w = {%a, %a, %a}, .u0 = %a, .v0 = %a, .mu = %a, .coefficient = %a}, .ratio_squared = %a}",
+      p.contact.w.tt, p.contact.w.tn, p.contact.w.nn, p.contact.u0, p.contact.v0, p.contact.mu, p.contact.coefficient,
+      p.ratio_squared);
 }
 
 }  // namespace ricochet::compliant

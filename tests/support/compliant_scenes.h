@@ -15,13 +15,11 @@ namespace ricochet::compliant {
 
 // Returns the problem of a row of compliant.csv.
 inline Problem ProblemOf(const VectorRow& row) {
-  return {.wtt = Number(row, "wtt"),
-          .wtn = Number(row, "wtn"),
-          .wnn = Number(row, "wnn"),
-          .u0 = Number(row, "u0"),
-          .v0 = Number(row, "v0"),
-          .mu = Number(row, "mu"),
-          .energetic = Number(row, "eta"),
+  return {.contact = {.w = {Number(row, "wtt"), Number(row, "wtn"), Number(row, "wnn")},
+                      .u0 = Number(row, "u0"),
+                      .v0 = Number(row, "v0"),
+                      .mu = Number(row, "mu"),
+                      .coefficient = Number(row, "eta")},
           .ratio_squared = Number(row, "ratio2")};
 }
 
@@ -34,16 +32,14 @@ class SceneSource {
   Problem Everyday(double least_ratio_squared, double largest_ratio_squared) {
     const double t = LogUniform(0.1, 3.0);
     const double n = LogUniform(0.1, 3.0);
-    Problem problem = {.wtt = Short(t * t),
-                       .wtn = Short(t * n * Uniform(-1.0, 1.0)),
-                       .wnn = Short(n * n),
-                       .u0 = Short(Uniform(-3.0, 3.0)),
-                       .v0 = -Short(Uniform(0.1, 3.0)),
-                       .mu = Uniform(0.0, 1.5),
-                       .energetic = Uniform(0.05, 1.0),
+    Problem problem = {.contact = {.w = {Short(t * t), Short(t * n * Uniform(-1.0, 1.0)), Short(n * n)},
+                                   .u0 = Short(Uniform(-3.0, 3.0)),
+                                   .v0 = -Short(Uniform(0.1, 3.0)),
+                                   .mu = Uniform(0.0, 1.5),
+                                   .coefficient = Uniform(0.05, 1.0)},
                        .ratio_squared = LogUniform(least_ratio_squared, largest_ratio_squared)};
-    if (Below(4) == 0) problem.mu *= 10.0;
-    if (Below(8) == 0) problem.u0 = 0.0;
+    if (Below(4) == 0) problem.contact.mu *= 10.0;
+    if (Below(8) == 0) problem.contact.u0 = 0.0;
     return problem;
   }
 
@@ -53,11 +49,11 @@ class SceneSource {
     const double a = (1 + Below(1000)) / 32.0;
     const double b = (Below(2001) - 1000) / 32.0;
     const double rate = -(1 + Below(64)) / 64.0;
-    problem.wtt = b * b;
-    problem.wtn = a * b;
-    problem.wnn = a * a;
-    problem.u0 = rate * b;
-    problem.v0 = rate * a;
+    problem.contact.w.tt = b * b;
+    problem.contact.w.tn = a * b;
+    problem.contact.w.nn = a * a;
+    problem.contact.u0 = rate * b;
+    problem.contact.v0 = rate * a;
     return problem;
   }
 
@@ -65,29 +61,35 @@ class SceneSource {
   Problem NearRankOne() {
     Problem problem = Everyday(0.02, 4.0);
     const double cosine = std::sqrt(1.0 - LogUniform(1e-7, 1e-1));
-    problem.wtn = Short((Below(2) == 0 ? cosine : -cosine) * std::sqrt(problem.wtt * problem.wnn));
+    problem.contact.w.tn =
+        Short((Below(2) == 0 ? cosine : -cosine) * std::sqrt(problem.contact.w.tt * problem.contact.w.nn));
     return problem;
   }
 
   // All sizes, det W > 1e-3 Wtt Wnn, and friction that cannot hold the body. One scene in two is a borderline: slip
   // stops close to the end of compression, or the impact starts close to the slip at which it would stick.
   Problem AnySizes() {
-    Problem problem = {.wtt = LogUniform(1e-3, 1e3), .wnn = LogUniform(1e-3, 1e3), .v0 = -LogUniform(1e-3, 1e3)};
-    problem.wtn = Uniform(-1.0, 1.0) * std::sqrt((1.0 - 1e-3) * problem.wtt * problem.wnn);
-    problem.mu = LogUniform(1e-12, std::min(10.0, 0.999 * problem.wnn / std::fabs(problem.wtn)));
+    Problem problem = {
+        .contact = {.w = {LogUniform(1e-3, 1e3), 0.0, LogUniform(1e-3, 1e3)}, .v0 = -LogUniform(1e-3, 1e3)}};
+    problem.contact.w.tn = Uniform(-1.0, 1.0) * std::sqrt((1.0 - 1e-3) * problem.contact.w.tt * problem.contact.w.nn);
+    problem.contact.mu =
+        LogUniform(1e-12, std::min(10.0, 0.999 * problem.contact.w.nn / std::fabs(problem.contact.w.tn)));
     problem.ratio_squared = LogUniform(1e-4, 1e4);
     const int eta = Below(3);
-    problem.energetic = eta == 0 ? Uniform(0.0, 1.0) : eta == 1 ? LogUniform(1e-12, 1.0) : 1.0 - LogUniform(1e-16, 1.0);
+    problem.contact.coefficient = eta == 0   ? Uniform(0.0, 1.0)
+                                  : eta == 1 ? LogUniform(1e-12, 1.0)
+                                             : 1.0 - LogUniform(1e-16, 1.0);
     const double side = Below(2) == 0 ? -1.0 : 1.0;
     const double closeness = 1.0 + (Below(2) == 0 ? -1.0 : 1.0) * LogUniform(1e-17, 1e-3);
     const int start = Below(4);
     if (start == 0) {
-      const double slope = side * problem.wtn - problem.mu * problem.wtt;
-      problem.u0 = side * slope * problem.v0 / (problem.wnn - side * problem.mu * problem.wtn) * closeness;
+      const double slope = side * problem.contact.w.tn - problem.contact.mu * problem.contact.w.tt;
+      problem.contact.u0 = side * slope * problem.contact.v0 /
+                           (problem.contact.w.nn - side * problem.contact.mu * problem.contact.w.tn) * closeness;
     } else if (start == 1) {
-      problem.u0 = side * problem.mu * problem.ratio_squared * problem.v0 * closeness;
+      problem.contact.u0 = side * problem.contact.mu * problem.ratio_squared * problem.contact.v0 * closeness;
     } else {
-      problem.u0 = side * LogUniform(1e-6, 1e6) * problem.v0;
+      problem.contact.u0 = side * LogUniform(1e-6, 1e6) * problem.contact.v0;
     }
     return problem;
   }

@@ -23,14 +23,7 @@ struct Answer {
 };
 
 inline compliant::Problem CompliantOf(const planar::Problem& problem, double ratio_squared) {
-  return {.wtt = problem.w.tt,
-          .wtn = problem.w.tn,
-          .wnn = problem.w.nn,
-          .u0 = problem.u0,
-          .v0 = problem.v0,
-          .mu = problem.mu,
-          .energetic = problem.coefficient,
-          .ratio_squared = ratio_squared};
+  return {.contact = problem, .ratio_squared = ratio_squared};
 }
 
 inline Answer<1> FullAnswer(const planar::Problem& problem, const ContactPhysics& physics) {

@@ -22,13 +22,13 @@ struct Units {
   double Work(double value) const { return std::scalbn(value, 2 * (speed - inertia)); }
 };
 
-Units UnitsOf(const Problem& problem) {
-  return {.speed = std::ilogb(problem.v0), .inertia = static_cast<int>(std::floor(0.5 * std::ilogb(problem.wnn)))};
+Units UnitsOf(const PlanarProblem& problem) {
+  return {.speed = std::ilogb(problem.v0), .inertia = static_cast<int>(std::floor(0.5 * std::ilogb(problem.w.nn)))};
 }
 
-Problem InUnits(const Problem& problem, const Units& units) {
-  Problem scaled = problem;
-  for (double* w : {&scaled.wtt, &scaled.wtn, &scaled.wnn}) *w = std::scalbn(*w, -2 * units.inertia);
+PlanarProblem InUnits(const PlanarProblem& problem, const Units& units) {
+  PlanarProblem scaled = problem;
+  for (double* w : {&scaled.w.tt, &scaled.w.tn, &scaled.w.nn}) *w = std::scalbn(*w, -2 * units.inertia);
   for (double* speed : {&scaled.u0, &scaled.v0}) *speed = std::scalbn(*speed, -units.speed);
   return scaled;
 }
@@ -49,7 +49,8 @@ Regime RegimeOf(const SpringContact& contact, const PathResult& path) {
 // The relative errors put on, see docs/theory/compliant.md.
 constexpr double kPerturbation = 0x1p-44;
 
-double ErrorEstimate(const Problem& problem, const Units& units, const SpringContact& contact, const PathResult& path) {
+double ErrorEstimate(const PlanarProblem& problem, const Units& units, const SpringContact& contact,
+                     const PathResult& path) {
   if (!path.ends) return std::numeric_limits<double>::infinity();
   const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
   const auto size = [](double u, double v) { return std::max(std::fabs(u), std::fabs(v)); };
@@ -66,7 +67,7 @@ double ErrorEstimate(const Problem& problem, const Units& units, const SpringCon
   return (error + spread) / speed;
 }
 
-void WriteMotion(const Problem& problem, const Units& units, const PathResult& path, Impact& impact) {
+void WriteMotion(const PlanarProblem& problem, const Units& units, const PathResult& path, Impact& impact) {
   const ContactState& end = path.end;
   const ContactState& compression = path.compression_end;
   impact.u1 = units.Speed(end.u) + 0.0;
@@ -77,24 +78,24 @@ void WriteMotion(const Problem& problem, const Units& units, const PathResult& p
   impact.f1 = units.Impulse(end.f) + 0.0;
   impact.tangential = end.f / end.tau + 0.0;
   impact.energetic_excess = -1.0;
-  if (!path.ends || problem.energetic == 0.0) return;
+  if (!path.ends || problem.coefficient == 0.0) return;
   impact.newton = -end.v / problem.v0;
   impact.poisson = (end.tau - compression.tau) / compression.tau;
-  impact.energetic = problem.energetic;
-  impact.energetic_excess = problem.energetic - 1.0;
+  impact.energetic = problem.coefficient;
+  impact.energetic_excess = problem.coefficient - 1.0;
 }
 
-void WriteNormalWorks(const Problem& problem, const Units& units, const PathResult& path, Impact& impact) {
+void WriteNormalWorks(const PlanarProblem& problem, const Units& units, const PathResult& path, Impact& impact) {
   const double largest = path.largest_normal_force;
   const double force = path.end.normal_force;
   // The branch of unloading gives back the energy between the largest indentation and that at the end, all of it where
   // N = 0. At eta = 0 there is no such branch.
-  const bool all = force == 0.0 || problem.energetic < kLeastEnergetic;
+  const bool all = force == 0.0 || problem.coefficient < kLeastEnergetic;
   const double returned = all ? largest * largest : (largest - force) * (largest + force);
   impact.work_normal_compression = units.Work(-0.5 * largest * largest);
-  impact.work_normal_restitution = units.Work(0.5 * (problem.energetic * problem.energetic) * returned);
+  impact.work_normal_restitution = units.Work(0.5 * (problem.coefficient * problem.coefficient) * returned);
   // The difference of the two would lose the digits of 1 - eta^2 for eta near 1.
-  const double lost = (1.0 - problem.energetic) * (1.0 + problem.energetic);
+  const double lost = (1.0 - problem.coefficient) * (1.0 + problem.coefficient);
   impact.work_normal =
       all ? units.Work(-0.5 * lost * returned) : impact.work_normal_compression + impact.work_normal_restitution;
 }
@@ -112,7 +113,7 @@ void WriteTangentialWorks(const Units& units, const SpringContact& contact, cons
 }
 
 // Forces only take energy, so that a positive change can only be rounding.
-double EnergyChange(const Problem& problem, const Units& units, const ContactState& end) {
+double EnergyChange(const PlanarProblem& problem, const Units& units, const ContactState& end) {
   const double twice_change = std::fma(end.f, problem.u0 + end.u, end.tau * (problem.v0 + end.v));
   return std::min(0.0, units.Work(0.5 * twice_change)) + 0.0;
 }
@@ -129,10 +130,11 @@ void ScaleSections(const Units& units, std::vector<Section>& sections) {
 }  // namespace
 
 Impact Solve(const Problem& problem) {
-  if (problem.v0 >= 0.0) return Separating<Impact>(MakeSpringContact(problem).rank, problem.u0, problem.v0);
-  const Units units = UnitsOf(problem);
-  const Problem scaled = InUnits(problem, units);
-  const SpringContact contact = MakeSpringContact(scaled);
+  const auto& [stated, ratio_squared] = problem;
+  if (stated.v0 >= 0.0) return Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
+  const Units units = UnitsOf(stated);
+  const PlanarProblem scaled = InUnits(stated, units);
+  const SpringContact contact = MakeSpringContact(scaled, ratio_squared);
   Impact impact;
   const PathResult path = FollowPath(contact, scaled.u0, scaled.v0, Perturbation(1, 0.0), &impact.sections);
   impact.regime = RegimeOf(contact, path);

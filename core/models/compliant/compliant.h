@@ -18,17 +18,13 @@
 #include <vector>
 
 #include "core/models/impact_end.h"
+#include "core/models/planar_problem.h"
 
 namespace ricochet::compliant {
 
+// The law is energetic and static friction the same as kinetic friction: `law` and `mu_static` are not read.
 struct Problem {
-  double wtt = 0.0;  // 1/kg, >= 0
-  double wtn = 0.0;
-  double wnn = 0.0;            // > 0
-  double u0 = 0.0;             // m/s
-  double v0 = 0.0;             // m/s; >= 0 is separating
-  double mu = 0.0;             // >= 0; static friction is the same
-  double energetic = 0.0;      // eta in [0, 1]; 0 needs mu |Wtn| < Wnn
+  PlanarProblem contact;       // eta = 0 needs mu |Wtn| < Wnn.
   double ratio_squared = 0.0;  // Tangential over normal compliance, > 0
 };
 

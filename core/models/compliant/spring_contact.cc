@@ -2,22 +2,21 @@
 
 #include <cmath>
 
-#include "core/contact/delassus.h"
 #include "core/numerics/products.h"
 
 namespace ricochet::compliant {
 
 bool ContactState::IsFinite() const { return std::isfinite(normal_force + spring_force + u + v + tau + f); }
 
-SpringContact MakeSpringContact(const Problem& problem) {
-  const auto [wtt, wtn, wnn] = PlanarDelassus{problem.wtt, problem.wtn, problem.wnn};
+SpringContact MakeSpringContact(const PlanarProblem& problem, double ratio_squared) {
+  const auto& [wtt, wtn, wnn] = problem.w;
   SpringContact contact = {.wtt = wtt,
                            .wtn = wtn,
                            .wnn = wnn,
-                           .rank = PlanarDelassus{wtt, wtn, wnn}.Rank(),
+                           .rank = problem.w.Rank(),
                            .mu = problem.mu,
-                           .ratio_squared = problem.ratio_squared,
-                           .eta = problem.energetic < kLeastEnergetic ? 0.0 : problem.energetic};
+                           .ratio_squared = ratio_squared,
+                           .eta = problem.coefficient < kLeastEnergetic ? 0.0 : problem.coefficient};
   if (contact.rank == 2) {
     contact.determinant = DifferenceOfProducts(wtt, wnn, wtn, wtn);
   } else if (wtt > 0.0) {

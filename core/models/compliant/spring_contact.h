@@ -55,7 +55,8 @@ struct SpringContact {
   }
 };
 
-SpringContact MakeSpringContact(const Problem& problem);
+// `problem.coefficient` is the energetic one.
+SpringContact MakeSpringContact(const PlanarProblem& problem, double ratio_squared);
 
 }  // namespace ricochet::compliant
 

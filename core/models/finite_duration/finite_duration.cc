@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "core/contact/delassus.h"
 #include "core/models/finite_duration/history.h"
 #include "core/models/finite_duration/integrator.h"
 #include "core/models/finite_duration/path.h"
@@ -80,8 +79,8 @@ Impact Stopped() {
 bool IsAvailable() { return true; }
 
 Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped) {
-  const PlanarDelassus w = {problem.wtt, problem.wtn, problem.wnn};
-  if (problem.v0 >= 0.0) return Separating<Impact>(w.Rank(), problem.u0, problem.v0);
+  const PlanarProblem& stated = problem.contact;
+  if (stated.v0 >= 0.0) return Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
   const ScaledContact contact = MakeScaledContact(problem);
   Integrator integrator(contact);
   StopCheck stop(stopped);

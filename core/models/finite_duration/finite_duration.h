@@ -21,25 +21,20 @@
 
 #include "absl/functional/function_ref.h"
 #include "core/models/impact_end.h"
+#include "core/models/planar_problem.h"
 #include "ricochet/outcome.h"
 #include "ricochet/scene.h"
 
 namespace ricochet::finite_duration {
 
+// The law is energetic; `law` is not read. Hunt and Crossley's law does not read `coefficient` either.
 struct Problem {
-  double wtt = 0.0;  // 1/kg, >= 0
-  double wtn = 0.0;
-  double wnn = 0.0;                      // > 0
-  double u0 = 0.0;                       // m/s
-  double v0 = 0.0;                       // m/s; >= 0 is separating
+  PlanarProblem contact;
   double tangential_acceleration = 0.0;  // a_t, m/s^2
   double normal_acceleration = 0.0;      // a_n, m/s^2
-  double mu = 0.0;
-  double mu_static = 0.0;               // >= mu
-  NormalSpring spring;                  // Set.
-  double energetic = 0.0;               // eta in [0, 1]; not used by Hunt-Crossley.
-  std::optional<double> ratio_squared;  // Tangential over normal compliance, > 0; linear only. Unset: rigid along t.
-  double tolerance = 1e-10;  // Error of the velocities after the impact over max(|u0|, |v0|); in [1e-12, 1e-1].
+  NormalSpring spring;                   // Set.
+  std::optional<double> ratio_squared;   // Tangential over normal compliance, > 0; linear only. Unset: rigid along t.
+  double tolerance = 1e-10;  // Error of the velocities after the impact over max(|u0|, |v0|), 1e-12 to 1e-1.
   int64_t intervals = 0;     // > 0: a history of so many equal steps of time.
 };
 

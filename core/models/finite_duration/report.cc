@@ -23,15 +23,15 @@ Regime RegimeOf(const ScaledContact& contact, const Path& path) {
   return path.first_stop_sticks ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
 }
 
-void WriteCoefficients(const Problem& problem, const ScaledContact& contact, const Path& path, Impact& impact) {
+void WriteCoefficients(double coefficient, const ScaledContact& contact, const Path& path, Impact& impact) {
   impact.energetic_excess = -1.0;
   impact.tangential = path.end[kNormal] > 0.0 ? path.end[kTangential] / path.end[kNormal] : 0.0;
   if (path.how == PathEnd::kHeld || contact.eta == 0.0) return;
   impact.newton = path.end[kV];
   impact.poisson = (path.end[kNormal] - path.compression[kNormal]) / path.compression[kNormal];
   if (!contact.damped) {
-    impact.energetic = problem.energetic;
-    impact.energetic_excess = problem.energetic - 1.0;
+    impact.energetic = coefficient;
+    impact.energetic_excess = coefficient - 1.0;
     return;
   }
   // Damping and the energy left in the spring are lost; their ratio to the work of compression cancels nothing.
@@ -95,7 +95,7 @@ Impact MakeImpact(const Problem& problem, const ScaledContact& contact, const Pa
   impact.f_compression = impulse * path.compression[kTangential];
   impact.f1 = impulse * path.end[kTangential];
   impact.converged = path.HasEnd();
-  WriteCoefficients(problem, contact, path, impact);
+  WriteCoefficients(problem.contact.coefficient, contact, path, impact);
   WriteWorks(contact, path, impact);
   WriteEvents(contact, path, impact);
   WriteDuration(contact, path, impact.contact);

@@ -4,7 +4,6 @@
 #include <limits>
 #include <variant>
 
-#include "core/contact/delassus.h"
 #include "core/numerics/elementary.h"
 #include "core/numerics/invariant.h"
 
@@ -40,37 +39,37 @@ void SetUnits(const Problem& problem, ScaledContact& contact) {
   contact.exponent = curve.exponent;
   contact.rooted = curve.exponent != 1.0;
   contact.damped = curve.damped;
-  contact.speed = -problem.v0;
-  contact.time = NaturalTime(curve, problem.wnn, contact.speed);
+  contact.speed = -problem.contact.v0;
+  contact.time = NaturalTime(curve, problem.contact.w.nn, contact.speed);
   const double turn = contact.speed / problem.normal_acceleration;
   if (turn > 0.0 && turn < contact.time) {
     contact.stiffness = Pow(turn / contact.time, curve.exponent + 1.0);
     contact.time = turn;
   }
-  contact.mass = 1.0 / problem.wnn;
+  contact.mass = 1.0 / problem.contact.w.nn;
   contact.damping = curve.damping * contact.speed;
-  const bool returns = Square(problem.energetic) >= std::numeric_limits<double>::min();
-  contact.eta = curve.damped ? 1.0 : returns ? problem.energetic : 0.0;
+  const bool returns = Square(problem.contact.coefficient) >= std::numeric_limits<double>::min();
+  contact.eta = curve.damped ? 1.0 : returns ? problem.contact.coefficient : 0.0;
 }
 
 // The slope of slip towards +t for mu > 0, towards -t for mu < 0.
-Acceleration SlopeOf(const Problem& problem, double mu) {
-  return {std::fma(-mu, problem.wtt, problem.wtn) / problem.wnn, std::fma(-mu, problem.wtn, problem.wnn) / problem.wnn};
+Acceleration SlopeOf(const PlanarProblem& problem, double mu) {
+  return {std::fma(-mu, problem.w.tt, problem.w.tn) / problem.w.nn,
+          std::fma(-mu, problem.w.tn, problem.w.nn) / problem.w.nn};
 }
 
-void SetInertia(const Problem& problem, ScaledContact& contact) {
+void SetInertia(const PlanarProblem& problem, ScaledContact& contact) {
   constexpr double kInRange = 8.0 * kEps;
-  const PlanarDelassus w = {problem.wtt, problem.wtn, problem.wnn};
-  contact.rank = w.Rank();
-  contact.wtn = problem.wtn / problem.wnn;
-  contact.wtt = problem.wtt / problem.wnn;
+  contact.rank = problem.w.Rank();
+  contact.wtn = problem.w.tn / problem.w.nn;
+  contact.wtt = problem.w.tt / problem.w.nn;
   contact.forward_slope = SlopeOf(problem, problem.mu);
   contact.backward_slope = SlopeOf(problem, -problem.mu);
-  contact.stick_slope = w.RelativeDeterminant();
+  contact.stick_slope = problem.w.RelativeDeterminant();
   if (contact.rank == 2) return;
   contact.wtt = Square(contact.wtn);
   contact.stick_slope = 0.0;
-  if (problem.wtn == 0.0) return;
+  if (problem.w.tn == 0.0) return;
   // u is then v Wtn/Wnn, unless a force of its own drives it off.
   const double in_range = contact.an * contact.wtn;
   contact.coupled = std::fabs(contact.at - in_range) <= kInRange * (std::fabs(contact.at) + std::fabs(in_range));
@@ -78,9 +77,9 @@ void SetInertia(const Problem& problem, ScaledContact& contact) {
   if (contact.coupled) contact.at = in_range;
 }
 
-bool HoldsFreely(const Problem& problem, int rank) {
-  if (rank == 1) return std::fma(problem.mu_static, std::fabs(problem.wtn), -problem.wnn) >= 0.0;
-  return std::fma(problem.mu_static, problem.wtt, -std::fabs(problem.wtn)) >= 0.0;
+bool HoldsFreely(const PlanarProblem& problem, int rank) {
+  if (rank == 1) return std::fma(problem.mu_static, std::fabs(problem.w.tn), -problem.w.nn) >= 0.0;
+  return std::fma(problem.mu_static, problem.w.tt, -std::fabs(problem.w.tn)) >= 0.0;
 }
 
 }  // namespace
@@ -88,16 +87,16 @@ bool HoldsFreely(const Problem& problem, int rank) {
 ScaledContact MakeScaledContact(const Problem& problem) {
   ScaledContact contact;
   SetUnits(problem, contact);
-  contact.u0 = problem.u0 / contact.speed;
+  contact.u0 = problem.contact.u0 / contact.speed;
   contact.at = problem.tangential_acceleration * contact.time / contact.speed;
   contact.an = problem.normal_acceleration * contact.time / contact.speed;
-  contact.mu = problem.mu;
-  contact.mu_static = problem.mu_static;
+  contact.mu = problem.contact.mu;
+  contact.mu_static = problem.contact.mu_static;
   contact.compliant = problem.ratio_squared.has_value();
   contact.ratio_squared = problem.ratio_squared.value_or(0.0);
-  SetInertia(problem, contact);
-  contact.smooth = problem.mu_static == 0.0 || contact.wtt == 0.0;
-  contact.holds_freely = HoldsFreely(problem, contact.rank);
+  SetInertia(problem.contact, contact);
+  contact.smooth = problem.contact.mu_static == 0.0 || contact.wtt == 0.0;
+  contact.holds_freely = HoldsFreely(problem.contact, contact.rank);
   return contact;
 }
 

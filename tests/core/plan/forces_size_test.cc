@@ -45,17 +45,10 @@ Forced Scene(PlanScenes& scenes) {
 
 finite_duration::Problem TimedOf(const Forced& scene) {
   const auto& [problem, physics] = scene;
-  return {.wtt = problem.w.tt,
-          .wtn = problem.w.tn,
-          .wnn = problem.w.nn,
-          .u0 = problem.u0,
-          .v0 = problem.v0,
+  return {.contact = problem,
           .tangential_acceleration = physics.tangential_acceleration,
           .normal_acceleration = physics.normal_acceleration,
-          .mu = problem.mu,
-          .mu_static = problem.mu_static,
           .spring = physics.spring,
-          .energetic = problem.coefficient,
           .tolerance = kTolerance};
 }
 

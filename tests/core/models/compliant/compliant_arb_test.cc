@@ -59,7 +59,7 @@ TEST(CompliantArbTest, TheOracleHasTheSameDigitsAtTwiceThePrecision) {
     const Problem problem = scenes.Everyday(0.02, 50.0);
     const ExactImpact exact = SolveExactly(problem);
     const ExactImpact peer = SolveExactly(problem, 384);
-    const Ball speed(std::max(std::fabs(problem.u0), std::fabs(problem.v0)), 384);
+    const Ball speed(std::max(std::fabs(problem.contact.u0), std::fabs(problem.contact.v0)), 384);
     ASSERT_TRUE(exact.ends && peer.ends) << ToString(problem);
     ASSERT_EQ(exact.sections.size(), peer.sections.size()) << ToString(problem);
     EXPECT_LE(Abs(exact.u1 - peer.u1), digits * speed) << ToString(problem);
@@ -106,11 +106,11 @@ TEST(CompliantArbTest, TheStartIsAStickOrASlideByTheExactSign) {
   int close = 0;
   for (int i = 0; i < 10'000; ++i) {
     Problem problem = scenes.Everyday(0.02, 50.0);
-    const double product = problem.mu * problem.ratio_squared * -problem.v0;
-    const Ball exact = Ball(problem.mu, Ball::kExact) * Ball(problem.ratio_squared) * -Ball(problem.v0);
+    const double product = problem.contact.mu * problem.ratio_squared * -problem.contact.v0;
+    const Ball exact = Ball(problem.contact.mu, Ball::kExact) * Ball(problem.ratio_squared) * -Ball(problem.contact.v0);
     if ((exact - Ball(product)).ContainsZero()) continue;
-    problem.u0 = product;
-    const bool sticks = Ball(problem.u0, Ball::kExact) < exact;
+    problem.contact.u0 = product;
+    const bool sticks = Ball(problem.contact.u0, Ball::kExact) < exact;
     ASSERT_EQ(Solve(problem).sections.front().friction, sticks ? FrictionState::kStick : FrictionState::kSlideForward)
         << ToString(problem);
     ++close;
@@ -123,8 +123,8 @@ TEST(CompliantArbTest, TheEstimateCoversTheRoundingOfSubnormalVelocities) {
   SceneSource scenes(24);
   for (int i = 0; i < 60; ++i) {
     Problem problem = scenes.Everyday(0.1, 4.0);
-    problem.u0 = std::scalbn(problem.u0, -1060);
-    problem.v0 = std::scalbn(problem.v0, -1060) - 0x1p-1074;
+    problem.contact.u0 = std::scalbn(problem.contact.u0, -1060);
+    problem.contact.v0 = std::scalbn(problem.contact.v0, -1060) - 0x1p-1074;
     const Impact impact = Solve(problem);
     EXPECT_LE(VelocityError(problem, impact.u1, impact.v1, SolveExactly(problem)), impact.error_estimate) << i;
   }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kScenes = 100'000;
 
-double Speed(const Problem& problem) { return std::max(std::fabs(problem.u0), std::fabs(problem.v0)); }
+double Speed(const Problem& problem) { return std::max(std::fabs(problem.contact.u0), std::fabs(problem.contact.v0)); }
 
 double LargestWork(const Impact& impact) {
   return std::max({std::fabs(impact.work_normal_compression), std::fabs(impact.work_normal_restitution),
@@ -32,24 +32,12 @@ double TangentialWork(const Impact& impact) {
 
 // A sphere and a flat of the same material, unit mass: Wtt/Wnn = 7/2, ratio^2 = (2 - nu)/(2 (1 - nu)) (Mindlin).
 Problem Sphere(double u0, double v0, double mu, double eta, double nu) {
-  return {.wtt = 3.5,
-          .wtn = 0.0,
-          .wnn = 1.0,
-          .u0 = u0,
-          .v0 = v0,
-          .mu = mu,
-          .energetic = eta,
+  return {.contact = {.w = {3.5, 0.0, 1.0}, .u0 = u0, .v0 = v0, .mu = mu, .coefficient = eta},
           .ratio_squared = (2.0 - nu) / (2.0 * (1.0 - nu))};
 }
 
 Problem Contact(double wtt, double wtn, double wnn, double u0, double mu, double eta, double ratio_squared) {
-  return {.wtt = wtt,
-          .wtn = wtn,
-          .wnn = wnn,
-          .u0 = u0,
-          .v0 = -1.0,
-          .mu = mu,
-          .energetic = eta,
+  return {.contact = {.w = {wtt, wtn, wnn}, .u0 = u0, .v0 = -1.0, .mu = mu, .coefficient = eta},
           .ratio_squared = ratio_squared};
 }
 
@@ -73,7 +61,7 @@ TEST(CompliantSphereTest, SlipAfterIsThatOfTheTables) {
 }
 
 // The velocity of the sphere's centre along the surface, after over before: no spin before.
-double TangentialRestitution(const Problem& problem, double f1) { return 1.0 + f1 / problem.u0; }
+double TangentialRestitution(const Problem& problem, double f1) { return 1.0 + f1 / problem.contact.u0; }
 
 struct KharazRow {
   double degrees, measured, rigid;
@@ -88,12 +76,12 @@ TEST(CompliantKharazTest, TwentyDegreesNeedsTheSpringAndFiftyDoesNot) {
     const double angle = kRows[i].degrees * M_PI / 180.0;
     const Problem problem = Sphere(3.9 * std::sin(angle), -3.9 * std::cos(angle), 0.092, 0.98, 0.23);
     lumped[i] = TangentialRestitution(problem, Solve(problem).f1);
-    const planar::Problem rigid = {.w = {problem.wtt, 0.0, problem.wnn},
-                                   .u0 = problem.u0,
-                                   .v0 = problem.v0,
-                                   .mu = problem.mu,
-                                   .mu_static = problem.mu,
-                                   .coefficient = problem.energetic};
+    const planar::Problem rigid = {.w = {problem.contact.w.tt, 0.0, problem.contact.w.nn},
+                                   .u0 = problem.contact.u0,
+                                   .v0 = problem.contact.v0,
+                                   .mu = problem.contact.mu,
+                                   .mu_static = problem.contact.mu,
+                                   .coefficient = problem.contact.coefficient};
     // mu has two digits.
     EXPECT_NEAR(TangentialRestitution(problem, planar::Solve(rigid).f1), kRows[i].rigid, 2.5e-3);
     EXPECT_NEAR(lumped[i], kRows[i].measured, 0.011 * kRows[i].measured) << kRows[i].degrees;
@@ -108,8 +96,8 @@ class CompliantIdentityTest : public testing::Test {
  protected:
   // The size of the rounding errors of the terms of P . (v- + v+)/2.
   static double EnergyRounding(const Problem& p, const Impact& impact) {
-    return 1e-14 * (std::fabs(impact.f1) * (std::fabs(p.u0) + std::fabs(impact.u1)) +
-                    impact.tau1 * (std::fabs(p.v0) + impact.v1) + LargestWork(impact));
+    return 1e-14 * (std::fabs(impact.f1) * (std::fabs(p.contact.u0) + std::fabs(impact.u1)) +
+                    impact.tau1 * (std::fabs(p.contact.v0) + impact.v1) + LargestWork(impact));
   }
 };
 
@@ -120,11 +108,12 @@ TEST_F(CompliantIdentityTest, NormalWorkReturnsEtaSquaredOfWhatCompressionTookBy
     const Problem problem = scenes.Everyday(0.02, 4.0);
     const Impact impact = Solve(problem);
     const double normal = impact.energy_change - TangentialWork(impact);
-    const double expected = (1.0 - problem.energetic * problem.energetic) * impact.work_normal_compression;
+    const double expected =
+        (1.0 - problem.contact.coefficient * problem.contact.coefficient) * impact.work_normal_compression;
     ASSERT_NEAR(normal, expected, EnergyRounding(problem, impact)) << i;
-    ASSERT_EQ(impact.energetic, problem.energetic);
-    ASSERT_NEAR(-impact.work_normal_restitution / impact.work_normal_compression, problem.energetic * problem.energetic,
-                1e-15);
+    ASSERT_EQ(impact.energetic, problem.contact.coefficient);
+    ASSERT_NEAR(-impact.work_normal_restitution / impact.work_normal_compression,
+                problem.contact.coefficient * problem.contact.coefficient, 1e-15);
   }
 }
 
@@ -144,14 +133,9 @@ TEST_F(CompliantIdentityTest, TangentialWorkIsWhatFrictionAndTheSpringTake) {
 TEST_F(CompliantIdentityTest, TheLedgerClosesAtTheTipOfASteepCone) {
   for (const double wtt : {4.0, 5.0}) {
     for (double mu = 10.0; mu < 1e16; mu *= 7.0) {
-      const Impact impact = Solve({.wtt = wtt,
-                                   .wtn = 2.0,
-                                   .wnn = 1.0,
-                                   .u0 = -2.0,
-                                   .v0 = -1.0,
-                                   .mu = mu,
-                                   .energetic = 0.8,
-                                   .ratio_squared = 5.2});
+      const Impact impact =
+          Solve({.contact = {.w = {wtt, 2.0, 1.0}, .u0 = -2.0, .v0 = -1.0, .mu = mu, .coefficient = 0.8},
+                 .ratio_squared = 5.2});
       ASSERT_NE(impact.regime, Regime::kWedged);
       const double works = impact.work_normal_compression + impact.work_normal_restitution + TangentialWork(impact);
       EXPECT_NEAR(works, impact.energy_change, 4e-15 * LargestWork(impact)) << wtt << ", " << mu;
@@ -163,8 +147,9 @@ TEST_F(CompliantIdentityTest, TheLedgerClosesAtTheTipOfASteepCone) {
 TEST_F(CompliantIdentityTest, TheLedgerClosesWhereFrictionIsBeyondAllNumbers) {
   for (const double mu : {1e20, 1e100, 3e298}) {
     for (const double u0 : {-1.0, 1.0}) {
-      const Impact impact = Solve(
-          {.wtt = 1.0, .wtn = 0.1, .wnn = 1.0, .u0 = u0, .v0 = -1.0, .mu = mu, .energetic = 1.0, .ratio_squared = 0.3});
+      const Impact impact =
+          Solve({.contact = {.w = {1.0, 0.1, 1.0}, .u0 = u0, .v0 = -1.0, .mu = mu, .coefficient = 1.0},
+                 .ratio_squared = 0.3});
       const double works = impact.work_normal_compression + impact.work_normal_restitution + TangentialWork(impact);
       EXPECT_NEAR(works, impact.energy_change, 4e-15 * LargestWork(impact)) << mu;
       EXPECT_LT(impact.energy_change, -0.01);
@@ -178,9 +163,12 @@ TEST_F(CompliantIdentityTest, ImpulsesMakeTheChangeOfVelocity) {
   for (int i = 0; i < kScenes / 10; ++i) {
     const Problem p = scenes.Everyday(0.02, 4.0);
     const Impact impact = Solve(p);
-    const double scale = Speed(p) + impact.tau1 * (p.mu * p.wtt + std::fabs(p.wtn) + p.wnn);
-    ASSERT_NEAR(impact.u1, p.u0 + p.wtt * impact.f1 + p.wtn * impact.tau1, 1e-14 * scale) << i;
-    ASSERT_NEAR(impact.v1, p.v0 + p.wtn * impact.f1 + p.wnn * impact.tau1, 1e-14 * scale) << i;
+    const double scale =
+        Speed(p) + impact.tau1 * (p.contact.mu * p.contact.w.tt + std::fabs(p.contact.w.tn) + p.contact.w.nn);
+    ASSERT_NEAR(impact.u1, p.contact.u0 + p.contact.w.tt * impact.f1 + p.contact.w.tn * impact.tau1, 1e-14 * scale)
+        << i;
+    ASSERT_NEAR(impact.v1, p.contact.v0 + p.contact.w.tn * impact.f1 + p.contact.w.nn * impact.tau1, 1e-14 * scale)
+        << i;
   }
 }
 
@@ -191,7 +179,7 @@ TEST_F(CompliantIdentityTest, EveryImpactEndsInsideTheConeWithoutAGainOfEnergy) 
     const Problem problem = scenes.Everyday(1e-3, 1e3);
     const Impact impact = Solve(problem);
     ASSERT_NE(impact.regime, Regime::kWedged) << i;
-    ASSERT_LE(std::fabs(impact.f1), problem.mu * impact.tau1 * (1.0 + 1e-14));
+    ASSERT_LE(std::fabs(impact.f1), problem.contact.mu * impact.tau1 * (1.0 + 1e-14));
     ASSERT_LE(impact.energy_change, 0.0);
     ASSERT_LE(impact.work_normal_compression + impact.work_normal_restitution + TangentialWork(impact), 0.0);
     ASSERT_GE(impact.v1, 0.0);
@@ -229,7 +217,7 @@ TEST_F(CompliantIdentityTest, VelocityTurnsMoreThanOnceOnlyWhereFrictionCanPushT
     bool again = false;
     for (const Section& section : impact.sections) again |= section.indenting && !section.first_loading;
     if (!again) continue;
-    ASSERT_GT(problem.mu * std::fabs(problem.wtn), problem.wnn) << i;
+    ASSERT_GT(problem.contact.mu * std::fabs(problem.contact.w.tn), problem.contact.w.nn) << i;
     ++pushed_in;
   }
   EXPECT_GT(pushed_in, 0);
@@ -240,10 +228,10 @@ TEST_F(CompliantIdentityTest, UnitsAndTheSideOfTheContactDoNotMatterToAnyBit) {
   for (int i = 0; i < 1000; ++i) {
     const Problem problem = scenes.Everyday(0.02, 4.0);
     Problem other = problem;
-    for (double* w : {&other.wtt, &other.wtn, &other.wnn}) *w = std::scalbn(*w, 600);
-    for (double* speed : {&other.u0, &other.v0}) *speed = std::scalbn(*speed, -300);
-    other.wtn = -other.wtn;
-    other.u0 = -other.u0;
+    for (double* w : {&other.contact.w.tt, &other.contact.w.tn, &other.contact.w.nn}) *w = std::scalbn(*w, 600);
+    for (double* speed : {&other.contact.u0, &other.contact.v0}) *speed = std::scalbn(*speed, -300);
+    other.contact.w.tn = -other.contact.w.tn;
+    other.contact.u0 = -other.contact.u0;
     const Impact impact = Solve(problem);
     const Impact mirrored = Solve(other);
     ASSERT_EQ(impact.sections.size(), mirrored.sections.size());
@@ -260,7 +248,9 @@ TEST(CompliantAccuracyTest, TheEstimateCoversTheDifferenceThatOtherRoundingsMake
   for (int i = 0; i < kScenes / 4; ++i) {
     const Problem problem = i % 50 == 0 ? scenes.NearRankOne() : scenes.Everyday(1e-3, 1e3);
     Problem other = problem;
-    for (double* number : {&other.wtt, &other.wtn, &other.wnn, &other.u0, &other.v0}) *number *= 5.0;
+    for (double* number :
+         {&other.contact.w.tt, &other.contact.w.tn, &other.contact.w.nn, &other.contact.u0, &other.contact.v0})
+      *number *= 5.0;
     const Impact impact = Solve(problem);
     const Impact peer = Solve(other);
     const double difference = std::max(std::fabs(impact.u1 - peer.u1 / 5.0), std::fabs(impact.v1 - peer.v1 / 5.0));
@@ -277,7 +267,8 @@ TEST(CompliantAccuracyTest, TheEstimateCoversTheDifferenceThatOtherRoundingsMake
 // cone, clipped after each step: no mode, no event, no rule at S = 0.
 class SmallSteps {
  public:
-  SmallSteps(const Problem& problem, double step) : problem_(problem), step_(step), u_(problem.u0), v_(problem.v0) {}
+  SmallSteps(const Problem& problem, double step)
+      : problem_(problem), step_(step), u_(problem.contact.u0), v_(problem.contact.v0) {}
 
   void Run(double longest) {
     for (double t = 0.0; t < longest && (t == 0.0 || d_ > least_); t += step_) Step();
@@ -293,17 +284,17 @@ class SmallSteps {
     d_ -= v_ * step_;
     if (d_ > max_) {
       max_ = d_;
-      least_ = max_ * (1.0 - problem_.energetic * problem_.energetic);
+      least_ = max_ * (1.0 - problem_.contact.coefficient * problem_.contact.coefficient);
     }
-    n_ = std::max(0.0, max_ - (max_ - d_) / (problem_.energetic * problem_.energetic));
-    const double most = problem_.mu * n_;
+    n_ = std::max(0.0, max_ - (max_ - d_) / (problem_.contact.coefficient * problem_.contact.coefficient));
+    const double most = problem_.contact.mu * n_;
     p_ = std::clamp(p_ + u_ * step_ / problem_.ratio_squared, -most, most);
     Kick();
   }
 
   void Kick() {
-    u_ += 0.5 * step_ * (problem_.wtn * n_ - problem_.wtt * p_);
-    v_ += 0.5 * step_ * (problem_.wnn * n_ - problem_.wtn * p_);
+    u_ += 0.5 * step_ * (problem_.contact.w.tn * n_ - problem_.contact.w.tt * p_);
+    v_ += 0.5 * step_ * (problem_.contact.w.nn * n_ - problem_.contact.w.tn * p_);
   }
 
   Problem problem_;
@@ -319,8 +310,8 @@ TEST(CompliantSecondMethodTest, SmallStepsOfTimeComeToTheSameEnd) {
     const Problem problem = i % 4 == 0 ? scenes.RankOne() : scenes.Everyday(0.1, 4.0);
     const Impact impact = Solve(problem);
     if (impact.regime == Regime::kWedged) continue;
-    const double slowest = 1.0 / std::sqrt(problem.wnn);
-    const double step = 2e-5 * slowest * std::min(1.0, problem.energetic);
+    const double slowest = 1.0 / std::sqrt(problem.contact.w.nn);
+    const double step = 2e-5 * slowest * std::min(1.0, problem.contact.coefficient);
     SmallSteps coarse(problem, 4.0 * step);
     SmallSteps fine(problem, step);
     coarse.Run(1e3 * slowest);
@@ -401,9 +392,9 @@ TEST(CompliantLimitTest, AnEndlesslySoftTangentialSpringIsNoFriction) {
   SceneSource scenes(10);
   for (int i = 0; i < 300; ++i) {
     Problem problem = scenes.Everyday(1.0, 2.0);
-    problem.mu += 0.1;
+    problem.contact.mu += 0.1;
     Problem smooth = problem;
-    smooth.mu = 0.0;
+    smooth.contact.mu = 0.0;
     const Impact limit = Solve(smooth);
     for (const double ratio_squared : {1e4, 1e8, 1e12, 1e300}) {
       problem.ratio_squared = ratio_squared;
@@ -434,7 +425,7 @@ TEST(CompliantLimitTest, WithoutFrictionNoTangentialForceActsAndNothingIsSearche
 
 TEST(CompliantCornerTest, ContactThatDoesNotApproachIsLeftAlone) {
   Problem problem = Contact(2.0, 0.7, 1.5, -0.4, 0.3, 0.6, 1.0);
-  problem.v0 = 0.0;
+  problem.contact.v0 = 0.0;
   const Impact impact = Solve(problem);
   EXPECT_EQ(impact.regime, Regime::kSeparating);
   EXPECT_EQ(impact.u1, -0.4);
@@ -484,14 +475,14 @@ TEST(CompliantCornerTest, NumbersOfAllSizesEndInNumbers) {
         problem.ratio_squared = size;
         break;
       case 1:
-        problem.mu = size;
+        problem.contact.mu = size;
         break;
       case 2:
-        problem.u0 *= std::sqrt(size);
+        problem.contact.u0 *= std::sqrt(size);
         break;
       default:
-        problem.wtt *= size;
-        problem.wtn *= std::sqrt(size);
+        problem.contact.w.tt *= size;
+        problem.contact.w.tn *= std::sqrt(size);
     }
     const Impact impact = Solve(problem);
     ASSERT_TRUE(std::isfinite(impact.u1) && std::isfinite(impact.v1) && std::isfinite(impact.tau1)) << i;
@@ -502,14 +493,9 @@ TEST(CompliantCornerTest, NumbersOfAllSizesEndInNumbers) {
 
 // A wedged body has a state, which is finite; an overflow has none.
 TEST(CompliantCornerTest, APathThatOverflowsHasNoVelocitiesAndUsesUpNoBudget) {
-  const Impact impact = Solve({.wtt = 2.0,
-                               .wtn = -0.9,
-                               .wnn = 1.5,
-                               .u0 = -1.2e152,
-                               .v0 = -0.85,
-                               .mu = 1.7e305,
-                               .energetic = 0.15,
-                               .ratio_squared = 2.9});
+  const Impact impact =
+      Solve({.contact = {.w = {2.0, -0.9, 1.5}, .u0 = -1.2e152, .v0 = -0.85, .mu = 1.7e305, .coefficient = 0.15},
+             .ratio_squared = 2.9});
   EXPECT_TRUE(std::isnan(impact.u1) && std::isnan(impact.v1));
   EXPECT_LE(impact.sections.size(), 2U);
 }
@@ -546,7 +532,7 @@ TEST(CompliantCornerTest, PendulumSlipsToTheEndOfCompressionAndGoesOnByTheSignOf
   ASSERT_EQ(slides.sections.size(), 2U);
   EXPECT_EQ(slides.sections[1].friction, FrictionState::kSlideBackward) << "A > 0 on the steep line of unloading";
   EXPECT_EQ(slides.sections[1].v, 0.0);
-  problem.energetic = 1.0;
+  problem.contact.coefficient = 1.0;
   EXPECT_EQ(Solve(problem).sections[1].friction, FrictionState::kStick);
 }
 
@@ -565,23 +551,21 @@ int EmptySections(const Impact& impact) {
 
 // So little friction that no impulse of it, mu tau at most, moves the end by more than the bounds.
 TEST(CompliantCornerTest, SlipThatStopsWithinRoundingOfTheEndOfCompressionGoesOn) {
-  const Problem problem = {.wtt = 799.47564555592942,
-                           .wtn = -0.079929156042974528,
-                           .wnn = 56.324427762804198,
-                           .u0 = 0.12385403736785695,
-                           .v0 = -87.219844328824038,
-                           .mu = 6.5957619238675615e-08,
-                           .energetic = 0.3705742415836551,
+  const Problem problem = {.contact = {.w = {799.47564555592942, -0.079929156042974528, 56.324427762804198},
+                                       .u0 = 0.12385403736785695,
+                                       .v0 = -87.219844328824038,
+                                       .mu = 6.5957619238675615e-08,
+                                       .coefficient = 0.3705742415836551},
                            .ratio_squared = 0.18014975854623022};
   const Impact impact = Solve(problem);
   EXPECT_EQ(impact.regime, Regime::kReversalInCompression);
   EXPECT_EQ(impact.sections.size(), 4U);
   EXPECT_EQ(EmptySections(impact), 0);
-  const double tau = -problem.v0 * (1.0 + problem.energetic) / problem.wnn;
-  const double f = problem.mu * tau * (1.0 + 1e-6);
-  EXPECT_NEAR(impact.tau1, tau, std::fabs(problem.wtn) * f / problem.wnn);
-  EXPECT_NEAR(impact.v1, -problem.energetic * problem.v0, std::fabs(problem.wtn) * f);
-  EXPECT_NEAR(impact.u1, problem.u0 + problem.wtn * tau, problem.wtt * f);
+  const double tau = -problem.contact.v0 * (1.0 + problem.contact.coefficient) / problem.contact.w.nn;
+  const double f = problem.contact.mu * tau * (1.0 + 1e-6);
+  EXPECT_NEAR(impact.tau1, tau, std::fabs(problem.contact.w.tn) * f / problem.contact.w.nn);
+  EXPECT_NEAR(impact.v1, -problem.contact.coefficient * problem.contact.v0, std::fabs(problem.contact.w.tn) * f);
+  EXPECT_NEAR(impact.u1, problem.contact.u0 + problem.contact.w.tn * tau, problem.contact.w.tt * f);
   EXPECT_LE(impact.error_estimate, 1e-12);
 }
 
@@ -608,10 +592,11 @@ TEST(CompliantWedgeTest, EveryPendulumEitherEndsOrIsKnownToBeHeldInAFewSections)
     const Impact impact = Solve(problem);
     most = std::max(most, impact.sections.size());
     ASSERT_EQ(impact.w_rank, 1);
-    ASSERT_NEAR(impact.u1 * problem.wnn, impact.v1 * problem.wtn, 1e-14 * Speed(problem) * problem.wnn);
+    ASSERT_NEAR(impact.u1 * problem.contact.w.nn, impact.v1 * problem.contact.w.tn,
+                1e-14 * Speed(problem) * problem.contact.w.nn);
     if (impact.regime != Regime::kWedged) continue;
     ++wedged;
-    ASSERT_GE(problem.mu * std::fabs(problem.wtn), problem.wnn);
+    ASSERT_GE(problem.contact.mu * std::fabs(problem.contact.w.tn), problem.contact.w.nn);
     ASSERT_TRUE(std::isfinite(impact.v1) && std::isfinite(impact.tau1));
     ASSERT_EQ(impact.newton, 0.0);
     ASSERT_EQ(impact.error_estimate, std::numeric_limits<double>::infinity());
@@ -628,11 +613,14 @@ TEST(CompliantWedgeTest, SmallStepsOfTimeHoldTheSameBodiesAndLetTheOthersGo) {
   int held = 0;
   for (int i = 0; i < 150; ++i) {
     Problem problem = scenes.RankOne();
-    problem.mu = std::max(problem.mu, 1.5 * problem.wnn / (std::fabs(problem.wtn) + 0.1 * problem.wnn));
-    problem.energetic = std::max(problem.energetic, 0.2);
-    const double slowest = 1.0 / std::sqrt(problem.wnn);
+    problem.contact.mu =
+        std::max(problem.contact.mu,
+                 1.5 * problem.contact.w.nn / (std::fabs(problem.contact.w.tn) + 0.1 * problem.contact.w.nn));
+    problem.contact.coefficient = std::max(problem.contact.coefficient, 0.2);
+    const double slowest = 1.0 / std::sqrt(problem.contact.w.nn);
     const double fastest =
-        1.0 / std::sqrt(problem.wtt / problem.ratio_squared + problem.wnn / (problem.energetic * problem.energetic));
+        1.0 / std::sqrt(problem.contact.w.tt / problem.ratio_squared +
+                        problem.contact.w.nn / (problem.contact.coefficient * problem.contact.coefficient));
     SmallSteps steps(problem, 2e-3 * fastest);
     steps.Run(100.0 * slowest);
     const bool wedged = Solve(problem).regime == Regime::kWedged;

@@ -47,7 +47,7 @@ std::string ModesOf(const Impact& impact) {
 // Over max(|u0|, |v0|).
 double VelocityError(const VectorRow& row, const Problem& problem, const Impact& impact) {
   return std::max(std::fabs(impact.u1 - Number(row, "u1")), std::fabs(impact.v1 - Number(row, "v1"))) /
-         std::max(std::fabs(problem.u0), std::fabs(problem.v0));
+         std::max(std::fabs(problem.contact.u0), std::fabs(problem.contact.v0));
 }
 
 double ImpulseError(const VectorRow& row, const Impact& impact) {

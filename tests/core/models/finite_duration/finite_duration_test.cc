@@ -23,34 +23,20 @@
 namespace ricochet::finite_duration {
 namespace {
 
-double SpeedOf(const Problem& problem) { return std::max(std::fabs(problem.u0), std::fabs(problem.v0)); }
+double SpeedOf(const Problem& problem) {
+  return std::max(std::fabs(problem.contact.u0), std::fabs(problem.contact.v0));
+}
 
 Problem ProblemOf(const planar::Problem& rigid, const NormalSpring& spring, double tolerance) {
-  return {.wtt = rigid.w.tt,
-          .wtn = rigid.w.tn,
-          .wnn = rigid.w.nn,
-          .u0 = rigid.u0,
-          .v0 = rigid.v0,
-          .mu = rigid.mu,
-          .mu_static = rigid.mu_static,
-          .spring = spring,
-          .energetic = rigid.coefficient,
-          .tolerance = tolerance};
+  return {.contact = rigid, .spring = spring, .tolerance = tolerance};
 }
 
 // A uniform rod at 45 degrees that strikes with its end, m = l = 1, under gravity of its own.
 Problem Rod(const NormalSpring& spring) {
-  return {.wtt = 2.5,
-          .wtn = 1.5,
-          .wnn = 2.5,
-          .u0 = -1.0,
-          .v0 = -1.0,
+  return {.contact = {.w = {2.5, 1.5, 2.5}, .u0 = -1.0, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3, .coefficient = 0.7},
           .tangential_acceleration = 0.0,
           .normal_acceleration = -9.81,
-          .mu = 0.3,
-          .mu_static = 0.3,
-          .spring = spring,
-          .energetic = 0.7};
+          .spring = spring};
 }
 
 double WorkScale(const Impact& impact) {
@@ -148,8 +134,8 @@ TEST(FiniteDurationTest, WithoutFiniteForcesItIsTheRigidImpactAtAnyStiffness) {
 TEST(FiniteDurationTest, ALinearContactLastsHalfAPeriodShrunkByEta) {
   for (const double eta : {1.0, 0.6, 0.05, 0.0}) {
     const double k = 3e7;
-    const Impact impact =
-        Solve({.wtt = 1.0, .wnn = 0.4, .u0 = 0.3, .v0 = -2.0, .spring = LinearSpring{k}, .energetic = eta});
+    const Impact impact = Solve(
+        {.contact = {.w = {1.0, 0.0, 0.4}, .u0 = 0.3, .v0 = -2.0, .coefficient = eta}, .spring = LinearSpring{k}});
     const double omega = std::sqrt(k * 0.4);
     EXPECT_EQ(impact.regime, Regime::kFrictionless);
     EXPECT_NEAR(impact.contact.duration_s * omega, std::numbers::pi / 2.0 * (1.0 + eta), 1e-9);
@@ -167,7 +153,8 @@ TEST(FiniteDurationTest, AHertzContactLastsAsLongAsHertzSays) {
   for (const double eta : {1.0, 0.5, 0.1}) {
     const double k = 7e9;
     const double wnn = 25.0;
-    const Impact impact = Solve({.wnn = wnn, .v0 = -0.7, .spring = HertzSpring{k}, .energetic = eta});
+    const Impact impact =
+        Solve({.contact = {.w = {0.0, 0.0, wnn}, .v0 = -0.7, .coefficient = eta}, .spring = HertzSpring{k}});
     const double largest = std::pow(1.25 * 0.49 / (k * wnn), 0.4);
     EXPECT_NEAR(impact.contact.indentation_m / largest, 1.0, 1e-9);
     EXPECT_NEAR(impact.contact.peak_normal_n / (k * std::pow(largest, 1.5)), 1.0, 1e-9);
@@ -194,13 +181,7 @@ TEST(FiniteDurationTest, HuntCrossleyImpliesTheCoefficientOfItsPhasePlane) {
       const double speed = 1.7;
       const double k = 4e5;
       // Slip goes on, so that v feels one inertia throughout.
-      const Problem problem = {.wtt = 3.0,
-                               .wtn = 0.5,
-                               .wnn = 2.0,
-                               .u0 = 20.0,
-                               .v0 = -speed,
-                               .mu = 0.2,
-                               .mu_static = 0.2,
+      const Problem problem = {.contact = {.w = {3.0, 0.5, 2.0}, .u0 = 20.0, .v0 = -speed, .mu = 0.2, .mu_static = 0.2},
                                .spring = HuntCrossleySpring{k, p, c}};
       const Impact impact = Solve(problem);
       const double coefficient = HuntCrossleyCoefficient(c, speed);
@@ -224,8 +205,7 @@ TEST(FiniteDurationTest, HuntCrossleyWithoutDampingIsElasticToTheBit) {
 }
 
 TEST(FiniteDurationTest, AHuntCrossleyContactThatIsPulledApartEndsIndented) {
-  const Impact impact = Solve({.wnn = 1.0,
-                               .v0 = -1.0,
+  const Impact impact = Solve({.contact = {.w = {0.0, 0.0, 1.0}, .v0 = -1.0},
                                .normal_acceleration = 2000.0,
                                .spring = HuntCrossleySpring{1e6, 1.0, 3.0},
                                .intervals = 8});
@@ -259,15 +239,13 @@ TEST(FiniteDurationTest, CompliantImpactsAreThoseOfTheTable) {
   for (size_t i = 0; i < rows.size(); ++i) {
     const VectorRow& row = rows[i];
     for (const double tolerance : {1e-4, 1e-7, 1e-10}) {
-      const Problem problem = {.wtt = Number(row, "wtt"),
-                               .wtn = Number(row, "wtn"),
-                               .wnn = Number(row, "wnn"),
-                               .u0 = Number(row, "u0"),
-                               .v0 = Number(row, "v0"),
-                               .mu = Number(row, "mu"),
-                               .mu_static = Number(row, "mu"),
+      const Problem problem = {.contact = {.w = {Number(row, "wtt"), Number(row, "wtn"), Number(row, "wnn")},
+                                           .u0 = Number(row, "u0"),
+                                           .v0 = Number(row, "v0"),
+                                           .mu = Number(row, "mu"),
+                                           .mu_static = Number(row, "mu"),
+                                           .coefficient = Number(row, "eta")},
                                .spring = LinearSpring{std::pow(10.0, 0.1 * static_cast<double>(i))},
-                               .energetic = Number(row, "eta"),
                                .ratio_squared = Number(row, "ratio2"),
                                .tolerance = tolerance};
       const Impact impact = Solve(problem);
@@ -298,15 +276,10 @@ TEST(FiniteDurationTest, CompliantImpactsAreThoseOfTheTable) {
 }
 
 TEST(FiniteDurationTest, ACompliantContactThatEndsAtRestBooksItsSpringAsLost) {
-  const Impact impact = Solve({.wtt = 3.5,
-                               .wnn = 1.0,
-                               .u0 = 0.2,
-                               .v0 = -1.0,
-                               .mu = 0.5,
-                               .mu_static = 0.5,
-                               .spring = LinearSpring{1e4},
-                               .energetic = 0.0,
-                               .ratio_squared = 1.2});
+  const Impact impact =
+      Solve({.contact = {.w = {3.5, 0.0, 1.0}, .u0 = 0.2, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5, .coefficient = 0.0},
+             .spring = LinearSpring{1e4},
+             .ratio_squared = 1.2});
   // It sticks: a quarter of the normal period, F = -u0 sin(w t)/(ratio^2 w) with w^2 = Wtt/(ratio^2 Wnn).
   const double w = std::sqrt(3.5 / 1.2);
   const double u = 0.2 * std::cos(w * std::numbers::pi / 2.0);
@@ -317,14 +290,11 @@ TEST(FiniteDurationTest, ACompliantContactThatEndsAtRestBooksItsSpringAsLost) {
 }
 
 TEST(FiniteDurationTest, WhereNothingMovesAlongTFrictionTakesNothing) {
-  const Impact impact = Solve({.wnn = 1.0,
-                               .v0 = -1.0,
-                               .normal_acceleration = -9.81,
-                               .mu = 0.5,
-                               .mu_static = 0.5,
-                               .spring = LinearSpring{1e4},
-                               .energetic = 0.8,
-                               .ratio_squared = 1.2});
+  const Impact impact =
+      Solve({.contact = {.w = {0.0, 0.0, 1.0}, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5, .coefficient = 0.8},
+             .normal_acceleration = -9.81,
+             .spring = LinearSpring{1e4},
+             .ratio_squared = 1.2});
   EXPECT_EQ(impact.regime, Regime::kFrictionless);
   EXPECT_EQ(impact.f1, 0.0);
   EXPECT_EQ(impact.friction_dissipation, 0.0);
@@ -345,7 +315,7 @@ TEST(FiniteDurationTest, HistoriesIntegrateToTheImpulsesAndKeepTheCone) {
                                      NormalSpring(HuntCrossleySpring{1e6, 2.0, 0.3})}) {
     for (const double mu : {0.3, 0.9}) {
       Problem problem = Rod(spring);
-      problem.mu = problem.mu_static = mu;
+      problem.contact.mu = problem.contact.mu_static = mu;
       problem.tangential_acceleration = 2.0;
       double last = 1.0;
       for (const int64_t intervals : {250, 1000, 4000}) {
@@ -387,7 +357,7 @@ TEST(FiniteDurationTest, WhatGravityChangesIsOfFirstOrderInTheDuration) {
     for (int i = 0; i < 6; ++i) {
       // Half the duration each time, three decades of stiffness.
       Problem problem = Rod(LinearSpring{1e7 * std::pow(4.0, i)});
-      problem.mu = problem.mu_static = mu;
+      problem.contact.mu = problem.contact.mu_static = mu;
       problem.tolerance = 1e-12;
       const Impact impact = Solve(problem);
       problem.normal_acceleration = 0.0;
@@ -411,10 +381,10 @@ class FixedSteps {
 
   // (u, v) at the end.
   std::pair<double, double> Solve() {
-    State y = {0.0, p_.u0, p_.v0};
+    State y = {0.0, p_.contact.u0, p_.contact.v0};
     Regrip(y);
-    if (p_.u0 != 0.0) grip_ = p_.u0 > 0.0 ? 1 : -1;
-    const double step = 1e-4 / std::sqrt(k_ * p_.wnn);
+    if (p_.contact.u0 != 0.0) grip_ = p_.contact.u0 > 0.0 ? 1 : -1;
+    const double step = 1e-4 / std::sqrt(k_ * p_.contact.w.nn);
     for (;;) {
       State next = Stepped(y, step);
       if (Fits(next)) {
@@ -443,23 +413,24 @@ class FixedSteps {
   using State = std::array<double, 3>;  // d, u, v
 
   double Normal(const State& y) const {
-    const double eta2 = p_.energetic * p_.energetic;
+    const double eta2 = p_.contact.coefficient * p_.contact.coefficient;
     return k_ * (unloading_ ? (y[0] - (1.0 - eta2) * largest_) / eta2 : y[0]);
   }
-  double Drive(double normal) const { return p_.wtn * normal + p_.tangential_acceleration; }
+  double Drive(double normal) const { return p_.contact.w.tn * normal + p_.tangential_acceleration; }
   State Rates(const State& y) const {
     const double normal = Normal(y);
-    const double f = grip_ != 0 ? -p_.mu * grip_ * normal : -Drive(normal) / p_.wtt;
-    return {-y[2], p_.wtt * f + Drive(normal), p_.wtn * f + p_.wnn * normal + p_.normal_acceleration};
+    const double f = grip_ != 0 ? -p_.contact.mu * grip_ * normal : -Drive(normal) / p_.contact.w.tt;
+    return {-y[2], p_.contact.w.tt * f + Drive(normal),
+            p_.contact.w.tn * f + p_.contact.w.nn * normal + p_.normal_acceleration};
   }
   bool Fits(const State& y) const {
     if (unloading_ ? Normal(y) <= 0.0 : y[2] >= 0.0) return false;
     if (grip_ != 0) return grip_ * y[1] > 0.0 || just_slipped_;
-    return std::fabs(Drive(Normal(y))) <= p_.mu_static * p_.wtt * Normal(y);
+    return std::fabs(Drive(Normal(y))) <= p_.contact.mu_static * p_.contact.w.tt * Normal(y);
   }
   void Regrip(const State& y) {
     const double drive = Drive(Normal(y));
-    const bool sticks = grip_ != 0 && std::fabs(drive) <= p_.mu_static * p_.wtt * Normal(y);
+    const bool sticks = grip_ != 0 && std::fabs(drive) <= p_.contact.mu_static * p_.contact.w.tt * Normal(y);
     grip_ = sticks ? 0 : drive > 0.0 ? 1 : -1;
     just_slipped_ = !sticks;
   }
@@ -489,7 +460,7 @@ TEST(FiniteDurationTest, AgreesWithFixedStepsUnderFiniteForces) {
   for (const double mu : {0.1, 0.3, 0.59, 0.8}) {
     for (const double tangential : {-30.0, 0.0, 10.0}) {
       Problem problem = Rod(LinearSpring{2e4});
-      problem.mu = problem.mu_static = mu;
+      problem.contact.mu = problem.contact.mu_static = mu;
       problem.tangential_acceleration = tangential;
       const Impact impact = Solve(problem);
       const auto [u, v] = FixedSteps(problem).Solve();
@@ -500,8 +471,8 @@ TEST(FiniteDurationTest, AgreesWithFixedStepsUnderFiniteForces) {
 
 TEST(FiniteDurationTest, AContactAtRestAlongTSlipsFirstUnderAFiniteForce) {
   Problem problem = Rod(LinearSpring{1e4});
-  problem.u0 = 0.0;
-  problem.mu = problem.mu_static = 0.9;
+  problem.contact.u0 = 0.0;
+  problem.contact.mu = problem.contact.mu_static = 0.9;
   EXPECT_EQ(KindsOf(Solve(problem)),
             (std::vector{EventKind::kStart, EventKind::kCompressionEnds, EventKind::kRestitutionEnds}));
   problem.tangential_acceleration = 1.0;
@@ -528,7 +499,7 @@ TEST(FiniteDurationTest, EstimatesAreNotBelowTheErrorUnderForcesDampingAndSpring
     if (kind == 2) problem.spring = HuntCrossleySpring{stiffness, source.Uniform(1.0, 4.0), source.Uniform(0.0, 1.0)};
     if (kind == 3) {
       problem.ratio_squared = source.Uniform(0.2, 3.0);
-      problem.mu_static = problem.mu;
+      problem.contact.mu_static = problem.contact.mu;
     }
     problem.tangential_acceleration = source.Uniform(-20.0, 20.0);
     problem.normal_acceleration = source.Uniform(-20.0, 20.0);
@@ -555,8 +526,8 @@ TEST(FiniteDurationTest, ToleranceMeansTheSameAtAllSizes) {
   const double mass = 0x1p60;
   const double speed = 0x1p-40;
   const double time = 0x1p-30;
-  for (double* w : {&problem.wtt, &problem.wtn, &problem.wnn}) *w /= mass;
-  for (double* u : {&problem.u0, &problem.v0}) *u *= speed;
+  for (double* w : {&problem.contact.w.tt, &problem.contact.w.tn, &problem.contact.w.nn}) *w /= mass;
+  for (double* u : {&problem.contact.u0, &problem.contact.v0}) *u *= speed;
   problem.normal_acceleration *= speed / time;
   problem.spring = HertzSpring{1e4 * mass / (time * std::sqrt(speed * time) * time)};
   const Impact scaled = Solve(problem);
@@ -590,18 +561,12 @@ TEST(FiniteDurationTest, WhatIsPulledApartBeforeItsSpringIsFeltFollowsThePull) {
   constexpr double kEta = 0.45;
   for (const double k : {1e-20, 1e-100, 1e-250}) {
     for (const NormalSpring& spring : {NormalSpring(LinearSpring{k}), NormalSpring(HertzSpring{k})}) {
-      const Impact impact = Solve({.wtt = 2.5,
-                                   .wtn = 1.5,
-                                   .wnn = 1.2,
-                                   .u0 = 1.5,
-                                   .v0 = -1.0,
-                                   .tangential_acceleration = kAlong,
-                                   .normal_acceleration = kPull,
-                                   .mu = 0.3,
-                                   .mu_static = 0.3,
-                                   .spring = spring,
-                                   .energetic = kEta,
-                                   .intervals = 4});
+      const Impact impact = Solve(
+          {.contact = {.w = {2.5, 1.5, 1.2}, .u0 = 1.5, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3, .coefficient = kEta},
+           .tangential_acceleration = kAlong,
+           .normal_acceleration = kPull,
+           .spring = spring,
+           .intervals = 4});
       EXPECT_TRUE(impact.converged);
       EXPECT_LE(impact.error_estimate, 1e-10);
       const double duration = (1.0 + kEta) / kPull;
@@ -624,24 +589,19 @@ TEST(FiniteDurationTest, WhatCannotTakeItsFirstStepHasAHistoryAllTheSame) {
   problem.intervals = 4;
   const Impact impact = Solve(problem);
   EXPECT_FALSE(impact.converged);
-  EXPECT_EQ(impact.v1, problem.v0);
+  EXPECT_EQ(impact.v1, problem.contact.v0);
   EXPECT_EQ(impact.contact.duration_s, 0.0);
   EXPECT_EQ(impact.contact.history.size(), 5U);
 }
 
 // u falls by 10^9 m/s within 10^-13 of the time that the impact has lasted.
 TEST(FiniteDurationTest, ImpulsesMakeTheChangeOfASlipThatStopsAllOfASudden) {
-  const Problem problem = {.wtt = 1.685,
-                           .wtn = -0.6,
-                           .wnn = 1.186,
-                           .u0 = -0x1p30,
-                           .v0 = -2.0,
-                           .mu = 2.5,
-                           .mu_static = 2.5,
-                           .spring = HuntCrossleySpring{1e6, 1.5, 0.2}};
+  const Problem problem = {
+      .contact = {.w = {1.685, -0.6, 1.186}, .u0 = -0x1p30, .v0 = -2.0, .mu = 2.5, .mu_static = 2.5},
+      .spring = HuntCrossleySpring{1e6, 1.5, 0.2}};
   const Impact impact = Solve(problem);
-  const double u1 = problem.u0 + problem.wtt * impact.f1 + problem.wtn * impact.tau1;
-  EXPECT_NEAR(impact.u1, u1, impact.error_estimate * std::fabs(problem.u0));
+  const double u1 = problem.contact.u0 + problem.contact.w.tt * impact.f1 + problem.contact.w.tn * impact.tau1;
+  EXPECT_NEAR(impact.u1, u1, impact.error_estimate * std::fabs(problem.contact.u0));
   EXPECT_LE(impact.error_estimate, 1e-8);
 }
 
@@ -651,16 +611,14 @@ TEST(FiniteDurationTest, AnImpactThatIsLostInRoundingIsNotAnswered) {
   constexpr double kA = 1.3065459890738525e-86;
   constexpr double kB = 0.3133785130770308;
   constexpr double kMoment = 4.889078302384e-311;
-  const Impact impact = Solve({.wtt = kB * kB / kInertia,
-                               .wtn = kA * kB / kInertia,
-                               .wnn = kA * kA / kInertia,
-                               .u0 = -2.0 * kB,
-                               .v0 = -2.0 * kA,
+  const Impact impact = Solve({.contact = {.w = {kB * kB / kInertia, kA * kB / kInertia, kA * kA / kInertia},
+                                           .u0 = -2.0 * kB,
+                                           .v0 = -2.0 * kA,
+                                           .mu = 0.012424130900937969,
+                                           .mu_static = 0.9450167383826467,
+                                           .coefficient = 1.0},
                                .tangential_acceleration = kMoment * kB / kInertia,
-                               .mu = 0.012424130900937969,
-                               .mu_static = 0.9450167383826467,
                                .spring = HertzSpring{0.45385987235336556},
-                               .energetic = 1.0,
                                .tolerance = 1e-12});
   EXPECT_FALSE(impact.converged);
   EXPECT_GE(impact.contact.duration_s, 0.0);
@@ -668,8 +626,8 @@ TEST(FiniteDurationTest, AnImpactThatIsLostInRoundingIsNotAnswered) {
 
 TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
   Problem problem = Rod(HuntCrossleySpring{3.0, 1.5, 0.2});
-  problem.mu = 4.0 / 3.0;
-  problem.mu_static = 3.0;
+  problem.contact.mu = 4.0 / 3.0;
+  problem.contact.mu_static = 3.0;
   problem.tangential_acceleration = 2.0;
   const Impact impact = Solve(problem);
   EXPECT_FALSE(impact.converged);
@@ -677,15 +635,9 @@ TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
 }
 
 TEST(FiniteDurationTest, APendulumThatSticksIsLockedWhateverPressesIt) {
-  Problem problem = {.wtt = 4.0,
-                     .wtn = 2.0,
-                     .wnn = 1.0,
-                     .u0 = -2.0,
-                     .v0 = -1.0,
-                     .mu = 0.6,
-                     .mu_static = 0.6,
-                     .spring = LinearSpring{1e5},
-                     .energetic = 0.8};
+  Problem problem = {
+      .contact = {.w = {4.0, 2.0, 1.0}, .u0 = -2.0, .v0 = -1.0, .mu = 0.6, .mu_static = 0.6, .coefficient = 0.8},
+      .spring = LinearSpring{1e5}};
   for (const double normal : {0.0, -20.0, 20.0}) {
     problem.normal_acceleration = normal;
     problem.tangential_acceleration = 2.0 * normal;
@@ -703,10 +655,10 @@ TEST(FiniteDurationTest, APendulumThatSticksIsLockedWhateverPressesIt) {
 TEST(FiniteDurationTest, AContactThatDoesNotApproachIsLeftAlone) {
   Problem problem = Rod(LinearSpring{1e5});
   for (const double v0 : {0.0, 2.0}) {
-    problem.v0 = v0;
+    problem.contact.v0 = v0;
     const Impact impact = Solve(problem);
     EXPECT_EQ(impact.regime, Regime::kSeparating);
-    EXPECT_EQ(impact.u1, problem.u0);
+    EXPECT_EQ(impact.u1, problem.contact.u0);
     EXPECT_EQ(impact.v1, v0);
     EXPECT_EQ(impact.steps, 0);
     EXPECT_TRUE(impact.events.empty());
