@@ -334,7 +334,7 @@ struct LimitCase {
   Regime regime;  // The regime of the rigid contact.
   double wtt, wtn, wnn, u0, mu, eta;
   double order;              // The velocities err by ratio to this power; 0: not at all.
-  double compression_order;  // The same power for the impulse of compression.
+  double compression_order;  // The impulse of compression errs by this power of ratio.
 };
 
 planar::Impact Rigid(const LimitCase& c) {
