@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "client/call_context.h"
 #include "client/channel.h"
 #include "client/sweep_reader.h"
 #include "proto/wire/audit.h"
@@ -11,26 +12,32 @@
 #include "ricochet/v1/impact_service.grpc.pb.h"
 
 namespace ricochet {
+namespace {
+
+using Stub = v1::ImpactService::StubInterface;
+
+// A unary method of the service.
+template <typename WireRequest, typename WireResponse>
+using Method = grpc::Status (Stub::*)(grpc::ClientContext*, const WireRequest&, WireResponse*);
+
+}  // namespace
 
 struct Client::Connection {
   ClientOptions options;
-  std::unique_ptr<v1::ImpactService::StubInterface> stub;
+  std::unique_ptr<Stub> stub;
+
+  // Converts the request to its proto, calls `method`, and converts the response back.
+  template <typename Request, typename WireRequest, typename WireResponse>
+  auto Ask(Method<WireRequest, WireResponse> method, const Request& request, const CallOptions& call) const
+      -> absl::StatusOr<decltype(FromProto(WireResponse()))> {
+    if (IsStopped(call)) return StoppedByCaller();
+    CallContext context(call, options.deadline);
+    WireResponse response;
+    const grpc::Status status = ((*stub).*method)(&context.get(), ToProto(request), &response);
+    if (status.ok()) return FromProto(response);
+    return IsStopped(call) ? StoppedByCaller() : FromGrpcStatus(status);
+  }
 };
-
-namespace {
-
-// Sends a unary call: converts the request to its proto, calls, and converts the response back.
-template <typename Response, typename WireResponse, typename Request, typename Call>
-absl::StatusOr<Response> Ask(const ClientOptions& options, const Request& request, Call call) {
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + options.deadline);
-  WireResponse response;
-  const grpc::Status status = call(&context, ToProto(request), &response);
-  if (!status.ok()) return FromGrpcStatus(status);
-  return FromProto(response);
-}
-
-}  // namespace
 
 absl::StatusOr<Client> Client::Connect(const ClientOptions& options) {
   absl::StatusOr<std::shared_ptr<grpc::Channel>> channel = MakeChannel(options);
@@ -38,38 +45,31 @@ absl::StatusOr<Client> Client::Connect(const ClientOptions& options) {
   return Client(std::make_shared<Connection>(Connection{options, v1::ImpactService::NewStub(*std::move(channel))}));
 }
 
-absl::StatusOr<SolveResponse> Client::Solve(const SolveRequest& request) const {
-  return Ask<SolveResponse, v1::SolveResponse>(connection_->options, request,
-                                               [this](auto* context, const auto& asked, auto* response) {
-                                                 return connection_->stub->Solve(context, asked, response);
-                                               });
+absl::StatusOr<SolveResponse> Client::DoSolve(const SolveRequest& request, const CallOptions& options) const {
+  return connection_->Ask(&Stub::Solve, request, options);
 }
 
-absl::StatusOr<BoundsResponse> Client::Bounds(const BoundsRequest& request) const {
-  return Ask<BoundsResponse, v1::BoundsResponse>(connection_->options, request,
-                                                 [this](auto* context, const auto& asked, auto* response) {
-                                                   return connection_->stub->Bounds(context, asked, response);
-                                                 });
+absl::StatusOr<PlanResponse> Client::DoPlan(const PlanRequest& request, const CallOptions& options) const {
+  return connection_->Ask(&Stub::Plan, request, options);
 }
 
-absl::StatusOr<AuditResponse> Client::Audit(const AuditRequest& request) const {
-  return Ask<AuditResponse, v1::AuditResponse>(connection_->options, request,
-                                               [this](auto* context, const auto& asked, auto* response) {
-                                                 return connection_->stub->Audit(context, asked, response);
-                                               });
+absl::StatusOr<BoundsResponse> Client::DoBounds(const BoundsRequest& request, const CallOptions& options) const {
+  return connection_->Ask(&Stub::Bounds, request, options);
 }
 
-absl::StatusOr<AuditBatchResponse> Client::AuditBatch(const AuditBatchRequest& request) const {
-  return Ask<AuditBatchResponse, v1::AuditBatchResponse>(
-      connection_->options, request, [this](auto* context, const auto& asked, auto* response) {
-        return connection_->stub->AuditBatch(context, asked, response);
-      });
+absl::StatusOr<AuditResponse> Client::DoAudit(const AuditRequest& request, const CallOptions& options) const {
+  return connection_->Ask(&Stub::Audit, request, options);
 }
 
-SweepStream Client::Sweep(const SweepRequest& request, std::stop_token stop) const {
+absl::StatusOr<AuditBatchResponse> Client::DoAuditBatch(const AuditBatchRequest& request,
+                                                        const CallOptions& options) const {
+  return connection_->Ask(&Stub::AuditBatch, request, options);
+}
+
+SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& options) const {
   auto reader = std::make_shared<SweepReader>(
       [&](grpc::ClientContext* context) { return connection_->stub->Sweep(context, ToProto(request)); }, request,
-      connection_->options.sweep_deadline, std::move(stop));
+      connection_->options.sweep_deadline, options);
   // The stream keeps the connection, so it may outlive the Client that made it.
   return SweepStream([connection = connection_, reader = std::move(reader)] { return reader->Next(); });
 }

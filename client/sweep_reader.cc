@@ -75,21 +75,22 @@ absl::Status ChunkChecker::CheckEnd() const {
 
 SweepReader::SweepReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start,
                          const SweepRequest& request, std::optional<std::chrono::milliseconds> deadline,
-                         std::stop_token stop)
-    : checker_(request), stop_(std::move(stop)), cancel_(stop_, [this] { context_.TryCancel(); }) {
-  if (deadline.has_value()) context_.set_deadline(std::chrono::system_clock::now() + *deadline);
-  reader_ = start(&context_);
-}
+                         const CallOptions& options)
+    : checker_(request), options_(options), context_(options, deadline), reader_(start(&context_.get())) {}
 
 SweepReader::~SweepReader() {
   if (finished_) return;
-  context_.TryCancel();
+  context_.get().TryCancel();
   static_cast<void>(Finish());
 }
 
 std::optional<absl::StatusOr<SweepChunk>> SweepReader::Next() {
   // Once the caller has asked to stop, chunks that had already arrived are dropped.
-  if (!reader_->Read(&message_) || (stop_.stop_requested() && !message_.has_summary())) return End();
+  if (!reader_->Read(&message_)) return End();
+  if (IsStopped(options_) && !message_.has_summary()) {
+    context_.get().TryCancel();
+    return End();
+  }
   SweepChunk chunk = FromProto(message_);
   if (absl::Status status = checker_.Check(chunk); !status.ok()) return status;
   return chunk;
@@ -98,8 +99,8 @@ std::optional<absl::StatusOr<SweepChunk>> SweepReader::Next() {
 std::optional<absl::StatusOr<SweepChunk>> SweepReader::End() {
   const absl::Status status = Finish();
   const absl::Status complete = checker_.CheckEnd();
-  if (stop_.stop_requested() && !complete.ok()) return absl::CancelledError("the sweep was stopped by its caller");
-  if (!status.ok() && !stop_.stop_requested()) return status;
+  if (IsStopped(options_) && !complete.ok()) return StoppedByCaller();
+  if (!status.ok() && !IsStopped(options_)) return status;
   if (!complete.ok()) return complete;
   return std::nullopt;
 }

@@ -8,13 +8,12 @@
 
 #include <chrono>
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <stop_token>
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
+#include "client/call_context.h"
 #include "ricochet/sweep.h"
 #include "ricochet/v1/sweep.pb.h"
 
@@ -45,9 +44,10 @@ class SweepReader {
  public:
   using Call = grpc::ClientReaderInterface<v1::SweepResponse>;
 
-  // Starts the call by `start`, which receives the context and returns the stream that answers `request`.
+  // Starts the call by `start`, which receives the context and returns the stream that answers `request`. The call ends
+  // when `options` say so, or `deadline` from now.
   SweepReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start, const SweepRequest& request,
-              std::optional<std::chrono::milliseconds> deadline, std::stop_token stop);
+              std::optional<std::chrono::milliseconds> deadline, const CallOptions& options);
   // Cancels the call if it still runs, and waits for its end.
   ~SweepReader();
 
@@ -61,14 +61,12 @@ class SweepReader {
   std::optional<absl::StatusOr<SweepChunk>> End();
   absl::Status Finish();
 
-  grpc::ClientContext context_;
   ChunkChecker checker_;
-  std::stop_token stop_;
+  const CallOptions options_;
+  CallContext context_;
   std::unique_ptr<Call> reader_;
   v1::SweepResponse message_;
   bool finished_ = false;
-  // The callback is the last member, so that it is destroyed before the context that it cancels.
-  std::stop_callback<std::function<void()>> cancel_;
 };
 
 }  // namespace ricochet

@@ -10,7 +10,8 @@
 namespace ricochet::server {
 
 Call::Call(const char* method, const grpc::ServerContext& context, Admission& admission, const Log& log)
-    : log_(log),
+    : context_(context),
+      log_(log),
       method_(absl::StrCat("/", v1::ImpactService::service_full_name(), "/", method)),
       peer_(context.peer()),
       ticket_(admission.Enter()) {}
@@ -26,6 +27,16 @@ Call::~Call() {
 
 double Call::elapsed_s() const {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+CallOptions Call::options() const {
+  using std::chrono::system_clock;
+  CallOptions options = {.is_stopped = [this] { return context_.IsCancelled(); }};
+  const system_clock::time_point deadline = context_.deadline();
+  if (deadline != system_clock::time_point::max()) {
+    options.deadline = std::chrono::steady_clock::now() + (deadline - system_clock::now());
+  }
+  return options;
 }
 
 grpc::Status Call::Finish(const absl::Status& status) {

@@ -14,6 +14,7 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "ricochet/call_options.h"
 #include "server/admission.h"
 #include "server/log.h"
 
@@ -34,6 +35,10 @@ class Call {
   // Returns the seconds since the start.
   double elapsed_s() const;
 
+  // Returns the options of the solver's call: it ends at the client's deadline, and when the client cancels or vanishes.
+  // The context must outlive them.
+  CallOptions options() const;
+
   // Sets the number of points of a sweep computed so far, for the log line.
   void set_points(int64_t points) { points_ = points; }
 
@@ -42,6 +47,7 @@ class Call {
 
  private:
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const grpc::ServerContext& context_;
   const Log& log_;
   const std::string method_;
   const std::string peer_;

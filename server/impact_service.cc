@@ -4,12 +4,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "core/engine/engine.h"
-#include "core/engine/local_solver.h"
-#include "core/sweep/sweep_run.h"
 #include "proto/wire/audit.h"
-#include "proto/wire/engine.h"
-#include "proto/wire/outcome.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/error.h"
@@ -32,15 +27,6 @@ absl::Status Draining() {
   return status;
 }
 
-// Why a call that was stopped, or whose chunk could not be sent, ends.
-absl::Status WhyStopped(const grpc::ServerContext& context, bool draining) {
-  if (context.deadline() <= std::chrono::system_clock::now()) {
-    return absl::DeadlineExceededError("the call's deadline passed");
-  }
-  if (draining) return Draining();
-  return absl::CancelledError("the client cancelled the call or went away");
-}
-
 }  // namespace
 
 ImpactService::ImpactService(const Solver& solver, int64_t max_points_per_sweep, std::stop_token drain,
@@ -51,69 +37,63 @@ ImpactService::ImpactService(const Solver& solver, int64_t max_points_per_sweep,
       admission_(admission),
       log_(log) {}
 
+template <typename Request, typename Response, typename Method>
+grpc::Status ImpactService::Answer(const char* name, Method method, const grpc::ServerContext& context,
+                                   const Request& request, Response& response) const {
+  Call call(name, context, admission_, log_);
+  if (!call.admitted().ok()) return call.Finish(call.admitted());
+  const auto answer = (solver_.*method)(FromProto(request), call.options());
+  if (answer.ok()) response = ToProto(*answer);
+  return call.Finish(answer.status());
+}
+
 grpc::Status ImpactService::Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
                                   v1::SolveResponse* response) {
-  Call call("Solve", *context, admission_, log_);
-  if (!call.admitted().ok()) return call.Finish(call.admitted());
-  const absl::StatusOr<SolveResponse> answer = solver_.Solve(FromProto(*request));
-  if (answer.ok()) *response = ToProto(*answer);
-  return call.Finish(answer.status());
+  return Answer("Solve", &Solver::Solve, *context, *request, *response);
+}
+
+grpc::Status ImpactService::Plan(grpc::ServerContext* context, const v1::PlanRequest* request,
+                                 v1::PlanResponse* response) {
+  return Answer("Plan", &Solver::Plan, *context, *request, *response);
 }
 
 grpc::Status ImpactService::Bounds(grpc::ServerContext* context, const v1::BoundsRequest* request,
                                    v1::BoundsResponse* response) {
-  Call call("Bounds", *context, admission_, log_);
-  if (!call.admitted().ok()) return call.Finish(call.admitted());
-  const absl::StatusOr<BoundsResponse> answer =
-      AnswerBounds(FromProto(*request), [context] { return context->IsCancelled(); });
-  if (answer.ok()) *response = ToProto(*answer);
-  return call.Finish(absl::IsCancelled(answer.status()) ? WhyStopped(*context, false) : answer.status());
+  return Answer("Bounds", &Solver::Bounds, *context, *request, *response);
 }
 
 grpc::Status ImpactService::Audit(grpc::ServerContext* context, const v1::AuditRequest* request,
                                   v1::AuditResponse* response) {
-  Call call("Audit", *context, admission_, log_);
-  if (!call.admitted().ok()) return call.Finish(call.admitted());
-  const absl::StatusOr<AuditResponse> answer = solver_.Audit(FromProto(*request));
-  if (answer.ok()) *response = ToProto(*answer);
-  return call.Finish(answer.status());
+  return Answer("Audit", &Solver::Audit, *context, *request, *response);
 }
 
 grpc::Status ImpactService::AuditBatch(grpc::ServerContext* context, const v1::AuditBatchRequest* request,
                                        v1::AuditBatchResponse* response) {
-  Call call("AuditBatch", *context, admission_, log_);
-  if (!call.admitted().ok()) return call.Finish(call.admitted());
-  const absl::StatusOr<AuditBatchResponse> answer = solver_.AuditBatch(FromProto(*request));
-  if (answer.ok()) *response = ToProto(*answer);
-  return call.Finish(answer.status());
+  return Answer("AuditBatch", &Solver::AuditBatch, *context, *request, *response);
 }
 
 grpc::Status ImpactService::Sweep(grpc::ServerContext* context, const v1::SweepRequest* request,
                                   grpc::ServerWriter<v1::SweepResponse>* writer) {
   Call call("Sweep", *context, admission_, log_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
-  return call.Finish(StreamSweep(FromProto(*request), *context, *writer, call));
+  const absl::Status status = Stream(FromProto(*request), *writer, call);
+  return call.Finish(absl::IsCancelled(status) && drain_.stop_requested() ? Draining() : status);
 }
 
-absl::Status ImpactService::StreamSweep(const SweepRequest& request, const grpc::ServerContext& context,
-                                        grpc::ServerWriter<v1::SweepResponse>& writer, Call& call) const {
-  absl::StatusOr<SweepRun> run = SweepRun::Make(request);
-  if (!run.ok()) return run.status();
-  if (run->points_total() > max_points_per_sweep_) {
-    return SweepTooLarge(run->points_total(), max_points_per_sweep_);
-  }
-  const auto stopped = [&] { return drain_.stop_requested() || context.IsCancelled(); };
+absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer,
+                                   Call& call) const {
+  CallOptions options = call.options();
+  options.stop = drain_;
   v1::SweepResponse response;
-  while (!run->ended()) {
-    absl::StatusOr<SweepChunk> chunk = run->NextChunk(stopped);
-    call.set_points(run->points_done());
-    if (!chunk.ok()) return WhyStopped(context, drain_.stop_requested());
-    chunk->engine = ThisEngine();
+  for (absl::StatusOr<SweepChunk>& chunk : solver_.Sweep(request, options)) {
+    if (!chunk.ok()) return chunk.status();
+    if (chunk->points_total > max_points_per_sweep_) return SweepTooLarge(chunk->points_total, max_points_per_sweep_);
+    call.set_points(chunk->points_done);
     if (chunk->summary.has_value()) chunk->summary->elapsed_s = call.elapsed_s();
     ToProto(*chunk, response);
-    grpc::WriteOptions options;
-    if (run->ended()) options.set_last_message();
-    if (!writer.Write(response, options)) return WhyStopped(context, drain_.stop_requested());
+    grpc::WriteOptions last;
+    if (response.has_summary()) last.set_last_message();
+    if (!writer.Write(response, last)) return absl::CancelledError("the client cancelled the call or went away");
   }
   return absl::OkStatus();
 }

@@ -29,6 +29,7 @@ class ImpactService final : public v1::ImpactService::Service {
 
   grpc::Status Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
                      v1::SolveResponse* response) override;
+  grpc::Status Plan(grpc::ServerContext* context, const v1::PlanRequest* request, v1::PlanResponse* response) override;
   grpc::Status Bounds(grpc::ServerContext* context, const v1::BoundsRequest* request,
                       v1::BoundsResponse* response) override;
   grpc::Status Audit(grpc::ServerContext* context, const v1::AuditRequest* request,
@@ -39,8 +40,13 @@ class ImpactService final : public v1::ImpactService::Service {
                      grpc::ServerWriter<v1::SweepResponse>* writer) override;
 
  private:
-  absl::Status StreamSweep(const SweepRequest& request, const grpc::ServerContext& context,
-                           grpc::ServerWriter<v1::SweepResponse>& writer, Call& call) const;
+  // Handles a unary call: converts the request, calls `method` of the solver, converts the answer.
+  template <typename Request, typename Response, typename Method>
+  grpc::Status Answer(const char* name, Method method, const grpc::ServerContext& context, const Request& request,
+                      Response& response) const;
+
+  // Sends every chunk of a sweep.
+  absl::Status Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer, Call& call) const;
 
   const Solver& solver_;
   const int64_t max_points_per_sweep_;

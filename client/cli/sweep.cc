@@ -139,7 +139,7 @@ absl::Status Receive(const Solver& solver, const SweepRequest& request, const Sw
   absl::StatusOr<Output> output = Output::Open(options.common.output);
   if (!output.ok()) return output.status();
   Receiver receiver(request, options, *std::move(output));
-  for (absl::StatusOr<SweepChunk>& chunk : solver.Sweep(request, std::move(stop))) {
+  for (absl::StatusOr<SweepChunk>& chunk : solver.Sweep(request, {.stop = std::move(stop)})) {
     if (!chunk.ok()) return chunk.status();
     if (absl::Status status = receiver.Add(*chunk); !status.ok()) return status;
   }

@@ -1,5 +1,4 @@
-#include "core/engine/local_solver.h"
-
+#include <chrono>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "core/study/audit_scene.h"
 #include "core/sweep/sweep_run.h"
 #include "ricochet/error.h"
+#include "ricochet/solver.h"
 
 namespace ricochet {
 namespace {
@@ -72,6 +72,24 @@ void CheckCertified(const SolveRequest& request, std::vector<Violation>& violati
   }
 }
 
+// Returns the error with which `options` end a call by now, or OK if it may go on.
+absl::Status WhyEnded(const CallOptions& options) {
+  if (options.deadline.has_value() && std::chrono::steady_clock::now() >= *options.deadline) {
+    return absl::DeadlineExceededError("the call's deadline has passed");
+  }
+  if (options.stop.stop_requested() || (options.is_stopped != nullptr && options.is_stopped())) {
+    return absl::CancelledError("the call was stopped by its caller");
+  }
+  return absl::OkStatus();
+}
+
+// Returns `error`; but if it only says that a computation was stopped, the reason why `options` ended the call.
+absl::Status OrWhyEnded(const absl::Status& error, const CallOptions& options) {
+  if (!absl::IsCancelled(error)) return error;
+  const absl::Status ended = WhyEnded(options);
+  return ended.ok() ? error : ended;
+}
+
 // Sets `certificate` if the request asks for one.
 absl::Status Keep(absl::StatusOr<Certificate> certified, std::optional<Certificate>& certificate) {
   if (!certified.ok()) return certified.status();
@@ -91,11 +109,12 @@ absl::Status Certify(const BoundsRequest& request, absl::FunctionRef<bool()> sto
 
 }  // namespace
 
-absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) const {
+absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
   auto violations = Validate(request.scene);
   if (violations.empty()) violations = CheckSolve(request);
   if (violations.empty()) CheckCertified(request, violations);
   if (!violations.empty()) return InvalidRequest(violations);
+  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
   absl::StatusOr<Outcome> outcome = request.plan_only
                                         ? PlanSceneOnly(request.scene, ToDemand(request.demand))
                                         : SolveScene(request.scene, {.history_at_n_s = request.history_at_n_s,
@@ -104,16 +123,23 @@ absl::StatusOr<SolveResponse> LocalSolver::Solve(const SolveRequest& request) co
   if (!outcome.ok()) return outcome.status();
   if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
   const absl::Status certified = Certify(
-      request, [] { return false; }, outcome->certificate);
-  if (!certified.ok()) return certified;
+      request, [&options] { return !WhyEnded(options).ok(); }, outcome->certificate);
+  if (!certified.ok()) return OrWhyEnded(certified, options);
   return SolveResponse{.outcome = *std::move(outcome), .engine = ThisEngine()};
 }
 
-absl::StatusOr<BoundsResponse> LocalSolver::Bounds(const BoundsRequest& request) const {
-  return AnswerBounds(request, [] { return false; });
+absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, const CallOptions& options) const {
+  std::vector<Violation> violations = Validate(request.scene);
+  if (violations.empty()) violations = CheckDemand(request.scene, request.demand);
+  if (!violations.empty()) return InvalidRequest(violations);
+  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
+  absl::StatusOr<Outcome> planned = PlanSceneOnly(request.scene, ToDemand(request.demand));
+  if (!planned.ok()) return planned.status();
+  return PlanResponse{.plan = std::move(planned->plan), .engine = ThisEngine()};
 }
 
-absl::StatusOr<BoundsResponse> AnswerBounds(const BoundsRequest& request, absl::FunctionRef<bool()> stopped) {
+absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& request, const CallOptions& options) const {
+  const auto stopped = [&options] { return !WhyEnded(options).ok(); };
   auto violations = Validate(request.scene, RestitutionIs::kOptional);
   if (!std::holds_alternative<std::monostate>(request.scene.impact_law)) {
     violations.push_back({"impact_law", "is set: must not be, for bounds"});
@@ -121,37 +147,42 @@ absl::StatusOr<BoundsResponse> AnswerBounds(const BoundsRequest& request, absl::
   for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
   CheckDigits(request.scene, request.certified_digits, violations);
   if (!violations.empty()) return InvalidRequest(violations);
+  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
   const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene, stopped);
-  if (!bounds.ok()) return bounds.status();
+  if (!bounds.ok()) return OrWhyEnded(bounds.status(), options);
   BoundsResponse response{.bounds = *bounds, .engine = ThisEngine()};
   const absl::Status certified = Certify(request, stopped, response.certificate);
-  if (!certified.ok()) return certified;
+  if (!certified.ok()) return OrWhyEnded(certified, options);
   if (request.ranges.empty()) return response;
   const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, stopped);
-  if (!enclosure.ok()) return enclosure.status();
+  if (!enclosure.ok()) return OrWhyEnded(enclosure.status(), options);
   response.enclosure = *enclosure;
   return response;
 }
 
-absl::StatusOr<AuditResponse> LocalSolver::Audit(const AuditRequest& request) const {
-  absl::StatusOr<AuditResponse> response = AuditScene(request, [] { return false; });
-  if (response.ok()) response->engine = ThisEngine();
+absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, const CallOptions& options) const {
+  absl::StatusOr<AuditResponse> response = AuditScene(request, [&options] { return !WhyEnded(options).ok(); });
+  if (!response.ok()) return OrWhyEnded(response.status(), options);
+  response->engine = ThisEngine();
   return response;
 }
 
-absl::StatusOr<AuditBatchResponse> LocalSolver::AuditBatch(const AuditBatchRequest& request) const {
-  absl::StatusOr<AuditBatchResponse> response = AuditScene(request, [] { return false; });
-  if (response.ok()) response->engine = ThisEngine();
+absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchRequest& request,
+                                                             const CallOptions& options) const {
+  absl::StatusOr<AuditBatchResponse> response = AuditScene(request, [&options] { return !WhyEnded(options).ok(); });
+  if (!response.ok()) return OrWhyEnded(response.status(), options);
+  response->engine = ThisEngine();
   return response;
 }
 
-SweepStream LocalSolver::Sweep(const SweepRequest& request, std::stop_token stop) const {
+SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions& options) const {
   absl::StatusOr<SweepRun> made = SweepRun::Make(request);
   if (!made.ok()) return SweepStream(made.status());
-  auto next = [run = *std::move(made), stop = std::move(stop)]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
+  auto next = [run = *std::move(made), options]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
     if (run.ended()) return std::nullopt;
-    absl::StatusOr<SweepChunk> chunk = run.NextChunk([&stop] { return stop.stop_requested(); });
-    if (chunk.ok()) chunk->engine = ThisEngine();
+    absl::StatusOr<SweepChunk> chunk = run.NextChunk([&options] { return !WhyEnded(options).ok(); });
+    if (!chunk.ok()) return OrWhyEnded(chunk.status(), options);
+    chunk->engine = ThisEngine();
     return chunk;
   };
   return SweepStream(std::move(next));

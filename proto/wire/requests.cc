@@ -43,6 +43,28 @@ SolveResponse FromProto(const v1::SolveResponse& proto) {
   return {.outcome = FromProto(proto.outcome()), .engine = FromProto(proto.engine())};
 }
 
+v1::PlanRequest ToProto(const PlanRequest& request) {
+  v1::PlanRequest proto;
+  *proto.mutable_scene() = ToProto(request.scene);
+  SetDemand(request.demand, proto);
+  return proto;
+}
+
+PlanRequest FromProto(const v1::PlanRequest& proto) {
+  return {.scene = FromProto(proto.scene()), .demand = DemandOf(proto)};
+}
+
+v1::PlanResponse ToProto(const PlanResponse& response) {
+  v1::PlanResponse proto;
+  *proto.mutable_plan() = ToProto(response.plan);
+  *proto.mutable_engine() = ToProto(response.engine);
+  return proto;
+}
+
+PlanResponse FromProto(const v1::PlanResponse& proto) {
+  return {.plan = FromProto(proto.plan()), .engine = FromProto(proto.engine())};
+}
+
 v1::BoundsRequest ToProto(const BoundsRequest& request) {
   v1::BoundsRequest proto;
   *proto.mutable_scene() = ToProto(request.scene);

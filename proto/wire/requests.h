@@ -1,4 +1,4 @@
-// Converts the requests and responses of Solve and Bounds to their protos and back.
+// Converts the requests and responses of Solve, Plan and Bounds to their protos and back.
 
 #ifndef RICOCHET_PROTO_WIRE_REQUESTS_H_
 #define RICOCHET_PROTO_WIRE_REQUESTS_H_
@@ -12,6 +12,11 @@ v1::SolveRequest ToProto(const SolveRequest& request);
 SolveRequest FromProto(const v1::SolveRequest& proto);
 v1::SolveResponse ToProto(const SolveResponse& response);
 SolveResponse FromProto(const v1::SolveResponse& proto);
+
+v1::PlanRequest ToProto(const PlanRequest& request);
+PlanRequest FromProto(const v1::PlanRequest& proto);
+v1::PlanResponse ToProto(const PlanResponse& response);
+PlanResponse FromProto(const v1::PlanResponse& proto);
 
 v1::BoundsRequest ToProto(const BoundsRequest& request);
 BoundsRequest FromProto(const v1::BoundsRequest& proto);

@@ -262,7 +262,7 @@ void CancellationLatency() {
       asked = std::chrono::steady_clock::now();
       stop.request_stop();
     });
-    for (const auto& chunk : LocalSolver().Sweep(EndlessSweep(), stop.get_token())) Keep(chunk.ok());
+    for (const auto& chunk : LocalSolver().Sweep(EndlessSweep(), {.stop = stop.get_token()})) Keep(chunk.ok());
     const auto ended = std::chrono::steady_clock::now();
     stopper.join();
     seconds.push_back(std::chrono::duration<double>(ended - asked).count());

@@ -417,7 +417,7 @@ TEST_P(SolverContract, AStoppedSweepEndsWithCancelled) {
   std::stop_source stop;
   absl::Status last;
   int64_t points = 0;
-  for (const auto& chunk : solver().Sweep(FrictionSweep(1'000'000'000), stop.get_token())) {
+  for (const auto& chunk : solver().Sweep(FrictionSweep(1'000'000'000), {.stop = stop.get_token()})) {
     last = chunk.status();
     if (chunk.ok()) points = chunk->points_done;
     stop.request_stop();
@@ -429,7 +429,7 @@ TEST_P(SolverContract, AStoppedSweepEndsWithCancelled) {
 TEST_P(SolverContract, ASweepStoppedFromAnotherThreadEndsSoon) {
   std::jthread stopper;
   std::stop_source stop;
-  SweepStream stream = solver().Sweep(FrictionSweep(10'000'000'000), stop.get_token());
+  SweepStream stream = solver().Sweep(FrictionSweep(10'000'000'000), {.stop = stop.get_token()});
   stopper = std::jthread([&stop] {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     stop.request_stop();
@@ -442,7 +442,7 @@ TEST_P(SolverContract, ASweepStoppedFromAnotherThreadEndsSoon) {
 TEST_P(SolverContract, ASweepStoppedBeforeItStartsGivesNoPoint) {
   std::stop_source stop;
   stop.request_stop();
-  const auto chunks = Collect(solver().Sweep(FrictionSweep(1000), stop.get_token()));
+  const auto chunks = Collect(solver().Sweep(FrictionSweep(1000), {.stop = stop.get_token()}));
   ASSERT_EQ(chunks.size(), 1);
   EXPECT_EQ(chunks[0].status().code(), absl::StatusCode::kCancelled);
 }

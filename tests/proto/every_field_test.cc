@@ -34,7 +34,7 @@ class EveryFieldTest : public testing::Test {};
 
 using Messages = testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse,
                                 v1::SweepRequest, v1::SweepResponse, v1::AuditRequest, v1::AuditResponse,
-                                v1::AuditBatchRequest, v1::AuditBatchResponse>;
+                                v1::AuditBatchRequest, v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse>;
 TYPED_TEST_SUITE(EveryFieldTest, Messages);
 
 TYPED_TEST(EveryFieldTest, SurvivesTheCore) {
@@ -57,7 +57,7 @@ TYPED_TEST(EveryFieldTest, SurvivesTheCoreByteForByte) {
 // The messages above are all messages of the service, so that none is left untested.
 TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   const auto& service = *v1::SolveRequest::descriptor()->file()->FindServiceByName("ImpactService");
-  ASSERT_EQ(service.method_count(), 5);
+  ASSERT_EQ(service.method_count(), 6);
   EXPECT_EQ(service.method(0)->input_type(), v1::SolveRequest::descriptor());
   EXPECT_EQ(service.method(0)->output_type(), v1::SolveResponse::descriptor());
   EXPECT_EQ(service.method(1)->input_type(), v1::BoundsRequest::descriptor());
@@ -68,6 +68,8 @@ TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   EXPECT_EQ(service.method(3)->output_type(), v1::AuditResponse::descriptor());
   EXPECT_EQ(service.method(4)->input_type(), v1::AuditBatchRequest::descriptor());
   EXPECT_EQ(service.method(4)->output_type(), v1::AuditBatchResponse::descriptor());
+  EXPECT_EQ(service.method(5)->input_type(), v1::PlanRequest::descriptor());
+  EXPECT_EQ(service.method(5)->output_type(), v1::PlanResponse::descriptor());
 }
 
 TEST(FillTest, ReachesEveryMemberOfEveryOneof) {

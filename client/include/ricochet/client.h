@@ -8,7 +8,6 @@
 #define RICOCHET_CLIENT_H_
 
 #include <memory>
-#include <stop_token>
 
 #include "absl/status/statusor.h"
 #include "ricochet/client_options.h"
@@ -28,6 +27,9 @@ namespace ricochet {
 // first response, so never in the middle of a sweep. Calls have no side effects, so a repeated one does no harm. To
 // continue an interrupted sweep, ask for [next index, end_index): this gives the same bits.
 //
+// Deadlines: a call ends at the deadline of its CallOptions or of ClientOptions, whichever comes first. The server learns
+// of it, and of a stop, and ends its work too.
+//
 // Errors: a Client returns the errors of Solver with the same reason and violations, UNAVAILABLE and DEADLINE_EXCEEDED
 // of the network, and DATA_LOSS if the chunks of a sweep do not fit together (a gap, a repetition, a wrong size, an
 // early end).
@@ -37,15 +39,17 @@ class Client final : public Solver {
   // Errors: INVALID_ARGUMENT that names the wrong options.
   static absl::StatusOr<Client> Connect(const ClientOptions& options);
 
-  using Solver::Sweep;
-  absl::StatusOr<SolveResponse> Solve(const SolveRequest& request) const override;
-  absl::StatusOr<BoundsResponse> Bounds(const BoundsRequest& request) const override;
-  absl::StatusOr<AuditResponse> Audit(const AuditRequest& request) const override;
-  absl::StatusOr<AuditBatchResponse> AuditBatch(const AuditBatchRequest& request) const override;
-  SweepStream Sweep(const SweepRequest& request, std::stop_token stop) const override;
-
  private:
   struct Connection;
+
+  absl::StatusOr<SolveResponse> DoSolve(const SolveRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<PlanResponse> DoPlan(const PlanRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<BoundsResponse> DoBounds(const BoundsRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
+                                                  const CallOptions& options) const override;
+  SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
+
   explicit Client(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
   std::shared_ptr<Connection> connection_;
 };

@@ -2,25 +2,27 @@
 //
 // Thread safety: every method may be called from several threads at once.
 // Errors: a bad request gets INVALID_ARGUMENT with all violations (ricochet/error.h), an exact result above the largest
-// double OUT_OF_RANGE; a Client adds the errors of the network. Numerical outcomes are fields of the answer, not errors.
+// double OUT_OF_RANGE, a call that its CallOptions end CANCELLED or DEADLINE_EXCEEDED; a Client adds the errors of the
+// network. Numerical outcomes are fields of the answer, not errors.
 
 #ifndef RICOCHET_SOLVER_H_
 #define RICOCHET_SOLVER_H_
 
 #include <cstdint>
 #include <optional>
-#include <stop_token>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "ricochet/audit.h"
 #include "ricochet/bounds.h"
+#include "ricochet/call_options.h"
 #include "ricochet/certificate.h"
 #include "ricochet/demand.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"
 #include "ricochet/outcome.h"
+#include "ricochet/plan.h"
 #include "ricochet/result_stream.h"
 #include "ricochet/scene.h"
 #include "ricochet/sweep.h"
@@ -51,6 +53,18 @@ struct SolveResponse {
   Outcome outcome;
   EngineInfo engine;
   friend bool operator==(const SolveResponse&, const SolveResponse&) = default;
+};
+
+struct PlanRequest {
+  Scene scene;
+  DemandFields demand;
+  friend bool operator==(const PlanRequest&, const PlanRequest&) = default;
+};
+
+struct PlanResponse {
+  Plan plan;
+  EngineInfo engine;
+  friend bool operator==(const PlanResponse&, const PlanResponse&) = default;
 };
 
 // The range in which a field of an uncertain scene lies.
@@ -114,32 +128,57 @@ class Solver {
   virtual ~Solver() = default;
 
   // Computes one impact.
-  virtual absl::StatusOr<SolveResponse> Solve(const SolveRequest& request) const = 0;
+  absl::StatusOr<SolveResponse> Solve(const SolveRequest& request, const CallOptions& options = {}) const {
+    return DoSolve(request, options);
+  }
+
+  // Plans one impact without computing it: which effects are simulated, which are left out, and why.
+  absl::StatusOr<PlanResponse> Plan(const PlanRequest& request, const CallOptions& options = {}) const {
+    return DoPlan(request, options);
+  }
 
   // Bounds the values that the coefficients can take.
-  virtual absl::StatusOr<BoundsResponse> Bounds(const BoundsRequest& request) const = 0;
+  absl::StatusOr<BoundsResponse> Bounds(const BoundsRequest& request, const CallOptions& options = {}) const {
+    return DoBounds(request, options);
+  }
 
   // Finds what an observed impact implies, and which limits it breaks.
-  virtual absl::StatusOr<AuditResponse> Audit(const AuditRequest& request) const = 0;
+  absl::StatusOr<AuditResponse> Audit(const AuditRequest& request, const CallOptions& options = {}) const {
+    return DoAudit(request, options);
+  }
 
   // Audits many observed impacts at one contact. A bad row does not spoil the others.
-  virtual absl::StatusOr<AuditBatchResponse> AuditBatch(const AuditBatchRequest& request) const = 0;
+  absl::StatusOr<AuditBatchResponse> AuditBatch(const AuditBatchRequest& request,
+                                                const CallOptions& options = {}) const {
+    return DoAuditBatch(request, options);
+  }
 
-  // Computes many impacts and streams them in index order, each point once. The stream ends with CANCELLED at most 1024
-  // points after `stop` was requested. An invalid request gives a stream of that one error.
-  virtual SweepStream Sweep(const SweepRequest& request, std::stop_token stop) const = 0;
-  SweepStream Sweep(const SweepRequest& request) const { return Sweep(request, std::stop_token()); }
+  // Computes many impacts and streams them in index order, each point once. The stream keeps the options. An invalid
+  // request gives a stream of that one error.
+  SweepStream Sweep(const SweepRequest& request, const CallOptions& options = {}) const {
+    return DoSweep(request, options);
+  }
+
+ private:
+  virtual absl::StatusOr<SolveResponse> DoSolve(const SolveRequest& request, const CallOptions& options) const = 0;
+  virtual absl::StatusOr<PlanResponse> DoPlan(const PlanRequest& request, const CallOptions& options) const = 0;
+  virtual absl::StatusOr<BoundsResponse> DoBounds(const BoundsRequest& request, const CallOptions& options) const = 0;
+  virtual absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const = 0;
+  virtual absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
+                                                          const CallOptions& options) const = 0;
+  virtual SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const = 0;
 };
 
 // LocalSolver is the Solver that runs in this process: it needs no server, thread or file. Copying it costs nothing.
 class LocalSolver final : public Solver {
- public:
-  using Solver::Sweep;
-  absl::StatusOr<SolveResponse> Solve(const SolveRequest& request) const override;
-  absl::StatusOr<BoundsResponse> Bounds(const BoundsRequest& request) const override;
-  absl::StatusOr<AuditResponse> Audit(const AuditRequest& request) const override;
-  absl::StatusOr<AuditBatchResponse> AuditBatch(const AuditBatchRequest& request) const override;
-  SweepStream Sweep(const SweepRequest& request, std::stop_token stop) const override;
+ private:
+  absl::StatusOr<SolveResponse> DoSolve(const SolveRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<PlanResponse> DoPlan(const PlanRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<BoundsResponse> DoBounds(const BoundsRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
+                                                  const CallOptions& options) const override;
+  SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
 };
 
 }  // namespace ricochet

@@ -1,7 +1,5 @@
 // LocalSolver: answers with their timelines, histories, limits and errors.
 
-#include "core/engine/local_solver.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -336,7 +334,8 @@ TEST(LocalSolverTest, AStoppedSweepEndsWithCancelled) {
   std::stop_source source;
   int elements = 0;
   absl::Status last;
-  for (const absl::StatusOr<SweepChunk>& chunk : LocalSolver().Sweep(ManyPoints(1'000'000'000), source.get_token())) {
+  for (const absl::StatusOr<SweepChunk>& chunk :
+       LocalSolver().Sweep(ManyPoints(1'000'000'000), {.stop = source.get_token()})) {
     last = chunk.status();
     if (++elements == 2) source.request_stop();
     ASSERT_LE(elements, 3);
@@ -382,9 +381,12 @@ TEST(LocalSolverTest, BoundsEndOnceNobodyWaitsForThem) {
                                  .ranges = {{"planar_body.offset_t_m", 0.1, 0.3},
                                             {"planar_body.offset_n_m", -0.4, -0.2},
                                             {"planar_body.rate_rad_s", 0.25, 0.75}}};
-  EXPECT_TRUE(AnswerBounds(request, [] { return false; }).ok());
-  EXPECT_EQ(AnswerBounds(request, [] { return true; }).status().code(), absl::StatusCode::kCancelled);
-  EXPECT_EQ(LocalSolver().Bounds(request)->enclosure, AnswerBounds(request, [] { return false; })->enclosure);
+  int looks = 0;
+  const CallOptions one_look = {.is_stopped = [&looks] { return ++looks > 1; }};
+  EXPECT_EQ(LocalSolver().Bounds(request, one_look).status().code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(looks, 3);  // Before the search, within it, and for the reason why it ended.
+  const CallOptions no_stop = {.is_stopped = [] { return false; }};
+  EXPECT_EQ(LocalSolver().Bounds(request, no_stop)->enclosure, LocalSolver().Bounds(request)->enclosure);
 }
 
 }  // namespace
