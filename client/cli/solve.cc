@@ -64,7 +64,6 @@ absl::Status AddHistory(const Solver& solver, const std::string& intervals, Solv
 }
 
 std::string Text(const Outcome& outcome, const SolveOptions& options) {
-  if (options.plan_only) return PlanText(outcome.plan);
   std::string text = SolveText(outcome);
   if (outcome.certificate.has_value()) text += CertificateText(*outcome.certificate);
   if (options.explain) absl::StrAppend(&text, "\n", PlanText(outcome.plan));
@@ -81,9 +80,35 @@ absl::StatusOr<std::string> Render(const SolveResponse& response, const SolveOpt
       break;
   }
   if (response.outcome.certificate.has_value()) return CertificateCsv(*response.outcome.certificate);
-  if (options.plan_only || options.explain) return PlanCsv(response.outcome.plan);
+  if (options.explain) return PlanCsv(response.outcome.plan);
   if (!options.force_history.empty()) return ForceHistoryCsv(response.outcome);
   return options.history.empty() ? SolveCsv(response.outcome) : HistoryCsv(response.outcome);
+}
+
+absl::StatusOr<std::string> Render(const PlanResponse& response, Format format) {
+  switch (format) {
+    case Format::kText:
+      return PlanText(response.plan);
+    case Format::kJson:
+      return Json(ToProto(response));
+    case Format::kCsv:
+      break;
+  }
+  return PlanCsv(response.plan);
+}
+
+// Prints only the plan.
+absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Scene& scene,
+                     const DemandFields& demand) {
+  if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || options.strict ||
+      !options.plot.empty()) {
+    return absl::InvalidArgumentError(
+        "--plan-only cannot be combined with --history, --force-history, --certified, --strict or --plot");
+  }
+  const absl::StatusOr<PlanResponse> response = solver.Plan({.scene = scene, .demand = demand});
+  if (!response.ok()) return response.status();
+  const absl::StatusOr<std::string> text = Render(*response, options.common.format);
+  return text.ok() ? WriteOutput(options.common, *text) : text.status();
 }
 
 absl::Status DrawOutcome(const Outcome& outcome, const std::string& path) {
@@ -101,11 +126,8 @@ absl::Status RunSolve(const SolveOptions& options) {
   if (!scene.ok()) return scene.status();
   const absl::StatusOr<DemandFields> demand = ReadDemand(options.demand);
   if (!demand.ok()) return demand.status();
-  SolveRequest request{.scene = *scene,
-                       .history_at_n_s = {},
-                       .inadmissible_is_error = options.strict,
-                       .demand = *demand,
-                       .plan_only = options.plan_only};
+  if (options.plan_only) return RunPlan(options, **solver, *scene, *demand);
+  SolveRequest request{.scene = *scene, .inadmissible_is_error = options.strict, .demand = *demand};
   const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
   if (!digits.ok()) return digits.status();
   request.certified_digits = *digits;
@@ -138,7 +160,7 @@ void AddSolve(CLI::App& app, Command& command) {
                   "Also print the forces at N + 1 evenly spaced times; needs a normal spring in the scene")
       ->type_name("N");
   sub->add_flag("--explain", options->explain, "Also print the plan: which effects are simulated or left out, and why");
-  sub->add_flag("--plan-only", options->plan_only, "Print only the plan, without solving");
+  sub->add_flag("--plan-only", options->plan_only, "Print only the plan, without computing the impact");
   AddDemandOptions(*sub, options->demand);
   AddCertifiedOption(*sub, options->certified);
   sub->add_flag("--strict", options->strict, "Fail if the outcome is inadmissible");

@@ -161,6 +161,7 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
 }
 
 absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, const CallOptions& options) const {
+  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
   absl::StatusOr<AuditResponse> response = AuditScene(request, [&options] { return !WhyEnded(options).ok(); });
   if (!response.ok()) return OrWhyEnded(response.status(), options);
   response->engine = ThisEngine();
@@ -169,6 +170,7 @@ absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, 
 
 absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchRequest& request,
                                                              const CallOptions& options) const {
+  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
   absl::StatusOr<AuditBatchResponse> response = AuditScene(request, [&options] { return !WhyEnded(options).ok(); });
   if (!response.ok()) return OrWhyEnded(response.status(), options);
   response->engine = ThisEngine();

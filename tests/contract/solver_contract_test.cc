@@ -110,6 +110,93 @@ TEST_P(SolverContract, ReportsEveryViolationOfAScene) {
                                                 Violation{"restitution.energetic", "= 1.5: must be in [0, 1]"}));
 }
 
+TEST_P(SolverContract, PlansWhatASolveUses) {
+  for (const System& system : Systems()) {
+    Scene scene = With(system);
+    scene.restitution = EnergeticCoefficient{0.5};
+    const DemandFields demand = {.relative_tolerance = 1e-3};
+    const auto planned = solver().Plan({.scene = scene, .demand = demand});
+    ASSERT_TRUE(planned.ok()) << planned.status();
+    const auto solved = solver().Solve({.scene = scene, .demand = demand});
+    ASSERT_TRUE(solved.ok()) << solved.status();
+    EXPECT_EQ(planned->plan, solved->outcome.plan);
+    EXPECT_EQ(planned->engine, ThisEngine());
+  }
+}
+
+TEST_P(SolverContract, APlanOfABadRequestReportsEveryViolation) {
+  PlanRequest request = {.scene = PaperScene()};
+  request.demand = {.relative_tolerance = 1.0, .required = {Effect::kSlipTurn}};
+  EXPECT_THAT(ViolationsOf(solver().Plan(request).status()),
+              ElementsAre(Field(&Violation::field, "relative_tolerance"), Field(&Violation::field, "required[0]")));
+  request.scene.friction.kinetic_coefficient = -1.0;
+  EXPECT_THAT(ViolationsOf(solver().Plan(request).status()),
+              ElementsAre(Field(&Violation::field, "friction.kinetic_coefficient")));
+}
+
+// Calls every method that answers once, and returns the errors.
+std::vector<absl::Status> CallEach(const Solver& solver, const CallOptions& options) {
+  const Scene scene = PaperScene();
+  const Observed observed = ObservedRates{{0.5}};
+  return {
+      solver.Solve({.scene = scene}, options).status(),
+      solver.Plan({.scene = scene}, options).status(),
+      solver.Bounds({.scene = scene}, options).status(),
+      solver.Audit({.scene = scene, .observed = observed}, options).status(),
+      solver
+          .AuditBatch({.scene = scene, .columns = {.tangential_after_m_s = {0.5}, .normal_after_m_s = {0.15}}}, options)
+          .status(),
+      Collect(solver.Sweep(FrictionSweep(1000), options)).back().status()};
+}
+
+TEST_P(SolverContract, EveryMethodEndsOnceItsOptionsSayStop) {
+  std::stop_source stop;
+  stop.request_stop();
+  for (const CallOptions& options :
+       {CallOptions{.stop = stop.get_token()}, CallOptions{.is_stopped = [] { return true; }}}) {
+    for (const absl::Status& status : CallEach(solver(), options)) {
+      EXPECT_EQ(status, absl::CancelledError("the call was stopped by its caller"));
+    }
+  }
+}
+
+TEST_P(SolverContract, EveryMethodEndsAtItsDeadline) {
+  const CallOptions options = {.deadline = std::chrono::steady_clock::now() - std::chrono::seconds(1)};
+  for (const absl::Status& status : CallEach(solver(), options)) {
+    EXPECT_EQ(status.code(), absl::StatusCode::kDeadlineExceeded) << status;
+  }
+}
+
+TEST_P(SolverContract, OptionsThatNeverStopChangeNothing) {
+  const std::stop_source stop;
+  const CallOptions options = {.stop = stop.get_token(),
+                               .deadline = std::chrono::steady_clock::time_point::max(),
+                               .is_stopped = [] { return false; }};
+  for (const absl::Status& status : CallEach(solver(), options)) EXPECT_TRUE(status.ok()) << status;
+}
+
+TEST_P(SolverContract, ALongSearchEndsAtItsDeadlineOrAStop) {
+  const Scene scene = {.system = PlanarBody{1.0, 0.1, 0.2, -0.3, 1.0, -2.0, 0.5},
+                       .friction = {.kinetic_coefficient = 0.5}};
+  const BoundsRequest request = {.scene = scene,
+                                 .ranges = {{"planar_body.mass_kg", 0.5, 2.0},
+                                            {"planar_body.inertia_com_kg_m2", 0.05, 0.2},
+                                            {"planar_body.offset_t_m", 0.1, 0.3},
+                                            {"planar_body.offset_n_m", -0.4, -0.2},
+                                            {"planar_body.rate_rad_s", 0.25, 0.75},
+                                            {"friction.kinetic_coefficient", 0.3, 0.7}}};
+  const auto start = std::chrono::steady_clock::now();
+  const CallOptions options = {.deadline = start + std::chrono::milliseconds(50)};
+  EXPECT_EQ(solver().Bounds(request, options).status().code(), absl::StatusCode::kDeadlineExceeded);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  std::stop_source stop;
+  const std::jthread stopper([&stop] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    stop.request_stop();
+  });
+  EXPECT_EQ(solver().Bounds(request, {.stop = stop.get_token()}).status().code(), absl::StatusCode::kCancelled);
+}
+
 TEST_P(SolverContract, AnswersAnInadmissibleOutcomeUnlessAskedNotTo) {
   SolveRequest request{.scene = PaperScene(), .history_at_n_s = {}};
   request.scene.restitution = NewtonCoefficient{0.9};

@@ -19,7 +19,6 @@
 #include <vector>
 
 #include "core/engine/engine.h"
-#include "core/sweep/sweep_run.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/status.h"
@@ -362,31 +361,6 @@ TEST(Server, CancelledSweepStopsWorkingAndFreesTheServer) {
   EXPECT_EQ(record.fields().at("status").string_value(), "CANCELLED");
   EXPECT_LT(record.fields().at("points").number_value(), 0.01 * kHuge);
   EXPECT_TRUE(Solve(*stub).ok());
-}
-
-// Returns the number of points that the server computed of a huge sweep, which was cancelled after `chunks`, its first
-// two.
-int64_t PointsOfCancelledSweep(std::vector<v1::SweepResponse>* chunks) {
-  const ServerProcess server({"--log-format", "json"});
-  const auto stub = MakeStub(server);
-  RunningSweep sweep(*stub, SweepOf(kHuge));
-  chunks->resize(2);
-  for (v1::SweepResponse& chunk : *chunks) EXPECT_TRUE(sweep.Read(&chunk));
-  sweep.Cancel();
-  const auto record = LastCall(server.WaitForLog("CANCELLED"), kSweepMethod);
-  return static_cast<int64_t>(record.fields().at("points").number_value());
-}
-
-TEST(Server, CancelEndsASweepWithinAChunk) {
-  // If the cancel finds the server in a write, the sweep ends between two chunks. So this may take several tries.
-  bool within = false;
-  for (int i = 0; i < 30 && !within; ++i) {
-    std::vector<v1::SweepResponse> chunks;
-    const int64_t points = PointsOfCancelledSweep(&chunks);
-    within = (points - chunks[0].count()) % chunks[1].count() != 0;
-    EXPECT_EQ((points - chunks[0].count()) % SweepRun::kPointsBetweenStops, 0);
-  }
-  EXPECT_TRUE(within);
 }
 
 TEST(Server, DeadlineEndsASweepPromptly) {

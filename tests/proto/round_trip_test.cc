@@ -201,6 +201,16 @@ TEST(SolveTest, ResponseSurvives) {
   EXPECT_EQ(ThroughWire(SolveResponse()), SolveResponse());
 }
 
+TEST(PlanTest, RequestAndResponseSurvive) {
+  const PlanRequest request = {
+      .scene = PaperScene(),
+      .demand = {.relative_tolerance = 0.0, .required = {Effect::kFriction}, .excluded = {Effect::kSlipStop}}};
+  EXPECT_EQ(ThroughWire(request), request);
+  EXPECT_EQ(ThroughWire(PlanRequest()), PlanRequest());
+  const PlanResponse response = {.plan = SomeOutcome().plan, .engine = {"1.2.3", "0123456789abcdef"}};
+  EXPECT_EQ(ThroughWire(response), response);
+}
+
 TEST(SolveTest, SignOfZeroSurvives) {
   SolveResponse response;
   response.outcome.energy_change_j = -0.0;

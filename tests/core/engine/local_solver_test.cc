@@ -344,6 +344,15 @@ TEST(LocalSolverTest, AStoppedSweepEndsWithCancelled) {
   EXPECT_EQ(last.code(), absl::StatusCode::kCancelled);
 }
 
+TEST(LocalSolverTest, ASweepLooksAtItsOptionsEvery1024Points) {
+  int64_t looks = 0;
+  const CallOptions options = {.is_stopped = [&looks] { return ++looks < 0; }};
+  for (const absl::StatusOr<SweepChunk>& chunk : LocalSolver().Sweep(ManyPoints(200'000), options)) {
+    ASSERT_TRUE(chunk.ok());
+  }
+  EXPECT_GE(looks, 200'000 / 1024);
+}
+
 TEST(LocalSolverTest, TheStreamOutlivesTheRequestAndTheSolver) {
   SweepStream stream = [] {
     const SweepRequest request = ManyPoints(5'000);
