@@ -36,6 +36,7 @@ class CallContext {
       const std::chrono::nanoseconds given = *options.deadline - std::chrono::steady_clock::now();
       left = std::min(given, left.value_or(given));
     }
+    if (IsStopped(options)) context_.TryCancel();
     // gRPC takes a time of the system's clock, which must not overflow.
     if (left.has_value()) context_.set_deadline(std::chrono::system_clock::now() + std::min(*left, kLongest));
   }
