@@ -43,7 +43,7 @@ void SetLimits(const Options& options, grpc::ServerBuilder& builder) {
   builder.AddChannelArgument(GRPC_ARG_HTTP2_MIN_RECV_PING_INTERVAL_WITHOUT_DATA_MS, Milliseconds(seconds(20)));
   // Old connections are replaced, which spreads clients over new servers; calls on them run to their end.
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, Milliseconds(minutes(30)));
-  // Without this a second server on the same port would silently take part of the connections.
+  // Otherwise a second server on the same port would silently take part of the connections.
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
 }
 

@@ -39,7 +39,7 @@ void AddSubcommands(CLI::App& app, ricochet::cli::Command& command) {
 
 int main(int argc, char** argv) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
-  // With these signals ignored, a closed pipe and a full quota become errors of write, and temporary files are removed.
+  // Ignoring these signals turns a closed pipe and a full quota into errors of write; temporary files are then removed.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   CLI::App app("Computes what happens when something hits a surface with friction. Units are SI and radians.",

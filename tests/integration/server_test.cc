@@ -40,7 +40,7 @@ constexpr int64_t kHuge = 8'000'000'000;
 
 std::shared_ptr<grpc::Channel> MakeChannel(const std::string& address) {
   grpc::ChannelArguments arguments;
-  // Without this, channels to one address share a connection, and a test sees the server of another test end.
+  // Otherwise channels to one address share a connection, and a test sees the server of another test end.
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
 }
