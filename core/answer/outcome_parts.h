@@ -75,7 +75,10 @@ State MakeState(const Reduction<kTangential>& reduction, double tau, const std::
   State state = {.normal_impulse_n_s = tau,
                  .tangential_impulse_n_s = {f.begin(), f.end()},
                  .contact_velocity = {.tangential_m_s = {u.begin(), u.end()}, .normal_m_s = v}};
-  if (reduction.coordinates == Coordinates::kRates) state.rates_rad_s = reduction.After(f, tau);
+  if (reduction.coordinates == Coordinates::kRates) {
+    const auto rates = reduction.After(f, tau);
+    state.rates_rad_s.assign(rates.begin(), rates.end());
+  }
   return state;
 }
 
@@ -86,9 +89,9 @@ void SetVelocities(const Reduction<kTangential>& reduction, const std::array<dou
   constexpr size_t kLinear = kTangential + 1;
   constexpr size_t kAngular = kTangential == 1 ? 1 : 3;
   if (reduction.coordinates == Coordinates::kNone) return;
-  std::vector<double> after = reduction.After(f, tau1, duration);
+  const auto after = reduction.After(f, tau1, duration);
   if (reduction.coordinates == Coordinates::kRates) {
-    outcome.rates_after_rad_s = std::move(after);
+    outcome.rates_after_rad_s.assign(after.begin(), after.end());
     return;
   }
   for (auto body = after.begin(); body != after.end(); body += kLinear + kAngular) {

@@ -65,10 +65,9 @@ absl::StatusOr<Bounds> SampledBounds(const SpatialReduction& reduction, const Ef
   return bounds;
 }
 
-absl::StatusOr<Bounds> ReducedBounds(const Scene& scene, absl::FunctionRef<bool()> stopped) {
-  const AnyReduction any = Reduce(scene);
+absl::StatusOr<Bounds> ReducedBounds(const SceneContact& contact, absl::FunctionRef<bool()> stopped) {
+  const auto& [any, effective] = contact;
   if (!FitsDoubles(any)) return ContactOverflow();
-  const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, ApproachSpeed(any));
   if (const auto* spatial = std::get_if<SpatialReduction>(&any)) return SampledBounds(*spatial, effective, stopped);
   return planar::SolveBounds(planar::MakeProblem(std::get<PlanarReduction>(any), {}, effective));
 }
@@ -97,8 +96,11 @@ absl::Status CheckFinite(const Bounds& bounds) {
 
 }  // namespace
 
-absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene, absl::FunctionRef<bool()> stopped) {
-  const absl::StatusOr<Bounds> bounds = HasClosedForm(scene) ? PendulumBounds(scene) : ReducedBounds(scene, stopped);
+absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene, std::optional<SceneContact> contact,
+                                        absl::FunctionRef<bool()> stopped) {
+  const bool closed_form = HasClosedForm(scene);
+  if (!closed_form && !contact.has_value()) contact = MakeContact(scene);
+  const absl::StatusOr<Bounds> bounds = closed_form ? PendulumBounds(scene) : ReducedBounds(*contact, stopped);
   if (!bounds.ok()) return bounds;
   const absl::Status finite = CheckFinite(*bounds);
   if (!finite.ok()) return finite;

@@ -12,8 +12,11 @@
 #ifndef RICOCHET_CORE_ANSWER_SCENE_BOUNDS_H_
 #define RICOCHET_CORE_ANSWER_SCENE_BOUNDS_H_
 
+#include <optional>
+
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
+#include "core/contact/scene_contact.h"
 #include "ricochet/bounds.h"
 #include "ricochet/scene.h"
 
@@ -24,7 +27,8 @@ inline constexpr int kSpatialImpacts = 65;
 // `scene` is valid, its restitution set or not, and has no impact law. `stopped` is asked before each impact of a sample.
 // Errors: OUT_OF_RANGE if W, the contact velocity or a bound, which is named, exceeds the largest double, if W_nn is
 // below the smallest, or if an impact of a sample does not end; CANCELLED once `stopped` says true.
-absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene, absl::FunctionRef<bool()> stopped);
+absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene, std::optional<SceneContact> contact,
+                                        absl::FunctionRef<bool()> stopped);
 
 }  // namespace ricochet
 

@@ -111,7 +111,7 @@ absl::StatusOr<Outcome> SolveContact(const Job& job, const pendulum::Problem& pr
     case Model::kUnspecified:
       break;
   }
-  return SolveContact(job, std::get<PlanarReduction>(Reduce(job.scene)));
+  return SolveContact(job, *job.planned.reduced_pendulum);
 }
 
 }  // namespace
@@ -123,12 +123,13 @@ absl::Status ContactOverflow() {
       "smallest");
 }
 
-absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& options) {
-  const PlannedScene planned = PlanScene(scene, options.demand);
+absl::StatusOr<Outcome> SolveScene(const Scene& scene, std::optional<SceneContact> contact,
+                                   const SolveOptions& options) {
+  const PlannedScene planned = PlanScene(scene, std::move(contact), options.demand);
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
   const Job job = {.scene = scene, .options = options, .planned = planned};
   absl::StatusOr<Outcome> outcome =
-      std::visit([&job](const auto& contact) { return SolveContact(job, contact); }, planned.contact);
+      std::visit([&job](const auto& planned_contact) { return SolveContact(job, planned_contact); }, planned.contact);
   if (!outcome.ok()) return outcome;
   outcome->effective = planned.effective;
   outcome->accuracy.relative_error += planned.choice.Negligible();
@@ -137,8 +138,8 @@ absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& optio
   return outcome;
 }
 
-absl::StatusOr<Outcome> PlanSceneOnly(const Scene& scene, const Demand& demand) {
-  const PlannedScene planned = PlanScene(scene, demand);
+absl::StatusOr<Outcome> PlanSceneOnly(const Scene& scene, std::optional<SceneContact> contact, const Demand& demand) {
+  const PlannedScene planned = PlanScene(scene, std::move(contact), demand);
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
   Outcome outcome;
   outcome.plan = Explain(planned, demand);

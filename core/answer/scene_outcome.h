@@ -4,11 +4,13 @@
 #define RICOCHET_CORE_ANSWER_SCENE_OUTCOME_H_
 
 #include <cstdint>
+#include <optional>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
 #include "core/answer/outcome_parts.h"
+#include "core/contact/scene_contact.h"
 #include "core/plan/demand.h"
 #include "ricochet/outcome.h"
 #include "ricochet/scene.h"
@@ -24,11 +26,12 @@ struct SolveOptions {
 
 // Solves a valid scene in which CheckDemand finds nothing. With Detail::kNumbers the outcome's plan has the model alone.
 // Errors are those of the models' MakeOutcome, and ContactOverflow.
-absl::StatusOr<Outcome> SolveScene(const Scene& scene, const SolveOptions& options);
+absl::StatusOr<Outcome> SolveScene(const Scene& scene, std::optional<SceneContact> contact,
+                                   const SolveOptions& options);
 
 // The plan alone, in an outcome that has nothing else.
 // Errors: OUT_OF_RANGE as above.
-absl::StatusOr<Outcome> PlanSceneOnly(const Scene& scene, const Demand& demand);
+absl::StatusOr<Outcome> PlanSceneOnly(const Scene& scene, std::optional<SceneContact> contact, const Demand& demand);
 
 // OUT_OF_RANGE: W or the contact velocity exceeds the largest double, or W_nn is below the smallest.
 absl::Status ContactOverflow();

@@ -218,9 +218,9 @@ Eigen::Vector3d InverseScales(const Eigen::Matrix3d& matrix) {
 }  // namespace
 
 template <size_t kTangential>
-std::vector<double> Reduction<kTangential>::After(const std::array<double, kTangential>& tangential, double normal,
-                                                  double duration) const {
-  std::vector<double> after = before;
+typename Reduction<kTangential>::Velocities Reduction<kTangential>::After(
+    const std::array<double, kTangential>& tangential, double normal, double duration) const {
+  Velocities after = before;
   for (size_t i = 0; i < drift.size(); ++i) after[i] += drift[i] * duration;
   const double* row = response.data();
   for (double& velocity : after) {

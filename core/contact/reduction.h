@@ -18,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "absl/container/inlined_vector.h"
 #include "ricochet/scene.h"
 
 namespace ricochet {
@@ -32,22 +33,24 @@ enum class Coordinates {
 template <size_t kTangential>
 struct Reduction {
   static constexpr size_t kDirections = kTangential + 1;  // The last direction is n.
+  // Two bodies have this many generalised velocities. As many lie in place; a longer linkage takes memory of the heap.
+  static constexpr size_t kVelocities = kTangential == 1 ? 6 : 12;
+  using Velocities = absl::InlinedVector<double, kVelocities>;
 
   std::array<double, kDirections*(kDirections + 1) / 2> w = {};  // Upper triangle, row by row.
   std::array<double, kTangential> u0 = {};                       // Relative to the surface.
   double v0 = 0.0;
   Coordinates coordinates = Coordinates::kNone;
-  std::vector<double> before;    // q'
-  std::vector<double> response;  // M^-1 J^T, row by row.
+  Velocities before;                                                // q'
+  absl::InlinedVector<double, kVelocities * kDirections> response;  // M^-1 J^T, row by row.
   // The accelerations by finite forces alone: (a_t, a_n) of the contact and q'' = M^-1 Q of the system. The latter is
   // empty if there are no finite forces.
   std::array<double, kDirections> acceleration = {};
-  std::vector<double> drift;
+  Velocities drift;
 
   // q' after the contact has received the impulse (`tangential`, `normal`) in N s and finite forces have acted for
   // `duration` in s.
-  std::vector<double> After(const std::array<double, kTangential>& tangential, double normal,
-                            double duration = 0.0) const;
+  Velocities After(const std::array<double, kTangential>& tangential, double normal, double duration = 0.0) const;
 };
 
 using PlanarReduction = Reduction<1>;   // w: tt, tn, nn

@@ -41,14 +41,14 @@ Demand DemandOf(const SolveRequest& request) {
 }
 
 // Lists the violations of a request whose scene is valid.
-std::vector<Violation> CheckSolve(const SolveRequest& request) {
-  std::vector<Violation> violations = CheckDemand(request.scene, request.demand);
+std::vector<Violation> CheckSolve(const SolveRequest& request, std::optional<SceneContact>& contact) {
+  std::vector<Violation> violations = CheckDemand(request.scene, contact, request.demand);
   const int64_t intervals = request.force_intervals;
   if (intervals < 0 || intervals > kMostForceIntervals) {
     violations.push_back(
         {"force_intervals", absl::StrCat("= ", intervals, ": must be in [0, ", kMostForceIntervals, "]")});
   } else if (intervals > 0 && violations.empty()) {
-    for (const Violation& violation : CheckDemand(request.scene, DemandOf(request))) {
+    for (const Violation& violation : CheckDemand(request.scene, contact, DemandOf(request))) {
       const std::string rule = violation.description.substr(violation.description.find("must "));
       violations.push_back({"force_intervals", absl::StrCat("= ", intervals, ": needs finite_duration, which ", rule)});
     }
@@ -110,16 +110,18 @@ absl::Status Certify(const BoundsRequest& request, absl::FunctionRef<bool()> sto
 }  // namespace
 
 absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
-  auto violations = Validate(request.scene);
-  if (violations.empty()) violations = CheckSolve(request);
+  std::optional<SceneContact> contact;
+  auto violations = Validate(request.scene, RestitutionIs::kRequired, contact);
+  if (violations.empty()) violations = CheckSolve(request, contact);
   if (violations.empty()) CheckCertified(request, violations);
   if (!violations.empty()) return InvalidRequest(violations);
   if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
   absl::StatusOr<Outcome> outcome = request.plan_only
-                                        ? PlanSceneOnly(request.scene, ToDemand(request.demand))
-                                        : SolveScene(request.scene, {.history_at_n_s = request.history_at_n_s,
-                                                                     .force_intervals = request.force_intervals,
-                                                                     .demand = DemandOf(request)});
+                                        ? PlanSceneOnly(request.scene, std::move(contact), ToDemand(request.demand))
+                                        : SolveScene(request.scene, std::move(contact),
+                                                     {.history_at_n_s = request.history_at_n_s,
+                                                      .force_intervals = request.force_intervals,
+                                                      .demand = DemandOf(request)});
   if (!outcome.ok()) return outcome.status();
   if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
   const absl::Status certified = Certify(
@@ -129,18 +131,20 @@ absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, 
 }
 
 absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, const CallOptions& options) const {
-  std::vector<Violation> violations = Validate(request.scene);
-  if (violations.empty()) violations = CheckDemand(request.scene, request.demand);
+  std::optional<SceneContact> contact;
+  std::vector<Violation> violations = Validate(request.scene, RestitutionIs::kRequired, contact);
+  if (violations.empty()) violations = CheckDemand(request.scene, contact, request.demand);
   if (!violations.empty()) return InvalidRequest(violations);
   if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
-  absl::StatusOr<Outcome> planned = PlanSceneOnly(request.scene, ToDemand(request.demand));
+  absl::StatusOr<Outcome> planned = PlanSceneOnly(request.scene, std::move(contact), ToDemand(request.demand));
   if (!planned.ok()) return planned.status();
   return PlanResponse{.plan = std::move(planned->plan), .engine = ThisEngine()};
 }
 
 absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& request, const CallOptions& options) const {
   const auto stopped = [&options] { return !WhyEnded(options).ok(); };
-  auto violations = Validate(request.scene, RestitutionIs::kOptional);
+  std::optional<SceneContact> contact;
+  auto violations = Validate(request.scene, RestitutionIs::kOptional, contact);
   if (!std::holds_alternative<std::monostate>(request.scene.impact_law)) {
     violations.push_back({"impact_law", "is set: must not be, for bounds"});
   }
@@ -148,7 +152,7 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
   CheckDigits(request.scene, request.certified_digits, violations);
   if (!violations.empty()) return InvalidRequest(violations);
   if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
-  const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene, stopped);
+  const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene, std::move(contact), stopped);
   if (!bounds.ok()) return OrWhyEnded(bounds.status(), options);
   BoundsResponse response{.bounds = *bounds, .engine = ThisEngine()};
   const absl::Status certified = Certify(request, stopped, response.certificate);

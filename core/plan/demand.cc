@@ -1,12 +1,13 @@
 #include "core/plan/demand.h"
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
-#include "core/contact/reduction.h"
+#include "core/contact/scene_contact.h"
 #include "core/plan/planned_scene.h"
 #include "core/problem/scene_problem.h"
 #include "core/scene/check.h"
@@ -136,13 +137,17 @@ bool CheckExcluded(const Scene& scene, const Demand& demand, std::vector<Violati
 }
 
 // Checks that the contact has the form that the exclusions ask for: slip along a straight line, or first order in x.
-void CheckForms(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {
+void CheckForms(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
+                std::vector<Violation>& violations) {
   const EffectSet forms = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kHigherOrder};
   const EffectSet asked = demand.excluded & forms;
   if (asked.IsEmpty() || demand.excluded.Has(Effect::kFriction)) return;
   // Solve itself refuses a contact that doubles cannot represent.
-  if (!HasClosedForm(scene) && !FitsDoubles(Reduce(scene))) return;
-  if (PlanScene(scene, demand).choice.model != Model::kUnspecified) return;
+  if (!HasClosedForm(scene)) {
+    if (!contact.has_value()) contact = MakeContact(scene);
+    if (!FitsDoubles(contact->reduction)) return;
+  }
+  if (PlanScene(scene, contact, demand).choice.model != Model::kUnspecified) return;
   const char* higher_order =
       "be left in: the first-order form needs mu |b|/a <= 0.5, no lock, and a coefficient within its own bound";
   const char* slip =
@@ -167,7 +172,7 @@ EffectSet WithImplied(EffectSet excluded, bool in_space) {
   return all;
 }
 
-std::vector<Violation> CheckDemand(const Scene& scene, const Demand& demand) {
+std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
   std::vector<Violation> violations;
   if (!(demand.relative_tolerance >= 0.0 && demand.relative_tolerance <= kLargestTolerance)) {
     violations.push_back(MakeViolation("relative_tolerance", demand.relative_tolerance,
@@ -182,7 +187,7 @@ std::vector<Violation> CheckDemand(const Scene& scene, const Demand& demand) {
     return violations;
   }
   CheckRequired(scene, demand, violations);
-  if (CheckExcluded(scene, demand, violations) && violations.empty()) CheckForms(scene, demand, violations);
+  if (CheckExcluded(scene, demand, violations) && violations.empty()) CheckForms(scene, contact, demand, violations);
   return violations;
 }
 

@@ -3,8 +3,10 @@
 #ifndef RICOCHET_CORE_PLAN_DEMAND_H_
 #define RICOCHET_CORE_PLAN_DEMAND_H_
 
+#include <optional>
 #include <vector>
 
+#include "core/contact/scene_contact.h"
 #include "core/plan/effect_set.h"
 #include "ricochet/error.h"
 #include "ricochet/scene.h"
@@ -35,7 +37,7 @@ EffectSet WithImplied(EffectSet excluded, bool in_space);
 
 // Lists every reason why the demand cannot be met for a valid scene; the list is empty if it can. Paths are
 // "relative_tolerance", "required[i]" and "excluded[i]", where i counts the effects of a set in order of their numbers.
-std::vector<Violation> CheckDemand(const Scene& scene, const Demand& demand);
+std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
 // The name of the effect in the proto, in small letters and without its prefix: "slip_stop".
 const char* NameOf(Effect effect);

@@ -36,12 +36,13 @@ Demand ToDemand(const DemandFields& fields) {
   return demand;
 }
 
-std::vector<Violation> CheckDemand(const Scene& scene, const DemandFields& fields) {
+std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact,
+                                   const DemandFields& fields) {
   std::vector<Violation> violations;
   CheckList(fields.required, "required", violations);
   CheckList(fields.excluded, "excluded", violations);
   if (!violations.empty()) return violations;
-  return CheckDemand(scene, ToDemand(fields));
+  return CheckDemand(scene, contact, ToDemand(fields));
 }
 
 }  // namespace ricochet

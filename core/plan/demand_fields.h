@@ -3,8 +3,10 @@
 #ifndef RICOCHET_CORE_PLAN_DEMAND_FIELDS_H_
 #define RICOCHET_CORE_PLAN_DEMAND_FIELDS_H_
 
+#include <optional>
 #include <vector>
 
+#include "core/contact/scene_contact.h"
 #include "core/plan/demand.h"
 #include "ricochet/demand.h"
 #include "ricochet/error.h"
@@ -16,7 +18,8 @@ Demand ToDemand(const DemandFields& fields);
 
 // Lists every reason why the demand cannot be met for a valid scene, with paths such as "relative_tolerance" and
 // "required[1]".
-std::vector<Violation> CheckDemand(const Scene& scene, const DemandFields& fields);
+std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact,
+                                   const DemandFields& fields);
 
 }  // namespace ricochet
 

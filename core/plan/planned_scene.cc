@@ -1,8 +1,9 @@
 #include "core/plan/planned_scene.h"
 
-#include <algorithm>
+#include <optional>
+#include <utility>
 
-#include "core/contact/coefficients_at_speed.h"
+#include "core/contact/scene_contact.h"
 #include "core/plan/explain.h"
 #include "core/problem/scene_problem.h"
 
@@ -25,16 +26,18 @@ Choice ByLaw() {
   return choice;
 }
 
-void PlanPendulum(const Scene& scene, const Demand& demand, PlannedScene& planned) {
+void PlanPendulum(const Scene& scene, std::optional<SceneContact> contact, const Demand& demand,
+                  PlannedScene& planned) {
   const pendulum::Problem problem = ClosedFormProblem(scene);
   planned.contact = problem;
   planned.effective = {
       .kinetic_friction = problem.mu, .static_friction = problem.mu_static, .restitution = problem.coefficient};
   // Finite forces have time to act only if the contact is compliant.
   if (scene.compliance.has_value()) {
-    const AnyReduction any = Reduce(scene);
-    if (!FitsDoubles(any)) return;
-    planned.physics = PhysicsOf(scene, std::get<PlanarReduction>(any));
+    if (!contact.has_value()) contact = MakeContact(scene);
+    if (!FitsDoubles(contact->reduction)) return;
+    planned.reduced_pendulum = std::get<PlanarReduction>(std::move(contact->reduction));
+    planned.physics = PhysicsOf(scene, *planned.reduced_pendulum);
   }
   planned.choice = ChoosePendulum(problem, planned.physics, demand);
 }
@@ -59,16 +62,16 @@ void PlanReduced(const Scene& scene, const Demand& demand, SpatialReduction redu
 
 }  // namespace
 
-PlannedScene PlanScene(const Scene& scene, const Demand& demand) {
+PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact> contact, const Demand& demand) {
   PlannedScene planned;
   if (HasClosedForm(scene)) {
-    PlanPendulum(scene, demand, planned);
+    PlanPendulum(scene, std::move(contact), demand, planned);
     return planned;
   }
-  AnyReduction any = Reduce(scene);
-  if (!FitsDoubles(any)) return planned;
-  planned.effective = CoefficientsAtSpeed(scene, ApproachSpeed(any));
-  std::visit([&](auto& reduction) { PlanReduced(scene, demand, std::move(reduction), planned); }, any);
+  if (!contact.has_value()) contact = MakeContact(scene);
+  if (!FitsDoubles(contact->reduction)) return planned;
+  planned.effective = contact->coefficients;
+  std::visit([&](auto& reduction) { PlanReduced(scene, demand, std::move(reduction), planned); }, contact->reduction);
   return planned;
 }
 

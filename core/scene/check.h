@@ -5,11 +5,13 @@
 
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/contact/scene_contact.h"
 #include "core/scene/numbers.h"
 #include "ricochet/error.h"
 
@@ -87,8 +89,9 @@ bool HasDamping(const Scene& scene);
 void CheckEffects(const Scene& scene, Check& check);
 
 // Checks the rules that depend on the contact: the velocity lies in the range of W, and the coefficients keep their
-// rules at the approach speed. All other rules must hold already.
-void CheckContact(const Scene& scene, Check& check);
+// rules at the approach speed. All other rules must hold already. If that takes reducing the scene, `contact` is what it
+// was reduced to.
+void CheckContact(const Scene& scene, Check& check, std::optional<SceneContact>& contact);
 
 }  // namespace ricochet
 

@@ -66,9 +66,8 @@ void CheckProduct(const char* field, double product, double speed, double most, 
   });
 }
 
-void CheckEffective(const Scene& scene, double speed, Check& check) {
+void CheckEffective(const Scene& scene, const EffectiveCoefficients& effective, double speed, Check& check) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, speed);
   if (scene.friction.by_speed.has_value()) {
     CheckProduct("friction.by_speed", effective.kinetic_friction, speed, kInfinity, check);
     // The static coefficient may overflow although the kinetic one does not.
@@ -114,17 +113,15 @@ bool RangeIsSure(const Scene& scene) {
 
 }  // namespace
 
-void CheckContact(const Scene& scene, Check& check) {
+void CheckContact(const Scene& scene, Check& check, std::optional<SceneContact>& contact) {
   const bool with_spring = scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.restitution);
   if (RangeIsSure(scene) && !DependsOnSpeed(scene) && !with_spring) return;
-  const AnyReduction reduction = Reduce(scene);
+  contact = MakeContact(scene);
+  const AnyReduction& reduction = contact->reduction;
   if (!IsFinite(reduction)) return;  // The caller reports the overflow, because no single field causes it.
   if (!RangeIsSure(scene)) CheckRange(scene, reduction, check);
-  if (DependsOnSpeed(scene)) CheckEffective(scene, ApproachSpeed(reduction), check);
-  if (with_spring) {
-    const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, ApproachSpeed(reduction));
-    CheckSpring(scene, std::get<PlanarReduction>(reduction), effective, check);
-  }
+  if (DependsOnSpeed(scene)) CheckEffective(scene, contact->coefficients, ApproachSpeed(reduction), check);
+  if (with_spring) CheckSpring(scene, std::get<PlanarReduction>(reduction), contact->coefficients, check);
 }
 
 }  // namespace ricochet

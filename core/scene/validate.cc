@@ -110,16 +110,23 @@ void CheckFields(const Scene& scene, RestitutionIs restitution, Scope scope, Che
   CheckEffects(scene, check);
 }
 
-void CheckScene(const Scene& scene, RestitutionIs restitution, Scope scope, Check& check) {
+void CheckScene(const Scene& scene, RestitutionIs restitution, Scope scope, Check& check,
+                std::optional<SceneContact>& contact) {
+  contact.reset();
   CheckFields(scene, restitution, scope, check);
-  if (!check.failed()) CheckContact(scene, check);
+  if (!check.failed()) CheckContact(scene, check, contact);
 }
 
 }  // namespace
 
 std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution) {
+  std::optional<SceneContact> contact;
+  return Validate(scene, restitution, contact);
+}
+
+std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution, std::optional<SceneContact>& contact) {
   Check check(Check::Mode::kListing);
-  CheckScene(scene, restitution, Scope::kAll, check);
+  CheckScene(scene, restitution, Scope::kAll, check, contact);
   return std::move(check).violations();
 }
 
@@ -133,9 +140,9 @@ bool HasRelations(const Scene& scene) {
   return scene != plain;
 }
 
-bool KeepsRelations(const Scene& scene) {
+bool KeepsRelations(const Scene& scene, std::optional<SceneContact>& contact) {
   Check check(Check::Mode::kVerdict);
-  CheckScene(scene, RestitutionIs::kRequired, Scope::kRelations, check);
+  CheckScene(scene, RestitutionIs::kRequired, Scope::kRelations, check, contact);
   return !check.failed();
 }
 

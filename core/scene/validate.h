@@ -4,8 +4,10 @@
 #ifndef RICOCHET_CORE_SCENE_VALIDATE_H_
 #define RICOCHET_CORE_SCENE_VALIDATE_H_
 
+#include <optional>
 #include <vector>
 
+#include "core/contact/scene_contact.h"
 #include "ricochet/error.h"
 #include "ricochet/scene.h"
 
@@ -18,9 +20,14 @@ enum class RestitutionIs { kRequired, kOptional };
 // start at the scene: "pendulum.a_m", "friction.kinetic_coefficient", "restitution.energetic".
 std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution = RestitutionIs::kRequired);
 
+// Does the same and keeps, for plan and model, the contact that the scene was reduced to. It stays empty where no rule
+// takes reducing the scene: a pendulum's.
+std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution, std::optional<SceneContact>& contact);
+
 // A fast check for sweeps. `scene` must differ from a valid scene in numbers only, and every number must keep its own
 // rule (Holds in core/scene/numbers.h). Returns true if the rules between numbers hold as well.
-bool KeepsRelations(const Scene& scene);
+// `contact` is as in Validate.
+bool KeepsRelations(const Scene& scene, std::optional<SceneContact>& contact);
 
 // False if KeepsRelations is true for all numbers that `scene` may have.
 bool HasRelations(const Scene& scene);

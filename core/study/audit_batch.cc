@@ -116,10 +116,10 @@ bool HasValidVelocity(const spatial::Problem& in) {
 // Rows gives the problem and the observation of each row of a batch whose columns are valid.
 class Rows {
  public:
-  Rows(const AuditColumns& columns, Scene scene, const AnyReduction& any)
+  Rows(const AuditColumns& columns, Scene scene, const SceneContact& contact)
       : columns_(columns),
         scene_(std::move(scene)),
-        scene_problem_(audit::MakeProblem(scene_, any, /*from_own_velocity=*/columns.normal_m_s.empty())) {}
+        scene_problem_(audit::MakeProblem(scene_, contact, /*from_own_velocity=*/columns.normal_m_s.empty())) {}
 
   // A row that breaks a rule or whose report overflows is reported as kInvalid.
   // Errors: CANCELLED once `stopped` returns true.
@@ -228,7 +228,8 @@ void Add(int64_t row, const AuditReport& report, AuditSummary& summary) {
 }  // namespace audit
 
 absl::StatusOr<AuditBatchResponse> AuditScene(const AuditBatchRequest& request, absl::FunctionRef<bool()> stopped) {
-  std::vector<Violation> violations = audit::CheckScene(request.scene);
+  std::optional<SceneContact> contact;
+  std::vector<Violation> violations = audit::CheckScene(request.scene, contact);
   if (std::holds_alternative<std::monostate>(request.scene.system)) return InvalidRequest(violations);
   const std::vector<ColumnRule> rules = Rules(request.columns, TangentialDirections(request.scene.system));
   const size_t rows = RowsOf(rules);
@@ -238,14 +239,13 @@ absl::StatusOr<AuditBatchResponse> AuditScene(const AuditBatchRequest& request, 
   }
   if (!violations.empty()) return InvalidRequest(violations);
   Scene scene = audit::WithoutRestitution(request.scene);
-  const AnyReduction any = Reduce(scene);
-  if (!FitsDoubles(any)) return ContactOverflow();
-  const Rows contact(request.columns, std::move(scene), any);
+  if (!FitsDoubles(contact->reduction)) return ContactOverflow();
+  const Rows batch(request.columns, std::move(scene), *contact);
   AuditBatchResponse response;
   response.reports.reserve(rows);
   for (size_t row = 0; row < rows; ++row) {
     if (stopped()) return absl::CancelledError("the audit was stopped by its caller");
-    const absl::StatusOr<AuditReport> report = contact.Audit(row, stopped);
+    const absl::StatusOr<AuditReport> report = batch.Audit(row, stopped);
     if (!report.ok()) return report.status();
     audit::Add(static_cast<int64_t>(row), *report, response.summary);
     response.reports.push_back(*report);

@@ -10,11 +10,11 @@
 
 namespace ricochet::audit {
 
-std::vector<Violation> CheckScene(const Scene& scene) {
-  std::vector<Violation> violations = Validate(scene, RestitutionIs::kOptional);
+std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact) {
+  std::vector<Violation> violations = Validate(scene, RestitutionIs::kOptional, contact);
   if (!violations.empty()) return violations;
-  const AnyReduction any = Reduce(scene);
-  if (std::visit([](const auto& reduction) { return reduction.w.back() == 0.0; }, any)) {
+  if (!contact.has_value()) contact = MakeContact(scene);
+  if (std::visit([](const auto& reduction) { return reduction.w.back() == 0.0; }, contact->reduction)) {
     violations.push_back({"system", "makes Wnn = 0: must be > 0 for an audit, no normal impulse moves the contact",
                           ViolationKind::kContact});
   }
@@ -49,9 +49,11 @@ ContactVelocity VelocityOf(const ObservedRates& observed, Scene scene) {
   return {.tangential_m_s = {reduction.u0[0]}, .normal_m_s = reduction.v0};
 }
 
-AnyProblem MakeProblem(const Scene& scene, const AnyReduction& any, bool from_own_velocity) {
+AnyProblem MakeProblem(const Scene& scene, const SceneContact& contact, bool from_own_velocity) {
   if (from_own_velocity && HasClosedForm(scene)) return ClosedFormProblem(scene);
-  const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, ApproachSpeed(any));
+  const AnyReduction& any = contact.reduction;
+  EffectiveCoefficients effective = contact.coefficients;
+  effective.restitution = 0.0;  // The path up to an observed impulse does not depend on it.
   if (const auto* planar = std::get_if<PlanarReduction>(&any)) {
     return planar::MakeProblem(*planar, EnergeticCoefficient(), effective);
   }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "core/contact/reduction.h"
+#include "core/contact/scene_contact.h"
 #include "core/study/audit.h"
 #include "ricochet/audit.h"
 #include "ricochet/error.h"
@@ -17,7 +17,8 @@
 namespace ricochet::audit {
 
 // Lists what makes the scene no contact to audit. Its restitution and impact law may be left unset.
-std::vector<Violation> CheckScene(const Scene& scene);
+// `contact` is that of a scene without violations.
+std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact);
 
 // Returns the number of rates that a pendulum (1) or a linkage (one a link) has; nothing for other systems.
 std::optional<size_t> RateCount(const System& system);
@@ -33,7 +34,7 @@ ContactVelocity VelocityOf(const ObservedRates& observed, Scene scene);
 
 // Makes the problem whose path an observation is held against: a pendulum's closed form where the scene has one and its
 // own velocity is meant, else the scene's contact.
-AnyProblem MakeProblem(const Scene& scene, const AnyReduction& any, bool from_own_velocity);
+AnyProblem MakeProblem(const Scene& scene, const SceneContact& contact, bool from_own_velocity);
 
 }  // namespace ricochet::audit
 

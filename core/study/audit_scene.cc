@@ -43,8 +43,8 @@ void CheckRates(const std::vector<double>& rates, const System& system, std::vec
   }
 }
 
-std::vector<Violation> ValidateRequest(const AuditRequest& request) {
-  std::vector<Violation> violations = audit::CheckScene(request.scene);
+std::vector<Violation> ValidateRequest(const AuditRequest& request, std::optional<SceneContact>& contact) {
+  std::vector<Violation> violations = audit::CheckScene(request.scene, contact);
   const bool has_system = !std::holds_alternative<std::monostate>(request.scene.system);
   if (std::holds_alternative<std::monostate>(request.observed)) {
     violations.push_back({"observed", "is not set: must be one of contact_velocity, rates"});
@@ -68,21 +68,22 @@ ContactVelocity VelocityOf(const Observed& observed, const Scene& scene) {
 }  // namespace
 
 absl::StatusOr<AuditResponse> AuditScene(const AuditRequest& request, absl::FunctionRef<bool()> stopped) {
-  const std::vector<Violation> violations = ValidateRequest(request);
+  std::optional<SceneContact> contact;
+  const std::vector<Violation> violations = ValidateRequest(request, contact);
   if (!violations.empty()) return InvalidRequest(violations);
   const Scene scene = audit::WithoutRestitution(request.scene);
-  const AnyReduction any = Reduce(scene);
   const ContactVelocity seen = VelocityOf(request.observed, scene);
   const std::vector<double>& tangential = seen.tangential_m_s;
-  if (!FitsDoubles(any) || !std::isfinite(seen.normal_m_s) || !std::isfinite(tangential[0])) return ContactOverflow();
+  if (!FitsDoubles(contact->reduction) || !std::isfinite(seen.normal_m_s) || !std::isfinite(tangential[0]))
+    return ContactOverflow();
   const audit::Observation observation = {.u1 = {tangential[0], tangential.size() > 1 ? tangential[1] : 0.0},
                                           .v1 = seen.normal_m_s,
                                           .uncertainty = request.velocity_uncertainty_m_s};
   const absl::StatusOr<AuditReport> report =
-      audit::Audit(audit::MakeProblem(scene, any, /*from_own_velocity=*/true), observation, stopped);
+      audit::Audit(audit::MakeProblem(scene, *contact, /*from_own_velocity=*/true), observation, stopped);
   if (!report.ok()) return report.status();
   if (const char* path = audit::OverflowIn(*report); path != nullptr) return OutputOverflow(path);
-  return AuditResponse{.report = *report, .contact_energy_j = ContactEnergy(any), .engine = {}};
+  return AuditResponse{.report = *report, .contact_energy_j = ContactEnergy(contact->reduction), .engine = {}};
 }
 
 }  // namespace ricochet

@@ -83,6 +83,9 @@ void DrivenScene::Advance() {
   }
 }
 
-bool DrivenScene::IsValid() const { return bad_fields_ == 0 && (!has_relations_ || KeepsRelations(scene_)); }
+bool DrivenScene::IsValid(std::optional<SceneContact>& contact) const {
+  contact.reset();
+  return bad_fields_ == 0 && (!has_relations_ || KeepsRelations(scene_, contact));
+}
 
 }  // namespace ricochet

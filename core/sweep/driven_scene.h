@@ -10,10 +10,12 @@
 #define RICOCHET_CORE_SWEEP_DRIVEN_SCENE_H_
 
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "core/contact/scene_contact.h"
 #include "core/scene/field.h"
 #include "ricochet/error.h"
 #include "ricochet/grid.h"
@@ -42,8 +44,8 @@ class DrivenScene {
   void GoTo(int64_t index);
   // Makes the next point the current one, at the cost of setting the fields that change. After the last comes the first.
   void Advance();
-  // Decides whether Validate would find nothing in the current scene.
-  bool IsValid() const;
+  // Decides whether Validate would find nothing in the current scene. `contact` is as in Validate.
+  bool IsValid(std::optional<SceneContact>& contact) const;
 
  private:
   void Resolve();

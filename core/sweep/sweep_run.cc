@@ -119,8 +119,9 @@ class SweepRun::Impl {
 
 absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   const Scene& scene = driven_.scene();
-  std::vector<Violation> violations = driven_.WithoutCurable(Validate(scene));
-  if (violations.empty()) violations = driven_.WithoutCurable(CheckDemand(scene, request.demand));
+  std::optional<SceneContact> contact;
+  std::vector<Violation> violations = driven_.WithoutCurable(Validate(scene, RestitutionIs::kRequired, contact));
+  if (violations.empty()) violations = driven_.WithoutCurable(CheckDemand(scene, contact, request.demand));
   Append(driven_.violations(), violations);
   const std::vector<Violation> axes = ValidateAxes(request.grid);
   Append(axes, violations);
@@ -209,9 +210,11 @@ bool SweepRun::Impl::SolvePoints(int64_t count, absl::FunctionRef<bool()> stoppe
 }
 
 void SweepRun::Impl::SolvePoint(size_t i) {
-  valid_[i] = driven_.IsValid();
+  std::optional<SceneContact> contact;
+  valid_[i] = driven_.IsValid(contact);
   if (!valid_[i]) return;
-  const absl::StatusOr<Outcome> outcome = SolveScene(driven_.scene(), {.demand = demand_, .detail = Detail::kNumbers});
+  const absl::StatusOr<Outcome> outcome =
+      SolveScene(driven_.scene(), std::move(contact), {.demand = demand_, .detail = Detail::kNumbers});
   valid_[i] = outcome.ok();
   if (!valid_[i]) return;
   regimes_[i] = outcome->regime;
@@ -237,8 +240,9 @@ void SweepRun::Impl::SolveLanes(int64_t count) {
 }
 
 void SweepRun::Impl::GatherProblems(int64_t count) {
+  std::optional<SceneContact> contact;
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    valid_[i] = driven_.IsValid();
+    valid_[i] = driven_.IsValid(contact);
     problems_[i] = valid_[i] ? ClosedFormProblem(driven_.scene()) : pendulum::Problem{};
     if (!valid_[i]) problems_[i].omega_minus = 1.0;  // A separating pendulum is the cheapest to solve.
     PlanPendulum(i);

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
+
 #include "core/answer/scene_outcome.h"
 #include "tests/support/system_scenes.h"
 
@@ -30,7 +32,7 @@ struct Cost {
 
 Cost CostOf(const Scene& scene, const Demand& demand = {}) {
   integrators = 0;
-  const absl::StatusOr<Outcome> outcome = SolveScene(scene, {.demand = demand});
+  const absl::StatusOr<Outcome> outcome = SolveScene(scene, std::nullopt, {.demand = demand});
   EXPECT_TRUE(outcome.ok()) << outcome.status();
   if (!outcome.ok()) return {};
   EXPECT_EQ(outcome->accuracy.right_hand_sides > 0, outcome->accuracy.steps > 0);

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "core/bounds/contact_bounds.h"
@@ -62,12 +63,12 @@ TEST(SceneBoundsTest, AsksBeforeEachImpactOfASampleWhetherToStop) {
       ++looks;
       return false;
     };
-    ASSERT_TRUE(SolveSceneBounds(With(system), count).ok());
+    ASSERT_TRUE(SolveSceneBounds(With(system), std::nullopt, count).ok());
     EXPECT_EQ(looks, IsInSpace(system) ? kSpatialImpacts : 0) << system.index();
     if (looks == 0) continue;
     looks = 0;
     const auto stopped = [&looks] { return ++looks > 10; };
-    EXPECT_TRUE(absl::IsCancelled(SolveSceneBounds(With(system), stopped).status())) << system.index();
+    EXPECT_TRUE(absl::IsCancelled(SolveSceneBounds(With(system), std::nullopt, stopped).status())) << system.index();
     EXPECT_EQ(looks, 11);
   }
 }

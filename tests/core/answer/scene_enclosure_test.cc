@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -123,7 +124,7 @@ bool IsValidForBounds(const Scene& scene) { return Validate(scene, RestitutionIs
 
 // Returns the regime of the elastic impact, unspecified if the scene is not valid.
 Regime RegimeOf(const Scene& scene) {
-  const auto bounds = IsValidForBounds(scene) ? SolveSceneBounds(scene, Never) : Bounds();
+  const auto bounds = IsValidForBounds(scene) ? SolveSceneBounds(scene, std::nullopt, Never) : Bounds();
   return bounds.ok() ? bounds->regime : Regime::kUnspecified;
 }
 
@@ -214,7 +215,7 @@ void ExpectContainment(const Scene& scene, const std::vector<FieldRange>& ranges
   for (int i = 0; i < samples; ++i) {
     const Scene sample = Inside(scene, ranges, random);
     if (!IsValidForBounds(sample)) continue;
-    const auto bounds = SolveSceneBounds(sample, Never);
+    const auto bounds = SolveSceneBounds(sample, std::nullopt, Never);
     ASSERT_TRUE(bounds.ok()) << bounds.status();
     ASSERT_TRUE(Contains(enclosure.outer, *bounds)) << Text(ranges);
   }
@@ -284,13 +285,13 @@ double Wider(const Range& outer, const Range& seen) {
 double WiderThanSeen(const Scene& scene, const std::vector<FieldRange>& ranges, int samples) {
   Random random(4);
   const CoefficientBounds outer = EncloseOrFail(scene, ranges).outer;
-  CoefficientBounds seen = SolveSceneBounds(Inside(scene, ranges, random), Never)->sharp;
+  CoefficientBounds seen = SolveSceneBounds(Inside(scene, ranges, random), std::nullopt, Never)->sharp;
   Scene sample = scene;
   std::vector<ricochet::Field> fields;
   for (const FieldRange& range : ranges) fields.push_back(*ResolveField(range.path, sample));
   for (int i = 0; i < samples; ++i) {
     for (size_t k = 0; k < ranges.size(); ++k) fields[k].Set(random.Uniform(ranges[k].low, ranges[k].high));
-    const CoefficientBounds sharp = SolveSceneBounds(sample, Never)->sharp;
+    const CoefficientBounds sharp = SolveSceneBounds(sample, std::nullopt, Never)->sharp;
     Include(sharp.newton, seen.newton);
     Include(sharp.poisson, seen.poisson);
     Include(sharp.tangential, seen.tangential);

@@ -39,7 +39,8 @@ Scene Sprung(NormalSpring spring) {
 // Each violation as "path description".
 std::vector<std::string> Texts(const Scene& scene, const Demand& demand) {
   std::vector<std::string> texts;
-  for (const Violation& violation : CheckDemand(scene, demand)) {
+  std::optional<SceneContact> contact;
+  for (const Violation& violation : CheckDemand(scene, contact, demand)) {
     texts.push_back(violation.field + " " + violation.description);
   }
   return texts;

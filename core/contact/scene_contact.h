@@ -1,0 +1,29 @@
+// SceneContact: a scene reduced to its contact, with its coefficients at the approach speed.
+//
+// A request makes it once, at the door (core/scene/validate.h); plan, model, bounds and audit receive it.
+
+#ifndef RICOCHET_CORE_CONTACT_SCENE_CONTACT_H_
+#define RICOCHET_CORE_CONTACT_SCENE_CONTACT_H_
+
+#include "core/contact/coefficients_at_speed.h"
+#include "core/contact/reduction.h"
+#include "ricochet/outcome.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+struct SceneContact {
+  AnyReduction reduction;
+  EffectiveCoefficients coefficients;  // A restitution that is left open counts as 0.
+};
+
+// The rules of the scene's own fields hold already. W or the velocity may overflow: see FitsDoubles.
+inline SceneContact MakeContact(const Scene& scene) {
+  SceneContact contact = {.reduction = Reduce(scene), .coefficients = {}};
+  contact.coefficients = CoefficientsAtSpeed(scene, ApproachSpeed(contact.reduction));
+  return contact;
+}
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_CONTACT_SCENE_CONTACT_H_
