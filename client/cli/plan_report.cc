@@ -57,7 +57,7 @@ std::string PlanText(const Plan& plan) {
   absl::StrAppend(&text, lines[0], "   decision: reason\n");
   for (size_t i = 0; i < plan.effects.size(); ++i) {
     const PlannedEffect& planned = plan.effects[i];
-    absl::StrAppend(&text, lines[i + 1], "   ", DecisionText(planned.decision), ": ", planned.reason, "\n");
+    absl::StrAppend(&text, lines[i + 1], "   ", DecisionText(planned.decision), ": ", planned.reason.Text(), "\n");
   }
   return text;
 }
@@ -66,7 +66,7 @@ std::string PlanCsv(const Plan& plan) {
   std::string text = "effect,decision,size,reason\n";
   for (const PlannedEffect& planned : plan.effects) {
     absl::StrAppend(&text, EffectWord(planned.effect), ",", DecisionText(planned.decision), ",",
-                    ShortestDecimal(planned.size), ",\"", planned.reason, "\"\n");
+                    ShortestDecimal(planned.size), ",\"", planned.reason.Text(), "\"\n");
   }
   return text;
 }

@@ -3,12 +3,14 @@
 namespace ricochet::finite_duration {
 
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
-                                    absl::Span<const double> history_at_n_s, Detail detail) {
+                                    absl::Span<const double> history_at_n_s, absl::FunctionRef<bool()> stopped,
+                                    Detail detail) {
   if (auto violations = RefuseHistory(history_at_n_s, "an impact that takes time; force_intervals asks for its forces");
       !violations.empty()) {
     return InvalidRequest(violations);
   }
-  const Impact impact = Solve(problem);
+  const Impact impact = Solve(problem, stopped);
+  if (impact.stopped) return absl::CancelledError("the impact was stopped by its caller");
   Outcome outcome = MakeEnd(impact, reduction, impact.contact.duration_s);
   outcome.work.friction_dissipation_j = impact.friction_dissipation;
   outcome.work.tangential_spring_j = impact.spring_energy;

@@ -3,6 +3,7 @@
 #ifndef RICOCHET_CORE_ANSWER_FINITE_DURATION_OUTCOME_H_
 #define RICOCHET_CORE_ANSWER_FINITE_DURATION_OUTCOME_H_
 
+#include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
 #include "core/answer/outcome_parts.h"
@@ -16,7 +17,8 @@ namespace ricochet::finite_duration {
 // Errors: OUT_OF_RANGE names the first output that exceeds the largest double; INVALID_ARGUMENT if `history_at_n_s` is
 // not empty, because histories of such an impact are in time (Problem::intervals).
 absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
-                                    absl::Span<const double> history_at_n_s, Detail detail = Detail::kAll);
+                                    absl::Span<const double> history_at_n_s, absl::FunctionRef<bool()> stopped,
+                                    Detail detail = Detail::kAll);
 
 }  // namespace ricochet::finite_duration
 

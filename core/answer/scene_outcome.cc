@@ -23,6 +23,7 @@ struct Job {
   const Scene& scene;
   const SolveOptions& options;
   const PlannedScene& planned;
+  absl::FunctionRef<bool()> stopped;
 
   // The coefficients that the model is to use.
   EffectiveCoefficients Effective() const {
@@ -47,7 +48,7 @@ absl::StatusOr<Outcome> SolveFiniteDuration(const Job& job, const PlanarReductio
                                       .tolerance = job.planned.choice.model_tolerance,
                                       .intervals = job.options.force_intervals};
   if (physics.ratio_squared > 0.0) problem.ratio_squared = physics.ratio_squared;
-  return finite_duration::MakeOutcome(problem, reduction, job.options.history_at_n_s, job.options.detail);
+  return finite_duration::MakeOutcome(problem, reduction, job.options.history_at_n_s, job.stopped, job.options.detail);
 }
 
 absl::StatusOr<Outcome> SolveContact(const Job& job, const PlanarReduction& reduction) {
@@ -123,11 +124,11 @@ absl::Status ContactOverflow() {
       "smallest");
 }
 
-absl::StatusOr<Outcome> SolveScene(const Scene& scene, std::optional<SceneContact> contact,
-                                   const SolveOptions& options) {
+absl::StatusOr<Outcome> SolveScene(const Scene& scene, std::optional<SceneContact> contact, const SolveOptions& options,
+                                   absl::FunctionRef<bool()> stopped) {
   const PlannedScene planned = PlanScene(scene, std::move(contact), options.demand);
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
-  const Job job = {.scene = scene, .options = options, .planned = planned};
+  const Job job = {.scene = scene, .options = options, .planned = planned, .stopped = stopped};
   absl::StatusOr<Outcome> outcome =
       std::visit([&job](const auto& planned_contact) { return SolveContact(job, planned_contact); }, planned.contact);
   if (!outcome.ok()) return outcome;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
@@ -26,8 +27,10 @@ struct SolveOptions {
 
 // Solves a valid scene in which CheckDemand finds nothing. With Detail::kNumbers the outcome's plan has the model alone.
 // Errors are those of the models' MakeOutcome, and ContactOverflow.
-absl::StatusOr<Outcome> SolveScene(const Scene& scene, std::optional<SceneContact> contact,
-                                   const SolveOptions& options);
+//
+// An impact that takes time asks `stopped` every few steps and ends soon after it says true, with CANCELLED.
+absl::StatusOr<Outcome> SolveScene(const Scene& scene, std::optional<SceneContact> contact, const SolveOptions& options,
+                                   absl::FunctionRef<bool()> stopped);
 
 // The plan alone, in an outcome that has nothing else.
 // Errors: OUT_OF_RANGE as above.

@@ -116,16 +116,17 @@ absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, 
   if (violations.empty()) CheckCertified(request, violations);
   if (!violations.empty()) return InvalidRequest(violations);
   if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
+  const auto stopped = [&options] { return !WhyEnded(options).ok(); };
   absl::StatusOr<Outcome> outcome = request.plan_only
                                         ? PlanSceneOnly(request.scene, std::move(contact), ToDemand(request.demand))
                                         : SolveScene(request.scene, std::move(contact),
                                                      {.history_at_n_s = request.history_at_n_s,
                                                       .force_intervals = request.force_intervals,
-                                                      .demand = DemandOf(request)});
-  if (!outcome.ok()) return outcome.status();
+                                                      .demand = DemandOf(request)},
+                                                     stopped);
+  if (!outcome.ok()) return OrWhyEnded(outcome.status(), options);
   if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
-  const absl::Status certified = Certify(
-      request, [&options] { return !WhyEnded(options).ok(); }, outcome->certificate);
+  const absl::Status certified = Certify(request, stopped, outcome->certificate);
   if (!certified.ok()) return OrWhyEnded(certified, options);
   return SolveResponse{.outcome = *std::move(outcome), .engine = ThisEngine()};
 }

@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/contact/scene_contact.h"
+#include "core/models/finite_duration/finite_duration.h"
 #include "core/plan/planned_scene.h"
 #include "core/problem/scene_problem.h"
 #include "core/scene/check.h"
@@ -172,6 +173,15 @@ EffectSet WithImplied(EffectSet excluded, bool in_space) {
   return all;
 }
 
+// Only finite duration computes with a normal spring, whatever the tolerance leaves of it.
+static void CheckComponents(const Scene& scene, std::vector<Violation>& violations) {
+  const bool has_spring =
+      scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.compliance->normal);
+  if (!has_spring || finite_duration::IsAvailable()) return;
+  violations.push_back({"compliance.normal",
+                        "is set: must not be, this build has no impacts that take time (component finite_duration)"});
+}
+
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
   std::vector<Violation> violations;
   if (!(demand.relative_tolerance >= 0.0 && demand.relative_tolerance <= kLargestTolerance)) {
@@ -186,6 +196,7 @@ std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContac
     ForEach(demand.excluded, "excluded", refuse);
     return violations;
   }
+  CheckComponents(scene, violations);
   CheckRequired(scene, demand, violations);
   if (CheckExcluded(scene, demand, violations) && violations.empty()) CheckForms(scene, contact, demand, violations);
   return violations;

@@ -19,13 +19,17 @@ std::string Digits(double value) {
 std::string Percent(double share) { return absl::StrCat(Digits(100.0 * share), " %"); }
 
 // These tell for which kind of contact the sizes were computed.
-bool IsPendulum(const Sizes& sizes) { return sizes[Effect::kHigherOrder].ground != Ground::kNotOfSystem; }
-bool IsInSpace(const Sizes& sizes) { return sizes[Effect::kSlipTurn].ground != Ground::kNotOfSystem; }
+enum class ContactKind { kPlanar, kPendulum, kSpatial };
 
-std::string NotInScene(Effect effect, const Sizes& sizes) {
+ContactKind KindOf(const Sizes& sizes) {
+  if (sizes[Effect::kHigherOrder].ground != Ground::kNotOfSystem) return ContactKind::kPendulum;
+  return sizes[Effect::kSlipTurn].ground != Ground::kNotOfSystem ? ContactKind::kSpatial : ContactKind::kPlanar;
+}
+
+std::string NotInScene(Effect effect, ContactKind kind) {
   switch (effect) {
     case Effect::kFriction:
-      return IsPendulum(sizes) ? "mu |b| = 0: there is no friction" : "mu = 0: the surface is smooth";
+      return kind == ContactKind::kPendulum ? "mu |b| = 0: there is no friction" : "mu = 0: the surface is smooth";
     case Effect::kSlipStop:
     case Effect::kSlipTurn:
       return "without friction slip does not change";
@@ -45,11 +49,13 @@ std::string NotInScene(Effect effect, const Sizes& sizes) {
   return "";
 }
 
-std::string ByInequality(Effect effect, const Size& size, const Sizes& sizes) {
+std::string ByInequality(Effect effect, const Size& size, ContactKind kind) {
   const std::string most = absl::StrCat("velocities by at most ", Digits(size.value));
   switch (effect) {
     case Effect::kFriction: {
-      const char* name = IsPendulum(sizes) ? "x = mu |b|/a" : IsInSpace(sizes) ? "mu |wtn|/Wnn" : "mu |Wtn|/Wnn";
+      const char* name = kind == ContactKind::kPendulum  ? "x = mu |b|/a"
+                         : kind == ContactKind::kSpatial ? "mu |wtn|/Wnn"
+                                                         : "mu |Wtn|/Wnn";
       return absl::StrCat(name, " = ", Digits(size.number), ": friction changes ", most);
     }
     case Effect::kSlipStop:
@@ -86,22 +92,22 @@ std::string WithoutInequality(Effect effect, const Size& size) {
   }
 }
 
-std::string SlidesThroughout(Effect effect, const Size& size, const Sizes& sizes) {
+std::string SlidesThroughout(Effect effect, const Size& size, ContactKind kind) {
   if (effect == Effect::kTangentialCompliance) return "the contact slides throughout";
-  const char* ends = IsInSpace(sizes) ? "it stays above " : "it ends at ";
+  const char* ends = kind == ContactKind::kSpatial ? "it stays above " : "it ends at ";
   return absl::StrCat("slip never stops: ", ends, Digits(size.number), " m/s");
 }
 
-std::string ReasonOf(Effect effect, const Size& size, const Sizes& sizes) {
+std::string ReasonOf(Effect effect, const Size& size, ContactKind kind) {
   switch (size.ground) {
     case Ground::kNotInScene:
-      return NotInScene(effect, sizes);
+      return NotInScene(effect, kind);
     case Ground::kNotOfSystem:
       return effect == Effect::kSlipTurn ? "in a plane slip cannot turn" : "only a pendulum has first-order formulas";
     case Ground::kImmobile:
       return "Wtt = 0: no tangential impulse moves the contact";
     case Ground::kSlidesThroughout:
-      return SlidesThroughout(effect, size, sizes);
+      return SlidesThroughout(effect, size, kind);
     case Ground::kStraight:
       return "Wtt is the same in all directions and wtn = 0: slip keeps its direction";
     case Ground::kDecidesNothing:
@@ -111,7 +117,7 @@ std::string ReasonOf(Effect effect, const Size& size, const Sizes& sizes) {
     case Ground::kSameImpulses:
       return "velocities and impulses do not depend on it; require it to get the duration and the forces";
     case Ground::kInequality:
-      return ByInequality(effect, size, sizes);
+      return ByInequality(effect, size, kind);
     case Ground::kSelfLocking:
       return absl::StrCat("friction may lock the contact, as the coefficient times |Wtn| is ", Digits(size.number),
                           " Wnn: no bound is known");
@@ -127,12 +133,25 @@ std::string ReasonOf(Effect effect, const Size& size, const Sizes& sizes) {
   return "";
 }
 
-std::string Reason(Effect effect, const Choice& choice) {
-  if (choice.model == Model::kNone) return "the contact separates: nothing changes";
+std::string Separates(const Reason::Facts& /*facts*/) { return "the contact separates: nothing changes"; }
+std::string CountedInFriction(const Reason::Facts& /*facts*/) { return "included in the change by friction"; }
+std::string BySize(const Reason::Facts& facts) {
+  const Size size = {.value = facts.size, .ground = static_cast<Ground>(facts.ground), .number = facts.number};
+  return ReasonOf(facts.effect, size, static_cast<ContactKind>(facts.contact));
+}
+
+Reason MakeReason(Effect effect, const Choice& choice) {
+  if (choice.model == Model::kNone) return {Separates, {}};
   if (kOnFriction.Has(effect) && choice.LeavesOut(effect) && choice.LeavesOut(Effect::kFriction)) {
-    return "included in the change by friction";
+    return {CountedInFriction, {}};
   }
-  return ReasonOf(effect, choice.sizes[effect], choice.sizes);
+  const Size& size = choice.sizes[effect];
+  return {BySize,
+          {.effect = effect,
+           .ground = static_cast<int>(size.ground),
+           .contact = static_cast<int>(KindOf(choice.sizes)),
+           .size = size.value,
+           .number = size.number}};
 }
 
 }  // namespace
@@ -144,7 +163,7 @@ Plan Explain(const Choice& choice, const Demand& demand) {
     plan.effects.push_back({.effect = effect,
                             .decision = choice.decisions[static_cast<size_t>(effect)],
                             .size = choice.sizes[effect].value,
-                            .reason = Reason(effect, choice)});
+                            .reason = MakeReason(effect, choice)});
   }
   return plan;
 }

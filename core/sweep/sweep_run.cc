@@ -86,7 +86,7 @@ class SweepRun::Impl {
   int64_t NextCount() const;
   bool ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped);
   bool SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped);
-  void SolvePoint(size_t i);
+  bool SolvePoint(size_t i, absl::FunctionRef<bool()> stopped);
   void SolveLanes(int64_t count);
   void GatherProblems(int64_t count);
   void PlanPendulum(size_t i);
@@ -203,25 +203,28 @@ bool SweepRun::Impl::ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopp
 bool SweepRun::Impl::SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped) {
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
     if (may_integrate_ && stopped()) return false;
-    SolvePoint(i);
+    if (!SolvePoint(i, stopped)) return false;
     driven_.Advance();
   }
   return true;
 }
 
-void SweepRun::Impl::SolvePoint(size_t i) {
+// Returns false if it was stopped.
+bool SweepRun::Impl::SolvePoint(size_t i, absl::FunctionRef<bool()> stopped) {
   std::optional<SceneContact> contact;
   valid_[i] = driven_.IsValid(contact);
-  if (!valid_[i]) return;
+  if (!valid_[i]) return true;
   const absl::StatusOr<Outcome> outcome =
-      SolveScene(driven_.scene(), std::move(contact), {.demand = demand_, .detail = Detail::kNumbers});
+      SolveScene(driven_.scene(), std::move(contact), {.demand = demand_, .detail = Detail::kNumbers}, stopped);
+  if (absl::IsCancelled(outcome.status())) return false;
   valid_[i] = outcome.ok();
-  if (!valid_[i]) return;
+  if (!valid_[i]) return true;
   regimes_[i] = outcome->regime;
   models_[i] = outcome->plan.model;
   inadmissible_[i] = !outcome->admissible;
   ReadColumns(*outcome, numbers_);
   for (size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = numbers_[positions_of_[c]];
+  return true;
 }
 
 // Solves each run of points whose plans agree by the model that they call for.

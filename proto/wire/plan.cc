@@ -153,7 +153,7 @@ static v1::PlannedEffect ToProto(const PlannedEffect& planned) {
   proto.set_effect(ToProto(planned.effect));
   proto.set_decision(ToProto(planned.decision));
   proto.set_size(planned.size);
-  proto.set_reason(planned.reason);
+  proto.set_reason(planned.reason.Text());
   return proto;
 }
 
@@ -161,7 +161,7 @@ static PlannedEffect FromProto(const v1::PlannedEffect& proto) {
   return {.effect = FromProto(proto.effect()),
           .decision = FromProto(proto.decision()),
           .size = proto.size(),
-          .reason = proto.reason()};
+          .reason = Reason(proto.reason())};
 }
 
 v1::Plan ToProto(const Plan& plan) {

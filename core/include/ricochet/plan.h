@@ -8,6 +8,7 @@
 #define RICOCHET_PLAN_H_
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace ricochet {
@@ -37,6 +38,32 @@ enum class Decision {
   kExcluded = 5,    // Left out because the caller excludes it, whatever that changes.
 };
 
+// Why an effect was decided on as it was: one sentence that says where its size comes from, with its numbers. It is
+// made when it is read, because most are not.
+class Reason {
+ public:
+  // What the sentence is made of. The numbers of `ground` and `contact` are known to `write` alone.
+  struct Facts {
+    Effect effect = Effect::kUnspecified;
+    int ground = 0;
+    int contact = 0;
+    double size = 0.0;
+    double number = 0.0;
+  };
+
+  Reason() = default;
+  explicit Reason(std::string text) : text_(std::move(text)) {}
+  Reason(std::string (*write)(const Facts&), const Facts& facts) : write_(write), facts_(facts) {}
+
+  std::string Text() const { return write_ != nullptr ? write_(facts_) : text_; }
+  friend bool operator==(const Reason& a, const Reason& b) { return a.Text() == b.Text(); }
+
+ private:
+  std::string (*write_)(const Facts&) = nullptr;
+  Facts facts_;
+  std::string text_;
+};
+
 struct PlannedEffect {
   Effect effect = Effect::kUnspecified;
   Decision decision = Decision::kUnspecified;
@@ -44,7 +71,7 @@ struct PlannedEffect {
   // (Wnn tau, Wtt f; in space (W11 + W22) |f|), divided by max(|u0|, |v0|). 0 if the effect is absent, or if it is an
   // effect of friction and friction itself is left out; infinite if no bound is known.
   double size = 0.0;
-  std::string reason;  // One sentence: where the size comes from, with its numbers.
+  Reason reason;
   friend bool operator==(const PlannedEffect&, const PlannedEffect&) = default;
 };
 

@@ -32,7 +32,7 @@ struct Cost {
 
 Cost CostOf(const Scene& scene, const Demand& demand = {}) {
   integrators = 0;
-  const absl::StatusOr<Outcome> outcome = SolveScene(scene, std::nullopt, {.demand = demand});
+  const absl::StatusOr<Outcome> outcome = SolveScene(scene, std::nullopt, {.demand = demand}, [] { return false; });
   EXPECT_TRUE(outcome.ok()) << outcome.status();
   if (!outcome.ok()) return {};
   EXPECT_EQ(outcome->accuracy.right_hand_sides > 0, outcome->accuracy.steps > 0);

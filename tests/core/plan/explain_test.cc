@@ -36,7 +36,7 @@ TEST(ExplainTest, EveryEffectOnceInOrderWithAReason) {
         const PlannedEffect& planned = plan.effects[k];
         EXPECT_EQ(static_cast<size_t>(planned.effect), k + 1);
         EXPECT_NE(planned.decision, Decision::kUnspecified);
-        EXPECT_FALSE(planned.reason.empty());
+        EXPECT_FALSE(planned.reason.Text().empty());
         if (planned.decision == Decision::kAbsent) {
           EXPECT_EQ(planned.size, 0.0);
         }
@@ -52,11 +52,11 @@ TEST(ExplainTest, EveryEffectOnceInOrderWithAReason) {
 TEST(ExplainTest, SlipThatNeverStopsSaysWhereItEnds) {
   const Plan plan = PlanOf(Slider(), {.ratio_squared = 1.2}, {.relative_tolerance = 1e-3});
   EXPECT_EQ(plan.model, Model::kSliding);
-  EXPECT_EQ(On(plan, Effect::kSlipStop).reason, "slip never stops: it ends at 4.69 m/s");
-  EXPECT_EQ(On(plan, Effect::kTangentialCompliance).reason, "the contact slides throughout");
-  EXPECT_EQ(On(plan, Effect::kSlipTurn).reason, "in a plane slip cannot turn");
-  EXPECT_EQ(On(plan, Effect::kStaticFriction).reason, "the static and the kinetic coefficient are equal");
-  EXPECT_EQ(On(plan, Effect::kFiniteForces).reason, "the scene has no finite forces");
+  EXPECT_EQ(On(plan, Effect::kSlipStop).reason.Text(), "slip never stops: it ends at 4.69 m/s");
+  EXPECT_EQ(On(plan, Effect::kTangentialCompliance).reason.Text(), "the contact slides throughout");
+  EXPECT_EQ(On(plan, Effect::kSlipTurn).reason.Text(), "in a plane slip cannot turn");
+  EXPECT_EQ(On(plan, Effect::kStaticFriction).reason.Text(), "the static and the kinetic coefficient are equal");
+  EXPECT_EQ(On(plan, Effect::kFiniteForces).reason.Text(), "the scene has no finite forces");
 }
 
 TEST(ExplainTest, FrictionSaysWhatItIsInAndWhatItChanges) {
@@ -66,7 +66,7 @@ TEST(ExplainTest, FrictionSaysWhatItIsInAndWhatItChanges) {
   EXPECT_EQ(plan.model, Model::kFrictionless);
   const PlannedEffect& friction = On(plan, Effect::kFriction);
   EXPECT_EQ(friction.decision, Decision::kNegligible);
-  EXPECT_EQ(friction.reason, "mu |Wtn|/Wnn = 1e-05: friction changes velocities by at most 3.03e-05");
+  EXPECT_EQ(friction.reason.Text(), "mu |Wtn|/Wnn = 1e-05: friction changes velocities by at most 3.03e-05");
 }
 
 TEST(ExplainTest, APendulumSpeaksOfX) {
@@ -74,8 +74,8 @@ TEST(ExplainTest, APendulumSpeaksOfX) {
       .inertia = 1.0, .a = 1.0, .b = 0.1, .omega_minus = -1.0, .mu = 0.1, .mu_static = 0.1, .coefficient = 0.5};
   const Demand demand = {.relative_tolerance = 1e-3};
   const Plan plan = Explain(ChoosePendulum(problem, {}, demand), demand);
-  EXPECT_EQ(On(plan, Effect::kFriction).reason.substr(0, 20), "x = mu |b|/a = 0.01:");
-  EXPECT_EQ(On(plan, Effect::kSlipStop).reason, "slip stops at the end of compression, as for every pendulum");
+  EXPECT_EQ(On(plan, Effect::kFriction).reason.Text().substr(0, 20), "x = mu |b|/a = 0.01:");
+  EXPECT_EQ(On(plan, Effect::kSlipStop).reason.Text(), "slip stops at the end of compression, as for every pendulum");
   EXPECT_EQ(On(plan, Effect::kHigherOrder).decision, Decision::kNegligible);
 }
 
@@ -92,10 +92,10 @@ TEST(ExplainTest, SelfLockingAndDampingHaveNoBound) {
   jam.mu = jam.mu_static = 1.2;
   const Plan locked = PlanOf(jam, {}, {});
   EXPECT_TRUE(std::isinf(On(locked, Effect::kFriction).size));
-  EXPECT_EQ(On(locked, Effect::kFriction).reason,
+  EXPECT_EQ(On(locked, Effect::kFriction).reason.Text(),
             "friction may lock the contact, as the coefficient times |Wtn| is 1.08 Wnn: no bound is known");
   const Plan damped = PlanOf(Slider(), {.spring = HuntCrossleySpring{1e6, 1.5, 0.3}}, {});
-  EXPECT_EQ(On(damped, Effect::kFiniteDuration).reason, "the damping of the spring determines the restitution");
+  EXPECT_EQ(On(damped, Effect::kFiniteDuration).reason.Text(), "the damping of the spring determines the restitution");
 }
 
 TEST(ExplainTest, ASeparatingContactSaysSo) {
@@ -104,7 +104,7 @@ TEST(ExplainTest, ASeparatingContactSaysSo) {
   const Plan plan = PlanOf(problem, {}, {});
   EXPECT_EQ(plan.model, Model::kNone);
   for (const PlannedEffect& planned : plan.effects) {
-    EXPECT_EQ(planned.reason, "the contact separates: nothing changes");
+    EXPECT_EQ(planned.reason.Text(), "the contact separates: nothing changes");
   }
 }
 
