@@ -1,0 +1,77 @@
+// A request reduces its scene to a contact once, whatever asks for it.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <utility>
+
+#include "core/contact/reduction.h"
+#include "ricochet/solver.h"
+#include "tests/support/system_scenes.h"
+
+namespace {
+
+int reductions = 0;
+
+}  // namespace
+
+// The linker sends calls of ricochet::Reduce(const Scene&) here: see --wrap in the CMakeLists.txt.
+extern "C" {
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
+ricochet::AnyReduction __real__ZN8ricochet6ReduceERKNS_5SceneE(const ricochet::Scene& scene);
+ricochet::AnyReduction __wrap__ZN8ricochet6ReduceERKNS_5SceneE(const ricochet::Scene& scene) {
+  ++reductions;
+  return __real__ZN8ricochet6ReduceERKNS_5SceneE(scene);
+}
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
+}
+
+namespace ricochet {
+namespace {
+
+int Count(const std::function<void()>& act) {
+  reductions = 0;
+  act();
+  return reductions;
+}
+
+int OfSolve(const Scene& scene) {
+  return Count([&] { EXPECT_TRUE(LocalSolver().Solve({.scene = scene}).ok()); });
+}
+
+TEST(ReduceOnceTest, ASolveReducesItsSceneOnce) {
+  for (const System& system : Systems()) EXPECT_EQ(OfSolve(With(system)), 1) << system.index();
+  Scene by_speed = With(Flat());
+  by_speed.friction.by_speed = PowerLaw{.alpha = 0.1, .exponent = 0.2};
+  EXPECT_EQ(OfSolve(by_speed), 1);
+}
+
+TEST(ReduceOnceTest, APendulumIsReducedOnlyWhereItsClosedFormDoesNotServe) {
+  Scene scene = With(Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.3, .b_m = 1.0, .omega_minus_rad_s = -1.0});
+  EXPECT_EQ(OfSolve(scene), 0);
+  scene.compliance = Compliance{.tangential_ratio_squared = 1.2, .normal = {}};
+  EXPECT_EQ(OfSolve(scene), 1);
+}
+
+TEST(ReduceOnceTest, BoundsAndAuditsReduceTheirSceneOnce) {
+  EXPECT_EQ(Count([] { EXPECT_TRUE(LocalSolver().Bounds({.scene = With(Flat())}).ok()); }), 1);
+  EXPECT_EQ(Count([] {
+              const AuditRequest request = {.scene = With(Flat()),
+                                            .observed = ContactVelocity{.tangential_m_s = {0.5}, .normal_m_s = 0.5}};
+              EXPECT_TRUE(LocalSolver().Audit(request).ok());
+            }),
+            1);
+}
+
+TEST(ReduceOnceTest, ASweepReducesEachPointOnceAndItsBaseSceneOnce) {
+  const SweepRequest request = {
+      .grid = {.scene = With(Flat()), .axes = {{"friction.kinetic_coefficient", Linspace{0.1, 0.5, 100}}}},
+      .columns = {"coefficients.newton"}};
+  EXPECT_EQ(Count([&] {
+              for (const auto& chunk : LocalSolver().Sweep(request)) EXPECT_TRUE(chunk.ok());
+            }),
+            101);
+}
+
+}  // namespace
+}  // namespace ricochet
