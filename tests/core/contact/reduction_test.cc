@@ -173,7 +173,8 @@ void ExpectConsistent(const System& before, const std::array<double, kTangential
                       void (*set)(const std::vector<double>&, System&)) {
   const auto reduction = std::get<Reduction<kTangential>>(Reduce({.system = before}));
   System moved = before;
-  set(reduction.After(f, tau), moved);
+  const auto velocities = reduction.After(f, tau);
+  set({velocities.begin(), velocities.end()}, moved);
   const auto after = std::get<Reduction<kTangential>>(Reduce({.system = moved}));
   const auto& w = reduction.w;
   if constexpr (kTangential == 1) {
