@@ -42,7 +42,7 @@ enum class Decision {
 // made when it is read, because most are not.
 class Reason {
  public:
-  // What the sentence is made of. The numbers of `ground` and `contact` are known to `write` alone.
+  // The data that the sentence is made of. The numbers of `ground` and `contact` are known to `write` alone.
   struct Facts {
     Effect effect = Effect::kUnspecified;
     int ground = 0;
