@@ -111,6 +111,14 @@ Effect CauseOf(Effect effect, EffectSet excluded, bool in_space) {
   return effect;
 }
 
+// Refuses a normal spring, whatever the tolerance leaves of it, if the build cannot follow an impact in time.
+void CheckComponents(const Scene& scene, std::vector<Violation>& violations) {
+  const bool has_spring = Lacking(scene, Effect::kFiniteDuration).empty();
+  if (!has_spring || finite_duration::IsAvailable()) return;
+  violations.push_back({"compliance.normal",
+                        "is set: must not be, this build has no impacts that take time (component finite_duration)"});
+}
+
 void CheckRequired(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {
   const bool in_space = IsInSpace(scene);
   const EffectSet excluded = WithImplied(demand.excluded, in_space);
@@ -171,15 +179,6 @@ EffectSet WithImplied(EffectSet excluded, bool in_space) {
   if (all.Has(Effect::kSlipStop)) all = all | EffectSet{Effect::kStaticFriction, Effect::kTangentialCompliance};
   if (all.Has(Effect::kFiniteDuration)) all.Add(Effect::kFiniteForces);
   return all;
-}
-
-// Only finite duration computes with a normal spring, whatever the tolerance leaves of it.
-static void CheckComponents(const Scene& scene, std::vector<Violation>& violations) {
-  const bool has_spring =
-      scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.compliance->normal);
-  if (!has_spring || finite_duration::IsAvailable()) return;
-  violations.push_back({"compliance.normal",
-                        "is set: must not be, this build has no impacts that take time (component finite_duration)"});
 }
 
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
