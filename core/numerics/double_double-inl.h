@@ -22,6 +22,8 @@ namespace ricochet::HWY_NAMESPACE {
 
 template <typename V>
 struct DoubleDouble {
+  static constexpr bool kCompensated = true;
+
   V hi;
   V lo;
 
@@ -96,6 +98,23 @@ HWY_INLINE DoubleDouble<V> Inverse(DoubleDouble<V> x) {
 template <typename V>
 HWY_INLINE DoubleDouble<V> operator/(DoubleDouble<V> x, DoubleDouble<V> y) {
   return x * Inverse(y);
+}
+
+template <typename V>
+HWY_INLINE void InvertBoth(DoubleDouble<V> x, DoubleDouble<V> y, DoubleDouble<V>& inverse_x,
+                           DoubleDouble<V>& inverse_y) {
+  inverse_x = Inverse(x);
+  inverse_y = Inverse(y);
+}
+
+// a + x y and a - x y.
+template <typename V>
+HWY_INLINE DoubleDouble<V> AddProduct(DoubleDouble<V> a, DoubleDouble<V> x, DoubleDouble<V> y) {
+  return a + x * y;
+}
+template <typename V>
+HWY_INLINE DoubleDouble<V> SubtractProduct(DoubleDouble<V> a, DoubleDouble<V> x, DoubleDouble<V> y) {
+  return a - x * y;
 }
 
 // x > 0.

@@ -14,6 +14,8 @@ namespace ricochet {
 
 class Wide {
  public:
+  static constexpr bool kCompensated = true;
+
   Wide() = default;
   static Wide Exactly(double value) { return {Mantissa::Exactly(value), 0}; }
   static Wide Constant(double value) { return Exactly(value); }
@@ -34,6 +36,12 @@ class Wide {
     return {big.mantissa_ + Scaled(small.mantissa_, -shift), big.exponent_};
   }
   friend Wide operator-(const Wide& x, const Wide& y) { return x + -y; }
+  friend Wide AddProduct(const Wide& a, const Wide& x, const Wide& y) { return a + x * y; }
+  friend Wide SubtractProduct(const Wide& a, const Wide& x, const Wide& y) { return a - x * y; }
+  friend void InvertBoth(const Wide& x, const Wide& y, Wide& inverse_x, Wide& inverse_y) {
+    inverse_x = Inverse(x);
+    inverse_y = Inverse(y);
+  }
 
   // x > 0.
   friend Wide Sqrt(const Wide& x) {

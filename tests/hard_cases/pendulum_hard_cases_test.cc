@@ -14,6 +14,7 @@
 #include "core/models/restitution_law.h"
 #include "tests/hard_cases/hard_case_table.h"
 #include "tests/support/pendulum_oracle.h"
+#include "tests/support/pendulum_scenes.h"
 
 namespace ricochet::pendulum {
 namespace {
@@ -294,6 +295,50 @@ TEST(PendulumHardCasesTest, KeepTheirPromise) {
   results.push_back(RunOwnDigits());
   results.push_back(RunBounds());
   CheckTable("pendulum", "ulp", results);
+}
+
+// `a` is the rounded product mu_s |b|, from which the exact one differs to either side.
+std::vector<Problem> StaticFrictionLessThanAnUlpFromLocking() {
+  std::vector<Problem> problems;
+  for (int i = 0; i < 20; ++i) {
+    problems.push_back(Tip(0.3));
+    problems.back().mu_static = 0.4 + 0.01 * i;
+    problems.back().a = problems.back().mu_static * problems.back().b;
+  }
+  return problems;
+}
+
+// Problems whose regime or limits a rounded sign gets wrong.
+std::vector<Problem> NearThresholds() {
+  const double x = 0.1 * 0.7 / 0.3;
+  const double r = (1.0 - x) / (1.0 + x);
+  std::vector<Problem> problems;
+  for (const auto& near : {UlpsFromLocking(-40, 40), FrictionOneUlpFromLocking(), LockedByStaticFriction(),
+                           StaticFrictionLessThanAnUlpFromLocking(), Elastic(), Vertical(),
+                           NearCoefficients(std::sqrt(r), std::sqrt(1.0 / r), 0.0, {-1.0, 1.0}),
+                           NearCoefficients(0.0, 0.0, 1.0, {-1.0}), NearCoefficients(1.0, 1.0 / r, 0.0, {-1.0, 1.0})}) {
+    problems.insert(problems.end(), near.begin(), near.end());
+  }
+  return problems;
+}
+
+bool HasVerdictsOf(const ExactImpact& exact, const Impact& impact) {
+  return impact.regime == exact.regime && impact.sharp_limit_broken == exact.sharp_limit_broken &&
+         impact.energy_limit_broken == exact.energy_limit_broken;
+}
+
+TEST(PendulumHardCasesTest, PlainArithmeticDecidesNothingByARoundedSign) {
+  int proved = 0;
+  int left_open = 0;
+  for (const Problem& problem : NearThresholds()) {
+    const PlainImpact plain = SolvePlain(problem);
+    ++(plain.proved ? proved : left_open);
+    EXPECT_TRUE(!plain.proved || HasVerdictsOf(SolveExactly(problem), plain.impact)) << ToString(problem);
+  }
+  // Only what lies within a few ulp of a limit is left to the arithmetic that is more exact.
+  EXPECT_GT(proved, 1000);
+  EXPECT_GT(left_open, 10);
+  EXPECT_LT(left_open, 60);
 }
 
 TEST(PendulumHardCasesTest, ZerosAndOnesAreExact) {

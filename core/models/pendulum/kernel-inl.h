@@ -1,10 +1,11 @@
 // The pendulum's formulas (core/models/pendulum/pendulum.h) over a number type N: DoubleDouble for moderate inputs, Wide for
-// all.
+// all, and Plain, whose errors core/models/pendulum/rounding-inl.h bounds.
 //
-// No difference cancels. With s = a + q and d = a - q (q = mu |b| is exact), a difference such as 1 - kappa is a numerator
-// divided by s or d, and each numerator has two forms: d - c s keeps its accuracy if d is small compared with a, and
-// a (1 - c) - q (1 + c) if c is near 1 and q is small compared with a. The rounding error left is at most 25 u^2 of the
-// larger term. docs/theory/pendulum_numerics.md lists all numerators.
+// In the wider types no difference cancels. With s = a + q and d = a - q (q = mu |b| is exact), a difference such as
+// 1 - kappa is a numerator divided by s or d, and each numerator has two forms: d - c s keeps its accuracy if d is small
+// compared with a, and a (1 - c) - q (1 + c) if c is near 1 and q is small compared with a. The rounding error left is at
+// most 25 u^2 of the larger term. Plain arithmetic takes the first form, because its bound does not gain by the second.
+// docs/theory/pendulum_numerics.md lists all numerators.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_PENDULUM_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -29,9 +30,9 @@ template <typename N, typename Mask>
 struct Inputs {
   N inertia, a, b, omega;  // omega is omega-
   N mu;                    // mu with the sign of b; 0 if b = 0.
-  N static_q;              // mu_s |b|
+  N mu_static;             // mu_s with the sign of b
   N coefficient;
-  Mask near_one;  // Selects the second form of a numerator: coefficient > 1/2, Poisson's < 2.
+  Mask near_one;  // Unless N is Plain, selects the second form of a numerator: coefficient > 1/2, Poisson's < 2.
 };
 
 // The quantities that are computed once for a problem; the outputs are products of these.
@@ -71,7 +72,8 @@ HWY_INLINE N NearOneNumerator(const Inputs<N, Mask>& in, const Solution<N, Mask>
 template <Lead kLead, Power kPower, typename N, typename Mask>
 HWY_INLINE N Numerator(const Inputs<N, Mask>& in, const Solution<N, Mask>& x) {
   const N c = kPower == Power::kTwo ? SquareOf(in.coefficient) : in.coefficient;
-  const N direct = kLead == Lead::kD ? x.d - c * x.s : x.s - c * x.d;
+  const N direct = kLead == Lead::kD ? SubtractProduct(x.d, c, x.s) : SubtractProduct(x.s, c, x.d);
+  if constexpr (!N::kCompensated) return direct;
   return Select(in.near_one, NearOneNumerator<kLead, kPower>(in, x), direct);
 }
 
@@ -157,9 +159,9 @@ HWY_INLINE void SolveGeometry(const Inputs<N, Mask>& in, Solution<N, Mask>& x) {
   x.omega = in.omega;
   x.mu = in.mu;
   x.q = x.mu * x.b;
-  x.s = x.a + x.q;
-  x.d = x.a - x.q;
-  const N margin = x.a - in.static_q;
+  x.s = AddProduct(x.a, x.mu, x.b);
+  x.d = SubtractProduct(x.a, x.mu, x.b);
+  const N margin = SubtractProduct(x.a, in.mu_static, x.b);
   x.locked = Not(IsPositive(margin));
 }
 
@@ -173,6 +175,8 @@ HWY_INLINE void ClearParts(Solution<N, Mask>& x) {
   x.eta_squared = zero;
   x.one_minus_kappa = zero;
   x.inverse_one_plus_kappa = zero;
+  x.one_minus_eta_squared = zero;
+  x.one_minus_kappa_hat = zero;
   x.energy_loss = zero;
   x.tau0 = zero;
   x.half_omega_tau0 = zero;
@@ -183,8 +187,7 @@ template <typename N, typename Mask>
 HWY_INLINE void SolveParts(RestitutionLaw law, const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
   ClearParts(x);
   SolveGeometry(in, x);
-  x.inverse_s = Inverse(x.s);
-  x.inverse_d = Inverse(x.d);
+  InvertBoth(x.s, x.d, x.inverse_s, x.inverse_d);
   if (parts & kPartTau0) x.tau0 = x.inertia * -x.omega * x.inverse_s;
   if (parts & kPartWork) x.half_omega_tau0 = N::Constant(0.5) * x.omega * x.tau0;
   switch (law) {
@@ -257,7 +260,7 @@ HWY_INLINE Inputs<N, bool> MakeInputs(const Problem& problem) {
           .b = N::Exactly(problem.b),
           .omega = N::Exactly(problem.omega_minus),
           .mu = N::Exactly(SignedFriction(problem)),
-          .static_q = N::Exactly(problem.mu_static) * N::Exactly(std::fabs(problem.b)),
+          .mu_static = N::Exactly(std::copysign(problem.mu_static, problem.b)),
           .coefficient = N::Exactly(problem.coefficient),
           .near_one = poisson ? problem.coefficient < 2.0 : problem.coefficient > 0.5};
 }

@@ -16,17 +16,15 @@
 // clang-format off
 #include "hwy/foreach_target.h"
 #include "core/models/pendulum/kernel-inl.h"
+#include "core/models/pendulum/rounding-inl.h"
+#include "core/models/pendulum/sizes-inl.h"
 #include "core/numerics/lanes-inl.h"
+#include "core/numerics/plain-inl.h"
 // clang-format on
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_CC_
 #define RICOCHET_CORE_MODELS_PENDULUM_CC_
 namespace ricochet::pendulum {
-
-// No product of the kernel leaves the range in which DoubleDouble is exact if every number is 0 or has a size between
-// 1/kLimit and kLimit: the largest product is below 2^700, the smallest above 2^-890, its low half 2^-106 of that.
-inline constexpr double kLimit = 0x1p100;
-inline constexpr double kCoefficientLimit = 0x1p40;
 
 // A Block holds problems of one law, column by column, for vectors to load.
 struct Block {
@@ -67,8 +65,7 @@ struct Block {
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::pendulum::HWY_NAMESPACE {
 
-using ricochet::HWY_NAMESPACE::Absolute;
-using ricochet::HWY_NAMESPACE::Select;
+using ricochet::HWY_NAMESPACE::InAllLanes;
 
 // The target's widest lanes.
 using V = ricochet::HWY_NAMESPACE::Vector;
@@ -91,7 +88,7 @@ HWY_INLINE Inputs<N, Mask> LoadInputs(const Block& block, size_t i) {
   in.b = exactly(block.b);
   in.omega = exactly(block.omega);
   in.mu = exactly(block.mu);
-  in.static_q = exactly(block.mu_static) * in.b;
+  in.mu_static = exactly(block.mu_static);
   in.coefficient = N::Exactly(coefficient);
   in.near_one =
       block.law == RestitutionLaw::kPoisson ? coefficient < VLanes::Fill(2.0) : VLanes::Fill(0.5) < coefficient;
@@ -109,40 +106,16 @@ HWY_INLINE void StoreFirst(V value, size_t count, double* to) {
   std::copy_n(lanes, count, to);
 }
 
-// The least and the largest magnitude in each lane of all numbers taken in, zeros left out. Both start at 1.
-struct Sizes {
-  V least;
-  V most;
-
-  HWY_INLINE void TakeIn(const double* from) {
-    const V x = Absolute(VLanes::Load(from));
-    const V size = Select(x == VLanes::Fill(0.0), VLanes::Fill(1.0), x);
-    least = Select(size < least, size, least);
-    most = Select(most < size, size, most);
-  }
-
-  HWY_INLINE bool AreWithin(double limit) const {
-    double low[Block::kCapacity];
-    double high[Block::kCapacity];
-    VLanes::Store(least, low);
-    VLanes::Store(most, high);
-    bool within = true;
-    for (size_t i = 0; i < VLanes::Count(); ++i) within = within && low[i] >= 1.0 / limit && high[i] <= limit;
-    return within;
-  }
-};
-
 HWY_INLINE bool FitsDoubleDouble(const Block& block) {
-  const V one = VLanes::Fill(1.0);
-  Sizes sizes = {one, one};
-  Sizes coefficients = {one, one};
+  Sizes<V> sizes;
+  Sizes<V> coefficients;
   for (size_t i = 0; i < block.size; i += VLanes::Count()) {
     for (const auto* column : {&block.inertia, &block.a, &block.b, &block.omega, &block.friction, &block.mu_static}) {
-      sizes.TakeIn(column->data() + i);
+      sizes.TakeIn(VLanes::Load(column->data() + i));
     }
-    coefficients.TakeIn(block.coefficient.data() + i);
+    coefficients.TakeIn(VLanes::Load(block.coefficient.data() + i));
   }
-  return sizes.AreWithin(kLimit) && coefficients.AreWithin(kCoefficientLimit);
+  return InAllLanes(sizes.AreWithin(kLimit)) && InAllLanes(coefficients.AreWithin(kCoefficientLimit));
 }
 
 // Returns false and writes nothing if a number is beyond the limits.
@@ -164,9 +137,7 @@ bool SolveBlock(Block& block, unsigned parts, absl::Span<const Output> outputs, 
 }
 
 template <typename T>
-HWY_INLINE Impact SolveOne(const Problem& problem) {
-  Solution<T, bool> x;
-  SolveParts(problem.law, MakeInputs<T>(problem), kPartAll, x);
+HWY_INLINE Impact ImpactOf(const Problem& problem, const Solution<T, bool>& x) {
   Impact impact;
   impact.regime = RegimeOf(problem, x.locked);
   impact.sharp_limit_broken = IsNegative(x.one_minus_eta_squared);
@@ -177,8 +148,28 @@ HWY_INLINE Impact SolveOne(const Problem& problem) {
   return impact;
 }
 
+template <typename T>
+HWY_INLINE Impact SolveOne(const Problem& problem) {
+  Solution<T, bool> x;
+  SolveParts(problem.law, MakeInputs<T>(problem), kPartAll, x);
+  return ImpactOf(problem, x);
+}
+
 Impact SolveModerate(const Problem& problem) {
   return SolveOne<ricochet::HWY_NAMESPACE::DoubleDouble<double>>(problem);
+}
+
+// The problem must not separate.
+void SolvePlainly(const Problem& problem, PlainImpact& plain) {
+  const auto in = MakeInputs<Plain<double>>(problem);
+  plain.proved = IsModerate(in);
+  if (!plain.proved) return;
+  Solution<Plain<double>, bool> x;
+  SolveParts(problem.law, in, kPartAll, x);
+  plain.proved = SignsAreProved(problem.law, x);
+  if (!plain.proved) return;
+  plain.relative_error = RelativeError(x);
+  plain.impact = ImpactOf(problem, x);
 }
 
 }  // namespace ricochet::pendulum::HWY_NAMESPACE
@@ -192,8 +183,12 @@ namespace ricochet::pendulum {
 
 HWY_EXPORT(SolveBlock);
 HWY_EXPORT(SolveModerate);
+HWY_EXPORT(SolvePlainly);
 
 namespace {
+
+using HWY_NAMESPACE::kCoefficientLimit;
+using HWY_NAMESPACE::kLimit;
 
 bool FitsDoubleDouble(const Problem& problem) {
   const auto moderate = [](double value, double limit) {
@@ -244,6 +239,18 @@ Impact Solve(const Problem& problem) {
   if (Separating(problem)) return SolveSeparating(problem);
   if (!FitsDoubleDouble(problem)) return HWY_NAMESPACE::SolveOne<Wide>(problem);
   return HWY_DYNAMIC_DISPATCH(SolveModerate)(problem);
+}
+
+PlainImpact SolvePlain(const Problem& problem) {
+  PlainImpact plain;
+  if (Separating(problem)) {
+    plain.impact = SolveSeparating(problem);
+    plain.relative_error = HWY_NAMESPACE::kUnitRoundoff;
+    plain.proved = true;
+  } else {
+    HWY_DYNAMIC_DISPATCH(SolvePlainly)(problem, plain);
+  }
+  return plain;
 }
 
 void SolveColumns(absl::Span<const Problem> problems, absl::Span<const Output> outputs,

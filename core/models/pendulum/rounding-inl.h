@@ -1,0 +1,81 @@
+// What the pendulum's kernel in plain arithmetic proves of its own answer: a bound on its rounding error, and the signs
+// that it is sure of. docs/theory/rounding.md derives every constant.
+
+// Per-target include guard.
+#if defined(RICOCHET_CORE_MODELS_PENDULUM_ROUNDING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_PENDULUM_ROUNDING_INL_H_
+#undef RICOCHET_CORE_MODELS_PENDULUM_ROUNDING_INL_H_
+#else
+#define RICOCHET_CORE_MODELS_PENDULUM_ROUNDING_INL_H_
+#endif
+
+#include "core/models/pendulum/kernel-inl.h"
+#include "core/models/pendulum/sizes-inl.h"
+#include "core/models/restitution_law.h"
+#include "core/numerics/plain-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::pendulum::HWY_NAMESPACE {
+
+using ricochet::HWY_NAMESPACE::Absolute;
+using ricochet::HWY_NAMESPACE::Both;
+using ricochet::HWY_NAMESPACE::Lanes;
+using ricochet::HWY_NAMESPACE::Plain;
+using ricochet::HWY_NAMESPACE::Select;
+
+inline constexpr double kUnitRoundoff = 0x1p-53;
+// The bound is the larger of kLeastError and kErrorOfOne + kErrorOfKappa kappa.
+inline constexpr double kLeastError = 15.0 * kUnitRoundoff;
+inline constexpr double kErrorOfOne = 9.0 * kUnitRoundoff;
+inline constexpr double kErrorOfKappa = 15.5 * kUnitRoundoff;
+// 1 - eta^2 and 1 - kappa_hat have the sign of their exact values if they are at least this large.
+inline constexpr double kLeastSure = 8.0 * kUnitRoundoff;
+
+// The bound on the relative error of the answer (PlainImpact in core/models/pendulum/pendulum.h). kappa must have been
+// computed.
+template <typename V, typename Mask>
+HWY_INLINE V RelativeError(const Solution<Plain<V>, Mask>& x) {
+  const V least = Lanes<V>::Fill(kLeastError);
+  const V error = Lanes<V>::Fill(kErrorOfOne) + Lanes<V>::Fill(kErrorOfKappa) * Rounded(x.kappa);
+  return Select(error < least, least, error);
+}
+
+template <typename V>
+HWY_INLINE auto IsSure(Plain<V> difference) {
+  return Lanes<V>::Fill(kLeastSure) <= Absolute(Rounded(difference));
+}
+
+// True where the signs that decide on broken limits are those of the exact values. A coefficient that the law states
+// itself has an exact sign. A sign of a - mu_s |b| needs no check, because it is that of a sum that is rounded once.
+template <typename V, typename Mask>
+HWY_INLINE Mask SignsAreProved(RestitutionLaw law, const Solution<Plain<V>, Mask>& x) {
+  // inverse_s and inverse_d have no meaning if d = 0.
+  const Mask invertible = Lanes<V>::Fill(0.0) < Absolute(Rounded(x.d));
+  switch (law) {
+    case RestitutionLaw::kNewton:
+      return Both(invertible, IsSure(x.one_minus_eta_squared));
+    case RestitutionLaw::kPoisson:
+      return Both(invertible, Both(IsSure(x.one_minus_eta_squared), IsSure(x.one_minus_kappa_hat)));
+    case RestitutionLaw::kEnergetic:
+      return invertible;
+  }
+  return invertible;
+}
+
+// True where no product leaves the range of doubles: each number but mu_s is 0 or of moderate size.
+template <typename V, typename Mask>
+HWY_INLINE Mask IsModerate(const Inputs<Plain<V>, Mask>& in) {
+  Sizes<V> sizes;
+  sizes.TakeIn(in.inertia.value);
+  sizes.TakeIn(in.a.value);
+  sizes.TakeIn(in.b.value);
+  sizes.TakeIn(in.omega.value);
+  sizes.TakeIn(in.mu.value);
+  sizes.TakeIn(in.coefficient.value);
+  return sizes.AreWithin(kLimit);
+}
+
+}  // namespace ricochet::pendulum::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,51 @@
+// Sizes: the range of the magnitudes of numbers, lane by lane, to tell whether a product of them can leave the range of
+// doubles.
+
+// Per-target include guard.
+#if defined(RICOCHET_CORE_MODELS_PENDULUM_SIZES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_PENDULUM_SIZES_INL_H_
+#undef RICOCHET_CORE_MODELS_PENDULUM_SIZES_INL_H_
+#else
+#define RICOCHET_CORE_MODELS_PENDULUM_SIZES_INL_H_
+#endif
+
+#include "core/numerics/lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::pendulum::HWY_NAMESPACE {
+
+using ricochet::HWY_NAMESPACE::Absolute;
+using ricochet::HWY_NAMESPACE::Both;
+using ricochet::HWY_NAMESPACE::Lanes;
+using ricochet::HWY_NAMESPACE::Select;
+
+// No product of the kernel leaves the range in which DoubleDouble is exact if every number is 0 or has a size between
+// 1/kLimit and kLimit: the largest product is below 2^700, the smallest above 2^-890, its low half 2^-106 of that.
+inline constexpr double kLimit = 0x1p100;
+inline constexpr double kCoefficientLimit = 0x1p40;
+
+// The least and the largest magnitude in each lane of all numbers taken in, zeros left out. Both start at 1.
+template <typename V>
+struct Sizes {
+  V least;
+  V most;
+
+  HWY_INLINE Sizes() : least(Lanes<V>::Fill(1.0)), most(Lanes<V>::Fill(1.0)) {}
+
+  HWY_INLINE void TakeIn(V x) {
+    const V size = Absolute(x);
+    most = Select(most < size, size, most);
+    const V not_zero = Select(Lanes<V>::Fill(0.0) < size, size, Lanes<V>::Fill(1.0));
+    least = Select(not_zero < least, not_zero, least);
+  }
+
+  // True where all are at least 1/limit and at most `limit`.
+  HWY_INLINE auto AreWithin(double limit) const {
+    return Both(Lanes<V>::Fill(1.0 / limit) <= least, most <= Lanes<V>::Fill(limit));
+  }
+};
+
+}  // namespace ricochet::pendulum::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
