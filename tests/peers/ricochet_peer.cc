@@ -1,0 +1,101 @@
+// Ricochet itself: the closed form as a kernel, one impact after another and in SIMD lanes, and LocalSolver::Solve with all
+// that an answer holds. Each run solves many impacts, because the clock is coarser than one.
+
+#include <limits>
+#include <vector>
+
+#include "core/models/pendulum/pendulum.h"
+#include "ricochet/solver.h"
+#include "tests/benchmark/measure.h"
+#include "tests/peers/exact.h"
+#include "tests/peers/peer.h"
+
+namespace ricochet::peers {
+namespace {
+
+using pendulum::Output;
+using pendulum::Problem;
+
+AfterImpact AfterAt(double omega) { return {.omega = omega, .energy_j = 0.5 * kInertiaAboutPin * omega * omega}; }
+
+class KernelPeer final : public Peer {
+ public:
+  enum class How { kOneByOne, kLanes };
+  KernelPeer(Setup setup, How how) : Peer(std::move(setup)), how_(how) {}
+
+  void Prepare(const PendulumCase& c) override {
+    problems_.assign(kImpacts, {.inertia = kInertiaAboutPin,
+                                .a = c.a,
+                                .b = c.b,
+                                .omega_minus = kOmegaBefore,
+                                .mu = c.friction,
+                                .mu_static = c.friction,
+                                .law = RestitutionLaw::kEnergetic,
+                                .coefficient = c.restitution});
+  }
+  void Reset() override {}
+  void Run() override {
+    if (how_ == How::kOneByOne) {
+      for (size_t i = 0; i < kImpacts; ++i) omega_[i] = pendulum::Solve(problems_[i])[Output::kOmegaPlus];
+    } else {
+      const Output outputs[] = {Output::kOmegaPlus};
+      double* const columns[] = {omega_.data()};
+      pendulum::SolveColumns(problems_, outputs, columns, absl::MakeSpan(regimes_),
+                             absl::Span<bool>(inadmissible_.get(), kImpacts));
+    }
+    bench::Keep(omega_.back());
+  }
+  AfterImpact After() const override { return AfterAt(omega_.back()); }
+  int impacts_per_run() const override { return kImpacts; }
+
+ private:
+  static constexpr int kImpacts = 1000;
+
+  const How how_;
+  std::vector<Problem> problems_;
+  std::vector<double> omega_ = std::vector<double>(kImpacts);
+  std::vector<Regime> regimes_ = std::vector<Regime>(kImpacts);
+  std::unique_ptr<bool[]> inadmissible_ = std::make_unique<bool[]>(kImpacts);
+};
+
+class SolverPeer final : public Peer {
+ public:
+  using Peer::Peer;
+
+  void Prepare(const PendulumCase& c) override { request_.scene = SceneOf(c); }
+  void Reset() override {}
+  void Run() override {
+    for (int i = 0; i < kImpacts; ++i) {
+      const auto response = solver_.Solve(request_);
+      // A refused request leaves a NaN, which no table can overlook.
+      omega_ = response.ok() ? response->outcome.rates_after_rad_s[0] : std::numeric_limits<double>::quiet_NaN();
+    }
+    bench::Keep(omega_);
+  }
+  AfterImpact After() const override { return AfterAt(omega_); }
+  int impacts_per_run() const override { return kImpacts; }
+
+ private:
+  static constexpr int kImpacts = 100;
+
+  const LocalSolver solver_;
+  SolveRequest request_;
+  double omega_ = 0.0;
+};
+
+}  // namespace
+
+Peers RicochetPeers() {
+  Peers peers;
+  peers.push_back(std::make_unique<KernelPeer>(
+      Setup{"Ricochet", "energetic", "closed form, one column in SIMD lanes", 0, 0, "", "1000 impacts a call", true},
+      KernelPeer::How::kLanes));
+  peers.push_back(std::make_unique<KernelPeer>(
+      Setup{"Ricochet", "energetic", "closed form, all outputs", 0, 0, "", "one impact a call", true},
+      KernelPeer::How::kOneByOne));
+  peers.push_back(std::make_unique<SolverPeer>(
+      Setup{"Ricochet", "energetic", "LocalSolver::Solve", 0, 0, "", "default demand", true}));
+  return peers;
+}
+
+}  // namespace ricochet::peers
