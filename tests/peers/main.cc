@@ -2,9 +2,9 @@
 // settings, prints a table and writes all measurements to the file.
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <fstream>
 #include <iostream>
 #include <string>
@@ -34,9 +34,22 @@ struct Measurement {
   double times_ours = 0.0;       // Median of the rounds' ratios to LocalSolver::Solve.
 };
 
+// Seconds that this thread has worked.
+double WorkedSeconds() {
+  timespec now = {};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// Runs longer than this, in s, are timed by the thread's clock, as other programs interrupt most of them. For shorter runs
+// that clock is too slow to read.
+constexpr double kShortRun = 1e-4;
+
 double SecondsOfRun(Peer& peer) {
   peer.Reset();
-  return bench::Seconds([&] { peer.Run(); });
+  const double start = WorkedSeconds();
+  const double seconds = bench::Seconds([&] { peer.Run(); });
+  return seconds > kShortRun ? WorkedSeconds() - start : seconds;
 }
 
 // Time that the clock itself adds to a measurement.
@@ -46,11 +59,11 @@ double SecondsOfClock() {
   return bench::Median(seconds);
 }
 
-// Time of one impact of a round of `runs`.
+// Time of one impact: the median of a round of `runs`, because other programs interrupt some of them.
 double SecondsAnImpact(Peer& peer, int runs, double clock) {
-  double sum = 0;
-  for (int i = 0; i < runs; ++i) sum += SecondsOfRun(peer) - clock;
-  return sum / runs / peer.impacts_per_run();
+  std::vector<double> seconds(static_cast<size_t>(runs));
+  for (double& s : seconds) s = SecondsOfRun(peer) - clock;
+  return bench::Median(seconds) / peer.impacts_per_run();
 }
 
 int RunsARound(Peer& peer) {

@@ -224,7 +224,7 @@ set xtics (1e-17, 1e-16)
 unset key
 {labels}"""
 # Short names of our own rows, which come first.
-OUR_NAMES = ('in SIMD lanes', 'closed form', 'Solve')
+OUR_NAMES = ('in SIMD lanes', 'plain doubles', 'double-double', 'Solve')
 OUR_LABEL = """set label '{name}' at {x}, {y} left offset 1,0 font ',12'
 """
 

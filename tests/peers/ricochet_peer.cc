@@ -20,7 +20,7 @@ AfterImpact AfterAt(double omega) { return {.omega = omega, .energy_j = 0.5 * kI
 
 class KernelPeer final : public Peer {
  public:
-  enum class How { kOneByOne, kLanes };
+  enum class How { kLanes, kPlain, kDoubleDouble };
   KernelPeer(Setup setup, How how) : Peer(std::move(setup)), how_(how) {}
 
   void Prepare(const PendulumCase& c) override {
@@ -35,13 +35,18 @@ class KernelPeer final : public Peer {
   }
   void Reset() override {}
   void Run() override {
-    if (how_ == How::kOneByOne) {
-      for (size_t i = 0; i < kImpacts; ++i) omega_[i] = pendulum::Solve(problems_[i])[Output::kOmegaPlus];
-    } else {
-      const Output outputs[] = {Output::kOmegaPlus};
-      double* const columns[] = {omega_.data()};
-      pendulum::SolveColumns(problems_, outputs, columns, absl::MakeSpan(regimes_),
-                             absl::Span<bool>(inadmissible_.get(), kImpacts));
+    switch (how_) {
+      case How::kLanes:
+        SolveInLanes();
+        break;
+      case How::kPlain:
+        for (size_t i = 0; i < kImpacts; ++i) {
+          omega_[i] = pendulum::SolvePlain(problems_[i]).impact[Output::kOmegaPlus];
+        }
+        break;
+      case How::kDoubleDouble:
+        for (size_t i = 0; i < kImpacts; ++i) omega_[i] = pendulum::Solve(problems_[i])[Output::kOmegaPlus];
+        break;
     }
     bench::Keep(omega_.back());
   }
@@ -50,6 +55,13 @@ class KernelPeer final : public Peer {
 
  private:
   static constexpr int kImpacts = 1000;
+
+  void SolveInLanes() {
+    const Output outputs[] = {Output::kOmegaPlus};
+    double* const columns[] = {omega_.data()};
+    pendulum::SolveColumns(problems_, outputs, columns, absl::MakeSpan(regimes_),
+                           absl::Span<bool>(inadmissible_.get(), kImpacts));
+  }
 
   const How how_;
   std::vector<Problem> problems_;
@@ -87,12 +99,12 @@ class SolverPeer final : public Peer {
 
 Peers RicochetPeers() {
   Peers peers;
-  peers.push_back(std::make_unique<KernelPeer>(
-      Setup{"Ricochet", "energetic", "closed form, one column in SIMD lanes", 0, 0, "", "1000 impacts a call", true},
-      KernelPeer::How::kLanes));
-  peers.push_back(std::make_unique<KernelPeer>(
-      Setup{"Ricochet", "energetic", "closed form, all outputs", 0, 0, "", "one impact a call", true},
-      KernelPeer::How::kOneByOne));
+  const auto kernel = [&](const char* method, const char* fixed, KernelPeer::How how) {
+    peers.push_back(std::make_unique<KernelPeer>(Setup{"Ricochet", "energetic", method, 0, 0, "", fixed, true}, how));
+  };
+  kernel("closed form in SIMD lanes", "double-double, 1000 impacts a call, omega+ alone", KernelPeer::How::kLanes);
+  kernel("closed form in plain doubles", "one impact a call, all outputs", KernelPeer::How::kPlain);
+  kernel("closed form in double-double", "one impact a call, all outputs", KernelPeer::How::kDoubleDouble);
   peers.push_back(std::make_unique<SolverPeer>(
       Setup{"Ricochet", "energetic", "LocalSolver::Solve", 0, 0, "", "default demand", true}));
   return peers;
