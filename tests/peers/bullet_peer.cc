@@ -1,6 +1,11 @@
-// Bullet in double precision: hinge, ball against plane. A contact bounces by Newton's law; sequential impulses, or a linear
-// complementarity problem solved by pivoting (Dantzig).
+// Bullet in double precision: ball against plane, and a hinge between rigid bodies, or a revolute link in generalized
+// coordinates (Featherstone). A contact bounces by Newton's law; sequential impulses, or a linear complementarity problem
+// solved by pivoting (Dantzig).
 
+#include <BulletDynamics/Featherstone/btMultiBody.h>
+#include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
+#include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
+#include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
 #include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
 #include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 #include <btBulletDynamicsCommon.h>
@@ -9,6 +14,11 @@
 
 namespace ricochet::peers {
 namespace {
+
+// Drops the contacts of the impact before, which keep its impulses.
+void ForgetContacts(btDispatcher& dispatcher) {
+  for (int i = 0; i < dispatcher.getNumManifolds(); ++i) dispatcher.getManifoldByIndexInternal(i)->clearManifold();
+}
 
 class BulletPeer final : public Peer {
  public:
@@ -31,10 +41,7 @@ class BulletPeer final : public Peer {
     body.setInterpolationWorldTransform(start);
     body.setLinearVelocity(btVector3(rod.velocity_x(), rod.velocity_y(), 0));
     body.setAngularVelocity(btVector3(0, 0, kOmegaBefore));
-    // Contacts keep the impulses of the impact before.
-    for (int i = 0; i < world_->dispatcher.getNumManifolds(); ++i) {
-      world_->dispatcher.getManifoldByIndexInternal(i)->clearManifold();
-    }
+    ForgetContacts(world_->dispatcher);
   }
 
   void Run() override {
@@ -107,6 +114,86 @@ class BulletPeer final : public Peer {
   std::unique_ptr<World> world_;
 };
 
+class BulletMultiBodyPeer final : public Peer {
+ public:
+  using Peer::Peer;
+
+  void Prepare(const PendulumCase& c) override {
+    world_ = std::make_unique<World>(c);
+    btContactSolverInfo& info = world_->dynamics.getSolverInfo();
+    info.m_numIterations = setup().iterations;
+    info.m_restitutionVelocityThreshold = 0;
+  }
+
+  void Reset() override {
+    btMultiBody& pendulum = world_->pendulum;
+    pendulum.setJointPos(0, 0);
+    pendulum.setJointVel(0, kOmegaBefore);
+    btAlignedObjectArray<btQuaternion> turns;
+    btAlignedObjectArray<btVector3> places;
+    pendulum.forwardKinematics(turns, places);
+    pendulum.updateCollisionObjectWorldTransforms(turns, places);
+    ForgetContacts(world_->dispatcher);
+  }
+
+  void Run() override {
+    for (int i = 0; i < kMostSteps && world_->pendulum.getJointVel(0) < -kStopped; ++i) {
+      world_->dynamics.stepSimulation(setup().step_s, 0);
+    }
+  }
+
+  AfterImpact After() const override {
+    const double omega = world_->pendulum.getJointVel(0);
+    return {.omega = omega, .energy_j = 0.5 * kInertiaAboutPin * omega * omega};
+  }
+
+ private:
+  struct World {
+    explicit World(const PendulumCase& c)
+        : ground_shape(btVector3(0, 1, 0), -c.b),
+          ground(btRigidBody::btRigidBodyConstructionInfo(0, nullptr, &ground_shape)) {
+      const Rod rod(c);
+      const btVector3 com(rod.com_x, rod.com_y, 0);
+      pendulum.setupRevolute(0, rod.mass, btVector3(rod.inertia_com, rod.inertia_com, rod.inertia_com), -1,
+                             btQuaternion::getIdentity(), btVector3(0, 0, 1), btVector3(0, 0, 0), com);
+      pendulum.finalizeMultiDof();
+      pendulum.setLinearDamping(0);
+      pendulum.setAngularDamping(0);
+      shape.addChildShape(btTransform(btQuaternion::getIdentity(), btVector3(rod.tip_x, rod.tip_y, 0) - com), &ball);
+      tip.setCollisionShape(&shape);
+      tip.setFriction(c.friction);
+      tip.setRestitution(c.restitution);
+      ground.setFriction(1);
+      ground.setRestitution(1);
+      pendulum.getLink(0).m_collider = &tip;
+      dynamics.setGravity(btVector3(0, 0, 0));
+      dynamics.addRigidBody(&ground);
+      dynamics.addMultiBody(&pendulum);
+      dynamics.addCollisionObject(&tip, btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter);
+    }
+    ~World() {
+      dynamics.removeCollisionObject(&tip);
+      dynamics.removeMultiBody(&pendulum);
+      dynamics.removeRigidBody(&ground);
+    }
+
+    btSphereShape ball = btSphereShape(kTipRadius);
+    btCompoundShape shape;
+    btStaticPlaneShape ground_shape;
+    btRigidBody ground;
+    // One link on a base that does not move; it may not fall asleep.
+    btMultiBody pendulum = btMultiBody(1, 0, btVector3(0, 0, 0), true, false);
+    btMultiBodyLinkCollider tip = btMultiBodyLinkCollider(&pendulum, 0);
+    btDefaultCollisionConfiguration configuration;
+    btCollisionDispatcher dispatcher = btCollisionDispatcher(&configuration);
+    btDbvtBroadphase broadphase;
+    btMultiBodyConstraintSolver solver;
+    btMultiBodyDynamicsWorld dynamics = btMultiBodyDynamicsWorld(&dispatcher, &broadphase, &solver, &configuration);
+  };
+
+  std::unique_ptr<World> world_;
+};
+
 }  // namespace
 
 Peers BulletPeers() {
@@ -123,6 +210,11 @@ Peers BulletPeers() {
   }
   for (const double step : {1.0 / 60, 1e-4}) {
     add(BulletPeer::Solver::kSequentialImpulses, "sequential impulses", step, 10, false);
+  }
+  for (const int iterations : {1, 10, 100, 1000, 10000}) {
+    peers.push_back(std::make_unique<BulletMultiBodyPeer>(
+        Setup{"Bullet", "Newton", "multibody, sequential impulses", 1e-3, iterations, "",
+              "restitution threshold 0, no damping", iterations == 10}));
   }
   return peers;
 }

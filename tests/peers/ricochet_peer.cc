@@ -90,7 +90,7 @@ class SolverPeer final : public Peer {
  private:
   static constexpr int kImpacts = 100;
 
-  const LocalSolver solver_;
+  LocalSolver solver_;
   SolveRequest request_;
   double omega_ = 0.0;
 };
