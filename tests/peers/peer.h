@@ -56,8 +56,8 @@ struct Setup {
   std::string method;  // Its solver; peers that differ only in what follows form one line of the diagram.
   double step_s = 0.0;
   int iterations = 0;     // 0: the solver does not iterate, or by a tolerance of its own.
-  std::string varied;     // What else differs between the points of a line, such as the length of a soft contact.
-  std::string fixed;      // What else was set.
+  std::string varied;     // Other settings that differ between the points of a line, such as the length of a contact.
+  std::string fixed;      // Other settings that are common to all points of a line.
   bool in_table = false;  // Whether these are the settings that the engine's documents recommend.
 };
 

@@ -1,7 +1,7 @@
 // SpringContact: the spring and the damper that stand for a coefficient of restitution in engines with soft contacts.
 //
-// Without friction the pendulum's contact is a mass m = J0/a^2 on a linear spring and damper, m x'' + d x' + k x = 0, and the
-// contact ends when the force has fallen to zero. Its restitution then depends on the damping ratio zeta alone:
+// A frictionless contact of the pendulum is a mass m = J0/a^2 on a linear spring and damper, m x'' + d x' + k x = 0, and it
+// ends when the force has fallen to zero. Its restitution then depends on the damping ratio zeta alone:
 //
 //   e = exp(-zeta/s (pi - atan2(2 zeta s, s^2 - zeta^2))),   s = sqrt(1 - zeta^2)
 //
