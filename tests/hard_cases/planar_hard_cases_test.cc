@@ -142,6 +142,27 @@ TEST(PlanarHardCasesTest, NaiveFormulasServeEverydayProblems) {
   }
 }
 
+// A sign that rounding may have turned is not proved, so that what plain arithmetic proves is the exact course.
+TEST(PlanarHardCasesTest, PlainArithmeticProvesNoSignThatRoundingTurned) {
+  for (const HardCase& hard : HardCases()) {
+    SceneSource source(7);
+    for (int i = 0; i < kProblemsPerCase; ++i) {
+      const Problem problem = hard.next(source);
+      const PlainImpact plain = SolvePlain(problem);
+      if (!plain.proved) continue;
+      const ExactImpact exact = SolveExactly(problem);
+      ASSERT_EQ(plain.impact.regime, exact.regime) << hard.name << ": " << ToString(problem);
+      ASSERT_EQ(plain.impact.w_rank, exact.w_rank) << hard.name << ": " << ToString(problem);
+      ASSERT_EQ(static_cast<size_t>(plain.impact.event_count), exact.events.size()) << hard.name;
+      for (size_t k = 0; k < exact.events.size(); ++k) ASSERT_EQ(plain.impact.events[k].kind, exact.events[k].kind);
+      if (problem.coefficient == 0.0 || exact.regime == Regime::kLocked) continue;
+      ASSERT_EQ(plain.impact.sharp_limit_broken, exact.energetic > Ball(1.0)) << hard.name << ": " << ToString(problem);
+      ASSERT_EQ(plain.impact.energy_limit_broken, exact.energy_change > Ball(0.0))
+          << hard.name << ": " << ToString(problem);
+    }
+  }
+}
+
 TEST(PlanarHardCasesTest, KeepTheirPromise) {
   std::vector<HardCaseResult> results;
   for (const HardCase& hard : HardCases()) results.push_back(ResultOf(hard));

@@ -1,10 +1,10 @@
 // The path of a planar impact (core/models/planar/planar.h) over a number type N: DoubleDouble for moderate inputs, Wide for
-// all.
+// all, and Plain where a rounding error within the bound of core/models/planar/rounding-inl.h serves.
 //
-// A path has at most two pieces: the first slip, and the piece after slip has stopped. Slopes are sums of two exact
-// products, right to 3 u^2 (u = 2^-53), and their signs are exact. The only difference that may cancel is
-// d = v0 u' - u0 v'; its sign decides whether slip stops or compression ends first. Every work is a sum of terms of one
-// sign. docs/theory/planar_numerics.md says more.
+// A path has at most two pieces: the first slip, and the piece after slip has stopped. Slopes are sums of a number and an
+// exact product, right to 3 u^2 (u = 2^-53), or to u in plain arithmetic, and their signs are exact. The only difference
+// that may cancel is d = v0 u' - u0 v'; its sign decides whether slip stops or compression ends first. Every work is a sum
+// of terms of one sign. docs/theory/planar_numerics.md says more.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -14,12 +14,17 @@
 #define RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_
 #endif
 
+#include <cmath>
+
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "core/numerics/double_double-inl.h"
+#include "core/numerics/plain-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::planar::HWY_NAMESPACE {
+
+using ricochet::HWY_NAMESPACE::Plain;
 
 template <typename N>
 struct Inputs {
@@ -68,8 +73,19 @@ template <typename N>
 struct Solution {
   State<N> stop, compression_end, end;
   TwiceWork<N> compression, restitution;
+  N stuck_compression;  // Normal impulse from the stop of slip to the end of compression, if slip stops before.
+  Rebound<N> rebound;   // Not set if the contact is locked.
   bool stops_in_compression;
   bool stops_in_restitution;
+};
+
+// The whole impact.
+template <typename N>
+struct Course {
+  Inputs<N> in;
+  Path<N> path;
+  Solution<N> x;
+  bool locked;
 };
 
 template <typename N>
@@ -80,6 +96,22 @@ HWY_INLINE N Zero() {
 template <typename N>
 HWY_INLINE N Abs(const N& x) {
   return Select(IsNegative(x), -x, x);
+}
+
+HWY_INLINE Plain<double> Abs(const Plain<double>& x) { return Plain<double>(std::fabs(x.value)); }
+
+// a b - c d.
+template <typename N>
+HWY_INLINE N DifferenceOfProducts(const N& a, const N& b, const N& c, const N& d) {
+  return a * b - c * d;
+}
+// Right to 2 u (Jeannerod, Louvet and Muller, 2013).
+HWY_INLINE Plain<double> DifferenceOfProducts(const Plain<double>& a, const Plain<double>& b, const Plain<double>& c,
+                                              const Plain<double>& d) {
+  using ricochet::HWY_NAMESPACE::FmaSubtract;
+  using ricochet::HWY_NAMESPACE::NegativeFma;
+  const double product = c.value * d.value;
+  return Plain<double>(FmaSubtract(a.value, b.value, product) + NegativeFma(c.value, d.value, product));
 }
 
 // x or -x.
@@ -101,7 +133,7 @@ HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
                   .det = Zero<N>(),
                   .rank_one = false};
   const N square = in.wtt * in.wnn;
-  in.det = square - in.wtn * in.wtn;
+  in.det = DifferenceOfProducts(in.wtt, in.wnn, in.wtn, in.wtn);
   in.rank_one = !IsPositive(Abs(in.det) - N::Constant(kRankTolerance) * square);
   return in;
 }
@@ -110,7 +142,7 @@ HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
 template <typename N>
 HWY_INLINE Slopes<N> SlipSlopes(const Inputs<N>& in, bool backwards) {
   const N f = Signed(in.mu, !backwards);
-  return {.u = in.wtn + f * in.wtt, .v = in.wnn + f * in.wtn, .f = f};
+  return {.u = AddProduct(in.wtn, f, in.wtt), .v = AddProduct(in.wnn, f, in.wtn), .f = f};
 }
 
 template <typename N>
@@ -123,13 +155,13 @@ HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
     const bool backwards = IsNegative(in.u0);
     path.first = SlipSlopes(in, backwards);
     path.stops = IsNegative(Signed(path.first.u, backwards));
-    const N d = in.v0 * path.first.u - in.u0 * path.first.v;
+    const N d = DifferenceOfProducts(in.v0, path.first.u, in.u0, path.first.v);
     if (path.stops) path.v_stop = d / path.first.u;
     // If v' <= 0, slip stops before v = 0.
     if (IsPositive(path.first.v)) path.u_compression_end = -d / path.first.v;
   }
   if (!path.stops) return path;
-  path.sticks = !IsNegative(in.mu_static * in.wtt - Abs(in.wtn));
+  path.sticks = !IsNegative(AddProduct(-Abs(in.wtn), in.mu_static, in.wtt));
   if (path.sticks) {
     const N inverse = Inverse(in.wtt);
     path.second = {.u = Zero<N>(), .v = in.det * inverse, .f = -in.wtn * inverse};
@@ -158,7 +190,7 @@ HWY_INLINE Path<N> RankOnePath(Inputs<N>& in) {
   in.u0 = in.v0 * ratio;
   path.first = SlipSlopes(in, backwards);
   path.first.u = path.first.v * ratio;
-  path.sticks = !IsNegative(in.mu_static * Abs(in.wtn) - in.wnn);
+  path.sticks = !IsNegative(AddProduct(-in.wnn, in.mu_static, Abs(in.wtn)));
   path.second = SlipSlopes(in, !backwards);
   path.second.u = path.second.v * ratio;
   return path;
@@ -187,8 +219,8 @@ HWY_INLINE void Compress(const Inputs<N>& in, const Path<N>& path, Solution<N>& 
       Advance(path.first, -in.u0 / path.first.u, Zero<N>(), path.v_stop, at, x.compression);
     }
     x.stop = at;
-    const N step = -path.v_stop / path.second.v;
-    Advance(path.second, step, path.second.u * step, Zero<N>(), at, x.compression);
+    x.stuck_compression = -path.v_stop / path.second.v;
+    Advance(path.second, x.stuck_compression, path.second.u * x.stuck_compression, Zero<N>(), at, x.compression);
   }
   x.compression_end = at;
 }
@@ -251,9 +283,11 @@ template <typename N>
 HWY_INLINE void Restore(RestitutionLaw law, const Inputs<N>& in, const Path<N>& path, Solution<N>& x) {
   State<N> at = x.compression_end;
   x.restitution = {Zero<N>(), Zero<N>()};
-  const Slopes<N>& slopes = x.stops_in_compression ? path.second : path.first;
+  Slopes<N> slopes = path.first;
+  if (x.stops_in_compression) slopes = path.second;
   const bool stop_ahead = path.stops && !x.stops_in_compression;
-  const Rebound<N> rebound = FindRebound(law, in, path, x, slopes.v, stop_ahead);
+  x.rebound = FindRebound(law, in, path, x, slopes.v, stop_ahead);
+  const Rebound<N>& rebound = x.rebound;
   x.stops_in_restitution = rebound.passes_stop;
   if (rebound.passes_stop) {
     Advance(slopes, rebound.before, Zero<N>(), path.v_stop, at, x.restitution);
@@ -268,119 +302,26 @@ HWY_INLINE void Restore(RestitutionLaw law, const Inputs<N>& in, const Path<N>& 
   x.end = at;
 }
 
-// Replaces a difference of terms of size `scale` by 0 if it may be rounding alone.
-template <typename N>
-HWY_INLINE N WithoutRounding(const N& difference, const N& scale) {
-  const bool is_rounding = !IsPositive(Abs(difference) - N::Constant(0x1p-96) * scale);
-  return Select(is_rounding, Zero<N>(), difference);
-}
-
-// Adding 0 turns -0 into 0, because a result of 0 has no sign.
-template <typename N>
-HWY_INLINE double Out(const N& value) {
-  return Rounded(value) + 0.0;
-}
-
-template <typename N>
-HWY_INLINE Instant MakeInstant(EventKind kind, const State<N>& at) {
-  return {.kind = kind, .tau = Out(at.tau), .f = Out(at.f), .u = Out(at.u), .v = Out(at.v)};
-}
-
-template <typename N>
-HWY_INLINE void WriteEvents(const Problem& problem, const Solution<N>& x, bool slips_first, Impact& impact) {
-  const auto add = [&impact](const Instant& event) {
-    impact.events[static_cast<size_t>(impact.event_count++)] = event;
-  };
-  const bool locked = impact.regime == Regime::kLocked;
-  add({.kind = EventKind::kStart, .tau = 0.0, .f = 0.0, .u = problem.u0, .v = problem.v0});
-  const bool stops_at_compression_end = x.stops_in_restitution && !IsPositive(x.stop.v);
-  const bool stops_before = (x.stops_in_compression && slips_first) || stops_at_compression_end || locked;
-  if (stops_before) add(MakeInstant(EventKind::kSlipStops, x.stop));
-  add(MakeInstant(EventKind::kCompressionEnds, x.compression_end));
-  if (locked) return;
-  if (x.stops_in_restitution && !stops_at_compression_end) add(MakeInstant(EventKind::kSlipStops, x.stop));
-  add(MakeInstant(EventKind::kRestitutionEnds, x.end));
-}
-
-template <typename N>
-HWY_INLINE Regime RegimeOf(const Inputs<N>& in, const Path<N>& path, const Solution<N>& x) {
-  if (in.rank_one && path.stops && path.sticks) return Regime::kLocked;
-  const bool stopped = x.stops_in_compression || x.stops_in_restitution;
-  const bool smooth = !IsPositive(in.mu_static) || !IsPositive(in.wtt);
-  if (smooth || (!IsPositive(in.mu) && !(stopped && path.sticks))) return Regime::kFrictionless;
-  if (!stopped || !(path.slips_first || path.sticks)) return Regime::kSliding;
-  if (x.stops_in_compression) return path.sticks ? Regime::kStickInCompression : Regime::kReversalInCompression;
-  return path.sticks ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
-}
-
-// Writes the stated coefficient as it is, and the other two from the path. All three stay 0 if there is no restitution.
-template <typename N>
-HWY_INLINE void WriteCoefficients(const Problem& problem, const Inputs<N>& in, const Solution<N>& x, Impact& impact) {
-  impact.tangential = Out(x.end.f / x.end.tau);
-  impact.energetic_excess = -1.0;
-  if (impact.regime == Regime::kLocked || problem.coefficient == 0.0) return;
-  impact.newton = problem.law == RestitutionLaw::kNewton ? problem.coefficient : Out(x.end.v / -in.v0);
-  impact.poisson = problem.law == RestitutionLaw::kPoisson
-                       ? problem.coefficient
-                       : Out((x.end.tau - x.compression_end.tau) / x.compression_end.tau);
-  if (problem.law == RestitutionLaw::kEnergetic) {
-    impact.energetic = problem.coefficient;
-    impact.energetic_excess = problem.coefficient - 1.0;
-  } else {
-    const N one = N::Constant(1.0);
-    const N square = x.restitution.normal / -x.compression.normal;
-    const N energetic = Sqrt(square);
-    impact.energetic = Out(energetic);
-    impact.energetic_excess = Out(WithoutRounding(square - one, one + square) / (one + energetic));
-  }
-  impact.sharp_limit_broken = impact.energetic_excess > 0.0;
-}
-
-template <typename N>
-HWY_INLINE void WriteWorks(const Inputs<N>& in, const Solution<N>& x, Impact& impact) {
-  const N half = N::Constant(0.5);
-  impact.work_normal_compression = Out(half * x.compression.normal);
-  impact.work_normal_restitution = Out(half * x.restitution.normal);
-  impact.work_tangential_compression = Out(half * x.compression.tangential);
-  impact.work_tangential_restitution = Out(half * x.restitution.tangential);
-  const N tangential = x.end.f * (in.u0 + x.end.u);
-  const N normal = x.end.tau * (in.v0 + x.end.v);
-  const N scale = Abs(x.end.f) * Abs(in.u0) + x.end.tau * -in.v0 + Abs(tangential) + Abs(normal);
-  const N twice_change = WithoutRounding(tangential + normal, scale);
-  impact.energy_change = Out(half * twice_change);
-  impact.energy_limit_broken = IsPositive(twice_change);
-}
-
 // The problem must not be separating.
 template <typename N>
-HWY_INLINE Impact SolveOne(const Problem& problem) {
-  Inputs<N> in = MakeInputs<N>(problem);
-  const Path<N> path = in.rank_one ? RankOnePath(in) : FullRankPath(in);
-  const bool locked = in.rank_one && path.stops && path.sticks;
-  Solution<N> x;
+HWY_INLINE Course<N> Follow(const Problem& problem) {
+  Course<N> course;
+  course.in = MakeInputs<N>(problem);
+  const Inputs<N>& in = course.in;
+  Path<N>& path = course.path;
+  Solution<N>& x = course.x;
+  path = in.rank_one ? RankOnePath(course.in) : FullRankPath(in);
+  course.locked = in.rank_one && path.stops && path.sticks;
   Compress(in, path, x);
   x.stops_in_restitution = false;
   x.restitution = {Zero<N>(), Zero<N>()};
   x.end = x.compression_end;
-  if (locked) {
+  if (course.locked) {
     x.stop = x.compression_end;
   } else {
     Restore(problem.law, in, path, x);
   }
-
-  Impact impact;
-  impact.regime = RegimeOf(in, path, x);
-  impact.w_rank = in.rank_one ? 1 : 2;
-  impact.u1 = Out(x.end.u);
-  impact.v1 = Out(x.end.v);
-  impact.tau_compression = Out(x.compression_end.tau);
-  impact.tau1 = Out(x.end.tau);
-  impact.f_compression = Out(x.compression_end.f);
-  impact.f1 = Out(x.end.f);
-  WriteCoefficients(problem, in, x, impact);
-  WriteWorks(in, x, impact);
-  WriteEvents(problem, x, path.slips_first, impact);
-  return impact;
+  return course;
 }
 
 }  // namespace ricochet::planar::HWY_NAMESPACE

@@ -4,18 +4,62 @@
 #define HWY_TARGET_INCLUDE "core/models/planar/planar.cc"
 #include "core/models/planar/planar.h"
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 // Highway prescribes the order of these includes.
 // clang-format off
 #include "hwy/foreach_target.h"
 #include "core/models/planar/kernel-inl.h"
+#include "core/models/planar/report-inl.h"
+#include "core/models/planar/rounding-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::planar::HWY_NAMESPACE {
 
-Impact SolveModerate(const Problem& problem) {
-  return SolveOne<ricochet::HWY_NAMESPACE::DoubleDouble<double>>(problem);
+template <typename N>
+HWY_INLINE Impact SolveOne(const Problem& problem) {
+  return Report(problem, Follow<N>(problem));
+}
+
+template <typename N>
+HWY_INLINE Impact SolveOne(const Problem& problem, RoundingErrors& errors) {
+  const Course<N> course = Follow<N>(problem);
+  errors = CompensatedErrors(problem, course);
+  return Report(problem, course);
+}
+
+using Moderate = ricochet::HWY_NAMESPACE::DoubleDouble<double>;
+
+Impact SolveModerate(const Problem& problem) { return SolveOne<Moderate>(problem); }
+
+Impact SolveModerateWithErrors(const Problem& problem, RoundingErrors& errors) {
+  return SolveOne<Moderate>(problem, errors);
+}
+
+// Where theory says that limits are kept, a gain is rounding.
+HWY_INLINE void KeepLimits(const Problem& problem, Impact& impact) {
+  if (impact.energy_change > 0.0) impact.energy_change = 0.0;
+  impact.energy_limit_broken = false;
+  impact.sharp_limit_broken = false;
+  if (impact.energetic_excess > 0.0) {
+    impact.energetic = problem.coefficient;
+    impact.energetic_excess = problem.coefficient - 1.0;
+  }
+}
+
+PlainImpact SolvePlainModerate(const Problem& problem) {
+  const auto course = Follow<Plain<double>>(problem);
+  const auto errors = ErrorsOf(problem.law, course);
+  PlainImpact result = {.impact = Report(problem, course), .errors = PlainErrors(problem, course, errors)};
+  result.proved = PathIsSure(course, errors);
+  if (KeepsLimits(problem, course)) {
+    KeepLimits(problem, result.impact);
+  } else {
+    result.proved = result.proved && LimitsAreSure(course, errors);
+  }
+  return result;
 }
 
 }  // namespace ricochet::planar::HWY_NAMESPACE
@@ -28,6 +72,8 @@ HWY_AFTER_NAMESPACE();
 namespace ricochet::planar {
 
 HWY_EXPORT(SolveModerate);
+HWY_EXPORT(SolveModerateWithErrors);
+HWY_EXPORT(SolvePlainModerate);
 
 namespace {
 
@@ -35,21 +81,39 @@ namespace {
 // products of 2^-80 that cancel to their last bit) and 2^81, v where slip stops is below 2^307, impulses are below 2^493,
 // works below 2^800, and v^2 over a slope is above 2^-908.
 bool FitsDoubleDouble(const Problem& problem) {
-  const auto moderate = [](double value) {
-    const double size = std::fabs(value);
-    return static_cast<unsigned>(size == 0.0) | static_cast<unsigned>((size >= 0x1p-40) & (size <= 0x1p40));
-  };
-  return (moderate(problem.w.tt) & moderate(problem.w.tn) & moderate(problem.w.nn) & moderate(problem.u0) &
-          moderate(problem.v0) & moderate(problem.mu) & moderate(problem.mu_static) & moderate(problem.coefficient)) !=
-         0;
+  constexpr auto kLeast = std::bit_cast<uint64_t>(0x1p-40);
+  constexpr auto kMost = std::bit_cast<uint64_t>(0x1p40);
+  bool fits = true;
+  for (const double value : {problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0, problem.mu,
+                             problem.mu_static, problem.coefficient}) {
+    // The bits of positive numbers are in the order of their values.
+    const auto size = std::bit_cast<uint64_t>(std::fabs(value));
+    fits &= (size == 0) | (size - kLeast <= kMost - kLeast);
+  }
+  return fits;
+}
+
+Impact SolveSeparating(const Problem& problem) {
+  return Separating<Impact>(HWY_NAMESPACE::MakeInputs<Wide>(problem).rank_one ? 1 : 2, problem.u0, problem.v0);
 }
 
 }  // namespace
 
+PlainImpact SolvePlain(const Problem& problem) {
+  if (problem.v0 >= 0.0) return {.impact = SolveSeparating(problem), .proved = true};
+  if (!FitsDoubleDouble(problem)) return {};
+  return HWY_DYNAMIC_DISPATCH(SolvePlainModerate)(problem);
+}
+
+Impact Solve(const Problem& problem, RoundingErrors& errors) {
+  errors = {};
+  if (problem.v0 >= 0.0) return SolveSeparating(problem);
+  if (!FitsDoubleDouble(problem)) return HWY_NAMESPACE::SolveOne<Wide>(problem, errors);
+  return HWY_DYNAMIC_DISPATCH(SolveModerateWithErrors)(problem, errors);
+}
+
 Impact Solve(const Problem& problem) {
-  if (problem.v0 >= 0.0) {
-    return Separating<Impact>(HWY_NAMESPACE::MakeInputs<Wide>(problem).rank_one ? 1 : 2, problem.u0, problem.v0);
-  }
+  if (problem.v0 >= 0.0) return SolveSeparating(problem);
   if (!FitsDoubleDouble(problem)) return HWY_NAMESPACE::SolveOne<Wide>(problem);
   return HWY_DYNAMIC_DISPATCH(SolveModerate)(problem);
 }

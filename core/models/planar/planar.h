@@ -15,6 +15,7 @@
 #ifndef RICOCHET_CORE_MODELS_PLANAR_PLANAR_H_
 #define RICOCHET_CORE_MODELS_PLANAR_PLANAR_H_
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -38,7 +39,31 @@ struct Impact : ImpactEnd<double> {
   int event_count = 0;                     // 0 if the contact separates.
 };
 
+// Bounds on the errors of an impact that rounding makes; W, the velocity before and the coefficients are taken as exact.
+struct RoundingErrors {
+  double velocity = 0.0;  // Each component of the velocity after, over V = max(|u0|, |v0|).
+  double impulse = 0.0;   // Each impulse times its mobility, Wnn |d tau| and Wtt |d f|, over V.
+  double work = 0.0;      // Each work and the change of energy, over the sum of the magnitudes of the four works.
+
+  double Largest() const { return std::max({velocity, impulse, work}); }
+};
+
+// In double-double arithmetic.
 Impact Solve(const Problem& problem);
+Impact Solve(const Problem& problem, RoundingErrors& errors);
+
+// An impact in plain double arithmetic.
+struct PlainImpact {
+  Impact impact;
+  RoundingErrors errors;
+  // False if plain arithmetic cannot prove a sign that decides on the regime, on the order of the events or on a broken
+  // limit, or if a number other than 0 lies outside [2^-40, 2^40]. The rest has no meaning then.
+  bool proved = false;
+};
+
+// SolvePlain computes the impact at a fifth of the cost of Solve. Regime, events and broken limits are those of Solve if they are
+// proved. docs/theory/rounding_planar.md derives the bounds, and those on the coefficients that follow from them.
+PlainImpact SolvePlain(const Problem& problem);
 
 // The state of the contact at normal impulse tau in [0, tau1]. `impact` must be the solution of `problem`; the kind of the
 // instant is unspecified. If the contact separates, the state is that before the impact.

@@ -1,0 +1,302 @@
+// Rounding of a planar path: bounds on the errors of the numbers reported, and the signs that plain arithmetic
+// is sure of.
+//
+// Errors are counted in roundings: an error of 3 is three times the largest relative error of one operation, 2^-53 in plain
+// arithmetic and below 2^-102 in double-double. The count follows the path piece by piece; the one difference that may
+// cancel is v where slip stops, and everything after it is as good as that difference over the slope of v.
+// docs/theory/rounding_planar.md derives every line.
+
+// Per-target include guard.
+#if defined(RICOCHET_CORE_MODELS_PLANAR_ROUNDING_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_PLANAR_ROUNDING_INL_H_
+#undef RICOCHET_CORE_MODELS_PLANAR_ROUNDING_INL_H_
+#else
+#define RICOCHET_CORE_MODELS_PLANAR_ROUNDING_INL_H_
+#endif
+
+#include <cmath>
+
+#include "core/models/planar/kernel-inl.h"
+#include "core/models/planar/planar.h"
+#include "core/models/planar/report-inl.h"
+#include "core/models/restitution_law.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::planar::HWY_NAMESPACE {
+
+using ricochet::HWY_NAMESPACE::DoubleDouble;
+
+// A sign is sure if the number is this many times its error, so that every number that later ones divide by is right to
+// 2^-10.
+inline constexpr double kSure = 0x1p10;
+// Covers products of errors, which the counts leave out.
+inline constexpr double kHigherOrders = 1.0 + 0x1p-5;
+
+// A number in the type in which errors are counted: N itself, but plain for a double-double.
+template <typename N>
+HWY_INLINE N Coarse(const N& x) {
+  return x;
+}
+HWY_INLINE Plain<double> Coarse(const DoubleDouble<double>& x) { return Plain<double>(x.hi); }
+template <typename N>
+using CoarseOf = decltype(Coarse(N()));
+
+template <typename M>
+HWY_INLINE M Times(double count, const M& x) {
+  return M::Constant(count) * x;
+}
+template <typename M>
+HWY_INLINE M Larger(const M& x, const M& y) {
+  return Select(IsNegative(x - y), y, x);
+}
+
+// Errors at the end of an impact.
+template <typename M>
+struct EndErrors {
+  M tau, f, u, v;
+  M works;  // Twice the error of each work and of the change of energy.
+  // The difference that decides whether slip stops during restitution, and its error; 0 and 0 if nothing does.
+  M decisive, decisive_error;
+};
+
+// Twice the sum of the magnitudes of the four works.
+template <typename N, typename M = CoarseOf<N>>
+HWY_INLINE M TwiceMoved(const Solution<N>& x) {
+  return Coarse(x.restitution.normal) - Coarse(x.compression.normal) + Abs(Coarse(x.compression.tangential)) +
+         Abs(Coarse(x.restitution.tangential));
+}
+
+// The error of v where slip stops. It is exact where no difference is computed.
+template <typename N, typename M = CoarseOf<N>>
+HWY_INLINE M StopError(const Course<N>& course) {
+  if (course.in.rank_one || !course.path.slips_first) return Zero<M>();
+  const M v_stop = Coarse(course.path.v_stop);
+  return Times(2.0, Abs(v_stop - Coarse(course.in.v0))) + Times(3.0, Abs(v_stop));
+}
+
+// The errors of the works, from those of the end and `works`, the sum of those of the works one by one.
+template <typename N, typename M>
+HWY_INLINE M WithEnergyChange(const Course<N>& course, const EndErrors<M>& end, const M& f_path, const M& works) {
+  const State<N>& at = course.x.end;
+  const M u0 = Coarse(course.in.u0);
+  const M tau = Coarse(at.tau);
+  const M u_sum = Abs(u0 + Coarse(at.u));
+  const M v_sum = Abs(Coarse(course.in.v0) + Coarse(at.v));
+  const M u_errors = course.in.rank_one ? end.u + Times(2.0, Abs(u0)) : end.u;
+  const M change =
+      u_sum * (end.f + Times(3.0, f_path)) + f_path * u_errors + v_sum * (end.tau + Times(3.0, tau)) + tau * end.v;
+  return Larger(works, change);
+}
+
+// The whole impact lies on the first piece.
+template <typename N, typename M = CoarseOf<N>>
+HWY_INLINE EndErrors<M> StraightErrors(RestitutionLaw law, const Course<N>& course) {
+  const Solution<N>& x = course.x;
+  // Roundings of the step of restitution and of v1.
+  const double in_step = law == RestitutionLaw::kEnergetic ? 6.5 : 3.0;
+  const double in_v1 = law == RestitutionLaw::kNewton ? 1.0 : law == RestitutionLaw::kPoisson ? 5.0 : 4.5;
+  const M tau_c = Coarse(x.compression_end.tau);
+  const M tau = Coarse(x.end.tau);
+  const M v1 = Coarse(x.end.v);
+  const M u_c = Coarse(x.compression_end.u);
+  const M u1 = Coarse(x.end.u);
+  EndErrors<M> errors;
+  errors.tau = Times(2.0, tau_c) + Times(in_step, tau - tau_c) + tau;
+  errors.f = Abs(Coarse(course.path.first.f)) * (errors.tau + tau);
+  errors.v = Times(in_v1, v1);
+  errors.u = course.in.rank_one ? Zero<M>()
+                                : Times(2.0, Abs(u_c - Coarse(course.in.u0))) + Times(3.0, Abs(u_c)) +
+                                      Times(in_step + 2.0, Abs(u1 - u_c)) + Abs(u1);
+  errors.works = Times(36.0, TwiceMoved(x));
+  errors.decisive = errors.decisive_error = Zero<M>();
+  if (course.path.stops && !course.in.rank_one) {
+    errors.decisive = Coarse(course.path.v_stop) - v1;
+    errors.decisive_error = StopError(course) + errors.v;
+  }
+  return errors;
+}
+
+// Slip stops before the end of compression.
+template <typename N, typename M = CoarseOf<N>>
+HWY_INLINE EndErrors<M> StopInCompressionErrors(RestitutionLaw law, const Course<N>& course) {
+  const Solution<N>& x = course.x;
+  const Slopes<N>& second = course.path.second;
+  const M slope = Coarse(second.v);
+  const M f_slope = Abs(Coarse(second.f));
+  const M stop = Coarse(x.stop.tau);
+  const M stuck = Coarse(x.stuck_compression);
+  const M step = Coarse(x.rebound.before);
+  const M tau_c = Coarse(x.compression_end.tau);
+  const M tau = Coarse(x.end.tau);
+  const M u1 = Abs(Coarse(x.end.u));
+  const M v1 = Coarse(x.end.v);
+  const M v_stop_error = StopError(course);
+  const M stuck_error = v_stop_error / slope + Times(5.0, stuck);
+  const M tau_c_error = Times(2.0, stop) + stuck_error + tau_c;
+  const M normal_error = v_stop_error * (stop + Times(2.0, stuck));
+  EndErrors<M> errors;
+  M step_error = Times(6.0, step);
+  errors.v = v1;
+  if (law == RestitutionLaw::kPoisson) {
+    step_error = Coarse(course.in.coefficient) * tau_c_error + step;
+    errors.v = slope * step_error + Times(5.0, v1);
+  } else if (law == RestitutionLaw::kEnergetic) {
+    const M relative = Times(0.5, normal_error) / -Coarse(x.compression.normal) + M::Constant(8.0);
+    step_error = step * (relative + M::Constant(5.0));
+    errors.v = v1 * relative;
+  }
+  const M steps_error = stuck_error + step_error;
+  const M steps = stuck + step;
+  const M f_path = Abs(Coarse(x.stop.f)) + f_slope * steps;
+  errors.tau = tau_c_error + step_error + tau;
+  errors.f = f_slope * steps_error + Times(5.0, f_path);
+  errors.u = Abs(Coarse(second.u)) * steps_error + Times(5.0, u1);
+  const M works = normal_error + step * errors.v + v1 * step_error +
+                  Times(2.0, f_slope * (steps * errors.u + u1 * steps_error)) + Times(8.0, TwiceMoved(x));
+  errors.works = WithEnergyChange(course, errors, f_path, works);
+  errors.decisive = errors.decisive_error = Zero<M>();
+  return errors;
+}
+
+// Slip stops during restitution.
+template <typename N, typename M = CoarseOf<N>>
+HWY_INLINE EndErrors<M> StopInRestitutionErrors(RestitutionLaw law, const Course<N>& course) {
+  const Solution<N>& x = course.x;
+  const Slopes<N>& second = course.path.second;
+  const M slope = Coarse(second.v);
+  const M f_slope = Abs(Coarse(second.f));
+  const M f_first = Abs(Coarse(course.path.first.f));
+  const M before = Coarse(x.rebound.before);
+  const M after = Coarse(x.rebound.after);
+  const M v_stop = Coarse(course.path.v_stop);
+  const M v1 = Coarse(x.end.v);
+  const M u1 = Abs(Coarse(x.end.u));
+  const M tau = Coarse(x.end.tau);
+  const M v_stop_error = StopError(course);
+  const M before_error = v_stop_error / Coarse(course.path.first.v) + Times(2.0, before);
+  EndErrors<M> errors;
+  M after_error;
+  if (law == RestitutionLaw::kNewton) {
+    after_error = (v_stop_error + v1) / slope + Times(6.0, after);
+    errors.v = v1;
+  } else if (law == RestitutionLaw::kPoisson) {
+    after_error = before_error + Times(3.0, before) + Times(4.0, after);
+    errors.v = v_stop_error + slope * (after_error + Times(5.0, after)) + v1;
+  } else {
+    const M sum = v1 + v_stop;
+    const M per_sum = Inverse(sum);
+    const M beyond_error = Times(6.0, after * sum) + before * (Times(8.0, v_stop) + Times(2.0, v_stop_error));
+    errors.v = v_stop_error + slope * beyond_error * per_sum + Times(4.5, v1);
+    after_error = (beyond_error + after * (errors.v + v_stop_error)) * per_sum + Times(2.0, after);
+  }
+  const M f_path = f_first * Coarse(x.stop.tau) + f_slope * after;
+  errors.tau = Times(2.0, Coarse(x.compression_end.tau)) + before_error + after_error + Times(2.0, tau);
+  errors.f = f_first * before_error + f_slope * after_error + Times(5.0, f_path);
+  errors.u = Abs(Coarse(second.u)) * after_error + Times(4.0, u1);
+  const M u_c = Abs(Coarse(x.compression_end.u));
+  const M works = before * v_stop_error + before_error * (v_stop + f_first * u_c) + after * (v_stop_error + errors.v) +
+                  (v_stop + v1) * after_error + f_slope * (after * errors.u + u1 * after_error) +
+                  Times(10.0, TwiceMoved(x));
+  errors.works = WithEnergyChange(course, errors, f_path, works);
+  errors.decisive = after;
+  errors.decisive_error = after_error;
+  return errors;
+}
+
+template <typename N, typename M = CoarseOf<N>>
+HWY_INLINE EndErrors<M> ErrorsOf(RestitutionLaw law, const Course<N>& course) {
+  const Solution<N>& x = course.x;
+  if (x.stops_in_compression) return StopInCompressionErrors(law, course);
+  if (x.stops_in_restitution && IsPositive(x.end.v)) return StopInRestitutionErrors(law, course);
+  return StraightErrors(law, course);
+}
+
+// True if the sign of `value` is that of the exact number.
+HWY_INLINE bool IsSure(const Plain<double>& value, const Plain<double>& error) {
+  return std::fabs(value.value) >= (kSure * 0x1p-53) * error.value;
+}
+
+// True if every sign that decided on the path is that of the exact number. The sign of a slope, and of mu_s Wtt - |Wtn|, is
+// exact, because one operation gives it.
+HWY_INLINE bool PathIsSure(const Course<Plain<double>>& course, const EndErrors<Plain<double>>& errors) {
+  const Inputs<Plain<double>>& in = course.in;
+  const Plain<double> square = Times(kRankTolerance, in.wtt * in.wnn);
+  const bool rank_is_sure = IsSure(Abs(in.det) - square, Times(4.0, square));
+  const bool stop_is_sure = !course.path.stops || IsSure(course.path.v_stop, StopError(course));
+  return rank_is_sure && stop_is_sure && IsSure(errors.decisive, errors.decisive_error);
+}
+
+// True if it is proved that the impact keeps its limits because no law asks for more than was stored: on a path of one piece
+// the three laws agree.
+HWY_INLINE bool KeepsLimits(const Problem& problem, const Course<Plain<double>>& course) {
+  const bool straight = !course.x.stops_in_compression && !course.x.stops_in_restitution;
+  return problem.coefficient <= 1.0 && (straight || problem.law == RestitutionLaw::kEnergetic);
+}
+
+// True if the signs are sure that tell whether the impact keeps its limits.
+HWY_INLINE bool LimitsAreSure(const Course<Plain<double>>& course, const EndErrors<Plain<double>>& errors) {
+  const Solution<Plain<double>>& x = course.x;
+  const Plain<double> error = Times(2.0, errors.works);
+  return IsSure(TwiceEnergyChange(course.in, x.end), error) &&
+         IsSure(x.restitution.normal + x.compression.normal, error);
+}
+
+template <typename M>
+HWY_INLINE M SpeedBefore(const Problem& problem) {
+  return Larger(Abs(M::Exactly(problem.u0)), Abs(M::Exactly(problem.v0)));
+}
+
+HWY_INLINE RoundingErrors PlainErrors(const Problem& problem, const Course<Plain<double>>& course,
+                                      const EndErrors<Plain<double>>& errors) {
+  constexpr double kRounding = 0x1p-53 * kHigherOrders;
+  const double unit = kRounding / SpeedBefore<Plain<double>>(problem).value;
+  return {.velocity = unit * Larger(errors.u, errors.v).value,
+          .impulse = unit * Larger(course.in.wnn * errors.tau, course.in.wtt * errors.f).value,
+          .work = kRounding * (errors.works / TwiceMoved(course.x)).value};
+}
+
+// The error of rounding `x` to a double, enlarged by 2^-10 for the rounding of the bound. It is at most half of the smallest
+// double where the result is subnormal.
+template <typename M>
+HWY_INLINE M FinalRounding(const M& x) {
+  return Times(0x1p-53 * (1.0 + 0x1p-10), x) + M::Constant(0x1p-1074);
+}
+
+// A bound as a double, which is not 0 where it underflows.
+template <typename M>
+HWY_INLINE double OutBound(const M& bound) {
+  return Rounded(bound) + 0x1p-1074;
+}
+
+// The errors of a compensated path after its numbers have been rounded to doubles. A change of energy below 2^-96 of its
+// terms has been replaced by 0.
+template <typename N>
+HWY_INLINE RoundingErrors CompensatedErrors(const Problem& problem, const Course<N>& course) {
+  using M = CoarseOf<N>;
+  const Inputs<N>& in = course.in;
+  const Solution<N>& x = course.x;
+  const M rounding = M::Constant(0x1p-102 * kHigherOrders);
+  const EndErrors<M> errors = ErrorsOf(problem.law, course);
+  const M wtt = Coarse(in.wtt);
+  const M wnn = Coarse(in.wnn);
+  const M tau = Coarse(x.end.tau);
+  const M f = Abs(Coarse(x.end.f));
+  const M u1 = Abs(Coarse(x.end.u));
+  const M v1 = Coarse(x.end.v);
+  const M largest_f = Larger(Abs(Coarse(x.compression_end.f)), f);
+  const M terms = f * (Times(2.0, Abs(Coarse(in.u0))) + u1) + tau * (v1 - Times(2.0, Coarse(in.v0)));
+  const M velocity = rounding * Larger(errors.u, errors.v) + FinalRounding(Larger(u1, v1));
+  const M impulse = rounding * Larger(wnn * errors.tau, wtt * errors.f) +
+                    Larger(wnn * FinalRounding(tau), wtt * FinalRounding(largest_f));
+  const M moved = TwiceMoved(x);
+  const M work = rounding * errors.works + FinalRounding(moved) + Times(0x1p-95, terms);
+  const M per_speed = Inverse(SpeedBefore<M>(problem));
+  return {.velocity = OutBound(velocity * per_speed),
+          .impulse = OutBound(impulse * per_speed),
+          .work = OutBound(work / moved)};
+}
+
+}  // namespace ricochet::planar::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
