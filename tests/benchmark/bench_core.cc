@@ -225,6 +225,29 @@ void ComparePlanar(const std::string& what, const std::vector<planar::Problem>& 
                         time.seconds_b / static_cast<double>(pendulums.size()) * 1e9));
 }
 
+// Plain arithmetic with its bound, compared with formulas in plain C++ that know no bound.
+void ComparePlainPlanar(const std::string& what, const std::vector<planar::Problem>& contacts,
+                        const std::vector<Problem>& pendulums) {
+  double proved = 0.0;
+  for (const planar::Problem& contact : contacts) proved += planar::SolvePlain(contact).proved ? 1.0 : 0.0;
+  const Comparison time = Compare(
+      kRounds,
+      [&] {
+        double sum = 0.0;
+        for (const planar::Problem& contact : contacts) sum += planar::SolvePlain(contact).impact.v1;
+        Keep(sum);
+      },
+      [&] {
+        double sum = 0.0;
+        for (const Problem& pendulum : pendulums) sum += PlainSolve(pendulum)[Output::kOmegaPlus];
+        Keep(sum);
+      });
+  const double count = static_cast<double>(contacts.size());
+  Print(what, absl::StrFormat("%.1f ns", time.seconds_a / count * 1e9),
+        absl::StrFormat("%.2f x the pendulum's formulas in plain C++; %.1f %% proved", time.ratio,
+                        100.0 * proved / count));
+}
+
 void PlanarSolve() {
   constexpr size_t kCount = 4096;
   const std::vector<Problem> pendulums = TypicalProblems(kCount);
@@ -241,6 +264,9 @@ void PlanarSolve() {
   ComparePlanar("everyday contacts, W of full rank", everyday, pendulums);
   ComparePlanar("everyday contacts and ones near thresholds", hard, pendulums);
   ComparePlanar("the same pendulums, W of rank one", as_contacts, pendulums);
+  ComparePlainPlanar("plain: everyday contacts", everyday, pendulums);
+  ComparePlainPlanar("plain: everyday ones and ones near thresholds", hard, pendulums);
+  ComparePlainPlanar("plain: the same pendulums", as_contacts, pendulums);
 }
 
 SweepRequest EndlessSweep() {
