@@ -34,10 +34,13 @@ HWY_INLINE double NegativeFma(double a, double b, double c) { return std::fma(-a
 HWY_INLINE double SquareRoot(double x) { return std::sqrt(x); }
 HWY_INLINE double Absolute(double x) { return std::fabs(x); }
 HWY_INLINE double CopySign(double size, double sign) { return std::copysign(size, sign); }
+HWY_INLINE double Smaller(double x, double y) { return x < y ? x : y; }
+HWY_INLINE double Larger(double x, double y) { return x < y ? y : x; }
 HWY_INLINE double Select(bool condition, double yes, double no) { return condition ? yes : no; }
 HWY_INLINE bool Not(bool x) { return !x; }
 HWY_INLINE bool Both(bool x, bool y) { return x && y; }
 HWY_INLINE bool InAllLanes(bool x) { return x; }
+HWY_INLINE bool InNoLane(bool x) { return !x; }
 
 // Lanes<V> loads a V from memory, or fills every lane with one value.
 template <typename V>
@@ -63,10 +66,13 @@ HWY_INLINE Vector NegativeFma(Vector a, Vector b, Vector c) { return hn::NegMulA
 HWY_INLINE Vector SquareRoot(Vector x) { return hn::Sqrt(x); }
 HWY_INLINE Vector Absolute(Vector x) { return hn::Abs(x); }
 HWY_INLINE Vector CopySign(Vector size, Vector sign) { return hn::CopySign(size, sign); }
+HWY_INLINE Vector Smaller(Vector x, Vector y) { return hn::Min(x, y); }
+HWY_INLINE Vector Larger(Vector x, Vector y) { return hn::Max(x, y); }
 HWY_INLINE Vector Select(VectorMask condition, Vector yes, Vector no) { return hn::IfThenElse(condition, yes, no); }
 HWY_INLINE VectorMask Not(VectorMask x) { return hn::Not(x); }
 HWY_INLINE VectorMask Both(VectorMask x, VectorMask y) { return hn::And(x, y); }
 HWY_INLINE bool InAllLanes(VectorMask x) { return hn::AllTrue(Tag(), x); }
+HWY_INLINE bool InNoLane(VectorMask x) { return hn::AllFalse(Tag(), x); }
 
 template <>
 struct Lanes<Vector> {

@@ -13,6 +13,7 @@
 #include "absl/strings/str_join.h"
 #include "core/answer/scene_outcome.h"
 #include "core/contact/reduction.h"
+#include "core/models/pendulum/columns.h"
 #include "core/models/pendulum/first_order.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/numerics/invariant.h"
@@ -89,7 +90,7 @@ class SweepRun::Impl {
   bool SolvePoint(size_t i, absl::FunctionRef<bool()> stopped);
   void SolveLanes(int64_t count);
   void GatherProblems(int64_t count);
-  void PlanPendulum(size_t i);
+  pendulum::Problem PlanPendulum(size_t i, pendulum::Problem problem);
   void SolveInLanes(size_t first, size_t count);
   void SolveToFirstOrder(size_t first, size_t count);
   void FinishBlock(int64_t count);
@@ -109,7 +110,7 @@ class SweepRun::Impl {
   SweepSummary summary_;
 
   // One block of at most kPointsBetweenStops points.
-  std::vector<pendulum::Problem> problems_;
+  pendulum::ProblemColumns problems_;  // Only if the lanes give the columns.
   std::vector<Regime> regimes_;
   std::vector<Model> models_;
   std::unique_ptr<bool[]> valid_;
@@ -134,7 +135,6 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   first_ = request.first_index;
   end_ = request.end_index.value_or(PointCount(request.grid));
   next_ = first_;
-  problems_.resize(kPointsBetweenStops);
   regimes_.resize(kPointsBetweenStops);
   models_.resize(kPointsBetweenStops);
   valid_ = std::make_unique<bool[]>(kPointsBetweenStops);
@@ -149,6 +149,7 @@ void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, con
   in_lanes_ = HasClosedForm(scene) && !scene.compliance.has_value() &&
               std::all_of(columns.begin(), columns.end(),
                           [](const std::string& column) { return PendulumColumn(column).has_value(); });
+  if (in_lanes_) problems_ = pendulum::ProblemColumns(pendulum::MakeProblem(scene).law, kPointsBetweenStops);
   may_integrate_ = TangentialDirections(scene.system) == 2 || scene.compliance.has_value();
   for (const std::string& column : columns) {
     if (in_lanes_) {
@@ -246,40 +247,44 @@ void SweepRun::Impl::GatherProblems(int64_t count) {
   std::optional<SceneContact> contact;
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
     valid_[i] = driven_.IsValid(contact);
-    problems_[i] = valid_[i] ? ClosedFormProblem(driven_.scene()) : pendulum::Problem{};
-    if (!valid_[i]) problems_[i].omega_minus = 1.0;  // A separating pendulum is the cheapest to solve.
-    PlanPendulum(i);
+    pendulum::Problem problem = {.omega_minus = 1.0, .law = problems_.law()};  // Separating costs least to solve.
+    if (valid_[i]) problem = ClosedFormProblem(driven_.scene());
+    problems_.Set(i, PlanPendulum(i, problem));
     driven_.Advance();
   }
 }
 
-// A demand that is a tolerance alone, as most are, takes a plan that costs less than the point.
-void SweepRun::Impl::PlanPendulum(size_t i) {
+// Chooses the model of the i-th problem and returns what it is to solve. A demand that is a tolerance alone, as most are,
+// takes a plan that costs less than the point.
+pendulum::Problem SweepRun::Impl::PlanPendulum(size_t i, pendulum::Problem problem) {
   if (demand_.required.IsEmpty() && demand_.excluded.IsEmpty()) {
-    models_[i] = ModelOfPendulum(problems_[i], demand_.relative_tolerance);
-    if (models_[i] == Model::kFrictionless) problems_[i].mu = problems_[i].mu_static = 0.0;
-    return;
+    models_[i] = ModelOfPendulum(problem, demand_.relative_tolerance);
+    if (models_[i] == Model::kFrictionless) problem.mu = problem.mu_static = 0.0;
+    return problem;
   }
-  const Choice choice = ChoosePendulum(problems_[i], {}, demand_);
+  const Choice choice = ChoosePendulum(problem, {}, demand_);
   models_[i] = choice.model;
-  problems_[i] = Without(choice, problems_[i]);
+  return Without(choice, problem);
 }
 
 void SweepRun::Impl::SolveInLanes(size_t first, size_t count) {
   std::vector<double*> columns = columns_;
   for (double*& column : columns) column += first;
-  pendulum::SolveColumns(absl::MakeConstSpan(problems_).subspan(first, count), outputs_, columns,
-                         absl::MakeSpan(regimes_).subspan(first, count),
-                         absl::MakeSpan(inadmissible_.get() + first, count));
+  pendulum::SolveColumns(problems_, first, count, /*tolerance=*/0.0,
+                         {.outputs = outputs_,
+                          .columns = columns,
+                          .regimes = absl::MakeSpan(regimes_).subspan(first, count),
+                          .inadmissible = absl::MakeSpan(inadmissible_.get() + first, count)});
 }
 
 void SweepRun::Impl::SolveToFirstOrder(size_t first, size_t count) {
   for (size_t i = first; i < first + count; ++i) {
-    const first_order::Approximation approximation = first_order::Approximate(problems_[i]);
+    const pendulum::Problem problem = problems_[i];
+    const first_order::Approximation approximation = first_order::Approximate(problem);
     for (size_t c = 0; c < columns_.size(); ++c) {
-      columns_[c][i] = first_order::Value(problems_[i], approximation, outputs_[c]);
+      columns_[c][i] = first_order::Value(problem, approximation, outputs_[c]);
     }
-    regimes_[i] = first_order::RegimeOf(problems_[i]);
+    regimes_[i] = first_order::RegimeOf(problem);
     inadmissible_[i] = false;
   }
 }

@@ -338,7 +338,7 @@ TEST(PendulumHardCasesTest, PlainArithmeticDecidesNothingByARoundedSign) {
   // Only what lies within a few ulp of a limit is left to the arithmetic that is more exact.
   EXPECT_GT(proved, 1000);
   EXPECT_GT(left_open, 10);
-  EXPECT_LT(left_open, 60);
+  EXPECT_LT(left_open, 80);
 }
 
 TEST(PendulumHardCasesTest, ZerosAndOnesAreExact) {

@@ -143,7 +143,7 @@ class SceneSource {
     switch (change) {
       case SignChange::kLocking:
         problem.mu = problem.mu_static = problem.a / std::fabs(problem.b) * factor;
-        return problem;
+        break;
       case SignChange::kFrictionImpulse:
         problem.coefficient = coefficient(r, 1.0, std::sqrt(r)) * factor;
         break;

@@ -23,6 +23,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::pendulum::HWY_NAMESPACE {
 
+using ricochet::HWY_NAMESPACE::InNoLane;
 using ricochet::HWY_NAMESPACE::Not;
 
 // The inputs of problems of one law, one problem in each lane.
@@ -138,6 +139,7 @@ HWY_INLINE void SolvePoisson(const Inputs<N, Mask>& in, unsigned parts, Solution
 // A locked impact has no restitution, whatever the law and the coefficient are.
 template <typename N, typename Mask>
 HWY_INLINE void OverrideLocked(Solution<N, Mask>& x) {
+  if (InNoLane(x.locked)) return;
   const N zero = N::Constant(0.0);
   const N one = N::Constant(1.0);
   x.kappa = Select(x.locked, zero, x.kappa);

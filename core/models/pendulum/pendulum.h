@@ -27,7 +27,6 @@
 #include <array>
 #include <cstdint>
 
-#include "absl/types/span.h"
 #include "core/models/restitution_law.h"
 #include "ricochet/outcome.h"
 #include "ricochet/scene.h"
@@ -86,21 +85,16 @@ struct PlainImpact {
   Impact impact;
   // Bounds the error of each velocity over V = max(|u0|, |v0|); of each impulse times its mobility over V; of each work
   // and of the change of energy over the energy moved, (1 + eta^2) J omega-^2/2; of kappa_hat, kappa and eta over their
-  // own value; of mu_hat over mu. docs/theory/rounding.md derives it.
+  // own value, and of mu_hat over mu, where values below 2^-700 count as 2^-700. docs/theory/rounding.md derives it.
   double relative_error = 0.0;
   // False if plain arithmetic cannot prove a regime, a broken limit or the bound; then the rest has no meaning.
   bool proved = false;
 };
 
 // Computes all outputs of one impact at a tenth of the cost of Solve. If proved, the regime and the broken limits are those
-// of Solve. Not proved are only impacts within 2^-50 of a limit, impacts with mu |b| = a, and numbers other than mu_s
-// with a size beyond 2^-100 ... 2^100.
+// of Solve. Not proved are only impacts within 2^-50 of a limit, with mu |b| = a or with a bound of 1 or more, and numbers
+// beyond the range: J, a and |omega-| in [2^-100, 2^100], |b| and mu at most 2^100.
 PlainImpact SolvePlain(const Problem& problem);
-
-// Computes the outputs asked for of many impacts, with the same bits as Solve. `columns[c][i]` receives output
-// `outputs[c]` of `problems[i]`; `regimes` and `inadmissible` have one entry for each problem.
-void SolveColumns(absl::Span<const Problem> problems, absl::Span<const Output> outputs,
-                  absl::Span<double* const> columns, absl::Span<Regime> regimes, absl::Span<bool> inadmissible);
 
 // The state of the pendulum at normal impulse tau in [0, tau1]: Fig. 3 and Fig. 5 of the paper.
 struct Instant {

@@ -20,8 +20,9 @@ namespace ricochet::pendulum::HWY_NAMESPACE {
 using ricochet::HWY_NAMESPACE::Absolute;
 using ricochet::HWY_NAMESPACE::Both;
 using ricochet::HWY_NAMESPACE::Lanes;
+using ricochet::HWY_NAMESPACE::Larger;
 using ricochet::HWY_NAMESPACE::Plain;
-using ricochet::HWY_NAMESPACE::Select;
+using ricochet::HWY_NAMESPACE::Smaller;
 
 inline constexpr double kUnitRoundoff = 0x1p-53;
 // The bound is the larger of kLeastError and kErrorOfOne + kErrorOfKappa kappa.
@@ -37,7 +38,7 @@ template <typename V, typename Mask>
 HWY_INLINE V RelativeError(const Solution<Plain<V>, Mask>& x) {
   const V least = Lanes<V>::Fill(kLeastError);
   const V error = Lanes<V>::Fill(kErrorOfOne) + Lanes<V>::Fill(kErrorOfKappa) * Rounded(x.kappa);
-  return Select(error < least, least, error);
+  return Larger(least, error);
 }
 
 template <typename V>
@@ -62,17 +63,14 @@ HWY_INLINE Mask SignsAreProved(RestitutionLaw law, const Solution<Plain<V>, Mask
   return invertible;
 }
 
-// True where no product leaves the range of doubles: each number but mu_s is 0 or of moderate size.
+// True where no product leaves the range of doubles. b, mu and the coefficient may be as small as they like.
 template <typename V, typename Mask>
 HWY_INLINE Mask IsModerate(const Inputs<Plain<V>, Mask>& in) {
-  Sizes<V> sizes;
-  sizes.TakeIn(in.inertia.value);
-  sizes.TakeIn(in.a.value);
-  sizes.TakeIn(in.b.value);
-  sizes.TakeIn(in.omega.value);
-  sizes.TakeIn(in.mu.value);
-  sizes.TakeIn(in.coefficient.value);
-  return sizes.AreWithin(kLimit);
+  const V omega = Absolute(in.omega.value);
+  const V least = Smaller(Smaller(in.inertia.value, in.a.value), omega);
+  const V lengths = Larger(in.a.value, Absolute(in.b.value));
+  const V most = Larger(Larger(in.inertia.value, omega), Larger(lengths, Absolute(in.mu.value)));
+  return Both(Lanes<V>::Fill(1.0 / kLimit) <= least, most <= Lanes<V>::Fill(kLimit));
 }
 
 }  // namespace ricochet::pendulum::HWY_NAMESPACE

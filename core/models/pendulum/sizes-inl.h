@@ -17,7 +17,9 @@ namespace ricochet::pendulum::HWY_NAMESPACE {
 using ricochet::HWY_NAMESPACE::Absolute;
 using ricochet::HWY_NAMESPACE::Both;
 using ricochet::HWY_NAMESPACE::Lanes;
+using ricochet::HWY_NAMESPACE::Larger;
 using ricochet::HWY_NAMESPACE::Select;
+using ricochet::HWY_NAMESPACE::Smaller;
 
 // No product of the kernel leaves the range in which DoubleDouble is exact if every number is 0 or has a size between
 // 1/kLimit and kLimit: the largest product is below 2^700, the smallest above 2^-890, its low half 2^-106 of that.
@@ -34,9 +36,8 @@ struct Sizes {
 
   HWY_INLINE void TakeIn(V x) {
     const V size = Absolute(x);
-    most = Select(most < size, size, most);
-    const V not_zero = Select(Lanes<V>::Fill(0.0) < size, size, Lanes<V>::Fill(1.0));
-    least = Select(not_zero < least, not_zero, least);
+    most = Larger(most, size);
+    least = Smaller(least, Select(Lanes<V>::Fill(0.0) < size, size, Lanes<V>::Fill(1.0)));
   }
 
   // True where all are at least 1/limit and at most `limit`.

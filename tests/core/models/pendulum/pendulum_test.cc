@@ -9,7 +9,6 @@
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "core/models/restitution_law.h"
@@ -508,46 +507,7 @@ TEST(PendulumLimitTest, ProductsThatLeaveTheRangeOfDoublesOnTheWayDoNoHarm) {
   EXPECT_NEAR(impact[Output::kNewton], std::sqrt(1.0 / 3.0), 1e-15);
 }
 
-// ---- Columns and histories ----
-
-TEST(PendulumColumnsTest, AnySelectionOfOutputsHasTheBitsOfSolve) {
-  SceneSource source(64);
-  std::vector<Problem> problems;
-  for (int i = 0; i < 5'000; ++i) problems.push_back(i < 1'000 ? source.Everyday() : source.Any());
-  std::vector<Regime> regimes(problems.size());
-  const auto inadmissible = std::make_unique<bool[]>(problems.size());
-  std::vector<std::vector<Output>> selections;
-  for (int i = 0; i < kOutputCount; ++i) selections.push_back({static_cast<Output>(i)});
-  selections.push_back({Output::kEnergyChange, Output::kNewton, Output::kTangentialImpulse});
-  std::vector<Output>& all = selections.emplace_back();
-  for (int i = 0; i < kOutputCount; ++i) all.push_back(static_cast<Output>(i));
-
-  for (const std::vector<Output>& outputs : selections) {
-    std::vector<std::vector<double>> values(outputs.size(), std::vector<double>(problems.size(), -1.0));
-    std::vector<double*> columns;
-    for (std::vector<double>& column : values) columns.push_back(column.data());
-    SolveColumns(problems, outputs, columns, absl::MakeSpan(regimes), {inadmissible.get(), problems.size()});
-    for (size_t i = 0; i < problems.size(); ++i) {
-      const Impact impact = Solve(problems[i]);
-      for (size_t c = 0; c < outputs.size(); ++c) {
-        ASSERT_EQ(std::bit_cast<uint64_t>(values[c][i]), std::bit_cast<uint64_t>(impact[outputs[c]]))
-            << OutputNames()[static_cast<size_t>(outputs[c])] << " at " << ToString(problems[i]);
-      }
-      ASSERT_EQ(regimes[i], impact.regime);
-      ASSERT_EQ(inadmissible[i], impact.sharp_limit_broken || impact.energy_limit_broken) << ToString(problems[i]);
-    }
-  }
-}
-
-TEST(PendulumColumnsTest, NoProblemsAndNoOutputsAreFine) {
-  SolveColumns({}, {}, {}, {}, {});
-  const std::array<Problem, 1> problem = {Make(1.0, 1.0, 0.5, RestitutionLaw::kEnergetic, 1.0)};
-  std::array<Regime, 1> regime = {};
-  std::array<bool, 1> inadmissible = {true};
-  SolveColumns(problem, {}, {}, absl::MakeSpan(regime), absl::MakeSpan(inadmissible));
-  EXPECT_EQ(regime[0], Regime::kRebound);
-  EXPECT_FALSE(inadmissible[0]);
-}
+// ---- Histories ----
 
 // Fig. 3: two straight lines through (0, omega-), (tau0, 0), (tau1, omega+).
 TEST(PendulumHistoryTest, AngularVelocityIsBilinearAndVanishesAtTheEndOfCompression) {

@@ -1,0 +1,350 @@
+// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/models/pendulum/columns.cc"
+#include "core/models/pendulum/columns.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cstdint>
+#include <vector>
+
+#include "core/models/pendulum/parts.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/restitution_law.h"
+// Highway prescribes the order of these includes.
+// clang-format off
+#include "hwy/foreach_target.h"
+#include "core/models/pendulum/kernel-inl.h"
+#include "core/models/pendulum/rounding-inl.h"
+#include "core/models/pendulum/sizes-inl.h"
+#include "core/numerics/lanes-inl.h"
+#include "core/numerics/plain-inl.h"
+// clang-format on
+
+#ifndef RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_CC_
+#define RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_CC_
+namespace ricochet::pendulum {
+
+// Some problems in a row, and the places of their results.
+struct Block {
+  static constexpr size_t kCapacity = 64;
+
+  const ProblemColumns& problems;
+  const SolvedColumns& solved;
+  unsigned parts = 0;
+  size_t first = 0;  // In `problems`.
+  size_t place = 0;  // The same problem in `solved`.
+  size_t size = 0;
+
+  // The next `count` problems from the `from`-th on.
+  Block Part(size_t from, size_t count) const {
+    return {.problems = problems,
+            .solved = solved,
+            .parts = parts,
+            .first = first + from,
+            .place = place + from,
+            .size = count};
+  }
+};
+
+// A number for each problem of a block, as lanes store it. Whole vectors are stored, which may reach beyond the block.
+using PerProblem = std::array<double, Block::kCapacity + ProblemColumns::kMostLanes>;
+
+}  // namespace ricochet::pendulum
+#endif  // RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_CC_
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::pendulum::HWY_NAMESPACE {
+
+using ricochet::HWY_NAMESPACE::CopySign;
+using ricochet::HWY_NAMESPACE::InAllLanes;
+
+// The target's widest lanes.
+using V = ricochet::HWY_NAMESPACE::Vector;
+using VLanes = ricochet::HWY_NAMESPACE::Lanes<V>;
+using Mask = decltype(V() < V());
+
+// Loads the problems of a block, as many at a time as a vector has lanes.
+class Loader {
+ public:
+  explicit Loader(const Block& block)
+      : is_poisson_(block.problems.law() == RestitutionLaw::kPoisson),
+        inertia_(block.problems.inertia() + block.first),
+        a_(block.problems.a() + block.first),
+        b_(block.problems.b() + block.first),
+        omega_(block.problems.omega_minus() + block.first),
+        mu_(block.problems.mu() + block.first),
+        mu_static_(block.problems.mu_static() + block.first),
+        coefficient_(block.problems.coefficient() + block.first) {}
+
+  template <typename N>
+  HWY_INLINE Inputs<N, Mask> Load(size_t i) const {
+    const V zero = VLanes::Fill(0.0);
+    const V b = VLanes::Load(b_ + i);
+    const V coefficient = VLanes::Load(coefficient_ + i);
+    Inputs<N, Mask> in;
+    in.inertia = N::Exactly(VLanes::Load(inertia_ + i));
+    in.a = N::Exactly(VLanes::Load(a_ + i));
+    in.b = N::Exactly(b);
+    in.omega = N::Exactly(VLanes::Load(omega_ + i));
+    in.mu = N::Exactly(Select(b == zero, zero, CopySign(VLanes::Load(mu_ + i), b)));
+    in.mu_static = N::Exactly(CopySign(VLanes::Load(mu_static_ + i), b));
+    in.coefficient = N::Exactly(coefficient);
+    in.near_one = is_poisson_ ? coefficient < VLanes::Fill(2.0) : VLanes::Fill(0.5) < coefficient;
+    return in;
+  }
+
+ private:
+  bool is_poisson_;
+  const double *inertia_, *a_, *b_, *omega_, *mu_, *mu_static_, *coefficient_;
+};
+
+// A verdict is the number of a regime, plus kInadmissible if a limit is broken.
+inline constexpr int kInadmissible = 64;
+
+HWY_INLINE V Number(Regime regime) { return VLanes::Fill(static_cast<double>(regime)); }
+
+// No problem separates.
+template <typename N>
+HWY_INLINE V VerdictsOf(const Solution<N, Mask>& x) {
+  const V zero = VLanes::Fill(0.0);
+  const V slips = Select(Rounded(x.mu) == zero, Number(Regime::kFrictionless), Number(Regime::kRebound));
+  const V regime = Select(x.locked, Number(Regime::kLocked), slips);
+  return regime + Select(IsNegative(x.one_minus_eta_squared), VLanes::Fill(kInadmissible), zero);
+}
+
+HWY_INLINE void StoreVerdicts(const Block& block, const PerProblem& verdicts) {
+  Regime* const regimes = block.solved.regimes.data() + block.place;
+  bool* const inadmissible = block.solved.inadmissible.data() + block.place;
+  for (size_t i = 0; i < block.size; ++i) {
+    const int verdict = static_cast<int>(verdicts[i]);
+    regimes[i] = static_cast<Regime>(verdict % kInadmissible);
+    inadmissible[i] = verdict >= kInadmissible;
+  }
+}
+
+// Stores the outputs asked for of whole vectors of problems: those of a block that is smaller than a vector go to a place of
+// their own first.
+class Storer {
+ public:
+  explicit Storer(const Block& block) : block_(block), size_(block.size), count_(block.solved.outputs.size()) {
+    for (size_t c = 0; c < count_; ++c) {
+      outputs_[c] = block.solved.outputs[c];
+      places_[c] = IsSmall() ? own_[c].data() : block.solved.columns[c] + block.place;
+    }
+  }
+
+  // The first problem of the vector after the one that begins with the i-th. The last vector overlaps the one before it, so
+  // that it holds no problem beyond the block. At least the block's size at the end.
+  HWY_INLINE size_t Next(size_t i) const {
+    const size_t next = i + VLanes::Count();
+    return next < size_ ? std::min(next, size_ - VLanes::Count()) : next;
+  }
+
+  template <typename N>
+  HWY_INLINE void Store(size_t i, const Solution<N, Mask>& x) {
+    // Adding 0 turns -0 into 0: an impulse or velocity that vanishes has no sign.
+    const V zero = VLanes::Fill(0.0);
+    for (size_t c = 0; c < count_; ++c) VLanes::Store(Evaluate(x, outputs_[c]) + zero, places_[c] + i);
+  }
+
+  void End() const {
+    if (!IsSmall()) return;
+    for (size_t c = 0; c < count_; ++c) {
+      std::copy_n(own_[c].data(), size_, block_.solved.columns[c] + block_.place);
+    }
+  }
+
+ private:
+  HWY_INLINE bool IsSmall() const { return size_ < VLanes::Count(); }
+
+  const Block& block_;
+  size_t size_;
+  size_t count_;
+  std::array<Output, kOutputCount> outputs_;
+  std::array<double*, kOutputCount> places_;
+  std::array<std::array<double, ProblemColumns::kMostLanes>, kOutputCount> own_;
+};
+
+// Solves each problem plainly, and returns whether all are proved. The results of one that is not have no meaning.
+// The law is a constant, because telling the laws apart costs as much as a law.
+template <RestitutionLaw kLaw>
+HWY_INLINE bool SolvePlainBlockOf(const Block& block, double tolerance, PerProblem& proved) {
+  using N = Plain<V>;
+  const unsigned parts = block.parts;
+  const size_t size = block.size;
+  const Loader loader(block);
+  Storer storer(block);
+  PerProblem verdicts;
+  Mask all = VLanes::Fill(0.0) == VLanes::Fill(0.0);
+  for (size_t i = 0; i < size; i = storer.Next(i)) {
+    const auto in = loader.Load<N>(i);
+    Solution<N, Mask> x;
+    SolveParts(kLaw, in, parts, x);
+    const Mask serves = Both(IsNegative(in.omega), IsModerate(in));
+    const Mask is_right = Both(SignsAreProved(kLaw, x), RelativeError(x) <= VLanes::Fill(tolerance));
+    const Mask is_proved = Both(serves, is_right);
+    all = Both(all, is_proved);
+    VLanes::Store(Select(is_proved, VLanes::Fill(1.0), VLanes::Fill(0.0)), proved.data() + i);
+    VLanes::Store(VerdictsOf(x), verdicts.data() + i);
+    storer.Store(i, x);
+  }
+  storer.End();
+  StoreVerdicts(block, verdicts);
+  return InAllLanes(all);
+}
+
+bool SolvePlainBlock(const Block& block, double tolerance, PerProblem& proved) {
+  switch (block.problems.law()) {
+    case RestitutionLaw::kNewton:
+      return SolvePlainBlockOf<RestitutionLaw::kNewton>(block, tolerance, proved);
+    case RestitutionLaw::kPoisson:
+      return SolvePlainBlockOf<RestitutionLaw::kPoisson>(block, tolerance, proved);
+    case RestitutionLaw::kEnergetic:
+      return SolvePlainBlockOf<RestitutionLaw::kEnergetic>(block, tolerance, proved);
+  }
+  return false;
+}
+
+HWY_INLINE bool FitsDoubleDouble(const Block& block) {
+  const ProblemColumns& problems = block.problems;
+  Sizes<V> sizes;
+  Sizes<V> coefficients;
+  for (size_t i = block.first; i < block.first + block.size; i += VLanes::Count()) {
+    for (const double* column : {problems.inertia(), problems.a(), problems.b(), problems.omega_minus(), problems.mu(),
+                                 problems.mu_static()}) {
+      sizes.TakeIn(VLanes::Load(column + i));
+    }
+    coefficients.TakeIn(VLanes::Load(problems.coefficient() + i));
+  }
+  return InAllLanes(sizes.AreWithin(kLimit)) && InAllLanes(coefficients.AreWithin(kCoefficientLimit));
+}
+
+// Solves problems that approach in double-double arithmetic. Returns false and writes nothing if a number is beyond the
+// limits.
+bool SolveBlock(const Block& block) {
+  using N = ricochet::HWY_NAMESPACE::DoubleDouble<V>;
+  if (!FitsDoubleDouble(block)) return false;
+  const Loader loader(block);
+  Storer storer(block);
+  PerProblem verdicts;
+  for (size_t i = 0; i < block.size; i = storer.Next(i)) {
+    Solution<N, Mask> x;
+    SolveParts(block.problems.law(), loader.Load<N>(i), block.parts, x);
+    VLanes::Store(VerdictsOf(x), verdicts.data() + i);
+    storer.Store(i, x);
+  }
+  storer.End();
+  StoreVerdicts(block, verdicts);
+  return true;
+}
+
+}  // namespace ricochet::pendulum::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace ricochet::pendulum {
+
+HWY_EXPORT(SolveBlock);
+HWY_EXPORT(SolvePlainBlock);
+
+namespace {
+
+unsigned PartsOf(absl::Span<const Output> outputs) {
+  unsigned parts = 0;
+  for (const Output output : outputs) parts |= PartsOf(output);
+  return parts;
+}
+
+// Solves any problem, wherever lanes do not serve.
+void SolveAlone(const Block& block, size_t i) {
+  const Impact impact = Solve(block.problems[block.first + i]);
+  const SolvedColumns& solved = block.solved;
+  solved.regimes[block.place + i] = impact.regime;
+  solved.inadmissible[block.place + i] = impact.sharp_limit_broken;
+  for (size_t c = 0; c < solved.outputs.size(); ++c) {
+    solved.columns[c][block.place + i] = impact[solved.outputs[c]];
+  }
+}
+
+// In double-double arithmetic.
+void SolveCompensated(const Block& block) {
+  const double* const omega = block.problems.omega_minus() + block.first;
+  for (size_t from = 0; from < block.size;) {
+    size_t to = from;
+    while (to < block.size && omega[to] < 0.0) ++to;
+    if (to > from && HWY_DYNAMIC_DISPATCH(SolveBlock)(block.Part(from, to - from))) {
+      from = to;
+    } else {
+      for (to = std::max(to, from + 1); from < to; ++from) SolveAlone(block, from);
+    }
+  }
+}
+
+void SolvePlainFirst(const Block& block, double tolerance) {
+  PerProblem proved;
+  if (HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(block, tolerance, proved)) return;
+  for (size_t from = 0; from < block.size;) {
+    size_t to = from;
+    while (to < block.size && (proved[to] != 0.0) == (proved[from] != 0.0)) ++to;
+    if (proved[from] == 0.0) SolveCompensated(block.Part(from, to - from));
+    from = to;
+  }
+}
+
+}  // namespace
+
+ProblemColumns::ProblemColumns(RestitutionLaw law, size_t size) : law_(law), size_(size) {
+  for (auto* column : {&inertia_, &a_, &b_, &omega_minus_, &mu_, &mu_static_, &coefficient_}) {
+    column->resize(size + kMostLanes);
+  }
+}
+
+void ProblemColumns::Set(size_t i, const Problem& problem) {
+  assert(i < size_ && problem.law == law_);
+  inertia_[i] = problem.inertia;
+  a_[i] = problem.a;
+  b_[i] = problem.b;
+  omega_minus_[i] = problem.omega_minus;
+  mu_[i] = problem.mu;
+  mu_static_[i] = problem.mu_static;
+  coefficient_[i] = problem.coefficient;
+}
+
+Problem ProblemColumns::operator[](size_t i) const {
+  return {.inertia = inertia_[i],
+          .a = a_[i],
+          .b = b_[i],
+          .omega_minus = omega_minus_[i],
+          .mu = mu_[i],
+          .mu_static = mu_static_[i],
+          .law = law_,
+          .coefficient = coefficient_[i]};
+}
+
+void SolveColumns(const ProblemColumns& problems, size_t first, size_t count, double tolerance,
+                  const SolvedColumns& solved) {
+  assert(first + count <= problems.size() && solved.outputs.size() == solved.columns.size());
+  const bool may_be_plain = tolerance >= HWY_NAMESPACE::kLeastError;
+  // The bound on the rounding error needs kappa.
+  const unsigned parts = PartsOf(solved.outputs) | (may_be_plain ? kPartKappa : 0U);
+  for (size_t done = 0; done < count; done += Block::kCapacity) {
+    const Block block = {.problems = problems,
+                         .solved = solved,
+                         .parts = parts,
+                         .first = first + done,
+                         .place = done,
+                         .size = std::min(Block::kCapacity, count - done)};
+    if (may_be_plain) {
+      SolvePlainFirst(block, tolerance);
+    } else {
+      SolveCompensated(block);
+    }
+  }
+}
+
+}  // namespace ricochet::pendulum
+
+#endif  // HWY_ONCE

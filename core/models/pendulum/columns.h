@@ -1,0 +1,65 @@
+// Columns: many pendulums of one law at once, in SIMD lanes, and only the outputs asked for.
+//
+// Each output is that of the first arithmetic whose bound on its rounding error is within the tolerance: plain double
+// arithmetic (SolvePlain), or double-double arithmetic (Solve), with the same bits. At tolerance 0 it is the latter.
+// A block of problems is solved plainly; those whose bound or signs are not proved are solved once more. No result depends
+// on the neighbours of a problem.
+
+#ifndef RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_H_
+#define RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_H_
+
+#include <cstddef>
+#include <vector>
+
+#include "absl/types/span.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/restitution_law.h"
+
+namespace ricochet::pendulum {
+
+// Problems of one law, column by column, as lanes read them.
+class ProblemColumns {
+ public:
+  ProblemColumns() = default;
+  // Until they are set, the problems separate.
+  ProblemColumns(RestitutionLaw law, size_t size);
+
+  // The problem's law must be that of all.
+  void Set(size_t i, const Problem& problem);
+  Problem operator[](size_t i) const;
+
+  size_t size() const { return size_; }
+  RestitutionLaw law() const { return law_; }
+
+  // The columns may be read for kMostLanes entries beyond the last problem, because vectors are loaded whole.
+  static constexpr size_t kMostLanes = 64;
+  const double* inertia() const { return inertia_.data(); }
+  const double* a() const { return a_.data(); }
+  const double* b() const { return b_.data(); }
+  const double* omega_minus() const { return omega_minus_.data(); }
+  const double* mu() const { return mu_.data(); }
+  const double* mu_static() const { return mu_static_.data(); }
+  const double* coefficient() const { return coefficient_.data(); }
+
+ private:
+  RestitutionLaw law_ = RestitutionLaw::kEnergetic;
+  size_t size_ = 0;
+  std::vector<double> inertia_, a_, b_, omega_minus_, mu_, mu_static_, coefficient_;
+};
+
+// The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]` of the i-th problem solved, `regimes[i]` its
+// regime, and `inadmissible[i]` whether it breaks a limit.
+struct SolvedColumns {
+  absl::Span<const Output> outputs;
+  absl::Span<double* const> columns;
+  absl::Span<Regime> regimes;
+  absl::Span<bool> inadmissible;
+};
+
+// Solves the problems [first, first + count). The tolerance is in [0, 1) and means what PlainImpact::relative_error does.
+void SolveColumns(const ProblemColumns& problems, size_t first, size_t count, double tolerance,
+                  const SolvedColumns& solved);
+
+}  // namespace ricochet::pendulum
+
+#endif  // RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_H_
