@@ -1,5 +1,6 @@
-// The bits of all answers are the same everywhere: 10^5 scenes give the hashes in tests/data/golden/bits.txt, whatever
-// the build, the SIMD target, the threads and the order are. RICOCHET_UPDATE_GOLDEN=1 writes the file anew.
+// The bits of all answers are the same everywhere: 10^5 scenes give the hashes in tests/data/golden/bits.txt, and 10^4
+// pendulums those in pendulum_bits.txt, whatever the build, the SIMD target, the threads and the order are.
+// RICOCHET_UPDATE_GOLDEN=1 writes the files anew.
 //
 // The scenes cover every system, law and effect but a normal spring, because SUNDIALS promises its bits on one machine
 // only. They are made of sums and products of random bits, so that they are the same everywhere, too.
@@ -7,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -18,6 +20,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/restitution_law.h"
 #include "core/numerics/stable_hash.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
@@ -189,24 +193,25 @@ std::vector<Answer> AnswersTo(const std::vector<Question>& questions, size_t thr
   return answers;
 }
 
-// One line for each model: its number, how many scenes it solved, and their hash.
-std::string Summary(const std::vector<Answer>& answers) {
-  std::map<int, std::pair<int, StableHash>> by_model;
-  for (const Answer& answer : answers) {
-    auto& [count, hash] = by_model[static_cast<int>(answer.model)];
+// One line for each model at tolerance 0, and one at the others: its number, how many scenes it solved, and their hash.
+std::string Summary(const std::vector<Question>& questions, const std::vector<Answer>& answers) {
+  std::map<std::pair<int, bool>, std::pair<int, StableHash>> by_model;
+  for (size_t i = 0; i < answers.size(); ++i) {
+    const bool is_within = questions[i].demand.relative_tolerance != 0.0;
+    auto& [count, hash] = by_model[{static_cast<int>(answers[i].model), is_within}];
     ++count;
-    hash.Add(answer.hash);
+    hash.Add(answers[i].hash);
   }
   std::string text;
-  for (const auto& [model, entry] : by_model) {
-    absl::StrAppend(&text, "model ", model, ": ", entry.first, " scenes, ",
-                    absl::Hex(entry.second.value(), absl::kZeroPad16), "\n");
+  for (const auto& [key, entry] : by_model) {
+    absl::StrAppend(&text, "model ", key.first, key.second ? " above tolerance 0: " : " at tolerance 0: ", entry.first,
+                    " scenes, ", absl::Hex(entry.second.value(), absl::kZeroPad16), "\n");
   }
   return text;
 }
 
-std::string Golden(const std::string& text) {
-  const std::string path = TestDataPath("golden/bits.txt");
+std::string Golden(const std::string& name, const std::string& text) {
+  const std::string path = TestDataPath("golden/" + name);
   if (std::getenv("RICOCHET_UPDATE_GOLDEN") != nullptr) std::ofstream(path) << text;
   std::ifstream file(path);
   std::ostringstream golden;
@@ -217,12 +222,12 @@ std::string Golden(const std::string& text) {
 TEST(GoldenBitsTest, A100000ScenesHaveTheBitsOfEveryOtherBuildThreadAndTarget) {
   const std::vector<Question> questions = Questions();
   const std::vector<Answer> answers = AnswersTo(questions, 4);
-  const std::string summary = Summary(answers);
-  EXPECT_EQ(summary, Golden(summary));
+  const std::string summary = Summary(questions, answers);
+  EXPECT_EQ(summary, Golden("bits.txt", summary));
   // Every model but that of finite duration occurs.
   for (int model = static_cast<int>(Model::kNone); model < kModelCount; ++model) {
     if (static_cast<Model>(model) == Model::kFiniteDuration) continue;
-    EXPECT_NE(summary.find(absl::StrCat("model ", model, ": ")), std::string::npos) << model;
+    EXPECT_NE(summary.find(absl::StrCat("model ", model, " ")), std::string::npos) << model;
   }
   constexpr size_t kEvery = 7;
   std::vector<Question> some;
@@ -235,6 +240,43 @@ TEST(GoldenBitsTest, A100000ScenesHaveTheBitsOfEveryOtherBuildThreadAndTarget) {
     const OnlyTarget only(target);
     EXPECT_TRUE(AnswersTo(some, 1) == expected) << hwy::TargetName(target);
   }
+}
+
+// Pendulums of everyday size, some of them close to locking or to a limit, and some that separate.
+std::vector<pendulum::Problem> Pendulums() {
+  std::vector<pendulum::Problem> problems;
+  for (size_t i = 0; i < kScenes / 10; ++i) {
+    Random random(i);
+    pendulum::Problem problem = {.inertia = random.Uniform(0.1, 5.0),
+                                 .a = random.Uniform(0.1, 2.0),
+                                 .b = random.Uniform(-1.0, 1.0),
+                                 .omega_minus = random.Uniform(-10.0, 0.2),
+                                 .law = static_cast<RestitutionLaw>(random.Below(3)),
+                                 .coefficient = random.Below(4) == 0 ? 1.0 : random.Uniform(0.0, 1.0)};
+    problem.mu = random.Below(4) == 0 ? problem.a * random.Uniform(0.999999, 1.000001) / std::fabs(problem.b)
+                                      : random.Uniform(0.0, 1.0);
+    problem.mu_static = problem.mu;
+    problems.push_back(problem);
+  }
+  return problems;
+}
+
+TEST(GoldenBitsTest, PendulumsHaveTheBitsOfEveryOtherBuildInBothArithmetics) {
+  StableHash compensated;
+  StableHash plain;
+  int proved = 0;
+  for (const pendulum::Problem& problem : Pendulums()) {
+    for (const double value : pendulum::Solve(problem).values) compensated.Add(value);
+    const pendulum::PlainImpact impact = pendulum::SolvePlain(problem);
+    if (!impact.proved) continue;
+    ++proved;
+    plain.Add(impact.relative_error);
+    for (const double value : impact.impact.values) plain.Add(value);
+  }
+  const std::string summary =
+      absl::StrCat("compensated: ", absl::Hex(compensated.value(), absl::kZeroPad16), "\nplain: ", proved, " proved, ",
+                   absl::Hex(plain.value(), absl::kZeroPad16), "\n");
+  EXPECT_EQ(summary, Golden("pendulum_bits.txt", summary));
 }
 
 // All values of the points [first, end).
