@@ -74,7 +74,7 @@ void Measure(const char* what, const std::vector<Problem>& problems) {
 
 void RunAll() {
   std::printf("Spatial impact, one solve\n");
-  for (const double tolerance : {1e-6, 1e-10}) {
+  for (const double tolerance : {1e-3, 1e-6, 1e-10}) {
     spatial::SceneSource typical(1);
     Measure("1000 typical scenes", Problems(tolerance, [&] { return typical.Typical(); }));
     spatial::SceneSource singular(2);

@@ -3,7 +3,7 @@
 // Slip obeys du/dxi = A u + s wtn, where u is the tangential velocity, s = |u| and A = -mu Wtt. This is homogeneous:
 // each series starts from u = (1, 0) in the frame of its own direction, and needs neither sine nor angle. Its
 // coefficients follow from (k + 1) u_{k+1} = A u_k + s_k wtn and (s s)_k = (x x)_k + (y y)_k.
-// Accuracy: Remainder bounds what the last term leaves out. Sums and products only, hence the same bits on every
+// Accuracy: the last two terms are not used but tell the error, and the fall of the terms what follows them. Sums and products only, hence the same bits on every
 // machine. Source: Keller (1986); docs/theory/spatial.md.
 
 // Per-target include guard.
@@ -26,7 +26,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
-inline constexpr int kMinOrder = 9;
 inline constexpr int kMaxOrder = 26;
 
 namespace internal {
@@ -70,50 +69,47 @@ struct SeriesValues {
   T x, y;                    // u
 };
 
+// One term of the integrals over xi.
+template <typename T>
+struct SeriesTerm {
+  T x_integral, y_integral, s_integral, square_integral;
+};
+
+// The last two terms at some xi, which are not used but tell the error.
+template <typename T>
+struct LastTerms {
+  SeriesTerm<T> before, last;
+  T ratio;  // By how much a term is smaller than the one before it, at most.
+};
+
 template <typename T>
 class SlipSeries {
  public:
-  // Code exists for the orders 9, 11, 14, 17, 20 and kMaxOrder, which replaces every other order.
+  // Code exists for the orders 8, 9, 11, 14, 17, 20 and kMaxOrder, which replaces every other order.
   void Expand(const Frame<T>& frame, int order);
+  // The sums of all terms but the last two.
   SeriesValues<T> At(T xi) const;
+  LastTerms<T> LastTermsAt(T xi) const;
 
   // The largest xi at which neither of the last two terms exceeds `bound` in an integral of u or s, nor `square_bound`
   // in the integral of s^2, which converges more slowly.
   T LongestStep(T bound, T square_bound) const;
-  // Bounds on what the series leave out at xi: of the integrals of u and s, and of the integral of s^2.
-  T Remainder(T xi) const {
-    return Tail([this](int k) { return Size(k); }, xi);
-  }
-  T SquareRemainder(T xi) const {
-    return Tail([this](int k) { return std::fabs(square_integral_[Index(k)]); }, xi);
-  }
 
  private:
   T Size(int k) const {
     return std::fabs(x_integral_[Index(k)]) + std::fabs(y_integral_[Index(k)]) + std::fabs(s_integral_[Index(k)]);
   }
-  // A bound on the sum of the terms that follow the last one. It is the largest of two: a multiple of the last term or
-  // the one before, and three times a geometric series that falls as the last four or eight terms do and starts at the
-  // largest value to which the last three lead. Both are needed, because a complex pair of singularities makes terms
-  // oscillate, and some of them are small by chance.
-  template <typename Sizes>
-  T Tail(const Sizes& sizes, T xi) const {
+  // By how much each further term is smaller than the one before it, as the last four or eight terms fall. Both are
+  // needed, because a complex pair of singularities makes terms oscillate, and some of them are small by chance.
+  T Fall() const {
     constexpr T kSmallest{1e-290};
-    constexpr T kLargestRatio{0.8};
     constexpr double kRoughness = 1.1;
-    const T last = sizes(order_ + 1) + kSmallest;
-    const auto root = [&](int k, int before) {
-      const auto fall = static_cast<double>(last / (sizes(before) + kSmallest));
-      return static_cast<T>(kRoughness * internal::RoughRoot(fall, k));
+    const T last = Size(order_ + 1) + kSmallest;
+    const auto root = [&](int span) {
+      const auto fall = static_cast<double>(last / (Size(order_ + 1 - span) + kSmallest));
+      return static_cast<T>(kRoughness * internal::RoughRoot(fall, span));
     };
-    const T fourth_root = root(4, order_ - 3);
-    const T eighth_root = root(8, order_ - 7);
-    const T slope = std::max(fourth_root, eighth_root);
-    const T ratio = std::min(slope * xi, kLargestRatio);
-    const T start = std::max(std::max(last, slope * sizes(order_)), slope * slope * sizes(order_ - 1));
-    const T geometric = T{3} * start * xi * ratio / (T{1} - ratio);
-    const T nearest = std::max(T{0.25} * sizes(order_), T{2} * last * xi);
-    return internal::Power(xi, order_) * std::max(geometric, nearest);
+    return order_ < 9 ? root(4) : std::max(root(4), root(8));
   }
   static size_t Index(int k) { return static_cast<size_t>(k); }
 
@@ -137,6 +133,8 @@ void SlipSeries<T>::Expand(const Frame<T>& frame, int order) {
   x_[0] = s_[0] = square_ = T{1};
   y_[0] = T{0};
   switch (order) {
+    case 8:
+      return Terms<8, 0>();
     case 9:
       return Terms<9, 0>();
     case 11:
@@ -197,7 +195,7 @@ HWY_INLINE SeriesValues<T> SlipSeries<T>::At(T xi) const {
   T y{0};
   T s{0};
   T square{0};
-  for (size_t k = Index(order_ + 1); k >= 1; --k) {
+  for (size_t k = Index(order_ - 1); k >= 1; --k) {
     x = x * xi + x_integral_[k];
     y = y * xi + y_integral_[k];
     s = s * xi + s_integral_[k];
@@ -212,6 +210,18 @@ HWY_INLINE SeriesValues<T> SlipSeries<T>::At(T xi) const {
           .square_integral = square * xi,
           .x = T{1} + (frame_.a11 * x + frame_.a12 * y + frame_.w1 * s),
           .y = frame_.a12 * x + frame_.a22 * y + frame_.w2 * s};
+}
+
+template <typename T>
+LastTerms<T> SlipSeries<T>::LastTermsAt(T xi) const {
+  constexpr T kLargestRatio{0.8};
+  const auto term = [this](int k, T power) {
+    const size_t i = Index(k);
+    return SeriesTerm<T>{power * x_integral_[i], power * y_integral_[i], power * s_integral_[i],
+                         power * square_integral_[i]};
+  };
+  const T power = internal::Power(xi, order_);
+  return {term(order_, power), term(order_ + 1, power * xi), std::min(Fall() * xi, kLargestRatio)};
 }
 
 template <typename T>

@@ -25,7 +25,7 @@ namespace ricochet::spatial {
 inline constexpr double kStudyTolerance = 1e-10;
 // The range of tolerances that Solve accepts.
 inline constexpr double kLeastTolerance = 1e-12;
-inline constexpr double kMostTolerance = 1e-4;
+inline constexpr double kMostTolerance = 1e-2;
 
 struct Problem {
   double w11 = 0.0, w12 = 0.0, w13 = 0.0, w22 = 0.0, w23 = 0.0, w33 = 0.0;  // 1/kg; n is the third direction

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/models/spatial/error_ledger-inl.h"
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
 #include "core/models/spatial/problem-inl.h"
@@ -63,11 +64,11 @@ class Step {
     return FindRoot<T>([this](T xi) { return path_.GoalRates(At(xi)); }, guess, end, relative);
   }
 
-  // The truncation error at xi of the friction impulse, in the norm of the ledger, and of the normal work.
-  T FrictionError(T xi) const { return friction_unit_ * series_.Remainder(xi); }
-  T WorkError(T xi) const { return work_unit_ * series_.SquareRemainder(xi); }
+  // The error at xi, where the state is `end` and slip has the direction `e`.
+  StepError<T> ErrorAt(T xi, const State<T>& end, const Direction<T>& e) const;
 
  private:
+  PathError<T> ErrorOf(const SeriesTerm<T>& term, const State<T>& end, const Direction<T>& e) const;
   // The slip of the series and its slopes over xi.
   struct SlipRates {
     T x, y, size;
@@ -128,13 +129,40 @@ State<T> Step<T>::At(T xi) const {
           .friction_work = from.friction_work - mu * slip_ * unit * values.square_integral};
 }
 
+// What follows the last term is a geometric series that starts at the larger of the values to which the last two lead.
+template <typename T>
+StepError<T> Step<T>::ErrorAt(T xi, const State<T>& end, const Direction<T>& e) const {
+  const LastTerms<T> terms = series_.LastTermsAt(xi);
+  const PathError<T> before = ErrorOf(terms.before, end, e);
+  const PathError<T> last = ErrorOf(terms.last, end, e);
+  const auto size = [](const PathError<T>& of) { return std::fabs(of.f1) + std::fabs(of.f2); };
+  const T q = terms.ratio;
+  StepError<T> error = {.known = before, .rest = size(before) * q > size(last) ? before : last};
+  error.known.Add(last, T{1});
+  const T factor = T{3} * q / (T{1} - q) * (size(before) * q > size(last) ? q : T{1});
+  error.rest = {.f1 = factor * error.rest.f1, .f2 = factor * error.rest.f2, .work = factor * error.rest.work};
+  return error;
+}
+
+// A lack in tau counts, too: at equal tau the friction impulse and its work lack less, as both would have gone on
+// meanwhile. The change of energy is u.df, and the normal work is that less the work of friction.
+template <typename T>
+PathError<T> Step<T>::ErrorOf(const SeriesTerm<T>& term, const State<T>& end, const Direction<T>& e) const {
+  const T unit = problem_.mu * slip_ / problem_.rate;
+  const T late = unit * term.s_integral;
+  const T f1 = late * e.c - unit * (frame_.c * term.x_integral - frame_.s * term.y_integral);
+  const T f2 = late * e.s - unit * (frame_.s * term.x_integral + frame_.c * term.y_integral);
+  const T friction_work = late * (end.u1 * e.c + end.u2 * e.s) - unit * slip_ * term.square_integral;
+  return {.f1 = f1, .f2 = f2, .work = end.u1 * f1 + end.u2 * f2 - friction_work};
+}
+
 template <typename T>
 T Step<T>::AccurateEnd(T allowed) const {
   // However small the slip is, the step stays within the convergence of the series, and comes nearer to a direction
   // that attracts slip.
   const T off = std::fabs(frame_.Turn() / frame_.TurnSlope());
   const T nearer = frame_.TurnSlope() < T{0} ? std::max(T{0.1} * off, kEpsilon<T>) : T{1};
-  const T relative = std::min(std::ldexp(T{1}, -(5 * order_) / 4), nearer);
+  const T relative = std::min(internal::Power(T{0.5}, 4 * order_ / 5), nearer);
   const T velocity_per_friction = std::max(problem_.largest_root, problem_.normal_root);
   return series_.LongestStep(std::min(allowed / (velocity_per_friction * friction_unit_), relative),
                              std::min(allowed * problem_.velocity / (problem_.steepest * work_unit_), relative));

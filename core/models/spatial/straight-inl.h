@@ -20,12 +20,14 @@ HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
 // A part of the path with constant slopes.
+enum class Motion { kSlips, kSticks, kIsFree };
 template <typename T>
 struct StraightPiece {
+  Motion motion;
   Slopes<T> slopes;
+  Direction<T> e;            // of slip
   T f1, f2;                  // df/dtau
   T length;                  // the normal impulse after which slip stops
-  bool has_friction;         // Friction does work, as the contact slips.
   bool ends_locked = false;  // The body will be locked where slip stops, and no event comes before.
 };
 
@@ -41,9 +43,17 @@ void Advance(Progress<T>& impact, const StraightPiece<T>& piece, T length) {
   state.u1 += piece.slopes.u1 * length;
   state.u2 += piece.slopes.u2 * length;
   state.v += piece.slopes.v * length;
-  const T friction = piece.has_friction ? -impact.problem.mu : T{0};
-  state.friction_work += friction * length * T{0.5} * (slip + state.Slip());
-  impact.errors.AddStraight(piece.has_friction, length, slip, state.v);
+  switch (piece.motion) {
+    case Motion::kSlips: {
+      const T next_slip = state.Slip();
+      state.friction_work -= impact.problem.mu * length * T{0.5} * (slip + next_slip);
+      return impact.errors.AddStraightSlip(piece.e, length, slip, next_slip, state.v);
+    }
+    case Motion::kSticks:
+      return impact.errors.AddStick(length, state.v);
+    case Motion::kIsFree:
+      return impact.errors.AddFree(length, state.v);
+  }
 }
 
 // Follows a piece through the ends of phases on it, to its own end or that of the impact.
@@ -71,11 +81,12 @@ void FollowSlip(Progress<T>& impact, const Direction<T>& e) {
   // Slip that starts grows, however slowly: rounded to below 0, the growth would stop it where it is.
   if (slip == T{0}) growth = std::max(growth, T{0});
   impact.errors.AddFrictionError(impact.errors.SlipRounding(slip));
-  StraightPiece<T> piece = {.slopes = {growth * e.c, growth * e.s, slopes.v},
+  StraightPiece<T> piece = {.motion = problem.mu > T{0} ? Motion::kSlips : Motion::kIsFree,
+                            .slopes = {growth * e.c, growth * e.s, slopes.v},
+                            .e = e,
                             .f1 = -problem.mu * e.c,
                             .f2 = -problem.mu * e.s,
-                            .length = growth < T{0} ? -slip / growth : kInfinity<T>,
-                            .has_friction = problem.mu > T{0}};
+                            .length = growth < T{0} ? -slip / growth : kInfinity<T>};
   // Where friction and the joints will lock the body, v vanishes with u, and rounding must not let it come first.
   if (!impact.path.in_restitution && growth < T{0} && problem.w.rank < 3) {
     const Sticking<T> sticking = problem.w.Stick(problem.mu_static);
@@ -100,11 +111,12 @@ void FollowStick(Progress<T>& impact, const Sticking<T>& sticking) {
   impact.errors.Stick(sticking);
   if (sticking.v_slope == T{0}) return EndLocked(impact);
   impact.path.SetRegime(Regime::kStickInCompression, Regime::kStickInRestitution);
-  Follow<T>(impact, {.slopes = {T{0}, T{0}, sticking.v_slope},
+  Follow<T>(impact, {.motion = Motion::kSticks,
+                     .slopes = {T{0}, T{0}, sticking.v_slope},
+                     .e = {T{0}, T{0}},
                      .f1 = sticking.f1,
                      .f2 = sticking.f2,
-                     .length = kInfinity<T>,
-                     .has_friction = false});
+                     .length = kInfinity<T>});
 }
 
 }  // namespace internal
@@ -140,8 +152,12 @@ void SlideFreely(Progress<T>& impact) {
   const T cross = state.u1 * w.w23 - state.u2 * w.w13;
   const T along = state.u1 * w.w13 + state.u2 * w.w23;
   if (cross == T{0} && along < T{0}) return SlideStraight(impact, Normalized(state.u1, state.u2));
-  internal::Follow<T>(
-      impact, {.slopes = {w.w13, w.w23, w.w33}, .f1 = T{0}, .f2 = T{0}, .length = kInfinity<T>, .has_friction = false});
+  internal::Follow<T>(impact, {.motion = Motion::kIsFree,
+                               .slopes = {w.w13, w.w23, w.w33},
+                               .e = {T{0}, T{0}},
+                               .f1 = T{0},
+                               .f2 = T{0},
+                               .length = kInfinity<T>});
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

@@ -339,7 +339,7 @@ TEST(ChooseTest, InSpaceTheModelIsGivenTheBudget) {
                               .mu_static = .4,
                               .coefficient = .6};
   EXPECT_EQ(ChooseSpatial(problem, {.relative_tolerance = 1e-7}).model_tolerance, 1e-7);
-  EXPECT_EQ(ChooseSpatial(problem, {.relative_tolerance = 1e-2}).model_tolerance, 1e-4);
+  EXPECT_EQ(ChooseSpatial(problem, {.relative_tolerance = 1e-2}).model_tolerance, 1e-2);
   EXPECT_EQ(ChooseSpatial(problem, {.relative_tolerance = 0.0}).model_tolerance, 1e-12);
   const Choice straight = ChooseSpatial(problem, {.excluded = {Effect::kSlipTurn}});
   EXPECT_EQ(straight.model, Model::kSliding);

@@ -188,7 +188,7 @@ class EstimateTest : public testing::TestWithParam<double> {
     std::printf("  %s: estimate/error at least %.2f, median %.1f; largest error %.1e for a tolerance of %.0e\n", what,
                 statistics.worst_ratio, statistics.median_ratio, statistics.worst_error, GetParam());
     EXPECT_GE(statistics.worst_ratio, 1.0);
-    EXPECT_LE(statistics.median_ratio, 100.0);
+    EXPECT_LE(statistics.median_ratio, 12.0);
   }
 };
 
@@ -249,7 +249,7 @@ TEST(SpatialTest, EstimateOfAClosedFormIsNotBelowItsErrorHoweverSlowlyVGrows) {
   }
   std::nth_element(ratios.begin(), ratios.begin() + 30'000, ratios.end());
   std::printf("  estimate/error at least %.2f, median %.1f\n", least, ratios[30'000]);
-  EXPECT_LE(ratios[30'000], 100.0);
+  EXPECT_LE(ratios[30'000], 30.0);
 }
 
 TEST(SpatialTest, SlipThatStartsAtNearlyNoRateEnds) {

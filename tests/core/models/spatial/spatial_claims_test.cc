@@ -1,0 +1,38 @@
+// The spatial model claims at least the error that it makes, and little more. `ricochet_claims` takes more scenes.
+
+#include "tests/support/spatial_claims.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/support/claims.h"
+
+namespace ricochet::spatial {
+namespace {
+
+constexpr int kCount = 500;
+constexpr uint64_t kSeed = 31;
+
+class SpatialClaimsTest : public testing::TestWithParam<double> {};
+
+TEST_P(SpatialClaimsTest, TypicalScenesAreWithinTheToleranceAndNotFarWithinIt) {
+  const ClaimTally tally = SpatialClaims(/*hard=*/false, GetParam(), kCount, kSeed);
+  PrintClaims("space", "typical", tally);
+  EXPECT_EQ(tally.deceived(), 0);
+  EXPECT_EQ(tally.claimed_above_tolerance(), 0);
+  EXPECT_LE(tally.MedianRatio(), 10.0);
+  EXPECT_GE(tally.WorstError(), 0.1 * GetParam());
+}
+
+TEST_P(SpatialClaimsTest, HardScenesDeceiveNobody) {
+  const ClaimTally tally = SpatialClaims(/*hard=*/true, GetParam(), kCount, kSeed);
+  PrintClaims("space", "hard", tally);
+  EXPECT_EQ(tally.deceived(), 0);
+  EXPECT_LE(tally.MedianRatio(), 12.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tolerances, SpatialClaimsTest, testing::ValuesIn(kClaimTolerances));
+
+}  // namespace
+}  // namespace ricochet::spatial
