@@ -206,21 +206,32 @@ HWY_INLINE void Advance(const Slopes<N>& slopes, const N& step, const N& u, cons
   at = {at.tau + step, at.f + f_step, u, v};
 }
 
+// Advances along the first piece of a phase, before which no work of the phase has been done.
+template <typename N>
+HWY_INLINE void Begin(const Slopes<N>& slopes, const N& step, const N& u, const N& v, State<N>& at,
+                      TwiceWork<N>& work) {
+  const N f_step = slopes.f * step;
+  work = {step * (at.v + v), f_step * (at.u + u)};
+  at = {at.tau + step, at.f + f_step, u, v};
+}
+
 template <typename N>
 HWY_INLINE void Compress(const Inputs<N>& in, const Path<N>& path, Solution<N>& x) {
   State<N> at = {Zero<N>(), Zero<N>(), in.u0, in.v0};
-  x.compression = {Zero<N>(), Zero<N>()};
   x.stops_in_compression = path.stops && IsNegative(path.v_stop);
   x.stop = at;
   if (!x.stops_in_compression) {
-    Advance(path.first, -in.v0 / path.first.v, path.u_compression_end, Zero<N>(), at, x.compression);
+    Begin(path.first, -in.v0 / path.first.v, path.u_compression_end, Zero<N>(), at, x.compression);
   } else {
-    if (path.slips_first) {
-      Advance(path.first, -in.u0 / path.first.u, Zero<N>(), path.v_stop, at, x.compression);
-    }
-    x.stop = at;
     x.stuck_compression = -path.v_stop / path.second.v;
-    Advance(path.second, x.stuck_compression, path.second.u * x.stuck_compression, Zero<N>(), at, x.compression);
+    const N u = path.second.u * x.stuck_compression;
+    if (path.slips_first) {
+      Begin(path.first, -in.u0 / path.first.u, Zero<N>(), path.v_stop, at, x.compression);
+      x.stop = at;
+      Advance(path.second, x.stuck_compression, u, Zero<N>(), at, x.compression);
+    } else {
+      Begin(path.second, x.stuck_compression, u, Zero<N>(), at, x.compression);
+    }
   }
   x.compression_end = at;
 }
@@ -282,7 +293,6 @@ HWY_INLINE Rebound<N> FindRebound(RestitutionLaw law, const Inputs<N>& in, const
 template <typename N>
 HWY_INLINE void Restore(RestitutionLaw law, const Inputs<N>& in, const Path<N>& path, Solution<N>& x) {
   State<N> at = x.compression_end;
-  x.restitution = {Zero<N>(), Zero<N>()};
   Slopes<N> slopes = path.first;
   if (x.stops_in_compression) slopes = path.second;
   const bool stop_ahead = path.stops && !x.stops_in_compression;
@@ -290,14 +300,14 @@ HWY_INLINE void Restore(RestitutionLaw law, const Inputs<N>& in, const Path<N>& 
   const Rebound<N>& rebound = x.rebound;
   x.stops_in_restitution = rebound.passes_stop;
   if (rebound.passes_stop) {
-    Advance(slopes, rebound.before, Zero<N>(), path.v_stop, at, x.restitution);
+    Begin(slopes, rebound.before, Zero<N>(), path.v_stop, at, x.restitution);
     x.stop = at;
     Advance(path.second, rebound.after, path.second.u * rebound.after, rebound.v1, at, x.restitution);
   } else {
     N u1 = at.u + slopes.u * rebound.before;
     // Slip that has not stopped has not reversed; a u1 of the other sign is rounding.
     if (stop_ahead && IsNegative(Signed(u1, IsNegative(at.u)))) u1 = Zero<N>();
-    Advance(slopes, rebound.before, u1, rebound.v1, at, x.restitution);
+    Begin(slopes, rebound.before, u1, rebound.v1, at, x.restitution);
   }
   x.end = at;
 }

@@ -19,9 +19,11 @@ struct Coefficients {
   double newton = 0.0, poisson = 0.0, energetic = 0.0, energetic_excess = -1.0;
 };
 
-// Replaces a difference of terms of size `scale` by 0 if it may be rounding alone.
+// Replaces a difference of terms of size `scale` by 0 if it may be rounding alone. Plain arithmetic bounds its rounding and
+// needs no threshold.
 template <typename N>
 HWY_INLINE N WithoutRounding(const N& difference, const N& scale) {
+  if (!N::kCompensated) return difference;
   const bool is_rounding = !IsPositive(Abs(difference) - N::Constant(0x1p-96) * scale);
   return Select(is_rounding, Zero<N>(), difference);
 }

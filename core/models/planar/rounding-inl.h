@@ -252,7 +252,7 @@ HWY_INLINE RoundingErrors PlainErrors(const Problem& problem, const Course<Plain
   const double unit = kRounding / SpeedBefore<Plain<double>>(problem).value;
   return {.velocity = unit * Larger(errors.u, errors.v).value,
           .impulse = unit * Larger(course.in.wnn * errors.tau, course.in.wtt * errors.f).value,
-          .work = kRounding * (errors.works / TwiceMoved(course.x)).value};
+          .work = kRounding * (errors.works * Inverse(TwiceMoved(course.x))).value};
 }
 
 // The error of rounding `x` to a double, enlarged by 2^-10 for the rounding of the bound. It is at most half of the smallest
