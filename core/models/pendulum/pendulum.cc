@@ -4,6 +4,8 @@
 #include "core/models/pendulum/pendulum.h"
 
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "core/models/pendulum/parts.h"
 #include "core/models/restitution_law.h"
@@ -22,15 +24,19 @@ namespace ricochet::pendulum::HWY_NAMESPACE {
 // Adding 0 turns -0 into 0: an impulse or velocity that vanishes has no sign.
 HWY_INLINE double Unsigned0(double value) { return value + 0.0; }
 
+// The numbers of the outputs are constants here, so that none is told from the others at run time.
+template <typename T, size_t... kOutputs>
+HWY_INLINE void EvaluateAll(const Solution<T, bool>& x, Impact& impact, std::index_sequence<kOutputs...> /*all*/) {
+  ((impact.values[kOutputs] = Unsigned0(Evaluate(x, static_cast<Output>(kOutputs)))), ...);
+}
+
 template <typename T>
 HWY_INLINE Impact ImpactOf(const Problem& problem, const Solution<T, bool>& x) {
   Impact impact;
   impact.regime = RegimeOf(problem, x.locked);
   impact.sharp_limit_broken = IsNegative(x.one_minus_eta_squared);
   impact.energy_limit_broken = IsNegative(x.one_minus_kappa_hat);
-  for (int i = 0; i < kOutputCount; ++i) {
-    impact.values[static_cast<size_t>(i)] = Unsigned0(Evaluate(x, static_cast<Output>(i)));
-  }
+  EvaluateAll(x, impact, std::make_index_sequence<kOutputCount>());
   return impact;
 }
 

@@ -20,8 +20,8 @@ Ball ScaleOf(const Problem& problem, const ExactImpact& exact, Output output) {
   const Ball inertia(problem.inertia, 128);
   const Ball a(problem.a, 128);
   const Ball b(std::fabs(problem.b), 128);
-  const Ball omega(std::fabs(problem.omega_minus), 128);
-  const Ball velocity = (problem.a > std::fabs(problem.b) ? a : b) * omega;
+  Ball omega(std::fabs(problem.omega_minus), 128);
+  Ball velocity = (problem.a > std::fabs(problem.b) ? a : b) * omega;
   const Ball& eta = exact[Output::kEnergetic];
   const Ball least = Ball::PowerOfTwo(-700);
   switch (output) {
