@@ -56,19 +56,18 @@ absl::StatusOr<std::vector<double>> ParseNumbers(const std::string& text, const 
 
 absl::StatusOr<Observed> ReadObserved(const AuditOptions& options) {
   if (options.rate.has_value()) {
-    absl::StatusOr<std::vector<double>> rates = ParseNumbers(*options.rate, "--observed-rate");
+    const absl::StatusOr<std::vector<double>> rates = ParseNumbers(*options.rate, "--observed-rate");
     if (!rates.ok()) return rates.status();
-    return Observed(ObservedRates{*std::move(rates)});
+    return Observed(ObservedRates{{rates->begin(), rates->end()}});
   }
   if (!options.velocity.has_value()) {
     return absl::InvalidArgumentError(
         "no observation: give --observed-velocity T,N, --observed-rate X or --data FILE.csv");
   }
-  absl::StatusOr<std::vector<double>> numbers = ParseNumbers(*options.velocity, "--observed-velocity");
+  const absl::StatusOr<std::vector<double>> numbers = ParseNumbers(*options.velocity, "--observed-velocity");
   if (!numbers.ok()) return numbers.status();
-  const double normal = numbers->back();
-  numbers->pop_back();
-  return Observed(ContactVelocity{.tangential_m_s = *std::move(numbers), .normal_m_s = normal});
+  return Observed(
+      ContactVelocity{.tangential_m_s = {numbers->begin(), numbers->end() - 1}, .normal_m_s = numbers->back()});
 }
 
 absl::StatusOr<double> ReadUncertainty(const AuditOptions& options) {

@@ -44,16 +44,19 @@ struct Quantity {
   const char* name;
   const char* title;
   Range CoefficientBounds::*range;
-  double NearlyVertical::*error;      // Null if the first order is exact.
-  double Coefficients::*coefficient;  // Null for a quantity that is not a coefficient.
+  double NearlyVertical::*error;               // Null if the first order is exact.
+  double (*coefficient)(const Coefficients&);  // Null for a quantity that is not a coefficient.
 };
 
 constexpr std::array kQuantities = {
-    Quantity{"newton", "Newton", &CoefficientBounds::newton, &NearlyVertical::newton_error, &Coefficients::newton},
-    Quantity{"poisson", "Poisson", &CoefficientBounds::poisson, &NearlyVertical::poisson_error, &Coefficients::poisson},
-    Quantity{"energetic", "energetic", &CoefficientBounds::energetic, nullptr, &Coefficients::energetic},
+    Quantity{"newton", "Newton", &CoefficientBounds::newton, &NearlyVertical::newton_error,
+             [](const Coefficients& c) { return c.newton; }},
+    Quantity{"poisson", "Poisson", &CoefficientBounds::poisson, &NearlyVertical::poisson_error,
+             [](const Coefficients& c) { return c.poisson.value_or(0.0); }},
+    Quantity{"energetic", "energetic", &CoefficientBounds::energetic, nullptr,
+             [](const Coefficients& c) { return c.energetic.value_or(0.0); }},
     Quantity{"tangential", "tangential (Brach)", &CoefficientBounds::tangential, &NearlyVertical::tangential_error,
-             &Coefficients::tangential},
+             [](const Coefficients& c) { return c.tangential; }},
     Quantity{"normal_total_n_s", "normal impulse [N s]", &CoefficientBounds::normal_total_n_s,
              &NearlyVertical::normal_total_error_n_s, nullptr},
 };
@@ -113,8 +116,8 @@ std::string FirstOrderText(const NearlyVertical& vertical) {
   table.Add({"", "first order in x", "error <="});
   for (const Quantity& quantity : kQuantities) {
     if (quantity.coefficient == nullptr) continue;
-    table.Add({quantity.title, Rounded((*vertical.coefficients).*quantity.coefficient),
-               Rounded(vertical.coefficient_errors.*quantity.coefficient)});
+    table.Add({quantity.title, Rounded(quantity.coefficient(*vertical.coefficients)),
+               Rounded(quantity.coefficient(vertical.coefficient_errors))});
   }
   return absl::StrCat("\nAt the scene's restitution\n", table.Render(2));
 }

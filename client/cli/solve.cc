@@ -11,13 +11,10 @@
 #include "client/cli/plot.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/solve_report.h"
-#include "core/sweep/grid.h"
 #include "proto/wire/requests.h"
 
 namespace ricochet::cli {
 namespace {
-
-constexpr int64_t kMostHistory = 65535;
 
 constexpr char kExample[] = R"(Example: the elastic pendulum of Lubarda (2009), sec. 4.
   $ ricochet solve --a 0.3 --b 1 --mu 0.1 --energetic 1
@@ -47,20 +44,9 @@ struct SolveOptions {
 
 absl::StatusOr<int64_t> ParseIntervals(const std::string& text, const char* flag) {
   absl::StatusOr<int64_t> count = ParseCount(text, flag);
-  if (count.ok() && (*count < 1 || *count > kMostHistory))
-    return InputError(flag, text, absl::StrCat("be in [1, ", kMostHistory, "]"));
+  if (count.ok() && (*count < 1 || *count > kMostIntervals))
+    return InputError(flag, text, absl::StrCat("be in [1, ", kMostIntervals, "]"));
   return count;
-}
-
-// Asks for N + 1 evenly spaced impulses of [0, tau1]. A first solve gives tau1.
-absl::Status AddHistory(const Solver& solver, const std::string& intervals, SolveRequest& request) {
-  const absl::StatusOr<int64_t> count = ParseIntervals(intervals, "--history");
-  if (!count.ok()) return count.status();
-  const absl::StatusOr<SolveResponse> response = solver.Solve(request);
-  if (!response.ok()) return response.status();
-  const Axis axis{.path = "", .values = Linspace{0.0, response->outcome.impulse.normal_total_n_s, *count + 1}};
-  for (int64_t i = 0; i <= *count; ++i) request.history_at_n_s.push_back(AxisValue(axis, i));
-  return absl::OkStatus();
 }
 
 std::string Text(const Outcome& outcome, const SolveOptions& options) {
@@ -137,7 +123,9 @@ absl::Status RunSolve(const SolveOptions& options) {
     request.force_intervals = *intervals;
   }
   if (!options.history.empty()) {
-    if (absl::Status status = AddHistory(**solver, options.history, request); !status.ok()) return status;
+    const absl::StatusOr<int64_t> intervals = ParseIntervals(options.history, "--history");
+    if (!intervals.ok()) return intervals.status();
+    request.history_intervals = *intervals;
   }
   const absl::StatusOr<SolveResponse> response = (*solver)->Solve(request);
   if (!response.ok()) return response.status();

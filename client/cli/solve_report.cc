@@ -38,7 +38,7 @@ const char* Sentence(Regime regime) {
     case Regime::kLocked:
       return "Locked: friction and the pin hold the body; it does not rebound.";
     case Regime::kWedged:
-      return "Not converged: the contact had not separated when the step budget ran out.";
+      return "Wedged: the contact had not separated when the computation ended.";
     case Regime::kSeparating:
       return "Separating: the contact does not approach; nothing changes.";
     case Regime::kByLaw:
@@ -51,6 +51,22 @@ const char* Sentence(Regime regime) {
   }
   return "Unknown: the server answered with a regime that this build does not know.";
 }
+
+// Says why the outcome is not an answer; empty if it is one.
+std::string TerminationText(Termination termination) {
+  switch (termination) {
+    case Termination::kBudgetUsedUp:
+      return "Not converged: the model's budget of steps ran out before the contact separated.\n";
+    case Termination::kRefused:
+      return "No answer: the contact never separates, rounding has destroyed its path, or the law has no solution.\n";
+    case Termination::kUnspecified:
+    case Termination::kConverged:
+      break;
+  }
+  return "";
+}
+
+std::string IfKnown(const std::optional<double>& value) { return value.has_value() ? Rounded(*value) : "unknown"; }
 
 const char* EventText(EventKind kind) {
   switch (kind) {
@@ -90,8 +106,8 @@ std::string CoefficientsText(const Outcome& outcome) {
   const EffectiveCoefficients& effective = outcome.effective;
   Table table;
   table.Add({"Newton      (velocities, -v+/v-)", Rounded(coefficients.newton)});
-  table.Add({"Poisson     (normal impulses)", Rounded(coefficients.poisson)});
-  table.Add({"energetic   (normal works)", Rounded(coefficients.energetic)});
+  table.Add({"Poisson     (normal impulses)", IfKnown(coefficients.poisson)});
+  table.Add({"energetic   (normal works)", IfKnown(coefficients.energetic)});
   table.Add({"tangential  (Brach, f/tau)", Rounded(coefficients.tangential)});
   return absl::StrCat("Coefficients\n", table.Render(2), "  computed with friction ",
                       Rounded(effective.kinetic_friction), " (static ", Rounded(effective.static_friction),
@@ -99,12 +115,11 @@ std::string CoefficientsText(const Outcome& outcome) {
 }
 
 // Appends the numbers of a list as cells, one for each tangential direction or angular velocity.
-void AppendCells(const std::vector<double>& values, std::vector<std::string>& cells) {
+void AppendCells(const Components& values, std::vector<std::string>& cells) {
   for (const double value : values) cells.push_back(Rounded(value));
 }
 
-void AddMotion(const std::string& name, const std::vector<double>& before, const std::vector<double>& after,
-               Table& table) {
+void AddMotion(const std::string& name, const Components& before, const Components& after, Table& table) {
   for (size_t i = 0; i < after.size(); ++i) {
     const std::string number = after.size() == 1 ? "" : absl::StrCat(" ", i + 1);
     table.Add({absl::StrCat(name, number), Rounded(i < before.size() ? before[i] : after[i]), Rounded(after[i])});
@@ -173,9 +188,9 @@ std::string AlternativesText(const std::vector<ImpactSolution>& alternatives) {
 
 std::string ImpulseText(const Impulse& impulse) {
   Table table;
-  table.Add({"normal, in compression [N s]", Rounded(impulse.normal_compression_n_s)});
+  table.Add({"normal, in compression [N s]", IfKnown(impulse.normal_compression_n_s)});
   table.Add({"normal, total [N s]", Rounded(impulse.normal_total_n_s)});
-  const std::vector<double>& tangential = impulse.tangential_n_s;
+  const Components& tangential = impulse.tangential_n_s;
   for (size_t i = 0; i < tangential.size(); ++i) {
     const std::string number = tangential.size() == 1 ? "" : absl::StrCat(" ", i + 1);
     table.Add({absl::StrCat("tangential, total [N s]", number), Rounded(tangential[i])});
@@ -188,8 +203,8 @@ std::string WorkText(const Outcome& outcome) {
   Table table;
   table.Add({"[J]", "compression", "restitution", "total"});
   table.Add(
-      {"normal", Rounded(work.normal_compression_j), Rounded(work.normal_restitution_j), Rounded(work.normal_total_j)});
-  table.Add({"tangential", Rounded(work.tangential_compression_j), Rounded(work.tangential_restitution_j),
+      {"normal", IfKnown(work.normal_compression_j), IfKnown(work.normal_restitution_j), Rounded(work.normal_total_j)});
+  table.Add({"tangential", IfKnown(work.tangential_compression_j), IfKnown(work.tangential_restitution_j),
              Rounded(work.tangential_total_j)});
   if (work.tangential_spring_j > 0.0) {
     table.Add({"  left in the spring", "", "", Rounded(-work.tangential_spring_j)});
@@ -274,6 +289,8 @@ void AppendFields(const Message& message, const std::string& prefix, Row& row);
 
 void AppendSingle(const Message& message, const FieldDescriptor* field, const std::string& path, Row& row) {
   const Reflection& reflection = *message.GetReflection();
+  // A number that is unset has an empty cell.
+  if (field->has_optional_keyword() && !reflection.HasField(message, field)) return row.Add(path, "");
   switch (field->cpp_type()) {
     case FieldDescriptor::CPPTYPE_MESSAGE:
       if (field->message_type() == v1::Certificate::descriptor()) return;
@@ -331,9 +348,10 @@ std::string RowsOf(const Messages& messages) {
 }  // namespace
 
 std::string SolveText(const Outcome& outcome) {
-  std::string text = absl::StrCat(Sentence(outcome.regime), "\n", Verdict(outcome), "\n", CoefficientsText(outcome),
-                                  "\n", MotionText(outcome), BodiesText(outcome.bodies_after), "\n",
-                                  ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+  std::string text =
+      absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination), Verdict(outcome), "\n",
+                   CoefficientsText(outcome), "\n", MotionText(outcome), BodiesText(outcome.bodies_after), "\n",
+                   ImpulseText(outcome.impulse), "\n", WorkText(outcome));
   if (outcome.contact.has_value()) text += ContactText(*outcome.contact);
   text += AlternativesText(outcome.alternatives);
   if (!outcome.timeline.empty()) {
@@ -384,11 +402,13 @@ absl::StatusOr<Plot> SolvePlot(const Outcome& outcome) {
     }
     previous = &state;
   }
-  const auto panel = [&outcome](const char* title, const char* y_label, Curve curve) {
+  std::vector<double> marks;
+  if (outcome.impulse.normal_compression_n_s.has_value()) marks.push_back(*outcome.impulse.normal_compression_n_s);
+  const auto panel = [&marks](const char* title, const char* y_label, Curve curve) {
     return Panel{.title = title,
                  .x_label = "normal impulse τ [N s]",
                  .y_label = y_label,
-                 .x_marks = {outcome.impulse.normal_compression_n_s},
+                 .x_marks = marks,
                  .curves = {std::move(curve)}};
   };
   return Plot{.title = absl::StrCat("Impact: ", RegimeText(outcome.regime), " (dashed: compression ends)"),

@@ -1,8 +1,7 @@
-#include "core/answer/compliant_outcome.h"
-
 #include <cmath>
 #include <vector>
 
+#include "core/answer/model_outcomes.h"
 #include "core/scene/numbers.h"
 
 namespace ricochet::compliant {
@@ -40,23 +39,18 @@ std::vector<Event> TimelineOf(const Impact& impact, const PlanarReduction& reduc
 
 }  // namespace
 
-absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
-                                    absl::Span<const double> history_at_n_s, Detail detail) {
-  if (auto violations = RefuseHistory(history_at_n_s, "a contact with tangential compliance"); !violations.empty()) {
-    return InvalidRequest(violations);
-  }
+absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const Extent& extent,
+                         Outcome& outcome) {
   const Impact impact = Solve(problem);
-  Outcome outcome = MakeEnd(impact, reduction);
+  SetEnd(impact, reduction, 0.0, outcome);
   outcome.work.normal_total_j = impact.work_normal;
   outcome.work.friction_dissipation_j = impact.friction_dissipation;
   outcome.work.tangential_spring_j = impact.spring_energy;
   outcome.accuracy = {.relative_error = impact.error_estimate, .kind = AccuracyKind::kEstimate};
   // If the path overflows, not even the regime is known, so that the outcome is checked in every case.
-  if (detail == Detail::kNumbers && std::isfinite(impact.u1)) return outcome;
-  outcome.timeline = TimelineOf(impact, reduction);
-  const absl::Status finite = CheckFinite(outcome);
-  if (!finite.ok()) return finite;
-  return outcome;
+  if (!std::isfinite(impact.u1)) return CheckFinite(outcome);
+  return Complete(
+      extent, [&] { return TimelineOf(impact, reduction); }, NoPath, outcome);
 }
 
 }  // namespace ricochet::compliant

@@ -1,17 +1,12 @@
-#include "core/answer/finite_duration_outcome.h"
+#include "core/answer/model_outcomes.h"
 
 namespace ricochet::finite_duration {
 
-absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
-                                    absl::Span<const double> history_at_n_s, absl::FunctionRef<bool()> stopped,
-                                    Detail detail) {
-  if (auto violations = RefuseHistory(history_at_n_s, "an impact that takes time; force_intervals asks for its forces");
-      !violations.empty()) {
-    return InvalidRequest(violations);
-  }
+absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const Extent& extent,
+                         absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   const Impact impact = Solve(problem, stopped);
   if (impact.stopped) return absl::CancelledError("the impact was stopped by its caller");
-  Outcome outcome = MakeEnd(impact, reduction, impact.contact.duration_s);
+  SetEnd(impact, reduction, impact.contact.duration_s, outcome);
   outcome.work.friction_dissipation_j = impact.friction_dissipation;
   outcome.work.tangential_spring_j = impact.spring_energy;
   outcome.accuracy = {.relative_error = impact.error_estimate,
@@ -19,11 +14,8 @@ absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReductio
                       .steps = impact.steps,
                       .right_hand_sides = impact.right_hand_sides};
   outcome.contact = impact.contact;
-  if (detail == Detail::kNumbers) return outcome;
-  outcome.timeline = impact.events;
-  const absl::Status finite = CheckFinite(outcome);
-  if (!finite.ok()) return finite;
-  return outcome;
+  return Complete(
+      extent, [&] { return impact.events; }, NoPath, outcome);
 }
 
 }  // namespace ricochet::finite_duration

@@ -1,9 +1,9 @@
-#include "core/answer/law_outcome.h"
-
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <variant>
 
+#include "core/answer/model_outcomes.h"
 #include "core/models/laws/impact_laws.h"
 #include "core/numerics/determinant.h"
 
@@ -41,8 +41,10 @@ Regime RegimeOf(const PlanarReduction& reduction, const laws::ImpactLawResult& r
 }
 
 ImpactSolution ToOutcome(const laws::ImpactSolution& solution) {
-  return {.contact_velocity_after = {.tangential_m_s = {solution.u1}, .normal_m_s = solution.v1},
-          .impulse = {.normal_total_n_s = solution.tau1, .tangential_n_s = {solution.f}}};
+  return {
+      .contact_velocity_after = {.tangential_m_s = {solution.u1}, .normal_m_s = solution.v1},
+      .impulse = {
+          .normal_compression_n_s = std::nullopt, .normal_total_n_s = solution.tau1, .tangential_n_s = {solution.f}}};
 }
 
 WorkLedger LedgerOf(const PlanarReduction& reduction, const laws::ImpactSolution& solution) {
@@ -61,7 +63,8 @@ bool CreatesEnergy(const PlanarReduction& reduction, const laws::ImpactSolution&
   return solution.energy_change > 16.0 * kEpsilon * moved;
 }
 
-std::vector<Event> TimelineOf(const PlanarReduction& reduction, const laws::ImpactSolution& solution) {
+std::vector<Event> TimelineOf(const PlanarReduction& reduction, Regime regime, const laws::ImpactSolution& solution) {
+  if (regime != Regime::kByLaw) return {};
   return {
       {EventKind::kStart, MakeState<1>(reduction, 0.0, {0.0}, reduction.u0, reduction.v0)},
       {EventKind::kRestitutionEnds, MakeState<1>(reduction, solution.tau1, {solution.f}, {solution.u1}, solution.v1)}};
@@ -69,16 +72,13 @@ std::vector<Event> TimelineOf(const PlanarReduction& reduction, const laws::Impa
 
 }  // namespace
 
-absl::StatusOr<Outcome> MakeLawOutcome(const ImpactLaw& law, double mu, const PlanarReduction& reduction,
-                                       absl::Span<const double> history_at_n_s, Detail detail) {
-  if (const auto violations = RefuseHistory(history_at_n_s, "an impact law, which has no path"); !violations.empty()) {
-    return InvalidRequest(violations);
-  }
+absl::Status MakeLawOutcome(const ImpactLaw& law, double mu, const PlanarReduction& reduction, const Extent& extent,
+                            Outcome& outcome) {
   const laws::ImpactLawResult result = SolveLaw(
       law,
       {.w = {reduction.w[0], reduction.w[1], reduction.w[2]}, .u0 = reduction.u0[0], .v0 = reduction.v0, .mu = mu});
-  Outcome outcome;
   outcome.regime = RegimeOf(reduction, result);
+  if (outcome.regime == Regime::kNoSolution) outcome.termination = Termination::kRefused;
   laws::ImpactSolution solution = {.u1 = reduction.u0[0], .v1 = reduction.v0};
   if (outcome.regime == Regime::kByLaw) {
     solution = result.solutions.front();
@@ -93,18 +93,14 @@ absl::StatusOr<Outcome> MakeLawOutcome(const ImpactLaw& law, double mu, const Pl
   outcome.contact_velocity_after = first.contact_velocity_after;
   outcome.impulse = first.impulse;
   outcome.work = LedgerOf(reduction, solution);
+  UnsetPhases(outcome);
   outcome.energy_change_j = solution.energy_change;
-  outcome.broken_limits =
-      BrokenLimits({.energy_broken = CreatesEnergy(reduction, solution), .energy_change = solution.energy_change});
-  outcome.admissible = outcome.broken_limits.empty();
-  if (detail == Detail::kNumbers) return outcome;
-  if (outcome.regime == Regime::kByLaw) outcome.timeline = TimelineOf(reduction, solution);
-  if (result.solutions.size() > 1) {
+  SetLimits({.energy_broken = CreatesEnergy(reduction, solution), .energy_change = solution.energy_change}, outcome);
+  if (extent.detail == Detail::kAll && result.solutions.size() > 1) {
     for (const laws::ImpactSolution& each : result.solutions) outcome.alternatives.push_back(ToOutcome(each));
   }
-  const absl::Status finite = CheckFinite(outcome);
-  if (!finite.ok()) return finite;
-  return outcome;
+  return Complete(
+      extent, [&] { return TimelineOf(reduction, outcome.regime, solution); }, NoPath, outcome);
 }
 
 }  // namespace ricochet

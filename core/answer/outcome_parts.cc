@@ -1,49 +1,66 @@
 #include "core/answer/outcome_parts.h"
 
-#include <cmath>
 #include <optional>
+#include <string>
 #include <string_view>
-#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/numerics/decimal.h"
+#include "core/numerics/invariant.h"
+#include "ricochet/error.h"
 #include "ricochet/outcome_numbers.h"
 
 namespace ricochet {
 namespace {
 
-bool AllFinite(const std::vector<double>& values) {
-  for (const double value : values) {
-    if (!std::isfinite(value)) return false;
-  }
-  return true;
+bool AllFinite(const Components& values) {
+  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-absl::Status CheckFinite(const State& state, const std::string& path) {
-  if (!std::isfinite(state.contact_velocity.normal_m_s)) return OutputOverflow(path + "contact_velocity.normal_m_s");
-  const std::vector<double>& tangential = state.contact_velocity.tangential_m_s;
+bool IsFinite(const State& state) {
+  return std::isfinite(state.normal_impulse_n_s) && std::isfinite(state.contact_velocity.normal_m_s) &&
+         AllFinite(state.contact_velocity.tangential_m_s) && AllFinite(state.tangential_impulse_n_s) &&
+         AllFinite(state.rates_rad_s);
+}
+
+// The path, within a state, of its first number that is not finite.
+std::string OverflowIn(const State& state) {
+  if (!std::isfinite(state.contact_velocity.normal_m_s)) return "contact_velocity.normal_m_s";
+  const Components& tangential = state.contact_velocity.tangential_m_s;
   for (size_t i = 0; i < tangential.size(); ++i) {
-    if (std::isfinite(tangential[i])) continue;
-    return OutputOverflow(absl::StrCat(path, "contact_velocity.tangential_m_s[", i, "]"));
+    if (!std::isfinite(tangential[i])) return absl::StrCat("contact_velocity.tangential_m_s[", i, "]");
   }
-  if (!std::isfinite(state.normal_impulse_n_s)) return OutputOverflow(path + "normal_impulse_n_s");
-  if (!AllFinite(state.tangential_impulse_n_s)) return OutputOverflow(path + "tangential_impulse_n_s");
-  return AllFinite(state.rates_rad_s) ? absl::OkStatus() : OutputOverflow(path + "rates_rad_s");
+  if (!std::isfinite(state.normal_impulse_n_s)) return "normal_impulse_n_s";
+  return AllFinite(state.tangential_impulse_n_s) ? "rates_rad_s" : "tangential_impulse_n_s";
+}
+
+// The ends of equal steps of tau from 0 to tau1.
+double EqualStep(double tau1, int64_t i, int64_t intervals) {
+  return tau1 * (static_cast<double>(i) / static_cast<double>(intervals));
+}
+
+std::vector<Violation> CheckRange(absl::Span<const double> taus, double tau1) {
+  std::vector<Violation> violations;
+  for (size_t i = 0; i < taus.size(); ++i) {
+    if (taus[i] >= 0.0 && taus[i] <= tau1) continue;
+    violations.push_back(MakeViolation(absl::StrCat("history_at_n_s[", i, "]"), taus[i],
+                                       absl::StrCat("be in [0, tau1 = ", ShortestDecimal(tau1), "]")));
+  }
+  return violations;
 }
 
 }  // namespace
 
-std::vector<BrokenLimit> BrokenLimits(const LimitFindings& findings) {
-  std::vector<BrokenLimit> broken;
+void SetLimits(const LimitFindings& findings, Outcome& outcome) {
   if (findings.sharp_broken) {
-    broken.push_back(
+    outcome.broken_limits.push_back(
         {.kind = LimitKind::kSharp, .value = findings.energetic, .limit = 1.0, .excess = findings.energetic_excess});
   }
   if (findings.energy_broken) {
-    broken.push_back(
+    outcome.broken_limits.push_back(
         {.kind = LimitKind::kEnergy, .value = findings.energy_change, .limit = 0.0, .excess = findings.energy_change});
   }
-  return broken;
+  outcome.admissible = outcome.broken_limits.empty();
 }
 
 WorkLedger MakeLedger(double normal_compression, double normal_restitution, double tangential_compression,
@@ -59,39 +76,43 @@ WorkLedger MakeLedger(double normal_compression, double normal_restitution, doub
                         energy_change};
 }
 
-std::vector<Violation> CheckHistory(absl::Span<const double> taus, double tau1) {
-  std::vector<Violation> violations;
-  if (taus.size() > kMaxHistory) {
-    violations.push_back(
-        {"history_at_n_s", absl::StrCat("has ", taus.size(), " entries: must have at most ", kMaxHistory)});
-    return violations;
-  }
-  for (size_t i = 0; i < taus.size(); ++i) {
-    if (taus[i] >= 0.0 && taus[i] <= tau1) continue;
-    violations.push_back(MakeViolation(absl::StrCat("history_at_n_s[", i, "]"), taus[i],
-                                       absl::StrCat("be in [0, tau1 = ", ShortestDecimal(tau1), "]")));
-  }
-  return violations;
-}
-
-std::vector<Violation> RefuseHistory(absl::Span<const double> taus, const std::string& whom) {
-  if (taus.empty()) return {};
-  return {{"history_at_n_s",
-           absl::StrCat("has ", taus.size(), taus.size() == 1 ? " entry" : " entries", ": must be empty for ", whom)}};
+void UnsetPhases(Outcome& outcome) {
+  outcome.coefficients.poisson = outcome.coefficients.energetic = std::nullopt;
+  outcome.impulse.normal_compression_n_s = std::nullopt;
+  outcome.work.normal_compression_j = outcome.work.normal_restitution_j = std::nullopt;
+  outcome.work.tangential_compression_j = outcome.work.tangential_restitution_j = std::nullopt;
 }
 
 absl::Status CheckFinite(const Outcome& outcome) {
   std::optional<NumberPath> wrong;
   VisitOutcomeNumbers(outcome, [&wrong](const NumberPath& path, double number) {
+    if (std::isfinite(number) || wrong.has_value()) return;
     const bool may_be_infinite = std::string_view(path.name) == "relative_error";
-    if (!wrong.has_value() && !may_be_infinite && !std::isfinite(number)) wrong = path;
+    if (!may_be_infinite) wrong = path;
   });
   if (wrong.has_value()) return OutputOverflow("outcome." + wrong->Text());
   for (size_t i = 0; i < outcome.timeline.size(); ++i) {
-    absl::Status status = CheckFinite(outcome.timeline[i].state, absl::StrCat("outcome.timeline[", i, "].state."));
-    if (!status.ok()) return status;
+    const State& state = outcome.timeline[i].state;
+    if (!IsFinite(state)) return OutputOverflow(absl::StrCat("outcome.timeline[", i, "].state.", OverflowIn(state)));
   }
   return absl::OkStatus();
+}
+
+absl::Status AddHistory(const Extent& extent, absl::FunctionRef<State(double)> state_at, Outcome& outcome) {
+  const double tau1 = outcome.impulse.normal_total_n_s;
+  const std::vector<Violation> violations = CheckRange(extent.history_at_n_s, tau1);
+  if (!violations.empty()) return InvalidRequest(violations);
+  for (const double tau : extent.history_at_n_s) outcome.history.push_back(state_at(tau));
+  const int64_t intervals = extent.history_intervals;
+  for (int64_t i = 0; intervals > 0 && i <= intervals; ++i) {
+    outcome.history.push_back(state_at(EqualStep(tau1, i, intervals)));
+  }
+  return absl::OkStatus();
+}
+
+State NoPath(double /*tau*/) {
+  CheckInvariant(false, "the history of a model without a path is refused at the door");
+  return {};
 }
 
 }  // namespace ricochet

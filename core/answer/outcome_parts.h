@@ -8,27 +8,29 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <string>
-#include <utility>
+#include <cstdint>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
 #include "absl/types/span.h"
 #include "core/contact/reduction.h"
 #include "core/models/impact_end.h"
-#include "core/models/pendulum/pendulum.h"
-#include "ricochet/error.h"
 #include "ricochet/outcome.h"
 
 namespace ricochet {
-
-// A request may have at most this many history points.
-inline constexpr size_t kMaxHistory = 65536;
 
 // The part of an outcome that the caller needs.
 enum class Detail {
   kNumbers,  // A sweep needs the numbers of VisitOutcomeNumbers, the regime and the limits, finite or not.
   kAll,
+};
+
+// What an outcome has beyond its numbers. The history's rules, but for the range of the impulses, hold already.
+struct Extent {
+  Detail detail = Detail::kAll;
+  absl::Span<const double> history_at_n_s;
+  int64_t history_intervals = 0;
 };
 
 // The limits that an impact breaks, with their values.
@@ -39,17 +41,15 @@ struct LimitFindings {
   bool energy_broken = false;
   double energy_change = 0.0;
 };
-std::vector<BrokenLimit> BrokenLimits(const LimitFindings& findings);
+// Sets the broken limits, and with them whether the outcome is admissible.
+void SetLimits(const LimitFindings& findings, Outcome& outcome);
 
 // The four works with their sums and the residual against `energy_change`.
 WorkLedger MakeLedger(double normal_compression, double normal_restitution, double tangential_compression,
                       double tangential_restitution, double energy_change);
 
-// Gives a violation for each tau that is not in [0, tau1], and one if there are too many.
-std::vector<Violation> CheckHistory(absl::Span<const double> taus, double tau1);
-
-// Gives a violation if there are any, because `whom` keeps no path on which to look them up.
-std::vector<Violation> RefuseHistory(absl::Span<const double> taus, const std::string& whom);
+// Unsets the numbers of the two phases, of which an impact law knows nothing.
+void UnsetPhases(Outcome& outcome);
 
 // Converts `error`, which is relative to the largest of all velocities, to one relative to the velocity before the impact.
 template <size_t kTangential>
@@ -68,6 +68,31 @@ double RelativeToBefore(double error, const Reduction<kTangential>& reduction,
 // error estimate is not checked: it is infinite if an integration did not converge.
 absl::Status CheckFinite(const Outcome& outcome);
 
+// Gives INVALID_ARGUMENT for each impulse of a history that is not in [0, tau1], else adds the history.
+absl::Status AddHistory(const Extent& extent, absl::FunctionRef<State(double)> state_at, Outcome& outcome);
+
+// Completes an outcome whose numbers are set: every model ends so. `timeline()` gives the events, `state_at(tau)` the
+// state at a normal impulse.
+// Errors: OUT_OF_RANGE of CheckFinite, INVALID_ARGUMENT of AddHistory. With Detail::kNumbers there are none.
+template <typename Timeline>
+absl::Status Complete(const Extent& extent, const Timeline& timeline, absl::FunctionRef<State(double)> state_at,
+                      Outcome& outcome) {
+  if (extent.detail == Detail::kNumbers) return absl::OkStatus();
+  outcome.timeline = timeline();
+  absl::Status finite = CheckFinite(outcome);
+  return finite.ok() ? AddHistory(extent, state_at, outcome) : finite;
+}
+
+// The state_at of a model that keeps no path. The door refuses histories of its scenes.
+State NoPath(double tau);
+
+// Gives a list with one entry for each tangential direction, also for a scalar.
+inline std::array<double, 1> ByDirection(double t) { return {t}; }
+template <size_t kTangential>
+std::array<double, kTangential> ByDirection(const std::array<double, kTangential>& t) {
+  return t;
+}
+
 // The state of the contact at normal impulse tau, with the rates of the system's joints.
 template <size_t kTangential>
 State MakeState(const Reduction<kTangential>& reduction, double tau, const std::array<double, kTangential>& f,
@@ -80,6 +105,12 @@ State MakeState(const Reduction<kTangential>& reduction, double tau, const std::
     state.rates_rad_s.assign(rates.begin(), rates.end());
   }
   return state;
+}
+
+// The state at an instant, which has the members of ImpactInstant.
+template <size_t kTangential, typename SomeInstant>
+State MakeState(const Reduction<kTangential>& reduction, const SomeInstant& instant) {
+  return MakeState<kTangential>(reduction, instant.tau, ByDirection(instant.f), ByDirection(instant.u), instant.v);
 }
 
 // Sets the system's own velocities after the impulse: rates_after_rad_s or bodies_after.
@@ -95,53 +126,42 @@ void SetVelocities(const Reduction<kTangential>& reduction, const std::array<dou
     return;
   }
   for (auto body = after.begin(); body != after.end(); body += kLinear + kAngular) {
-    outcome.bodies_after.push_back(
-        {.linear_m_s = {body, body + kLinear}, .angular_rad_s = {body + kLinear, body + kLinear + kAngular}});
+    BodyVelocity& velocity = outcome.bodies_after.emplace_back();
+    velocity.linear_m_s.assign(body, body + kLinear);
+    velocity.angular_rad_s.assign(body + kLinear, body + kLinear + kAngular);
   }
 }
 
-// Gives a list with one entry for each tangential direction, also for a scalar.
-inline std::array<double, 1> ByDirection(double t) { return {t}; }
-template <size_t kTangential>
-std::array<double, kTangential> ByDirection(const std::array<double, kTangential>& t) {
-  return t;
-}
-
-// Makes the part of an outcome that the end of the path determines: all but its effective coefficients, accuracy,
+// Sets the part of an outcome that the end of the path determines: all but its effective coefficients, accuracy,
 // timeline and history.
 template <size_t kTangential, typename Along>
-Outcome MakeEnd(const ImpactEnd<Along>& impact, const Reduction<kTangential>& reduction, double duration = 0.0) {
+void SetEnd(const ImpactEnd<Along>& impact, const Reduction<kTangential>& reduction, double duration,
+            Outcome& outcome) {
   const std::array<double, kTangential> u1 = ByDirection(impact.u1);
   const std::array<double, kTangential> f1 = ByDirection(impact.f1);
-  Outcome outcome;
   outcome.regime = impact.regime;
-  outcome.broken_limits = BrokenLimits({.sharp_broken = impact.sharp_limit_broken,
-                                        .energetic = impact.energetic,
-                                        .energetic_excess = impact.energetic_excess,
-                                        .energy_broken = impact.energy_limit_broken,
-                                        .energy_change = impact.energy_change});
-  outcome.admissible = outcome.broken_limits.empty();
+  outcome.termination = impact.termination;
+  SetLimits({.sharp_broken = impact.sharp_limit_broken,
+             .energetic = impact.energetic,
+             .energetic_excess = impact.energetic_excess,
+             .energy_broken = impact.energy_limit_broken,
+             .energy_change = impact.energy_change},
+            outcome);
   outcome.w_rank = impact.w_rank;
   outcome.coefficients = {.newton = impact.newton,
                           .poisson = impact.poisson,
                           .energetic = impact.energetic,
                           .tangential = impact.tangential};
   SetVelocities<kTangential>(reduction, f1, impact.tau1, duration, outcome);
-  outcome.contact_velocity_after = {.tangential_m_s = {u1.begin(), u1.end()}, .normal_m_s = impact.v1};
-  outcome.impulse = {.normal_compression_n_s = impact.tau_compression,
-                     .normal_total_n_s = impact.tau1,
-                     .tangential_n_s = {f1.begin(), f1.end()}};
+  outcome.contact_velocity_after.tangential_m_s.assign(u1.begin(), u1.end());
+  outcome.contact_velocity_after.normal_m_s = impact.v1;
+  outcome.impulse.normal_compression_n_s = impact.tau_compression;
+  outcome.impulse.normal_total_n_s = impact.tau1;
+  outcome.impulse.tangential_n_s.assign(f1.begin(), f1.end());
   outcome.work =
       MakeLedger(impact.work_normal_compression, impact.work_normal_restitution, impact.work_tangential_compression,
                  impact.work_tangential_restitution, impact.energy_change);
   outcome.energy_change_j = impact.energy_change;
-  return outcome;
-}
-
-// The state at an instant, which has the members of planar::Instant or of spatial::Instant.
-template <size_t kTangential, typename SomeInstant>
-State MakeState(const Reduction<kTangential>& reduction, const SomeInstant& instant) {
-  return MakeState<kTangential>(reduction, instant.tau, ByDirection(instant.f), ByDirection(instant.u), instant.v);
 }
 
 // The events of an impact; none if the contact separates.
@@ -149,6 +169,7 @@ template <size_t kTangential, typename SomeImpact>
 std::vector<Event> MakeTimeline(const SomeImpact& impact, const Reduction<kTangential>& reduction) {
   std::vector<Event> timeline;
   if (impact.regime == Regime::kSeparating) return timeline;
+  timeline.reserve(static_cast<size_t>(impact.event_count));
   for (size_t i = 0; i < static_cast<size_t>(impact.event_count); ++i) {
     timeline.push_back({impact.events[i].kind, MakeState(reduction, impact.events[i])});
   }

@@ -1,10 +1,7 @@
-#include "core/answer/pendulum_outcome.h"
-
 #include <algorithm>
-#include <utility>
 #include <vector>
 
-#include "ricochet/error.h"
+#include "core/answer/model_outcomes.h"
 
 namespace ricochet::pendulum {
 namespace {
@@ -20,11 +17,13 @@ State MakeState(const Problem& problem, double tau, double omega, double tangent
           .rates_rad_s = {omega}};
 }
 
-std::vector<Event> MakeTimeline(const Problem& problem, const Impact& impact) {
-  const State start = MakeState(problem, 0.0, problem.omega_minus, 0.0);
+std::vector<Event> TimelineOf(const Problem& problem, const Impact& impact) {
+  std::vector<Event> timeline;
+  if (impact.regime == Regime::kSeparating) return timeline;
   const State rest =
       MakeState(problem, impact[Output::kNormalImpulseCompression], 0.0, impact[Output::kTangentialImpulseCompression]);
-  std::vector<Event> timeline = {{EventKind::kStart, start}};
+  timeline.reserve(4);
+  timeline.push_back({EventKind::kStart, MakeState(problem, 0.0, problem.omega_minus, 0.0)});
   if (problem.b != 0.0) timeline.push_back({EventKind::kSlipStops, rest});
   timeline.push_back({EventKind::kCompressionEnds, rest});
   if (impact.regime != Regime::kLocked) {
@@ -45,13 +44,51 @@ WorkLedger MakeLedger(const Impact& impact) {
   return work;
 }
 
-State StateAt(const Problem& problem, const Findings& findings, double tau) {
-  if (problem.omega_minus >= 0.0) return MakeState(problem, tau, problem.omega_minus, 0.0);
-  const Instant instant = findings.at(problem, tau);
-  return MakeState(problem, tau, instant.omega, instant.tangential_impulse);
+void SetEnd(const Impact& impact, Outcome& outcome) {
+  outcome.regime = impact.regime;
+  SetLimits({.sharp_broken = impact.sharp_limit_broken,
+             .energetic = impact[Output::kEnergetic],
+             .energetic_excess = impact[Output::kEnergeticExcess],
+             .energy_broken = impact.energy_limit_broken,
+             .energy_change = impact[Output::kEnergyChange]},
+            outcome);
+  outcome.w_rank = 1;
+  outcome.coefficients = {.newton = impact[Output::kNewton],
+                          .poisson = impact[Output::kPoisson],
+                          .energetic = impact[Output::kEnergetic],
+                          .tangential = impact[Output::kTangentialCoefficient]};
+  outcome.rates_after_rad_s = {impact[Output::kOmegaPlus]};
+  outcome.contact_velocity_after = {.tangential_m_s = {impact[Output::kTangentialVelocityAfter]},
+                                    .normal_m_s = impact[Output::kNormalVelocityAfter]};
+  outcome.impulse = {.normal_compression_n_s = impact[Output::kNormalImpulseCompression],
+                     .normal_total_n_s = impact[Output::kNormalImpulse],
+                     .tangential_n_s = {impact[Output::kTangentialImpulse]}};
+  outcome.work = MakeLedger(impact);
+  outcome.energy_change_j = impact[Output::kEnergyChange];
+}
+
+// `error` is the proved bound for the contact velocity over max(|u0|, |v0|); `at` gives the state at tau.
+absl::Status MakeOutcomeOf(const Problem& problem, const Impact& impact, double error,
+                           Instant (*at)(const Problem& problem, double tau), const Extent& extent, Outcome& outcome) {
+  const bool separates = impact.regime == Regime::kSeparating;
+  SetEnd(impact, outcome);
+  outcome.accuracy = {.relative_error = separates ? 0.0 : error, .kind = AccuracyKind::kBound};
+  const auto state_at = [&](double tau) {
+    if (separates) return MakeState(problem, tau, problem.omega_minus, 0.0);
+    const Instant instant = at(problem, tau);
+    return MakeState(problem, tau, instant.omega, instant.tangential_impulse);
+  };
+  return Complete(
+      extent, [&] { return TimelineOf(problem, impact); }, state_at, outcome);
 }
 
 }  // namespace
+
+absl::Status MakeOutcome(const Problem& problem, const Extent& extent, Outcome& outcome) {
+  const Impact impact = Solve(problem);
+  const double error = kUlps * std::max(1.0, impact[Output::kNewton]);
+  return MakeOutcomeOf(problem, impact, error, At, extent, outcome);
+}
 
 std::string OutputPath(Output output) {
   switch (output) {
@@ -96,48 +133,13 @@ std::string OutputPath(Output output) {
   return "";
 }
 
-absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const Findings& findings,
-                                    absl::Span<const double> history_at_n_s, Detail detail) {
-  const Impact& impact = findings.impact;
-  Outcome outcome;
-  outcome.regime = impact.regime;
-  outcome.broken_limits = BrokenLimits({.sharp_broken = impact.sharp_limit_broken,
-                                        .energetic = impact[Output::kEnergetic],
-                                        .energetic_excess = impact[Output::kEnergeticExcess],
-                                        .energy_broken = impact.energy_limit_broken,
-                                        .energy_change = impact[Output::kEnergyChange]});
-  outcome.admissible = outcome.broken_limits.empty();
-  outcome.w_rank = 1;
-  outcome.coefficients = {.newton = impact[Output::kNewton],
-                          .poisson = impact[Output::kPoisson],
-                          .energetic = impact[Output::kEnergetic],
-                          .tangential = impact[Output::kTangentialCoefficient]};
-  outcome.rates_after_rad_s = {impact[Output::kOmegaPlus]};
-  outcome.contact_velocity_after = {.tangential_m_s = {impact[Output::kTangentialVelocityAfter]},
-                                    .normal_m_s = impact[Output::kNormalVelocityAfter]};
-  outcome.impulse = {.normal_compression_n_s = impact[Output::kNormalImpulseCompression],
-                     .normal_total_n_s = impact[Output::kNormalImpulse],
-                     .tangential_n_s = {impact[Output::kTangentialImpulse]}};
-  outcome.work = MakeLedger(impact);
-  outcome.energy_change_j = impact[Output::kEnergyChange];
-  outcome.accuracy.kind = AccuracyKind::kBound;
-  if (impact.regime != Regime::kSeparating) {
-    outcome.accuracy.relative_error = findings.error;
-    outcome.timeline = detail == Detail::kAll ? MakeTimeline(problem, impact) : std::vector<Event>();
-  }
-  if (detail == Detail::kNumbers) return outcome;
-  const absl::Status finite = CheckFinite(outcome);
-  if (!finite.ok()) return finite;
-  const auto violations = CheckHistory(history_at_n_s, impact[Output::kNormalImpulse]);
-  if (!violations.empty()) return InvalidRequest(violations);
-  for (const double tau : history_at_n_s) outcome.history.push_back(StateAt(problem, findings, tau));
-  return outcome;
-}
-
-absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, absl::Span<const double> history_at_n_s, Detail detail) {
-  const Impact impact = Solve(problem);
-  const double error = kUlps * std::max(1.0, impact[Output::kNewton]);
-  return MakeOutcome(problem, {.impact = impact, .error = error, .at = At}, history_at_n_s, detail);
-}
-
 }  // namespace ricochet::pendulum
+
+namespace ricochet::first_order {
+
+absl::Status MakeOutcome(const Problem& problem, const Extent& extent, Outcome& outcome) {
+  return pendulum::MakeOutcomeOf(problem, first_order::Solve(problem), ErrorsOf(problem).velocity, first_order::At,
+                                 extent, outcome);
+}
+
+}  // namespace ricochet::first_order

@@ -1,7 +1,6 @@
-#include "core/answer/planar_outcome.h"
-
 #include <cmath>
 
+#include "core/answer/model_outcomes.h"
 #include "core/numerics/determinant.h"
 
 namespace ricochet::planar {
@@ -23,21 +22,14 @@ Accuracy AccuracyOf(const Problem& problem, const PlanarReduction& reduction, co
 
 }  // namespace
 
-absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const PlanarReduction& reduction,
-                                    absl::Span<const double> history_at_n_s, Detail detail) {
+absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const Extent& extent,
+                         Outcome& outcome) {
   const Impact impact = Solve(problem);
-  Outcome outcome = MakeEnd(impact, reduction);
+  SetEnd(impact, reduction, 0.0, outcome);
   outcome.accuracy = AccuracyOf(problem, reduction, impact);
-  if (detail == Detail::kNumbers) return outcome;
-  outcome.timeline = MakeTimeline(impact, reduction);
-  const absl::Status finite = CheckFinite(outcome);
-  if (!finite.ok()) return finite;
-  const auto violations = CheckHistory(history_at_n_s, impact.tau1);
-  if (!violations.empty()) return InvalidRequest(violations);
-  for (const double tau : history_at_n_s) {
-    outcome.history.push_back(MakeState(reduction, At(problem, impact, tau)));
-  }
-  return outcome;
+  const auto state_at = [&](double tau) { return MakeState(reduction, At(problem, impact, tau)); };
+  return Complete(
+      extent, [&] { return MakeTimeline(impact, reduction); }, state_at, outcome);
 }
 
 }  // namespace ricochet::planar

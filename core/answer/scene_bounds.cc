@@ -8,9 +8,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
-#include "core/answer/planar_outcome.h"
 #include "core/answer/scene_outcome.h"
-#include "core/answer/spatial_outcome.h"
 #include "core/bounds/contact_bounds.h"
 #include "core/bounds/nearly_vertical.h"
 #include "core/bounds/pendulum_bounds.h"
@@ -54,7 +52,7 @@ absl::StatusOr<Bounds> SampledBounds(const SpatialReduction& reduction, const Ef
     if (stopped()) return absl::CancelledError("the bounds were stopped by their caller");
     problem.coefficient = static_cast<double>(i) / (kSpatialImpacts - 1);
     const spatial::Impact impact = spatial::Solve(problem);
-    if (!impact.converged) return NotEnded();
+    if (!impact.Converged()) return NotEnded();
     bounds.regime = impact.regime;
     Include(i, impact.newton, sharp.newton);
     Include(i, impact.poisson, sharp.poisson);

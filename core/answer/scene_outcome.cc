@@ -1,16 +1,9 @@
 #include "core/answer/scene_outcome.h"
 
-#include <cassert>
 #include <variant>
 
-#include "core/answer/compliant_outcome.h"
-#include "core/answer/finite_duration_outcome.h"
-#include "core/answer/first_order_outcome.h"
-#include "core/answer/law_outcome.h"
-#include "core/answer/pendulum_outcome.h"
-#include "core/answer/planar_outcome.h"
-#include "core/answer/sliding_outcome.h"
-#include "core/answer/spatial_outcome.h"
+#include "core/answer/model_outcomes.h"
+#include "core/numerics/invariant.h"
 #include "core/plan/planned_scene.h"
 #include "core/problem/scene_problem.h"
 #include "ricochet/error.h"
@@ -24,6 +17,7 @@ struct Job {
   const SolveOptions& options;
   const PlannedScene& planned;
   absl::FunctionRef<bool()> stopped;
+  Outcome& outcome;
 
   // The coefficients that the model is to use.
   EffectiveCoefficients Effective() const {
@@ -33,13 +27,13 @@ struct Job {
   }
 };
 
-absl::StatusOr<Outcome> SolveCompliant(const Job& job, const PlanarReduction& reduction) {
+absl::Status SolveCompliant(const Job& job, const PlanarReduction& reduction) {
   const compliant::Problem problem = {.contact = planar::MakeProblem(reduction, job.scene.restitution, job.Effective()),
                                       .ratio_squared = job.planned.physics.ratio_squared};
-  return compliant::MakeOutcome(problem, reduction, job.options.history_at_n_s, job.options.detail);
+  return compliant::MakeOutcome(problem, reduction, job.options.extent, job.outcome);
 }
 
-absl::StatusOr<Outcome> SolveFiniteDuration(const Job& job, const PlanarReduction& reduction) {
+absl::Status SolveFiniteDuration(const Job& job, const PlanarReduction& reduction) {
   const ContactPhysics physics = Without(job.planned.choice, job.planned.physics);
   finite_duration::Problem problem = {.contact = planar::MakeProblem(reduction, job.scene.restitution, job.Effective()),
                                       .tangential_acceleration = physics.tangential_acceleration,
@@ -48,23 +42,24 @@ absl::StatusOr<Outcome> SolveFiniteDuration(const Job& job, const PlanarReductio
                                       .tolerance = job.planned.choice.model_tolerance,
                                       .intervals = job.options.force_intervals};
   if (physics.ratio_squared > 0.0) problem.ratio_squared = physics.ratio_squared;
-  return finite_duration::MakeOutcome(problem, reduction, job.options.history_at_n_s, job.stopped, job.options.detail);
+  return finite_duration::MakeOutcome(problem, reduction, job.options.extent, job.stopped, job.outcome);
 }
 
-absl::StatusOr<Outcome> SolveContact(const Job& job, const PlanarReduction& reduction) {
-  const auto& [history, intervals, demand, detail] = job.options;
+absl::Status SolveContact(const Job& job, const PlanarReduction& reduction) {
+  const Extent& extent = job.options.extent;
   const EffectiveCoefficients effective = job.Effective();
   switch (job.planned.choice.model) {
     case Model::kImpactLaw:
-      return MakeLawOutcome(job.scene.impact_law, effective.kinetic_friction, reduction, history, detail);
+      return MakeLawOutcome(job.scene.impact_law, effective.kinetic_friction, reduction, extent, job.outcome);
     case Model::kFrictionless:
-      return sliding::MakeFrictionlessOutcome(sliding::MakeProblem(reduction, effective), reduction, history, detail);
+      return sliding::MakeFrictionlessOutcome(sliding::MakeProblem(reduction, effective), reduction, extent,
+                                              job.outcome);
     case Model::kSliding:
-      return sliding::MakeOutcome(sliding::MakeProblem(reduction, effective), reduction, history, detail);
+      return sliding::MakeOutcome(sliding::MakeProblem(reduction, effective), reduction, extent, job.outcome);
     case Model::kNone:
     case Model::kPlanar:
-      return planar::MakeOutcome(planar::MakeProblem(reduction, job.scene.restitution, effective), reduction, history,
-                                 detail);
+      return planar::MakeOutcome(planar::MakeProblem(reduction, job.scene.restitution, effective), reduction, extent,
+                                 job.outcome);
     case Model::kCompliant:
       return SolveCompliant(job, reduction);
     case Model::kFiniteDuration:
@@ -75,44 +70,31 @@ absl::StatusOr<Outcome> SolveContact(const Job& job, const PlanarReduction& redu
     case Model::kUnspecified:
       break;
   }
-  assert(false);
-  return ContactOverflow();
+  CheckInvariant(false, "a plan gives a planar contact a planar model");
+  return absl::OkStatus();
 }
 
-absl::StatusOr<Outcome> SolveContact(const Job& job, const SpatialReduction& reduction) {
-  const auto& [history, intervals, demand, detail] = job.options;
+absl::Status SolveContact(const Job& job, const SpatialReduction& reduction) {
+  const Extent& extent = job.options.extent;
   const EffectiveCoefficients effective = job.Effective();
   if (job.planned.choice.model == Model::kFrictionless) {
-    return sliding::MakeFrictionlessOutcome(sliding::MakeProblem(reduction, effective), reduction, history, detail);
+    return sliding::MakeFrictionlessOutcome(sliding::MakeProblem(reduction, effective), reduction, extent, job.outcome);
   }
   if (job.planned.choice.model == Model::kSliding) {
-    return sliding::MakeOutcome(sliding::MakeProblem(reduction, effective), reduction, history, detail);
+    return sliding::MakeOutcome(sliding::MakeProblem(reduction, effective), reduction, extent, job.outcome);
   }
   const double tolerance =
       job.planned.choice.model == Model::kNone ? spatial::kMostTolerance : job.planned.choice.model_tolerance;
   return spatial::MakeOutcome(spatial::MakeProblem(reduction, job.scene.restitution, effective, tolerance), reduction,
-                              history, detail);
+                              extent, job.outcome);
 }
 
-absl::StatusOr<Outcome> SolveContact(const Job& job, const pendulum::Problem& problem) {
-  const auto& [history, intervals, demand, detail] = job.options;
-  switch (job.planned.choice.model) {
-    case Model::kFrictionless:
-    case Model::kFirstOrder:
-      return first_order::MakeOutcome(Without(job.planned.choice, problem), history, detail);
-    case Model::kNone:
-    case Model::kPendulum:
-      return pendulum::MakeOutcome(Without(job.planned.choice, problem), history, detail);
-    case Model::kSliding:
-    case Model::kPlanar:
-    case Model::kSpatial:
-    case Model::kCompliant:
-    case Model::kFiniteDuration:
-    case Model::kImpactLaw:
-    case Model::kUnspecified:
-      break;
-  }
-  return SolveContact(job, *job.planned.reduced_pendulum);
+absl::Status SolvePendulum(const Job& job, const pendulum::Problem& stated) {
+  const pendulum::Problem problem = Without(job.planned.choice, stated);
+  const Model model = job.planned.choice.model;
+  return model == Model::kFrictionless || model == Model::kFirstOrder
+             ? first_order::MakeOutcome(problem, job.options.extent, job.outcome)
+             : pendulum::MakeOutcome(problem, job.options.extent, job.outcome);
 }
 
 }  // namespace
@@ -124,27 +106,30 @@ absl::Status ContactOverflow() {
       "smallest");
 }
 
-absl::StatusOr<Outcome> SolveScene(const Scene& scene, std::optional<SceneContact> contact, const SolveOptions& options,
-                                   absl::FunctionRef<bool()> stopped) {
-  const PlannedScene planned = PlanScene(scene, std::move(contact), options.demand);
+absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const SolveOptions& options,
+                        absl::FunctionRef<bool()> stopped, Outcome& outcome) {
+  const PlannedScene planned = PlanScene(scene, contact, options.demand);
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
-  const Job job = {.scene = scene, .options = options, .planned = planned, .stopped = stopped};
-  absl::StatusOr<Outcome> outcome =
-      std::visit([&job](const auto& planned_contact) { return SolveContact(job, planned_contact); }, planned.contact);
-  if (!outcome.ok()) return outcome;
-  outcome->effective = planned.effective;
-  outcome->accuracy.relative_error += planned.choice.Negligible();
-  outcome->plan.model = planned.choice.model;
-  if (options.detail == Detail::kAll) outcome->plan = Explain(planned, options.demand);
-  return outcome;
+  const Job job = {.scene = scene, .options = options, .planned = planned, .stopped = stopped, .outcome = outcome};
+  absl::Status status =
+      planned.closed_form.has_value()
+          ? SolvePendulum(job, *planned.closed_form)
+          : std::visit([&job](const auto& reduction) { return SolveContact(job, reduction); }, contact->reduction);
+  if (!status.ok()) return status;
+  outcome.effective = planned.effective;
+  outcome.accuracy.relative_error += planned.choice.Negligible();
+  if (options.extent.detail == Detail::kAll) {
+    outcome.plan = Explain(planned, options.demand);
+  } else {
+    outcome.plan.model = planned.choice.model;
+  }
+  return absl::OkStatus();
 }
 
-absl::StatusOr<Outcome> PlanSceneOnly(const Scene& scene, std::optional<SceneContact> contact, const Demand& demand) {
-  const PlannedScene planned = PlanScene(scene, std::move(contact), demand);
+absl::StatusOr<Plan> PlanOf(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
+  const PlannedScene planned = PlanScene(scene, contact, demand);
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
-  Outcome outcome;
-  outcome.plan = Explain(planned, demand);
-  return outcome;
+  return Explain(planned, demand);
 }
 
 }  // namespace ricochet

@@ -9,32 +9,32 @@
 #include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "absl/types/span.h"
 #include "core/answer/outcome_parts.h"
 #include "core/contact/scene_contact.h"
 #include "core/plan/demand.h"
 #include "ricochet/outcome.h"
+#include "ricochet/plan.h"
 #include "ricochet/scene.h"
 
 namespace ricochet {
 
 struct SolveOptions {
-  absl::Span<const double> history_at_n_s;
+  Extent extent;
   int64_t force_intervals = 0;
   Demand demand;
-  Detail detail = Detail::kAll;
 };
 
-// Solves a valid scene in which CheckDemand finds nothing. With Detail::kNumbers the outcome's plan has the model alone.
+// Solves a valid scene in which CheckDemand finds nothing, into an outcome that is empty. `contact` is set if it was not
+// yet and the scene needs it. With Detail::kNumbers the outcome's plan has the model alone.
 // Errors are those of the models' MakeOutcome, and ContactOverflow.
 //
 // An impact that takes time asks `stopped` every few steps and ends soon after it says true, with CANCELLED.
-absl::StatusOr<Outcome> SolveScene(const Scene& scene, std::optional<SceneContact> contact, const SolveOptions& options,
-                                   absl::FunctionRef<bool()> stopped);
+absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const SolveOptions& options,
+                        absl::FunctionRef<bool()> stopped, Outcome& outcome);
 
-// The plan alone, in an outcome that has nothing else.
-// Errors: OUT_OF_RANGE as above.
-absl::StatusOr<Outcome> PlanSceneOnly(const Scene& scene, std::optional<SceneContact> contact, const Demand& demand);
+// Plans such a scene without computing it.
+// Errors: ContactOverflow.
+absl::StatusOr<Plan> PlanOf(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
 // OUT_OF_RANGE: W or the contact velocity exceeds the largest double, or W_nn is below the smallest.
 absl::Status ContactOverflow();

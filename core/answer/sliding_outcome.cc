@@ -1,46 +1,35 @@
-#include "core/answer/sliding_outcome.h"
+#include "core/answer/model_outcomes.h"
 
 namespace ricochet::sliding {
 namespace {
 
 template <size_t kTangential>
-absl::StatusOr<Outcome> MakeOutcomeOf(const Impact<kTangential>& impact, const RelativeErrors& errors,
-                                      const Reduction<kTangential>& reduction, absl::Span<const double> history_at_n_s,
-                                      Detail detail) {
-  Outcome outcome = MakeEnd(impact, reduction);
+absl::Status MakeOutcomeOf(const Impact<kTangential>& impact, const RelativeErrors& errors,
+                           const Reduction<kTangential>& reduction, const Extent& extent, Outcome& outcome) {
+  SetEnd(impact, reduction, 0.0, outcome);
   outcome.accuracy = {.relative_error = errors.velocity, .kind = AccuracyKind::kBound};
-  if (detail == Detail::kNumbers) return outcome;
-  outcome.timeline = MakeTimeline(impact, reduction);
-  const absl::Status finite = CheckFinite(outcome);
-  if (!finite.ok()) return finite;
-  const auto violations = CheckHistory(history_at_n_s, impact.tau1);
-  if (!violations.empty()) return InvalidRequest(violations);
-  for (const double tau : history_at_n_s) outcome.history.push_back(MakeState(reduction, At(impact, tau)));
-  return outcome;
+  const auto state_at = [&](double tau) { return MakeState(reduction, At(impact, tau)); };
+  return Complete(
+      extent, [&] { return MakeTimeline(impact, reduction); }, state_at, outcome);
 }
 
 }  // namespace
 
 template <size_t kTangential>
-absl::StatusOr<Outcome> MakeOutcome(const Problem<kTangential>& problem, const Reduction<kTangential>& reduction,
-                                    absl::Span<const double> history_at_n_s, Detail detail) {
-  return MakeOutcomeOf(Solve(problem), ErrorsOf(problem), reduction, history_at_n_s, detail);
+absl::Status MakeOutcome(const Problem<kTangential>& problem, const Reduction<kTangential>& reduction,
+                         const Extent& extent, Outcome& outcome) {
+  return MakeOutcomeOf(Solve(problem), ErrorsOf(problem), reduction, extent, outcome);
 }
 
 template <size_t kTangential>
-absl::StatusOr<Outcome> MakeFrictionlessOutcome(const Problem<kTangential>& problem,
-                                                const Reduction<kTangential>& reduction,
-                                                absl::Span<const double> history_at_n_s, Detail detail) {
-  return MakeOutcomeOf(SolveFrictionless(problem), FrictionlessErrorsOf(problem), reduction, history_at_n_s, detail);
+absl::Status MakeFrictionlessOutcome(const Problem<kTangential>& problem, const Reduction<kTangential>& reduction,
+                                     const Extent& extent, Outcome& outcome) {
+  return MakeOutcomeOf(SolveFrictionless(problem), FrictionlessErrorsOf(problem), reduction, extent, outcome);
 }
 
-template absl::StatusOr<Outcome> MakeOutcome(const Problem<1>&, const PlanarReduction&, absl::Span<const double>,
-                                             Detail);
-template absl::StatusOr<Outcome> MakeOutcome(const Problem<2>&, const SpatialReduction&, absl::Span<const double>,
-                                             Detail);
-template absl::StatusOr<Outcome> MakeFrictionlessOutcome(const Problem<1>&, const PlanarReduction&,
-                                                         absl::Span<const double>, Detail);
-template absl::StatusOr<Outcome> MakeFrictionlessOutcome(const Problem<2>&, const SpatialReduction&,
-                                                         absl::Span<const double>, Detail);
+template absl::Status MakeOutcome(const Problem<1>&, const PlanarReduction&, const Extent&, Outcome&);
+template absl::Status MakeOutcome(const Problem<2>&, const SpatialReduction&, const Extent&, Outcome&);
+template absl::Status MakeFrictionlessOutcome(const Problem<1>&, const PlanarReduction&, const Extent&, Outcome&);
+template absl::Status MakeFrictionlessOutcome(const Problem<2>&, const SpatialReduction&, const Extent&, Outcome&);
 
 }  // namespace ricochet::sliding

@@ -1,23 +1,17 @@
-#include "core/answer/spatial_outcome.h"
+#include "core/answer/model_outcomes.h"
 
 namespace ricochet::spatial {
 
-absl::StatusOr<Outcome> MakeOutcome(const Problem& problem, const SpatialReduction& reduction,
-                                    absl::Span<const double> history_at_n_s, Detail detail) {
-  if (auto violations = RefuseHistory(history_at_n_s, "a system in space"); !violations.empty()) {
-    return InvalidRequest(violations);
-  }
+absl::Status MakeOutcome(const Problem& problem, const SpatialReduction& reduction, const Extent& extent,
+                         Outcome& outcome) {
   const Impact impact = Solve(problem);
-  Outcome outcome = MakeEnd(impact, reduction);
+  SetEnd(impact, reduction, 0.0, outcome);
   outcome.accuracy = {.relative_error = impact.error_estimate,
                       .kind = AccuracyKind::kEstimate,
                       .steps = impact.steps,
                       .right_hand_sides = impact.right_hand_sides};
-  if (detail == Detail::kNumbers) return outcome;
-  outcome.timeline = MakeTimeline(impact, reduction);
-  const absl::Status finite = CheckFinite(outcome);
-  if (!finite.ok()) return finite;
-  return outcome;
+  return Complete(
+      extent, [&] { return MakeTimeline(impact, reduction); }, NoPath, outcome);
 }
 
 }  // namespace ricochet::spatial

@@ -5,11 +5,11 @@
 #include <variant>
 #include <vector>
 
-#include "absl/strings/str_cat.h"
 #include "core/answer/scene_bounds.h"
 #include "core/answer/scene_enclosure.h"
 #include "core/answer/scene_outcome.h"
 #include "core/certified/certified.h"
+#include "core/engine/check_solve.h"
 #include "core/engine/engine.h"
 #include "core/numerics/decimal.h"
 #include "core/plan/demand_fields.h"
@@ -31,45 +31,6 @@ absl::Status Inadmissible(const Outcome& outcome) {
   }
   message.pop_back();
   return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
-}
-
-// A history of forces requires an impact that takes time.
-Demand DemandOf(const SolveRequest& request) {
-  Demand demand = ToDemand(request.demand);
-  if (request.force_intervals > 0) demand.required.Add(Effect::kFiniteDuration);
-  return demand;
-}
-
-// Lists the violations of a request whose scene is valid.
-std::vector<Violation> CheckSolve(const SolveRequest& request, std::optional<SceneContact>& contact) {
-  std::vector<Violation> violations = CheckDemand(request.scene, contact, request.demand);
-  const int64_t intervals = request.force_intervals;
-  if (intervals < 0 || intervals > kMostForceIntervals) {
-    violations.push_back(
-        {"force_intervals", absl::StrCat("= ", intervals, ": must be in [0, ", kMostForceIntervals, "]")});
-  } else if (intervals > 0 && violations.empty()) {
-    for (const Violation& violation : CheckDemand(request.scene, contact, DemandOf(request))) {
-      const std::string rule = violation.description.substr(violation.description.find("must "));
-      violations.push_back({"force_intervals", absl::StrCat("= ", intervals, ": needs finite_duration, which ", rule)});
-    }
-  }
-  return violations;
-}
-
-void CheckDigits(const Scene& scene, int digits, std::vector<Violation>& violations) {
-  if (digits == 0) return;
-  for (Violation& violation : CheckCertifiable(scene, digits)) violations.push_back(std::move(violation));
-}
-
-void CheckCertified(const SolveRequest& request, std::vector<Violation>& violations) {
-  CheckDigits(request.scene, request.certified_digits, violations);
-  if (request.certified_digits == 0) return;
-  if (!request.demand.excluded.empty()) {
-    violations.push_back({"excluded", "is set: must not be, with certified_digits: certificates leave nothing out"});
-  }
-  if (request.plan_only) {
-    violations.push_back({"plan_only", "is set: must not be, with certified_digits: a plan has no numbers to prove"});
-  }
 }
 
 // Returns the error with which `options` end a call by now, or OK if it may go on.
@@ -107,28 +68,34 @@ absl::Status Certify(const BoundsRequest& request, absl::FunctionRef<bool()> sto
   return Keep(CertifyBounds(request.scene, {.digits = request.certified_digits}, stopped), certificate);
 }
 
-}  // namespace
-
-absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
+// Answers in place, because an outcome is large.
+absl::Status Answer(const SolveRequest& request, const CallOptions& options, SolveResponse& response) {
   std::optional<SceneContact> contact;
   auto violations = Validate(request.scene, RestitutionIs::kRequired, contact);
   if (violations.empty()) violations = CheckSolve(request, contact);
-  if (violations.empty()) CheckCertified(request, violations);
   if (!violations.empty()) return InvalidRequest(violations);
   if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
   const auto stopped = [&options] { return !WhyEnded(options).ok(); };
-  absl::StatusOr<Outcome> outcome = request.plan_only
-                                        ? PlanSceneOnly(request.scene, std::move(contact), ToDemand(request.demand))
-                                        : SolveScene(request.scene, std::move(contact),
-                                                     {.history_at_n_s = request.history_at_n_s,
-                                                      .force_intervals = request.force_intervals,
-                                                      .demand = DemandOf(request)},
-                                                     stopped);
-  if (!outcome.ok()) return OrWhyEnded(outcome.status(), options);
-  if (request.inadmissible_is_error && !outcome->admissible) return Inadmissible(*outcome);
-  const absl::Status certified = Certify(request, stopped, outcome->certificate);
+  Outcome& outcome = response.outcome;
+  const SolveOptions solve = {
+      .extent = {.history_at_n_s = request.history_at_n_s, .history_intervals = request.history_intervals},
+      .force_intervals = request.force_intervals,
+      .demand = DemandOf(request)};
+  const absl::Status solved = SolveScene(request.scene, contact, solve, stopped, outcome);
+  if (!solved.ok()) return OrWhyEnded(solved, options);
+  if (request.inadmissible_is_error && !outcome.admissible) return Inadmissible(outcome);
+  const absl::Status certified = Certify(request, stopped, outcome.certificate);
   if (!certified.ok()) return OrWhyEnded(certified, options);
-  return SolveResponse{.outcome = *std::move(outcome), .engine = ThisEngine()};
+  response.engine = ThisEngine();
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
+  absl::StatusOr<SolveResponse> response(absl::in_place);
+  if (absl::Status status = Answer(request, options, *response); !status.ok()) response = std::move(status);
+  return response;
 }
 
 absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, const CallOptions& options) const {
@@ -137,9 +104,9 @@ absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, con
   if (violations.empty()) violations = CheckDemand(request.scene, contact, request.demand);
   if (!violations.empty()) return InvalidRequest(violations);
   if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
-  absl::StatusOr<Outcome> planned = PlanSceneOnly(request.scene, std::move(contact), ToDemand(request.demand));
-  if (!planned.ok()) return planned.status();
-  return PlanResponse{.plan = std::move(planned->plan), .engine = ThisEngine()};
+  absl::StatusOr<ricochet::Plan> plan = PlanOf(request.scene, contact, ToDemand(request.demand));
+  if (!plan.ok()) return plan.status();
+  return PlanResponse{.plan = *std::move(plan), .engine = ThisEngine()};
 }
 
 absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& request, const CallOptions& options) const {

@@ -11,6 +11,7 @@ namespace ricochet {
 template <typename Tangential>
 struct ImpactEnd {
   Regime regime = Regime::kUnspecified;
+  Termination termination = Termination::kConverged;
   int w_rank = 0;
   bool sharp_limit_broken = false;   // The implied energetic coefficient is above 1.
   bool energy_limit_broken = false;  // E+ > E-.
@@ -24,6 +25,8 @@ struct ImpactEnd {
   double work_normal_compression = 0.0, work_normal_restitution = 0.0;
   double work_tangential_compression = 0.0, work_tangential_restitution = 0.0;
   double energy_change = 0.0;  // E+ - E-
+
+  bool Converged() const { return termination == Termination::kConverged; }
 };
 
 // The state of the contact at an event.

@@ -1,7 +1,7 @@
 #include "core/plan/planned_scene.h"
 
 #include <optional>
-#include <utility>
+#include <variant>
 
 #include "core/contact/scene_contact.h"
 #include "core/plan/explain.h"
@@ -20,58 +20,50 @@ ContactPhysics PhysicsOf(const Scene& scene, const PlanarReduction& reduction) {
   return physics;
 }
 
-Choice ByLaw() {
-  Choice choice;
-  choice.model = Model::kImpactLaw;
-  return choice;
-}
+bool IsAnsweredInTime(Model model) { return model == Model::kCompliant || model == Model::kFiniteDuration; }
 
-void PlanPendulum(const Scene& scene, std::optional<SceneContact> contact, const Demand& demand,
+void PlanPendulum(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
                   PlannedScene& planned) {
   const pendulum::Problem problem = ClosedFormProblem(scene);
-  planned.contact = problem;
   planned.effective = {
       .kinetic_friction = problem.mu, .static_friction = problem.mu_static, .restitution = problem.coefficient};
   // Finite forces have time to act only if the contact is compliant.
   if (scene.compliance.has_value()) {
     if (!contact.has_value()) contact = MakeContact(scene);
     if (!FitsDoubles(contact->reduction)) return;
-    planned.reduced_pendulum = std::get<PlanarReduction>(std::move(contact->reduction));
-    planned.physics = PhysicsOf(scene, *planned.reduced_pendulum);
+    planned.physics = PhysicsOf(scene, std::get<PlanarReduction>(contact->reduction));
   }
   planned.choice = ChoosePendulum(problem, planned.physics, demand);
+  if (!IsAnsweredInTime(planned.choice.model)) planned.closed_form = problem;
 }
 
-void PlanReduced(const Scene& scene, const Demand& demand, PlanarReduction reduction, PlannedScene& planned) {
+void PlanReduced(const Scene& scene, const Demand& demand, const PlanarReduction& reduction, PlannedScene& planned) {
   planned.physics = PhysicsOf(scene, reduction);
-  if (std::holds_alternative<std::monostate>(scene.impact_law)) {
-    const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
-    planned.choice = ChoosePlanar(problem, planned.physics, demand);
-  } else {
-    planned.choice = ByLaw();
+  if (!std::holds_alternative<std::monostate>(scene.impact_law)) {
+    planned.choice.model = Model::kImpactLaw;
+    return;
   }
-  planned.contact = std::move(reduction);
+  const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
+  planned.choice = ChoosePlanar(problem, planned.physics, demand);
 }
 
-void PlanReduced(const Scene& scene, const Demand& demand, SpatialReduction reduction, PlannedScene& planned) {
-  const spatial::Problem problem =
-      spatial::MakeProblem(reduction, scene.restitution, planned.effective, spatial::kLeastTolerance);
-  planned.choice = ChooseSpatial(problem, demand);
-  planned.contact = std::move(reduction);
+void PlanReduced(const Scene& scene, const Demand& demand, const SpatialReduction& reduction, PlannedScene& planned) {
+  planned.choice = ChooseSpatial(
+      spatial::MakeProblem(reduction, scene.restitution, planned.effective, spatial::kLeastTolerance), demand);
 }
 
 }  // namespace
 
-PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact> contact, const Demand& demand) {
+PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
   PlannedScene planned;
   if (HasClosedForm(scene)) {
-    PlanPendulum(scene, std::move(contact), demand, planned);
+    PlanPendulum(scene, contact, demand, planned);
     return planned;
   }
   if (!contact.has_value()) contact = MakeContact(scene);
   if (!FitsDoubles(contact->reduction)) return planned;
   planned.effective = contact->coefficients;
-  std::visit([&](auto& reduction) { PlanReduced(scene, demand, std::move(reduction), planned); }, contact->reduction);
+  std::visit([&](const auto& reduction) { PlanReduced(scene, demand, reduction, planned); }, contact->reduction);
   return planned;
 }
 

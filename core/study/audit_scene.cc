@@ -16,7 +16,7 @@ namespace ricochet {
 namespace {
 
 void CheckVelocity(const ContactVelocity& velocity, size_t directions, std::vector<Violation>& violations) {
-  const std::vector<double>& tangential = velocity.tangential_m_s;
+  const Components& tangential = velocity.tangential_m_s;
   if (tangential.size() != directions) {
     violations.push_back({"contact_velocity.tangential_m_s", audit::CountText(tangential.size(), directions)});
   }
@@ -73,7 +73,7 @@ absl::StatusOr<AuditResponse> AuditScene(const AuditRequest& request, absl::Func
   if (!violations.empty()) return InvalidRequest(violations);
   const Scene scene = audit::WithoutRestitution(request.scene);
   const ContactVelocity seen = VelocityOf(request.observed, scene);
-  const std::vector<double>& tangential = seen.tangential_m_s;
+  const Components& tangential = seen.tangential_m_s;
   if (!FitsDoubles(contact->reduction) || !std::isfinite(seen.normal_m_s) || !std::isfinite(tangential[0]))
     return ContactOverflow();
   const audit::Observation observation = {.u1 = {tangential[0], tangential.size() > 1 ? tangential[1] : 0.0},

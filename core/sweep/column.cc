@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "core/answer/pendulum_outcome.h"
+#include "core/answer/model_outcomes.h"
 #include "core/contact/reduction.h"
 #include "ricochet/outcome_numbers.h"
 
@@ -38,6 +38,7 @@ std::vector<std::string> Columns(const Scene& scene) {
   }
   outcome.contact_velocity_after.tangential_m_s.resize(tangential);
   outcome.impulse.tangential_n_s.resize(tangential);
+  if (!std::holds_alternative<std::monostate>(scene.impact_law)) UnsetPhases(outcome);
   std::vector<std::string> columns;
   VisitOutcomeNumbers(outcome, [&](const NumberPath& path, double /*number*/) { columns.push_back(path.Text()); });
   return columns;

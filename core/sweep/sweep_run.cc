@@ -215,15 +215,16 @@ bool SweepRun::Impl::SolvePoint(size_t i, absl::FunctionRef<bool()> stopped) {
   std::optional<SceneContact> contact;
   valid_[i] = driven_.IsValid(contact);
   if (!valid_[i]) return true;
-  const absl::StatusOr<Outcome> outcome =
-      SolveScene(driven_.scene(), std::move(contact), {.demand = demand_, .detail = Detail::kNumbers}, stopped);
-  if (absl::IsCancelled(outcome.status())) return false;
-  valid_[i] = outcome.ok();
+  Outcome outcome;
+  const absl::Status status = SolveScene(driven_.scene(), contact,
+                                         {.extent = {.detail = Detail::kNumbers}, .demand = demand_}, stopped, outcome);
+  if (absl::IsCancelled(status)) return false;
+  valid_[i] = status.ok();
   if (!valid_[i]) return true;
-  regimes_[i] = outcome->regime;
-  models_[i] = outcome->plan.model;
-  inadmissible_[i] = !outcome->admissible;
-  ReadColumns(*outcome, numbers_);
+  regimes_[i] = outcome.regime;
+  models_[i] = outcome.plan.model;
+  inadmissible_[i] = !outcome.admissible;
+  ReadColumns(outcome, numbers_);
   for (size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = numbers_[positions_of_[c]];
   return true;
 }

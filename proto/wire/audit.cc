@@ -260,10 +260,10 @@ AuditRequest FromProto(const v1::AuditRequest& proto) {
   AuditRequest request{
       .scene = FromProto(proto.scene()), .observed = {}, .velocity_uncertainty_m_s = proto.velocity_uncertainty_m_s()};
   if (proto.has_contact_velocity()) {
-    request.observed = ContactVelocity{.tangential_m_s = ToVector(proto.contact_velocity().tangential_m_s()),
+    request.observed = ContactVelocity{.tangential_m_s = ToComponents(proto.contact_velocity().tangential_m_s()),
                                        .normal_m_s = proto.contact_velocity().normal_m_s()};
   }
-  if (proto.has_rates()) request.observed = ObservedRates{ToVector(proto.rates().rates_rad_s())};
+  if (proto.has_rates()) request.observed = ObservedRates{ToComponents(proto.rates().rates_rad_s())};
   return request;
 }
 

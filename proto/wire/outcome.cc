@@ -1,5 +1,7 @@
 #include "proto/wire/outcome.h"
 
+#include <optional>
+
 #include "proto/wire/certificate.h"
 #include "proto/wire/plan.h"
 #include "proto/wire/repeated.h"
@@ -173,19 +175,53 @@ LimitKind FromProto(v1::BrokenLimit::Kind proto) {
   return LimitKind::kUnspecified;
 }
 
+v1::Termination ToProto(Termination termination) {
+  switch (termination) {
+    case Termination::kUnspecified:
+      return v1::TERMINATION_UNSPECIFIED;
+    case Termination::kConverged:
+      return v1::TERMINATION_CONVERGED;
+    case Termination::kBudgetUsedUp:
+      return v1::TERMINATION_BUDGET_USED_UP;
+    case Termination::kRefused:
+      return v1::TERMINATION_REFUSED;
+  }
+  return v1::TERMINATION_UNSPECIFIED;
+}
+
+Termination FromProto(v1::Termination proto) {
+  switch (proto) {
+    case v1::TERMINATION_CONVERGED:
+      return Termination::kConverged;
+    case v1::TERMINATION_BUDGET_USED_UP:
+      return Termination::kBudgetUsedUp;
+    case v1::TERMINATION_REFUSED:
+      return Termination::kRefused;
+    case v1::TERMINATION_UNSPECIFIED:
+    case v1::Termination_INT_MIN_SENTINEL_DO_NOT_USE_:
+    case v1::Termination_INT_MAX_SENTINEL_DO_NOT_USE_:
+      break;
+  }
+  return Termination::kUnspecified;
+}
+
+static std::optional<double> IfSet(bool is_set, double value) {
+  return is_set ? std::optional<double>(value) : std::nullopt;
+}
+
 v1::Coefficients ToProto(const Coefficients& coefficients) {
   v1::Coefficients proto;
   proto.set_newton(coefficients.newton);
-  proto.set_poisson(coefficients.poisson);
-  proto.set_energetic(coefficients.energetic);
+  if (coefficients.poisson.has_value()) proto.set_poisson(*coefficients.poisson);
+  if (coefficients.energetic.has_value()) proto.set_energetic(*coefficients.energetic);
   proto.set_tangential(coefficients.tangential);
   return proto;
 }
 
 Coefficients FromProto(const v1::Coefficients& proto) {
   return {.newton = proto.newton(),
-          .poisson = proto.poisson(),
-          .energetic = proto.energetic(),
+          .poisson = IfSet(proto.has_poisson(), proto.poisson()),
+          .energetic = IfSet(proto.has_energetic(), proto.energetic()),
           .tangential = proto.tangential()};
 }
 
@@ -197,29 +233,29 @@ static v1::ContactVelocity ToProto(const ContactVelocity& velocity) {
 }
 
 static ContactVelocity FromProto(const v1::ContactVelocity& proto) {
-  return {.tangential_m_s = ToVector(proto.tangential_m_s()), .normal_m_s = proto.normal_m_s()};
+  return {.tangential_m_s = ToComponents(proto.tangential_m_s()), .normal_m_s = proto.normal_m_s()};
 }
 
 static v1::Impulse ToProto(const Impulse& impulse) {
   v1::Impulse proto;
-  proto.set_normal_compression_n_s(impulse.normal_compression_n_s);
+  if (impulse.normal_compression_n_s.has_value()) proto.set_normal_compression_n_s(*impulse.normal_compression_n_s);
   proto.set_normal_total_n_s(impulse.normal_total_n_s);
   AssignDoubles(impulse.tangential_n_s, *proto.mutable_tangential_n_s());
   return proto;
 }
 
 static Impulse FromProto(const v1::Impulse& proto) {
-  return {.normal_compression_n_s = proto.normal_compression_n_s(),
+  return {.normal_compression_n_s = IfSet(proto.has_normal_compression_n_s(), proto.normal_compression_n_s()),
           .normal_total_n_s = proto.normal_total_n_s(),
-          .tangential_n_s = ToVector(proto.tangential_n_s())};
+          .tangential_n_s = ToComponents(proto.tangential_n_s())};
 }
 
 static v1::WorkLedger ToProto(const WorkLedger& work) {
   v1::WorkLedger proto;
-  proto.set_normal_compression_j(work.normal_compression_j);
-  proto.set_normal_restitution_j(work.normal_restitution_j);
-  proto.set_tangential_compression_j(work.tangential_compression_j);
-  proto.set_tangential_restitution_j(work.tangential_restitution_j);
+  if (work.normal_compression_j.has_value()) proto.set_normal_compression_j(*work.normal_compression_j);
+  if (work.normal_restitution_j.has_value()) proto.set_normal_restitution_j(*work.normal_restitution_j);
+  if (work.tangential_compression_j.has_value()) proto.set_tangential_compression_j(*work.tangential_compression_j);
+  if (work.tangential_restitution_j.has_value()) proto.set_tangential_restitution_j(*work.tangential_restitution_j);
   proto.set_normal_total_j(work.normal_total_j);
   proto.set_tangential_total_j(work.tangential_total_j);
   proto.set_friction_dissipation_j(work.friction_dissipation_j);
@@ -229,10 +265,10 @@ static v1::WorkLedger ToProto(const WorkLedger& work) {
 }
 
 static WorkLedger FromProto(const v1::WorkLedger& proto) {
-  return {.normal_compression_j = proto.normal_compression_j(),
-          .normal_restitution_j = proto.normal_restitution_j(),
-          .tangential_compression_j = proto.tangential_compression_j(),
-          .tangential_restitution_j = proto.tangential_restitution_j(),
+  return {.normal_compression_j = IfSet(proto.has_normal_compression_j(), proto.normal_compression_j()),
+          .normal_restitution_j = IfSet(proto.has_normal_restitution_j(), proto.normal_restitution_j()),
+          .tangential_compression_j = IfSet(proto.has_tangential_compression_j(), proto.tangential_compression_j()),
+          .tangential_restitution_j = IfSet(proto.has_tangential_restitution_j(), proto.tangential_restitution_j()),
           .normal_total_j = proto.normal_total_j(),
           .tangential_total_j = proto.tangential_total_j(),
           .friction_dissipation_j = proto.friction_dissipation_j(),
@@ -251,9 +287,9 @@ static v1::State ToProto(const State& state) {
 
 static State FromProto(const v1::State& proto) {
   return {.normal_impulse_n_s = proto.normal_impulse_n_s(),
-          .tangential_impulse_n_s = ToVector(proto.tangential_impulse_n_s()),
+          .tangential_impulse_n_s = ToComponents(proto.tangential_impulse_n_s()),
           .contact_velocity = FromProto(proto.contact_velocity()),
-          .rates_rad_s = ToVector(proto.rates_rad_s())};
+          .rates_rad_s = ToComponents(proto.rates_rad_s())};
 }
 
 static v1::Event ToProto(const Event& event) {
@@ -288,7 +324,7 @@ static v1::BodyVelocity ToProto(const BodyVelocity& body) {
 }
 
 static BodyVelocity FromProto(const v1::BodyVelocity& proto) {
-  return {.linear_m_s = ToVector(proto.linear_m_s()), .angular_rad_s = ToVector(proto.angular_rad_s())};
+  return {.linear_m_s = ToComponents(proto.linear_m_s()), .angular_rad_s = ToComponents(proto.angular_rad_s())};
 }
 
 static v1::EffectiveCoefficients ToProto(const EffectiveCoefficients& effective) {
@@ -373,6 +409,7 @@ static ContactDuration FromProto(const v1::ContactDuration& proto) {
 v1::Outcome ToProto(const Outcome& outcome) {
   v1::Outcome proto;
   proto.set_regime(ToProto(outcome.regime));
+  proto.set_termination(ToProto(outcome.termination));
   proto.set_admissible(outcome.admissible);
   for (const BrokenLimit& broken : outcome.broken_limits) {
     *proto.add_broken_limits() = ToProto(broken);
@@ -399,13 +436,14 @@ v1::Outcome ToProto(const Outcome& outcome) {
 Outcome FromProto(const v1::Outcome& proto) {
   Outcome outcome;
   outcome.regime = FromProto(proto.regime());
+  outcome.termination = FromProto(proto.termination());
   outcome.admissible = proto.admissible();
   for (const v1::BrokenLimit& broken : proto.broken_limits()) {
     outcome.broken_limits.push_back(FromProto(broken));
   }
   outcome.w_rank = proto.w_rank();
   outcome.coefficients = FromProto(proto.coefficients());
-  outcome.rates_after_rad_s = ToVector(proto.rates_after_rad_s());
+  outcome.rates_after_rad_s = ToComponents(proto.rates_after_rad_s());
   outcome.contact_velocity_after = FromProto(proto.contact_velocity_after());
   outcome.impulse = FromProto(proto.impulse());
   outcome.work = FromProto(proto.work());

@@ -16,7 +16,7 @@ v1::SolveRequest ToProto(const SolveRequest& request) {
   AssignDoubles(request.history_at_n_s, *proto.mutable_history_at_n_s());
   proto.set_inadmissible_is_error(request.inadmissible_is_error);
   SetDemand(request.demand, proto);
-  proto.set_plan_only(request.plan_only);
+  proto.set_history_intervals(request.history_intervals);
   proto.set_force_intervals(request.force_intervals);
   proto.set_certified_digits(request.certified_digits);
   return proto;
@@ -25,9 +25,9 @@ v1::SolveRequest ToProto(const SolveRequest& request) {
 SolveRequest FromProto(const v1::SolveRequest& proto) {
   return {.scene = FromProto(proto.scene()),
           .history_at_n_s = ToVector(proto.history_at_n_s()),
+          .history_intervals = proto.history_intervals(),
           .inadmissible_is_error = proto.inadmissible_is_error(),
           .demand = DemandOf(proto),
-          .plan_only = proto.plan_only(),
           .force_intervals = proto.force_intervals(),
           .certified_digits = proto.certified_digits()};
 }

@@ -38,7 +38,7 @@ struct Case {
   Impact reference;
 
   // Some W near rank two do not determine a velocity in any arithmetic.
-  bool known() const { return reference.converged && reference.error_estimate <= 1e-12; }
+  bool known() const { return reference.Converged() && reference.error_estimate <= 1e-12; }
 
   Answer Judge(bool ended, const std::array<double, 2>& u1, double v1) const {
     const double scale = std::max(std::hypot(problem.u0[0], problem.u0[1]), std::fabs(problem.v0));
@@ -79,7 +79,7 @@ Answer Ours(const Case& c, double tolerance) {
   Problem problem = c.problem;
   problem.tolerance = tolerance;
   const Impact impact = Solve(problem);
-  return c.Judge(impact.converged, impact.u1, impact.v1);
+  return c.Judge(impact.Converged(), impact.u1, impact.v1);
 }
 
 Answer Theirs(CvodePeer& peer, const Case& c, double tolerance) {

@@ -26,7 +26,7 @@ void Run(const v1::SolveRequest& proto) {
   const SolveRequest request = FromProto(proto);
   if (request.force_intervals > 1000 || !TakesTime(request)) return;
   const absl::StatusOr<SolveResponse> response = SolveAndCheck(request);
-  if (!response.ok() || request.plan_only || !response->outcome.contact.has_value()) return;
+  if (!response.ok() || !response->outcome.contact.has_value()) return;
   const ContactDuration& contact = *response->outcome.contact;
   const bool negative = contact.duration_s < 0.0 || contact.peak_normal_n < 0.0 || contact.peak_tangential_n < 0.0 ||
                         contact.indentation_m < 0.0;

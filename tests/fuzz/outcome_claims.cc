@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/types/span.h"
 #include "core/contact/reduction.h"
 #include "core/scene/validate.h"
 #include "ricochet/error.h"
@@ -21,7 +22,7 @@ void Require(bool kept, const char* claim, double value, double limit) {
   if (!kept) Fail(absl::StrCat(claim, ": ", value, " against ", limit));
 }
 
-double Length(const std::vector<double>& numbers) {
+double Length(absl::Span<const double> numbers) {
   double length = 0.0;
   for (const double number : numbers) length = std::hypot(length, number);
   return length;
@@ -78,13 +79,16 @@ void CheckNumbers(const Outcome& outcome) {
 
 void CheckWorks(const Scene& scene, const Outcome& outcome, double slack) {
   const WorkLedger& work = outcome.work;
-  const double phases = work.normal_compression_j + work.normal_restitution_j + work.tangential_compression_j +
-                        work.tangential_restitution_j;
-  const double sum = IsCoulomb(scene) ? phases : work.normal_total_j + work.tangential_total_j;
+  const bool has_phases = work.normal_compression_j.has_value() && work.normal_restitution_j.has_value() &&
+                          work.tangential_compression_j.has_value() && work.tangential_restitution_j.has_value();
+  if (has_phases != IsCoulomb(scene)) Fail("the works of the phases are unset without an impact law, or set with one");
+  const double sum = has_phases ? *work.normal_compression_j + *work.normal_restitution_j +
+                                      *work.tangential_compression_j + *work.tangential_restitution_j
+                                : work.normal_total_j + work.tangential_total_j;
   Require(std::fabs(sum - outcome.energy_change_j) <= slack, "the ledger is open", sum, outcome.energy_change_j);
   if (!IsCoulomb(scene)) return;
-  Require(work.normal_compression_j <= slack, "compression gives work", work.normal_compression_j, slack);
-  Require(work.normal_restitution_j >= -slack, "restitution takes work", work.normal_restitution_j, slack);
+  Require(work.normal_compression_j <= slack, "compression gives work", *work.normal_compression_j, slack);
+  Require(work.normal_restitution_j >= -slack, "restitution takes work", *work.normal_restitution_j, slack);
   if (ForcesSlip(outcome)) return;
   Require(work.friction_dissipation_j >= -slack, "friction gives work", work.friction_dissipation_j, slack);
   Require(work.tangential_spring_j >= -slack, "the spring's rest is negative", work.tangential_spring_j, slack);
@@ -159,14 +163,15 @@ absl::StatusOr<SolveResponse> SolveAndCheck(const SolveRequest& request) {
   const bool valid = Validate(request.scene).empty();
   absl::StatusOr<SolveResponse> response = LocalSolver().Solve(request);
   CheckStatus(response.status(), valid, request.inadmissible_is_error);
-  if (response.ok() && !request.plan_only) CheckOutcome(request.scene, response->outcome);
+  if (response.ok()) CheckOutcome(request.scene, response->outcome);
   return response;
 }
 
-bool TakesTime(SolveRequest request) {
-  request.plan_only = true;
-  const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(request);
-  return response.ok() && response->outcome.plan.model == Model::kFiniteDuration;
+bool TakesTime(const SolveRequest& request) {
+  PlanRequest plan = {.scene = request.scene, .demand = request.demand};
+  if (request.force_intervals > 0) plan.demand.required.push_back(Effect::kFiniteDuration);
+  const absl::StatusOr<PlanResponse> response = LocalSolver().Plan(plan);
+  return response.ok() && response->plan.model == Model::kFiniteDuration;
 }
 
 }  // namespace ricochet

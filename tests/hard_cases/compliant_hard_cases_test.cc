@@ -9,7 +9,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/answer/compliant_outcome.h"
+#include "core/answer/model_outcomes.h"
 #include "core/contact/reduction.h"
 #include "core/models/compliant/compliant.h"
 #include "ricochet/outcome.h"
@@ -17,6 +17,7 @@
 #include "tests/hard_cases/naive_compliant.h"
 #include "tests/support/compliant_oracle.h"
 #include "tests/support/compliant_scenes.h"
+#include "tests/support/made_outcome.h"
 
 namespace ricochet::compliant {
 namespace {
@@ -296,7 +297,9 @@ HardCaseResult RunLoss() {
     const PlanarReduction reduction = {.w = {problem.contact.w.tt, problem.contact.w.tn, problem.contact.w.nn},
                                        .u0 = {problem.contact.u0},
                                        .v0 = problem.contact.v0};
-    const Outcome outcome = MakeOutcome(problem, reduction, {}, Detail::kNumbers).value();
+    const Outcome outcome = Made([&](Outcome& made) {
+                              return MakeOutcome(problem, reduction, {.detail = Detail::kNumbers}, made);
+                            }).value();
     const auto error = [&exact](double loss) {
       return (Abs(Ball(loss, 192) - exact.work_normal) / Abs(exact.work_normal)).UpperBound();
     };

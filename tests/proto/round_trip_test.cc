@@ -13,6 +13,7 @@
 #include <variant>
 #include <vector>
 
+#include "absl/types/span.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/scene.h"
@@ -44,7 +45,7 @@ SweepChunk ThroughWire(const SweepChunk& chunk) {
   return FromProto(ThroughBytes(proto));
 }
 
-std::vector<uint64_t> Bits(const std::vector<double>& values) {
+std::vector<uint64_t> Bits(absl::Span<const double> values) {
   std::vector<uint64_t> bits;
   for (const double value : values) bits.push_back(std::bit_cast<uint64_t>(value));
   return bits;

@@ -162,7 +162,7 @@ double Friction(const planar::Impact& impact) { return std::fabs(impact.f1); }
 double Friction(const spatial::Impact& impact) { return std::hypot(impact.f1[0], impact.f1[1]); }
 
 bool GaveUp(const planar::Impact& /*impact*/) { return false; }
-bool GaveUp(const spatial::Impact& impact) { return !impact.converged; }
+bool GaveUp(const spatial::Impact& impact) { return !impact.Converged(); }
 
 int64_t Steps(const planar::Impact& impact) { return impact.event_count; }
 int64_t Steps(const spatial::Impact& impact) { return impact.steps; }

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/answer/pendulum_outcome.h"
+#include "core/answer/model_outcomes.h"
 
 namespace ricochet {
 

@@ -27,9 +27,9 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
-#include "core/answer/pendulum_outcome.h"
-#include "core/answer/planar_outcome.h"
+#include "core/answer/model_outcomes.h"
 #include "core/contact/reduction.h"
+#include "tests/support/made_outcome.h"
 #include "tests/support/pendulum_oracle.h"
 #include "tests/support/pendulum_scenes.h"
 #include "tests/support/planar_oracle.h"
@@ -70,7 +70,8 @@ struct PendulumModel {
       const bool is_told = !pendulum::OutputPath(static_cast<pendulum::Output>(i)).empty();
       overflows = overflows || (is_told && std::isinf(impact.values[i]));
     }
-    if (overflows && !IsRefusedByName(pendulum::MakeOutcome(problem, {}))) errors.fill(kWrong);
+    const auto outcome = Made([&problem](Outcome& made) { return pendulum::MakeOutcome(problem, {}, made); });
+    if (overflows && !IsRefusedByName(outcome)) errors.fill(kWrong);
     return errors;
   }
 };
@@ -118,7 +119,8 @@ struct PlanarModel {
 
   static bool IsRefused(const Problem& problem) {
     const Scene scene = {.system = PlanarContact{problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0}};
-    return IsRefusedByName(planar::MakeOutcome(problem, std::get<PlanarReduction>(Reduce(scene)), {}));
+    const auto reduction = std::get<PlanarReduction>(Reduce(scene));
+    return IsRefusedByName(Made([&](Outcome& made) { return planar::MakeOutcome(problem, reduction, {}, made); }));
   }
 };
 

@@ -21,7 +21,7 @@ namespace ricochet {
 // pendulum (one) or of a linkage (one for each link). std::monostate means that the request stated neither, which is a
 // violation.
 struct ObservedRates {
-  std::vector<double> rates_rad_s;
+  Components rates_rad_s;
   friend bool operator==(const ObservedRates&, const ObservedRates&) = default;
 };
 using Observed = std::variant<std::monostate, ContactVelocity, ObservedRates>;

@@ -12,41 +12,47 @@
 #include <optional>
 #include <vector>
 
+#include "absl/container/inlined_vector.h"
 #include "ricochet/certificate.h"
 #include "ricochet/plan.h"
 #include "ricochet/regime.h"
 
 namespace ricochet {
 
+// The components of a vector along t or along t1, t2, n, or one number for each link. Up to three need no memory of the
+// heap.
+using Components = absl::InlinedVector<double, 3>;
+
+// An impact law says nothing about the phases of an impact: it leaves Poisson's and the energetic coefficient unset.
 struct Coefficients {
   double newton = 0.0;
-  double poisson = 0.0;
-  double energetic = 0.0;
+  std::optional<double> poisson = 0.0;
+  std::optional<double> energetic = 0.0;
   double tangential = 0.0;  // Brach's mu_hat = tangential / normal impulse, signed. Lubarda Eq. (49).
   friend bool operator==(const Coefficients&, const Coefficients&) = default;
 };
 
 // Tangential lists, here and below, have one entry for each tangential direction: one in a plane, two in space.
 struct ContactVelocity {
-  std::vector<double> tangential_m_s;
+  Components tangential_m_s;
   double normal_m_s = 0.0;
   friend bool operator==(const ContactVelocity&, const ContactVelocity&) = default;
 };
 
 struct Impulse {
-  double normal_compression_n_s = 0.0;  // tau0
-  double normal_total_n_s = 0.0;        // tau1
-  std::vector<double> tangential_n_s;   // f1
+  std::optional<double> normal_compression_n_s = 0.0;  // tau0; unset under an impact law.
+  double normal_total_n_s = 0.0;                       // tau1
+  Components tangential_n_s;                           // f1
   friend bool operator==(const Impulse&, const Impulse&) = default;
 };
 
 // Work of the contact impulse on the body, by direction and phase. All four are <= 0 but normal_restitution_j. An
-// impact law has no phases: all four are then 0, and the residual is that of the two totals.
+// impact law has no phases: all four are then unset, and the residual is that of the two totals.
 struct WorkLedger {
-  double normal_compression_j = 0.0;
-  double normal_restitution_j = 0.0;
-  double tangential_compression_j = 0.0;
-  double tangential_restitution_j = 0.0;
+  std::optional<double> normal_compression_j = 0.0;
+  std::optional<double> normal_restitution_j = 0.0;
+  std::optional<double> tangential_compression_j = 0.0;
+  std::optional<double> tangential_restitution_j = 0.0;
   double normal_total_j = 0.0;          // -(energy lost to irreversible deformation), Lubarda Eq. (37).
   double tangential_total_j = 0.0;      // -(energy lost to friction and left in a tangential spring), Lubarda Eq. (35).
   double friction_dissipation_j = 0.0;  // >= 0
@@ -69,10 +75,10 @@ enum class EventKind {
 
 // The state of the contact once the normal impulse has reached `normal_impulse_n_s`.
 struct State {
-  double normal_impulse_n_s = 0.0;             // tau, the paper's independent variable, Eq. (3).
-  std::vector<double> tangential_impulse_n_s;  // f(tau), Eq. (48).
-  ContactVelocity contact_velocity;            // u(tau), v(tau).
-  std::vector<double> rates_rad_s;  // omega(tau), Eq. (9): one for each link; empty for systems without joints.
+  double normal_impulse_n_s = 0.0;    // tau, the paper's independent variable, Eq. (3).
+  Components tangential_impulse_n_s;  // f(tau), Eq. (48).
+  ContactVelocity contact_velocity;   // u(tau), v(tau).
+  Components rates_rad_s;             // omega(tau), Eq. (9): one for each link; empty for systems without joints.
   friend bool operator==(const State&, const State&) = default;
 };
 
@@ -101,9 +107,20 @@ struct BrokenLimit {
 // The velocity of a free body. In space its components are along and about t1, t2 and n; in a plane the linear ones are
 // along t and n, and the angular one is counter-clockwise.
 struct BodyVelocity {
-  std::vector<double> linear_m_s;
-  std::vector<double> angular_rad_s;
+  Components linear_m_s;
+  Components angular_rad_s;
   friend bool operator==(const BodyVelocity&, const BodyVelocity&) = default;
+};
+
+// How the computation of an impact ended. The numbers are those of ricochet.v1.Termination.
+enum class Termination {
+  kUnspecified = 0,
+  kConverged = 1,  // The impact was followed to its end.
+  kBudgetUsedUp =
+      2,  // The model's budget of steps ran out first. The outcome is the state reached, its error infinite.
+  // The model gave up: friction or a spring holds the contact for ever, rounding has destroyed the path, or an impact
+  // law has no solution. The outcome is the state reached, and its error is infinite except under a law.
+  kRefused = 3,
 };
 
 // The coefficients that the impact was computed with: those of the scene at its approach speed.
@@ -162,11 +179,12 @@ struct ImpactSolution {
 
 struct Outcome {
   Regime regime = Regime::kUnspecified;
+  Termination termination = Termination::kConverged;
   bool admissible = true;  // False exactly if broken_limits is not empty.
   std::vector<BrokenLimit> broken_limits;
-  int w_rank = 0;                         // Rank of the contact-space inverse inertia W; 1 for a pendulum.
-  Coefficients coefficients;              // All 0 but the tangential one if separating or locked.
-  std::vector<double> rates_after_rad_s;  // One for each link; a pendulum has omega+. Empty for systems without joints.
+  int w_rank = 0;                // Rank of the contact-space inverse inertia W; 1 for a pendulum.
+  Coefficients coefficients;     // All 0 but the tangential one if separating or locked.
+  Components rates_after_rad_s;  // One for each link; a pendulum has omega+. Empty for systems without joints.
   ContactVelocity contact_velocity_after;
   Impulse impulse;
   WorkLedger work;

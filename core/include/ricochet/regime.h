@@ -16,7 +16,7 @@ enum class Regime {
   kReversalInCompression = 6,
   kReversalInRestitution = 7,
   kLocked = 8,       // The constraints and friction hold the body: no restitution, velocities 0, coefficients 0.
-  kWedged = 9,       // The impact had not ended when the model's step budget ran out: the error is infinite.
+  kWedged = 9,       // The contact had not separated when the computation ended; Outcome::termination says why.
   kSeparating = 10,  // The contact does not approach: nothing changes.
   kInvalid = 11,     // Sweeps and batches only: the point breaks a rule or overflows; its columns are quiet NaN.
   kByLaw = 12,       // An impact law gives the end of the impact but not its course: no phases are known.

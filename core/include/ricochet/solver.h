@@ -29,22 +29,25 @@
 
 namespace ricochet {
 
-// A request may ask for the forces at the ends of at most this many steps of time.
-inline constexpr int64_t kMostForceIntervals = 65535;
+// A request may ask for the states, or the forces, at the ends of at most this many equal steps.
+inline constexpr int64_t kMostIntervals = 65535;
 
 struct SolveRequest {
   Scene scene;
-  // Normal impulses tau at which Outcome::history gives the state, each in [0, tau1]; at most 65,536.
+  // Normal impulses tau at which Outcome::history gives the state, each in [0, tau1]; at most kMostIntervals + 1. Only
+  // a planar scene without compliance and without an impact law has such a history, whatever the tolerance.
   std::vector<double> history_at_n_s;
+  // If > 0, Outcome::history has the states at the ends of this many equal steps of tau from 0 to tau1, at most
+  // kMostIntervals. It excludes history_at_n_s, whose scenes it takes.
+  int64_t history_intervals = 0;
   // If true, an outcome with admissible = false becomes FAILED_PRECONDITION.
   bool inadmissible_is_error = false;
   DemandFields demand;
-  bool plan_only = false;  // If true, the outcome has its plan alone.
-  // If > 0, ContactDuration::history has the forces at this many equal steps of time, at most kMostForceIntervals. This
+  // If > 0, ContactDuration::history has the forces at this many equal steps of time, at most kMostIntervals. This
   // requires Effect::kFiniteDuration.
   int64_t force_intervals = 0;
   // If > 0, Outcome::certificate has this many significant digits, at most kMostCertifiedDigits. It must be 0 with
-  // plan_only and with excluded effects. core/certified/certified.h says which scenes can be certified.
+  // excluded effects. core/certified/certified.h says which scenes can be certified.
   int32_t certified_digits = 0;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };

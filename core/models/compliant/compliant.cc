@@ -34,7 +34,7 @@ PlanarProblem InUnits(const PlanarProblem& problem, const Units& units) {
 }
 
 Regime RegimeOf(const SpringContact& contact, const PathResult& path) {
-  if (!path.ends) return Regime::kWedged;
+  if (!path.Ends()) return Regime::kWedged;
   if (contact.mu == 0.0) return Regime::kFrictionless;
   if (path.first_stick == FirstStick::kNever) return Regime::kSliding;
   // At rank one Wtt = Wtn^2/Wnn, which must not be rounded on the way.
@@ -51,7 +51,7 @@ constexpr double kPerturbation = 0x1p-44;
 
 double ErrorEstimate(const PlanarProblem& problem, const Units& units, const SpringContact& contact,
                      const PathResult& path) {
-  if (!path.ends) return std::numeric_limits<double>::infinity();
+  if (!path.Ends()) return std::numeric_limits<double>::infinity();
   const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
   const auto size = [](double u, double v) { return std::max(std::fabs(u), std::fabs(v)); };
   // In units of speed the least double is 2^-1074/2^units.speed, and rounding to it takes up to half of it.
@@ -61,7 +61,7 @@ double ErrorEstimate(const PlanarProblem& problem, const Units& units, const Spr
   for (const uint64_t seed : {0x9e3779b97f4a7c15U, 0xd1b54a32d192ed03U}) {
     const PathResult perturbed =
         FollowPath(contact, problem.u0, problem.v0, Perturbation(seed, kPerturbation), nullptr);
-    if (!perturbed.ends) return std::numeric_limits<double>::infinity();
+    if (!perturbed.Ends()) return std::numeric_limits<double>::infinity();
     spread = std::max(spread, size(perturbed.end.u - path.end.u, perturbed.end.v - path.end.v));
   }
   return (error + spread) / speed;
@@ -78,7 +78,7 @@ void WriteMotion(const PlanarProblem& problem, const Units& units, const PathRes
   impact.f1 = units.Impulse(end.f) + 0.0;
   impact.tangential = end.f / end.tau + 0.0;
   impact.energetic_excess = -1.0;
-  if (!path.ends || problem.coefficient == 0.0) return;
+  if (!path.Ends() || problem.coefficient == 0.0) return;
   impact.newton = -end.v / problem.v0;
   impact.poisson = (end.tau - compression.tau) / compression.tau;
   impact.energetic = problem.coefficient;
@@ -138,6 +138,7 @@ Impact Solve(const Problem& problem) {
   Impact impact;
   const PathResult path = FollowPath(contact, scaled.u0, scaled.v0, Perturbation(1, 0.0), &impact.sections);
   impact.regime = RegimeOf(contact, path);
+  impact.termination = path.termination;
   impact.w_rank = contact.rank;
   WriteMotion(scaled, units, path, impact);
   WriteNormalWorks(scaled, units, path, impact);

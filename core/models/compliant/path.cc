@@ -27,7 +27,7 @@ class PathFollower {
 
   PathResult Follow() {
     PathResult result;
-    result.ends = ReachesEnd();
+    result.termination = FollowToEnd();
     result.end = state_;
     result.compression_end = mode_.IsFirstLoading() ? state_ : compression_end_;
     result.largest_normal_force = mode_.IsFirstLoading() ? state_.normal_force : mode_.largest_normal_force;
@@ -46,19 +46,18 @@ class PathFollower {
     return slides ? side : 0;
   }
 
-  // Returns false if there is no end, or the path overflows.
-  bool ReachesEnd() {
+  Termination FollowToEnd() {
     for (int i = 0; i < kMaxSections; ++i) {
       Record();
       const SectionEnd end = RunSection();
       if (end.overflows || !state_.IsFinite()) {
         state_.u = state_.v = std::numeric_limits<double>::quiet_NaN();
-        return false;
+        return Termination::kRefused;
       }
-      if (end.has_no_end) return false;
-      if (end.parts || !BeginNextSection(end)) return true;
+      if (end.has_no_end) return Termination::kRefused;
+      if (end.parts || !BeginNextSection(end)) return Termination::kConverged;
     }
-    return false;
+    return Termination::kBudgetUsedUp;
   }
 
   SectionEnd RunSection() {

@@ -9,6 +9,7 @@
 
 #include "core/models/compliant/perturbation.h"
 #include "core/models/compliant/spring_contact.h"
+#include "ricochet/outcome.h"
 
 namespace ricochet::compliant {
 
@@ -16,11 +17,13 @@ enum class FirstStick { kNever, kInCompression, kInRestitution };
 
 // Where the impact has no end, the state reached stands for it. Where it overflows, u and v of that are NaN.
 struct PathResult {
-  bool ends = false;
+  Termination termination = Termination::kRefused;
   ContactState end;
   ContactState compression_end;       // The last time that the indentation is the largest so far.
   double largest_normal_force = 0.0;  // N at `compression_end`.
   FirstStick first_stick = FirstStick::kNever;
+
+  bool Ends() const { return termination == Termination::kConverged; }
 };
 
 // Appends to `sections` each section's start, unless it is null. The perturbation is put on every section.

@@ -70,7 +70,6 @@ EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator,
 Impact Stopped() {
   Impact impact;
   impact.stopped = true;
-  impact.converged = false;
   return impact;
 }
 

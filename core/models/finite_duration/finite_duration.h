@@ -7,8 +7,8 @@
 // or a linear spring with the tangential compliance of Stronge's particle (core/models/compliant/compliant.h).
 // Accuracy: velocities within `tolerance`, or as far as double precision has it, some 1e-12 without forces;
 // error_estimate says what was reached. Everything else has errors of like relative size, except near 0.
-// An impact that does not end within its budgets is answered with the state reached: regime wedged, converged = false
-// and an infinite error. Results have the same bits on one machine only: SUNDIALS calls the C library's pow.
+// An impact that does not end within its budgets is answered with the state reached: regime wedged, an
+// infinite error, and the termination that says why. Results have the same bits on one machine only: SUNDIALS calls the C library's pow.
 // Bad input: none gets here (core/scene/validate.h). v0 >= 0: nothing changes, whatever the forces.
 // Laws, ends, phases, units and accuracy: docs/theory/finite_duration.md.
 
@@ -45,7 +45,6 @@ struct Impact : ImpactEnd<double> {
   double friction_dissipation = 0.0;  // >= 0
   double spring_energy = 0.0;         // Lost with the tangential spring, >= 0.
   double error_estimate = 0.0;        // Error of the velocities over max(|u0|, |v0|).
-  bool converged = true;              // False: a budget ran out or the bodies do not part; the error is infinite.
   bool stopped = false;               // The caller wanted no more: nothing else is known.
   int64_t steps = 0;
   int64_t right_hand_sides = 0;

@@ -46,12 +46,12 @@ class PathFollower {
   }
 
   void FollowMode() {
-    if (NeverReverses(contact_, mode_, y_)) return EndPath(PathEnd::kUnfinished);
+    if (NeverReverses(contact_, mode_, y_)) return EndPath(PathEnd::kNeverEnds);
     integrator_.Begin(mode_, y_, tolerance_);
     mode_changed_ = false;
     while (!mode_changed_ && path_.how == PathEnd::kUnderway) {
       if (stop_.IsStopped()) return EndPath(PathEnd::kStopped);
-      if (steps_++ == kStepBudget) return EndPath(PathEnd::kUnfinished);
+      if (steps_++ == kStepBudget) return EndPath(PathEnd::kBudgetUsedUp);
       TakeStep();
     }
   }
@@ -62,12 +62,12 @@ class PathFollower {
     const bool moved = integrator_.s() > 0.0;
     const bool failed =
         progress == Integrator::Progress::kFailed || (progress == Integrator::Progress::kBeginAnew && !moved);
-    if (failed) return EndPath(PathEnd::kUnfinished);
+    if (failed) return EndPath(PathEnd::kNeverEnds);
     if (progress == Integrator::Progress::kBeginAnew) {
       mode_changed_ = true;
       return;
     }
-    if (RunsBack(integrator_.y()[kTime])) return EndPath(PathEnd::kUnfinished);
+    if (RunsBack(integrator_.y()[kTime])) return EndPath(PathEnd::kNeverEnds);
     y_ = integrator_.y();
     if (history_ != nullptr) history_->AddSamplesOfStep(mode_, y_, stop_);
     path_.peaks.Add(contact_, mode_, y_);
@@ -84,7 +84,7 @@ class PathFollower {
     if (fallen[kBranchEnd]) EndBranch();
     if (fallen[kTension]) Part();
     if (fallen[kReversal] && path_.how == PathEnd::kUnderway) {
-      if (reversals_++ == kReversalBudget) return EndPath(PathEnd::kUnfinished);
+      if (reversals_++ == kReversalBudget) return EndPath(PathEnd::kBudgetUsedUp);
       ReverseNormalVelocity();
     }
     path_.peaks.Add(contact_, mode_, y_);
@@ -174,7 +174,7 @@ class PathFollower {
     if (compressed && contact_.eta == 0.0 && !held) return Part();
     mode_.branch = NextBranch();
     // At rest in restitution, or where the spring balances what presses, the contact neither parts nor moves.
-    if (at_rest) EndPath(held ? PathEnd::kHeld : PathEnd::kUnfinished);
+    if (at_rest) EndPath(held ? PathEnd::kHeld : PathEnd::kNeverEnds);
   }
 
   LoadingBranch NextBranch() const {

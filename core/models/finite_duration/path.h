@@ -30,10 +30,11 @@ enum class FirstStop { kNever, kInCompression, kInRestitution };
 
 enum class PathEnd {
   kUnderway,
-  kParted,      // N = 0, or eta = 0 and v = 0.
-  kHeld,        // Friction and the spring hold the contact at rest where compression ends.
-  kUnfinished,  // It never ends, a budget ran out, or it is lost in rounding.
-  kStopped      // The caller wanted no more.
+  kParted,  // N = 0, or eta = 0 and v = 0.
+  kHeld,    // Friction and the spring hold the contact at rest where compression ends.
+  kBudgetUsedUp,
+  kNeverEnds,  // It goes on for ever, or it is lost in rounding.
+  kStopped     // The caller wanted no more.
 };
 
 // The largest values on the path.

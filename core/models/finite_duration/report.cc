@@ -23,6 +23,11 @@ Regime RegimeOf(const ScaledContact& contact, const Path& path) {
   return path.first_stop_sticks ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
 }
 
+Termination TerminationOf(const Path& path) {
+  if (path.HasEnd()) return Termination::kConverged;
+  return path.how == PathEnd::kBudgetUsedUp ? Termination::kBudgetUsedUp : Termination::kRefused;
+}
+
 void WriteCoefficients(double coefficient, const ScaledContact& contact, const Path& path, Impact& impact) {
   impact.energetic_excess = -1.0;
   impact.tangential = path.end[kNormal] > 0.0 ? path.end[kTangential] / path.end[kNormal] : 0.0;
@@ -94,7 +99,7 @@ Impact MakeImpact(const Problem& problem, const ScaledContact& contact, const Pa
   impact.tau1 = impulse * path.end[kNormal];
   impact.f_compression = impulse * path.compression[kTangential];
   impact.f1 = impulse * path.end[kTangential];
-  impact.converged = path.HasEnd();
+  impact.termination = TerminationOf(path);
   WriteCoefficients(problem.contact.coefficient, contact, path, impact);
   WriteWorks(contact, path, impact);
   WriteEvents(contact, path, impact);

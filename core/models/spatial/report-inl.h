@@ -64,7 +64,7 @@ Impact MakeImpact(const ScaledProblem<T>& problem, const Path<T>& path, T estima
   Impact impact;
   impact.regime = path.regime;
   impact.w_rank = problem.w.rank;
-  impact.converged = path.ended;
+  if (!path.ended) impact.termination = Termination::kRefused;
   impact.error_estimate = path.ended ? static_cast<double>(estimate) : std::numeric_limits<double>::infinity();
   impact.u1 = {problem.Velocity(end.u1), problem.Velocity(end.u2)};
   impact.v1 = problem.Velocity(end.v);

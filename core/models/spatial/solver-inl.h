@@ -86,6 +86,7 @@ Impact Solver<T>::Run() {
     FollowCurve();
   }
   Impact impact = MakeImpact(problem_, impact_.path, impact_.estimate);
+  if (!impact_.path.ended && steps_ >= kStepBudget) impact.termination = Termination::kBudgetUsedUp;
   impact.closed_form = closed_form;
   impact.steps = steps_;
   impact.right_hand_sides = steps_ * order_;

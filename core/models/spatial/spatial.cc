@@ -51,7 +51,7 @@ Impact Solve(const Problem& problem) {
     if (estimate <= problem.tolerance || tolerance <= kSmallestTolerance) break;
     tolerance = std::fmax(kMargin * tolerance * (problem.tolerance / estimate), kSmallestTolerance);
   }
-  if (!best.converged) best.regime = Regime::kWedged;
+  if (!best.Converged()) best.regime = Regime::kWedged;
   return best;
 }
 

@@ -46,7 +46,6 @@ using Instant = ImpactInstant<std::array<double, 2>>;
 // p . (v- + v+)/2, so that no inverse of W is needed.
 struct Impact : ImpactEnd<std::array<double, 2>> {
   double error_estimate = 0.0;   // not below the true error of the velocities, over max(|u0|, |v0|)
-  bool converged = true;         // False if the budget ran out: the state is the one reached, the error infinite.
   bool closed_form = false;      // Slip never turns, so that no integration was needed.
   int64_t steps = 0;             // series expanded
   int64_t right_hand_sides = 0;  // terms of all series: a Runge-Kutta method would call them right-hand sides

@@ -32,11 +32,13 @@ struct Cost {
 
 Cost CostOf(const Scene& scene, const Demand& demand = {}) {
   integrators = 0;
-  const absl::StatusOr<Outcome> outcome = SolveScene(scene, std::nullopt, {.demand = demand}, [] { return false; });
-  EXPECT_TRUE(outcome.ok()) << outcome.status();
-  if (!outcome.ok()) return {};
-  EXPECT_EQ(outcome->accuracy.right_hand_sides > 0, outcome->accuracy.steps > 0);
-  return {integrators, outcome->accuracy.steps, outcome->plan.model};
+  std::optional<SceneContact> contact;
+  Outcome outcome;
+  const absl::Status status = SolveScene(
+      scene, contact, {.demand = demand}, [] { return false; }, outcome);
+  EXPECT_TRUE(status.ok()) << status;
+  EXPECT_EQ(outcome.accuracy.right_hand_sides > 0, outcome.accuracy.steps > 0);
+  return {integrators, outcome.accuracy.steps, outcome.plan.model};
 }
 
 Scene WithSpring(Scene scene, const NormalSpring& spring = LinearSpring{1e6}) {

@@ -81,8 +81,8 @@ TEST(SceneBoundsTest, EverySystemHasBoundsThatHoldItsImpacts) {
     for (const double energetic : {0.0, 0.25, 0.5, 1.0}) {
       const Coefficients at = SolveAt(scene, energetic);
       ExpectWithin(at.newton, sharp.newton, 1e-9);
-      ExpectWithin(at.poisson, sharp.poisson, 1e-9);
-      ExpectWithin(at.energetic, sharp.energetic, 1e-9);
+      ExpectWithin(*at.poisson, sharp.poisson, 1e-9);
+      ExpectWithin(*at.energetic, sharp.energetic, 1e-9);
       ExpectWithin(at.tangential, sharp.tangential, 1e-9);
     }
   }

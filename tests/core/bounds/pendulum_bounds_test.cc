@@ -248,7 +248,7 @@ TEST(NearlyVerticalTest, CoefficientsAreThoseOfThePaperToFirstOrder) {
   const NearlyVertical form = SolveNearlyVertical(problem, true);
   ASSERT_TRUE(form.coefficients.has_value());
   EXPECT_NEAR(form.coefficients->newton, 0.45, 1e-15);
-  EXPECT_NEAR(form.coefficients->poisson, 0.55, 1e-15);
+  EXPECT_NEAR(*form.coefficients->poisson, 0.55, 1e-15);
   EXPECT_EQ(form.coefficients->energetic, 0.5);
   EXPECT_NEAR(form.coefficients->tangential, 0.4 * (1.0 / 3.0 - 0.1 / 2.25), 1e-15);
 }
@@ -257,7 +257,7 @@ TEST(NearlyVerticalTest, OneLawFormsAreThoseOfThePaper) {
   Problem problem = Make(4.0, -1.0, 0.4);
   problem.coefficient = 0.5;
   problem.law = RestitutionLaw::kNewton;
-  EXPECT_NEAR(SolveNearlyVertical(problem, true).coefficients->poisson, 0.6, 1e-15);
+  EXPECT_NEAR(*SolveNearlyVertical(problem, true).coefficients->poisson, 0.6, 1e-15);
   problem.law = RestitutionLaw::kPoisson;
   EXPECT_NEAR(SolveNearlyVertical(problem, true).coefficients->newton, 0.4, 1e-15);
   EXPECT_NEAR(SolveNearlyVertical(problem, true).coefficients->tangential, -0.4 / 3.0, 1e-15);
@@ -301,8 +301,8 @@ TEST(NearlyVerticalTest, ErrorsOfTheCoefficientsEncloseTheTrueError) {
     const ExactImpact exact = SolveExactly(problem);
     const Coefficients& errors = form.coefficient_errors;
     ASSERT_TRUE(Encloses(form.coefficients->newton, errors.newton, exact[Output::kNewton])) << ToString(problem);
-    ASSERT_TRUE(Encloses(form.coefficients->poisson, errors.poisson, exact[Output::kPoisson])) << ToString(problem);
-    ASSERT_TRUE(Encloses(form.coefficients->energetic, errors.energetic, exact[Output::kEnergetic]))
+    ASSERT_TRUE(Encloses(*form.coefficients->poisson, *errors.poisson, exact[Output::kPoisson])) << ToString(problem);
+    ASSERT_TRUE(Encloses(*form.coefficients->energetic, *errors.energetic, exact[Output::kEnergetic]))
         << ToString(problem);
     ASSERT_TRUE(Encloses(form.coefficients->tangential, errors.tangential, exact[Output::kTangentialCoefficient]))
         << ToString(problem);

@@ -151,12 +151,6 @@ TEST(CertifiedRefusalTest, NamesWhatStandsAgainstACertificate) {
             "surface_velocity is set: certified answers for links that are all parallel are for a surface at rest");
 }
 
-TEST(CertifiedRefusalTest, APlanHasNoNumbersToProve) {
-  const auto response = LocalSolver().Solve({.scene = With(Contact()), .plan_only = true, .certified_digits = 10});
-  EXPECT_EQ(response.status().message(),
-            "plan_only is set: must not be, with certified_digits: a plan has no numbers to prove");
-}
-
 TEST(CertifiedRefusalTest, NoEffectIsLeftOut) {
   const auto response = LocalSolver().Solve(
       {.scene = With(Contact()), .demand = {.excluded = {Effect::kFriction}}, .certified_digits = 10});

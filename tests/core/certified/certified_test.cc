@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/answer/pendulum_outcome.h"
+#include "core/answer/model_outcomes.h"
 #include "core/models/restitution_law.h"
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/solver.h"

@@ -78,8 +78,8 @@ TEST(LinkageVectorsTest, EveryRowHolds) {
     EXPECT_NEAR(outcome.energy_change_j, Number(row, "energy_change"), kTolerance * std::max(tau1 * speed, 1.0));
     const Coefficients& coefficients = outcome.coefficients;
     for (const auto& [name, value] :
-         {std::pair("newton", coefficients.newton), std::pair("poisson", coefficients.poisson),
-          std::pair("energetic", coefficients.energetic)}) {
+         {std::pair("newton", coefficients.newton), std::pair("poisson", *coefficients.poisson),
+          std::pair("energetic", *coefficients.energetic)}) {
       EXPECT_NEAR(value, Number(row, name), kTolerance * std::max(1.0, Number(row, name))) << name;
     }
   }

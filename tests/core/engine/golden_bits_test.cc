@@ -157,6 +157,17 @@ struct Answer {
   friend bool operator==(const Answer&, const Answer&) = default;
 };
 
+// An unknown number of a phase, which an impact law leaves unset, has the bits of 0.
+Outcome WithPhases(Outcome outcome) {
+  for (auto* number :
+       {&outcome.coefficients.poisson, &outcome.coefficients.energetic, &outcome.impulse.normal_compression_n_s,
+        &outcome.work.normal_compression_j, &outcome.work.normal_restitution_j, &outcome.work.tangential_compression_j,
+        &outcome.work.tangential_restitution_j}) {
+    *number = number->value_or(0.0);
+  }
+  return outcome;
+}
+
 Answer AnswerTo(const Question& question) {
   const auto response = LocalSolver().Solve({.scene = question.scene, .demand = question.demand});
   StableHash hash;
@@ -164,7 +175,7 @@ Answer AnswerTo(const Question& question) {
     hash.Add(static_cast<uint64_t>(response.status().code()));
     return {hash.value(), Model::kUnspecified};
   }
-  const Outcome& outcome = response->outcome;
+  const Outcome outcome = WithPhases(response->outcome);
   hash.Add(static_cast<uint64_t>(outcome.regime));
   hash.Add(static_cast<uint64_t>(outcome.w_rank));
   VisitOutcomeNumbers(outcome, [&hash](const NumberPath&, double number) { hash.Add(number); });

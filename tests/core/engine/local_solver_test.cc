@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/answer/pendulum_outcome.h"
+#include "core/answer/model_outcomes.h"
 #include "core/bounds/pendulum_bounds.h"
 #include "core/engine/engine.h"
 #include "core/models/pendulum/pendulum.h"
@@ -63,7 +63,7 @@ TEST(LocalSolverTest, OutcomeHoldsWhatTheModelComputes) {
   EXPECT_EQ(outcome.w_rank, 1);
   EXPECT_EQ(outcome.coefficients.newton, 0.5);
   EXPECT_EQ(outcome.coefficients.poisson, 1.0);
-  EXPECT_DOUBLE_EQ(outcome.coefficients.energetic, std::sqrt(0.5));
+  EXPECT_DOUBLE_EQ(*outcome.coefficients.energetic, std::sqrt(0.5));
   EXPECT_EQ(outcome.coefficients.tangential, 0.0);
   EXPECT_THAT(outcome.rates_after_rad_s, ElementsAre(1.5));
   EXPECT_THAT(outcome.contact_velocity_after.tangential_m_s, ElementsAre(-1.5));
@@ -219,7 +219,7 @@ TEST(LocalSolverTest, SeparatingContactHasAHistoryOfOneInstant) {
 
 TEST(LocalSolverTest, HistoriesLongerThan65536AreRefused) {
   SolveRequest request = {.scene = ExactScene()};
-  request.history_at_n_s.assign(kMaxHistory, 1.0);
+  request.history_at_n_s.assign(kMostIntervals + 1, 1.0);
   EXPECT_TRUE(LocalSolver().Solve(request).ok());
   request.history_at_n_s.push_back(1.0);
   const absl::Status status = LocalSolver().Solve(request).status();

@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "core/answer/first_order_outcome.h"
-#include "core/answer/pendulum_outcome.h"
+#include "core/answer/model_outcomes.h"
 #include "core/bounds/nearly_vertical.h"
 #include "core/models/restitution_law.h"
+#include "tests/support/made_outcome.h"
 #include "tests/support/pendulum_scenes.h"
 
 namespace ricochet::first_order {
@@ -141,8 +141,8 @@ TEST(FirstOrderTest, CoefficientsAreTheFirstOrderFormsOfTheLaw) {
       const Impact impact = first_order::Solve(p);
       const auto forms = SolveNearlyVertical(p, true).coefficients;
       ASSERT_NEAR(impact[Output::kNewton], forms->newton, 8.0 * kUlp);
-      ASSERT_NEAR(impact[Output::kPoisson], forms->poisson, 8.0 * kUlp);
-      ASSERT_NEAR(impact[Output::kEnergetic], forms->energetic, 8.0 * kUlp);
+      ASSERT_NEAR(impact[Output::kPoisson], *forms->poisson, 8.0 * kUlp);
+      ASSERT_NEAR(impact[Output::kEnergetic], *forms->energetic, 8.0 * kUlp);
       ASSERT_NEAR(impact[Output::kTangentialCoefficient], forms->tangential, 8.0 * kUlp * p.mu);
     }
   }
@@ -260,8 +260,11 @@ TEST(FirstOrderOutcomeTest, IsThePendulumsWithinItsBound) {
     SceneSource source(560 + static_cast<uint64_t>(law));
     const Problem p = Leaning(1e-5, law, 0.9, source);
     const double tau1 = first_order::Solve(p)[Output::kNormalImpulse];
-    const Outcome outcome = first_order::MakeOutcome(p, {0.0, tau1}).value();
-    const Outcome exact = pendulum::MakeOutcome(p, {}).value();
+    const auto with_history = [&p](const std::vector<double>& taus) {
+      return Made([&](Outcome& made) { return first_order::MakeOutcome(p, {.history_at_n_s = taus}, made); });
+    };
+    const Outcome outcome = with_history({0.0, tau1}).value();
+    const Outcome exact = Made([&p](Outcome& made) { return pendulum::MakeOutcome(p, {}, made); }).value();
     EXPECT_EQ(outcome.regime, exact.regime);
     EXPECT_TRUE(outcome.admissible);
     EXPECT_EQ(outcome.w_rank, 1);
@@ -276,7 +279,7 @@ TEST(FirstOrderOutcomeTest, IsThePendulumsWithinItsBound) {
     ASSERT_EQ(outcome.history.size(), 2U);
     EXPECT_EQ(outcome.history[0].rates_rad_s[0], p.omega_minus);
     EXPECT_EQ(outcome.history[1].contact_velocity, outcome.contact_velocity_after);
-    EXPECT_EQ(first_order::MakeOutcome(p, {1.1 * tau1}).status().code(), absl::StatusCode::kInvalidArgument);
+    EXPECT_EQ(with_history({1.1 * tau1}).status().code(), absl::StatusCode::kInvalidArgument);
   }
 }
 

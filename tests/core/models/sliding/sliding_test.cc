@@ -13,13 +13,12 @@
 #include <limits>
 #include <vector>
 
-#include "core/answer/planar_outcome.h"
-#include "core/answer/sliding_outcome.h"
-#include "core/answer/spatial_outcome.h"
+#include "core/answer/model_outcomes.h"
 #include "core/models/planar/planar.h"
 #include "core/models/spatial/spatial.h"
 #include "core/problem/scene_problem.h"
 #include "tests/support/impact_change.h"
+#include "tests/support/made_outcome.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/spatial_scenes.h"
 #include "tests/support/system_scenes.h"
@@ -343,7 +342,7 @@ std::vector<EventKind> KindsOf(const Outcome& outcome) {
   return kinds;
 }
 
-void ExpectNear(const std::vector<double>& x, const std::vector<double>& y) {
+void ExpectNear(absl::Span<const double> x, absl::Span<const double> y) {
   ASSERT_EQ(x.size(), y.size());
   for (size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i], y[i], 1e-12 * (1.0 + std::fabs(y[i])));
 }
@@ -356,9 +355,9 @@ void ExpectSameImpact(const Outcome& x, const Outcome& y) {
   ExpectNear(x.rates_after_rad_s, y.rates_after_rad_s);
   ExpectNear(x.contact_velocity_after.tangential_m_s, y.contact_velocity_after.tangential_m_s);
   ExpectNear(x.impulse.tangential_n_s, y.impulse.tangential_n_s);
-  ExpectNear({x.contact_velocity_after.normal_m_s, x.impulse.normal_compression_n_s, x.impulse.normal_total_n_s,
+  ExpectNear({x.contact_velocity_after.normal_m_s, *x.impulse.normal_compression_n_s, x.impulse.normal_total_n_s,
               x.work.normal_total_j, x.work.tangential_total_j, x.energy_change_j, x.coefficients.tangential},
-             {y.contact_velocity_after.normal_m_s, y.impulse.normal_compression_n_s, y.impulse.normal_total_n_s,
+             {y.contact_velocity_after.normal_m_s, *y.impulse.normal_compression_n_s, y.impulse.normal_total_n_s,
               y.work.normal_total_j, y.work.tangential_total_j, y.energy_change_j, y.coefficients.tangential});
   ASSERT_EQ(x.bodies_after.size(), y.bodies_after.size());
   for (size_t i = 0; i < x.bodies_after.size(); ++i) {
@@ -370,6 +369,31 @@ void ExpectSameImpact(const Outcome& x, const Outcome& y) {
   }
 }
 
+Outcome FullOutcome(const PlanarReduction& reduction, const Restitution& restitution,
+                    const EffectiveCoefficients& effective) {
+  const planar::Problem problem = planar::MakeProblem(reduction, restitution, effective);
+  return Made([&](Outcome& made) { return planar::MakeOutcome(problem, reduction, {}, made); }).value();
+}
+
+Outcome FullOutcome(const SpatialReduction& reduction, const Restitution& restitution,
+                    const EffectiveCoefficients& effective) {
+  const spatial::Problem problem = spatial::MakeProblem(reduction, restitution, effective, 1e-12);
+  return Made([&](Outcome& made) { return spatial::MakeOutcome(problem, reduction, {}, made); }).value();
+}
+
+template <size_t kTangential>
+Outcome FrictionlessOutcome(const Reduction<kTangential>& reduction, const EffectiveCoefficients& effective) {
+  const Problem<kTangential> problem = MakeProblem(reduction, effective);
+  return Made([&](Outcome& made) { return MakeFrictionlessOutcome(problem, reduction, {}, made); }).value();
+}
+
+template <size_t kTangential>
+absl::StatusOr<Outcome> SlidingOutcome(const Reduction<kTangential>& reduction, const EffectiveCoefficients& effective,
+                                       const std::vector<double>& taus = {}) {
+  const Problem<kTangential> problem = MakeProblem(reduction, effective);
+  return Made([&](Outcome& made) { return MakeOutcome(problem, reduction, {.history_at_n_s = taus}, made); });
+}
+
 TEST(SlidingOutcomeTest, OfEverySystemWhoseSlipGoesOnIsThatOfTheFullModel) {
   const EffectiveCoefficients effective = {.kinetic_friction = 0.01, .static_friction = 0.01, .restitution = 0.5};
   int planar_systems = 0;
@@ -377,9 +401,9 @@ TEST(SlidingOutcomeTest, OfEverySystemWhoseSlipGoesOnIsThatOfTheFullModel) {
     const Scene scene = With(system);
     const AnyReduction any = Reduce(scene);
     if (const auto* flat = std::get_if<PlanarReduction>(&any)) {
-      const auto full = planar::MakeOutcome(planar::MakeProblem(*flat, scene.restitution, effective), *flat, {});
-      if (full->regime != Regime::kSliding) continue;
-      ExpectSameImpact(MakeOutcome<1>(MakeProblem<1>(*flat, effective), *flat, {}).value(), *full);
+      const Outcome full = FullOutcome(*flat, scene.restitution, effective);
+      if (full.regime != Regime::kSliding) continue;
+      ExpectSameImpact(SlidingOutcome(*flat, effective).value(), full);
       ++planar_systems;
     }
   }
@@ -390,16 +414,12 @@ TEST(SlidingOutcomeTest, WithoutFrictionEverySystemIsThatOfTheFullModel) {
   const EffectiveCoefficients effective = {.restitution = 0.5};
   for (const System& system : Systems()) {
     const Scene scene = With(system);
-    const AnyReduction any = Reduce(scene);
-    if (const auto* flat = std::get_if<PlanarReduction>(&any)) {
-      const auto full = planar::MakeOutcome(planar::MakeProblem(*flat, scene.restitution, effective), *flat, {});
-      ExpectSameImpact(MakeFrictionlessOutcome<1>(MakeProblem<1>(*flat, effective), *flat, {}).value(), *full);
-    } else {
-      const auto& space = std::get<SpatialReduction>(any);
-      const auto full =
-          spatial::MakeOutcome(spatial::MakeProblem(space, scene.restitution, effective, 1e-12), space, {});
-      ExpectSameImpact(MakeFrictionlessOutcome<2>(MakeProblem<2>(space, effective), space, {}).value(), *full);
-    }
+    std::visit(
+        [&](const auto& reduction) {
+          ExpectSameImpact(FrictionlessOutcome(reduction, effective),
+                           FullOutcome(reduction, scene.restitution, effective));
+        },
+        Reduce(scene));
   }
 }
 
@@ -408,16 +428,16 @@ TEST(SlidingOutcomeTest, AnswersAHistoryInSpaceWithAProvedBound) {
   const EffectiveCoefficients effective = {.kinetic_friction = 0.01, .restitution = 0.5};
   const Problem<2> problem = MakeProblem<2>(reduction, effective);
   const Impact<2> impact = Solve(problem);
-  const Outcome outcome = MakeOutcome<2>(problem, reduction, {0.0, 0.5 * impact.tau1, impact.tau1}).value();
+  const Outcome outcome = SlidingOutcome(reduction, effective, {0.0, 0.5 * impact.tau1, impact.tau1}).value();
   ASSERT_EQ(outcome.history.size(), 3U);
-  EXPECT_EQ(outcome.history[0].contact_velocity.tangential_m_s, (std::vector<double>{1.0, 0.6}));
+  EXPECT_EQ(outcome.history[0].contact_velocity.tangential_m_s, (Components{1.0, 0.6}));
   EXPECT_EQ(outcome.history[1].tangential_impulse_n_s.size(), 2U);
   EXPECT_EQ(outcome.history[2].contact_velocity, outcome.contact_velocity_after);
   EXPECT_EQ(outcome.accuracy.kind, AccuracyKind::kBound);
   EXPECT_EQ(outcome.accuracy.relative_error, ErrorsOf(problem).velocity);
   EXPECT_THAT(KindsOf(outcome),
               ElementsAre(EventKind::kStart, EventKind::kCompressionEnds, EventKind::kRestitutionEnds));
-  EXPECT_EQ(MakeOutcome<2>(problem, reduction, {1.1 * impact.tau1}).status().code(),
+  EXPECT_EQ(SlidingOutcome(reduction, effective, {1.1 * impact.tau1}).status().code(),
             absl::StatusCode::kInvalidArgument);
 }
 

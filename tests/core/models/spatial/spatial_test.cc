@@ -259,7 +259,7 @@ TEST(SpatialTest, SlipThatStartsAtNearlyNoRateEnds) {
     problem.mu = problem.mu_static = SceneSource::StickFriction(problem) * (1.0 - std::ldexp(1.0, -50 + i % 20));
     if (i % 2 == 0) problem.u0 = {};
     const Impact impact = Solve(problem);
-    ASSERT_TRUE(impact.converged) << i;
+    ASSERT_TRUE(impact.Converged()) << i;
     ASSERT_LE(impact.event_count, 4) << i;
     ASSERT_EQ(impact.events[static_cast<size_t>(impact.event_count) - 1].kind, EventKind::kRestitutionEnds) << i;
   }
@@ -272,7 +272,7 @@ TEST(SpatialTest, EveryImpactEndsConservesTheLedgerStaysInTheConeAndGainsNoEnerg
     Problem problem = i % 2 == 0 ? source.Typical() : source.NearSingular();
     problem.tolerance = 1e-6;
     const Impact impact = Solve(problem);
-    ASSERT_TRUE(impact.converged) << i;
+    ASSERT_TRUE(impact.Converged()) << i;
     ASSERT_TRUE(std::isfinite(impact.error_estimate)) << i;
     most_steps = std::max(most_steps, impact.steps);
     const double f1 = std::hypot(impact.f1[0], impact.f1[1]);
@@ -622,7 +622,7 @@ TEST(SpatialTest, ABudgetThatRunsOutIsSaidSo) {
   Problem problem = Known(1.0, 0.6, 0.2);
   problem.w12 = std::numeric_limits<double>::quiet_NaN();
   const Impact impact = Solve(problem);
-  EXPECT_FALSE(impact.converged);
+  EXPECT_FALSE(impact.Converged());
   EXPECT_EQ(impact.regime, Regime::kWedged);
   EXPECT_EQ(impact.error_estimate, std::numeric_limits<double>::infinity());
 }

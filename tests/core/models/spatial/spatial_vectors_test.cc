@@ -96,7 +96,7 @@ TEST_P(SpatialVectorsTest, EveryRowIsWithinTheToleranceAskedAndTheEstimate) {
     const Impact impact = Solve(problem);
     const double error = VelocityError(rows[i], problem, impact);
     EXPECT_EQ(impact.regime, RegimeOf(rows[i])) << "row " << i;
-    EXPECT_TRUE(impact.converged) << "row " << i;
+    EXPECT_TRUE(impact.Converged()) << "row " << i;
     EXPECT_LE(error, GetParam()) << "row " << i;
     EXPECT_LE(error, impact.error_estimate) << "row " << i;
     EXPECT_LE(impact.error_estimate, GetParam()) << "row " << i;

@@ -1,0 +1,87 @@
+#include "core/engine/check_solve.h"
+
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+#include "core/certified/certified.h"
+#include "core/contact/reduction.h"
+#include "core/plan/demand_fields.h"
+
+namespace ricochet {
+namespace {
+
+void CheckIntervals(const char* field, int64_t intervals, std::vector<Violation>& violations) {
+  if (intervals >= 0 && intervals <= kMostIntervals) return;
+  violations.push_back({field, absl::StrCat("= ", intervals, ": must be in [0, ", kMostIntervals, "]")});
+}
+
+void CheckForceIntervals(const SolveRequest& request, std::optional<SceneContact>& contact,
+                         std::vector<Violation>& violations) {
+  const int64_t intervals = request.force_intervals;
+  CheckIntervals("force_intervals", intervals, violations);
+  if (intervals == 0 || !violations.empty()) return;
+  for (const Violation& violation : CheckDemand(request.scene, contact, DemandOf(request))) {
+    const std::string rule = violation.description.substr(violation.description.find("must "));
+    violations.push_back({"force_intervals", absl::StrCat("= ", intervals, ": needs finite_duration, which ", rule)});
+  }
+}
+
+// Says why no impact of the scene has a history by normal impulse; null if it may have one. The reason does not depend
+// on the tolerance, although the model that the plan chooses does.
+const char* WhyNoHistory(const Scene& scene) {
+  if (!std::holds_alternative<std::monostate>(scene.impact_law)) return "for an impact law, which has no path";
+  if (TangentialDirections(scene.system) == 2) return "for a system in space";
+  if (!scene.compliance.has_value()) return nullptr;
+  return std::holds_alternative<std::monostate>(scene.compliance->normal)
+             ? "for a contact with tangential compliance"
+             : "for a contact with a normal spring; force_intervals asks for its forces";
+}
+
+void CheckHistory(const SolveRequest& request, std::vector<Violation>& violations) {
+  const size_t count = request.history_at_n_s.size();
+  const int64_t intervals = request.history_intervals;
+  const char* const why_none = WhyNoHistory(request.scene);
+  CheckIntervals("history_intervals", intervals, violations);
+  const std::string entries = absl::StrCat("has ", count, count == 1 ? " entry" : " entries");
+  if (count > 0 && why_none != nullptr) {
+    violations.push_back({"history_at_n_s", absl::StrCat(entries, ": must be empty ", why_none)});
+  } else if (count > 0 && intervals != 0) {
+    violations.push_back({"history_at_n_s", absl::StrCat(entries, ": must be empty, with history_intervals")});
+  } else if (count > static_cast<size_t>(kMostIntervals) + 1) {
+    violations.push_back({"history_at_n_s", absl::StrCat(entries, ": must have at most ", kMostIntervals + 1)});
+  }
+  if (intervals > 0 && why_none != nullptr) {
+    violations.push_back({"history_intervals", absl::StrCat("= ", intervals, ": must be 0 ", why_none)});
+  }
+}
+
+void CheckCertified(const SolveRequest& request, std::vector<Violation>& violations) {
+  CheckDigits(request.scene, request.certified_digits, violations);
+  if (request.certified_digits == 0 || request.demand.excluded.empty()) return;
+  violations.push_back({"excluded", "is set: must not be, with certified_digits: certificates leave nothing out"});
+}
+
+}  // namespace
+
+Demand DemandOf(const SolveRequest& request) {
+  Demand demand = ToDemand(request.demand);
+  if (request.force_intervals > 0) demand.required.Add(Effect::kFiniteDuration);
+  return demand;
+}
+
+std::vector<Violation> CheckSolve(const SolveRequest& request, std::optional<SceneContact>& contact) {
+  std::vector<Violation> violations = CheckDemand(request.scene, contact, request.demand);
+  CheckForceIntervals(request, contact, violations);
+  CheckHistory(request, violations);
+  if (violations.empty()) CheckCertified(request, violations);
+  return violations;
+}
+
+void CheckDigits(const Scene& scene, int digits, std::vector<Violation>& violations) {
+  if (digits == 0) return;
+  for (Violation& violation : CheckCertifiable(scene, digits)) violations.push_back(std::move(violation));
+}
+
+}  // namespace ricochet
