@@ -10,18 +10,28 @@
 
 namespace ricochet {
 
+namespace determinant {
+
+// Tells whether products of two such numbers, and their rounding errors, stay well within the range of doubles.
+inline bool IsModerate(double value) { return std::abs(value) >= 0x1p-200 && std::abs(value) <= 0x1p200; }
+
+inline double Quotient(double x, double y, double z) { return DifferenceOfProducts(x, z, y, y) / (x * z); }
+
+}  // namespace determinant
+
 // Computes (x z - y^2)/(x z) for x, z >= 0. It is 1 if y = 0, 0 for rank one, and negative for a matrix that is not
 // positive semidefinite. If x z = 0, it is 0, or -infinity if y is not 0. It is NaN if x or z is. Scaling by powers of
 // two makes it accurate over the whole range of doubles.
 inline double RelativeDeterminant(double x, double y, double z) {
+  // Powers of two change no bit of the quotient where nothing underflows or overflows.
+  if (determinant::IsModerate(x) && determinant::IsModerate(z) && (y == 0.0 || determinant::IsModerate(y))) {
+    return determinant::Quotient(x, y, z);
+  }
   if (x == 0.0 || z == 0.0) return y == 0.0 ? 0.0 : -std::numeric_limits<double>::infinity();
   if (std::isnan(x) || std::isnan(z)) return std::numeric_limits<double>::quiet_NaN();
   const int i = std::ilogb(x) / 2;
   const int j = std::ilogb(z) / 2;
-  const double sx = std::scalbn(x, -2 * i);
-  const double sz = std::scalbn(z, -2 * j);
-  const double sy = std::scalbn(y, -i - j);
-  return DifferenceOfProducts(sx, sz, sy, sy) / (sx * sz);
+  return determinant::Quotient(std::scalbn(x, -2 * i), std::scalbn(y, -i - j), std::scalbn(z, -2 * j));
 }
 
 }  // namespace ricochet

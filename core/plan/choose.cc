@@ -5,6 +5,8 @@
 #include <limits>
 #include <variant>
 
+#include "absl/container/inlined_vector.h"
+#include "absl/functional/function_ref.h"
 #include "absl/types/span.h"
 #include "core/models/pendulum/first_order.h"
 #include "core/models/restitution_law.h"
@@ -24,10 +26,14 @@ constexpr EffectSet kDurationEffects = kCompliantEffects | EffectSet{Effect::kFi
 constexpr EffectSet kSwitched = {Effect::kFriction, Effect::kStaticFriction, Effect::kTangentialCompliance,
                                  Effect::kFiniteForces};
 
+double ExactError() { return 0.0; }
+
 struct Candidate {
   Model model = Model::kUnspecified;
   EffectSet simulates;
-  double error = 0.0;  // The model's own error over V; infinite if the model does not serve the contact.
+  // Gives the model's own error over V; infinite if the model does not serve the contact. It is not asked for a model
+  // that leaves out too much.
+  absl::FunctionRef<double()> error = ExactError;
 };
 
 struct Context {
@@ -73,9 +79,12 @@ Decision DecisionOn(const Context& context, const Sizes& of_all, EffectSet simul
 const Candidate* Cheapest(const Context& context, absl::Span<const Candidate> candidates) {
   const Candidate* fallback = nullptr;
   for (const Candidate& candidate : candidates) {
-    if (!context.Allows(candidate.simulates) || !(candidate.error < kUnbounded)) continue;
+    if (!context.Allows(candidate.simulates)) continue;
     const double neglected = context.Neglected(candidate.simulates);
-    if (neglected + candidate.error <= context.demand.relative_tolerance) return &candidate;
+    if (!(neglected <= context.demand.relative_tolerance) && neglected != 0.0) continue;
+    const double error = candidate.error();
+    if (!(error < kUnbounded)) continue;
+    if (neglected + error <= context.demand.relative_tolerance) return &candidate;
     if (neglected == 0.0) fallback = &candidate;
   }
   return fallback;
@@ -168,14 +177,14 @@ bool StraightPathServes(const spatial::Problem& problem) {
 
 Choice ChooseRigidOrCompliant(const Sizes& sizes, const Sizes& of_all, const ContactPhysics& physics,
                               const Demand& demand, EffectSet excluded, absl::Span<const Candidate> rigid) {
-  std::array<Candidate, 5> candidates;
-  auto* end = std::copy(rigid.begin(), rigid.end(), candidates.begin());
-  if (physics.ratio_squared > 0.0) *end++ = {.model = Model::kCompliant, .simulates = kCompliantEffects};
-  if (!std::holds_alternative<std::monostate>(physics.spring)) {
-    *end++ = {.model = Model::kFiniteDuration, .simulates = kDurationEffects};
+  absl::InlinedVector<Candidate, 5> candidates(rigid.begin(), rigid.end());
+  if (physics.ratio_squared > 0.0) {
+    candidates.push_back({.model = Model::kCompliant, .simulates = kCompliantEffects});
   }
-  Choice choice = ChooseAmong(sizes, of_all, demand, excluded,
-                              absl::MakeConstSpan(candidates.data(), static_cast<size_t>(end - candidates.begin())));
+  if (!std::holds_alternative<std::monostate>(physics.spring)) {
+    candidates.push_back({.model = Model::kFiniteDuration, .simulates = kDurationEffects});
+  }
+  Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);
   if (choice.model == Model::kFiniteDuration) {
     choice.model_tolerance = RemainingTolerance(choice, demand, 1e-12, 1e-1);
   }
@@ -246,13 +255,15 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   const planar::Problem kept = Without(excluded, problem);
   const Sizes of_all = PlanarSizes(problem, physics);
   const Sizes sizes = excluded.IsEmpty() ? of_all : PlanarSizes(kept, kept_physics, excluded.Has(Effect::kSlipStop));
-  const bool serves = StraightPathServes(kept);
-  const auto straight = SlidingProblemOf(kept);
+  const auto frictionless_error = [&kept] {
+    return FrictionlessError(StraightPathServes(kept), SlidingProblemOf(kept));
+  };
+  const auto sliding_error = [&kept] {
+    return SlidingError(StraightPathServes(kept), kept.u0 != 0.0, SlidingProblemOf(kept));
+  };
   const Candidate rigid[] = {
-      {.model = Model::kFrictionless, .simulates = {}, .error = FrictionlessError(serves, straight)},
-      {.model = Model::kSliding,
-       .simulates = {Effect::kFriction},
-       .error = SlidingError(serves, kept.u0 != 0.0, straight)},
+      {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
+      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},
       {.model = Model::kPlanar, .simulates = kPlanarEffects},
   };
   return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
@@ -275,11 +286,11 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
   const pendulum::Problem kept = Without(excluded, problem);
   const Sizes of_all = PendulumSizes(problem, physics);
   const Sizes sizes = excluded.IsEmpty() ? of_all : PendulumSizes(kept, kept_physics);
+  const auto frictionless_error = [&kept] { return PendulumFrictionlessError(kept); };
+  const auto first_order_error = [&kept] { return first_order::Serves(kept) ? 0.0 : kUnbounded; };
   const Candidate rigid[] = {
-      {.model = Model::kFrictionless, .simulates = {}, .error = PendulumFrictionlessError(kept)},
-      {.model = Model::kFirstOrder,
-       .simulates = {Effect::kFriction, Effect::kSlipStop},
-       .error = first_order::Serves(kept) ? 0.0 : kUnbounded},
+      {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
+      {.model = Model::kFirstOrder, .simulates = {Effect::kFriction, Effect::kSlipStop}, .error = first_order_error},
       {.model = Model::kPendulum, .simulates = kPlanarEffects},
   };
   return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
@@ -291,12 +302,16 @@ Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
   const spatial::Problem kept = Without(excluded, problem);
   const Sizes of_all = SpatialSizes(problem);
   const Sizes sizes = excluded.IsEmpty() ? of_all : SpatialSizes(kept);
-  const bool serves = StraightPathServes(kept);
-  const auto straight = SlidingProblemOf(kept);
-  const bool slips = kept.u0[0] != 0.0 || kept.u0[1] != 0.0;
+  const auto frictionless_error = [&kept] {
+    return FrictionlessError(StraightPathServes(kept), SlidingProblemOf(kept));
+  };
+  const auto sliding_error = [&kept] {
+    const bool slips = kept.u0[0] != 0.0 || kept.u0[1] != 0.0;
+    return SlidingError(StraightPathServes(kept), slips, SlidingProblemOf(kept));
+  };
   const Candidate candidates[] = {
-      {.model = Model::kFrictionless, .simulates = {}, .error = FrictionlessError(serves, straight)},
-      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = SlidingError(serves, slips, straight)},
+      {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
+      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},
       {.model = Model::kSpatial, .simulates = kSpatialEffects},
   };
   Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);

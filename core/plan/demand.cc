@@ -113,8 +113,7 @@ Effect CauseOf(Effect effect, EffectSet excluded, bool in_space) {
 
 // Refuses a normal spring, whatever the tolerance leaves of it, if the build cannot follow an impact in time.
 void CheckComponents(const Scene& scene, std::vector<Violation>& violations) {
-  const bool has_spring = Lacking(scene, Effect::kFiniteDuration).empty();
-  if (!has_spring || finite_duration::IsAvailable()) return;
+  if (finite_duration::IsAvailable() || !Lacking(scene, Effect::kFiniteDuration).empty()) return;
   violations.push_back({"compliance.normal",
                         "is set: must not be, this build has no impacts that take time (component finite_duration)"});
 }
@@ -196,6 +195,7 @@ std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContac
     return violations;
   }
   CheckComponents(scene, violations);
+  if (demand.required.IsEmpty() && demand.excluded.IsEmpty()) return violations;
   CheckRequired(scene, demand, violations);
   if (CheckExcluded(scene, demand, violations) && violations.empty()) CheckForms(scene, contact, demand, violations);
   return violations;

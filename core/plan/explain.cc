@@ -140,7 +140,7 @@ std::string BySize(const Reason::Facts& facts) {
   return ReasonOf(facts.effect, size, static_cast<ContactKind>(facts.contact));
 }
 
-Reason MakeReason(Effect effect, const Choice& choice) {
+Reason MakeReason(Effect effect, const Choice& choice, ContactKind kind) {
   if (choice.model == Model::kNone) return {Separates, {}};
   if (kOnFriction.Has(effect) && choice.LeavesOut(effect) && choice.LeavesOut(Effect::kFriction)) {
     return {CountedInFriction, {}};
@@ -149,7 +149,7 @@ Reason MakeReason(Effect effect, const Choice& choice) {
   return {BySize,
           {.effect = effect,
            .ground = static_cast<int>(size.ground),
-           .contact = static_cast<int>(KindOf(choice.sizes)),
+           .contact = static_cast<int>(kind),
            .size = size.value,
            .number = size.number}};
 }
@@ -158,12 +158,15 @@ Reason MakeReason(Effect effect, const Choice& choice) {
 
 Plan Explain(const Choice& choice, const Demand& demand) {
   Plan plan = {.model = choice.model, .relative_tolerance = demand.relative_tolerance, .neglected = choice.neglected};
-  plan.effects.reserve(kEffectCount - 1);
+  const ContactKind kind = KindOf(choice.sizes);
+  plan.effects.resize(kEffectCount - 1);
+  PlannedEffect* planned = plan.effects.data();
   for (const Effect effect : kEffects) {
-    plan.effects.push_back({.effect = effect,
-                            .decision = choice.decisions[static_cast<size_t>(effect)],
-                            .size = choice.sizes[effect].value,
-                            .reason = MakeReason(effect, choice)});
+    planned->effect = effect;
+    planned->decision = choice.decisions[static_cast<size_t>(effect)];
+    planned->size = choice.sizes[effect].value;
+    planned->reason = MakeReason(effect, choice, kind);
+    ++planned;
   }
   return plan;
 }

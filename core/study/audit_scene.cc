@@ -30,7 +30,7 @@ void CheckVelocity(const ContactVelocity& velocity, size_t directions, std::vect
   }
 }
 
-void CheckRates(const std::vector<double>& rates, const System& system, std::vector<Violation>& violations) {
+void CheckRates(const Components& rates, const System& system, std::vector<Violation>& violations) {
   const std::optional<size_t> wanted = audit::RateCount(system);
   if (!wanted.has_value()) {
     violations.push_back({"rates", "is set: must not be but for a pendulum or a linkage, give contact_velocity"});

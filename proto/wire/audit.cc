@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "proto/wire/engine.h"
+#include "proto/wire/enums.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/overloaded.h"
 #include "proto/wire/repeated.h"
@@ -164,34 +165,10 @@ void WorksToProto(const AuditReport& report, v1::AuditReport& proto) {
 }  // namespace
 
 v1::LimitCheck::Verdict ToProto(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::kUnspecified:
-      return v1::LimitCheck::VERDICT_UNSPECIFIED;
-    case Verdict::kKept:
-      return v1::LimitCheck::VERDICT_KEPT;
-    case Verdict::kWithinUncertainty:
-      return v1::LimitCheck::VERDICT_WITHIN_UNCERTAINTY;
-    case Verdict::kBroken:
-      return v1::LimitCheck::VERDICT_BROKEN;
-  }
-  return v1::LimitCheck::VERDICT_UNSPECIFIED;
+  return SameNumber<v1::LimitCheck::Verdict>(verdict, v1::LimitCheck::Verdict_IsValid);
 }
 
-Verdict FromProto(v1::LimitCheck::Verdict proto) {
-  switch (proto) {
-    case v1::LimitCheck::VERDICT_KEPT:
-      return Verdict::kKept;
-    case v1::LimitCheck::VERDICT_WITHIN_UNCERTAINTY:
-      return Verdict::kWithinUncertainty;
-    case v1::LimitCheck::VERDICT_BROKEN:
-      return Verdict::kBroken;
-    case v1::LimitCheck::VERDICT_UNSPECIFIED:
-    case v1::LimitCheck_Verdict_LimitCheck_Verdict_INT_MIN_SENTINEL_DO_NOT_USE_:
-    case v1::LimitCheck_Verdict_LimitCheck_Verdict_INT_MAX_SENTINEL_DO_NOT_USE_:
-      break;
-  }
-  return Verdict::kUnspecified;
-}
+Verdict FromProto(v1::LimitCheck::Verdict proto) { return SameNumber<Verdict>(proto, v1::LimitCheck::Verdict_IsValid); }
 
 v1::AuditReport ToProto(const AuditReport& report) {
   v1::AuditReport proto;

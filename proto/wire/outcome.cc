@@ -3,207 +3,37 @@
 #include <optional>
 
 #include "proto/wire/certificate.h"
+#include "proto/wire/enums.h"
 #include "proto/wire/plan.h"
 #include "proto/wire/repeated.h"
 
 namespace ricochet {
 
-// The switches over enums have no default branch, so that a new enumerator fails to compile until it is mapped. They
-// therefore list the sentinels of the protobuf compiler too.
+v1::Regime ToProto(Regime regime) { return SameNumber<v1::Regime>(regime, v1::Regime_IsValid); }
 
-v1::Regime ToProto(Regime regime) {
-  switch (regime) {
-    case Regime::kUnspecified:
-      return v1::REGIME_UNSPECIFIED;
-    case Regime::kFrictionless:
-      return v1::REGIME_FRICTIONLESS;
-    case Regime::kRebound:
-      return v1::REGIME_REBOUND;
-    case Regime::kSliding:
-      return v1::REGIME_SLIDING;
-    case Regime::kStickInCompression:
-      return v1::REGIME_STICK_IN_COMPRESSION;
-    case Regime::kStickInRestitution:
-      return v1::REGIME_STICK_IN_RESTITUTION;
-    case Regime::kReversalInCompression:
-      return v1::REGIME_REVERSAL_IN_COMPRESSION;
-    case Regime::kReversalInRestitution:
-      return v1::REGIME_REVERSAL_IN_RESTITUTION;
-    case Regime::kLocked:
-      return v1::REGIME_LOCKED;
-    case Regime::kWedged:
-      return v1::REGIME_WEDGED;
-    case Regime::kSeparating:
-      return v1::REGIME_SEPARATING;
-    case Regime::kInvalid:
-      return v1::REGIME_INVALID;
-    case Regime::kByLaw:
-      return v1::REGIME_BY_LAW;
-    case Regime::kNoSolution:
-      return v1::REGIME_NO_SOLUTION;
-  }
-  return v1::REGIME_UNSPECIFIED;
-}
+Regime FromProto(v1::Regime proto) { return SameNumber<Regime>(proto, v1::Regime_IsValid); }
 
-Regime FromProto(v1::Regime proto) {
-  switch (proto) {
-    case v1::REGIME_FRICTIONLESS:
-      return Regime::kFrictionless;
-    case v1::REGIME_REBOUND:
-      return Regime::kRebound;
-    case v1::REGIME_SLIDING:
-      return Regime::kSliding;
-    case v1::REGIME_STICK_IN_COMPRESSION:
-      return Regime::kStickInCompression;
-    case v1::REGIME_STICK_IN_RESTITUTION:
-      return Regime::kStickInRestitution;
-    case v1::REGIME_REVERSAL_IN_COMPRESSION:
-      return Regime::kReversalInCompression;
-    case v1::REGIME_REVERSAL_IN_RESTITUTION:
-      return Regime::kReversalInRestitution;
-    case v1::REGIME_LOCKED:
-      return Regime::kLocked;
-    case v1::REGIME_WEDGED:
-      return Regime::kWedged;
-    case v1::REGIME_SEPARATING:
-      return Regime::kSeparating;
-    case v1::REGIME_INVALID:
-      return Regime::kInvalid;
-    case v1::REGIME_BY_LAW:
-      return Regime::kByLaw;
-    case v1::REGIME_NO_SOLUTION:
-      return Regime::kNoSolution;
-    case v1::REGIME_UNSPECIFIED:
-    case v1::Regime_INT_MIN_SENTINEL_DO_NOT_USE_:
-    case v1::Regime_INT_MAX_SENTINEL_DO_NOT_USE_:
-      break;
-  }
-  return Regime::kUnspecified;
-}
+v1::Event::Kind ToProto(EventKind kind) { return SameNumber<v1::Event::Kind>(kind, v1::Event::Kind_IsValid); }
 
-v1::Event::Kind ToProto(EventKind kind) {
-  switch (kind) {
-    case EventKind::kUnspecified:
-      return v1::Event::KIND_UNSPECIFIED;
-    case EventKind::kStart:
-      return v1::Event::KIND_START;
-    case EventKind::kSlipStops:
-      return v1::Event::KIND_SLIP_STOPS;
-    case EventKind::kCompressionEnds:
-      return v1::Event::KIND_COMPRESSION_ENDS;
-    case EventKind::kRestitutionEnds:
-      return v1::Event::KIND_RESTITUTION_ENDS;
-    case EventKind::kSlipStarts:
-      return v1::Event::KIND_SLIP_STARTS;
-    case EventKind::kStickStarts:
-      return v1::Event::KIND_STICK_STARTS;
-  }
-  return v1::Event::KIND_UNSPECIFIED;
-}
-
-EventKind FromProto(v1::Event::Kind proto) {
-  switch (proto) {
-    case v1::Event::KIND_START:
-      return EventKind::kStart;
-    case v1::Event::KIND_SLIP_STOPS:
-      return EventKind::kSlipStops;
-    case v1::Event::KIND_COMPRESSION_ENDS:
-      return EventKind::kCompressionEnds;
-    case v1::Event::KIND_RESTITUTION_ENDS:
-      return EventKind::kRestitutionEnds;
-    case v1::Event::KIND_SLIP_STARTS:
-      return EventKind::kSlipStarts;
-    case v1::Event::KIND_STICK_STARTS:
-      return EventKind::kStickStarts;
-    case v1::Event::KIND_UNSPECIFIED:
-    case v1::Event_Kind_Event_Kind_INT_MIN_SENTINEL_DO_NOT_USE_:
-    case v1::Event_Kind_Event_Kind_INT_MAX_SENTINEL_DO_NOT_USE_:
-      break;
-  }
-  return EventKind::kUnspecified;
-}
+EventKind FromProto(v1::Event::Kind proto) { return SameNumber<EventKind>(proto, v1::Event::Kind_IsValid); }
 
 v1::Accuracy::Kind ToProto(AccuracyKind kind) {
-  switch (kind) {
-    case AccuracyKind::kUnspecified:
-      return v1::Accuracy::KIND_UNSPECIFIED;
-    case AccuracyKind::kBound:
-      return v1::Accuracy::KIND_BOUND;
-    case AccuracyKind::kEstimate:
-      return v1::Accuracy::KIND_ESTIMATE;
-  }
-  return v1::Accuracy::KIND_UNSPECIFIED;
+  return SameNumber<v1::Accuracy::Kind>(kind, v1::Accuracy::Kind_IsValid);
 }
 
-AccuracyKind FromProto(v1::Accuracy::Kind proto) {
-  switch (proto) {
-    case v1::Accuracy::KIND_BOUND:
-      return AccuracyKind::kBound;
-    case v1::Accuracy::KIND_ESTIMATE:
-      return AccuracyKind::kEstimate;
-    case v1::Accuracy::KIND_UNSPECIFIED:
-    case v1::Accuracy_Kind_Accuracy_Kind_INT_MIN_SENTINEL_DO_NOT_USE_:
-    case v1::Accuracy_Kind_Accuracy_Kind_INT_MAX_SENTINEL_DO_NOT_USE_:
-      break;
-  }
-  return AccuracyKind::kUnspecified;
-}
+AccuracyKind FromProto(v1::Accuracy::Kind proto) { return SameNumber<AccuracyKind>(proto, v1::Accuracy::Kind_IsValid); }
 
 v1::BrokenLimit::Kind ToProto(LimitKind kind) {
-  switch (kind) {
-    case LimitKind::kUnspecified:
-      return v1::BrokenLimit::KIND_UNSPECIFIED;
-    case LimitKind::kSharp:
-      return v1::BrokenLimit::KIND_SHARP;
-    case LimitKind::kEnergy:
-      return v1::BrokenLimit::KIND_ENERGY;
-  }
-  return v1::BrokenLimit::KIND_UNSPECIFIED;
+  return SameNumber<v1::BrokenLimit::Kind>(kind, v1::BrokenLimit::Kind_IsValid);
 }
 
-LimitKind FromProto(v1::BrokenLimit::Kind proto) {
-  switch (proto) {
-    case v1::BrokenLimit::KIND_SHARP:
-      return LimitKind::kSharp;
-    case v1::BrokenLimit::KIND_ENERGY:
-      return LimitKind::kEnergy;
-    case v1::BrokenLimit::KIND_UNSPECIFIED:
-    case v1::BrokenLimit_Kind_BrokenLimit_Kind_INT_MIN_SENTINEL_DO_NOT_USE_:
-    case v1::BrokenLimit_Kind_BrokenLimit_Kind_INT_MAX_SENTINEL_DO_NOT_USE_:
-      break;
-  }
-  return LimitKind::kUnspecified;
-}
+LimitKind FromProto(v1::BrokenLimit::Kind proto) { return SameNumber<LimitKind>(proto, v1::BrokenLimit::Kind_IsValid); }
 
 v1::Termination ToProto(Termination termination) {
-  switch (termination) {
-    case Termination::kUnspecified:
-      return v1::TERMINATION_UNSPECIFIED;
-    case Termination::kConverged:
-      return v1::TERMINATION_CONVERGED;
-    case Termination::kBudgetUsedUp:
-      return v1::TERMINATION_BUDGET_USED_UP;
-    case Termination::kRefused:
-      return v1::TERMINATION_REFUSED;
-  }
-  return v1::TERMINATION_UNSPECIFIED;
+  return SameNumber<v1::Termination>(termination, v1::Termination_IsValid);
 }
 
-Termination FromProto(v1::Termination proto) {
-  switch (proto) {
-    case v1::TERMINATION_CONVERGED:
-      return Termination::kConverged;
-    case v1::TERMINATION_BUDGET_USED_UP:
-      return Termination::kBudgetUsedUp;
-    case v1::TERMINATION_REFUSED:
-      return Termination::kRefused;
-    case v1::TERMINATION_UNSPECIFIED:
-    case v1::Termination_INT_MIN_SENTINEL_DO_NOT_USE_:
-    case v1::Termination_INT_MAX_SENTINEL_DO_NOT_USE_:
-      break;
-  }
-  return Termination::kUnspecified;
-}
+Termination FromProto(v1::Termination proto) { return SameNumber<Termination>(proto, v1::Termination_IsValid); }
 
 static std::optional<double> IfSet(bool is_set, double value) {
   return is_set ? std::optional<double>(value) : std::nullopt;

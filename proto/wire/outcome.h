@@ -17,6 +17,9 @@ Coefficients FromProto(const v1::Coefficients& proto);
 v1::Regime ToProto(Regime regime);
 Regime FromProto(v1::Regime proto);
 
+v1::Termination ToProto(Termination termination);
+Termination FromProto(v1::Termination proto);
+
 v1::Event::Kind ToProto(EventKind kind);
 EventKind FromProto(v1::Event::Kind proto);
 

@@ -15,6 +15,7 @@
 #include "absl/strings/string_view.h"
 #include "google/rpc/error_details.pb.h"
 #include "google/rpc/status.pb.h"
+#include "proto/wire/enums.h"
 #include "ricochet/error.h"
 #include "ricochet/v1/error_reason.pb.h"
 
@@ -44,51 +45,9 @@ struct Error {
   std::optional<std::chrono::milliseconds> retry_delay;
 };
 
-v1::ErrorReason ToProto(ErrorReason reason) {
-  switch (reason) {
-    case ErrorReason::kUnspecified:
-      return v1::ERROR_REASON_UNSPECIFIED;
-    case ErrorReason::kInvalidRequest:
-      return v1::ERROR_REASON_INVALID_REQUEST;
-    case ErrorReason::kOutputOverflow:
-      return v1::ERROR_REASON_OUTPUT_OVERFLOW;
-    case ErrorReason::kNotEnded:
-      return v1::ERROR_REASON_NOT_ENDED;
-    case ErrorReason::kInadmissibleOutcome:
-      return v1::ERROR_REASON_INADMISSIBLE_OUTCOME;
-    case ErrorReason::kTooManyCalls:
-      return v1::ERROR_REASON_TOO_MANY_CALLS;
-    case ErrorReason::kSweepTooLarge:
-      return v1::ERROR_REASON_SWEEP_TOO_LARGE;
-    case ErrorReason::kDraining:
-      return v1::ERROR_REASON_DRAINING;
-  }
-  return v1::ERROR_REASON_UNSPECIFIED;
-}
+v1::ErrorReason ToProto(ErrorReason reason) { return SameNumber<v1::ErrorReason>(reason, v1::ErrorReason_IsValid); }
 
-ErrorReason FromProto(v1::ErrorReason proto) {
-  switch (proto) {
-    case v1::ERROR_REASON_INVALID_REQUEST:
-      return ErrorReason::kInvalidRequest;
-    case v1::ERROR_REASON_OUTPUT_OVERFLOW:
-      return ErrorReason::kOutputOverflow;
-    case v1::ERROR_REASON_NOT_ENDED:
-      return ErrorReason::kNotEnded;
-    case v1::ERROR_REASON_INADMISSIBLE_OUTCOME:
-      return ErrorReason::kInadmissibleOutcome;
-    case v1::ERROR_REASON_TOO_MANY_CALLS:
-      return ErrorReason::kTooManyCalls;
-    case v1::ERROR_REASON_SWEEP_TOO_LARGE:
-      return ErrorReason::kSweepTooLarge;
-    case v1::ERROR_REASON_DRAINING:
-      return ErrorReason::kDraining;
-    case v1::ERROR_REASON_UNSPECIFIED:
-    case v1::ErrorReason_INT_MIN_SENTINEL_DO_NOT_USE_:
-    case v1::ErrorReason_INT_MAX_SENTINEL_DO_NOT_USE_:
-      break;
-  }
-  return ErrorReason::kUnspecified;
-}
+ErrorReason FromProto(v1::ErrorReason proto) { return SameNumber<ErrorReason>(proto, v1::ErrorReason_IsValid); }
 
 google::rpc::ErrorInfo ErrorInfoOf(ErrorReason reason) {
   google::rpc::ErrorInfo info;

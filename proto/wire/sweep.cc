@@ -59,32 +59,11 @@ static decltype(Axis::values) ValuesOf(const v1::Axis& proto) {
 
 static Axis FromProto(const v1::Axis& proto) { return {.path = proto.path(), .values = ValuesOf(proto)}; }
 
+// A number that this build does not know is kept, so that the request is refused.
 v1::SweepRequest::Combination ToProto(Combination combination) {
-  switch (combination) {
-    case Combination::kUnspecified:
-      return v1::SweepRequest::COMBINATION_UNSPECIFIED;
-    case Combination::kProduct:
-      return v1::SweepRequest::COMBINATION_PRODUCT;
-    case Combination::kZip:
-      return v1::SweepRequest::COMBINATION_ZIP;
-  }
   return static_cast<v1::SweepRequest::Combination>(combination);
 }
-
-Combination FromProto(v1::SweepRequest::Combination proto) {
-  switch (proto) {
-    case v1::SweepRequest::COMBINATION_UNSPECIFIED:
-      return Combination::kUnspecified;
-    case v1::SweepRequest::COMBINATION_PRODUCT:
-      return Combination::kProduct;
-    case v1::SweepRequest::COMBINATION_ZIP:
-      return Combination::kZip;
-    case v1::SweepRequest_Combination_SweepRequest_Combination_INT_MIN_SENTINEL_DO_NOT_USE_:
-    case v1::SweepRequest_Combination_SweepRequest_Combination_INT_MAX_SENTINEL_DO_NOT_USE_:
-      break;
-  }
-  return static_cast<Combination>(proto);
-}
+Combination FromProto(v1::SweepRequest::Combination proto) { return static_cast<Combination>(proto); }
 
 v1::SweepRequest ToProto(const SweepRequest& request) {
   v1::SweepRequest proto;
