@@ -13,14 +13,37 @@
 namespace ricochet {
 namespace {
 
-bool AllFinite(const Components& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
+// The sum of 0 times each number: 0 if all are finite, else NaN.
+double Probe(const Components& values) {
+  double probe = 0.0;
+  for (const double value : values) probe += 0.0 * value;
+  return probe;
 }
 
+bool AllFinite(const Components& values) { return Probe(values) == 0.0; }
+
 bool IsFinite(const State& state) {
-  return std::isfinite(state.normal_impulse_n_s) && std::isfinite(state.contact_velocity.normal_m_s) &&
-         AllFinite(state.contact_velocity.tangential_m_s) && AllFinite(state.tangential_impulse_n_s) &&
-         AllFinite(state.rates_rad_s);
+  return Probe(state.contact_velocity.tangential_m_s) + Probe(state.tangential_impulse_n_s) + Probe(state.rates_rad_s) +
+             0.0 * state.normal_impulse_n_s + 0.0 * state.contact_velocity.normal_m_s ==
+         0.0;
+}
+
+// True if every number is finite; the error estimate counts as one although it may be infinite.
+bool IsFinite(const Outcome& outcome) {
+  double probe = 0.0;
+  VisitOutcomeNumbers(outcome, [&probe](const NumberPath& /*path*/, double number) { probe += 0.0 * number; });
+  return probe == 0.0;
+}
+
+// The path of the first number that is not finite, other than the error estimate.
+std::optional<std::string> OverflowIn(const Outcome& outcome) {
+  std::optional<NumberPath> wrong;
+  VisitOutcomeNumbers(outcome, [&wrong](const NumberPath& path, double number) {
+    const bool may_be_infinite = std::string_view(path.name) == "relative_error";
+    if (!wrong.has_value() && !may_be_infinite && !std::isfinite(number)) wrong = path;
+  });
+  if (!wrong.has_value()) return std::nullopt;
+  return wrong->Text();
 }
 
 // The path, within a state, of its first number that is not finite.
@@ -84,13 +107,10 @@ void UnsetPhases(Outcome& outcome) {
 }
 
 absl::Status CheckFinite(const Outcome& outcome) {
-  std::optional<NumberPath> wrong;
-  VisitOutcomeNumbers(outcome, [&wrong](const NumberPath& path, double number) {
-    if (std::isfinite(number) || wrong.has_value()) return;
-    const bool may_be_infinite = std::string_view(path.name) == "relative_error";
-    if (!may_be_infinite) wrong = path;
-  });
-  if (wrong.has_value()) return OutputOverflow("outcome." + wrong->Text());
+  if (!IsFinite(outcome)) {
+    const std::optional<std::string> path = OverflowIn(outcome);
+    if (path.has_value()) return OutputOverflow("outcome." + *path);
+  }
   for (size_t i = 0; i < outcome.timeline.size(); ++i) {
     const State& state = outcome.timeline[i].state;
     if (!IsFinite(state)) return OutputOverflow(absl::StrCat("outcome.timeline[", i, "].state.", OverflowIn(state)));

@@ -125,10 +125,10 @@ void SetVelocities(const Reduction<kTangential>& reduction, const std::array<dou
     outcome.rates_after_rad_s.assign(after.begin(), after.end());
     return;
   }
+  outcome.bodies_after.reserve(after.size() / (kLinear + kAngular));
   for (auto body = after.begin(); body != after.end(); body += kLinear + kAngular) {
-    BodyVelocity& velocity = outcome.bodies_after.emplace_back();
-    velocity.linear_m_s.assign(body, body + kLinear);
-    velocity.angular_rad_s.assign(body + kLinear, body + kLinear + kAngular);
+    outcome.bodies_after.emplace_back(Components(body, body + kLinear),
+                                      Components(body + kLinear, body + kLinear + kAngular));
   }
 }
 
@@ -153,11 +153,11 @@ void SetEnd(const ImpactEnd<Along>& impact, const Reduction<kTangential>& reduct
                           .energetic = impact.energetic,
                           .tangential = impact.tangential};
   SetVelocities<kTangential>(reduction, f1, impact.tau1, duration, outcome);
-  outcome.contact_velocity_after.tangential_m_s.assign(u1.begin(), u1.end());
+  outcome.contact_velocity_after.tangential_m_s = Components(u1.begin(), u1.end());
   outcome.contact_velocity_after.normal_m_s = impact.v1;
   outcome.impulse.normal_compression_n_s = impact.tau_compression;
   outcome.impulse.normal_total_n_s = impact.tau1;
-  outcome.impulse.tangential_n_s.assign(f1.begin(), f1.end());
+  outcome.impulse.tangential_n_s = Components(f1.begin(), f1.end());
   outcome.work =
       MakeLedger(impact.work_normal_compression, impact.work_normal_restitution, impact.work_tangential_compression,
                  impact.work_tangential_restitution, impact.energy_change);

@@ -115,9 +115,12 @@ void AddBody(const PlanarBody& body, double side, PlanarReduction& reduction) {
   reduction.w[2] += 1.0 / m + yn * yn;
   reduction.u0[0] += side * (body.velocity_t_m_s - body.rate_rad_s * sn);
   reduction.v0 += side * (body.velocity_n_m_s + body.rate_rad_s * st);
-  reduction.before.insert(reduction.before.end(), {body.velocity_t_m_s, body.velocity_n_m_s, body.rate_rad_s});
-  reduction.response.insert(reduction.response.end(),
-                            {side / m, 0.0, 0.0, side / m, side * (-sn / inertia), side * (st / inertia)});
+  for (const double velocity : {body.velocity_t_m_s, body.velocity_n_m_s, body.rate_rad_s}) {
+    reduction.before.push_back(velocity);
+  }
+  for (const double share : {side / m, 0.0, 0.0, side / m, side * (-sn / inertia), side * (st / inertia)}) {
+    reduction.response.push_back(share);
+  }
 }
 
 Eigen::Vector3d ToEigen(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }

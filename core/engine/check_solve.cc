@@ -42,8 +42,9 @@ const char* WhyNoHistory(const Scene& scene) {
 void CheckHistory(const SolveRequest& request, std::vector<Violation>& violations) {
   const size_t count = request.history_at_n_s.size();
   const int64_t intervals = request.history_intervals;
-  const char* const why_none = WhyNoHistory(request.scene);
   CheckIntervals("history_intervals", intervals, violations);
+  if (count == 0 && intervals == 0) return;
+  const char* const why_none = WhyNoHistory(request.scene);
   const std::string entries = absl::StrCat("has ", count, count == 1 ? " entry" : " entries");
   if (count > 0 && why_none != nullptr) {
     violations.push_back({"history_at_n_s", absl::StrCat(entries, ": must be empty ", why_none)});

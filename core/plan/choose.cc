@@ -52,11 +52,11 @@ struct Context {
   // Sum of the sizes of the effects that a model leaves out and the caller does not exclude.
   double Neglected(EffectSet simulates) const {
     const bool smooth = !simulates.Has(Effect::kFriction) || excluded.Has(Effect::kFriction);
+    EffectSet counted = simulates | excluded;
+    if (smooth) counted = counted | kOnFriction;
     double sum = 0.0;
     for (const Effect effect : kEffects) {
-      if (simulates.Has(effect) || excluded.Has(effect)) continue;
-      if (smooth && kOnFriction.Has(effect)) continue;
-      sum += SizeOf(effect, smooth);
+      if (!counted.Has(effect)) sum += SizeOf(effect, smooth);
     }
     return sum;
   }

@@ -159,14 +159,10 @@ Reason MakeReason(Effect effect, const Choice& choice, ContactKind kind) {
 Plan Explain(const Choice& choice, const Demand& demand) {
   Plan plan = {.model = choice.model, .relative_tolerance = demand.relative_tolerance, .neglected = choice.neglected};
   const ContactKind kind = KindOf(choice.sizes);
-  plan.effects.resize(kEffectCount - 1);
-  PlannedEffect* planned = plan.effects.data();
+  plan.effects.reserve(kEffectCount - 1);
   for (const Effect effect : kEffects) {
-    planned->effect = effect;
-    planned->decision = choice.decisions[static_cast<size_t>(effect)];
-    planned->size = choice.sizes[effect].value;
-    planned->reason = MakeReason(effect, choice, kind);
-    ++planned;
+    plan.effects.emplace_back(effect, choice.decisions[static_cast<size_t>(effect)], choice.sizes[effect].value,
+                              MakeReason(effect, choice, kind));
   }
   return plan;
 }

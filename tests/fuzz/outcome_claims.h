@@ -33,7 +33,7 @@ void CheckOutcome(const Scene& scene, const Outcome& outcome);
 absl::StatusOr<SolveResponse> SolveAndCheck(const SolveRequest& request);
 
 // True if the plan of the request chooses the model of finite duration.
-bool TakesTime(SolveRequest request);
+bool TakesTime(const SolveRequest& request);
 
 }  // namespace ricochet
 

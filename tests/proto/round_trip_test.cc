@@ -285,11 +285,15 @@ TEST(BoundsTest, CoefficientErrorsAreSentOnlyWithCoefficients) {
 
 TEST(AuditTest, RequestSurvivesWithEachKindOfObservation) {
   AuditRequest request = {.scene = PaperScene(), .observed = {}, .velocity_uncertainty_m_s = 0.125};
-  for (const Observed& observed : {Observed(), Observed(ContactVelocity{{1.0, 2.0}, 3.0}), Observed(ContactVelocity()),
-                                   Observed(ObservedRates{{0.5, -0.25}}), Observed(ObservedRates())}) {
+  const auto expect_survival = [&request](const Observed& observed) {
     request.observed = observed;
     EXPECT_EQ(ThroughWire(request), request) << "observation " << observed.index();
-  }
+  };
+  expect_survival(std::monostate());
+  expect_survival(ContactVelocity{{1.0, 2.0}, 3.0});
+  expect_survival(ContactVelocity{.tangential_m_s = Components(), .normal_m_s = 0.0});
+  expect_survival(ObservedRates{{0.5, -0.25}});
+  expect_survival(ObservedRates{Components()});
 }
 
 TEST(AuditTest, ResponsesSurvive) {

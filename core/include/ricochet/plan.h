@@ -7,6 +7,7 @@
 #ifndef RICOCHET_PLAN_H_
 #define RICOCHET_PLAN_H_
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -52,16 +53,19 @@ class Reason {
   };
 
   Reason() = default;
-  explicit Reason(std::string text) : text_(std::move(text)) {}
+  explicit Reason(std::string text) : text_(std::make_shared<const std::string>(std::move(text))) {}
   Reason(std::string (*write)(const Facts&), const Facts& facts) : write_(write), facts_(facts) {}
 
-  std::string Text() const { return write_ != nullptr ? write_(facts_) : text_; }
+  std::string Text() const {
+    if (write_ != nullptr) return write_(facts_);
+    return text_ != nullptr ? *text_ : "";
+  }
   friend bool operator==(const Reason& a, const Reason& b) { return a.Text() == b.Text(); }
 
  private:
   std::string (*write_)(const Facts&) = nullptr;
   Facts facts_;
-  std::string text_;
+  std::shared_ptr<const std::string> text_;
 };
 
 struct PlannedEffect {
