@@ -7,6 +7,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/strip.h"
+#include "absl/types/span.h"
 #include "client/cli/common.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
@@ -154,7 +155,7 @@ std::string MotionText(const Outcome& outcome) {
   return absl::StrCat("Motion\n", table.Render(2), AccuracyText(outcome.accuracy));
 }
 
-std::string BodiesText(const std::vector<BodyVelocity>& bodies) {
+std::string BodiesText(absl::Span<const BodyVelocity> bodies) {
   if (bodies.empty()) return "";
   const bool in_space = bodies.front().linear_m_s.size() == 3;
   Table table;

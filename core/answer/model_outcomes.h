@@ -51,15 +51,10 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
 
 namespace sliding {
 
-// Slip that neither stops nor turns.
+// The outcome of slip that neither stops nor turns, or of an impact without friction. `errors` are those of that model.
 template <size_t kTangential>
-absl::Status MakeOutcome(const Problem<kTangential>& problem, const Reduction<kTangential>& reduction,
-                         const Extent& extent, Outcome& outcome);
-
-// The impact without friction.
-template <size_t kTangential>
-absl::Status MakeFrictionlessOutcome(const Problem<kTangential>& problem, const Reduction<kTangential>& reduction,
-                                     const Extent& extent, Outcome& outcome);
+absl::Status MakeOutcome(const Impact<kTangential>& impact, const RelativeErrors& errors,
+                         const Reduction<kTangential>& reduction, const Extent& extent, Outcome& outcome);
 
 }  // namespace sliding
 

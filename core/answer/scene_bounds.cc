@@ -97,7 +97,7 @@ absl::Status CheckFinite(const Bounds& bounds) {
 absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene, std::optional<SceneContact> contact,
                                         absl::FunctionRef<bool()> stopped) {
   const bool closed_form = HasClosedForm(scene);
-  if (!closed_form && !contact.has_value()) contact = MakeContact(scene);
+  if (!closed_form && !contact.has_value()) contact.emplace(scene);
   const absl::StatusOr<Bounds> bounds = closed_form ? PendulumBounds(scene) : ReducedBounds(*contact, stopped);
   if (!bounds.ok()) return bounds;
   const absl::Status finite = CheckFinite(*bounds);

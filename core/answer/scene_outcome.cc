@@ -45,6 +45,12 @@ absl::Status SolveFiniteDuration(const Job& job, const PlanarReduction& reductio
   return finite_duration::MakeOutcome(problem, reduction, job.options.extent, job.stopped, job.outcome);
 }
 
+template <size_t kTangential>
+absl::Status SolveStraight(const Job& job, const sliding::Impact<kTangential>& impact,
+                           const Reduction<kTangential>& reduction) {
+  return sliding::MakeOutcome(impact, job.planned.choice.straight_errors, reduction, job.options.extent, job.outcome);
+}
+
 absl::Status SolveContact(const Job& job, const PlanarReduction& reduction) {
   const Extent& extent = job.options.extent;
   const EffectiveCoefficients effective = job.Effective();
@@ -52,10 +58,9 @@ absl::Status SolveContact(const Job& job, const PlanarReduction& reduction) {
     case Model::kImpactLaw:
       return MakeLawOutcome(job.scene.impact_law, effective.kinetic_friction, reduction, extent, job.outcome);
     case Model::kFrictionless:
-      return sliding::MakeFrictionlessOutcome(sliding::MakeProblem(reduction, effective), reduction, extent,
-                                              job.outcome);
+      return SolveStraight(job, sliding::SolveFrictionless(sliding::MakeProblem(reduction, effective)), reduction);
     case Model::kSliding:
-      return sliding::MakeOutcome(sliding::MakeProblem(reduction, effective), reduction, extent, job.outcome);
+      return SolveStraight(job, sliding::Solve(sliding::MakeProblem(reduction, effective)), reduction);
     case Model::kNone:
     case Model::kPlanar:
       return planar::MakeOutcome(planar::MakeProblem(reduction, job.scene.restitution, effective), reduction, extent,
@@ -78,10 +83,10 @@ absl::Status SolveContact(const Job& job, const SpatialReduction& reduction) {
   const Extent& extent = job.options.extent;
   const EffectiveCoefficients effective = job.Effective();
   if (job.planned.choice.model == Model::kFrictionless) {
-    return sliding::MakeFrictionlessOutcome(sliding::MakeProblem(reduction, effective), reduction, extent, job.outcome);
+    return SolveStraight(job, sliding::SolveFrictionless(sliding::MakeProblem(reduction, effective)), reduction);
   }
   if (job.planned.choice.model == Model::kSliding) {
-    return sliding::MakeOutcome(sliding::MakeProblem(reduction, effective), reduction, extent, job.outcome);
+    return SolveStraight(job, sliding::Solve(sliding::MakeProblem(reduction, effective)), reduction);
   }
   const double tolerance =
       job.planned.choice.model == Model::kNone ? spatial::kMostTolerance : job.planned.choice.model_tolerance;

@@ -13,16 +13,13 @@
 namespace ricochet {
 
 struct SceneContact {
+  // The rules of the scene's own fields hold already. W or the velocity may overflow: see FitsDoubles.
+  explicit SceneContact(const Scene& scene)
+      : reduction(Reduce(scene)), coefficients(CoefficientsAtSpeed(scene, ApproachSpeed(reduction))) {}
+
   AnyReduction reduction;
   EffectiveCoefficients coefficients;  // A restitution that is left open counts as 0.
 };
-
-// The rules of the scene's own fields hold already. W or the velocity may overflow: see FitsDoubles.
-inline SceneContact MakeContact(const Scene& scene) {
-  SceneContact contact = {.reduction = Reduce(scene), .coefficients = {}};
-  contact.coefficients = CoefficientsAtSpeed(scene, ApproachSpeed(contact.reduction));
-  return contact;
-}
 
 }  // namespace ricochet
 

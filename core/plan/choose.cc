@@ -148,12 +148,8 @@ sliding::Problem<2> SlidingProblemOf(const spatial::Problem& problem) {
           .coefficient = problem.coefficient};
 }
 
-double FrictionlessError(bool serves, const auto& straight) {
+double PlanarFrictionlessError(bool serves, const sliding::Problem<1>& straight) {
   return serves ? sliding::FrictionlessErrorsOf(straight).Largest() : kUnbounded;
-}
-
-double SlidingError(bool serves, bool slips, const auto& straight) {
-  return serves && slips && straight.mu > 0.0 ? sliding::ErrorsOf(straight).Largest() : kUnbounded;
 }
 
 bool StraightPathServes(const planar::Problem& problem) {
@@ -174,6 +170,35 @@ bool StraightPathServes(const spatial::Problem& problem) {
   const double coupling = std::sqrt(problem.w13 * problem.w13 + problem.w23 * problem.w23);
   return problem.coefficient <= 1.0 && HasFullRank(problem) && 1.0 - problem.mu * coupling / problem.w33 >= kLeastSlope;
 }
+
+// The errors of the two models whose path is a straight line, for a planar or spatial problem. Each is computed when
+// it is asked for.
+template <typename Problem>
+class StraightErrors {
+ public:
+  StraightErrors(const Problem& problem, bool slips) : problem_(problem), slips_(slips) {}
+
+  double Frictionless() {
+    if (!StraightPathServes(problem_)) return kUnbounded;
+    frictionless_ = sliding::FrictionlessErrorsOf(SlidingProblemOf(problem_));
+    return frictionless_.Largest();
+  }
+  double Sliding() {
+    if (!slips_ || !(problem_.mu > 0.0) || !StraightPathServes(problem_)) return kUnbounded;
+    sliding_ = sliding::ErrorsOf(SlidingProblemOf(problem_));
+    return sliding_.Largest();
+  }
+  void KeepThoseOf(Choice& choice) const {
+    if (choice.model == Model::kFrictionless) choice.straight_errors = frictionless_;
+    if (choice.model == Model::kSliding) choice.straight_errors = sliding_;
+  }
+
+ private:
+  const Problem& problem_;
+  bool slips_;
+  RelativeErrors frictionless_;
+  RelativeErrors sliding_;
+};
 
 Choice ChooseRigidOrCompliant(const Sizes& sizes, const Sizes& of_all, const ContactPhysics& physics,
                               const Demand& demand, EffectSet excluded, absl::Span<const Candidate> rigid) {
@@ -208,7 +233,7 @@ Choice ForcedContact() {
 // the pendulum's numbers.
 double PendulumFrictionlessError(const pendulum::Problem& problem) {
   constexpr double kReduction = 0x1p-49;
-  return kReduction + FrictionlessError(problem.coefficient <= 1.0, SlidingProblemOf(PlanarOf(problem)));
+  return kReduction + PlanarFrictionlessError(problem.coefficient <= 1.0, SlidingProblemOf(PlanarOf(problem)));
 }
 
 // True if cheap lower bounds show that neither friction nor higher orders can be left out. The first-order form has an
@@ -255,18 +280,17 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   const planar::Problem kept = Without(excluded, problem);
   const Sizes of_all = PlanarSizes(problem, physics);
   const Sizes sizes = excluded.IsEmpty() ? of_all : PlanarSizes(kept, kept_physics, excluded.Has(Effect::kSlipStop));
-  const auto frictionless_error = [&kept] {
-    return FrictionlessError(StraightPathServes(kept), SlidingProblemOf(kept));
-  };
-  const auto sliding_error = [&kept] {
-    return SlidingError(StraightPathServes(kept), kept.u0 != 0.0, SlidingProblemOf(kept));
-  };
+  StraightErrors errors(kept, kept.u0 != 0.0);
+  const auto frictionless_error = [&errors] { return errors.Frictionless(); };
+  const auto sliding_error = [&errors] { return errors.Sliding(); };
   const Candidate rigid[] = {
       {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
       {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},
       {.model = Model::kPlanar, .simulates = kPlanarEffects},
   };
-  return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
+  Choice choice = ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
+  errors.KeepThoseOf(choice);
+  return choice;
 }
 
 // For a rigid pendulum all other effects have size 0, so that the candidates are those of ChoosePendulum.
@@ -302,19 +326,16 @@ Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
   const spatial::Problem kept = Without(excluded, problem);
   const Sizes of_all = SpatialSizes(problem);
   const Sizes sizes = excluded.IsEmpty() ? of_all : SpatialSizes(kept);
-  const auto frictionless_error = [&kept] {
-    return FrictionlessError(StraightPathServes(kept), SlidingProblemOf(kept));
-  };
-  const auto sliding_error = [&kept] {
-    const bool slips = kept.u0[0] != 0.0 || kept.u0[1] != 0.0;
-    return SlidingError(StraightPathServes(kept), slips, SlidingProblemOf(kept));
-  };
+  StraightErrors errors(kept, kept.u0[0] != 0.0 || kept.u0[1] != 0.0);
+  const auto frictionless_error = [&errors] { return errors.Frictionless(); };
+  const auto sliding_error = [&errors] { return errors.Sliding(); };
   const Candidate candidates[] = {
       {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
       {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},
       {.model = Model::kSpatial, .simulates = kSpatialEffects},
   };
   Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);
+  errors.KeepThoseOf(choice);
   if (choice.model == Model::kSpatial)
     choice.model_tolerance = RemainingTolerance(choice, demand, spatial::kLeastTolerance, spatial::kMostTolerance);
   return choice;

@@ -17,6 +17,7 @@
 #include <array>
 #include <cstddef>
 
+#include "core/models/sliding/sliding.h"
 #include "core/plan/demand.h"
 #include "core/plan/sizes.h"
 #include "ricochet/plan.h"
@@ -27,6 +28,7 @@ struct Choice {
   Model model = Model::kUnspecified;
   double neglected = 0.0;        // Sum of the sizes of all effects left out.
   double model_tolerance = 0.0;  // Tolerance for the spatial model or that of finite duration; 0 for other models.
+  RelativeErrors straight_errors;  // The model's own errors, if it is kFrictionless or kSliding.
   std::array<Decision, kEffectCount> decisions = {};
   Sizes sizes;
 

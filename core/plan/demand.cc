@@ -152,7 +152,7 @@ void CheckForms(const Scene& scene, std::optional<SceneContact>& contact, const 
   if (asked.IsEmpty() || demand.excluded.Has(Effect::kFriction)) return;
   // Solve itself refuses a contact that doubles cannot represent.
   if (!HasClosedForm(scene)) {
-    if (!contact.has_value()) contact = MakeContact(scene);
+    if (!contact.has_value()) contact.emplace(scene);
     if (!FitsDoubles(contact->reduction)) return;
   }
   if (PlanScene(scene, contact, demand).choice.model != Model::kUnspecified) return;

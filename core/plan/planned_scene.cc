@@ -29,7 +29,7 @@ void PlanPendulum(const Scene& scene, std::optional<SceneContact>& contact, cons
       .kinetic_friction = problem.mu, .static_friction = problem.mu_static, .restitution = problem.coefficient};
   // Finite forces have time to act only if the contact is compliant.
   if (scene.compliance.has_value()) {
-    if (!contact.has_value()) contact = MakeContact(scene);
+    if (!contact.has_value()) contact.emplace(scene);
     if (!FitsDoubles(contact->reduction)) return;
     planned.physics = PhysicsOf(scene, std::get<PlanarReduction>(contact->reduction));
   }
@@ -60,7 +60,7 @@ PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact,
     PlanPendulum(scene, contact, demand, planned);
     return planned;
   }
-  if (!contact.has_value()) contact = MakeContact(scene);
+  if (!contact.has_value()) contact.emplace(scene);
   if (!FitsDoubles(contact->reduction)) return planned;
   planned.effective = contact->coefficients;
   std::visit([&](const auto& reduction) { PlanReduced(scene, demand, reduction, planned); }, contact->reduction);

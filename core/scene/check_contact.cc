@@ -116,7 +116,7 @@ bool RangeIsSure(const Scene& scene) {
 void CheckContact(const Scene& scene, Check& check, std::optional<SceneContact>& contact) {
   const bool with_spring = scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.restitution);
   if (RangeIsSure(scene) && !DependsOnSpeed(scene) && !with_spring) return;
-  contact = MakeContact(scene);
+  contact.emplace(scene);
   const AnyReduction& reduction = contact->reduction;
   if (!IsFinite(reduction)) return;  // The caller reports the overflow, because no single field causes it.
   if (!RangeIsSure(scene)) CheckRange(scene, reduction, check);

@@ -13,7 +13,7 @@ namespace ricochet::audit {
 std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact) {
   std::vector<Violation> violations = Validate(scene, RestitutionIs::kOptional, contact);
   if (!violations.empty()) return violations;
-  if (!contact.has_value()) contact = MakeContact(scene);
+  if (!contact.has_value()) contact.emplace(scene);
   if (std::visit([](const auto& reduction) { return reduction.w.back() == 0.0; }, contact->reduction)) {
     violations.push_back({"system", "makes Wnn = 0: must be > 0 for an audit, no normal impulse moves the contact",
                           ViolationKind::kContact});

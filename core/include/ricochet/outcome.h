@@ -189,9 +189,9 @@ struct Outcome {
   Impulse impulse;
   WorkLedger work;
   double energy_change_j = 0.0;
-  std::vector<Event> timeline;             // In order of normal impulse; empty if the contact separates.
-  std::vector<State> history;              // One for each SolveRequest.history_at_n_s, in that order.
-  std::vector<BodyVelocity> bodies_after;  // Body 1 first. Empty for systems other than free bodies.
+  std::vector<Event> timeline;                        // In order of normal impulse; empty if the contact separates.
+  std::vector<State> history;                         // One for each SolveRequest.history_at_n_s, in that order.
+  absl::InlinedVector<BodyVelocity, 2> bodies_after;  // Body 1 first. Empty for systems other than free bodies.
   EffectiveCoefficients effective;
   Accuracy accuracy;
   std::vector<ImpactSolution> alternatives;  // Every solution of a Kane-Levinson law that has several or none.

@@ -384,14 +384,19 @@ Outcome FullOutcome(const SpatialReduction& reduction, const Restitution& restit
 template <size_t kTangential>
 Outcome FrictionlessOutcome(const Reduction<kTangential>& reduction, const EffectiveCoefficients& effective) {
   const Problem<kTangential> problem = MakeProblem(reduction, effective);
-  return Made([&](Outcome& made) { return MakeFrictionlessOutcome(problem, reduction, {}, made); }).value();
+  return Made([&](Outcome& made) {
+           return MakeOutcome(SolveFrictionless(problem), FrictionlessErrorsOf(problem), reduction, {}, made);
+         })
+      .value();
 }
 
 template <size_t kTangential>
 absl::StatusOr<Outcome> SlidingOutcome(const Reduction<kTangential>& reduction, const EffectiveCoefficients& effective,
                                        const std::vector<double>& taus = {}) {
   const Problem<kTangential> problem = MakeProblem(reduction, effective);
-  return Made([&](Outcome& made) { return MakeOutcome(problem, reduction, {.history_at_n_s = taus}, made); });
+  return Made([&](Outcome& made) {
+    return MakeOutcome(Solve(problem), ErrorsOf(problem), reduction, {.history_at_n_s = taus}, made);
+  });
 }
 
 TEST(SlidingOutcomeTest, OfEverySystemWhoseSlipGoesOnIsThatOfTheFullModel) {
