@@ -17,7 +17,7 @@
 #include <array>
 #include <cstddef>
 
-#include "core/models/sliding/sliding.h"
+#include "core/models/relative_errors.h"
 #include "core/plan/demand.h"
 #include "core/plan/sizes.h"
 #include "ricochet/plan.h"
