@@ -26,8 +26,8 @@ namespace ricochet {
 
 struct Choice {
   Model model = Model::kUnspecified;
-  double neglected = 0.0;        // Sum of the sizes of all effects left out.
-  double model_tolerance = 0.0;  // Tolerance for the spatial model or that of finite duration; 0 for other models.
+  double neglected = 0.0;          // Sum of the sizes of all effects left out.
+  double model_tolerance = 0.0;    // Tolerance for the spatial model or that of finite duration; 0 for other models.
   RelativeErrors straight_errors;  // The model's own errors, if it is kFrictionless or kSliding.
   std::array<Decision, kEffectCount> decisions = {};
   Sizes sizes;

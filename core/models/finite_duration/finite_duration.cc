@@ -70,6 +70,7 @@ EstimatedPath FollowWithin(const ScaledContact& contact, Integrator& integrator,
 Impact Stopped() {
   Impact impact;
   impact.stopped = true;
+  impact.termination = Termination::kRefused;
   return impact;
 }
 

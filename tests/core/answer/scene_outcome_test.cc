@@ -339,6 +339,9 @@ TEST(SceneOutcomeTest, ALawWithoutASolutionSaysSoAndChangesNothing) {
   scene.impact_law = BrachLaw{0.5, 1.0};  // Wnn + mu_hat Wtn = -0.5: the impulse would increase the approach velocity.
   const Outcome outcome = Solved(scene);
   EXPECT_EQ(outcome.regime, Regime::kNoSolution);
+  EXPECT_EQ(outcome.termination, Termination::kRefused);
+  EXPECT_FALSE(outcome.coefficients.poisson.has_value());
+  EXPECT_FALSE(outcome.work.normal_compression_j.has_value());
   EXPECT_EQ(outcome.impulse.normal_total_n_s, 0.0);
   EXPECT_EQ(outcome.contact_velocity_after.normal_m_s, -1.0);
 }

@@ -227,6 +227,45 @@ TEST(LocalSolverTest, HistoriesLongerThan65536AreRefused) {
   EXPECT_EQ(ViolationsOf(status)[0].field, "history_at_n_s");
 }
 
+TEST(LocalSolverTest, IntervalsOfAHistoryAreEqualStepsOfTheImpulse) {
+  const Outcome listed = SolveScene(ExactScene(), {0.0, 3.0, 6.0, 9.0, 12.0});
+  const auto stepped = LocalSolver().Solve({.scene = ExactScene(), .history_intervals = 4});
+  ASSERT_TRUE(stepped.ok()) << stepped.status();
+  EXPECT_EQ(stepped->outcome.history, listed.history);
+}
+
+TEST(LocalSolverTest, AHistoryHasEitherImpulsesOrIntervals) {
+  const auto refused = [](SolveRequest request) { return ViolationsOf(LocalSolver().Solve(request).status()); };
+  EXPECT_THAT(refused({.scene = ExactScene(), .history_at_n_s = {0.0}, .history_intervals = 2}),
+              ElementsAre(Violation{"history_at_n_s", "has 1 entry: must be empty, with history_intervals"}));
+  EXPECT_THAT(refused({.scene = ExactScene(), .history_intervals = -1}),
+              ElementsAre(Violation{"history_intervals", "= -1: must be in [0, 65535]"}));
+  EXPECT_THAT(refused({.scene = ExactScene(), .history_intervals = 65536}),
+              ElementsAre(Violation{"history_intervals", "= 65536: must be in [0, 65535]"}));
+}
+
+// At the larger tolerance the plan leaves the compliance out, and slip in space follows a straight line.
+TEST(LocalSolverTest, WhichScenesHaveAHistoryDoesNotDependOnTheTolerance) {
+  Scene soft = ExactScene();
+  soft.restitution = EnergeticCoefficient{0.5};
+  soft.compliance = {.tangential_ratio_squared = 1.0, .normal = {}};
+  Scene in_space = ExactScene();
+  in_space.system = SpatialContact{{2.0, 0.0, 0.0, 2.0, 0.0, 1.0}, {30.0, 18.0}, -1.0};
+  for (const double tolerance : {0.0, 0.1}) {
+    const auto refused = [&](const Scene& scene) {
+      return ViolationsOf(
+          LocalSolver()
+              .Solve({.scene = scene, .history_at_n_s = {0.0, 0.0}, .demand = {.relative_tolerance = tolerance}})
+              .status());
+    };
+    EXPECT_THAT(refused(soft), ElementsAre(Violation{"history_at_n_s",
+                                                     "has 2 entries: must be empty for a contact with tangential "
+                                                     "compliance"}));
+    EXPECT_THAT(refused(in_space),
+                ElementsAre(Violation{"history_at_n_s", "has 2 entries: must be empty for a system in space"}));
+  }
+}
+
 // ---- Bounds ----
 
 TEST(LocalSolverTest, BoundsNeedNoRestitutionAndAddTheNearlyVerticalForms) {

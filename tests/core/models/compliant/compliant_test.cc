@@ -623,8 +623,10 @@ TEST(CompliantWedgeTest, SmallStepsOfTimeHoldTheSameBodiesAndLetTheOthersGo) {
                         problem.contact.w.nn / (problem.contact.coefficient * problem.contact.coefficient));
     SmallSteps steps(problem, 2e-3 * fastest);
     steps.Run(100.0 * slowest);
-    const bool wedged = Solve(problem).regime == Regime::kWedged;
+    const Impact impact = Solve(problem);
+    const bool wedged = impact.regime == Regime::kWedged;
     EXPECT_EQ(wedged, steps.touches()) << i;
+    EXPECT_EQ(impact.termination, wedged ? Termination::kRefused : Termination::kConverged) << i;
     held += wedged ? 1 : 0;
   }
   EXPECT_GT(held, 10);

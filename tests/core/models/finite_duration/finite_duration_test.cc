@@ -630,7 +630,7 @@ TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
   problem.contact.mu_static = 3.0;
   problem.tangential_acceleration = 2.0;
   const Impact impact = Solve(problem);
-  EXPECT_FALSE(impact.Converged());
+  EXPECT_EQ(impact.termination, Termination::kRefused);
   EXPECT_EQ(impact.regime, Regime::kWedged);
 }
 

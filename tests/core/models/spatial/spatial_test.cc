@@ -622,7 +622,7 @@ TEST(SpatialTest, ABudgetThatRunsOutIsSaidSo) {
   Problem problem = Known(1.0, 0.6, 0.2);
   problem.w12 = std::numeric_limits<double>::quiet_NaN();
   const Impact impact = Solve(problem);
-  EXPECT_FALSE(impact.Converged());
+  EXPECT_EQ(impact.termination, Termination::kBudgetUsedUp);
   EXPECT_EQ(impact.regime, Regime::kWedged);
   EXPECT_EQ(impact.error_estimate, std::numeric_limits<double>::infinity());
 }
