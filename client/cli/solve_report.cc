@@ -308,7 +308,9 @@ void AppendSingle(const Message& message, const FieldDescriptor* field, const st
       return row.Add(
           path,
           std::string(absl::StripPrefix(
-              absl::StripPrefix(absl::StripPrefix(reflection.GetEnum(message, field)->name(), "REGIME_"), "KIND_"),
+              absl::StripPrefix(
+                  absl::StripPrefix(absl::StripPrefix(reflection.GetEnum(message, field)->name(), "REGIME_"), "KIND_"),
+                  "TERMINATION_"),
               "MODEL_")));
   }
 }

@@ -249,7 +249,9 @@ T ErrorLedger<T>::EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) co
   // Restitution that has to give back work ends with v > 0, if the work of compression is known at all.
   const bool lost_work =
       problem_.coefficient > T{0} && path.goal.quantity == Quantity::kWork && !path.Sticks() && !(path.state.v > T{0});
-  if (in_doubt_ || lost_work) return kInfinity<T>;
+  // Where friction locks the contact, slip and v vanish together, so that every path to it comes near to its goal.
+  const bool in_doubt = in_doubt_ && path.regime != Regime::kLocked;
+  if (in_doubt || lost_work) return kInfinity<T>;
   const Matrix<T>& w = problem_.w;
   // Poisson's impulse may have been spent at a v whose sign is in doubt.
   const bool v_is_turned = problem_.law == RestitutionLaw::kPoisson && path.goal.quantity == Quantity::kVelocity;
