@@ -26,7 +26,8 @@ enum class Detail {
   kAll,
 };
 
-// What an outcome has beyond its numbers. The history's rules, but for the range of the impulses, hold already.
+// The parts of an outcome that a caller wants beyond its numbers. The rules of histories hold already, but for the range
+// of the impulses.
 struct Extent {
   Detail detail = Detail::kAll;
   absl::Span<const double> history_at_n_s;

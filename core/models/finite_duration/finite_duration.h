@@ -7,8 +7,9 @@
 // or a linear spring with the tangential compliance of Stronge's particle (core/models/compliant/compliant.h).
 // Accuracy: velocities within `tolerance`, or as far as double precision has it, some 1e-12 without forces;
 // error_estimate says what was reached. Everything else has errors of like relative size, except near 0.
-// An impact that does not end within its budgets is answered with the state reached: regime wedged, an
-// infinite error, and the termination that says why. Results have the same bits on one machine only: SUNDIALS calls the C library's pow.
+// An impact that does not end within its budgets is answered with the state reached: regime wedged, an infinite error,
+// and the termination that says why. Results have the same bits on one machine only, because SUNDIALS calls the C
+// library's pow.
 // Bad input: none gets here (core/scene/validate.h). v0 >= 0: nothing changes, whatever the forces.
 // Laws, ends, phases, units and accuracy: docs/theory/finite_duration.md.
 

@@ -47,8 +47,8 @@ class ProblemColumns {
   std::vector<double> inertia_, a_, b_, omega_minus_, mu_, mu_static_, coefficient_;
 };
 
-// The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]` of the i-th problem solved, `regimes[i]` its
-// regime, and `inadmissible[i]` whether it breaks a limit.
+// The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]` of
+// the i-th problem solved, `regimes[i]` its regime, and `inadmissible[i]` whether it breaks a limit.
 struct SolvedColumns {
   absl::Span<const Output> outputs;
   absl::Span<double* const> columns;

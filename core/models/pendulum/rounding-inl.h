@@ -1,5 +1,5 @@
-// What the pendulum's kernel in plain arithmetic proves of its own answer: a bound on its rounding error, and the signs
-// that it is sure of. docs/theory/rounding.md derives every constant.
+// The pendulum's kernel in plain arithmetic proves two things of its own answer: a bound on its rounding error, and the
+// signs that it is sure of. docs/theory/rounding.md derives every constant.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_PENDULUM_ROUNDING_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -99,8 +99,8 @@ class SlipSeries {
   T Size(int k) const {
     return std::fabs(x_integral_[Index(k)]) + std::fabs(y_integral_[Index(k)]) + std::fabs(s_integral_[Index(k)]);
   }
-  // By how much each further term is smaller than the one before it, as the last four or eight terms fall. Both are
-  // needed, because a complex pair of singularities makes terms oscillate, and some of them are small by chance.
+  // The factor by which each further term is smaller than the one before it, judged by the last four or eight terms. Both
+  // are needed, because a complex pair of singularities makes terms oscillate, and some of them are small by chance.
   T Fall() const {
     constexpr T kSmallest{1e-290};
     constexpr double kRoughness = 1.1;

@@ -129,7 +129,7 @@ State<T> Step<T>::At(T xi) const {
           .friction_work = from.friction_work - mu * slip_ * unit * values.square_integral};
 }
 
-// What follows the last term is a geometric series that starts at the larger of the values to which the last two lead.
+// The terms beyond the last one are taken for a geometric series that starts at the larger of the values to which the last two lead.
 template <typename T>
 StepError<T> Step<T>::ErrorAt(T xi, const State<T>& end, const Direction<T>& e) const {
   const LastTerms<T> terms = series_.LastTermsAt(xi);
