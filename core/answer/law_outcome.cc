@@ -4,8 +4,8 @@
 #include <variant>
 
 #include "core/answer/model_outcomes.h"
+#include "core/contact/delassus.h"
 #include "core/models/laws/impact_laws.h"
-#include "core/numerics/determinant.h"
 
 namespace ricochet {
 namespace {
@@ -27,12 +27,6 @@ laws::ImpactLawResult SolveLaw(const ImpactLaw& law, const PlanarProblem& input)
     }
   };
   return std::visit(Solver{input}, law);
-}
-
-int RankOf(const PlanarReduction& reduction) {
-  const auto& [tt, tn, nn] = reduction.w;
-  if (tt == 0.0 && nn == 0.0) return 0;
-  return RelativeDeterminant(tt, tn, nn) > 4.0 * kEpsilon ? 2 : 1;
 }
 
 Regime RegimeOf(const PlanarReduction& reduction, const laws::ImpactLawResult& result) {
@@ -87,7 +81,7 @@ absl::Status MakeLawOutcome(const ImpactLaw& law, double mu, const PlanarReducti
     outcome.accuracy.relative_error = RelativeToBefore<1>(kError, reduction, {solution.u1}, solution.v1);
   }
   outcome.accuracy.kind = AccuracyKind::kEstimate;
-  outcome.w_rank = RankOf(reduction);
+  outcome.w_rank = PlanarDelassus{reduction.w[0], reduction.w[1], reduction.w[2]}.Rank();
   SetVelocities<1>(reduction, {solution.f}, solution.tau1, 0.0, outcome);
   const ImpactSolution first = ToOutcome(solution);
   outcome.contact_velocity_after = first.contact_velocity_after;
