@@ -12,6 +12,10 @@ v1::Model ToProto(Model value) { return SameNumber<v1::Model>(value, v1::Model_I
 
 Model FromProto(v1::Model proto) { return SameNumber<Model>(proto, v1::Model_IsValid); }
 
+v1::Arithmetic ToProto(Arithmetic value) { return SameNumber<v1::Arithmetic>(value, v1::Arithmetic_IsValid); }
+
+Arithmetic FromProto(v1::Arithmetic proto) { return SameNumber<Arithmetic>(proto, v1::Arithmetic_IsValid); }
+
 v1::PlannedEffect::Decision ToProto(Decision value) {
   return SameNumber<v1::PlannedEffect::Decision>(value, v1::PlannedEffect::Decision_IsValid);
 }

@@ -16,6 +16,9 @@ Effect FromProto(v1::Effect proto);
 v1::Model ToProto(Model value);
 Model FromProto(v1::Model proto);
 
+v1::Arithmetic ToProto(Arithmetic value);
+Arithmetic FromProto(v1::Arithmetic proto);
+
 v1::PlannedEffect::Decision ToProto(Decision value);
 Decision FromProto(v1::PlannedEffect::Decision proto);
 

@@ -95,6 +95,14 @@ enum class Model {
 };
 inline constexpr int kModelCount = 11;
 
+// How the rounding errors of an impact are kept small. The numbers are those of ricochet.v1.Arithmetic.
+enum class Arithmetic {
+  kUnspecified = 0,
+  kPlain = 1,  // Doubles, with a proved bound on the rounding error; no sign is taken that rounding may have changed.
+  kCompensated = 2,  // Double-double: numbers of twice the precision, rounded to doubles at the end.
+  kCertified = 3,    // Intervals of any precision, with each digit proved.
+};
+
 struct Plan {
   Model model = Model::kUnspecified;
   double relative_tolerance = 0.0;     // Tolerance asked for.

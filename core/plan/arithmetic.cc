@@ -1,0 +1,44 @@
+#include "core/plan/arithmetic.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace ricochet {
+namespace {
+
+// Every output is within 1 ulp, 2^-52 of its value. Over its scale a velocity is at most kappa_hat <= kappa, tau1 at most
+// 1 + kappa, f1 and mu_hat at most max(1, kappa), any other output at most 1.
+double CompensatedError(const pendulum::Impact& impact) {
+  return 0x1p-51 * std::max(1.0, impact[pendulum::Output::kPoisson]);
+}
+
+}  // namespace
+
+SolvedImpact<pendulum::Impact> SolveWithin(const pendulum::Problem& problem, double tolerance) {
+  if (tolerance > 0.0) {
+    const pendulum::PlainImpact plain = pendulum::SolvePlain(problem);
+    if (plain.proved && plain.relative_error <= tolerance) {
+      return {plain.impact, Arithmetic::kPlain, plain.relative_error};
+    }
+  }
+  const pendulum::Impact impact = pendulum::Solve(problem);
+  return {impact, Arithmetic::kCompensated, CompensatedError(impact)};
+}
+
+SolvedImpact<planar::Impact> SolveWithin(const planar::Problem& problem, double tolerance) {
+  if (tolerance > 0.0) {
+    const planar::PlainImpact plain = planar::SolvePlain(problem);
+    const double error = plain.errors.Largest();
+    if (plain.proved && error <= tolerance) return {plain.impact, Arithmetic::kPlain, error};
+  }
+  planar::RoundingErrors errors;
+  const planar::Impact impact = planar::Solve(problem, errors);
+  return {impact, Arithmetic::kCompensated, errors.Largest()};
+}
+
+double ToleranceLeft(double relative_tolerance, double neglected) {
+  const double left = std::max(0.0, relative_tolerance - neglected);
+  return left + neglected > relative_tolerance ? std::nextafter(left, 0.0) : left;
+}
+
+}  // namespace ricochet
