@@ -55,14 +55,14 @@ Coefficients FromProto(const v1::Coefficients& proto) {
           .tangential = proto.tangential()};
 }
 
-static v1::ContactVelocity ToProto(const ContactVelocity& velocity) {
+v1::ContactVelocity ToProto(const ContactVelocity& velocity) {
   v1::ContactVelocity proto;
   AssignDoubles(velocity.tangential_m_s, *proto.mutable_tangential_m_s());
   proto.set_normal_m_s(velocity.normal_m_s);
   return proto;
 }
 
-static ContactVelocity FromProto(const v1::ContactVelocity& proto) {
+ContactVelocity FromProto(const v1::ContactVelocity& proto) {
   return {.tangential_m_s = ToComponents(proto.tangential_m_s()), .normal_m_s = proto.normal_m_s()};
 }
 

@@ -14,6 +14,9 @@ Outcome FromProto(const v1::Outcome& proto);
 v1::Coefficients ToProto(const Coefficients& coefficients);
 Coefficients FromProto(const v1::Coefficients& proto);
 
+v1::ContactVelocity ToProto(const ContactVelocity& velocity);
+ContactVelocity FromProto(const v1::ContactVelocity& proto);
+
 v1::Regime ToProto(Regime regime);
 Regime FromProto(v1::Regime proto);
 

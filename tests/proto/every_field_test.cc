@@ -8,6 +8,7 @@
 
 #include "fill.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/v1/impact_service.pb.h"
@@ -32,9 +33,10 @@ v1::SweepResponse ThroughCore(const v1::SweepResponse& proto) {
 template <typename Message>
 class EveryFieldTest : public testing::Test {};
 
-using Messages = testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse,
-                                v1::SweepRequest, v1::SweepResponse, v1::AuditRequest, v1::AuditResponse,
-                                v1::AuditBatchRequest, v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse>;
+using Messages =
+    testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse, v1::SweepRequest,
+                   v1::SweepResponse, v1::AuditRequest, v1::AuditResponse, v1::AuditBatchRequest,
+                   v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse, v1::CostRequest, v1::CostResponse>;
 TYPED_TEST_SUITE(EveryFieldTest, Messages);
 
 TYPED_TEST(EveryFieldTest, SurvivesTheCore) {

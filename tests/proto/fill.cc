@@ -68,6 +68,8 @@ class Filler {
     switch (field.cpp_type()) {
       case FieldDescriptor::CPPTYPE_DOUBLE:
         return reflection.AddDouble(&message, &field, NextNumber() + 0.5);
+      case FieldDescriptor::CPPTYPE_INT64:
+        return reflection.AddInt64(&message, &field, (int64_t{1} << 40) + NextNumber());
       case FieldDescriptor::CPPTYPE_STRING:
         return reflection.AddString(&message, &field, absl::StrCat("text ", NextNumber()));
       case FieldDescriptor::CPPTYPE_ENUM:

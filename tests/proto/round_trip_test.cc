@@ -15,6 +15,7 @@
 
 #include "absl/types/span.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/scene.h"
 #include "proto/wire/sweep.h"
@@ -210,6 +211,35 @@ TEST(PlanTest, RequestAndResponseSurvive) {
   EXPECT_EQ(ThroughWire(PlanRequest()), PlanRequest());
   const PlanResponse response = {.plan = SomeOutcome().plan, .engine = {"1.2.3", "0123456789abcdef"}};
   EXPECT_EQ(ThroughWire(response), response);
+}
+
+TEST(CostTest, RequestSurvivesWithAndWithoutItsOptions) {
+  EXPECT_EQ(ThroughWire(CostRequest{.scene = PaperScene()}), CostRequest{.scene = PaperScene()});
+  const CostRequest request = {.scene = PaperScene(), .time_limit_s = 0.0, .samples = 0};
+  EXPECT_EQ(ThroughWire(request), request);
+}
+
+TEST(CostTest, RowsSurviveWithAndWithoutTimes) {
+  const CostTime time = {.median_s = 1e-8, .lower_quartile_s = 9e-9, .upper_quartile_s = 2e-8, .samples = 21, .per_sample = 8};
+  const CostRow measured = {.name = "space 1e-06",
+                            .method = {.model = Model::kSpatial, .arithmetic = Arithmetic::kPlain, .tolerance = 1e-6},
+                            .status = CostStatus::kMeasured,
+                            .solve = time,
+                            .batch = time,
+                            .claimed = {.total = std::numeric_limits<double>::infinity(), .numerical = 1e-7},
+                            .achieved = CostError{.total = 1e-8},
+                            .velocity_after = {.tangential_m_s = {1.0, -0.0}, .normal_m_s = 2.0},
+                            .steps = 3,
+                            .right_hand_sides = 60};
+  const CostRow late = {.name = "planar", .status = CostStatus::kOutOfTime, .note = "no time was left"};
+  const CostChunk chunk = {.first_row = 4,
+                           .rows = {measured, late},
+                           .rows_done = 6,
+                           .rows_total = 9,
+                           .summary = CostSummary{.front = {0, 4}, .picks = {{4, 0.0, 1e-3, Model::kSpatial}}},
+                           .engine = {"1.2.3", "0123456789abcdef"}};
+  EXPECT_EQ(ThroughWire(chunk), chunk);
+  EXPECT_EQ(ThroughWire(CostChunk()), CostChunk());
 }
 
 TEST(SolveTest, SignOfZeroSurvives) {
