@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <string>
@@ -20,29 +19,40 @@ namespace ricochet {
 class ClaimTally {
  public:
   // `tolerance` is the error asked for; 0 if the model takes no tolerance.
-  explicit ClaimTally(double tolerance) : tolerance_(tolerance) {}
+  explicit ClaimTally(double tolerance = 0.0) : tolerance_(tolerance) {}
 
-  void Add(double claimed, double achieved) {
-    // An error below the rounding of a result counts as that rounding.
+  // `scene` describes the scene to somebody who wants to look into a claim that has deceived.
+  void Add(double claimed, double achieved, const std::string& scene = {}) {
+    ++count_;
+    // An infinite claim says that nothing is known of the error.
+    if (std::isinf(claimed)) {
+      ++unknown_;
+      return;
+    }
+    // An error, and a claim, below the rounding of a result counts as that rounding.
     constexpr double kRounding = 0x1p-54;
-    deceived_ += claimed >= achieved ? 0 : 1;
+    // A NaN deceives.
+    if (!(claimed >= achieved) && deceived_++ == 0) first_deceived_ = scene;
     above_ += claimed > tolerance_ ? 1 : 0;
     exceeded_ += achieved > tolerance_ ? 1 : 0;
-    unknown_ += std::isinf(claimed) ? 1 : 0;
-    least_ = std::min(least_, claimed / std::max(achieved, kRounding));
     worst_ = std::max(worst_, achieved);
-    ratios_.push_back(claimed / std::max(achieved, kRounding));
+    ratios_.push_back(std::max(claimed, kRounding) / std::max(achieved, kRounding));
   }
 
-  size_t count() const { return ratios_.size(); }
+  int count() const { return count_; }
   int deceived() const { return deceived_; }
+  const std::string& first_deceived() const { return first_deceived_; }
   int claimed_above_tolerance() const { return above_; }
   int achieved_above_tolerance() const { return exceeded_; }
   int unknown() const { return unknown_; }
   double tolerance() const { return tolerance_; }
   // The least ratio of an error claimed to the error achieved, and the median of these ratios.
-  double LeastRatio() const { return least_; }
+  double LeastRatio() const {
+    return ratios_.empty() ? std::numeric_limits<double>::infinity()
+                           : *std::min_element(ratios_.begin(), ratios_.end());
+  }
   double MedianRatio() const {
+    if (ratios_.empty()) return std::numeric_limits<double>::infinity();
     std::vector<double> ratios = ratios_;
     const auto middle = ratios.begin() + static_cast<ptrdiff_t>(ratios.size() / 2);
     std::nth_element(ratios.begin(), middle, ratios.end());
@@ -53,22 +63,33 @@ class ClaimTally {
 
  private:
   double tolerance_;
-  int deceived_ = 0, above_ = 0, exceeded_ = 0, unknown_ = 0;
-  double least_ = std::numeric_limits<double>::infinity();
+  int count_ = 0, deceived_ = 0, above_ = 0, exceeded_ = 0, unknown_ = 0;
   double worst_ = 0.0;
+  std::string first_deceived_;
   std::vector<double> ratios_;
 };
 
 // One row of the table of claims: a method, its scenes, and its tally.
 inline void PrintClaimsHeader() {
-  std::printf("%-16s %-8s %9s %7s %9s %8s %8s %10s %11s %11s\n", "method", "scenes", "tolerance", "count", "deceived",
-              "least", "median", "worst", "claim above", "error above");
+  std::printf("%-22s %-8s %9s %6s %8s %9s %6s %7s %8s %11s %11s\n", "method", "scenes", "tolerance", "count", "unknown",
+              "deceived", "least", "median", "worst", "claim > tol", "error > tol");
 }
 
 inline void PrintClaims(const std::string& method, const std::string& scenes, const ClaimTally& tally) {
-  std::printf("%-16s %-8s %9.0e %7zu %9d %8.2f %8.1f %10.1e %11d %11d\n", method.c_str(), scenes.c_str(),
-              tally.tolerance(), tally.count(), tally.deceived(), tally.LeastRatio(), tally.MedianRatio(),
-              tally.WorstError(), tally.claimed_above_tolerance(), tally.achieved_above_tolerance());
+  std::printf("%-22s %-8s ", method.c_str(), scenes.c_str());
+  if (tally.tolerance() > 0.0) {
+    std::printf("%9.0e ", tally.tolerance());
+  } else {
+    std::printf("%9s ", "-");
+  }
+  std::printf("%6d %8d %9d %6.2f %7.1f %8.1e ", tally.count(), tally.unknown(), tally.deceived(), tally.LeastRatio(),
+              tally.MedianRatio(), tally.WorstError());
+  if (tally.tolerance() > 0.0) {
+    std::printf("%11d %11d\n", tally.claimed_above_tolerance(), tally.achieved_above_tolerance());
+  } else {
+    std::printf("%11s %11s\n", "-", "-");
+  }
+  if (tally.deceived() > 0) std::printf("  deceived first: %s\n", tally.first_deceived().c_str());
 }
 
 }  // namespace ricochet

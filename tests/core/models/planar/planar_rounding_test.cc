@@ -19,6 +19,7 @@
 #include "tests/support/arb.h"
 #include "tests/support/known_contacts.h"
 #include "tests/support/only_target.h"
+#include "tests/support/planar_claims.h"
 #include "tests/support/planar_oracle.h"
 #include "tests/support/planar_scenes.h"
 
@@ -26,44 +27,6 @@ namespace ricochet::planar {
 namespace {
 
 constexpr int kScenes = 10'000;
-
-// A ball that contains 0 is 0, see tests/support/planar_oracle.h.
-Ball Distance(double computed, const Ball& exact) {
-  const Ball distance = Abs(Ball(computed, 256) - exact);
-  return distance.ContainsZero() ? Ball(0.0) : distance;
-}
-Ball Larger(const Ball& x, const Ball& y) { return x > y ? x : y; }
-
-// The sum of the magnitudes of the four works.
-Ball Moved(const ExactImpact& exact) {
-  return Abs(exact.work_normal_compression) + Abs(exact.work_normal_restitution) +
-         Abs(exact.work_tangential_compression) + Abs(exact.work_tangential_restitution);
-}
-
-// The errors that RoundingErrors bounds, each over its scale.
-RoundingErrors ErrorsReached(const Problem& problem, const Impact& impact, const ExactImpact& exact) {
-  const Ball speed = Larger(Abs(Ball(problem.u0)), Abs(Ball(problem.v0)));
-  const Ball velocity = Larger(Distance(impact.u1, exact.end().u), Distance(impact.v1, exact.end().v));
-  const Ball normal =
-      Larger(Distance(impact.tau_compression, exact.tau_compression), Distance(impact.tau1, exact.end().tau));
-  const Ball tangential =
-      Larger(Distance(impact.f_compression, exact.f_compression), Distance(impact.f1, exact.end().f));
-  Ball work = Distance(impact.energy_change, exact.energy_change);
-  work = Larger(work, Distance(impact.work_normal_compression, exact.work_normal_compression));
-  work = Larger(work, Distance(impact.work_normal_restitution, exact.work_normal_restitution));
-  work = Larger(work, Distance(impact.work_tangential_compression, exact.work_tangential_compression));
-  work = Larger(work, Distance(impact.work_tangential_restitution, exact.work_tangential_restitution));
-  return {.velocity = (velocity / speed).UpperBound(),
-          .impulse = (Larger(Ball(problem.w.nn) * normal, Ball(problem.w.tt) * tangential) / speed).UpperBound(),
-          .work = (work / Moved(exact)).UpperBound()};
-}
-
-bool AreFinite(const Impact& impact) {
-  return std::isfinite(impact.tau1) && std::isfinite(impact.f1) && std::isfinite(impact.f_compression) &&
-         std::isfinite(impact.u1) && std::isfinite(impact.v1) && std::isfinite(impact.work_normal_compression) &&
-         std::isfinite(impact.work_normal_restitution) && std::isfinite(impact.work_tangential_compression) &&
-         std::isfinite(impact.work_tangential_restitution);
-}
 
 // Claims over errors reached, without the impacts that came out exact.
 class Claims {

@@ -1,0 +1,114 @@
+// What the model of finite duration claims and achieves on random scenes.
+//
+// Without finite forces and damping the impact is the rigid one, or that of the compliant contact, at any stiffness, and
+// both are known to rounding. Under forces and damping the reference is the same model at its tightest tolerance.
+
+#ifndef RICOCHET_TESTS_SUPPORT_FINITE_DURATION_CLAIMS_H_
+#define RICOCHET_TESTS_SUPPORT_FINITE_DURATION_CLAIMS_H_
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "core/models/compliant/compliant.h"
+#include "core/models/finite_duration/finite_duration.h"
+#include "core/models/planar/planar.h"
+#include "tests/support/claims.h"
+#include "tests/support/compliant_hard_scenes.h"
+#include "tests/support/compliant_scenes.h"
+#include "tests/support/planar_scenes.h"
+
+namespace ricochet::finite_duration {
+
+inline constexpr double kClaimTolerances[] = {1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12};
+
+// The kinds of contact whose errors can be held against a closed form.
+enum class ClaimKind { kLinear, kHertz, kCompliant };
+
+struct End {
+  double u1 = 0.0, v1 = 0.0;
+};
+
+inline double ErrorOf(const Problem& problem, const Impact& impact, const End& exact) {
+  const double speed = std::max(std::fabs(problem.contact.u0), std::fabs(problem.contact.v0));
+  return std::max(std::fabs(impact.u1 - exact.u1), std::fabs(impact.v1 - exact.v1)) / speed;
+}
+
+class ClaimScenes {
+ public:
+  ClaimScenes(ClaimKind kind, bool hard, uint64_t seed) : kind_(kind), hard_(hard), planar_(seed), compliant_(seed) {}
+
+  Problem Next() {
+    Problem problem;
+    if (kind_ == ClaimKind::kCompliant) {
+      const compliant::Problem stated = hard_ ? HardCompliant() : compliant_.Everyday(0.02, 50.0);
+      problem.contact = stated.contact;
+      problem.contact.mu_static = problem.contact.mu;
+      problem.ratio_squared = stated.ratio_squared;
+    } else {
+      problem.contact = hard_ ? planar_.Any() : planar_.Everyday();
+      problem.contact.law = RestitutionLaw::kEnergetic;
+      problem.contact.coefficient = planar_.UnitCoefficient();
+    }
+    const double stiffness = std::pow(10.0, planar_.Uniform(-3.0, 12.0));
+    problem.spring =
+        kind_ == ClaimKind::kHertz ? NormalSpring(HertzSpring{stiffness}) : NormalSpring(LinearSpring{stiffness});
+    if (hard_ && planar_.Below(2) == 0) Scale(problem);
+    return problem;
+  }
+
+ private:
+  compliant::Problem HardCompliant() {
+    return compliant_.Below(2) == 0 ? compliant::Everyday(compliant_) : compliant_.NearRankOne();
+  }
+
+  // By powers of two up to 10^+-100. Stiffness stays as it is, because it changes neither velocity.
+  void Scale(Problem& problem) {
+    const double speed = std::exp2(std::floor(planar_.Uniform(-332.0, 332.0)));
+    const double mobility = std::exp2(std::floor(planar_.Uniform(-332.0, 332.0)));
+    PlanarProblem& contact = problem.contact;
+    for (double* velocity : {&contact.u0, &contact.v0}) *velocity *= speed;
+    for (double* entry : {&contact.w.tt, &contact.w.tn, &contact.w.nn}) *entry *= mobility;
+  }
+
+  ClaimKind kind_;
+  bool hard_;
+  planar::SceneSource planar_;
+  compliant::SceneSource compliant_;
+};
+
+// The end by the model in closed form; nothing where that does not know it, or where the particle sticks and slides so
+// often that the integration takes seconds.
+inline std::optional<End> ClosedForm(const Problem& problem) {
+  if (!problem.ratio_squared.has_value()) {
+    const planar::Impact exact = planar::Solve(problem.contact);
+    return End{exact.u1, exact.v1};
+  }
+  const compliant::Impact exact =
+      compliant::Solve({.contact = problem.contact, .ratio_squared = *problem.ratio_squared});
+  constexpr size_t kMostSections = 50;
+  if (!exact.Converged() || exact.sections.size() > kMostSections) return std::nullopt;
+  return End{exact.u1, exact.v1};
+}
+
+inline ClaimTally ClaimsOf(ClaimKind kind, bool hard, double tolerance, int count, uint64_t seed) {
+  ClaimScenes scenes(kind, hard, seed);
+  ClaimTally tally(tolerance);
+  for (int i = 0; tally.count() < count; ++i) {
+    Problem problem = scenes.Next();
+    problem.tolerance = tolerance;
+    const std::optional<End> exact = ClosedForm(problem);
+    if (!exact.has_value()) continue;
+    const Impact impact = Solve(problem);
+    tally.Add(impact.error_estimate, ErrorOf(problem, impact, *exact), "scene " + std::to_string(i));
+  }
+  return tally;
+}
+
+}  // namespace ricochet::finite_duration
+
+#endif  // RICOCHET_TESTS_SUPPORT_FINITE_DURATION_CLAIMS_H_
