@@ -1,6 +1,7 @@
 // MakeOutcome: the answer of each impact model as an Outcome, but for its effective coefficients and its plan.
 //
-// Each writes into an outcome that is empty. The reduction must be that of the problem.
+// Each writes into an outcome that is empty. The reduction must be that of the problem. `tolerance` is what rounding may
+// change (ToleranceLeft in core/plan/arithmetic.h).
 // Errors are those of Complete (core/answer/outcome_parts.h): OUT_OF_RANGE names the first output that exceeds the
 // largest double, INVALID_ARGUMENT each impulse of the history that is not in [0, tau1].
 
@@ -28,7 +29,7 @@ namespace ricochet {
 
 namespace pendulum {
 
-absl::Status MakeOutcome(const Problem& problem, const Extent& extent, Outcome& outcome);
+absl::Status MakeOutcome(const Problem& problem, double tolerance, const Extent& extent, Outcome& outcome);
 
 // The path of an output in ricochet.v1.Outcome, such as "coefficients.newton"; empty if it is not in an outcome.
 std::string OutputPath(Output output);
@@ -44,8 +45,8 @@ absl::Status MakeOutcome(const Problem& problem, const Extent& extent, Outcome& 
 
 namespace planar {
 
-absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const Extent& extent,
-                         Outcome& outcome);
+absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, double tolerance,
+                         const Extent& extent, Outcome& outcome);
 
 }  // namespace planar
 

@@ -1,13 +1,10 @@
-#include <algorithm>
 #include <vector>
 
 #include "core/answer/model_outcomes.h"
+#include "core/plan/arithmetic.h"
 
 namespace ricochet::pendulum {
 namespace {
-
-// 4 ulp of a velocity whose size is at most 1.
-constexpr double kUlps = 0x1p-50;
 
 // The state of the contact at angular velocity `omega`. Each product is rounded once.
 State MakeState(const Problem& problem, double tau, double omega, double tangential_impulse) {
@@ -84,10 +81,9 @@ absl::Status MakeOutcomeOf(const Problem& problem, const Impact& impact, double 
 
 }  // namespace
 
-absl::Status MakeOutcome(const Problem& problem, const Extent& extent, Outcome& outcome) {
-  const Impact impact = Solve(problem);
-  const double error = kUlps * std::max(1.0, impact[Output::kNewton]);
-  return MakeOutcomeOf(problem, impact, error, At, extent, outcome);
+absl::Status MakeOutcome(const Problem& problem, double tolerance, const Extent& extent, Outcome& outcome) {
+  const SolvedImpact<Impact> solved = SolveWithin(problem, tolerance);
+  return MakeOutcomeOf(problem, solved.impact, solved.relative_error, At, extent, outcome);
 }
 
 std::string OutputPath(Output output) {

@@ -4,6 +4,7 @@
 
 #include "core/answer/model_outcomes.h"
 #include "core/numerics/invariant.h"
+#include "core/plan/arithmetic.h"
 #include "core/plan/planned_scene.h"
 #include "core/problem/scene_problem.h"
 #include "ricochet/error.h"
@@ -25,6 +26,9 @@ struct Job {
     LeaveOut(planned.choice.LeftOut(), effective.kinetic_friction, effective.static_friction);
     return effective;
   }
+
+  // The part of the tolerance that the effects left out do not use.
+  double Tolerance() const { return ToleranceLeft(options.demand.relative_tolerance, planned.choice.Negligible()); }
 };
 
 absl::Status SolveCompliant(const Job& job, const PlanarReduction& reduction) {
@@ -63,8 +67,8 @@ absl::Status SolveContact(const Job& job, const PlanarReduction& reduction) {
       return SolveStraight(job, sliding::Solve(sliding::MakeProblem(reduction, effective)), reduction);
     case Model::kNone:
     case Model::kPlanar:
-      return planar::MakeOutcome(planar::MakeProblem(reduction, job.scene.restitution, effective), reduction, extent,
-                                 job.outcome);
+      return planar::MakeOutcome(planar::MakeProblem(reduction, job.scene.restitution, effective), reduction,
+                                 job.Tolerance(), extent, job.outcome);
     case Model::kCompliant:
       return SolveCompliant(job, reduction);
     case Model::kFiniteDuration:
@@ -99,7 +103,7 @@ absl::Status SolvePendulum(const Job& job, const pendulum::Problem& stated) {
   const Model model = job.planned.choice.model;
   return model == Model::kFrictionless || model == Model::kFirstOrder
              ? first_order::MakeOutcome(problem, job.options.extent, job.outcome)
-             : pendulum::MakeOutcome(problem, job.options.extent, job.outcome);
+             : pendulum::MakeOutcome(problem, job.Tolerance(), job.options.extent, job.outcome);
 }
 
 }  // namespace

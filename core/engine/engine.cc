@@ -106,10 +106,34 @@ void Add(const PlanarReduction& reduction, StableHash& hash) {
   hash.Add(reduction.v0);
 }
 
+void AddValues(const pendulum::Impact& impact, StableHash& hash) {
+  hash.Add(static_cast<uint64_t>(impact.regime));
+  for (const double value : impact.values) hash.Add(value);
+}
+
+// Adds both arithmetics of the closed forms, each with the bound on its rounding error.
+void AddArithmetics(const planar::Problem& problem, StableHash& hash) {
+  planar::RoundingErrors errors;
+  Add(planar::Solve(problem, errors), hash);
+  hash.Add(errors.Largest());
+  const planar::PlainImpact plain = planar::SolvePlain(problem);
+  if (!plain.proved) return;
+  Add(plain.impact, hash);
+  hash.Add(plain.errors.Largest());
+}
+
+void AddArithmetics(const pendulum::Problem& problem, StableHash& hash) {
+  AddValues(pendulum::Solve(problem), hash);
+  const pendulum::PlainImpact plain = pendulum::SolvePlain(problem);
+  if (!plain.proved) return;
+  AddValues(plain.impact, hash);
+  hash.Add(plain.relative_error);
+}
+
 std::string Fingerprint() {
   StableHash hash;
   for (int i = 0; i < 16; ++i) {
-    Add(planar::Solve(PlanarProbe(i)), hash);
+    AddArithmetics(PlanarProbe(i), hash);
     Add(spatial::Solve(SpatialProbe(i)), hash);
     Add(compliant::Solve(CompliantProbe(i)), hash);
     Add(sliding::Solve(SlidingProbe(i)), hash);
@@ -118,12 +142,8 @@ std::string Fingerprint() {
     Add(std::get<PlanarReduction>(Reduce({.system = LinkageProbe(i)})), hash);
   }
   for (int i = 0; i < 64; ++i) {
-    const pendulum::Impact impact = pendulum::Solve(Probe(i));
-    hash.Add(static_cast<uint64_t>(impact.regime));
-    for (const double value : impact.values) hash.Add(value);
-    if (i % 4 == 0 && first_order::Serves(Probe(i))) {
-      for (const double value : first_order::Solve(Probe(i)).values) hash.Add(value);
-    }
+    AddArithmetics(Probe(i), hash);
+    if (i % 4 == 0 && first_order::Serves(Probe(i))) AddValues(first_order::Solve(Probe(i)), hash);
   }
   return absl::StrCat(absl::Hex(hash.value(), absl::kZeroPad16));
 }

@@ -220,7 +220,8 @@ TEST(CostTest, RequestSurvivesWithAndWithoutItsOptions) {
 }
 
 TEST(CostTest, RowsSurviveWithAndWithoutTimes) {
-  const CostTime time = {.median_s = 1e-8, .lower_quartile_s = 9e-9, .upper_quartile_s = 2e-8, .samples = 21, .per_sample = 8};
+  const CostTime time = {
+      .median_s = 1e-8, .lower_quartile_s = 9e-9, .upper_quartile_s = 2e-8, .samples = 21, .per_sample = 8};
   const CostRow measured = {.name = "space 1e-06",
                             .method = {.model = Model::kSpatial, .arithmetic = Arithmetic::kPlain, .tolerance = 1e-6},
                             .status = CostStatus::kMeasured,

@@ -70,7 +70,7 @@ struct PendulumModel {
       const bool is_told = !pendulum::OutputPath(static_cast<pendulum::Output>(i)).empty();
       overflows = overflows || (is_told && std::isinf(impact.values[i]));
     }
-    const auto outcome = Made([&problem](Outcome& made) { return pendulum::MakeOutcome(problem, {}, made); });
+    const auto outcome = Made([&problem](Outcome& made) { return pendulum::MakeOutcome(problem, 0.0, {}, made); });
     if (overflows && !IsRefusedByName(outcome)) errors.fill(kWrong);
     return errors;
   }
@@ -120,7 +120,7 @@ struct PlanarModel {
   static bool IsRefused(const Problem& problem) {
     const Scene scene = {.system = PlanarContact{problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0}};
     const auto reduction = std::get<PlanarReduction>(Reduce(scene));
-    return IsRefusedByName(Made([&](Outcome& made) { return planar::MakeOutcome(problem, reduction, {}, made); }));
+    return IsRefusedByName(Made([&](Outcome& made) { return planar::MakeOutcome(problem, reduction, 0.0, {}, made); }));
   }
 };
 

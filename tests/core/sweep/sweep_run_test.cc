@@ -133,21 +133,52 @@ std::vector<std::string> ErrorFields(const SweepRequest& request) { return Field
 // ---- Points ----
 
 TEST(SweepRunTest, EveryPointHasTheBitsThatSolveGivesItsScene) {
-  const SweepRequest request = MixedRequest();
-  const Points points = RunAll(request);
-  ASSERT_EQ(points.values.size(), 3060U);
+  // Compensated arithmetic alone, plain arithmetic at some points, at most of them, and beside effects that the caller
+  // decides on.
+  const DemandFields demands[] = {
+      {.relative_tolerance = 0.0},      {.relative_tolerance = 2e-15},        {},
+      {.relative_tolerance = 1e-9},     {.required = {Effect::kHigherOrder}}, {.excluded = {Effect::kStaticFriction}},
+      {.excluded = {Effect::kFriction}}};
   const LocalSolver solver;
-  for (size_t i = 0; i < points.values.size(); ++i) {
-    const auto response = solver.Solve({.scene = SceneAt(request, static_cast<int64_t>(i))});
-    ASSERT_EQ(response.ok(), points.regimes[i] != Regime::kInvalid) << i;
-    if (!response.ok()) continue;
-    ASSERT_EQ(points.regimes[i], response->outcome.regime) << i;
-    ASSERT_TRUE(SameBits(points.values[i], ColumnsOf(response->outcome))) << i;
+  for (const DemandFields& demand : demands) {
+    SweepRequest request = MixedRequest();
+    request.demand = demand;
+    const Points points = RunAll(request);
+    ASSERT_EQ(points.values.size(), 3060U);
+    for (size_t i = 0; i < points.values.size(); ++i) {
+      const auto response = solver.Solve({.scene = SceneAt(request, static_cast<int64_t>(i)), .demand = demand});
+      ASSERT_EQ(response.ok(), points.regimes[i] != Regime::kInvalid) << i;
+      if (!response.ok()) continue;
+      ASSERT_EQ(points.regimes[i], response->outcome.regime) << i;
+      ASSERT_TRUE(SameBits(points.values[i], ColumnsOf(response->outcome))) << i;
+    }
   }
 }
 
+// One point in five is so close to locking that its bound exceeds the tolerance of 1e-12, but not one of 1e-9.
+TEST(SweepRunTest, OnlyPointsWhoseBoundExceedsTheToleranceTakeCompensatedArithmetic) {
+  std::vector<double> frictions;
+  for (int i = 0; i < 500; ++i) frictions.push_back(i % 5 == 2 ? 0.3 * (1.0 - 1e-9) - 1e-12 * i : 5e-4 * (i + 1));
+  SweepRequest request = MakeRequest({List("friction.kinetic_coefficient", frictions)}, {"coefficients.poisson"});
+  std::vector<Points> points;
+  for (const double tolerance : {0.0, 1e-12, 1e-9}) {
+    request.demand.relative_tolerance = tolerance;
+    points.push_back(RunAll(request));
+  }
+  int hard_ones_that_differ = 0;
+  int easy_ones_that_differ = 0;
+  for (size_t i = 0; i < frictions.size(); ++i) {
+    const bool hard = i % 5 == 2;
+    EXPECT_TRUE(SameBits(points[1].values[i], points[hard ? 0 : 2].values[i])) << i;
+    if (SameBits(points[0].values[i], points[2].values[i])) continue;
+    ++(hard ? hard_ones_that_differ : easy_ones_that_differ);
+  }
+  EXPECT_GT(hard_ones_that_differ, 20);  // Rounding is seen.
+  EXPECT_GT(easy_ones_that_differ, 20);
+}
+
 TEST(SweepRunTest, AnySubRangeHasTheBitsOfTheWhole) {
-  SweepRequest request = MixedRequest();
+  SweepRequest request = MixedRequest();  // At the default tolerance both arithmetics occur.
   const Points whole = RunAll(request);
   const std::pair<int64_t, int64_t> ranges[] = {{0, 1},    {7, 8},       {50, 53},   {1023, 1026},
                                                 {1, 3060}, {3059, 3060}, {500, 2700}};

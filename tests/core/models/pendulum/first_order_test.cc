@@ -264,7 +264,7 @@ TEST(FirstOrderOutcomeTest, IsThePendulumsWithinItsBound) {
       return Made([&](Outcome& made) { return first_order::MakeOutcome(p, {.history_at_n_s = taus}, made); });
     };
     const Outcome outcome = with_history({0.0, tau1}).value();
-    const Outcome exact = Made([&p](Outcome& made) { return pendulum::MakeOutcome(p, {}, made); }).value();
+    const Outcome exact = Made([&p](Outcome& made) { return pendulum::MakeOutcome(p, 0.0, {}, made); }).value();
     EXPECT_EQ(outcome.regime, exact.regime);
     EXPECT_TRUE(outcome.admissible);
     EXPECT_EQ(outcome.w_rank, 1);

@@ -372,7 +372,7 @@ void ExpectSameImpact(const Outcome& x, const Outcome& y) {
 Outcome FullOutcome(const PlanarReduction& reduction, const Restitution& restitution,
                     const EffectiveCoefficients& effective) {
   const planar::Problem problem = planar::MakeProblem(reduction, restitution, effective);
-  return Made([&](Outcome& made) { return planar::MakeOutcome(problem, reduction, {}, made); }).value();
+  return Made([&](Outcome& made) { return planar::MakeOutcome(problem, reduction, 0.0, {}, made); }).value();
 }
 
 Outcome FullOutcome(const SpatialReduction& reduction, const Restitution& restitution,
