@@ -7,6 +7,9 @@
 
 #include <cerrno>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "absl/status/status.h"
 #include "absl/strings/match.h"
@@ -19,6 +22,8 @@ namespace ricochet::cli {
 namespace {
 
 constexpr int kHeight = 620;
+constexpr int kWidthOfOne = 960;
+constexpr int kWidthOfSeveral = 640;
 
 // Okabe and Ito's colours, which the colour-blind can tell apart, without the yellow.
 constexpr char kStyle[] = R"(set linetype 1 linecolor rgb '#0072B2'
@@ -39,8 +44,11 @@ std::string Quoted(const std::string& text) {
   return absl::StrCat("'", absl::StrReplaceAll(text, {{"'", "''"}, {"\n", " "}}), "'");
 }
 
-std::string Terminal(const std::string& terminal, size_t panels) {
-  const std::string size = absl::StrCat(panels == 1 ? 960 : 640 * panels, ",", kHeight);
+std::string Terminal(const std::string& terminal, const Plot& plot) {
+  const auto panels = static_cast<int>(plot.panels.size());
+  const int width = panels == 1 ? kWidthOfOne : kWidthOfSeveral * panels;
+  const std::string size =
+      absl::StrCat(plot.width > 0 ? plot.width : width, ",", plot.height > 0 ? plot.height : kHeight);
   return terminal == "svg" ? absl::StrCat("svg size ", size, " font 'DejaVu Sans,15' background 'white'")
                            : absl::StrCat("pngcairo size ", size, " font 'DejaVu Sans,13'");
 }
@@ -61,7 +69,7 @@ void AppendPanel(size_t number, const Panel& panel, std::string& script) {
                   Quoted(panel.y_label), "\n");
   absl::StrAppend(&script, panel.log_x ? "set" : "unset", " logscale x\n");
   absl::StrAppend(&script, panel.curves.size() > 1 ? "set key outside right center reverse Left\n" : "unset key\n");
-  absl::StrAppend(&script, "unset arrow\n");
+  absl::StrAppend(&script, "unset arrow\n", panel.settings);
   for (const double mark : panel.x_marks) {
     const std::string x = ShortestDecimal(mark);
     absl::StrAppend(&script, "set arrow from ", x, ", graph 0 to ", x,
@@ -69,8 +77,11 @@ void AppendPanel(size_t number, const Panel& panel, std::string& script) {
   }
   for (size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
-    absl::StrAppend(&script, i == 0 ? "plot " : ", ", "$p", number, "c", i, " using 1:2 with ",
-                    curve.points.size() == 1 ? "points" : "lines", " linewidth 2 title ", Quoted(curve.title));
+    const std::string style =
+        !curve.style.empty() ? curve.style
+                             : absl::StrCat("with ", curve.points.size() == 1 ? "points" : "lines", " linewidth 2");
+    absl::StrAppend(&script, i == 0 ? "plot " : ", ", "$p", number, "c", i, " using 1:2 ", style,
+                    curve.title.empty() ? " notitle" : absl::StrCat(" title ", Quoted(curve.title)));
   }
   absl::StrAppend(&script, "\n");
 }
@@ -157,12 +168,22 @@ absl::Status CheckPlotPath(const std::string& path) {
 }
 
 std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path) {
-  std::string script = absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, plot.panels.size()),
+  std::string script = absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, plot),
                                     "\nset termoption noenhanced\nset output ", Quoted(path), "\n", kStyle,
                                     "set multiplot layout 1,", plot.panels.size(), " title ", Quoted(plot.title), "\n");
   for (size_t i = 0; i < plot.panels.size(); ++i) AppendPanel(i, plot.panels[i], script);
   absl::StrAppend(&script, "unset multiplot\nunset output\n");
   return script;
+}
+
+absl::StatusOr<std::string> DrawSvg(const Plot& plot) {
+  // The file is never committed, so that it is removed again.
+  const absl::StatusOr<AtomicFile> file =
+      AtomicFile::Create((std::filesystem::temp_directory_path() / "ricochet.svg").string());
+  if (!file.ok()) return file.status();
+  if (absl::Status status = RunGnuplot(PlotScript(plot, "svg", file->temporary_path())); !status.ok()) return status;
+  std::ifstream stream(file->temporary_path(), std::ios::binary);
+  return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
 absl::Status Draw(const Plot& plot, const std::string& path) {

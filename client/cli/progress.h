@@ -9,14 +9,14 @@
 
 namespace ricochet::cli {
 
-// Returns "[#####     ]  50 %   2.5e+06 points/s   3 s left".
-std::string ProgressLine(int64_t done, int64_t total, double seconds);
+// Returns "[#####     ]  50 %   2.5e+06 points/s   3 s left"; `unit` names what is counted.
+std::string ProgressLine(int64_t done, int64_t total, double seconds, const std::string& unit = "points");
 
 // Draws on stderr at most ten times a second if stderr is a terminal, and erases the bar at the end. Otherwise it does
 // nothing.
 class Progress {
  public:
-  Progress();
+  explicit Progress(std::string unit = "points");
   ~Progress();
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -28,6 +28,7 @@ class Progress {
   using Clock = std::chrono::steady_clock;
   Clock::time_point start_ = Clock::now();
   Clock::time_point drawn_ = start_;
+  std::string unit_;
   bool terminal_;
   bool visible_ = false;
 };

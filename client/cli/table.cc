@@ -8,8 +8,6 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr size_t kGap = 3;
-
 // Counts characters, not bytes: continuation bytes of UTF-8 have no width.
 size_t Width(const std::string& text) {
   return static_cast<size_t>(
@@ -18,7 +16,7 @@ size_t Width(const std::string& text) {
 
 }  // namespace
 
-std::string Table::Render(size_t indent) const {
+std::string Table::Render(size_t indent, size_t gap) const {
   std::vector<size_t> widths;
   for (const auto& row : rows_) {
     if (widths.size() < row.size()) widths.resize(row.size());
@@ -32,7 +30,7 @@ std::string Table::Render(size_t indent) const {
       if (i == 0) {
         absl::StrAppend(&line, row[i], padding);
       } else {
-        absl::StrAppend(&line, std::string(kGap, ' '), padding, row[i]);
+        absl::StrAppend(&line, std::string(gap, ' '), padding, row[i]);
       }
     }
     line.erase(line.find_last_not_of(' ') + 1);

@@ -13,8 +13,8 @@ class Table {
   // A row may have fewer cells than others.
   void Add(std::vector<std::string> cells) { rows_.push_back(std::move(cells)); }
 
-  // Returns each row on its own line after `indent` spaces.
-  std::string Render(size_t indent) const;
+  // Returns each row on its own line after `indent` spaces, with `gap` spaces between columns.
+  std::string Render(size_t indent, size_t gap = 3) const;
 
  private:
   std::vector<std::vector<std::string>> rows_;
