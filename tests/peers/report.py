@@ -13,7 +13,10 @@ import statistics
 import subprocess
 import sys
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '..')
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'support'))
+import provenance  # pylint: disable=wrong-import-position
+
+ROOT = provenance.ROOT
 PAGE = os.path.join(ROOT, 'docs', 'peers.md')
 PICTURE = os.path.join(ROOT, 'docs', 'images', 'peers.svg')
 BEGIN = '<!-- measured: begin -->\n'
@@ -81,35 +84,10 @@ def read(path):
     return [Row(cases) for cases in settings.values()]
 
 
-def run(*command):
-    return subprocess.run(command, check=True, capture_output=True, text=True, cwd=ROOT).stdout.strip()
-
-
-def machine():
-    with open('/proc/cpuinfo', encoding='utf-8') as file:
-        name = re.search(r'model name\s*: (.*)', file.read())
-    cores = os.cpu_count()
-    return '%s, %d core%s' % (name.group(1) if name else run('uname', '-m'), cores, '' if cores == 1 else 's')
-
-
-def commit():
-    changed = run('git', 'status', '--porcelain', '--untracked-files=no', '--', '.', ':!docs', ':!tests/peers/results.csv')
-    return run('git', 'rev-parse', '--short', 'HEAD') + (' with changes' if changed else '')
-
-
-def version(package):
-    shown = subprocess.run(['dpkg-query', '--show', '--showformat=${Version}', package], capture_output=True, text=True,
-                           check=False)
-    return shown.stdout if shown.returncode == 0 and shown.stdout else 'not installed, left out'
-
-
-def provenance(packages):
-    with open('/etc/os-release', encoding='utf-8') as file:
-        system = re.search(r'PRETTY_NAME="(.*)"', file.read()).group(1)
-    compiler = run('c++', '--version').splitlines()[0]
-    lines = ['Measured at commit %s on %s; %s; %s, release build. Packages:' % (commit(), machine(), system, compiler), '']
-    lines += ['%s %s%s' % (package, version(package), '.' if package == packages[-1] else ',') for package in packages]
-    return lines
+def header(packages):
+    lines = [provenance.sentence() + ' Packages:', '']
+    return lines + ['%s %s%s' % (package, provenance.version(package), '.' if package == packages[-1] else ',')
+                    for package in packages]
 
 
 def exponent(number):
@@ -175,7 +153,7 @@ def write_page(rows, packages):
     with open(PAGE, encoding='utf-8') as file:
         before, rest = file.read().split(BEGIN)
     after = rest.split(END)[1]
-    text = provenance(packages) + ['', '### The answers', ''] + answers(rows)
+    text = header(packages) + ['', '### The answers', ''] + answers(rows)
     text += ['', '### The largest errors of all settings', ''] + errors(rows)
     with open(PAGE, 'w', encoding='utf-8') as file:
         file.write(before + BEGIN + '\n' + '\n'.join(text) + '\n\n' + END + after)
