@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "core/models/compliant/path.h"
-#include "core/models/compliant/perturbation.h"
 #include "core/models/compliant/spring_contact.h"
 
 namespace ricochet::compliant {
@@ -46,25 +45,11 @@ Regime RegimeOf(const SpringContact& contact, const PathResult& path) {
   return stays ? Regime::kStickInRestitution : Regime::kReversalInRestitution;
 }
 
-// The relative errors put on, see docs/theory/compliant.md.
-constexpr double kPerturbation = 0x1p-44;
-
-double ErrorEstimate(const PlanarProblem& problem, const Units& units, const SpringContact& contact,
-                     const PathResult& path) {
-  if (!path.Ends()) return std::numeric_limits<double>::infinity();
+double ErrorEstimate(const PlanarProblem& problem, const Units& units, const PathResult& path) {
   const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
-  const auto size = [](double u, double v) { return std::max(std::fabs(u), std::fabs(v)); };
   // In units of speed the least double is 2^-1074/2^units.speed, and rounding to it takes up to half of it.
   const double rounding = std::scalbn(1.0, -1075 - units.speed);
-  const double error = 16.0 * kEps * std::max(speed, size(path.end.u, path.end.v)) + rounding;
-  double spread = 0.0;
-  for (const uint64_t seed : {0x9e3779b97f4a7c15U, 0xd1b54a32d192ed03U}) {
-    const PathResult perturbed =
-        FollowPath(contact, problem.u0, problem.v0, Perturbation(seed, kPerturbation), nullptr);
-    if (!perturbed.Ends()) return std::numeric_limits<double>::infinity();
-    spread = std::max(spread, size(perturbed.end.u - path.end.u, perturbed.end.v - path.end.v));
-  }
-  return (error + spread) / speed;
+  return (path.velocity_error + rounding) / speed;
 }
 
 void WriteMotion(const PlanarProblem& problem, const Units& units, const PathResult& path, Impact& impact) {
@@ -136,7 +121,7 @@ Impact Solve(const Problem& problem) {
   const PlanarProblem scaled = InUnits(stated, units);
   const SpringContact contact = MakeSpringContact(scaled, ratio_squared);
   Impact impact;
-  const PathResult path = FollowPath(contact, scaled.u0, scaled.v0, Perturbation(1, 0.0), &impact.sections);
+  const PathResult path = FollowPath(contact, scaled.u0, scaled.v0, &impact.sections);
   impact.regime = RegimeOf(contact, path);
   impact.termination = path.termination;
   impact.w_rank = contact.rank;
@@ -144,7 +129,7 @@ Impact Solve(const Problem& problem) {
   WriteNormalWorks(scaled, units, path, impact);
   WriteTangentialWorks(units, contact, path, impact);
   impact.energy_change = EnergyChange(scaled, units, path.end);
-  impact.error_estimate = ErrorEstimate(scaled, units, contact, path);
+  impact.error_estimate = ErrorEstimate(scaled, units, path);
   ScaleSections(units, impact.sections);
   return impact;
 }

@@ -5,7 +5,7 @@
 // friction on it obeys |F| <= mu N. Solve computes velocities and impulses after the impact from W, (u0, v0), mu, the
 // energetic coefficient eta and ratio^2, the tangential over the normal compliance; no stiffness is needed. SI units.
 // Method: slides are algebra in the normal impulse, sticks two sinusoids in time, without a step size.
-// Accuracy: error_estimate, 1e-14 to 1e-12 for everyday contacts; infinite where the impact has no end (wedged).
+// Accuracy: error_estimate, 1e-16 to 1e-14 for everyday contacts; infinite where the impact has no end (wedged).
 // Inputs or ratios of inputs beyond 1e100 either way may overflow: what is not finite then is not known.
 // Bad input: none gets here (core/scene/validate.h); IsAdmissible says which coefficients a contact can have.
 // Model, regimes, derivations and limits: docs/theory/compliant.md.

@@ -7,8 +7,8 @@ namespace ricochet::compliant {
 namespace {
 
 // Writes the eigenvectors of K = [k11, k12; k12, k22] and the larger frequency.
-void FindEigenvectors(double k11, double k12, double k22, Perturbation& perturbation, NormalModes& modes) {
-  const double half = 0.5 * perturbation.Sum(k11, -k22);
+void FindEigenvectors(double k11, double k12, double k22, NormalModes& modes) {
+  const double half = 0.5 * (k11 - k22);
   const double large = std::max(std::fabs(half), std::fabs(k12));
   const double small = std::min(std::fabs(half), std::fabs(k12));
   if (!(large > 0.0)) {
@@ -23,27 +23,24 @@ void FindEigenvectors(double k11, double k12, double k22, Perturbation& perturba
   modes.w.fast = std::sqrt(0.5 * (k11 + k22) + radius);
 }
 
-std::array<double, 2> AlongEigenvectors(const NormalModes& modes, double first, double second,
-                                        Perturbation& perturbation) {
-  return {perturbation.Sum(modes.c * first, modes.s * second), perturbation.Sum(modes.c * second, -modes.s * first)};
+std::array<double, 2> AlongEigenvectors(const NormalModes& modes, double first, double second) {
+  return {modes.c * first + modes.s * second, modes.c * second - modes.s * first};
 }
 
 }  // namespace
 
-NormalModes MakeNormalModes(const SpringContact& contact, const SectionMode& mode, const ContactState& state,
-                            Perturbation& perturbation) {
+NormalModes MakeNormalModes(const SpringContact& contact, const SectionMode& mode, const ContactState& state) {
   const double ratio = std::sqrt(contact.ratio_squared);
   const double root = contact.RootOfStiffness(mode.branch);
   NormalModes modes;
   FindEigenvectors(contact.wtt / contact.ratio_squared, -contact.wtn * root / ratio,
-                   contact.NormalStiffness(mode.branch) * contact.wnn, perturbation, modes);
+                   contact.NormalStiffness(mode.branch) * contact.wnn, modes);
   // The product of the frequencies is sqrt(det K), which does not cancel.
   modes.w.slow = root * std::sqrt(contact.determinant / contact.ratio_squared) / modes.w.fast;
-  modes.y = AlongEigenvectors(modes, ratio * state.spring_force, state.normal_force / root, perturbation);
-  modes.rate = AlongEigenvectors(modes, state.u / ratio, -state.v * root, perturbation);
+  modes.y = AlongEigenvectors(modes, ratio * state.spring_force, state.normal_force / root);
+  modes.rate = AlongEigenvectors(modes, state.u / ratio, -state.v * root);
   if (contact.u_follows_v) modes.rate[1] = 0.0;
-  modes.w.fast = perturbation.On(modes.w.fast);
-  modes.w.slow = std::min(perturbation.On(modes.w.slow), modes.w.fast);
+  modes.w.slow = std::min(modes.w.slow, modes.w.fast);
   return modes;
 }
 

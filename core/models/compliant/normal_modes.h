@@ -9,7 +9,6 @@
 #include <array>
 
 #include "core/models/compliant/oscillation.h"
-#include "core/models/compliant/perturbation.h"
 #include "core/models/compliant/section.h"
 
 namespace ricochet::compliant {
@@ -23,8 +22,7 @@ struct NormalModes {
   Signal Combination(double first, double second) const;
 };
 
-NormalModes MakeNormalModes(const SpringContact& contact, const SectionMode& mode, const ContactState& state,
-                            Perturbation& perturbation);
+NormalModes MakeNormalModes(const SpringContact& contact, const SectionMode& mode, const ContactState& state);
 
 // N(t).
 Signal NormalForce(const SpringContact& contact, const SectionMode& mode, const NormalModes& modes);

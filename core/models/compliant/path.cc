@@ -17,9 +17,8 @@ FrictionState FrictionOf(const SectionMode& mode) {
 
 class PathFollower {
  public:
-  PathFollower(const SpringContact& contact, double u0, double v0, Perturbation perturbation,
-               std::vector<Section>* sections)
-      : contact_(contact), perturbation_(perturbation), sections_(sections) {
+  PathFollower(const SpringContact& contact, double u0, double v0, std::vector<Section>* sections)
+      : contact_(contact), error_(contact), sections_(sections) {
     state_.u = contact.u_follows_v ? v0 * (contact.wtn / contact.wnn) : u0;
     state_.v = v0;
     mode_.slip_side = SlipSideAtStart();
@@ -29,6 +28,7 @@ class PathFollower {
     PathResult result;
     result.termination = FollowToEnd();
     result.end = state_;
+    result.velocity_error = result.Ends() ? error_.OfVelocity() : std::numeric_limits<double>::infinity();
     result.compression_end = mode_.IsFirstLoading() ? state_ : compression_end_;
     result.largest_normal_force = mode_.IsFirstLoading() ? state_.normal_force : mode_.largest_normal_force;
     if (!compressions_before_stick_.has_value()) return result;
@@ -55,15 +55,18 @@ class PathFollower {
         return Termination::kRefused;
       }
       if (end.has_no_end) return Termination::kRefused;
-      if (end.parts || !BeginNextSection(end)) return Termination::kConverged;
+      if (end.parts) return Termination::kConverged;
+      if (!BeginNextSection(end)) {
+        error_.EndAtRest(mode_, state_);
+        return Termination::kConverged;
+      }
     }
     return Termination::kBudgetUsedUp;
   }
 
   SectionEnd RunSection() {
-    if (IsHeldForEver(contact_, mode_, perturbation_, state_)) return {.has_no_end = true};
-    return mode_.Sticks() ? Stick(contact_, mode_, perturbation_, state_)
-                          : Slide(contact_, mode_, perturbation_, state_);
+    if (IsHeldForEver(contact_, mode_, state_)) return {.has_no_end = true};
+    return mode_.Sticks() ? Stick(contact_, mode_, error_, state_) : Slide(contact_, mode_, error_, state_);
   }
 
   void Record() {
@@ -124,7 +127,7 @@ class PathFollower {
   }
 
   const SpringContact& contact_;
-  Perturbation perturbation_;
+  PathError error_;
   std::vector<Section>* sections_;
   ContactState state_;
   ContactState compression_end_;
@@ -135,9 +138,8 @@ class PathFollower {
 
 }  // namespace
 
-PathResult FollowPath(const SpringContact& contact, double u0, double v0, Perturbation perturbation,
-                      std::vector<Section>* sections) {
-  return PathFollower(contact, u0, v0, perturbation, sections).Follow();
+PathResult FollowPath(const SpringContact& contact, double u0, double v0, std::vector<Section>* sections) {
+  return PathFollower(contact, u0, v0, sections).Follow();
 }
 
 }  // namespace ricochet::compliant

@@ -7,7 +7,6 @@
 
 #include <vector>
 
-#include "core/models/compliant/perturbation.h"
 #include "core/models/compliant/spring_contact.h"
 #include "ricochet/outcome.h"
 
@@ -22,13 +21,13 @@ struct PathResult {
   ContactState compression_end;       // The last time that the indentation is the largest so far.
   double largest_normal_force = 0.0;  // N at `compression_end`.
   FirstStick first_stick = FirstStick::kNever;
+  double velocity_error = 0.0;  // The error of u and v at the end by rounding; infinite if nothing is known of it.
 
   bool Ends() const { return termination == Termination::kConverged; }
 };
 
-// Appends to `sections` each section's start, unless it is null. The perturbation is put on every section.
-PathResult FollowPath(const SpringContact& contact, double u0, double v0, Perturbation perturbation,
-                      std::vector<Section>* sections);
+// Appends to `sections` each section's start, unless it is null.
+PathResult FollowPath(const SpringContact& contact, double u0, double v0, std::vector<Section>* sections);
 
 }  // namespace ricochet::compliant
 

@@ -11,24 +11,13 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-// The speed of the particle, and the slopes of the velocities over the normal impulse.
-struct SlideRates {
-  double slip = 0.0;        // S >= 0
-  double slip_slope = 0.0;  // A
-  double v_slope = 0.0;     // B
-  double u_slope = 0.0;
-};
-
-SlideRates RatesOf(const SpringContact& contact, const SectionMode& mode, const ContactState& state,
-                   Perturbation& perturbation) {
+SlideRates RatesOf(const SpringContact& contact, const SectionMode& mode, const ContactState& state) {
   const int side = mode.slip_side;
   SlideRates rates;
-  rates.v_slope = contact.NormalSlope(side) + perturbation.Next() * (contact.wnn + contact.mu * std::fabs(contact.wtn));
-  const double error = perturbation.Next() * (std::fabs(contact.wtn) + contact.mu * contact.wtt);
-  rates.slip_slope = contact.SlipSlope(mode.branch, side) + error;
-  rates.u_slope = contact.wtn - side * (contact.mu * contact.wtt - error);
-  const double slip = contact.SlipSpeed(mode.branch, side, state);
-  rates.slip = std::max(0.0, slip + perturbation.Next() * std::fabs(state.u));
+  rates.v_slope = contact.NormalSlope(side);
+  rates.slip_slope = contact.SlipSlope(mode.branch, side);
+  rates.u_slope = contact.wtn - side * (contact.mu * contact.wtt);
+  rates.slip = std::max(0.0, contact.SlipSpeed(mode.branch, side, state));
   return rates;
 }
 
@@ -56,14 +45,14 @@ double ImpulseToLargest(const SpringContact& contact, const SectionMode& mode, c
 }
 
 void Advance(const SpringContact& contact, const SectionMode& mode, const SlideRates& rates, double step,
-             const SectionEnd& end, Perturbation& perturbation, ContactState& state) {
+             const SectionEnd& end, ContactState& state) {
   const int side = mode.slip_side;
   const double stiffness = contact.NormalStiffness(mode.branch);
   const double slip_after = end.stops ? 0.0 : std::max(0.0, rates.slip + rates.slip_slope * step);
   state.friction_loss += 0.5 * contact.mu * step * (rates.slip + slip_after);
-  const double v = end.turns ? 0.0 : perturbation.Sum(state.v, rates.v_slope * step);
+  const double v = end.turns ? 0.0 : state.v + rates.v_slope * step;
   const double force_squared =
-      std::max(0.0, perturbation.Sum(state.normal_force * state.normal_force, -stiffness * step * (state.v + v)));
+      std::max(0.0, state.normal_force * state.normal_force - stiffness * step * (state.v + v));
   state.normal_force = end.parts ? 0.0 : end.passes_largest ? mode.largest_normal_force : std::sqrt(force_squared);
   state.spring_force = side * contact.mu * state.normal_force;
   state.tau += step;
@@ -73,16 +62,15 @@ void Advance(const SpringContact& contact, const SectionMode& mode, const SlideR
   } else if (end.stops) {
     state.u = -side * contact.mu * contact.ratio_squared * stiffness * v;
   } else {
-    state.u = perturbation.Sum(state.u, rates.u_slope * step);
+    state.u = state.u + rates.u_slope * step;
   }
   state.v = v;
 }
 
 }  // namespace
 
-SectionEnd Slide(const SpringContact& contact, const SectionMode& mode, Perturbation& perturbation,
-                 ContactState& state) {
-  const SlideRates rates = RatesOf(contact, mode, state, perturbation);
+SectionEnd Slide(const SpringContact& contact, const SectionMode& mode, PathError& error, ContactState& state) {
+  const SlideRates rates = RatesOf(contact, mode, state);
   const bool turns_at_last = mode.indenting ? rates.v_slope > 0.0 : rates.v_slope < 0.0;
   const double to_turn = turns_at_last ? -state.v / rates.v_slope : kNever;
   const double to_stop = rates.slip_slope < 0.0 ? rates.slip / -rates.slip_slope : kNever;
@@ -91,7 +79,7 @@ SectionEnd Slide(const SpringContact& contact, const SectionMode& mode, Perturba
   if (std::isnan(to_branch_end) || !std::isfinite(rates.slip_slope + rates.v_slope + rates.slip)) {
     return {.overflows = true};
   }
-  const double step = perturbation.On(std::min({to_turn, to_stop, to_branch_end}));
+  const double step = std::min({to_turn, to_stop, to_branch_end});
   if (step == kNever) return {.has_no_end = true};
   const double latest = step * (1.0 + 4.0 * kEps);
   SectionEnd end;
@@ -101,7 +89,9 @@ SectionEnd Slide(const SpringContact& contact, const SectionMode& mode, Perturba
   } else {
     end.turns = to_turn <= latest;
   }
-  Advance(contact, mode, rates, step, end, perturbation, state);
+  const ContactState before = state;
+  Advance(contact, mode, rates, step, end, state);
+  error.AddSlide(mode, rates, before, state, step, end);
   return end;
 }
 

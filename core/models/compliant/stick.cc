@@ -80,51 +80,53 @@ void PutOnCone(const SpringContact& contact, int side, ContactState& state) {
 }
 
 void Advance(const SpringContact& contact, const SectionMode& mode, const NormalModes& modes, const TimedEnd& event,
-             Perturbation& perturbation, ContactState& state) {
+             const Phase& phase, ContactState& state) {
   const double ratio = std::sqrt(contact.ratio_squared);
   const double root = contact.RootOfStiffness(mode.branch);
-  const Phase phase = modes.w.At(event.time);
   std::array<double, 2> y = {}, rate = {}, integral = {};
   for (size_t i = 0; i < 2; ++i) {
     const double w = modes.w[i];
-    y[i] = perturbation.Sum(modes.y[i] * phase.c[i], modes.rate[i] * phase.s[i]);
-    rate[i] = perturbation.Sum(modes.rate[i] * phase.c[i], -w * w * modes.y[i] * phase.s[i]);
+    y[i] = modes.y[i] * phase.c[i] + modes.rate[i] * phase.s[i];
+    rate[i] = modes.rate[i] * phase.c[i] - w * w * modes.y[i] * phase.s[i];
     integral[i] = modes.y[i] * phase.c_integral[i] + modes.rate[i] * phase.s_integral[i];
   }
-  state.normal_force =
-      event.end.passes_largest ? mode.largest_normal_force : root * perturbation.Sum(modes.s * y[0], modes.c * y[1]);
-  state.spring_force = perturbation.Sum(modes.c * y[0], -modes.s * y[1]) / ratio;
+  state.normal_force = event.end.passes_largest ? mode.largest_normal_force : root * (modes.s * y[0] + modes.c * y[1]);
+  state.spring_force = (modes.c * y[0] - modes.s * y[1]) / ratio;
   if (event.end.breaks_away != 0) PutOnCone(contact, event.end.breaks_away, state);
-  state.v = event.end.turns ? 0.0 : -perturbation.Sum(modes.s * rate[0], modes.c * rate[1]) / root;
-  state.u = contact.u_follows_v ? state.v * (contact.wtn / contact.wnn)
-                                : ratio * perturbation.Sum(modes.c * rate[0], -modes.s * rate[1]);
+  state.v = event.end.turns ? 0.0 : -(modes.s * rate[0] + modes.c * rate[1]) / root;
+  state.u =
+      contact.u_follows_v ? state.v * (contact.wtn / contact.wnn) : ratio * (modes.c * rate[0] - modes.s * rate[1]);
   state.tau += root * (modes.s * integral[0] + modes.c * integral[1]);
   state.f -= (modes.c * integral[0] - modes.s * integral[1]) / ratio;
 }
 
-}  // namespace
-
-SectionEnd Stick(const SpringContact& contact, const SectionMode& mode, Perturbation& perturbation,
-                 ContactState& state) {
-  const NormalModes modes = MakeNormalModes(contact, mode, state, perturbation);
-  const TimedEnd event = FirstEvent(contact, mode, state, modes);
-  SectionEnd end = event.end;
-  if (end.has_no_end || end.overflows) return end;
-  Advance(contact, mode, modes, event, perturbation, state);
-  if (end.breaks_away == 0) return end;
+// A stick that breaks away has no normal force left, up to rounding, at the tip of the cone.
+void SettleOnCone(const SectionMode& mode, SectionEnd& end, ContactState& state) {
   // At the tip of a steep cone both sides break away at once, as far as doubles can tell. The sign of p decides.
   if (end.breaks_away * state.spring_force < 0.0) end.breaks_away = -end.breaks_away;
   end.parts = !mode.indenting && state.normal_force <= 8.0 * kEps * mode.largest_normal_force;
   if (end.parts) state.normal_force = 0.0;
+}
+
+}  // namespace
+
+SectionEnd Stick(const SpringContact& contact, const SectionMode& mode, PathError& error, ContactState& state) {
+  const NormalModes modes = MakeNormalModes(contact, mode, state);
+  const TimedEnd event = FirstEvent(contact, mode, state, modes);
+  SectionEnd end = event.end;
+  if (end.has_no_end || end.overflows) return end;
+  const Phase phase = modes.w.At(event.time);
+  Advance(contact, mode, modes, event, phase, state);
+  if (end.breaks_away != 0) SettleOnCone(mode, end, state);
+  error.AddStick(mode, modes, phase, event.time, state, end);
   return end;
 }
 
-bool IsHeldForEver(const SpringContact& contact, const SectionMode& mode, Perturbation& perturbation,
-                   const ContactState& state) {
+bool IsHeldForEver(const SpringContact& contact, const SectionMode& mode, const ContactState& state) {
   const bool may_hold = contact.u_follows_v && mode.Sticks() && !mode.IsFirstLoading() &&
                         contact.mu * std::fabs(contact.wtn) >= contact.wnn;
   if (!may_hold) return false;
-  const NormalModes modes = MakeNormalModes(contact, mode, state, perturbation);
+  const NormalModes modes = MakeNormalModes(contact, mode, state);
   const auto amplitude = [&modes](const Signal& signal) {
     const double sine = signal.b[0] / modes.w.fast;
     return std::sqrt(signal.a[0] * signal.a[0] + sine * sine);

@@ -3,19 +3,17 @@
 #ifndef RICOCHET_CORE_MODELS_COMPLIANT_STICK_H_
 #define RICOCHET_CORE_MODELS_COMPLIANT_STICK_H_
 
-#include "core/models/compliant/perturbation.h"
+#include "core/models/compliant/path_error.h"
 #include "core/models/compliant/section.h"
 
 namespace ricochet::compliant {
 
-// Takes `state` to the end of the section. `mode.slip_side` is 0.
-SectionEnd Stick(const SpringContact& contact, const SectionMode& mode, Perturbation& perturbation,
-                 ContactState& state);
+// Takes `state` and `error` to the end of the section. `mode.slip_side` is 0.
+SectionEnd Stick(const SpringContact& contact, const SectionMode& mode, PathError& error, ContactState& state);
 
 // Says whether friction provably holds the contact for ever: W has rank one, and the one oscillation that is left stays
 // inside the friction cone and below the largest indentation.
-bool IsHeldForEver(const SpringContact& contact, const SectionMode& mode, Perturbation& perturbation,
-                   const ContactState& state);
+bool IsHeldForEver(const SpringContact& contact, const SectionMode& mode, const ContactState& state);
 
 }  // namespace ricochet::compliant
 
