@@ -49,24 +49,25 @@ std::string PlanText(const Plan& plan) {
   std::string text =
       absl::StrCat("Plan\n  model ", ModelText(plan.model), ", tolerance ", Rounded(plan.relative_tolerance),
                    "; the effects left out change velocities by at most ", Rounded(plan.neglected), "\n");
-  if (plan.effects.empty()) return text;
+  const std::vector<PlannedEffect> effects = plan.effects.List();
+  if (effects.empty()) return text;
   Table table;
   table.Add({"effect", "size"});
-  for (const PlannedEffect& planned : plan.effects) table.Add({EffectWord(planned.effect), Rounded(planned.size)});
+  for (const PlannedEffect& planned : effects) table.Add({EffectWord(planned.effect), Rounded(planned.size)});
   const std::vector<std::string> lines = absl::StrSplit(table.Render(2), '\n', absl::SkipEmpty());
   absl::StrAppend(&text, lines[0], "   decision: reason\n");
-  for (size_t i = 0; i < plan.effects.size(); ++i) {
-    const PlannedEffect& planned = plan.effects[i];
-    absl::StrAppend(&text, lines[i + 1], "   ", DecisionText(planned.decision), ": ", planned.reason.Text(), "\n");
+  for (size_t i = 0; i < effects.size(); ++i) {
+    const PlannedEffect& planned = effects[i];
+    absl::StrAppend(&text, lines[i + 1], "   ", DecisionText(planned.decision), ": ", planned.reason, "\n");
   }
   return text;
 }
 
 std::string PlanCsv(const Plan& plan) {
   std::string text = "effect,decision,size,reason\n";
-  for (const PlannedEffect& planned : plan.effects) {
+  for (const PlannedEffect& planned : plan.effects.List()) {
     absl::StrAppend(&text, EffectWord(planned.effect), ",", DecisionText(planned.decision), ",",
-                    ShortestDecimal(planned.size), ",\"", planned.reason.Text(), "\"\n");
+                    ShortestDecimal(planned.size), ",\"", planned.reason, "\"\n");
   }
   return text;
 }

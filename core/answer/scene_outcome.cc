@@ -23,7 +23,7 @@ struct Job {
   // The coefficients that the model is to use.
   EffectiveCoefficients Effective() const {
     EffectiveCoefficients effective = planned.effective;
-    LeaveOut(planned.choice.LeftOut(), effective.kinetic_friction, effective.static_friction);
+    LeaveOut(planned.choice.left_out, effective.kinetic_friction, effective.static_friction);
     return effective;
   }
 
@@ -126,9 +126,9 @@ absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact
           : std::visit([&job](const auto& reduction) { return SolveContact(job, reduction); }, contact->reduction);
   if (!status.ok()) return status;
   outcome.effective = planned.effective;
-  outcome.accuracy.relative_error += planned.choice.Negligible();
+  outcome.accuracy.relative_error += planned.choice.negligible;
   if (options.extent.detail == Detail::kAll) {
-    outcome.plan = Explain(planned, options.demand);
+    Explain(planned, options.demand, outcome.plan);
   } else {
     outcome.plan.model = planned.choice.model;
   }
@@ -138,7 +138,9 @@ absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact
 absl::StatusOr<Plan> PlanOf(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
   const PlannedScene planned = PlanScene(scene, contact, demand);
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
-  return Explain(planned, demand);
+  Plan plan;
+  Explain(planned, demand, plan);
+  return plan;
 }
 
 }  // namespace ricochet

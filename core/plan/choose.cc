@@ -1,11 +1,12 @@
 #include "core/plan/choose.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 #include <variant>
 
-#include "absl/container/inlined_vector.h"
 #include "absl/functional/function_ref.h"
 #include "absl/types/span.h"
 #include "core/models/pendulum/first_order.h"
@@ -31,6 +32,7 @@ double ExactError() { return 0.0; }
 struct Candidate {
   Model model = Model::kUnspecified;
   EffectSet simulates;
+  bool applies = true;  // False if the scene has no spring for the model.
   // Gives the model's own error over V; infinite if the model does not serve the contact. It is not asked for a model
   // that leaves out too much.
   absl::FunctionRef<double()> error = ExactError;
@@ -49,7 +51,8 @@ struct Context {
     return simulates.Contains(demand.required) && (simulates & fixed).IsEmpty();
   }
 
-  // Sum of the sizes of the effects that a model leaves out and the caller does not exclude.
+  // Sum of the sizes of the effects that a model leaves out and the caller does not exclude. It stops above the
+  // tolerance.
   double Neglected(EffectSet simulates) const {
     const bool smooth = !simulates.Has(Effect::kFriction) || excluded.Has(Effect::kFriction);
     EffectSet counted = simulates | excluded;
@@ -57,6 +60,7 @@ struct Context {
     double sum = 0.0;
     for (const Effect effect : kEffects) {
       if (!counted.Has(effect)) sum += SizeOf(effect, smooth);
+      if (sum > demand.relative_tolerance) break;
     }
     return sum;
   }
@@ -67,19 +71,12 @@ struct Context {
   }
 };
 
-Decision DecisionOn(const Context& context, const Sizes& of_all, EffectSet simulates, Effect effect) {
-  if (context.demand.required.Has(effect)) return Decision::kRequired;
-  if (context.excluded.Has(effect)) return of_all[effect].IsAbsent() ? Decision::kAbsent : Decision::kExcluded;
-  if (context.sizes[effect].IsAbsent()) return Decision::kAbsent;
-  return simulates.Has(effect) ? Decision::kSimulated : Decision::kNegligible;
-}
-
 // The first candidate within the tolerance. There may be none if the caller excludes an effect that every exact model
 // has; then the last candidate is taken that leaves out nothing else.
 const Candidate* Cheapest(const Context& context, absl::Span<const Candidate> candidates) {
   const Candidate* fallback = nullptr;
   for (const Candidate& candidate : candidates) {
-    if (!context.Allows(candidate.simulates)) continue;
+    if (!candidate.applies || !context.Allows(candidate.simulates)) continue;
     const double neglected = context.Neglected(candidate.simulates);
     if (!(neglected <= context.demand.relative_tolerance) && neglected != 0.0) continue;
     const double error = candidate.error();
@@ -90,25 +87,42 @@ const Candidate* Cheapest(const Context& context, absl::Span<const Candidate> ca
   return fallback;
 }
 
+struct Wishes {
+  EffectSet required;
+  EffectSet excluded;
+};
+
+Decision DecisionOn(Effect effect, const Size& size, Wishes wishes, EffectSet simulates) {
+  if (wishes.required.Has(effect)) return Decision::kRequired;
+  if (size.IsAbsent()) return Decision::kAbsent;
+  if (wishes.excluded.Has(effect)) return Decision::kExcluded;
+  return simulates.Has(effect) ? Decision::kSimulated : Decision::kNegligible;
+}
+
+// Sets the decisions and what follows from them. The sizes are still those without the excluded effects.
 void Decide(const Context& context, const Candidate& candidate, const Sizes& of_all, Choice& choice) {
   choice.model = candidate.model;
-  const bool smooth = !candidate.simulates.Has(Effect::kFriction) || context.excluded.Has(Effect::kFriction);
+  const Wishes wishes = {.required = context.demand.required, .excluded = context.excluded};
+  const EffectSet simulates = candidate.simulates;
+  const bool smooth = !simulates.Has(Effect::kFriction) || wishes.excluded.Has(Effect::kFriction);
   for (const Effect effect : kEffects) {
-    Decision& decision = choice.decisions[static_cast<size_t>(effect)];
-    decision = DecisionOn(context, of_all, candidate.simulates, effect);
     Size& size = choice.sizes[effect];
+    if (wishes.excluded.Has(effect)) size = of_all[effect];
+    const Decision decision = DecisionOn(effect, size, wishes, simulates);
+    choice.decisions[static_cast<size_t>(effect)] = decision;
+    if (decision != Decision::kNegligible && decision != Decision::kExcluded) continue;
+    choice.left_out.Add(effect);
     if (decision == Decision::kNegligible) size.value = context.SizeOf(effect, smooth);
-    if (context.excluded.Has(effect)) size = of_all[effect];
     // The size of friction covers this effect already.
-    if (choice.LeavesOut(effect) && kOnFriction.Has(effect) && smooth) size.value = 0.0;
-    if (choice.LeavesOut(effect)) choice.neglected += size.value;
+    if (kOnFriction.Has(effect) && smooth) size.value = 0.0;
+    choice.neglected += size.value;
+    if (decision == Decision::kNegligible) choice.negligible += size.value;
   }
 }
 
 Choice ChooseAmong(const Sizes& sizes, const Sizes& of_all, const Demand& demand, EffectSet excluded,
                    absl::Span<const Candidate> candidates) {
-  Choice choice;
-  choice.sizes = sizes;
+  Choice choice = {.sizes = sizes};
   const Context context = {.sizes = sizes, .demand = demand, .excluded = excluded};
   const Candidate* candidate = Cheapest(context, candidates);
   if (candidate != nullptr) Decide(context, *candidate, of_all, choice);
@@ -124,7 +138,7 @@ Choice Separating() {
 
 // The part of the tolerance that is left for the model's own error, in [least, most].
 double RemainingTolerance(const Choice& choice, const Demand& demand, double least, double most) {
-  return std::clamp(demand.relative_tolerance - choice.Negligible(), least, most);
+  return std::clamp(demand.relative_tolerance - choice.negligible, least, most);
 }
 
 bool HasForces(const ContactPhysics& physics) {
@@ -200,15 +214,18 @@ class StraightErrors {
   RelativeErrors sliding_;
 };
 
-Choice ChooseRigidOrCompliant(const Sizes& sizes, const Sizes& of_all, const ContactPhysics& physics,
-                              const Demand& demand, EffectSet excluded, absl::Span<const Candidate> rigid) {
-  absl::InlinedVector<Candidate, 5> candidates(rigid.begin(), rigid.end());
-  if (physics.ratio_squared > 0.0) {
-    candidates.push_back({.model = Model::kCompliant, .simulates = kCompliantEffects});
-  }
-  if (!std::holds_alternative<std::monostate>(physics.spring)) {
-    candidates.push_back({.model = Model::kFiniteDuration, .simulates = kDurationEffects});
-  }
+Candidate Compliant(const ContactPhysics& physics) {
+  return {.model = Model::kCompliant, .simulates = kCompliantEffects, .applies = physics.ratio_squared > 0.0};
+}
+
+Candidate FiniteDuration(const ContactPhysics& physics) {
+  return {.model = Model::kFiniteDuration,
+          .simulates = kDurationEffects,
+          .applies = !std::holds_alternative<std::monostate>(physics.spring)};
+}
+
+Choice ChoosePlanarModel(const Sizes& sizes, const Sizes& of_all, const Demand& demand, EffectSet excluded,
+                         absl::Span<const Candidate> candidates) {
   Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);
   if (choice.model == Model::kFiniteDuration) {
     choice.model_tolerance = RemainingTolerance(choice, demand, 1e-12, 1e-1);
@@ -251,22 +268,6 @@ bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance) {
 
 }  // namespace
 
-EffectSet Choice::LeftOut() const {
-  EffectSet left_out;
-  for (const Effect effect : kEffects) {
-    if (LeavesOut(effect)) left_out.Add(effect);
-  }
-  return left_out;
-}
-
-double Choice::Negligible() const {
-  double sum = 0.0;
-  for (const Effect effect : kEffects) {
-    if (decisions[static_cast<size_t>(effect)] == Decision::kNegligible) sum += sizes[effect].value;
-  }
-  return sum;
-}
-
 ContactPhysics Without(EffectSet effects, ContactPhysics physics) {
   if (effects.Has(Effect::kTangentialCompliance)) physics.ratio_squared = 0.0;
   if (effects.Has(Effect::kFiniteForces)) physics.tangential_acceleration = physics.normal_acceleration = 0.0;
@@ -279,16 +280,21 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   if (problem.v0 >= 0.0) return HasForces(kept_physics) ? ForcedContact() : Separating();
   const planar::Problem kept = Without(excluded, problem);
   const Sizes of_all = PlanarSizes(problem, physics);
-  const Sizes sizes = excluded.IsEmpty() ? of_all : PlanarSizes(kept, kept_physics, excluded.Has(Effect::kSlipStop));
   StraightErrors errors(kept, kept.u0 != 0.0);
   const auto frictionless_error = [&errors] { return errors.Frictionless(); };
   const auto sliding_error = [&errors] { return errors.Sliding(); };
-  const Candidate rigid[] = {
+  const Candidate candidates[] = {
       {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
       {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},
       {.model = Model::kPlanar, .simulates = kPlanarEffects},
+      Compliant(physics),
+      FiniteDuration(physics),
   };
-  Choice choice = ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
+  const auto choose = [&](const Sizes& sizes) {
+    return ChoosePlanarModel(sizes, of_all, demand, excluded, candidates);
+  };
+  Choice choice =
+      excluded.IsEmpty() ? choose(of_all) : choose(PlanarSizes(kept, kept_physics, excluded.Has(Effect::kSlipStop)));
   errors.KeepThoseOf(choice);
   return choice;
 }
@@ -309,15 +315,19 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
   if (problem.omega_minus >= 0.0) return HasForces(kept_physics) ? ForcedContact() : Separating();
   const pendulum::Problem kept = Without(excluded, problem);
   const Sizes of_all = PendulumSizes(problem, physics);
-  const Sizes sizes = excluded.IsEmpty() ? of_all : PendulumSizes(kept, kept_physics);
   const auto frictionless_error = [&kept] { return PendulumFrictionlessError(kept); };
   const auto first_order_error = [&kept] { return first_order::Serves(kept) ? 0.0 : kUnbounded; };
-  const Candidate rigid[] = {
+  const Candidate candidates[] = {
       {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
       {.model = Model::kFirstOrder, .simulates = {Effect::kFriction, Effect::kSlipStop}, .error = first_order_error},
       {.model = Model::kPendulum, .simulates = kPlanarEffects},
+      Compliant(physics),
+      FiniteDuration(physics),
   };
-  return ChooseRigidOrCompliant(sizes, of_all, physics, demand, excluded, rigid);
+  const auto choose = [&](const Sizes& sizes) {
+    return ChoosePlanarModel(sizes, of_all, demand, excluded, candidates);
+  };
+  return excluded.IsEmpty() ? choose(of_all) : choose(PendulumSizes(kept, kept_physics));
 }
 
 Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {

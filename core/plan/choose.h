@@ -26,19 +26,13 @@ namespace ricochet {
 
 struct Choice {
   Model model = Model::kUnspecified;
+  EffectSet left_out;
   double neglected = 0.0;          // Sum of the sizes of all effects left out.
+  double negligible = 0.0;         // The part of `neglected` that the plan itself leaves out, and not the caller.
   double model_tolerance = 0.0;    // Tolerance for the spatial model or that of finite duration; 0 for other models.
   RelativeErrors straight_errors;  // The model's own errors, if it is kFrictionless or kSliding.
   std::array<Decision, kEffectCount> decisions = {};
   Sizes sizes;
-
-  bool LeavesOut(Effect effect) const {
-    const Decision decision = decisions[static_cast<size_t>(effect)];
-    return decision == Decision::kNegligible || decision == Decision::kExcluded;
-  }
-  EffectSet LeftOut() const;
-  // Sum of the sizes that the plan itself leaves out; effects that the caller excludes do not count.
-  double Negligible() const;
 };
 
 Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physics, const Demand& demand);
@@ -65,7 +59,7 @@ ContactPhysics Without(EffectSet effects, ContactPhysics physics);
 // Leaves out all effects that the choice leaves out.
 template <typename Problem>
 Problem Without(const Choice& choice, const Problem& problem) {
-  return Without(choice.LeftOut(), problem);
+  return Without(choice.left_out, problem);
 }
 
 }  // namespace ricochet

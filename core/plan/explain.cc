@@ -133,38 +133,51 @@ std::string ReasonOf(Effect effect, const Size& size, ContactKind kind) {
   return "";
 }
 
-std::string Separates(const Reason::Facts& /*facts*/) { return "the contact separates: nothing changes"; }
-std::string CountedInFriction(const Reason::Facts& /*facts*/) { return "included in the change by friction"; }
-std::string BySize(const Reason::Facts& facts) {
-  const Size size = {.value = facts.size, .ground = static_cast<Ground>(facts.ground), .number = facts.number};
-  return ReasonOf(facts.effect, size, static_cast<ContactKind>(facts.contact));
+bool IsLeftOut(const PlannedEffects::Fact& fact) {
+  return fact.decision == Decision::kNegligible || fact.decision == Decision::kExcluded;
 }
 
-Reason MakeReason(Effect effect, const Choice& choice, ContactKind kind) {
-  if (choice.model == Model::kNone) return {Separates, {}};
-  if (kOnFriction.Has(effect) && choice.LeavesOut(effect) && choice.LeavesOut(Effect::kFriction)) {
-    return {CountedInFriction, {}};
+std::string Separates(Effect /*effect*/, const PlannedEffects::Facts& /*facts*/) {
+  return "the contact separates: nothing changes";
+}
+
+template <ContactKind kKind>
+std::string ForContact(Effect effect, const PlannedEffects::Facts& facts) {
+  const PlannedEffects::Fact& fact = facts[static_cast<size_t>(effect)];
+  if (kOnFriction.Has(effect) && IsLeftOut(fact) && IsLeftOut(facts[static_cast<size_t>(Effect::kFriction)])) {
+    return "included in the change by friction";
   }
-  const Size& size = choice.sizes[effect];
-  return {BySize,
-          {.effect = effect,
-           .ground = static_cast<int>(size.ground),
-           .contact = static_cast<int>(kind),
-           .size = size.value,
-           .number = size.number}};
+  return ReasonOf(effect, {.value = fact.size, .ground = static_cast<Ground>(fact.ground), .number = fact.number},
+                  kKind);
+}
+
+PlannedEffects::Author AuthorFor(const Choice& choice) {
+  if (choice.model == Model::kNone) return Separates;
+  switch (KindOf(choice.sizes)) {
+    case ContactKind::kPlanar:
+      return ForContact<ContactKind::kPlanar>;
+    case ContactKind::kPendulum:
+      return ForContact<ContactKind::kPendulum>;
+    case ContactKind::kSpatial:
+      return ForContact<ContactKind::kSpatial>;
+  }
+  return nullptr;
 }
 
 }  // namespace
 
-Plan Explain(const Choice& choice, const Demand& demand) {
-  Plan plan = {.model = choice.model, .relative_tolerance = demand.relative_tolerance, .neglected = choice.neglected};
-  const ContactKind kind = KindOf(choice.sizes);
-  plan.effects.reserve(kEffectCount - 1);
+void Explain(const Choice& choice, const Demand& demand, Plan& plan) {
+  plan.model = choice.model;
+  plan.relative_tolerance = demand.relative_tolerance;
+  plan.neglected = choice.neglected;
+  plan.effects.SetAuthor(AuthorFor(choice));
   for (const Effect effect : kEffects) {
-    plan.effects.emplace_back(effect, choice.decisions[static_cast<size_t>(effect)], choice.sizes[effect].value,
-                              MakeReason(effect, choice, kind));
+    const Size& size = choice.sizes[effect];
+    plan.effects[effect] = {.size = size.value,
+                            .number = size.number,
+                            .decision = choice.decisions[static_cast<size_t>(effect)],
+                            .ground = static_cast<int>(size.ground)};
   }
-  return plan;
 }
 
 }  // namespace ricochet

@@ -9,9 +9,9 @@
 
 namespace ricochet {
 
-// The plan of a choice that was made for `demand`. It has every effect once, in order of their numbers, each with one
-// sentence that gives the reason for its size, with numbers to three digits.
-Plan Explain(const Choice& choice, const Demand& demand);
+// Writes the plan of a choice that was made for `demand`. Each effect gets one sentence that gives the reason for its
+// size, with numbers to three digits.
+void Explain(const Choice& choice, const Demand& demand, Plan& plan);
 
 }  // namespace ricochet
 

@@ -67,9 +67,10 @@ PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact,
   return planned;
 }
 
-Plan Explain(const PlannedScene& planned, const Demand& demand) {
-  if (planned.choice.model != Model::kImpactLaw) return Explain(planned.choice, demand);
-  return {.model = Model::kImpactLaw, .relative_tolerance = demand.relative_tolerance};
+void Explain(const PlannedScene& planned, const Demand& demand, Plan& plan) {
+  if (planned.choice.model != Model::kImpactLaw) return Explain(planned.choice, demand, plan);
+  plan.model = Model::kImpactLaw;
+  plan.relative_tolerance = demand.relative_tolerance;
 }
 
 }  // namespace ricochet

@@ -28,8 +28,8 @@ struct PlannedScene {
 // represent W or the contact velocity, the model is kUnspecified.
 PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
-// The plan in words.
-Plan Explain(const PlannedScene& planned, const Demand& demand);
+// Writes the plan in words; `plan` is empty before.
+void Explain(const PlannedScene& planned, const Demand& demand, Plan& plan);
 
 }  // namespace ricochet
 

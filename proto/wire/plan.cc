@@ -1,5 +1,8 @@
 #include "proto/wire/plan.h"
 
+#include <utility>
+#include <vector>
+
 #include "proto/wire/enums.h"
 
 namespace ricochet {
@@ -29,7 +32,7 @@ static v1::PlannedEffect ToProto(const PlannedEffect& planned) {
   proto.set_effect(ToProto(planned.effect));
   proto.set_decision(ToProto(planned.decision));
   proto.set_size(planned.size);
-  proto.set_reason(planned.reason.Text());
+  proto.set_reason(planned.reason);
   return proto;
 }
 
@@ -37,7 +40,7 @@ static PlannedEffect FromProto(const v1::PlannedEffect& proto) {
   return {.effect = FromProto(proto.effect()),
           .decision = FromProto(proto.decision()),
           .size = proto.size(),
-          .reason = Reason(proto.reason())};
+          .reason = proto.reason()};
 }
 
 v1::Plan ToProto(const Plan& plan) {
@@ -45,16 +48,17 @@ v1::Plan ToProto(const Plan& plan) {
   proto.set_model(ToProto(plan.model));
   proto.set_relative_tolerance(plan.relative_tolerance);
   proto.set_neglected(plan.neglected);
-  for (const PlannedEffect& planned : plan.effects) *proto.add_effects() = ToProto(planned);
+  for (const PlannedEffect& planned : plan.effects.List()) *proto.add_effects() = ToProto(planned);
   return proto;
 }
 
 Plan FromProto(const v1::Plan& proto) {
   Plan plan{.model = FromProto(proto.model()),
             .relative_tolerance = proto.relative_tolerance(),
-            .neglected = proto.neglected(),
-            .effects = {}};
-  for (const v1::PlannedEffect& planned : proto.effects()) plan.effects.push_back(FromProto(planned));
+            .neglected = proto.neglected()};
+  std::vector<PlannedEffect> effects;
+  for (const v1::PlannedEffect& planned : proto.effects()) effects.push_back(FromProto(planned));
+  plan.effects = PlannedEffects(std::move(effects));
   return plan;
 }
 

@@ -60,7 +60,8 @@ Slack SlackOf(const Scene& scene, const Outcome& outcome) {
 bool IsCoulomb(const Scene& scene) { return std::holds_alternative<std::monostate>(scene.impact_law); }
 // True if the caller excludes that slip stops or turns, or higher orders: friction may then not oppose slip.
 bool ForcesSlip(const Outcome& outcome) {
-  return std::any_of(outcome.plan.effects.begin(), outcome.plan.effects.end(), [](const PlannedEffect& planned) {
+  const std::vector<PlannedEffect> effects = outcome.plan.effects.List();
+  return std::any_of(effects.begin(), effects.end(), [](const PlannedEffect& planned) {
     const bool is_of_slip = planned.effect == Effect::kSlipStop || planned.effect == Effect::kSlipTurn ||
                             planned.effect == Effect::kHigherOrder;
     return is_of_slip && planned.decision == Decision::kExcluded;

@@ -7,6 +7,8 @@
 #ifndef RICOCHET_PLAN_H_
 #define RICOCHET_PLAN_H_
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <utility>
@@ -39,35 +41,7 @@ enum class Decision {
   kExcluded = 5,    // Left out because the caller excludes it, whatever that changes.
 };
 
-// Why an effect was decided on as it was: one sentence that says where its size comes from, with its numbers. It is
-// made when it is read, because most are not.
-class Reason {
- public:
-  // The data that the sentence is made of. The numbers of `ground` and `contact` are known to `write` alone.
-  struct Facts {
-    Effect effect = Effect::kUnspecified;
-    int ground = 0;
-    int contact = 0;
-    double size = 0.0;
-    double number = 0.0;
-  };
-
-  Reason() = default;
-  explicit Reason(std::string text) : text_(std::make_shared<const std::string>(std::move(text))) {}
-  Reason(std::string (*write)(const Facts&), const Facts& facts) : write_(write), facts_(facts) {}
-
-  std::string Text() const {
-    if (write_ != nullptr) return write_(facts_);
-    return text_ != nullptr ? *text_ : "";
-  }
-  friend bool operator==(const Reason& a, const Reason& b) { return a.Text() == b.Text(); }
-
- private:
-  std::string (*write_)(const Facts&) = nullptr;
-  Facts facts_;
-  std::shared_ptr<const std::string> text_;
-};
-
+// The decision on one effect, in words.
 struct PlannedEffect {
   Effect effect = Effect::kUnspecified;
   Decision decision = Decision::kUnspecified;
@@ -75,8 +49,38 @@ struct PlannedEffect {
   // (Wnn tau, Wtt f; in space (W11 + W22) |f|), divided by max(|u0|, |v0|). 0 if the effect is absent, or if it is an
   // effect of friction and friction itself is left out; infinite if no bound is known.
   double size = 0.0;
-  Reason reason;
+  std::string reason;  // One sentence that says where the size comes from, with its numbers.
   friend bool operator==(const PlannedEffect&, const PlannedEffect&) = default;
+};
+
+// Every effect once, in order of their numbers; none under an impact law. The sentences are made when they are read,
+// because most are not.
+class PlannedEffects {
+ public:
+  // The data that a decision and its sentence are made of. The number of `ground` is known to the author alone.
+  struct Fact {
+    double size = 0.0;
+    double number = 0.0;
+    Decision decision = Decision::kUnspecified;
+    int ground = 0;
+  };
+  using Facts = std::array<Fact, kEffectCount>;  // By number; the first is not used.
+  // Gives the reason for a decision.
+  using Author = std::string (*)(Effect effect, const Facts& facts);
+
+  PlannedEffects() = default;
+  explicit PlannedEffects(std::vector<PlannedEffect> effects)
+      : written_(std::make_shared<const std::vector<PlannedEffect>>(std::move(effects))) {}
+  void SetAuthor(Author author) { author_ = author; }
+  Fact& operator[](Effect effect) { return facts_[static_cast<size_t>(effect)]; }
+
+  std::vector<PlannedEffect> List() const;
+  friend bool operator==(const PlannedEffects& a, const PlannedEffects& b) { return a.List() == b.List(); }
+
+ private:
+  Author author_ = nullptr;
+  Facts facts_;
+  std::shared_ptr<const std::vector<PlannedEffect>> written_;
 };
 
 // The numbers are those of ricochet.v1.Model.
@@ -105,11 +109,22 @@ enum class Arithmetic {
 
 struct Plan {
   Model model = Model::kUnspecified;
-  double relative_tolerance = 0.0;     // Tolerance asked for.
-  double neglected = 0.0;              // Sum of the sizes of all effects left out; bounds what they change together.
-  std::vector<PlannedEffect> effects;  // Every effect once, in order of their numbers.
+  double relative_tolerance = 0.0;  // Tolerance asked for.
+  double neglected = 0.0;           // Sum of the sizes of all effects left out; bounds what they change together.
+  PlannedEffects effects;
   friend bool operator==(const Plan&, const Plan&) = default;
 };
+
+inline std::vector<PlannedEffect> PlannedEffects::List() const {
+  if (written_ != nullptr) return *written_;
+  std::vector<PlannedEffect> effects;
+  for (int number = 1; author_ != nullptr && number < kEffectCount; ++number) {
+    const Fact& fact = facts_[static_cast<size_t>(number)];
+    const auto effect = static_cast<Effect>(number);
+    effects.push_back({effect, fact.decision, fact.size, author_(effect, facts_)});
+  }
+  return effects;
+}
 
 }  // namespace ricochet
 

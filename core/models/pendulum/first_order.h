@@ -18,6 +18,7 @@
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/relative_errors.h"
 #include "core/models/restitution_law.h"
+#include "core/numerics/moderate.h"
 
 namespace ricochet::first_order {
 
@@ -46,16 +47,12 @@ inline double FrictionRatio(const Problem& problem) { return problem.mu * std::f
 // refused.
 inline bool Serves(const Problem& problem) {
   constexpr double kMargin = 0x1p-50;
-  const auto moderate = [](double value) { return value >= 0x1p-100 && value <= 0x1p100; };
-  if (!(moderate(problem.inertia) && moderate(problem.a) && moderate(std::fabs(problem.b)) &&
-        moderate(-problem.omega_minus) && moderate(problem.mu))) {
-    return false;
-  }
+  const double c = problem.coefficient;
+  if (problem.omega_minus >= 0.0 || problem.b == 0.0 || problem.mu == 0.0) return false;
+  if (!AreModerate({problem.inertia, problem.a, problem.b, problem.omega_minus, problem.mu, c}, 0x1p100)) return false;
   const double x = FrictionRatio(problem);
   if (!(x <= kLargestX)) return false;
   if (!(problem.mu_static * std::fabs(problem.b) < (1.0 - kMargin) * problem.a)) return false;
-  const double c = problem.coefficient;
-  if (c != 0.0 && !moderate(c)) return false;
   switch (problem.law) {
     case RestitutionLaw::kEnergetic:
       return c <= 1.0;

@@ -9,6 +9,7 @@
 
 #include "core/models/pendulum/parts.h"
 #include "core/models/restitution_law.h"
+#include "core/numerics/moderate.h"
 // Highway prescribes the order of these includes.
 // clang-format off
 #include "hwy/foreach_target.h"
@@ -82,13 +83,9 @@ using HWY_NAMESPACE::kCoefficientLimit;
 using HWY_NAMESPACE::kLimit;
 
 bool FitsDoubleDouble(const Problem& problem) {
-  const auto moderate = [](double value, double limit) {
-    const double size = std::fabs(value);
-    return size == 0.0 || (size >= 1.0 / limit && size <= limit);
-  };
-  return moderate(problem.inertia, kLimit) && moderate(problem.a, kLimit) && moderate(problem.b, kLimit) &&
-         moderate(problem.omega_minus, kLimit) && moderate(problem.mu, kLimit) && moderate(problem.mu_static, kLimit) &&
-         moderate(problem.coefficient, kCoefficientLimit);
+  return AreModerate({problem.inertia, problem.a, problem.b, problem.omega_minus, problem.mu, problem.mu_static},
+                     kLimit) &&
+         AreModerate({problem.coefficient}, kCoefficientLimit);
 }
 
 bool Separating(const Problem& problem) { return problem.omega_minus >= 0.0; }

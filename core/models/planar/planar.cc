@@ -4,9 +4,9 @@
 #define HWY_TARGET_INCLUDE "core/models/planar/planar.cc"
 #include "core/models/planar/planar.h"
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
+
+#include "core/numerics/moderate.h"
 // Highway prescribes the order of these includes.
 // clang-format off
 #include "hwy/foreach_target.h"
@@ -81,16 +81,9 @@ namespace {
 // products of 2^-80 that cancel to their last bit) and 2^81, v where slip stops is below 2^307, impulses are below 2^493,
 // works below 2^800, and v^2 over a slope is above 2^-908.
 bool FitsDoubleDouble(const Problem& problem) {
-  constexpr auto kLeast = std::bit_cast<uint64_t>(0x1p-40);
-  constexpr auto kMost = std::bit_cast<uint64_t>(0x1p40);
-  bool fits = true;
-  for (const double value : {problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0, problem.mu,
-                             problem.mu_static, problem.coefficient}) {
-    // The bits of positive numbers are in the order of their values.
-    const auto size = std::bit_cast<uint64_t>(std::fabs(value));
-    fits &= (size == 0) | (size - kLeast <= kMost - kLeast);
-  }
-  return fits;
+  return AreModerate({problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0, problem.mu, problem.mu_static,
+                      problem.coefficient},
+                     0x1p40);
 }
 
 Impact SolveSeparating(const Problem& problem) {

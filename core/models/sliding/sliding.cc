@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/contact/delassus.h"
+#include "core/numerics/moderate.h"
 #include "core/numerics/products.h"
 
 namespace ricochet::sliding {
@@ -24,20 +25,13 @@ int RankOf(const Problem<kTangential>& problem) {
   }
 }
 
-// Whether products of the numbers stay within the range of doubles.
-template <typename Values>
-bool AreModerate(const Values& values) {
-  return std::all_of(values.begin(), values.end(), [](double value) {
-    const double size = std::fabs(value);
-    return size == 0.0 || (size >= 0x1p-100 && size <= 0x1p100);
-  });
-}
+constexpr double kLimit = 0x1p100;  // The sizes for which products stay within the range of doubles.
 
 // Whether all numbers that the frictionless impact reads are moderate.
 template <size_t kTangential>
 bool IsModerateWithoutFriction(const Problem<kTangential>& problem) {
-  return AreModerate(problem.Wtn()) && AreModerate(problem.u0) &&
-         AreModerate(std::array{problem.Wnn(), problem.v0, problem.coefficient});
+  return AreModerate(problem.Wtn(), kLimit) && AreModerate(problem.u0, kLimit) &&
+         AreModerate({problem.Wnn(), problem.v0, problem.coefficient}, kLimit);
 }
 
 template <size_t kTangential>
@@ -138,7 +132,7 @@ Slopes<kTangential> SlidingSlopes(const Problem<kTangential>& problem) {
 template <size_t kTangential>
 RelativeErrors ErrorsOf(const Problem<kTangential>& problem) {
   constexpr double kDirectional = kTangential == 1 ? 0.0 : 6.0;
-  if (!IsModerateWithoutFriction(problem) || !AreModerate(problem.w) || !AreModerate(std::array{problem.mu})) {
+  if (!IsModerateWithoutFriction(problem) || !AreModerate(problem.w, kLimit) || !AreModerate({problem.mu}, kLimit)) {
     return kNoBound;
   }
   const Slopes<kTangential> slopes = SlidingSlopes(problem);

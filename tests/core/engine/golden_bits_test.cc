@@ -187,7 +187,7 @@ Answer AnswerTo(const Question& question) {
     Add(event.state, hash);
   }
   hash.Add(outcome.plan.neglected);
-  for (const PlannedEffect& effect : outcome.plan.effects) hash.Add(effect.size);
+  for (const PlannedEffect& effect : outcome.plan.effects.List()) hash.Add(effect.size);
   return {hash.value(), outcome.plan.model};
 }
 

@@ -370,7 +370,9 @@ TEST(ChooseTest, TheSphereOfKharazCallsForComplianceAt20DegreesAndDropsItAt60) {
   const Choice shallow = ChoosePlanar(KharazSphere(60.0), physics, demand);
   EXPECT_EQ(shallow.model, Model::kSliding);
   EXPECT_EQ(On(shallow, Effect::kTangentialCompliance), Decision::kAbsent);
-  EXPECT_EQ(Explain(shallow, demand).effects[4].reason.Text(), "the contact slides throughout");
+  Plan plan;
+  Explain(shallow, demand, plan);
+  EXPECT_EQ(plan.effects.List()[4].reason, "the contact slides throughout");
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ TEST(PlannedSolveTest, ThePlanAloneIsThatOfTheSolve) {
       const SolveRequest request{.scene = With(system), .demand = {.relative_tolerance = tolerance}};
       const Plan plan = Solved(request).plan;
       EXPECT_EQ(plan.relative_tolerance, tolerance);
-      EXPECT_EQ(plan.effects.size(), static_cast<size_t>(kEffectCount - 1));
+      EXPECT_EQ(plan.effects.List().size(), static_cast<size_t>(kEffectCount - 1));
       const auto planned = LocalSolver().Plan({.scene = request.scene, .demand = request.demand});
       ASSERT_TRUE(planned.ok()) << planned.status();
       EXPECT_EQ(planned->plan, plan);
@@ -82,7 +82,7 @@ TEST(PlannedSolveTest, AnExcludedEffectIsLeftOutAndItsSizeTold) {
   const Outcome outcome = Solved({.scene = With(Contact()), .demand = {.excluded = {Effect::kFriction}}});
   EXPECT_EQ(outcome.plan.model, Model::kFrictionless);
   EXPECT_THAT(outcome.impulse.tangential_n_s, ElementsAre(0.0));
-  const PlannedEffect& friction = outcome.plan.effects.front();
+  const PlannedEffect friction = outcome.plan.effects.List().front();
   EXPECT_EQ(friction.decision, Decision::kExcluded);
   EXPECT_GT(friction.size, 0.1);
   EXPECT_EQ(outcome.plan.neglected, friction.size);
