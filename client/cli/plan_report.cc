@@ -37,6 +37,34 @@ std::string DecisionText(Decision decision) {
   return "?";
 }
 
+std::string WhyText(const Plan& plan) {
+  switch (plan.arithmetic.reason) {
+    case ArithmeticReason::kWithinTolerance:
+      return "which is within the tolerance";
+    case ArithmeticReason::kZeroTolerance:
+      return "because nothing is left of the tolerance";
+    case ArithmeticReason::kSignNotProved:
+      return "because plain arithmetic cannot prove what decides on this impact";
+    case ArithmeticReason::kBoundTooLarge:
+      return "because the bound of plain arithmetic exceeds what is left of the tolerance";
+    case ArithmeticReason::kOnlyOne:
+      return "the only one of this model";
+    case ArithmeticReason::kUnspecified:
+      break;
+  }
+  return "?";
+}
+
+std::string ArithmeticText(const Plan& plan) {
+  const PlannedArithmetic& arithmetic = plan.arithmetic;
+  std::string text = absl::StrCat("  ", Words(v1::Arithmetic_Name(ToProto(arithmetic.arithmetic)), "ARITHMETIC_", " "),
+                                  " arithmetic, ");
+  if (arithmetic.rounding_error.has_value()) {
+    absl::StrAppend(&text, "rounding error <= ", Rounded(*arithmetic.rounding_error), " (proved), ");
+  }
+  return absl::StrCat(text, WhyText(plan), "\n");
+}
+
 }  // namespace
 
 std::string EffectWord(Effect effect) { return Words(v1::Effect_Name(ToProto(effect)), "EFFECT_", "-"); }
@@ -46,9 +74,9 @@ std::string ModelText(Model model) { return Words(v1::Model_Name(ToProto(model))
 std::string ModelName(Model model) { return std::string(absl::StripPrefix(v1::Model_Name(ToProto(model)), "MODEL_")); }
 
 std::string PlanText(const Plan& plan) {
-  std::string text =
-      absl::StrCat("Plan\n  model ", ModelText(plan.model), ", tolerance ", Rounded(plan.relative_tolerance),
-                   "; the effects left out change velocities by at most ", Rounded(plan.neglected), "\n");
+  std::string text = absl::StrCat(
+      "Plan\n  model ", ModelText(plan.model), ", tolerance ", Rounded(plan.relative_tolerance),
+      "; the effects left out change velocities by at most ", Rounded(plan.neglected), "\n", ArithmeticText(plan));
   const std::vector<PlannedEffect> effects = plan.effects.List();
   if (effects.empty()) return text;
   Table table;

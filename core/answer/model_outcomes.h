@@ -1,6 +1,6 @@
 // MakeOutcome: the answer of each impact model as an Outcome, but for its effective coefficients and its plan.
 //
-// Each writes into an outcome that is empty. The reduction must be that of the problem. `tolerance` is what rounding may
+// Each writes into an outcome that is empty. The two models that have a choice of arithmetic write it into the plan. The reduction must be that of the problem. `tolerance` is what rounding may
 // change (ToleranceLeft in core/plan/arithmetic.h).
 // Errors are those of Complete (core/answer/outcome_parts.h): OUT_OF_RANGE names the first output that exceeds the
 // largest double, INVALID_ARGUMENT each impulse of the history that is not in [0, tau1].

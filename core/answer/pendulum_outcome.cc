@@ -83,7 +83,8 @@ absl::Status MakeOutcomeOf(const Problem& problem, const Impact& impact, double 
 
 absl::Status MakeOutcome(const Problem& problem, double tolerance, const Extent& extent, Outcome& outcome) {
   const SolvedImpact<Impact> solved = SolveWithin(problem, tolerance);
-  return MakeOutcomeOf(problem, solved.impact, solved.relative_error, At, extent, outcome);
+  outcome.plan.arithmetic = solved.arithmetic;
+  return MakeOutcomeOf(problem, solved.impact, solved.relative_error(), At, extent, outcome);
 }
 
 std::string OutputPath(Output output) {

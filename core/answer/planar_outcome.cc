@@ -8,7 +8,8 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
   const SolvedImpact<Impact> solved = SolveWithin(problem, tolerance);
   const Impact& impact = solved.impact;
   SetEnd(impact, reduction, 0.0, outcome);
-  outcome.accuracy = {.relative_error = solved.relative_error, .kind = AccuracyKind::kBound};
+  outcome.accuracy = {.relative_error = solved.relative_error(), .kind = AccuracyKind::kBound};
+  outcome.plan.arithmetic = solved.arithmetic;
   const auto state_at = [&](double tau) { return MakeState(reduction, At(problem, impact, tau)); };
   return Complete(
       extent, [&] { return MakeTimeline(impact, reduction); }, state_at, outcome);

@@ -28,7 +28,7 @@ struct Job {
   }
 
   // The part of the tolerance that the effects left out do not use.
-  double Tolerance() const { return ToleranceLeft(options.demand.relative_tolerance, planned.choice.Negligible()); }
+  double Tolerance() const { return ToleranceLeft(options.demand.relative_tolerance, planned.choice.negligible); }
 };
 
 absl::Status SolveCompliant(const Job& job, const PlanarReduction& reduction) {
@@ -106,6 +106,18 @@ absl::Status SolvePendulum(const Job& job, const pendulum::Problem& stated) {
              : pendulum::MakeOutcome(problem, job.Tolerance(), job.options.extent, job.outcome);
 }
 
+// The arithmetic that a closed form calls for, which only the impact itself can tell.
+PlannedArithmetic ArithmeticOf(const Scene& scene, const PlannedScene& planned,
+                               const std::optional<SceneContact>& contact, const Demand& demand) {
+  const double tolerance = ToleranceLeft(demand.relative_tolerance, planned.choice.negligible);
+  if (planned.closed_form.has_value()) {
+    return SolveWithin(Without(planned.choice, *planned.closed_form), tolerance).arithmetic;
+  }
+  const auto& reduction = std::get<PlanarReduction>(contact->reduction);
+  const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
+  return SolveWithin(Without(planned.choice, problem), tolerance).arithmetic;
+}
+
 }  // namespace
 
 absl::Status ContactOverflow() {
@@ -140,6 +152,7 @@ absl::StatusOr<Plan> PlanOf(const Scene& scene, std::optional<SceneContact>& con
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
   Plan plan;
   Explain(planned, demand, plan);
+  if (HasChoiceOfArithmetic(planned.choice.model)) plan.arithmetic = ArithmeticOf(scene, planned, contact, demand);
   return plan;
 }
 

@@ -12,28 +12,45 @@ double CompensatedError(const pendulum::Impact& impact) {
   return 0x1p-51 * std::max(1.0, impact[pendulum::Output::kPoisson]);
 }
 
+template <typename Impact>
+SolvedImpact<Impact> Compensated(const Impact& impact, double error, ArithmeticReason reason) {
+  return {impact, {.arithmetic = Arithmetic::kCompensated, .reason = reason, .rounding_error = error}};
+}
+
+template <typename Impact>
+SolvedImpact<Impact> WithinTolerance(const Impact& impact, double error) {
+  return {impact,
+          {.arithmetic = Arithmetic::kPlain, .reason = ArithmeticReason::kWithinTolerance, .rounding_error = error}};
+}
+
+ArithmeticReason WhyNotPlain(bool proved) {
+  return proved ? ArithmeticReason::kBoundTooLarge : ArithmeticReason::kSignNotProved;
+}
+
 }  // namespace
 
 SolvedImpact<pendulum::Impact> SolveWithin(const pendulum::Problem& problem, double tolerance) {
+  ArithmeticReason reason = ArithmeticReason::kZeroTolerance;
   if (tolerance > 0.0) {
     const pendulum::PlainImpact plain = pendulum::SolvePlain(problem);
-    if (plain.proved && plain.relative_error <= tolerance) {
-      return {plain.impact, Arithmetic::kPlain, plain.relative_error};
-    }
+    if (plain.proved && plain.relative_error <= tolerance) return WithinTolerance(plain.impact, plain.relative_error);
+    reason = WhyNotPlain(plain.proved);
   }
   const pendulum::Impact impact = pendulum::Solve(problem);
-  return {impact, Arithmetic::kCompensated, CompensatedError(impact)};
+  return Compensated(impact, CompensatedError(impact), reason);
 }
 
 SolvedImpact<planar::Impact> SolveWithin(const planar::Problem& problem, double tolerance) {
+  ArithmeticReason reason = ArithmeticReason::kZeroTolerance;
   if (tolerance > 0.0) {
     const planar::PlainImpact plain = planar::SolvePlain(problem);
     const double error = plain.errors.Largest();
-    if (plain.proved && error <= tolerance) return {plain.impact, Arithmetic::kPlain, error};
+    if (plain.proved && error <= tolerance) return WithinTolerance(plain.impact, error);
+    reason = WhyNotPlain(plain.proved);
   }
   planar::RoundingErrors errors;
   const planar::Impact impact = planar::Solve(problem, errors);
-  return {impact, Arithmetic::kCompensated, errors.Largest()};
+  return Compensated(impact, errors.Largest(), reason);
 }
 
 double ToleranceLeft(double relative_tolerance, double neglected) {

@@ -25,9 +25,14 @@ namespace ricochet {
 template <typename Impact>
 struct SolvedImpact {
   Impact impact;
-  Arithmetic arithmetic = Arithmetic::kUnspecified;
-  double relative_error = 0.0;  // The bound. It exceeds the tolerance only if `arithmetic` is kCompensated.
+  // Its bound, which is always there, exceeds the tolerance only in compensated arithmetic.
+  PlannedArithmetic arithmetic;
+
+  double relative_error() const { return arithmetic.rounding_error.value_or(0.0); }
 };
+
+// True for the models of SolveWithin.
+inline bool HasChoiceOfArithmetic(Model model) { return model == Model::kPendulum || model == Model::kPlanar; }
 
 // `tolerance` is what ToleranceLeft gives. pendulum::SolveColumns gives the same bits in SIMD lanes.
 SolvedImpact<pendulum::Impact> SolveWithin(const pendulum::Problem& problem, double tolerance);

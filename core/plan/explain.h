@@ -10,7 +10,7 @@
 namespace ricochet {
 
 // Writes the plan of a choice that was made for `demand`. Each effect gets one sentence that gives the reason for its
-// size, with numbers to three digits.
+// size, with numbers to three digits. The arithmetic is left as it is.
 void Explain(const Choice& choice, const Demand& demand, Plan& plan);
 
 }  // namespace ricochet

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/contact/scene_contact.h"
+#include "core/plan/arithmetic.h"
 #include "core/plan/explain.h"
 #include "core/problem/scene_problem.h"
 
@@ -68,6 +69,9 @@ PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact,
 }
 
 void Explain(const PlannedScene& planned, const Demand& demand, Plan& plan) {
+  if (!HasChoiceOfArithmetic(planned.choice.model)) {
+    plan.arithmetic = {.arithmetic = Arithmetic::kPlain, .reason = ArithmeticReason::kOnlyOne};
+  }
   if (planned.choice.model != Model::kImpactLaw) return Explain(planned.choice, demand, plan);
   plan.model = Model::kImpactLaw;
   plan.relative_tolerance = demand.relative_tolerance;

@@ -28,7 +28,8 @@ struct PlannedScene {
 // represent W or the contact velocity, the model is kUnspecified.
 PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
-// Writes the plan in words; `plan` is empty before.
+// Writes the plan in words. Its arithmetic, which is known once the impact is computed, is left as it is; a model that
+// has only one gets it.
 void Explain(const PlannedScene& planned, const Demand& demand, Plan& plan);
 
 }  // namespace ricochet

@@ -265,7 +265,7 @@ pendulum::Problem SweepRun::Impl::PlanPendulum(size_t i, pendulum::Problem probl
   }
   const Choice choice = ChoosePendulum(problem, {}, demand_);
   models_[i] = choice.model;
-  CheckInvariant(choice.model != Model::kPendulum || choice.Negligible() == 0.0,
+  CheckInvariant(choice.model != Model::kPendulum || choice.negligible == 0.0,
                  "the closed form of a rigid pendulum neglects nothing");
   return Without(choice, problem);
 }

@@ -17,6 +17,14 @@ Model FromProto(v1::Model proto) { return SameNumber<Model>(proto, v1::Model_IsV
 
 v1::Arithmetic ToProto(Arithmetic value) { return SameNumber<v1::Arithmetic>(value, v1::Arithmetic_IsValid); }
 
+v1::PlannedArithmetic::Reason ToProto(ArithmeticReason value) {
+  return SameNumber<v1::PlannedArithmetic::Reason>(value, v1::PlannedArithmetic::Reason_IsValid);
+}
+
+ArithmeticReason FromProto(v1::PlannedArithmetic::Reason proto) {
+  return SameNumber<ArithmeticReason>(proto, v1::PlannedArithmetic::Reason_IsValid);
+}
+
 Arithmetic FromProto(v1::Arithmetic proto) { return SameNumber<Arithmetic>(proto, v1::Arithmetic_IsValid); }
 
 v1::PlannedEffect::Decision ToProto(Decision value) {
@@ -43,12 +51,27 @@ static PlannedEffect FromProto(const v1::PlannedEffect& proto) {
           .reason = proto.reason()};
 }
 
+static v1::PlannedArithmetic ToProto(const PlannedArithmetic& arithmetic) {
+  v1::PlannedArithmetic proto;
+  proto.set_arithmetic(ToProto(arithmetic.arithmetic));
+  proto.set_reason(ToProto(arithmetic.reason));
+  if (arithmetic.rounding_error.has_value()) proto.set_rounding_error(*arithmetic.rounding_error);
+  return proto;
+}
+
+static PlannedArithmetic FromProto(const v1::PlannedArithmetic& proto) {
+  PlannedArithmetic arithmetic = {.arithmetic = FromProto(proto.arithmetic()), .reason = FromProto(proto.reason())};
+  if (proto.has_rounding_error()) arithmetic.rounding_error = proto.rounding_error();
+  return arithmetic;
+}
+
 v1::Plan ToProto(const Plan& plan) {
   v1::Plan proto;
   proto.set_model(ToProto(plan.model));
   proto.set_relative_tolerance(plan.relative_tolerance);
   proto.set_neglected(plan.neglected);
   for (const PlannedEffect& planned : plan.effects.List()) *proto.add_effects() = ToProto(planned);
+  *proto.mutable_arithmetic() = ToProto(plan.arithmetic);
   return proto;
 }
 
@@ -59,6 +82,7 @@ Plan FromProto(const v1::Plan& proto) {
   std::vector<PlannedEffect> effects;
   for (const v1::PlannedEffect& planned : proto.effects()) effects.push_back(FromProto(planned));
   plan.effects = PlannedEffects(std::move(effects));
+  plan.arithmetic = FromProto(proto.arithmetic());
   return plan;
 }
 

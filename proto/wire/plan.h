@@ -18,6 +18,8 @@ Model FromProto(v1::Model proto);
 
 v1::Arithmetic ToProto(Arithmetic value);
 Arithmetic FromProto(v1::Arithmetic proto);
+v1::PlannedArithmetic::Reason ToProto(ArithmeticReason value);
+ArithmeticReason FromProto(v1::PlannedArithmetic::Reason proto);
 
 v1::PlannedEffect::Decision ToProto(Decision value);
 Decision FromProto(v1::PlannedEffect::Decision proto);

@@ -18,9 +18,10 @@ using google::protobuf::EnumDescriptor;
 template <typename ProtoEnum>
 class EnumTest : public testing::Test {};
 
-using Enums = testing::Types<v1::Regime, v1::Event::Kind, v1::BrokenLimit::Kind, v1::Accuracy::Kind,
-                             v1::LimitCheck::Verdict, v1::SweepRequest::Combination, v1::Termination, v1::Effect,
-                             v1::Model, v1::Arithmetic, v1::PlannedEffect::Decision, v1::CostRow::Status>;
+using Enums =
+    testing::Types<v1::Regime, v1::Event::Kind, v1::BrokenLimit::Kind, v1::Accuracy::Kind, v1::LimitCheck::Verdict,
+                   v1::SweepRequest::Combination, v1::Termination, v1::Effect, v1::Model, v1::Arithmetic,
+                   v1::PlannedEffect::Decision, v1::PlannedArithmetic::Reason, v1::CostRow::Status>;
 TYPED_TEST_SUITE(EnumTest, Enums);
 
 TYPED_TEST(EnumTest, EveryValueOfTheProtoIsTheCoresOfTheSameNumber) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -107,11 +108,32 @@ enum class Arithmetic {
   kCertified = 3,    // Intervals of any precision, with each digit proved.
 };
 
+// Why an impact was computed in its arithmetic. The numbers are those of ricochet.v1.PlannedArithmetic.Reason.
+enum class ArithmeticReason {
+  kUnspecified = 0,
+  kWithinTolerance = 1,  // Plain arithmetic: its bound is within the part of the tolerance that effects leave.
+  kZeroTolerance = 2,    // Compensated arithmetic: nothing is left of the tolerance.
+  // Compensated arithmetic: plain arithmetic cannot prove a sign that decides on the regime, the order of the events or a
+  // broken limit, or a number is beyond its range.
+  kSignNotProved = 3,
+  kBoundTooLarge = 4,  // Compensated arithmetic: the bound of plain arithmetic exceeds what is left of the tolerance.
+  kOnlyOne = 5,        // The model has no other arithmetic.
+};
+
+struct PlannedArithmetic {
+  Arithmetic arithmetic = Arithmetic::kUnspecified;
+  ArithmeticReason reason = ArithmeticReason::kUnspecified;
+  // Bounds the rounding error (core/plan/arithmetic.h); absent for kOnlyOne, where Accuracy::relative_error alone knows.
+  std::optional<double> rounding_error;
+  friend bool operator==(const PlannedArithmetic&, const PlannedArithmetic&) = default;
+};
+
 struct Plan {
   Model model = Model::kUnspecified;
   double relative_tolerance = 0.0;  // Tolerance asked for.
   double neglected = 0.0;           // Sum of the sizes of all effects left out; bounds what they change together.
   PlannedEffects effects;
+  PlannedArithmetic arithmetic;
   friend bool operator==(const Plan&, const Plan&) = default;
 };
 

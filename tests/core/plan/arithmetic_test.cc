@@ -49,23 +49,23 @@ double PlainRebound(const planar::Problem& problem) { return Rebound(planar::Sol
 
 TYPED_TEST(ArithmeticTest, ToleranceOfZeroTakesCompensatedArithmetic) {
   const auto solved = SolveWithin(Easy<TypeParam>(), 0.0);
-  EXPECT_EQ(solved.arithmetic, Arithmetic::kCompensated);
+  EXPECT_EQ(solved.arithmetic.arithmetic, Arithmetic::kCompensated);
   EXPECT_EQ(Rebound(solved.impact), CompensatedRebound(Easy<TypeParam>()));
-  EXPECT_GT(solved.relative_error, 0.0);
-  EXPECT_LE(solved.relative_error, 0x1p-49);
+  EXPECT_GT(solved.relative_error(), 0.0);
+  EXPECT_LE(solved.relative_error(), 0x1p-49);
 }
 
 TYPED_TEST(ArithmeticTest, PlainArithmeticServesFromItsBoundOn) {
   const auto plain = SolveWithin(Easy<TypeParam>(), 1e-12);
-  EXPECT_EQ(plain.arithmetic, Arithmetic::kPlain);
+  EXPECT_EQ(plain.arithmetic.arithmetic, Arithmetic::kPlain);
   EXPECT_EQ(Rebound(plain.impact), PlainRebound(Easy<TypeParam>()));
-  EXPECT_LE(plain.relative_error, 1e-12);
-  const auto just = SolveWithin(Easy<TypeParam>(), plain.relative_error);
-  EXPECT_EQ(just.arithmetic, Arithmetic::kPlain);
-  EXPECT_EQ(just.relative_error, plain.relative_error);
-  const auto below = SolveWithin(Easy<TypeParam>(), std::nextafter(plain.relative_error, 0.0));
-  EXPECT_EQ(below.arithmetic, Arithmetic::kCompensated);
-  EXPECT_LT(below.relative_error, plain.relative_error);
+  EXPECT_LE(plain.relative_error(), 1e-12);
+  const auto just = SolveWithin(Easy<TypeParam>(), plain.relative_error());
+  EXPECT_EQ(just.arithmetic.arithmetic, Arithmetic::kPlain);
+  EXPECT_EQ(just.relative_error(), plain.relative_error());
+  const auto below = SolveWithin(Easy<TypeParam>(), std::nextafter(plain.relative_error(), 0.0));
+  EXPECT_EQ(below.arithmetic.arithmetic, Arithmetic::kCompensated);
+  EXPECT_LT(below.relative_error(), plain.relative_error());
 }
 
 TEST(SolveWithinTest, SignThatPlainArithmeticCannotProveIsDecidedByCompensatedArithmetic) {
@@ -73,13 +73,27 @@ TEST(SolveWithinTest, SignThatPlainArithmeticCannotProveIsDecidedByCompensatedAr
   pendulum::Problem on_the_limit = kPendulum;
   on_the_limit.law = RestitutionLaw::kNewton;
   on_the_limit.coefficient = std::sqrt(0.5);
-  EXPECT_EQ(SolveWithin(on_the_limit, 0.1).arithmetic, Arithmetic::kCompensated);
+  EXPECT_EQ(SolveWithin(on_the_limit, 0.1).arithmetic.arithmetic, Arithmetic::kCompensated);
 
   // Slip stops at the end of compression.
   planar::Problem at_the_end = kContact;
   at_the_end.w = {2.0, 0.0, 2.0};
   at_the_end.mu = at_the_end.mu_static = 1.0;
-  EXPECT_EQ(SolveWithin(at_the_end, 0.1).arithmetic, Arithmetic::kCompensated);
+  EXPECT_EQ(SolveWithin(at_the_end, 0.1).arithmetic.arithmetic, Arithmetic::kCompensated);
+}
+
+// One pendulum for each reason; x = 1/3 and kappa_hat on the sharp limit as above.
+TEST(SolveWithinTest, GivesTheReasonForItsArithmetic) {
+  EXPECT_EQ(SolveWithin(kPendulum, 1e-12).arithmetic.reason, ArithmeticReason::kWithinTolerance);
+  EXPECT_EQ(SolveWithin(kPendulum, 0.0).arithmetic.reason, ArithmeticReason::kZeroTolerance);
+  EXPECT_EQ(SolveWithin(kPendulum, 1e-17).arithmetic.reason, ArithmeticReason::kBoundTooLarge);
+  pendulum::Problem on_the_limit = kPendulum;
+  on_the_limit.law = RestitutionLaw::kNewton;
+  on_the_limit.coefficient = std::sqrt(0.5);
+  EXPECT_EQ(SolveWithin(on_the_limit, 1e-12).arithmetic.reason, ArithmeticReason::kSignNotProved);
+  EXPECT_EQ(SolveWithin(kContact, 1e-12).arithmetic.reason, ArithmeticReason::kWithinTolerance);
+  EXPECT_EQ(SolveWithin(kContact, 0.0).arithmetic.reason, ArithmeticReason::kZeroTolerance);
+  EXPECT_EQ(SolveWithin(kContact, 1e-17).arithmetic.reason, ArithmeticReason::kBoundTooLarge);
 }
 
 TEST(SolveWithinTest, ContactThatSeparatesKeepsItsVelocity) {
@@ -148,9 +162,10 @@ void ExpectAgreement(const Problem& problem, int scene) {
     ASSERT_EQ(solved.impact.regime, exact.impact.regime);
     ASSERT_EQ(solved.impact.sharp_limit_broken, exact.impact.sharp_limit_broken);
     ASSERT_EQ(solved.impact.energy_limit_broken, exact.impact.energy_limit_broken);
-    if (solved.arithmetic != Arithmetic::kPlain) continue;
-    ASSERT_LE(solved.relative_error, tolerance);
-    ASSERT_LE(Difference(problem, solved.impact, exact.impact), solved.relative_error + exact.relative_error + 0x1p-50);
+    if (solved.arithmetic.arithmetic != Arithmetic::kPlain) continue;
+    ASSERT_LE(solved.relative_error(), tolerance);
+    ASSERT_LE(Difference(problem, solved.impact, exact.impact),
+              solved.relative_error() + exact.relative_error() + 0x1p-50);
   }
 }
 

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "ricochet/solver.h"
+#include "tests/support/planar_scenes.h"
 #include "tests/support/system_scenes.h"
 
 namespace ricochet {
@@ -109,6 +111,55 @@ TEST(PlannedSolveTest, RatesAfterAnImpactThatTakesTimeMoveTheContactAsItMoves) {
   }
   EXPECT_NEAR(whip.contact_velocity_after.tangential_m_s[0], u, 1e-8);
   EXPECT_NEAR(whip.contact_velocity_after.normal_m_s, v, 1e-8);
+}
+
+Outcome SolvedWithin(const planar::Problem& problem, double tolerance) {
+  Scene scene = {.system = PlanarContact{problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0},
+                 .friction = {.kinetic_coefficient = problem.mu, .static_coefficient = problem.mu_static},
+                 .restitution = EnergeticCoefficient{problem.coefficient}};
+  if (problem.law == RestitutionLaw::kNewton) scene.restitution = NewtonCoefficient{problem.coefficient};
+  if (problem.law == RestitutionLaw::kPoisson) scene.restitution = PoissonCoefficient{problem.coefficient};
+  return Solved({.scene = scene, .demand = {.relative_tolerance = tolerance}});
+}
+
+// Checks the promise of SolveRequest.relative_tolerance against the impact with all its effects to double precision.
+void CheckPromise(const planar::Problem& problem, const Outcome& outcome, const Outcome& exact) {
+  const double d = (outcome.plan.relative_tolerance + 0x1p-48) * std::max(std::fabs(problem.u0), std::fabs(problem.v0));
+  const double u1 = outcome.contact_velocity_after.tangential_m_s[0];
+  const double v1 = outcome.contact_velocity_after.normal_m_s;
+  const double f1 = exact.impulse.tangential_n_s[0];
+  const double tau1 = exact.impulse.normal_total_n_s;
+  const planar::Problem& p = problem;
+  EXPECT_LE(std::fabs(u1 - exact.contact_velocity_after.tangential_m_s[0]), d);
+  EXPECT_LE(std::fabs(v1 - exact.contact_velocity_after.normal_m_s), d);
+  EXPECT_LE(std::fabs(outcome.impulse.normal_total_n_s - tau1) * p.w.nn, d);
+  EXPECT_LE(std::fabs(outcome.impulse.tangential_n_s[0] - f1) * p.w.tt, d);
+  EXPECT_LE(std::fabs(outcome.coefficients.newton - exact.coefficients.newton), d / std::fabs(p.v0));
+  EXPECT_LE(std::fabs(outcome.coefficients.tangential - exact.coefficients.tangential),
+            d * (1.0 / p.w.tt + std::fabs(exact.coefficients.tangential) / p.w.nn) / outcome.impulse.normal_total_n_s);
+  EXPECT_LE(std::fabs(outcome.energy_change_j - exact.energy_change_j),
+            0.5 * d * (std::fabs(f1) + tau1 + std::fabs(p.u0 + u1) / p.w.tt + std::fabs(p.v0 + v1) / p.w.nn));
+}
+
+TEST(PlannedSolveTest, EveryNumberThatTheToleranceSpeaksOfKeepsItsPromise) {
+  planar::SceneSource source(91);
+  int with_effects_left_out = 0;
+  int plain = 0;
+  for (int i = 0; i < 4000 && !HasFailure(); ++i) {
+    planar::Problem problem = source.Any();
+    if (problem.v0 >= 0.0 || problem.w.tt == 0.0) continue;
+    if (i % 2 == 0) problem.mu = problem.mu_static = problem.mu * 1e-3;  // Friction that may be left out.
+    const Outcome exact = SolvedWithin(problem, 0.0);
+    if (exact.regime == Regime::kWedged || exact.regime == Regime::kLocked) continue;
+    for (const double tolerance : {0.1, 1e-2, 1e-4, 1e-8, 1e-12}) {
+      const Outcome outcome = SolvedWithin(problem, tolerance);
+      with_effects_left_out += outcome.plan.neglected > 0.0 ? 1 : 0;
+      plain += outcome.plan.arithmetic.reason == ArithmeticReason::kWithinTolerance ? 1 : 0;
+      if (outcome.accuracy.relative_error <= tolerance) CheckPromise(problem, outcome, exact);
+    }
+  }
+  EXPECT_GT(with_effects_left_out, 500);
+  EXPECT_GT(plain, 500);
 }
 
 TEST(PlannedSolveTest, WhatIsLeftOutIsWithinTheToleranceAndInTheErrorStated) {
