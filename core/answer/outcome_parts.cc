@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "absl/base/attributes.h"
 #include "absl/strings/str_cat.h"
 #include "core/numerics/decimal.h"
 #include "core/numerics/invariant.h"
@@ -77,7 +76,7 @@ std::vector<Violation> CheckRange(absl::Span<const double> taus, double tau1) {
 }
 
 // Checks number by number. It is kept out of the function that adds them up, which every answer calls.
-ABSL_ATTRIBUTE_NOINLINE absl::Status CheckEach(const Outcome& outcome) {
+[[gnu::noinline]] absl::Status CheckEach(const Outcome& outcome) {
   const std::optional<std::string> path = OverflowIn(outcome);
   if (path.has_value()) return OutputOverflow("outcome." + *path);
   for (size_t i = 0; i < outcome.timeline.size(); ++i) {

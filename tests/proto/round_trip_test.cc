@@ -209,7 +209,15 @@ TEST(PlanTest, RequestAndResponseSurvive) {
       .demand = {.relative_tolerance = 0.0, .required = {Effect::kFriction}, .excluded = {Effect::kSlipStop}}};
   EXPECT_EQ(ThroughWire(request), request);
   EXPECT_EQ(ThroughWire(PlanRequest()), PlanRequest());
-  const PlanResponse response = {.plan = SomeOutcome().plan, .engine = {"1.2.3", "0123456789abcdef"}};
+  const Plan plan = {.model = Model::kPlanar,
+                     .relative_tolerance = 1e-3,
+                     .neglected = 1e-4,
+                     .effects = PlannedEffects(
+                         {{Effect::kFriction, Decision::kSimulated, 0.5, "friction changes velocities by at most 0.5"},
+                          {Effect::kStaticFriction, Decision::kNegligible, 1e-4, "slip may stop"}}),
+                     .arithmetic = {Arithmetic::kCompensated, ArithmeticReason::kSignNotProved, 1e-16}};
+  EXPECT_NE(plan, Plan());
+  const PlanResponse response = {.plan = plan, .engine = {"1.2.3", "0123456789abcdef"}};
   EXPECT_EQ(ThroughWire(response), response);
 }
 
