@@ -143,10 +143,6 @@ Columns ColumnsOf(const CostChunk& study, size_t index, bool on_front) {
 
 }  // namespace
 
-std::string ArithmeticText(Arithmetic arithmetic) {
-  return absl::AsciiStrToLower(absl::StripPrefix(v1::Arithmetic_Name(ToProto(arithmetic)), "ARITHMETIC_"));
-}
-
 std::string TimeText(double seconds) {
   struct Unit {
     const char* name;

@@ -22,9 +22,6 @@ std::string CostCsv(const CostChunk& study);
 
 // --- Parts that the pictures and the page share ---
 
-// Returns the arithmetic in a word: "compensated".
-std::string ArithmeticText(Arithmetic arithmetic);
-
 // Returns three digits and a unit: "12.3 ns", "1.20 ms", "160 µs".
 std::string TimeText(double seconds);
 

@@ -55,10 +55,9 @@ std::string WhyText(const Plan& plan) {
   return "?";
 }
 
-std::string ArithmeticText(const Plan& plan) {
+std::string ArithmeticLine(const Plan& plan) {
   const PlannedArithmetic& arithmetic = plan.arithmetic;
-  std::string text = absl::StrCat("  ", Words(v1::Arithmetic_Name(ToProto(arithmetic.arithmetic)), "ARITHMETIC_", " "),
-                                  " arithmetic, ");
+  std::string text = absl::StrCat("  ", ArithmeticText(arithmetic.arithmetic), " arithmetic, ");
   if (arithmetic.rounding_error.has_value()) {
     absl::StrAppend(&text, "rounding error <= ", Rounded(*arithmetic.rounding_error), " (proved), ");
   }
@@ -71,12 +70,16 @@ std::string EffectWord(Effect effect) { return Words(v1::Effect_Name(ToProto(eff
 
 std::string ModelText(Model model) { return Words(v1::Model_Name(ToProto(model)), "MODEL_", " "); }
 
+std::string ArithmeticText(Arithmetic arithmetic) {
+  return Words(v1::Arithmetic_Name(ToProto(arithmetic)), "ARITHMETIC_", " ");
+}
+
 std::string ModelName(Model model) { return std::string(absl::StripPrefix(v1::Model_Name(ToProto(model)), "MODEL_")); }
 
 std::string PlanText(const Plan& plan) {
   std::string text = absl::StrCat(
       "Plan\n  model ", ModelText(plan.model), ", tolerance ", Rounded(plan.relative_tolerance),
-      "; the effects left out change velocities by at most ", Rounded(plan.neglected), "\n", ArithmeticText(plan));
+      "; the effects left out change velocities by at most ", Rounded(plan.neglected), "\n", ArithmeticLine(plan));
   const std::vector<PlannedEffect> effects = plan.effects.List();
   if (effects.empty()) return text;
   Table table;

@@ -16,7 +16,10 @@ std::string EffectWord(Effect effect);
 std::string ModelText(Model model);
 std::string ModelName(Model model);
 
-// Returns the model, the sum of all that is left out, and one line for each effect: its size, the decision and the
+// Returns the name of an arithmetic in words: "compensated".
+std::string ArithmeticText(Arithmetic arithmetic);
+
+// Returns the model, the sum of all that is left out, the arithmetic, and one line for each effect: its size, the decision and the
 // reason.
 std::string PlanText(const Plan& plan);
 

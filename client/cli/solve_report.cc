@@ -286,6 +286,12 @@ struct Row {
   std::string Values() const { return absl::StrCat(absl::StrJoin(values, ","), "\n"); }
 };
 
+// The name of a value without the prefix of its enum: "REBOUND" for REGIME_REBOUND.
+std::string BareName(const google::protobuf::EnumValueDescriptor& value) {
+  const std::string prefix(absl::StripSuffix(value.type()->FindValueByNumber(0)->name(), "UNSPECIFIED"));
+  return std::string(absl::StripPrefix(value.name(), prefix));
+}
+
 void AppendFields(const Message& message, const std::string& prefix, Row& row);
 
 void AppendSingle(const Message& message, const FieldDescriptor* field, const std::string& path, Row& row) {
@@ -305,13 +311,7 @@ void AppendSingle(const Message& message, const FieldDescriptor* field, const st
     case FieldDescriptor::CPPTYPE_INT64:
       return row.Add(path, absl::StrCat(reflection.GetInt64(message, field)));
     default:
-      return row.Add(
-          path,
-          std::string(absl::StripPrefix(
-              absl::StripPrefix(
-                  absl::StripPrefix(absl::StripPrefix(reflection.GetEnum(message, field)->name(), "REGIME_"), "KIND_"),
-                  "TERMINATION_"),
-              "MODEL_")));
+      return row.Add(path, BareName(*reflection.GetEnum(message, field)));
   }
 }
 
