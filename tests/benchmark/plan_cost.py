@@ -17,9 +17,9 @@ MODELS = {
     "friction": "ricochet::sliding::SolveFrictionless<1",
     "slip_stop": "ricochet::sliding::Solve<1",
     "slip_turn": "ricochet::sliding::Solve<2",
-    "static_friction": "ricochet::planar::Solve(",
-    "tangential_compliance": "ricochet::planar::Solve(",
-    "finite_duration": "ricochet::planar::Solve(",
+    "static_friction": "ricochet::planar::SolvePlain(",
+    "tangential_compliance": "ricochet::planar::SolvePlain(",
+    "finite_duration": "ricochet::planar::SolvePlain(",
     "finite_forces": "ricochet::finite_duration::Solve(",
     "higher_order": "ricochet::first_order::Solve(",
 }
