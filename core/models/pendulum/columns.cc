@@ -7,7 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cstdint>
-#include <vector>
+#include <utility>
 
 #include "core/models/pendulum/parts.h"
 #include "core/models/pendulum/pendulum.h"
@@ -26,7 +26,7 @@
 #define RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_CC_
 namespace ricochet::pendulum {
 
-// Some problems in a row, and the places of their results.
+// Some problems in a row, at least one, and the places of their results.
 struct Block {
   static constexpr size_t kCapacity = 64;
 
@@ -48,8 +48,13 @@ struct Block {
   }
 };
 
-// A number for each problem of a block, as lanes store it. Whole vectors are stored, which may reach beyond the block.
-using PerProblem = std::array<double, Block::kCapacity + ProblemColumns::kMostLanes>;
+// A verdict is the number of a regime, plus kInadmissible if a limit is broken, plus kUnproved if plain arithmetic does not
+// prove the problem's results, which then have no meaning.
+inline constexpr int kInadmissible = 64;
+inline constexpr int kUnproved = 128;
+
+// A verdict for each problem of a block, as lanes store it. Whole vectors are stored, which may reach beyond the block.
+using Verdicts = std::array<double, Block::kCapacity + ProblemColumns::kMostLanes>;
 
 }  // namespace ricochet::pendulum
 #endif  // RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_CC_
@@ -100,9 +105,6 @@ class Loader {
   const double *inertia_, *a_, *b_, *omega_, *mu_, *mu_static_, *coefficient_;
 };
 
-// A verdict is the number of a regime, plus kInadmissible if a limit is broken.
-inline constexpr int kInadmissible = 64;
-
 HWY_INLINE V Number(Regime regime) { return VLanes::Fill(static_cast<double>(regime)); }
 
 // No problem separates.
@@ -114,13 +116,13 @@ HWY_INLINE V VerdictsOf(const Solution<N, Mask>& x) {
   return regime + Select(IsNegative(x.one_minus_eta_squared), VLanes::Fill(kInadmissible), zero);
 }
 
-HWY_INLINE void StoreVerdicts(const Block& block, const PerProblem& verdicts) {
+HWY_INLINE void StoreVerdicts(const Block& block, const Verdicts& verdicts) {
   Regime* const regimes = block.solved.regimes.data() + block.place;
   bool* const inadmissible = block.solved.inadmissible.data() + block.place;
   for (size_t i = 0; i < block.size; ++i) {
     const int verdict = static_cast<int>(verdicts[i]);
-    regimes[i] = static_cast<Regime>(verdict % kInadmissible);
-    inadmissible[i] = verdict >= kInadmissible;
+    regimes[i] = static_cast<Regime>(verdict & (kInadmissible - 1));
+    inadmissible[i] = (verdict & kInadmissible) != 0;
   }
 }
 
@@ -128,81 +130,97 @@ HWY_INLINE void StoreVerdicts(const Block& block, const PerProblem& verdicts) {
 // their own first.
 class Storer {
  public:
-  explicit Storer(const Block& block) : block_(block), size_(block.size), count_(block.solved.outputs.size()) {
-    for (size_t c = 0; c < count_; ++c) {
-      outputs_[c] = block.solved.outputs[c];
-      places_[c] = IsSmall() ? own_[c].data() : block.solved.columns[c] + block.place;
+  explicit Storer(const Block& block) : block_(block), size_(block.size) {
+    for (size_t c = 0; c < block.solved.outputs.size(); ++c) {
+      const auto output = static_cast<size_t>(block.solved.outputs[c]);
+      wanted_ |= 1U << output;
+      places_[output] = IsSmall() ? own_[output].data() : block.solved.columns[c] + block.place;
     }
   }
 
-  // The first problem of the vector after the one that begins with the i-th. The last vector overlaps the one before it, so
-  // that it holds no problem beyond the block. At least the block's size at the end.
-  HWY_INLINE size_t Next(size_t i) const {
-    const size_t next = i + VLanes::Count();
-    return next < size_ ? std::min(next, size_ - VLanes::Count()) : next;
-  }
+  // The first problem of the last vector. That vector overlaps the one before it, so that it holds no problem beyond the
+  // block.
+  HWY_INLINE size_t Last() const { return IsSmall() ? 0 : size_ - VLanes::Count(); }
 
   template <typename N>
-  HWY_INLINE void Store(size_t i, const Solution<N, Mask>& x) {
-    // Adding 0 turns -0 into 0: an impulse or velocity that vanishes has no sign.
-    const V zero = VLanes::Fill(0.0);
-    for (size_t c = 0; c < count_; ++c) VLanes::Store(Evaluate(x, outputs_[c]) + zero, places_[c] + i);
+  HWY_INLINE void Store(size_t i, const Solution<N, Mask>& x) const {
+    const unsigned wanted = wanted_;  // A copy, which no store of a vector can change.
+    StoreGroup<0>(wanted, i, x, std::make_index_sequence<kGroup>());
+    StoreGroup<kGroup>(wanted, i, x, std::make_index_sequence<kGroup>());
+    StoreGroup<2 * kGroup>(wanted, i, x, std::make_index_sequence<kGroup>());
+    StoreGroup<3 * kGroup>(wanted, i, x, std::make_index_sequence<kOutputCount - 3 * kGroup>());
   }
 
   void End() const {
     if (!IsSmall()) return;
-    for (size_t c = 0; c < count_; ++c) {
-      std::copy_n(own_[c].data(), size_, block_.solved.columns[c] + block_.place);
+    for (size_t c = 0; c < block_.solved.outputs.size(); ++c) {
+      const auto output = static_cast<size_t>(block_.solved.outputs[c]);
+      std::copy_n(own_[output].data(), size_, block_.solved.columns[c] + block_.place);
     }
   }
 
  private:
   HWY_INLINE bool IsSmall() const { return size_ < VLanes::Count(); }
 
+  // Outputs whose bits are tested together first.
+  static constexpr size_t kGroup = 5;
+
+  // Each output has its bit and its own place in the code: a jump to a place that is looked up costs more than an output.
+  template <size_t kFirst, typename N, size_t... kInGroup>
+  HWY_INLINE void StoreGroup(unsigned wanted, size_t i, const Solution<N, Mask>& x,
+                             std::index_sequence<kInGroup...> /*group*/) const {
+    if ((wanted & ((1U << kFirst << sizeof...(kInGroup)) - (1U << kFirst))) == 0) return;
+    ((wanted & (1U << (kFirst + kInGroup)) ? StoreOne<static_cast<Output>(kFirst + kInGroup)>(i, x) : void()), ...);
+  }
+
+  // Adding 0 turns -0 into 0: an impulse or velocity that vanishes has no sign.
+  template <Output kOutput, typename N>
+  HWY_INLINE void StoreOne(size_t i, const Solution<N, Mask>& x) const {
+    VLanes::Store(Evaluate(x, kOutput) + VLanes::Fill(0.0), places_[static_cast<size_t>(kOutput)] + i);
+  }
+
   const Block& block_;
   size_t size_;
-  size_t count_;
-  std::array<Output, kOutputCount> outputs_;
+  unsigned wanted_ = 0;  // One bit for each output.
   std::array<double*, kOutputCount> places_;
   std::array<std::array<double, ProblemColumns::kMostLanes>, kOutputCount> own_;
 };
 
-// Solves each problem plainly, and returns whether all are proved. The results of one that is not have no meaning.
+// Solves each problem plainly, and returns whether all are proved.
 // The law is a constant, because telling the laws apart costs as much as a law.
 template <RestitutionLaw kLaw>
-HWY_INLINE bool SolvePlainBlockOf(const Block& block, double tolerance, PerProblem& proved) {
+HWY_INLINE bool SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
   using N = Plain<V>;
   const unsigned parts = block.parts;
-  const size_t size = block.size;
   const Loader loader(block);
   Storer storer(block);
-  PerProblem verdicts;
   Mask all = VLanes::Fill(0.0) == VLanes::Fill(0.0);
-  for (size_t i = 0; i < size; i = storer.Next(i)) {
+  const size_t last = storer.Last();
+  for (size_t i = 0;; i = std::min(i + VLanes::Count(), last)) {
     const auto in = loader.Load<N>(i);
     Solution<N, Mask> x;
     SolveParts(kLaw, in, parts, x);
-    const Mask serves = Both(IsNegative(in.omega), IsModerate(in));
     const Mask is_right = Both(SignsAreProved(kLaw, x), RelativeError(x) <= VLanes::Fill(tolerance));
-    const Mask is_proved = Both(serves, is_right);
+    const Mask is_proved = Both(IsModerate(in), is_right);
     all = Both(all, is_proved);
-    VLanes::Store(Select(is_proved, VLanes::Fill(1.0), VLanes::Fill(0.0)), proved.data() + i);
-    VLanes::Store(VerdictsOf(x), verdicts.data() + i);
+    const V verdict = VerdictsOf(x);
+    VLanes::Store(Select(is_proved, verdict, verdict + VLanes::Fill(kUnproved)), verdicts.data() + i);
     storer.Store(i, x);
+    if (i == last) break;
   }
   storer.End();
   StoreVerdicts(block, verdicts);
   return InAllLanes(all);
 }
 
-bool SolvePlainBlock(const Block& block, double tolerance, PerProblem& proved) {
+bool SolvePlainBlock(const Block& block, double tolerance, Verdicts& verdicts) {
   switch (block.problems.law()) {
     case RestitutionLaw::kNewton:
-      return SolvePlainBlockOf<RestitutionLaw::kNewton>(block, tolerance, proved);
+      return SolvePlainBlockOf<RestitutionLaw::kNewton>(block, tolerance, verdicts);
     case RestitutionLaw::kPoisson:
-      return SolvePlainBlockOf<RestitutionLaw::kPoisson>(block, tolerance, proved);
+      return SolvePlainBlockOf<RestitutionLaw::kPoisson>(block, tolerance, verdicts);
     case RestitutionLaw::kEnergetic:
-      return SolvePlainBlockOf<RestitutionLaw::kEnergetic>(block, tolerance, proved);
+      return SolvePlainBlockOf<RestitutionLaw::kEnergetic>(block, tolerance, verdicts);
   }
   return false;
 }
@@ -228,12 +246,14 @@ bool SolveBlock(const Block& block) {
   if (!FitsDoubleDouble(block)) return false;
   const Loader loader(block);
   Storer storer(block);
-  PerProblem verdicts;
-  for (size_t i = 0; i < block.size; i = storer.Next(i)) {
+  Verdicts verdicts;
+  const size_t last = storer.Last();
+  for (size_t i = 0;; i = std::min(i + VLanes::Count(), last)) {
     Solution<N, Mask> x;
     SolveParts(block.problems.law(), loader.Load<N>(i), block.parts, x);
     VLanes::Store(VerdictsOf(x), verdicts.data() + i);
     storer.Store(i, x);
+    if (i == last) break;
   }
   storer.End();
   StoreVerdicts(block, verdicts);
@@ -284,12 +304,13 @@ void SolveCompensated(const Block& block) {
 }
 
 void SolvePlainFirst(const Block& block, double tolerance) {
-  PerProblem proved;
-  if (HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(block, tolerance, proved)) return;
+  Verdicts verdicts;
+  if (HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(block, tolerance, verdicts)) return;
+  const auto is_proved = [&verdicts](size_t i) { return verdicts[i] < kUnproved; };
   for (size_t from = 0; from < block.size;) {
     size_t to = from;
-    while (to < block.size && (proved[to] != 0.0) == (proved[from] != 0.0)) ++to;
-    if (proved[from] == 0.0) SolveCompensated(block.Part(from, to - from));
+    while (to < block.size && is_proved(to) == is_proved(from)) ++to;
+    if (!is_proved(from)) SolveCompensated(block.Part(from, to - from));
     from = to;
   }
 }

@@ -9,11 +9,11 @@
 #define RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_H_
 
 #include <cstddef>
-#include <vector>
 
 #include "absl/types/span.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
+#include "core/numerics/aligned_vector.h"
 
 namespace ricochet::pendulum {
 
@@ -44,7 +44,7 @@ class ProblemColumns {
  private:
   RestitutionLaw law_ = RestitutionLaw::kEnergetic;
   size_t size_ = 0;
-  std::vector<double> inertia_, a_, b_, omega_minus_, mu_, mu_static_, coefficient_;
+  AlignedVector<double> inertia_, a_, b_, omega_minus_, mu_, mu_static_, coefficient_;
 };
 
 // The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]` of

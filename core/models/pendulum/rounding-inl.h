@@ -63,10 +63,11 @@ HWY_INLINE Mask SignsAreProved(RestitutionLaw law, const Solution<Plain<V>, Mask
   return invertible;
 }
 
-// True where no product leaves the range of doubles. b, mu and the coefficient may be as small as they like.
+// True where the contact approaches and no product leaves the range of doubles. b, mu and the coefficient may be as small as
+// they like.
 template <typename V, typename Mask>
 HWY_INLINE Mask IsModerate(const Inputs<Plain<V>, Mask>& in) {
-  const V omega = Absolute(in.omega.value);
+  const V omega = Lanes<V>::Fill(0.0) - in.omega.value;
   const V least = Smaller(Smaller(in.inertia.value, in.a.value), omega);
   const V lengths = Larger(in.a.value, Absolute(in.b.value));
   const V most = Larger(Larger(in.inertia.value, omega), Larger(lengths, Absolute(in.mu.value)));
