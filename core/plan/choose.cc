@@ -162,10 +162,6 @@ sliding::Problem<2> SlidingProblemOf(const spatial::Problem& problem) {
           .coefficient = problem.coefficient};
 }
 
-double PlanarFrictionlessError(bool serves, const sliding::Problem<1>& straight) {
-  return serves ? sliding::FrictionlessErrorsOf(straight).Largest() : kUnbounded;
-}
-
 bool StraightPathServes(const planar::Problem& problem) {
   const bool full_rank = std::fabs(problem.w.RelativeDeterminant()) > 0x1p-40;
   const double cone = problem.mu * std::fabs(problem.w.tn) / problem.w.nn;
@@ -250,7 +246,8 @@ Choice ForcedContact() {
 // the pendulum's numbers.
 double PendulumFrictionlessError(const pendulum::Problem& problem) {
   constexpr double kReduction = 0x1p-49;
-  return kReduction + PlanarFrictionlessError(problem.coefficient <= 1.0, SlidingProblemOf(PlanarOf(problem)));
+  if (problem.coefficient > 1.0) return kUnbounded;
+  return kReduction + sliding::FrictionlessErrorsOf(SlidingProblemOf(PlanarOf(problem))).Largest();
 }
 
 // True if cheap lower bounds show that neither friction nor higher orders can be left out. The first-order form has an
