@@ -325,4 +325,15 @@ double ShareOutsideRange(const SpatialReduction& reduction) {
   return share;
 }
 
+bool VelocityIsInRange(const PlanarReduction& reduction) {
+  const auto& [tt, tn, nn] = reduction.w;
+  if (PlanarDelassus{tt, tn, nn}.Rank() == 2) return true;
+  const double u = reduction.u0[0];
+  const double v = reduction.v0;
+  if (nn == 0.0 && v != 0.0) return false;
+  return std::abs(DifferenceOfProducts(u, nn, v, tn)) <= 8.0 * kEpsilon * (std::abs(u) * nn + std::abs(v * tn));
+}
+
+bool VelocityIsInRange(const SpatialReduction& reduction) { return ShareOutsideRange(reduction) <= 64.0 * kEpsilon; }
+
 }  // namespace ricochet

@@ -83,6 +83,11 @@ double SmallestScaledEigenvalue(const std::vector<double>& upper);
 // below 16 eps.
 double ShareOutsideRange(const SpatialReduction& reduction);
 
+// True if the velocity lies in the range of W up to rounding, as every velocity does if the rank of W is full. Only W, u0
+// and v0 are read.
+bool VelocityIsInRange(const PlanarReduction& reduction);
+bool VelocityIsInRange(const SpatialReduction& reduction);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CORE_CONTACT_REDUCTION_H_

@@ -1,20 +1,15 @@
 #include <cmath>
-#include <limits>
 #include <string>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/contact/coefficients_at_speed.h"
-#include "core/contact/delassus.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
-#include "core/numerics/products.h"
 #include "core/scene/check.h"
 
 namespace ricochet {
 namespace {
-
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // The field of the velocity, which is restricted if W has less than full rank.
 std::string VelocityField(const Scene& scene) {
@@ -23,17 +18,6 @@ std::string VelocityField(const Scene& scene) {
   if (std::holds_alternative<SpatialContact>(scene.system)) return "spatial_contact.tangential_m_s";
   return "system";
 }
-
-bool InRange(const PlanarReduction& reduction) {
-  const auto& [tt, tn, nn] = reduction.w;
-  if (PlanarDelassus{tt, tn, nn}.Rank() == 2) return true;
-  if (nn == 0.0) return false;  // The contact approaches, and no impulse can stop it.
-  const double u = reduction.u0[0];
-  const double v = reduction.v0;
-  return std::abs(DifferenceOfProducts(u, nn, v, tn)) <= 8.0 * kEpsilon * (std::abs(u) * nn + std::abs(v * tn));
-}
-
-bool InRange(const SpatialReduction& reduction) { return ShareOutsideRange(reduction) <= 64.0 * kEpsilon; }
 
 std::string TangentialText(const PlanarReduction& reduction) { return ShortestDecimal(reduction.u0[0]); }
 std::string TangentialText(const SpatialReduction& reduction) {
@@ -44,7 +28,7 @@ std::string TangentialText(const SpatialReduction& reduction) {
 void CheckRange(const Scene& scene, const AnyReduction& any, Check& check) {
   std::visit(
       [&](const auto& reduction) {
-        check.Require(reduction.v0 >= 0.0 || InRange(reduction), [&] {
+        check.Require(reduction.v0 >= 0.0 || VelocityIsInRange(reduction), [&] {
           return Violation{
               VelocityField(scene),
               absl::StrCat("makes u0 = ", TangentialText(reduction), ", v0 = ", ShortestDecimal(reduction.v0),

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 #include <variant>
@@ -9,9 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/answer/scene_outcome.h"
 #include "core/contact/coefficients_at_speed.h"
-#include "core/contact/delassus.h"
 #include "core/contact/reduction.h"
-#include "core/numerics/products.h"
 #include "core/scene/numbers.h"
 #include "core/study/audit.h"
 #include "core/study/audit_parts.h"
@@ -96,21 +93,17 @@ std::vector<Violation> CheckColumns(const std::vector<ColumnRule>& rules, size_t
 
 double ValueAt(const std::vector<double>& column, size_t row) { return column.size() == 1 ? column[0] : column[row]; }
 
-// Decides whether (u0, v0) lies in the range of W, which all velocities do where its rank is full.
-bool IsInRange(const planar::Problem& in) {
-  const PlanarDelassus& w = in.w;
-  if (w.Rank() == 2) return true;
-  return std::abs(DifferenceOfProducts(in.u0, w.nn, in.v0, w.tn)) <=
-         8.0 * std::numeric_limits<double>::epsilon() * (std::abs(in.u0) * w.nn + std::abs(in.v0 * w.tn));
-}
-
-// Decide whether a row's velocity before the impact is one that its contact can have.
+// Decide whether a row's velocity before the impact is one that its contact can have: the rule of the door
+// (core/scene/check_contact.cc).
 bool HasValidVelocity(const pendulum::Problem& /*problem*/) { return true; }
 bool HasValidVelocity(const planar::Problem& in) {
-  return std::isfinite(in.u0) && std::isfinite(in.v0) && IsInRange(in);
+  if (!std::isfinite(in.u0) || !std::isfinite(in.v0)) return false;
+  return in.v0 >= 0.0 ||
+         VelocityIsInRange(PlanarReduction{.w = {in.w.tt, in.w.tn, in.w.nn}, .u0 = {in.u0}, .v0 = in.v0});
 }
 bool HasValidVelocity(const spatial::Problem& in) {
-  return std::isfinite(in.u0[0]) && std::isfinite(in.u0[1]) && std::isfinite(in.v0);
+  if (!std::isfinite(in.u0[0]) || !std::isfinite(in.u0[1]) || !std::isfinite(in.v0)) return false;
+  return in.v0 >= 0.0 || VelocityIsInRange(SpatialReduction{.w = in.Delassus().w, .u0 = in.u0, .v0 = in.v0});
 }
 
 // Rows gives the problem and the observation of each row of a batch whose columns are valid.

@@ -705,6 +705,25 @@ TEST(AuditBatchTest, AuditsSpatialRowsAsItAuditsOne) {
 
 // ---- Stops ----
 
+// W moves the contact along (1, 0, 1) alone, as an arm on a hinge would: no other velocity can come before an impact.
+TEST(AuditBatchTest, MarksSpatialRowsOutsideTheRangeOfASingularW) {
+  Scene scene = {.system = SpatialContact{{1.0, 0.0, 1.0, 0.0, 0.0, 1.0}, {-1.0, 0.0}, -1.0},
+                 .friction = {.kinetic_coefficient = 0.2}};
+  const AuditColumns columns = {.tangential_m_s = {-1.0, 1.0, -1.0, 1.0},
+                                .tangential_2_m_s = {0.0, 0.0, 0.1, 0.0},
+                                .normal_m_s = {-1.0, -1.0, -1.0, 1.0},
+                                .tangential_after_m_s = {0.0, 0.0, 0.0, 1.0},
+                                .tangential_2_after_m_s = {0.0},
+                                .normal_after_m_s = {0.0, 0.0, 0.0, 1.0}};
+  const auto response = AuditScene(AuditBatchRequest{.scene = scene, .columns = columns}, Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_NE(response->reports[0].regime, Regime::kInvalid);
+  EXPECT_EQ(response->reports[1].regime, Regime::kInvalid);
+  EXPECT_EQ(response->reports[2].regime, Regime::kInvalid);
+  EXPECT_NE(response->reports[3].regime, Regime::kInvalid);  // It separates.
+  EXPECT_EQ(response->summary.invalid.count, 2);
+}
+
 TEST(AuditStopTest, ABatchLooksBeforeEachRow) {
   const AuditColumns columns = {.tangential_after_m_s = {0.25}, .normal_after_m_s = {0.5, 0.5, 0.5, 0.5, 0.5}};
   int looks = 0;
