@@ -279,7 +279,7 @@ void ComparePlainPlanar(const std::string& what, const std::vector<planar::Probl
                         const std::vector<Problem>& pendulums) {
   double served = 0.0;
   for (const planar::Problem& contact : contacts) {
-    served += SolveWithin(contact, kUsualTolerance).arithmetic == Arithmetic::kPlain ? 1.0 : 0.0;
+    served += SolveWithin(contact, kUsualTolerance).arithmetic.arithmetic == Arithmetic::kPlain ? 1.0 : 0.0;
   }
   const Comparison time = Compare(
       kRounds,
