@@ -4,6 +4,7 @@
 
 #include "client/call_context.h"
 #include "client/channel.h"
+#include "client/cost_reader.h"
 #include "client/sweep_reader.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/requests.h"
@@ -68,10 +69,17 @@ absl::StatusOr<AuditBatchResponse> Client::DoAuditBatch(const AuditBatchRequest&
 
 SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& options) const {
   auto reader = std::make_shared<SweepReader>(
-      [&](grpc::ClientContext* context) { return connection_->stub->Sweep(context, ToProto(request)); }, request,
-      connection_->options.sweep_deadline, options);
+      [&](grpc::ClientContext* context) { return connection_->stub->Sweep(context, ToProto(request)); },
+      ChunkChecker(request), connection_->options.sweep_deadline, options);
   // The stream keeps the connection, so it may outlive the Client that made it.
   return SweepStream([connection = connection_, reader = std::move(reader)] { return reader->Next(); });
+}
+
+CostStream Client::DoCost(const CostRequest& request, const CallOptions& options) const {
+  auto reader = std::make_shared<CostReader>(
+      [&](grpc::ClientContext* context) { return connection_->stub->Cost(context, ToProto(request)); }, CostChecker(),
+      connection_->options.sweep_deadline, options);
+  return CostStream([connection = connection_, reader = std::move(reader)] { return reader->Next(); });
 }
 
 }  // namespace ricochet

@@ -2,12 +2,9 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "core/sweep/grid.h"
-#include "proto/wire/status.h"
-#include "proto/wire/sweep.h"
 
 namespace ricochet {
 namespace {
@@ -71,46 +68,6 @@ absl::Status ChunkChecker::CheckEnd() const {
   if (summarised_) return absl::OkStatus();
   return absl::DataLossError(absl::StrCat("the sweep ended at point ", next_index_, " of ",
                                           end_index_.has_value() ? absl::StrCat(*end_index_) : "?"));
-}
-
-SweepReader::SweepReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start,
-                         const SweepRequest& request, std::optional<std::chrono::milliseconds> deadline,
-                         const CallOptions& options)
-    : checker_(request), options_(options), context_(options, deadline), reader_(start(&context_.get())) {}
-
-SweepReader::~SweepReader() {
-  if (finished_) return;
-  context_.get().TryCancel();
-  static_cast<void>(Finish());
-}
-
-std::optional<absl::StatusOr<SweepChunk>> SweepReader::Next() {
-  // Once the caller has asked to stop, chunks that had already arrived are dropped.
-  if (!reader_->Read(&message_)) return End();
-  if (IsStopped(options_) && !message_.has_summary()) {
-    context_.get().TryCancel();
-    return End();
-  }
-  SweepChunk chunk = FromProto(message_);
-  if (absl::Status status = checker_.Check(chunk); !status.ok()) return status;
-  return chunk;
-}
-
-std::optional<absl::StatusOr<SweepChunk>> SweepReader::End() {
-  const absl::Status status = Finish();
-  const absl::Status complete = checker_.CheckEnd();
-  if (IsStopped(options_) && !complete.ok()) return StoppedByCaller();
-  if (!status.ok() && !IsStopped(options_)) return status;
-  if (!complete.ok()) return complete;
-  return std::nullopt;
-}
-
-// gRPC allows Finish only after all messages were read; after a cancellation few are left.
-absl::Status SweepReader::Finish() {
-  finished_ = true;
-  while (reader_->Read(&message_)) {
-  }
-  return FromGrpcStatus(reader_->Finish());
 }
 
 }  // namespace ricochet

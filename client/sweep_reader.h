@@ -3,17 +3,12 @@
 #ifndef RICOCHET_CLIENT_SWEEP_READER_H_
 #define RICOCHET_CLIENT_SWEEP_READER_H_
 
-#include <grpcpp/client_context.h>
-#include <grpcpp/support/sync_stream.h>
-
-#include <chrono>
 #include <cstdint>
-#include <memory>
 #include <optional>
 
-#include "absl/functional/function_ref.h"
-#include "absl/status/statusor.h"
-#include "client/call_context.h"
+#include "absl/status/status.h"
+#include "client/stream_reader.h"
+#include "proto/wire/sweep.h"
 #include "ricochet/sweep.h"
 #include "ricochet/v1/sweep.pb.h"
 
@@ -37,37 +32,7 @@ class ChunkChecker {
   bool summarised_ = false;
 };
 
-// Reads one sweep from the server, chunk by chunk.
-//
-// Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
-class SweepReader {
- public:
-  using Call = grpc::ClientReaderInterface<v1::SweepResponse>;
-
-  // Starts the call by `start`, which receives the context and returns the stream that answers `request`. The call ends
-  // when `options` say so, or `deadline` from now.
-  SweepReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start, const SweepRequest& request,
-              std::optional<std::chrono::milliseconds> deadline, const CallOptions& options);
-  // Cancels the call if it still runs, and waits for its end.
-  ~SweepReader();
-
-  SweepReader(const SweepReader&) = delete;
-  SweepReader& operator=(const SweepReader&) = delete;
-
-  // Returns the next chunk, an error, or nothing at the end of the sweep; it serves as a ResultStream::Source.
-  std::optional<absl::StatusOr<SweepChunk>> Next();
-
- private:
-  std::optional<absl::StatusOr<SweepChunk>> End();
-  absl::Status Finish();
-
-  ChunkChecker checker_;
-  const CallOptions options_;
-  CallContext context_;
-  std::unique_ptr<Call> reader_;
-  v1::SweepResponse message_;
-  bool finished_ = false;
-};
+using SweepReader = StreamReader<v1::SweepResponse, SweepChunk, ChunkChecker, FromProto>;
 
 }  // namespace ricochet
 

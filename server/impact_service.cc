@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/error.h"
@@ -22,9 +23,18 @@ absl::Status SweepTooLarge(int64_t points, int64_t limit) {
 
 absl::Status Draining() {
   absl::Status status = MakeError(absl::StatusCode::kUnavailable, ErrorReason::kDraining,
-                                  "the server is shutting down; ask again from the first point not received");
+                                  "the server is shutting down; ask again, a sweep from the first point not received");
   SetRetryDelay(std::chrono::seconds(1), status);
   return status;
+}
+
+// Sends one message of a stream; the one with the summary is the last.
+template <typename Response>
+absl::Status Write(const Response& response, grpc::ServerWriter<Response>& writer) {
+  grpc::WriteOptions last;
+  if (response.has_summary()) last.set_last_message();
+  if (writer.Write(response, last)) return absl::OkStatus();
+  return absl::CancelledError("the client cancelled the call or went away");
 }
 
 }  // namespace
@@ -76,24 +86,45 @@ grpc::Status ImpactService::Sweep(grpc::ServerContext* context, const v1::SweepR
                                   grpc::ServerWriter<v1::SweepResponse>* writer) {
   Call call("Sweep", *context, admission_, log_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
-  const absl::Status status = Stream(FromProto(*request), *writer, call);
-  return call.Finish(absl::IsCancelled(status) && drain_.stop_requested() ? Draining() : status);
+  return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call)));
+}
+
+grpc::Status ImpactService::Cost(grpc::ServerContext* context, const v1::CostRequest* request,
+                                 grpc::ServerWriter<v1::CostResponse>* writer) {
+  Call call("Cost", *context, admission_, log_);
+  if (!call.admitted().ok()) return call.Finish(call.admitted());
+  return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call)));
+}
+
+CallOptions ImpactService::StreamOptions(const Call& call) const {
+  CallOptions options = call.options();
+  options.stop = drain_;
+  return options;
+}
+
+absl::Status ImpactService::OrDraining(const absl::Status& status) const {
+  return absl::IsCancelled(status) && drain_.stop_requested() ? Draining() : status;
 }
 
 absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer,
                                    Call& call) const {
-  CallOptions options = call.options();
-  options.stop = drain_;
   v1::SweepResponse response;
-  for (absl::StatusOr<SweepChunk>& chunk : solver_.Sweep(request, options)) {
+  for (absl::StatusOr<SweepChunk>& chunk : solver_.Sweep(request, StreamOptions(call))) {
     if (!chunk.ok()) return chunk.status();
     if (chunk->points_total > max_points_per_sweep_) return SweepTooLarge(chunk->points_total, max_points_per_sweep_);
     call.set_points(chunk->points_done);
     if (chunk->summary.has_value()) chunk->summary->elapsed_s = call.elapsed_s();
     ToProto(*chunk, response);
-    grpc::WriteOptions last;
-    if (response.has_summary()) last.set_last_message();
-    if (!writer.Write(response, last)) return absl::CancelledError("the client cancelled the call or went away");
+    if (absl::Status written = Write(response, writer); !written.ok()) return written;
+  }
+  return absl::OkStatus();
+}
+
+absl::Status ImpactService::Stream(const CostRequest& request, grpc::ServerWriter<v1::CostResponse>& writer,
+                                   Call& call) const {
+  for (const absl::StatusOr<CostChunk>& chunk : solver_.Cost(request, StreamOptions(call))) {
+    if (!chunk.ok()) return chunk.status();
+    if (absl::Status written = Write(ToProto(*chunk), writer); !written.ok()) return written;
   }
   return absl::OkStatus();
 }

@@ -38,6 +38,8 @@ class ImpactService final : public v1::ImpactService::Service {
                           v1::AuditBatchResponse* response) override;
   grpc::Status Sweep(grpc::ServerContext* context, const v1::SweepRequest* request,
                      grpc::ServerWriter<v1::SweepResponse>* writer) override;
+  grpc::Status Cost(grpc::ServerContext* context, const v1::CostRequest* request,
+                    grpc::ServerWriter<v1::CostResponse>* writer) override;
 
  private:
   // Handles a unary call: converts the request, calls `method` of the solver, converts the answer.
@@ -47,6 +49,12 @@ class ImpactService final : public v1::ImpactService::Service {
 
   // Sends every chunk of a sweep.
   absl::Status Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer, Call& call) const;
+  // Sends every part of a study of cost.
+  absl::Status Stream(const CostRequest& request, grpc::ServerWriter<v1::CostResponse>& writer, Call& call) const;
+  // Returns the options of a stream's call, which also ends when the server drains.
+  CallOptions StreamOptions(const Call& call) const;
+  // Returns the error for a status that draining has caused.
+  absl::Status OrDraining(const absl::Status& status) const;
 
   const Solver& solver_;
   const int64_t max_points_per_sweep_;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "core/certified/certified.h"
+#include "core/certified/residual.h"
 #include "core/numerics/invariant.h"
 
 namespace ricochet {
@@ -13,6 +14,14 @@ constexpr char kNotChecked[] = "a certificate was computed whose request CheckCe
 }  // namespace
 
 bool certified::IsAvailable() { return false; }
+
+double certified::Residual(const std::string& /*decimal*/, double /*number*/) {
+  StopOnBrokenInvariant(kNotChecked, __FILE__, __LINE__);
+}
+
+double certified::Residual(const std::string& /*decimal*/, const std::string& /*other*/) {
+  StopOnBrokenInvariant(kNotChecked, __FILE__, __LINE__);
+}
 
 std::vector<Violation> CheckCertifiable(const Scene& /*scene*/, int digits) {
   return {MakeViolation("certified_digits", digits, "be 0, this build has no certified numbers (component certified)")};

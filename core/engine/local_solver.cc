@@ -15,6 +15,7 @@
 #include "core/plan/demand_fields.h"
 #include "core/scene/validate.h"
 #include "core/study/audit_scene.h"
+#include "core/study/cost.h"
 #include "core/sweep/sweep_run.h"
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
@@ -160,6 +161,19 @@ SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions&
     return chunk;
   };
   return SweepStream(std::move(next));
+}
+
+CostStream LocalSolver::DoCost(const CostRequest& request, const CallOptions& options) const {
+  absl::StatusOr<CostStudy> made = CostStudy::Make(request);
+  if (!made.ok()) return CostStream(made.status());
+  auto next = [study = *std::move(made), options]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
+    if (study.ended()) return std::nullopt;
+    absl::StatusOr<CostChunk> chunk = study.NextChunk([&options] { return !WhyEnded(options).ok(); });
+    if (!chunk.ok()) return OrWhyEnded(chunk.status(), options);
+    chunk->engine = ThisEngine();
+    return chunk;
+  };
+  return CostStream(std::move(next));
 }
 
 }  // namespace ricochet

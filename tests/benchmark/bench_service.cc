@@ -5,9 +5,11 @@
 #include <chrono>
 #include <cstdio>
 #include <fstream>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_format.h"
@@ -53,14 +55,18 @@ Scene PaperScene() {
           .restitution = EnergeticCoefficient{1.0}};
 }
 
+SweepRequest SweepOf(std::vector<std::string> columns, int64_t points) {
+  return {.grid = {.scene = PaperScene(),
+                   .axes = {{.path = "friction.kinetic_coefficient", .values = Linspace{0.0, 0.29, points}}}},
+          .columns = std::move(columns),
+          .end_index = points};
+}
+
 v1::SweepRequest EightColumnSweep(int64_t points) {
-  SweepRequest request = {
-      .grid = {.scene = PaperScene(),
-               .axes = {{.path = "friction.kinetic_coefficient", .values = Linspace{0.0, 0.29, points}}}},
-      .columns = {"coefficients.newton", "coefficients.poisson", "coefficients.tangential", "rates_after_rad_s[0]",
-                  "impulse.normal_total_n_s", "impulse.tangential_n_s[0]", "work.normal_total_j", "energy_change_j"},
-      .end_index = points};
-  return ToProto(request);
+  return ToProto(
+      SweepOf({"coefficients.newton", "coefficients.poisson", "coefficients.tangential", "rates_after_rad_s[0]",
+               "impulse.normal_total_n_s", "impulse.tangential_n_s[0]", "work.normal_total_j", "energy_change_j"},
+              points));
 }
 
 // Reads a whole sweep; returns the bytes of its values.
@@ -87,6 +93,57 @@ void StreamedSweep(Loopback& ricochet, Loopback& echo) {
   Print("ratio of rates", absl::StrFormat("%.2f", 1.0 / time.ratio), "ricochet / nothing computed, median of rounds");
 }
 
+// The columns of a pendulum, in the order of its outcome.
+constexpr const char* kColumns[] = {
+    "coefficients.newton",
+    "coefficients.poisson",
+    "coefficients.energetic",
+    "coefficients.tangential",
+    "rates_after_rad_s[0]",
+    "contact_velocity_after.tangential_m_s[0]",
+    "contact_velocity_after.normal_m_s",
+    "impulse.normal_compression_n_s",
+    "impulse.normal_total_n_s",
+    "impulse.tangential_n_s[0]",
+    "work.normal_compression_j",
+    "work.normal_restitution_j",
+    "work.tangential_compression_j",
+    "work.tangential_restitution_j",
+    "work.normal_total_j",
+    "work.tangential_total_j",
+    "work.friction_dissipation_j",
+    "work.tangential_spring_j",
+    "energy_change_j",
+};
+
+// Reads a whole sweep in this process; returns the bytes of its values.
+double ReadLocally(const SweepRequest& request) {
+  double bytes = 0.0;
+  for (const absl::StatusOr<SweepChunk>& chunk : LocalSolver().Sweep(request)) {
+    if (!chunk.ok()) std::abort();
+    bytes += 8.0 * static_cast<double>(chunk->values.size());
+  }
+  return bytes;
+}
+
+// A sweep in this process, the same served, and a stream of messages of the same sizes, for several numbers of columns.
+void SweepByColumns(Loopback& ricochet, Loopback& echo) {
+  constexpr int64_t kPoints = 500'000;
+  std::printf("Sweep by columns, %.0e points, medians of %d rounds\n", static_cast<double>(kPoints), kRounds);
+  std::printf("  %7s %14s %14s %16s %14s %16s\n", "columns", "local M/s", "served M/s", "empty stream M/s",
+              "served/local", "served/empty");
+  for (const size_t count : {1, 2, 4, 8, 12, 16, 19}) {
+    const SweepRequest request = SweepOf({std::begin(kColumns), std::begin(kColumns) + count}, kPoints);
+    const v1::SweepRequest wire = ToProto(request);
+    const auto served = [&] { Keep(ReadSweep(ricochet.stub(), wire)); };
+    const Comparison local = Compare(kRounds, served, [&] { Keep(ReadLocally(request)); });
+    const Comparison empty = Compare(kRounds, served, [&] { Keep(ReadSweep(echo.stub(), wire)); });
+    std::printf("  %7zu %14.1f %14.1f %16.1f %12.2f x %14.2f x\n", count, kPoints / local.seconds_b / 1e6,
+                kPoints / empty.seconds_a / 1e6, kPoints / empty.seconds_b / 1e6, local.ratio, empty.ratio);
+    std::fflush(stdout);
+  }
+}
+
 // The median time of one unary call.
 double UnaryP50(v1::ImpactService::Stub& stub, const v1::SolveRequest& request) {
   std::vector<double> seconds;
@@ -100,8 +157,21 @@ double UnaryP50(v1::ImpactService::Stub& stub, const v1::SolveRequest& request) 
   return Median(seconds);
 }
 
+// The median time of one call in this process, in which 100 calls make a sample.
+double LocalP50(const SolveRequest& request) {
+  constexpr int kCalls = 100;
+  std::vector<double> seconds;
+  for (int i = 0; i < 100; ++i) {
+    seconds.push_back(Seconds([&] {
+      for (int k = 0; k < kCalls; ++k) Keep(LocalSolver().Solve(request)->outcome.coefficients.newton);
+    }));
+  }
+  return Median(seconds) / kCalls;
+}
+
 void UnaryCalls(Loopback& ricochet, Loopback& echo) {
-  const v1::SolveRequest solve = ToProto(SolveRequest{.scene = PaperScene()});
+  const SolveRequest request = {.scene = PaperScene()};
+  const v1::SolveRequest solve = ToProto(request);
   std::vector<double> of_solve;
   std::vector<double> of_empty;
   std::vector<double> ratios;
@@ -114,6 +184,9 @@ void UnaryCalls(Loopback& ricochet, Loopback& echo) {
   Print("Solve", absl::StrFormat("%.0f us", Median(of_solve) * 1e6), "");
   Print("empty call", absl::StrFormat("%.0f us", Median(of_empty) * 1e6), "");
   Print("ratio", absl::StrFormat("%.2f x", Median(ratios)), "Solve / empty, median of rounds");
+  const double local = LocalP50(request);
+  Print("Solve in this process", absl::StrFormat("%.2f us", local * 1e6),
+        absl::StrFormat("the wire adds %.0f times as much", Median(of_solve) / local));
 }
 
 // Seconds from a client's cancel until the handler has left, told by its slot being free again.
@@ -150,6 +223,7 @@ void RunAll() {
   Loopback echo(&nothing);
   std::printf("ricochet service on loopback, engine %s\n", ThisEngine().fingerprint.c_str());
   StreamedSweep(ricochet, echo);
+  SweepByColumns(ricochet, echo);
   UnaryCalls(ricochet, echo);
   CancellationLatency(ricochet, admission);
 }

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "client/cost_reader.h"
 #include "client/sweep_reader.h"
 #include "ricochet/health.h"
 #include "tests/support/server_process.h"
@@ -215,6 +216,41 @@ TEST(ChunkChecker, AsksForARegimeOfEveryPointWhereTheRequestDid) {
   EXPECT_EQ(ChunkChecker(request).Check(chunk).code(), absl::StatusCode::kDataLoss);
   chunk.regimes.resize(100);
   EXPECT_TRUE(ChunkChecker(request).Check(chunk).ok());
+}
+
+// The first two parts of a study of two rows, and the end.
+CostChunk CostPart(int64_t first, int64_t count, bool last) {
+  CostChunk chunk = {.first_row = first, .rows_done = first + count, .rows_total = 2};
+  chunk.rows.resize(static_cast<size_t>(count));
+  if (last) chunk.summary = CostSummary{.front = {1}, .picks = {CostPick{.row = -1}}};
+  return chunk;
+}
+
+TEST(CostChecker, TakesAStudyInOrder) {
+  CostChecker checker;
+  EXPECT_TRUE(checker.Check(CostPart(0, 0, false)).ok());
+  EXPECT_TRUE(checker.Check(CostPart(0, 1, false)).ok());
+  EXPECT_EQ(checker.CheckEnd().code(), absl::StatusCode::kDataLoss);
+  EXPECT_TRUE(checker.Check(CostPart(1, 1, true)).ok());
+  EXPECT_TRUE(checker.CheckEnd().ok());
+  EXPECT_EQ(checker.Check(CostPart(2, 0, true)).code(), absl::StatusCode::kDataLoss);
+}
+
+TEST(CostChecker, RefusesPartsThatDoNotFitTogether) {
+  const auto refuses = [](const CostChunk& chunk) {
+    return CostChecker().Check(chunk).code() == absl::StatusCode::kDataLoss;
+  };
+  EXPECT_TRUE(refuses(CostPart(1, 1, true)));   // A gap.
+  EXPECT_TRUE(refuses(CostPart(0, 1, true)));   // A summary too early.
+  EXPECT_TRUE(refuses(CostPart(0, 2, false)));  // No summary at the end.
+  EXPECT_TRUE(refuses(CostPart(0, 3, true)));   // More rows than there are.
+  CostChunk chunk = CostPart(0, 2, true);
+  EXPECT_FALSE(refuses(chunk));
+  chunk.summary->front = {2};
+  EXPECT_TRUE(refuses(chunk));
+  chunk = CostPart(0, 2, true);
+  chunk.rows_done = 1;
+  EXPECT_TRUE(refuses(chunk));
 }
 
 }  // namespace

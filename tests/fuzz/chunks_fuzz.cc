@@ -170,8 +170,8 @@ class Receiver {
 
 void Run(const Script& script) {
   std::stop_source stop;
-  SweepReader reader([&](grpc::ClientContext*) { return std::make_unique<ScriptedCall>(script, stop); }, script.request,
-                     std::chrono::hours(1), {.stop = stop.get_token()});
+  SweepReader reader([&](grpc::ClientContext*) { return std::make_unique<ScriptedCall>(script, stop); },
+                     ChunkChecker(script.request), std::chrono::hours(1), {.stop = stop.get_token()});
   Receiver receiver(script);
   for (size_t reads = 0;; ++reads) {
     if (reads > script.chunks.size()) Fail("more chunks than were sent");

@@ -13,6 +13,7 @@
 
 #include "absl/status/status.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
 #include "proto/wire/sweep.h"
@@ -59,6 +60,8 @@ constexpr void (*kChecks[])(const std::string&) = {
     CheckMessage<v1::SweepRequest>,
     CheckMessage<v1::SweepResponse>,
     CheckError,
+    CheckMessage<v1::CostRequest>,
+    CheckMessage<v1::CostResponse>,
 };
 
 }  // namespace

@@ -59,7 +59,7 @@ TYPED_TEST(EveryFieldTest, SurvivesTheCoreByteForByte) {
 // The messages above are all messages of the service, so that none is left untested.
 TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   const auto& service = *v1::SolveRequest::descriptor()->file()->FindServiceByName("ImpactService");
-  ASSERT_EQ(service.method_count(), 6);
+  ASSERT_EQ(service.method_count(), 7);
   EXPECT_EQ(service.method(0)->input_type(), v1::SolveRequest::descriptor());
   EXPECT_EQ(service.method(0)->output_type(), v1::SolveResponse::descriptor());
   EXPECT_EQ(service.method(1)->input_type(), v1::BoundsRequest::descriptor());
@@ -72,6 +72,8 @@ TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   EXPECT_EQ(service.method(4)->output_type(), v1::AuditBatchResponse::descriptor());
   EXPECT_EQ(service.method(5)->input_type(), v1::PlanRequest::descriptor());
   EXPECT_EQ(service.method(5)->output_type(), v1::PlanResponse::descriptor());
+  EXPECT_EQ(service.method(6)->input_type(), v1::CostRequest::descriptor());
+  EXPECT_EQ(service.method(6)->output_type(), v1::CostResponse::descriptor());
 }
 
 TEST(FillTest, ReachesEveryMemberOfEveryOneof) {

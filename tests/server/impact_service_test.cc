@@ -66,6 +66,14 @@ class FakeSolver final : public Solver {
           return chunk;
         });
   }
+  CostStream DoCost(const CostRequest& /*request*/, const CallOptions& options) const override {
+    return CostStream([options, next = int64_t{0}]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
+      if (next == 2) return WorkUntilEnded(options);
+      CostChunk chunk = {.first_row = next, .rows = {{.name = "row"}}, .rows_total = 9};
+      chunk.rows_done = ++next;
+      return chunk;
+    });
+  }
 };
 
 class ImpactServiceTest : public testing::Test {
@@ -144,6 +152,21 @@ TEST_F(ImpactServiceTest, ASweepEndsWhenTheServerDrains) {
   const auto reader = stub_->Sweep(&context, {});
   v1::SweepResponse chunk;
   ASSERT_TRUE(reader->Read(&chunk));
+  drain_.request_stop();
+  while (reader->Read(&chunk)) {
+  }
+  const absl::Status status = FromGrpcStatus(reader->Finish());
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kDraining);
+}
+
+TEST_F(ImpactServiceTest, AStudyOfCostIsSentRowByRowAndEndsWhenTheServerDrains) {
+  grpc::ClientContext context;
+  const auto reader = stub_->Cost(&context, {});
+  v1::CostResponse chunk;
+  ASSERT_TRUE(reader->Read(&chunk));
+  EXPECT_EQ(chunk.rows(0).name(), "row");
+  EXPECT_EQ(chunk.rows_total(), 9);
   drain_.request_stop();
   while (reader->Read(&chunk)) {
   }

@@ -31,7 +31,7 @@ namespace ricochet {
 // of it, and of a stop, and ends its work too.
 //
 // Errors: a Client returns the errors of Solver with the same reason and violations, UNAVAILABLE and DEADLINE_EXCEEDED
-// of the network, and DATA_LOSS if the chunks of a sweep do not fit together (a gap, a repetition, a wrong size, an
+// of the network, and DATA_LOSS if the chunks of a stream do not fit together (a gap, a repetition, a wrong size, an
 // early end).
 class Client final : public Solver {
  public:
@@ -49,6 +49,7 @@ class Client final : public Solver {
   absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                   const CallOptions& options) const override;
   SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
+  CostStream DoCost(const CostRequest& request, const CallOptions& options) const override;
 
   explicit Client(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
   std::shared_ptr<Connection> connection_;

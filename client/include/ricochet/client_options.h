@@ -24,7 +24,7 @@ struct RetryPolicy {
 struct ClientOptions {
   std::string target;                         // "host:port" or another gRPC target, such as "unix:PATH". Required.
   std::chrono::milliseconds deadline{10000};  // For Solve, Bounds and CheckHealth, tries included. > 0.
-  std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole sweep; absent means none. > 0.
+  std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.
   RetryPolicy retry;
   std::string user_agent;  // Text that every call puts before gRPC's own user agent.
 };

@@ -90,12 +90,14 @@ struct CostRow {
   std::string name;  // At most 32 characters, such as "space 1e-06"; no two rows have the same.
   CostMethod method;
   CostStatus status = CostStatus::kUnspecified;
-  // One sentence in words: why a method has no answer, no error or no time of a batch, or what is special about it.
-  // Empty if there is nothing to say.
+  // Sentences: why a method has no answer, no error or no time of a batch, or what is special about it. Empty if there
+  // is nothing to say.
   std::string note;
-  std::optional<CostTime> solve;  // One call of the model for the scene's contact; planning is not included.
+  // One call of the model for the scene's contact; planning is not included. A method that failed has the time until it
+  // gave up.
+  std::optional<CostTime> solve;
   // One impact among kCostBatch whose velocity before varies by 0.1 %: a pendulum's closed form computes them in SIMD
-  // lanes, every other method one after another. Absent if they would take more than the method's share of the time.
+  // lanes, every other method one after another. Absent if they would take more than 2 % of the time limit.
   std::optional<CostTime> batch;
   bool batch_in_lanes = false;        // True if the batch was computed in SIMD lanes.
   CostError claimed;                  // Bounds or estimates; infinite where no bound is known.

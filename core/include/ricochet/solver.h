@@ -18,6 +18,7 @@
 #include "ricochet/bounds.h"
 #include "ricochet/call_options.h"
 #include "ricochet/certificate.h"
+#include "ricochet/cost.h"
 #include "ricochet/demand.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"
@@ -125,6 +126,7 @@ struct AuditBatchResponse {
 };
 
 using SweepStream = ResultStream<SweepChunk>;
+using CostStream = ResultStream<CostChunk>;
 
 class Solver {
  public:
@@ -162,6 +164,14 @@ class Solver {
     return DoSweep(request, options);
   }
 
+  // Studies what the accuracy of one impact costs in time, on the machine that answers: every method that applies, with
+  // its time and its error. The stream starts with a chunk without rows, gives the rows as they are measured, and ends
+  // with a summary. It stops within 10 ms of a stop by its options, which it keeps. An invalid request gives a stream of
+  // that one error.
+  CostStream Cost(const CostRequest& request, const CallOptions& options = {}) const {
+    return DoCost(request, options);
+  }
+
  private:
   virtual absl::StatusOr<SolveResponse> DoSolve(const SolveRequest& request, const CallOptions& options) const = 0;
   virtual absl::StatusOr<PlanResponse> DoPlan(const PlanRequest& request, const CallOptions& options) const = 0;
@@ -170,6 +180,7 @@ class Solver {
   virtual absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                           const CallOptions& options) const = 0;
   virtual SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const = 0;
+  virtual CostStream DoCost(const CostRequest& request, const CallOptions& options) const = 0;
 };
 
 // LocalSolver is the Solver that runs in this process: it needs no server, thread or file. Copying it costs nothing.
@@ -182,6 +193,7 @@ class LocalSolver final : public Solver {
   absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                   const CallOptions& options) const override;
   SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
+  CostStream DoCost(const CostRequest& request, const CallOptions& options) const override;
 };
 
 }  // namespace ricochet

@@ -1,0 +1,46 @@
+#include "client/cost_reader.h"
+
+#include <algorithm>
+
+#include "absl/strings/str_cat.h"
+
+namespace ricochet {
+namespace {
+
+// True if every index lies in [least, rows).
+template <typename Indices, typename Index>
+bool AllWithin(const Indices& indices, int64_t least, int64_t rows, Index index) {
+  return std::all_of(indices.begin(), indices.end(),
+                     [&](const auto& entry) { return index(entry) >= least && index(entry) < rows; });
+}
+
+}  // namespace
+
+absl::Status CostChecker::Check(const CostChunk& chunk) {
+  if (summarised_) return absl::DataLossError("the study of cost goes on after its summary");
+  if (chunk.first_row != rows_) {
+    return absl::DataLossError(
+        absl::StrCat("the study's next rows should start at row ", rows_, " but start at ", chunk.first_row));
+  }
+  rows_ += static_cast<int64_t>(chunk.rows.size());
+  if (chunk.rows_done != rows_ || chunk.rows_done > chunk.rows_total) {
+    return absl::DataLossError(
+        absl::StrCat("the study has ", rows_, " rows and not ", chunk.rows_done, " of ", chunk.rows_total));
+  }
+  summarised_ = chunk.summary.has_value();
+  if (summarised_ != (chunk.rows_done == chunk.rows_total)) {
+    return absl::DataLossError(absl::StrCat("the study's summary is ", summarised_ ? "early" : "missing", " at row ",
+                                            rows_, " of ", chunk.rows_total));
+  }
+  if (!summarised_) return absl::OkStatus();
+  const bool within = AllWithin(chunk.summary->front, 0, rows_, [](int64_t row) { return row; }) &&
+                      AllWithin(chunk.summary->picks, -1, rows_, [](const CostPick& pick) { return pick.row; });
+  return within ? absl::OkStatus() : absl::DataLossError("the study's summary names a row that it does not have");
+}
+
+absl::Status CostChecker::CheckEnd() const {
+  if (summarised_) return absl::OkStatus();
+  return absl::DataLossError(absl::StrCat("the study of cost ended at row ", rows_, " without its summary"));
+}
+
+}  // namespace ricochet

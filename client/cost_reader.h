@@ -1,0 +1,33 @@
+// CostReader: the receiving end of a study of cost. It reads the server's stream and checks that no row is missing.
+
+#ifndef RICOCHET_CLIENT_COST_READER_H_
+#define RICOCHET_CLIENT_COST_READER_H_
+
+#include <cstdint>
+
+#include "absl/status/status.h"
+#include "client/stream_reader.h"
+#include "proto/wire/cost.h"
+#include "ricochet/cost.h"
+#include "ricochet/v1/cost.pb.h"
+
+namespace ricochet {
+
+// Checks that chunks fit together: their rows come in order, without gaps, up to the last one, which has the summary.
+class CostChecker {
+ public:
+  // Errors: DATA_LOSS if `chunk` cannot be the next one.
+  absl::Status Check(const CostChunk& chunk);
+  // Errors: DATA_LOSS if chunks are missing at the end of the stream.
+  absl::Status CheckEnd() const;
+
+ private:
+  int64_t rows_ = 0;
+  bool summarised_ = false;
+};
+
+using CostReader = StreamReader<v1::CostResponse, CostChunk, CostChecker, FromProto>;
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CLIENT_COST_READER_H_
