@@ -128,8 +128,9 @@ void SetVelocities(const Reduction<kTangential>& reduction, const std::array<dou
   }
   outcome.bodies_after.reserve(after.size() / (kLinear + kAngular));
   for (auto body = after.begin(); body != after.end(); body += kLinear + kAngular) {
-    outcome.bodies_after.emplace_back(Components(body, body + kLinear),
-                                      Components(body + kLinear, body + kLinear + kAngular));
+    BodyVelocity& velocity = outcome.bodies_after.emplace_back();
+    velocity.linear_m_s = Components(body, body + kLinear);
+    velocity.angular_rad_s = Components(body + kLinear, body + kLinear + kAngular);
   }
 }
 
