@@ -8,6 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "client/cli/cost_picture.h"
 #include "client/cli/cost_report.h"
@@ -141,9 +142,8 @@ std::string PicksTable(const CostChunk& study) {
 
 std::string Notes(const CostChunk& study) {
   std::string text;
-  for (const CostRow& row : study.rows) {
-    if (row.note.empty()) continue;
-    absl::StrAppend(&text, "<dt>", HtmlText(row.name), "</dt>", Element("dd", row.note), "\n");
+  for (const CostNote& note : NotesOf(study)) {
+    absl::StrAppend(&text, Element("dt", absl::StrJoin(note.methods, "; ")), Element("dd", note.text), "\n");
   }
   return text.empty() ? "" : absl::StrCat("<h2>Notes</h2>\n<dl>\n", text, "</dl>\n");
 }
@@ -160,6 +160,7 @@ std::string Facts(const CostChunk& study) {
     const CostRow& fast = study.rows.at(static_cast<size_t>(summary.front.front()));
     const CostRow& exact = study.rows.at(static_cast<size_t>(summary.front.back()));
     const auto fact = [&text](const char* what, const CostRow& row) {
+      if (!row.solve.has_value() || !row.achieved.has_value()) return;
       absl::StrAppend(&text,
                       Fact(what, row.name,
                            absl::StrCat(TimeText(row.solve->median_s), ", error ", ErrorText(row.achieved->total))));
@@ -195,7 +196,7 @@ std::string RunTable(const CostChunk& study, const std::string& date) {
       {"date", date},
       {"time taken", absl::StrFormat("%.2g s", summary.elapsed_s)},
       {"exact answer",
-       absl::StrCat(summary.reference_source, " It is known to within ", ErrorText(summary.reference_error), ".")}};
+       absl::StrCat(summary.reference_source, ". It is known to within ", ErrorText(summary.reference_error), ".")}};
   std::string text = "<table class=\"words\">\n<tbody>\n";
   for (const auto& [name, value] : rows) {
     absl::StrAppend(&text, "<tr>", Element("td", name), Element("td", value), "</tr>\n");
@@ -246,8 +247,9 @@ absl::StatusOr<std::string> CostPage(const Scene& scene, const CostChunk& study,
                            MachineText(study.summary->machine), "."),
               " class=\"quiet\""),
       "\n", Facts(study), "<h2>Time and error</h2>\n", *time,
-      Element("h2", absl::StrCat("Errors claimed and made: ", study.summary->deceived, " claimed too little")), "\n",
-      *claim, "<h2>Methods</h2>\n", MethodsTable(study),
+      Element("h2", absl::StrCat("Errors claimed and made: ", study.summary->deceived, " of ", AnswerCount(study),
+                                 " claim too little")),
+      "\n", *claim, "<h2>Methods</h2>\n", MethodsTable(study),
       "<p class=\"quiet\">● on the Pareto front: no other method is as fast and as exact.</p>\n",
       "<h2>The method that the plan picks</h2>\n", PicksTable(study), Notes(study), "<h2>What the columns mean</h2>\n",
       kColumns, "<h2>The scene</h2>\n", Element("pre", SceneText(scene)), "\n<h2>The run</h2>\n", RunTable(study, date),

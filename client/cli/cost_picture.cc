@@ -209,11 +209,10 @@ std::string ErrorRange(const char* axis, bool beyond, PictureWidth width) {
 std::string TimeTicks(int least, int most) {
   std::vector<std::string> ticks;
   for (int exponent = least; exponent <= most; ++exponent) {
-    const double time = std::pow(10.0, exponent);
-    const int unit = std::clamp((exponent + 9) / 3, 0, 3);
     static const char* const kUnits[] = {"ns", "µs", "ms", "s"};
+    const int unit = std::clamp((exponent + 9) / 3, 0, 3);
     const double number = std::pow(10.0, exponent + 9 - 3 * unit);
-    ticks.push_back(absl::StrCat("'", Rounded(number), " ", kUnits[unit], "' ", ShortestDecimal(time)));
+    ticks.push_back(absl::StrCat("'", Rounded(number), " ", kUnits[unit], "' 1e", exponent));
   }
   return absl::StrCat("set ytics (", absl::StrJoin(ticks, ", "), ")\nset yrange [1e", least, ":1e", most, "]\n");
 }
@@ -228,7 +227,9 @@ std::pair<int, int> TimeRange(const CostChunk& study) {
     most = std::max(most, row.solve->median_s);
   }
   if (most == 0.0) return {-9, -3};
-  return {static_cast<int>(std::floor(std::log10(least))), static_cast<int>(std::floor(std::log10(most))) + 1};
+  const auto low = static_cast<int>(std::floor(std::log10(least)));
+  const auto high = static_cast<int>(std::floor(std::log10(most))) + 1;
+  return high - low > 1 ? std::pair(low, high) : std::pair(low - 1, high + 1);
 }
 
 // Decades from label to label.
@@ -252,8 +253,8 @@ Panel TimePanel(const CostChunk& study, PictureWidth width) {
 }
 
 Panel ClaimPanel(const CostChunk& study, PictureWidth width) {
-  Panel panel{.title = absl::StrCat("Error made over error claimed: ", study.summary->deceived,
-                                    study.summary->deceived == 1 ? " claims" : " claim", " too little"),
+  Panel panel{.title = absl::StrCat("Error made over error claimed: ", study.summary->deceived, " of ",
+                                    AnswerCount(study), " claim too little"),
               .x_label = "error claimed",
               .y_label = "error made"};
   const bool beyond = std::any_of(study.rows.begin(), study.rows.end(),
@@ -298,18 +299,18 @@ Plot CostPlot(const CostChunk& study, const std::string& title) {
   Panel time = TimePanel(study, PictureWidth::kWide);
   Panel claim = ClaimPanel(study, PictureWidth::kWide);
   absl::StrAppend(&time.settings,
-                  "unset key\nset lmargin at screen 0.06\nset rmargin at screen 0.40\n"
+                  "unset key\nset lmargin at screen 0.085\nset rmargin at screen 0.41\n"
                   "set tmargin at screen 0.87\nset bmargin at screen 0.12\n");
   absl::StrAppend(&claim.settings,
-                  "set key at screen 0.805, 0.88 left top reverse Left samplen 2 spacing 1.25\n"
-                  "set lmargin at screen 0.475\nset rmargin at screen 0.79\n");
+                  "set key at screen 0.80, 0.88 left top reverse Left samplen 2 spacing 1.25\n"
+                  "set lmargin at screen 0.485\nset rmargin at screen 0.785\n");
   // The legend is that of the second panel, which lacks the front and the failures: they are added as empty curves.
   for (const Curve& curve : time.curves) {
     if (curve.title == kParetoFront || curve.title == kNoAnswer) {
       claim.curves.push_back({.title = curve.title, .points = {{NAN, NAN}}, .style = curve.style});
     }
   }
-  return {.title = title, .panels = {std::move(time), std::move(claim)}, .width = 1440, .height = 620};
+  return {.title = title, .panels = {std::move(time), std::move(claim)}, .width = 1480, .height = 620};
 }
 
 }  // namespace ricochet::cli

@@ -1,5 +1,6 @@
 #include "client/cli/cost_report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -77,8 +78,8 @@ std::string PicksText(const CostChunk& study) {
 
 std::string NotesText(const CostChunk& study) {
   std::string text;
-  for (const CostRow& row : study.rows) {
-    if (!row.note.empty()) absl::StrAppend(&text, Wrapped(absl::StrCat(row.name, ": ", row.note), 2));
+  for (const CostNote& note : NotesOf(study)) {
+    absl::StrAppend(&text, Wrapped(absl::StrCat(absl::StrJoin(note.methods, "; "), ": ", note.text), 2));
   }
   return text.empty() ? "" : absl::StrCat("\nNotes\n", text);
 }
@@ -170,8 +171,8 @@ std::string ErrorText(double error) {
 }
 
 std::string PickRangeText(const CostPick& pick) {
-  if (pick.least_tolerance == pick.most_tolerance) return ShortestDecimal(pick.least_tolerance);
-  return absl::StrCat(ShortestDecimal(pick.least_tolerance), " to ", ShortestDecimal(pick.most_tolerance));
+  if (pick.least_tolerance == pick.most_tolerance) return Rounded(pick.least_tolerance);
+  return absl::StrCat(Rounded(pick.least_tolerance), " to ", Rounded(pick.most_tolerance));
 }
 
 std::string PickName(const CostChunk& study, const CostPick& pick) {
@@ -179,13 +180,27 @@ std::string PickName(const CostChunk& study, const CostPick& pick) {
   return study.rows[static_cast<size_t>(pick.row)].name;
 }
 
+int64_t AnswerCount(const CostChunk& study) {
+  return std::count_if(study.rows.begin(), study.rows.end(),
+                       [](const CostRow& row) { return row.achieved.has_value(); });
+}
+
 std::string TrustText(const CostChunk& study) {
-  int64_t answers = 0;
-  for (const CostRow& row : study.rows) answers += row.achieved.has_value() ? 1 : 0;
   const CostSummary& summary = *study.summary;
-  return absl::StrCat("Answers that err by more than they claim: ", summary.deceived, " of ", answers,
-                      ". Methods without an answer: ", summary.failed, "; without time left: ", summary.out_of_time,
-                      ".");
+  return absl::StrCat("Answers that err by more than they claim: ", summary.deceived, " of ", AnswerCount(study),
+                      ". No answer: ", summary.failed, ". No time left: ", summary.out_of_time, ".");
+}
+
+std::vector<CostNote> NotesOf(const CostChunk& study) {
+  std::vector<CostNote> notes;
+  for (const CostRow& row : study.rows) {
+    if (row.note.empty()) continue;
+    auto note =
+        std::find_if(notes.begin(), notes.end(), [&row](const CostNote& known) { return known.text == row.note; });
+    if (note == notes.end()) note = notes.insert(note, CostNote{.text = row.note, .methods = {}});
+    note->methods.push_back(row.name);
+  }
+  return notes;
 }
 
 std::string MachineText(const CostMachine& machine) {
@@ -202,10 +217,11 @@ std::vector<bool> OnFront(const CostChunk& study) {
 std::string CostText(const CostChunk& study) {
   const CostSummary& summary = *study.summary;
   return absl::StrCat(
-      MethodsText(study),
+      Wrapped(absl::StrCat(study.rows.size(), " methods for one impact. The exact answer: ", summary.reference_source,
+                           ".")),
+      "\n", MethodsText(study),
       "\n* on the Pareto front: none is as fast and as exact. Errors are fractions of the velocity before.\n\n",
       PicksText(study), NotesText(study), "\n", Wrapped(TrustText(study)),
-      Wrapped(absl::StrCat("Exact answer: ", summary.reference_source)),
       Wrapped(absl::StrCat(MachineText(summary.machine), "; ricochet ", study.engine.version, ", engine ",
                            study.engine.fingerprint)),
       "Measured in ", absl::StrFormat("%.2g", summary.elapsed_s), " s\n");

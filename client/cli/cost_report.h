@@ -3,7 +3,7 @@
 #ifndef RICOCHET_CLIENT_CLI_COST_REPORT_H_
 #define RICOCHET_CLIENT_CLI_COST_REPORT_H_
 
-#include <optional>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -39,6 +39,16 @@ std::string PickName(const CostChunk& study, const CostPick& pick);
 
 // Returns how many answers err by more than they claim, how many methods gave none, and how many had no time left.
 std::string TrustText(const CostChunk& study);
+
+// Returns how many methods gave an answer whose error is known.
+int64_t AnswerCount(const CostChunk& study);
+
+// A sentence that is said of one method or more.
+struct CostNote {
+  std::string text;
+  std::vector<std::string> methods;
+};
+std::vector<CostNote> NotesOf(const CostChunk& study);
 
 // Returns the processor, its SIMD instructions and the compiler, with a warning if the build does not optimize.
 std::string MachineText(const CostMachine& machine);

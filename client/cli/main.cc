@@ -10,6 +10,7 @@
 #include "client/cli/audit.h"
 #include "client/cli/bounds.h"
 #include "client/cli/common.h"
+#include "client/cli/cost.h"
 #include "client/cli/exit_code.h"
 #include "client/cli/health.h"
 #include "client/cli/solve.h"
@@ -29,6 +30,7 @@ void AddSubcommands(CLI::App& app, ricochet::cli::Command& command) {
   ricochet::cli::AddBounds(app, command);
   ricochet::cli::AddSweep(app, command);
   ricochet::cli::AddAudit(app, command);
+  ricochet::cli::AddCost(app, command);
   ricochet::cli::AddHealth(app, command);
   app.footer(
       "ricochet SUBCOMMAND --help shows a worked example.\n"

@@ -150,7 +150,7 @@ absl::Status RunGnuplot(const std::string& script) {
   if (error != 0) {
     close(ends[1]);
     if (error != ENOENT) return absl::ErrnoToStatus(error, "cannot start gnuplot");
-    return absl::FailedPreconditionError("--plot needs gnuplot, which is not installed (Debian: gnuplot-nox)");
+    return absl::FailedPreconditionError("pictures need gnuplot, which is not installed (Debian: gnuplot-nox)");
   }
   const bool fed = Feed(ends[1], script);
   int result = 0;

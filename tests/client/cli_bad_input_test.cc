@@ -23,6 +23,7 @@ struct BadInput {
 void PrintTo(const BadInput& bad, std::ostream* stream) { *stream << bad.message; }
 
 const Arguments kSolve = {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1"};
+const Arguments kCost = {"cost", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1"};
 const Arguments kSweep = {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1"};
 
 Arguments Plus(Arguments arguments, const Arguments& more) {
@@ -53,6 +54,13 @@ std::vector<BadInput> Flags() {
       {Plus(kSolve, {"--server", "localhost:1", "--deadline", "soon"}), "--deadline = soon: must be a time", ""},
       {Plus(kSolve, {"--server", "localhost:1", "--deadline", "0"}), "--deadline = 0: must be a time", ""},
       {Plus(kSolve, {"--server", "two words"}), "target = \"two words\": must not contain white space", ""},
+      {{"cost"}, "no scene: give --scene FILE", ""},
+      {{"cost", "--a", "1", "--energetic", "2"}, "restitution.energetic = 2: must be in [0, 1]", ""},
+      {Plus(kCost, {"--time-limit", "soon"}), "--time-limit = soon: must be a time", ""},
+      {Plus(kCost, {"--time-limit", "2m"}), "time_limit_s = 120: must be", ""},
+      {Plus(kCost, {"--samples", "0"}), "--samples = 0: must be in [1, 1001]", ""},
+      {Plus(kCost, {"--plot", "picture.pdf"}), "--plot picture.pdf: must end in .svg or .png", ""},
+      {Plus(kCost, {"--deadline", "1s"}), "--deadline needs --server", ""},
       {{"health"}, "--server is required", ""},
       {{"solve", "--a", "long"}, "--a = long: must be a number such as 0.1", ""},
       {{"solve", "--a", ""}, "--a = : must be a number", ""},

@@ -97,7 +97,7 @@ TEST_F(Cli, TellsItsVersionAndEngine) {
 }
 
 TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
-  for (const std::string subcommand : {"solve", "bounds", "sweep", "audit"}) {
+  for (const std::string subcommand : {"solve", "bounds", "sweep", "audit", "cost"}) {
     const CliResult help = Run({subcommand, "--help"});
     EXPECT_EQ(help.exit_code, 0);
     const size_t start = help.out.find("$ ricochet ");
@@ -292,7 +292,7 @@ TEST_F(Cli, DrawsPng) {
 TEST_F(Cli, SaysThatGnuplotIsMissing) {
   const CliResult result = RunShell("PATH=/nonexistent\n" + Solve("--plot impact.svg -o result.txt"));
   EXPECT_EQ(result.exit_code, 42);
-  EXPECT_THAT(result.err, HasSubstr("--plot needs gnuplot, which is not installed"));
+  EXPECT_THAT(result.err, HasSubstr("pictures need gnuplot, which is not installed"));
   EXPECT_THAT(Files(), IsEmpty());
 }
 

@@ -83,6 +83,7 @@ TEST(CostReportTest, TheTableFitsIn100ColumnsWithTheLongestNames) {
 
 TEST(CostReportTest, TheTableShowsWhatEachMethodTakesAndErrsBy) {
   const std::string text = CostText(MadeCost());
+  EXPECT_THAT(text, StartsWith("8 methods for one impact. The exact answer: certified to 64 digits.\n\n"));
   EXPECT_THAT(LineOf(text, "* pendulum plain"),
               testing::MatchesRegex(R"(\* pendulum plain +25.0 ns +3 % +12.5 ns +1.7e-15 +1.1e-16 +1.1e-16 +0)"));
   EXPECT_THAT(LineOf(text, "  space 1e-06"), testing::EndsWith(" 12"));
@@ -159,6 +160,12 @@ TEST(CostPictureTest, AStudyWithoutFailuresHasNoMarksOfThem) {
   EXPECT_THAT(plot.panels[0].settings, Not(HasSubstr("no answer")));
 }
 
+TEST(CostPictureTest, TheTimesLieBetweenLabelledPowersOfTen) {
+  const std::string settings = CostTimePlot(MadeCost(), PictureWidth::kWide).panels[0].settings;
+  EXPECT_THAT(settings, HasSubstr("set ytics ('1 ns' 1e-9, '10 ns' 1e-8, '100 ns' 1e-7, '1 µs' 1e-6, '10 µs' 1e-5, "
+                                  "'100 µs' 1e-4, '1 ms' 1e-3)\nset yrange [1e-9:1e-3]\n"));
+}
+
 TEST(CostPictureTest, AClaimWithoutABoundStandsBeyondAllClaims) {
   const Plot plot = CostClaimPlot(MadeCost(), PictureWidth::kNarrow);
   EXPECT_THAT(Find(plot, "frictionless")->points, ElementsAre(Pair(1e3, 0.05)));
@@ -185,7 +192,7 @@ TEST(CostPageTest, ShowsEveryMethodAndBothPicturesInTwoWidths) {
   EXPECT_THAT(*page, HasSubstr("say &lt; 1 &amp; &gt; 0."));
   EXPECT_THAT(*page, HasSubstr("2009-07-01 12:00 UTC"));
   EXPECT_THAT(*page, HasSubstr("mass_kg: 2\n"));
-  EXPECT_THAT(*page, HasSubstr("Errors claimed and made: 1 claimed too little"));
+  EXPECT_THAT(*page, HasSubstr("Errors claimed and made: 1 of 6 claim too little"));
   size_t pictures = 0;
   for (size_t at = page->find("<svg"); at != std::string::npos; at = page->find("<svg", at + 1)) ++pictures;
   EXPECT_EQ(pictures, 4);

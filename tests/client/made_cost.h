@@ -54,7 +54,7 @@ inline CostChunk MadeCost() {
   study.rows[4].right_hand_sides = 80;
   study.summary =
       CostSummary{.reference = {{0.7}, 0.2},
-                  .reference_source = "The certified answer to 64 digits.",
+                  .reference_source = "certified to 64 digits",
                   .reference_error = 1e-64,
                   .front = {0, 1, 2},
                   .picks = {{.row = 2, .least_tolerance = 0.0, .most_tolerance = 1e-15},

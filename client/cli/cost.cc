@@ -1,0 +1,140 @@
+#include "client/cli/cost.h"
+
+#include <chrono>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/time/clock.h"
+#include "absl/time/time.h"
+#include "client/cli/cost_page.h"
+#include "client/cli/cost_picture.h"
+#include "client/cli/cost_report.h"
+#include "client/cli/interrupt.h"
+#include "client/cli/number_input.h"
+#include "client/cli/output.h"
+#include "client/cli/plot.h"
+#include "client/cli/progress.h"
+#include "client/cli/scene_input.h"
+#include "proto/wire/cost.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] = R"(Example: the elastic pendulum of Lubarda (2009), sec. 4, in a second.
+  $ ricochet cost --a 0.3 --b 1 --mu 0.1 --energetic 1 --time-limit 1s
+21 methods for one impact. The exact answer: certified to 100 digits.
+  ...
+Every method that can compute the impact is timed and held against the exact answer, on the machine that answers: this
+one, or that of --server. Times differ from run to run. docs/cli.md explains the columns.
+Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+
+struct CostOptions {
+  CommonOptions common;
+  SceneOptions scene;
+  std::string time_limit;
+  std::string samples;
+  std::string plot;
+  std::string html;
+};
+
+absl::StatusOr<CostRequest> MakeRequest(const CostOptions& options) {
+  CostRequest request;
+  absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  if (!scene.ok()) return scene.status();
+  request.scene = *std::move(scene);
+  if (!options.time_limit.empty()) {
+    const auto limit = ParseDuration(options.time_limit, "--time-limit");
+    if (!limit.ok()) return limit.status();
+    request.time_limit_s = std::chrono::duration<double>(*limit).count();
+  }
+  if (!options.samples.empty()) {
+    const absl::StatusOr<int64_t> samples = ParseCount(options.samples, "--samples");
+    if (!samples.ok()) return samples.status();
+    if (*samples < 1 || *samples > kMostCostSamples) {
+      return InputError("--samples", options.samples, absl::StrCat("be in [1, ", kMostCostSamples, "]"));
+    }
+    request.samples = static_cast<int32_t>(*samples);
+  }
+  return request;
+}
+
+// Returns all parts of the study as one.
+absl::StatusOr<CostChunk> Study(const Solver& solver, const CostRequest& request, std::stop_token stop) {
+  CostChunk whole;
+  Progress progress("methods");
+  for (absl::StatusOr<CostChunk>& chunk : solver.Cost(request, {.stop = std::move(stop)})) {
+    if (!chunk.ok()) return chunk.status();
+    progress.Update(chunk->rows_done, chunk->rows_total);
+    for (CostRow& row : chunk->rows) whole.rows.push_back(std::move(row));
+    whole.rows_done = chunk->rows_done;
+    whole.rows_total = chunk->rows_total;
+    whole.summary = std::move(chunk->summary);
+    whole.engine = std::move(chunk->engine);
+  }
+  if (!whole.summary.has_value()) return absl::DataLossError("the study ended without a summary");
+  return whole;
+}
+
+absl::StatusOr<std::string> Render(const CostChunk& study, Format format) {
+  switch (format) {
+    case Format::kText:
+      return CostText(study);
+    case Format::kJson:
+      return Json(ToProto(study));
+    case Format::kCsv:
+      break;
+  }
+  return CostCsv(study);
+}
+
+absl::Status WritePage(const Scene& scene, const CostChunk& study, const std::string& path) {
+  const std::string date = absl::FormatTime("%Y-%m-%d %H:%M UTC", absl::Now(), absl::UTCTimeZone());
+  const absl::StatusOr<std::string> page = CostPage(scene, study, date);
+  return page.ok() ? WriteOutput({.output = path}, *page) : page.status();
+}
+
+absl::Status RunCost(const CostOptions& options) {
+  if (!options.plot.empty()) {
+    if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
+  }
+  // This comes before the solver, whose connection starts threads.
+  const Interrupt interrupt;
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+  if (!solver.ok()) return solver.status();
+  const absl::StatusOr<CostRequest> request = MakeRequest(options);
+  if (!request.ok()) return request.status();
+  const absl::StatusOr<CostChunk> study = Study(**solver, *request, interrupt.token());
+  if (!study.ok()) return study.status();
+  if (!options.plot.empty()) {
+    const std::string title = absl::StrCat("What accuracy costs: one impact, ", SystemText(request->scene));
+    if (absl::Status status = Draw(CostPlot(*study, title), options.plot); !status.ok()) return status;
+  }
+  if (!options.html.empty()) {
+    if (absl::Status status = WritePage(request->scene, *study, options.html); !status.ok()) return status;
+  }
+  const absl::StatusOr<std::string> text = Render(*study, options.common.format);
+  return text.ok() ? WriteOutput(options.common, *text) : text.status();
+}
+
+}  // namespace
+
+void AddCost(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("cost", "What accuracy costs in time, method by method");
+  const auto options = std::make_shared<CostOptions>();
+  AddSceneOptions(*sub, options->scene);
+  sub->add_option("--time-limit", options->time_limit, "Time for the whole study (500ms, 10s, 1m), at most 60 s [3s]")
+      ->type_name("TIME");
+  sub->add_option("--samples", options->samples, "Samples taken of each time [21]")->type_name("N");
+  sub->add_option("--plot", options->plot, "Draw time over error, and error made over error claimed, with gnuplot")
+      ->type_name("FILE.svg|.png");
+  sub->add_option("--html", options->html, "Write tables and pictures as one page that needs nothing beside it")
+      ->type_name("FILE");
+  AddServerOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunCost(*options); }; });
+}
+
+}  // namespace ricochet::cli
