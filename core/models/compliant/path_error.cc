@@ -47,6 +47,8 @@ SlideGrowth GrowthOf(double stiffness, double v_slope, const ContactState& befor
   return growth;
 }
 
+double SumOfSizes(double x, double y) { return std::fabs(x) + std::fabs(y); }
+
 }  // namespace
 
 // Replaces the covariance C by L C L^T for the linear map L.
@@ -102,34 +104,59 @@ void PathError::AddSlide(const SectionMode& mode, const SlideRates& rates, const
   LeaveSection(mode, after, end);
 }
 
+PathError::Oscillations PathError::EndOf(const NormalModes& modes, const Phase& phase) {
+  Oscillations end;
+  for (size_t i = 0; i < 2; ++i) {
+    end.y[i] = modes.y[i] * phase.c[i] + modes.rate[i] * phase.s[i];
+    end.rate[i] = modes.rate[i] * phase.c[i] - modes.w[i] * modes.w[i] * modes.y[i] * phase.s[i];
+  }
+  return end;
+}
+
 void PathError::AddStick(const SectionMode& mode, const NormalModes& modes, const Phase& phase, double time,
-                         const ContactState& after, const SectionEnd& end) {
+                         const ContactState& before, const ContactState& after, const SectionEnd& end) {
+  EnterModes(mode, modes, before);
+  const Oscillations at_end = EndOf(modes, phase);
+  CarryModes(modes, phase, time, at_end);
+  LeaveModes(mode, modes, at_end, after, end);
+  LeaveSection(mode, after, end);
+}
+
+// From here to LeaveModes the covariance is that of (y_1, y_0, y_0', y_1'), in the places of (N, p, u, v).
+void PathError::EnterModes(const SectionMode& mode, const NormalModes& modes, const ContactState& before) {
   const double ratio = std::sqrt(contact_.ratio_squared);
   const double root = contact_.RootOfStiffness(mode.branch);
-  const double fast2 = modes.w.fast * modes.w.fast;
-  const double slow2 = modes.w.slow * modes.w.slow;
-  // (N, p, u, v) as (y_1, y_0, y_0', y_1'), along the eigenvectors.
   Transform([&](const Deviation& x) {
     const double p = ratio * x.spring_force, n = x.normal_force / root;
     const double u = x.u / ratio, v = -x.v * root;
     return Deviation{modes.c * n - modes.s * p, modes.c * p + modes.s * n, modes.c * u + modes.s * v,
                      contact_.u_follows_v ? 0.0 : modes.c * v - modes.s * u};
   });
-  const auto sum = [](double x, double y) { return std::fabs(x) + std::fabs(y); };
+  const double p = ratio * before.spring_force, n = before.normal_force / root;
+  const double u = before.u / ratio, v = before.v * root;
+  AddVariances({.normal_force = 2.0 * SumOfSizes(modes.c * n, modes.s * p),
+                .spring_force = 2.0 * SumOfSizes(modes.c * p, modes.s * n),
+                .u = 2.0 * SumOfSizes(modes.c * u, modes.s * v),
+                .v = contact_.u_follows_v ? 0.0 : 2.0 * SumOfSizes(modes.c * v, modes.s * u)});
+}
+
+void PathError::CarryModes(const NormalModes& modes, const Phase& phase, double time, const Oscillations& at_end) {
+  const double fast2 = modes.w.fast * modes.w.fast;
+  const double slow2 = modes.w.slow * modes.w.slow;
   Transform([&](const Deviation& x) {
     return Deviation{phase.c[1] * x.normal_force + phase.s[1] * x.v, phase.c[0] * x.spring_force + phase.s[0] * x.u,
                      phase.c[0] * x.u - fast2 * phase.s[0] * x.spring_force,
                      phase.c[1] * x.v - slow2 * phase.s[1] * x.normal_force};
   });
-  std::array<double, 2> y, rate, y_error, rate_error;
+  const auto& [y, rate] = at_end;
+  std::array<double, 2> y_error, rate_error;
   for (size_t i = 0; i < 2; ++i) {
     const double w2 = i == 0 ? fast2 : slow2;
-    y[i] = modes.y[i] * phase.c[i] + modes.rate[i] * phase.s[i];
-    rate[i] = modes.rate[i] * phase.c[i] - w2 * modes.y[i] * phase.s[i];
     // Both frequencies err by some units, and their phases by as much of themselves.
-    y_error[i] = 3.0 * sum(modes.y[i] * phase.c[i], modes.rate[i] * phase.s[i]) + 4.0 * time * std::fabs(rate[i]);
+    y_error[i] =
+        2.5 * SumOfSizes(modes.y[i] * phase.c[i], modes.rate[i] * phase.s[i]) + 4.0 * time * std::fabs(rate[i]);
     rate_error[i] =
-        3.0 * sum(modes.rate[i] * phase.c[i], w2 * modes.y[i] * phase.s[i]) + 4.0 * time * w2 * std::fabs(y[i]);
+        2.5 * SumOfSizes(modes.rate[i] * phase.c[i], w2 * modes.y[i] * phase.s[i]) + 4.0 * time * w2 * std::fabs(y[i]);
   }
   // Eigenvectors that are turned by their rounding mix the oscillations, as far as their phases have come apart.
   const double apart = modes.w.fast - modes.w.slow;
@@ -139,20 +166,26 @@ void PathError::AddStick(const SectionMode& mode, const NormalModes& modes, cons
                 .spring_force = y_error[0] + mixing * std::fabs(y[1]),
                 .u = rate_error[0] + mixing * std::fabs(rate[1]),
                 .v = contact_.u_follows_v ? 0.0 : rate_error[1] + mixing * std::fabs(rate[0])});
-  const bool on_cone = end.breaks_away != 0;
+}
+
+void PathError::LeaveModes(const SectionMode& mode, const NormalModes& modes, const Oscillations& at_end,
+                           const ContactState& after, const SectionEnd& end) {
+  const double ratio = std::sqrt(contact_.ratio_squared);
+  const double root = contact_.RootOfStiffness(mode.branch);
   const double cone = end.breaks_away * contact_.mu;
   Transform([&](const Deviation& x) {
-    const double normal_force = root * (modes.s * x.spring_force + modes.c * x.normal_force);
+    const double n = root * (modes.s * x.spring_force + modes.c * x.normal_force);
+    const double p = (modes.c * x.spring_force - modes.s * x.normal_force) / ratio;
     const double v = -(modes.s * x.u + modes.c * x.v) / root;
-    return Deviation{
-        normal_force, on_cone ? cone * normal_force : (modes.c * x.spring_force - modes.s * x.normal_force) / ratio,
-        contact_.u_follows_v ? v * (contact_.wtn / contact_.wnn) : ratio * (modes.c * x.u - modes.s * x.v), v};
+    const double u = contact_.u_follows_v ? v * (contact_.wtn / contact_.wnn) : ratio * (modes.c * x.u - modes.s * x.v);
+    return Deviation{n, end.breaks_away != 0 ? cone * n : p, u, v};
   });
-  Deviation rounding = {.normal_force = 2.5 * root * sum(modes.s * y[0], modes.c * y[1]),
-                        .spring_force = 2.5 * sum(modes.c * y[0], modes.s * y[1]) / ratio,
-                        .u = 2.5 * ratio * sum(modes.c * rate[0], modes.s * rate[1]),
-                        .v = 2.5 * sum(modes.s * rate[0], modes.c * rate[1]) / root};
-  // The event was found to some units of its time. What was set there to its value at the event had missed that by this.
+  const auto& [y, rate] = at_end;
+  Deviation rounding = {.normal_force = 2.5 * root * SumOfSizes(modes.s * y[0], modes.c * y[1]),
+                        .spring_force = 2.5 * SumOfSizes(modes.c * y[0], modes.s * y[1]) / ratio,
+                        .u = 2.5 * ratio * SumOfSizes(modes.c * rate[0], modes.s * rate[1]),
+                        .v = 2.5 * SumOfSizes(modes.s * rate[0], modes.c * rate[1]) / root};
+  // An event is found to some units of its time. What was set to its value at the event had missed that by this much.
   if (end.turns) {
     rounding.v += std::fabs(modes.s * rate[0] + modes.c * rate[1]) / root / kUnit;
   } else if (end.passes_largest || contact_.mu > 1.0) {
@@ -160,7 +193,6 @@ void PathError::AddStick(const SectionMode& mode, const NormalModes& modes, cons
     rounding.normal_force += std::fabs(root * (modes.s * y[0] + modes.c * y[1]) - after.normal_force) / kUnit;
   }
   AddVariances(rounding);
-  LeaveSection(mode, after, end);
 }
 
 void PathError::LeaveSection(const SectionMode& mode, const ContactState& after, const SectionEnd& end) {

@@ -37,9 +37,9 @@ class PathError {
   // A slide from `before` to `after`, over the normal impulse `step`.
   void AddSlide(const SectionMode& mode, const SlideRates& rates, const ContactState& before, const ContactState& after,
                 double step, const SectionEnd& end);
-  // A stick that ends in `after`, at the phase `phase` of its oscillations after `time`.
+  // A stick from `before` to `after`, at the phase `phase` of its oscillations after `time`.
   void AddStick(const SectionMode& mode, const NormalModes& modes, const Phase& phase, double time,
-                const ContactState& after, const SectionEnd& end);
+                const ContactState& before, const ContactState& after, const SectionEnd& end);
   // The impact ends in `state` because v = 0 there, wherever that is.
   void EndAtRest(const SectionMode& mode, const ContactState& state);
 
@@ -49,9 +49,19 @@ class PathError {
  private:
   using Covariance = std::array<std::array<double, 4>, 4>;
 
+  // Both oscillations of a stick, and their rates.
+  struct Oscillations {
+    std::array<double, 2> y, rate;
+  };
+  static Oscillations EndOf(const NormalModes& modes, const Phase& phase);
+
   template <typename Map>
   void Transform(const Map& map);
   void AddVariances(const Deviation& errors);
+  void EnterModes(const SectionMode& mode, const NormalModes& modes, const ContactState& before);
+  void CarryModes(const NormalModes& modes, const Phase& phase, double time, const Oscillations& at_end);
+  void LeaveModes(const SectionMode& mode, const NormalModes& modes, const Oscillations& at_end,
+                  const ContactState& after, const SectionEnd& end);
   void LeaveSection(const SectionMode& mode, const ContactState& after, const SectionEnd& end);
   double Size(size_t i) const;
 

@@ -116,9 +116,10 @@ SectionEnd Stick(const SpringContact& contact, const SectionMode& mode, PathErro
   SectionEnd end = event.end;
   if (end.has_no_end || end.overflows) return end;
   const Phase phase = modes.w.At(event.time);
+  const ContactState before = state;
   Advance(contact, mode, modes, event, phase, state);
   if (end.breaks_away != 0) SettleOnCone(mode, end, state);
-  error.AddStick(mode, modes, phase, event.time, state, end);
+  error.AddStick(mode, modes, phase, event.time, before, state, end);
   return end;
 }
 
