@@ -14,14 +14,29 @@
 namespace ricochet::finite_duration {
 namespace {
 
-// Returns how far the velocities at the end of a path may be from the truth, over max(|u0|, |v0|). Local errors add up
-// at worst in size. They grow where restitution slows down, because v^2 carries over, and they shift the end, up to
-// which a_t acts. The safety covers all other growth; without forces, damping and springs along t each piece of the
-// path is straight.
-double ErrorOf(const ScaledContact& contact, const Path& path) {
-  const bool straight = contact.at == 0.0 && contact.an == 0.0 && !contact.damped && !contact.compliant;
-  const double safety = straight ? 2.0 : 4.0;
-  constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+// Rounding, relative to the sizes of the terms of a velocity.
+constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
+
+// Without forces, damping and springs along t, u and v are linear in tau while a mode lasts, and the integration keeps
+// that to rounding. Then it can err in one thing alone, the work that restitution returns, and how much is lacking there
+// follows from the velocities themselves.
+double ErrorOfStraightPath(const ScaledContact& contact, const Path& path) {
+  constexpr double kSafety = 1.5;
+  const Motion& end = path.end;
+  const double terms = std::fabs(contact.u0) + 1.0;
+  double error = path.cut_off[kU] + path.cut_off[kV] + kRounding * terms;
+  if (end[kV] > 0.0) {
+    const double lacking = std::fabs(path.straight_other_work + Square(contact.eta) * path.straight_loading_work);
+    const double impulse = lacking / end[kV];
+    error += kSafety * impulse * std::max(std::fabs(path.straight_slopes.u), std::fabs(path.straight_slopes.v));
+  }
+  return error / std::max(1.0, std::fabs(contact.u0));
+}
+
+// Local errors add up at worst in size. They grow where restitution slows down, because v^2 carries over, and they shift
+// the end, up to which a_t acts. The safety covers all other growth.
+double ErrorOfAnyPath(const ScaledContact& contact, const Path& path) {
+  constexpr double kSafety = 4.0;
   const Motion& end = path.end;
   const Motion& local = path.local_errors;
   const double growth = end[kV] > 0.0 ? path.peaks.restitution_speed / end[kV] : 1.0;
@@ -32,7 +47,13 @@ double ErrorOf(const ScaledContact& contact, const Path& path) {
   double terms = std::fabs(contact.u0) + 1.0 + (std::fabs(contact.at) + std::fabs(contact.an)) * end[kTime];
   // Springs along t and n work against each other where W is close to rank one.
   if (contact.compliant) terms += (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu) * end[kNormal];
-  return (safety * error + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
+  return (kSafety * error + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
+}
+
+// Returns how far the velocities at the end of a path may be from the truth, over max(|u0|, |v0|).
+double ErrorOf(const ScaledContact& contact, const Path& path) {
+  const bool straight = contact.at == 0.0 && contact.an == 0.0 && !contact.damped && !contact.compliant;
+  return straight ? ErrorOfStraightPath(contact, path) : ErrorOfAnyPath(contact, path);
 }
 
 struct EstimatedPath {

@@ -5,8 +5,8 @@
 // Solve integrates W, (u0, v0), friction, a normal spring (linear, Hertz, or Hunt and Crossley) and the acceleration
 // (a_t, a_n) by finite forces, in SI units, with CVODE's Adams formulas of variable order. The contact is rigid along t,
 // or a linear spring with the tangential compliance of Stronge's particle (core/models/compliant/compliant.h).
-// Accuracy: velocities within `tolerance`, or as far as double precision has it, some 1e-12 without forces;
-// error_estimate says what was reached. Everything else has errors of like relative size, except near 0.
+// Accuracy: velocities within `tolerance`, down to 1e-12 without forces and else as far as double precision has it;
+// error_estimate says what was reached, and is above `tolerance` where that could not be met. Everything else has errors of like relative size, except near 0.
 // An impact that does not end within its budgets is answered with the state reached: regime wedged, an infinite error,
 // and the termination that says why. Results have the same bits on one machine only, because SUNDIALS calls the C
 // library's pow.

@@ -30,7 +30,7 @@ class PathFollower {
     if (history_ != nullptr) history_->End(mode_, y_);
     if (mode_.branch == LoadingBranch::kLoading && !compression_ended_) EndCompression();
     path_.local_errors = integrator_.TakeLocalErrors();
-    for (size_t i = 0; i < kParts; ++i) path_.local_errors[i] += cut_off_[i];
+    for (size_t i = 0; i < kParts; ++i) path_.local_errors[i] += path_.cut_off[i];
     std::tie(path_.steps, path_.right_hand_sides) = integrator_.TakeCosts();
     return std::move(path_);
   }
@@ -48,12 +48,21 @@ class PathFollower {
   void FollowMode() {
     if (NeverReverses(contact_, mode_, y_)) return EndPath(PathEnd::kNeverEnds);
     integrator_.Begin(mode_, y_, tolerance_);
+    const Motion before = y_;
+    const bool loads = mode_.branch == LoadingBranch::kLoading;
     mode_changed_ = false;
     while (!mode_changed_ && path_.how == PathEnd::kUnderway) {
       if (stop_.IsStopped()) return EndPath(PathEnd::kStopped);
       if (steps_++ == kStepBudget) return EndPath(PathEnd::kBudgetUsedUp);
       TakeStep();
     }
+    AddStraightPiece(before, loads);
+  }
+
+  void AddStraightPiece(const Motion& before, bool loads) {
+    const double impulse = y_[kNormal] - before[kNormal];
+    (loads ? path_.straight_loading_work : path_.straight_other_work) += 0.5 * (before[kV] + y_[kV]) * impulse;
+    if (impulse > 0.0) path_.straight_slopes = {(y_[kU] - before[kU]) / impulse, (y_[kV] - before[kV]) / impulse};
   }
 
   void TakeStep() {
@@ -195,7 +204,7 @@ class PathFollower {
   void CutOff(size_t velocity) {
     const double s = integrator_.s() - y_[velocity] / RatesAt(contact_, mode_, y_)[velocity];
     if (s > integrator_.previous_s() && s < integrator_.s()) y_ = integrator_.Between(s);
-    cut_off_[velocity] += std::fabs(y_[velocity]);
+    path_.cut_off[velocity] += std::fabs(y_[velocity]);
     y_[velocity] = 0.0;
   }
 
@@ -207,7 +216,6 @@ class PathFollower {
   Motion y_ = {};
   Mode mode_;
   Path path_;
-  Motion cut_off_ = {};  // The sum of the sizes that were set to 0.
   bool mode_changed_ = false;
   bool compression_ended_ = false;
   Works loading_start_;  // The works where loading began last.

@@ -58,7 +58,12 @@ struct Path {
   bool ever_sticks = false;
   Peaks peaks;
   double spring_force = 0.0;  // F of the tangential spring at the end.
-  Motion local_errors = {};   // The sum of the sizes of the local errors.
+  Motion local_errors = {};   // The sum of the sizes of the local errors, with what was cut off.
+  Motion cut_off = {};        // The sum of the sizes of what was set to 0 at events.
+  // The normal work on first loading and all other, and the slopes of the velocities over the normal impulse in the last
+  // mode, as they follow from u, v and tau at the changes of mode alone, if both are linear in tau in between.
+  double straight_loading_work = 0.0, straight_other_work = 0.0;
+  Acceleration straight_slopes;
   int64_t steps = 0, right_hand_sides = 0;
 
   bool HasEnd() const { return how == PathEnd::kParted || how == PathEnd::kHeld; }

@@ -1,0 +1,37 @@
+// The model of finite duration claims at least the error that it makes. `ricochet_claims` takes more scenes.
+
+#include "tests/support/finite_duration_claims.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/claims.h"
+
+namespace ricochet::finite_duration {
+namespace {
+
+class FiniteDurationClaimsTest : public testing::TestWithParam<double> {};
+
+// What a path without forces, damping and a spring along t lacks follows from the path itself.
+TEST_P(FiniteDurationClaimsTest, WithoutForcesTheToleranceIsMetAndLittleMoreIsClaimed) {
+  for (const ClaimKind kind : {ClaimKind::kLinear, ClaimKind::kHertz}) {
+    for (const bool hard : {false, true}) {
+      const ClaimTally tally = ClaimsOf(kind, hard, GetParam(), 100, 31);
+      PrintClaims(kind == ClaimKind::kHertz ? "duration, Hertz" : "duration, linear", hard ? "hard" : "typical", tally);
+      EXPECT_EQ(tally.deceived(), 0) << tally.first_deceived();
+      EXPECT_EQ(tally.claimed_above_tolerance(), 0);
+      EXPECT_LE(tally.MedianRatio(), 3.0);
+    }
+  }
+}
+
+TEST_P(FiniteDurationClaimsTest, WithASpringAlongTNobodyIsDeceived) {
+  const ClaimTally tally = ClaimsOf(ClaimKind::kCompliant, /*hard=*/false, GetParam(), 100, 32);
+  PrintClaims("duration, compliant", "typical", tally);
+  EXPECT_EQ(tally.deceived(), 0) << tally.first_deceived();
+  EXPECT_LE(tally.MedianRatio(), 50.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Tolerances, FiniteDurationClaimsTest, testing::ValuesIn(kClaimTolerances));
+
+}  // namespace
+}  // namespace ricochet::finite_duration
