@@ -17,18 +17,32 @@ namespace {
 // Rounding, relative to the sizes of the terms of a velocity.
 constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
+// How far the end of a straight path that is misplaced by `shift` in the normal impulse may be off in u and v. Where slip
+// stops or starts so close to the end that it may lie on the other side of it, any slope may be that of the end.
+double ChangeOfVelocity(const ScaledContact& contact, const Path& path, double shift) {
+  constexpr double kNear = 4.0;
+  const auto& [u_slope, v_slope] = path.straight_slopes;
+  const double steepness = std::max(std::fabs(u_slope), std::fabs(v_slope));
+  const bool just_changed = path.straight_length <= kNear * shift;
+  const bool may_stop = std::fabs(path.end[kU]) < kNear * shift * std::fabs(u_slope);
+  if (!just_changed && !may_stop) return shift * steepness;
+  const auto& [forward_u, forward_v] = contact.forward_slope;
+  const auto& [backward_u, backward_v] = contact.backward_slope;
+  return shift * std::max({steepness, std::fabs(forward_u), std::fabs(forward_v), std::fabs(backward_u),
+                           std::fabs(backward_v), contact.stick_slope});
+}
+
 // Without forces, damping and springs along t, u and v are linear in tau while a mode lasts, and the integration keeps
 // that to rounding. Then it can err in one thing alone, the work that restitution returns, and how much is lacking there
 // follows from the velocities themselves.
 double ErrorOfStraightPath(const ScaledContact& contact, const Path& path) {
   constexpr double kSafety = 1.5;
   const Motion& end = path.end;
-  const double terms = std::fabs(contact.u0) + 1.0;
+  const double terms = std::fabs(contact.u0) + 1.0 + std::fabs(end[kU]) + end[kV];
   double error = path.cut_off[kU] + path.cut_off[kV] + kRounding * terms;
   if (end[kV] > 0.0) {
     const double lacking = std::fabs(path.straight_other_work + Square(contact.eta) * path.straight_loading_work);
-    const double impulse = lacking / end[kV];
-    error += kSafety * impulse * std::max(std::fabs(path.straight_slopes.u), std::fabs(path.straight_slopes.v));
+    error += kSafety * ChangeOfVelocity(contact, path, lacking / end[kV]);
   }
   return error / std::max(1.0, std::fabs(contact.u0));
 }

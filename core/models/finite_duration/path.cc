@@ -62,6 +62,7 @@ class PathFollower {
   void AddStraightPiece(const Motion& before, bool loads) {
     const double impulse = y_[kNormal] - before[kNormal];
     (loads ? path_.straight_loading_work : path_.straight_other_work) += 0.5 * (before[kV] + y_[kV]) * impulse;
+    path_.straight_length = impulse;
     if (impulse > 0.0) path_.straight_slopes = {(y_[kU] - before[kU]) / impulse, (y_[kV] - before[kV]) / impulse};
   }
 
@@ -202,9 +203,15 @@ class PathFollower {
   // Sets to 0 a velocity that has fallen to 0. A root is known to 1e-14 of s, in which a steep velocity goes far:
   // Newton's step takes it closer, and what is left of it is an error.
   void CutOff(size_t velocity) {
-    const double s = integrator_.s() - y_[velocity] / RatesAt(contact_, mode_, y_)[velocity];
-    if (s > integrator_.previous_s() && s < integrator_.s()) y_ = integrator_.Between(s);
-    path_.cut_off[velocity] += std::fabs(y_[velocity]);
+    const Motion rates = RatesAt(contact_, mode_, y_);
+    const double s = integrator_.s() - y_[velocity] / rates[velocity];
+    // A velocity that was set to 0 in the same step stays so.
+    const bool in_step = s > integrator_.previous_s() && s < integrator_.s();
+    if (in_step && !mode_changed_) y_ = integrator_.Between(s);
+    // The other velocity is that of the time before or after, off by as much times the ratio of the rates.
+    const double other = std::fabs(rates[velocity == kU ? kV : kU]);
+    const double ratio = rates[velocity] != 0.0 ? other / std::fabs(rates[velocity]) : 0.0;
+    path_.cut_off[velocity] += std::fabs(y_[velocity]) * std::max(1.0, ratio);
     y_[velocity] = 0.0;
   }
 
