@@ -183,7 +183,7 @@ Curve FrontCurve(const CostChunk& study) {
 }
 
 std::string PowerOfTen(int exponent) {
-  static const char* const kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+  static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   if (exponent == 0) return "1";
   std::string text = exponent < 0 ? "10⁻" : "10";
   for (const char digit : absl::StrCat(std::abs(exponent))) text += kDigits[digit - '0'];
@@ -209,7 +209,7 @@ std::string ErrorRange(const char* axis, bool beyond, PictureWidth width) {
 std::string TimeTicks(int least, int most) {
   std::vector<std::string> ticks;
   for (int exponent = least; exponent <= most; ++exponent) {
-    static const char* const kUnits[] = {"ns", "µs", "ms", "s"};
+    static constexpr const char* kUnits[] = {"ns", "µs", "ms", "s"};
     const int unit = std::clamp((exponent + 9) / 3, 0, 3);
     const double number = std::pow(10.0, exponent + 9 - 3 * unit);
     ticks.push_back(absl::StrCat("'", Rounded(number), " ", kUnits[unit], "' 1e", exponent));

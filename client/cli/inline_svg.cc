@@ -15,12 +15,12 @@ std::string InlineSvg(const std::string& file, const std::string& prefix, const 
   const size_t start = file.find("<svg");
   const size_t end = file.find('>', start);
   if (start == std::string::npos || end == std::string::npos) return "";
-  static const std::regex kViewBox(R"(viewBox="[^"]*")");
+  static const std::regex view_box_pattern(R"(viewBox="[^"]*")");
   std::smatch view_box;
   const std::string head = file.substr(start, end - start);
-  std::regex_search(head, view_box, kViewBox);
-  static const std::regex kGnuplot(R"(<title>Gnuplot</title>|<desc>[^<]*</desc>)");
-  const std::string body = std::regex_replace(file.substr(end + 1), kGnuplot, "");
+  std::regex_search(head, view_box, view_box_pattern);
+  static const std::regex gnuplot_title(R"(<title>Gnuplot</title>|<desc>[^<]*</desc>)");
+  const std::string body = std::regex_replace(file.substr(end + 1), gnuplot_title, "");
   return absl::StrCat("<svg ", view_box.str(), " role=\"img\"><title>", HtmlText(title), "</title>",
                       absl::StrReplaceAll(body, {{" id='", absl::StrCat(" id='", prefix)},
                                                  {" id=\"", absl::StrCat(" id=\"", prefix)},
