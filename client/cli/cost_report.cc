@@ -76,10 +76,17 @@ std::string PicksText(const CostChunk& study) {
   return text;
 }
 
+// A long list is told by its ends, because the same note goes with many rows in a row.
+std::string MethodNames(const std::vector<std::string>& names) {
+  constexpr size_t kMost = 3;
+  if (names.size() <= kMost) return absl::StrJoin(names, "; ");
+  return absl::StrCat(names.size(), " methods from ", names.front(), " to ", names.back());
+}
+
 std::string NotesText(const CostChunk& study) {
   std::string text;
   for (const CostNote& note : NotesOf(study)) {
-    absl::StrAppend(&text, Wrapped(absl::StrCat(absl::StrJoin(note.methods, "; "), ": ", note.text), 2));
+    absl::StrAppend(&text, Wrapped(absl::StrCat(MethodNames(note.methods), ": ", note.text), 2));
   }
   return text.empty() ? "" : absl::StrCat("\nNotes\n", text);
 }
