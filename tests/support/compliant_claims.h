@@ -1,4 +1,4 @@
-// What the compliant model claims and achieves on random scenes.
+// Random scenes on which the compliant model is held to what it claims.
 //
 // The reference is the equations in time by Taylor series at 58 digits (tests/support/compliant_oracle.h).
 

@@ -1,4 +1,4 @@
-// What the model of finite duration claims and achieves on random scenes.
+// Random scenes on which the model of finite duration is held to what it claims.
 //
 // Without finite forces and damping the impact is the rigid one, or that of the compliant contact, at any stiffness, and
 // both are known to rounding. Under forces and damping the reference is the same model at its tightest tolerance.
@@ -66,7 +66,7 @@ class ClaimScenes {
     return compliant_.Below(2) == 0 ? compliant::Everyday(compliant_) : compliant_.NearRankOne();
   }
 
-  // By powers of two up to 10^+-100. Stiffness stays as it is, because it changes neither velocity.
+  // Scales by powers of two up to 10^+-100. Stiffness stays as it is, because it changes neither velocity.
   void Scale(Problem& problem) {
     const double speed = std::exp2(std::floor(planar_.Uniform(-332.0, 332.0)));
     const double mobility = std::exp2(std::floor(planar_.Uniform(-332.0, 332.0)));

@@ -1,4 +1,5 @@
-// What the pendulum claims and achieves on random scenes, in plain and in double-double arithmetic and to first order.
+// Random scenes on which the pendulum is held to what it claims, in plain and in double-double arithmetic and to first
+// order.
 //
 // The reference is the paper's formulas in ball arithmetic (tests/support/pendulum_oracle.h).
 

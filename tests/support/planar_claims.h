@@ -1,4 +1,4 @@
-// What the planar model claims and achieves on random scenes, in plain and in double-double arithmetic.
+// Random scenes on which the planar model is held to what it claims, in plain and in double-double arithmetic.
 //
 // The reference is a simulation of the events in ball arithmetic (tests/support/planar_oracle.h).
 

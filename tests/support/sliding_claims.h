@@ -1,4 +1,4 @@
-// What slip that neither stops nor turns, and no friction at all, claim and achieve on random scenes.
+// Random scenes on which the models of straight slip and of no friction are held to what they claim.
 //
 // The reference is the formulas of core/models/sliding/sliding.h in ball arithmetic. SlidingTest holds them against the
 // planar and the spatial model.

@@ -53,7 +53,7 @@ TEST(ExactVelocityTest, SlipThatGoesOnIsTheWholeImpact) {
   const sliding::Problem<1> straight = {.w = {2.0, 0.5, 1.0}, .u0 = {30.0}, .v0 = -1.0, .mu = 0.3, .coefficient = 0.6};
   const ExactVelocity exact = ExactRigid(problem, Never);
   EXPECT_LE(Distance(ExactSliding(straight), exact), 1e-27);
-  // By hand: tau1 = 1.6/(1 - 0.3 * 0.5), u1 = 30 + (0.5 - 0.3 * 2) tau1.
+  // Computed by hand: tau1 = 1.6/(1 - 0.3 * 0.5), u1 = 30 + (0.5 - 0.3 * 2) tau1.
   const Velocity3 rounded = RoundedVelocity(exact);
   EXPECT_NEAR(rounded[0], 30.0 - 0.1 * 1.6 / 0.85, 1e-14);
   EXPECT_NEAR(rounded[2], 0.6, 1e-16);

@@ -17,7 +17,7 @@ TEST(CompliantClaimsTest, DeceiveNobodyAndAreUseful) {
     PrintClaims("compliant", hard ? "hard" : "typical", tally);
     EXPECT_EQ(tally.deceived(), 0);
     EXPECT_LE(tally.MedianRatio(), 10.0);
-    // What is wedged has no error.
+    // The error of a wedged impact is not known.
     EXPECT_LE(tally.unknown(), hard ? 20 : 0);
   }
 }
