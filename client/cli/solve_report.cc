@@ -134,10 +134,16 @@ std::string RoundedUp(double value) {
   return Rounded(std::ceil(value / unit * (1.0 - 1e-12)) * unit);  // The factor undoes the rounding of the quotient.
 }
 
-std::string AccuracyText(const Accuracy& accuracy) {
+std::string AccuracyText(const Outcome& outcome) {
+  const Accuracy& accuracy = outcome.accuracy;
+  const double tolerance = outcome.plan.relative_tolerance;
   std::string text = absl::StrCat("  relative error of the contact velocity <= ", RoundedUp(accuracy.relative_error),
                                   accuracy.kind == AccuracyKind::kBound ? " (proved)" : " (estimated)");
   if (accuracy.steps > 0) absl::StrAppend(&text, ", ", accuracy.steps, " steps");
+  // Tolerance 0 asks for all effects, in double precision.
+  if (tolerance > 0.0 && accuracy.relative_error > tolerance) {
+    absl::StrAppend(&text, ", above the tolerance of ", Rounded(tolerance));
+  }
   return text + "\n";
 }
 
@@ -152,7 +158,7 @@ std::string MotionText(const Outcome& outcome) {
             outcome.contact_velocity_after.tangential_m_s, table);
   AddMotion("contact, normal [m/s]", {before.contact_velocity.normal_m_s}, {outcome.contact_velocity_after.normal_m_s},
             table);
-  return absl::StrCat("Motion\n", table.Render(2), AccuracyText(outcome.accuracy));
+  return absl::StrCat("Motion\n", table.Render(2), AccuracyText(outcome));
 }
 
 std::string BodiesText(absl::Span<const BodyVelocity> bodies) {

@@ -18,6 +18,7 @@ using testing::ElementsAre;
 using testing::EndsWith;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 using testing::StartsWith;
 
 constexpr char kSolve[] = "\"$R\" solve --a 0.3 --b 1 --mu 0.1 --energetic 1";
@@ -73,6 +74,16 @@ TEST_F(Cli, ListsTheAxesAndColumnsOfTheSceneGiven) {
   const std::string scene = TestDataPath("scenes/double_pendulum.textproto");
   EXPECT_THAT(Run({"sweep", "--scene", scene, "--axis", "?"}).out, HasSubstr("linkage.links[1].theta_rad\n"));
   EXPECT_THAT(Run({"sweep", "--scene", scene, "--column", "?"}).out, HasSubstr("rates_after_rad_s[1]\n"));
+}
+
+// The sphere's springs are computed in doubles, whose rounding is above 1e-16. Tolerance 0 asks for no error that it could
+// miss.
+TEST_F(Cli, SaysThatAToleranceWasMissed) {
+  const std::string scene = TestDataPath("scenes/sphere_20.textproto");
+  EXPECT_THAT(Run({"solve", "--scene", scene, "--tolerance", "1e-16"}).out,
+              HasSubstr("above the tolerance of 1e-16\n"));
+  EXPECT_THAT(Run({"solve", "--scene", scene, "--tolerance", "1e-9"}).out, Not(HasSubstr("above the tolerance")));
+  EXPECT_THAT(Run({"solve", "--scene", scene, "--tolerance", "0"}).out, Not(HasSubstr("above the tolerance")));
 }
 
 TEST_F(Cli, ShowsBothDirectionsOfAnImpactInSpace) {
