@@ -106,18 +106,6 @@ absl::Status SolvePendulum(const Job& job, const pendulum::Problem& stated) {
              : pendulum::MakeOutcome(problem, job.Tolerance(), job.options.extent, job.outcome);
 }
 
-// The arithmetic that a closed form calls for, which only the impact itself can tell.
-PlannedArithmetic ArithmeticOf(const Scene& scene, const PlannedScene& planned,
-                               const std::optional<SceneContact>& contact, const Demand& demand) {
-  const double tolerance = ToleranceLeft(demand.relative_tolerance, planned.choice.negligible);
-  if (planned.closed_form.has_value()) {
-    return SolveWithin(Without(planned.choice, *planned.closed_form), tolerance).arithmetic;
-  }
-  const auto& reduction = std::get<PlanarReduction>(contact->reduction);
-  const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
-  return SolveWithin(Without(planned.choice, problem), tolerance).arithmetic;
-}
-
 }  // namespace
 
 absl::Status ContactOverflow() {
@@ -152,7 +140,7 @@ absl::StatusOr<Plan> PlanOf(const Scene& scene, std::optional<SceneContact>& con
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
   Plan plan;
   Explain(planned, demand, plan);
-  if (HasChoiceOfArithmetic(planned.choice.model)) plan.arithmetic = ArithmeticOf(scene, planned, contact, demand);
+  plan.arithmetic = ArithmeticOf(scene, contact, planned, demand);
   return plan;
 }
 

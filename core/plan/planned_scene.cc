@@ -21,6 +21,8 @@ ContactPhysics PhysicsOf(const Scene& scene, const PlanarReduction& reduction) {
   return physics;
 }
 
+constexpr PlannedArithmetic kOnlyArithmetic = {.arithmetic = Arithmetic::kPlain, .reason = ArithmeticReason::kOnlyOne};
+
 bool IsAnsweredInTime(Model model) { return model == Model::kCompliant || model == Model::kFiniteDuration; }
 
 void PlanPendulum(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
@@ -68,10 +70,21 @@ PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact,
   return planned;
 }
 
-void Explain(const PlannedScene& planned, const Demand& demand, Plan& plan) {
-  if (!HasChoiceOfArithmetic(planned.choice.model)) {
-    plan.arithmetic = {.arithmetic = Arithmetic::kPlain, .reason = ArithmeticReason::kOnlyOne};
+PlannedArithmetic ArithmeticOf(const Scene& scene, const std::optional<SceneContact>& contact,
+                               const PlannedScene& planned, const Demand& demand) {
+  const Choice& choice = planned.choice;
+  if (!HasChoiceOfArithmetic(choice.model)) return kOnlyArithmetic;
+  const double tolerance = ToleranceLeft(demand.relative_tolerance, choice.negligible);
+  if (planned.closed_form.has_value()) {
+    return SolveWithin(Without(choice, *planned.closed_form), tolerance).arithmetic;
   }
+  const auto& reduction = std::get<PlanarReduction>(contact->reduction);
+  const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
+  return SolveWithin(Without(choice, problem), tolerance).arithmetic;
+}
+
+void Explain(const PlannedScene& planned, const Demand& demand, Plan& plan) {
+  if (!HasChoiceOfArithmetic(planned.choice.model)) plan.arithmetic = kOnlyArithmetic;
   if (planned.choice.model != Model::kImpactLaw) return Explain(planned.choice, demand, plan);
   plan.model = Model::kImpactLaw;
   plan.relative_tolerance = demand.relative_tolerance;

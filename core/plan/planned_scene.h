@@ -28,6 +28,10 @@ struct PlannedScene {
 // represent W or the contact velocity, the model is kUnspecified.
 PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
+// The arithmetic that the chosen model calls for. Only the impact itself can tell, so that a closed form is computed.
+PlannedArithmetic ArithmeticOf(const Scene& scene, const std::optional<SceneContact>& contact,
+                               const PlannedScene& planned, const Demand& demand);
+
 // Writes the plan in words. Its arithmetic, which is known once the impact is computed, is left as it is; a model that
 // has only one gets it.
 void Explain(const PlannedScene& planned, const Demand& demand, Plan& plan);

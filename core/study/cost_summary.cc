@@ -5,9 +5,7 @@
 #include <limits>
 #include <variant>
 
-#include "core/plan/arithmetic.h"
 #include "core/plan/planned_scene.h"
-#include "core/problem/scene_problem.h"
 
 namespace ricochet {
 namespace {
@@ -17,19 +15,6 @@ double ErrorOf(const CostRow& row) { return std::max(row.achieved->total, row.re
 
 bool IsComparable(const CostRow& row) {
   return row.status == CostStatus::kMeasured && row.solve.has_value() && row.achieved.has_value();
-}
-
-// The arithmetic that answers a plan's model.
-Arithmetic ArithmeticOf(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
-                        double tolerance) {
-  const Choice& choice = planned.choice;
-  const double left = ToleranceLeft(tolerance, choice.negligible);
-  if (choice.model == Model::kPendulum)
-    return SolveWithin(Without(choice, *planned.closed_form), left).arithmetic.arithmetic;
-  if (choice.model != Model::kPlanar) return Arithmetic::kPlain;
-  const auto& reduction = std::get<PlanarReduction>(contact->reduction);
-  const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
-  return SolveWithin(Without(choice, problem), left).arithmetic.arithmetic;
 }
 
 double OwnStiffness(const Scene& scene) {
@@ -61,9 +46,10 @@ int64_t RowOf(const std::vector<CostRow>& rows, const CostMethod& wanted, double
 
 CostPick PickAt(const Scene& scene, std::optional<SceneContact>& contact, const std::vector<CostRow>& rows,
                 double tolerance) {
-  const PlannedScene planned = PlanScene(scene, contact, {.relative_tolerance = tolerance});
+  const Demand demand = {.relative_tolerance = tolerance};
+  const PlannedScene planned = PlanScene(scene, contact, demand);
   const Model model = planned.choice.model;
-  CostMethod wanted = {.model = model, .arithmetic = ArithmeticOf(scene, contact, planned, tolerance)};
+  CostMethod wanted = {.model = model, .arithmetic = ArithmeticOf(scene, contact, planned, demand).arithmetic};
   if (model == Model::kFiniteDuration) wanted.stiffness = OwnStiffness(scene);
   return {.row = RowOf(rows, wanted, planned.choice.model_tolerance),
           .least_tolerance = tolerance,
