@@ -98,7 +98,7 @@ absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene, std::optional<SceneC
                                         absl::FunctionRef<bool()> stopped) {
   const bool closed_form = HasClosedForm(scene);
   if (!closed_form && !contact.has_value()) contact.emplace(scene);
-  const absl::StatusOr<Bounds> bounds = closed_form ? PendulumBounds(scene) : ReducedBounds(*contact, stopped);
+  absl::StatusOr<Bounds> bounds = closed_form ? PendulumBounds(scene) : ReducedBounds(*contact, stopped);
   if (!bounds.ok()) return bounds;
   const absl::Status finite = CheckFinite(*bounds);
   if (!finite.ok()) return finite;
