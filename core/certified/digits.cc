@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "absl/strings/str_cat.h"
+#include "core/certified/ball.h"
 #include "core/numerics/elementary.h"
 
 namespace ricochet::certified {
@@ -36,18 +37,6 @@ class Integer {
 
  private:
   fmpz_t value_;
-};
-
-class Ball {
- public:
-  Ball() { arb_init(value_); }
-  Ball(const Ball&) = delete;
-  Ball& operator=(const Ball&) = delete;
-  ~Ball() { arb_clear(value_); }
-  arb_struct* get() { return value_; }
-
- private:
-  arb_t value_;
 };
 
 // Returns x 10^power.

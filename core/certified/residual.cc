@@ -1,5 +1,6 @@
 #include "core/certified/residual.h"
 
+#include "core/certified/ball.h"
 #include "core/certified/digits.h"
 #include "core/certified/flint.h"
 #include "core/numerics/invariant.h"
@@ -11,21 +12,9 @@ namespace {
 // Numbers that agree in every digit of a certificate still leave a double's worth of bits.
 slong Bits() { return BitsOf(2 * kMostCertifiedDigits); }
 
-class Ball {
- public:
-  Ball() { arb_init(value_); }
-  Ball(const Ball&) = delete;
-  Ball& operator=(const Ball&) = delete;
-  ~Ball() { arb_clear(value_); }
-
-  void Read(const std::string& decimal) {
-    CheckInvariant(arb_set_str(value_, decimal.c_str(), Bits()) == 0, "a certificate has decimals");
-  }
-  arb_struct* get() { return value_; }
-
- private:
-  arb_t value_;
-};
+void Read(const std::string& decimal, Ball& ball) {
+  CheckInvariant(arb_set_str(ball.get(), decimal.c_str(), Bits()) == 0, "a certificate has decimals");
+}
 
 double Difference(Ball& x, Ball& y) {
   Ball difference;
@@ -38,7 +27,7 @@ double Difference(Ball& x, Ball& y) {
 double Residual(const std::string& decimal, double number) {
   Ball x;
   Ball y;
-  x.Read(decimal);
+  Read(decimal, x);
   arb_set_d(y.get(), number);
   return Difference(x, y);
 }
@@ -46,8 +35,8 @@ double Residual(const std::string& decimal, double number) {
 double Residual(const std::string& decimal, const std::string& other) {
   Ball x;
   Ball y;
-  x.Read(decimal);
-  y.Read(other);
+  Read(decimal, x);
+  Read(other, y);
   return Difference(x, y);
 }
 

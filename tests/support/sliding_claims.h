@@ -16,6 +16,7 @@
 #include "core/models/sliding/sliding.h"
 #include "tests/support/arb.h"
 #include "tests/support/claims.h"
+#include "tests/support/impact_change.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/spatial_scenes.h"
 
@@ -25,17 +26,6 @@ inline constexpr slong kReferenceBits = 256;
 
 // ---- Scenes ----
 
-inline Problem<1> WithoutLaw(const planar::Problem& p) {
-  return {.w = {p.w.tt, p.w.tn, p.w.nn}, .u0 = {p.u0}, .v0 = p.v0, .mu = p.mu, .coefficient = p.coefficient};
-}
-inline Problem<2> WithoutLaw(const spatial::Problem& p) {
-  return {.w = {p.w11, p.w12, p.w13, p.w22, p.w23, p.w33},
-          .u0 = p.u0,
-          .v0 = p.v0,
-          .mu = p.mu,
-          .coefficient = p.coefficient};
-}
-
 template <size_t kTangential>
 class ClaimScenes;
 
@@ -43,7 +33,7 @@ template <>
 class ClaimScenes<1> {
  public:
   explicit ClaimScenes(uint64_t seed) : source_(seed) {}
-  Problem<1> Next(bool hard) { return WithoutLaw(hard ? source_.Any() : source_.Everyday()); }
+  Problem<1> Next(bool hard) { return LineOf(hard ? source_.Any() : source_.Everyday()); }
   double Uniform(double low, double high) { return source_.Uniform(low, high); }
 
  private:
@@ -54,7 +44,7 @@ template <>
 class ClaimScenes<2> {
  public:
   explicit ClaimScenes(uint64_t seed) : source_(seed) {}
-  Problem<2> Next(bool hard) { return WithoutLaw(hard ? source_.NearSingular() : source_.Typical()); }
+  Problem<2> Next(bool hard) { return LineOf(hard ? source_.NearSingular() : source_.Typical()); }
   double Uniform(double low, double high) { return source_.Uniform(low, high); }
 
  private:
