@@ -1,0 +1,94 @@
+#include "server/peer.h"
+
+#include <arpa/inet.h>
+#include <grpc/grpc_security_constants.h>
+#include <netinet/in.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+
+namespace ricochet::server {
+namespace {
+
+constexpr size_t kNetworkBytes = 8;
+
+std::string Ipv4Key(const in_addr& address) {
+  std::array<char, INET_ADDRSTRLEN> text = {};
+  inet_ntop(AF_INET, &address, text.data(), text.size());
+  return text.data();
+}
+
+std::string Ipv6Key(in6_addr address) {
+  if (IN6_IS_ADDR_V4MAPPED(&address)) {
+    in_addr ipv4 = {};
+    std::memcpy(&ipv4, &address.s6_addr[12], sizeof(ipv4));
+    return Ipv4Key(ipv4);
+  }
+  if (IN6_IS_ADDR_LOOPBACK(&address)) return "::1";
+  std::fill(std::begin(address.s6_addr) + kNetworkBytes, std::end(address.s6_addr), uint8_t{0});
+  std::array<char, INET6_ADDRSTRLEN> text = {};
+  inet_ntop(AF_INET6, &address, text.data(), text.size());
+  return absl::StrCat(text.data(), "/64");
+}
+
+// Returns the first value of a property, or an empty text.
+std::string Property(const grpc::AuthContext& context, const char* name) {
+  const std::vector<grpc::string_ref> values = context.FindPropertyValues(name);
+  return values.empty() ? "" : std::string(values.front().data(), values.front().size());
+}
+
+// Returns the name of a client certificate that was verified: its first alternative name, or else its common name.
+std::string CertificateName(const grpc::AuthContext& auth) {
+  // A connection on this host counts as authenticated, too, but has no certificate.
+  if (Property(auth, GRPC_TRANSPORT_SECURITY_TYPE_PROPERTY_NAME) != GRPC_SSL_TRANSPORT_SECURITY_TYPE) return "";
+  if (!auth.IsPeerAuthenticated() || auth.GetPeerIdentity().empty()) return "";
+  const grpc::string_ref name = auth.GetPeerIdentity().front();
+  return {name.data(), name.size()};
+}
+
+}  // namespace
+
+std::string PeerKey(const grpc::ServerContext& context) {
+  const std::shared_ptr<const grpc::AuthContext> auth = context.auth_context();
+  if (auth == nullptr) return AddressKey(context.peer());
+  if (std::string caller = Property(*auth, kCallerProperty); !caller.empty()) return caller;
+  if (std::string name = CertificateName(*auth); !name.empty()) return absl::StrCat("certificate:", name);
+  return AddressKey(context.peer());
+}
+
+std::string AddressKey(const std::string& grpc_peer) {
+  const std::string peer = absl::StrReplaceAll(grpc_peer, {{"%5B", "["}, {"%5D", "]"}, {"%25", "%"}});
+  const size_t colon = peer.rfind(':');
+  if (absl::StartsWith(peer, "ipv4:") && colon > 5) return peer.substr(5, colon - 5);
+  if (absl::StartsWith(peer, "ipv6:[")) {
+    in6_addr address;
+    const std::string host = peer.substr(6, peer.find_first_of("]%") - 6);
+    if (inet_pton(AF_INET6, host.c_str(), &address) == 1) return Ipv6Key(address);
+  }
+  return peer;
+}
+
+std::string AddressKeyOfSocket(int socket) {
+  sockaddr_storage address = {};
+  socklen_t size = sizeof(address);
+  if (getpeername(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0) return "unknown";
+  switch (address.ss_family) {
+    case AF_INET:
+      return Ipv4Key(reinterpret_cast<const sockaddr_in&>(address).sin_addr);
+    case AF_INET6:
+      return Ipv6Key(reinterpret_cast<const sockaddr_in6&>(address).sin6_addr);
+    default:
+      break;
+  }
+  ucred user = {};
+  size = sizeof(user);
+  if (getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &user, &size) != 0) return "unknown";
+  return absl::StrCat("unix:", user.uid);
+}
+
+}  // namespace ricochet::server
