@@ -1,28 +1,51 @@
 #include "server/call.h"
 
-#include <utility>
-#include <vector>
+#include <string>
 
-#include "absl/strings/str_cat.h"
 #include "proto/wire/status.h"
-#include "ricochet/v1/impact_service.grpc.pb.h"
+#include "ricochet/error.h"
+#include "ricochet/v1/error_reason.pb.h"
+#include "server/request_id.h"
+#include "server/trace_parent.h"
 
 namespace ricochet::server {
+namespace {
 
-Call::Call(const char* method, const grpc::ServerContext& context, Admission& admission, const Log& log)
-    : context_(context),
-      log_(log),
-      method_(absl::StrCat("/", v1::ImpactService::service_full_name(), "/", method)),
-      peer_(context.peer()),
-      ticket_(admission.Enter()) {}
+// Returns the first value that the caller sent under a name, or an empty text.
+std::string Metadata(const grpc::ServerContext& context, const char* name) {
+  const auto found = context.client_metadata().find(name);
+  if (found == context.client_metadata().end()) return "";
+  return {found->second.data(), found->second.size()};
+}
+
+// Returns the status that the caller sees of a call that ends now with `code`.
+absl::StatusCode SeenByCaller(absl::StatusCode code, const grpc::ServerContext& context) {
+  if (context.deadline() <= std::chrono::system_clock::now()) return absl::StatusCode::kDeadlineExceeded;
+  return context.IsCancelled() ? absl::StatusCode::kCancelled : code;
+}
+
+// Returns the reason as it stands in google.rpc.ErrorInfo, or an empty text for none.
+std::string NameOf(ErrorReason reason) {
+  constexpr size_t kPrefix = sizeof("ERROR_REASON_") - 1;
+  if (reason == ErrorReason::kUnspecified) return "";
+  return v1::ErrorReason_Name(static_cast<v1::ErrorReason>(reason)).substr(kPrefix);
+}
+
+}  // namespace
+
+Call::Call(const char* method, grpc::ServerContext& context, Admission& admission, const Observer& observer)
+    : context_(context), observer_(observer), ticket_(admission.Enter()) {
+  record_.method = method;
+  record_.peer = context.peer();
+  record_.user_agent = Metadata(context, "user-agent");
+  record_.request_id = RequestIdOr(Metadata(context, kRequestIdHeader));
+  record_.trace_id = TraceId(Metadata(context, "traceparent"));
+  context.AddInitialMetadata(kRequestIdHeader, record_.request_id);
+}
 
 Call::~Call() {
-  std::vector<LogField> fields = {{"peer", peer_},
-                                  {"method", method_},
-                                  {"status", absl::StatusCodeToString(code_)},
-                                  {"duration_ms", elapsed_s() * 1e3}};
-  if (points_.has_value()) fields.push_back({"points", *points_});
-  log_.Write(LogLevel::kInfo, "call", fields);
+  record_.duration_s = elapsed_s();
+  observer_.Ended(record_);
 }
 
 double Call::elapsed_s() const {
@@ -40,7 +63,9 @@ CallOptions Call::options() const {
 }
 
 grpc::Status Call::Finish(const absl::Status& status) {
-  code_ = status.code();
+  record_.status = SeenByCaller(status.code(), context_);
+  record_.reason = NameOf(ReasonOf(status));
+  record_.message = std::string(status.message());
   return ToGrpcStatus(status);
 }
 

@@ -1,5 +1,5 @@
-// Call: the frame around the work of every handler. It takes a place among the live calls, measures the time and writes
-// one log line at the end.
+// Call: the frame around the work of every handler. It takes a place among the live calls, measures the time, gathers
+// what is known of the call and hands it to the observer at the end.
 
 #ifndef RICOCHET_SERVER_CALL_H_
 #define RICOCHET_SERVER_CALL_H_
@@ -8,23 +8,22 @@
 #include <grpcpp/support/status.h>
 
 #include <chrono>
-#include <cstdint>
-#include <optional>
-#include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/call_options.h"
 #include "server/admission.h"
-#include "server/log.h"
+#include "server/call_record.h"
+#include "server/observer.h"
 
 namespace ricochet::server {
 
 class Call {
  public:
-  // Starts the clock and asks for admission. `method` is the method's name without that of the service.
-  Call(const char* method, const grpc::ServerContext& context, Admission& admission, const Log& log);
-  // Writes the log line.
+  // Starts the clock, asks for admission and adds the request id to the metadata of the answer. `method` is the method's
+  // name without that of the service. All arguments by reference must outlive the call.
+  Call(const char* method, grpc::ServerContext& context, Admission& admission, const Observer& observer);
+  // Hands the record to the observer.
   ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
@@ -39,22 +38,19 @@ class Call {
   // The context must outlive them.
   CallOptions options() const;
 
-  // Sets the number of points of a sweep computed so far, for the log line.
-  void set_points(int64_t points) { points_ = points; }
+  // Handlers add to it what they learn of the call: points, chunks, models, the time in the queue.
+  CallRecord& record() { return record_; }
 
-  // Records the status for the log line and returns what the handler must return.
+  // Records the status as the caller sees it and returns what the handler must return.
   grpc::Status Finish(const absl::Status& status);
 
  private:
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const grpc::ServerContext& context_;
-  const Log& log_;
-  const std::string method_;
-  const std::string peer_;
+  const Observer& observer_;
   const absl::StatusOr<Admission::Ticket> ticket_;
-  std::optional<int64_t> points_;
-  // The status UNKNOWN is logged if a handler throws and never finishes; gRPC then answers the same.
-  absl::StatusCode code_ = absl::StatusCode::kUnknown;
+  // The status UNKNOWN stays if a handler throws and never finishes; gRPC then answers the same.
+  CallRecord record_;
 };
 
 }  // namespace ricochet::server

@@ -28,11 +28,23 @@ absl::Status Draining() {
   return status;
 }
 
+void CountModel(const SolveResponse& answer, CallRecord& record) {
+  ++record.solved_by_model.at(static_cast<size_t>(answer.outcome.plan.model));
+}
+template <typename Answer>
+void CountModel(const Answer& /*answer*/, CallRecord& /*record*/) {}
+
+void CountModels(const SweepSummary& summary, CallRecord& record) {
+  for (size_t i = 0; i < summary.by_model.size(); ++i) record.solved_by_model[i] = summary.by_model[i].count;
+}
+
 // Sends one message of a stream; the one with the summary is the last.
 template <typename Response>
-absl::Status Write(const Response& response, grpc::ServerWriter<Response>& writer) {
+absl::Status Write(const Response& response, grpc::ServerWriter<Response>& writer, CallRecord& record) {
   grpc::WriteOptions last;
   if (response.has_summary()) last.set_last_message();
+  ++record.chunks;
+  record.chunk_bytes += static_cast<int64_t>(response.ByteSizeLong());
   if (writer.Write(response, last)) return absl::OkStatus();
   return absl::CancelledError("the client cancelled the call or went away");
 }
@@ -40,20 +52,23 @@ absl::Status Write(const Response& response, grpc::ServerWriter<Response>& write
 }  // namespace
 
 ImpactService::ImpactService(const Solver& solver, int64_t max_points_per_sweep, std::stop_token drain,
-                             Admission& admission, const Log& log)
+                             Admission& admission, const Observer& observer)
     : solver_(solver),
       max_points_per_sweep_(max_points_per_sweep),
       drain_(std::move(drain)),
       admission_(admission),
-      log_(log) {}
+      observer_(observer) {}
 
 template <typename Request, typename Response, typename Method>
-grpc::Status ImpactService::Answer(const char* name, Method method, const grpc::ServerContext& context,
+grpc::Status ImpactService::Answer(const char* name, Method method, grpc::ServerContext& context,
                                    const Request& request, Response& response) const {
-  Call call(name, context, admission_, log_);
+  Call call(name, context, admission_, observer_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
   const auto answer = (solver_.*method)(FromProto(request), call.options());
-  if (answer.ok()) response = ToProto(*answer);
+  if (answer.ok()) {
+    CountModel(*answer, call.record());
+    response = ToProto(*answer);
+  }
   return call.Finish(answer.status());
 }
 
@@ -84,14 +99,14 @@ grpc::Status ImpactService::AuditBatch(grpc::ServerContext* context, const v1::A
 
 grpc::Status ImpactService::Sweep(grpc::ServerContext* context, const v1::SweepRequest* request,
                                   grpc::ServerWriter<v1::SweepResponse>* writer) {
-  Call call("Sweep", *context, admission_, log_);
+  Call call("Sweep", *context, admission_, observer_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
   return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call)));
 }
 
 grpc::Status ImpactService::Cost(grpc::ServerContext* context, const v1::CostRequest* request,
                                  grpc::ServerWriter<v1::CostResponse>* writer) {
-  Call call("Cost", *context, admission_, log_);
+  Call call("Cost", *context, admission_, observer_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
   return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call)));
 }
@@ -109,13 +124,17 @@ absl::Status ImpactService::OrDraining(const absl::Status& status) const {
 absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer,
                                    Call& call) const {
   v1::SweepResponse response;
+  call.record().first_index = request.first_index;
   for (absl::StatusOr<SweepChunk>& chunk : solver_.Sweep(request, StreamOptions(call))) {
     if (!chunk.ok()) return chunk.status();
     if (chunk->points_total > max_points_per_sweep_) return SweepTooLarge(chunk->points_total, max_points_per_sweep_);
-    call.set_points(chunk->points_done);
-    if (chunk->summary.has_value()) chunk->summary->elapsed_s = call.elapsed_s();
+    call.record().points = chunk->points_done;
+    if (chunk->summary.has_value()) {
+      CountModels(*chunk->summary, call.record());
+      chunk->summary->elapsed_s = call.elapsed_s();
+    }
     ToProto(*chunk, response);
-    if (absl::Status written = Write(response, writer); !written.ok()) return written;
+    if (absl::Status written = Write(response, writer, call.record()); !written.ok()) return written;
   }
   return absl::OkStatus();
 }
@@ -124,7 +143,7 @@ absl::Status ImpactService::Stream(const CostRequest& request, grpc::ServerWrite
                                    Call& call) const {
   for (const absl::StatusOr<CostChunk>& chunk : solver_.Cost(request, StreamOptions(call))) {
     if (!chunk.ok()) return chunk.status();
-    if (absl::Status written = Write(ToProto(*chunk), writer); !written.ok()) return written;
+    if (absl::Status written = Write(ToProto(*chunk), writer, call.record()); !written.ok()) return written;
   }
   return absl::OkStatus();
 }

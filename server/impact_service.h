@@ -15,7 +15,7 @@
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/admission.h"
 #include "server/call.h"
-#include "server/log.h"
+#include "server/observer.h"
 
 namespace ricochet::server {
 
@@ -25,7 +25,7 @@ class ImpactService final : public v1::ImpactService::Service {
   // All arguments by reference must outlive the service. Once `drain` was requested, sweeps end with UNAVAILABLE and
   // kDraining. A sweep of more than `max_points_per_sweep` points is refused with kSweepTooLarge.
   ImpactService(const Solver& solver, int64_t max_points_per_sweep, std::stop_token drain, Admission& admission,
-                const Log& log);
+                const Observer& observer);
 
   grpc::Status Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
                      v1::SolveResponse* response) override;
@@ -44,7 +44,7 @@ class ImpactService final : public v1::ImpactService::Service {
  private:
   // Handles a unary call: converts the request, calls `method` of the solver, converts the answer.
   template <typename Request, typename Response, typename Method>
-  grpc::Status Answer(const char* name, Method method, const grpc::ServerContext& context, const Request& request,
+  grpc::Status Answer(const char* name, Method method, grpc::ServerContext& context, const Request& request,
                       Response& response) const;
 
   // Sends every chunk of a sweep.
@@ -60,7 +60,7 @@ class ImpactService final : public v1::ImpactService::Service {
   const int64_t max_points_per_sweep_;
   const std::stop_token drain_;
   Admission& admission_;
-  const Log& log_;
+  const Observer& observer_;
 };
 
 }  // namespace ricochet::server

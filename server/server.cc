@@ -59,7 +59,8 @@ Server::Server(const Options& options, const Log& log)
       log_(log),
       address_(options.listen),
       admission_(options.max_live_calls),
-      service_(solver_, options.max_points_per_sweep, drain_.get_token(), admission_, log) {}
+      observer_(log),
+      service_(solver_, options.max_points_per_sweep, drain_.get_token(), admission_, observer_) {}
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, const Log& log) {
   std::unique_ptr<Server> server(new Server(options, log));

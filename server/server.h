@@ -19,6 +19,7 @@
 #include "server/impact_service.h"
 #include "server/listen_address.h"
 #include "server/log.h"
+#include "server/observer.h"
 #include "server/options.h"
 #include "server/stop_signals.h"
 
@@ -54,6 +55,7 @@ class Server {
   std::stop_source drain_;
   LocalSolver solver_;
   Admission admission_;
+  const Observer observer_;
   ImpactService service_;
   std::unique_ptr<grpc::Server> server_;
 };

@@ -98,10 +98,11 @@ class ImpactServiceTest : public testing::Test {
 
   std::ofstream nowhere_;
   Log log_;
+  Observer observer_{log_};
   FakeSolver solver_;
   std::stop_source drain_;
   Admission admission_{8};
-  ImpactService service_{solver_, 1'000'000, drain_.get_token(), admission_, log_};
+  ImpactService service_{solver_, 1'000'000, drain_.get_token(), admission_, observer_};
   std::unique_ptr<grpc::Server> server_;
   std::unique_ptr<v1::ImpactService::Stub> stub_;
 };
