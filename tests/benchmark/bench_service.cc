@@ -21,6 +21,7 @@
 #include "server/admission.h"
 #include "server/impact_service.h"
 #include "server/log.h"
+#include "server/observer.h"
 #include "tests/benchmark/echo_service.h"
 #include "tests/benchmark/measure.h"
 
@@ -217,7 +218,8 @@ void RunAll() {
   const LocalSolver solver;
   const std::stop_source drain;
   server::Admission admission(64);
-  server::ImpactService service(solver, int64_t{1} << 53, drain.get_token(), admission, log);
+  const server::Observer observer(log);
+  server::ImpactService service(solver, int64_t{1} << 53, drain.get_token(), admission, observer);
   EchoService nothing;
   Loopback ricochet(&service);
   Loopback echo(&nothing);
