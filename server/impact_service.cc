@@ -1,32 +1,15 @@
 #include "server/impact_service.h"
 
-#include <chrono>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
-#include "ricochet/error.h"
+#include "server/refusals.h"
 
 namespace ricochet::server {
 namespace {
-
-absl::Status SweepTooLarge(int64_t points, int64_t limit) {
-  absl::Status status = MakeError(absl::StatusCode::kResourceExhausted, ErrorReason::kSweepTooLarge,
-                                  absl::StrCat("the sweep has ", points, " points, this server computes at most ",
-                                               limit, " in one call; ask for sub-ranges by first_index and end_index"));
-  SetRetryDelay(std::chrono::milliseconds(0), status);
-  return status;
-}
-
-absl::Status Draining() {
-  absl::Status status = MakeError(absl::StatusCode::kUnavailable, ErrorReason::kDraining,
-                                  "the server is shutting down; ask again, a sweep from the first point not received");
-  SetRetryDelay(std::chrono::seconds(1), status);
-  return status;
-}
 
 void CountModel(const SolveResponse& answer, CallRecord& record) {
   ++record.solved_by_model.at(static_cast<size_t>(answer.outcome.plan.model));
@@ -49,10 +32,22 @@ absl::Status Write(const Response& response, grpc::ServerWriter<Response>& write
   return absl::CancelledError("the client cancelled the call or went away");
 }
 
+// Returns the options of a call that also ends when the drain asks for it.
+CallOptions EndingWith(std::stop_token drain, const Call& call) {
+  CallOptions options = call.options();
+  options.stop = std::move(drain);
+  return options;
+}
+
+// Returns the error for a status that draining has caused.
+absl::Status OrDraining(const absl::Status& status, const std::stop_token& drain) {
+  return absl::IsCancelled(status) && drain.stop_requested() ? Draining() : status;
+}
+
 }  // namespace
 
-ImpactService::ImpactService(const Solver& solver, int64_t max_points_per_sweep, std::stop_token drain,
-                             Admission& admission, const Observer& observer)
+ImpactService::ImpactService(const Solver& solver, int64_t max_points_per_sweep, DrainStops drain, Admission& admission,
+                             const Observer& observer)
     : solver_(solver),
       max_points_per_sweep_(max_points_per_sweep),
       drain_(std::move(drain)),
@@ -64,12 +59,13 @@ grpc::Status ImpactService::Answer(const char* name, Method method, grpc::Server
                                    const Request& request, Response& response) const {
   Call call(name, context, admission_, observer_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
-  const auto answer = (solver_.*method)(FromProto(request), call.options());
+  if (drain_.streams.stop_requested()) return call.Finish(Draining());
+  const auto answer = (solver_.*method)(FromProto(request), EndingWith(drain_.unary, call));
   if (answer.ok()) {
     CountModel(*answer, call.record());
     response = ToProto(*answer);
   }
-  return call.Finish(answer.status());
+  return call.Finish(OrDraining(answer.status(), drain_.unary));
 }
 
 grpc::Status ImpactService::Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
@@ -101,31 +97,21 @@ grpc::Status ImpactService::Sweep(grpc::ServerContext* context, const v1::SweepR
                                   grpc::ServerWriter<v1::SweepResponse>* writer) {
   Call call("Sweep", *context, admission_, observer_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
-  return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call)));
+  return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call), drain_.streams));
 }
 
 grpc::Status ImpactService::Cost(grpc::ServerContext* context, const v1::CostRequest* request,
                                  grpc::ServerWriter<v1::CostResponse>* writer) {
   Call call("Cost", *context, admission_, observer_);
   if (!call.admitted().ok()) return call.Finish(call.admitted());
-  return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call)));
-}
-
-CallOptions ImpactService::StreamOptions(const Call& call) const {
-  CallOptions options = call.options();
-  options.stop = drain_;
-  return options;
-}
-
-absl::Status ImpactService::OrDraining(const absl::Status& status) const {
-  return absl::IsCancelled(status) && drain_.stop_requested() ? Draining() : status;
+  return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call), drain_.streams));
 }
 
 absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer,
                                    Call& call) const {
   v1::SweepResponse response;
   call.record().first_index = request.first_index;
-  for (absl::StatusOr<SweepChunk>& chunk : solver_.Sweep(request, StreamOptions(call))) {
+  for (absl::StatusOr<SweepChunk>& chunk : solver_.Sweep(request, EndingWith(drain_.streams, call))) {
     if (!chunk.ok()) return chunk.status();
     if (chunk->points_total > max_points_per_sweep_) return SweepTooLarge(chunk->points_total, max_points_per_sweep_);
     call.record().points = chunk->points_done;
@@ -141,7 +127,7 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
 
 absl::Status ImpactService::Stream(const CostRequest& request, grpc::ServerWriter<v1::CostResponse>& writer,
                                    Call& call) const {
-  for (const absl::StatusOr<CostChunk>& chunk : solver_.Cost(request, StreamOptions(call))) {
+  for (const absl::StatusOr<CostChunk>& chunk : solver_.Cost(request, EndingWith(drain_.streams, call))) {
     if (!chunk.ok()) return chunk.status();
     if (absl::Status written = Write(ToProto(*chunk), writer, call.record()); !written.ok()) return written;
   }

@@ -9,12 +9,12 @@
 #include <grpcpp/support/sync_stream.h>
 
 #include <cstdint>
-#include <stop_token>
 
 #include "ricochet/solver.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/admission.h"
 #include "server/call.h"
+#include "server/drain.h"
 #include "server/observer.h"
 
 namespace ricochet::server {
@@ -22,9 +22,9 @@ namespace ricochet::server {
 // Thread safety: gRPC calls every handler from several threads at once.
 class ImpactService final : public v1::ImpactService::Service {
  public:
-  // All arguments by reference must outlive the service. Once `drain` was requested, sweeps end with UNAVAILABLE and
+  // All arguments by reference must outlive the service. Calls that `drain` stops end with UNAVAILABLE and
   // kDraining. A sweep of more than `max_points_per_sweep` points is refused with kSweepTooLarge.
-  ImpactService(const Solver& solver, int64_t max_points_per_sweep, std::stop_token drain, Admission& admission,
+  ImpactService(const Solver& solver, int64_t max_points_per_sweep, DrainStops drain, Admission& admission,
                 const Observer& observer);
 
   grpc::Status Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
@@ -51,14 +51,10 @@ class ImpactService final : public v1::ImpactService::Service {
   absl::Status Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer, Call& call) const;
   // Sends every part of a study of cost.
   absl::Status Stream(const CostRequest& request, grpc::ServerWriter<v1::CostResponse>& writer, Call& call) const;
-  // Returns the options of a stream's call, which also ends when the server drains.
-  CallOptions StreamOptions(const Call& call) const;
-  // Returns the error for a status that draining has caused.
-  absl::Status OrDraining(const absl::Status& status) const;
 
   const Solver& solver_;
   const int64_t max_points_per_sweep_;
-  const std::stop_token drain_;
+  const DrainStops drain_;
   Admission& admission_;
   const Observer& observer_;
 };

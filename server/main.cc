@@ -10,13 +10,13 @@
 #include "server/log.h"
 #include "server/options.h"
 #include "server/server.h"
-#include "server/stop_signals.h"
+#include "server/signals.h"
 
 namespace {
 
 int Run(int argc, const char* const* argv) {
   namespace server = ricochet::server;
-  const server::StopSignals signals;
+  const server::Signals signals;
 
   const auto command = server::ParseCommandLine(argc, argv);
   if (!command.ok()) {
@@ -36,7 +36,7 @@ int Run(int argc, const char* const* argv) {
     return 1;
   }
   (*running)->ServeUntil(signals);
-  // All calls have ended or used up their time. Destroying the server would wait for clients that have stopped reading.
+  // All calls have ended or used up their time. The exit closes their connections; destroying the server would wait for clients that have stopped reading.
   std::_Exit(0);
 }
 

@@ -112,7 +112,7 @@ std::vector<Setting> LimitSettings() {
        }},
       {"drain-grace", "SECONDS", "After a stop signal, announce NOT_SERVING for this time before sweeps are ended [3]",
        [](const std::string& text, Options& to) { return ReadSeconds(text, to.drain_grace); }},
-      {"drain-timeout", "SECONDS", "Then wait at most this time for calls to end [20]",
+      {"drain-timeout", "SECONDS", "Then wait at most this time for calls to end [5]",
        [](const std::string& text, Options& to) { return ReadSeconds(text, to.drain_timeout); }},
   };
 }

@@ -30,8 +30,8 @@ struct Options {
   LogFormat log_format = LogFormat::kText;
   LogLevel log_level = LogLevel::kInfo;
 
-  std::chrono::milliseconds drain_grace{3000};     // From health NOT_SERVING to the end of running sweeps; 0 to 1 h.
-  std::chrono::milliseconds drain_timeout{20000};  // From there to the end of all calls; 0 to 1 h.
+  std::chrono::milliseconds drain_grace{3000};    // From health NOT_SERVING to the end of running sweeps; 0 to 1 h.
+  std::chrono::milliseconds drain_timeout{5000};  // From there to the stop of all calls; 0 to 1 h.
 
   // Threads that wait for calls or serve reflection. With this many spare threads an overload is refused by the limit
   // of live calls, which sends a retry delay, and not by gRPC.

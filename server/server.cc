@@ -7,9 +7,8 @@
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
-#include <future>
 #include <string>
-#include <thread>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "server/port_file.h"
@@ -20,9 +19,6 @@ namespace {
 constexpr int kMaxReceiveBytes = 1 << 20;
 constexpr int kMaxMetadataBytes = 8 << 10;
 constexpr int kMaxStreamsPerConnection = 128;
-
-// The time that connections have to close after their calls were cancelled.
-constexpr std::chrono::seconds kTimeToClose(1);
 
 constexpr int Milliseconds(std::chrono::milliseconds time) { return static_cast<int>(time.count()); }
 
@@ -59,8 +55,9 @@ Server::Server(const Options& options, const Log& log)
       log_(log),
       address_(options.listen),
       admission_(options.max_live_calls),
+      drain_(options.drain_grace, options.drain_timeout),
       observer_(log),
-      service_(solver_, options.max_points_per_sweep, drain_.get_token(), admission_, observer_) {}
+      service_(solver_, options.max_points_per_sweep, drain_.stops(), admission_, observer_) {}
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, const Log& log) {
   std::unique_ptr<Server> server(new Server(options, log));
@@ -85,24 +82,17 @@ absl::Status Server::Listen() {
   return absl::OkStatus();
 }
 
-void Server::ServeUntil(const StopSignals& signals) {
-  const std::string signal = signals.Wait();
+void Server::ServeUntil(const Signals& signals) {
+  const std::string signal = signals.WaitForStop([this] { HangUp(); });
   log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", admission_.live()}});
   server_->GetHealthCheckService()->SetServingStatus(false);
-  signals.WaitFor(options_.drain_grace);
-  drain_.request_stop();
-  Shutdown();
+  drain_.Run(signals, [this] { return admission_.live(); });
   log_.Write(LogLevel::kInfo, "stopped", {{"live_calls", admission_.live()}});
 }
 
-void Server::Shutdown() {
-  const auto deadline = std::chrono::system_clock::now() + options_.drain_timeout;
-  const auto ended = std::make_shared<std::promise<void>>();
-  std::thread([this, deadline, ended] {
-    server_->Shutdown(deadline);
-    ended->set_value();
-  }).detach();
-  ended->get_future().wait_until(deadline + kTimeToClose);
+void Server::HangUp() {
+  log_.Write(LogLevel::kInfo, "reopening files", {{"signal", "SIGHUP"}});
+  for (const std::function<void()>& reopen : reopen_) reopen();
 }
 
 Server::~Server() {

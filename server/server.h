@@ -1,27 +1,26 @@
-// Server: the impact service with health checks, reflection and limits.
-//
-// A server drains in three steps. First its health becomes NOT_SERVING, so that load balancers send calls elsewhere.
-// After the drain grace, running sweeps end at their next chunk with UNAVAILABLE and a retry delay. Then all calls have
-// the drain timeout to end.
+// Server: the impact service with health checks, reflection and limits; server/drain.h says how it stops.
 
 #ifndef RICOCHET_SERVER_SERVER_H_
 #define RICOCHET_SERVER_SERVER_H_
 
 #include <grpcpp/server.h>
 
+#include <functional>
 #include <memory>
-#include <stop_token>
+#include <utility>
+#include <vector>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/solver.h"
 #include "server/admission.h"
+#include "server/drain.h"
 #include "server/impact_service.h"
 #include "server/listen_address.h"
 #include "server/log.h"
 #include "server/observer.h"
 #include "server/options.h"
-#include "server/stop_signals.h"
+#include "server/signals.h"
 
 namespace ricochet::server {
 
@@ -39,22 +38,26 @@ class Server {
   // Returns the address at which it listens, with the port that the system chose.
   const ListenAddress& address() const { return address_; }
 
-  // Serves until a signal comes, then drains. A second signal skips the rest of the grace. Call it once; afterwards the
-  // process must exit without destroying the server: a client that has stopped reading can block a write for ever, so
-  // that a thread may still use this object and its destruction may never end.
-  void ServeUntil(const StopSignals& signals);
+  // Makes `reopen` run at each SIGHUP, on the thread of ServeUntil. Call it before ServeUntil.
+  void AtHangUp(std::function<void()> reopen) { reopen_.push_back(std::move(reopen)); }
+
+  // Serves until a signal stops it, then drains. Call it once; afterwards the process must exit without destroying the
+  // server: a client that has stopped reading can block a write for ever, so that a thread may still use this object and
+  // its destruction may never end. The exit closes all connections.
+  void ServeUntil(const Signals& signals);
 
  private:
   Server(const Options& options, const Log& log);
   absl::Status Listen();
-  void Shutdown();
+  void HangUp();
 
   const Options options_;
   const Log& log_;
   ListenAddress address_;
-  std::stop_source drain_;
   LocalSolver solver_;
   Admission admission_;
+  Drain drain_;
+  std::vector<std::function<void()>> reopen_;
   const Observer observer_;
   ImpactService service_;
   std::unique_ptr<grpc::Server> server_;

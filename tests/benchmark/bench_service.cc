@@ -216,10 +216,9 @@ void RunAll() {
   std::ofstream nowhere("/dev/null");
   const server::Log log(server::LogFormat::kText, server::LogLevel::kError, nowhere);
   const LocalSolver solver;
-  const std::stop_source drain;
   server::Admission admission(64);
   const server::Observer observer(log);
-  server::ImpactService service(solver, int64_t{1} << 53, drain.get_token(), admission, observer);
+  server::ImpactService service(solver, int64_t{1} << 53, {}, admission, observer);
   EchoService nothing;
   Loopback ricochet(&service);
   Loopback echo(&nothing);

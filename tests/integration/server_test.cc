@@ -25,6 +25,7 @@
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "tests/support/server_process.h"
+#include "tests/support/service_calls.h"
 #include "tests/support/ulp.h"
 
 namespace ricochet {
@@ -35,80 +36,6 @@ using std::chrono::seconds;
 using std::chrono::steady_clock;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-constexpr int64_t kHuge = 8'000'000'000;
-
-std::shared_ptr<grpc::Channel> MakeChannel(const std::string& address) {
-  grpc::ChannelArguments arguments;
-  // Otherwise channels to one address share a connection, and a test sees the server of another test end.
-  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), arguments);
-}
-
-std::unique_ptr<v1::ImpactService::Stub> MakeStub(const ServerProcess& server) {
-  return v1::ImpactService::NewStub(MakeChannel(server.address()));
-}
-
-v1::Scene PaperScene() {
-  v1::Scene scene;
-  scene.mutable_pendulum()->set_inertia_kg_m2(1.0);
-  scene.mutable_pendulum()->set_a_m(0.3);
-  scene.mutable_pendulum()->set_b_m(1.0);
-  scene.mutable_pendulum()->set_omega_minus_rad_s(-1.0);
-  scene.mutable_friction()->set_kinetic_coefficient(0.1);
-  scene.mutable_restitution()->set_energetic(1.0);
-  return scene;
-}
-
-v1::SweepRequest SweepOf(int64_t points) {
-  v1::SweepRequest request;
-  *request.mutable_scene() = PaperScene();
-  v1::Axis& axis = *request.add_axes();
-  axis.set_path("friction.kinetic_coefficient");
-  axis.mutable_linspace()->set_start(0.0);
-  axis.mutable_linspace()->set_stop(0.5);
-  axis.mutable_linspace()->set_count(points);
-  request.add_columns("coefficients.newton");
-  return request;
-}
-
-absl::Status Solve(v1::ImpactService::Stub& stub, const v1::Scene& scene, v1::SolveResponse* response) {
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + seconds(10));
-  v1::SolveRequest request;
-  *request.mutable_scene() = scene;
-  return FromGrpcStatus(stub.Solve(&context, request, response));
-}
-
-absl::Status Solve(v1::ImpactService::Stub& stub, const v1::Scene& scene = PaperScene()) {
-  v1::SolveResponse response;
-  return Solve(stub, scene, &response);
-}
-
-// A sweep that a test reads chunk by chunk.
-class RunningSweep {
- public:
-  RunningSweep(v1::ImpactService::Stub& stub, const v1::SweepRequest& request,
-               std::optional<milliseconds> deadline = std::nullopt) {
-    if (deadline) context_.set_deadline(std::chrono::system_clock::now() + *deadline);
-    reader_ = stub.Sweep(&context_, request);
-  }
-
-  bool Read(v1::SweepResponse* chunk) { return reader_->Read(chunk); }
-  void Cancel() { context_.TryCancel(); }
-
-  // Reads all remaining chunks and returns the status.
-  absl::Status Drain() {
-    v1::SweepResponse chunk;
-    while (reader_->Read(&chunk)) {
-    }
-    return FromGrpcStatus(reader_->Finish());
-  }
-
- private:
-  grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReader<v1::SweepResponse>> reader_;
-};
 
 // Returns the fields of the last record of a call of the method, from a log in JSON.
 google::protobuf::Struct LastCall(const std::string& log, const std::string& method) {

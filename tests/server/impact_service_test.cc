@@ -100,9 +100,11 @@ class ImpactServiceTest : public testing::Test {
   Log log_;
   Observer observer_{log_};
   FakeSolver solver_;
-  std::stop_source drain_;
+  std::stop_source streams_;
+  std::stop_source unary_;
   Admission admission_{8};
-  ImpactService service_{solver_, 1'000'000, drain_.get_token(), admission_, observer_};
+  ImpactService service_{
+      solver_, 1'000'000, {.streams = streams_.get_token(), .unary = unary_.get_token()}, admission_, observer_};
   std::unique_ptr<grpc::Server> server_;
   std::unique_ptr<v1::ImpactService::Stub> stub_;
 };
@@ -153,7 +155,7 @@ TEST_F(ImpactServiceTest, ASweepEndsWhenTheServerDrains) {
   const auto reader = stub_->Sweep(&context, {});
   v1::SweepResponse chunk;
   ASSERT_TRUE(reader->Read(&chunk));
-  drain_.request_stop();
+  streams_.request_stop();
   while (reader->Read(&chunk)) {
   }
   const absl::Status status = FromGrpcStatus(reader->Finish());
@@ -168,12 +170,38 @@ TEST_F(ImpactServiceTest, AStudyOfCostIsSentRowByRowAndEndsWhenTheServerDrains) 
   ASSERT_TRUE(reader->Read(&chunk));
   EXPECT_EQ(chunk.rows(0).name(), "row");
   EXPECT_EQ(chunk.rows_total(), 9);
-  drain_.request_stop();
+  streams_.request_stop();
   while (reader->Read(&chunk)) {
   }
   const absl::Status status = FromGrpcStatus(reader->Finish());
   EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
   EXPECT_EQ(ReasonOf(status), ErrorReason::kDraining);
+}
+
+TEST_F(ImpactServiceTest, AUnaryCallRunsOnAfterTheGraceAndIsUnavailableOnceItIsStopped) {
+  std::jthread drain([this] {
+    std::this_thread::sleep_for(milliseconds(50));
+    streams_.request_stop();
+    std::this_thread::sleep_for(milliseconds(50));
+    EXPECT_EQ(admission_.live(), 1);
+    unary_.request_stop();
+  });
+  grpc::ClientContext context;
+  v1::BoundsResponse response;
+  const absl::Status status = FromGrpcStatus(stub_->Bounds(&context, {}, &response));
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kDraining);
+}
+
+TEST_F(ImpactServiceTest, ANewCallIsRefusedAfterTheGrace) {
+  streams_.request_stop();
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + seconds(60));
+  v1::SolveResponse response;
+  const absl::Status status = FromGrpcStatus(stub_->Solve(&context, {}, &response));
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kDraining);
+  EXPECT_EQ(RetryDelayOf(status), seconds(1));
+  EXPECT_FALSE(solver_.deadline.has_value()) << "the solver was called";
 }
 
 TEST_F(ImpactServiceTest, ASweepOfTooManyPointsIsRefusedBeforeItsFirstChunkIsSent) {

@@ -50,6 +50,9 @@ class ServerProcess {
   int port() const { return port_; }
   pid_t pid() const { return process_.pid(); }
 
+  // Sends a signal and returns at once.
+  void Signal(int signal) const { process_.Signal(signal); }
+
   // Sends SIGTERM and returns at once.
   void Terminate() const;
 
