@@ -38,7 +38,7 @@ class Solver {
   // The budget lies far above the number of steps of every impact that tests have found.
   static constexpr int64_t kStepBudget = 10000;
   // Shares of the tolerance: for the last terms of a step, and for leaving a curve for its asymptote.
-  static constexpr T kStepShare{0.3};
+  static constexpr T kStepShare{0.175};
   static constexpr T kSwitchShare{0.2};
 
   static int OrderFor(T tolerance);

@@ -5,6 +5,7 @@
 #include "core/models/spatial/spatial.h"
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 // Highway requires this order of includes.
@@ -44,13 +45,19 @@ Impact Solve(const Problem& problem) {
   double tolerance = problem.tolerance;
   Impact best;
   best.error_estimate = std::numeric_limits<double>::infinity();
+  int64_t steps = 0;
+  int64_t right_hand_sides = 0;
   for (int i = 0; i < kTries; ++i) {
     const Impact impact = HWY_DYNAMIC_DISPATCH(SolveTo)(problem, rank, tolerance);
     const double estimate = impact.error_estimate;
+    steps += impact.steps;
+    right_hand_sides += impact.right_hand_sides;
     if (i == 0 || estimate < best.error_estimate) best = impact;
     if (estimate <= problem.tolerance || tolerance <= kSmallestTolerance) break;
     tolerance = std::fmax(kMargin * tolerance * (problem.tolerance / estimate), kSmallestTolerance);
   }
+  best.steps = steps;
+  best.right_hand_sides = right_hand_sides;
   if (!best.Converged()) best.regime = Regime::kWedged;
   return best;
 }

@@ -47,7 +47,7 @@ using Instant = ImpactInstant<std::array<double, 2>>;
 struct Impact : ImpactEnd<std::array<double, 2>> {
   double error_estimate = 0.0;   // not below the true error of the velocities, over max(|u0|, |v0|)
   bool closed_form = false;      // Slip never turns, so that no integration was needed.
-  int64_t steps = 0;             // series expanded
+  int64_t steps = 0;             // series expanded, in all attempts
   int64_t right_hand_sides = 0;  // terms of all series: a Runge-Kutta method would call them right-hand sides
   std::array<Instant, 4> events;
   int event_count = 0;
