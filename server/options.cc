@@ -1,6 +1,7 @@
 #include "server/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
@@ -16,6 +17,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/str_split.h"
 #include "core/engine/engine.h"
 
 namespace ricochet::server {
@@ -24,7 +26,11 @@ namespace {
 // The rule that a value breaks, as "must …"; nothing for a good value.
 using BrokenRule = std::optional<std::string>;
 
-constexpr char kAddressRule[] = "must be HOST:PORT with a port from 0 to 65535, an IPv6 host in brackets";
+constexpr char kAddressRule[] =
+    "must be HOST:PORT with a port from 0 to 65535, an IPv6 host in brackets, or unix:PATH with at most 107 bytes; "
+    "several stand with commas between them";
+
+constexpr int kMostConnections = 1'000'000;
 
 template <typename Number>
 std::optional<Number> ParseNumber(const std::string& text) {
@@ -69,11 +75,21 @@ BrokenRule ReadName(const std::string& text, const Names<Value>& names, Value& v
          absl::StrJoin(names, ", ", [](std::string* out, const auto& entry) { *out += entry.first; });
 }
 
-BrokenRule ReadAddress(const std::string& text, ListenAddress& listen) {
-  const auto address = ParseListenAddress(text);
-  if (!address.has_value()) return kAddressRule;
-  listen = *address;
+BrokenRule ReadAddresses(const std::string& text, std::vector<ListenAddress>& addresses) {
+  addresses.clear();
+  for (const auto part : absl::StrSplit(text, ',')) {
+    const auto address = ParseListenAddress(std::string(part));
+    if (!address.has_value()) return kAddressRule;
+    addresses.push_back(*address);
+  }
   return std::nullopt;
+}
+
+BrokenRule ReadMode(const std::string& text, mode_t& mode) {
+  const char* const end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, mode, 8);
+  if (result.ec == std::errc() && result.ptr == end && mode <= 0777) return std::nullopt;
+  return "must be permissions in octal, from 0 to 777";
 }
 
 struct Setting {
@@ -85,8 +101,14 @@ struct Setting {
 
 std::vector<Setting> NetworkSettings() {
   return {
-      {"listen", "HOST:PORT", "Where to take connections; port 0 lets the system choose [127.0.0.1:50051]",
-       [](const std::string& text, Options& to) { return ReadAddress(text, to.listen); }},
+      {"listen", "HOST:PORT|unix:PATH,...",
+       "Where to take connections, with commas between several; port 0 lets the system choose [127.0.0.1:50051]",
+       [](const std::string& text, Options& to) { return ReadAddresses(text, to.listen); }},
+      {"reflection", "HOST:PORT|unix:PATH,...",
+       "Where clients can read the proto files by gRPC reflection, away from the calls [nowhere]",
+       [](const std::string& text, Options& to) { return ReadAddresses(text, to.reflection); }},
+      {"socket-mode", "OCTAL", "Permissions of the file of a Unix socket [600]",
+       [](const std::string& text, Options& to) { return ReadMode(text, to.socket_mode); }},
       {"port-file", "FILE", "Write the bound port to this file once the server takes calls",
        [](const std::string& text, Options& to) -> BrokenRule {
          to.port_file = text;
@@ -96,6 +118,17 @@ std::vector<Setting> NetworkSettings() {
       {"insecure", "", "Allow a --listen address that other hosts can reach; nothing is encrypted",
        [](const std::string& text, Options& to) {
          return ReadName<bool>(text, {{"true", true}, {"1", true}, {"false", false}, {"0", false}}, to.insecure);
+       }},
+      {"max-connections", "N", "Connections that may be open at once; each takes two descriptors [4096]",
+       [](const std::string& text, Options& to) { return ReadInteger(text, kMostConnections, to.connections.in_all); }},
+      {"max-connections-per-peer", "N",
+       "The same for one client: an IPv4 address, an IPv6 network of 64 bits, a user of a Unix socket [2048]",
+       [](const std::string& text, Options& to) {
+         return ReadInteger(text, kMostConnections, to.connections.per_peer);
+       }},
+      {"transport-memory", "MIB", "Memory for the buffers of all connections together [256]",
+       [](const std::string& text, Options& to) {
+         return ReadInteger(text, int64_t{1} << 20, to.transport_memory_mib);
        }},
   };
 }
@@ -186,11 +219,24 @@ void Read(const std::vector<Given>& given, Options& options, std::vector<std::st
   }
 }
 
-void CheckTogether(const Options& options, std::vector<std::string>& violations) {
-  if (!options.insecure && !IsLoopback(options.listen)) {
-    violations.push_back(Violated("listen", ToString(options.listen),
-                                  "must be a loopback address (localhost, 127.0.0.0/8, [::1]) "
+void CheckNotOpen(const std::string& name, const std::vector<ListenAddress>& addresses, const Options& options,
+                  std::vector<std::string>& violations) {
+  for (const ListenAddress& address : addresses) {
+    if (options.insecure || IsLocal(address)) continue;
+    violations.push_back(Violated(name, ToString(address),
+                                  "must be a loopback address (localhost, 127.0.0.0/8, [::1]) or a Unix socket "
                                   "without --insecure; nothing would be encrypted"));
+  }
+}
+
+void CheckTogether(const Options& options, std::vector<std::string>& violations) {
+  CheckNotOpen("listen", options.listen, options, violations);
+  CheckNotOpen("reflection", options.reflection, options, violations);
+  const bool only_unix = std::all_of(options.listen.begin(), options.listen.end(),
+                                     [](const ListenAddress& address) { return address.is_unix(); });
+  if (only_unix && !options.port_file.empty()) {
+    violations.push_back(
+        Violated("port-file", options.port_file, "needs HOST:PORT in --listen; a Unix socket has no port"));
   }
   const int threads = options.max_live_calls + Options::kSpareThreads;
   if (options.max_threads < threads) {

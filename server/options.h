@@ -7,21 +7,30 @@
 #ifndef RICOCHET_SERVER_OPTIONS_H_
 #define RICOCHET_SERVER_OPTIONS_H_
 
+#include <sys/types.h>
+
 #include <chrono>
 #include <cstdint>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "absl/status/statusor.h"
+#include "server/connection_counts.h"
 #include "server/listen_address.h"
 #include "server/log.h"
 
 namespace ricochet::server {
 
 struct Options {
-  ListenAddress listen = {.host = "127.0.0.1", .port = 50051};
+  std::vector<ListenAddress> listen = {{.host = "127.0.0.1", .port = 50051, .path = ""}};  // At least one.
+  std::vector<ListenAddress> reflection;  // Where clients can read the proto files; empty: nowhere.
+  mode_t socket_mode = 0600;              // Permissions of the file of a Unix socket; 0 to 0777.
   std::string port_file;  // The bound port is written to this file once the server takes calls; empty: to no file.
-  bool insecure = false;  // Required to listen on anything but loopback: nothing is encrypted.
+  bool insecure = false;  // Required to listen on anything but loopback and Unix sockets: nothing is encrypted.
+
+  ConnectionLimits connections;        // Each limit from 1 to 1,000,000.
+  int64_t transport_memory_mib = 256;  // For gRPC's buffers of all connections together; 1 to 1,048,576.
 
   int max_live_calls = 256;                       // 1 to 65,536.
   int max_threads = 288;                          // At least max_live_calls + kSpareThreads.

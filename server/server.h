@@ -1,9 +1,7 @@
-// Server: the impact service with health checks, reflection and limits; server/drain.h says how it stops.
+// Server: the impact service with health checks and limits; server/drain.h says how it stops.
 
 #ifndef RICOCHET_SERVER_SERVER_H_
 #define RICOCHET_SERVER_SERVER_H_
-
-#include <grpcpp/server.h>
 
 #include <functional>
 #include <memory>
@@ -15,11 +13,12 @@
 #include "ricochet/solver.h"
 #include "server/admission.h"
 #include "server/drain.h"
+#include "server/endpoint.h"
 #include "server/impact_service.h"
-#include "server/listen_address.h"
 #include "server/log.h"
 #include "server/observer.h"
 #include "server/options.h"
+#include "server/reflection.h"
 #include "server/signals.h"
 
 namespace ricochet::server {
@@ -31,12 +30,12 @@ class Server {
   static absl::StatusOr<std::unique_ptr<Server>> Start(const Options& options, const Log& log);
 
   // Cancels the calls that still run.
-  ~Server();
+  ~Server() = default;
   Server(const Server&) = delete;
   Server& operator=(const Server&) = delete;
 
-  // Returns the address at which it listens, with the port that the system chose.
-  const ListenAddress& address() const { return address_; }
+  // Returns the port of the first TCP address, or 0 if it listens on Unix sockets only.
+  int port() const;
 
   // Makes `reopen` run at each SIGHUP, on the thread of ServeUntil. Call it before ServeUntil.
   void AtHangUp(std::function<void()> reopen) { reopen_.push_back(std::move(reopen)); }
@@ -49,18 +48,19 @@ class Server {
  private:
   Server(const Options& options, const Log& log);
   absl::Status Listen();
+  void LogAddresses(const std::string& event, const Endpoint& endpoint) const;
   void HangUp();
 
   const Options options_;
   const Log& log_;
-  ListenAddress address_;
   LocalSolver solver_;
   Admission admission_;
   Drain drain_;
   std::vector<std::function<void()>> reopen_;
   const Observer observer_;
   ImpactService service_;
-  std::unique_ptr<grpc::Server> server_;
+  std::unique_ptr<Endpoint> endpoint_;
+  std::unique_ptr<Reflection> reflection_;  // Absent unless the options ask for it.
 };
 
 }  // namespace ricochet::server

@@ -175,38 +175,6 @@ TEST(Server, CallIsOneLogLineThatParses) {
   EXPECT_EQ(record.fields().count("points"), 0U);
 }
 
-TEST(Server, ReflectionListsTheService) {
-  const ServerProcess server;
-  grpc::GenericStub stub(MakeChannel(server.address()));
-  grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + seconds(10));
-  grpc::CompletionQueue queue;
-  const auto wait = [&queue] {
-    void* tag = nullptr;
-    bool ok = false;
-    return queue.Next(&tag, &ok) && ok;
-  };
-  auto call = stub.PrepareCall(&context, "/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", &queue);
-  call->StartCall(nullptr);
-  ASSERT_TRUE(wait());
-  // These are the bytes of ServerReflectionRequest {list_services: "*"}, because Debian ships no generated code for it.
-  grpc::Slice request("\x3a\x01*");
-  call->WriteLast(grpc::ByteBuffer(&request, 1), grpc::WriteOptions(), nullptr);
-  ASSERT_TRUE(wait());
-  grpc::ByteBuffer response;
-  call->Read(&response, nullptr);
-  ASSERT_TRUE(wait());
-  grpc::Slice answer;
-  ASSERT_TRUE(response.DumpToSingleSlice(&answer).ok());
-  const std::string services(reinterpret_cast<const char*>(answer.begin()), answer.size());
-  EXPECT_THAT(services, HasSubstr("ricochet.v1.ImpactService"));
-  EXPECT_THAT(services, HasSubstr("grpc.health.v1.Health"));
-  context.TryCancel();
-  grpc::Status status;
-  call->Finish(&status, nullptr);
-  wait();
-}
-
 using HealthStatus = grpc::health::v1::HealthCheckResponse;
 
 HealthStatus::ServingStatus CheckHealth(const ServerProcess& server, const std::string& service) {

@@ -86,26 +86,42 @@ INSTANTIATE_TEST_SUITE_P(
         GoodCase{"Defaults", {}, [](Options&) {}},
         GoodCase{"Listen",
                  {.flags = {"--listen", "localhost:0"}},
-                 [](Options& o) { o.listen = {.host = "localhost", .port = 0}; }},
-        GoodCase{
-            "ListenIpv6", {.flags = {"--listen=[::1]:7"}}, [](Options& o) { o.listen = {.host = "::1", .port = 7}; }},
+                 [](Options& o) { o.listen = {{.host = "localhost", .port = 0, .path = ""}}; }},
+        GoodCase{"ListenIpv6",
+                 {.flags = {"--listen=[::1]:7"}},
+                 [](Options& o) { o.listen = {{.host = "::1", .port = 7, .path = ""}}; }},
         GoodCase{"OpenIfInsecure",
                  {.flags = {"--listen", "0.0.0.0:65535", "--insecure"}},
                  [](Options& o) {
-                   o.listen = {.host = "0.0.0.0", .port = 65535};
+                   o.listen = {{.host = "0.0.0.0", .port = 65535, .path = ""}};
                    o.insecure = true;
                  }},
         GoodCase{"InsecureByEnvironment",
                  {.flags = {"--listen", "[::]:1"}, .environment = {{"RICOCHETD_INSECURE", "1"}}},
                  [](Options& o) {
-                   o.listen = {.host = "::", .port = 1};
+                   o.listen = {{.host = "::", .port = 1, .path = ""}};
                    o.insecure = true;
                  }},
         GoodCase{"InsecureByFile",
                  {.file = "insecure = true\nlisten = \"ricochet.example:1\"\n"},
                  [](Options& o) {
-                   o.listen = {.host = "ricochet.example", .port = 1};
+                   o.listen = {{.host = "ricochet.example", .port = 1, .path = ""}};
                    o.insecure = true;
+                 }},
+        GoodCase{"Several",
+                 {.file = "listen = \"127.0.0.1:0,unix:/run/r.sock\"\nsocket-mode = 660\n"},
+                 [](Options& o) {
+                   o.listen = {{.host = "127.0.0.1", .port = 0, .path = ""}, {.host = "", .path = "/run/r.sock"}};
+                   o.socket_mode = 0660;
+                 }},
+        GoodCase{"Reflection",
+                 {.flags = {"--reflection", "unix:/run/r.sock"}},
+                 [](Options& o) { o.reflection = {{.host = "", .path = "/run/r.sock"}}; }},
+        GoodCase{"Connections",
+                 {.flags = {"--max-connections", "9", "--max-connections-per-peer", "8", "--transport-memory", "7"}},
+                 [](Options& o) {
+                   o.connections = {.in_all = 9, .per_peer = 8};
+                   o.transport_memory_mib = 7;
                  }},
         GoodCase{"PortFile", {.flags = {"--port-file", "/run/a b"}}, [](Options& o) { o.port_file = "/run/a b"; }},
         GoodCase{"ThreadsFollowCalls",
@@ -190,6 +206,24 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"NoHost", {.flags = {"--listen", ":1"}}, {"--listen = :1: must be HOST:PORT"}},
         BadCase{"BareIpv6", {.flags = {"--listen", "::1:1"}}, {"--listen = ::1:1: must", "in brackets"}},
         BadCase{"NotIpv6", {.flags = {"--listen", "[1]:1"}}, {"--listen = [1]:1: must"}},
+        BadCase{
+            "OneOfSeveral", {.flags = {"--listen", "localhost:1,,"}}, {"--listen = localhost:1,,: must be HOST:PORT"}},
+        BadCase{
+            "UnixWithoutPath", {.flags = {"--listen", "unix:"}}, {"--listen = unix:: must be HOST:PORT", "unix:PATH"}},
+        BadCase{
+            "SocketMode", {.flags = {"--socket-mode", "0668"}}, {"--socket-mode = 0668: must be permissions in octal"}},
+        BadCase{"PortOfAUnixSocket",
+                {.flags = {"--listen", "unix:/run/r.sock", "--port-file", "/run/port"}},
+                {"--port-file = /run/port: needs HOST:PORT in --listen"}},
+        BadCase{"SecondIsOpen",
+                {.flags = {"--listen", "127.0.0.1:1,0.0.0.0:1"}},
+                {"--listen = 0.0.0.0:1: must be a loopback address"}},
+        BadCase{"ReflectionIsOpen",
+                {.flags = {"--reflection", "0.0.0.0:1"}},
+                {"--reflection = 0.0.0.0:1: must be a loopback address"}},
+        BadCase{"NoConnections",
+                {.flags = {"--max-connections", "0"}},
+                {"--max-connections = 0: must be an integer from 1 to 1000000"}},
         BadCase{"OpenButNotInsecure",
                 {.flags = {"--listen", "0.0.0.0:1"}},
                 {"--listen = 0.0.0.0:1: must be a loopback address", "--insecure"}},
@@ -234,7 +268,8 @@ TEST(Options, HelpNamesEveryOption) {
   const auto parsed = Parse("", {.flags = {"--help"}});
   ASSERT_TRUE(parsed.ok() && std::holds_alternative<Notice>(*parsed));
   for (const char* option :
-       {"--config", "--listen", "--port-file", "--insecure", "--max-live-calls", "--max-threads",
+       {"--config", "--listen", "--port-file", "--insecure", "--socket-mode", "--reflection", "--max-connections",
+        "--max-connections-per-peer", "--transport-memory", "--max-live-calls", "--max-threads",
         "--max-points-per-sweep", "--drain-grace", "--drain-timeout", "--log-format", "--log-level", "--version"}) {
     EXPECT_THAT(std::get<Notice>(*parsed).text, HasSubstr(option));
   }

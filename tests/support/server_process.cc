@@ -71,9 +71,10 @@ bool WaitUntil(std::chrono::seconds time, Condition condition) {
 
 std::vector<std::string> ServerCommand(const std::vector<std::string>& arguments,
                                        const std::filesystem::path& port_file) {
-  std::vector<std::string> command = {RICOCHETD_PATH, "--listen", "127.0.0.1:0", "--port-file", port_file};
+  std::vector<std::string> command = {RICOCHETD_PATH, "--port-file", port_file};
   // An idle client does not notice the drain at once, and a test need not wait for it.
-  const std::pair<std::string, std::string> defaults[] = {{"--drain-grace", "0"}, {"--drain-timeout", "1"}};
+  const std::pair<std::string, std::string> defaults[] = {
+      {"--listen", "127.0.0.1:0"}, {"--drain-grace", "0"}, {"--drain-timeout", "1"}};
   for (const auto& [flag, value] : defaults) {
     if (std::find(arguments.begin(), arguments.end(), flag) == arguments.end()) {
       command.insert(command.end(), {flag, value});
@@ -120,6 +121,8 @@ bool ChildProcess::running() {
 }
 
 std::string ChildProcess::output() const { return ReadFile(directory_ / "output"); }
+
+std::string ServerPath() { return RICOCHETD_PATH; }
 
 ServerProcess::ServerProcess(const std::vector<std::string>& arguments)
     : port_file_(MakeDirectory() / "port"), process_(ServerCommand(arguments, port_file_)) {

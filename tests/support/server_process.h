@@ -38,10 +38,13 @@ class ChildProcess {
   int exit_status_ = 0;
 };
 
+// Returns the path of the ricochetd that the tests run.
+std::string ServerPath();
+
 class ServerProcess {
  public:
-  // Starts ricochetd with `arguments` besides --listen and --port-file, and waits until it takes calls. The drain
-  // grace is 0 and the drain timeout 1 s unless `arguments` set them.
+  // Starts ricochetd with `arguments` besides --port-file, and waits until it takes calls. Unless `arguments` set them, it
+  // listens on a free port of 127.0.0.1, the drain grace is 0 and the drain timeout 1 s.
   // Throws std::runtime_error with the log if ricochetd does not start within 20 s.
   explicit ServerProcess(const std::vector<std::string>& arguments = {});
 

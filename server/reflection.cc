@@ -1,0 +1,33 @@
+#include "server/reflection.h"
+
+#include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/health_check_service_interface.h>
+#include <grpcpp/server_builder.h>
+
+#include <utility>
+
+#include "server/transport.h"
+
+namespace ricochet::server {
+namespace {
+
+constexpr TransportLimits kLimits = {.max_threads = 16, .memory_bytes = 16 << 20};
+constexpr ConnectionLimits kConnections = {.in_all = 64, .per_peer = 32};
+
+}  // namespace
+
+absl::StatusOr<std::unique_ptr<Reflection>> Reflection::Open(Endpoint::Settings settings, const Log& log) {
+  std::unique_ptr<Reflection> reflection(new Reflection());
+  // Keeps the library linked whose start-up code adds reflection to every server that does not leave it out.
+  grpc::reflection::InitProtoReflectionServerBuilderPlugin();
+  grpc::ServerBuilder builder;
+  SetTransport(kLimits, builder);
+  builder.RegisterService(&reflection->described_);
+  settings.connections = kConnections;
+  absl::StatusOr<std::unique_ptr<Endpoint>> endpoint = Endpoint::Open(settings, builder, log);
+  if (!endpoint.ok()) return endpoint.status();
+  reflection->endpoint_ = *std::move(endpoint);
+  return reflection;
+}
+
+}  // namespace ricochet::server

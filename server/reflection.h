@@ -1,0 +1,36 @@
+// Reflection: describes the service to clients that have no proto files, at an address of its own.
+//
+// An open reflection stream holds a thread for as long as its client likes. On the address of the service, a few hundred
+// idle streams would take every thread from the calls; here they can harm nothing but reflection.
+
+#ifndef RICOCHET_SERVER_REFLECTION_H_
+#define RICOCHET_SERVER_REFLECTION_H_
+
+#include <memory>
+
+#include "absl/status/statusor.h"
+#include "ricochet/v1/impact_service.grpc.pb.h"
+#include "server/endpoint.h"
+
+namespace ricochet::server {
+
+class Reflection {
+ public:
+  // Opens the endpoint, within small limits of its own in place of those of `settings`. It serves reflection and health;
+  // the methods of ricochet.v1.ImpactService are described, but a call of one gets UNIMPLEMENTED. `log` must outlive the
+  // object.
+  // Errors: UNAVAILABLE if it cannot listen.
+  static absl::StatusOr<std::unique_ptr<Reflection>> Open(Endpoint::Settings settings, const Log& log);
+
+  Endpoint& endpoint() { return *endpoint_; }
+
+ private:
+  Reflection() = default;
+
+  v1::ImpactService::Service described_;
+  std::unique_ptr<Endpoint> endpoint_;
+};
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_SERVER_REFLECTION_H_

@@ -1,0 +1,26 @@
+// Transport: the limits and times that gRPC keeps for connections, messages and headers.
+
+#ifndef RICOCHET_SERVER_TRANSPORT_H_
+#define RICOCHET_SERVER_TRANSPORT_H_
+
+#include <grpcpp/server_builder.h>
+
+#include <cstdint>
+
+namespace ricochet::server {
+
+struct TransportLimits {
+  int max_threads = 288;                      // Threads that serve calls and wait for them; at least 2.
+  int64_t memory_bytes = int64_t{256} << 20;  // For buffers of messages in all connections together; at least 1 MiB.
+};
+
+// Sets the limits, keepalive and the ages at which connections end. Compression is off: a message of 1 MB could unfold
+// into a gigabyte before its size is known.
+void SetTransport(const TransportLimits& limits, grpc::ServerBuilder& builder);
+
+// Leaves the reflection service out, which gRPC otherwise adds to every server of the process.
+void LeaveReflectionOut(grpc::ServerBuilder& builder);
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_SERVER_TRANSPORT_H_
