@@ -105,6 +105,9 @@ class Loader {
   const double *inertia_, *a_, *b_, *omega_, *mu_, *mu_static_, *coefficient_;
 };
 
+// These parts take a division or a root each.
+inline constexpr unsigned kDearParts = kPartOneMinusKappa | kPartEta;
+
 HWY_INLINE V Number(Regime regime) { return VLanes::Fill(static_cast<double>(regime)); }
 
 // No problem separates.
@@ -186,31 +189,66 @@ class Storer {
   std::array<std::array<double, ProblemColumns::kMostLanes>, kOutputCount> own_;
 };
 
-// Solves each problem plainly, and returns whether all are proved.
-// The law is a constant, because telling the laws apart costs as much as a law.
-template <RestitutionLaw kLaw>
+// RelativeError is within the tolerance if kappa is at most this number, which is rounded down.
+double MostKappa(double tolerance) { return (tolerance - kErrorOfOne) / kErrorOfKappa * (1.0 - 0x1p-40); }
+
+// True where a problem rebounds, keeps all limits and is proved with room to spare, as most problems of a sweep are. This takes
+// a third of the operations that tell the other problems apart.
+template <typename N>
+HWY_INLINE Mask AreUsual(RestitutionLaw law, const Inputs<N, Mask>& in, const Solution<N, Mask>& x, V most_kappa) {
+  const V zero = VLanes::Fill(0.0);
+  const Mask rebounds = zero < Smaller(Smaller(Rounded(x.margin), Rounded(x.d)), Rounded(x.q));
+  const bool is_exact = law == RestitutionLaw::kEnergetic;
+  V to_limit = Rounded(x.one_minus_eta_squared);
+  if (law == RestitutionLaw::kPoisson) to_limit = Smaller(to_limit, Rounded(x.one_minus_kappa_hat));
+  const Mask keeps_limits = VLanes::Fill(is_exact ? 0.0 : kLeastSure) <= to_limit;
+  return Both(Both(rebounds, keeps_limits), Both(Rounded(x.kappa) <= most_kappa, IsModerate(in)));
+}
+
+// Solves each problem plainly, and returns whether all are proved. The law and the parts are constants, because telling them
+// apart takes as long as computing them.
+template <RestitutionLaw kLaw, unsigned kParts>
 HWY_INLINE bool SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
   using N = Plain<V>;
-  const unsigned parts = block.parts;
+  const unsigned parts = kParts | (block.parts & kDearParts);
   const Loader loader(block);
   Storer storer(block);
+  const V most_kappa = VLanes::Fill(MostKappa(tolerance));
   Mask all = VLanes::Fill(0.0) == VLanes::Fill(0.0);
+  bool all_usual = true;
   const size_t last = storer.Last();
   for (size_t i = 0;; i = std::min(i + VLanes::Count(), last)) {
     const auto in = loader.Load<N>(i);
     Solution<N, Mask> x;
-    SolveParts(kLaw, in, parts, x);
-    const Mask is_right = Both(SignsAreProved(kLaw, x), RelativeError(x) <= VLanes::Fill(tolerance));
-    const Mask is_proved = Both(IsModerate(in), is_right);
-    all = Both(all, is_proved);
-    const V verdict = VerdictsOf(x);
-    VLanes::Store(Select(is_proved, verdict, verdict + VLanes::Fill(kUnproved)), verdicts.data() + i);
+    SolveUnlocked(kLaw, in, parts, x);
+    if (!InAllLanes(AreUsual(kLaw, in, x, most_kappa))) [[unlikely]] {
+      if (all_usual) verdicts.fill(static_cast<double>(Regime::kRebound));
+      all_usual = false;
+      OverrideLocked(x);
+      const Mask is_right = Both(SignsAreProved(kLaw, x), RelativeError(x) <= VLanes::Fill(tolerance));
+      const Mask is_proved = Both(IsModerate(in), is_right);
+      const V verdict = VerdictsOf(x);
+      VLanes::Store(Select(is_proved, verdict, verdict + VLanes::Fill(kUnproved)), verdicts.data() + i);
+      all = Both(all, is_proved);
+    }
     storer.Store(i, x);
     if (i == last) break;
   }
   storer.End();
-  StoreVerdicts(block, verdicts);
+  if (all_usual) {
+    std::fill_n(block.solved.regimes.data() + block.place, block.size, Regime::kRebound);
+    std::fill_n(block.solved.inadmissible.data() + block.place, block.size, false);
+  } else {
+    StoreVerdicts(block, verdicts);
+  }
   return InAllLanes(all);
+}
+
+template <RestitutionLaw kLaw>
+bool SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
+  constexpr unsigned kFew = kPartKappa | kPartKappaHat;
+  if ((block.parts & ~kFew) == 0) return SolvePlainBlockOf<kLaw, kFew>(block, tolerance, verdicts);
+  return SolvePlainBlockOf<kLaw, kPartAll & ~kDearParts>(block, tolerance, verdicts);
 }
 
 bool SolvePlainBlock(const Block& block, double tolerance, Verdicts& verdicts) {

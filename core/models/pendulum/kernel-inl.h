@@ -41,6 +41,7 @@ template <typename N, typename Mask>
 struct Solution {
   N inertia, a, b, mu, omega;
   N q, s, d;  // mu |b|, a + q, a - q
+  N margin;   // a - mu_s |b|
   Mask locked;
   N inverse_s, inverse_d;  // inverse_d has no meaning if locked
   N kappa, kappa_hat, eta, eta_squared;
@@ -163,8 +164,8 @@ HWY_INLINE void SolveGeometry(const Inputs<N, Mask>& in, Solution<N, Mask>& x) {
   x.q = x.mu * x.b;
   x.s = AddProduct(x.a, x.mu, x.b);
   x.d = SubtractProduct(x.a, x.mu, x.b);
-  const N margin = SubtractProduct(x.a, in.mu_static, x.b);
-  x.locked = Not(IsPositive(margin));
+  x.margin = SubtractProduct(x.a, in.mu_static, x.b);
+  x.locked = Not(IsPositive(x.margin));
 }
 
 // Sets all quantities to 0, so that those that `parts` leaves out are 0.
@@ -184,9 +185,10 @@ HWY_INLINE void ClearParts(Solution<N, Mask>& x) {
   x.half_omega_tau0 = zero;
 }
 
-// Computes all quantities that `parts` names. The problems must not separate.
+// Computes all quantities that `parts` names. If a problem locks, they have no meaning until OverrideLocked sets them. The
+// problems must not separate.
 template <typename N, typename Mask>
-HWY_INLINE void SolveParts(RestitutionLaw law, const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
+HWY_INLINE void SolveUnlocked(RestitutionLaw law, const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
   ClearParts(x);
   SolveGeometry(in, x);
   InvertBoth(x.s, x.d, x.inverse_s, x.inverse_d);
@@ -203,6 +205,11 @@ HWY_INLINE void SolveParts(RestitutionLaw law, const Inputs<N, Mask>& in, unsign
       SolveEnergetic(in, parts, x);
       break;
   }
+}
+
+template <typename N, typename Mask>
+HWY_INLINE void SolveParts(RestitutionLaw law, const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
+  SolveUnlocked(law, in, parts, x);
   OverrideLocked(x);
 }
 

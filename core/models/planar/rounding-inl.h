@@ -50,6 +50,10 @@ HWY_INLINE M Larger(const M& x, const M& y) {
   return Select(IsNegative(x - y), y, x);
 }
 
+HWY_INLINE Plain<double> Larger(const Plain<double>& x, const Plain<double>& y) {
+  return Plain<double>(ricochet::HWY_NAMESPACE::Larger(x.value, y.value));
+}
+
 // Errors at the end of an impact.
 template <typename M>
 struct EndErrors {
