@@ -6,9 +6,17 @@
 
 #include "tests/support/claims.h"
 
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
+#include <future>
 #include <string>
+#include <thread>
+#include <utility>
+#include <vector>
 
 #include "tests/support/compliant_claims.h"
 #include "tests/support/finite_duration_claims.h"
@@ -22,21 +30,16 @@ namespace {
 
 constexpr uint64_t kSeed = 77;
 
-// The table, row by row.
-class Table {
- public:
-  Table() { PrintClaimsHeader(); }
-
-  void Add(const std::string& method, const std::string& scenes, const ClaimTally& tally) {
-    PrintClaims(method, scenes, tally);
-    std::fflush(stdout);
-    deceived_ += tally.deceived();
-  }
-  int deceived() const { return deceived_; }
-
- private:
-  int deceived_ = 0;
+// One row of the table.
+struct Row {
+  std::string method;
+  std::string scenes;
+  ClaimTally tally;
 };
+
+// The rows whose scenes are solved together. They do not depend on any other rows.
+using Job = std::function<std::vector<Row>()>;
+using Jobs = std::vector<Job>;
 
 // Calls `add` for typical and for hard scenes.
 template <typename Add>
@@ -45,79 +48,117 @@ void ForBothKinds(const Add& add) {
   add("hard", true);
 }
 
-void AddPendulum(int count, Table& table) {
+void AddPendulum(int count, Jobs& jobs) {
   ForBothKinds([&](const char* scenes, bool hard) {
-    table.Add("pendulum, plain", scenes, pendulum::PlainClaims(hard, count, kSeed));
-    table.Add("pendulum, compensated", scenes, pendulum::CompensatedClaims(hard, count, kSeed));
-    const first_order::Claims claims = first_order::ClaimsOf(hard, count, kSeed);
-    table.Add("first order, velocity", scenes, claims.velocity);
-    table.Add("first order, impulse", scenes, claims.impulse);
+    jobs.push_back([=] {
+      return std::vector<Row>{{"pendulum, plain", scenes, pendulum::PlainClaims(hard, count, kSeed)},
+                              {"pendulum, compensated", scenes, pendulum::CompensatedClaims(hard, count, kSeed)}};
+    });
+    jobs.push_back([=] {
+      const first_order::Claims claims = first_order::ClaimsOf(hard, count, kSeed);
+      return std::vector<Row>{{"first order, velocity", scenes, claims.velocity},
+                              {"first order, impulse", scenes, claims.impulse}};
+    });
   });
 }
 
-void AddPlanar(int count, Table& table) {
+void AddPlanar(int count, Jobs& jobs) {
   ForBothKinds([&](const char* scenes, bool hard) {
-    const planar::Claims plain = planar::ClaimsOf(planar::SolvePlain, hard, count, kSeed);
-    table.Add("planar plain, velocity", scenes, plain.velocity);
-    table.Add("planar plain, impulse", scenes, plain.impulse);
-    table.Add("planar plain, work", scenes, plain.work);
-    const planar::Claims compensated = planar::ClaimsOf(planar::InDoubleDouble, hard, count, kSeed);
-    table.Add("planar comp., velocity", scenes, compensated.velocity);
-    table.Add("planar comp., impulse", scenes, compensated.impulse);
-    table.Add("planar comp., work", scenes, compensated.work);
+    const auto add = [&](const std::string& method, planar::PlainImpact (*solve)(const planar::Problem&)) {
+      jobs.push_back([=] {
+        const planar::Claims claims = planar::ClaimsOf(solve, hard, count, kSeed);
+        return std::vector<Row>{{method + ", velocity", scenes, claims.velocity},
+                                {method + ", impulse", scenes, claims.impulse},
+                                {method + ", work", scenes, claims.work}};
+      });
+    };
+    add("planar plain", planar::SolvePlain);
+    add("planar comp.", planar::InDoubleDouble);
   });
 }
 
 template <size_t kTangential>
-void AddSliding(const std::string& where, int count, Table& table) {
+void AddSliding(const std::string& where, int count, Jobs& jobs) {
   ForBothKinds([&](const char* scenes, bool hard) {
-    const sliding::Claims sliding = sliding::ClaimsOf<kTangential>(/*friction=*/true, hard, count, kSeed);
-    table.Add("sliding, velocity" + where, scenes, sliding.velocity);
-    table.Add("sliding, impulse" + where, scenes, sliding.impulse);
-    const sliding::Claims smooth = sliding::ClaimsOf<kTangential>(/*friction=*/false, hard, count, kSeed);
-    table.Add("smooth, velocity" + where, scenes, smooth.velocity);
-    table.Add("smooth, impulse" + where, scenes, smooth.impulse);
+    for (const bool friction : {true, false}) {
+      const std::string method = friction ? "sliding" : "smooth";
+      jobs.push_back([=] {
+        const sliding::Claims claims = sliding::ClaimsOf<kTangential>(friction, hard, count, kSeed);
+        return std::vector<Row>{{method + ", velocity" + where, scenes, claims.velocity},
+                                {method + ", impulse" + where, scenes, claims.impulse}};
+      });
+    }
   });
 }
 
-void AddSpatial(int count, Table& table) {
+void AddSpatial(int count, Jobs& jobs) {
   for (const double tolerance : spatial::kClaimTolerances) {
     ForBothKinds([&](const char* scenes, bool hard) {
-      table.Add("space", scenes, spatial::SpatialClaims(hard, tolerance, count, kSeed));
+      jobs.push_back([=] {
+        return std::vector<Row>{{"space", scenes, spatial::SpatialClaims(hard, tolerance, count, kSeed)}};
+      });
     });
   }
 }
 
-void AddCompliant(int count, Table& table) {
-  ForBothKinds(
-      [&](const char* scenes, bool hard) { table.Add("compliant", scenes, compliant::ClaimsOf(hard, count, kSeed)); });
+void AddCompliant(int count, Jobs& jobs) {
+  ForBothKinds([&](const char* scenes, bool hard) {
+    jobs.push_back([=] { return std::vector<Row>{{"compliant", scenes, compliant::ClaimsOf(hard, count, kSeed)}}; });
+  });
 }
 
-void AddFiniteDuration(int count, Table& table) {
+void AddFiniteDuration(int count, Jobs& jobs) {
   using finite_duration::ClaimKind;
   constexpr std::pair<const char*, ClaimKind> kKinds[] = {
       {"linear", ClaimKind::kLinear}, {"Hertz", ClaimKind::kHertz}, {"compliant", ClaimKind::kCompliant}};
   for (const auto& [name, kind] : kKinds) {
+    const std::string method = std::string("duration, ") + name;
     for (const double tolerance : finite_duration::kClaimTolerances) {
-      ForBothKinds([&](const char* scenes, bool hard) {
-        table.Add(std::string("duration, ") + name, scenes,
-                  finite_duration::ClaimsOf(kind, hard, tolerance, count, kSeed));
+      ForBothKinds([&, kind = kind](const char* scenes, bool hard) {
+        jobs.push_back([=] {
+          return std::vector<Row>{{method, scenes, finite_duration::ClaimsOf(kind, hard, tolerance, count, kSeed)}};
+        });
       });
     }
   }
 }
 
+// Does the jobs on all cores and prints their rows in order, each as soon as those before it are known. Returns how many
+// claims deceived. Each job draws its own scenes, so that no number depends on the cores.
+int PrintTable(const Jobs& jobs) {
+  std::vector<std::packaged_task<std::vector<Row>()>> tasks(jobs.begin(), jobs.end());
+  std::atomic<size_t> next = 0;
+  const auto work = [&] {
+    for (size_t i = next++; i < tasks.size(); i = next++) tasks[i]();
+  };
+  std::vector<std::future<std::vector<Row>>> results;
+  for (auto& task : tasks) results.push_back(task.get_future());
+  std::vector<std::jthread> workers;
+  for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i) workers.emplace_back(work);
+  int deceived = 0;
+  PrintClaimsHeader();
+  for (std::future<std::vector<Row>>& result : results) {
+    for (const Row& row : result.get()) {
+      PrintClaims(row.method, row.scenes, row.tally);
+      deceived += row.tally.deceived();
+    }
+    std::fflush(stdout);
+  }
+  return deceived;
+}
+
 int Run(int count) {
-  Table table;
-  AddPendulum(count, table);
-  AddPlanar(count, table);
-  AddSliding<1>(" (2D)", count, table);
-  AddSliding<2>(" (3D)", count, table);
-  AddSpatial(count, table);
-  AddCompliant(count, table);
-  AddFiniteDuration(count, table);
-  std::printf("%d claims deceived\n", table.deceived());
-  return table.deceived() == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+  Jobs jobs;
+  AddPendulum(count, jobs);
+  AddPlanar(count, jobs);
+  AddSliding<1>(" (2D)", count, jobs);
+  AddSliding<2>(" (3D)", count, jobs);
+  AddSpatial(count, jobs);
+  AddCompliant(count, jobs);
+  AddFiniteDuration(count, jobs);
+  const int deceived = PrintTable(jobs);
+  std::printf("%d claims deceived\n", deceived);
+  return deceived == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace
