@@ -40,7 +40,8 @@ Call::Call(const char* method, grpc::ServerContext& context, Admission& admissio
   record_.user_agent = Metadata(context, "user-agent");
   record_.request_id = RequestIdOr(Metadata(context, kRequestIdHeader));
   record_.trace_id = TraceId(Metadata(context, "traceparent"));
-  context.AddInitialMetadata(kRequestIdHeader, record_.request_id);
+  // Trailing metadata, because a client repeats only a call that was refused without initial metadata.
+  context.AddTrailingMetadata(kRequestIdHeader, record_.request_id);
 }
 
 Call::~Call() {

@@ -9,7 +9,7 @@
 
 namespace ricochet::server {
 
-// The metadata in which a caller may send an id, and in which the server always answers with the one it uses.
+// The metadata in which a caller may send an id. The trailing metadata of every answer hold the one that was used.
 inline constexpr char kRequestIdHeader[] = "x-request-id";
 
 // Returns `sent` if it is an id: 1 to 128 printable ASCII characters other than space, quotes and backslash. Otherwise
