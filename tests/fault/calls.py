@@ -16,11 +16,10 @@ def pb():
     return impact_service_pb2
 
 
-def channel(address, *options):
-    """A connection of its own: channels of one process otherwise share them."""
-    return grpc.insecure_channel(address, options=[
-        ("grpc.use_local_subchannel_pool", 1), ("grpc.max_receive_message_length", -1), ("grpc.enable_retries", 0),
-        *options])
+def channel(address, **more):
+    """A connection of its own: channels of one process otherwise share them. `more` are arguments of gRPC, without "grpc."."""
+    arguments = {"use_local_subchannel_pool": 1, "max_receive_message_length": -1, "enable_retries": 0, **more}
+    return grpc.insecure_channel(address, options=[("grpc." + name, value) for name, value in arguments.items()])
 
 
 def stub(on):

@@ -280,7 +280,10 @@ def cpu_until_idle(process, most_cpu_s, most_s=60):
 
 
 def in_threads(functions):
-    """Runs functions at once and returns their results in order; raises what one of them raised."""
+    """Runs functions at once and returns their results in order; raises what one of them raised.
+
+    The first one runs in the calling thread, and only it may start servers: a server dies with the thread that started it.
+    """
     results = [None] * len(functions)
     errors = []
 
@@ -290,9 +293,10 @@ def in_threads(functions):
         except Exception as error:  # pylint: disable=broad-except  # Re-raised below.
             errors.append(error)
 
-    threads = [threading.Thread(target=run, args=pair, daemon=True) for pair in enumerate(functions)]
+    threads = [threading.Thread(target=run, args=pair, daemon=True) for pair in enumerate(functions) if pair[0] > 0]
     for thread in threads:
         thread.start()
+    run(0, functions[0])
     for thread in threads:
         thread.join()
     if errors:

@@ -27,6 +27,7 @@ def message(body, compressed=False, declared=None):
 class Stream:
     def __init__(self):
         self.headers = {}
+        self.credit = None  # Bytes of DATA that the server takes; None until it is first asked for.
         self.data = b""
         self.bytes = 0
         self.reset = None
@@ -57,6 +58,8 @@ class RawConnection:
         self.received = b""
         self.streams = {}
         self.next_stream = 1
+        self.credit_left = 65535
+        self.first_credit = 65535
         self.goaway = False
         self.closed = False
         self.pings = 0
@@ -108,12 +111,33 @@ class RawConnection:
         credit = struct.pack(">I", size)
         return self.send(b"".join(frame(WINDOW_UPDATE, 0, number, credit) for number in {0, stream}))
 
+    def send_data(self, number, chunks, seconds=60):
+        """Sends pieces of at most 16 KiB on a stream as fast as the server gives credit; returns the bytes sent."""
+        stream = self.streams[number]
+        sent = 0
+        deadline = time.monotonic() + seconds
+        for chunk in chunks:
+            def may_send(size=len(chunk)):
+                if stream.credit is None:
+                    stream.credit = self.first_credit
+                return min(stream.credit, self.credit_left) >= size
+
+            self.read(0)
+            while not may_send() and not stream.over() and not self.closed and time.monotonic() < deadline:
+                self.read(1, may_send)
+            if stream.over() or not may_send() or not self.send(frame(DATA, 0, number, chunk)):
+                break
+            stream.credit -= len(chunk)
+            self.credit_left -= len(chunk)
+            sent += len(chunk)
+        return sent
+
     def read(self, seconds, until=lambda: False):
         """Handles what the server sends until the condition holds, the time is over or the connection ends."""
         deadline = time.monotonic() + seconds
         while not self.closed and not until():
-            left = deadline - time.monotonic()
-            if left <= 0 or not select.select([self.socket], [], [], left)[0]:
+            left = max(0.0, deadline - time.monotonic())
+            if not select.select([self.socket], [], [], left)[0]:
                 break
             try:
                 data = self.socket.recv(1 << 18)
@@ -149,12 +173,26 @@ class RawConnection:
         stream = self.streams.get(number)
         if kind == SETTINGS and not flags & ACK:
             self.settings += 1
+            for kind_of, value in struct.iter_unpack(">HI", payload):
+                if kind_of == INITIAL_WINDOW_SIZE:
+                    for other in self.streams.values():
+                        if other.credit is not None:
+                            other.credit += value - self.first_credit
+                    self.first_credit = value
             if self.acknowledge:
                 self.send(frame(SETTINGS, ACK, 0))
         elif kind == PING and not flags & ACK:
             self.pings += 1
             if self.pong:
                 self.send(frame(PING, ACK, 0, payload))
+        elif kind == WINDOW_UPDATE:
+            size = int.from_bytes(payload, "big")
+            if number == 0:
+                self.credit_left += size
+            elif stream and stream.credit is not None:
+                stream.credit += size
+            elif stream:
+                stream.credit = self.first_credit + size
         elif kind == GOAWAY:
             self.goaway = True
         elif kind == RST_STREAM and stream:

@@ -122,24 +122,24 @@ class Sweeps:
             line.close()
 
 
-@check("Solves beside sweeps", "p99 of Solves beside 8 sweeps is at most 25 times p99 alone and 20 ms, and no sweep gets more "
-       "than 4 times another's points", kind="load")
+@check("Solves beside sweeps", "p99 of Solves beside 8 sweeps (p90 in the short run) is at most 25 times that alone and 20 ms, "
+       "and no sweep gets more than 4 times another's points", kind="load")
 def beside_sweeps():
-    seconds = 20 if tools().soak else 3
+    seconds, part = (20, 0.99) if tools().soak else (3, 0.9)
     with serve() as server:
-        alone = percentile(open_loop(server, 100, seconds), 0.99)
+        alone = percentile(open_loop(server, 100, seconds), part)
         sweeps = Sweeps(server, 8)
         try:
             time.sleep(0.5)
             before = list(sweeps.points)
-            beside = percentile(open_loop(server, 100, seconds), 0.99)
+            beside = percentile(open_loop(server, 100, seconds), part)
             shares = [after - first for after, first in zip(sweeps.points, before)]
         finally:
             sweeps.close()
         require(not sweeps.errors, f"sweeps ended with {sweeps.errors}")
         require(min(shares) > 0 and max(shares) <= 4 * min(shares), f"points of the sweeps: {shares}")
-        require(beside <= 25 * max(alone, 0.02), f"p99 alone {alone:.4f} s, beside 8 sweeps {beside:.4f} s")
-        return {"p99 alone s": alone, "p99 beside s": beside, "points, most over least": max(shares) / min(shares)}
+        require(beside <= 25 * max(alone, 0.02), f"alone {alone:.4f} s, beside 8 sweeps {beside:.4f} s")
+        return {"alone s": alone, "beside s": beside, "points, most over least": max(shares) / min(shares)}
 
 
 @check("idle clients", "2000 idle connections take at most 40 KiB each, and others are served", kind="load", soak=True)
