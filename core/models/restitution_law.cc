@@ -14,4 +14,16 @@ StatedRestitution StatedBy(const Restitution& restitution) {
   return std::visit(Reader(), restitution);
 }
 
+Restitution RestitutionOf(RestitutionLaw law, double coefficient) {
+  switch (law) {
+    case RestitutionLaw::kNewton:
+      return NewtonCoefficient{coefficient};
+    case RestitutionLaw::kPoisson:
+      return PoissonCoefficient{coefficient};
+    case RestitutionLaw::kEnergetic:
+      break;
+  }
+  return EnergeticCoefficient{coefficient};
+}
+
 }  // namespace ricochet

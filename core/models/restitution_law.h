@@ -23,6 +23,9 @@ struct StatedRestitution {
 // Bounds allow a restitution that is not set; it counts as energetic with the coefficient 0.
 StatedRestitution StatedBy(const Restitution& restitution);
 
+// The restitution that states this law and coefficient.
+Restitution RestitutionOf(RestitutionLaw law, double coefficient);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CORE_MODELS_RESTITUTION_LAW_H_

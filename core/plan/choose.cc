@@ -13,6 +13,7 @@
 #include "core/models/restitution_law.h"
 #include "core/models/sliding/sliding.h"
 #include "core/plan/perturbed_path.h"
+#include "core/plan/straight_problem.h"
 
 namespace ricochet {
 namespace {
@@ -144,22 +145,6 @@ double RemainingTolerance(const Choice& choice, const Demand& demand, double lea
 bool HasForces(const ContactPhysics& physics) {
   return (physics.tangential_acceleration != 0.0 || physics.normal_acceleration != 0.0) &&
          !std::holds_alternative<std::monostate>(physics.spring);
-}
-
-sliding::Problem<1> SlidingProblemOf(const planar::Problem& problem) {
-  return {.w = {problem.w.tt, problem.w.tn, problem.w.nn},
-          .u0 = {problem.u0},
-          .v0 = problem.v0,
-          .mu = problem.mu,
-          .coefficient = problem.coefficient};
-}
-
-sliding::Problem<2> SlidingProblemOf(const spatial::Problem& problem) {
-  return {.w = {problem.w11, problem.w12, problem.w13, problem.w22, problem.w23, problem.w33},
-          .u0 = problem.u0,
-          .v0 = problem.v0,
-          .mu = problem.mu,
-          .coefficient = problem.coefficient};
 }
 
 bool StraightPathServes(const planar::Problem& problem) {

@@ -8,6 +8,7 @@
 #include "core/answer/scene_outcome.h"
 #include "core/plan/planned_scene.h"
 #include "core/problem/scene_problem.h"
+#include "core/study/contact_scene.h"
 #include "core/study/cost_families.h"
 
 namespace ricochet {
@@ -85,7 +86,7 @@ class PlanarStudy {
     AddPlanar(problem_, physics_, rigid, closed_form_.has_value() && Approaches() ? ReductionError(problem_) : 0.0,
               methods);
     if (!Approaches()) return;
-    AddCertified(closed_form_.has_value() ? SceneOf(*closed_form_) : SceneOf(problem_), study_.speed,
+    AddCertified(closed_form_.has_value() ? SceneOf(*closed_form_) : CertifiableScene(problem_), study_.speed,
                  NeglectedBy(Model::kPlanar, problem_, physics_), rigid, methods);
   }
 

@@ -11,6 +11,7 @@
 #include "core/models/pendulum/nearly_vertical_forms.h"
 #include "core/models/spatial/solver-inl.h"
 #include "core/study/certified_velocity.h"
+#include "core/study/contact_scene.h"
 
 namespace ricochet {
 namespace {
@@ -22,28 +23,6 @@ constexpr double kUlp = 0x1p-52;
 constexpr double kWide = 0x1p-96;
 
 Wide Exactly(double value) { return Wide::Exactly(value); }
-
-// A restitution of the law.
-Restitution RestitutionOf(RestitutionLaw law, double coefficient) {
-  switch (law) {
-    case RestitutionLaw::kNewton:
-      return NewtonCoefficient{coefficient};
-    case RestitutionLaw::kPoisson:
-      return PoissonCoefficient{coefficient};
-    case RestitutionLaw::kEnergetic:
-      break;
-  }
-  return EnergeticCoefficient{coefficient};
-}
-
-template <typename Problem>
-Scene SceneWith(const System& system, const Problem& problem) {
-  Scene scene;
-  scene.system = system;
-  scene.friction = {.kinetic_coefficient = problem.mu, .static_coefficient = problem.mu_static};
-  scene.restitution = RestitutionOf(problem.law, problem.coefficient);
-  return scene;
-}
 
 // The velocity of a contact of rank one, whose two components change by the same factor.
 ExactVelocity RankOne(const Wide& newton, const Wide& u0, const Wide& v0, double error, const std::string& source) {
@@ -111,22 +90,8 @@ ExactVelocity ExactlyThis(const Velocity3& velocity, double error, std::string s
           .source = std::move(source)};
 }
 
-Scene SceneOf(const pendulum::Problem& problem) {
-  return SceneWith(Pendulum{.inertia_kg_m2 = problem.inertia,
-                            .a_m = problem.a,
-                            .b_m = problem.b,
-                            .omega_minus_rad_s = problem.omega_minus},
-                   problem);
-}
-
-Scene SceneOf(const planar::Problem& problem) {
-  if (problem.w.Rank() == 1) return SceneOf(PendulumOf(problem));
-  return SceneWith(PlanarContact{.w_tt_per_kg = problem.w.tt,
-                                 .w_tn_per_kg = problem.w.tn,
-                                 .w_nn_per_kg = problem.w.nn,
-                                 .tangential_m_s = problem.u0,
-                                 .normal_m_s = problem.v0},
-                   problem);
+Scene CertifiableScene(const planar::Problem& problem) {
+  return problem.w.Rank() == 1 ? SceneOf(PendulumOf(problem)) : SceneOf(problem);
 }
 
 ExactVelocity ExactRigid(const pendulum::Problem& problem, Stopped stopped) {

@@ -40,9 +40,8 @@ ExactVelocity ExactlyThis(const Velocity3& velocity, double error, std::string s
 ExactVelocity ExactRigid(const pendulum::Problem& problem, Stopped stopped);
 ExactVelocity ExactRigid(const planar::Problem& problem, Stopped stopped);
 
-// The scene whose certificate gives these numbers.
-Scene SceneOf(const pendulum::Problem& problem);
-Scene SceneOf(const planar::Problem& problem);
+// The scene whose certificate gives the numbers of a contact: that of a pendulum if W has rank one.
+Scene CertifiableScene(const planar::Problem& problem);
 
 // Slip along u0 that is taken to go on to the end, and no friction at all.
 template <size_t kTangential>

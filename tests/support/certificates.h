@@ -1,4 +1,4 @@
-// Certificates as tests read them: numbers by path, digits as balls, problems as scenes.
+// Certificates as tests read them: numbers by path, digits as balls.
 
 #ifndef RICOCHET_TESTS_SUPPORT_CERTIFICATES_H_
 #define RICOCHET_TESTS_SUPPORT_CERTIFICATES_H_
@@ -7,11 +7,7 @@
 
 #include <string>
 
-#include "core/models/pendulum/pendulum.h"
-#include "core/models/planar/planar.h"
-#include "core/models/restitution_law.h"
 #include "ricochet/certificate.h"
-#include "ricochet/scene.h"
 #include "tests/support/arb.h"
 
 namespace ricochet {
@@ -48,30 +44,6 @@ inline bool Holds(const CertifiedNumber& set, const std::string& decimal) {
   if (!set.decimal.empty()) return Agree(set.decimal, decimal, 15);
   const bool above = set.lower == "-inf" || Digits(set.lower) <= Digits(decimal);
   return above && (set.upper == "inf" || Digits(decimal) <= Digits(set.upper));
-}
-
-inline Restitution RestitutionOf(RestitutionLaw law, double coefficient) {
-  switch (law) {
-    case RestitutionLaw::kNewton:
-      return NewtonCoefficient{coefficient};
-    case RestitutionLaw::kPoisson:
-      return PoissonCoefficient{coefficient};
-    case RestitutionLaw::kEnergetic:
-      break;
-  }
-  return EnergeticCoefficient{coefficient};
-}
-
-inline Scene SceneOf(const pendulum::Problem& p) {
-  return {.system = Pendulum{p.inertia, p.a, p.b, p.omega_minus},
-          .friction = {.kinetic_coefficient = p.mu, .static_coefficient = p.mu_static},
-          .restitution = RestitutionOf(p.law, p.coefficient)};
-}
-
-inline Scene SceneOf(const planar::Problem& p) {
-  return {.system = PlanarContact{p.w.tt, p.w.tn, p.w.nn, p.u0, p.v0},
-          .friction = {.kinetic_coefficient = p.mu, .static_coefficient = p.mu_static},
-          .restitution = RestitutionOf(p.law, p.coefficient)};
 }
 
 }  // namespace ricochet

@@ -69,21 +69,6 @@ inline double ChangeBetween(const spatial::Problem& problem, const Ending<2>& a,
   return ChangeBetween(a, b, problem.w11 + problem.w22, problem.w33, SpeedOf(problem));
 }
 
-inline sliding::Problem<1> LineOf(const planar::Problem& problem) {
-  return {.w = {problem.w.tt, problem.w.tn, problem.w.nn},
-          .u0 = {problem.u0},
-          .v0 = problem.v0,
-          .mu = problem.mu,
-          .coefficient = problem.coefficient};
-}
-inline sliding::Problem<2> LineOf(const spatial::Problem& problem) {
-  return {.w = {problem.w11, problem.w12, problem.w13, problem.w22, problem.w23, problem.w33},
-          .u0 = problem.u0,
-          .v0 = problem.v0,
-          .mu = problem.mu,
-          .coefficient = problem.coefficient};
-}
-
 // The problem without friction, or with the kinetic coefficient in place of the static one.
 template <typename Problem>
 Problem Smooth(Problem problem) {

@@ -12,6 +12,7 @@
 #include "core/models/sliding/sliding.h"
 #include "core/models/spatial/spatial.h"
 #include "core/plan/choose.h"
+#include "core/plan/straight_problem.h"
 #include "tests/support/impact_change.h"
 
 namespace ricochet {
@@ -38,9 +39,9 @@ inline Answer<1> PlannedAnswer(const Choice& choice, const planar::Problem& full
     case Model::kNone:
       return {.end = {.u1 = {full.u0}, .v1 = full.v0}};
     case Model::kFrictionless:
-      return {.end = EndingOf(sliding::SolveFrictionless(LineOf(problem)))};
+      return {.end = EndingOf(sliding::SolveFrictionless(SlidingProblemOf(problem)))};
     case Model::kSliding:
-      return {.end = EndingOf(sliding::Solve(LineOf(problem)))};
+      return {.end = EndingOf(sliding::Solve(SlidingProblemOf(problem)))};
     case Model::kPlanar:
       return {.end = EndingOf(planar::Solve(problem))};
     case Model::kCompliant:
@@ -55,7 +56,7 @@ inline Answer<1> PlannedAnswer(const Choice& choice, const pendulum::Problem& fu
   const pendulum::Problem problem = Without(choice, full);
   switch (choice.model) {
     case Model::kFrictionless:
-      return {.end = EndingOf(sliding::SolveFrictionless(LineOf(PlanarOf(problem))))};
+      return {.end = EndingOf(sliding::SolveFrictionless(SlidingProblemOf(PlanarOf(problem))))};
     case Model::kFirstOrder:
       return {.end = EndingOf(first_order::Solve(problem))};
     case Model::kPendulum:
@@ -70,9 +71,9 @@ inline Answer<2> PlannedAnswer(const Choice& choice, const spatial::Problem& ful
   spatial::Problem problem = Without(choice, full);
   switch (choice.model) {
     case Model::kFrictionless:
-      return {.end = EndingOf(sliding::SolveFrictionless(LineOf(problem)))};
+      return {.end = EndingOf(sliding::SolveFrictionless(SlidingProblemOf(problem)))};
     case Model::kSliding:
-      return {.end = EndingOf(sliding::Solve(LineOf(problem)))};
+      return {.end = EndingOf(sliding::Solve(SlidingProblemOf(problem)))};
     case Model::kSpatial: {
       problem.tolerance = choice.model_tolerance;
       const spatial::Impact impact = spatial::Solve(problem);

@@ -14,9 +14,9 @@
 
 #include "core/models/planar/planar.h"
 #include "core/models/sliding/sliding.h"
+#include "core/plan/straight_problem.h"
 #include "tests/support/arb.h"
 #include "tests/support/claims.h"
-#include "tests/support/impact_change.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/spatial_scenes.h"
 
@@ -33,7 +33,7 @@ template <>
 class ClaimScenes<1> {
  public:
   explicit ClaimScenes(uint64_t seed) : source_(seed) {}
-  Problem<1> Next(bool hard) { return LineOf(hard ? source_.Any() : source_.Everyday()); }
+  Problem<1> Next(bool hard) { return SlidingProblemOf(hard ? source_.Any() : source_.Everyday()); }
   double Uniform(double low, double high) { return source_.Uniform(low, high); }
 
  private:
@@ -44,7 +44,7 @@ template <>
 class ClaimScenes<2> {
  public:
   explicit ClaimScenes(uint64_t seed) : source_(seed) {}
-  Problem<2> Next(bool hard) { return LineOf(hard ? source_.NearSingular() : source_.Typical()); }
+  Problem<2> Next(bool hard) { return SlidingProblemOf(hard ? source_.NearSingular() : source_.Typical()); }
   double Uniform(double low, double high) { return source_.Uniform(low, high); }
 
  private:

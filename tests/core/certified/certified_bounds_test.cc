@@ -12,6 +12,7 @@
 #include "core/bounds/pendulum_bounds.h"
 #include "core/certified/certified.h"
 #include "core/models/restitution_law.h"
+#include "core/study/contact_scene.h"
 #include "ricochet/solver.h"
 #include "tests/support/certificates.h"
 #include "tests/support/pendulum_scenes.h"

@@ -16,6 +16,7 @@
 
 #include "core/answer/model_outcomes.h"
 #include "core/models/restitution_law.h"
+#include "core/study/contact_scene.h"
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/solver.h"
 #include "tests/support/certificates.h"

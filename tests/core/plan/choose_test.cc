@@ -13,6 +13,7 @@
 #include "core/models/restitution_law.h"
 #include "core/plan/explain.h"
 #include "core/plan/perturbed_path.h"
+#include "core/plan/straight_problem.h"
 #include "tests/support/plan_scenes.h"
 #include "tests/support/planned_answer.h"
 
@@ -156,7 +157,7 @@ TEST(ChooseTest, NoCheaperModelIsProvedToDo) {
     const Demand demand = {.relative_tolerance = SomeTolerance(scenes)};
     const Choice choice = ChoosePlanar(problem, physics, demand);
     const Sizes sizes = PlanarSizes(problem, physics);
-    const auto line = LineOf(problem);
+    const auto line = SlidingProblemOf(problem);
     const double smooth = sizes[Effect::kFriction].value + sliding::FrictionlessErrorsOf(line).Largest();
     const double straight = sizes[Effect::kSlipStop].value + sizes[Effect::kStaticFriction].value +
                             sizes[Effect::kTangentialCompliance].value;

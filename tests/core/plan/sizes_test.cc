@@ -13,6 +13,7 @@
 
 #include "core/models/pendulum/first_order.h"
 #include "core/models/sliding/sliding.h"
+#include "core/plan/straight_problem.h"
 #include "tests/support/impact_change.h"
 #include "tests/support/impact_tally.h"
 #include "tests/support/plan_scenes.h"
@@ -48,10 +49,11 @@ TEST(SizesTest, SlipThatStopsInAPlane) {
     const planar::Problem problem = scenes.Planar();
     const Size size = PlanarSizes(problem, {})[Effect::kSlipStop];
     if (problem.u0 == 0.0 || problem.mu == 0.0 || planar::SceneSource::IsRankOne(problem)) continue;
-    if (problem.coefficient > 1.0 || !(sliding::SlidingSlopes(LineOf(problem)).v > 1e-6 * problem.w.nn)) continue;
+    if (problem.coefficient > 1.0 || !(sliding::SlidingSlopes(SlidingProblemOf(problem)).v > 1e-6 * problem.w.nn))
+      continue;
     const auto with = EndingOf(planar::Solve(problem));
-    const auto without = EndingOf(sliding::Solve(LineOf(problem)));
-    const double noise = NoiseOf(problem, with) + sliding::ErrorsOf(LineOf(problem)).Largest();
+    const auto without = EndingOf(sliding::Solve(SlidingProblemOf(problem)));
+    const double noise = NoiseOf(problem, with) + sliding::ErrorsOf(SlidingProblemOf(problem)).Largest();
     tally.Add(size, ChangeBetween(problem, with, without), noise, scenes.Tolerance());
   }
   tally.Finish(1000);
@@ -125,7 +127,7 @@ TEST(SizesTest, SlipThatTurnsOrStopsInSpace) {
   ImpactTally tally("slip that turns and stops");
   for (int i = 0; i < kScenes / 4; ++i) {
     const spatial::Problem problem = scenes.Spatial();
-    const auto line = LineOf(problem);
+    const auto line = SlidingProblemOf(problem);
     if (!(sliding::SlidingSlopes(line).v > 1e-6 * problem.w33)) continue;
     const spatial::Impact with = spatial::Solve(problem);
     const Sizes sizes = SpatialSizes(problem);

@@ -16,8 +16,8 @@
 #include "core/answer/model_outcomes.h"
 #include "core/models/planar/planar.h"
 #include "core/models/spatial/spatial.h"
+#include "core/plan/straight_problem.h"
 #include "core/problem/scene_problem.h"
-#include "tests/support/impact_change.h"
 #include "tests/support/made_outcome.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/spatial_scenes.h"
@@ -74,7 +74,7 @@ TEST(SlidingTest, InAPlaneItIsTheExactImpactWithinItsBound) {
   Worst worst;
   for (int i = 0; i < kScenes; ++i) {
     const planar::Problem p = AnySliding(source);
-    const Problem<1> problem = LineOf(p);
+    const Problem<1> problem = SlidingProblemOf(p);
     Compare(problem, Solve(problem), planar::Solve(p), ErrorsOf(problem), worst);
     ASSERT_LE(worst.ratio(), 1.0) << i;
   }
@@ -87,7 +87,7 @@ TEST(SlidingTest, AllTheRestOfAPlanarImpactIsThatOfTheExactOne) {
   for (int i = 0; i < 20'000; ++i) {
     const planar::Problem p = AnySliding(source);
     const planar::Impact exact = planar::Solve(p);
-    const Problem<1> problem = LineOf(p);
+    const Problem<1> problem = SlidingProblemOf(p);
     const Impact<1> impact = Solve(problem);
     const RelativeErrors bound = ErrorsOf(problem);
     ASSERT_EQ(impact.regime, Regime::kSliding);
@@ -152,7 +152,7 @@ TEST(SlidingTest, InSpaceItsFormulasAreEvaluatedWithinTheirBound) {
   spatial::SceneSource source(403);
   Worst worst;
   for (int i = 0; i < kScenes;) {
-    const Problem<2> problem = LineOf(i % 4 == 0 ? source.NearJam() : source.Typical());
+    const Problem<2> problem = SlidingProblemOf(i % 4 == 0 ? source.NearJam() : source.Typical());
     // If v grows more slowly, extended precision does not serve as a reference.
     if (!(SlidingSlopes(problem).v > 1e-4 * problem.Wnn())) continue;
     Compare(problem, Solve(problem), SolveExtended(problem, true), ErrorsOf(problem), worst);
@@ -192,7 +192,7 @@ TEST(SlidingTest, InSpaceItIsTheSpatialModelWhereSlipDoesNotTurn) {
     const spatial::Problem p = InSpace(plane, source.Uniform(0.1, 3.0), source.Uniform(0.0, 6.0));
     const spatial::Impact other = spatial::Solve(p);
     if (!other.closed_form || other.regime != Regime::kSliding) continue;
-    const Problem<2> problem = LineOf(p);
+    const Problem<2> problem = SlidingProblemOf(p);
     const Impact<2> impact = Solve(problem);
     const double allowed = (ErrorsOf(problem).velocity + p.tolerance) * ScaleOf(problem);
     for (size_t k = 0; k < 2; ++k) worst.Add(std::fabs(impact.u1[k] - other.u1[k]), allowed);
@@ -215,7 +215,7 @@ TEST(FrictionlessTest, InAPlaneItIsTheExactImpactWithinItsBound) {
     p.coefficient = std::min(p.coefficient, 1.0);
     const planar::Impact exact = planar::Solve(p);
     if (exact.w_rank < 2) continue;
-    const Problem<1> problem = LineOf(p);
+    const Problem<1> problem = SlidingProblemOf(p);
     Compare(problem, SolveFrictionless(problem), exact, FrictionlessErrorsOf(problem), worst);
     ASSERT_LE(worst.ratio(), 1.0) << i;
     ASSERT_EQ(SolveFrictionless(problem).regime, exact.regime);
@@ -234,7 +234,7 @@ TEST(FrictionlessTest, InSpaceItIsTheSpatialModelAndWithinItsBoundOfTheFormulas)
     spatial::Problem p = source.Typical();
     p.mu = p.mu_static = 0.0;
     p.tolerance = 1e-12;
-    const Problem<2> problem = LineOf(p);
+    const Problem<2> problem = SlidingProblemOf(p);
     const Impact<2> end = SolveFrictionless(problem);
     const RelativeErrors bound = FrictionlessErrorsOf(problem);
     Compare(problem, end, SolveExtended(problem, false), bound, worst);
@@ -319,14 +319,14 @@ TEST(SlidingTest, HistoriesAreStraightMeetTheEventsAndWorksAddUp) {
   planar::SceneSource plane(407);
   spatial::SceneSource space(408);
   for (int i = 0; i < 5'000; ++i) {
-    const Problem<1> flat = LineOf(AnySliding(plane));
+    const Problem<1> flat = SlidingProblemOf(AnySliding(plane));
     ExpectLinear(flat, Solve(flat));
     ExpectLinear(flat, SolveFrictionless(flat));
     ExpectLedger(Solve(flat));
     ExpectLedger(SolveFrictionless(flat));
     spatial::Problem p = space.Typical();
     p.mu *= 0.1;
-    const Problem<2> problem = LineOf(p);
+    const Problem<2> problem = SlidingProblemOf(p);
     ExpectLinear(problem, Solve(problem));
     ExpectLinear(problem, SolveFrictionless(problem));
     ExpectLedger(Solve(problem));
