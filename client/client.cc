@@ -7,6 +7,7 @@
 #include "client/cost_reader.h"
 #include "client/sweep_reader.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
 #include "proto/wire/sweep.h"

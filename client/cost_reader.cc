@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "absl/strings/str_cat.h"
+#include "proto/wire/cost.h"
 
 namespace ricochet {
 namespace {
@@ -15,6 +16,12 @@ bool AllWithin(const Indices& indices, int64_t least, int64_t rows, Index index)
 }
 
 }  // namespace
+
+absl::StatusOr<CostChunk> CostChecker::Take(const v1::CostResponse& message) {
+  CostChunk chunk = FromProto(message);
+  if (absl::Status status = Check(chunk); !status.ok()) return status;
+  return chunk;
+}
 
 absl::Status CostChecker::Check(const CostChunk& chunk) {
   if (summarised_) return absl::DataLossError("the study of cost goes on after its summary");

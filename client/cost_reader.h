@@ -6,8 +6,8 @@
 #include <cstdint>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "client/stream_reader.h"
-#include "proto/wire/cost.h"
 #include "ricochet/cost.h"
 #include "ricochet/v1/cost.pb.h"
 
@@ -16,7 +16,8 @@ namespace ricochet {
 // Checks that chunks fit together: their rows come in order, without gaps, up to the last one, which has the summary.
 class CostChecker {
  public:
-  // Errors: DATA_LOSS if `chunk` cannot be the next one.
+  // Errors: DATA_LOSS if `message` or `chunk` cannot be the next one.
+  absl::StatusOr<CostChunk> Take(const v1::CostResponse& message);
   absl::Status Check(const CostChunk& chunk);
   // Errors: DATA_LOSS if chunks are missing at the end of the stream.
   absl::Status CheckEnd() const;
@@ -26,7 +27,7 @@ class CostChecker {
   bool summarised_ = false;
 };
 
-using CostReader = StreamReader<v1::CostResponse, CostChunk, CostChecker, FromProto>;
+using CostReader = StreamReader<v1::CostResponse, CostChunk, CostChecker>;
 
 }  // namespace ricochet
 

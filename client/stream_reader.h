@@ -19,11 +19,11 @@
 
 namespace ricochet {
 
-// Reads one stream of `Wire` messages, each of which kFromProto makes a `Chunk`; the last one, and no other, has a summary.
-// `Checker` has Check(chunk), for each chunk in order, and CheckEnd(); both give DATA_LOSS if a chunk is missing.
+// Reads one stream of `Wire` messages; the last one, and no other, has a summary. `Checker` has Take(message), which makes
+// each message in order a `Chunk`, and CheckEnd(); both give DATA_LOSS if a chunk is missing or wrong.
 //
 // Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
-template <typename Wire, typename Chunk, typename Checker, Chunk (*kFromProto)(const Wire&)>
+template <typename Wire, typename Chunk, typename Checker>
 class StreamReader {
  public:
   using Call = grpc::ClientReaderInterface<Wire>;
@@ -52,9 +52,7 @@ class StreamReader {
       context_.get().TryCancel();
       return End();
     }
-    Chunk chunk = kFromProto(message_);
-    if (absl::Status status = checker_.Check(chunk); !status.ok()) return status;
-    return chunk;
+    return checker_.Take(message_);
   }
 
  private:

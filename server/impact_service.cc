@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "proto/wire/audit.h"
+#include "proto/wire/chunk_seal.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
@@ -109,6 +110,7 @@ grpc::Status ImpactService::Cost(grpc::ServerContext* context, const v1::CostReq
 
 absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer,
                                    Call& call) const {
+  const ChunkSeal seal(request);
   v1::SweepResponse response;
   call.record().first_index = request.first_index;
   for (absl::StatusOr<SweepChunk>& chunk : solver_.Sweep(request, EndingWith(drain_.streams, call))) {
@@ -120,6 +122,7 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
       chunk->summary->elapsed_s = call.elapsed_s();
     }
     ToProto(*chunk, response);
+    seal.Put(response);
     if (absl::Status written = Write(response, writer, call.record()); !written.ok()) return written;
   }
   return absl::OkStatus();

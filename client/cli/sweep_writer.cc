@@ -12,6 +12,7 @@
 #include "client/cli/plan_report.h"
 #include "client/cli/table.h"
 #include "core/sweep/grid.h"
+#include "proto/wire/chunk_seal.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet::cli {
@@ -189,9 +190,10 @@ class CsvWriter {
   bool started_ = false;
 };
 
-SweepWriter JsonWriter() {
-  return [proto = v1::SweepResponse()](const SweepChunk& chunk) mutable {
+SweepWriter JsonWriter(const SweepRequest& request) {
+  return [seal = ChunkSeal(request), proto = v1::SweepResponse()](const SweepChunk& chunk) mutable {
     ToProto(chunk, proto);
+    seal.Put(proto);
     return Json(proto);
   };
 }
@@ -204,7 +206,7 @@ SweepWriter MakeSweepWriter(const SweepRequest& request, Format format, bool sum
     case Format::kText:
       return TextWriter(request);
     case Format::kJson:
-      return JsonWriter();
+      return JsonWriter(request);
     case Format::kCsv:
       break;
   }

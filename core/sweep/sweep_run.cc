@@ -182,6 +182,7 @@ absl::StatusOr<SweepChunk> SweepRun::Impl::NextChunk(absl::FunctionRef<bool()> s
   }
   chunk.points_done = points_done();
   chunk.points_total = points_total();
+  chunk.tallies = summary_;
   ended_ = next_ == end_;
   if (ended_) chunk.summary = summary_;
   return chunk;

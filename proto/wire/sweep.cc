@@ -100,14 +100,6 @@ v1::Tally ToProto(const Tally& tally) {
 
 Tally FromProto(const v1::Tally& proto) { return {proto.count(), proto.first_index()}; }
 
-static Tally Sum(const Tally& a, const Tally& b) {
-  if (a.count == 0) return b;
-  if (b.count == 0) return a;
-  // The sum is unsigned, because a hostile count must not overflow.
-  const auto count = static_cast<int64_t>(static_cast<uint64_t>(a.count) + static_cast<uint64_t>(b.count));
-  return {count, std::min(a.first_index, b.first_index)};
-}
-
 v1::SweepSummary ToProto(const SweepSummary& summary) {
   v1::SweepSummary proto;
   proto.set_points(summary.points);
@@ -136,12 +128,12 @@ SweepSummary FromProto(const v1::SweepSummary& proto) {
   for (const v1::RegimeTally& entry : proto.by_regime()) {
     if (!entry.has_tally()) continue;
     Tally& tally = summary.by_regime[static_cast<size_t>(FromProto(entry.regime()))];
-    tally = Sum(tally, FromProto(entry.tally()));
+    tally = Joined(tally, FromProto(entry.tally()));
   }
   for (const v1::ModelTally& entry : proto.by_model()) {
     if (!entry.has_tally()) continue;
     Tally& tally = summary.by_model[static_cast<size_t>(FromProto(entry.model()))];
-    tally = Sum(tally, FromProto(entry.tally()));
+    tally = Joined(tally, FromProto(entry.tally()));
   }
   if (proto.has_inadmissible()) summary.inadmissible = FromProto(proto.inadmissible());
   if (proto.has_elapsed_s()) summary.elapsed_s = proto.elapsed_s();
@@ -157,9 +149,12 @@ void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto) {
                  [](Regime regime) { return static_cast<int>(ToProto(regime)); });
   proto.set_points_done(chunk.points_done);
   proto.set_points_total(chunk.points_total);
+  *proto.mutable_tallies() = ToProto(chunk.tallies);
   proto.clear_summary();
   if (chunk.summary.has_value()) *proto.mutable_summary() = ToProto(*chunk.summary);
   *proto.mutable_engine() = ToProto(chunk.engine);
+  proto.clear_crc32c();
+  proto.clear_grid_fingerprint();
 }
 
 SweepChunk FromProto(const v1::SweepResponse& proto) {
@@ -172,6 +167,7 @@ SweepChunk FromProto(const v1::SweepResponse& proto) {
                  [](int number) { return FromProto(static_cast<v1::Regime>(number)); });
   chunk.points_done = proto.points_done();
   chunk.points_total = proto.points_total();
+  if (proto.has_tallies()) chunk.tallies = FromProto(proto.tallies());
   if (proto.has_summary()) chunk.summary = FromProto(proto.summary());
   chunk.engine = FromProto(proto.engine());
   return chunk;

@@ -22,7 +22,7 @@ Tally FromProto(const v1::Tally& proto);
 v1::SweepSummary ToProto(const SweepSummary& summary);
 SweepSummary FromProto(const v1::SweepSummary& proto);
 
-// Sets or clears every field of `proto`, whose capacity is reused.
+// Sets or clears every field of `proto`, whose capacity is reused. The seal is cleared: proto/wire/chunk_seal.h puts it on.
 void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto);
 SweepChunk FromProto(const v1::SweepResponse& proto);
 

@@ -17,7 +17,6 @@
 #include <vector>
 
 #include "client/cost_reader.h"
-#include "client/sweep_reader.h"
 #include "ricochet/health.h"
 #include "tests/support/server_process.h"
 
@@ -148,74 +147,6 @@ TEST(CheckHealth, TellsServingFromUnknownServices) {
   EXPECT_EQ(CheckHealth({.target = server.address()}, "ricochet.v1.ImpactService").value(), Health::kServing);
   EXPECT_EQ(CheckHealth({.target = server.address()}, "no.such.Service").status().code(), absl::StatusCode::kNotFound);
   EXPECT_EQ(CheckHealth({.target = ""}, "").status().code(), absl::StatusCode::kInvalidArgument);
-}
-
-// --- Chunks that do not fit together, as a broken server or proxy may send them ---
-
-SweepChunk Chunk(int64_t first, int64_t count, bool last) {
-  SweepChunk chunk{.first_index = first, .count = count, .values = {}, .regimes = {}, .points_total = 100};
-  chunk.values.resize(static_cast<size_t>(2 * count));
-  if (last) chunk.summary.emplace();
-  return chunk;
-}
-
-struct BadSecondChunk {
-  const char* name;
-  std::function<void(SweepChunk&)> damage;
-};
-
-void PrintTo(const BadSecondChunk& bad, std::ostream* stream) { *stream << bad.name; }
-
-class ChunkCheckerRefuses : public testing::TestWithParam<BadSecondChunk> {};
-
-INSTANTIATE_TEST_SUITE_P(
-    Chunks, ChunkCheckerRefuses,
-    testing::Values(BadSecondChunk{"AGap", [](SweepChunk& chunk) { chunk.first_index = 41; }},
-                    BadSecondChunk{"ARepeat", [](SweepChunk& chunk) { chunk.first_index = 0; }},
-                    BadSecondChunk{"TooFewValues", [](SweepChunk& chunk) { chunk.values.pop_back(); }},
-                    BadSecondChunk{"TooManyValues", [](SweepChunk& chunk) { chunk.values.resize(124); }},
-                    BadSecondChunk{"ANegativeCount", [](SweepChunk& chunk) { chunk.count = -60; }},
-                    BadSecondChunk{"PointsBeyondTheEnd", [](SweepChunk& chunk) { chunk = Chunk(40, 61, true); }},
-                    BadSecondChunk{"ACountThatOverflows", [](SweepChunk& chunk) { chunk.count = int64_t{1} << 62; }},
-                    BadSecondChunk{"RegimesNotAskedFor", [](SweepChunk& chunk) { chunk.regimes.resize(60); }},
-                    BadSecondChunk{"NoSummaryAtTheEnd", [](SweepChunk& chunk) { chunk.summary.reset(); }},
-                    BadSecondChunk{"ASummaryTooEarly", [](SweepChunk& chunk) { chunk = Chunk(40, 10, true); }}),
-    [](const auto& parameter) { return std::string(parameter.param.name); });
-
-TEST_P(ChunkCheckerRefuses, AsDataLoss) {
-  ChunkChecker checker(Sweep(100));
-  ASSERT_TRUE(checker.Check(Chunk(0, 40, false)).ok());
-  SweepChunk second = Chunk(40, 60, true);
-  ASSERT_TRUE(ChunkChecker(checker).Check(second).ok());
-  GetParam().damage(second);
-  EXPECT_EQ(checker.Check(second).code(), absl::StatusCode::kDataLoss);
-}
-
-TEST(ChunkChecker, RefusesAnEndBeforeTheLastPoint) {
-  ChunkChecker checker(Sweep(100));
-  EXPECT_EQ(checker.CheckEnd().code(), absl::StatusCode::kDataLoss);
-  ASSERT_TRUE(checker.Check(Chunk(0, 40, false)).ok());
-  EXPECT_EQ(checker.CheckEnd().code(), absl::StatusCode::kDataLoss);
-  ASSERT_TRUE(checker.Check(Chunk(40, 60, true)).ok());
-  EXPECT_TRUE(checker.CheckEnd().ok());
-}
-
-TEST(ChunkChecker, HoldsASubRangeToItsOwnEnds) {
-  SweepRequest request = Sweep(100);
-  request.first_index = 10;
-  request.end_index = 30;
-  ChunkChecker checker(request);
-  EXPECT_EQ(ChunkChecker(request).Check(Chunk(0, 20, true)).code(), absl::StatusCode::kDataLoss);
-  EXPECT_TRUE(checker.Check(Chunk(10, 20, true)).ok());
-}
-
-TEST(ChunkChecker, AsksForARegimeOfEveryPointWhereTheRequestDid) {
-  SweepRequest request = Sweep(100);
-  request.with_regime = true;
-  SweepChunk chunk = Chunk(0, 100, true);
-  EXPECT_EQ(ChunkChecker(request).Check(chunk).code(), absl::StatusCode::kDataLoss);
-  chunk.regimes.resize(100);
-  EXPECT_TRUE(ChunkChecker(request).Check(chunk).ok());
 }
 
 // The first two parts of a study of two rows, and the end.

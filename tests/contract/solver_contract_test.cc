@@ -444,6 +444,7 @@ TEST_P(SolverContract, SweepsEveryPointOnceInOrderAndEndsWithTheSummary) {
     next += chunk->count;
     EXPECT_EQ(chunk->points_done, next);
     EXPECT_EQ(chunk->points_total, kPoints);
+    EXPECT_EQ(chunk->tallies.points, next);
     summarised = chunk->summary.has_value();
     EXPECT_EQ(chunk->summary.value_or(SweepSummary{.points = kPoints}).points, kPoints);
   }

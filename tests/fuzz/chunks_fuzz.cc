@@ -5,7 +5,7 @@
 // range, once and in order; that the stream ends with OK only if the summary came at the end; and that a stream of
 // correct chunks passes as a whole.
 //
-// It covers client/sweep_reader.cc.
+// It covers client/chunk_checker.cc and client/tally_checker.cc.
 
 #include <grpcpp/client_context.h>
 #include <grpcpp/support/sync_stream.h>
@@ -22,6 +22,8 @@
 #include "absl/strings/str_cat.h"
 #include "client/sweep_reader.h"
 #include "core/sweep/grid.h"
+#include "proto/wire/chunk_seal.h"
+#include "proto/wire/sweep.h"
 #include "tests/fuzz/fail.h"
 
 namespace ricochet {
@@ -83,11 +85,20 @@ void Spoil(uint8_t spoilt, Bytes& bytes, v1::SweepResponse& chunk) {
   if ((spoilt & 32U) != 0) chunk.has_summary() ? chunk.clear_summary() : chunk.mutable_summary()->Clear();
 }
 
+// Counts points that all have the regime and the model of number 1.
+v1::SweepSummary TalliesOf(int64_t points, int64_t first_index) {
+  SweepSummary tallies = {.points = points};
+  tallies.by_regime[1] = tallies.by_model[1] = {points, first_index};
+  return ToProto(tallies);
+}
+
 Script ScriptFrom(Bytes bytes) {
   Script script = {.request = RequestFrom(bytes)};
   const SweepRequest& request = script.request;
   const int64_t points = ValidateAxes(request.grid).empty() ? PointCount(request.grid) : 64;
   script.end = request.end_index.value_or(points);
+  const ChunkSeal seal(request);
+  v1::SweepSummary tallies;
   int64_t next = request.first_index;
   // A range that no server answers never counts as right.
   script.right = next >= 0 && next < script.end && script.end <= points;
@@ -103,10 +114,14 @@ Script ScriptFrom(Bytes bytes) {
     if (request.with_regime) chunk.mutable_regimes()->Resize(static_cast<int>(count), 1);
     if (script.right) {
       next += count;
+      tallies = TalliesOf(next - request.first_index, request.first_index);
       chunk.set_points_total(script.end - request.first_index);
-      if (next == script.end) chunk.mutable_summary();
+      if (next == script.end) *chunk.mutable_summary() = tallies;
     }
+    *chunk.mutable_tallies() = tallies;
     Spoil(spoilt, bytes, chunk);
+    // A damaged checksum would hide all other damage.
+    seal.Put(chunk);
     script.right = script.right && (spoilt & ~64U) == 0;
     script.chunks.push_back(std::move(chunk));
     if (script.right && next == script.end) return script;

@@ -27,6 +27,9 @@ Message ThroughCore(const Message& proto) {
 v1::SweepResponse ThroughCore(const v1::SweepResponse& proto) {
   v1::SweepResponse back;
   ToProto(FromProto(proto), back);
+  // The core does not know the seal.
+  back.set_crc32c(proto.crc32c());
+  back.set_grid_fingerprint(proto.grid_fingerprint());
   return back;
 }
 

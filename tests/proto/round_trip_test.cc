@@ -454,6 +454,7 @@ SweepChunk SomeChunk() {
           .regimes = {Regime::kRebound, Regime::kLocked},
           .points_done = 1026,
           .points_total = 4096,
+          .tallies = SomeSummary(),
           .summary = SomeSummary(),
           .engine = {"1.2.3", "0123456789abcdef"}};
 }

@@ -37,6 +37,9 @@ struct Tally {
   friend bool operator==(const Tally&, const Tally&) = default;
 };
 
+// Returns the tally of two sets of points that have none in common. The result wraps round if the counts overflow.
+Tally Joined(const Tally& a, const Tally& b);
+
 struct SweepSummary {
   int64_t points = 0;
   std::array<Tally, kRegimeCount> by_regime = {};  // Indexed by the number of the regime.
@@ -46,6 +49,9 @@ struct SweepSummary {
   friend bool operator==(const SweepSummary&, const SweepSummary&) = default;
 };
 
+// Returns the counts of two parts of a sweep that have no point in common, without their times.
+SweepSummary Joined(const SweepSummary& a, const SweepSummary& b);
+
 struct SweepChunk {
   int64_t first_index = 0;              // Grid index of the chunk's first point.
   int64_t count = 0;                    // Points in this chunk.
@@ -53,7 +59,8 @@ struct SweepChunk {
   std::vector<Regime> regimes;          // One for each point if asked for, else empty.
   int64_t points_done = 0;              // Number of points computed so far, this chunk included.
   int64_t points_total = 0;             // Number of points of the range asked for.
-  std::optional<SweepSummary> summary;  // Present in the last chunk only.
+  SweepSummary tallies;                 // Counts of the points computed so far, this chunk included; no time.
+  std::optional<SweepSummary> summary;  // Present in the last chunk only: its tallies, and the time if it is known.
   EngineInfo engine;
   friend bool operator==(const SweepChunk&, const SweepChunk&) = default;
 };

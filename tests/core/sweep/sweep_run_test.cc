@@ -325,6 +325,31 @@ TEST(SweepRunTest, FirstIndicesOfASubRangeAreThoseOfTheGrid) {
   EXPECT_EQ(summary.by_regime[static_cast<size_t>(Regime::kInvalid)], (Tally{.count = 1, .first_index = 2}));
 }
 
+TEST(SweepRunTest, TheTalliesOfEachChunkAreTheSummaryOfTheRangeUpToItsEnd) {
+  const SweepRequest request = MixedRequest();
+  absl::StatusOr<SweepRun> run = SweepRun::Make(request);
+  ASSERT_TRUE(run.ok());
+  int chunks = 0;
+  for (; !run->ended(); ++chunks) {
+    const absl::StatusOr<SweepChunk> chunk = run->NextChunk(Never);
+    ASSERT_TRUE(chunk.ok());
+    SweepRequest so_far = request;
+    so_far.end_index = chunk->first_index + chunk->count;
+    EXPECT_EQ(chunk->tallies, RunAll(so_far).summary);
+  }
+  EXPECT_GT(chunks, 1);
+}
+
+TEST(SweepRunTest, TheSummariesOfTwoPartsJoinToThatOfTheWhole) {
+  SweepRequest first = MixedRequest();
+  SweepRequest second = first;
+  const SweepSummary whole = RunAll(first).summary;
+  for (const int64_t cut : {0, 1, 777, 2040, 3060}) {
+    first.end_index = second.first_index = cut;
+    EXPECT_EQ(Joined(RunAll(first).summary, RunAll(second).summary), whole) << cut;
+  }
+}
+
 // Figure 4 of the paper is a sweep of Newton's coefficient over phi.
 TEST(SweepRunTest, PhiSweepsTheAngleOfFigure4) {
   SweepRequest request = MakeRequest({Lin("pendulum.phi_rad", 0.2, 1.5, 14)});

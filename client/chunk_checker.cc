@@ -1,10 +1,12 @@
-#include "client/sweep_reader.h"
+#include "client/chunk_checker.h"
 
 #include <algorithm>
 #include <limits>
 
+#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/sweep/grid.h"
+#include "proto/wire/sweep.h"
 
 namespace ricochet {
 namespace {
@@ -27,9 +29,35 @@ ChunkChecker::ChunkChecker(const SweepRequest& request)
     : columns_(static_cast<int64_t>(request.columns.size())),
       with_regime_(request.with_regime),
       next_index_(request.first_index),
-      end_index_(EndIndex(request)) {}
+      end_index_(EndIndex(request)),
+      seal_(request) {}
+
+absl::StatusOr<SweepChunk> ChunkChecker::Take(const v1::SweepResponse& message) {
+  if (absl::Status status = seal_.Check(message); !status.ok()) return status;
+  SweepChunk chunk = FromProto(message);
+  if (absl::Status status = Check(chunk); !status.ok()) return status;
+  return chunk;
+}
 
 absl::Status ChunkChecker::Check(const SweepChunk& chunk) {
+  if (absl::Status status = CheckSize(chunk); !status.ok()) return status;
+  if (absl::Status status = tallies_.Check(chunk); !status.ok()) return status;
+  if (chunk.engine.fingerprint != engine_.value_or(chunk.engine.fingerprint)) {
+    return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", next_index_, " comes from the engine ",
+                                            absl::CEscape(chunk.engine.fingerprint), ", those before it from ",
+                                            *engine_));
+  }
+  engine_ = chunk.engine.fingerprint;
+  next_index_ += chunk.count;
+  if (chunk.summary.has_value() != (next_index_ == *end_index_)) {
+    return absl::DataLossError(absl::StrCat("the sweep's summary is ", chunk.summary.has_value() ? "early" : "missing",
+                                            " at point ", next_index_, " of ", *end_index_));
+  }
+  summarised_ = chunk.summary.has_value();
+  return absl::OkStatus();
+}
+
+absl::Status ChunkChecker::CheckSize(const SweepChunk& chunk) {
   if (chunk.first_index != next_index_) {
     return absl::DataLossError(absl::StrCat("the sweep's next chunk should start at point ", next_index_,
                                             " but starts at ", chunk.first_index));
@@ -55,12 +83,6 @@ absl::Status ChunkChecker::Check(const SweepChunk& chunk) {
     return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", next_index_, " has ", chunk.regimes.size(),
                                             " regimes instead of ", regimes));
   }
-  next_index_ += chunk.count;
-  if (chunk.summary.has_value() != (next_index_ == *end_index_)) {
-    return absl::DataLossError(absl::StrCat("the sweep's summary is ", chunk.summary.has_value() ? "early" : "missing",
-                                            " at point ", next_index_, " of ", *end_index_));
-  }
-  summarised_ = chunk.summary.has_value();
   return absl::OkStatus();
 }
 

@@ -1,0 +1,181 @@
+// Chunks that do not fit together, are damaged or belong elsewhere, as a broken server or proxy may send them.
+
+#include "client/chunk_checker.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <functional>
+#include <ostream>
+#include <string>
+
+#include "proto/wire/sweep.h"
+
+namespace ricochet {
+namespace {
+
+constexpr auto kRebound = static_cast<size_t>(Regime::kRebound);
+constexpr auto kSliding = static_cast<size_t>(Regime::kSliding);
+constexpr auto kInvalid = static_cast<size_t>(Regime::kInvalid);
+constexpr auto kPendulum = static_cast<size_t>(Model::kPendulum);
+
+SweepRequest Sweep(bool with_regime = false) {
+  SweepRequest request;
+  request.grid.scene.system = Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.3, .b_m = 1.0, .omega_minus_rad_s = -1.0};
+  request.grid.scene.restitution = EnergeticCoefficient{1.0};
+  request.grid.axes = {{"friction.kinetic_coefficient", Linspace{0.0, 0.4, 100}}};
+  request.columns = {"coefficients.newton", "coefficients.poisson"};
+  request.with_regime = with_regime;
+  return request;
+}
+
+// Points that all rebound, in a call that starts at point `start`.
+SweepChunk Chunk(int64_t first, int64_t count, bool last, int64_t start = 0) {
+  SweepChunk chunk{.first_index = first, .count = count, .values = {}, .regimes = {}, .points_total = 100};
+  for (int64_t i = 0; i < 2 * count; ++i) chunk.values.push_back(0.25 * static_cast<double>(i));
+  chunk.tallies.points = first + count - start;
+  chunk.tallies.by_regime[kRebound] = chunk.tallies.by_model[kPendulum] = {chunk.tallies.points, start};
+  if (last) chunk.summary = chunk.tallies;
+  chunk.engine = {"1.2.3", "0123456789abcdef"};
+  return chunk;
+}
+
+v1::SweepResponse Sealed(const SweepChunk& chunk, const SweepRequest& request) {
+  v1::SweepResponse message;
+  ToProto(chunk, message);
+  ChunkSeal(request).Put(message);
+  return message;
+}
+
+v1::SweepResponse Sealed(const SweepChunk& chunk) { return Sealed(chunk, Sweep()); }
+
+absl::StatusCode CodeOf(const absl::StatusOr<SweepChunk>& chunk) { return chunk.status().code(); }
+
+struct BadSecondChunk {
+  const char* name;
+  std::function<void(SweepChunk&)> damage;
+};
+
+void PrintTo(const BadSecondChunk& bad, std::ostream* stream) { *stream << bad.name; }
+
+class ChunkCheckerRefuses : public testing::TestWithParam<BadSecondChunk> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    Chunks, ChunkCheckerRefuses,
+    testing::Values(
+        BadSecondChunk{"AGap", [](SweepChunk& chunk) { chunk.first_index = 41; }},
+        BadSecondChunk{"ARepeat", [](SweepChunk& chunk) { chunk.first_index = 0; }},
+        BadSecondChunk{"TooFewValues", [](SweepChunk& chunk) { chunk.values.pop_back(); }},
+        BadSecondChunk{"TooManyValues", [](SweepChunk& chunk) { chunk.values.resize(124); }},
+        BadSecondChunk{"ANegativeCount", [](SweepChunk& chunk) { chunk.count = -60; }},
+        BadSecondChunk{"PointsBeyondTheEnd", [](SweepChunk& chunk) { chunk = Chunk(40, 61, true); }},
+        BadSecondChunk{"ACountThatOverflows", [](SweepChunk& chunk) { chunk.count = int64_t{1} << 62; }},
+        BadSecondChunk{"RegimesNotAskedFor", [](SweepChunk& chunk) { chunk.regimes.resize(60); }},
+        BadSecondChunk{"NoSummaryAtTheEnd", [](SweepChunk& chunk) { chunk.summary.reset(); }},
+        BadSecondChunk{"ASummaryTooEarly", [](SweepChunk& chunk) { chunk = Chunk(40, 10, true); }},
+        BadSecondChunk{"AnotherEngine", [](SweepChunk& chunk) { chunk.engine.fingerprint = "fedcba9876543210"; }},
+        BadSecondChunk{"ASummaryUnlikeItsTallies", [](SweepChunk& chunk) { ++chunk.summary->points; }},
+        BadSecondChunk{"TooManyPointsCounted",
+                       [](SweepChunk& chunk) { chunk.summary->points = ++chunk.tallies.points; }},
+        BadSecondChunk{"APointLost",
+                       [](SweepChunk& chunk) {
+                         --chunk.tallies.by_regime[kRebound].count;
+                         chunk.summary = chunk.tallies;
+                       }},
+        BadSecondChunk{"APointWithoutAModel",
+                       [](SweepChunk& chunk) {
+                         --chunk.tallies.by_model[kPendulum].count;
+                         chunk.summary = chunk.tallies;
+                       }},
+        BadSecondChunk{"AnInvalidPointWithAModel",
+                       [](SweepChunk& chunk) {
+                         --chunk.tallies.by_regime[kRebound].count;
+                         chunk.tallies.by_regime[kInvalid] = {1, 50};
+                         chunk.summary = chunk.tallies;
+                       }},
+        BadSecondChunk{"CountsThatOverflow",
+                       [](SweepChunk& chunk) {
+                         chunk.tallies.by_regime[kSliding] = chunk.tallies.by_regime[kInvalid] = {int64_t{1} << 62, 40};
+                         chunk.summary = chunk.tallies;
+                       }},
+        BadSecondChunk{"AFirstPointThatIsNotNew",
+                       [](SweepChunk& chunk) {
+                         chunk.tallies.by_regime[kRebound].count = 99;
+                         chunk.tallies.by_regime[kSliding] = {1, 39};
+                         chunk.summary = chunk.tallies;
+                       }},
+        BadSecondChunk{"ATallyWithoutPoints",
+                       [](SweepChunk& chunk) {
+                         chunk.tallies.inadmissible = {0, 7};
+                         chunk.summary = chunk.tallies;
+                       }},
+        BadSecondChunk{"MoreInadmissiblePointsThanPoints",
+                       [](SweepChunk& chunk) {
+                         chunk.tallies.inadmissible = {61, 40};
+                         chunk.summary = chunk.tallies;
+                       }}),
+    [](const auto& parameter) { return std::string(parameter.param.name); });
+
+TEST_P(ChunkCheckerRefuses, AsDataLoss) {
+  ChunkChecker checker(Sweep());
+  ASSERT_TRUE(checker.Take(Sealed(Chunk(0, 40, false))).ok());
+  SweepChunk second = Chunk(40, 60, true);
+  ASSERT_TRUE(ChunkChecker(checker).Take(Sealed(second)).ok());
+  GetParam().damage(second);
+  EXPECT_EQ(CodeOf(checker.Take(Sealed(second))), absl::StatusCode::kDataLoss);
+}
+
+TEST(ChunkChecker, RefusesAnEndBeforeTheLastPoint) {
+  ChunkChecker checker(Sweep());
+  EXPECT_EQ(checker.CheckEnd().code(), absl::StatusCode::kDataLoss);
+  ASSERT_TRUE(checker.Take(Sealed(Chunk(0, 40, false))).ok());
+  EXPECT_EQ(checker.CheckEnd().code(), absl::StatusCode::kDataLoss);
+  ASSERT_TRUE(checker.Take(Sealed(Chunk(40, 60, true))).ok());
+  EXPECT_TRUE(checker.CheckEnd().ok());
+}
+
+TEST(ChunkChecker, HoldsASubRangeToItsOwnEnds) {
+  SweepRequest request = Sweep();
+  request.first_index = 10;
+  request.end_index = 30;
+  ChunkChecker checker(request);
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(Chunk(0, 20, true)))), absl::StatusCode::kDataLoss);
+  EXPECT_TRUE(checker.Take(Sealed(Chunk(10, 20, true, 10))).ok());
+}
+
+TEST(ChunkChecker, CountsTheRegimesThatTheRequestAskedFor) {
+  const SweepRequest request = Sweep(true);
+  SweepChunk chunk = Chunk(0, 100, true);
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
+  chunk.regimes.resize(100, Regime::kRebound);
+  EXPECT_TRUE(ChunkChecker(request).Take(Sealed(chunk, request)).ok());
+  chunk.regimes[7] = Regime::kSliding;
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
+}
+
+TEST(ChunkChecker, RefusesEveryFlippedBitOfTheData) {
+  const SweepRequest request = Sweep(true);
+  SweepChunk chunk = Chunk(0, 100, true);
+  chunk.regimes.resize(100, Regime::kRebound);
+  const v1::SweepResponse whole = Sealed(chunk, request);
+  for (int bit = 0; bit < 64; ++bit) {
+    v1::SweepResponse damaged = whole;
+    double& value = *damaged.mutable_values()->Mutable(3 * bit);
+    value = std::bit_cast<double>(std::bit_cast<uint64_t>(value) ^ (uint64_t{1} << bit));
+    EXPECT_EQ(CodeOf(ChunkChecker(request).Take(damaged)), absl::StatusCode::kDataLoss) << bit;
+  }
+  v1::SweepResponse swapped = whole;
+  swapped.mutable_values()->SwapElements(1, 2);
+  EXPECT_THAT(std::string(ChunkChecker(request).Take(swapped).status().message()), testing::HasSubstr("checksum"));
+}
+
+TEST(ChunkChecker, RefusesTheChunkOfAnotherRequest) {
+  SweepRequest other = Sweep();
+  other.grid.axes[0].values = Linspace{0.0, 0.5, 100};
+  EXPECT_EQ(CodeOf(ChunkChecker(Sweep()).Take(Sealed(Chunk(0, 40, false), other))), absl::StatusCode::kDataLoss);
+  EXPECT_TRUE(ChunkChecker(other).Take(Sealed(Chunk(0, 40, false), other)).ok());
+}
+
+}  // namespace
+}  // namespace ricochet
