@@ -27,10 +27,14 @@ def stub(on):
     return impact_service_pb2_grpc.ImpactServiceStub(on)
 
 
-def request(kind, text):
-    from ricochet.v1 import sweep_pb2  # pylint: disable=import-outside-toplevel
-    module = sweep_pb2 if kind == "Sweep" else pb()
-    return text_format.Parse(text, getattr(module, kind + "Request")())
+def request_class(method):
+    from ricochet.v1 import cost_pb2, sweep_pb2  # pylint: disable=import-outside-toplevel
+    modules = [module for module in (pb(), sweep_pb2, cost_pb2) if hasattr(module, method + "Request")]
+    return getattr(modules[0], method + "Request")
+
+
+def request(method, text):
+    return text_format.Parse(text, request_class(method)())
 
 
 PENDULUM = """pendulum { inertia_kg_m2: 1 a_m: 0.3 b_m: 1 omega_minus_rad_s: -1 }
@@ -158,4 +162,4 @@ def health(server, seconds=5):
 
 
 __all__ = ["HARD_DURATION", "HERTZ", "PENDULUM", "channel", "cheap", "code_of", "dear", "details", "health", "linkage",
-           "long_sweep", "pb", "request", "require_served", "stub", "tools", "wait_served"]
+           "long_sweep", "pb", "request", "request_class", "require_served", "stub", "tools", "wait_served"]
