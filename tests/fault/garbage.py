@@ -225,7 +225,7 @@ def bombard(name, make, share):
                 + "; ".join(f"{code} {method} {data[:200].hex()}" for code, method, data in lost[:3]))
         require_served(server)
         grown = server.rss_mib() - before
-        require(grown <= 64, f"the memory grew by {grown:.0f} MiB")
+        require(grown <= tools().memory_mib(64), f"the memory grew by {grown:.0f} MiB")
         require(server.descriptors() <= descriptors + 3, "descriptors are left")
         return {"sent": count, "seed": tools().seed, **dict(sender.counts), "MiB": grown}
 

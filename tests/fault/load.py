@@ -14,8 +14,8 @@ from http2 import SERVICE, message
 
 def serve(**more):
     """A server that lets one address have all connections and places, as all of these clients have the same."""
-    return Server(**{"max_connections": 4000, "max_connections_per_peer": 4000, "max_calls_per_peer": 4000,
-                     "max_live_calls_per_peer": 4000, "log_level": "warning", **more})
+    return Server(**{"max_connections": 4000, "max_connections_per_peer": 4000, "max_live_calls": 2000,
+                     "max_live_calls_per_peer": 2000, "log_level": "warning", **more})
 
 
 def h2load(server, clients, streams, calls):

@@ -120,7 +120,7 @@ def mixed_load():
         require(not clients.wrong, f"{len(clients.wrong)} calls failed: {clients.wrong[:3]}")
         third = len(samples) // 3
         middle, last = max(samples[third:2 * third]), max(samples[2 * third:])
-        require(last <= middle + 16, f"memory: {middle:.0f} MiB in the second third, {last:.0f} MiB in the last")
+        require(last <= middle + tools().memory_mib(16), f"memory: {middle:.0f} MiB in the second third, {last:.0f} MiB in the last")
         require(wait_until(lambda: server.descriptors() <= descriptors + 3, 60),
                 f"{server.descriptors()} descriptors, {descriptors} before")
         require(wait_until(lambda: server.threads() <= threads + 32, 60), f"{server.threads()} threads, {threads} before")

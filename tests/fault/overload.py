@@ -13,7 +13,7 @@ LONG_DEADLINES = 7  # Deadline of a dear call, in times that it takes alone.
 
 
 def serve(**more):
-    return Server(**{"max_calls_per_peer": 4000, "max_live_calls_per_peer": 4000, "max_connections_per_peer": 4000, **more})
+    return Server(**{"max_live_calls": 2000, "max_live_calls_per_peer": 2000, **more})
 
 
 def goodput(server, call, clients, seconds):

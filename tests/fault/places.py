@@ -17,7 +17,7 @@ LIVE_CALLS = 256
 
 
 def serve(**more):
-    return Server(**{"max_live_calls": LIVE_CALLS, "write_stall": STALL_S, "write_stall_timeout": STALL_S, **more})
+    return Server(**{"max_live_calls": LIVE_CALLS, "write_stall_timeout": STALL_S, **more})
 
 
 @contextlib.contextmanager
@@ -148,7 +148,7 @@ def longest_time():
     with serve() as server:
         slow = dear(server, 1)
     limit = slow.seconds / 10
-    with serve(max_unary_time=limit, max_call_time=limit) as server, channel(server.address) as line:
+    with serve(max_unary_time=limit) as server, channel(server.address) as line:
         start = time.monotonic()
         code = code_of(lambda: stub(line).Solve(slow.request, timeout=20))
         took = time.monotonic() - start
@@ -158,7 +158,8 @@ def longest_time():
 
 @check("slow readers", "100 sweeps whose clients read 1 KB/s take less than 64 MiB, and others are served", kind="load")
 def slow_readers():
-    with serve(write_stall=60, write_stall_timeout=60) as server, greedy(server, 4, credit=False) as connections:
+    with serve(write_stall_timeout=600, max_streams=200, max_streams_per_peer=200) as server, greedy(
+            server, 4, credit=False) as connections:
         before = server.rss_mib()
         open_sweeps(connections, 25)
         worst, most = 0.0, before
@@ -176,7 +177,7 @@ def slow_readers():
 
 @check("idle connections", "a connection without a call that answers pings is closed", soak=True)
 def idle_connections():
-    with serve(max_idle=5, max_connection_idle=5, idle_timeout=5) as server, greedy(server, 50) as connections:
+    with serve(idle_timeout=5) as server, greedy(server, 50) as connections:
         for connection in connections:
             connection.pump()
         require(wait_until(lambda: all(connection.closed for connection in connections), 60),
@@ -205,7 +206,7 @@ def silent_connections():
 
 @check("a peer that answers no ping", "it is cut off within 60 s, and its sweeps end", soak=True)
 def no_pong():
-    with serve(write_stall=300, write_stall_timeout=300) as server, greedy(server, 1, window=0, pong=False) as connections:
+    with serve(write_stall_timeout=300) as server, greedy(server, 1, window=0, pong=False) as connections:
         open_sweeps(connections, 50)
         connections[0].pump()
         start = time.monotonic()

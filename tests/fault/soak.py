@@ -1,0 +1,132 @@
+"""Runs every check long, and writes the tables of deploy/README.md from what it measured.
+
+usage: soak.py RICOCHETD RICOCHET WORK_DIRECTORY [MINUTES]    of the mixed load, 30 by default
+"""
+
+import json
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+SOURCE = HERE.parent.parent
+PAGE = SOURCE / "deploy/README.md"
+TOPICS = ["load", "overload", "places", "amplification", "transport", "boundary", "faults", "credentials", "garbage", "mixed"]
+BEGIN, END = "<!-- written by ./dev soak -->", "<!-- end of what ./dev soak wrote -->"
+
+
+def run(ricochetd, ricochet, work, minutes):
+    results = []
+    for topic in TOPICS:
+        program = HERE / f"{topic}.py"
+        if not program.exists():
+            continue
+        found = work / f"{topic}.json"
+        found.unlink(missing_ok=True)
+        print(f"\n== {topic}", flush=True)
+        subprocess.run(
+            [sys.executable, program, "--ricochetd", ricochetd, "--ricochet", ricochet, "--proto", SOURCE / "proto",
+             "--work", work / topic, "--soak", "--minutes", str(minutes), "--json", found], check=False)
+        results += json.loads(found.read_text(encoding="utf-8"))
+    return results
+
+
+def machine():
+    model = re.search(r"model name\s*: (.*)", Path("/proc/cpuinfo").read_text(encoding="ascii"))
+    return f"{os.cpu_count()} cores, {model.group(1) if model else 'unknown processor'}"
+
+
+def commit():
+    def git(*words):
+        return subprocess.run(["git", "-C", SOURCE, *words], capture_output=True, text=True, check=True).stdout.strip()
+
+    changed = [line for line in git("status", "--porcelain", "--untracked-files=no").splitlines() if "README" not in line]
+    return git("rev-parse", "--short=10", "HEAD") + (" with changes" if changed else "")
+
+
+def figures_of(results, name):
+    for one in results:
+        if one["name"] == name and one["result"] == "level":
+            return one["figures"]
+    return {}
+
+
+def level(results, kind):
+    counted = [one for one in results if one["kind"] == kind and one["result"] != "skipped" and not one["mitigation"]]
+    return sum(one["result"] == "level" for one in counted), len(counted)
+
+
+def number(value, digits=3):
+    if value is None:
+        return "not measured"
+    return f"{value:,.0f}" if abs(value) >= 1000 else f"{value:.{digits}g}"
+
+
+def summary(results):
+    unary, beside = figures_of(results, "unary clients"), figures_of(results, "Solves beside dear calls")
+    goodput, mixed = figures_of(results, "goodput under overload"), figures_of(results, "mixed load")
+    rates = {name: value for name, value in unary.items() if name.endswith("/s")}
+    best = max(rates, key=rates.get) if rates else None
+    sent = sum(one["figures"].get("sent", 0) for one in results)
+    rows = [
+        ("load held", f"{number(rates.get(best))} Solves a second, {best.split(':')[0]} clients on the server's own cores, "
+         f"every one answered; 1000 clients: {number(100 * rates['1000: /s'] / rates[best])} % of that" if best else "not measured"),
+        ("p99 of a cheap Solve beside the dearest calls of 64 clients",
+         f"{number(beside.get('ratio'))} times p99 alone ({number(1e3 * beside['p99 alone s'])} ms)" if beside else "not measured"),
+        ("answers a second with 8 times as many clients as cores, with deadlines",
+         f"{number(100 * goodput['x8'])} % of those at capacity" if goodput else "not measured"),
+        ("mixed load", f"{number(mixed.get('minutes'))} minutes, {number(mixed.get('calls'))} rounds of calls: "
+         f"{number(mixed.get('MiB'))} MiB, {mixed.get('descriptors')} descriptors, {mixed.get('threads')} threads at the end"
+         if mixed else "not measured"),
+        ("checks of load that are level", "{} of {}".format(*level(results, "load"))),
+        ("faults survived", "{} of {}".format(*level(results, "fault"))),
+        ("kinds of hostile input withstood", "{} of {}".format(*level(results, "input"))),
+        ("bad requests sent, and lost: ended otherwise than promised",
+         f"{number(sent)}, {0 if all(one['result'] == 'level' for one in results if one['topic'] == 'garbage') else 'some'}"),
+    ]
+    return "\n".join(["| measured | result |", "| --- | --- |", *(f"| {name} | {text} |" for name, text in rows)])
+
+
+def cell(text):
+    return text.replace("|", "/").replace("\n", " ").replace("<", "&lt;")
+
+
+def rows_of(results):
+    lines = ["| tried | rule | result |", "| --- | --- | --- |"]
+    for one in results:
+        told = {"level": "level", "skipped": "not tried here", "not level": "**not level**"}[one["result"]]
+        text = f"{told}: {cell(one['text'])}" if one["text"] else told
+        if one["result"] == "not level" and one["mitigation"]:
+            text += f". {cell(one['mitigation'])}"
+        lines.append(f"| {cell(one['name'])} | {cell(one['rule'])} | {text} |")
+    return "\n".join(lines)
+
+
+def write(results):
+    text = PAGE.read_text(encoding="utf-8")
+    if BEGIN not in text or END not in text:
+        sys.exit(f"{PAGE} lacks the lines {BEGIN} and {END}")
+    head = (f"Measured at commit {commit()} on {machine()}, shared with the clients. Only the ratios carry over to other "
+            "machines.")
+    made = f"{BEGIN}\n{head}\n\n{summary(results)}\n\n{rows_of(results)}\n{END}"
+    start, rest = text.split(BEGIN, 1)
+    PAGE.write_text(start + made + rest.split(END, 1)[1], encoding="utf-8")
+
+
+def main():
+    if len(sys.argv) not in (4, 5):
+        sys.exit(__doc__)
+    ricochetd, ricochet, work = [Path(argument).resolve() for argument in sys.argv[1:4]]
+    work.mkdir(parents=True, exist_ok=True)
+    results = run(ricochetd, ricochet, work, float(sys.argv[4]) if len(sys.argv) == 5 else 30)
+    (work / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
+    write(results)
+    bad = [one["name"] for one in results if one["result"] == "not level" and not one["mitigation"]]
+    print(f"\n{len(results)} checks, {len(bad)} not level{': ' if bad else ''}{', '.join(bad)}")
+    sys.exit(1 if bad else 0)
+
+
+if __name__ == "__main__":
+    main()
