@@ -1,10 +1,15 @@
 // Ricochet itself: the closed form as a kernel, one impact after another and in SIMD lanes, and LocalSolver::Solve with all
 // that an answer holds. Each run solves many impacts, because the clock is coarser than one.
 
+#include <cstddef>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
+#include "core/models/pendulum/columns.h"
 #include "core/models/pendulum/pendulum.h"
+#include "core/models/restitution_law.h"
 #include "ricochet/solver.h"
 #include "tests/benchmark/measure.h"
 #include "tests/peers/exact.h"
@@ -32,6 +37,8 @@ class KernelPeer final : public Peer {
                                 .mu_static = c.friction,
                                 .law = RestitutionLaw::kEnergetic,
                                 .coefficient = c.restitution});
+    columns_ = pendulum::ProblemColumns(RestitutionLaw::kEnergetic, kImpacts);
+    for (size_t i = 0; i < kImpacts; ++i) columns_.Set(i, problems_[i]);
   }
   void Reset() override {}
   void Run() override {
@@ -56,15 +63,20 @@ class KernelPeer final : public Peer {
  private:
   static constexpr int kImpacts = 1000;
 
+  // Tolerance 0 asks for double-double arithmetic.
   void SolveInLanes() {
     const Output outputs[] = {Output::kOmegaPlus};
-    double* const columns[] = {omega_.data()};
-    pendulum::SolveColumns(problems_, outputs, columns, absl::MakeSpan(regimes_),
-                           absl::Span<bool>(inadmissible_.get(), kImpacts));
+    double* const places[] = {omega_.data()};
+    pendulum::SolveColumns(columns_, 0, kImpacts, /*tolerance=*/0.0,
+                           {.outputs = outputs,
+                            .columns = places,
+                            .regimes = absl::MakeSpan(regimes_),
+                            .inadmissible = {inadmissible_.get(), kImpacts}});
   }
 
   const How how_;
   std::vector<Problem> problems_;
+  pendulum::ProblemColumns columns_;
   std::vector<double> omega_ = std::vector<double>(kImpacts);
   std::vector<Regime> regimes_ = std::vector<Regime>(kImpacts);
   std::unique_ptr<bool[]> inadmissible_ = std::make_unique<bool[]>(kImpacts);
