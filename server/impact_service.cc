@@ -47,13 +47,8 @@ absl::Status OrDraining(const absl::Status& status, const std::stop_token& drain
 
 }  // namespace
 
-ImpactService::ImpactService(const Solver& solver, int64_t max_points_per_sweep, DrainStops drain, Admission& admission,
-                             const Observer& observer)
-    : solver_(solver),
-      max_points_per_sweep_(max_points_per_sweep),
-      drain_(std::move(drain)),
-      admission_(admission),
-      observer_(observer) {}
+ImpactService::ImpactService(const Solver& solver, DrainStops drain, Admission& admission, const Observer& observer)
+    : solver_(solver), drain_(std::move(drain)), admission_(admission), observer_(observer) {}
 
 template <typename Request, typename Response, typename Method>
 grpc::Status ImpactService::Answer(const char* name, Method method, grpc::ServerContext& context,
@@ -115,7 +110,6 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
   call.record().first_index = request.first_index;
   for (absl::StatusOr<SweepChunk>& chunk : solver_.Sweep(request, EndingWith(drain_.streams, call))) {
     if (!chunk.ok()) return chunk.status();
-    if (chunk->points_total > max_points_per_sweep_) return SweepTooLarge(chunk->points_total, max_points_per_sweep_);
     call.record().points = chunk->points_done;
     if (chunk->summary.has_value()) {
       CountModels(*chunk->summary, call.record());

@@ -8,8 +8,6 @@
 #include <grpcpp/support/status.h>
 #include <grpcpp/support/sync_stream.h>
 
-#include <cstdint>
-
 #include "ricochet/solver.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/admission.h"
@@ -23,9 +21,8 @@ namespace ricochet::server {
 class ImpactService final : public v1::ImpactService::Service {
  public:
   // All arguments by reference must outlive the service. Calls that `drain` stops end with UNAVAILABLE and
-  // kDraining. A sweep of more than `max_points_per_sweep` points is refused with kSweepTooLarge.
-  ImpactService(const Solver& solver, int64_t max_points_per_sweep, DrainStops drain, Admission& admission,
-                const Observer& observer);
+  // kDraining.
+  ImpactService(const Solver& solver, DrainStops drain, Admission& admission, const Observer& observer);
 
   grpc::Status Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
                      v1::SolveResponse* response) override;
@@ -53,7 +50,6 @@ class ImpactService final : public v1::ImpactService::Service {
   absl::Status Stream(const CostRequest& request, grpc::ServerWriter<v1::CostResponse>& writer, Call& call) const;
 
   const Solver& solver_;
-  const int64_t max_points_per_sweep_;
   const DrainStops drain_;
   Admission& admission_;
   const Observer& observer_;

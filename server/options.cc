@@ -139,15 +139,24 @@ std::vector<Setting> LimitSettings() {
        [](const std::string& text, Options& to) { return ReadInteger(text, 65536, to.max_live_calls); }},
       {"max-threads", "N", absl::StrCat("Threads [max-live-calls + ", Options::kSpareThreads, "]"),
        [](const std::string& text, Options& to) { return ReadInteger(text, 1 << 20, to.max_threads); }},
-      {"max-points-per-sweep", "N", "Points that one sweep may ask for [10000000000]",
-       [](const std::string& text, Options& to) {
-         return ReadInteger(text, int64_t{1} << 53, to.max_points_per_sweep);
-       }},
       {"drain-grace", "SECONDS", "After a stop signal, announce NOT_SERVING for this time before sweeps are ended [3]",
        [](const std::string& text, Options& to) { return ReadSeconds(text, to.drain_grace); }},
       {"drain-timeout", "SECONDS", "Then wait at most this time for calls to end [5]",
        [](const std::string& text, Options& to) { return ReadSeconds(text, to.drain_timeout); }},
   };
+}
+
+// One setting for each limit of a request.
+std::vector<Setting> RequestLimitSettings() {
+  std::vector<Setting> settings;
+  for (const NamedLimit& limit : kLimits) {
+    settings.push_back({absl::StrReplaceAll(limit.name, {{"_", "-"}}), "N",
+                        absl::StrCat(limit.help, " [", Limits().*limit.value, "]"),
+                        [&limit](const std::string& text, Options& to) {
+                          return ReadInteger(text, limit.most, to.limits.*limit.value);
+                        }});
+  }
+  return settings;
 }
 
 std::vector<Setting> LogSettings() {
@@ -277,8 +286,8 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   app.set_config("--config", file, "Read options from this file (RICOCHETD_CONFIG)", !file.empty())
       ->option_text("FILE");
 
-  const std::vector<Setting> settings[] = {NetworkSettings(), LimitSettings(), LogSettings()};
-  const char* const groups[] = {"Network", "Limits", "Log"};
+  const std::vector<Setting> settings[] = {NetworkSettings(), LimitSettings(), RequestLimitSettings(), LogSettings()};
+  const char* const groups[] = {"Network", "Limits", "Limits of a request", "Log"};
   std::vector<Given> given;
   for (size_t i = 0; i < std::size(settings); ++i) {
     const std::vector<Given> added = AddOptions(settings[i], groups[i], app);

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "absl/status/statusor.h"
+#include "ricochet/limits.h"
 #include "server/connection_counts.h"
 #include "server/listen_address.h"
 #include "server/log.h"
@@ -32,9 +33,10 @@ struct Options {
   ConnectionLimits connections;        // Each limit from 1 to 1,000,000.
   int64_t transport_memory_mib = 256;  // For gRPC's buffers of all connections together; 1 to 1,048,576.
 
-  int max_live_calls = 256;                       // 1 to 65,536.
-  int max_threads = 288;                          // At least max_live_calls + kSpareThreads.
-  int64_t max_points_per_sweep = 10'000'000'000;  // 1 to 2^53.
+  int max_live_calls = 256;  // 1 to 65,536.
+  int max_threads = 288;     // At least max_live_calls + kSpareThreads.
+
+  Limits limits;  // How large a request may be: one option for each of kLimits.
 
   LogFormat log_format = LogFormat::kText;
   LogLevel log_level = LogLevel::kInfo;

@@ -25,13 +25,6 @@ absl::Status TooManyCalls(int limit) {
                  milliseconds(1000));
 }
 
-absl::Status SweepTooLarge(int64_t points, int64_t limit) {
-  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kSweepTooLarge,
-                 absl::StrCat("the sweep has ", points, " points, this server computes at most ", limit,
-                              " in one call; ask for sub-ranges by first_index and end_index"),
-                 milliseconds(0));
-}
-
 absl::Status Draining() {
   return Refusal(absl::StatusCode::kUnavailable, ErrorReason::kDraining,
                  "the server is shutting down; ask again, a sweep from the first point not received",

@@ -33,10 +33,12 @@ ConnectionLimits LimitsOfConnections(const Options& options, const Log& log) {
 Server::Server(const Options& options, const Log& log)
     : options_(options),
       log_(log),
+      solver_(options.limits),
       admission_(options.max_live_calls),
       drain_(options.drain_grace, options.drain_timeout),
       observer_(log),
-      service_(solver_, options.max_points_per_sweep, drain_.stops(), admission_, observer_) {}
+      service_(solver_, drain_.stops(), admission_, observer_),
+      bounded_(service_, options.limits) {}
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, const Log& log) {
   std::unique_ptr<Server> server(new Server(options, log));
@@ -52,7 +54,7 @@ absl::Status Server::Listen() {
   grpc::ServerBuilder builder;
   LeaveReflectionOut(builder);
   SetTransport({.max_threads = options_.max_threads, .memory_bytes = options_.transport_memory_mib << 20}, builder);
-  builder.RegisterService(&service_);
+  builder.RegisterService(&bounded_);
   Endpoint::Settings settings = {.addresses = options_.listen,
                                  .socket_mode = options_.socket_mode,
                                  .connections = LimitsOfConnections(options_, log_),

@@ -12,6 +12,7 @@
 #include "absl/status/statusor.h"
 #include "ricochet/solver.h"
 #include "server/admission.h"
+#include "server/bounded_service.h"
 #include "server/drain.h"
 #include "server/endpoint.h"
 #include "server/impact_service.h"
@@ -59,6 +60,7 @@ class Server {
   std::vector<std::function<void()>> reopen_;
   const Observer observer_;
   ImpactService service_;
+  BoundedService bounded_;
   std::unique_ptr<Endpoint> endpoint_;
   std::unique_ptr<Reflection> reflection_;  // Absent unless the options ask for it.
 };

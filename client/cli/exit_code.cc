@@ -8,6 +8,15 @@
 #include "ricochet/error.h"
 
 namespace ricochet::cli {
+namespace {
+
+// The request itself is too large, so that the same one will be refused again.
+bool IsTooLarge(const absl::Status& status) {
+  const ErrorReason reason = ReasonOf(status);
+  return reason == ErrorReason::kSweepTooLarge || reason == ErrorReason::kLimitExceeded;
+}
+
+}  // namespace
 
 ExitCode ExitCodeOf(const absl::Status& status) {
   if (status.ok() || IsReaderGone(status)) return kOk;
@@ -15,7 +24,7 @@ ExitCode ExitCodeOf(const absl::Status& status) {
     case absl::StatusCode::kInvalidArgument:
       return kUsage;
     case absl::StatusCode::kResourceExhausted:
-      return ReasonOf(status) == ErrorReason::kSweepTooLarge ? kFailed : kTryAgain;
+      return IsTooLarge(status) ? kFailed : kTryAgain;
     case absl::StatusCode::kUnavailable:
     case absl::StatusCode::kDeadlineExceeded:
     case absl::StatusCode::kAborted:

@@ -300,8 +300,10 @@ std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRan
   return std::move(check).violations();
 }
 
-absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const FieldRange> ranges,
+absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const FieldRange> ranges, int64_t most_boxes,
                                        absl::FunctionRef<bool()> stopped) {
+  EnclosureOptions options;
+  options.budget = std::min(options.budget, most_boxes);
   UncertainScene uncertain(scene, ranges);
   if (HasRankOneThroughout(scene, uncertain.box())) return RankOneThroughout(scene.system);
   SlopeParameters parameters;
@@ -311,7 +313,7 @@ absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const Fiel
   };
   const Enclosure enclosure = IsSolvedAtCorners(uncertain.box())
                                   ? Enclose(std::get<PendulumBox>(ContactOf(uncertain.box(), parameters)))
-                                  : Enclose(uncertain.whole(), contact_in, EnclosureOptions(), stopped);
+                                  : Enclose(uncertain.whole(), contact_in, options, stopped);
   if (stopped()) return absl::CancelledError("the enclosure was stopped by its caller");
   if (enclosure.attained.newton.lower > enclosure.attained.newton.upper) {
     return InvalidRequest({{"ranges",

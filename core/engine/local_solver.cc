@@ -9,6 +9,7 @@
 #include "core/answer/scene_enclosure.h"
 #include "core/answer/scene_outcome.h"
 #include "core/certified/certified.h"
+#include "core/engine/check_limits.h"
 #include "core/engine/check_solve.h"
 #include "core/engine/engine.h"
 #include "core/numerics/decimal.h"
@@ -95,11 +96,13 @@ absl::Status Answer(const SolveRequest& request, const CallOptions& options, Sol
 
 absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
   absl::StatusOr<SolveResponse> response(absl::in_place);
+  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status status = Answer(request, options, *response); !status.ok()) response = std::move(status);
   return response;
 }
 
 absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, const CallOptions& options) const {
+  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   std::optional<SceneContact> contact;
   std::vector<Violation> violations = Validate(request.scene, RestitutionIs::kRequired, contact);
   if (violations.empty()) violations = CheckDemand(request.scene, contact, request.demand);
@@ -111,6 +114,7 @@ absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, con
 }
 
 absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& request, const CallOptions& options) const {
+  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   const auto stopped = [&options] { return !WhyEnded(options).ok(); };
   std::optional<SceneContact> contact;
   auto violations = Validate(request.scene, RestitutionIs::kOptional, contact);
@@ -127,13 +131,14 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
   const absl::Status certified = Certify(request, stopped, response.certificate);
   if (!certified.ok()) return OrWhyEnded(certified, options);
   if (request.ranges.empty()) return response;
-  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, stopped);
+  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, limits_.max_boxes, stopped);
   if (!enclosure.ok()) return OrWhyEnded(enclosure.status(), options);
   response.enclosure = *enclosure;
   return response;
 }
 
 absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, const CallOptions& options) const {
+  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
   absl::StatusOr<AuditResponse> response = AuditScene(request, [&options] { return !WhyEnded(options).ok(); });
   if (!response.ok()) return OrWhyEnded(response.status(), options);
@@ -143,6 +148,7 @@ absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, 
 
 absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchRequest& request,
                                                              const CallOptions& options) const {
+  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
   absl::StatusOr<AuditBatchResponse> response = AuditScene(request, [&options] { return !WhyEnded(options).ok(); });
   if (!response.ok()) return OrWhyEnded(response.status(), options);
@@ -151,8 +157,12 @@ absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchReq
 }
 
 SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions& options) const {
+  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return SweepStream(too_large);
   absl::StatusOr<SweepRun> made = SweepRun::Make(request);
   if (!made.ok()) return SweepStream(made.status());
+  if (absl::Status too_large = CheckPoints(made->points_total(), limits_); !too_large.ok()) {
+    return SweepStream(too_large);
+  }
   auto next = [run = *std::move(made), options]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
     if (run.ended()) return std::nullopt;
     absl::StatusOr<SweepChunk> chunk = run.NextChunk([&options] { return !WhyEnded(options).ok(); });
@@ -164,6 +174,7 @@ SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions&
 }
 
 CostStream LocalSolver::DoCost(const CostRequest& request, const CallOptions& options) const {
+  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return CostStream(too_large);
   absl::StatusOr<CostStudy> made = CostStudy::Make(request);
   if (!made.ok()) return CostStream(made.status());
   auto next = [study = *std::move(made), options]() mutable -> std::optional<absl::StatusOr<CostChunk>> {

@@ -28,6 +28,30 @@ std::optional<std::string> Payload(const absl::Status& status, const char* url) 
   return std::string(*payload);
 }
 
+// Returns as many violations as a status lists; the last one says if there are more.
+std::vector<Violation> Listed(const std::vector<Violation>& violations) {
+  if (!IsFull(violations)) return violations;
+  std::vector<Violation> listed(violations.begin(), violations.begin() + kMostViolations);
+  listed.back().description += " (and more violations)";
+  return listed;
+}
+
+absl::Status WithViolations(absl::StatusCode code, ErrorReason reason, const std::vector<Violation>& all) {
+  assert(!all.empty());
+  const std::vector<Violation> violations = Listed(all);
+  const std::string message = absl::StrJoin(violations, "; ", [](std::string* out, const Violation& violation) {
+    absl::StrAppend(out, violation.field, " ", violation.description);
+  });
+  std::string data;
+  for (const Violation& violation : violations) {
+    absl::StrAppend(&data, violation.field, std::string(1, kFieldEnd), violation.description,
+                    std::string(1, kEntryEnd));
+  }
+  absl::Status status = MakeError(code, reason, message);
+  status.SetPayload(kViolationsUrl, absl::Cord(data));
+  return status;
+}
+
 }  // namespace
 
 Violation MakeViolation(std::string field, double value, const std::string& rule, std::vector<std::string> tied_to) {
@@ -43,18 +67,11 @@ absl::Status MakeError(absl::StatusCode code, ErrorReason reason, const std::str
 }
 
 absl::Status InvalidRequest(const std::vector<Violation>& violations) {
-  assert(!violations.empty());
-  const std::string message = absl::StrJoin(violations, "; ", [](std::string* out, const Violation& violation) {
-    absl::StrAppend(out, violation.field, " ", violation.description);
-  });
-  std::string data;
-  for (const Violation& violation : violations) {
-    absl::StrAppend(&data, violation.field, std::string(1, kFieldEnd), violation.description,
-                    std::string(1, kEntryEnd));
-  }
-  absl::Status status = MakeError(absl::StatusCode::kInvalidArgument, ErrorReason::kInvalidRequest, message);
-  status.SetPayload(kViolationsUrl, absl::Cord(data));
-  return status;
+  return WithViolations(absl::StatusCode::kInvalidArgument, ErrorReason::kInvalidRequest, violations);
+}
+
+absl::Status LimitExceeded(const std::vector<Violation>& violations) {
+  return WithViolations(absl::StatusCode::kResourceExhausted, ErrorReason::kLimitExceeded, violations);
 }
 
 absl::Status OutputOverflow(const std::string& path) {

@@ -136,6 +136,9 @@ std::string Clipped(const std::string& text, size_t limit) {
   return absl::StrCat(kept, "... (", text.size() - kept.size(), " more bytes)");
 }
 
+// Says that violations were left out, after the last one that was kept.
+constexpr char kMoreViolations[] = " (and more violations)";
+
 // Returns the status with the first `count` violations only, which the message lists.
 Error WithViolations(const Error& error, size_t count) {
   Error cut = error;
@@ -144,7 +147,7 @@ Error WithViolations(const Error& error, size_t count) {
     violation = {Clipped(violation.field, kFieldLimit), Clipped(violation.description, kDescriptionLimit)};
   }
   if (count < error.violations.size()) {
-    absl::StrAppend(&cut.violations.back().description, " (and ", error.violations.size() - count, " more violations)");
+    cut.violations.back().description += kMoreViolations;
   }
   cut.message = std::string(InvalidRequest(cut.violations).message());
   return cut;

@@ -218,7 +218,7 @@ void RunAll() {
   const LocalSolver solver;
   server::Admission admission(64);
   const server::Observer observer(log);
-  server::ImpactService service(solver, int64_t{1} << 53, {}, admission, observer);
+  server::ImpactService service(solver, {}, admission, observer);
   EchoService nothing;
   Loopback ricochet(&service);
   Loopback echo(&nothing);

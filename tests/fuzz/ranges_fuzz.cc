@@ -84,7 +84,7 @@ void Run(const v1::BoundsRequest& proto) {
   if (!CheckRanges(request.scene, request.ranges).empty()) return;
   int looks = 0;
   const auto stopped = [&looks] { return ++looks > kMostLooks; };
-  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, stopped);
+  const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, Limits().max_boxes, stopped);
   if (absl::IsCancelled(enclosure.status())) return;
   CheckStatus(enclosure.status(), true);
   if (!enclosure.ok()) return;

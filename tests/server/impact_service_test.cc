@@ -104,7 +104,7 @@ class ImpactServiceTest : public testing::Test {
   std::stop_source unary_;
   Admission admission_{8};
   ImpactService service_{
-      solver_, 1'000'000, {.streams = streams_.get_token(), .unary = unary_.get_token()}, admission_, observer_};
+      solver_, {.streams = streams_.get_token(), .unary = unary_.get_token()}, admission_, observer_};
   std::unique_ptr<grpc::Server> server_;
   std::unique_ptr<v1::ImpactService::Stub> stub_;
 };
@@ -202,16 +202,6 @@ TEST_F(ImpactServiceTest, ANewCallIsRefusedAfterTheGrace) {
   EXPECT_EQ(ReasonOf(status), ErrorReason::kDraining);
   EXPECT_EQ(RetryDelayOf(status), seconds(1));
   EXPECT_FALSE(solver_.deadline.has_value()) << "the solver was called";
-}
-
-TEST_F(ImpactServiceTest, ASweepOfTooManyPointsIsRefusedBeforeItsFirstChunkIsSent) {
-  grpc::ClientContext context;
-  v1::SweepRequest request;
-  request.set_end_index(1'000'001);
-  const auto reader = stub_->Sweep(&context, request);
-  v1::SweepResponse chunk;
-  EXPECT_FALSE(reader->Read(&chunk));
-  EXPECT_EQ(ReasonOf(FromGrpcStatus(reader->Finish())), ErrorReason::kSweepTooLarge);
 }
 
 }  // namespace

@@ -138,7 +138,13 @@ INSTANTIATE_TEST_SUITE_P(
                  }},
         GoodCase{"MostPoints",
                  {.flags = {"--max-points-per-sweep", "9007199254740992"}},
-                 [](Options& o) { o.max_points_per_sweep = int64_t{1} << 53; }},
+                 [](Options& o) { o.limits.max_points_per_sweep = int64_t{1} << 53; }},
+        GoodCase{"LimitsOfARequest",
+                 {.flags = {"--max-links", "7"}, .file = "max-history-numbers = 12\n"},
+                 [](Options& o) {
+                   o.limits.max_links = 7;
+                   o.limits.max_history_numbers = 12;
+                 }},
         GoodCase{"Log",
                  {.flags = {"--log-format", "json", "--log-level", "debug"}},
                  [](Options& o) {
@@ -270,7 +276,8 @@ TEST(Options, HelpNamesEveryOption) {
   for (const char* option :
        {"--config", "--listen", "--port-file", "--insecure", "--socket-mode", "--reflection", "--max-connections",
         "--max-connections-per-peer", "--transport-memory", "--max-live-calls", "--max-threads",
-        "--max-points-per-sweep", "--drain-grace", "--drain-timeout", "--log-format", "--log-level", "--version"}) {
+        "--max-points-per-sweep", "--max-links", "--max-audit-rows", "--drain-grace", "--drain-timeout", "--log-format",
+        "--log-level", "--version"}) {
     EXPECT_THAT(std::get<Notice>(*parsed).text, HasSubstr(option));
   }
 }

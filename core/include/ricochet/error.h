@@ -7,6 +7,7 @@
 #define RICOCHET_ERROR_H_
 
 #include <chrono>
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,6 +26,7 @@ enum class ErrorReason {
   kSweepTooLarge = 5,        // RESOURCE_EXHAUSTED: more points than the server allows in one call; ask for sub-ranges.
   kDraining = 6,             // UNAVAILABLE: the server is shutting down; ask another one, or try again later.
   kNotEnded = 7,             // OUT_OF_RANGE: an impact that the bounds need did not end within its step budget.
+  kLimitExceeded = 8,        // RESOURCE_EXHAUSTED: larger than ricochet/limits.h allows here; the violations say where.
 };
 
 // The change to a request that could cure a violation.
@@ -51,6 +53,12 @@ struct Violation {
   }
 };
 
+// A status lists no more violations than this number. Validation stops once it has found more.
+inline constexpr size_t kMostViolations = 20;
+
+// True once there are more violations than a status lists, so that looking for others is of no use.
+inline bool IsFull(const std::vector<Violation>& violations) { return violations.size() > kMostViolations; }
+
 // Makes a violation of kind kValue with the description "= VALUE: must RULE". VALUE is the shortest decimal that reads
 // back as the same double.
 Violation MakeViolation(std::string field, double value, const std::string& rule,
@@ -59,8 +67,12 @@ Violation MakeViolation(std::string field, double value, const std::string& rule
 // Makes a status with a reason. `code` must not be OK.
 absl::Status MakeError(absl::StatusCode code, ErrorReason reason, const std::string& message);
 
-// Makes an INVALID_ARGUMENT that lists every violation, in the message and as data. `violations` must not be empty.
+// Makes an INVALID_ARGUMENT that lists the violations, in the message and as data. If there are more than
+// kMostViolations, it lists that many and the last one says that there are more. `violations` must not be empty.
 absl::Status InvalidRequest(const std::vector<Violation>& violations);
+
+// Makes a RESOURCE_EXHAUSTED that lists the fields that are too large in the same way.
+absl::Status LimitExceeded(const std::vector<Violation>& violations);
 
 // Makes an OUT_OF_RANGE that names the output by its path, such as "outcome.work.normal_compression_j".
 absl::Status OutputOverflow(const std::string& path);

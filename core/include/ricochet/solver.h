@@ -1,8 +1,9 @@
 // Solver: the one interface. LocalSolver answers in this process, Client asks a server; both give the same bits.
 //
 // Thread safety: every method may be called from several threads at once.
-// Errors: a bad request gets INVALID_ARGUMENT with all violations (ricochet/error.h), an exact result above the largest
-// double OUT_OF_RANGE, a call that its CallOptions end CANCELLED or DEADLINE_EXCEEDED; a Client adds the errors of the
+// Errors: a bad request gets INVALID_ARGUMENT with its violations (ricochet/error.h), one that is too large for the
+// solver RESOURCE_EXHAUSTED (ricochet/limits.h), an exact result above the largest double OUT_OF_RANGE, a call that its
+// CallOptions end CANCELLED or DEADLINE_EXCEEDED; a Client adds the errors of the
 // network. Numerical outcomes are fields of the answer, not errors.
 
 #ifndef RICOCHET_SOLVER_H_
@@ -22,6 +23,7 @@
 #include "ricochet/demand.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"
+#include "ricochet/limits.h"
 #include "ricochet/outcome.h"
 #include "ricochet/plan.h"
 #include "ricochet/result_stream.h"
@@ -183,8 +185,13 @@ class Solver {
   virtual CostStream DoCost(const CostRequest& request, const CallOptions& options) const = 0;
 };
 
-// LocalSolver is the Solver that runs in this process: it needs no server, thread or file. Copying it costs nothing.
+// LocalSolver is the Solver that runs in this process: it needs no server, thread or file. Copying it costs little.
 class LocalSolver final : public Solver {
+ public:
+  // Without limits it takes a request of any size, because the process that asks is the one that pays.
+  LocalSolver() : LocalSolver(Limits::None()) {}
+  explicit LocalSolver(const Limits& limits) : limits_(limits) {}
+
  private:
   absl::StatusOr<SolveResponse> DoSolve(const SolveRequest& request, const CallOptions& options) const override;
   absl::StatusOr<PlanResponse> DoPlan(const PlanRequest& request, const CallOptions& options) const override;
@@ -194,6 +201,8 @@ class LocalSolver final : public Solver {
                                                   const CallOptions& options) const override;
   SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
   CostStream DoCost(const CostRequest& request, const CallOptions& options) const override;
+
+  Limits limits_;
 };
 
 }  // namespace ricochet

@@ -26,6 +26,8 @@
 namespace ricochet {
 namespace {
 
+constexpr int64_t kMostBoxes = 200'000;
+
 bool Never() { return false; }
 
 using testing::ElementsAre;
@@ -191,7 +193,7 @@ std::string Text(const std::vector<FieldRange>& ranges) {
 }
 
 Enclosure EncloseOrFail(const Scene& scene, const std::vector<FieldRange>& ranges) {
-  const auto enclosure = EncloseScene(scene, ranges, Never);
+  const auto enclosure = EncloseScene(scene, ranges, kMostBoxes, Never);
   EXPECT_TRUE(enclosure.ok()) << enclosure.status() << Text(ranges);
   return enclosure.value_or(Enclosure());
 }
@@ -405,7 +407,7 @@ TEST(SceneEnclosureTest, IsStoppedByItsCaller) {
                                           Around(scene, "planar_body.rate_rad_s", 0.5)};
   ASSERT_GT(EncloseOrFail(scene, ranges).boxes, 1000);
   int asked = 0;
-  const auto stopped = EncloseScene(scene, ranges, [&] { return ++asked > 1; });
+  const auto stopped = EncloseScene(scene, ranges, kMostBoxes, [&] { return ++asked > 1; });
   EXPECT_EQ(stopped.status().code(), absl::StatusCode::kCancelled);
   EXPECT_LE(asked, 3);
 }

@@ -1,0 +1,190 @@
+#include "core/engine/check_limits.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/scene/numbers.h"
+#include "ricochet/error.h"
+
+namespace ricochet {
+namespace {
+
+// Collects the fields of a request that are too large.
+class SizeCheck {
+ public:
+  explicit SizeCheck(const Limits& limits) : limits_(limits) {}
+
+  // Requires that the list at `field` has no more entries than the limit.
+  void Entries(const std::string& field, size_t size, int64_t Limits::*limit) {
+    if (static_cast<int64_t>(size) <= limits_.*limit) return;
+    Exceeded(field, absl::StrCat("has ", size, " entries: must have at most ", limits_.*limit), limit);
+  }
+
+  // Requires that a number asked for by the field is no larger than the limit.
+  void Number(const std::string& field, int64_t number, int64_t Limits::*limit) {
+    if (number <= limits_.*limit) return;
+    Exceeded(field, absl::StrCat("= ", number, ": must be at most ", limits_.*limit), limit);
+  }
+
+  // Requires that `count` times `each`, neither of them negative, is no larger than the limit.
+  void Product(const std::string& field, int64_t count, const std::string& what, int64_t each, int64_t Limits::*limit) {
+    if (count <= limits_.*limit / each) return;
+    Exceeded(field, absl::StrCat("asks for ", count, what, each, ": the product must be at most ", limits_.*limit),
+             limit);
+  }
+
+  void Scene(const ricochet::Scene& scene);
+
+  absl::Status status() const { return exceeded_.empty() ? absl::OkStatus() : LimitExceeded(exceeded_); }
+
+ private:
+  void Exceeded(const std::string& field, const std::string& description, int64_t Limits::*limit) {
+    if (IsFull(exceeded_)) return;
+    const auto* const named =
+        std::find_if(std::begin(kLimits), std::end(kLimits), [&](const NamedLimit& l) { return l.value == limit; });
+    exceeded_.push_back({field, absl::StrCat(description, ", the limit ", named->name)});
+  }
+
+  const Limits& limits_;
+  std::vector<Violation> exceeded_;
+};
+
+// The links of the system; a system that is no linkage counts as one.
+int64_t LinksOf(const System& system) {
+  const auto* const linkage = std::get_if<Linkage>(&system);
+  return linkage == nullptr ? 1 : std::max<int64_t>(static_cast<int64_t>(linkage->links.size()), 1);
+}
+
+void SizeCheck::Scene(const ricochet::Scene& scene) {
+  const auto* const linkage = std::get_if<Linkage>(&scene.system);
+  if (linkage != nullptr) Entries("linkage.links", linkage->links.size(), &Limits::max_links);
+  // The last number of a list tells its size.
+  NumberPath last;
+  const auto check_list = [&] {
+    const std::string field = NumberPath{last.prefix, last.entry, last.name}.Text();
+    Entries(field, static_cast<size_t>(last.index + 1), &Limits::max_list_numbers);
+  };
+  VisitNumbers(scene, [&](const NumberPath& path, double /*number*/, NumberRule /*rule*/) {
+    if (path.index <= 0 && last.index >= limits_.max_list_numbers) check_list();
+    last = path;
+  });
+  if (last.index >= limits_.max_list_numbers) check_list();
+}
+
+void CheckDigits(const System& system, int32_t digits, SizeCheck& check) {
+  if (digits <= 0) return;
+  check.Product("certified_digits", digits, " digits, times the number of links, ", LinksOf(system),
+                &Limits::max_digits_times_links);
+}
+
+void CheckHistory(const SolveRequest& request, SizeCheck& check) {
+  constexpr int64_t kNumbersBesideRates = 4;  // Of a state: two impulses and two velocities of the contact.
+  const int64_t numbers = kNumbersBesideRates + LinksOf(request.scene.system);
+  const char* const times = " states, times the numbers of a state, ";
+  const auto listed = static_cast<int64_t>(request.history_at_n_s.size());
+  check.Product("history_at_n_s", listed, times, numbers, &Limits::max_history_numbers);
+  if (request.history_intervals <= 0 || request.history_intervals > kMostIntervals) return;  // Validation refuses it.
+  check.Product("history_intervals", request.history_intervals + 1, times, numbers, &Limits::max_history_numbers);
+}
+
+void CheckObserved(std::monostate /*unset*/, SizeCheck& /*check*/) {}
+void CheckObserved(const ContactVelocity& velocity, SizeCheck& check) {
+  check.Entries("contact_velocity.tangential_m_s", velocity.tangential_m_s.size(), &Limits::max_list_numbers);
+}
+void CheckObserved(const ObservedRates& rates, SizeCheck& check) {
+  check.Entries("rates.rates_rad_s", rates.rates_rad_s.size(), &Limits::max_links);
+}
+
+void CheckColumns(const AuditColumns& columns, SizeCheck& check) {
+  const auto rows = [&](const std::string& field, const std::vector<double>& values) {
+    check.Entries("columns." + field, values.size(), &Limits::max_audit_rows);
+  };
+  rows("tangential_m_s", columns.tangential_m_s);
+  rows("tangential_2_m_s", columns.tangential_2_m_s);
+  rows("normal_m_s", columns.normal_m_s);
+  rows("tangential_after_m_s", columns.tangential_after_m_s);
+  rows("tangential_2_after_m_s", columns.tangential_2_after_m_s);
+  rows("normal_after_m_s", columns.normal_after_m_s);
+  rows("friction", columns.friction);
+  rows("velocity_uncertainty_m_s", columns.velocity_uncertainty_m_s);
+  check.Entries("columns.rates_after", columns.rates_after_rad_s.size(), &Limits::max_links);
+  for (size_t i = 0; i < columns.rates_after_rad_s.size(); ++i) {
+    rows(absl::StrCat("rates_after[", i, "].rates_rad_s"), columns.rates_after_rad_s[i]);
+  }
+}
+
+void CheckAxes(const std::vector<Axis>& axes, SizeCheck& check) {
+  check.Entries("axes", axes.size(), &Limits::max_axes);
+  for (size_t i = 0; i < axes.size(); ++i) {
+    const auto* const list = std::get_if<ListValues>(&axes[i].values);
+    if (list == nullptr) continue;
+    check.Entries(absl::StrCat("axes[", i, "].list.values"), list->values.size(), &Limits::max_axis_values);
+  }
+}
+
+}  // namespace
+
+absl::Status CheckLimits(const SolveRequest& request, const Limits& limits) {
+  SizeCheck check(limits);
+  check.Scene(request.scene);
+  CheckHistory(request, check);
+  check.Number("force_intervals", request.force_intervals, &Limits::max_force_intervals);
+  CheckDigits(request.scene.system, request.certified_digits, check);
+  return check.status();
+}
+
+absl::Status CheckLimits(const PlanRequest& request, const Limits& limits) {
+  SizeCheck check(limits);
+  check.Scene(request.scene);
+  return check.status();
+}
+
+absl::Status CheckLimits(const BoundsRequest& request, const Limits& limits) {
+  SizeCheck check(limits);
+  check.Scene(request.scene);
+  check.Entries("ranges", request.ranges.size(), &Limits::max_ranges);
+  CheckDigits(request.scene.system, request.certified_digits, check);
+  return check.status();
+}
+
+absl::Status CheckLimits(const AuditRequest& request, const Limits& limits) {
+  SizeCheck check(limits);
+  check.Scene(request.scene);
+  std::visit([&check](const auto& observed) { CheckObserved(observed, check); }, request.observed);
+  return check.status();
+}
+
+absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits) {
+  SizeCheck check(limits);
+  check.Scene(request.scene);
+  CheckColumns(request.columns, check);
+  return check.status();
+}
+
+absl::Status CheckLimits(const SweepRequest& request, const Limits& limits) {
+  SizeCheck check(limits);
+  check.Scene(request.grid.scene);
+  CheckAxes(request.grid.axes, check);
+  check.Entries("columns", request.columns.size(), &Limits::max_columns);
+  return check.status();
+}
+
+absl::Status CheckLimits(const CostRequest& request, const Limits& limits) {
+  SizeCheck check(limits);
+  check.Scene(request.scene);
+  return check.status();
+}
+
+absl::Status CheckPoints(int64_t points, const Limits& limits) {
+  if (points <= limits.max_points_per_sweep) return absl::OkStatus();
+  return MakeError(absl::StatusCode::kResourceExhausted, ErrorReason::kSweepTooLarge,
+                   absl::StrCat("the sweep has ", points, " points: one call may have at most ",
+                                limits.max_points_per_sweep, "; ask for sub-ranges by first_index and end_index"));
+}
+
+}  // namespace ricochet
