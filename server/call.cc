@@ -1,6 +1,7 @@
 #include "server/call.h"
 
 #include <string>
+#include <utility>
 
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
@@ -45,6 +46,7 @@ Call::Call(const char* method, grpc::ServerContext& context, Admission& admissio
 }
 
 Call::~Call() {
+  { const absl::StatusOr<Admission::Ticket> given_back = std::move(ticket_); }
   record_.duration_s = elapsed_s();
   observer_.Ended(record_);
 }

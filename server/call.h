@@ -23,7 +23,7 @@ class Call {
   // Starts the clock, asks for admission and adds the request id to the metadata of the answer. `method` is the method's
   // name without that of the service. All arguments by reference must outlive the call.
   Call(const char* method, grpc::ServerContext& context, Admission& admission, const Observer& observer);
-  // Hands the record to the observer.
+  // Gives the place back and then hands the record to the observer.
   ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
@@ -48,7 +48,7 @@ class Call {
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   const grpc::ServerContext& context_;
   const Observer& observer_;
-  const absl::StatusOr<Admission::Ticket> ticket_;
+  absl::StatusOr<Admission::Ticket> ticket_;
   // The status UNKNOWN stays if a handler throws and never finishes; gRPC then answers the same.
   CallRecord record_;
 };

@@ -1,10 +1,10 @@
 #include "server/log.h"
 
 #include <grpc/support/log.h>
+#include <spdlog/details/log_msg.h>
 #include <spdlog/fmt/fmt.h>
-#include <spdlog/logger.h>
+#include <spdlog/formatter.h>
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/ostream_sink.h>
 
 #include <algorithm>
 #include <atomic>
@@ -108,15 +108,28 @@ void WriteGrpcMessage(gpr_log_func_args* message) {
 
 }  // namespace
 
-Log::Log(LogFormat format, LogLevel level, std::ostream& out)
+Log::Log(LogFormat format, LogLevel level, std::function<void(absl::string_view)> put)
     : format_(format),
-      logger_(std::make_unique<spdlog::logger>(
-          "ricochetd", std::make_shared<spdlog::sinks::ostream_sink_mt>(out, /*force_flush=*/true))) {
-  logger_->set_formatter(std::make_unique<spdlog::pattern_formatter>(
-      format == LogFormat::kJson ? kJsonPattern : kTextPattern, spdlog::pattern_time_type::utc));
-  logger_->set_level(ToSpdlog(level));
+      level_(level),
+      formatter_(std::make_unique<spdlog::pattern_formatter>(format == LogFormat::kJson ? kJsonPattern : kTextPattern,
+                                                             spdlog::pattern_time_type::utc)),
+      put_(std::move(put)) {
   grpc_log = this;
   gpr_set_log_function(WriteGrpcMessage);
+}
+
+Log::Log(LogFormat format, LogLevel level, std::ostream& out)
+    : Log(format, level, [this, &out](absl::string_view line) {
+        const std::lock_guard lock(mutex_);
+        out << line << std::flush;
+      }) {}
+
+Log::Log(LogFormat format, LogLevel level, std::unique_ptr<LogWriter> writer)
+    : Log(format, level, [to = writer.get()](absl::string_view line) { to->Push(line); }) {
+  writer_ = std::move(writer);
+  writer_->SetNotice([this](int64_t dropped) {
+    return Line(LogLevel::kWarning, "log lines dropped", {{"count", dropped}});
+  });
 }
 
 Log::~Log() {
@@ -124,14 +137,31 @@ Log::~Log() {
   grpc_log.compare_exchange_strong(self, nullptr);
 }
 
-void Log::Write(LogLevel level, const std::string& event, const std::vector<LogField>& fields) const {
-  if (!logger_->should_log(ToSpdlog(level))) return;
+std::string Log::Line(LogLevel level, const std::string& event, const std::vector<LogField>& fields) const {
   std::string record = format_ == LogFormat::kJson ? "\"event\":" + Quoted(event) : event;
   for (const LogField& field : fields) {
     record += format_ == LogFormat::kJson ? ",\"" + field.name + "\":" : " " + field.name + "=";
     record += ToText(field, format_);
   }
-  logger_->log(ToSpdlog(level), spdlog::string_view_t(record));
+  const spdlog::details::log_msg message("", ToSpdlog(level), spdlog::string_view_t(record));
+  spdlog::memory_buf_t line;
+  const std::lock_guard lock(mutex_);
+  formatter_->format(message, line);
+  return {line.data(), line.size()};
 }
+
+void Log::Write(LogLevel level, const std::string& event, const std::vector<LogField>& fields) const {
+  if (level >= level_) put_(Line(level, event, fields));
+}
+
+bool Log::Flush(std::chrono::milliseconds time) const { return writer_ == nullptr || writer_->Flush(time); }
+
+absl::Status Log::Reopen() const {
+  const absl::Status status = writer_ == nullptr ? absl::OkStatus() : writer_->Reopen();
+  if (!status.ok()) Write(LogLevel::kError, "log not reopened", {{"message", std::string(status.message())}});
+  return status;
+}
+
+int64_t Log::dropped() const { return writer_ == nullptr ? 0 : writer_->dropped(); }
 
 }  // namespace ricochet::server

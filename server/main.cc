@@ -1,21 +1,41 @@
 // ricochetd: the impact service as a daemon. Exit codes: 0 after a signal and an orderly shutdown, 1 if it cannot
 // start, 2 for bad options.
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <chrono>
 #include <cstdlib>
 #include <iostream>
 #include <string>
+#include <utility>
 #include <variant>
 
 #include "absl/synchronization/mutex.h"
 #include "server/log.h"
+#include "server/log_writer.h"
 #include "server/options.h"
 #include "server/server.h"
 #include "server/signals.h"
+#include "server/start_fields.h"
 
 namespace {
 
+// The time at the end for lines of the log that are not yet written; a log that nobody reads keeps some for ever.
+constexpr std::chrono::seconds kTimeForLog(1);
+
+// Opens what is closed of standard input, output and error, so that no socket gets their numbers and what is written there.
+void OpenStandardDescriptors() {
+  int descriptor = 0;
+  do {
+    descriptor = open("/dev/null", O_RDWR);
+  } while (descriptor >= STDIN_FILENO && descriptor <= STDERR_FILENO);
+  if (descriptor > STDERR_FILENO) close(descriptor);
+}
+
 int Run(int argc, const char* const* argv) {
   namespace server = ricochet::server;
+  OpenStandardDescriptors();
   const server::Signals signals;
 
   const auto command = server::ParseCommandLine(argc, argv);
@@ -29,14 +49,23 @@ int Run(int argc, const char* const* argv) {
   }
 
   const auto& options = std::get<server::Options>(*command);
-  const server::Log log(options.log_format, options.log_level, std::cerr);
+  auto writer = server::LogWriter::Open(options.log_file);
+  if (!writer.ok()) {
+    std::cerr << "ricochetd: " << writer.status().message() << '\n';
+    return 1;
+  }
+  const server::Log log(options.log_format, options.log_level, *std::move(writer));
+  log.Write(server::LogLevel::kInfo, "starting", server::StartFields(options));
   const auto running = server::Server::Start(options, log);
   if (!running.ok()) {
     log.Write(server::LogLevel::kError, "cannot start", {{"reason", std::string(running.status().message())}});
     return 1;
   }
+  (*running)->AtHangUp([&log] { log.Reopen().IgnoreError(); });
   (*running)->ServeUntil(signals);
-  // All calls have ended or used up their time. The exit closes their connections; destroying the server would wait for clients that have stopped reading.
+  log.Flush(kTimeForLog);
+  // All calls have ended or used up their time. The exit closes their connections; destroying the server would wait for
+  // clients that have stopped reading.
   std::_Exit(0);
 }
 

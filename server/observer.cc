@@ -1,6 +1,8 @@
 #include "server/observer.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -58,6 +60,8 @@ void AddPresent(const CallRecord& call, std::vector<LogField>& fields) {
 }  // namespace
 
 void Observer::Ended(const CallRecord& call) const {
+  const std::optional<int64_t> left_out = sampler_.Take(call, CallSampler::Clock::now());
+  if (!left_out.has_value()) return;
   std::vector<LogField> fields = {
       {"peer", call.peer},
       {"method", absl::StrCat("/", v1::ImpactService::service_full_name(), "/", call.method)},
@@ -65,6 +69,7 @@ void Observer::Ended(const CallRecord& call) const {
       {"duration_ms", call.duration_s * 1e3},
       {"request_id", call.request_id}};
   AddPresent(call, fields);
+  if (*left_out > 0) fields.push_back({"calls_left_out", *left_out});
   log_.Write(LogLevel::kInfo, "call", fields);
 }
 

@@ -1,9 +1,10 @@
-// Observer: is told of every call when it has ended, and writes it into the log.
+// Observer: is told of every call when it has ended, and writes it into the log if the rule for calls says so.
 
 #ifndef RICOCHET_SERVER_OBSERVER_H_
 #define RICOCHET_SERVER_OBSERVER_H_
 
 #include "server/call_record.h"
+#include "server/call_rule.h"
 #include "server/log.h"
 
 namespace ricochet::server {
@@ -12,12 +13,13 @@ namespace ricochet::server {
 class Observer {
  public:
   // `log` must outlive the observer.
-  explicit Observer(const Log& log) : log_(log) {}
+  explicit Observer(const Log& log, const CallRule& rule = {}) : log_(log), sampler_(rule) {}
 
   void Ended(const CallRecord& call) const;
 
  private:
   const Log& log_;
+  mutable CallSampler sampler_;
 };
 
 }  // namespace ricochet::server

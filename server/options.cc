@@ -161,7 +161,7 @@ std::vector<Setting> RequestLimitSettings() {
 
 std::vector<Setting> LogSettings() {
   return {
-      {"log-format", "FORMAT", "text or json: one record on each line of standard error [text]",
+      {"log-format", "FORMAT", "text or json: one record on each line [text]",
        [](const std::string& text, Options& to) {
          return ReadName<LogFormat>(text, {{"text", LogFormat::kText}, {"json", LogFormat::kJson}}, to.log_format);
        }},
@@ -173,6 +173,21 @@ std::vector<Setting> LogSettings() {
                                     {"warning", LogLevel::kWarning},
                                     {"error", LogLevel::kError}},
                                    to.log_level);
+       }},
+      {"log-file", "FILE", "Append the log to this file, opened anew after SIGHUP [standard error]",
+       [](const std::string& text, Options& to) -> BrokenRule {
+         to.log_file = text;
+         if (text.empty()) return "must not be empty";
+         return std::nullopt;
+       }},
+      {"log-calls", "RULE",
+       "all; or failed calls and: errors (no other), slow:SECONDS, one in sample:N, the first rate:N a second "
+       "[rate:100]",
+       [](const std::string& text, Options& to) -> BrokenRule {
+         const auto rule = ParseCallRule(text);
+         if (!rule.has_value()) return kCallRuleForm;
+         to.log_calls = *rule;
+         return std::nullopt;
        }},
   };
 }

@@ -17,6 +17,7 @@
 
 #include "absl/status/statusor.h"
 #include "ricochet/limits.h"
+#include "server/call_rule.h"
 #include "server/connection_counts.h"
 #include "server/listen_address.h"
 #include "server/log.h"
@@ -40,6 +41,8 @@ struct Options {
 
   LogFormat log_format = LogFormat::kText;
   LogLevel log_level = LogLevel::kInfo;
+  std::string log_file;  // Empty: standard error.
+  CallRule log_calls;
 
   std::chrono::milliseconds drain_grace{3000};    // From health NOT_SERVING to the end of running sweeps; 0 to 1 h.
   std::chrono::milliseconds drain_timeout{5000};  // From there to the stop of all calls; 0 to 1 h.

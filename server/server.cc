@@ -15,6 +15,8 @@
 namespace ricochet::server {
 namespace {
 
+constexpr std::chrono::milliseconds kTimeForLog(100);
+
 // Announces how many connections fit below the limit of descriptors, if that is less than the options allow.
 ConnectionLimits LimitsOfConnections(const Options& options, const Log& log) {
   ConnectionLimits limits = options.connections;
@@ -36,7 +38,7 @@ Server::Server(const Options& options, const Log& log)
       solver_(options.limits),
       admission_(options.max_live_calls),
       drain_(options.drain_grace, options.drain_timeout),
-      observer_(log),
+      observer_(log, options.log_calls),
       service_(solver_, drain_.stops(), admission_, observer_),
       bounded_(service_, options.limits) {}
 
@@ -44,6 +46,8 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, co
   std::unique_ptr<Server> server(new Server(options, log));
   absl::Status status = server->Listen();
   if (!status.ok()) return status;
+  // A script that finds the port file finds the addresses in the log, too.
+  log.Flush(kTimeForLog);
   if (!options.port_file.empty()) status = WritePortFile(options.port_file, server->port());
   if (!status.ok()) return status;
   return server;

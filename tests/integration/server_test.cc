@@ -265,7 +265,7 @@ TEST(Server, DeadlineEndsASweepPromptly) {
   RunningSweep sweep(*stub, SweepOf(kHuge), milliseconds(200));
   EXPECT_EQ(sweep.Drain().code(), absl::StatusCode::kDeadlineExceeded);
   EXPECT_LT(steady_clock::now() - before, seconds(5));
-  const auto record = LastCall(server.WaitForLog("points"), kSweepMethod);
+  const auto record = LastCall(server.WaitForLog("\"points\""), kSweepMethod);
   ASSERT_EQ(record.fields().count("points"), 1U);
   EXPECT_LT(record.fields().at("points").number_value(), 0.1 * kHuge);
   // The clock of the client may cancel the call first.

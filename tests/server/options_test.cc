@@ -145,12 +145,15 @@ INSTANTIATE_TEST_SUITE_P(
                    o.limits.max_links = 7;
                    o.limits.max_history_numbers = 12;
                  }},
-        GoodCase{"Log",
-                 {.flags = {"--log-format", "json", "--log-level", "debug"}},
-                 [](Options& o) {
-                   o.log_format = LogFormat::kJson;
-                   o.log_level = LogLevel::kDebug;
-                 }},
+        GoodCase{
+            "Log",
+            {.flags = {"--log-format", "json", "--log-level", "debug", "--log-file", "a b", "--log-calls", "slow:2"}},
+            [](Options& o) {
+              o.log_format = LogFormat::kJson;
+              o.log_level = LogLevel::kDebug;
+              o.log_file = "a b";
+              o.log_calls = {.kind = CallRule::Kind::kSlow, .count = 100, .slow = milliseconds(2000)};
+            }},
         GoodCase{"Drain",
                  {.flags = {"--drain-grace", "0", "--drain-timeout", "0.25"}},
                  [](Options& o) {
@@ -254,6 +257,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"TimeoutTooLong", {.flags = {"--drain-timeout", "3601"}}, {"--drain-timeout = 3601: must"}},
         BadCase{"LogFormat", {.flags = {"--log-format", "xml"}}, {"--log-format = xml: must be one of text, json"}},
         BadCase{"LogLevelInFile", {.file = "log-level = loud\n"}, {"--log-level = loud: must be one of debug"}},
+        BadCase{"EmptyLogFile", {.flags = {"--log-file", ""}}, {"--log-file = : must not be empty"}},
+        BadCase{"LogCalls", {.flags = {"--log-calls", "some"}}, {"--log-calls = some: must be all, errors, slow:"}},
         BadCase{"EmptyPortFile", {.flags = {"--port-file", ""}}, {"--port-file = : must not be empty"}},
         BadCase{"AllAtOnce",
                 {.flags = {"--listen", "nowhere"},
@@ -274,10 +279,12 @@ TEST(Options, HelpNamesEveryOption) {
   const auto parsed = Parse("", {.flags = {"--help"}});
   ASSERT_TRUE(parsed.ok() && std::holds_alternative<Notice>(*parsed));
   for (const char* option :
-       {"--config", "--listen", "--port-file", "--insecure", "--socket-mode", "--reflection", "--max-connections",
-        "--max-connections-per-peer", "--transport-memory", "--max-live-calls", "--max-threads",
-        "--max-points-per-sweep", "--max-links", "--max-audit-rows", "--drain-grace", "--drain-timeout", "--log-format",
-        "--log-level", "--version"}) {
+       {"--config",           "--listen",         "--port-file",       "--insecure",
+        "--socket-mode",      "--reflection",     "--max-connections", "--max-connections-per-peer",
+        "--transport-memory", "--max-live-calls", "--max-threads",     "--max-points-per-sweep",
+        "--max-links",        "--max-audit-rows", "--drain-grace",     "--drain-timeout",
+        "--log-format",       "--log-level",      "--log-file",        "--log-calls",
+        "--version"}) {
     EXPECT_THAT(std::get<Notice>(*parsed).text, HasSubstr(option));
   }
 }

@@ -1,0 +1,42 @@
+#include "server/start_fields.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "absl/strings/str_join.h"
+#include "core/engine/engine.h"
+#include "ricochet/limits.h"
+#include "server/listen_address.h"
+
+namespace ricochet::server {
+
+namespace {
+
+// Returns how the caller's requests travel.
+std::string SecurityOf(const Options& options) {
+  const bool on_this_host = std::all_of(options.listen.begin(), options.listen.end(), IsLocal);
+  return on_this_host ? "plaintext on this host" : "plaintext beyond this host";
+}
+
+}  // namespace
+
+std::vector<LogField> StartFields(const Options& options) {
+  const std::string addresses = absl::StrJoin(
+      options.listen, ",", [](std::string* out, const ListenAddress& address) { *out += ToString(address); });
+  std::vector<LogField> fields = {{"version", ThisEngine().version},
+                                  {"engine", ThisEngine().fingerprint},
+                                  {"listen", addresses},
+                                  {"security", SecurityOf(options)},
+                                  {"max_connections", int64_t{options.connections.in_all}},
+                                  {"max_connections_per_peer", int64_t{options.connections.per_peer}},
+                                  {"transport_memory_mib", options.transport_memory_mib},
+                                  {"max_live_calls", int64_t{options.max_live_calls}},
+                                  {"max_threads", int64_t{options.max_threads}},
+                                  {"drain_grace_ms", int64_t{options.drain_grace.count()}},
+                                  {"drain_timeout_ms", int64_t{options.drain_timeout.count()}}};
+  for (const NamedLimit& limit : kLimits) fields.push_back({limit.name, options.limits.*limit.value});
+  return fields;
+}
+
+}  // namespace ricochet::server
