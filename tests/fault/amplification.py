@@ -4,8 +4,9 @@ import threading
 
 import grpc
 
-from calls import HARD_DURATION, cheap, channel, linkage, pb, request, require_served, stub
+from calls import HARD_DURATION, cheap, channel, linkage, pb, request, require_served
 from framework import Server, check, cpu_until_idle, main, require, tools
+from http2 import SERVICE
 
 MOST_MIB = 64  # The most memory that one request may take.
 DEADLINE_S = 1.0
@@ -131,20 +132,20 @@ ROWS = {
 class Asked:
     """A call in a thread of its own, which ends with a status and never raises."""
 
-    def __init__(self, address, method, what, timeout_s):
+    def __init__(self, address, method, data, timeout_s):
         self.line = channel(address)
         self.code = None
         self.text = ""
         self.bytes = 0
 
         def run():
-            call = getattr(stub(self.line), method)
+            path = SERVICE + method
             try:
                 if method == "Sweep":
-                    for chunk in call(what, timeout=timeout_s):
-                        self.bytes += chunk.ByteSize()
+                    for chunk in self.line.unary_stream(path)(data, timeout=timeout_s):
+                        self.bytes += len(chunk)
                 else:
-                    self.bytes = call(what, timeout=timeout_s).ByteSize()
+                    self.bytes = len(self.line.unary_unary(path)(data, timeout=timeout_s))
                 self.code = "OK"
             except (grpc.RpcError, ValueError) as error:  # A channel that is closed raises the latter.
                 self.code = error.code().name if isinstance(error, grpc.RpcError) else "CANCELLED"
@@ -170,8 +171,7 @@ def warm(server):
     return server.peak_mib()
 
 
-def deadline_and_memory(make):
-    method, what = make()
+def deadline_and_memory(method, what):
     with Server() as server:
         before = warm(server)
         cpu = server.cpu_s()
@@ -180,16 +180,15 @@ def deadline_and_memory(make):
         idle = cpu_until_idle(server, STOP_CPU_S)
         used, took = server.cpu_s() - cpu, server.peak_mib() - before
         require(server.alive(), "the process ended")
-        text = f"{what.ByteSize()} bytes: {asked.code}, {used:.2f} CPU s, {took:.0f} MiB, {asked.bytes} bytes out"
+        text = f"{len(what)} bytes: {asked.code}, {used:.2f} CPU s, {took:.0f} MiB, {asked.bytes} bytes out"
         require(asked.code in PROMISED, text + f"; {asked.text}")
         require(idle is not None, text + f"; it computes on for {STOP_CPU_S:g} CPU s after its deadline")
         require(took <= MOST_MIB, text + f"; more than {MOST_MIB} MiB")
         require_served(server, 5)
-        return {"bytes": what.ByteSize(), "status": asked.code, "CPU s": used, "MiB": took, "bytes out": asked.bytes}
+        return {"bytes": len(what), "status": asked.code, "CPU s": used, "MiB": took, "bytes out": asked.bytes}
 
 
-def disconnection(make):
-    method, what = make()
+def disconnection(method, what):
     with Server() as server:
         before = warm(server)
         asked = Asked(server.address, method, what, None)
@@ -201,8 +200,7 @@ def disconnection(make):
         return idle
 
 
-def sigterm(make):
-    method, what = make()
+def sigterm(method, what):
     with Server(drain_grace=0.5) as server:
         asked = Asked(server.address, method, what, None)
         asked.wait(0.5)
@@ -211,9 +209,11 @@ def sigterm(make):
 
 def register(name, make):
     def run():
-        figures = deadline_and_memory(make)
-        figures["CPU s after hang-up"] = disconnection(make)
-        figures["SIGTERM s"] = sigterm(make)
+        method, what = make()
+        what = what.SerializeToString()
+        figures = deadline_and_memory(method, what)
+        figures["CPU s after hang-up"] = disconnection(method, what)
+        figures["SIGTERM s"] = sigterm(method, what)
         return figures
 
     check(f"amplification: {name}",
