@@ -13,7 +13,7 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
 PAGE = SOURCE / "deploy/README.md"
-TOPICS = ["load", "overload", "places", "amplification", "transport", "boundary", "faults", "credentials", "garbage", "mixed"]
+TOPICS = ["load", "overload", "places", "amplification", "transport", "boundary", "faults", "resume", "credentials", "garbage", "mixed"]
 BEGIN, END = "<!-- written by ./dev soak -->", "<!-- end of what ./dev soak wrote -->"
 
 

@@ -1,0 +1,205 @@
+"""Sweeps whose servers or clients die: what arrives in the end has the bytes of an undisturbed run."""
+
+import re
+import signal
+import subprocess
+import threading
+import time
+
+from framework import Process, Server, Skipped, check, command_line, main, require, tools
+
+ELASTIC = ["--a", "0.35", "--b", "1.1", "--mu", "0.12", "--energetic", "0.95"]
+TRY_AGAIN = 75
+
+
+def sweep(points):
+    return ["sweep", *ELASTIC, "--axis", f"pendulum.b_m=lin:0.5:2:{points}", "--column", "coefficients.newton", "--format",
+            "csv"]
+
+
+def undisturbed(name, arguments):
+    """The bytes that the embedded solver writes."""
+    if "--resume" not in command_line("sweep", "--help").stdout:
+        raise Skipped("this command line has no --resume")
+    out = tools().work / f"{name}.embedded"
+    done = command_line(*arguments, "-o", out, timeout_s=300)
+    require(done.returncode == 0, f"the embedded run ended with {done.returncode}: {done.stderr}")
+    return out.read_bytes()
+
+
+class Client:
+    """`ricochet sweep` into a file, as often as it takes."""
+
+    def __init__(self, name, arguments, addresses):
+        self.out = tools().work / f"{name}.csv"
+        self.part = self.out.with_name(self.out.name + ".part")
+        for path in self.out.parent.glob(self.out.name + "*"):
+            path.unlink()
+        self.command = [tools().ricochet, *arguments, "--server", ",".join(addresses), "-o", self.out]
+        self.process = None
+        self.runs = 0
+
+    def start(self):
+        more = ["--resume"] if self.part.exists() else []
+        self.process = Process([*self.command, *more], stderr=subprocess.PIPE, stdout=subprocess.DEVNULL, text=True)
+        self.runs += 1
+
+    def error(self):
+        return self.process.child.stderr.read()[-400:]
+
+    def ended(self):
+        return self.process.child.poll()
+
+    def require_same(self, expected):
+        require(self.out.read_bytes() == expected, "the bytes differ from those of an undisturbed run")
+        require(not self.part.exists(), f"{self.part.name} is left")
+
+
+@check("a server killed by SIGKILL at random chunks", "the client, or --resume after it gave up, ends with the bytes of an undisturbed "
+       "run; 100 times in the long run")
+def killed_servers():
+    rng = tools().random("kills")
+    wanted = 100 if tools().soak else 5
+    arguments = sweep(3000000 if tools().soak else 1000000)
+    expected = undisturbed("killed_servers", arguments)
+    kills = runs = sweeps = 0
+    until = time.monotonic() + (1500 if tools().soak else 150)
+    while kills < wanted:
+        server = Server()
+        client = Client("killed_servers", arguments, [server.address])
+        client.start()
+        while True:
+            time.sleep(rng.uniform(0.05, 0.7))
+            code = client.ended()
+            if code == 0:
+                break
+            require(time.monotonic() < until, f"after {kills} kills there is no end in sight")
+            if code is not None:
+                require(code == TRY_AGAIN, f"the client ended with {code}: {client.error()}")
+                client.start()
+                continue
+            if kills < wanted:
+                server.kill()
+                kills += 1
+                server = Server(port=server.port)
+        client.require_same(expected)
+        runs += client.runs
+        sweeps += 1
+        server.kill()
+    return {"kills": kills, "sweeps": sweeps, "runs of the client": runs, "bytes of each": len(expected)}
+
+
+@check("two servers, one dying and returning", "the client ends with 0 and the bytes of an undisturbed run, and goes on by itself")
+def two_servers():
+    arguments = sweep(2000000)
+    expected = undisturbed("two_servers", arguments)
+    servers = [Server(), Server()]
+    ports = [server.port for server in servers]
+    client = Client("two_servers", arguments, [server.address for server in servers])
+    client.start()
+    changes = 0
+    while client.ended() is None and changes < 20:
+        time.sleep(0.4)
+        which = changes % 2
+        if changes % 4 < 2:
+            servers[which].kill()
+        else:
+            servers[which].signal(signal.SIGTERM)
+            servers[which].wait(15)
+            servers[which].kill()
+        servers[which] = Server(port=ports[which])
+        changes += 1
+    code = client.process.wait(120)
+    require(code == 0, f"the client ended with {code}: {client.error()}")
+    client.require_same(expected)
+    for server in servers:
+        server.kill()
+    return {"servers ended": changes, "bytes": len(expected)}
+
+
+@check("the summary after a resume", "it is that of an undisturbed run")
+def same_summary():
+    undisturbed("same_summary", sweep(1000))
+    arguments = ["sweep", *ELASTIC, "--axis", "pendulum.b_m=lin:0.5:2:20000000", "--axis", "friction.kinetic_coefficient=0,0.3,4",
+                 "--column", "coefficients.newton", "--summary-only"]
+
+    def text(done):
+        require(done.returncode == 0, f"ended with {done.returncode}: {done.stderr}")
+        return re.sub(r"[0-9.e+-]+ s\b", "ELAPSED s", done.stdout)
+
+    servers = [Server(), Server()]
+    expected = text(command_line(*arguments, "--server", servers[0].address, timeout_s=300))
+    result = []
+    asked = threading.Thread(target=lambda: result.append(command_line(
+        *arguments, "--server", ",".join(server.address for server in servers), timeout_s=300)))
+    asked.start()
+    time.sleep(1)
+    servers[0].kill()
+    asked.join()
+    found = text(result[0])
+    servers[1].kill()
+    require(found == expected, f"{found} is not {expected}")
+    return {}
+
+
+def ended_client(name, number, codes):
+    arguments = sweep(3000000)
+    expected = undisturbed(name, arguments)
+    with Server() as server:
+        client = Client(name, arguments, [server.address])
+        client.start()
+        time.sleep(1.2)
+        client.process.signal(number)
+        code = client.process.wait(20)
+        require(code in codes, f"the client ended with {code}: {client.error()}")
+        require(client.part.exists() and not client.out.exists(), "there is no partial file, or a whole one")
+        held = client.part.stat().st_size
+        client.start()
+        code = client.process.wait(120)
+        require(code == 0, f"--resume ended with {code}: {client.error()}")
+        client.require_same(expected)
+        return {"bytes kept": held, "bytes": len(expected)}
+
+
+@check("a client killed by SIGKILL, and --resume", "the file has the bytes of an undisturbed run")
+def killed_client():
+    return ended_client("killed_client", signal.SIGKILL, (-signal.SIGKILL,))
+
+
+@check("a client ended by SIGINT, and --resume", "it says so by its exit code, and the file has the bytes of an undisturbed run")
+def interrupted_client():
+    return ended_client("interrupted_client", signal.SIGINT, (130, -signal.SIGINT))
+
+
+@check("a partial file that was changed", "--resume refuses it, or ends with the bytes of an undisturbed run")
+def changed_partial():
+    rng = tools().random("partial")
+    arguments = sweep(3000000)
+    expected = undisturbed("changed_partial", arguments)
+    with Server() as server:
+        answers = []
+        for how in ("cut", "flipped", "emptied"):
+            client = Client("changed_partial", arguments, [server.address])
+            client.start()
+            time.sleep(1.2)
+            client.process.signal(signal.SIGKILL)
+            client.process.wait(20)
+            data = bytearray(client.part.read_bytes())
+            if how == "cut":
+                del data[len(data) // 2:]
+            elif how == "flipped":
+                data[rng.randrange(len(data))] ^= 1
+            else:
+                data.clear()
+            client.part.write_bytes(data)
+            client.start()
+            code = client.process.wait(120)
+            require(code is not None, f"{how}: --resume does not end")
+            answers.append(f"{how} {code}")
+            if code == 0:
+                require(client.out.read_bytes() == expected, f"{how}: --resume ended with 0 and other bytes")
+        return {"exit codes": answers}
+
+
+if __name__ == "__main__":
+    main()
