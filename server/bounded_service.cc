@@ -85,14 +85,10 @@ class ElementCount {
 class BoundedHandler final : public grpc::internal::MethodHandler {
  public:
   BoundedHandler(std::unique_ptr<grpc::internal::MethodHandler> handler, const Descriptor& request,
-                 int64_t most_elements, UnreadWatch& unread)
-      : handler_(std::move(handler)), request_(request), most_elements_(most_elements), unread_(unread) {}
+                 int64_t most_elements)
+      : handler_(std::move(handler)), request_(request), most_elements_(most_elements) {}
 
-  // Returns when the answer is sent.
-  void RunHandler(const HandlerParameter& parameter) override {
-    const UnreadWatch::Answer answer(unread_, *static_cast<grpc::ServerContext*>(parameter.server_context));
-    handler_->RunHandler(parameter);
-  }
+  void RunHandler(const HandlerParameter& parameter) override { handler_->RunHandler(parameter); }
 
   void* Deserialize(grpc_call* call, grpc_byte_buffer* bytes, grpc::Status* status, void** data) override {
     const absl::Status checked = Check(bytes);
@@ -120,7 +116,6 @@ class BoundedHandler final : public grpc::internal::MethodHandler {
   const std::unique_ptr<grpc::internal::MethodHandler> handler_;
   const Descriptor& request_;
   const int64_t most_elements_;
-  UnreadWatch& unread_;
 };
 
 }  // namespace
@@ -143,8 +138,8 @@ absl::Status CheckElements(absl::string_view bytes, const Descriptor& type, int6
                    count.place()));
 }
 
-BoundedService::BoundedService(Methods& service, const Limits& limits, UnreadWatch& unread)
-    : service_(service), most_elements_(MostElements(limits)), unread_(unread) {
+BoundedService::BoundedService(Methods& service, const Limits& limits)
+    : service_(service), most_elements_(MostElements(limits)) {
   AddUnary("/ricochet.v1.ImpactService/Solve", &Methods::Solve);
   AddUnary("/ricochet.v1.ImpactService/Bounds", &Methods::Bounds);
   AddStream("/ricochet.v1.ImpactService/Sweep", &Methods::Sweep);
@@ -178,8 +173,8 @@ void BoundedService::Add(const char* path, bool is_stream, const Descriptor& req
                          std::unique_ptr<grpc::internal::MethodHandler> handler) {
   const auto type = is_stream ? grpc::internal::RpcMethod::SERVER_STREAMING : grpc::internal::RpcMethod::NORMAL_RPC;
   // The service owns the method, and the method owns the handler.
-  AddMethod(new grpc::internal::RpcServiceMethod(
-      path, type, new BoundedHandler(std::move(handler), request, most_elements_, unread_)));
+  AddMethod(new grpc::internal::RpcServiceMethod(path, type,
+                                                 new BoundedHandler(std::move(handler), request, most_elements_)));
 }
 
 }  // namespace ricochet::server

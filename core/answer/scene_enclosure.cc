@@ -4,14 +4,13 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
 
-#include "absl/strings/escaping.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "core/bounds/enclosure.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/delassus.h"
@@ -59,68 +58,44 @@ const char* WhyNoRange(const Scene& scene, const std::string& path) {
 class RangeCheck {
  public:
   RangeCheck(const Scene& scene, absl::Span<const FieldRange> ranges, Check& check)
-      : scene_(scene), ranges_(ranges), paths_(FieldPaths(scene)), driven_(scene), check_(check) {}
+      : scene_(scene), ranges_(ranges), driven_(scene), check_(check) {}
 
-  // Checks range after range, each against those before it.
-  void CheckNext() {
-    const int index = static_cast<int>(drives_.size());
-    const FieldRange& range = ranges_[drives_.size()];
+  // Checks one range against those before it, which must have been checked.
+  void CheckRange(int index) {
+    const FieldRange& range = ranges_[static_cast<size_t>(index)];
     const absl::StatusOr<Field> field = ResolveField(range.path, driven_);
-    drives_.push_back(field.ok() ? field->sets() : std::vector<std::string>{range.path});
-    CheckPath(index, range.path);
-    if (field.ok()) CheckEnds(index, range);
+    CheckPath(index, range.path, field.status());
+    CheckOthers(index, range.path, field.ok() ? field->sets() : std::vector<std::string>{range.path});
+    if (field.ok()) CheckEnds(index, range, field->rule());
   }
 
  private:
   static std::string PathOf(int index) { return absl::StrCat("ranges[", index, "].path"); }
 
-  std::string PathsWithRange() const {
-    std::vector<std::string> paths;
-    for (const std::string& path : paths_) {
-      if (WhyNoRange(scene_, path) == nullptr) paths.push_back(path);
-    }
-    return absl::StrJoin(paths, ", ");
-  }
-
-  void CheckPath(int index, const std::string& path) {
-    const std::string found = absl::StrCat("= \"", absl::CEscape(path), "\": must ");
-    const bool is_field = std::find(paths_.begin(), paths_.end(), path) != paths_.end();
-    const char* const why_none = is_field ? WhyNoRange(scene_, path) : nullptr;
+  void CheckPath(int index, const std::string& path, const absl::Status& resolved) {
+    const char* const why_none = resolved.ok() ? WhyNoRange(scene_, path) : nullptr;
     check_.Require(why_none == nullptr, [&] {
-      return Violation{PathOf(index), absl::StrCat(found, "not have a range: ", why_none)};
+      return Violation{PathOf(index), absl::StrCat(Found(path), ": must not have a range: ", why_none)};
     });
-    check_.Require(is_field, [&] {
-      return Violation{PathOf(index), absl::StrCat(found, "be one of ", PathsWithRange())};
-    });
-    const std::optional<int> other = FirstThatDrivesTheSame(index);
-    check_.Require(!other.has_value(), [&] {
-      const std::string& other_path = ranges_[static_cast<size_t>(*other)].path;
-      return Violation{PathOf(index),
-                       path == other_path
-                           ? absl::StrCat(found, "not be that of ranges[", *other, "] too")
-                           : absl::StrCat(found, "not drive what ranges[", *other, "] drives, ", other_path)};
+    check_.Require(resolved.ok(), [&] { return Violation{PathOf(index), std::string(resolved.message())}; });
+  }
+
+  // `drives` are the fields that the range drives.
+  void CheckOthers(int index, const std::string& path, const std::vector<std::string>& drives) {
+    int first = index;
+    for (const std::string& field : drives) first = std::min(first, driven_by_.emplace(field, index).first->second);
+    check_.Require(first == index, [&] {
+      const std::string& other_path = ranges_[static_cast<size_t>(first)].path;
+      return Violation{PathOf(index), path == other_path
+                                          ? absl::StrCat(Found(path), ": must not be that of ranges[", first, "] too")
+                                          : absl::StrCat(Found(path), ": must not drive what ranges[", first,
+                                                         "] drives, ", other_path)};
     });
   }
 
-  std::optional<int> FirstThatDrivesTheSame(int index) const {
-    const std::vector<std::string>& own = drives_.back();
-    for (int other = 0; other < index; ++other) {
-      for (const std::string& path : drives_[static_cast<size_t>(other)]) {
-        if (std::find(own.begin(), own.end(), path) != own.end()) return other;
-      }
-    }
-    return std::nullopt;
-  }
-
-  void CheckEnds(int index, const FieldRange& range) {
-    const auto check_ends = [&](NumberRule rule) {
-      check_.Number(NumberPath{"ranges", index, "low"}, range.low, rule);
-      check_.Number(NumberPath{"ranges", index, "high"}, range.high, rule);
-    };
-    if (range.path == kPhi) check_ends(NumberRule::kFinite);
-    VisitNumbers(driven_, [&](const NumberPath& path, double& /*number*/, NumberRule rule) {
-      if (path.Text() == range.path) check_ends(rule);
-    });
+  void CheckEnds(int index, const FieldRange& range, NumberRule rule) {
+    check_.Number(NumberPath{"ranges", index, "low"}, range.low, rule);
+    check_.Number(NumberPath{"ranges", index, "high"}, range.high, rule);
     check_.Require(!(range.low > range.high), [&] {
       return MakeViolation(absl::StrCat("ranges[", index, "].high"), range.high,
                            absl::StrCat("be >= low = ", ShortestDecimal(range.low)));
@@ -129,9 +104,8 @@ class RangeCheck {
 
   const Scene& scene_;
   const absl::Span<const FieldRange> ranges_;
-  const std::vector<std::string> paths_;          // The paths of every field that an axis may drive.
-  Scene driven_;                                  // The scene with every optional field that a range drives.
-  std::vector<std::vector<std::string>> drives_;  // The fields that each range so far drives.
+  Scene driven_;                                    // The scene with every optional field that a range drives.
+  std::unordered_map<std::string, int> driven_by_;  // The first range that drives a field.
   Check& check_;
 };
 
@@ -240,10 +214,10 @@ ContactBox WithFriction(const SceneBox& box, const ContactForm& contact, SlopePa
                     .stick_slope = contact.stick_slope};
 }
 
-ContactBox ContactOf(const SceneBox& box, SlopeParameters& parameters) {
+ContactBox ContactOf(const SceneBox& box, SlopeParameters& parameters, absl::FunctionRef<bool()> stopped) {
   parameters = SlopeParameters();
   return std::visit([&](const auto& reduction) { return WithFriction(box, reduction, parameters); },
-                    Reduce(box, parameters));
+                    Reduce(box, parameters, stopped));
 }
 
 // Tells whether the corners of the box are enough: the case of a pendulum whose own numbers and friction have ranges.
@@ -296,7 +270,7 @@ std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRan
   });
   if (check.failed()) return std::move(check).violations();
   RangeCheck range_check(scene, ranges, check);
-  for (size_t i = 0; i < ranges.size(); ++i) range_check.CheckNext();
+  for (size_t i = 0; i < ranges.size() && !check.IsFull(); ++i) range_check.CheckRange(static_cast<int>(i));
   return std::move(check).violations();
 }
 
@@ -309,11 +283,12 @@ absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const Fiel
   SlopeParameters parameters;
   const auto contact_in = [&](absl::Span<const Interval> values) {
     uncertain.Set(values);
-    return ContactOf(uncertain.box(), parameters);
+    return ContactOf(uncertain.box(), parameters, stopped);
   };
   const Enclosure enclosure = IsSolvedAtCorners(uncertain.box())
-                                  ? Enclose(std::get<PendulumBox>(ContactOf(uncertain.box(), parameters)))
+                                  ? Enclose(std::get<PendulumBox>(ContactOf(uncertain.box(), parameters, stopped)))
                                   : Enclose(uncertain.whole(), contact_in, options, stopped);
+  // A box that was being reduced when the stop came is of no meaning, and so is an enclosure with it.
   if (stopped()) return absl::CancelledError("the enclosure was stopped by its caller");
   if (enclosure.attained.newton.lower > enclosure.attained.newton.upper) {
     return InvalidRequest({{"ranges",

@@ -105,18 +105,19 @@ struct Gram {
   Row d, t, n;
 };
 
-// Eliminates row by row.
-Gram Eliminate(const std::vector<LinkForm>& links) {
+// Eliminates row by row. Once `stopped`, the lists are filled with numbers that mean nothing.
+Gram Eliminate(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> stopped) {
   const std::vector<Row> mass = MassMatrix(links);
   Gram gram;
   std::vector<Row> scaled(links.size());  // L D
   for (size_t i = 0; i < links.size(); ++i) {
+    const bool is_stopped = stopped();
     SlopeForm d = mass[i][i];
     SlopeForm t = links[i].length * Cos(links[i].theta);
     SlopeForm n = links[i].length * Sin(links[i].theta);
     for (size_t j = 0; j < i; ++j) {
       SlopeForm entry = mass[i][j];
-      for (size_t k = 0; k < j; ++k) entry = entry - scaled[i][k] * scaled[j][k] / gram.d[k];
+      for (size_t k = 0; k < j && !is_stopped; ++k) entry = entry - scaled[i][k] * scaled[j][k] / gram.d[k];
       d = d - Square(entry) / gram.d[j];
       t = t - entry / gram.d[j] * gram.t[j];
       n = n - entry / gram.d[j] * gram.n[j];
@@ -129,8 +130,8 @@ Gram Eliminate(const std::vector<LinkForm>& links) {
   return gram;
 }
 
-ContactForm Contact(const std::vector<LinkForm>& links) {
-  const Gram gram = Eliminate(links);
+ContactForm Contact(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> stopped) {
+  const Gram gram = Eliminate(links, stopped);
   SlopeForm wtt(0.0), wtn(0.0), wnn(0.0), determinant(0.0), u0(0.0), v0(0.0);
   for (size_t i = 0; i < links.size(); ++i) {
     wtt = wtt + Square(gram.t[i]) / gram.d[i];
@@ -196,7 +197,7 @@ ContactForm Between(const PlanarContact& low, const PlanarContact& high, SlopePa
   return contact;
 }
 
-ContactForm Contact(const SceneBox& box, SlopeParameters& parameters) {
+ContactForm Contact(const SceneBox& box, SlopeParameters& parameters, absl::FunctionRef<bool()> stopped) {
   const System& high = box.high.system;
   if (const auto* low = std::get_if<PlanarContact>(&box.low.system)) {
     return Between(*low, std::get<PlanarContact>(high), parameters);
@@ -205,7 +206,7 @@ ContactForm Contact(const SceneBox& box, SlopeParameters& parameters) {
     return Contact(Between(*low, std::get<PlanarBody>(high), parameters));
   }
   if (const auto* low = std::get_if<Linkage>(&box.low.system)) {
-    return Contact(Between(*low, std::get<Linkage>(high), parameters));
+    return Contact(Between(*low, std::get<Linkage>(high), parameters), stopped);
   }
   const auto& low_pair = std::get<PlanarPair>(std::get<BodyPair>(box.low.system).bodies);
   const auto& high_pair = std::get<PlanarPair>(std::get<BodyPair>(high).bodies);
@@ -220,14 +221,14 @@ bool IsOfRankOne(const System& system) {
   return std::holds_alternative<Pendulum>(system) || (linkage != nullptr && linkage->links.size() == 1);
 }
 
-IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters) {
+IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters, absl::FunctionRef<bool()> stopped) {
   if (const auto* low = std::get_if<Pendulum>(&box.low.system)) {
     return Between(box, *low, std::get<Pendulum>(box.high.system));
   }
   if (IsOfRankOne(box.low.system)) {
     return OneLink(std::get<Linkage>(box.low.system).links[0], std::get<Linkage>(box.high.system).links[0]);
   }
-  ContactForm contact = Contact(box, parameters);
+  ContactForm contact = Contact(box, parameters, stopped);
   if (!box.low.surface_velocity.has_value()) return contact;
   const SurfaceVelocity& low = *box.low.surface_velocity;
   const SurfaceVelocity& high = *box.high.surface_velocity;

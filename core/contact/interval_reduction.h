@@ -12,6 +12,7 @@
 #include <optional>
 #include <variant>
 
+#include "absl/functional/function_ref.h"
 #include "core/numerics/interval.h"
 #include "core/numerics/slope_form.h"
 #include "ricochet/scene.h"
@@ -43,8 +44,9 @@ using IntervalReduction = std::variant<IntervalPendulum, ContactForm>;
 bool IsOfRankOne(const System& system);
 
 // The scenes must state a planar system, and a surface at rest if IsOfRankOne. The numbers that differ become
-// `parameters`.
-IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters);
+// `parameters`. `stopped` is asked before each row of a linkage's elimination, which for 64 links takes some 20 ms; once it
+// returns true the answer means nothing.
+IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters, absl::FunctionRef<bool()> stopped);
 
 }  // namespace ricochet
 

@@ -9,6 +9,7 @@
 #include "core/answer/scene_enclosure.h"
 #include "core/answer/scene_outcome.h"
 #include "core/certified/certified.h"
+#include "core/engine/call_watch.h"
 #include "core/engine/check_limits.h"
 #include "core/engine/check_solve.h"
 #include "core/engine/engine.h"
@@ -35,23 +36,9 @@ absl::Status Inadmissible(const Outcome& outcome) {
   return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
 }
 
-// Returns the error with which `options` end a call by now, or OK if it may go on.
-absl::Status WhyEnded(const CallOptions& options) {
-  if (options.deadline.has_value() && std::chrono::steady_clock::now() >= *options.deadline) {
-    return absl::DeadlineExceededError("the call's deadline has passed");
-  }
-  if (options.stop.stop_requested() || (options.is_stopped != nullptr && options.is_stopped())) {
-    return absl::CancelledError("the call was stopped by its caller");
-  }
-  return absl::OkStatus();
-}
-
-// Returns `error`; but if it only says that a computation was stopped, the reason why `options` ended the call.
-absl::Status OrWhyEnded(const absl::Status& error, const CallOptions& options) {
-  if (!absl::IsCancelled(error)) return error;
-  const absl::Status ended = WhyEnded(options);
-  return ended.ok() ? error : ended;
-}
+// A client sees the first points soon, and no proxy or caller waits long between two chunks.
+constexpr std::chrono::milliseconds kFirstChunkTime(100);
+constexpr std::chrono::milliseconds kChunkTime(1000);
 
 // Sets `certificate` if the request asks for one.
 absl::Status Keep(absl::StatusOr<Certificate> certified, std::optional<Certificate>& certificate) {
@@ -71,23 +58,23 @@ absl::Status Certify(const BoundsRequest& request, absl::FunctionRef<bool()> sto
 }
 
 // Answers in place, because an outcome is large.
-absl::Status Answer(const SolveRequest& request, const CallOptions& options, SolveResponse& response) {
+absl::Status Answer(const SolveRequest& request, CallWatch& watch, SolveResponse& response) {
   std::optional<SceneContact> contact;
   auto violations = Validate(request.scene, RestitutionIs::kRequired, contact);
   if (violations.empty()) violations = CheckSolve(request, contact);
   if (!violations.empty()) return InvalidRequest(violations);
-  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
-  const auto stopped = [&options] { return !WhyEnded(options).ok(); };
+  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
+  const auto stopped = [&watch] { return watch.IsStopped(); };
   Outcome& outcome = response.outcome;
   const SolveOptions solve = {
       .extent = {.history_at_n_s = request.history_at_n_s, .history_intervals = request.history_intervals},
       .force_intervals = request.force_intervals,
       .demand = DemandOf(request)};
   const absl::Status solved = SolveScene(request.scene, contact, solve, stopped, outcome);
-  if (!solved.ok()) return OrWhyEnded(solved, options);
+  if (!solved.ok()) return watch.OrWhyEnded(solved);
   if (request.inadmissible_is_error && !outcome.admissible) return Inadmissible(outcome);
   const absl::Status certified = Certify(request, stopped, outcome.certificate);
-  if (!certified.ok()) return OrWhyEnded(certified, options);
+  if (!certified.ok()) return watch.OrWhyEnded(certified);
   response.engine = ThisEngine();
   return absl::OkStatus();
 }
@@ -95,27 +82,30 @@ absl::Status Answer(const SolveRequest& request, const CallOptions& options, Sol
 }  // namespace
 
 absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
+  CallWatch watch(options);
   absl::StatusOr<SolveResponse> response(absl::in_place);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status status = Answer(request, options, *response); !status.ok()) response = std::move(status);
+  if (absl::Status status = Answer(request, watch, *response); !status.ok()) response = std::move(status);
   return response;
 }
 
 absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, const CallOptions& options) const {
+  CallWatch watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   std::optional<SceneContact> contact;
   std::vector<Violation> violations = Validate(request.scene, RestitutionIs::kRequired, contact);
   if (violations.empty()) violations = CheckDemand(request.scene, contact, request.demand);
   if (!violations.empty()) return InvalidRequest(violations);
-  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
+  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
   absl::StatusOr<ricochet::Plan> plan = PlanOf(request.scene, contact, ToDemand(request.demand));
   if (!plan.ok()) return plan.status();
   return PlanResponse{.plan = *std::move(plan), .engine = ThisEngine()};
 }
 
 absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& request, const CallOptions& options) const {
+  CallWatch watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  const auto stopped = [&options] { return !WhyEnded(options).ok(); };
+  const auto stopped = [&watch] { return watch.IsStopped(); };
   std::optional<SceneContact> contact;
   auto violations = Validate(request.scene, RestitutionIs::kOptional, contact);
   if (!std::holds_alternative<std::monostate>(request.scene.impact_law)) {
@@ -124,34 +114,36 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
   for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
   CheckDigits(request.scene, request.certified_digits, violations);
   if (!violations.empty()) return InvalidRequest(violations);
-  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
+  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
   const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene, std::move(contact), stopped);
-  if (!bounds.ok()) return OrWhyEnded(bounds.status(), options);
+  if (!bounds.ok()) return watch.OrWhyEnded(bounds.status());
   BoundsResponse response{.bounds = *bounds, .engine = ThisEngine()};
   const absl::Status certified = Certify(request, stopped, response.certificate);
-  if (!certified.ok()) return OrWhyEnded(certified, options);
+  if (!certified.ok()) return watch.OrWhyEnded(certified);
   if (request.ranges.empty()) return response;
   const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, limits_.max_boxes, stopped);
-  if (!enclosure.ok()) return OrWhyEnded(enclosure.status(), options);
+  if (!enclosure.ok()) return watch.OrWhyEnded(enclosure.status());
   response.enclosure = *enclosure;
   return response;
 }
 
 absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, const CallOptions& options) const {
+  CallWatch watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
-  absl::StatusOr<AuditResponse> response = AuditScene(request, [&options] { return !WhyEnded(options).ok(); });
-  if (!response.ok()) return OrWhyEnded(response.status(), options);
+  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
+  absl::StatusOr<AuditResponse> response = AuditScene(request, [&watch] { return watch.IsStopped(); });
+  if (!response.ok()) return watch.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;
 }
 
 absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchRequest& request,
                                                              const CallOptions& options) const {
+  CallWatch watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status ended = WhyEnded(options); !ended.ok()) return ended;
-  absl::StatusOr<AuditBatchResponse> response = AuditScene(request, [&options] { return !WhyEnded(options).ok(); });
-  if (!response.ok()) return OrWhyEnded(response.status(), options);
+  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
+  absl::StatusOr<AuditBatchResponse> response = AuditScene(request, [&watch] { return watch.IsStopped(); });
+  if (!response.ok()) return watch.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;
 }
@@ -163,10 +155,13 @@ SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions&
   if (absl::Status too_large = CheckPoints(made->points_total(), limits_); !too_large.ok()) {
     return SweepStream(too_large);
   }
-  auto next = [run = *std::move(made), options]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
+  auto next = [run = *std::move(made), watch = CallWatch(options),
+               is_first = true]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
     if (run.ended()) return std::nullopt;
-    absl::StatusOr<SweepChunk> chunk = run.NextChunk([&options] { return !WhyEnded(options).ok(); });
-    if (!chunk.ok()) return OrWhyEnded(chunk.status(), options);
+    watch.StartPiece(std::exchange(is_first, false) ? kFirstChunkTime : kChunkTime);
+    absl::StatusOr<SweepChunk> chunk =
+        run.NextChunk([&watch] { return watch.IsStopped(); }, [&watch] { return watch.PieceTookLongEnough(); });
+    if (!chunk.ok()) return watch.OrWhyEnded(chunk.status());
     chunk->engine = ThisEngine();
     return chunk;
   };
@@ -177,10 +172,11 @@ CostStream LocalSolver::DoCost(const CostRequest& request, const CallOptions& op
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return CostStream(too_large);
   absl::StatusOr<CostStudy> made = CostStudy::Make(request);
   if (!made.ok()) return CostStream(made.status());
-  auto next = [study = *std::move(made), options]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
+  auto next = [study = *std::move(made),
+               watch = CallWatch(options)]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
     if (study.ended()) return std::nullopt;
-    absl::StatusOr<CostChunk> chunk = study.NextChunk([&options] { return !WhyEnded(options).ok(); });
-    if (!chunk.ok()) return OrWhyEnded(chunk.status(), options);
+    absl::StatusOr<CostChunk> chunk = study.NextChunk([&watch] { return watch.IsStopped(); });
+    if (!chunk.ok()) return watch.OrWhyEnded(chunk.status());
     chunk->engine = ThisEngine();
     return chunk;
   };

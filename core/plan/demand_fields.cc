@@ -17,12 +17,12 @@ EffectSet ToSet(const std::vector<Effect>& effects) {
 // Checks the list for an effect that is not named or that is named twice, because a set could not show either.
 void CheckList(const std::vector<Effect>& effects, const char* field, std::vector<Violation>& violations) {
   EffectSet seen;
-  for (size_t i = 0; i < effects.size(); ++i) {
-    const std::string path = absl::StrCat(field, "[", i, "]");
+  for (size_t i = 0; i < effects.size() && !IsFull(violations); ++i) {
+    const auto path = [&] { return absl::StrCat(field, "[", i, "]"); };
     if (effects[i] == Effect::kUnspecified) {
-      violations.push_back({path, "= unspecified: must be an effect that is named"});
+      violations.push_back({path(), "= unspecified: must be an effect that is named"});
     } else if (seen.Has(effects[i])) {
-      violations.push_back({path, absl::StrCat("= ", NameOf(effects[i]), ": must be named once")});
+      violations.push_back({path(), absl::StrCat("= ", NameOf(effects[i]), ": must be named once")});
     }
     seen.Add(effects[i]);
   }

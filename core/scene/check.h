@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "absl/strings/str_cat.h"
 #include "core/contact/scene_contact.h"
 #include "core/scene/numbers.h"
@@ -21,14 +22,19 @@ class Check {
  public:
   // kVerdict spares the texts of the violations, because a sweep checks every point.
   enum class Mode { kListing, kVerdict };
-  explicit Check(Mode mode) : mode_(mode) {}
+  explicit Check(Mode mode) : Check(mode, CountsAll) {}
 
-  // `violation()` is called only if the violation is to be listed.
+  // Lists only violations of which `counts` is true. It must outlive the check.
+  Check(Mode mode, absl::FunctionRef<bool(const Violation&)> counts) : mode_(mode), counts_(counts) {}
+
+  // `violation()` is called only if the violation may be listed: none is once the list is full.
   template <typename MakesViolation>
   void Require(bool holds, const MakesViolation& violation) {
     if (holds) return;
     failed_ = true;
-    if (mode_ == Mode::kListing) violations_.push_back(violation());
+    if (mode_ == Mode::kVerdict || IsFull()) return;
+    Violation found = violation();
+    if (counts_(found)) violations_.push_back(std::move(found));
   }
 
   // A value that is not finite breaks every rule.
@@ -49,10 +55,15 @@ class Check {
     return found == wanted;
   }
 
+  // True if any rule is broken, whether that is listed or not.
   bool failed() const { return failed_; }
+  // True if further violations would not be listed.
+  bool IsFull() const { return ricochet::IsFull(violations_); }
   std::vector<Violation> violations() && { return std::move(violations_); }
 
  private:
+  static bool CountsAll(const Violation& /*violation*/) { return true; }
+
   static const char* Text(NumberRule rule) {
     switch (rule) {
       case NumberRule::kFinite:
@@ -74,6 +85,7 @@ class Check {
   }
 
   Mode mode_;
+  absl::FunctionRef<bool(const Violation&)> counts_;
   bool failed_ = false;
   std::vector<Violation> violations_;
 };

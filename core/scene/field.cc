@@ -1,13 +1,12 @@
 #include "core/scene/field.h"
 
-#include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <utility>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/elementary.h"
 
@@ -30,20 +29,41 @@ void MakeSurface(Scene& scene) {
 
 bool StartsWith(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }
 
+// Switches the scene to the definition of restitution that `path` names. Returns false if it names none.
+bool SwitchRestitution(const std::string& path, Scene& scene) {
+  if (path == "restitution.newton") {
+    Switch<NewtonCoefficient>(scene);
+  } else if (path == "restitution.poisson") {
+    Switch<PoissonCoefficient>(scene);
+  } else if (path == "restitution.energetic") {
+    Switch<EnergeticCoefficient>(scene);
+  } else {
+    return false;
+  }
+  return true;
+}
+
 // Adds the optional part of the scene that `path` names, if the scene leaves it out.
 void MakePresent(const std::string& path, Scene& scene) {
   auto& static_coefficient = scene.friction.static_coefficient;
   if (path == "friction.static_coefficient" && !static_coefficient.has_value()) static_coefficient = 0.0;
-  if (path == "restitution.newton") Switch<NewtonCoefficient>(scene);
-  if (path == "restitution.poisson") Switch<PoissonCoefficient>(scene);
-  if (path == "restitution.energetic") Switch<EnergeticCoefficient>(scene);
   if (StartsWith(path, "surface_velocity.")) MakeSurface(scene);
 }
 
-// The path under which the scene stores the field: the three definitions of restitution share one.
-std::string Storage(const std::string& path) {
-  const bool is_definition = StartsWith(path, "restitution.") && !StartsWith(path, "restitution.by_speed.");
-  return is_definition ? "restitution.coefficient" : path;
+// Removes WORD, or the index of a list, from the front of `text`. Returns false if something else stands there.
+bool Take(absl::string_view word, absl::string_view& text) { return absl::ConsumePrefix(&text, word); }
+bool TakeIndex(int index, absl::string_view& text) { return index < 0 || Take(absl::StrCat("[", index, "]"), text); }
+
+// True if `text` is path.Text(), without making that text for a path that starts otherwise.
+bool Spells(absl::string_view text, const NumberPath& path) {
+  const bool has_prefix = *path.prefix != '\0';
+  if (has_prefix && !(Take(path.prefix, text) && TakeIndex(path.entry, text) && Take(".", text))) return false;
+  return Take(path.name, text) && TakeIndex(path.index, text) && text.empty();
+}
+
+absl::Status UnknownField(const std::string& path) {
+  return absl::InvalidArgumentError(
+      absl::StrCat(Found(path), ": must be a field of the scene; `ricochet sweep --axis '?'` lists them"));
 }
 
 }  // namespace
@@ -55,13 +75,17 @@ bool Field::Set(double value) const {
   return phi.b.Set(phi.distance * Cos(value)) && a_is_right;
 }
 
-// Finds the number at `path`, which must exist.
-Field::Scalar Field::Find(const std::string& path, Scene& scene) {
-  Scalar found = {.number = nullptr, .rule = NumberRule::kFinite};
+NumberRule Field::rule() const {
+  const auto* const scalar = std::get_if<Scalar>(&driver_);
+  return scalar == nullptr ? NumberRule::kFinite : scalar->rule;
+}
+
+// Finds the number at `path`.
+std::optional<Field::Scalar> Field::Find(const std::string& path, Scene& scene) {
+  std::optional<Scalar> found;
   VisitNumbers(scene, [&](const NumberPath& number_path, double& number, NumberRule rule) {
-    if (number_path.Text() == path) found = {.number = &number, .rule = rule};
+    if (Spells(path, number_path)) found = Scalar{.number = &number, .rule = rule};
   });
-  assert(found.number != nullptr);
   return found;
 }
 
@@ -69,16 +93,28 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   auto* const pendulum = std::get_if<Pendulum>(&scene.system);
   if (path == kPhi && pendulum != nullptr) {
     const double distance = Hypot(pendulum->a_m, pendulum->b_m);
-    return Field(Field::Phi{Field::Find("pendulum.a_m", scene), Field::Find("pendulum.b_m", scene), distance},
+    return Field(Field::Phi{*Field::Find("pendulum.a_m", scene), *Field::Find("pendulum.b_m", scene), distance},
                  {"pendulum.a_m", "pendulum.b_m"});
   }
-  const std::vector<std::string> paths = FieldPaths(scene);
-  if (std::find(paths.begin(), paths.end(), path) == paths.end()) {
-    return absl::InvalidArgumentError(
-        absl::StrCat("= \"", absl::CEscape(path), "\": must be one of ", absl::StrJoin(paths, ", ")));
+  const bool has_law = !std::holds_alternative<std::monostate>(scene.impact_law);
+  if (!has_law && SwitchRestitution(path, scene)) {
+    return Field(*Field::Find(path, scene), {"restitution.coefficient"});  // The three definitions share one place.
   }
+  const bool is_definition = StartsWith(path, "restitution.") && !StartsWith(path, "restitution.by_speed.");
+  if (is_definition) return UnknownField(path);
+  const std::optional<SurfaceVelocity> stated = scene.surface_velocity;
   MakePresent(path, scene);
-  return Field(Field::Find(path, scene), {Storage(path)});
+  const std::optional<Field::Scalar> number = Field::Find(path, scene);
+  if (number.has_value()) return Field(*number, {path});
+  scene.surface_velocity = stated;
+  return UnknownField(path);
+}
+
+std::string Found(const std::string& text) {
+  constexpr size_t kMostCharacters = 80;
+  if (text.size() <= kMostCharacters) return absl::StrCat("= \"", absl::CEscape(text), "\"");
+  const std::string cut = text.substr(0, kMostCharacters);
+  return absl::StrCat("= \"", absl::CEscape(cut), "...\" (", text.size(), " bytes)");
 }
 
 std::vector<std::string> FieldPaths(const Scene& scene) {

@@ -10,6 +10,7 @@
 #ifndef RICOCHET_CORE_SCENE_FIELD_H_
 #define RICOCHET_CORE_SCENE_FIELD_H_
 
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,6 +27,9 @@ class Field {
  public:
   // Sets the field and returns whether each number that it has set keeps its own rule.
   bool Set(double value) const;
+
+  // The rule of the number that the field sets. phi_rad, which sets two, may be any finite number.
+  NumberRule rule() const;
 
   // The paths of the numbers that the field sets: one, or two for phi_rad.
   const std::vector<std::string>& sets() const { return sets_; }
@@ -45,7 +49,7 @@ class Field {
     Scalar a, b;
     double distance;
   };
-  static Scalar Find(const std::string& path, Scene& scene);
+  static std::optional<Scalar> Find(const std::string& path, Scene& scene);
   Field(std::variant<Scalar, Phi> driver, std::vector<std::string> sets) : driver_(driver), sets_(std::move(sets)) {}
 
   std::variant<Scalar, Phi> driver_;
@@ -54,8 +58,13 @@ class Field {
 
 // Resolves the field at `path`. A restitution path switches the scene to that definition; a static_coefficient or
 // surface_velocity path adds it to the scene.
-// Errors: an unknown path, or one of another system, gets INVALID_ARGUMENT with a message that says what would be right.
+// It takes time proportional to the numbers of the scene.
+// Errors: an unknown path, or one of another system, gets INVALID_ARGUMENT with a message that says how to list the right
+// ones. The scene is then as it was.
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
+
+// Begins the description of a violation by a text of the caller: "= \"TEXT\"". It is escaped, and cut if it is long.
+std::string Found(const std::string& text);
 
 // Every path that an axis may drive in the scene.
 std::vector<std::string> FieldPaths(const Scene& scene);

@@ -130,6 +130,13 @@ std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution, s
   return std::move(check).violations();
 }
 
+std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution, std::optional<SceneContact>& contact,
+                                absl::FunctionRef<bool(const Violation&)> counts) {
+  Check check(Check::Mode::kListing, counts);
+  CheckScene(scene, restitution, Scope::kAll, check, contact);
+  return std::move(check).violations();
+}
+
 bool HasRelations(const Scene& scene) {
   if (!std::holds_alternative<Pendulum>(scene.system)) return true;
   // The numbers of a pendulum, its friction and its restitution keep no rules but their own. Any other part may.

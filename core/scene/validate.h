@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "core/contact/scene_contact.h"
 #include "ricochet/error.h"
 #include "ricochet/scene.h"
@@ -16,13 +17,18 @@ namespace ricochet {
 // Bounds hold for any restitution, so that a scene may leave it open there.
 enum class RestitutionIs { kRequired, kOptional };
 
-// Lists every violation of the rules in ricochet/scene.h, in field order; the list is empty if the scene is valid. Paths
-// start at the scene: "pendulum.a_m", "friction.kinetic_coefficient", "restitution.energetic".
+// Lists the violations of the rules in ricochet/scene.h, in field order, until the list is full (IsFull in
+// ricochet/error.h); it is empty if the scene is valid. Paths start at the scene: "pendulum.a_m",
+// "friction.kinetic_coefficient", "restitution.energetic".
 std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution = RestitutionIs::kRequired);
 
 // Does the same and keeps, for plan and model, the contact that the scene was reduced to. It stays empty where no rule
 // takes reducing the scene: a pendulum's.
 std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution, std::optional<SceneContact>& contact);
+
+// Does the same and lists only violations of which `counts` is true.
+std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution, std::optional<SceneContact>& contact,
+                                absl::FunctionRef<bool(const Violation&)> counts);
 
 // A fast check for sweeps. `scene` must differ from a valid scene in numbers only, and every number must keep its own
 // rule (Holds in core/scene/numbers.h). Returns true if the rules between numbers hold as well.

@@ -77,6 +77,7 @@ std::vector<Violation> CheckColumns(const std::vector<ColumnRule>& rules, size_t
     return {{"columns", absl::StrCat("has ", rows, " rows: must have at most ", kMostAuditRows, " in one call")}};
   }
   for (const ColumnRule& rule : rules) {
+    if (IsFull(violations)) break;
     const size_t length = rule.values.size();
     if (rule.presence == Presence::kRefused) {
       if (length > 0) violations.push_back({rule.name, absl::StrCat("is set: must not be ", rule.refused_for)});

@@ -20,7 +20,7 @@ void CheckVelocity(const ContactVelocity& velocity, size_t directions, std::vect
   if (tangential.size() != directions) {
     violations.push_back({"contact_velocity.tangential_m_s", audit::CountText(tangential.size(), directions)});
   }
-  for (size_t i = 0; i < tangential.size(); ++i) {
+  for (size_t i = 0; i < tangential.size() && !IsFull(violations); ++i) {
     if (std::isfinite(tangential[i])) continue;
     violations.push_back(
         MakeViolation(absl::StrCat("contact_velocity.tangential_m_s[", i, "]"), tangential[i], "be finite"));
@@ -37,7 +37,7 @@ void CheckRates(const Components& rates, const System& system, std::vector<Viola
     return;
   }
   if (rates.size() != *wanted) violations.push_back({"rates.rates_rad_s", audit::CountText(rates.size(), *wanted)});
-  for (size_t i = 0; i < rates.size(); ++i) {
+  for (size_t i = 0; i < rates.size() && !IsFull(violations); ++i) {
     if (std::isfinite(rates[i])) continue;
     violations.push_back(MakeViolation(absl::StrCat("rates.rates_rad_s[", i, "]"), rates[i], "be finite"));
   }

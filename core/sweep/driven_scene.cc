@@ -6,7 +6,6 @@
 #include <variant>
 
 #include "absl/status/statusor.h"
-#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "absl/types/span.h"
 #include "core/scene/validate.h"
@@ -24,7 +23,7 @@ DrivenScene::DrivenScene(const Grid& grid) : grid_(grid), scene_(grid.scene) {
 
 void DrivenScene::Resolve() {
   std::map<std::string, size_t> driven_by;
-  for (size_t i = 0; i < grid_.axes.size(); ++i) {
+  for (size_t i = 0; i < grid_.axes.size() && !IsFull(violations_); ++i) {
     const std::string& name = grid_.axes[i].path;
     const std::string path = absl::StrCat("axes[", i, "].path");
     absl::StatusOr<Field> field = ResolveField(name, scene_);
@@ -35,8 +34,8 @@ void DrivenScene::Resolve() {
     for (const std::string& target : field->sets()) {
       const auto [other, is_new] = driven_by.emplace(target, i);
       if (is_new) continue;
-      violations_.push_back({path, absl::StrCat("= \"", absl::CEscape(name), "\": must not drive ", target,
-                                                ", which axes[", other->second, "] drives")});
+      violations_.push_back(
+          {path, absl::StrCat(Found(name), ": must not drive ", target, ", which axes[", other->second, "] drives")});
     }
     // An angle sets two numbers from the base scene's distance, so their base values must be right.
     if (field->sets().size() == 1) driven_.insert(name);
@@ -56,11 +55,6 @@ bool DrivenScene::CanBeCured(const Violation& violation) const {
       return !fields_.empty();
   }
   return false;
-}
-
-std::vector<Violation> DrivenScene::WithoutCurable(std::vector<Violation> violations) const {
-  std::erase_if(violations, [this](const Violation& violation) { return CanBeCured(violation); });
-  return violations;
 }
 
 void DrivenScene::SetField(size_t k) {

@@ -33,8 +33,8 @@ class DrivenScene {
   // The axes whose path names no field of the scene, or one that another axis drives: "axes[1].path".
   const std::vector<Violation>& violations() const { return violations_; }
 
-  // Removes from the base scene's violations those that driving a field can cure. IsValid decides them at each point.
-  std::vector<Violation> WithoutCurable(std::vector<Violation> violations) const;
+  // True if driving a field can cure this violation of the base scene. IsValid decides it at each point.
+  bool CanBeCured(const Violation& violation) const;
 
   // The scene of the current point; before GoTo it is the base scene.
   const Scene& scene() const { return scene_; }
@@ -50,7 +50,6 @@ class DrivenScene {
  private:
   void Resolve();
   void SetField(size_t k);
-  bool CanBeCured(const Violation& violation) const;
 
   Grid grid_;
   Scene scene_;

@@ -32,7 +32,8 @@ void CheckValues(size_t i, const ListValues& list, std::vector<Violation>& viola
   if (list.values.empty()) {
     violations.push_back({AxisPath(i, "list.values"), "is empty: must have at least one value"});
   }
-  for (size_t k = 0; k < list.values.size(); ++k) {
+  for (size_t k = 0; k < list.values.size() && !IsFull(violations); ++k) {
+    if (std::isfinite(list.values[k])) continue;
     CheckFinite(absl::StrCat(AxisPath(i, "list.values["), k, "]"), list.values[k], violations);
   }
 }
@@ -104,7 +105,7 @@ double ValueAt(const Logspace& logspace, int64_t i) {
 
 std::vector<Violation> ValidateAxes(const Grid& grid) {
   std::vector<Violation> violations;
-  for (size_t i = 0; i < grid.axes.size(); ++i) {
+  for (size_t i = 0; i < grid.axes.size() && !IsFull(violations); ++i) {
     std::visit([&](const auto& values) { CheckValues(i, values, violations); }, grid.axes[i].values);
   }
   if (!violations.empty()) return violations;

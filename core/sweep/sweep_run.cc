@@ -2,15 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <set>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
-#include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
 #include "core/answer/scene_outcome.h"
 #include "core/contact/reduction.h"
 #include "core/models/pendulum/columns.h"
@@ -35,17 +35,27 @@ void Add(int64_t index, Tally& tally) {
   if (tally.count++ == 0) tally.first_index = index;
 }
 
-std::vector<Violation> CheckColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known) {
+// The position of each column by its name.
+using Positions = std::unordered_map<std::string, size_t>;
+
+Positions PositionsOf(const std::vector<std::string>& columns) {
+  Positions positions;
+  for (size_t i = 0; i < columns.size(); ++i) positions.emplace(columns[i], i);
+  return positions;
+}
+
+std::vector<Violation> CheckColumns(const std::vector<std::string>& columns, const Positions& known) {
   std::vector<Violation> violations;
   if (columns.empty()) violations.push_back({"columns", "is empty: must name at least one"});
   std::set<std::string> seen;
-  for (size_t i = 0; i < columns.size(); ++i) {
-    const std::string path = absl::StrCat("columns[", i, "]");
-    const std::string found = absl::StrCat("= \"", absl::CEscape(columns[i]), "\": must be ");
-    if (std::find(known.begin(), known.end(), columns[i]) == known.end()) {
-      violations.push_back({path, absl::StrCat(found, "one of ", absl::StrJoin(known, ", "))});
+  for (size_t i = 0; i < columns.size() && !IsFull(violations); ++i) {
+    const auto refuse = [&](const char* rule) {
+      violations.push_back({absl::StrCat("columns[", i, "]"), absl::StrCat(Found(columns[i]), ": must be ", rule)});
+    };
+    if (!known.contains(columns[i])) {
+      refuse("a column of the scene; `ricochet sweep --column '?'` lists them");
     } else if (!seen.insert(columns[i]).second) {
-      violations.push_back({path, found + "named once"});
+      refuse("named once");
     }
   }
   return violations;
@@ -64,6 +74,8 @@ std::vector<Violation> CheckRange(const SweepRequest& request) {
   return violations;
 }
 
+absl::Status Stopped() { return absl::CancelledError("the sweep was stopped by its caller"); }
+
 void Append(std::vector<Violation> more, std::vector<Violation>& violations) {
   std::move(more.begin(), more.end(), std::back_inserter(violations));
 }
@@ -80,13 +92,15 @@ class SweepRun::Impl {
   int64_t points_total() const { return end_ - first_; }
   int64_t points_done() const { return next_ - first_; }
   bool ended() const { return ended_; }
-  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped);
+  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough);
 
  private:
-  void ResolveColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known);
+  void ResolveColumns(const std::vector<std::string>& columns, const Positions& known);
   int64_t NextCount() const;
-  bool ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped);
-  bool SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped);
+  absl::StatusOr<int64_t> ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped,
+                                       absl::FunctionRef<bool()> is_enough);
+  absl::StatusOr<int64_t> SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped,
+                                      absl::FunctionRef<bool()> is_enough);
   bool SolvePoint(size_t i, absl::FunctionRef<bool()> stopped);
   void SolveLanes(int64_t count);
   void GatherProblems(int64_t count);
@@ -99,7 +113,6 @@ class SweepRun::Impl {
   Demand demand_;
   bool with_regime_;
   bool in_lanes_ = false;                  // True if the pendulum's SIMD lanes give every column.
-  bool may_integrate_ = false;             // True if a point may take as long as an integration does.
   std::vector<pendulum::Output> outputs_;  // The columns, if the lanes give them.
   std::vector<size_t> positions_of_;       // Else the columns' positions in Columns(scene).
   std::vector<double> numbers_;            // All columns of one point.
@@ -121,12 +134,16 @@ class SweepRun::Impl {
 absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   const Scene& scene = driven_.scene();
   std::optional<SceneContact> contact;
-  std::vector<Violation> violations = driven_.WithoutCurable(Validate(scene, RestitutionIs::kRequired, contact));
-  if (violations.empty()) violations = driven_.WithoutCurable(CheckDemand(scene, contact, request.demand));
+  const auto stays = [this](const Violation& violation) { return !driven_.CanBeCured(violation); };
+  std::vector<Violation> violations = Validate(scene, RestitutionIs::kRequired, contact, stays);
+  if (violations.empty()) {
+    violations = CheckDemand(scene, contact, request.demand);
+    std::erase_if(violations, std::not_fn(stays));
+  }
   Append(driven_.violations(), violations);
   const std::vector<Violation> axes = ValidateAxes(request.grid);
   Append(axes, violations);
-  const std::vector<std::string> known = Columns(scene);
+  const Positions known = PositionsOf(Columns(scene));
   Append(CheckColumns(request.columns, known), violations);
   if (axes.empty()) Append(CheckRange(request), violations);
   if (!violations.empty()) return InvalidRequest(violations);
@@ -144,18 +161,17 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   return absl::OkStatus();
 }
 
-void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, const std::vector<std::string>& known) {
+void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, const Positions& known) {
   const Scene& scene = driven_.scene();
   in_lanes_ = HasClosedForm(scene) && !scene.compliance.has_value() &&
               std::all_of(columns.begin(), columns.end(),
                           [](const std::string& column) { return PendulumColumn(column).has_value(); });
   if (in_lanes_) problems_ = pendulum::ProblemColumns(pendulum::MakeProblem(scene).law, kPointsBetweenStops);
-  may_integrate_ = TangentialDirections(scene.system) == 2 || scene.compliance.has_value();
   for (const std::string& column : columns) {
     if (in_lanes_) {
       outputs_.push_back(*PendulumColumn(column));
     } else {
-      positions_of_.push_back(static_cast<size_t>(std::find(known.begin(), known.end(), column) - known.begin()));
+      positions_of_.push_back(known.at(column));
     }
   }
 }
@@ -163,23 +179,37 @@ void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, con
 // The first chunk is small, so that a caller soon sees something.
 int64_t SweepRun::Impl::NextCount() const {
   const auto bytes_a_point = static_cast<int64_t>(columns_.size() * sizeof(double));
-  return std::min(next_ == first_ ? kFirstChunkPoints : kChunkBytes / bytes_a_point, end_ - next_);
+  const int64_t fitting = std::max(kChunkBytes / bytes_a_point, int64_t{1});
+  return std::min({next_ == first_ ? kFirstChunkPoints : fitting, fitting, end_ - next_});
 }
 
-absl::StatusOr<SweepChunk> SweepRun::Impl::NextChunk(absl::FunctionRef<bool()> stopped) {
-  CheckInvariant(!ended_, "a sweep has no chunk after the one with its summary");
-  const int64_t count = NextCount();
-  SweepChunk chunk = {.first_index = next_, .count = count};
-  chunk.values.resize(static_cast<size_t>(count) * columns_.size());
-  for (int64_t done = 0; done < count;) {
-    const int64_t block = std::min(kPointsBetweenStops, count - done);
-    for (size_t c = 0; c < columns_.size(); ++c) {
-      columns_[c] = chunk.values.data() + static_cast<int64_t>(c) * count + done;
-    }
-    if (stopped() || !ComputeBlock(block, stopped)) return absl::CancelledError("the sweep was stopped by its caller");
-    if (with_regime_) chunk.regimes.insert(chunk.regimes.end(), regimes_.begin(), regimes_.begin() + block);
-    done += block;
+// Moves the first `count` values of each column together, out of columns that had room for `room` values.
+void Shorten(int64_t room, int64_t count, size_t columns, std::vector<double>& values) {
+  for (int64_t c = 1; c < static_cast<int64_t>(columns); ++c) {
+    std::copy_n(values.begin() + c * room, count, values.begin() + c * count);
   }
+  values.resize(static_cast<size_t>(count) * columns);
+}
+
+absl::StatusOr<SweepChunk> SweepRun::Impl::NextChunk(absl::FunctionRef<bool()> stopped,
+                                                     absl::FunctionRef<bool()> is_enough) {
+  CheckInvariant(!ended_, "a sweep has no chunk after the one with its summary");
+  const int64_t room = NextCount();
+  SweepChunk chunk = {.first_index = next_};
+  chunk.values.resize(static_cast<size_t>(room) * columns_.size());
+  bool is_cut = false;
+  while (chunk.count < room && !is_cut) {
+    for (size_t c = 0; c < columns_.size(); ++c) {
+      columns_[c] = chunk.values.data() + static_cast<int64_t>(c) * room + chunk.count;
+    }
+    const int64_t block = std::min(kPointsBetweenStops, room - chunk.count);
+    const absl::StatusOr<int64_t> solved = ComputeBlock(block, stopped, is_enough);
+    if (!solved.ok()) return solved.status();
+    if (with_regime_) chunk.regimes.insert(chunk.regimes.end(), regimes_.begin(), regimes_.begin() + *solved);
+    chunk.count += *solved;
+    is_cut = *solved < block || is_enough();
+  }
+  if (chunk.count < room) Shorten(room, chunk.count, columns_.size(), chunk.values);
   chunk.points_done = points_done();
   chunk.points_total = points_total();
   chunk.tallies = summary_;
@@ -188,27 +218,31 @@ absl::StatusOr<SweepChunk> SweepRun::Impl::NextChunk(absl::FunctionRef<bool()> s
   return chunk;
 }
 
-// Returns false if it was stopped.
-bool SweepRun::Impl::ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped) {
+// Returns the number of points that it has computed: `count`, unless they took long enough before.
+absl::StatusOr<int64_t> SweepRun::Impl::ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped,
+                                                     absl::FunctionRef<bool()> is_enough) {
+  if (stopped()) return Stopped();
   if (in_lanes_) {
     SolveLanes(count);
-  } else if (!SolvePoints(count, stopped)) {
-    return false;
+  } else {
+    const absl::StatusOr<int64_t> solved = SolvePoints(count, stopped, is_enough);
+    if (!solved.ok()) return solved;
+    count = *solved;
   }
   FinishBlock(count);
   next_ += count;
   summary_.points += count;
-  return true;
+  return count;
 }
 
-// Returns false if it was stopped.
-bool SweepRun::Impl::SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped) {
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    if (may_integrate_ && stopped()) return false;
-    if (!SolvePoint(i, stopped)) return false;
+absl::StatusOr<int64_t> SweepRun::Impl::SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped,
+                                                    absl::FunctionRef<bool()> is_enough) {
+  for (int64_t i = 0; i < count; ++i) {
+    if (i > 0 && is_enough()) return i;
+    if (stopped() || !SolvePoint(static_cast<size_t>(i), stopped)) return Stopped();
     driven_.Advance();
   }
-  return true;
+  return count;
 }
 
 // Returns false if it was stopped.
@@ -325,6 +359,8 @@ SweepRun::~SweepRun() = default;
 int64_t SweepRun::points_total() const { return impl_->points_total(); }
 int64_t SweepRun::points_done() const { return impl_->points_done(); }
 bool SweepRun::ended() const { return impl_->ended(); }
-absl::StatusOr<SweepChunk> SweepRun::NextChunk(absl::FunctionRef<bool()> stopped) { return impl_->NextChunk(stopped); }
+absl::StatusOr<SweepChunk> SweepRun::NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough) {
+  return impl_->NextChunk(stopped, is_enough);
+}
 
 }  // namespace ricochet

@@ -24,7 +24,7 @@ namespace ricochet {
 
 class SweepRun {
  public:
-  // The most points between two looks at `stopped`. A point that a closed form answers takes at most some microseconds.
+  // The most points between two looks at `stopped`: those of a pendulum's SIMD lanes take well below a microsecond each.
   static constexpr int64_t kPointsBetweenStops = 1024;
 
   // Errors: INVALID_ARGUMENT with every violation of the scene's undriven fields, the axes, the columns and the range.
@@ -38,12 +38,18 @@ class SweepRun {
   int64_t points_done() const;   // Points computed so far; after a stop these may be more than the chunks have.
   bool ended() const;            // True once the last chunk has been made.
 
-  // Computes the next chunk: a small first one, then up to 512 KiB of values each. The last one has the summary; a range
-  // without points has that one chunk. The engine is left to the caller. Not to be called once the run has ended.
-  // `stopped` is asked before every kPointsBetweenStops points, and before each point that may be integrated (in space,
-  // with compliance, of finite duration).
+  // Computes the next chunk: a small first one, then up to 512 KiB of values each. It ends early, but not before its
+  // first point, once `is_enough` says that it took long enough; no point depends on that. The last chunk has the
+  // summary; a range without points has that one chunk. The engine is left to the caller. Not to be called once the run
+  // has ended. Both functions are asked before every kPointsBetweenStops points of SIMD lanes, and before each other
+  // point.
   // Errors: CANCELLED once `stopped` returns true; the run must not be used any more.
-  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped);
+  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough);
+
+  // Computes a chunk that takes as long as it takes.
+  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped) {
+    return NextChunk(stopped, [] { return false; });
+  }
 
  private:
   class Impl;

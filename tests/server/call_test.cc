@@ -18,7 +18,6 @@
 
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
-#include "tests/server/made_frame.h"
 
 namespace ricochet::server {
 namespace {
@@ -37,7 +36,7 @@ class Service final : public v1::ImpactService::Service {
                      v1::SolveResponse* /*response*/) override {
     grpc::Status status;
     {
-      Call call("Solve", Call::Kind::kUnary, *context, made_.frame);
+      Call call("Solve", *context, admission_, observer_);
       status = call.Finish(work(*context, call));
     }
     ended.set_value();
@@ -50,8 +49,8 @@ class Service final : public v1::ImpactService::Service {
   std::promise<void> ended;
 
  private:
+  Admission admission_{1};
   Observer observer_;
-  MadeFrame made_{observer_};
 };
 
 class CallTest : public testing::Test {

@@ -88,7 +88,7 @@ TEST(IntervalReductionTest, HoldsTheContactOfEverySceneOfTheBox) {
       const double relative = i % 4 == 0 ? 0.0 : std::exp2(-Uniform(random, 3.0, 50.0));
       const SceneBox box = RandomBox(scene, 1 + static_cast<int>(random() % 12), relative, random);
       SlopeParameters parameters;
-      const auto form = std::get<ContactForm>(Reduce(box, parameters));
+      const auto form = std::get<ContactForm>(Reduce(box, parameters, [] { return false; }));
       for (int k = 0; k < 50; ++k) {
         ExpectHolds(form, std::get<PlanarReduction>(Reduce(Inside(box, random))));
         if (HasFailure()) return;
@@ -101,7 +101,8 @@ TEST(IntervalReductionTest, OfOneSceneIsItsReductionToRounding) {
   for (const Scene& scene : Scenes()) {
     SCOPED_TRACE(scene.system.index());
     SlopeParameters parameters;
-    const auto form = std::get<ContactForm>(Reduce(SceneBox{scene, scene, std::nullopt}, parameters));
+    const auto form =
+        std::get<ContactForm>(Reduce(SceneBox{scene, scene, std::nullopt}, parameters, [] { return false; }));
     for (const SlopeForm* one : {&form.wtt, &form.wtn, &form.wnn, &form.stick_slope, &form.u0, &form.v0}) {
       EXPECT_LE(one->range().upper - one->range().lower, 1e-13);
     }
@@ -120,7 +121,7 @@ TEST(IntervalReductionTest, IsNarrowToFirstOrder) {
     std::get<Linkage>(box.low.system).links[1].theta_rad = 0.7 - reach;
     std::get<Linkage>(box.high.system).links[1].theta_rad = 0.7 + reach;
     SlopeParameters parameters;
-    const Interval wnn = std::get<ContactForm>(Reduce(box, parameters)).wnn.range();
+    const Interval wnn = std::get<ContactForm>(Reduce(box, parameters, [] { return false; })).wnn.range();
     return (wnn.upper - wnn.lower) - std::fabs(wnn_at(0.7 + reach) - wnn_at(0.7 - reach));
   };
   EXPECT_NEAR(excess(1e-2) / excess(1e-3), 100.0, 15.0);
@@ -129,7 +130,8 @@ TEST(IntervalReductionTest, IsNarrowToFirstOrder) {
 TEST(IntervalReductionTest, OfAPendulumFollowsItsAngle) {
   const Scene scene = With(Pendulum{1.0, 0.3, 0.4, -1.0});
   SlopeParameters parameters;
-  const auto pendulum = std::get<IntervalPendulum>(Reduce(SceneBox{scene, scene, Interval(0.5, 2.0)}, parameters));
+  const auto pendulum =
+      std::get<IntervalPendulum>(Reduce(SceneBox{scene, scene, Interval(0.5, 2.0)}, parameters, [] { return false; }));
   EXPECT_NEAR(pendulum.a.lower, 0.5 * std::sin(0.5), 1e-15);
   EXPECT_NEAR(pendulum.a.upper, 0.5, 1e-15);
   EXPECT_NEAR(pendulum.b.lower, 0.5 * std::cos(2.0), 1e-15);

@@ -172,5 +172,13 @@ TEST(ValidateTest, BoundsDoNotNeedARestitutionButCheckOneThatIsThere) {
               ElementsAre(Violation{"restitution.energetic", "= 2: must be in [0, 1]"}));
 }
 
+TEST(ValidateTest, StopsLookingOnceTheListIsFull) {
+  Scene scene;
+  scene.system = Linkage{std::vector<Link>(100'000, Link{})};
+  const std::vector<Violation> violations = Validate(scene);
+  EXPECT_TRUE(IsFull(violations));
+  EXPECT_EQ(violations.size(), kMostViolations + 1);
+}
+
 }  // namespace
 }  // namespace ricochet

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
+#include "absl/strings/str_cat.h"
 #include "core/sweep/column.h"
 #include "core/sweep/grid.h"
 #include "ricochet/solver.h"
@@ -361,6 +363,50 @@ TEST(SweepRunTest, PhiSweepsTheAngleOfFigure4) {
   }
 }
 
+// ---- Many violations ----
+
+std::string MessageOf(const SweepRequest& request) { return std::string(SweepRun::Make(request).status().message()); }
+
+Scene LongChain(size_t links) {
+  Scene scene = MakeRequest({}).grid.scene;
+  scene.system = Linkage{std::vector<Link>(links, Link{1.0, 1.0, 0.5, 0.1, 0.3, -1.0})};
+  return scene;
+}
+
+TEST(SweepRunTest, ManyUnknownNamesAreRefusedBriefly) {
+  SweepRequest request = MakeRequest({});
+  request.grid.scene = LongChain(1000);
+  request.columns.assign(1000, "no.such.column");
+  EXPECT_LT(MessageOf(request).size(), 4096);
+  EXPECT_THAT(MessageOf(request), testing::AllOf(HasSubstr("columns[19]"), HasSubstr("and more violations")));
+  request.columns = {"coefficients.newton"};
+  request.grid.axes.assign(1000, Lin("no.such.field", 0.0, 1.0, 2));
+  EXPECT_LT(MessageOf(request).size(), 4096);
+  EXPECT_THAT(MessageOf(request), HasSubstr("axes[19].path"));
+  request.grid.axes = {Lin(std::string(100'000, '\x01'), 0.0, 1.0, 2)};
+  EXPECT_LT(MessageOf(request).size(), 1024);
+}
+
+TEST(SweepRunTest, ManyBadValuesOfAListAreRefusedBriefly) {
+  SweepRequest request = MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 2)});
+  request.grid.axes[0].values = ListValues{std::vector<double>(65'536, std::nan(""))};
+  EXPECT_LT(MessageOf(request).size(), 4096);
+}
+
+// The driven fields are bad in the base scene, which the axes cure; the field behind them stays bad.
+TEST(SweepRunTest, ABadFieldBehindManyThatTheAxesCureIsFound) {
+  SweepRequest request = MakeRequest({});
+  request.grid.scene = LongChain(40);
+  auto& links = std::get<Linkage>(request.grid.scene.system).links;
+  for (size_t i = 0; i < links.size(); ++i) {
+    links[i].mass_kg = -1.0;
+    if (i < 39) request.grid.axes.push_back(Lin(absl::StrCat("linkage.links[", i, "].mass_kg"), 1.0, 1.0, 1));
+  }
+  EXPECT_EQ(MessageOf(request), "linkage.links[39].mass_kg = -1: must be > 0");
+  links[39].mass_kg = 1.0;
+  EXPECT_EQ(MessageOf(request), "");
+}
+
 // ---- Chunks and stops ----
 
 TEST(SweepRunTest, ChunksStartSmallAndHoldAtMost512KiB) {
@@ -403,6 +449,55 @@ TEST(SweepRunTest, ChunksTileTheRangeWithoutGapOrOverlap) {
   EXPECT_EQ(next, 250'000);
 }
 
+// Returns the sweep's points; each chunk ends once `is_enough` says so.
+SweepChunk Whole(const SweepRequest& request, absl::FunctionRef<bool()> is_enough, int& chunks) {
+  absl::StatusOr<SweepRun> run = SweepRun::Make(request);
+  EXPECT_TRUE(run.ok()) << run.status();
+  SweepChunk whole;
+  const size_t columns = request.columns.size();
+  std::vector<std::vector<double>> values(columns);
+  for (chunks = 0; run.ok() && !run->ended(); ++chunks) {
+    const absl::StatusOr<SweepChunk> chunk = run->NextChunk(Never, is_enough);
+    EXPECT_TRUE(chunk.ok()) << chunk.status();
+    EXPECT_EQ(chunk->first_index, whole.count);
+    EXPECT_EQ(chunk->values.size(), static_cast<size_t>(chunk->count) * columns);
+    for (size_t c = 0; c < columns; ++c) {
+      const auto first = chunk->values.begin() + static_cast<int64_t>(c) * chunk->count;
+      values[c].insert(values[c].end(), first, first + chunk->count);
+    }
+    whole.regimes.insert(whole.regimes.end(), chunk->regimes.begin(), chunk->regimes.end());
+    whole.count += chunk->count;
+    whole.summary = chunk->summary;
+  }
+  for (const std::vector<double>& column : values) {
+    whole.values.insert(whole.values.end(), column.begin(), column.end());
+  }
+  return whole;
+}
+
+TEST(SweepRunTest, PointsAreTheSameWhereverAChunkEndsEarly) {
+  SweepRequest pendulum =
+      MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 10'000)}, {"coefficients.newton", "impulse.normal_total_n_s"});
+  pendulum.with_regime = true;
+  SweepRequest contact = pendulum;
+  contact.grid.scene.system = PlanarContact{2.5, 1.0, 2.5, -0.5, -1.0};
+  contact.grid.axes = {Lin("friction.kinetic_coefficient", 0.0, 1.0, 3'000)};
+  for (const SweepRequest& request : {pendulum, contact}) {
+    int chunks = 0;
+    const SweepChunk whole = Whole(
+        request, [] { return false; }, chunks);
+    EXPECT_LE(chunks, 2);
+    int asked = 0;
+    const SweepChunk cut = Whole(
+        request, [&asked] { return ++asked % 5 == 0; }, chunks);
+    EXPECT_GT(chunks, 2);
+    EXPECT_EQ(cut, whole);
+    const SweepChunk single = Whole(
+        request, [] { return true; }, chunks);
+    EXPECT_EQ(single, whole);
+  }
+}
+
 TEST(SweepRunTest, AStopIsLookedForBeforeEvery1024Points) {
   absl::StatusOr<SweepRun> run = SweepRun::Make(MakeRequest({Lin("pendulum.b_m", 0.0, 1.0, 60'000)}));
   ASSERT_TRUE(run.ok());
@@ -439,7 +534,7 @@ TEST(SweepRunTest, ColumnsMustBeNamedKnownAndDifferent) {
   EXPECT_THAT(ErrorFields(MakeRequest({}, {"energy_change_j", "coefficients.newton", "energy_change_j"})),
               ElementsAre("columns[2]"));
   EXPECT_THAT(std::string(SweepRun::Make(MakeRequest({}, {"nonsense"})).status().message()),
-              HasSubstr("coefficients.newton"));
+              HasSubstr("`ricochet sweep --column '?'` lists them"));
 }
 
 TEST(SweepRunTest, UnknownPathsOfAxesAreRefused) {

@@ -1,0 +1,40 @@
+#include "core/engine/call_watch.h"
+
+namespace ricochet {
+namespace {
+
+constexpr std::chrono::milliseconds kBetweenLooks(1);
+
+}  // namespace
+
+absl::Status CallWatch::WhyEnded() const {
+  if (options_.deadline.has_value() && Clock::now() >= *options_.deadline) {
+    return absl::DeadlineExceededError("the call's deadline has passed");
+  }
+  if (options_.stop.stop_requested() || (options_.is_stopped != nullptr && options_.is_stopped())) {
+    return absl::CancelledError("the call was stopped by its caller");
+  }
+  return absl::OkStatus();
+}
+
+absl::Status CallWatch::OrWhyEnded(const absl::Status& error) const {
+  if (!absl::IsCancelled(error)) return error;
+  const absl::Status ended = WhyEnded();
+  return ended.ok() ? error : ended;
+}
+
+bool CallWatch::IsStopped() {
+  if (is_stopped_) return true;
+  now_ = Clock::now();
+  if (now_ < next_look_) return false;
+  next_look_ = now_ + kBetweenLooks;
+  is_stopped_ = !WhyEnded().ok();
+  return is_stopped_;
+}
+
+void CallWatch::StartPiece(std::chrono::milliseconds time) {
+  now_ = Clock::now();
+  piece_end_ = now_ + time;
+}
+
+}  // namespace ricochet

@@ -1,0 +1,163 @@
+// A stop that another thread asks for ends each dear call long before it would end by itself.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdio>
+#include <functional>
+#include <ostream>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "ricochet/solver.h"
+
+namespace ricochet {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+Scene Chain(int links) {
+  Linkage linkage;
+  for (int i = 0; i < links; ++i) {
+    linkage.links.push_back({.length_m = 1.0,
+                             .mass_kg = 1.0,
+                             .com_m = 0.5,
+                             .inertia_com_kg_m2 = 0.1,
+                             .theta_rad = 0.3 + 0.2 * (i % 9),
+                             .rate_rad_s = -1.0});
+  }
+  return {.system = linkage, .friction = {.kinetic_coefficient = 0.2}, .restitution = EnergeticCoefficient{0.5}};
+}
+
+// A contact whose tangential spring is a million times stiffer than the normal one, so that each impact takes a second.
+Scene StiffContact() {
+  Scene scene = {
+      .system =
+          PlanarContact{
+              .w_tt_per_kg = 2.5, .w_tn_per_kg = 1.0, .w_nn_per_kg = 2.5, .tangential_m_s = -0.5, .normal_m_s = -1.0},
+      .friction = {.kinetic_coefficient = 0.3},
+      .restitution = EnergeticCoefficient{0.5}};
+  scene.compliance = Compliance{.tangential_ratio_squared = 1e-6, .normal = LinearSpring{1e4}};
+  scene.finite_forces = ContactAcceleration{.tangential_m_s2 = 0.0, .normal_m_s2 = -9.81};
+  return scene;
+}
+
+BoundsRequest WideBounds() {
+  BoundsRequest request = {.scene = Chain(64)};
+  for (int i = 0; i < 32; ++i) {
+    request.ranges.push_back({"linkage.links[" + std::to_string(i) + "].mass_kg", 0.8, 1.2});
+  }
+  return request;
+}
+
+// Observations of a contact in space whose W has rank two: each row is searched for along an integrated path.
+AuditBatchRequest DeficientRows() {
+  AuditBatchRequest request;
+  request.scene.system =
+      SpatialContact{.w_per_kg = {1.0, 0.0, 0.5, 1.0, 0.0, 0.25}, .tangential_m_s = {-1.0, 0.0}, .normal_m_s = -0.5};
+  request.scene.friction.kinetic_coefficient = 0.3;
+  request.columns.tangential_after_m_s.assign(8192, 0.3);
+  request.columns.tangential_2_after_m_s.assign(8192, 0.1);
+  request.columns.normal_after_m_s.assign(8192, 0.4);
+  return request;
+}
+
+absl::Status Sweep(const Scene& scene, const CallOptions& options) {
+  const Axis axis = {.path = "friction.kinetic_coefficient", .values = Linspace{0.1, 0.4, 1'000'000'000}};
+  absl::Status last;
+  for (const absl::StatusOr<SweepChunk>& chunk :
+       LocalSolver().Sweep({.grid = {.scene = scene, .axes = {axis}}, .columns = {"energy_change_j"}}, options)) {
+    last = chunk.status();
+  }
+  return last;
+}
+
+struct DearCall {
+  std::string name;
+  std::function<absl::Status(const CallOptions&)> run;
+};
+
+void PrintTo(const DearCall& call, std::ostream* out) { *out << call.name; }
+
+std::vector<DearCall> DearCalls() {
+  const LocalSolver solver;
+  return {
+      {"CertifiedChain",
+       [solver](const CallOptions& options) {
+         return solver.Solve({.scene = Chain(400), .certified_digits = 1000}, options).status();
+       }},
+      {"ForcesOfAStiffContact",
+       [solver](const CallOptions& options) {
+         return solver.Solve({.scene = StiffContact(), .force_intervals = 65'535}, options).status();
+       }},
+      {"EnclosureOfAChain",
+       [solver](const CallOptions& options) { return solver.Bounds(WideBounds(), options).status(); }},
+      {"AuditOfManyRowsInSpace",
+       [solver](const CallOptions& options) { return solver.AuditBatch(DeficientRows(), options).status(); }},
+      {"SweepOfAStiffContact", [](const CallOptions& options) { return Sweep(StiffContact(), options); }},
+      {"SweepOfAChain", [](const CallOptions& options) { return Sweep(Chain(64), options); }},
+      {"StudyOfCost",
+       [solver](const CallOptions& options) {
+         absl::Status last;
+         for (const absl::StatusOr<CostChunk>& chunk :
+              solver.Cost({.scene = Chain(64), .time_limit_s = kMostCostTimeLimitS, .samples = 1001}, options)) {
+           last = chunk.status();
+         }
+         return last;
+       }},
+  };
+}
+
+class StopTest : public testing::TestWithParam<DearCall> {};
+
+TEST_P(StopTest, EndsADearCallSoon) {
+  std::stop_source source;
+  steady_clock::time_point asked;
+  std::jthread stopper([&] {
+    std::this_thread::sleep_for(milliseconds(100));
+    asked = steady_clock::now();
+    source.request_stop();
+  });
+  const absl::Status status = GetParam().run({.stop = source.get_token()});
+  const steady_clock::time_point ended = steady_clock::now();
+  stopper.join();
+  EXPECT_EQ(status.code(), absl::StatusCode::kCancelled) << status;
+  const double late_ms = std::chrono::duration<double, std::milli>(ended - asked).count();
+  std::printf("%s ended %.1f ms after it was asked to\n", GetParam().name.c_str(), late_ms);
+  EXPECT_LT(late_ms, 5000.0);
+}
+
+TEST_P(StopTest, EndsADearCallAtItsDeadline) {
+  const steady_clock::time_point deadline = steady_clock::now() + milliseconds(100);
+  const absl::Status status = GetParam().run({.deadline = deadline});
+  const double late_ms = std::chrono::duration<double, std::milli>(steady_clock::now() - deadline).count();
+  EXPECT_EQ(status.code(), absl::StatusCode::kDeadlineExceeded) << status;
+  std::printf("%s ended %.1f ms after its deadline\n", GetParam().name.c_str(), late_ms);
+  EXPECT_LT(late_ms, 5000.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Dear, StopTest, testing::ValuesIn(DearCalls()),
+                         [](const auto& tested) { return tested.param.name; });
+
+TEST(Chunks, OfDearPointsAreCutByTime) {
+  const Axis axis = {.path = "friction.kinetic_coefficient", .values = Linspace{0.2, 0.4, 1000}};
+  int chunks = 0;
+  int64_t points = 0;
+  for (const absl::StatusOr<SweepChunk>& chunk :
+       LocalSolver().Sweep({.grid = {.scene = StiffContact(), .axes = {axis}}, .columns = {"energy_change_j"}})) {
+    ASSERT_TRUE(chunk.ok()) << chunk.status();
+    EXPECT_EQ(chunk->first_index, points);
+    EXPECT_EQ(chunk->values.size(), static_cast<size_t>(chunk->count));
+    points += chunk->count;
+    if (++chunks == 3) break;
+  }
+  EXPECT_EQ(chunks, 3);
+  EXPECT_LT(points, 1000) << "a thousand of these points take a quarter of an hour";
+}
+
+}  // namespace
+}  // namespace ricochet
