@@ -85,10 +85,14 @@ class ElementCount {
 class BoundedHandler final : public grpc::internal::MethodHandler {
  public:
   BoundedHandler(std::unique_ptr<grpc::internal::MethodHandler> handler, const Descriptor& request,
-                 int64_t most_elements)
-      : handler_(std::move(handler)), request_(request), most_elements_(most_elements) {}
+                 int64_t most_elements, UnreadWatch& unread)
+      : handler_(std::move(handler)), request_(request), most_elements_(most_elements), unread_(unread) {}
 
-  void RunHandler(const HandlerParameter& parameter) override { handler_->RunHandler(parameter); }
+  // Returns when the answer is sent.
+  void RunHandler(const HandlerParameter& parameter) override {
+    const UnreadWatch::Answer answer(unread_, *static_cast<grpc::ServerContext*>(parameter.server_context));
+    handler_->RunHandler(parameter);
+  }
 
   void* Deserialize(grpc_call* call, grpc_byte_buffer* bytes, grpc::Status* status, void** data) override {
     const absl::Status checked = Check(bytes);
@@ -116,6 +120,7 @@ class BoundedHandler final : public grpc::internal::MethodHandler {
   const std::unique_ptr<grpc::internal::MethodHandler> handler_;
   const Descriptor& request_;
   const int64_t most_elements_;
+  UnreadWatch& unread_;
 };
 
 }  // namespace
@@ -138,8 +143,8 @@ absl::Status CheckElements(absl::string_view bytes, const Descriptor& type, int6
                    count.place()));
 }
 
-BoundedService::BoundedService(Methods& service, const Limits& limits)
-    : service_(service), most_elements_(MostElements(limits)) {
+BoundedService::BoundedService(Methods& service, const Limits& limits, UnreadWatch& unread)
+    : service_(service), most_elements_(MostElements(limits)), unread_(unread) {
   AddUnary("/ricochet.v1.ImpactService/Solve", &Methods::Solve);
   AddUnary("/ricochet.v1.ImpactService/Bounds", &Methods::Bounds);
   AddStream("/ricochet.v1.ImpactService/Sweep", &Methods::Sweep);
@@ -173,8 +178,8 @@ void BoundedService::Add(const char* path, bool is_stream, const Descriptor& req
                          std::unique_ptr<grpc::internal::MethodHandler> handler) {
   const auto type = is_stream ? grpc::internal::RpcMethod::SERVER_STREAMING : grpc::internal::RpcMethod::NORMAL_RPC;
   // The service owns the method, and the method owns the handler.
-  AddMethod(new grpc::internal::RpcServiceMethod(path, type,
-                                                 new BoundedHandler(std::move(handler), request, most_elements_)));
+  AddMethod(new grpc::internal::RpcServiceMethod(
+      path, type, new BoundedHandler(std::move(handler), request, most_elements_, unread_)));
 }
 
 }  // namespace ricochet::server

@@ -18,6 +18,7 @@
 #include "absl/strings/string_view.h"
 #include "ricochet/limits.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
+#include "server/unread_watch.h"
 
 namespace ricochet::server {
 
@@ -25,8 +26,8 @@ class BoundedService final : public grpc::Service {
  public:
   using Methods = v1::ImpactService::Service;
 
-  // Passes every call on to `service`, which must outlive this one.
-  BoundedService(Methods& service, const Limits& limits);
+  // Passes every call on to `service`. `unread` watches its answers. Both must outlive this service.
+  BoundedService(Methods& service, const Limits& limits, UnreadWatch& unread);
 
  private:
   // Each `path` is that of a method, "/ricochet.v1.ImpactService/Solve", and is never freed.
@@ -40,6 +41,7 @@ class BoundedService final : public grpc::Service {
 
   Methods& service_;
   const int64_t most_elements_;
+  UnreadWatch& unread_;
 };
 
 // The most messages, texts and unknown fields that a request may hold: at least 16,384, and more than any request within

@@ -1,11 +1,15 @@
 #include "server/call.h"
 
+#include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
 #include "ricochet/v1/error_reason.pb.h"
+#include "server/peer.h"
+#include "server/refusals.h"
 #include "server/request_id.h"
 #include "server/trace_parent.h"
 
@@ -32,10 +36,17 @@ std::string NameOf(ErrorReason reason) {
   return v1::ErrorReason_Name(static_cast<v1::ErrorReason>(reason)).substr(kPrefix);
 }
 
+// A write that takes longer than this is counted as a stall.
+constexpr std::chrono::seconds kStall(1);
+
 }  // namespace
 
-Call::Call(const char* method, grpc::ServerContext& context, Admission& admission, const Observer& observer)
-    : context_(context), observer_(observer), ticket_(admission.Enter()) {
+Call::Call(const char* method, Kind kind, grpc::ServerContext& context, const CallFrame& frame)
+    : kind_(kind),
+      context_(context),
+      frame_(frame),
+      peer_key_(PeerKey(context)),
+      place_(frame.places.Enter(peer_key_, kind == Kind::kStream)) {
   record_.method = method;
   record_.peer = context.peer();
   record_.user_agent = Metadata(context, "user-agent");
@@ -46,9 +57,14 @@ Call::Call(const char* method, grpc::ServerContext& context, Admission& admissio
 }
 
 Call::~Call() {
-  { const absl::StatusOr<Admission::Ticket> given_back = std::move(ticket_); }
+  frame_.unread.Sends(context_, place_.ok() ? std::make_shared<Places::Place>(*std::move(place_)) : nullptr);
   record_.duration_s = elapsed_s();
-  observer_.Ended(record_);
+  frame_.observer.Ended(record_);
+}
+
+absl::Status Call::admitted() const {
+  if (frame_.drain.streams.stop_requested()) return Draining();
+  return place_.status();
 }
 
 double Call::elapsed_s() const {
@@ -57,19 +73,62 @@ double Call::elapsed_s() const {
 
 CallOptions Call::options() const {
   using std::chrono::system_clock;
-  CallOptions options = {.is_stopped = [this] { return context_.IsCancelled(); }};
+  CallOptions options = {
+      .stop = drain(), .deadline = start_ + time_limit(), .is_stopped = [this] { return context_.IsCancelled(); }};
   const system_clock::time_point deadline = context_.deadline();
   if (deadline != system_clock::time_point::max()) {
-    options.deadline = std::chrono::steady_clock::now() + (deadline - system_clock::now());
+    const auto left = deadline - system_clock::now();
+    options.deadline = std::min(*options.deadline, std::chrono::steady_clock::now() + left);
   }
   return options;
 }
 
+absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work) {
+  const CallOptions limits = options();
+  const double asked_s = elapsed_s();
+  const Turn turn = {.peer = peer_key_, .deadline = limits.deadline, .is_gone = limits.is_stopped, .cost = cost};
+  bool is_done = false;
+  const absl::Status turned = frame_.gate.Compute(turn, [&] {
+    record_.queued_s += elapsed_s() - asked_s;
+    is_done = true;
+    work();
+  });
+  if (!is_done) record_.queued_s += elapsed_s() - asked_s;
+  return turned;
+}
+
+absl::Status Call::Send(absl::FunctionRef<bool()> write) {
+  const UnreadWatch::Write watched(frame_.unread, context_);
+  const bool is_written = write();
+  if (watched.waited() > kStall) {
+    ++record_.stalls;
+    record_.stalled_s += watched.waited().count();
+  }
+  if (is_written) return absl::OkStatus();
+  if (watched.is_cut()) return UnreadLimitReached(frame_.unread.limit());
+  return absl::CancelledError("the client cancelled the call or went away");
+}
+
 grpc::Status Call::Finish(const absl::Status& status) {
-  record_.status = SeenByCaller(status.code(), context_);
-  record_.reason = NameOf(ReasonOf(status));
-  record_.message = std::string(status.message());
-  return ToGrpcStatus(status);
+  const absl::Status explained = Explained(status);
+  record_.status = SeenByCaller(explained.code(), context_);
+  record_.reason = NameOf(ReasonOf(explained));
+  record_.message = std::string(explained.message());
+  return ToGrpcStatus(explained);
+}
+
+std::chrono::milliseconds Call::time_limit() const {
+  return kind_ == Kind::kUnary ? frame_.limits.unary_time : frame_.limits.stream_age;
+}
+
+const std::stop_token& Call::drain() const { return kind_ == Kind::kUnary ? frame_.drain.unary : frame_.drain.streams; }
+
+absl::Status Call::Explained(const absl::Status& status) const {
+  if (absl::IsCancelled(status) && drain().stop_requested() && !context_.IsCancelled()) return Draining();
+  const bool is_by_client = context_.deadline() <= std::chrono::system_clock::now();
+  const bool is_by_server = elapsed_s() >= std::chrono::duration<double>(time_limit()).count();
+  if (!absl::IsDeadlineExceeded(status) || is_by_client || !is_by_server) return status;
+  return kind_ == Kind::kUnary ? TimeLimitReached(time_limit()) : AgeLimitReached(time_limit());
 }
 
 }  // namespace ricochet::server

@@ -1,5 +1,5 @@
-// Call: the frame around the work of every handler. It takes a place among the live calls, measures the time, gathers
-// what is known of the call and hands it to the observer at the end.
+// Call: the frame around the work of every handler. It takes a place among the live calls, has the work done at the
+// gate, ends the call at the server's limits, gathers what is known of the call and hands it to the observer at the end.
 
 #ifndef RICOCHET_SERVER_CALL_H_
 #define RICOCHET_SERVER_CALL_H_
@@ -8,47 +8,86 @@
 #include <grpcpp/support/status.h>
 
 #include <chrono>
+#include <optional>
+#include <string>
 
+#include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/call_options.h"
-#include "server/admission.h"
 #include "server/call_record.h"
+#include "server/drain.h"
+#include "server/gate.h"
 #include "server/observer.h"
+#include "server/places.h"
+#include "server/unread_watch.h"
 
 namespace ricochet::server {
 
+// How long a call may run, whatever its client allows; both > 0.
+struct TimeLimits {
+  std::chrono::milliseconds unary_time{60'000};
+  std::chrono::milliseconds stream_age{3'600'000};
+  friend bool operator==(const TimeLimits&, const TimeLimits&) = default;
+};
+
+// What all calls of a server share.
+struct CallFrame {
+  Places& places;
+  Gate& gate;
+  UnreadWatch& unread;
+  DrainStops drain;
+  TimeLimits limits;
+  const Observer& observer;
+};
+
 class Call {
  public:
-  // Starts the clock, asks for admission and adds the request id to the metadata of the answer. `method` is the method's
-  // name without that of the service. All arguments by reference must outlive the call.
-  Call(const char* method, grpc::ServerContext& context, Admission& admission, const Observer& observer);
-  // Gives the place back and then hands the record to the observer.
+  enum class Kind { kUnary, kStream };
+
+  // Starts the clock, takes a place and adds the request id to the metadata of the answer. `method` is the method's name
+  // without that of the service. All arguments by reference must outlive the call.
+  Call(const char* method, Kind kind, grpc::ServerContext& context, const CallFrame& frame);
+  // Gives the place back, as soon as the answer is sent, and hands the record to the observer.
   ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
   // OK, or the error with which the handler must finish at once.
-  absl::Status admitted() const { return ticket_.status(); }
+  absl::Status admitted() const;
 
   // Returns the seconds since the start.
   double elapsed_s() const;
 
-  // Returns the options of the solver's call: it ends at the client's deadline, and when the client cancels or vanishes.
-  // The context must outlive them.
+  // Returns the options of the solver's call. It ends at the client's deadline, at the server's limit of time, when the
+  // client cancels or vanishes, and when the drain asks for it. This object must outlive them.
   CallOptions options() const;
 
-  // Handlers add to it what they learn of the call: points, chunks, models, the time in the queue.
+  // Does the work when it is this call's turn, and returns OK; or returns the error for which it was not done. `cost` is
+  // absent for a part of a stream.
+  absl::Status Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work);
+
+  // Sends one message of a stream by `write`, which returns false if the call has ended.
+  absl::Status Send(absl::FunctionRef<bool()> write);
+
+  // Handlers add to it what they learn of the call: points, chunks, models.
   CallRecord& record() { return record_; }
 
-  // Records the status as the caller sees it and returns what the handler must return.
+  // Records the status as the caller sees it and returns what the handler must return. Replaces the error of a call that
+  // the drain or a limit of time has ended by one that says so.
   grpc::Status Finish(const absl::Status& status);
 
  private:
+  std::chrono::milliseconds time_limit() const;
+  const std::stop_token& drain() const;
+  absl::Status Explained(const absl::Status& status) const;
+
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-  const grpc::ServerContext& context_;
-  const Observer& observer_;
-  absl::StatusOr<Admission::Ticket> ticket_;
+  const Kind kind_;
+  grpc::ServerContext& context_;
+  const CallFrame& frame_;
+  const std::string peer_key_;
+  absl::StatusOr<Places::Place> place_;
   // The status UNKNOWN stays if a handler throws and never finishes; gRPC then answers the same.
   CallRecord record_;
 };

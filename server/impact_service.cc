@@ -1,13 +1,16 @@
 #include "server/impact_service.h"
 
-#include <utility>
+#include <optional>
 
+#include "absl/functional/function_ref.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
+#include "ricochet/result_stream.h"
 #include "server/refusals.h"
+#include "server/request_cost.h"
 
 namespace ricochet::server {
 namespace {
@@ -22,46 +25,62 @@ void CountModels(const SweepSummary& summary, CallRecord& record) {
   for (size_t i = 0; i < summary.by_model.size(); ++i) record.solved_by_model[i] = summary.by_model[i].count;
 }
 
+// Reads a stream of the solver to its end, each element when it is the call's turn to compute. `prepare` turns an
+// element into a message, `send` sends the message.
+template <typename T>
+absl::Status PassOn(Call& call, absl::FunctionRef<ResultStream<T>()> open, absl::FunctionRef<absl::Status(T&)> prepare,
+                    absl::FunctionRef<absl::Status()> send) {
+  std::optional<ResultStream<T>> stream;
+  typename ResultStream<T>::Iterator at;
+  for (;;) {
+    absl::Status status;
+    bool is_last = false;
+    const absl::Status turn = call.Compute(std::nullopt, [&] {
+      if (stream.has_value()) {
+        ++at;
+      } else {
+        stream.emplace(open());
+        at = stream->begin();
+      }
+      is_last = at == stream->end() || (at->ok() && (*at)->summary.has_value());
+      if (at != stream->end()) status = at->ok() ? prepare(**at) : at->status();
+    });
+    if (!turn.ok()) return turn;
+    if (!status.ok()) return status;
+    if (at == stream->end()) return absl::OkStatus();
+    if (absl::Status sent = send(); !sent.ok() || is_last) return sent;
+  }
+}
+
 // Sends one message of a stream; the one with the summary is the last.
 template <typename Response>
-absl::Status Write(const Response& response, grpc::ServerWriter<Response>& writer, CallRecord& record) {
+absl::Status Send(const Response& response, grpc::ServerWriter<Response>& writer, Call& call) {
   grpc::WriteOptions last;
   if (response.has_summary()) last.set_last_message();
-  ++record.chunks;
-  record.chunk_bytes += static_cast<int64_t>(response.ByteSizeLong());
-  if (writer.Write(response, last)) return absl::OkStatus();
-  return absl::CancelledError("the client cancelled the call or went away");
-}
-
-// Returns the options of a call that also ends when the drain asks for it.
-CallOptions EndingWith(std::stop_token drain, const Call& call) {
-  CallOptions options = call.options();
-  options.stop = std::move(drain);
-  return options;
-}
-
-// Returns the error for a status that draining has caused.
-absl::Status OrDraining(const absl::Status& status, const std::stop_token& drain) {
-  return absl::IsCancelled(status) && drain.stop_requested() ? Draining() : status;
+  ++call.record().chunks;
+  call.record().chunk_bytes += static_cast<int64_t>(response.ByteSizeLong());
+  return call.Send([&] { return writer.Write(response, last); });
 }
 
 }  // namespace
 
-ImpactService::ImpactService(const Solver& solver, DrainStops drain, Admission& admission, const Observer& observer)
-    : solver_(solver), drain_(std::move(drain)), admission_(admission), observer_(observer) {}
+ImpactService::ImpactService(const Solver& solver, const CallFrame& frame) : solver_(solver), frame_(frame) {}
 
 template <typename Request, typename Response, typename Method>
 grpc::Status ImpactService::Answer(const char* name, Method method, grpc::ServerContext& context,
                                    const Request& request, Response& response) const {
-  Call call(name, context, admission_, observer_);
-  if (!call.admitted().ok()) return call.Finish(call.admitted());
-  if (drain_.streams.stop_requested()) return call.Finish(Draining());
-  const auto answer = (solver_.*method)(FromProto(request), EndingWith(drain_.unary, call));
-  if (answer.ok()) {
+  Call call(name, Call::Kind::kUnary, context, frame_);
+  if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
+  const auto asked = FromProto(request);
+  absl::Status status;
+  const absl::Status turn = call.Compute(CostOf(asked), [&] {
+    const auto answer = (solver_.*method)(asked, call.options());
+    status = answer.status();
+    if (!answer.ok()) return;
     CountModel(*answer, call.record());
     response = ToProto(*answer);
-  }
-  return call.Finish(OrDraining(answer.status(), drain_.unary));
+  });
+  return call.Finish(turn.ok() ? status : turn);
 }
 
 grpc::Status ImpactService::Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
@@ -91,16 +110,16 @@ grpc::Status ImpactService::AuditBatch(grpc::ServerContext* context, const v1::A
 
 grpc::Status ImpactService::Sweep(grpc::ServerContext* context, const v1::SweepRequest* request,
                                   grpc::ServerWriter<v1::SweepResponse>* writer) {
-  Call call("Sweep", *context, admission_, observer_);
-  if (!call.admitted().ok()) return call.Finish(call.admitted());
-  return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call), drain_.streams));
+  Call call("Sweep", Call::Kind::kStream, *context, frame_);
+  if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
+  return call.Finish(Stream(FromProto(*request), *writer, call));
 }
 
 grpc::Status ImpactService::Cost(grpc::ServerContext* context, const v1::CostRequest* request,
                                  grpc::ServerWriter<v1::CostResponse>* writer) {
-  Call call("Cost", *context, admission_, observer_);
-  if (!call.admitted().ok()) return call.Finish(call.admitted());
-  return call.Finish(OrDraining(Stream(FromProto(*request), *writer, call), drain_.streams));
+  Call call("Cost", Call::Kind::kStream, *context, frame_);
+  if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
+  return call.Finish(Stream(FromProto(*request), *writer, call));
 }
 
 absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer,
@@ -108,27 +127,31 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
   const ChunkSeal seal(request);
   v1::SweepResponse response;
   call.record().first_index = request.first_index;
-  for (absl::StatusOr<SweepChunk>& chunk : solver_.Sweep(request, EndingWith(drain_.streams, call))) {
-    if (!chunk.ok()) return chunk.status();
-    call.record().points = chunk->points_done;
-    if (chunk->summary.has_value()) {
-      CountModels(*chunk->summary, call.record());
-      chunk->summary->elapsed_s = call.elapsed_s();
+  const auto prepare = [&](SweepChunk& chunk) {
+    call.record().points = chunk.points_done;
+    if (chunk.summary.has_value()) {
+      CountModels(*chunk.summary, call.record());
+      chunk.summary->elapsed_s = call.elapsed_s();
     }
-    ToProto(*chunk, response);
+    ToProto(chunk, response);
     seal.Put(response);
-    if (absl::Status written = Write(response, writer, call.record()); !written.ok()) return written;
-  }
-  return absl::OkStatus();
+    return absl::OkStatus();
+  };
+  return PassOn<SweepChunk>(
+      call, [&] { return solver_.Sweep(request, call.options()); }, prepare,
+      [&] { return Send(response, writer, call); });
 }
 
 absl::Status ImpactService::Stream(const CostRequest& request, grpc::ServerWriter<v1::CostResponse>& writer,
                                    Call& call) const {
-  for (const absl::StatusOr<CostChunk>& chunk : solver_.Cost(request, EndingWith(drain_.streams, call))) {
-    if (!chunk.ok()) return chunk.status();
-    if (absl::Status written = Write(ToProto(*chunk), writer, call.record()); !written.ok()) return written;
-  }
-  return absl::OkStatus();
+  v1::CostResponse response;
+  const auto prepare = [&](const CostChunk& chunk) {
+    response = ToProto(chunk);
+    return absl::OkStatus();
+  };
+  return PassOn<CostChunk>(
+      call, [&] { return solver_.Cost(request, call.options()); }, prepare,
+      [&] { return Send(response, writer, call); });
 }
 
 }  // namespace ricochet::server

@@ -10,19 +10,15 @@
 
 #include "ricochet/solver.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
-#include "server/admission.h"
 #include "server/call.h"
-#include "server/drain.h"
-#include "server/observer.h"
 
 namespace ricochet::server {
 
 // Thread safety: gRPC calls every handler from several threads at once.
 class ImpactService final : public v1::ImpactService::Service {
  public:
-  // All arguments by reference must outlive the service. Calls that `drain` stops end with UNAVAILABLE and
-  // kDraining.
-  ImpactService(const Solver& solver, DrainStops drain, Admission& admission, const Observer& observer);
+  // `solver` and all that `frame` refers to must outlive the service.
+  ImpactService(const Solver& solver, const CallFrame& frame);
 
   grpc::Status Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
                      v1::SolveResponse* response) override;
@@ -50,9 +46,7 @@ class ImpactService final : public v1::ImpactService::Service {
   absl::Status Stream(const CostRequest& request, grpc::ServerWriter<v1::CostResponse>& writer, Call& call) const;
 
   const Solver& solver_;
-  const DrainStops drain_;
-  Admission& admission_;
-  const Observer& observer_;
+  const CallFrame frame_;
 };
 
 }  // namespace ricochet::server

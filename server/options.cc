@@ -26,6 +26,8 @@ namespace {
 // The rule that a value breaks, as "must …"; nothing for a good value.
 using BrokenRule = std::optional<std::string>;
 
+constexpr int kMostCalls = 65536;
+
 constexpr char kAddressRule[] =
     "must be HOST:PORT with a port from 0 to 65535, an IPv6 host in brackets, or unix:PATH with at most 107 bytes; "
     "several stand with commas between them";
@@ -57,6 +59,11 @@ BrokenRule ReadSeconds(const std::string& text, std::chrono::milliseconds& time)
     return "must be a number of seconds from 0 to 3600";
   }
   time = std::chrono::milliseconds(std::llround(*seconds * 1e3));
+  return std::nullopt;
+}
+
+BrokenRule ReadTimeLimit(const std::string& text, std::chrono::milliseconds& time) {
+  if (ReadSeconds(text, time).has_value() || time.count() == 0) return "must be a number of seconds from 0.001 to 3600";
   return std::nullopt;
 }
 
@@ -133,12 +140,33 @@ std::vector<Setting> NetworkSettings() {
   };
 }
 
-std::vector<Setting> LimitSettings() {
+std::vector<Setting> CallSettings() {
   return {
-      {"max-live-calls", "N", "Calls that may run at once [256]",
-       [](const std::string& text, Options& to) { return ReadInteger(text, 65536, to.max_live_calls); }},
+      {"max-live-calls", "N", "Calls that may run or wait at once [1024]",
+       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.places.calls); }},
+      {"max-live-calls-per-peer", "N", "Those of one client [7/8 of max-live-calls]",
+       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.places.calls_per_peer); }},
+      {"max-streams", "N", "Sweeps and studies of cost among them [1/4 of max-live-calls]",
+       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.places.streams); }},
+      {"max-streams-per-peer", "N", "Those of one client [3/16 of max-live-calls]",
+       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.places.streams_per_peer); }},
       {"max-threads", "N", absl::StrCat("Threads [max-live-calls + ", Options::kSpareThreads, "]"),
        [](const std::string& text, Options& to) { return ReadInteger(text, 1 << 20, to.max_threads); }},
+      {"compute-threads", "N", "Calls of each kind (cheap, dear, streams) that compute at once [the number of cores]",
+       [](const std::string& text, Options& to) { return ReadInteger(text, 1024, to.compute_threads); }},
+      {"max-waiting-calls", "N", "Dear calls that may wait to compute; more are refused [256]",
+       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.max_waiting_calls); }},
+      {"max-unary-time", "SECONDS", "The longest that a unary call may take, whatever its client allows [60]",
+       [](const std::string& text, Options& to) { return ReadTimeLimit(text, to.time_limits.unary_time); }},
+      {"max-stream-age", "SECONDS", "The longest that a stream may run; clients go on with a new one [3600]",
+       [](const std::string& text, Options& to) { return ReadTimeLimit(text, to.time_limits.stream_age); }},
+      {"write-stall-timeout", "SECONDS", "End a call whose client does not read one message in this time [30]",
+       [](const std::string& text, Options& to) { return ReadTimeLimit(text, to.unread_limit); }},
+  };
+}
+
+std::vector<Setting> DrainSettings() {
+  return {
       {"drain-grace", "SECONDS", "After a stop signal, announce NOT_SERVING for this time before sweeps are ended [3]",
        [](const std::string& text, Options& to) { return ReadSeconds(text, to.drain_grace); }},
       {"drain-timeout", "SECONDS", "Then wait at most this time for calls to end [5]",
@@ -262,7 +290,7 @@ void CheckTogether(const Options& options, std::vector<std::string>& violations)
     violations.push_back(
         Violated("port-file", options.port_file, "needs HOST:PORT in --listen; a Unix socket has no port"));
   }
-  const int threads = options.max_live_calls + Options::kSpareThreads;
+  const int threads = options.places.calls + Options::kSpareThreads;
   if (options.max_threads < threads) {
     violations.push_back(
         Violated("max-threads", absl::StrCat(options.max_threads),
@@ -301,8 +329,9 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   app.set_config("--config", file, "Read options from this file (RICOCHETD_CONFIG)", !file.empty())
       ->option_text("FILE");
 
-  const std::vector<Setting> settings[] = {NetworkSettings(), LimitSettings(), RequestLimitSettings(), LogSettings()};
-  const char* const groups[] = {"Network", "Limits", "Limits of a request", "Log"};
+  const std::vector<Setting> settings[] = {NetworkSettings(), RequestLimitSettings(), CallSettings(), DrainSettings(),
+                                           LogSettings()};
+  const char* const groups[] = {"Network", "Limits of a request", "Calls", "Drain", "Log"};
   std::vector<Given> given;
   for (size_t i = 0; i < std::size(settings); ++i) {
     const std::vector<Given> added = AddOptions(settings[i], groups[i], app);
@@ -314,9 +343,14 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   auto& options = std::get<Options>(*parsed);
   std::vector<std::string> violations;
   Read(given, options, violations);
-  if (app.count("--max-threads") == 0) {
-    options.max_threads = options.max_live_calls + Options::kSpareThreads;
-  }
+  const PlaceLimits usual = PlacesFor(options.places.calls);
+  const auto or_usual = [&app](const char* flag, int usual_limit, int& limit) {
+    if (app.count(flag) == 0) limit = usual_limit;
+  };
+  or_usual("--max-live-calls-per-peer", usual.calls_per_peer, options.places.calls_per_peer);
+  or_usual("--max-streams", usual.streams, options.places.streams);
+  or_usual("--max-streams-per-peer", usual.streams_per_peer, options.places.streams_per_peer);
+  or_usual("--max-threads", options.places.calls + Options::kSpareThreads, options.max_threads);
   CheckTogether(options, violations);
   if (!violations.empty()) return absl::InvalidArgumentError(absl::StrJoin(violations, "\n"));
   return parsed;

@@ -17,10 +17,12 @@
 
 #include "absl/status/statusor.h"
 #include "ricochet/limits.h"
+#include "server/call.h"
 #include "server/call_rule.h"
 #include "server/connection_counts.h"
 #include "server/listen_address.h"
 #include "server/log.h"
+#include "server/places.h"
 
 namespace ricochet::server {
 
@@ -34,8 +36,15 @@ struct Options {
   ConnectionLimits connections;        // Each limit from 1 to 1,000,000.
   int64_t transport_memory_mib = 256;  // For gRPC's buffers of all connections together; 1 to 1,048,576.
 
-  int max_live_calls = 256;  // 1 to 65,536.
-  int max_threads = 288;     // At least max_live_calls + kSpareThreads.
+  // Threads that wait for calls or tell callers that they are refused. With this many spare threads an overload is
+  // refused by the limit of live calls, which sends a retry delay, and not by gRPC.
+  static constexpr int kSpareThreads = 128;
+  PlaceLimits places = PlacesFor(1024);            // Each limit from 1 to 65,536.
+  int max_threads = 1024 + kSpareThreads;          // At least places.calls + kSpareThreads.
+  int compute_threads = AvailableCores();          // 1 to 1024.
+  int max_waiting_calls = 256;                     // Dear unary calls that wait to compute; 1 to 65,536.
+  TimeLimits time_limits;                          // 1 ms to 1 h.
+  std::chrono::milliseconds unread_limit{30'000};  // 1 ms to 1 h.
 
   Limits limits;  // How large a request may be: one option for each of kLimits.
 
@@ -46,10 +55,6 @@ struct Options {
 
   std::chrono::milliseconds drain_grace{3000};    // From health NOT_SERVING to the end of running sweeps; 0 to 1 h.
   std::chrono::milliseconds drain_timeout{5000};  // From there to the stop of all calls; 0 to 1 h.
-
-  // Threads that wait for calls or serve reflection. With this many spare threads an overload is refused by the limit
-  // of live calls, which sends a retry delay, and not by gRPC.
-  static constexpr int kSpareThreads = 32;
 
   friend bool operator==(const Options&, const Options&) = default;
 };

@@ -10,8 +10,12 @@
 namespace ricochet::server {
 
 // Writes `port` and a newline. A reader sees no file, the old file or the complete new file, never a part of it.
-// Errors: those of the file system; the message names the path.
+// Errors: FAILED_PRECONDITION if the path is that of anything but a plain file, such as a device or a symbolic link,
+// which would be replaced; those of the file system. The message names the path.
 absl::Status WritePortFile(const std::string& path, int port);
+
+// Removes the file if it is a plain file that still holds this port. Another server may have replaced it.
+void RemovePortFile(const std::string& path, int port);
 
 }  // namespace ricochet::server
 

@@ -10,6 +10,7 @@
 
 #include "server/descriptor_limit.h"
 #include "server/port_file.h"
+#include "server/self_test.h"
 #include "server/transport.h"
 
 namespace ricochet::server {
@@ -36,15 +37,23 @@ Server::Server(const Options& options, const Log& log)
     : options_(options),
       log_(log),
       solver_(options.limits),
-      admission_(options.max_live_calls),
+      places_(options.places),
       drain_(options.drain_grace, options.drain_timeout),
+      gate_(options.compute_threads, options.max_waiting_calls, drain_.stops().streams),
+      unread_(options.unread_limit),
       observer_(log, options.log_calls),
-      service_(solver_, drain_.stops(), admission_, observer_),
-      bounded_(service_, options.limits) {}
+      service_(solver_, {.places = places_,
+                         .gate = gate_,
+                         .unread = unread_,
+                         .drain = drain_.stops(),
+                         .limits = options.time_limits,
+                         .observer = observer_}),
+      bounded_(service_, options.limits, unread_) {}
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, const Log& log) {
   std::unique_ptr<Server> server(new Server(options, log));
-  absl::Status status = server->Listen();
+  absl::Status status = TestSolver(server->solver_);
+  if (status.ok()) status = server->Listen();
   if (!status.ok()) return status;
   // A script that finds the port file finds the addresses in the log, too.
   log.Flush(kTimeForLog);
@@ -85,13 +94,14 @@ void Server::LogAddresses(const std::string& event, const Endpoint& endpoint) co
 
 void Server::ServeUntil(const Signals& signals) {
   const std::string signal = signals.WaitForStop([this] { HangUp(); });
-  log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", admission_.live()}});
+  log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", places_.live()}});
   endpoint_->server().GetHealthCheckService()->SetServingStatus(false);
-  drain_.Run(signals, [this] { return admission_.live(); });
+  drain_.Run(signals, [this] { return places_.live(); });
   // Removes the files of Unix sockets.
   endpoint_->acceptor().StopAccepting();
   if (reflection_ != nullptr) reflection_->endpoint().acceptor().StopAccepting();
-  log_.Write(LogLevel::kInfo, "stopped", {{"live_calls", admission_.live()}});
+  if (!options_.port_file.empty()) RemovePortFile(options_.port_file, port());
+  log_.Write(LogLevel::kInfo, "stopped", {{"live_calls", places_.live()}});
 }
 
 void Server::HangUp() {

@@ -11,23 +11,26 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/solver.h"
-#include "server/admission.h"
 #include "server/bounded_service.h"
 #include "server/drain.h"
 #include "server/endpoint.h"
+#include "server/gate.h"
 #include "server/impact_service.h"
 #include "server/log.h"
 #include "server/observer.h"
 #include "server/options.h"
+#include "server/places.h"
 #include "server/reflection.h"
 #include "server/signals.h"
+#include "server/unread_watch.h"
 
 namespace ricochet::server {
 
 class Server {
  public:
   // Starts a server that takes calls. `log` must outlive it.
-  // Errors: UNAVAILABLE if it cannot listen, those of the file system if it cannot write the port file.
+  // Errors: INTERNAL if it does not compute right (server/self_test.h), UNAVAILABLE if it cannot listen, those of
+  // WritePortFile.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const Options& options, const Log& log);
 
   // Cancels the calls that still run.
@@ -55,8 +58,10 @@ class Server {
   const Options options_;
   const Log& log_;
   LocalSolver solver_;
-  Admission admission_;
+  Places places_;
   Drain drain_;
+  Gate gate_;
+  UnreadWatch unread_;
   std::vector<std::function<void()>> reopen_;
   const Observer observer_;
   ImpactService service_;

@@ -31,7 +31,7 @@ std::vector<LogField> StartFields(const Options& options) {
                                   {"max_connections", int64_t{options.connections.in_all}},
                                   {"max_connections_per_peer", int64_t{options.connections.per_peer}},
                                   {"transport_memory_mib", options.transport_memory_mib},
-                                  {"max_live_calls", int64_t{options.max_live_calls}},
+                                  {"max_live_calls", int64_t{options.places.calls}},
                                   {"max_threads", int64_t{options.max_threads}},
                                   {"drain_grace_ms", int64_t{options.drain_grace.count()}},
                                   {"drain_timeout_ms", int64_t{options.drain_timeout.count()}}};

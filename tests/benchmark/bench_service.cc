@@ -18,12 +18,13 @@
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/solver.h"
-#include "server/admission.h"
+#include "server/call.h"
 #include "server/impact_service.h"
 #include "server/log.h"
 #include "server/observer.h"
 #include "tests/benchmark/echo_service.h"
 #include "tests/benchmark/measure.h"
+#include "tests/server/made_frame.h"
 
 namespace ricochet::bench {
 namespace {
@@ -191,7 +192,7 @@ void UnaryCalls(Loopback& ricochet, Loopback& echo) {
 }
 
 // Seconds from a client's cancel until the handler has left, told by its slot being free again.
-double CancelOnce(v1::ImpactService::Stub& stub, const server::Admission& admission) {
+double CancelOnce(v1::ImpactService::Stub& stub, const server::Places& places) {
   const v1::SweepRequest endless = EightColumnSweep(1'000'000'000);
   grpc::ClientContext context;
   const auto reader = stub.Sweep(&context, endless);
@@ -199,15 +200,15 @@ double CancelOnce(v1::ImpactService::Stub& stub, const server::Admission& admiss
   for (int i = 0; i < 3; ++i) reader->Read(&response);
   return Seconds([&] {
     context.TryCancel();
-    while (admission.live() > 0) std::this_thread::yield();
+    while (places.live() > 0) std::this_thread::yield();
     while (reader->Read(&response)) continue;
     (void)reader->Finish();
   });
 }
 
-void CancellationLatency(Loopback& ricochet, const server::Admission& admission) {
+void CancellationLatency(Loopback& ricochet, const server::Places& places) {
   std::vector<double> seconds;
-  for (int i = 0; i < 21; ++i) seconds.push_back(CancelOnce(ricochet.stub(), admission));
+  for (int i = 0; i < 21; ++i) seconds.push_back(CancelOnce(ricochet.stub(), places));
   std::printf("Cancelling a streamed sweep of 10^9 points\n");
   Print("from the client's cancel to the handler's end", absl::StrFormat("%.0f us", Median(seconds) * 1e6), "median");
 }
@@ -216,9 +217,9 @@ void RunAll() {
   std::ofstream nowhere("/dev/null");
   const server::Log log(server::LogFormat::kText, server::LogLevel::kError, nowhere);
   const LocalSolver solver;
-  server::Admission admission(64);
   const server::Observer observer(log);
-  server::ImpactService service(solver, {}, admission, observer);
+  server::MadeFrame made(observer);
+  server::ImpactService service(solver, made.frame);
   EchoService nothing;
   Loopback ricochet(&service);
   Loopback echo(&nothing);
@@ -226,7 +227,7 @@ void RunAll() {
   StreamedSweep(ricochet, echo);
   SweepByColumns(ricochet, echo);
   UnaryCalls(ricochet, echo);
-  CancellationLatency(ricochet, admission);
+  CancellationLatency(ricochet, made.places);
 }
 
 }  // namespace

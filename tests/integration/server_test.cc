@@ -51,6 +51,14 @@ google::protobuf::Struct LastCall(const std::string& log, const std::string& met
   return last;
 }
 
+// A place is free again a moment after its call is in the log, when the call's status has been sent.
+bool IsSolvedSoon(v1::ImpactService::Stub& stub) {
+  for (const auto end = steady_clock::now() + seconds(10); steady_clock::now() < end;) {
+    if (Solve(stub).ok()) return true;
+  }
+  return false;
+}
+
 constexpr char kSolveMethod[] = "/ricochet.v1.ImpactService/Solve";
 constexpr char kSweepMethod[] = "/ricochet.v1.ImpactService/Sweep";
 
@@ -255,7 +263,7 @@ TEST(Server, CancelledSweepStopsWorkingAndFreesTheServer) {
   ASSERT_EQ(record.fields().count("points"), 1U);
   EXPECT_EQ(record.fields().at("status").string_value(), "CANCELLED");
   EXPECT_LT(record.fields().at("points").number_value(), 0.01 * kHuge);
-  EXPECT_TRUE(Solve(*stub).ok());
+  EXPECT_TRUE(IsSolvedSoon(*stub));
 }
 
 TEST(Server, DeadlineEndsASweepPromptly) {
@@ -285,7 +293,7 @@ TEST(Server, CallAboveTheLimitIsRefusedAndLaterTaken) {
   sweep.Cancel();
   EXPECT_EQ(sweep.Drain().code(), absl::StatusCode::kCancelled);
   server.WaitForLog("CANCELLED");
-  EXPECT_TRUE(Solve(*stub).ok());
+  EXPECT_TRUE(IsSolvedSoon(*stub));
 }
 
 TEST(Server, SweepAboveTheLimitOfPointsIsRefusedButItsSubRangeIsNot) {

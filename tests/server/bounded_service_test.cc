@@ -139,7 +139,8 @@ class BoundedServiceTest : public testing::Test {
   ~BoundedServiceTest() override { server_->Shutdown(std::chrono::system_clock::now()); }
 
   AnsweringService service_;
-  BoundedService bounded_{service_, Limits()};
+  UnreadWatch unread_{std::chrono::seconds(30)};
+  BoundedService bounded_{service_, Limits(), unread_};
   std::unique_ptr<grpc::Server> server_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::ImpactService::Stub> stub_;

@@ -18,6 +18,7 @@
 
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
+#include "tests/server/made_frame.h"
 
 namespace ricochet::server {
 namespace {
@@ -36,7 +37,7 @@ class Service final : public v1::ImpactService::Service {
                      v1::SolveResponse* /*response*/) override {
     grpc::Status status;
     {
-      Call call("Solve", *context, admission_, observer_);
+      Call call("Solve", Call::Kind::kUnary, *context, made_.frame);
       status = call.Finish(work(*context, call));
     }
     ended.set_value();
@@ -49,8 +50,8 @@ class Service final : public v1::ImpactService::Service {
   std::promise<void> ended;
 
  private:
-  Admission admission_{1};
   Observer observer_;
+  MadeFrame made_{observer_};
 };
 
 class CallTest : public testing::Test {

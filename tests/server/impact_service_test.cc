@@ -2,6 +2,7 @@
 
 #include "server/impact_service.h"
 
+#include <gmock/gmock.h>
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 
@@ -14,9 +15,12 @@
 #include <stop_token>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
+#include "tests/server/fake_solver.h"
+#include "tests/server/made_frame.h"
 
 namespace ricochet::server {
 namespace {
@@ -25,75 +29,32 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 
-// Works until its options end the call.
-absl::Status WorkUntilEnded(const CallOptions& options) {
-  while (!options.stop.stop_requested() && !options.is_stopped()) std::this_thread::sleep_for(milliseconds(1));
-  return absl::CancelledError("the call was stopped by its caller");
-}
-
-// Answers a plan at once, refuses audits, never ends bounds, and sweeps one point a chunk for ever.
-class FakeSolver final : public Solver {
- public:
-  mutable std::optional<steady_clock::time_point> deadline;
-
- private:
-  absl::StatusOr<SolveResponse> DoSolve(const SolveRequest& /*request*/, const CallOptions& options) const override {
-    deadline = options.deadline;
-    return SolveResponse{.outcome = {.w_rank = 2}, .engine = {"1.2.3", "0123456789abcdef"}};
-  }
-  absl::StatusOr<PlanResponse> DoPlan(const PlanRequest& request, const CallOptions& /*options*/) const override {
-    return PlanResponse{.plan = {.relative_tolerance = request.demand.relative_tolerance.value_or(0.0)}, .engine = {}};
-  }
-  absl::StatusOr<BoundsResponse> DoBounds(const BoundsRequest& /*request*/, const CallOptions& options) const override {
-    return WorkUntilEnded(options);
-  }
-  absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& /*request*/,
-                                        const CallOptions& /*options*/) const override {
-    return InvalidRequest({{"scene", "is refused"}});
-  }
-  absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& /*request*/,
-                                                  const CallOptions& /*options*/) const override {
-    return InvalidRequest({{"scene", "is refused"}});
-  }
-  SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override {
-    return SweepStream(
-        [options, next = int64_t{0},
-         total = request.end_index.value_or(1'000'000)]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
-          if (next == 2) return WorkUntilEnded(options);
-          SweepChunk chunk = {.first_index = next, .count = 1, .values = {0.5}, .regimes = {}};
-          chunk.points_done = ++next;
-          chunk.points_total = total;
-          return chunk;
-        });
-  }
-  CostStream DoCost(const CostRequest& /*request*/, const CallOptions& options) const override {
-    return CostStream([options, next = int64_t{0}]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
-      if (next == 2) return WorkUntilEnded(options);
-      CostChunk chunk = {.first_row = next, .rows = {{.name = "row"}}, .rows_total = 9};
-      chunk.rows_done = ++next;
-      return chunk;
-    });
-  }
-};
-
 class ImpactServiceTest : public testing::Test {
  protected:
   ImpactServiceTest() : nowhere_("/dev/null"), log_(LogFormat::kText, LogLevel::kError, nowhere_) {
+    Serve(made_.frame);
+  }
+  ~ImpactServiceTest() override { server_->Shutdown(std::chrono::system_clock::now()); }
+
+  // Starts a server whose calls share `frame`, in place of the one before.
+  void Serve(const CallFrame& frame) {
+    if (server_ != nullptr) server_->Shutdown(std::chrono::system_clock::now());
+    server_.reset();
+    service_.emplace(solver_, frame);
     grpc::ServerBuilder builder;
     int port = 0;
     builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
-    builder.RegisterService(&service_);
+    builder.RegisterService(&*service_);
     server_ = builder.BuildAndStart();
     stub_ = v1::ImpactService::NewStub(
         grpc::CreateChannel("127.0.0.1:" + std::to_string(port), grpc::InsecureChannelCredentials()));
   }
-  ~ImpactServiceTest() override { server_->Shutdown(std::chrono::system_clock::now()); }
 
   // Waits until no handler runs. Returns false if one still does after ten seconds.
   bool AllEnded() const {
     const auto end = steady_clock::now() + seconds(10);
-    while (admission_.live() > 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
-    return admission_.live() == 0;
+    while (made_.places.live() > 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
+    return made_.places.live() == 0;
   }
 
   std::ofstream nowhere_;
@@ -102,9 +63,8 @@ class ImpactServiceTest : public testing::Test {
   FakeSolver solver_;
   std::stop_source streams_;
   std::stop_source unary_;
-  Admission admission_{8};
-  ImpactService service_{
-      solver_, {.streams = streams_.get_token(), .unary = unary_.get_token()}, admission_, observer_};
+  MadeFrame made_{observer_, {.streams = streams_.get_token(), .unary = unary_.get_token()}};
+  std::optional<ImpactService> service_;
   std::unique_ptr<grpc::Server> server_;
   std::unique_ptr<v1::ImpactService::Stub> stub_;
 };
@@ -129,7 +89,8 @@ TEST_F(ImpactServiceTest, PassesTheDeadlineOn) {
   EXPECT_LT(*solver_.deadline, steady_clock::now() + seconds(61));
   grpc::ClientContext unlimited;
   ASSERT_TRUE(stub_->Solve(&unlimited, {}, &response).ok());
-  EXPECT_FALSE(solver_.deadline.has_value());
+  ASSERT_TRUE(solver_.deadline.has_value()) << "the server has a limit of its own";
+  EXPECT_LT(*solver_.deadline, steady_clock::now() + TimeLimits().unary_time);
 }
 
 TEST_F(ImpactServiceTest, PassesErrorsBack) {
@@ -183,7 +144,7 @@ TEST_F(ImpactServiceTest, AUnaryCallRunsOnAfterTheGraceAndIsUnavailableOnceItIsS
     std::this_thread::sleep_for(milliseconds(50));
     streams_.request_stop();
     std::this_thread::sleep_for(milliseconds(50));
-    EXPECT_EQ(admission_.live(), 1);
+    EXPECT_EQ(made_.places.live(), 1);
     unary_.request_stop();
   });
   grpc::ClientContext context;
@@ -202,6 +163,49 @@ TEST_F(ImpactServiceTest, ANewCallIsRefusedAfterTheGrace) {
   EXPECT_EQ(ReasonOf(status), ErrorReason::kDraining);
   EXPECT_EQ(RetryDelayOf(status), seconds(1));
   EXPECT_FALSE(solver_.deadline.has_value()) << "the solver was called";
+}
+
+TEST_F(ImpactServiceTest, AUnaryCallEndsAtTheServersLimitOfTime) {
+  MadeFrame made(observer_, {}, {.unary_time = milliseconds(30), .stream_age = milliseconds(30)});
+  Serve(made.frame);
+  grpc::ClientContext context;
+  v1::BoundsResponse response;
+  const absl::Status status = FromGrpcStatus(stub_->Bounds(&context, {}, &response));
+  EXPECT_EQ(status.code(), absl::StatusCode::kDeadlineExceeded);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kTimeLimit);
+  EXPECT_THAT(std::string(status.message()), testing::HasSubstr("30 ms, the server's limit"));
+}
+
+TEST_F(ImpactServiceTest, AStreamEndsAtTheServersLimitOfAgeSoThatItsClientAsksForTheRest) {
+  MadeFrame made(observer_, {}, {.unary_time = milliseconds(30), .stream_age = milliseconds(30)});
+  Serve(made.frame);
+  grpc::ClientContext context;
+  const auto reader = stub_->Sweep(&context, {});
+  v1::SweepResponse chunk;
+  while (reader->Read(&chunk)) {
+  }
+  const absl::Status status = FromGrpcStatus(reader->Finish());
+  EXPECT_EQ(status.code(), absl::StatusCode::kUnavailable);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kAgeLimit);
+  EXPECT_EQ(RetryDelayOf(status), seconds(0));
+}
+
+TEST_F(ImpactServiceTest, AStreamThatNobodyReadsEndsAndGivesItsPlaceBack) {
+  MadeFrame made(observer_, {}, {}, milliseconds(100));
+  Serve(made.frame);
+  solver_.values = 1 << 17;
+  solver_.most_chunks = 1000;
+  grpc::ClientContext context;
+  const auto reader = stub_->Sweep(&context, {});
+  const auto end = steady_clock::now() + seconds(10);
+  while (made.places.live() == 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_EQ(made.places.live(), 1);
+  while (made.places.live() > 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_EQ(made.places.live(), 0);
+  v1::SweepResponse chunk;
+  while (reader->Read(&chunk)) {
+  }
+  EXPECT_EQ(reader->Finish().error_code(), grpc::StatusCode::CANCELLED);
 }
 
 }  // namespace

@@ -80,114 +80,142 @@ TEST_P(GoodOptions, AreTaken) {
   EXPECT_TRUE(std::get<Options>(*parsed) == expected);
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Table, GoodOptions,
-    testing::Values(
-        GoodCase{"Defaults", {}, [](Options&) {}},
-        GoodCase{"Listen",
-                 {.flags = {"--listen", "localhost:0"}},
-                 [](Options& o) { o.listen = {{.host = "localhost", .port = 0, .path = ""}}; }},
-        GoodCase{"ListenIpv6",
-                 {.flags = {"--listen=[::1]:7"}},
-                 [](Options& o) { o.listen = {{.host = "::1", .port = 7, .path = ""}}; }},
-        GoodCase{"OpenIfInsecure",
-                 {.flags = {"--listen", "0.0.0.0:65535", "--insecure"}},
-                 [](Options& o) {
-                   o.listen = {{.host = "0.0.0.0", .port = 65535, .path = ""}};
-                   o.insecure = true;
-                 }},
-        GoodCase{"InsecureByEnvironment",
-                 {.flags = {"--listen", "[::]:1"}, .environment = {{"RICOCHETD_INSECURE", "1"}}},
-                 [](Options& o) {
-                   o.listen = {{.host = "::", .port = 1, .path = ""}};
-                   o.insecure = true;
-                 }},
-        GoodCase{"InsecureByFile",
-                 {.file = "insecure = true\nlisten = \"ricochet.example:1\"\n"},
-                 [](Options& o) {
-                   o.listen = {{.host = "ricochet.example", .port = 1, .path = ""}};
-                   o.insecure = true;
-                 }},
-        GoodCase{"Several",
-                 {.file = "listen = \"127.0.0.1:0,unix:/run/r.sock\"\nsocket-mode = 660\n"},
-                 [](Options& o) {
-                   o.listen = {{.host = "127.0.0.1", .port = 0, .path = ""}, {.host = "", .path = "/run/r.sock"}};
-                   o.socket_mode = 0660;
-                 }},
-        GoodCase{"Reflection",
-                 {.flags = {"--reflection", "unix:/run/r.sock"}},
-                 [](Options& o) { o.reflection = {{.host = "", .path = "/run/r.sock"}}; }},
-        GoodCase{"Connections",
-                 {.flags = {"--max-connections", "9", "--max-connections-per-peer", "8", "--transport-memory", "7"}},
-                 [](Options& o) {
-                   o.connections = {.in_all = 9, .per_peer = 8};
-                   o.transport_memory_mib = 7;
-                 }},
-        GoodCase{"PortFile", {.flags = {"--port-file", "/run/a b"}}, [](Options& o) { o.port_file = "/run/a b"; }},
-        GoodCase{"ThreadsFollowCalls",
-                 {.flags = {"--max-live-calls", "1"}},
-                 [](Options& o) {
-                   o.max_live_calls = 1;
-                   o.max_threads = 33;
-                 }},
-        GoodCase{"FewestThreads",
-                 {.flags = {"--max-live-calls", "10", "--max-threads", "42"}},
-                 [](Options& o) {
-                   o.max_live_calls = 10;
-                   o.max_threads = 42;
-                 }},
-        GoodCase{"MostPoints",
-                 {.flags = {"--max-points-per-sweep", "9007199254740992"}},
-                 [](Options& o) { o.limits.max_points_per_sweep = int64_t{1} << 53; }},
-        GoodCase{"LimitsOfARequest",
-                 {.flags = {"--max-links", "7"}, .file = "max-history-numbers = 12\n"},
-                 [](Options& o) {
-                   o.limits.max_links = 7;
-                   o.limits.max_history_numbers = 12;
-                 }},
-        GoodCase{
-            "Log",
-            {.flags = {"--log-format", "json", "--log-level", "debug", "--log-file", "a b", "--log-calls", "slow:2"}},
-            [](Options& o) {
-              o.log_format = LogFormat::kJson;
-              o.log_level = LogLevel::kDebug;
-              o.log_file = "a b";
-              o.log_calls = {.kind = CallRule::Kind::kSlow, .count = 100, .slow = milliseconds(2000)};
-            }},
-        GoodCase{"Drain",
-                 {.flags = {"--drain-grace", "0", "--drain-timeout", "0.25"}},
-                 [](Options& o) {
-                   o.drain_grace = milliseconds(0);
-                   o.drain_timeout = milliseconds(250);
-                 }},
-        GoodCase{"Environment",
-                 {.environment = {{"RICOCHETD_DRAIN_GRACE", "7"}}},
-                 [](Options& o) { o.drain_grace = milliseconds(7000); }},
-        GoodCase{"File",
-                 {.file = "# comment\ndrain-grace = 6.5\nlog-level = \"error\"\n"},
-                 [](Options& o) {
-                   o.drain_grace = milliseconds(6500);
-                   o.log_level = LogLevel::kError;
-                 }},
-        GoodCase{"FlagBeforeEnvironmentBeforeFile",
-                 {.flags = {"--drain-grace", "1"},
-                  .environment = {{"RICOCHETD_DRAIN_GRACE", "2"}, {"RICOCHETD_DRAIN_TIMEOUT", "2"}},
-                  .file = "drain-grace = 3\ndrain-timeout = 3\nlog-level = \"error\"\n"},
-                 [](Options& o) {
-                   o.drain_grace = milliseconds(1000);
-                   o.drain_timeout = milliseconds(2000);
-                   o.log_level = LogLevel::kError;
-                 }},
-        GoodCase{"EmptyEnvironmentIsUnset",
-                 {.environment = {{"RICOCHETD_DRAIN_GRACE", ""}}, .file = "drain-grace = 3.5\n"},
-                 [](Options& o) { o.drain_grace = milliseconds(3500); }}),
-    [](const auto& tested) { return tested.param.name; });
+INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
+                         testing::Values(
+                             GoodCase{"Defaults", {}, [](Options&) {}},
+                             GoodCase{"Listen",
+                                      {.flags = {"--listen", "localhost:0"}},
+                                      [](Options& o) { o.listen = {{.host = "localhost", .port = 0, .path = ""}}; }},
+                             GoodCase{"ListenIpv6",
+                                      {.flags = {"--listen=[::1]:7"}},
+                                      [](Options& o) { o.listen = {{.host = "::1", .port = 7, .path = ""}}; }},
+                             GoodCase{"OpenIfInsecure",
+                                      {.flags = {"--listen", "0.0.0.0:65535", "--insecure"}},
+                                      [](Options& o) {
+                                        o.listen = {{.host = "0.0.0.0", .port = 65535, .path = ""}};
+                                        o.insecure = true;
+                                      }},
+                             GoodCase{"InsecureByEnvironment",
+                                      {.flags = {"--listen", "[::]:1"}, .environment = {{"RICOCHETD_INSECURE", "1"}}},
+                                      [](Options& o) {
+                                        o.listen = {{.host = "::", .port = 1, .path = ""}};
+                                        o.insecure = true;
+                                      }},
+                             GoodCase{"InsecureByFile",
+                                      {.file = "insecure = true\nlisten = \"ricochet.example:1\"\n"},
+                                      [](Options& o) {
+                                        o.listen = {{.host = "ricochet.example", .port = 1, .path = ""}};
+                                        o.insecure = true;
+                                      }},
+                             GoodCase{"Several",
+                                      {.file = "listen = \"127.0.0.1:0,unix:/run/r.sock\"\nsocket-mode = 660\n"},
+                                      [](Options& o) {
+                                        o.listen = {{.host = "127.0.0.1", .port = 0, .path = ""},
+                                                    {.host = "", .path = "/run/r.sock"}};
+                                        o.socket_mode = 0660;
+                                      }},
+                             GoodCase{"Reflection",
+                                      {.flags = {"--reflection", "unix:/run/r.sock"}},
+                                      [](Options& o) { o.reflection = {{.host = "", .path = "/run/r.sock"}}; }},
+                             GoodCase{"Connections",
+                                      {.flags = {"--max-connections", "9", "--max-connections-per-peer", "8",
+                                                 "--transport-memory", "7"}},
+                                      [](Options& o) {
+                                        o.connections = {.in_all = 9, .per_peer = 8};
+                                        o.transport_memory_mib = 7;
+                                      }},
+                             GoodCase{"PortFile",
+                                      {.flags = {"--port-file", "/run/a b"}},
+                                      [](Options& o) { o.port_file = "/run/a b"; }},
+                             GoodCase{"ThreadsFollowCalls",
+                                      {.flags = {"--max-live-calls", "1"}},
+                                      [](Options& o) {
+                                        o.places = {
+                                            .calls = 1, .calls_per_peer = 1, .streams = 1, .streams_per_peer = 1};
+                                        o.max_threads = 129;
+                                      }},
+                             GoodCase{"FewestThreads",
+                                      {.flags = {"--max-live-calls", "16", "--max-threads", "144"}},
+                                      [](Options& o) {
+                                        o.places = {
+                                            .calls = 16, .calls_per_peer = 14, .streams = 4, .streams_per_peer = 3};
+                                        o.max_threads = 144;
+                                      }},
+                             GoodCase{"Places",
+                                      {.flags = {"--max-live-calls-per-peer", "5", "--max-streams", "6",
+                                                 "--max-streams-per-peer", "7"}},
+                                      [](Options& o) {
+                                        o.places = {
+                                            .calls = 1024, .calls_per_peer = 5, .streams = 6, .streams_per_peer = 7};
+                                      }},
+                             GoodCase{"Compute",
+                                      {.flags = {"--compute-threads", "3", "--max-waiting-calls", "4"}},
+                                      [](Options& o) {
+                                        o.compute_threads = 3;
+                                        o.max_waiting_calls = 4;
+                                      }},
+                             GoodCase{"TimeLimits",
+                                      {.flags = {"--max-unary-time", "0.001", "--max-stream-age", "60",
+                                                 "--write-stall-timeout", "2.5"}},
+                                      [](Options& o) {
+                                        o.time_limits = {.unary_time = milliseconds(1),
+                                                         .stream_age = milliseconds(60'000)};
+                                        o.unread_limit = milliseconds(2500);
+                                      }},
+                             GoodCase{"MostPoints",
+                                      {.flags = {"--max-points-per-sweep", "9007199254740992"}},
+                                      [](Options& o) { o.limits.max_points_per_sweep = int64_t{1} << 53; }},
+                             GoodCase{"LimitsOfARequest",
+                                      {.flags = {"--max-links", "7"}, .file = "max-history-numbers = 12\n"},
+                                      [](Options& o) {
+                                        o.limits.max_links = 7;
+                                        o.limits.max_history_numbers = 12;
+                                      }},
+                             GoodCase{"Log",
+                                      {.flags = {"--log-format", "json", "--log-level", "debug", "--log-file", "a b",
+                                                 "--log-calls", "slow:2"}},
+                                      [](Options& o) {
+                                        o.log_format = LogFormat::kJson;
+                                        o.log_level = LogLevel::kDebug;
+                                        o.log_file = "a b";
+                                        o.log_calls = {
+                                            .kind = CallRule::Kind::kSlow, .count = 100, .slow = milliseconds(2000)};
+                                      }},
+                             GoodCase{"Drain",
+                                      {.flags = {"--drain-grace", "0", "--drain-timeout", "0.25"}},
+                                      [](Options& o) {
+                                        o.drain_grace = milliseconds(0);
+                                        o.drain_timeout = milliseconds(250);
+                                      }},
+                             GoodCase{"Environment",
+                                      {.environment = {{"RICOCHETD_DRAIN_GRACE", "7"}}},
+                                      [](Options& o) { o.drain_grace = milliseconds(7000); }},
+                             GoodCase{"File",
+                                      {.file = "# comment\ndrain-grace = 6.5\nlog-level = \"error\"\n"},
+                                      [](Options& o) {
+                                        o.drain_grace = milliseconds(6500);
+                                        o.log_level = LogLevel::kError;
+                                      }},
+                             GoodCase{
+                                 "FlagBeforeEnvironmentBeforeFile",
+                                 {.flags = {"--drain-grace", "1"},
+                                  .environment = {{"RICOCHETD_DRAIN_GRACE", "2"}, {"RICOCHETD_DRAIN_TIMEOUT", "2"}},
+                                  .file = "drain-grace = 3\ndrain-timeout = 3\nlog-level = \"error\"\n"},
+                                 [](Options& o) {
+                                   o.drain_grace = milliseconds(1000);
+                                   o.drain_timeout = milliseconds(2000);
+                                   o.log_level = LogLevel::kError;
+                                 }},
+                             GoodCase{"EmptyEnvironmentIsUnset",
+                                      {.environment = {{"RICOCHETD_DRAIN_GRACE", ""}}, .file = "drain-grace = 3.5\n"},
+                                      [](Options& o) { o.drain_grace = milliseconds(3500); }}),
+                         [](const auto& tested) { return tested.param.name; });
 
 TEST(Options, ConfigFileIsNamedByTheEnvironmentToo) {
   const std::string path = WriteConfig("environment", "max-live-calls = 5\n");
   const auto parsed = Parse("", {.environment = {{"RICOCHETD_CONFIG", path}}});
   ASSERT_TRUE(parsed.ok()) << parsed.status();
-  EXPECT_EQ(std::get<Options>(*parsed).max_live_calls, 5);
+  EXPECT_EQ(std::get<Options>(*parsed).places.calls, 5);
 }
 
 struct BadCase {
@@ -248,7 +276,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"CallsNoNumber", {.flags = {"--max-live-calls", "10x"}}, {"--max-live-calls = 10x: must"}},
         BadCase{
             "CallsOverflow", {.flags = {"--max-live-calls", "4294967297"}}, {"--max-live-calls = 4294967297: must"}},
-        BadCase{"TooFewThreads", {.flags = {"--max-threads", "287"}}, {"--max-threads = 287: must be >= 288"}},
+        BadCase{"TooFewThreads", {.flags = {"--max-threads", "1151"}}, {"--max-threads = 1151: must be >= 1152"}},
+        BadCase{"NoUnaryTime",
+                {.flags = {"--max-unary-time", "0"}},
+                {"--max-unary-time = 0: must be a number of seconds from 0.001 to 3600"}},
+        BadCase{
+            "NoStallTimeout", {.flags = {"--write-stall-timeout", "never"}}, {"--write-stall-timeout = never: must"}},
+        BadCase{
+            "NoComputeThreads", {.flags = {"--compute-threads", "0"}}, {"--compute-threads = 0: must be an integer"}},
         BadCase{"PointsNoInteger",
                 {.flags = {"--max-points-per-sweep", "1e6"}},
                 {"--max-points-per-sweep = 1e6: must be an integer from 1 to 9007199254740992"}},
@@ -278,13 +313,35 @@ INSTANTIATE_TEST_SUITE_P(
 TEST(Options, HelpNamesEveryOption) {
   const auto parsed = Parse("", {.flags = {"--help"}});
   ASSERT_TRUE(parsed.ok() && std::holds_alternative<Notice>(*parsed));
-  for (const char* option :
-       {"--config",           "--listen",         "--port-file",       "--insecure",
-        "--socket-mode",      "--reflection",     "--max-connections", "--max-connections-per-peer",
-        "--transport-memory", "--max-live-calls", "--max-threads",     "--max-points-per-sweep",
-        "--max-links",        "--max-audit-rows", "--drain-grace",     "--drain-timeout",
-        "--log-format",       "--log-level",      "--log-file",        "--log-calls",
-        "--version"}) {
+  for (const char* option : {"--config",
+                             "--listen",
+                             "--port-file",
+                             "--insecure",
+                             "--socket-mode",
+                             "--reflection",
+                             "--max-connections",
+                             "--max-connections-per-peer",
+                             "--transport-memory",
+                             "--max-live-calls",
+                             "--max-live-calls-per-peer",
+                             "--max-streams",
+                             "--max-streams-per-peer",
+                             "--max-threads",
+                             "--compute-threads",
+                             "--max-waiting-calls",
+                             "--max-unary-time",
+                             "--max-stream-age",
+                             "--write-stall-timeout",
+                             "--max-points-per-sweep",
+                             "--max-links",
+                             "--max-audit-rows",
+                             "--drain-grace",
+                             "--drain-timeout",
+                             "--log-format",
+                             "--log-level",
+                             "--log-file",
+                             "--log-calls",
+                             "--version"}) {
     EXPECT_THAT(std::get<Notice>(*parsed).text, HasSubstr(option));
   }
 }

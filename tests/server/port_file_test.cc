@@ -23,6 +23,36 @@ TEST(PortFile, ReplacesTheOldOneAndLeavesNothingElse) {
   std::filesystem::remove_all(directory);
 }
 
+TEST(PortFile, DevicesLinksAndDirectoriesAreNotReplaced) {
+  const std::filesystem::path directory = testing::TempDir() + "ricochetd_port_link";
+  std::filesystem::create_directory(directory);
+  const std::filesystem::path target = directory / "target";
+  std::ofstream(target) << "precious\n";
+  std::filesystem::create_symlink(target, directory / "link");
+  std::filesystem::create_directory(directory / "inner");
+  for (const std::filesystem::path& path :
+       {directory / "link", directory / "inner", std::filesystem::path("/dev/null")}) {
+    const absl::Status status = WritePortFile(path, 1);
+    EXPECT_EQ(status.code(), absl::StatusCode::kFailedPrecondition) << path;
+    EXPECT_THAT(std::string(status.message()),
+                testing::HasSubstr(path.string() + ": it is there and not a plain file"));
+  }
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / "link"));
+  EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
+  RemovePortFile(directory / "link", 1);
+  EXPECT_TRUE(std::filesystem::is_symlink(directory / "link"));
+  std::filesystem::remove_all(directory);
+}
+
+TEST(PortFile, IsRemovedByTheServerThatWroteItAlone) {
+  const std::string path = testing::TempDir() + "ricochetd_port_removed";
+  ASSERT_TRUE(WritePortFile(path, 50051).ok());
+  RemovePortFile(path, 50052);
+  EXPECT_TRUE(std::filesystem::exists(path)) << "another server wrote it";
+  RemovePortFile(path, 50051);
+  EXPECT_FALSE(std::filesystem::exists(path));
+}
+
 TEST(PortFile, ErrorNamesThePath) {
   const absl::Status status = WritePortFile("/nonexistent/port", 1);
   EXPECT_EQ(status.code(), absl::StatusCode::kNotFound);

@@ -27,6 +27,10 @@ enum class ErrorReason {
   kDraining = 6,             // UNAVAILABLE: the server is shutting down; ask another one, or try again later.
   kNotEnded = 7,             // OUT_OF_RANGE: an impact that the bounds need did not end within its step budget.
   kLimitExceeded = 8,        // RESOURCE_EXHAUSTED: larger than ricochet/limits.h allows here; the violations say where.
+  kOverloaded = 9,           // RESOURCE_EXHAUSTED: too much work waits to be computed; try again later.
+  kTimeLimit = 10,           // DEADLINE_EXCEEDED: the call took longer than the server allows any call of its kind.
+  kAgeLimit = 11,     // UNAVAILABLE: a stream has reached the greatest age that the server allows; ask for the rest.
+  kUnreadLimit = 12,  // CANCELLED: the caller did not read what it was sent.
 };
 
 // The change to a request that could cure a violation.

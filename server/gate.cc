@@ -1,0 +1,79 @@
+#include "server/gate.h"
+
+#include <algorithm>
+#include <limits>
+#include <thread>
+#include <utility>
+
+namespace ricochet::server {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// The kernel gives a thread of nice value 0 three times the time of one of 5, and nine times that of one of 10. It is
+// enough that cheap calls go first; more would starve dear ones beside other programs.
+constexpr int kDearIsNicer = 5;
+constexpr int kStreamsAreNicer = 10;
+
+constexpr size_t kUnlimited = std::numeric_limits<size_t>::max();
+
+// Frees a slot however the work ends, and learns how long it took.
+class Leaving {
+ public:
+  Leaving(Lane& lane, Lane::Visitor& visitor, const Turn& turn, ServiceTimes& times)
+      : lane_(lane), visitor_(visitor), turn_(turn), times_(times) {}
+  ~Leaving() {
+    const double computed_s = lane_.Leave(visitor_);
+    if (computed_ && turn_.cost.has_value()) times_.Learn(*turn_.cost, computed_s, Clock::now() >= visitor_.deadline);
+  }
+  Leaving(const Leaving&) = delete;
+  Leaving& operator=(const Leaving&) = delete;
+
+  void Computes() { computed_ = true; }
+
+ private:
+  Lane& lane_;
+  Lane::Visitor& visitor_;
+  const Turn& turn_;
+  ServiceTimes& times_;
+  bool computed_ = false;
+};
+
+}  // namespace
+
+int AvailableCores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+Gate::Gate(int threads, int most_waiting, std::stop_token drain)
+    : cheap_(threads, kUnlimited),
+      dear_(threads, static_cast<size_t>(most_waiting)),
+      streams_(threads, kUnlimited),
+      dear_threads_(threads, kDearIsNicer),
+      stream_threads_(threads, kStreamsAreNicer),
+      close_(std::move(drain), [this] {
+        cheap_.Close();
+        dear_.Close();
+        streams_.Close();
+      }) {}
+
+absl::Status Gate::Compute(const Turn& turn, absl::FunctionRef<void()> work) {
+  const bool is_stream = !turn.cost.has_value();
+  const bool is_cheap = !is_stream && turn.cost->is_cheap();
+  Lane& lane = is_stream ? streams_ : is_cheap ? cheap_ : dear_;
+  Lane::Visitor visitor;
+  visitor.peer = turn.peer;
+  visitor.deadline = turn.deadline.value_or(Lane::Time::max());
+  if (!is_stream) visitor.expected_s = times_.Expected(*turn.cost);
+  if (absl::Status turned_away = lane.Enter(visitor, turn.is_gone); !turned_away.ok()) return turned_away;
+  Leaving leaving(lane, visitor, turn, times_);
+  if (Clock::now() >= visitor.deadline) return absl::DeadlineExceededError("the deadline passed before the call began");
+  if (turn.is_gone()) return absl::CancelledError("the caller gave up before the call began");
+  leaving.Computes();
+  if (is_cheap) {
+    work();
+  } else {
+    (is_stream ? stream_threads_ : dear_threads_).Run(work);
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace ricochet::server

@@ -1,0 +1,86 @@
+#include "server/request_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+namespace ricochet::server {
+namespace {
+
+// Up to these sizes a call takes less than half a millisecond.
+constexpr int64_t kFewLinks = 32;
+constexpr int64_t kShortHistory = 2048;
+constexpr int64_t kFewRows = 64;
+
+RequestCost Dear(CostCause cause, double size) {
+  return {.cause = cause, .octave = static_cast<int>(std::log2(std::max(size, 1.0)))};
+}
+
+int64_t Links(const Scene& scene) {
+  const auto* const linkage = std::get_if<Linkage>(&scene.system);
+  return linkage == nullptr ? 1 : static_cast<int64_t>(linkage->links.size());
+}
+
+double Cube(int64_t number) { return std::pow(static_cast<double>(number), 3); }
+
+RequestCost CostOf(const Scene& scene) {
+  return Links(scene) > kFewLinks ? Dear(CostCause::kLinks, Cube(Links(scene))) : RequestCost();
+}
+
+RequestCost CertificateCost(const Scene& scene, int32_t digits) {
+  return Dear(CostCause::kCertificate, digits * Cube(Links(scene)));
+}
+
+bool TakesTime(const SolveRequest& request) {
+  const auto& compliance = request.scene.compliance;
+  const std::vector<Effect>& required = request.demand.required;
+  return (compliance.has_value() && !std::holds_alternative<std::monostate>(compliance->normal)) ||
+         request.force_intervals > 0 ||
+         std::find(required.begin(), required.end(), Effect::kFiniteDuration) != required.end();
+}
+
+size_t Rows(const AuditColumns& columns) {
+  size_t rows = 0;
+  for (const auto* const column : {&columns.tangential_m_s, &columns.tangential_2_m_s, &columns.normal_m_s,
+                                   &columns.tangential_after_m_s, &columns.tangential_2_after_m_s,
+                                   &columns.normal_after_m_s, &columns.friction, &columns.velocity_uncertainty_m_s}) {
+    rows = std::max(rows, column->size());
+  }
+  for (const std::vector<double>& column : columns.rates_after_rad_s) rows = std::max(rows, column.size());
+  return rows;
+}
+
+}  // namespace
+
+RequestCost CostOf(const SolveRequest& request) {
+  if (request.certified_digits > 0) return CertificateCost(request.scene, request.certified_digits);
+  if (TakesTime(request)) return Dear(CostCause::kDuration, static_cast<double>(request.force_intervals));
+  const int64_t states = std::max(request.history_intervals, static_cast<int64_t>(request.history_at_n_s.size()));
+  if (states > kShortHistory) {
+    return Dear(CostCause::kHistory, static_cast<double>(states) * static_cast<double>(4 + Links(request.scene)));
+  }
+  return CostOf(request.scene);
+}
+
+RequestCost CostOf(const PlanRequest& request) { return CostOf(request.scene); }
+
+RequestCost CostOf(const BoundsRequest& request) {
+  if (!request.ranges.empty()) return Dear(CostCause::kEnclosure, std::exp2(request.ranges.size()));
+  if (request.certified_digits > 0) return CertificateCost(request.scene, request.certified_digits);
+  return CostOf(request.scene);
+}
+
+RequestCost CostOf(const AuditRequest& request) { return CostOf(request.scene); }
+
+RequestCost CostOf(const AuditBatchRequest& request) {
+  const size_t rows = Rows(request.columns);
+  if (rows > kFewRows) {
+    return Dear(CostCause::kRows, static_cast<double>(rows) * static_cast<double>(Links(request.scene)));
+  }
+  return CostOf(request.scene);
+}
+
+}  // namespace ricochet::server

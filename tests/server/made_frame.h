@@ -1,0 +1,33 @@
+// MadeFrame: the parts of a small server that its calls share, for tests and benchmarks of handlers.
+
+#ifndef RICOCHET_TESTS_SERVER_MADE_FRAME_H_
+#define RICOCHET_TESTS_SERVER_MADE_FRAME_H_
+
+#include <chrono>
+#include <utility>
+
+#include "server/call.h"
+
+namespace ricochet::server {
+
+struct MadeFrame {
+  explicit MadeFrame(const Observer& observer, DrainStops drain = {}, TimeLimits limits = {},
+                     std::chrono::milliseconds unread_limit = std::chrono::seconds(30))
+      : gate(2, 64, drain.streams),
+        unread(unread_limit),
+        frame{.places = places,
+              .gate = gate,
+              .unread = unread,
+              .drain = std::move(drain),
+              .limits = limits,
+              .observer = observer} {}
+
+  Places places{PlacesFor(64)};
+  Gate gate;
+  UnreadWatch unread;
+  CallFrame frame;
+};
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_TESTS_SERVER_MADE_FRAME_H_
