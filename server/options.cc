@@ -152,7 +152,7 @@ std::vector<Setting> CallSettings() {
        [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.places.streams_per_peer); }},
       {"max-threads", "N", absl::StrCat("Threads [max-live-calls + ", Options::kSpareThreads, "]"),
        [](const std::string& text, Options& to) { return ReadInteger(text, 1 << 20, to.max_threads); }},
-      {"compute-threads", "N", "Calls of each kind (cheap, dear, streams) that compute at once [the number of cores]",
+      {"compute-threads", "N", "Dear calls that compute at once, and as many parts of streams [the number of cores]",
        [](const std::string& text, Options& to) { return ReadInteger(text, 1024, to.compute_threads); }},
       {"max-waiting-calls", "N", "Dear calls that may wait to compute; more are refused [256]",
        [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.max_waiting_calls); }},

@@ -88,6 +88,23 @@ def unread_sweeps():
         return {"Solve after s": took, "threads": held, "MiB": server.rss_mib()}
 
 
+@check("answers that nobody reads", f"600 Solves whose client never reads the answers let others in within {FREE_WITHIN_S} s, "
+       "and their threads are free again")
+def unread_answers():
+    with serve() as server, greedy(server, 6, window=0) as connections:
+        threads = server.threads()
+        body = cheap().SerializeToString()
+        for connection in connections:
+            for _ in range(100):
+                connection.open(SERVICE + "Solve", body)
+            connection.pump()
+        took = wait_served(server, FREE_WITHIN_S)
+        held = server.threads()
+        require(wait_until(lambda: server.threads() <= threads + 64, FREE_WITHIN_S),
+                f"{server.threads()} threads are held, {threads} before")
+        return {"Solve after s": took, "threads held": held, "threads": server.threads()}
+
+
 @check("no acknowledgement of SETTINGS", f"400 sweeps on a connection that never acknowledges SETTINGS let others in within "
        f"{FREE_WITHIN_S} s")
 def no_acknowledgement():
