@@ -3,15 +3,18 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <functional>
+#include <iterator>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "core/engine/engine.h"
+#include "tests/support/paths.h"
 
 namespace ricochet::server {
 namespace {
@@ -343,6 +346,17 @@ TEST(Options, HelpNamesEveryOption) {
                              "--log-calls",
                              "--version"}) {
     EXPECT_THAT(std::get<Notice>(*parsed).text, HasSubstr(option));
+  }
+}
+
+TEST(Options, TheTableOfLimitsInTheReadmeHasEachFlagWithItsDefault) {
+  std::ifstream file(SourceRoot() + "/deploy/README.md");
+  const std::string readme((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  for (const NamedLimit& limit : kLimits) {
+    std::string flag = limit.name;
+    std::replace(flag.begin(), flag.end(), '_', '-');
+    const std::string row = "| `--" + flag + " N` | " + std::to_string(Limits().*limit.value) + " |";
+    EXPECT_THAT(readme, HasSubstr(row));
   }
 }
 
