@@ -1,12 +1,18 @@
 """The attacks on HTTP/2 of transport.py, through what must stand between the service and a network: mutual TLS or the proxy."""
 
+import os
 import re
 import shutil
 import socket
 import ssl
+import tempfile
 import time
+from pathlib import Path
 
-from calls import channel, cheap, code_of, stub
+import grpc
+
+from calls import cheap, code_of, stub
+from certificates import Authority
 from credentials import Secured
 from framework import NotLevel, Process, Server, Skipped, check, cpu_until_idle, in_threads, main, require, tools, wait_until
 from http2 import SERVICE, RawConnection
@@ -45,19 +51,23 @@ def struck(server, connect, function, count, ask):
     return {"bytes sent": sum(sent), "MiB": grown, "CPU s": used, "slowest Solve s": slowest[0]}
 
 
+def encrypted(host, port):
+    """A TLS connection that shows no certificate and trusts everybody."""
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+    context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
+    context.set_alpn_protocols(["h2"])
+    return context.wrap_socket(socket.create_connection((host, port), 10, source_address=("127.0.0.2", 0)))
+
+
 def register_mutual(name, function, count):
     @check(f"{name}, mutual TLS", f"without a certificate it takes at most {MOST_MIB} MiB and 10 CPU s, and others are served",
            kind="input")
     def run():
         with Secured("boundary", mutual=True) as secured:
-            context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
-            context.check_hostname, context.verify_mode = False, ssl.CERT_NONE
-            context.set_alpn_protocols(["h2"])
             server = secured.server
 
             def connect():
-                plain = socket.create_connection((server.host, server.port), 10, source_address=("127.0.0.2", 0))
-                return RawConnection(server.host, server.port, sock=context.wrap_socket(plain), acknowledge=False)
+                return RawConnection(server.host, server.port, sock=encrypted(server.host, server.port), acknowledge=False)
 
             good = secured.authority.issue("client")
             with secured.channel(client=good) as line:
@@ -67,64 +77,82 @@ def register_mutual(name, function, count):
     return run
 
 
-class Proxy:
-    """HAProxy by the recipe of deploy/haproxy.cfg, between a free port and a server."""
+def listens(port):
+    with socket.socket() as probe:
+        return probe.connect_ex(("127.0.0.1", port)) == 0
 
-    def __init__(self, server):
+
+class Proxied:
+    """A server on a Unix socket, and HAProxy before it by deploy/haproxy.cfg, open to clients without a certificate."""
+
+    def __init__(self):
         recipe = tools().proto.parent / "deploy/haproxy.cfg"
         program = shutil.which("haproxy", path="/usr/sbin:/usr/bin:/sbin:/bin")
-        if not recipe.exists() or program is None:
-            raise Skipped("HAProxy or its recipe is not here")
+        if not recipe.exists() or program is None or not tools().has_option("socket-mode"):
+            raise Skipped("HAProxy, its recipe or a server with Unix sockets is not here")
+        self.place = Path(tempfile.mkdtemp(prefix="ricochet"))  # The path of a Unix socket must be short.
+        path = self.place / "socket"
+        self.server = Server(also=f",unix:{path}", max_connections_per_peer=4096)
+        authority = Authority("authority")
+        cert, key, _ = authority.issue("proxy")
+        (self.place / "proxy.pem").write_bytes(cert + key)
+        text = recipe.read_text(encoding="utf-8")
+        text = re.sub(r' ca-file "\$RICOCHET_CLIENT_CA" verify required', "", text)
+        require("verify required" not in re.sub(r"(?m)^\s*#.*$", "", text), "the recipe's line of client certificates is another")
+        (self.place / "haproxy.cfg").write_text(text, encoding="utf-8")
         with socket.socket() as probe:
             probe.bind(("127.0.0.1", 0))
             self.port = probe.getsockname()[1]
-        text = recipe.read_text(encoding="utf-8")
-        # The recipe's certificate is its user's own; these checks are about what passes after the handshake.
-        text = re.sub(r"(?m)^(\s*)bind .*$", rf"\1bind 127.0.0.1:{self.port} proto h2", text)
-        text = re.sub(r"(?m)^(\s*server \S+) \S+(.*)$", rf"\1 {server.address}\2", text)
-        text = re.sub(r"(?m)^\s*(user|group|chroot|daemon|stats|log|pidfile)\b.*$", "", text)
-        config = tools().work / "haproxy.cfg"
-        config.write_text(text, encoding="utf-8")
-        self.process = Process([program, "-db", "-f", config], stderr=open(tools().work / "haproxy.log", "wb"))  # pylint: disable=consider-using-with
-        self.address = f"127.0.0.1:{self.port}"
-
-        def up():
-            with socket.socket() as probe:
-                return probe.connect_ex(("127.0.0.1", self.port)) == 0
-
-        if not wait_until(up, 10):
-            raise NotLevel(f"HAProxy does not start: {(tools().work / 'haproxy.log').read_text(encoding='utf-8')[-800:]}")
+        environment = {**os.environ, "RICOCHET_BIND": f"127.0.0.1:{self.port}", "RICOCHET_TLS": str(self.place / "proxy.pem"),
+                       "RICOCHET_SOCKET": str(path)}
+        with open(self.place / "log", "wb") as log:
+            self.process = Process([program, "-db", "-f", self.place / "haproxy.cfg"], stdout=log, stderr=log, env=environment)
+        # A channel that was once refused a connection waits for seconds before it tries again.
+        wait_until(lambda: listens(self.port), 15)
+        self.line = grpc.secure_channel(
+            f"localhost:{self.port}", grpc.ssl_channel_credentials(authority.pem),
+            options=[("grpc.use_local_subchannel_pool", 1), ("grpc.initial_reconnect_backoff_ms", 200),
+                     ("grpc.min_reconnect_backoff_ms", 200), ("grpc.max_reconnect_backoff_ms", 500)])
+        if not wait_until(lambda: self.ask(2) == "OK", 15, 0.3):
+            log_text = (self.place / "log").read_text(encoding="utf-8", errors="replace")
+            self.__exit__()
+            raise NotLevel(f"the proxy lets no call through: {log_text[-800:]}")
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
+        self.line.close()
         self.process.kill()
+        self.server.__exit__()
+        shutil.rmtree(self.place, ignore_errors=True)
+
+    def ask(self, seconds=20):
+        return code_of(lambda: stub(self.line).Solve(cheap(), timeout=seconds)).name
+
+    def connect(self):
+        return RawConnection("127.0.0.1", self.port, sock=encrypted("127.0.0.1", self.port), acknowledge=False)
 
 
 def register_proxy(name, function, count):
     @check(f"{name}, behind the proxy", f"the server takes at most {MOST_MIB} MiB and 10 CPU s, and others are served", kind="input")
     def run():
-        with Server() as server, Proxy(server) as proxy, channel(proxy.address) as line:
-            def connect():
-                return RawConnection("127.0.0.1", proxy.port, source="127.0.0.2", acknowledge=False)
-
-            return struck(server, connect, function, count,
-                          lambda: code_of(lambda: stub(line).Solve(cheap(), timeout=20)).name)
+        with Proxied() as proxied:
+            return struck(proxied.server, proxied.connect, function, count, proxied.ask)
 
     return run
 
 
 @check("malformed metadata, behind the proxy", "one client's bad grpc-timeout or encoding harms no call of another", kind="input")
 def bad_metadata():
-    with Server() as server, Proxy(server) as proxy, channel(proxy.address) as line:
-        on = stub(line)
+    with Proxied() as proxied:
         for _ in range(5):
             for extra in ([("grpc-timeout", "-1S")], [("grpc-encoding", "nonsense")], [("x-bin", "not base64!")]):
-                running = on.Solve.future(cheap(), timeout=20)
-                with RawConnection("127.0.0.1", proxy.port) as connection:
+                running = stub(proxied.line).Solve.future(cheap(), timeout=20)
+                with proxied.connect() as connection:
                     connection.answer(connection.open(SERVICE + "Solve", cheap().SerializeToString(), extra), 2)
-                require(code_of(running.result).name == "OK", f"beside {extra} a call ended with {code_of(running.result).name}")
+                code = code_of(running.result).name
+                require(code == "OK", f"beside {extra} a call ended with {code}")
         return {}
 
 

@@ -200,11 +200,11 @@ class Process:
 
 
 class Server(Process):
-    """A running ricochetd on a free port of an address, 127.0.0.1 by default."""
+    """A running ricochetd on a free port of an address, 127.0.0.1 by default, and on what `also` adds to --listen."""
 
     count = 0
 
-    def __init__(self, *options, host="127.0.0.1", port=0, limits=(), stderr=None, environment=None, prefix=(),
+    def __init__(self, *options, host="127.0.0.1", port=0, also="", limits=(), stderr=None, environment=None, prefix=(),
                  start_s=20, **more):
         Server.count += 1
         self.host = host
@@ -213,7 +213,7 @@ class Server(Process):
         self.directory.mkdir(parents=True)
         self.port_file = self.directory / "port"
         self.log = self.directory / "log"
-        command = [*prefix, TOOLS.ricochetd, "--listen", f"{host}:{port}", "--port-file", self.port_file,
+        command = [*prefix, TOOLS.ricochetd, "--listen", f"{host}:{port}{also}", "--port-file", self.port_file,
                    *options, *TOOLS.options(**more)]
         if stderr is None:
             with open(self.log, "wb") as log:
@@ -357,6 +357,7 @@ def main():
     parser.add_argument("--work", required=True)
     parser.add_argument("--soak", action="store_true", help="the long run")
     parser.add_argument("--sanitized", action="store_true", help="the server was built with sanitizers, which take memory")
+    parser.add_argument("--known", action="store_true", help="also the checks of what is known to lack a guard")
     parser.add_argument("--minutes", type=float, default=30, help="time of the mixed load in the long run")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", help="checks whose name matches this pattern")
@@ -369,7 +370,8 @@ def main():
     chosen = [
         one for one in CHECKS
         if re.search(arguments.only, one.name) and not (arguments.without and re.search(arguments.without, one.name))
-        and (arguments.soak or arguments.only or not (one.soak or one.mitigation))]
+        and (arguments.soak or arguments.only or not one.soak)
+        and (arguments.soak or arguments.only or arguments.known or not one.mitigation)]
     results = [run_check(one) for one in chosen]
     if arguments.json:
         Path(arguments.json).write_text(json.dumps(results, indent=1), encoding="utf-8")

@@ -1,6 +1,6 @@
 """Runs every check long, and writes the tables of deploy/README.md from what it measured.
 
-usage: soak.py RICOCHETD RICOCHET WORK_DIRECTORY [MINUTES]    of the mixed load, 30 by default
+usage: soak.py RICOCHETD RICOCHET WORK_DIRECTORY [MINUTES]    of the mixed load, 30 by default; 0: every check short
 """
 
 import json
@@ -28,7 +28,8 @@ def run(ricochetd, ricochet, work, minutes):
         print(f"\n== {topic}", flush=True)
         subprocess.run(
             [sys.executable, program, "--ricochetd", ricochetd, "--ricochet", ricochet, "--proto", SOURCE / "proto",
-             "--work", work / topic, "--soak", "--minutes", str(minutes), "--json", found], check=False)
+             "--work", work / topic, *(["--soak", "--minutes", str(minutes)] if minutes else []), "--known", "--json", found],
+            check=False)
         results += json.loads(found.read_text(encoding="utf-8"))
     return results
 
@@ -104,12 +105,12 @@ def rows_of(results):
     return "\n".join(lines)
 
 
-def write(results):
+def write(results, minutes):
     text = PAGE.read_text(encoding="utf-8")
     if BEGIN not in text or END not in text:
         sys.exit(f"{PAGE} lacks the lines {BEGIN} and {END}")
     head = (f"Measured at commit {commit()} on {machine()}, shared with the clients. Only the ratios carry over to other "
-            "machines.")
+            f"machines.{'' if minutes else ' This was the short run.'}")
     made = f"{BEGIN}\n{head}\n\n{summary(results)}\n\n{rows_of(results)}\n{END}"
     start, rest = text.split(BEGIN, 1)
     PAGE.write_text(start + made + rest.split(END, 1)[1], encoding="utf-8")
@@ -120,9 +121,10 @@ def main():
         sys.exit(__doc__)
     ricochetd, ricochet, work = [Path(argument).resolve() for argument in sys.argv[1:4]]
     work.mkdir(parents=True, exist_ok=True)
-    results = run(ricochetd, ricochet, work, float(sys.argv[4]) if len(sys.argv) == 5 else 30)
+    minutes = float(sys.argv[4]) if len(sys.argv) == 5 else 30
+    results = run(ricochetd, ricochet, work, minutes)
     (work / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
-    write(results)
+    write(results, minutes)
     bad = [one["name"] for one in results if one["result"] == "not level" and not one["mitigation"]]
     print(f"\n{len(results)} checks, {len(bad)} not level{': ' if bad else ''}{', '.join(bad)}")
     sys.exit(1 if bad else 0)
