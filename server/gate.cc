@@ -65,11 +65,14 @@ absl::Status Gate::Compute(const Turn& turn, absl::FunctionRef<void()> work) {
   Lane& lane = is_stream ? streams_ : is_cheap ? cheap_ : dear_;
   Lane::Visitor visitor;
   visitor.peer = turn.peer;
-  visitor.deadline = turn.deadline.value_or(Lane::Time::max());
+  // Parts of streams take turns: if their deadlines decided, one stream would keep out the others of its peer to its end.
+  if (!is_stream) visitor.deadline = turn.deadline.value_or(Lane::Time::max());
   if (!is_stream) visitor.expected_s = times_.Expected(*turn.cost);
   if (absl::Status turned_away = lane.Enter(visitor, turn.is_gone); !turned_away.ok()) return turned_away;
   Leaving leaving(lane, visitor, turn, times_);
-  if (Clock::now() >= visitor.deadline) return absl::DeadlineExceededError("the deadline passed before the call began");
+  if (turn.deadline.has_value() && Clock::now() >= *turn.deadline) {
+    return absl::DeadlineExceededError("the deadline passed before the call began");
+  }
   if (turn.is_gone()) return absl::CancelledError("the caller gave up before the call began");
   leaving.Computes();
   if (is_cheap) {

@@ -134,6 +134,20 @@ TEST_F(GateTest, PeersTakeTurnsAndDeadlinesOrderTheCallsOfOne) {
   EXPECT_THAT(order_, ElementsAre("a soon", "b", "a late"));
 }
 
+TEST_F(GateTest, PartsOfStreamsTakeTurnsWhateverTheirDeadlines) {
+  {
+    Holder holder(gate_, std::nullopt);
+    Turn late = TurnOf("a", std::nullopt);
+    late.deadline = steady_clock::now() + seconds(200);
+    Turn soon = late;
+    soon.deadline = steady_clock::now() + seconds(100);
+    Start("late", late);
+    Start("soon", soon);
+  }
+  threads_.clear();
+  EXPECT_THAT(order_, ElementsAre("late", "soon"));
+}
+
 TEST_F(GateTest, CheapCallsDoNotWaitForDearOnesOrStreams) {
   Holder dear(gate_, kDear);
   Holder stream(gate_, std::nullopt);
