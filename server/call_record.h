@@ -33,6 +33,8 @@ struct CallRecord {
   int64_t first_index = 0;        // Index of the first point asked for; above 0 if a sweep goes on where one broke off.
   int64_t chunks = 0;             // Messages sent, and the bytes in them; both 0 for a method with a single answer.
   int64_t chunk_bytes = 0;
+  int64_t received_bytes = 0;  // Bytes of the request's message, and of all messages of the answer.
+  int64_t sent_bytes = 0;
   int64_t stalls = 0;      // Waits for the caller to read that were longer than the server tolerates for free.
   double stalled_s = 0.0;  // Time that these waits took.
 

@@ -57,8 +57,10 @@ template <typename Response>
 absl::Status Send(const Response& response, grpc::ServerWriter<Response>& writer, Call& call) {
   grpc::WriteOptions last;
   if (response.has_summary()) last.set_last_message();
+  const auto bytes = static_cast<int64_t>(response.ByteSizeLong());
   ++call.record().chunks;
-  call.record().chunk_bytes += static_cast<int64_t>(response.ByteSizeLong());
+  call.record().chunk_bytes += bytes;
+  call.record().sent_bytes += bytes;
   return call.Send([&] { return writer.Write(response, last); });
 }
 
@@ -71,6 +73,7 @@ grpc::Status ImpactService::Answer(const char* name, Method method, grpc::Server
                                    const Request& request, Response& response) const {
   Call call(name, Call::Kind::kUnary, context, frame_);
   if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
+  call.record().received_bytes = static_cast<int64_t>(request.ByteSizeLong());
   const auto asked = FromProto(request);
   absl::Status status;
   const absl::Status turn = call.Compute(CostOf(asked), [&] {
@@ -79,6 +82,7 @@ grpc::Status ImpactService::Answer(const char* name, Method method, grpc::Server
     if (!answer.ok()) return;
     CountModel(*answer, call.record());
     response = ToProto(*answer);
+    call.record().sent_bytes = static_cast<int64_t>(response.ByteSizeLong());
   });
   return call.Finish(turn.ok() ? status : turn);
 }
@@ -112,6 +116,7 @@ grpc::Status ImpactService::Sweep(grpc::ServerContext* context, const v1::SweepR
                                   grpc::ServerWriter<v1::SweepResponse>* writer) {
   Call call("Sweep", Call::Kind::kStream, *context, frame_);
   if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
+  call.record().received_bytes = static_cast<int64_t>(request->ByteSizeLong());
   return call.Finish(Stream(FromProto(*request), *writer, call));
 }
 
@@ -119,6 +124,7 @@ grpc::Status ImpactService::Cost(grpc::ServerContext* context, const v1::CostReq
                                  grpc::ServerWriter<v1::CostResponse>* writer) {
   Call call("Cost", Call::Kind::kStream, *context, frame_);
   if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
+  call.record().received_bytes = static_cast<int64_t>(request->ByteSizeLong());
   return call.Finish(Stream(FromProto(*request), *writer, call));
 }
 

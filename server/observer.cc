@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
-#include "ricochet/v1/plan.pb.h"
+#include "server/names.h"
 
 namespace ricochet::server {
 namespace {
@@ -22,18 +21,12 @@ std::string Clipped(const std::string& text) {
   return text.size() <= kMostBytes ? text : text.substr(0, kMostBytes) + "...";
 }
 
-// Returns "pendulum" for Model::kPendulum.
-std::string NameOf(size_t model) {
-  constexpr size_t kPrefix = sizeof("MODEL_") - 1;
-  return absl::AsciiStrToLower(v1::Model_Name(static_cast<v1::Model>(model)).substr(kPrefix));
-}
-
-// Returns "pendulum" for one solved impact, "pendulum:998,sliding:2" for a sweep.
+// Returns "pendulum:1" for one solved impact, "pendulum:998,sliding:2" for a sweep.
 std::string Models(const CallRecord& call) {
   std::string models;
   for (size_t i = 0; i < call.solved_by_model.size(); ++i) {
     const int64_t solved = call.solved_by_model[i];
-    if (solved > 0) absl::StrAppend(&models, models.empty() ? "" : ",", NameOf(i), ":", solved);
+    if (solved > 0) absl::StrAppend(&models, models.empty() ? "" : ",", ModelName(i), ":", solved);
   }
   return models;
 }
@@ -60,6 +53,7 @@ void AddPresent(const CallRecord& call, std::vector<LogField>& fields) {
 }  // namespace
 
 void Observer::Ended(const CallRecord& call) const {
+  metrics_.Ended(call);
   const std::optional<int64_t> left_out = sampler_.Take(call, CallSampler::Clock::now());
   if (!left_out.has_value()) return;
   std::vector<LogField> fields = {

@@ -34,6 +34,8 @@ constexpr char kAddressRule[] =
 
 constexpr int kMostConnections = 1'000'000;
 
+constexpr char kMetricsRule[] = "must be HOST:PORT with a port from 0 to 65535, an IPv6 host in brackets";
+
 template <typename Number>
 std::optional<Number> ParseNumber(const std::string& text) {
   Number number = {};
@@ -114,6 +116,12 @@ std::vector<Setting> NetworkSettings() {
       {"reflection", "HOST:PORT|unix:PATH,...",
        "Where clients can read the proto files by gRPC reflection, away from the calls [nowhere]",
        [](const std::string& text, Options& to) { return ReadAddresses(text, to.reflection); }},
+      {"metrics", "HOST:PORT", "Where Prometheus can read the metrics, at the path /metrics [nowhere]",
+       [](const std::string& text, Options& to) -> BrokenRule {
+         to.metrics = ParseListenAddress(text);
+         if (!to.metrics.has_value() || to.metrics->is_unix()) return kMetricsRule;
+         return std::nullopt;
+       }},
       {"socket-mode", "OCTAL", "Permissions of the file of a Unix socket [600]",
        [](const std::string& text, Options& to) { return ReadMode(text, to.socket_mode); }},
       {"port-file", "FILE", "Write the bound port to this file once the server takes calls",
@@ -284,6 +292,7 @@ void CheckNotOpen(const std::string& name, const std::vector<ListenAddress>& add
 void CheckTogether(const Options& options, std::vector<std::string>& violations) {
   CheckNotOpen("listen", options.listen, options, violations);
   CheckNotOpen("reflection", options.reflection, options, violations);
+  if (options.metrics.has_value()) CheckNotOpen("metrics", {*options.metrics}, options, violations);
   const bool only_unix = std::all_of(options.listen.begin(), options.listen.end(),
                                      [](const ListenAddress& address) { return address.is_unix(); });
   if (only_unix && !options.port_file.empty()) {

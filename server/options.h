@@ -11,6 +11,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -30,6 +31,7 @@ struct Options {
   std::vector<ListenAddress> listen = {{.host = "127.0.0.1", .port = 50051, .path = ""}};  // At least one.
   std::vector<ListenAddress> reflection;  // Where clients can read the proto files; empty: nowhere.
   mode_t socket_mode = 0600;              // Permissions of the file of a Unix socket; 0 to 0777.
+  std::optional<ListenAddress> metrics;   // Where Prometheus can read the metrics; absent: nowhere.
   std::string port_file;  // The bound port is written to this file once the server takes calls; empty: to no file.
   bool insecure = false;  // Required to listen on anything but loopback and Unix sockets: nothing is encrypted.
 

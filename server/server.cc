@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "server/call_watch.h"
 #include "server/descriptor_limit.h"
 #include "server/port_file.h"
 #include "server/self_test.h"
@@ -54,6 +55,7 @@ absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, co
   std::unique_ptr<Server> server(new Server(options, log));
   absl::Status status = TestSolver(server->solver_);
   if (status.ok()) status = server->Listen();
+  if (status.ok()) status = server->OpenMetrics();
   if (!status.ok()) return status;
   // A script that finds the port file finds the addresses in the log, too.
   log.Flush(kTimeForLog);
@@ -67,6 +69,7 @@ absl::Status Server::Listen() {
   grpc::ServerBuilder builder;
   LeaveReflectionOut(builder);
   SetTransport({.max_threads = options_.max_threads, .memory_bytes = options_.transport_memory_mib << 20}, builder);
+  WatchCalls(observer_, builder);
   builder.RegisterService(&bounded_);
   Endpoint::Settings settings = {.addresses = options_.listen,
                                  .socket_mode = options_.socket_mode,
@@ -75,6 +78,7 @@ absl::Status Server::Listen() {
   absl::StatusOr<std::unique_ptr<Endpoint>> endpoint = Endpoint::Open(settings, builder, log_);
   if (!endpoint.ok()) return endpoint.status();
   endpoint_ = *std::move(endpoint);
+  serving_ = true;
   endpoint_->server().GetHealthCheckService()->SetServingStatus(v1::ImpactService::service_full_name(), true);
   LogAddresses("listening", *endpoint_);
   if (options_.reflection.empty()) return absl::OkStatus();
@@ -83,6 +87,31 @@ absl::Status Server::Listen() {
   if (!reflection.ok()) return reflection.status();
   reflection_ = *std::move(reflection);
   LogAddresses("reflection", reflection_->endpoint());
+  return absl::OkStatus();
+}
+
+absl::Status Server::OpenMetrics() {
+  Metrics& metrics = observer_.metrics();
+  Acceptor& acceptor = endpoint_->acceptor();
+  metrics.AddGauge("ricochet_live_calls", "Calls that hold a place.", [this] { return places_.live(); });
+  metrics.AddGauge("ricochet_queued_calls", "Calls that wait to compute.",
+                   [this] { return static_cast<double>(gate_.waiting()); });
+  metrics.AddGauge("ricochet_computing_calls", "Calls that compute.",
+                   [this] { return static_cast<double>(gate_.computing()); });
+  metrics.AddGauge("ricochet_serving", "1 while health is SERVING, else 0.", [this] { return serving_ ? 1 : 0; });
+  metrics.AddGauge("ricochet_connections", "Connections that are open.",
+                   [&acceptor] { return acceptor.counts().open; });
+  metrics.AddCounter("ricochet_connections_accepted_total", "Connections accepted since the start.",
+                     [&acceptor] { return static_cast<double>(acceptor.counts().accepted); });
+  metrics.AddCounter("ricochet_connections_refused_total", "Connections refused since the start.",
+                     [&acceptor] { return static_cast<double>(acceptor.counts().refused); });
+  metrics.AddCounter("ricochet_log_lines_dropped_total", "Lines that the log could not take.",
+                     [this] { return static_cast<double>(log_.dropped()); });
+  if (!options_.metrics.has_value()) return absl::OkStatus();
+  absl::StatusOr<std::unique_ptr<MetricsPage>> page = MetricsPage::Open(*options_.metrics, metrics);
+  if (!page.ok()) return page.status();
+  metrics_page_ = *std::move(page);
+  log_.Write(LogLevel::kInfo, "metrics", {{"address", ToString(metrics_page_->address())}});
   return absl::OkStatus();
 }
 
@@ -95,6 +124,7 @@ void Server::LogAddresses(const std::string& event, const Endpoint& endpoint) co
 void Server::ServeUntil(const Signals& signals) {
   const std::string signal = signals.WaitForStop([this] { HangUp(); });
   log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", places_.live()}});
+  serving_ = false;
   endpoint_->server().GetHealthCheckService()->SetServingStatus(false);
   drain_.Run(signals, [this] { return places_.live(); });
   // Removes the files of Unix sockets.

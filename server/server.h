@@ -3,6 +3,7 @@
 #ifndef RICOCHET_SERVER_SERVER_H_
 #define RICOCHET_SERVER_SERVER_H_
 
+#include <atomic>
 #include <functional>
 #include <memory>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "server/gate.h"
 #include "server/impact_service.h"
 #include "server/log.h"
+#include "server/metrics_page.h"
 #include "server/observer.h"
 #include "server/options.h"
 #include "server/places.h"
@@ -52,6 +54,8 @@ class Server {
  private:
   Server(const Options& options, const Log& log);
   absl::Status Listen();
+  // Adds the metrics of what this server holds now, and serves all metrics if the options ask for it.
+  absl::Status OpenMetrics();
   void LogAddresses(const std::string& event, const Endpoint& endpoint) const;
   void HangUp();
 
@@ -64,10 +68,12 @@ class Server {
   UnreadWatch unread_;
   std::vector<std::function<void()>> reopen_;
   const Observer observer_;
+  std::atomic<bool> serving_ = false;  // The health of the service.
   ImpactService service_;
   BoundedService bounded_;
   std::unique_ptr<Endpoint> endpoint_;
-  std::unique_ptr<Reflection> reflection_;  // Absent unless the options ask for it.
+  std::unique_ptr<Reflection> reflection_;     // Absent unless the options ask for it.
+  std::unique_ptr<MetricsPage> metrics_page_;  // Absent unless the options ask for it.
 };
 
 }  // namespace ricochet::server

@@ -33,6 +33,8 @@ std::vector<LogField> StartFields(const Options& options) {
                                   {"transport_memory_mib", options.transport_memory_mib},
                                   {"max_live_calls", int64_t{options.places.calls}},
                                   {"max_threads", int64_t{options.max_threads}},
+                                  {"compute_threads", int64_t{options.compute_threads}},
+                                  {"max_waiting_calls", int64_t{options.max_waiting_calls}},
                                   {"drain_grace_ms", int64_t{options.drain_grace.count()}},
                                   {"drain_timeout_ms", int64_t{options.drain_timeout.count()}}};
   for (const NamedLimit& limit : kLimits) fields.push_back({limit.name, options.limits.*limit.value});

@@ -276,7 +276,7 @@ def odd_envelopes():
         require(answers["unknown method"] == answers["unknown service"] == "UNIMPLEMENTED", f"{answers}")
         require(answers["unknown fields"] == "OK", f"{answers}")
         require(answers["2 MiB"] == "RESOURCE_EXHAUSTED", f"{answers}")
-        require(answers["groups"] == "INTERNAL", f"{answers}")
+        require(answers["groups"] == "INVALID_ARGUMENT", f"{answers}")
         require_served(server)
         return answers
 

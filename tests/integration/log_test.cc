@@ -2,6 +2,8 @@
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -16,6 +18,8 @@
 #include <vector>
 
 #include "core/engine/engine.h"
+#include "proto/wire/status.h"
+#include "ricochet/error.h"
 #include "tests/support/server_process.h"
 #include "tests/support/service_calls.h"
 
@@ -122,6 +126,47 @@ TEST_F(ServerLog, TheRateOfCallsInTheLogIsBounded) {
   for (size_t at = 0; (at = log.find("/Solve", at)) != std::string::npos; ++at) ++lines;
   EXPECT_GE(lines, 5);
   EXPECT_LE(lines, 5 * (seconds_taken + 1));
+}
+
+// Sends bytes to a method, and returns the status.
+absl::Status SendBytes(const ServerProcess& server, const std::string& method, const std::string& bytes) {
+  grpc::GenericStub stub(MakeChannel(server.address()));
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + seconds(20));
+  grpc::CompletionQueue queue;
+  const grpc::Slice slice(bytes);
+  const auto call = stub.PrepareUnaryCall(&context, method, grpc::ByteBuffer(&slice, 1), &queue);
+  call->StartCall();
+  grpc::ByteBuffer answer;
+  grpc::Status status;
+  call->Finish(&answer, &status, nullptr);
+  void* tag = nullptr;
+  bool ok = false;
+  queue.Next(&tag, &ok);
+  return FromGrpcStatus(status);
+}
+
+TEST_F(ServerLog, BytesThatAreNoMessageAreRefusedWithAReasonAndLogged) {
+  const ServerProcess server;
+  const absl::Status status = SendBytes(server, "/ricochet.v1.ImpactService/Solve", "\xFF\xFF\xFF");
+  EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(ReasonOf(status), ErrorReason::kInvalidRequest);
+  EXPECT_THAT(server.WaitForLog("MALFORMED_REQUEST"), HasSubstr("reason=MALFORMED_REQUEST"));
+}
+
+TEST_F(ServerLog, AMethodThatThereIsNotIsLogged) {
+  const ServerProcess server;
+  EXPECT_EQ(SendBytes(server, "/ricochet.v1.ImpactService/Guess", "").code(), absl::StatusCode::kUnimplemented);
+  EXPECT_THAT(server.WaitForLog("UNKNOWN_METHOD"), HasSubstr("status=UNIMPLEMENTED"));
+}
+
+TEST_F(ServerLog, ARequestThatAHandlerRefusesIsLoggedOnce) {
+  const ServerProcess server;
+  EXPECT_EQ(SendBytes(server, "/ricochet.v1.ImpactService/Solve", "").code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_EQ(SendBytes(server, "/ricochet.v1.ImpactService/Guess", "").code(), absl::StatusCode::kUnimplemented);
+  const std::string log = server.WaitForLog("UNKNOWN_METHOD");
+  EXPECT_EQ(log.find("INVALID_REQUEST"), log.rfind("INVALID_REQUEST"));
+  EXPECT_THAT(log, HasSubstr("INVALID_REQUEST"));
 }
 
 // Returns what a descriptor of a process is, such as "/dev/null" or "socket:[123]".

@@ -184,6 +184,11 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                                         o.log_calls = {
                                             .kind = CallRule::Kind::kSlow, .count = 100, .slow = milliseconds(2000)};
                                       }},
+                             GoodCase{"Metrics",
+                                      {.flags = {"--metrics", "[::1]:9464"}},
+                                      [](Options& o) {
+                                        o.metrics = ListenAddress{.host = "::1", .port = 9464, .path = ""};
+                                      }},
                              GoodCase{"Drain",
                                       {.flags = {"--drain-grace", "0", "--drain-timeout", "0.25"}},
                                       [](Options& o) {
@@ -295,6 +300,9 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"TimeoutTooLong", {.flags = {"--drain-timeout", "3601"}}, {"--drain-timeout = 3601: must"}},
         BadCase{"LogFormat", {.flags = {"--log-format", "xml"}}, {"--log-format = xml: must be one of text, json"}},
         BadCase{"LogLevelInFile", {.file = "log-level = loud\n"}, {"--log-level = loud: must be one of debug"}},
+        BadCase{
+            "MetricsOnAUnixSocket", {.flags = {"--metrics", "unix:/run/m"}}, {"--metrics = unix:/run/m: must be HOST"}},
+        BadCase{"OpenMetrics", {.flags = {"--metrics", "0.0.0.0:9464"}}, {"--metrics = 0.0.0.0:9464: must be a loop"}},
         BadCase{"EmptyLogFile", {.flags = {"--log-file", ""}}, {"--log-file = : must not be empty"}},
         BadCase{"LogCalls", {.flags = {"--log-calls", "some"}}, {"--log-calls = some: must be all, errors, slow:"}},
         BadCase{"EmptyPortFile", {.flags = {"--port-file", ""}}, {"--port-file = : must not be empty"}},
