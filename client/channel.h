@@ -12,7 +12,7 @@
 
 namespace ricochet {
 
-// Makes a channel without encryption that connects at its first call.
+// Makes a channel that connects at its first call, with the security that the options ask for.
 // Errors: INVALID_ARGUMENT for invalid options.
 absl::StatusOr<std::shared_ptr<grpc::Channel>> MakeChannel(const ClientOptions& options);
 

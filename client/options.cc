@@ -3,6 +3,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
+#include "client/credentials.h"
 #include "core/numerics/decimal.h"
 #include "ricochet/client_options.h"
 #include "ricochet/error.h"
@@ -59,6 +60,9 @@ absl::Status ValidateOptions(const ClientOptions& options) {
     violations.push_back({"sweep_deadline", Found(*options.sweep_deadline, "be > 0")});
   }
   for (Violation& violation : RetryViolations(options.retry)) {
+    violations.push_back(std::move(violation));
+  }
+  for (Violation& violation : SecurityViolations(options.security, options.target)) {
     violations.push_back(std::move(violation));
   }
   return violations.empty() ? absl::OkStatus() : InvalidRequest(violations);
