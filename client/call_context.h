@@ -23,10 +23,11 @@ inline bool IsStopped(const CallOptions& options) {
 
 inline absl::Status StoppedByCaller() { return absl::CancelledError("the call was stopped by its caller"); }
 
+// The longest time that a call can be given: times of gRPC must not overflow.
+inline constexpr std::chrono::nanoseconds kLongestCall = std::chrono::hours(24 * 365);
+
 // Thread safety: the stop token may be triggered from any thread; everything else is for one thread at a time.
 class CallContext {
-  static constexpr std::chrono::nanoseconds kLongest = std::chrono::hours(24 * 365);
-
  public:
   // The call ends at the deadline of `options`, or `most` from now if that is earlier; absent: no limit.
   CallContext(const CallOptions& options, std::optional<std::chrono::milliseconds> most)
@@ -37,8 +38,8 @@ class CallContext {
       left = std::min(given, left.value_or(given));
     }
     if (IsStopped(options)) context_.TryCancel();
-    // gRPC takes a time of the system's clock, which must not overflow.
-    if (left.has_value()) context_.set_deadline(std::chrono::system_clock::now() + std::min(*left, kLongest));
+    // gRPC takes a time of the system's clock.
+    if (left.has_value()) context_.set_deadline(std::chrono::system_clock::now() + std::min(*left, kLongestCall));
   }
 
   grpc::ClientContext& get() { return context_; }

@@ -5,13 +5,15 @@
 #include <grpcpp/support/channel_arguments.h>
 
 #include "absl/synchronization/mutex.h"
-#include "client/credentials.h"
 
 namespace ricochet {
 namespace {
 
 // The response of a Solve with 65,536 history states may exceed gRPC's default limit of 4 MiB.
 constexpr int kMaxReceiveBytes = 64 << 20;
+// gRPC waits up to two minutes by default, and calls fail meanwhile although the server may be back.
+constexpr int kFirstReconnectMs = 100;
+constexpr int kLongestReconnectMs = 2'000;
 constexpr int kKeepaliveTimeMs = 30'000;
 constexpr int kKeepaliveTimeoutMs = 10'000;
 
@@ -26,7 +28,7 @@ void SetUpOnce() {
 
 }  // namespace
 
-absl::StatusOr<std::shared_ptr<grpc::Channel>> MakeChannel(const ClientOptions& options) {
+absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const ClientOptions& options) {
   if (absl::Status status = ValidateOptions(options); !status.ok()) return status;
   SetUpOnce();
   grpc::ChannelArguments arguments;
@@ -35,10 +37,13 @@ absl::StatusOr<std::shared_ptr<grpc::Channel>> MakeChannel(const ClientOptions& 
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveTimeMs);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
   if (!options.user_agent.empty()) arguments.SetUserAgentPrefix(options.user_agent);
-  if (!options.security.server_name.empty()) arguments.SetSslTargetNameOverride(options.security.server_name);
-  const auto credentials = MakeChannelCredentials(options.security, options.target);
-  if (!credentials.ok()) return credentials.status();
-  return grpc::CreateCustomChannel(options.target, *credentials, arguments);
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstReconnectMs);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestReconnectMs);
+  std::vector<std::shared_ptr<grpc::Channel>> channels;
+  for (const std::string& target : Targets(options)) {
+    channels.push_back(grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments));
+  }
+  return channels;
 }
 
 }  // namespace ricochet

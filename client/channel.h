@@ -1,4 +1,4 @@
-// MakeChannel: the gRPC channel that ClientOptions describe.
+// MakeChannels: the gRPC channels that ClientOptions describe, one for each server.
 
 #ifndef RICOCHET_CLIENT_CHANNEL_H_
 #define RICOCHET_CLIENT_CHANNEL_H_
@@ -6,15 +6,16 @@
 #include <grpcpp/channel.h>
 
 #include <memory>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "ricochet/client_options.h"
 
 namespace ricochet {
 
-// Makes a channel that connects at its first call, with the security that the options ask for.
+// Makes channels without encryption that connect at their first call, at least one.
 // Errors: INVALID_ARGUMENT for invalid options.
-absl::StatusOr<std::shared_ptr<grpc::Channel>> MakeChannel(const ClientOptions& options);
+absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const ClientOptions& options);
 
 }  // namespace ricochet
 

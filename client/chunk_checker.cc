@@ -28,6 +28,7 @@ uint64_t PointsLeft(int64_t next_index, int64_t end_index) {
 ChunkChecker::ChunkChecker(const SweepRequest& request)
     : columns_(static_cast<int64_t>(request.columns.size())),
       with_regime_(request.with_regime),
+      first_index_(request.first_index),
       next_index_(request.first_index),
       end_index_(EndIndex(request)),
       seal_(request) {}
@@ -36,18 +37,28 @@ absl::StatusOr<SweepChunk> ChunkChecker::Take(const v1::SweepResponse& message) 
   if (absl::Status status = seal_.Check(message); !status.ok()) return status;
   SweepChunk chunk = FromProto(message);
   if (absl::Status status = Check(chunk); !status.ok()) return status;
+  JoinCalls(chunk);
   return chunk;
 }
 
+void ChunkChecker::StartCall() {
+  earlier_ = Joined(earlier_, tallies_.counted());
+  tallies_ = TallyChecker();
+}
+
+void ChunkChecker::JoinCalls(SweepChunk& chunk) const {
+  chunk.points_done = static_cast<int64_t>(PointsLeft(first_index_, next_index_));
+  chunk.points_total = static_cast<int64_t>(PointsLeft(first_index_, *end_index_));
+  if (earlier_.points == 0) return;
+  chunk.tallies = Joined(earlier_, chunk.tallies);
+  // The time of the last call is not that of the sweep.
+  if (chunk.summary.has_value()) chunk.summary = chunk.tallies;
+}
+
 absl::Status ChunkChecker::Check(const SweepChunk& chunk) {
+  if (absl::Status status = CheckEngine(chunk); !status.ok()) return status;
   if (absl::Status status = CheckSize(chunk); !status.ok()) return status;
   if (absl::Status status = tallies_.Check(chunk); !status.ok()) return status;
-  if (chunk.engine.fingerprint != engine_.value_or(chunk.engine.fingerprint)) {
-    return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", next_index_, " comes from the engine ",
-                                            absl::CEscape(chunk.engine.fingerprint), ", those before it from ",
-                                            *engine_));
-  }
-  engine_ = chunk.engine.fingerprint;
   next_index_ += chunk.count;
   if (chunk.summary.has_value() != (next_index_ == *end_index_)) {
     return absl::DataLossError(absl::StrCat("the sweep's summary is ", chunk.summary.has_value() ? "early" : "missing",
@@ -55,6 +66,17 @@ absl::Status ChunkChecker::Check(const SweepChunk& chunk) {
   }
   summarised_ = chunk.summary.has_value();
   return absl::OkStatus();
+}
+
+absl::Status ChunkChecker::CheckEngine(const SweepChunk& chunk) {
+  if (!engine_.has_value()) engine_ = chunk.engine.fingerprint;
+  if (chunk.engine.fingerprint == *engine_) return absl::OkStatus();
+  const std::string found =
+      absl::StrCat("the points from ", next_index_, " on come from the engine \"",
+                   absl::CEscape(chunk.engine.fingerprint), "\", those before from \"", absl::CEscape(*engine_), "\"");
+  if (tallies_.counted().points > 0) return absl::DataLossError(found);
+  return absl::FailedPreconditionError(
+      absl::StrCat(found, ": they may differ in their last bits and must not be mixed; start the sweep anew"));
 }
 
 absl::Status ChunkChecker::CheckSize(const SweepChunk& chunk) {

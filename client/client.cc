@@ -1,7 +1,10 @@
 #include "ricochet/client.h"
 
+#include <algorithm>
 #include <utility>
+#include <vector>
 
+#include "client/attempts.h"
 #include "client/call_context.h"
 #include "client/channel.h"
 #include "client/cost_reader.h"
@@ -25,26 +28,54 @@ using Method = grpc::Status (Stub::*)(grpc::ClientContext*, const WireRequest&, 
 }  // namespace
 
 struct Client::Connection {
-  ClientOptions options;
-  std::unique_ptr<Stub> stub;
+  Connection(ClientOptions given, const std::vector<std::shared_ptr<grpc::Channel>>& channels)
+      : options(std::move(given)), preferred(channels.size()) {
+    for (const auto& channel : channels) stubs.push_back(v1::ImpactService::NewStub(channel));
+  }
 
-  // Converts the request to its proto, calls `method`, and converts the response back.
+  ClientOptions options;
+  std::vector<std::unique_ptr<Stub>> stubs;  // One for each server.
+  PreferredServer preferred;
+
+  // Converts the request to its proto, calls `method` on one server after another until one answers, and converts the
+  // response back.
   template <typename Request, typename WireRequest, typename WireResponse>
-  auto Ask(Method<WireRequest, WireResponse> method, const Request& request, const CallOptions& call) const
+  auto Ask(Method<WireRequest, WireResponse> method, const Request& request, const CallOptions& given)
       -> absl::StatusOr<decltype(FromProto(WireResponse()))> {
-    if (IsStopped(call)) return StoppedByCaller();
-    CallContext context(call, options.deadline);
-    WireResponse response;
-    const grpc::Status status = ((*stub).*method)(&context.get(), ToProto(request), &response);
-    if (status.ok()) return FromProto(response);
-    return IsStopped(call) ? StoppedByCaller() : FromGrpcStatus(status);
+    const CallOptions call = WithDeadline(given, options.deadline);
+    const WireRequest wire = ToProto(request);
+    for (Attempts attempts(preferred, options.retry);;) {
+      if (IsStopped(call)) return StoppedByCaller();
+      CallContext context(call, std::nullopt);
+      WireResponse response;
+      const grpc::Status ended = ((*stubs[attempts.server()]).*method)(&context.get(), wire, &response);
+      if (ended.ok()) return FromProto(response);
+      if (IsStopped(call)) return StoppedByCaller();
+      const absl::Status status = FromGrpcStatus(ended);
+      const auto wait = attempts.AfterFailure(status, MostRetries(status));
+      if (!wait.has_value() || !Pause(*wait, call)) return IsStopped(call) ? StoppedByCaller() : status;
+    }
+  }
+
+  // gRPC has already repeated a call that ends with UNAVAILABLE or CANCELLED, so that only the other servers are left.
+  int MostRetries(const absl::Status& status) const {
+    const auto others = static_cast<int>(stubs.size()) - 1;
+    switch (status.code()) {
+      case absl::StatusCode::kUnavailable:
+      case absl::StatusCode::kCancelled:
+        return others;
+      case absl::StatusCode::kResourceExhausted:
+        return IsWorthRepeating(status) ? std::max(others, options.retry.max_attempts - 1) : 0;
+      default:
+        return 0;
+    }
   }
 };
 
 absl::StatusOr<Client> Client::Connect(const ClientOptions& options) {
-  absl::StatusOr<std::shared_ptr<grpc::Channel>> channel = MakeChannel(options);
-  if (!channel.ok()) return channel.status();
-  return Client(std::make_shared<Connection>(Connection{options, v1::ImpactService::NewStub(*std::move(channel))}));
+  const auto channels = MakeChannels(options);
+  if (!channels.ok()) return channels.status();
+  return Client(std::make_shared<Connection>(options, *channels));
 }
 
 absl::StatusOr<SolveResponse> Client::DoSolve(const SolveRequest& request, const CallOptions& options) const {
@@ -69,17 +100,22 @@ absl::StatusOr<AuditBatchResponse> Client::DoAuditBatch(const AuditBatchRequest&
 }
 
 SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& options) const {
-  auto reader = std::make_shared<SweepReader>(
-      [&](grpc::ClientContext* context) { return connection_->stub->Sweep(context, ToProto(request)); },
-      ChunkChecker(request), connection_->options.sweep_deadline, options);
   // The stream keeps the connection, so it may outlive the Client that made it.
-  return SweepStream([connection = connection_, reader = std::move(reader)] { return reader->Next(); });
+  auto reader = std::make_shared<SweepReader>(
+      request,
+      [connection = connection_](size_t server, grpc::ClientContext* context, const v1::SweepRequest& part) {
+        return connection->stubs[server]->Sweep(context, part);
+      },
+      connection_->preferred, connection_->options.retry, connection_->options.sweep_deadline, options);
+  return SweepStream([reader = std::move(reader)] { return reader->Next(); });
 }
 
 CostStream Client::DoCost(const CostRequest& request, const CallOptions& options) const {
   auto reader = std::make_shared<CostReader>(
-      [&](grpc::ClientContext* context) { return connection_->stub->Cost(context, ToProto(request)); }, CostChecker(),
-      connection_->options.sweep_deadline, options);
+      [&](grpc::ClientContext* context) {
+        return connection_->stubs[connection_->preferred.get()]->Cost(context, ToProto(request));
+      },
+      CostChecker(), connection_->options.sweep_deadline, options);
   return CostStream([connection = connection_, reader = std::move(reader)] { return reader->Next(); });
 }
 

@@ -10,12 +10,11 @@
 
 namespace ricochet {
 
-absl::StatusOr<Health> CheckHealth(const ClientOptions& options, const std::string& service) {
-  absl::StatusOr<std::shared_ptr<grpc::Channel>> channel = MakeChannel(options);
-  if (!channel.ok()) return channel.status();
-  const auto stub = grpc::health::v1::Health::NewStub(*std::move(channel));
+static absl::StatusOr<Health> AskHealth(const std::shared_ptr<grpc::Channel>& channel,
+                                        std::chrono::milliseconds deadline, const std::string& service) {
+  const auto stub = grpc::health::v1::Health::NewStub(channel);
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + options.deadline);
+  context.set_deadline(std::chrono::system_clock::now() + deadline);
   grpc::health::v1::HealthCheckRequest request;
   request.set_service(service);
   grpc::health::v1::HealthCheckResponse response;
@@ -29,6 +28,17 @@ absl::StatusOr<Health> CheckHealth(const ClientOptions& options, const std::stri
     default:
       return Health::kUnknown;
   }
+}
+
+absl::StatusOr<Health> CheckHealth(const ClientOptions& options, const std::string& service) {
+  const auto channels = MakeChannels(options);
+  if (!channels.ok()) return channels.status();
+  absl::StatusOr<Health> health;
+  for (const std::shared_ptr<grpc::Channel>& channel : *channels) {
+    health = AskHealth(channel, options.deadline, service);
+    if (!absl::IsUnavailable(health.status())) break;
+  }
+  return health;
 }
 
 }  // namespace ricochet

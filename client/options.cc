@@ -3,7 +3,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "client/credentials.h"
+#include "absl/strings/str_split.h"
+#include "absl/strings/string_view.h"
 #include "core/numerics/decimal.h"
 #include "ricochet/client_options.h"
 #include "ricochet/error.h"
@@ -23,6 +24,9 @@ std::string Found(std::chrono::milliseconds time, const char* rule) {
 
 std::string TargetRule(const std::string& target) {
   if (target.empty()) return "is empty: must be \"host:port\"";
+  for (const absl::string_view server : absl::StrSplit(target, ',')) {
+    if (server.empty()) return absl::StrCat("= \"", target, "\": must name a server before and after each comma");
+  }
   if (target.find_first_of(" \t\r\n") != std::string::npos) {
     return absl::StrCat("= \"", target, "\": must not contain white space");
   }
@@ -33,6 +37,9 @@ std::vector<Violation> RetryViolations(const RetryPolicy& retry) {
   std::vector<Violation> violations;
   if (retry.max_attempts < 1 || retry.max_attempts > kMostAttempts) {
     violations.push_back({"retry.max_attempts", absl::StrCat("= ", retry.max_attempts, ": must be in [1, 5]")});
+  }
+  if (retry.max_resumes < 0) {
+    violations.push_back({"retry.max_resumes", absl::StrCat("= ", retry.max_resumes, ": must be >= 0")});
   }
   if (retry.initial_backoff.count() <= 0) {
     violations.push_back({"retry.initial_backoff", Found(retry.initial_backoff, "be > 0")});
@@ -62,22 +69,24 @@ absl::Status ValidateOptions(const ClientOptions& options) {
   for (Violation& violation : RetryViolations(options.retry)) {
     violations.push_back(std::move(violation));
   }
-  for (Violation& violation : SecurityViolations(options.security, options.target)) {
-    violations.push_back(std::move(violation));
-  }
   return violations.empty() ? absl::OkStatus() : InvalidRequest(violations);
 }
+
+std::vector<std::string> Targets(const ClientOptions& options) { return absl::StrSplit(options.target, ','); }
 
 std::string ServiceConfig(const ClientOptions& options) {
   const RetryPolicy& retry = options.retry;
   // gRPC refuses a policy of one attempt; without a policy it does not retry either.
   if (retry.max_attempts == 1) return "{}";
-  return absl::StrCat(R"({"methodConfig":[{"name":[{"service":"ricochet.v1.ImpactService"}],"retryPolicy":{)",
-                      R"("maxAttempts":)", retry.max_attempts,                         //
+  // A sweep is taken up again by its reader, so that gRPC has no policy for it.
+  return absl::StrCat(R"({"methodConfig":[{"name":[{"service":"ricochet.v1.ImpactService","method":"Sweep"}]},)",
+                      R"({"name":[{"service":"ricochet.v1.ImpactService"}],"retryPolicy":{)", R"("maxAttempts":)",
+                      retry.max_attempts,                                              //
                       R"(,"initialBackoff":")", Seconds(retry.initial_backoff),        //
                       R"(","maxBackoff":")", Seconds(retry.max_backoff),               //
                       R"(","backoffMultiplier":)", ShortestDecimal(retry.multiplier),  //
-                      R"(,"retryableStatusCodes":["UNAVAILABLE"]}}]})");
+                      R"(,"retryableStatusCodes":["UNAVAILABLE","CANCELLED"]}}],)",
+                      R"("retryThrottling":{"maxTokens":10,"tokenRatio":0.1}})");
 }
 
 }  // namespace ricochet

@@ -3,9 +3,6 @@
 #ifndef RICOCHET_CLIENT_STREAM_READER_H_
 #define RICOCHET_CLIENT_STREAM_READER_H_
 
-#include <grpcpp/client_context.h>
-#include <grpcpp/support/sync_stream.h>
-
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -14,7 +11,7 @@
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
 #include "client/call_context.h"
-#include "proto/wire/status.h"
+#include "client/stream_call.h"
 #include "ricochet/call_options.h"
 
 namespace ricochet {
@@ -26,38 +23,24 @@ namespace ricochet {
 template <typename Wire, typename Chunk, typename Checker>
 class StreamReader {
  public:
-  using Call = grpc::ClientReaderInterface<Wire>;
+  using Call = typename StreamCall<Wire>::Reader;
 
   // Starts the call by `start`, which receives the context and returns the stream. The call ends when `options` say so, or
   // `deadline` from now.
   StreamReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start, Checker checker,
                std::optional<std::chrono::milliseconds> deadline, const CallOptions& options)
-      : checker_(std::move(checker)), options_(options), context_(options, deadline), reader_(start(&context_.get())) {}
-
-  // Cancels the call if it still runs, and waits for its end.
-  ~StreamReader() {
-    if (finished_) return;
-    context_.get().TryCancel();
-    static_cast<void>(Finish());
-  }
-
-  StreamReader(const StreamReader&) = delete;
-  StreamReader& operator=(const StreamReader&) = delete;
+      : checker_(std::move(checker)), options_(options), call_(start, deadline, options) {}
 
   // Returns the next chunk, an error, or nothing at the end of the stream; it serves as a ResultStream::Source.
   std::optional<absl::StatusOr<Chunk>> Next() {
     // Once the caller has asked to stop, chunks that had already arrived are dropped.
-    if (!reader_->Read(&message_)) return End();
-    if (IsStopped(options_) && !message_.has_summary()) {
-      context_.get().TryCancel();
-      return End();
-    }
+    if (!call_.Read(message_)) return End(call_.Finish());
+    if (IsStopped(options_) && !message_.has_summary()) return End(call_.Cancel());
     return checker_.Take(message_);
   }
 
  private:
-  std::optional<absl::StatusOr<Chunk>> End() {
-    const absl::Status status = Finish();
+  std::optional<absl::StatusOr<Chunk>> End(const absl::Status& status) {
     const absl::Status complete = checker_.CheckEnd();
     if (IsStopped(options_) && !complete.ok()) return StoppedByCaller();
     if (!status.ok() && !IsStopped(options_)) return status;
@@ -65,20 +48,10 @@ class StreamReader {
     return std::nullopt;
   }
 
-  // gRPC allows Finish only after all messages were read; after a cancellation few are left.
-  absl::Status Finish() {
-    finished_ = true;
-    while (reader_->Read(&message_)) {
-    }
-    return FromGrpcStatus(reader_->Finish());
-  }
-
   Checker checker_;
   const CallOptions options_;
-  CallContext context_;
-  std::unique_ptr<Call> reader_;
+  StreamCall<Wire> call_;
   Wire message_;
-  bool finished_ = false;
 };
 
 }  // namespace ricochet

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "client/cli/interrupt.h"
 #include "client/cli/output.h"
 #include "ricochet/error.h"
 
@@ -25,6 +26,8 @@ ExitCode ExitCodeOf(const absl::Status& status) {
       return kUsage;
     case absl::StatusCode::kResourceExhausted:
       return IsTooLarge(status) ? kFailed : kTryAgain;
+    case absl::StatusCode::kCancelled:
+      return Interrupt::Happened() ? kInterrupted : kTryAgain;
     case absl::StatusCode::kUnavailable:
     case absl::StatusCode::kDeadlineExceeded:
     case absl::StatusCode::kAborted:
@@ -36,6 +39,10 @@ ExitCode ExitCodeOf(const absl::Status& status) {
 
 void PrintError(const absl::Status& status) {
   if (status.ok() || IsReaderGone(status)) return;
+  if (ExitCodeOf(status) == kInterrupted) {
+    std::fputs("ricochet: interrupted\n", stderr);
+    return;
+  }
   const std::vector<Violation> violations = ViolationsOf(status);
   for (const Violation& violation : violations) {
     std::fprintf(stderr, "%s %s\n", violation.field.c_str(), violation.description.c_str());

@@ -9,9 +9,10 @@ namespace ricochet::cli {
 
 enum ExitCode : int {
   kOk = 0,
-  kUsage = 2,      // A flag, scene or request is wrong: the same call will fail again.
-  kFailed = 42,    // Any other failure that a retry does not cure.
-  kTryAgain = 75,  // EX_TEMPFAIL: the server is unreachable, busy or too slow.
+  kUsage = 2,          // A flag, scene or request is wrong: the same call will fail again.
+  kFailed = 42,        // Any other failure that a retry does not cure.
+  kTryAgain = 75,      // EX_TEMPFAIL: the server is unreachable, busy or too slow.
+  kInterrupted = 130,  // Ctrl-C or SIGTERM ended the run.
 };
 
 ExitCode ExitCodeOf(const absl::Status& status);

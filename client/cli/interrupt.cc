@@ -1,12 +1,19 @@
 #include "client/cli/interrupt.h"
 
+#include <unistd.h>
+
+#include <atomic>
 #include <csignal>
 #include <ctime>
+
+#include "client/cli/exit_code.h"
 
 namespace ricochet::cli {
 namespace {
 
 constexpr timespec kLook = {.tv_sec = 0, .tv_nsec = 20'000'000};
+
+std::atomic<bool> happened = false;
 
 sigset_t Watched() {
   sigset_t signals;
@@ -18,12 +25,16 @@ sigset_t Watched() {
 
 }  // namespace
 
+bool Interrupt::Happened() { return happened; }
+
 Interrupt::Interrupt() {
   const sigset_t signals = Watched();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   watcher_ = std::jthread([source = source_, signals](const std::stop_token& done) mutable {
     while (!done.stop_requested()) {
-      if (sigtimedwait(&signals, nullptr, &kLook) > 0) source.request_stop();
+      if (sigtimedwait(&signals, nullptr, &kLook) <= 0) continue;
+      if (happened.exchange(true)) _exit(kInterrupted);
+      source.request_stop();
     }
   });
 }

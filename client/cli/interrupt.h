@@ -1,4 +1,4 @@
-// Interrupt: turns Ctrl-C and SIGTERM into a stop token, so that a run ends in order and leaves no partial file.
+// Interrupt: turns Ctrl-C and SIGTERM into a stop token, so that a run ends in order. The second one ends it at once.
 
 #ifndef RICOCHET_CLIENT_CLI_INTERRUPT_H_
 #define RICOCHET_CLIENT_CLI_INTERRUPT_H_
@@ -13,6 +13,9 @@ class Interrupt {
  public:
   Interrupt();
   std::stop_token token() const { return source_.get_token(); }
+
+  // True if a signal has come, to any object of this class.
+  static bool Happened();
 
  private:
   std::stop_source source_;

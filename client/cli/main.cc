@@ -4,6 +4,9 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <csignal>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
@@ -21,20 +24,20 @@ namespace {
 
 using ricochet::ThisEngine;
 
-void AddSubcommands(CLI::App& app, ricochet::cli::Command& command) {
+void AddSubcommands(CLI::App& app, std::vector<std::string> arguments, ricochet::cli::Command& command) {
   app.set_version_flag("--version", [] {
     return absl::StrCat("ricochet ", ThisEngine().version, ", engine ", ThisEngine().fingerprint);
   });
   app.require_subcommand(1);
   ricochet::cli::AddSolve(app, command);
   ricochet::cli::AddBounds(app, command);
-  ricochet::cli::AddSweep(app, command);
+  ricochet::cli::AddSweep(app, std::move(arguments), command);
   ricochet::cli::AddAudit(app, command);
   ricochet::cli::AddCost(app, command);
   ricochet::cli::AddHealth(app, command);
   app.footer(
       "ricochet SUBCOMMAND --help shows a worked example.\n"
-      "Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.");
+      "Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again, 130 interrupted.");
 }
 
 }  // namespace
@@ -47,7 +50,7 @@ int main(int argc, char** argv) {
   CLI::App app("Computes what happens when something hits a surface with friction. Units are SI and radians.",
                "ricochet");
   ricochet::cli::Command command;
-  AddSubcommands(app, command);
+  AddSubcommands(app, {argv, argv + argc}, command);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -30,13 +30,24 @@ mode_t DefaultMode() {
 
 }  // namespace
 
-absl::StatusOr<AtomicFile> AtomicFile::Create(const std::string& path) {
-  // A symbolic link is kept: its target is replaced.
+absl::StatusOr<std::string> FileToWrite(const std::string& path) {
   std::error_code failure;
   const std::filesystem::path target = std::filesystem::weakly_canonical(std::filesystem::absolute(path), failure);
   if (failure || !target.has_filename() || std::filesystem::is_directory(target, failure)) {
     return absl::FailedPreconditionError(absl::StrCat("cannot write ", path, ": not a file"));
   }
+  return target.string();
+}
+
+bool IsDevice(const std::string& path) {
+  struct stat info;
+  return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+absl::StatusOr<AtomicFile> AtomicFile::Create(const std::string& path) {
+  const absl::StatusOr<std::string> written = FileToWrite(path);
+  if (!written.ok()) return written.status();
+  const std::filesystem::path target = *written;
   std::string name = absl::StrCat(target.parent_path().string(), "/.", target.filename().string(), ".XXXXXX");
   AtomicFile file;
   file.descriptor_ = mkostemp(name.data(), O_CLOEXEC);
@@ -76,8 +87,7 @@ absl::Status AtomicFile::Commit() {
 absl::StatusOr<Output> Output::Open(const std::string& path) {
   const absl::Status none = absl::NotFoundError("no file");
   if (path.empty()) return Output(none, STDOUT_FILENO, false);
-  struct stat info;
-  if (stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode)) {
+  if (IsDevice(path)) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0) return SystemError(absl::StrCat("cannot write ", path));
     return Output(none, descriptor, true);

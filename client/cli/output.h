@@ -9,6 +9,13 @@
 
 namespace ricochet::cli {
 
+// Returns the file that writing to `path` replaces: the target of a symbolic link, so that the link is kept.
+// Errors: FAILED_PRECONDITION if it cannot be a file.
+absl::StatusOr<std::string> FileToWrite(const std::string& path);
+
+// True if `path` is a device, a pipe or a socket, which is written to directly.
+bool IsDevice(const std::string& path);
+
 // A file that is written beside `path` under a temporary name and then renamed, so that a reader never sees a part of
 // it.
 class AtomicFile {

@@ -12,9 +12,10 @@
 #include "client/cli/interrupt.h"
 #include "client/cli/output.h"
 #include "client/cli/progress.h"
+#include "client/cli/resume_command.h"
 #include "client/cli/scene_input.h"
+#include "client/cli/sweep_output.h"
 #include "client/cli/sweep_plot.h"
-#include "client/cli/sweep_writer.h"
 #include "core/scene/field.h"
 #include "core/sweep/column.h"
 #include "proto/wire/sweep.h"
@@ -32,7 +33,7 @@ constexpr char kExample[] =
   0                                0.1               0.01                     0
   ...
 The last axis runs fastest. --axis ? and --column ? list all axes and columns, of the scene if one is given.
-Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again, 130 interrupted.)";
 
 struct SweepOptions {
   CommonOptions common;
@@ -46,6 +47,8 @@ struct SweepOptions {
   bool regime = false;
   bool summary_only = false;
   std::string plot;
+  bool resume = false;
+  std::vector<std::string> arguments;  // The command line of this run.
 };
 
 absl::StatusOr<SweepRequest> RequestFromFile(const SweepOptions& options) {
@@ -97,17 +100,36 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   return request;
 }
 
-// Passes the chunks of one sweep on to the text, the picture and the progress bar.
+// True if what the sweep has written can be gone on with: rows or lines in a file. A table shows only some points, and a
+// summary none, so that they are written when they are complete.
+bool IsResumable(const SweepOptions& options) {
+  const CommonOptions& common = options.common;
+  return !common.output.empty() && common.format != Format::kText && !options.summary_only && !IsDevice(common.output);
+}
+
+absl::Status CheckResume(const SweepOptions& options) {
+  if (!options.resume || (IsResumable(options) && options.plot.empty())) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      "--resume needs -o FILE and --format csv or json, without --summary-only and --plot: only rows in a file can be "
+      "gone on with");
+}
+
+// Passes the chunks of one sweep on to the output, the picture and the progress bar.
 class Receiver {
  public:
-  Receiver(const SweepRequest& request, const SweepOptions& options, Output output)
-      : options_(&options),
-        output_(std::move(output)),
-        writer_(MakeSweepWriter(request, options.common.format, options.summary_only)) {
+  Receiver(const SweepRequest& request, const SweepOptions& options, SweepOutput output)
+      : options_(&options), output_(std::move(output)) {
     if (!options.plot.empty()) plot_.emplace(request);
   }
 
+  // The points that the output does not have yet.
+  SweepRequest Rest(SweepRequest request) const {
+    request.first_index = output_.next_index();
+    return request;
+  }
+
   absl::Status Add(SweepChunk& chunk) {
+    if (absl::Status status = output_.Join(chunk); !status.ok()) return status;
     progress_.Update(chunk.points_done, chunk.points_total);
     if (chunk.summary.has_value() && !chunk.summary->elapsed_s.has_value()) {
       chunk.summary->elapsed_s = progress_.Seconds();
@@ -115,8 +137,7 @@ class Receiver {
     if (plot_.has_value()) {
       if (absl::Status status = plot_->Add(chunk); !status.ok()) return status;
     }
-    const absl::StatusOr<std::string> text = writer_(chunk);
-    return text.ok() ? output_.Write(*text) : text.status();
+    return output_.Write(chunk);
   }
 
   absl::Status Finish() {
@@ -126,24 +147,38 @@ class Receiver {
     return output_.Commit();
   }
 
+  SweepOutput& output() { return output_; }
+
  private:
   const SweepOptions* options_;
-  Output output_;
-  SweepWriter writer_;
+  SweepOutput output_;
   std::optional<SweepPlot> plot_;
   Progress progress_;
 };
 
-absl::Status Receive(const Solver& solver, const SweepRequest& request, const SweepOptions& options,
-                     std::stop_token stop) {
-  absl::StatusOr<Output> output = Output::Open(options.common.output);
-  if (!output.ok()) return output.status();
-  Receiver receiver(request, options, *std::move(output));
-  for (absl::StatusOr<SweepChunk>& chunk : solver.Sweep(request, {.stop = std::move(stop)})) {
+absl::Status ReceiveAll(SweepStream stream, Receiver& receiver) {
+  for (absl::StatusOr<SweepChunk>& chunk : stream) {
     if (!chunk.ok()) return chunk.status();
     if (absl::Status status = receiver.Add(*chunk); !status.ok()) return status;
   }
   return receiver.Finish();
+}
+
+absl::StatusOr<SweepOutput> OpenOutput(const SweepRequest& request, const SweepOptions& options) {
+  const CommonOptions& common = options.common;
+  SweepText text(request, common.format, options.summary_only);
+  if (IsResumable(options)) return SweepOutput::OpenPartial(request, common, std::move(text), options.resume);
+  return SweepOutput::Open(request, common.output, std::move(text));
+}
+
+absl::Status Receive(const Solver& solver, const SweepRequest& request, const SweepOptions& options,
+                     std::stop_token stop) {
+  absl::StatusOr<SweepOutput> output = OpenOutput(request, options);
+  if (!output.ok()) return output.status();
+  Receiver receiver(request, options, *std::move(output));
+  absl::Status status = ReceiveAll(solver.Sweep(receiver.Rest(request), {.stop = std::move(stop)}), receiver);
+  if (!status.ok()) receiver.output().Break(ResumeCommand(options.arguments));
+  return status;
 }
 
 bool Asks(const std::vector<std::string>& values) { return values == std::vector<std::string>{"?"}; }
@@ -164,6 +199,7 @@ absl::Status ListFor(const SceneOptions& options, std::vector<std::string> (*nam
 absl::Status RunSweep(const SweepOptions& options) {
   if (Asks(options.axes)) return ListFor(options.scene, FieldPaths);
   if (Asks(options.columns)) return ListFor(options.scene, Columns);
+  if (absl::Status status = CheckResume(options); !status.ok()) return status;
   if (!options.plot.empty()) {
     if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
   }
@@ -203,9 +239,10 @@ void AddGridOptions(CLI::App& sub, SweepOptions& options) {
 
 }  // namespace
 
-void AddSweep(CLI::App& app, Command& command) {
+void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& command) {
   CLI::App* sub = app.add_subcommand("sweep", "Compute many impacts over a grid");
   const auto options = std::make_shared<SweepOptions>();
+  options->arguments = std::move(arguments);
   AddSceneOptions(*sub, options->scene);
   AddGridOptions(*sub, *options);
   AddDemandOptions(*sub, options->demand);
@@ -213,6 +250,8 @@ void AddSweep(CLI::App& app, Command& command) {
   sub->add_option("--plot", options->plot, "Draw curves over the last axis with gnuplot")->type_name("FILE.svg|.png");
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);
+  sub->add_flag("--resume", options->resume,
+                "Go on with FILE.part, which a run with -o FILE and --format csv or json left when it was ended");
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunSweep(*options); }; });
 }

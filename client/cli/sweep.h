@@ -3,11 +3,15 @@
 #ifndef RICOCHET_CLIENT_CLI_SWEEP_H_
 #define RICOCHET_CLIENT_CLI_SWEEP_H_
 
+#include <string>
+#include <vector>
+
 #include "client/cli/common.h"
 
 namespace ricochet::cli {
 
-void AddSweep(CLI::App& app, Command& command);
+// `arguments` are those of the whole program, its name first: an unfinished sweep shows the command that goes on.
+void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& command);
 
 }  // namespace ricochet::cli
 

@@ -161,7 +161,7 @@ class CsvWriter {
 
   absl::StatusOr<std::string> operator()(const SweepChunk& chunk) {
     std::string text;
-    if (!std::exchange(started_, true)) text = absl::StrCat(absl::StrJoin(Header(*request_), ","), "\n");
+    if (chunk.first_index == request_->first_index) text = absl::StrCat(absl::StrJoin(Header(*request_), ","), "\n");
     for (int64_t i = 0; i < chunk.count; ++i) AppendRow(chunk, i, text);
     return text;
   }
@@ -187,12 +187,12 @@ class CsvWriter {
 
   std::shared_ptr<const SweepRequest> request_;  // Shared, as in TextWriter.
   AxisCursor cursor_;
-  bool started_ = false;
 };
 
 SweepWriter JsonWriter(const SweepRequest& request) {
   return [seal = ChunkSeal(request), proto = v1::SweepResponse()](const SweepChunk& chunk) mutable {
     ToProto(chunk, proto);
+    proto.clear_tallies();
     seal.Put(proto);
     return Json(proto);
   };

@@ -2,13 +2,14 @@
 
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
-#include <isa-l/crc.h>
 
 #include <bit>
+#include <string_view>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/numerics/stable_hash.h"
+#include "proto/wire/crc32c.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet {
@@ -17,12 +18,9 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the checksum is over little-endian bytes");
 static_assert(sizeof(int) == 4, "the checksum is over regimes of four bytes");
 
-// ISA-L neither inverts at the start nor at the end, so that its calls can be chained.
 template <typename Number>
-uint32_t AddToCrc(const google::protobuf::RepeatedField<Number>& numbers, uint32_t crc) {
-  const auto bytes = static_cast<int>(numbers.size() * static_cast<int>(sizeof(Number)));
-  // The function does not write to its buffer, although its type says so.
-  return crc32_iscsi(const_cast<unsigned char*>(reinterpret_cast<const unsigned char*>(numbers.data())), bytes, crc);
+std::string_view BytesOf(const google::protobuf::RepeatedField<Number>& numbers) {
+  return {reinterpret_cast<const char*>(numbers.data()), static_cast<size_t>(numbers.size()) * sizeof(Number)};
 }
 
 std::string DeterministicBytes(const google::protobuf::Message& message) {
@@ -39,7 +37,7 @@ std::string DeterministicBytes(const google::protobuf::Message& message) {
 }  // namespace
 
 int64_t Crc32cOf(const v1::SweepResponse& chunk) {
-  return ~AddToCrc(chunk.regimes(), AddToCrc(chunk.values(), ~uint32_t{0}));
+  return ExtendCrc32c(ExtendCrc32c(0, BytesOf(chunk.values())), BytesOf(chunk.regimes()));
 }
 
 std::string GridFingerprint(const SweepRequest& request) {

@@ -243,16 +243,6 @@ TEST_F(Cli, ABadRequestLeavesTheOldFileAndNothingElse) {
   EXPECT_THAT(Files(), ElementsAre("result.csv"));
 }
 
-TEST_F(Cli, AnInterruptedSweepLeavesNoFile) {
-  for (const std::string signal : {"INT", "TERM"}) {
-    const CliResult result = RunShell("timeout --preserve-status -s " + signal + " 0.5 " +
-                                      Sweep("1e12", "--column coefficients.newton --format csv -o result.csv"));
-    EXPECT_EQ(result.exit_code, 42);
-    EXPECT_THAT(result.err, HasSubstr("CANCELLED"));
-    EXPECT_THAT(Files(), IsEmpty());
-  }
-}
-
 TEST_F(Cli, AnUnwritableFileIsAnError) {
   const CliResult result = RunShell(Solve("-o no/such/directory/result.txt"));
   EXPECT_EQ(result.exit_code, 42);

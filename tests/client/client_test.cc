@@ -44,8 +44,11 @@ SweepRequest Sweep(int64_t points) {
 
 TEST(ClientOptions, AreRefusedAllAtOnceByName) {
   ClientOptions options{.target = "", .deadline = milliseconds(0), .sweep_deadline = milliseconds(-5)};
-  options.retry = {
-      .max_attempts = 6, .initial_backoff = milliseconds(0), .max_backoff = milliseconds(-1), .multiplier = 0.5};
+  options.retry = {.max_attempts = 6,
+                   .max_resumes = -1,
+                   .initial_backoff = milliseconds(0),
+                   .max_backoff = milliseconds(-1),
+                   .multiplier = 0.5};
   const absl::Status status = Client::Connect(options).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
   EXPECT_EQ(ReasonOf(status), ErrorReason::kInvalidRequest);
@@ -54,6 +57,7 @@ TEST(ClientOptions, AreRefusedAllAtOnceByName) {
       ElementsAre(Violation{"target", "is empty: must be \"host:port\""}, Violation{"deadline", "= 0 ms: must be > 0"},
                   Violation{"sweep_deadline", "= -5 ms: must be > 0"},
                   Violation{"retry.max_attempts", "= 6: must be in [1, 5]"},
+                  Violation{"retry.max_resumes", "= -1: must be >= 0"},
                   Violation{"retry.initial_backoff", "= 0 ms: must be > 0"},
                   Violation{"retry.max_backoff", "= -1 ms: must be >= retry.initial_backoff"},
                   Violation{"retry.multiplier", "= 0.5: must be finite and >= 1"}));
@@ -64,12 +68,19 @@ TEST(ServiceConfig, IsTheJsonThatGrpcReads) {
   options.retry = {
       .max_attempts = 4, .initial_backoff = milliseconds(50), .max_backoff = milliseconds(1500), .multiplier = 1.5};
   const std::string config = ServiceConfig(options);
-  EXPECT_EQ(config,
-            R"({"methodConfig":[{"name":[{"service":"ricochet.v1.ImpactService"}],"retryPolicy":{"maxAttempts":4,)"
-            R"("initialBackoff":"0.050s","maxBackoff":"1.500s","backoffMultiplier":1.5,)"
-            R"("retryableStatusCodes":["UNAVAILABLE"]}}]})");
+  EXPECT_EQ(config, R"({"methodConfig":[{"name":[{"service":"ricochet.v1.ImpactService","method":"Sweep"}]},)"
+                    R"({"name":[{"service":"ricochet.v1.ImpactService"}],"retryPolicy":{"maxAttempts":4,)"
+                    R"("initialBackoff":"0.050s","maxBackoff":"1.500s","backoffMultiplier":1.5,)"
+                    R"("retryableStatusCodes":["UNAVAILABLE","CANCELLED"]}}],)"
+                    R"("retryThrottling":{"maxTokens":10,"tokenRatio":0.1}})");
   google::protobuf::Struct parsed;
   EXPECT_TRUE(google::protobuf::util::JsonStringToMessage(config, &parsed).ok());
+}
+
+TEST(ClientOptions, OfAListNameAServerBetweenItsCommas) {
+  EXPECT_THAT(ViolationsOf(Client::Connect({.target = "a:1,,b:2"}).status()),
+              ElementsAre(Violation{"target", "= \"a:1,,b:2\": must name a server before and after each comma"}));
+  EXPECT_THAT(Targets({.target = "a:1,b:2"}), ElementsAre("a:1", "b:2"));
 }
 
 TEST(ServiceConfig, OfOneAttemptHasNoPolicy) {
@@ -133,7 +144,7 @@ TEST(Client, AStreamOutlivesTheClientThatMadeIt) {
 
 TEST(Client, AServerThatDiesInASweepIsAnErrorAndNeverAShortAnswer) {
   ServerProcess server;
-  const Client client = Client::Connect({.target = server.address()}).value();
+  const Client client = Client::Connect({.target = server.address(), .retry = {.max_resumes = 1}}).value();
   absl::Status last;
   for (const auto& chunk : client.Sweep(Sweep(10'000'000'000))) {
     last = chunk.status();

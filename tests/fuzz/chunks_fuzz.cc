@@ -185,8 +185,12 @@ class Receiver {
 
 void Run(const Script& script) {
   std::stop_source stop;
-  SweepReader reader([&](grpc::ClientContext*) { return std::make_unique<ScriptedCall>(script, stop); },
-                     ChunkChecker(script.request), std::chrono::hours(1), {.stop = stop.get_token()});
+  PreferredServer server(1);
+  SweepReader reader(script.request,
+                     [&](size_t, grpc::ClientContext*, const v1::SweepRequest&) {
+                       return std::make_unique<ScriptedCall>(script, stop);
+                     },
+                     server, {.max_attempts = 1, .max_resumes = 0}, std::chrono::hours(1), {.stop = stop.get_token()});
   Receiver receiver(script);
   for (size_t reads = 0;; ++reads) {
     if (reads > script.chunks.size()) Fail("more chunks than were sent");

@@ -5,9 +5,10 @@
 #include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <string>
 #include <vector>
+
+#include "api_files.h"
 
 namespace ricochet {
 namespace {
@@ -65,13 +66,6 @@ class Census {
   int elements_ = 0;
   std::vector<std::string> silent_;
 };
-
-FileDescriptorSet ProtosWithComments() {
-  std::ifstream stream(RICOCHET_DESCRIPTOR_SET, std::ios::binary);
-  FileDescriptorSet files;
-  EXPECT_TRUE(files.ParseFromIstream(&stream)) << RICOCHET_DESCRIPTOR_SET;
-  return files;
-}
 
 TEST(DocumentationTest, EveryElementHasAComment) {
   const FileDescriptorSet files = ProtosWithComments();

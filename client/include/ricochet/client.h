@@ -23,9 +23,11 @@ namespace ricochet {
 // Cost: a Client is a shared pointer; its copies share one connection, which is made at the first call. Connect is
 // expensive, so make one Client for each server and copy it. A sweep keeps only one chunk in memory.
 //
-// Retries: ClientOptions::retry says how often a call is repeated after UNAVAILABLE. A call is repeated only before its
-// first response, so never in the middle of a sweep. Calls have no side effects, so a repeated one does no harm. To
-// continue an interrupted sweep, ask for [next index, end_index): this gives the same bits.
+// Retries: ClientOptions::retry says how often a call is repeated, here and on the other servers of the list. Calls have
+// no side effects, so a repeated one does no harm. A sweep that breaks off is taken up again at its next point; its bits
+// and its summary are those of an undisturbed run, but for the time, which is unset. An engine with another fingerprint is
+// refused with FAILED_PRECONDITION. A study of cost measures one machine, so that it is repeated only before its first
+// rows, by the same server.
 //
 // Deadlines: a call ends at the deadline of its CallOptions or of ClientOptions, whichever comes first. The server learns
 // of it, and of a stop, and ends its work too.

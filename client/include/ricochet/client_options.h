@@ -6,16 +6,22 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/status.h"
-#include "ricochet/security_options.h"
 
 namespace ricochet {
 
-// How a call is repeated that failed with UNAVAILABLE before its first response. The wait before attempt n is random
-// between 0 and min(initial_backoff * multiplier^(n-2), max_backoff).
+// How a call is repeated that failed with UNAVAILABLE, with RESOURCE_EXHAUSTED and a time after which to retry, or with a
+// CANCELLED that the caller did not ask for. The wait before attempt n is random between 0 and
+// min(initial_backoff * multiplier^(n-2), max_backoff), and at least the time that the server asked for; if that is more
+// than a minute, the call fails instead.
 struct RetryPolicy {
-  int max_attempts = 3;                            // In [1, 5], including the first attempt; 1 means no retry.
+  // In [1, 5], including the first attempt, for each server; 1 means no retry.
+  int max_attempts = 3;
+  // How often in a row, without a new point, a sweep that has begun is taken up again by another call; UNKNOWN and
+  // INTERNAL, as proxies report a dead server, are reasons too. >= 0; 0 means never.
+  int max_resumes = 10;
   std::chrono::milliseconds initial_backoff{100};  // > 0.
   std::chrono::milliseconds max_backoff{2000};     // >= initial_backoff.
   double multiplier = 2.0;                         // >= 1.
@@ -23,18 +29,23 @@ struct RetryPolicy {
 
 // How a Client reaches its server. Only `target` is required.
 struct ClientOptions {
-  std::string target;                         // "host:port" or another gRPC target, such as "unix:PATH". Required.
-  std::chrono::milliseconds deadline{10000};  // For Solve, Bounds and CheckHealth, tries included. > 0.
+  // "host:port" or another gRPC target, such as "unix:PATH". Required. A list, separated by commas, names servers that
+  // stand in for each other: calls go to the first; where it fails, they and those after them go to the next.
+  std::string target;
+  std::chrono::milliseconds deadline{10000};                // For Solve, Bounds and CheckHealth, tries included. > 0.
   std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.
   RetryPolicy retry;
-  SecurityOptions security;
   std::string user_agent;  // Text that every call puts before gRPC's own user agent.
 };
 
 // Checks the rules above. Errors: INVALID_ARGUMENT that names every option that breaks one.
 absl::Status ValidateOptions(const ClientOptions& options);
 
-// Returns the retry policy as a gRPC service config in JSON. The options must be valid.
+// Returns the servers in `target`, in their order.
+std::vector<std::string> Targets(const ClientOptions& options);
+
+// Returns the retry policy of calls with one response as a gRPC service config in JSON. The options must be valid. It
+// stops retries while more than one call in ten fails.
 std::string ServiceConfig(const ClientOptions& options);
 
 }  // namespace ricochet

@@ -1,0 +1,127 @@
+#include "client/cli/sweep_output.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "proto/wire/chunk_seal.h"
+#include "proto/wire/engine.h"
+#include "proto/wire/sweep.h"
+
+namespace ricochet::cli {
+namespace {
+
+// A manifest costs two waits for the disk. A run that is killed loses the points of this time at most.
+constexpr std::chrono::milliseconds kBetweenCheckpoints{500};
+
+Partial IdentityOf(const SweepRequest& request, Format format) {
+  Partial identity;
+  identity.set_format(format == Format::kJson ? "json" : "csv");
+  identity.set_grid_fingerprint(GridFingerprint(request));
+  identity.set_first_index(request.first_index);
+  if (request.end_index.has_value()) identity.set_end_index(*request.end_index);
+  return identity;
+}
+
+}  // namespace
+
+SweepText::SweepText(const SweepRequest& request, Format format, bool summary_only)
+    : writer_(MakeSweepWriter(request, format, summary_only)) {
+  if (format == Format::kJson && !summary_only) {
+    blocks_.emplace(request, SweepChunk{.first_index = request.first_index, .values = {}, .regimes = {}});
+  }
+}
+
+void SweepText::GoOnAfter(const SweepRequest& request, const SweepChunk& pending) {
+  if (blocks_.has_value()) blocks_.emplace(request, pending);
+}
+
+absl::StatusOr<std::string> SweepText::Add(const SweepChunk& chunk) {
+  if (!blocks_.has_value()) return writer_(chunk);
+  std::string lines;
+  for (const SweepChunk& block : blocks_->Add(chunk)) {
+    const absl::StatusOr<std::string> line = writer_(block);
+    if (!line.ok()) return line.status();
+    lines += *line;
+  }
+  return lines;
+}
+
+std::optional<SweepChunk> SweepText::pending() const {
+  if (!blocks_.has_value()) return std::nullopt;
+  return blocks_->pending();
+}
+
+absl::StatusOr<SweepOutput> SweepOutput::Open(const SweepRequest& request, const std::string& path, SweepText text) {
+  absl::StatusOr<Output> opened = Output::Open(path);
+  if (!opened.ok()) return opened.status();
+  SweepOutput output(std::move(text));
+  output.output_.emplace(*std::move(opened));
+  output.progress_.set_next_index(request.first_index);
+  return output;
+}
+
+absl::StatusOr<SweepOutput> SweepOutput::OpenPartial(const SweepRequest& request, const CommonOptions& options,
+                                                     SweepText text, bool resume) {
+  absl::StatusOr<PartialFile> file = PartialFile::Open(options.output, IdentityOf(request, options.format), resume);
+  if (!file.ok()) return file.status();
+  SweepOutput output(std::move(text));
+  output.file_.emplace(*std::move(file));
+  output.progress_ = output.file_->manifest();
+  if (output.next_index() > request.first_index) {
+    output.earlier_ = FromProto(output.progress_.tallies());
+    SweepChunk pending = FromProto(output.progress_.pending());
+    if (!output.progress_.has_pending()) pending.first_index = output.next_index();
+    output.text_.GoOnAfter(request, pending);
+  }
+  return output;
+}
+
+absl::Status SweepOutput::Join(SweepChunk& chunk) {
+  const EngineInfo before = FromProto(progress_.engine());
+  if (progress_.has_engine() && chunk.engine.fingerprint != before.fingerprint) {
+    return absl::FailedPreconditionError(
+        absl::StrCat("the points before ", chunk.first_index, " come from the engine ", before.version, ", ",
+                     before.fingerprint, ", those from there on from ", chunk.engine.version, ", ",
+                     chunk.engine.fingerprint, ": they may differ in their last bits and must not be mixed"));
+  }
+  chunk.points_done += earlier_.points;
+  chunk.points_total += earlier_.points;
+  chunk.tallies = Joined(earlier_, chunk.tallies);
+  if (chunk.summary.has_value() && earlier_.points > 0) chunk.summary = chunk.tallies;
+  return absl::OkStatus();
+}
+
+absl::Status SweepOutput::Write(const SweepChunk& chunk) {
+  const absl::StatusOr<std::string> text = text_.Add(chunk);
+  if (!text.ok()) return text.status();
+  if (!file_.has_value()) return output_->Write(*text);
+  if (absl::Status status = file_->Write(*text); !status.ok()) return status;
+  progress_.set_next_index(chunk.first_index + chunk.count);
+  *progress_.mutable_engine() = ToProto(chunk.engine);
+  *progress_.mutable_tallies() = ToProto(chunk.tallies);
+  progress_.clear_pending();
+  if (const auto pending = text_.pending(); pending.has_value() && pending->count > 0) {
+    ToProto(*pending, *progress_.mutable_pending());
+  }
+  // The last checkpoint is that of Commit.
+  const Clock::time_point now = Clock::now();
+  if (chunk.summary.has_value() || (checkpoint_.has_value() && now - *checkpoint_ < kBetweenCheckpoints)) {
+    return absl::OkStatus();
+  }
+  checkpoint_ = now;
+  return file_->Checkpoint(progress_);
+}
+
+absl::Status SweepOutput::Commit() { return file_.has_value() ? file_->Commit() : output_->Commit(); }
+
+void SweepOutput::Break(const std::string& command) {
+  if (!file_.has_value()) return;
+  if (!progress_.has_engine()) return file_->Discard();
+  // If this fails, the manifest before stands, and the command below goes on from there.
+  static_cast<void>(file_->Checkpoint(progress_));
+  std::fprintf(stderr, "%s is the first part of the sweep, up to point %lld. To go on:\n  %s\n",
+               file_->part_path().c_str(), static_cast<long long>(file_->manifest().next_index()), command.c_str());
+}
+
+}  // namespace ricochet::cli

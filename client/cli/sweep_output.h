@@ -1,0 +1,73 @@
+// SweepOutput: where the text of a sweep goes. It is an Output, or a PartialFile with which another run can go on.
+
+#ifndef RICOCHET_CLIENT_CLI_SWEEP_OUTPUT_H_
+#define RICOCHET_CLIENT_CLI_SWEEP_OUTPUT_H_
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "client/cli/line_blocks.h"
+#include "client/cli/output.h"
+#include "client/cli/partial_file.h"
+#include "client/cli/sweep_writer.h"
+#include "ricochet/sweep.h"
+
+namespace ricochet::cli {
+
+// The text of a sweep, chunk by chunk.
+class SweepText {
+ public:
+  SweepText(const SweepRequest& request, Format format, bool summary_only);
+
+  // Goes on after points of which `pending` were received and not written.
+  void GoOnAfter(const SweepRequest& request, const SweepChunk& pending);
+  absl::StatusOr<std::string> Add(const SweepChunk& chunk);
+  // The points that wait to fill a line of JSON; absent in other formats.
+  std::optional<SweepChunk> pending() const;
+
+ private:
+  SweepWriter writer_;
+  std::optional<LineBlocks> blocks_;  // Lines of JSON alone.
+};
+
+class SweepOutput {
+ public:
+  // Errors: those of Output::Open and PartialFile::Open.
+  static absl::StatusOr<SweepOutput> Open(const SweepRequest& request, const std::string& path, SweepText text);
+  static absl::StatusOr<SweepOutput> OpenPartial(const SweepRequest& request, const CommonOptions& options,
+                                                 SweepText text, bool resume);
+
+  // The first point that the output does not have.
+  int64_t next_index() const { return progress_.next_index(); }
+
+  // Adds what earlier runs have done to the counts of a chunk that starts at or after next_index().
+  // Errors: FAILED_PRECONDITION if its engine is not theirs.
+  absl::Status Join(SweepChunk& chunk);
+
+  // Writes the next chunk, which Join has taken. Errors: those of the system.
+  absl::Status Write(const SweepChunk& chunk);
+
+  // Makes a file appear under its name. Errors: those of the system.
+  absl::Status Commit();
+
+  // Ends a run that failed. A partial file is left, and `command` is shown, if there are points in it.
+  void Break(const std::string& command);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  explicit SweepOutput(SweepText text) : text_(std::move(text)) {}
+
+  SweepText text_;
+  std::optional<Output> output_;
+  std::optional<PartialFile> file_;
+  Partial progress_;      // The manifest of all that was written.
+  SweepSummary earlier_;  // The counts of earlier runs.
+  std::optional<Clock::time_point> checkpoint_;
+};
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_SWEEP_OUTPUT_H_
