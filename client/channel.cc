@@ -5,6 +5,7 @@
 #include <grpcpp/support/channel_arguments.h>
 
 #include "absl/synchronization/mutex.h"
+#include "client/credentials.h"
 
 namespace ricochet {
 namespace {
@@ -39,9 +40,12 @@ absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const C
   if (!options.user_agent.empty()) arguments.SetUserAgentPrefix(options.user_agent);
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstReconnectMs);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestReconnectMs);
+  if (!options.security.server_name.empty()) arguments.SetSslTargetNameOverride(options.security.server_name);
   std::vector<std::shared_ptr<grpc::Channel>> channels;
   for (const std::string& target : Targets(options)) {
-    channels.push_back(grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments));
+    const auto credentials = MakeChannelCredentials(options.security, target);
+    if (!credentials.ok()) return credentials.status();
+    channels.push_back(grpc::CreateCustomChannel(target, *credentials, arguments));
   }
   return channels;
 }

@@ -13,7 +13,7 @@
 
 namespace ricochet {
 
-// Makes channels without encryption that connect at their first call, at least one.
+// Makes channels that connect at their first call, at least one, with the security that the options ask for.
 // Errors: INVALID_ARGUMENT for invalid options.
 absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const ClientOptions& options);
 

@@ -5,6 +5,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
+#include "client/credentials.h"
 #include "core/numerics/decimal.h"
 #include "ricochet/client_options.h"
 #include "ricochet/error.h"
@@ -68,6 +69,12 @@ absl::Status ValidateOptions(const ClientOptions& options) {
   }
   for (Violation& violation : RetryViolations(options.retry)) {
     violations.push_back(std::move(violation));
+  }
+  for (const std::string& target : Targets(options)) {
+    const std::vector<Violation> broken = SecurityViolations(options.security, target);
+    violations.insert(violations.end(), broken.begin(), broken.end());
+    // Most rules do not depend on the target, and none needs to be named twice.
+    if (!broken.empty()) break;
   }
   return violations.empty() ? absl::OkStatus() : InvalidRequest(violations);
 }

@@ -117,6 +117,7 @@ void Acceptor::Admit(Descriptor connection) {
   const std::string reason = TryAdd(connection, peer);
   if (!reason.empty()) return Refuse(peer, reason);
   ++accepted_;
+  log_.Write(LogLevel::kDebug, "connection", {{"peer", peer}});
   handler_(connection.Release());
 }
 

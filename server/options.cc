@@ -101,6 +101,12 @@ BrokenRule ReadMode(const std::string& text, mode_t& mode) {
   return "must be permissions in octal, from 0 to 777";
 }
 
+BrokenRule ReadPath(const std::string& text, std::string& path) {
+  path = text;
+  if (text.empty()) return "must not be empty";
+  return std::nullopt;
+}
+
 struct Setting {
   std::string name;
   std::string value_name;  // Empty for a flag, which may be given without a value.
@@ -125,11 +131,7 @@ std::vector<Setting> NetworkSettings() {
       {"socket-mode", "OCTAL", "Permissions of the file of a Unix socket [600]",
        [](const std::string& text, Options& to) { return ReadMode(text, to.socket_mode); }},
       {"port-file", "FILE", "Write the bound port to this file once the server takes calls",
-       [](const std::string& text, Options& to) -> BrokenRule {
-         to.port_file = text;
-         if (text.empty()) return "must not be empty";
-         return std::nullopt;
-       }},
+       [](const std::string& text, Options& to) { return ReadPath(text, to.port_file); }},
       {"insecure", "", "Allow a --listen address that other hosts can reach; nothing is encrypted",
        [](const std::string& text, Options& to) {
          return ReadName<bool>(text, {{"true", true}, {"1", true}, {"false", false}, {"0", false}}, to.insecure);
@@ -145,6 +147,21 @@ std::vector<Setting> NetworkSettings() {
        [](const std::string& text, Options& to) {
          return ReadInteger(text, int64_t{1} << 20, to.transport_memory_mib);
        }},
+  };
+}
+
+std::vector<Setting> SecuritySettings() {
+  return {
+      {"tls-cert", "FILE", "Serve with TLS, by this certificate chain in PEM form; read again when it changes",
+       [](const std::string& text, Options& to) { return ReadPath(text, to.tls.certificate); }},
+      {"tls-key", "FILE", "The private key of --tls-cert in PEM form, without a pass phrase",
+       [](const std::string& text, Options& to) { return ReadPath(text, to.tls.key); }},
+      {"tls-client-ca", "FILE", "Let in only clients with a certificate of these authorities",
+       [](const std::string& text, Options& to) { return ReadPath(text, to.tls.client_ca); }},
+      {"tokens", "FILE",
+       "Answer only callers of this file, a line each: NAME sha256:HEX|certificate SCOPES, with scopes from solve, "
+       "sweep, audit, cost, info and all; read again when it changes",
+       [](const std::string& text, Options& to) { return ReadPath(text, to.tokens); }},
   };
 }
 
@@ -281,15 +298,31 @@ void Read(const std::vector<Given>& given, Options& options, std::vector<std::st
 
 void CheckNotOpen(const std::string& name, const std::vector<ListenAddress>& addresses, const Options& options,
                   std::vector<std::string>& violations) {
+  if (!options.tls.certificate.empty()) return;
   for (const ListenAddress& address : addresses) {
-    if (options.insecure || IsLocal(address)) continue;
-    violations.push_back(Violated(name, ToString(address),
-                                  "must be a loopback address (localhost, 127.0.0.0/8, [::1]) or a Unix socket "
-                                  "without --insecure; nothing would be encrypted"));
+    if (IsLocal(address)) continue;
+    if (!options.insecure) {
+      violations.push_back(Violated(name, ToString(address),
+                                    "must be a loopback address (localhost, 127.0.0.0/8, [::1]) or a Unix socket "
+                                    "without --tls-cert or --insecure; nothing would be encrypted"));
+    } else if (!options.tokens.empty()) {
+      violations.push_back(Violated(name, ToString(address), "needs --tls-cert, as --tokens would travel unencrypted"));
+    }
+  }
+}
+
+void CheckTls(const Options& options, std::vector<std::string>& violations) {
+  if (options.tls.certificate.empty() != options.tls.key.empty()) {
+    violations.push_back(options.tls.key.empty() ? Violated("tls-cert", options.tls.certificate, "needs --tls-key")
+                                                 : Violated("tls-key", options.tls.key, "needs --tls-cert"));
+  }
+  if (options.tls.certificate.empty() && !options.tls.client_ca.empty()) {
+    violations.push_back(Violated("tls-client-ca", options.tls.client_ca, "needs --tls-cert"));
   }
 }
 
 void CheckTogether(const Options& options, std::vector<std::string>& violations) {
+  CheckTls(options, violations);
   CheckNotOpen("listen", options.listen, options, violations);
   CheckNotOpen("reflection", options.reflection, options, violations);
   if (options.metrics.has_value()) CheckNotOpen("metrics", {*options.metrics}, options, violations);
@@ -338,9 +371,9 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   app.set_config("--config", file, "Read options from this file (RICOCHETD_CONFIG)", !file.empty())
       ->option_text("FILE");
 
-  const std::vector<Setting> settings[] = {NetworkSettings(), RequestLimitSettings(), CallSettings(), DrainSettings(),
-                                           LogSettings()};
-  const char* const groups[] = {"Network", "Limits of a request", "Calls", "Drain", "Log"};
+  const std::vector<Setting> settings[] = {NetworkSettings(), SecuritySettings(), RequestLimitSettings(),
+                                           CallSettings(),    DrainSettings(),    LogSettings()};
+  const char* const groups[] = {"Network", "Security", "Limits of a request", "Calls", "Drain", "Log"};
   std::vector<Given> given;
   for (size_t i = 0; i < std::size(settings); ++i) {
     const std::vector<Given> added = AddOptions(settings[i], groups[i], app);

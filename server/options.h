@@ -24,6 +24,7 @@
 #include "server/listen_address.h"
 #include "server/log.h"
 #include "server/places.h"
+#include "server/tls_files.h"
 
 namespace ricochet::server {
 
@@ -33,7 +34,10 @@ struct Options {
   mode_t socket_mode = 0600;              // Permissions of the file of a Unix socket; 0 to 0777.
   std::optional<ListenAddress> metrics;   // Where Prometheus can read the metrics; absent: nowhere.
   std::string port_file;  // The bound port is written to this file once the server takes calls; empty: to no file.
-  bool insecure = false;  // Required to listen on anything but loopback and Unix sockets: nothing is encrypted.
+  bool insecure = false;  // Required to listen beyond loopback and Unix sockets without TLS.
+
+  TlsPaths tls;        // Empty paths: no TLS.
+  std::string tokens;  // The file of callers; empty: whoever can connect may call everything.
 
   ConnectionLimits connections;        // Each limit from 1 to 1,000,000.
   int64_t transport_memory_mib = 256;  // For gRPC's buffers of all connections together; 1 to 1,048,576.

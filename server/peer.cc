@@ -11,6 +11,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
+#include "server/auth.h"
 
 namespace ricochet::server {
 namespace {
@@ -36,29 +37,26 @@ std::string Ipv6Key(in6_addr address) {
   return absl::StrCat(text.data(), "/64");
 }
 
-// Returns the first value of a property, or an empty text.
-std::string Property(const grpc::AuthContext& context, const char* name) {
-  const std::vector<grpc::string_ref> values = context.FindPropertyValues(name);
-  return values.empty() ? "" : std::string(values.front().data(), values.front().size());
-}
-
-// Returns the name of a client certificate that was verified: its first alternative name, or else its common name.
-std::string CertificateName(const grpc::AuthContext& auth) {
-  // A connection on this host counts as authenticated, too, but has no certificate.
-  if (Property(auth, GRPC_TRANSPORT_SECURITY_TYPE_PROPERTY_NAME) != GRPC_SSL_TRANSPORT_SECURITY_TYPE) return "";
-  if (!auth.IsPeerAuthenticated() || auth.GetPeerIdentity().empty()) return "";
-  const grpc::string_ref name = auth.GetPeerIdentity().front();
-  return {name.data(), name.size()};
-}
-
 }  // namespace
 
-std::string PeerKey(const grpc::ServerContext& context) {
-  const std::shared_ptr<const grpc::AuthContext> auth = context.auth_context();
-  if (auth == nullptr) return AddressKey(context.peer());
-  if (std::string caller = Property(*auth, kCallerProperty); !caller.empty()) return caller;
-  if (std::string name = CertificateName(*auth); !name.empty()) return absl::StrCat("certificate:", name);
+std::string PeerKey(const grpc::ServerContext& context, Auth* auth) {
+  if (auth != nullptr) {
+    if (std::string caller = auth->CallerOf(context); !caller.empty()) return caller;
+  }
+  if (const auto connection = context.auth_context(); connection != nullptr) {
+    const std::vector<std::string> names = CertificateNames(*connection);
+    if (!names.empty()) return absl::StrCat("certificate:", names.front());
+  }
   return AddressKey(context.peer());
+}
+
+std::vector<std::string> CertificateNames(const grpc::AuthContext& auth) {
+  const std::vector<grpc::string_ref> type = auth.FindPropertyValues(GRPC_TRANSPORT_SECURITY_TYPE_PROPERTY_NAME);
+  std::vector<std::string> names;
+  // A connection on this host counts as authenticated, too, but has no certificate.
+  if (type.empty() || type.front() != GRPC_SSL_TRANSPORT_SECURITY_TYPE || !auth.IsPeerAuthenticated()) return names;
+  for (const grpc::string_ref& name : auth.GetPeerIdentity()) names.emplace_back(name.data(), name.size());
+  return names;
 }
 
 std::string AddressKey(const std::string& grpc_peer) {

@@ -10,15 +10,18 @@
 #include <sys/socket.h>
 
 #include <string>
+#include <vector>
 
 namespace ricochet::server {
 
-// The property of a call's authentication context that holds the name of the caller whom the authorisation found. Its
-// value has the form "token:NAME" or "certificate:NAME".
-inline constexpr char kCallerProperty[] = "ricochet_caller";
+class Auth;
 
-// Returns who makes a call: "token:NAME", "certificate:NAME", or the peer's address as by AddressKey.
-std::string PeerKey(const grpc::ServerContext& context);
+// Returns who makes a call: "token:NAME" or "certificate:NAME" if `auth` knows the caller, "certificate:NAME" of a client
+// certificate that was verified, or else the peer's address as by AddressKey. Absent `auth`, tokens count for nothing.
+std::string PeerKey(const grpc::ServerContext& context, Auth* auth = nullptr);
+
+// Returns the names in a client certificate that was verified: its alternative names, or else its common name.
+std::vector<std::string> CertificateNames(const grpc::AuthContext& auth);
 
 // Returns the key of a peer by its text in gRPC, such as "ipv4:192.0.2.1:40000" or "ipv6:%5B2001:db8::1%5D:40000". A text
 // of another form is its own key.

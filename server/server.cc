@@ -1,7 +1,6 @@
 #include "server/server.h"
 
 #include <grpcpp/health_check_service_interface.h>
-#include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 
 #include <chrono>
@@ -9,6 +8,7 @@
 #include <utility>
 
 #include "server/call_watch.h"
+#include "server/credentials.h"
 #include "server/descriptor_limit.h"
 #include "server/port_file.h"
 #include "server/self_test.h"
@@ -71,10 +71,13 @@ absl::Status Server::Listen() {
   SetTransport({.max_threads = options_.max_threads, .memory_bytes = options_.transport_memory_mib << 20}, builder);
   WatchCalls(observer_, builder);
   builder.RegisterService(&bounded_);
+  if (absl::Status opened = OpenAuth(); !opened.ok()) return opened;
+  const auto credentials = MakeCredentials(options_.tls, auth_, log_);
+  if (!credentials.ok()) return credentials.status();
   Endpoint::Settings settings = {.addresses = options_.listen,
                                  .socket_mode = options_.socket_mode,
                                  .connections = LimitsOfConnections(options_, log_),
-                                 .credentials = grpc::InsecureServerCredentials()};
+                                 .credentials = *credentials};
   absl::StatusOr<std::unique_ptr<Endpoint>> endpoint = Endpoint::Open(settings, builder, log_);
   if (!endpoint.ok()) return endpoint.status();
   endpoint_ = *std::move(endpoint);
@@ -115,9 +118,22 @@ absl::Status Server::OpenMetrics() {
   return absl::OkStatus();
 }
 
+absl::Status Server::OpenAuth() {
+  if (options_.tokens.empty()) return absl::OkStatus();
+  absl::StatusOr<std::shared_ptr<Auth>> auth = Auth::Open(options_.tokens, log_);
+  if (!auth.ok()) return auth.status();
+  auth_ = *std::move(auth);
+  return absl::OkStatus();
+}
+
 void Server::LogAddresses(const std::string& event, const Endpoint& endpoint) const {
   for (const ListenAddress& address : endpoint.addresses()) {
     log_.Write(LogLevel::kInfo, event, {{"address", ToString(address)}});
+    if (IsLocal(address) || !options_.tls.client_ca.empty()) continue;
+    const char* const reason = options_.tls.certificate.empty()
+                                   ? "--insecure: nothing is encrypted, and every host can stop the service"
+                                   : "without --tls-client-ca every host can attack HTTP/2 before it shows a token";
+    log_.Write(LogLevel::kWarning, "open to other hosts", {{"address", ToString(address)}, {"reason", reason}});
   }
 }
 

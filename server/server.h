@@ -12,6 +12,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/solver.h"
+#include "server/auth.h"
 #include "server/bounded_service.h"
 #include "server/drain.h"
 #include "server/endpoint.h"
@@ -56,6 +57,7 @@ class Server {
   absl::Status Listen();
   // Adds the metrics of what this server holds now, and serves all metrics if the options ask for it.
   absl::Status OpenMetrics();
+  absl::Status OpenAuth();
   void LogAddresses(const std::string& event, const Endpoint& endpoint) const;
   void HangUp();
 
@@ -71,6 +73,7 @@ class Server {
   std::atomic<bool> serving_ = false;  // The health of the service.
   ImpactService service_;
   BoundedService bounded_;
+  std::shared_ptr<Auth> auth_;  // Null unless there are tokens.
   std::unique_ptr<Endpoint> endpoint_;
   std::unique_ptr<Reflection> reflection_;     // Absent unless the options ask for it.
   std::unique_ptr<MetricsPage> metrics_page_;  // Absent unless the options ask for it.

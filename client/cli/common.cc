@@ -18,13 +18,7 @@
 
 namespace ricochet::cli {
 
-void AddServerOptions(CLI::App& app, CommonOptions& options) {
-  app.add_option("--server", options.server,
-                 "Ask the ricochetd at this address, or the first that answers, instead of computing here")
-      ->type_name("HOST:PORT,...");
-  app.add_option("--deadline", options.deadline, "Give up after this time (250ms, 30s, 5m); needs --server")
-      ->type_name("TIME");
-}
+void AddServerOptions(CLI::App& app, CommonOptions& options) { AddConnectionOptions(app, options.connection); }
 
 void AddOutputOptions(CLI::App& app, CommonOptions& options) {
   const std::map<std::string, Format> formats = {
@@ -40,24 +34,17 @@ void AddOutputOptions(CLI::App& app, CommonOptions& options) {
 }
 
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {
-  ClientOptions client{.target = options.server, .user_agent = absl::StrCat("ricochet-cli/", ThisEngine().version)};
-  if (!options.deadline.empty()) {
-    const auto deadline = ParseDuration(options.deadline, "--deadline");
-    if (!deadline.ok()) return deadline.status();
-    client.deadline = *deadline;
-    client.sweep_deadline = *deadline;
-  }
-  return client;
+  const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
+  if (!connection.ok()) return connection.status();
+  if (connection->server.empty()) return absl::InvalidArgumentError("--server is required");
+  return ClientOptionsOf(*connection);
 }
 
 absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options) {
-  if (options.server.empty()) {
-    if (!options.deadline.empty()) {
-      return absl::InvalidArgumentError("--deadline needs --server");
-    }
-    return std::make_unique<LocalSolver>();
-  }
-  const absl::StatusOr<ClientOptions> client_options = MakeClientOptions(options);
+  const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
+  if (!connection.ok()) return connection.status();
+  if (connection->server.empty()) return std::make_unique<LocalSolver>();
+  const absl::StatusOr<ClientOptions> client_options = ClientOptionsOf(*connection);
   if (!client_options.ok()) return client_options.status();
   absl::StatusOr<Client> client = Client::Connect(*client_options);
   if (!client.ok()) return client.status();

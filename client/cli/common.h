@@ -9,6 +9,7 @@
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "client/cli/connection_input.h"
 #include "ricochet/client_options.h"
 #include "ricochet/solver.h"
 
@@ -24,8 +25,7 @@ using Command = std::function<absl::Status()>;
 enum class Format { kText, kJson, kCsv };
 
 struct CommonOptions {
-  std::string server;  // Empty: this process computes the answer.
-  std::string deadline;
+  ConnectionInput connection;
   Format format = Format::kText;
   std::string output;  // Empty: standard output.
 };
@@ -33,7 +33,7 @@ struct CommonOptions {
 void AddServerOptions(CLI::App& app, CommonOptions& options);
 void AddOutputOptions(CLI::App& app, CommonOptions& options);
 
-// Returns the options of a client of `options.server`. Errors: INVALID_ARGUMENT for a bad deadline.
+// Returns the options of a client of the server that is named. Errors: INVALID_ARGUMENT, also if none is named.
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options);
 
 // Returns a LocalSolver, or a Client if a server is given. Errors: INVALID_ARGUMENT.

@@ -51,7 +51,6 @@ void AddHealth(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("health", "Ask whether a server takes calls");
   const auto options = std::make_shared<HealthOptions>();
   AddServerOptions(*sub, options->common);
-  sub->get_option("--server")->required();
   sub->add_option("--service", options->service, "Full name of the service; empty for the server as a whole")
       ->capture_default_str()
       ->type_name("NAME");

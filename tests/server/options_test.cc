@@ -120,6 +120,14 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                              GoodCase{"Reflection",
                                       {.flags = {"--reflection", "unix:/run/r.sock"}},
                                       [](Options& o) { o.reflection = {{.host = "", .path = "/run/r.sock"}}; }},
+                             GoodCase{"OpenByTls",
+                                      {.flags = {"--listen", "0.0.0.0:1", "--tls-cert", "c", "--tls-key", "k",
+                                                 "--tls-client-ca", "a", "--tokens", "t"}},
+                                      [](Options& o) {
+                                        o.listen = {{.host = "0.0.0.0", .port = 1, .path = ""}};
+                                        o.tls = {.certificate = "c", .key = "k", .client_ca = "a"};
+                                        o.tokens = "t";
+                                      }},
                              GoodCase{"Connections",
                                       {.flags = {"--max-connections", "9", "--max-connections-per-peer", "8",
                                                  "--transport-memory", "7"}},
@@ -174,21 +182,22 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                                         o.limits.max_links = 7;
                                         o.limits.max_history_numbers = 12;
                                       }},
-                             GoodCase{"Log",
-                                      {.flags = {"--log-format", "json", "--log-level", "debug", "--log-file", "a b",
-                                                 "--log-calls", "slow:2"}},
-                                      [](Options& o) {
-                                        o.log_format = LogFormat::kJson;
-                                        o.log_level = LogLevel::kDebug;
-                                        o.log_file = "a b";
-                                        o.log_calls = {
-                                            .kind = CallRule::Kind::kSlow, .count = 100, .slow = milliseconds(2000)};
-                                      }},
-                             GoodCase{"Metrics",
-                                      {.flags = {"--metrics", "[::1]:9464"}},
-                                      [](Options& o) {
-                                        o.metrics = ListenAddress{.host = "::1", .port = 9464, .path = ""};
-                                      }},
+                             GoodCase{
+                                 "Log",
+                                 {.flags = {"--log-format", "json",
+                                            "--log-level", "debug", "--log-file", "a b", "--log-calls", "slow:2"}},
+                                 [](Options& o) {
+                                   o.log_format = LogFormat::kJson;
+                                   o.log_level = LogLevel::kDebug;
+                                   o.log_file = "a b";
+                                   o.log_calls = {
+                                       .kind = CallRule::Kind::kSlow, .count = 100, .slow = milliseconds(2000)};
+                                 }},
+                             GoodCase{
+                                 "Metrics",
+                                 {.flags = {"--metrics", "[::1]:9464"}},
+                                 [](Options&
+                                        o) { o.metrics = ListenAddress{.host = "::1", .port = 9464, .path = ""}; }},
                              GoodCase{"Drain",
                                       {.flags = {"--drain-grace", "0", "--drain-timeout", "0.25"}},
                                       [](Options& o) {
@@ -266,6 +275,12 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"ReflectionIsOpen",
                 {.flags = {"--reflection", "0.0.0.0:1"}},
                 {"--reflection = 0.0.0.0:1: must be a loopback address"}},
+        BadCase{"TokensUnencrypted",
+                {.flags = {"--listen", "0.0.0.0:1", "--insecure", "--tokens", "t"}},
+                {"--listen = 0.0.0.0:1: needs --tls-cert, as --tokens would travel unencrypted"}},
+        BadCase{"CertificateWithoutKey", {.flags = {"--tls-cert", "c"}}, {"--tls-cert = c: needs --tls-key"}},
+        BadCase{"KeyWithoutCertificate", {.flags = {"--tls-key", "k"}}, {"--tls-key = k: needs --tls-cert"}},
+        BadCase{"ClientsWithoutTls", {.flags = {"--tls-client-ca", "a"}}, {"--tls-client-ca = a: needs --tls-cert"}},
         BadCase{"NoConnections",
                 {.flags = {"--max-connections", "0"}},
                 {"--max-connections = 0: must be an integer from 1 to 1000000"}},
@@ -328,6 +343,10 @@ TEST(Options, HelpNamesEveryOption) {
                              "--listen",
                              "--port-file",
                              "--insecure",
+                             "--tls-cert",
+                             "--tls-key",
+                             "--tls-client-ca",
+                             "--tokens",
                              "--socket-mode",
                              "--reflection",
                              "--max-connections",

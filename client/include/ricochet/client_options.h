@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "ricochet/security_options.h"
 
 namespace ricochet {
 
@@ -35,6 +36,7 @@ struct ClientOptions {
   std::chrono::milliseconds deadline{10000};                // For Solve, Bounds and CheckHealth, tries included. > 0.
   std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.
   RetryPolicy retry;
+  SecurityOptions security;
   std::string user_agent;  // Text that every call puts before gRPC's own user agent.
 };
 

@@ -1,0 +1,141 @@
+#include "client/cli/connection_input.h"
+
+#include <CLI/Config.hpp>
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "client/cli/number_input.h"
+#include "core/engine/engine.h"
+
+namespace ricochet::cli {
+namespace {
+
+struct Setting {
+  const char* name;
+  std::string ConnectionInput::*value;
+};
+
+constexpr std::array<Setting, 9> kSettings = {{{"server", &ConnectionInput::server},
+                                               {"deadline", &ConnectionInput::deadline},
+                                               {"tls", &ConnectionInput::tls},
+                                               {"tls-ca", &ConnectionInput::tls_ca},
+                                               {"tls-cert", &ConnectionInput::tls_cert},
+                                               {"tls-key", &ConnectionInput::tls_key},
+                                               {"server-name", &ConnectionInput::server_name},
+                                               {"token-file", &ConnectionInput::token_file},
+                                               {"token", &ConnectionInput::token}}};
+
+std::string FromEnvironment(const std::string& name) {
+  const std::string variable = "RICOCHET_" + absl::AsciiStrToUpper(absl::StrReplaceAll(name, {{"-", "_"}}));
+  const char* const value = std::getenv(variable.c_str());
+  return value == nullptr ? "" : value;
+}
+
+// Returns the input of the lines in a file.
+absl::StatusOr<ConnectionInput> ReadConfig(const std::string& path) {
+  ConnectionInput input;
+  std::vector<CLI::ConfigItem> lines;
+  try {
+    lines = CLI::ConfigTOML().from_file(path);
+  } catch (const CLI::Error& error) {
+    return absl::InvalidArgumentError(absl::StrCat("--config: ", error.what()));
+  }
+  for (const CLI::ConfigItem& line : lines) {
+    const auto setting = std::find_if(kSettings.begin(), kSettings.end(),
+                                      [&line](const Setting& one) { return line.fullname() == one.name; });
+    if (setting == kSettings.end() || line.inputs.size() != 1) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("--config = ", path, ": ", line.fullname(),
+                       " must be one of server, deadline, tls, tls-ca, tls-cert, tls-key, server-name, token-file and "
+                       "token, with one value"));
+    }
+    input.*(setting->value) = line.inputs.front();
+  }
+  return input;
+}
+
+// Returns the error for a flag that means nothing without a server.
+absl::Status CheckFlagsWithoutServer(const ConnectionInput& flags) {
+  for (const Setting& setting : kSettings) {
+    if (!(flags.*(setting.value)).empty()) {
+      return absl::InvalidArgumentError(absl::StrCat("--", setting.name, " needs --server"));
+    }
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+void AddConnectionOptions(CLI::App& app, ConnectionInput& input) {
+  app.add_option("--server", input.server,
+                 "Ask the ricochetd at this address, or the first that answers, instead of computing here")
+      ->type_name("HOST:PORT|unix:PATH,...");
+  app.add_option("--deadline", input.deadline, "Give up after this time (250ms, 30s, 5m); needs --server")
+      ->type_name("TIME");
+  app.add_flag_callback(
+      "--tls", [&input] { input.tls = "true"; },
+      "Encrypt, and make sure of the server by the system's authorities; --tls-ca, --tls-cert and --server-name imply "
+      "it");
+  app.add_option("--tls-ca", input.tls_ca, "Make sure of the server by the authorities in this PEM file instead")
+      ->type_name("FILE");
+  app.add_option("--tls-cert", input.tls_cert, "This client's certificate, a PEM file")->type_name("FILE");
+  app.add_option("--tls-key", input.tls_key, "The private key of --tls-cert, a PEM file")->type_name("FILE");
+  app.add_option("--server-name", input.server_name,
+                 "The name that the server's certificate must have, if it is not that of --server")
+      ->type_name("NAME");
+  app.add_option("--token-file", input.token_file, "Send the token in this file; RICOCHET_TOKEN may hold it instead")
+      ->type_name("FILE");
+  app.add_option("--config", input.config,
+                 "Read these options from a file; each can also be set in the environment, as RICOCHET_TLS_CA=FILE")
+      ->type_name("FILE");
+}
+
+absl::StatusOr<ConnectionInput> Resolve(ConnectionInput input) {
+  const ConnectionInput flags = input;
+  ConnectionInput file;
+  if (input.config.empty()) input.config = FromEnvironment("config");
+  if (!input.config.empty()) {
+    absl::StatusOr<ConnectionInput> read = ReadConfig(input.config);
+    if (!read.ok()) return read.status();
+    file = *std::move(read);
+  }
+  for (const Setting& setting : kSettings) {
+    std::string& value = input.*(setting.value);
+    if (value.empty()) value = FromEnvironment(setting.name);
+    if (value.empty()) value = file.*(setting.value);
+  }
+  if (input.server.empty()) {
+    if (absl::Status unused = CheckFlagsWithoutServer(flags); !unused.ok()) return unused;
+  }
+  return input;
+}
+
+absl::StatusOr<ClientOptions> ClientOptionsOf(const ConnectionInput& input) {
+  if (!input.tls.empty() && input.tls != "true" && input.tls != "false") {
+    return InputError("--tls", input.tls, "be true or false");
+  }
+  ClientOptions client{.target = input.server, .user_agent = absl::StrCat("ricochet-cli/", ThisEngine().version)};
+  client.security = {
+      .tls = input.tls == "true" || !input.tls_ca.empty() || !input.tls_cert.empty() || !input.server_name.empty(),
+      .tls_ca = input.tls_ca,
+      .tls_cert = input.tls_cert,
+      .tls_key = input.tls_key,
+      .server_name = input.server_name,
+      .token = input.token,
+      .token_file = input.token_file};
+  if (!input.deadline.empty()) {
+    const auto deadline = ParseDuration(input.deadline, "--deadline");
+    if (!deadline.ok()) return deadline.status();
+    client.deadline = *deadline;
+    client.sweep_deadline = *deadline;
+  }
+  return client;
+}
+
+}  // namespace ricochet::cli
