@@ -44,8 +44,9 @@ class Certificates {
     if (!fresh_.has_value()) return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_UNCHANGED;
     const grpc_ssl_pem_key_cert_pair pair = {.private_key = fresh_->key.c_str(),
                                              .cert_chain = fresh_->certificate.c_str()};
-    const char* const roots = fresh_->client_ca.empty() ? nullptr : fresh_->client_ca.c_str();
-    *config = grpc_ssl_server_certificate_config_create(roots, &pair, 1);
+    // gRPC insists on authorities even where no client is asked for a certificate; they are not used then.
+    const std::string& roots = fresh_->client_ca.empty() ? fresh_->certificate : fresh_->client_ca;
+    *config = grpc_ssl_server_certificate_config_create(roots.c_str(), &pair, 1);
     fresh_.reset();
     return GRPC_SSL_CERTIFICATE_CONFIG_RELOAD_NEW;
   }

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/engine/engine.h"
 #include "ricochet/limits.h"
@@ -15,8 +16,11 @@ namespace {
 
 // Returns how the caller's requests travel.
 std::string SecurityOf(const Options& options) {
+  const char* const tokens = options.tokens.empty() ? "" : ", tokens";
+  if (!options.tls.client_ca.empty()) return absl::StrCat("mutual TLS", tokens);
+  if (!options.tls.certificate.empty()) return absl::StrCat("TLS", tokens);
   const bool on_this_host = std::all_of(options.listen.begin(), options.listen.end(), IsLocal);
-  return on_this_host ? "plaintext on this host" : "plaintext beyond this host";
+  return absl::StrCat(on_this_host ? "plaintext on this host" : "plaintext beyond this host", tokens);
 }
 
 }  // namespace

@@ -131,9 +131,9 @@ TEST(Connections, DescriptorsComeBack) {
     std::vector<RawConnection> connections;
     for (int i = 0; i < 100; ++i) connections.emplace_back(server.port());
     for (const RawConnection& connection : connections) ASSERT_TRUE(connection.IsServed());
-    EXPECT_GE(OpenDescriptors(server), before + 200);
+    // The connection of the first call, which takes two, may have ended in between.
+    EXPECT_GE(OpenDescriptors(server), before + 200 - 2);
   }
-  // The connection of the first call may end in between.
   EXPECT_TRUE(Eventually([&] { return OpenDescriptors(server) <= before; })) << OpenDescriptors(server);
 }
 

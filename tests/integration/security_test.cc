@@ -105,6 +105,7 @@ class Tls : public testing::Test {
 TEST_F(Tls, ServesClientsThatTrustItsAuthority) {
   const ServerProcess server(Flags());
   EXPECT_EQ(SolveCode(server, Trusting()), StatusCode::kOk);
+  EXPECT_THAT(server.log(), HasSubstr("security=TLS "));
   EXPECT_THAT(server.log(), HasSubstr("certificate read subject=\"CN = ricochet.test\" valid_until="));
 }
 
