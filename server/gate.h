@@ -1,8 +1,9 @@
 // Gate: lets as many calls compute at once as there are cores, and decides which.
 //
 // Three kinds of work have a lane each, with as many slots as cores; the lane of cheap calls has a few for each core.
-// Cheap unary calls compute on the threads of their handlers. Dear unary calls compute on threads of low priority, and parts of streams on threads of still lower
-// priority, so that the kernel runs what is short first and no call waits behind a dear one that has begun.
+// Cheap unary calls compute on the threads of their handlers. Dear unary calls compute on threads of low priority, and
+// parts of streams on threads of still lower priority, so that the kernel runs what is short first and no call waits
+// behind a dear one that has begun.
 
 #ifndef RICOCHET_SERVER_GATE_H_
 #define RICOCHET_SERVER_GATE_H_
@@ -38,8 +39,8 @@ struct Turn {
 class Gate {
  public:
   // At most `threads` dear calls and as many parts of streams compute at once, and at most `most_waiting` dear calls wait;
-  // both >= 1. Once `drain` is
-  // requested, the gate turns away every call that waits and every new one with UNAVAILABLE and kDraining.
+  // both >= 1. Once `drain` is requested, the gate turns away every call that waits and every new one with UNAVAILABLE
+  // and kDraining.
   Gate(int threads, int most_waiting, std::stop_token drain);
 
   // Waits until it is the caller's turn, does the work and returns OK. Does nothing if it returns an error:

@@ -12,12 +12,15 @@
 #include "server/descriptor_limit.h"
 #include "server/port_file.h"
 #include "server/self_test.h"
+#include "server/serving_check.h"
 #include "server/transport.h"
 
 namespace ricochet::server {
 namespace {
 
 constexpr std::chrono::milliseconds kTimeForLog(100);
+constexpr std::chrono::seconds kWatchdogPause(5);
+constexpr std::chrono::seconds kWatchdogPatience(10);
 
 // Announces how many connections fit below the limit of descriptors, if that is less than the options allow.
 ConnectionLimits LimitsOfConnections(const Options& options, const Log& log) {
@@ -81,8 +84,8 @@ absl::Status Server::Listen() {
   absl::StatusOr<std::unique_ptr<Endpoint>> endpoint = Endpoint::Open(settings, builder, log_);
   if (!endpoint.ok()) return endpoint.status();
   endpoint_ = *std::move(endpoint);
-  serving_ = true;
-  endpoint_->server().GetHealthCheckService()->SetServingStatus(v1::ImpactService::service_full_name(), true);
+  SetServing(true);
+  StartWatchdog();
   LogAddresses("listening", *endpoint_);
   if (options_.reflection.empty()) return absl::OkStatus();
   settings.addresses = options_.reflection;
@@ -91,6 +94,23 @@ absl::Status Server::Listen() {
   reflection_ = *std::move(reflection);
   LogAddresses("reflection", reflection_->endpoint());
   return absl::OkStatus();
+}
+
+void Server::SetServing(bool serving) {
+  serving_ = serving;
+  endpoint_->server().GetHealthCheckService()->SetServingStatus(v1::ImpactService::service_full_name(), serving);
+}
+
+void Server::StartWatchdog() {
+  const auto check = std::make_shared<ServingCheck>(endpoint_->addresses(), endpoint_->acceptor(), gate_,
+                                                    kWatchdogPatience);
+  const auto report = [this](const absl::Status& status) {
+    SetServing(status.ok());
+    if (status.ok()) return log_.Write(LogLevel::kInfo, "serving again", {});
+    log_.Write(LogLevel::kError, "cannot serve", {{"reason", std::string(status.message())}});
+  };
+  watchdog_ = std::make_unique<Watchdog>(
+      kWatchdogPause, [check](const std::stop_token& stop) { return check->Run(stop); }, report);
 }
 
 absl::Status Server::OpenMetrics() {
@@ -140,6 +160,7 @@ void Server::LogAddresses(const std::string& event, const Endpoint& endpoint) co
 void Server::ServeUntil(const Signals& signals) {
   const std::string signal = signals.WaitForStop([this] { HangUp(); });
   log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", places_.live()}});
+  watchdog_.reset();
   serving_ = false;
   endpoint_->server().GetHealthCheckService()->SetServingStatus(false);
   drain_.Run(signals, [this] { return places_.live(); });

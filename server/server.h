@@ -26,6 +26,7 @@
 #include "server/reflection.h"
 #include "server/signals.h"
 #include "server/unread_watch.h"
+#include "server/watchdog.h"
 
 namespace ricochet::server {
 
@@ -57,7 +58,12 @@ class Server {
   absl::Status Listen();
   // Adds the metrics of what this server holds now, and serves all metrics if the options ask for it.
   absl::Status OpenMetrics();
+<<<<<<< HEAD
   absl::Status OpenAuth();
+=======
+  void StartWatchdog();
+  void SetServing(bool serving);
+>>>>>>> b25921d (Turn health to NOT_SERVING when the server cannot serve)
   void LogAddresses(const std::string& event, const Endpoint& endpoint) const;
   void HangUp();
 
@@ -77,6 +83,7 @@ class Server {
   std::unique_ptr<Endpoint> endpoint_;
   std::unique_ptr<Reflection> reflection_;     // Absent unless the options ask for it.
   std::unique_ptr<MetricsPage> metrics_page_;  // Absent unless the options ask for it.
+  std::unique_ptr<Watchdog> watchdog_;         // Runs from the start to the drain.
 };
 
 }  // namespace ricochet::server
