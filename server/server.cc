@@ -102,8 +102,8 @@ void Server::SetServing(bool serving) {
 }
 
 void Server::StartWatchdog() {
-  const auto check = std::make_shared<ServingCheck>(endpoint_->addresses(), endpoint_->acceptor(), gate_,
-                                                    kWatchdogPatience);
+  const auto check =
+      std::make_shared<ServingCheck>(endpoint_->addresses(), endpoint_->acceptor(), gate_, kWatchdogPatience);
   const auto report = [this](const absl::Status& status) {
     SetServing(status.ok());
     if (status.ok()) return log_.Write(LogLevel::kInfo, "serving again", {});

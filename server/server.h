@@ -58,12 +58,9 @@ class Server {
   absl::Status Listen();
   // Adds the metrics of what this server holds now, and serves all metrics if the options ask for it.
   absl::Status OpenMetrics();
-<<<<<<< HEAD
   absl::Status OpenAuth();
-=======
   void StartWatchdog();
   void SetServing(bool serving);
->>>>>>> b25921d (Turn health to NOT_SERVING when the server cannot serve)
   void LogAddresses(const std::string& event, const Endpoint& endpoint) const;
   void HangUp();
 

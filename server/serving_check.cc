@@ -74,7 +74,8 @@ absl::Status ServingCheck::Run(const std::stop_token& stop) const {
 // The kernel completes a connection although nobody accepts it, so the acceptor's own counts have to tell.
 absl::Status ServingCheck::CheckAddress(const ListenAddress& address, const std::stop_token& stop) const {
   const int64_t before = Noticed(acceptor_);
-  const Descriptor connection = address.is_unix() ? ConnectUnix(address.path, patience_) : ConnectTcp(address, patience_);
+  const Descriptor connection =
+      address.is_unix() ? ConnectUnix(address.path, patience_) : ConnectTcp(address, patience_);
   if (!connection.is_open()) return CannotServe(address, absl::StrCat("cannot connect: ", std::strerror(errno)));
   const auto end = steady_clock::now() + patience_;
   while (Noticed(acceptor_) == before && !stop.stop_requested()) {

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <ctime>
 
@@ -12,6 +13,8 @@ namespace ricochet::cli {
 namespace {
 
 constexpr timespec kLook = {.tv_sec = 0, .tv_nsec = 20'000'000};
+// A signal that comes again this soon is the same request: timeout(1) sends each signal twice.
+constexpr std::chrono::milliseconds kRepeated(500);
 
 std::atomic<bool> happened = false;
 
@@ -31,9 +34,12 @@ Interrupt::Interrupt() {
   const sigset_t signals = Watched();
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
   watcher_ = std::jthread([source = source_, signals](const std::stop_token& done) mutable {
+    std::chrono::steady_clock::time_point first;
     while (!done.stop_requested()) {
       if (sigtimedwait(&signals, nullptr, &kLook) <= 0) continue;
-      if (happened.exchange(true)) _exit(kInterrupted);
+      const auto now = std::chrono::steady_clock::now();
+      if (happened && now - first > kRepeated) _exit(kInterrupted);
+      if (!happened.exchange(true)) first = now;
       source.request_stop();
     }
   });

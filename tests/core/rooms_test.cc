@@ -34,12 +34,13 @@ const std::vector<Room>& Rooms() {
       {"core/include/ricochet", {"ricochet/", "absl/"}},
       {"core/certified",
        {"core/", "ricochet/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/", "flint/"}},
-      {"proto/wire", {"proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
+      {"proto/wire", {"proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "isa-l/"}},
       {"client", {"client/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/"}},
       {"client/cli",
        {"client/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/"}},
       {"server",
-       {"server/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/"}},
+       {"server/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/",
+        "openssl/", "prometheus/"}},
   };
   return rooms;
 }
@@ -266,6 +267,9 @@ TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
       {"arb", {"core/certified/"}},
       {"arf", {"core/certified/"}},
       {"grpcpp/", {"proto/wire/", "server/", "client/"}},
+      {"isa-l/", {"proto/wire/crc32c.cc"}},
+      {"openssl/", {"server/callers.cc", "server/tls_files.cc"}},
+      {"prometheus/", {"server/metrics.", "server/metrics_page."}},
       {"ricochet/v1/", {"proto/wire/", "server/", "client/"}},
   };
   for (const std::string folder : {"core", "proto/wire", "client", "server"}) {

@@ -23,7 +23,7 @@ class ServingCheckTest : public testing::Test {
  protected:
   ServingCheckTest() {
     std::vector<Listener> listeners = *Listener::Open({.host = "127.0.0.1", .port = 0, .path = ""}, 0600);
-    const std::string path = testing::TempDir() + "/serving_check.sock";
+    const std::string path = testing::TempDir() + "/serving_check_" + std::to_string(getpid()) + ".sock";
     std::vector<Listener> unix_listeners = *Listener::Open({.host = "", .port = 0, .path = path}, 0600);
     listeners.push_back(std::move(unix_listeners.front()));
     for (const Listener& listener : listeners) addresses_.push_back(listener.address());
