@@ -424,11 +424,6 @@ TEST_P(SolverContract, AuditOfABatchReportsEveryWrongColumn) {
                           Field(&Violation::field, "columns.tangential_after_m_s"),
                           Violation{"columns.tangential_2_after_m_s", "is set: must not be for a planar system"},
                           Violation{"columns.friction", "has 2 values: must have 1 or 3"}));
-  request = {.scene = With(Contact()), .columns = {}};
-  request.columns.tangential_after_m_s = {0.5};
-  request.columns.normal_after_m_s.assign(8193, 0.5);
-  EXPECT_THAT(ViolationsOf(solver().AuditBatch(request).status()),
-              ElementsAre(Violation{"columns", "has 8193 rows: must have at most 8192 in one call"}));
 }
 
 TEST_P(SolverContract, SweepsEveryPointOnceInOrderAndEndsWithTheSummary) {

@@ -426,6 +426,14 @@ TEST(ColumnTest, EveryColumnIsKnownByItsNameAndNoOther) {
   }
 }
 
+TEST(LocalSolverTest, ABatchOfAuditsHasAtMost8192Rows) {
+  AuditBatchRequest request = {.scene = {.system = PlanarContact{}}, .columns = {}};
+  request.columns.tangential_after_m_s = {0.5};
+  request.columns.normal_after_m_s.assign(8193, 0.5);
+  EXPECT_THAT(ViolationsOf(LocalSolver().AuditBatch(request).status()),
+              testing::Contains(Violation{"columns", "has 8193 rows: must have at most 8192 in one call"}));
+}
+
 TEST(LocalSolverTest, BoundsEndOnceNobodyWaitsForThem) {
   const Scene scene = {.system = PlanarBody{1.0, 0.1, 0.2, -0.3, 1.0, -2.0, 0.5},
                        .friction = {.kinetic_coefficient = 0.5}};
