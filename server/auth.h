@@ -23,7 +23,7 @@
 
 namespace ricochet::server {
 
-// What a call shows of its caller.
+// Evidence: the parts of a call that tell who makes it.
 struct Evidence {
   std::string method;                          // Its path: "/ricochet.v1.ImpactService/Solve".
   std::vector<std::string> authorization;      // The values of the header of this name; more than one is refused.

@@ -31,7 +31,7 @@ struct TimeLimits {
   friend bool operator==(const TimeLimits&, const TimeLimits&) = default;
 };
 
-// What all calls of a server share.
+// CallFrame: the objects that all calls of a server share.
 struct CallFrame {
   Places& places;
   Gate& gate;

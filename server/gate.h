@@ -27,7 +27,7 @@ namespace ricochet::server {
 // The number of cores that this process may use, >= 1.
 int AvailableCores();
 
-// What a call asks of the gate.
+// Turn: a call's request to the gate.
 struct Turn {
   std::string peer;  // Peers get fair shares (server/peer.h).
   std::optional<std::chrono::steady_clock::time_point> deadline;

@@ -15,7 +15,7 @@ using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::Not;
 
-// By sha256sum: printf abc | sha256sum.
+// The output of: printf abc | sha256sum.
 constexpr char kHashOfAbc[] = "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad";
 
 TEST(Callers, AreKnownByTheHashOfTheirToken) {

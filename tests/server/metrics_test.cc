@@ -1,4 +1,4 @@
-// What calls leave in the metrics, as Prometheus reads it.
+// Tests the numbers that calls leave in the metrics, as Prometheus reads them.
 
 #include "server/metrics.h"
 
