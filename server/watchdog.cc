@@ -12,13 +12,14 @@ void Watch(const std::stop_token& stop, std::chrono::milliseconds pause, const W
   std::mutex mutex;
   std::condition_variable_any stopped;
   bool was_good = true;
-  while (!stop.stop_requested()) {
+  for (;;) {
+    std::unique_lock lock(mutex);
+    stopped.wait_for(lock, stop, pause, [] { return false; });
+    if (stop.stop_requested()) return;
     const absl::Status status = check(stop);
     if (stop.stop_requested()) return;
     if (status.ok() != was_good) report(status);
     was_good = status.ok();
-    std::unique_lock lock(mutex);
-    stopped.wait_for(lock, stop, pause, [] { return false; });
   }
 }
 

@@ -19,7 +19,7 @@ class Watchdog {
   // Learns the result of a check that differs from the one before it; the server counts as good at the start.
   using Report = std::function<void(const absl::Status&)>;
 
-  // Starts to check, with a pause after each check. Both functions run on the thread of the watchdog.
+  // Starts to check, with a pause before each check. Both functions run on the thread of the watchdog.
   Watchdog(std::chrono::milliseconds pause, Check check, Report report);
 
   // Stops to check and waits for the check that runs. `report` is not called any more.

@@ -56,7 +56,7 @@ TEST(WatchdogTest, EndsWithoutAReportWhileACheckOrAPauseLasts) {
   bool reported = false;
   {
     const Watchdog watchdog(
-        std::chrono::hours(1),
+        milliseconds(1),
         [&](const std::stop_token& stop) {
           checking = true;
           while (!stop.stop_requested()) std::this_thread::yield();
