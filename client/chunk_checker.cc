@@ -70,7 +70,7 @@ absl::Status ChunkChecker::Check(const SweepChunk& chunk) {
 
 absl::Status ChunkChecker::CheckEngine(const SweepChunk& chunk) {
   if (!engine_.has_value()) engine_ = chunk.engine.fingerprint;
-  if (true) return absl::OkStatus();
+  if (chunk.engine.fingerprint == *engine_) return absl::OkStatus();
   const std::string found =
       absl::StrCat("the points from ", next_index_, " on come from the engine \"",
                    absl::CEscape(chunk.engine.fingerprint), "\", those before from \"", absl::CEscape(*engine_), "\"");
