@@ -142,13 +142,21 @@ def same_summary():
     return {}
 
 
+def wait_for_bytes(client):
+    """Waits until the client has written a part of its file."""
+    until = time.monotonic() + 20
+    while not (client.part.exists() and client.part.stat().st_size > 1 << 20):
+        require(time.monotonic() < until, "the client writes no partial file")
+        time.sleep(0.01)
+
+
 def ended_client(name, number, codes):
     arguments = sweep(3000000)
     expected = undisturbed(name, arguments)
     with Server() as server:
         client = Client(name, arguments, [server.address])
         client.start()
-        time.sleep(1.2)
+        wait_for_bytes(client)
         client.process.signal(number)
         code = client.process.wait(20)
         require(code in codes, f"the client ended with {code}: {client.error()}")
@@ -181,7 +189,7 @@ def changed_partial():
         for how in ("cut", "flipped", "emptied"):
             client = Client("changed_partial", arguments, [server.address])
             client.start()
-            time.sleep(1.2)
+            wait_for_bytes(client)
             client.process.signal(signal.SIGKILL)
             client.process.wait(20)
             data = bytearray(client.part.read_bytes())
