@@ -140,6 +140,9 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
       chunk.summary->elapsed_s = call.elapsed_s();
     }
     ToProto(chunk, response);
+    // A caller who reads slowly holds the message for long, and need not hold the values twice.
+    chunk.values = {};
+    chunk.regimes = {};
     seal.Put(response);
     return absl::OkStatus();
   };
