@@ -104,8 +104,9 @@ absl::Status Call::Send(absl::FunctionRef<bool()> write) {
     ++record_.stalls;
     record_.stalled_s += watched.waited().count();
   }
-  if (is_written) return absl::OkStatus();
+  // A write that was already on its way when the watch cancelled the call can still succeed.
   if (watched.is_cut()) return UnreadLimitReached(frame_.unread.limit());
+  if (is_written) return absl::OkStatus();
   return absl::CancelledError("the client cancelled the call or went away");
 }
 

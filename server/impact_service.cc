@@ -139,6 +139,8 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
       CountModels(*chunk.summary, call.record());
       chunk.summary->elapsed_s = call.elapsed_s();
     }
+    // A message keeps the room of the largest chunk that it had, which a caller who has become slow need not hold.
+    if (response.values().Capacity() > 2 * static_cast<int>(chunk.values.size())) response = {};
     ToProto(chunk, response);
     // A caller who reads slowly holds the message for long, and need not hold the values twice.
     chunk.values = {};

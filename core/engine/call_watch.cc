@@ -35,6 +35,7 @@ bool CallWatch::IsStopped() {
 void CallWatch::StartPiece(std::chrono::milliseconds time) {
   now_ = Clock::now();
   piece_end_ = now_ + time;
+  next_look_ = now_;
 }
 
 }  // namespace ricochet

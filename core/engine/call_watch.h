@@ -27,7 +27,8 @@ class CallWatch {
   // True once the options have ended the call; then it stays true.
   bool IsStopped();
 
-  // Starts a piece of the answer, which takes long enough after `time`.
+  // Starts a piece of the answer, which takes long enough after `time`. The next question looks at the options, because
+  // the caller may have waited long since the last one.
   void StartPiece(std::chrono::milliseconds time);
   // True if the piece took long enough when IsStopped was asked last.
   bool PieceTookLongEnough() const { return now_ >= piece_end_; }

@@ -12,6 +12,7 @@
 #include "core/engine/call_watch.h"
 #include "core/engine/check_limits.h"
 #include "core/engine/check_solve.h"
+#include "core/engine/chunk_size.h"
 #include "core/engine/engine.h"
 #include "core/numerics/decimal.h"
 #include "core/plan/demand_fields.h"
@@ -155,14 +156,16 @@ SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions&
   if (absl::Status too_large = CheckPoints(made->points_total(), limits_); !too_large.ok()) {
     return SweepStream(too_large);
   }
-  auto next = [run = *std::move(made), watch = CallWatch(options),
+  auto next = [run = *std::move(made), watch = CallWatch(options), size = ChunkSize(),
                is_first = true]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
     if (run.ended()) return std::nullopt;
     watch.StartPiece(std::exchange(is_first, false) ? kFirstChunkTime : kChunkTime);
-    absl::StatusOr<SweepChunk> chunk =
-        run.NextChunk([&watch] { return watch.IsStopped(); }, [&watch] { return watch.PieceTookLongEnough(); });
+    const int64_t most_bytes = size.Next(std::chrono::steady_clock::now());
+    absl::StatusOr<SweepChunk> chunk = run.NextChunk([&watch] { return watch.IsStopped(); },
+                                                     [&watch] { return watch.PieceTookLongEnough(); }, most_bytes);
     if (!chunk.ok()) return watch.OrWhyEnded(chunk.status());
     chunk->engine = ThisEngine();
+    size.Given(std::chrono::steady_clock::now());
     return chunk;
   };
   return SweepStream(std::move(next));

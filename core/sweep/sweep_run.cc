@@ -29,7 +29,6 @@ namespace ricochet {
 namespace {
 
 constexpr int64_t kFirstChunkPoints = 1024;
-constexpr int64_t kChunkBytes = int64_t{512} << 10;
 
 void Add(int64_t index, Tally& tally) {
   if (tally.count++ == 0) tally.first_index = index;
@@ -92,11 +91,12 @@ class SweepRun::Impl {
   int64_t points_total() const { return end_ - first_; }
   int64_t points_done() const { return next_ - first_; }
   bool ended() const { return ended_; }
-  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough);
+  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough,
+                                       int64_t most_bytes);
 
  private:
   void ResolveColumns(const std::vector<std::string>& columns, const Positions& known);
-  int64_t NextCount() const;
+  int64_t NextCount(int64_t most_bytes) const;
   absl::StatusOr<int64_t> ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped,
                                        absl::FunctionRef<bool()> is_enough);
   absl::StatusOr<int64_t> SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped,
@@ -177,9 +177,9 @@ void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, con
 }
 
 // The first chunk is small, so that a caller soon sees something.
-int64_t SweepRun::Impl::NextCount() const {
+int64_t SweepRun::Impl::NextCount(int64_t most_bytes) const {
   const auto bytes_a_point = static_cast<int64_t>(columns_.size() * sizeof(double));
-  const int64_t fitting = std::max(kChunkBytes / bytes_a_point, int64_t{1});
+  const int64_t fitting = std::max(most_bytes / bytes_a_point, int64_t{1});
   return std::min({next_ == first_ ? kFirstChunkPoints : fitting, fitting, end_ - next_});
 }
 
@@ -192,9 +192,9 @@ void Shorten(int64_t room, int64_t count, size_t columns, std::vector<double>& v
 }
 
 absl::StatusOr<SweepChunk> SweepRun::Impl::NextChunk(absl::FunctionRef<bool()> stopped,
-                                                     absl::FunctionRef<bool()> is_enough) {
+                                                     absl::FunctionRef<bool()> is_enough, int64_t most_bytes) {
   CheckInvariant(!ended_, "a sweep has no chunk after the one with its summary");
-  const int64_t room = NextCount();
+  const int64_t room = NextCount(most_bytes);
   SweepChunk chunk = {.first_index = next_};
   chunk.values.resize(static_cast<size_t>(room) * columns_.size());
   bool is_cut = false;
@@ -359,8 +359,9 @@ SweepRun::~SweepRun() = default;
 int64_t SweepRun::points_total() const { return impl_->points_total(); }
 int64_t SweepRun::points_done() const { return impl_->points_done(); }
 bool SweepRun::ended() const { return impl_->ended(); }
-absl::StatusOr<SweepChunk> SweepRun::NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough) {
-  return impl_->NextChunk(stopped, is_enough);
+absl::StatusOr<SweepChunk> SweepRun::NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough,
+                                               int64_t most_bytes) {
+  return impl_->NextChunk(stopped, is_enough, most_bytes);
 }
 
 }  // namespace ricochet

@@ -26,6 +26,8 @@ class SweepRun {
  public:
   // The most points between two looks at `stopped`: those of a pendulum's SIMD lanes take well below a microsecond each.
   static constexpr int64_t kPointsBetweenStops = 1024;
+  // The most bytes of values in a chunk, unless one point has more.
+  static constexpr int64_t kChunkBytes = int64_t{512} << 10;
 
   // Errors: INVALID_ARGUMENT with every violation of the scene's undriven fields, the axes, the columns and the range.
   static absl::StatusOr<SweepRun> Make(const SweepRequest& request);
@@ -38,13 +40,14 @@ class SweepRun {
   int64_t points_done() const;   // Points computed so far; after a stop these may be more than the chunks have.
   bool ended() const;            // True once the last chunk has been made.
 
-  // Computes the next chunk: a small first one, then up to 512 KiB of values each. It ends early, but not before its
-  // first point, once `is_enough` says that it took long enough; no point depends on that. The last chunk has the
-  // summary; a range without points has that one chunk. The engine is left to the caller. Not to be called once the run
-  // has ended. Both functions are asked before every kPointsBetweenStops points of SIMD lanes, and before each other
-  // point.
+  // Computes the next chunk: a small first one, then up to `most_bytes` of values each, in [1, kChunkBytes], but at least
+  // one point. It ends early, but not before its first point, once `is_enough` says that it took long enough; no point
+  // depends on that. The last chunk has the summary; a range without points has that one chunk. The engine is left to
+  // the caller. Not to be called once the run has ended. Both functions are asked before every kPointsBetweenStops points
+  // of SIMD lanes, and before each other point.
   // Errors: CANCELLED once `stopped` returns true; the run must not be used any more.
-  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough);
+  absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough,
+                                       int64_t most_bytes = kChunkBytes);
 
   // Computes a chunk that takes as long as it takes.
   absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped) {
