@@ -48,8 +48,7 @@ void Attempts::Succeeded() {
 }
 
 bool IsWorthRepeating(const absl::Status& status) {
-  return absl::IsResourceExhausted(status) && RetryDelayOf(status).has_value() &&
-         ReasonOf(status) != ErrorReason::kSweepTooLarge;
+  return absl::IsResourceExhausted(status) && RetryDelayOf(status).has_value();
 }
 
 CallOptions WithDeadline(CallOptions options, std::optional<milliseconds> most) {

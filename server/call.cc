@@ -7,33 +7,18 @@
 
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
-#include "ricochet/v1/error_reason.pb.h"
+#include "server/names.h"
 #include "server/peer.h"
 #include "server/refusals.h"
 #include "server/request_id.h"
-#include "server/trace_parent.h"
 
 namespace ricochet::server {
 namespace {
-
-// Returns the first value that the caller sent under a name, or an empty text.
-std::string Metadata(const grpc::ServerContext& context, const char* name) {
-  const auto found = context.client_metadata().find(name);
-  if (found == context.client_metadata().end()) return "";
-  return {found->second.data(), found->second.size()};
-}
 
 // Returns the status that the caller sees of a call that ends now with `code`.
 absl::StatusCode SeenByCaller(absl::StatusCode code, const grpc::ServerContext& context) {
   if (context.deadline() <= std::chrono::system_clock::now()) return absl::StatusCode::kDeadlineExceeded;
   return context.IsCancelled() ? absl::StatusCode::kCancelled : code;
-}
-
-// Returns the reason as it stands in google.rpc.ErrorInfo, or an empty text for none.
-std::string NameOf(ErrorReason reason) {
-  constexpr size_t kPrefix = sizeof("ERROR_REASON_") - 1;
-  if (reason == ErrorReason::kUnspecified) return "";
-  return v1::ErrorReason_Name(static_cast<v1::ErrorReason>(reason)).substr(kPrefix);
 }
 
 // A write that takes longer than this is counted as a stall.
@@ -46,12 +31,8 @@ Call::Call(const char* method, Kind kind, grpc::ServerContext& context, const Ca
       context_(context),
       frame_(frame),
       peer_key_(PeerKey(context)),
-      place_(frame.places.Enter(peer_key_, kind == Kind::kStream)) {
-  record_.method = method;
-  record_.peer = context.peer();
-  record_.user_agent = Metadata(context, "user-agent");
-  record_.request_id = RequestIdOr(Metadata(context, kRequestIdHeader));
-  record_.trace_id = TraceId(Metadata(context, "traceparent"));
+      place_(frame.places.Enter(peer_key_, kind == Kind::kStream)),
+      record_(RecordOf(method, context)) {
   // Trailing metadata, because a client repeats only a call that was refused without initial metadata.
   context.AddTrailingMetadata(kRequestIdHeader, record_.request_id);
 }
@@ -113,7 +94,7 @@ absl::Status Call::Send(absl::FunctionRef<bool()> write) {
 grpc::Status Call::Finish(const absl::Status& status) {
   const absl::Status explained = Explained(status);
   record_.status = SeenByCaller(explained.code(), context_);
-  record_.reason = NameOf(ReasonOf(explained));
+  record_.reason = ReasonName(ReasonOf(explained));
   record_.message = std::string(explained.message());
   return ToGrpcStatus(explained);
 }

@@ -3,6 +3,8 @@
 #ifndef RICOCHET_SERVER_CALL_RECORD_H_
 #define RICOCHET_SERVER_CALL_RECORD_H_
 
+#include <grpcpp/server_context.h>
+
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -41,6 +43,10 @@ struct CallRecord {
   // Valid impacts solved, indexed by the number of the model that the plan picked.
   std::array<int64_t, kModelCount> solved_by_model = {};
 };
+
+// Returns the record of a call that begins: its method and what its metadata say of the caller. A call without a valid
+// request id gets a new one.
+CallRecord RecordOf(std::string method, const grpc::ServerContextBase& context);
 
 }  // namespace ricochet::server
 

@@ -3,8 +3,6 @@
 #include <grpcpp/server_context.h>
 #include <grpcpp/support/server_interceptor.h>
 
-#include <chrono>
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
@@ -16,9 +14,10 @@
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
+#include "server/call_record.h"
 #include "server/names.h"
+#include "server/refusals.h"
 #include "server/request_id.h"
-#include "server/trace_parent.h"
 
 namespace ricochet::server {
 namespace {
@@ -29,12 +28,6 @@ using grpc::experimental::ServerRpcInfo;
 
 // The name that gRPC gives to every method that no service has.
 constexpr char kUnknownMethod[] = "unknown";
-
-std::string Metadata(const grpc::ServerContextBase& context, const char* name) {
-  const auto found = context.client_metadata().find(name);
-  if (found == context.client_metadata().end()) return "";
-  return {found->second.data(), found->second.size()};
-}
 
 std::string MethodPrefix() { return absl::StrCat("/", v1::ImpactService::service_full_name(), "/"); }
 
@@ -49,18 +42,11 @@ Refusal Malformed() {
                                       "the bytes of the request are not a message of the type that this method takes")};
 }
 
-Refusal NoThread() {
-  absl::Status status = MakeError(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
-                                  "the server has no thread for another call; try again later");
-  SetRetryDelay(std::chrono::seconds(1), status);
-  return {kThreadsReason, status};
-}
-
 Refusal RefusalOf(const absl::Status& status) {
   const std::string reason = ReasonName(ReasonOf(status));
   if (!reason.empty()) return {reason, status};
   if (absl::IsInternal(status) && status.message().empty()) return Malformed();
-  if (absl::IsResourceExhausted(status)) return NoThread();
+  if (absl::IsResourceExhausted(status)) return {kThreadsReason, NoThread()};
   if (absl::IsUnimplemented(status)) return {kUnknownMethodReason, status};
   return {kRefusedByGrpcReason, status};
 }
@@ -87,12 +73,7 @@ class CallWatch final : public grpc::experimental::Interceptor {
     const absl::Status answered = FromGrpcStatus(batch.GetSendStatus());
     if (answered.ok()) return;
     const Refusal refusal = RefusalOf(answered);
-    CallRecord record;
-    record.method = method_;
-    record.peer = context_.peer();
-    record.user_agent = Metadata(context_, "user-agent");
-    record.request_id = RequestIdOr(Metadata(context_, kRequestIdHeader));
-    record.trace_id = TraceId(Metadata(context_, "traceparent"));
+    CallRecord record = RecordOf(method_, context_);
     record.status = refusal.status.code();
     record.reason = refusal.reason;
     record.message = std::string(refusal.status.message());

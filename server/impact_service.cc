@@ -28,7 +28,7 @@ void CountModels(const SweepSummary& summary, CallRecord& record) {
 // Reads a stream of the solver to its end, each element when it is the call's turn to compute. `prepare` turns an
 // element into a message, `send` sends the message.
 template <typename T>
-absl::Status PassOn(Call& call, absl::FunctionRef<ResultStream<T>()> open, absl::FunctionRef<absl::Status(T&)> prepare,
+absl::Status PassOn(Call& call, absl::FunctionRef<ResultStream<T>()> open, absl::FunctionRef<void(T&)> prepare,
                     absl::FunctionRef<absl::Status()> send) {
   std::optional<ResultStream<T>> stream;
   typename ResultStream<T>::Iterator at;
@@ -43,7 +43,9 @@ absl::Status PassOn(Call& call, absl::FunctionRef<ResultStream<T>()> open, absl:
         at = stream->begin();
       }
       is_last = at == stream->end() || (at->ok() && (*at)->summary.has_value());
-      if (at != stream->end()) status = at->ok() ? prepare(**at) : at->status();
+      if (at == stream->end()) return;
+      status = at->status();
+      if (at->ok()) prepare(**at);
     });
     if (!turn.ok()) return turn;
     if (!status.ok()) return status;
@@ -146,7 +148,6 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
     chunk.values = {};
     chunk.regimes = {};
     seal.Put(response);
-    return absl::OkStatus();
   };
   return PassOn<SweepChunk>(
       call, [&] { return solver_.Sweep(request, call.options()); }, prepare,
@@ -156,10 +157,7 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
 absl::Status ImpactService::Stream(const CostRequest& request, grpc::ServerWriter<v1::CostResponse>& writer,
                                    Call& call) const {
   v1::CostResponse response;
-  const auto prepare = [&](const CostChunk& chunk) {
-    response = ToProto(chunk);
-    return absl::OkStatus();
-  };
+  const auto prepare = [&](const CostChunk& chunk) { response = ToProto(chunk); };
   return PassOn<CostChunk>(
       call, [&] { return solver_.Cost(request, call.options()); }, prepare,
       [&] { return Send(response, writer, call); });

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -41,7 +40,8 @@ void AddPresent(const CallRecord& call, std::vector<LogField>& fields) {
   add("message", Clipped(call.message), !call.message.empty());
   add("trace_id", call.trace_id, !call.trace_id.empty());
   add("user_agent", Clipped(call.user_agent), !call.user_agent.empty());
-  add("models", Models(call), !Models(call).empty());
+  const std::string models = Models(call);
+  add("models", models, !models.empty());
   add("points", call.points.value_or(0), call.points.has_value());
   add("first_index", call.first_index, call.first_index > 0);
   add("chunks", call.chunks, call.chunks > 0);

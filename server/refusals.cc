@@ -32,6 +32,11 @@ absl::Status TooManyCallsOfPeer(const std::string& what, int limit) {
                  milliseconds(1000));
 }
 
+absl::Status NoThread() {
+  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
+                 "the server has no thread for another call; try again later", milliseconds(1000));
+}
+
 absl::Status Overloaded(std::chrono::duration<double> wait) {
   const auto delay = std::chrono::duration_cast<milliseconds>(wait);
   return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kOverloaded,

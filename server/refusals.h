@@ -17,6 +17,9 @@ absl::Status TooManyCalls(const std::string& what, int limit);
 // RESOURCE_EXHAUSTED: a peer is at its own limit of live calls or streams. `what` is "live calls" or "streams".
 absl::Status TooManyCallsOfPeer(const std::string& what, int limit);
 
+// RESOURCE_EXHAUSTED: the server has no thread that could run another handler.
+absl::Status NoThread();
+
 // RESOURCE_EXHAUSTED: the work that waits to be computed would take `wait` before it is the turn of a new call.
 absl::Status Overloaded(std::chrono::duration<double> wait);
 

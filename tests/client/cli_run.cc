@@ -10,11 +10,6 @@
 namespace ricochet::cli {
 namespace {
 
-std::filesystem::path NewDirectory() {
-  std::string pattern = std::filesystem::temp_directory_path() / "ricochet_cli.XXXXXX";
-  return mkdtemp(pattern.data()) == nullptr ? "" : pattern;
-}
-
 std::string Quoted(const std::string& argument) {
   std::string quoted = "'";
   for (const char c : argument) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -33,16 +28,10 @@ std::string ReadFile(const std::filesystem::path& path) {
   return text.str();
 }
 
-CliTest::CliTest() : directory_(NewDirectory()), streams_(NewDirectory()) {}
-
-CliTest::~CliTest() {
-  std::filesystem::remove_all(directory_);
-  std::filesystem::remove_all(streams_);
-}
-
 CliResult CliTest::RunShell(const std::string& script, const std::string& input) const {
   WriteFile(streams_ / "in", input);
-  WriteFile(streams_ / "script", "R=" + Quoted(RICOCHET_PATH) + "\ncd " + Quoted(directory_) + "\n" + script + "\n");
+  WriteFile(streams_ / "script",
+            "R=" + Quoted(RICOCHET_PATH) + "\ncd " + Quoted(directory_.path()) + "\n" + script + "\n");
   const std::string command = "sh " + Quoted(streams_ / "script") + " <" + Quoted(streams_ / "in") + " >" +
                               Quoted(streams_ / "out") + " 2>" + Quoted(streams_ / "err");
   const int status = std::system(command.c_str());
@@ -63,7 +52,8 @@ std::string CliTest::Read(const std::string& name) const { return ReadFile(direc
 
 std::vector<std::string> CliTest::Files() const {
   std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(directory_)) names.push_back(entry.path().filename());
+  for (const auto& entry : std::filesystem::directory_iterator(directory_.path()))
+    names.push_back(entry.path().filename());
   std::sort(names.begin(), names.end());
   return names;
 }

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_directory.h"
+
 namespace ricochet::cli {
 
 struct CliResult {
@@ -22,9 +24,6 @@ using Arguments = std::vector<std::string>;
 // Each test runs the command line in a directory of its own, which is removed after the test.
 class CliTest : public testing::Test {
  protected:
-  CliTest();
-  ~CliTest() override;
-
   // Runs `ricochet arguments...` with `input` as standard input.
   CliResult Run(const Arguments& arguments, const std::string& input = "") const;
   // Runs a shell script, in which "$R" is the path of ricochet.
@@ -35,8 +34,8 @@ class CliTest : public testing::Test {
   std::vector<std::string> Files() const;  // The names of all files in the directory, sorted.
 
  private:
-  std::filesystem::path directory_;  // Holds the test's files.
-  std::filesystem::path streams_;    // Holds the program's standard streams.
+  TemporaryDirectory directory_;  // Holds the test's files.
+  TemporaryDirectory streams_;    // Holds the program's standard streams.
 };
 
 std::string ReadFile(const std::filesystem::path& path);

@@ -165,13 +165,6 @@ TEST_F(SweepReaderTest, AnErrorThatAnotherCallCannotCureEndsTheSweep) {
   }
 }
 
-TEST_F(SweepReaderTest, ASweepThatIsTooLargeIsNotAskedForAgain) {
-  absl::Status error = MakeError(absl::StatusCode::kResourceExhausted, ErrorReason::kSweepTooLarge, "too large");
-  SetRetryDelay(milliseconds(0), error);
-  EXPECT_EQ(ReasonOf(Read({{0, error}}).end), ErrorReason::kSweepTooLarge);
-  EXPECT_THAT(asked_, SizeIs(1));
-}
-
 TEST_F(SweepReaderTest, WaitsAsLongAsTheServerAsks) {
   EXPECT_TRUE(Read({{1, Busy(milliseconds(7000))}}, 1).end.ok());
   ASSERT_THAT(waits_, SizeIs(1));

@@ -13,15 +13,15 @@
 
 #include <chrono>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "tests/support/eventually.h"
 #include "tests/support/server_process.h"
 #include "tests/support/service_calls.h"
+#include "tests/support/temporary_directory.h"
 
 namespace ricochet {
 namespace {
@@ -30,22 +30,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 using testing::HasSubstr;
-
-// A directory that is removed at the end.
-class Directory {
- public:
-  Directory() {
-    std::string pattern = std::filesystem::temp_directory_path() / "ricochet_sockets.XXXXXX";
-    path_ = mkdtemp(pattern.data());
-  }
-  ~Directory() { std::filesystem::remove_all(path_); }
-  Directory(const Directory&) = delete;
-  Directory& operator=(const Directory&) = delete;
-  std::string operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  std::filesystem::path path_;
-};
 
 // A connection that says nothing.
 class RawConnection {
@@ -74,15 +58,6 @@ class RawConnection {
   int socket_;
 };
 
-bool Eventually(const std::function<bool()>& condition) {
-  const auto end = steady_clock::now() + seconds(20);
-  while (!condition()) {
-    if (steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(milliseconds(5));
-  }
-  return true;
-}
-
 int64_t OpenDescriptors(const ServerProcess& server) {
   const std::filesystem::directory_iterator all("/proc/" + std::to_string(server.pid()) + "/fd");
   return std::distance(begin(all), end(all));
@@ -100,7 +75,7 @@ std::string LoggedAddress(const ServerProcess& server, const std::string& event)
 }
 
 TEST(Connections, UnixSocketServesBesideTcpAndIsRemoved) {
-  const Directory directory;
+  const TemporaryDirectory directory;
   const std::string target = "unix:" + directory / "ricochet.sock";
   ServerProcess server({"--listen", "127.0.0.1:0," + target, "--socket-mode", "640"});
   EXPECT_TRUE(Solves(server.address()));
@@ -113,7 +88,7 @@ TEST(Connections, UnixSocketServesBesideTcpAndIsRemoved) {
 }
 
 TEST(Connections, KilledServerIsReplacedOnItsUnixSocket) {
-  const Directory directory;
+  const TemporaryDirectory directory;
   const std::string target = "unix:" + directory / "ricochet.sock";
   {
     const ServerProcess killed({"--listen", "127.0.0.1:0," + target});
@@ -161,7 +136,7 @@ TEST(Connections, ServerOutOfDescriptorsServesAgain) {
 }
 
 TEST(Connections, FewDescriptorsMeanFewConnectionsFromTheStart) {
-  const Directory directory;
+  const TemporaryDirectory directory;
   const std::string port_file = directory / "port";
   ChildProcess server({"/bin/sh", "-c", "ulimit -n 64; exec \"$0\" \"$@\"", ServerPath(), "--listen", "127.0.0.1:0",
                        "--port-file", port_file});
@@ -170,7 +145,7 @@ TEST(Connections, FewDescriptorsMeanFewConnectionsFromTheStart) {
 }
 
 TEST(Connections, SoftLimitOfDescriptorsIsRaised) {
-  const Directory directory;
+  const TemporaryDirectory directory;
   const std::string port_file = directory / "port";
   ChildProcess server({"/bin/sh", "-c", "ulimit -Sn 64; exec \"$0\" \"$@\"", ServerPath(), "--listen", "127.0.0.1:0",
                        "--port-file", port_file});

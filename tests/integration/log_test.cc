@@ -22,6 +22,7 @@
 #include "ricochet/error.h"
 #include "tests/support/server_process.h"
 #include "tests/support/service_calls.h"
+#include "tests/support/temporary_directory.h"
 
 namespace ricochet {
 namespace {
@@ -52,15 +53,9 @@ std::string WaitForText(const std::filesystem::path& path, const std::string& te
 
 class ServerLog : public testing::Test {
  protected:
-  ServerLog() {
-    std::string pattern = std::filesystem::temp_directory_path() / "ricochet_log.XXXXXX";
-    directory_ = mkdtemp(pattern.data());
-  }
-  ~ServerLog() override { std::filesystem::remove_all(directory_); }
+  std::filesystem::path Path(const std::string& name) const { return directory_.path() / name; }
 
-  std::filesystem::path Path(const std::string& name) const { return directory_ / name; }
-
-  std::filesystem::path directory_;
+  TemporaryDirectory directory_;
 };
 
 void ExpectManyAnswers(const ServerProcess& server) {

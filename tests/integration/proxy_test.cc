@@ -5,12 +5,11 @@
 
 #include <chrono>
 #include <fstream>
-#include <functional>
 #include <sstream>
 #include <string>
-#include <thread>
 
 #include "ricochet/client.h"
+#include "tests/support/eventually.h"
 #include "tests/support/paths.h"
 #include "tests/support/server_process.h"
 #include "tests/support/test_certificates.h"
@@ -28,15 +27,6 @@ std::string ReadFile(const std::string& path) {
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
   return text.str();
-}
-
-bool Eventually(const std::function<bool()>& condition) {
-  const auto end = steady_clock::now() + seconds(30);
-  while (!condition()) {
-    if (steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(milliseconds(100));
-  }
-  return true;
 }
 
 class Proxy : public testing::Test {

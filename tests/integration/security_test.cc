@@ -10,13 +10,12 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
-#include <functional>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "ricochet/client.h"
 #include "ricochet/health.h"
+#include "tests/support/eventually.h"
 #include "tests/support/server_process.h"
 #include "tests/support/test_certificates.h"
 
@@ -53,15 +52,6 @@ absl::Status Solve(const std::string& target, const SecurityOptions& security) {
 
 StatusCode SolveCode(const ServerProcess& server, const SecurityOptions& security) {
   return Solve(server.address(), security).code();
-}
-
-bool Eventually(const std::function<bool()>& condition) {
-  const auto end = steady_clock::now() + seconds(20);
-  while (!condition()) {
-    if (steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(milliseconds(100));
-  }
-  return true;
 }
 
 std::string Sha256(const std::string& text) {

@@ -10,14 +10,13 @@
 
 #include <array>
 #include <filesystem>
-#include <functional>
-#include <map>
 #include <mutex>
 #include <sstream>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
+
+#include "tests/support/eventually.h"
 
 namespace ricochet::server {
 namespace {
@@ -26,16 +25,6 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using std::chrono::steady_clock;
 using testing::HasSubstr;
-
-// Waits until `condition` holds, at most 20 s.
-bool Eventually(const std::function<bool()>& condition) {
-  const auto end = steady_clock::now() + seconds(20);
-  while (!condition()) {
-    if (steady_clock::now() > end) return false;
-    std::this_thread::sleep_for(milliseconds(1));
-  }
-  return true;
-}
 
 size_t OpenDescriptors() {
   const std::filesystem::directory_iterator all("/proc/self/fd");

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "ricochet/error.h"
+#include "tests/support/eventually.h"
 
 namespace ricochet::server {
 namespace {
@@ -31,14 +32,6 @@ constexpr RequestCost kDear = {.cause = CostCause::kCertificate, .octave = 10};
 
 Turn TurnOf(const std::string& peer, std::optional<RequestCost> cost) {
   return {.peer = peer, .deadline = {}, .is_gone = [] { return false; }, .cost = cost};
-}
-
-// Waits until a condition holds; returns false if it does not within ten seconds.
-template <typename Condition>
-bool Eventually(Condition condition) {
-  const auto end = steady_clock::now() + seconds(10);
-  while (!condition() && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
-  return condition();
 }
 
 // Work that holds a slot until it is released.

@@ -14,6 +14,8 @@
 #include <set>
 #include <string>
 
+#include "tests/support/temporary_directory.h"
+
 namespace ricochet::server {
 namespace {
 
@@ -25,19 +27,11 @@ constexpr mode_t kOwner = 0600;
 // A path for a socket in a directory of its own, which is removed at the end.
 class SocketPath {
  public:
-  SocketPath() {
-    std::string pattern = std::filesystem::temp_directory_path() / "ricochet_listener.XXXXXX";
-    directory_ = mkdtemp(pattern.data());
-  }
-  ~SocketPath() { std::filesystem::remove_all(directory_); }
-  SocketPath(const SocketPath&) = delete;
-  SocketPath& operator=(const SocketPath&) = delete;
-
   std::string path() const { return directory_ / "socket"; }
   ListenAddress address() const { return {.host = "", .path = path()}; }
 
  private:
-  std::filesystem::path directory_;
+  TemporaryDirectory directory_;
 };
 
 // Leaves a socket file that nobody listens on, as a killed server does.

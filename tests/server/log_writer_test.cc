@@ -13,11 +13,10 @@
 #include <csignal>
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <sstream>
 #include <string>
-#include <system_error>
-#include <thread>
+
+#include "tests/support/temporary_directory.h"
 
 namespace ricochet::server {
 namespace {
@@ -41,16 +40,11 @@ std::string NoticeOf(int64_t dropped) { return "dropped " + std::to_string(dropp
 
 class LogWriterTest : public testing::Test {
  protected:
-  LogWriterTest() {
-    std::signal(SIGPIPE, SIG_IGN);
-    std::string pattern = std::filesystem::temp_directory_path() / "ricochet_log.XXXXXX";
-    directory_ = mkdtemp(pattern.data());
-  }
-  ~LogWriterTest() override { std::filesystem::remove_all(directory_); }
+  LogWriterTest() { std::signal(SIGPIPE, SIG_IGN); }
 
-  std::filesystem::path Path(const std::string& name) const { return directory_ / name; }
+  std::filesystem::path Path(const std::string& name) const { return directory_.path() / name; }
 
-  std::filesystem::path directory_;
+  TemporaryDirectory directory_;
 };
 
 TEST_F(LogWriterTest, LinesAreAppendedInOrder) {

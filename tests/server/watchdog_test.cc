@@ -5,11 +5,12 @@
 
 #include <atomic>
 #include <chrono>
-#include <functional>
 #include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "tests/support/eventually.h"
 
 namespace ricochet::server {
 namespace {
@@ -17,12 +18,6 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using testing::ElementsAre;
-
-bool Eventually(const std::function<bool()>& condition) {
-  const auto end = steady_clock::now() + std::chrono::seconds(20);
-  while (!condition() && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
-  return condition();
-}
 
 TEST(WatchdogTest, ReportsEachChangeOnce) {
   std::mutex mutex;

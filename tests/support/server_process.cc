@@ -21,14 +21,6 @@ namespace {
 
 using std::chrono::steady_clock;
 
-std::filesystem::path MakeDirectory() {
-  std::string pattern = std::filesystem::temp_directory_path() / "ricochet_test.XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr) {
-    throw std::system_error(errno, std::generic_category(), pattern);
-  }
-  return pattern;
-}
-
 // Between fork and exec only functions are called that are safe in the child of a process with threads.
 [[noreturn]] void Exec(char* const* arguments, const char* output) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
@@ -86,16 +78,13 @@ std::vector<std::string> ServerCommand(const std::vector<std::string>& arguments
 
 }  // namespace
 
-ChildProcess::ChildProcess(const std::vector<std::string>& command)
-    : directory_(MakeDirectory()), pid_(Spawn(command, directory_ / "output")) {}
+ChildProcess::ChildProcess(const std::vector<std::string>& command) : pid_(Spawn(command, directory_ / "output")) {}
 
 ChildProcess::~ChildProcess() {
   if (!ended_) {
     Signal(SIGKILL);
     Wait();
   }
-  std::error_code ignored;
-  std::filesystem::remove_all(directory_, ignored);
 }
 
 void ChildProcess::Signal(int signal) const {
@@ -125,11 +114,9 @@ std::string ChildProcess::output() const { return ReadFile(directory_ / "output"
 std::string ServerPath() { return RICOCHETD_PATH; }
 
 ServerProcess::ServerProcess(const std::vector<std::string>& arguments)
-    : port_file_(MakeDirectory() / "port"), process_(ServerCommand(arguments, port_file_)) {
+    : port_file_(directory_ / "port"), process_(ServerCommand(arguments, port_file_)) {
   WaitUntil(std::chrono::seconds(20), [this] { return std::filesystem::exists(port_file_) || !process_.running(); });
   std::ifstream(port_file_) >> port_;
-  std::error_code ignored;
-  std::filesystem::remove_all(port_file_.parent_path(), ignored);
   if (port_ == 0) throw std::runtime_error("ricochetd does not take calls:\n" + log());
 }
 

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/temporary_directory.h"
+
 namespace ricochet {
 
 // A ChildProcess runs a program in a directory of its own, with its output in a file there. Both end with this object.
@@ -32,7 +34,7 @@ class ChildProcess {
   std::string output() const;
 
  private:
-  std::filesystem::path directory_;
+  TemporaryDirectory directory_;
   pid_t pid_ = -1;
   bool ended_ = false;
   int exit_status_ = 0;
@@ -71,6 +73,7 @@ class ServerProcess {
   std::string WaitForLog(const std::string& text) const;
 
  private:
+  TemporaryDirectory directory_;  // Holds the file in which ricochetd writes its port.
   std::filesystem::path port_file_;
   ChildProcess process_;
   int port_ = 0;

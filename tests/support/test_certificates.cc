@@ -1,7 +1,5 @@
 #include "tests/support/test_certificates.h"
 
-#include <unistd.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <stdexcept>
@@ -13,20 +11,10 @@ constexpr char kNewKey[] = "-newkey ec -pkeyopt ec_paramgen_curve:prime256v1 -no
 
 }  // namespace
 
-TestCertificates::TestCertificates() {
-  std::string pattern = std::filesystem::temp_directory_path() / "ricochet_certificates.XXXXXX";
-  if (mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("mkdtemp " + pattern);
-  directory_ = pattern;
-  MakeAuthority("ca");
-}
-
-TestCertificates::~TestCertificates() {
-  std::error_code ignored;
-  std::filesystem::remove_all(directory_, ignored);
-}
+TestCertificates::TestCertificates() { MakeAuthority("ca"); }
 
 void TestCertificates::Run(const std::string& arguments) const {
-  const std::string command = "cd '" + directory_.string() + "' && openssl " + arguments + " >>log 2>&1";
+  const std::string command = "cd '" + directory_.path().string() + "' && openssl " + arguments + " >>log 2>&1";
   if (std::system(command.c_str()) != 0) throw std::runtime_error(command);
 }
 
@@ -44,7 +32,7 @@ void TestCertificates::Make(const std::string& name, const std::string& host, co
 
 void TestCertificates::Replace(const std::string& name, const std::string& other) const {
   for (const char* suffix : {".key", ".pem"}) {
-    const std::filesystem::path copy = directory_ / (other + suffix + ".copy");
+    const std::string copy = directory_ / (other + suffix + ".copy");
     std::filesystem::copy_file(directory_ / (other + suffix), copy);
     std::filesystem::rename(copy, directory_ / (name + suffix));
   }

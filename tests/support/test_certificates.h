@@ -3,8 +3,9 @@
 #ifndef RICOCHET_TESTS_SUPPORT_TEST_CERTIFICATES_H_
 #define RICOCHET_TESTS_SUPPORT_TEST_CERTIFICATES_H_
 
-#include <filesystem>
 #include <string>
+
+#include "tests/support/temporary_directory.h"
 
 namespace ricochet {
 
@@ -12,7 +13,6 @@ class TestCertificates {
  public:
   // Makes the authority "ca". Throws std::runtime_error if openssl fails.
   TestCertificates();
-  ~TestCertificates();
   TestCertificates(const TestCertificates&) = delete;
   TestCertificates& operator=(const TestCertificates&) = delete;
 
@@ -35,7 +35,7 @@ class TestCertificates {
  private:
   void Run(const std::string& arguments) const;
 
-  std::filesystem::path directory_;
+  TemporaryDirectory directory_;
 };
 
 }  // namespace ricochet
