@@ -39,6 +39,8 @@ HWY_INLINE double Larger(double x, double y) { return x < y ? y : x; }
 HWY_INLINE double Select(bool condition, double yes, double no) { return condition ? yes : no; }
 HWY_INLINE bool Not(bool x) { return !x; }
 HWY_INLINE bool Both(bool x, bool y) { return x && y; }
+HWY_INLINE bool Either(bool x, bool y) { return x || y; }
+HWY_INLINE bool SelectMask(bool condition, bool yes, bool no) { return condition ? yes : no; }
 HWY_INLINE bool InAllLanes(bool x) { return x; }
 HWY_INLINE bool InNoLane(bool x) { return !x; }
 
@@ -71,6 +73,10 @@ HWY_INLINE Vector Larger(Vector x, Vector y) { return hn::Max(x, y); }
 HWY_INLINE Vector Select(VectorMask condition, Vector yes, Vector no) { return hn::IfThenElse(condition, yes, no); }
 HWY_INLINE VectorMask Not(VectorMask x) { return hn::Not(x); }
 HWY_INLINE VectorMask Both(VectorMask x, VectorMask y) { return hn::And(x, y); }
+HWY_INLINE VectorMask Either(VectorMask x, VectorMask y) { return hn::Or(x, y); }
+HWY_INLINE VectorMask SelectMask(VectorMask condition, VectorMask yes, VectorMask no) {
+  return hn::Or(hn::And(condition, yes), hn::AndNot(condition, no));
+}
 HWY_INLINE bool InAllLanes(VectorMask x) { return hn::AllTrue(Tag(), x); }
 HWY_INLINE bool InNoLane(VectorMask x) { return hn::AllFalse(Tag(), x); }
 

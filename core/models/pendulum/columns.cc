@@ -17,9 +17,9 @@
 #include "hwy/foreach_target.h"
 #include "core/models/pendulum/kernel-inl.h"
 #include "core/models/pendulum/rounding-inl.h"
-#include "core/models/pendulum/sizes-inl.h"
 #include "core/numerics/lanes-inl.h"
 #include "core/numerics/plain-inl.h"
+#include "core/numerics/sizes-inl.h"
 // clang-format on
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_CC_
@@ -64,6 +64,8 @@ namespace ricochet::pendulum::HWY_NAMESPACE {
 
 using ricochet::HWY_NAMESPACE::CopySign;
 using ricochet::HWY_NAMESPACE::InAllLanes;
+using ricochet::HWY_NAMESPACE::Select;
+using ricochet::HWY_NAMESPACE::Sizes;
 
 // The target's widest lanes.
 using V = ricochet::HWY_NAMESPACE::Vector;

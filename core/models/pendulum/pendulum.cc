@@ -15,7 +15,6 @@
 #include "hwy/foreach_target.h"
 #include "core/models/pendulum/kernel-inl.h"
 #include "core/models/pendulum/rounding-inl.h"
-#include "core/models/pendulum/sizes-inl.h"
 #include "core/numerics/plain-inl.h"
 // clang-format on
 

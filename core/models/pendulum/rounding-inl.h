@@ -10,7 +10,6 @@
 #endif
 
 #include "core/models/pendulum/kernel-inl.h"
-#include "core/models/pendulum/sizes-inl.h"
 #include "core/models/restitution_law.h"
 #include "core/numerics/plain-inl.h"
 
@@ -23,6 +22,11 @@ using ricochet::HWY_NAMESPACE::Lanes;
 using ricochet::HWY_NAMESPACE::Larger;
 using ricochet::HWY_NAMESPACE::Plain;
 using ricochet::HWY_NAMESPACE::Smaller;
+
+// No product of the kernel leaves the range in which DoubleDouble is exact if every number is 0 or has a size between
+// 1/kLimit and kLimit: the largest product is below 2^700, the smallest above 2^-890, its low half 2^-106 of that.
+inline constexpr double kLimit = 0x1p100;
+inline constexpr double kCoefficientLimit = 0x1p40;
 
 inline constexpr double kUnitRoundoff = 0x1p-53;
 // The bound is the larger of kLeastError and kErrorOfOne + kErrorOfKappa kappa.

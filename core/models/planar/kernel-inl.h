@@ -1,6 +1,9 @@
 // The path of a planar impact (core/models/planar/planar.h) over a number type N: DoubleDouble for moderate inputs, Wide for
 // all, and Plain where a rounding error within the bound of core/models/planar/rounding-inl.h serves.
 //
+// N holds a number, or a SIMD vector with one problem in each lane. Every course is then computed that some lane takes, and
+// masks choose; no lane depends on another, so that an impact has the same bits in a vector and alone.
+//
 // A path has at most two pieces: the first slip, and the piece after slip has stopped. Slopes are sums of a number and an
 // exact product, right to 3 u^2 (u = 2^-53), or to u in plain arithmetic, and their signs are exact. The only difference
 // that may cancel is d = v0 u' - u0 v'; its sign decides whether slip stops or compression ends first. Every work is a sum
@@ -24,13 +27,25 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::planar::HWY_NAMESPACE {
 
+using ricochet::HWY_NAMESPACE::Both;
+using ricochet::HWY_NAMESPACE::Either;
+using ricochet::HWY_NAMESPACE::InAllLanes;
+using ricochet::HWY_NAMESPACE::InNoLane;
+using ricochet::HWY_NAMESPACE::Not;
 using ricochet::HWY_NAMESPACE::Plain;
+using ricochet::HWY_NAMESPACE::Select;
+using ricochet::HWY_NAMESPACE::SelectMask;
+
+// One truth value for each problem: a bool, or a mask if N holds a vector.
+template <typename N>
+using MaskOf = decltype(IsNegative(N()));
 
 template <typename N>
 struct Inputs {
   N wtt, wtn, wnn, u0, v0, mu, mu_static, coefficient;
+  N stated_u0;  // u0 before RankOnePath replaces it.
   N det;
-  bool rank_one;
+  MaskOf<N> rank_one;
 };
 
 // d(u, v, f)/dtau.
@@ -39,13 +54,14 @@ struct Slopes {
   N u, v, f;
 };
 
+// Members that are said not to be set may hold anything, infinities and NaN included.
 template <typename N>
 struct Path {
   Slopes<N> first;   // Slopes of the first slip; not set if u0 = 0.
   Slopes<N> second;  // Slopes after slip has stopped; not set if it never stops.
-  bool slips_first;
-  bool stops;  // Slip stops if the impact lasts long enough; true if u0 = 0.
-  bool sticks;
+  MaskOf<N> slips_first;
+  MaskOf<N> stops;      // Slip stops if the impact lasts long enough; true if u0 = 0.
+  MaskOf<N> sticks;     // Not set if slip never stops.
   N v_stop;             // v where slip stops.
   N u_compression_end;  // u where v = 0, if slip has not stopped before.
 };
@@ -64,28 +80,30 @@ struct TwiceWork {
 // The course and the end of restitution.
 template <typename N>
 struct Rebound {
-  bool passes_stop;  // True if slip stops during restitution.
-  N before, after;   // Normal impulses before and after slip stops; if it does not stop, `before` is all of it.
+  MaskOf<N> passes_stop;  // True if slip stops during restitution.
+  N before, after;        // Normal impulses before and after slip stops; if it does not stop, `before` is all of it.
   N v1;
 };
 
 template <typename N>
 struct Solution {
-  State<N> stop, compression_end, end;
+  State<N> stop;  // Not set if slip does not stop.
+  State<N> compression_end, end;
   TwiceWork<N> compression, restitution;
   N stuck_compression;  // Normal impulse from the stop of slip to the end of compression, if slip stops before.
   Rebound<N> rebound;   // Not set if the contact is locked.
-  bool stops_in_compression;
-  bool stops_in_restitution;
+  MaskOf<N> stops_in_compression;
+  MaskOf<N> stops_in_restitution;
 };
 
 // The whole impact.
 template <typename N>
 struct Course {
+  RestitutionLaw law;
   Inputs<N> in;
   Path<N> path;
   Solution<N> x;
-  bool locked;
+  MaskOf<N> locked;
 };
 
 template <typename N>
@@ -98,7 +116,10 @@ HWY_INLINE N Abs(const N& x) {
   return Select(IsNegative(x), -x, x);
 }
 
-HWY_INLINE Plain<double> Abs(const Plain<double>& x) { return Plain<double>(std::fabs(x.value)); }
+template <typename V>
+HWY_INLINE Plain<V> Abs(const Plain<V>& x) {
+  return Plain<V>(ricochet::HWY_NAMESPACE::Absolute(x.value));
+}
 
 // a b - c d.
 template <typename N>
@@ -106,68 +127,96 @@ HWY_INLINE N DifferenceOfProducts(const N& a, const N& b, const N& c, const N& d
   return a * b - c * d;
 }
 // Right to 2 u (Jeannerod, Louvet and Muller, 2013).
-HWY_INLINE Plain<double> DifferenceOfProducts(const Plain<double>& a, const Plain<double>& b, const Plain<double>& c,
-                                              const Plain<double>& d) {
+template <typename V>
+HWY_INLINE Plain<V> DifferenceOfProducts(const Plain<V>& a, const Plain<V>& b, const Plain<V>& c, const Plain<V>& d) {
   using ricochet::HWY_NAMESPACE::FmaSubtract;
   using ricochet::HWY_NAMESPACE::NegativeFma;
-  const double product = c.value * d.value;
-  return Plain<double>(FmaSubtract(a.value, b.value, product) + NegativeFma(c.value, d.value, product));
+  const V product = c.value * d.value;
+  return Plain<V>(FmaSubtract(a.value, b.value, product) + NegativeFma(c.value, d.value, product));
 }
 
 // x or -x.
 template <typename N>
-HWY_INLINE N Signed(const N& x, bool negative) {
+HWY_INLINE N Signed(const N& x, const MaskOf<N>& negative) {
   return Select(negative, -x, x);
 }
 
 template <typename N>
-HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
-  Inputs<N> in = {.wtt = N::Exactly(problem.w.tt),
-                  .wtn = N::Exactly(problem.w.tn),
-                  .wnn = N::Exactly(problem.w.nn),
-                  .u0 = N::Exactly(problem.u0),
-                  .v0 = N::Exactly(problem.v0),
-                  .mu = N::Exactly(problem.mu),
-                  .mu_static = N::Exactly(problem.mu_static),
-                  .coefficient = N::Exactly(problem.coefficient),
-                  .det = Zero<N>(),
-                  .rank_one = false};
+HWY_INLINE Slopes<N> SelectSlopes(const MaskOf<N>& condition, const Slopes<N>& yes, const Slopes<N>& no) {
+  return {Select(condition, yes.u, no.u), Select(condition, yes.v, no.v), Select(condition, yes.f, no.f)};
+}
+
+template <typename N>
+HWY_INLINE State<N> SelectState(const MaskOf<N>& condition, const State<N>& yes, const State<N>& no) {
+  return {Select(condition, yes.tau, no.tau), Select(condition, yes.f, no.f), Select(condition, yes.u, no.u),
+          Select(condition, yes.v, no.v)};
+}
+
+template <typename N>
+HWY_INLINE TwiceWork<N> SelectWork(const MaskOf<N>& condition, const TwiceWork<N>& yes, const TwiceWork<N>& no) {
+  return {Select(condition, yes.normal, no.normal), Select(condition, yes.tangential, no.tangential)};
+}
+
+// Sets what follows from the numbers stated.
+template <typename N>
+HWY_INLINE void CompleteInputs(Inputs<N>& in) {
+  in.stated_u0 = in.u0;
   const N square = in.wtt * in.wnn;
   in.det = DifferenceOfProducts(in.wtt, in.wnn, in.wtn, in.wtn);
-  in.rank_one = !IsPositive(Abs(in.det) - N::Constant(kRankTolerance) * square);
+  in.rank_one = Not(IsPositive(Abs(in.det) - N::Constant(kRankTolerance) * square));
+}
+
+template <typename N>
+HWY_INLINE Inputs<N> MakeInputs(const Problem& problem) {
+  Inputs<N> in;
+  in.wtt = N::Exactly(problem.w.tt);
+  in.wtn = N::Exactly(problem.w.tn);
+  in.wnn = N::Exactly(problem.w.nn);
+  in.u0 = N::Exactly(problem.u0);
+  in.v0 = N::Exactly(problem.v0);
+  in.mu = N::Exactly(problem.mu);
+  in.mu_static = N::Exactly(problem.mu_static);
+  in.coefficient = N::Exactly(problem.coefficient);
+  CompleteInputs(in);
   return in;
 }
 
 // The slopes of slip with u < 0 (`backwards`) or u > 0.
 template <typename N>
-HWY_INLINE Slopes<N> SlipSlopes(const Inputs<N>& in, bool backwards) {
-  const N f = Signed(in.mu, !backwards);
+HWY_INLINE Slopes<N> SlipSlopes(const Inputs<N>& in, const MaskOf<N>& backwards) {
+  const N f = Signed(in.mu, Not(backwards));
   return {.u = AddProduct(in.wtn, f, in.wtt), .v = AddProduct(in.wnn, f, in.wtn), .f = f};
+}
+
+// The slopes where the contact sticks, if `sticks`, or slips on in the direction in which it is drawn.
+template <typename N>
+HWY_INLINE Slopes<N> SlopesAfterStop(const Inputs<N>& in, const MaskOf<N>& sticks) {
+  Slopes<N> slopes = {Zero<N>(), Zero<N>(), Zero<N>()};
+  if (!InAllLanes(sticks)) slopes = SlipSlopes(in, IsNegative(in.wtn));
+  if (InNoLane(sticks)) return slopes;
+  const N inverse = Inverse(in.wtt);
+  return SelectSlopes(sticks, {.u = Zero<N>(), .v = in.det * inverse, .f = -in.wtn * inverse}, slopes);
 }
 
 template <typename N>
 HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
   Path<N> path;
+  const MaskOf<N> backwards = IsNegative(in.u0);
+  path.slips_first = Either(IsPositive(in.u0), backwards);
+  path.first = SlipSlopes(in, backwards);
+  path.stops = Either(Not(path.slips_first), IsNegative(Signed(path.first.u, backwards)));
   path.v_stop = in.v0;
-  path.stops = true;
-  path.slips_first = IsPositive(in.u0) || IsNegative(in.u0);
-  if (path.slips_first) {
-    const bool backwards = IsNegative(in.u0);
-    path.first = SlipSlopes(in, backwards);
-    path.stops = IsNegative(Signed(path.first.u, backwards));
-    const N d = DifferenceOfProducts(in.v0, path.first.u, in.u0, path.first.v);
-    if (path.stops) path.v_stop = d / path.first.u;
-    // If v' <= 0, slip stops before v = 0.
-    if (IsPositive(path.first.v)) path.u_compression_end = -d / path.first.v;
-  }
-  if (!path.stops) return path;
-  path.sticks = !IsNegative(AddProduct(-Abs(in.wtn), in.mu_static, in.wtt));
-  if (path.sticks) {
-    const N inverse = Inverse(in.wtt);
-    path.second = {.u = Zero<N>(), .v = in.det * inverse, .f = -in.wtn * inverse};
-  } else {
-    path.second = SlipSlopes(in, IsNegative(in.wtn));
-  }
+  path.u_compression_end = Zero<N>();
+  const N d = DifferenceOfProducts(in.v0, path.first.u, in.u0, path.first.v);
+  const MaskOf<N> slip_stops = Both(path.slips_first, path.stops);
+  if (!InNoLane(slip_stops)) path.v_stop = Select(slip_stops, d / path.first.u, in.v0);
+  // If v' <= 0, slip stops before v = 0.
+  if (!InNoLane(IsPositive(path.first.v))) path.u_compression_end = -d / path.first.v;
+  path.sticks = path.stops;
+  path.second = path.first;
+  if (InNoLane(path.stops)) return path;
+  path.sticks = Not(IsNegative(AddProduct(-Abs(in.wtn), in.mu_static, in.wtt)));
+  path.second = SlopesAfterStop(in, path.sticks);
   return path;
 }
 
@@ -176,24 +225,47 @@ HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
 template <typename N>
 HWY_INLINE Path<N> RankOnePath(Inputs<N>& in) {
   Path<N> path;
-  path.slips_first = true;
-  path.v_stop = Zero<N>();
-  path.u_compression_end = Zero<N>();
   path.stops = IsPositive(in.wtt);
-  if (!path.stops) {
-    path.first = {.u = Zero<N>(), .v = in.wnn, .f = Zero<N>()};
-    path.u_compression_end = in.u0;
-    return path;
-  }
+  path.slips_first = Either(path.stops, Not(path.stops));
+  path.v_stop = Zero<N>();
   const N ratio = in.wtn / in.wnn;
-  const bool backwards = IsPositive(in.wtn);
-  in.u0 = in.v0 * ratio;
-  path.first = SlipSlopes(in, backwards);
-  path.first.u = path.first.v * ratio;
-  path.sticks = !IsNegative(AddProduct(-in.wnn, in.mu_static, Abs(in.wtn)));
-  path.second = SlipSlopes(in, !backwards);
+  const MaskOf<N> backwards = IsPositive(in.wtn);
+  Slopes<N> slip = SlipSlopes(in, backwards);
+  slip.u = slip.v * ratio;
+  path.first = SelectSlopes(path.stops, slip, {.u = Zero<N>(), .v = in.wnn, .f = Zero<N>()});
+  path.u_compression_end = Select(path.stops, Zero<N>(), in.u0);
+  in.u0 = Select(path.stops, in.v0 * ratio, in.u0);
+  path.sticks = Not(IsNegative(AddProduct(-in.wnn, in.mu_static, Abs(in.wtn))));
+  path.second = SlipSlopes(in, Not(backwards));
   path.second.u = path.second.v * ratio;
   return path;
+}
+
+template <typename N>
+HWY_INLINE Path<N> SelectPath(const MaskOf<N>& condition, const Path<N>& yes, const Path<N>& no) {
+  Path<N> path;
+  path.first = SelectSlopes(condition, yes.first, no.first);
+  path.second = SelectSlopes(condition, yes.second, no.second);
+  path.slips_first = SelectMask(condition, yes.slips_first, no.slips_first);
+  path.stops = SelectMask(condition, yes.stops, no.stops);
+  path.sticks = SelectMask(condition, yes.sticks, no.sticks);
+  path.v_stop = Select(condition, yes.v_stop, no.v_stop);
+  path.u_compression_end = Select(condition, yes.u_compression_end, no.u_compression_end);
+  return path;
+}
+
+template <typename N>
+HWY_INLINE Path<N> MakePath(Inputs<N>& in) {
+  if (InNoLane(in.rank_one)) return FullRankPath(in);
+  Inputs<N> moved = in;
+  const Path<N> path = RankOnePath(moved);
+  if (InAllLanes(in.rank_one)) {
+    in.u0 = moved.u0;
+    return path;
+  }
+  const Path<N> full = FullRankPath(in);
+  in.u0 = Select(in.rank_one, moved.u0, in.u0);
+  return SelectPath(in.rank_one, path, full);
 }
 
 // Advances along one piece to (u, v). The caller knows these velocities more accurately than a sum would give them.
@@ -215,70 +287,87 @@ HWY_INLINE void Begin(const Slopes<N>& slopes, const N& step, const N& u, const 
   at = {at.tau + step, at.f + f_step, u, v};
 }
 
+// Advances those problems alone that `advances` says. The others may hold anything in the arguments.
+template <typename N>
+HWY_INLINE void AdvanceSome(const MaskOf<N>& advances, const Slopes<N>& slopes, const N& step, const N& u, const N& v,
+                            State<N>& at, TwiceWork<N>& work) {
+  State<N> then = at;
+  TwiceWork<N> then_work = work;
+  Advance(slopes, step, u, v, then, then_work);
+  at = SelectState(advances, then, at);
+  work = SelectWork(advances, then_work, work);
+}
+
 template <typename N>
 HWY_INLINE void Compress(const Inputs<N>& in, const Path<N>& path, Solution<N>& x) {
+  const MaskOf<N> stops = Both(path.stops, IsNegative(path.v_stop));
   State<N> at = {Zero<N>(), Zero<N>(), in.u0, in.v0};
-  x.stops_in_compression = path.stops && IsNegative(path.v_stop);
+  N step = Select(stops, -in.u0, -in.v0) / Select(stops, path.first.u, path.first.v);
+  step = Select(path.slips_first, step, Zero<N>());
+  Begin(path.first, step, Select(stops, Zero<N>(), path.u_compression_end), Select(stops, path.v_stop, Zero<N>()), at,
+        x.compression);
   x.stop = at;
-  if (!x.stops_in_compression) {
-    Begin(path.first, -in.v0 / path.first.v, path.u_compression_end, Zero<N>(), at, x.compression);
-  } else {
+  x.stops_in_compression = stops;
+  x.stuck_compression = Zero<N>();
+  if (!InNoLane(stops)) {
     x.stuck_compression = -path.v_stop / path.second.v;
-    const N u = path.second.u * x.stuck_compression;
-    if (path.slips_first) {
-      Begin(path.first, -in.u0 / path.first.u, Zero<N>(), path.v_stop, at, x.compression);
-      x.stop = at;
-      Advance(path.second, x.stuck_compression, u, Zero<N>(), at, x.compression);
-    } else {
-      Begin(path.second, x.stuck_compression, u, Zero<N>(), at, x.compression);
-    }
+    AdvanceSome(stops, path.second, x.stuck_compression, path.second.u * x.stuck_compression, Zero<N>(), at,
+                x.compression);
   }
   x.compression_end = at;
 }
 
 // `stop_ahead` is true if slip has not stopped yet but will at path.v_stop.
 template <typename N>
-HWY_INLINE Rebound<N> FindNewton(const Inputs<N>& in, const Path<N>& path, const N& slope, bool stop_ahead) {
+HWY_INLINE Rebound<N> FindNewton(const Inputs<N>& in, const Path<N>& path, const N& slope,
+                                 const MaskOf<N>& stop_ahead) {
   const N v1 = -in.coefficient * in.v0;
+  if (InNoLane(stop_ahead)) return {stop_ahead, v1 / slope, Zero<N>(), v1};
   const N beyond = v1 - path.v_stop;
-  if (!stop_ahead || IsNegative(beyond)) return {false, v1 / slope, Zero<N>(), v1};
-  return {true, path.v_stop / slope, beyond / path.second.v, v1};
+  const MaskOf<N> passes = Both(stop_ahead, Not(IsNegative(beyond)));
+  N after = Zero<N>();
+  if (!InNoLane(passes)) after = Select(passes, beyond / path.second.v, after);
+  return {passes, Select(passes, path.v_stop, v1) / slope, after, v1};
 }
 
 template <typename N>
 HWY_INLINE Rebound<N> FindPoisson(const Inputs<N>& in, const Path<N>& path, const N& tau_c, const N& slope,
-                                  bool stop_ahead) {
+                                  const MaskOf<N>& stop_ahead) {
   const N step = in.coefficient * tau_c;
-  if (!stop_ahead) return {false, step, Zero<N>(), slope * step};
+  const N v1 = slope * step;
+  if (InNoLane(stop_ahead)) return {stop_ahead, step, Zero<N>(), v1};
   const N before = path.v_stop / slope;
   const N after = step - before;
-  if (IsNegative(after)) return {false, step, Zero<N>(), slope * step};
-  return {true, before, after, path.v_stop + path.second.v * after};
+  const MaskOf<N> passes = Both(stop_ahead, Not(IsNegative(after)));
+  return {passes, Select(passes, before, step), Select(passes, after, Zero<N>()),
+          Select(passes, path.v_stop + path.second.v * after, v1)};
 }
 
 // On a piece v^2 grows by twice its slope times the work, and the impulse is the change of v^2 over the sum of the v.
 template <typename N>
 HWY_INLINE Rebound<N> FindEnergetic(const Inputs<N>& in, const Path<N>& path, const N& stored_twice, const N& slope,
-                                    bool stop_ahead) {
+                                    const MaskOf<N>& stop_ahead) {
   const N work = in.coefficient * in.coefficient * stored_twice;
-  if (stop_ahead) {
-    const N before = path.v_stop / slope;
-    const N beyond = work - path.v_stop * before;
-    if (!IsNegative(beyond)) {
-      const N v1 = Sqrt(path.v_stop * path.v_stop + path.second.v * beyond);
-      return {true, before, beyond / (v1 + path.v_stop), v1};
-    }
+  N square = slope * work;
+  MaskOf<N> passes = stop_ahead;
+  N before = Zero<N>();
+  N beyond = Zero<N>();
+  if (!InNoLane(stop_ahead)) {
+    before = path.v_stop / slope;
+    beyond = work - path.v_stop * before;
+    passes = Both(stop_ahead, Not(IsNegative(beyond)));
+    square = Select(passes, path.v_stop * path.v_stop + path.second.v * beyond, square);
   }
-  const N v1 = Sqrt(slope * work);
-  return {false, v1 / slope, Zero<N>(), v1};
+  const N v1 = Sqrt(square);
+  N after = Zero<N>();
+  if (!InNoLane(passes)) after = Select(passes, beyond / (v1 + path.v_stop), after);
+  if (!InAllLanes(passes)) before = Select(passes, before, v1 / slope);
+  return {passes, before, after, v1};
 }
 
 template <typename N>
-HWY_INLINE Rebound<N> FindRebound(RestitutionLaw law, const Inputs<N>& in, const Path<N>& path, const Solution<N>& x,
-                                  const N& slope, bool stop_ahead) {
-  if (!IsPositive(in.coefficient)) {
-    return {stop_ahead && !IsPositive(path.v_stop), Zero<N>(), Zero<N>(), Zero<N>()};
-  }
+HWY_INLINE Rebound<N> FindSome(RestitutionLaw law, const Inputs<N>& in, const Path<N>& path, const Solution<N>& x,
+                               const N& slope, const MaskOf<N>& stop_ahead) {
   switch (law) {
     case RestitutionLaw::kNewton:
       return FindNewton(in, path, slope, stop_ahead);
@@ -291,46 +380,58 @@ HWY_INLINE Rebound<N> FindRebound(RestitutionLaw law, const Inputs<N>& in, const
 }
 
 template <typename N>
+HWY_INLINE Rebound<N> FindRebound(RestitutionLaw law, const Inputs<N>& in, const Path<N>& path, const Solution<N>& x,
+                                  const N& slope, const MaskOf<N>& stop_ahead) {
+  const MaskOf<N> restores = IsPositive(in.coefficient);
+  const Rebound<N> none = {Both(stop_ahead, Not(IsPositive(path.v_stop))), Zero<N>(), Zero<N>(), Zero<N>()};
+  if (InNoLane(restores)) return none;
+  const Rebound<N> some = FindSome(law, in, path, x, slope, stop_ahead);
+  if (InAllLanes(restores)) return some;
+  return {SelectMask(restores, some.passes_stop, none.passes_stop), Select(restores, some.before, none.before),
+          Select(restores, some.after, none.after), Select(restores, some.v1, none.v1)};
+}
+
+template <typename N>
 HWY_INLINE void Restore(RestitutionLaw law, const Inputs<N>& in, const Path<N>& path, Solution<N>& x) {
   State<N> at = x.compression_end;
-  Slopes<N> slopes = path.first;
-  if (x.stops_in_compression) slopes = path.second;
-  const bool stop_ahead = path.stops && !x.stops_in_compression;
+  const Slopes<N> slopes = SelectSlopes(x.stops_in_compression, path.second, path.first);
+  const MaskOf<N> stop_ahead = Both(path.stops, Not(x.stops_in_compression));
   x.rebound = FindRebound(law, in, path, x, slopes.v, stop_ahead);
   const Rebound<N>& rebound = x.rebound;
-  x.stops_in_restitution = rebound.passes_stop;
-  if (rebound.passes_stop) {
-    Begin(slopes, rebound.before, Zero<N>(), path.v_stop, at, x.restitution);
-    x.stop = at;
-    Advance(path.second, rebound.after, path.second.u * rebound.after, rebound.v1, at, x.restitution);
-  } else {
-    N u1 = at.u + slopes.u * rebound.before;
-    // Slip that has not stopped has not reversed; a u1 of the other sign is rounding.
-    if (stop_ahead && IsNegative(Signed(u1, IsNegative(at.u)))) u1 = Zero<N>();
-    Begin(slopes, rebound.before, u1, rebound.v1, at, x.restitution);
+  const MaskOf<N>& passes = rebound.passes_stop;
+  x.stops_in_restitution = passes;
+  N u = at.u + slopes.u * rebound.before;
+  // Slip that has not stopped has not reversed; a u of the other sign is rounding.
+  const MaskOf<N> is_rounding = Both(stop_ahead, IsNegative(Signed(u, IsNegative(at.u))));
+  u = Select(Either(passes, is_rounding), Zero<N>(), u);
+  Begin(slopes, rebound.before, u, Select(passes, path.v_stop, rebound.v1), at, x.restitution);
+  if (!InNoLane(passes)) {
+    x.stop = SelectState(passes, at, x.stop);
+    AdvanceSome(passes, path.second, rebound.after, path.second.u * rebound.after, rebound.v1, at, x.restitution);
   }
   x.end = at;
 }
 
-// The problem must not be separating.
+// A locked contact stays where compression has brought it.
 template <typename N>
-HWY_INLINE Course<N> Follow(const Problem& problem) {
+HWY_INLINE void Lock(const MaskOf<N>& locked, Solution<N>& x) {
+  x.stops_in_restitution = Both(x.stops_in_restitution, Not(locked));
+  x.restitution = SelectWork(locked, {Zero<N>(), Zero<N>()}, x.restitution);
+  x.stop = SelectState(locked, x.compression_end, x.stop);
+  x.end = SelectState(locked, x.compression_end, x.end);
+}
+
+// Follows problems of one law, none of which may be separating.
+template <typename N>
+HWY_INLINE Course<N> Follow(RestitutionLaw law, const Inputs<N>& in) {
   Course<N> course;
-  course.in = MakeInputs<N>(problem);
-  const Inputs<N>& in = course.in;
-  Path<N>& path = course.path;
-  Solution<N>& x = course.x;
-  path = in.rank_one ? RankOnePath(course.in) : FullRankPath(in);
-  course.locked = in.rank_one && path.stops && path.sticks;
-  Compress(in, path, x);
-  x.stops_in_restitution = false;
-  x.restitution = {Zero<N>(), Zero<N>()};
-  x.end = x.compression_end;
-  if (course.locked) {
-    x.stop = x.compression_end;
-  } else {
-    Restore(problem.law, in, path, x);
-  }
+  course.law = law;
+  course.in = in;
+  course.path = MakePath(course.in);
+  course.locked = Both(in.rank_one, Both(course.path.stops, course.path.sticks));
+  Compress(course.in, course.path, course.x);
+  if (!InAllLanes(course.locked)) Restore(law, course.in, course.path, course.x);
+  if (!InNoLane(course.locked)) Lock(course.locked, course.x);
   return course;
 }
 

@@ -20,14 +20,15 @@ namespace ricochet::planar::HWY_NAMESPACE {
 
 template <typename N>
 HWY_INLINE Impact SolveOne(const Problem& problem) {
-  return Report(problem, Follow<N>(problem));
+  const Course<N> course = Follow<N>(problem.law, MakeInputs<N>(problem));
+  return Report(problem, course, MakeNumbers(kAllParts, course));
 }
 
 template <typename N>
 HWY_INLINE Impact SolveOne(const Problem& problem, RoundingErrors& errors) {
-  const Course<N> course = Follow<N>(problem);
-  errors = CompensatedErrors(problem, course);
-  return Report(problem, course);
+  const Course<N> course = Follow<N>(problem.law, MakeInputs<N>(problem));
+  errors = ToErrors(CompensatedBounds(course));
+  return Report(problem, course, MakeNumbers(kAllParts, course));
 }
 
 using Moderate = ricochet::HWY_NAMESPACE::DoubleDouble<double>;
@@ -38,28 +39,16 @@ Impact SolveModerateWithErrors(const Problem& problem, RoundingErrors& errors) {
   return SolveOne<Moderate>(problem, errors);
 }
 
-// Where theory says that limits are kept, a gain is rounding.
-HWY_INLINE void KeepLimits(const Problem& problem, Impact& impact) {
-  if (impact.energy_change > 0.0) impact.energy_change = 0.0;
-  impact.energy_limit_broken = false;
-  impact.sharp_limit_broken = false;
-  if (impact.energetic_excess > 0.0) {
-    impact.energetic = problem.coefficient;
-    impact.energetic_excess = problem.coefficient - 1.0;
-  }
-}
-
 PlainImpact SolvePlainModerate(const Problem& problem) {
-  const auto course = Follow<Plain<double>>(problem);
-  const auto errors = ErrorsOf(problem.law, course);
-  PlainImpact result = {.impact = Report(problem, course), .errors = PlainErrors(problem, course, errors)};
-  result.proved = PathIsSure(course, errors);
-  if (KeepsLimits(problem, course)) {
-    KeepLimits(problem, result.impact);
-  } else {
-    result.proved = result.proved && LimitsAreSure(course, errors);
-  }
-  return result;
+  using N = Plain<double>;
+  const Course<N> course = Follow<N>(problem.law, MakeInputs<N>(problem));
+  const EndErrors<N> errors = ErrorsOf(course);
+  Numbers<N> numbers = MakeNumbers(kAllParts, course);
+  const bool keeps_limits = KeepsLimits(course);
+  KeepLimits(keeps_limits, course, numbers);
+  return {.impact = Report(problem, course, numbers),
+          .errors = ToErrors(PlainBounds(course, errors)),
+          .proved = PathIsSure(course, errors) && (keeps_limits || LimitsAreSure(course, errors))};
 }
 
 }  // namespace ricochet::planar::HWY_NAMESPACE
@@ -77,13 +66,10 @@ HWY_EXPORT(SolvePlainModerate);
 
 namespace {
 
-// True if no number on the path can leave the range in which DoubleDouble is exact. Slopes then lie between 2^-186 (two
-// products of 2^-80 that cancel to their last bit) and 2^81, v where slip stops is below 2^307, impulses are below 2^493,
-// works below 2^800, and v^2 over a slope is above 2^-908.
 bool FitsDoubleDouble(const Problem& problem) {
   return AreModerate({problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0, problem.mu, problem.mu_static,
                       problem.coefficient},
-                     0x1p40);
+                     HWY_NAMESPACE::kMostModerate);
 }
 
 Impact SolveSeparating(const Problem& problem) {

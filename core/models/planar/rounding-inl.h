@@ -26,6 +26,11 @@ namespace ricochet::planar::HWY_NAMESPACE {
 
 using ricochet::HWY_NAMESPACE::DoubleDouble;
 
+// No number on the path leaves the range in which DoubleDouble is exact if every input is 0 or has a size between
+// 1/kMostModerate and kMostModerate. Slopes then lie between 2^-186 (two products of 2^-80 that cancel to their last bit) and
+// 2^81, v where slip stops is below 2^307, impulses are below 2^493, works below 2^800, and v^2 over a slope is above 2^-908.
+inline constexpr double kMostModerate = 0x1p40;
+
 // A sign is sure if the number is this many times its error, so that every number that later ones divide by is right to
 // 2^-10.
 inline constexpr double kSure = 0x1p10;
@@ -37,7 +42,10 @@ template <typename N>
 HWY_INLINE N Coarse(const N& x) {
   return x;
 }
-HWY_INLINE Plain<double> Coarse(const DoubleDouble<double>& x) { return Plain<double>(x.hi); }
+template <typename V>
+HWY_INLINE Plain<V> Coarse(const DoubleDouble<V>& x) {
+  return Plain<V>(x.hi);
+}
 template <typename N>
 using CoarseOf = decltype(Coarse(N()));
 
@@ -50,8 +58,9 @@ HWY_INLINE M Larger(const M& x, const M& y) {
   return Select(IsNegative(x - y), y, x);
 }
 
-HWY_INLINE Plain<double> Larger(const Plain<double>& x, const Plain<double>& y) {
-  return Plain<double>(ricochet::HWY_NAMESPACE::Larger(x.value, y.value));
+template <typename V>
+HWY_INLINE Plain<V> Larger(const Plain<V>& x, const Plain<V>& y) {
+  return Plain<V>(ricochet::HWY_NAMESPACE::Larger(x.value, y.value));
 }
 
 // Errors at the end of an impact.
@@ -63,6 +72,17 @@ struct EndErrors {
   M decisive, decisive_error;
 };
 
+template <typename M>
+HWY_INLINE EndErrors<M> SelectErrors(const MaskOf<M>& condition, const EndErrors<M>& yes, const EndErrors<M>& no) {
+  return {.tau = Select(condition, yes.tau, no.tau),
+          .f = Select(condition, yes.f, no.f),
+          .u = Select(condition, yes.u, no.u),
+          .v = Select(condition, yes.v, no.v),
+          .works = Select(condition, yes.works, no.works),
+          .decisive = Select(condition, yes.decisive, no.decisive),
+          .decisive_error = Select(condition, yes.decisive_error, no.decisive_error)};
+}
+
 // Twice the sum of the magnitudes of the four works.
 template <typename N, typename M = CoarseOf<N>>
 HWY_INLINE M TwiceMoved(const Solution<N>& x) {
@@ -73,9 +93,11 @@ HWY_INLINE M TwiceMoved(const Solution<N>& x) {
 // The error of v where slip stops. It is exact where no difference is computed.
 template <typename N, typename M = CoarseOf<N>>
 HWY_INLINE M StopError(const Course<N>& course) {
-  if (course.in.rank_one || !course.path.slips_first) return Zero<M>();
+  const MaskOf<M> is_computed = Both(Not(course.in.rank_one), course.path.slips_first);
+  if (InNoLane(is_computed)) return Zero<M>();
   const M v_stop = Coarse(course.path.v_stop);
-  return Times(2.0, Abs(v_stop - Coarse(course.in.v0))) + Times(3.0, Abs(v_stop));
+  const M error = Times(2.0, Abs(v_stop - Coarse(course.in.v0))) + Times(3.0, Abs(v_stop));
+  return Select(is_computed, error, Zero<M>());
 }
 
 // The errors of the works, from those of the end and `works`, the sum of those of the works one by one.
@@ -86,7 +108,7 @@ HWY_INLINE M WithEnergyChange(const Course<N>& course, const EndErrors<M>& end, 
   const M tau = Coarse(at.tau);
   const M u_sum = Abs(u0 + Coarse(at.u));
   const M v_sum = Abs(Coarse(course.in.v0) + Coarse(at.v));
-  const M u_errors = course.in.rank_one ? end.u + Times(2.0, Abs(u0)) : end.u;
+  const M u_errors = Select(course.in.rank_one, end.u + Times(2.0, Abs(u0)), end.u);
   const M change =
       u_sum * (end.f + Times(3.0, f_path)) + f_path * u_errors + v_sum * (end.tau + Times(3.0, tau)) + tau * end.v;
   return Larger(works, change);
@@ -94,7 +116,8 @@ HWY_INLINE M WithEnergyChange(const Course<N>& course, const EndErrors<M>& end, 
 
 // The whole impact lies on the first piece.
 template <typename N, typename M = CoarseOf<N>>
-HWY_INLINE EndErrors<M> StraightErrors(RestitutionLaw law, const Course<N>& course) {
+HWY_INLINE EndErrors<M> StraightErrors(const Course<N>& course) {
+  const RestitutionLaw law = course.law;
   const Solution<N>& x = course.x;
   // Roundings of the step of restitution and of v1.
   const double in_step = law == RestitutionLaw::kEnergetic ? 6.5 : 3.0;
@@ -108,21 +131,23 @@ HWY_INLINE EndErrors<M> StraightErrors(RestitutionLaw law, const Course<N>& cour
   errors.tau = Times(2.0, tau_c) + Times(in_step, tau - tau_c) + tau;
   errors.f = Abs(Coarse(course.path.first.f)) * (errors.tau + tau);
   errors.v = Times(in_v1, v1);
-  errors.u = course.in.rank_one ? Zero<M>()
-                                : Times(2.0, Abs(u_c - Coarse(course.in.u0))) + Times(3.0, Abs(u_c)) +
-                                      Times(in_step + 2.0, Abs(u1 - u_c)) + Abs(u1);
+  const M u_errors = Times(2.0, Abs(u_c - Coarse(course.in.u0))) + Times(3.0, Abs(u_c)) +
+                     Times(in_step + 2.0, Abs(u1 - u_c)) + Abs(u1);
+  errors.u = Select(course.in.rank_one, Zero<M>(), u_errors);
   errors.works = Times(36.0, TwiceMoved(x));
   errors.decisive = errors.decisive_error = Zero<M>();
-  if (course.path.stops && !course.in.rank_one) {
-    errors.decisive = Coarse(course.path.v_stop) - v1;
-    errors.decisive_error = StopError(course) + errors.v;
+  const MaskOf<M> may_stop = Both(course.path.stops, Not(course.in.rank_one));
+  if (!InNoLane(may_stop)) {
+    errors.decisive = Select(may_stop, Coarse(course.path.v_stop) - v1, errors.decisive);
+    errors.decisive_error = Select(may_stop, StopError(course) + errors.v, errors.decisive_error);
   }
   return errors;
 }
 
 // Slip stops before the end of compression.
 template <typename N, typename M = CoarseOf<N>>
-HWY_INLINE EndErrors<M> StopInCompressionErrors(RestitutionLaw law, const Course<N>& course) {
+HWY_INLINE EndErrors<M> StopInCompressionErrors(const Course<N>& course) {
+  const RestitutionLaw law = course.law;
   const Solution<N>& x = course.x;
   const Slopes<N>& second = course.path.second;
   const M slope = Coarse(second.v);
@@ -164,7 +189,8 @@ HWY_INLINE EndErrors<M> StopInCompressionErrors(RestitutionLaw law, const Course
 
 // Slip stops during restitution.
 template <typename N, typename M = CoarseOf<N>>
-HWY_INLINE EndErrors<M> StopInRestitutionErrors(RestitutionLaw law, const Course<N>& course) {
+HWY_INLINE EndErrors<M> StopInRestitutionErrors(const Course<N>& course) {
+  const RestitutionLaw law = course.law;
   const Solution<N>& x = course.x;
   const Slopes<N>& second = course.path.second;
   const M slope = Coarse(second.v);
@@ -208,55 +234,80 @@ HWY_INLINE EndErrors<M> StopInRestitutionErrors(RestitutionLaw law, const Course
 }
 
 template <typename N, typename M = CoarseOf<N>>
-HWY_INLINE EndErrors<M> ErrorsOf(RestitutionLaw law, const Course<N>& course) {
-  const Solution<N>& x = course.x;
-  if (x.stops_in_compression) return StopInCompressionErrors(law, course);
-  if (x.stops_in_restitution && IsPositive(x.end.v)) return StopInRestitutionErrors(law, course);
-  return StraightErrors(law, course);
+HWY_INLINE EndErrors<M> ErrorsOf(const Course<N>& course) {
+  const MaskOf<N>& early = course.x.stops_in_compression;
+  const MaskOf<N> late = Both(course.x.stops_in_restitution, IsPositive(course.x.end.v));
+  if (InAllLanes(early)) return StopInCompressionErrors(course);
+  if (InAllLanes(late)) return StopInRestitutionErrors(course);
+  EndErrors<M> errors = StraightErrors(course);
+  if (!InNoLane(early)) errors = SelectErrors(early, StopInCompressionErrors(course), errors);
+  if (!InNoLane(late)) errors = SelectErrors(late, StopInRestitutionErrors(course), errors);
+  return errors;
 }
 
 // True if the sign of `value` is that of the exact number.
-HWY_INLINE bool IsSure(const Plain<double>& value, const Plain<double>& error) {
-  return std::fabs(value.value) >= (kSure * 0x1p-53) * error.value;
+template <typename V>
+HWY_INLINE MaskOf<Plain<V>> IsSure(const Plain<V>& value, const Plain<V>& error) {
+  using ricochet::HWY_NAMESPACE::Absolute;
+  return Fill<Plain<V>>(kSure * 0x1p-53) * error.value <= Absolute(value.value);
 }
 
 // True if every sign that decided on the path is that of the exact number. The sign of a slope, and of mu_s Wtt - |Wtn|, is
 // exact, because one operation gives it.
-HWY_INLINE bool PathIsSure(const Course<Plain<double>>& course, const EndErrors<Plain<double>>& errors) {
-  const Inputs<Plain<double>>& in = course.in;
-  const Plain<double> square = Times(kRankTolerance, in.wtt * in.wnn);
-  const bool rank_is_sure = IsSure(Abs(in.det) - square, Times(4.0, square));
-  const bool stop_is_sure = !course.path.stops || IsSure(course.path.v_stop, StopError(course));
-  return rank_is_sure && stop_is_sure && IsSure(errors.decisive, errors.decisive_error);
+template <typename V>
+HWY_INLINE MaskOf<Plain<V>> PathIsSure(const Course<Plain<V>>& course, const EndErrors<Plain<V>>& errors) {
+  const Inputs<Plain<V>>& in = course.in;
+  const Plain<V> square = Times(kRankTolerance, in.wtt * in.wnn);
+  const auto rank_is_sure = IsSure(Abs(in.det) - square, Times(4.0, square));
+  const auto stop_is_sure = Either(Not(course.path.stops), IsSure(course.path.v_stop, StopError(course)));
+  return Both(rank_is_sure, Both(stop_is_sure, IsSure(errors.decisive, errors.decisive_error)));
 }
 
 // True if it is proved that the impact keeps its limits because no law asks for more than was stored: on a path of one piece
 // the three laws agree.
-HWY_INLINE bool KeepsLimits(const Problem& problem, const Course<Plain<double>>& course) {
-  const bool straight = !course.x.stops_in_compression && !course.x.stops_in_restitution;
-  return problem.coefficient <= 1.0 && (straight || problem.law == RestitutionLaw::kEnergetic);
+template <typename V>
+HWY_INLINE MaskOf<Plain<V>> KeepsLimits(const Course<Plain<V>>& course) {
+  const auto modest = Rounded(course.in.coefficient) <= Fill<Plain<V>>(1.0);
+  if (course.law == RestitutionLaw::kEnergetic) return modest;
+  return Both(modest, Not(Either(course.x.stops_in_compression, course.x.stops_in_restitution)));
 }
 
 // True if the signs are sure that tell whether the impact keeps its limits.
-HWY_INLINE bool LimitsAreSure(const Course<Plain<double>>& course, const EndErrors<Plain<double>>& errors) {
-  const Solution<Plain<double>>& x = course.x;
-  const Plain<double> error = Times(2.0, errors.works);
-  return IsSure(TwiceEnergyChange(course.in, x.end), error) &&
-         IsSure(x.restitution.normal + x.compression.normal, error);
+template <typename V>
+HWY_INLINE MaskOf<Plain<V>> LimitsAreSure(const Course<Plain<V>>& course, const EndErrors<Plain<V>>& errors) {
+  const Solution<Plain<V>>& x = course.x;
+  const Plain<V> error = Times(2.0, errors.works);
+  return Both(IsSure(TwiceEnergyChange(course.in, x.end), error),
+              IsSure(x.restitution.normal + x.compression.normal, error));
 }
 
-template <typename M>
-HWY_INLINE M SpeedBefore(const Problem& problem) {
-  return Larger(Abs(M::Exactly(problem.u0)), Abs(M::Exactly(problem.v0)));
+template <typename N, typename M = CoarseOf<N>>
+HWY_INLINE M SpeedBefore(const Inputs<N>& in) {
+  return Larger(Abs(Coarse(in.stated_u0)), Abs(Coarse(in.v0)));
 }
 
-HWY_INLINE RoundingErrors PlainErrors(const Problem& problem, const Course<Plain<double>>& course,
-                                      const EndErrors<Plain<double>>& errors) {
-  constexpr double kRounding = 0x1p-53 * kHigherOrders;
-  const double unit = kRounding / SpeedBefore<Plain<double>>(problem).value;
+// The members of RoundingErrors.
+template <typename V>
+struct Bounds {
+  V velocity, impulse, work;
+
+  HWY_INLINE V Largest() const {
+    using ricochet::HWY_NAMESPACE::Larger;
+    return Larger(Larger(velocity, impulse), work);
+  }
+};
+
+HWY_INLINE RoundingErrors ToErrors(const Bounds<double>& bounds) {
+  return {.velocity = bounds.velocity, .impulse = bounds.impulse, .work = bounds.work};
+}
+
+template <typename V>
+HWY_INLINE Bounds<V> PlainBounds(const Course<Plain<V>>& course, const EndErrors<Plain<V>>& errors) {
+  const V rounding = Fill<Plain<V>>(0x1p-53 * kHigherOrders);
+  const V unit = rounding / SpeedBefore(course.in).value;
   return {.velocity = unit * Larger(errors.u, errors.v).value,
           .impulse = unit * Larger(course.in.wnn * errors.tau, course.in.wtt * errors.f).value,
-          .work = kRounding * (errors.works * Inverse(TwiceMoved(course.x))).value};
+          .work = rounding * (errors.works * Inverse(TwiceMoved(course.x))).value};
 }
 
 // The error of rounding `x` to a double, enlarged by 2^-10 for the rounding of the bound. It is at most half of the smallest
@@ -268,19 +319,18 @@ HWY_INLINE M FinalRounding(const M& x) {
 
 // A bound as a double, which is not 0 where it underflows.
 template <typename M>
-HWY_INLINE double OutBound(const M& bound) {
-  return Rounded(bound) + 0x1p-1074;
+HWY_INLINE RoundedOf<M> OutBound(const M& bound) {
+  return Rounded(bound) + Fill<M>(0x1p-1074);
 }
 
 // The errors of a compensated path after its numbers have been rounded to doubles. A change of energy below 2^-96 of its
 // terms has been replaced by 0.
-template <typename N>
-HWY_INLINE RoundingErrors CompensatedErrors(const Problem& problem, const Course<N>& course) {
-  using M = CoarseOf<N>;
+template <typename N, typename M = CoarseOf<N>>
+HWY_INLINE Bounds<RoundedOf<M>> CompensatedBounds(const Course<N>& course) {
   const Inputs<N>& in = course.in;
   const Solution<N>& x = course.x;
   const M rounding = M::Constant(0x1p-102 * kHigherOrders);
-  const EndErrors<M> errors = ErrorsOf(problem.law, course);
+  const EndErrors<M> errors = ErrorsOf(course);
   const M wtt = Coarse(in.wtt);
   const M wnn = Coarse(in.wnn);
   const M tau = Coarse(x.end.tau);
@@ -294,7 +344,7 @@ HWY_INLINE RoundingErrors CompensatedErrors(const Problem& problem, const Course
                     Larger(wnn * FinalRounding(tau), wtt * FinalRounding(largest_f));
   const M moved = TwiceMoved(x);
   const M work = rounding * errors.works + FinalRounding(moved) + Times(0x1p-95, terms);
-  const M per_speed = Inverse(SpeedBefore<M>(problem));
+  const M per_speed = Inverse(SpeedBefore(in));
   return {.velocity = OutBound(velocity * per_speed),
           .impulse = OutBound(impulse * per_speed),
           .work = OutBound(work / moved)};

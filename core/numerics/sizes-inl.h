@@ -2,29 +2,17 @@
 // doubles.
 
 // Per-target include guard.
-#if defined(RICOCHET_CORE_MODELS_PENDULUM_SIZES_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RICOCHET_CORE_MODELS_PENDULUM_SIZES_INL_H_
-#undef RICOCHET_CORE_MODELS_PENDULUM_SIZES_INL_H_
+#if defined(RICOCHET_CORE_NUMERICS_SIZES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_NUMERICS_SIZES_INL_H_
+#undef RICOCHET_CORE_NUMERICS_SIZES_INL_H_
 #else
-#define RICOCHET_CORE_MODELS_PENDULUM_SIZES_INL_H_
+#define RICOCHET_CORE_NUMERICS_SIZES_INL_H_
 #endif
 
 #include "core/numerics/lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
-namespace ricochet::pendulum::HWY_NAMESPACE {
-
-using ricochet::HWY_NAMESPACE::Absolute;
-using ricochet::HWY_NAMESPACE::Both;
-using ricochet::HWY_NAMESPACE::Lanes;
-using ricochet::HWY_NAMESPACE::Larger;
-using ricochet::HWY_NAMESPACE::Select;
-using ricochet::HWY_NAMESPACE::Smaller;
-
-// No product of the kernel leaves the range in which DoubleDouble is exact if every number is 0 or has a size between
-// 1/kLimit and kLimit: the largest product is below 2^700, the smallest above 2^-890, its low half 2^-106 of that.
-inline constexpr double kLimit = 0x1p100;
-inline constexpr double kCoefficientLimit = 0x1p40;
+namespace ricochet::HWY_NAMESPACE {
 
 // The least and the largest magnitude in each lane of all numbers taken in, zeros left out. Both start at 1.
 template <typename V>
@@ -46,7 +34,7 @@ struct Sizes {
   }
 };
 
-}  // namespace ricochet::pendulum::HWY_NAMESPACE
+}  // namespace ricochet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
 #endif  // per-target include guard
