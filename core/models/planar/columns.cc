@@ -22,20 +22,19 @@
 #define RICOCHET_CORE_MODELS_PLANAR_COLUMNS_CC_
 namespace ricochet::planar {
 
-// Problems are solved in blocks of this many, whose intermediate results stay in the cache.
+// Problems are solved in blocks of this many.
 inline constexpr size_t kBlock = 64;
 
 inline constexpr size_t kNumbers = 8;
 
-// Some problems in a row, and the places of their results.
-struct Block {
+// The problems of a call, and the places of their results.
+struct Job {
   RestitutionLaw law = RestitutionLaw::kEnergetic;
   std::array<const double*, kNumbers> numbers = {};  // wtt, wtn, wnn, u0, v0, mu, mu_static, coefficient.
   std::array<double*, kOutputCount> places = {};     // Null for an output that is not wanted.
   unsigned parts = 0;                                // Those of the outputs wanted.
-  bool* is_inadmissible = nullptr;
-  Regime* regimes = nullptr;
-  size_t size = 0;
+  Regime* regimes = nullptr;                         // Null if they are not wanted.
+  bool* inadmissible = nullptr;                      // Null if it is not wanted.
 
   Problem operator[](size_t i) const {
     return {.w = {numbers[0][i], numbers[1][i], numbers[2][i]},
@@ -46,7 +45,12 @@ struct Block {
             .law = law,
             .coefficient = numbers[7][i]};
   }
-  double v0(size_t i) const { return numbers[4][i]; }
+  bool IsSeparating(size_t i) const { return numbers[4][i] >= 0.0; }
+
+  void SetEnd(size_t i, Regime regime, bool breaks_limit) const {
+    if (regimes != nullptr) regimes[i] = regime;
+    if (inadmissible != nullptr) inadmissible[i] = breaks_limit;
+  }
 };
 
 // A verdict is the number of a regime, plus kInadmissible if a limit is broken, plus kUnproved if the arithmetic does not
@@ -67,15 +71,15 @@ using VLanes = ricochet::HWY_NAMESPACE::Lanes<V>;
 using Mask = decltype(V() < V());
 
 // True where no number on the path can leave the range in which the arithmetic is exact (kMostModerate).
-HWY_INLINE Mask AreModerate(const Block& block, size_t i) {
+HWY_INLINE Mask AreModerate(const Job& job, size_t i) {
   ricochet::HWY_NAMESPACE::Sizes<V> sizes;
-  for (const double* numbers : block.numbers) sizes.TakeIn(VLanes::Load(numbers + i));
+  for (const double* numbers : job.numbers) sizes.TakeIn(VLanes::Load(numbers + i));
   return sizes.AreWithin(kMostModerate);
 }
 
 template <typename N>
-HWY_INLINE Inputs<N> LoadInputs(const Block& block, size_t i) {
-  const auto load = [&](size_t k) HWY_ATTR { return N::Exactly(VLanes::Load(block.numbers[k] + i)); };
+HWY_INLINE Inputs<N> LoadInputs(const Job& job, size_t i) {
+  const auto load = [&](size_t k) HWY_ATTR { return N::Exactly(VLanes::Load(job.numbers[k] + i)); };
   Inputs<N> in;
   in.wtt = load(0);
   in.wtn = load(1);
@@ -115,10 +119,10 @@ HWY_INLINE Answer<DoubleDouble<V>> Judge(unsigned parts, const Course<DoubleDoub
 }
 
 template <typename N>
-HWY_INLINE void Store(const Block& block, size_t i, const Answer<N>& answer) {
+HWY_INLINE void Store(const Job& job, size_t i, const Answer<N>& answer) {
   const Numbers<N>& x = answer.numbers;
   const auto store = [&](Output output, V value) HWY_ATTR {
-    double* const place = block.places[static_cast<size_t>(output)];
+    double* const place = job.places[static_cast<size_t>(output)];
     if (place != nullptr) VLanes::Store(value, place + i);
   };
   const V work_tangential = x.work_tangential_compression + x.work_tangential_restitution;
@@ -142,32 +146,34 @@ HWY_INLINE void Store(const Block& block, size_t i, const Answer<N>& answer) {
   store(Output::kRelativeError, answer.relative_error);
 }
 
-// Solves all problems of a block, of which there are at least as many as a vector has lanes. The last vector overlaps the one
-// before it, so that it holds no problem beyond the block. A result whose bound exceeds `tolerance` is not proved.
+// Solves the problems [first, first + count), of which there are at least as many as a vector has lanes. The last vector
+// overlaps the one before it, so that it holds no problem beyond them. A result whose bound exceeds `tolerance` is not
+// proved.
 template <typename N>
-HWY_INLINE void SolveAll(const Block& block, double tolerance, Verdicts& verdicts) {
+HWY_INLINE void SolveAll(const Job& job, size_t first, size_t count, double tolerance, Verdicts& verdicts) {
   const V zero = VLanes::Fill(0.0);
-  const size_t last = block.size - VLanes::Count();
-  for (size_t i = 0;; i = std::min(i + VLanes::Count(), last)) {
-    const Inputs<N> in = LoadInputs<N>(block, i);
-    const Course<N> course = Follow(block.law, in);
-    const Answer<N> answer = Judge(block.parts, course);
-    const Mask is_regular = Both(IsNegative(in.v0), AreModerate(block, i));
+  const size_t last = count - VLanes::Count();
+  for (size_t done = 0;; done = std::min(done + VLanes::Count(), last)) {
+    const size_t i = first + done;
+    const Inputs<N> in = LoadInputs<N>(job, i);
+    const Course<N> course = Follow(job.law, in);
+    const Answer<N> answer = Judge(job.parts, course);
+    const Mask is_regular = Both(IsNegative(in.v0), AreModerate(job, i));
     const Mask serves = Both(is_regular, Both(answer.proved, answer.relative_error <= VLanes::Fill(tolerance)));
     const Mask breaks_limit = Either(answer.numbers.sharp_limit_broken, answer.numbers.energy_limit_broken);
     const V verdict = RegimeOf(course) + Select(breaks_limit, VLanes::Fill(kInadmissible), zero);
-    VLanes::Store(verdict + Select(serves, zero, VLanes::Fill(kUnproved)), verdicts.data() + i);
-    Store(block, i, answer);
-    if (i == last) break;
+    VLanes::Store(verdict + Select(serves, zero, VLanes::Fill(kUnproved)), verdicts.data() + done);
+    Store(job, i, answer);
+    if (done == last) break;
   }
 }
 
-void SolvePlainBlock(const Block& block, double tolerance, Verdicts& verdicts) {
-  SolveAll<Plain<V>>(block, tolerance, verdicts);
+void SolvePlainBlock(const Job& job, size_t first, size_t count, double tolerance, Verdicts& verdicts) {
+  SolveAll<Plain<V>>(job, first, count, tolerance, verdicts);
 }
 
-void SolveBlock(const Block& block, Verdicts& verdicts) {
-  SolveAll<DoubleDouble<V>>(block, std::numeric_limits<double>::infinity(), verdicts);
+void SolveBlock(const Job& job, size_t count, Verdicts& verdicts) {
+  SolveAll<DoubleDouble<V>>(job, 0, count, std::numeric_limits<double>::infinity(), verdicts);
 }
 
 size_t CountLanes() { return VLanes::Count(); }
@@ -210,107 +216,150 @@ std::array<double, kOutputCount> NumbersOf(const Impact& impact, double relative
   return numbers;
 }
 
-// Solves any problem, wherever lanes do not serve, in double-double arithmetic.
-void SolveAlone(const Block& block, size_t i) {
-  RoundingErrors errors;
-  const Impact impact = Solve(block[i], errors);
-  const std::array<double, kOutputCount> numbers = NumbersOf(impact, errors.Largest());
+void Write(const Job& job, size_t i, const Impact& impact, double relative_error) {
+  const std::array<double, kOutputCount> numbers = NumbersOf(impact, relative_error);
   for (size_t output = 0; output < numbers.size(); ++output) {
-    if (block.places[output] != nullptr) block.places[output][i] = numbers[output];
+    if (job.places[output] != nullptr) job.places[output][i] = numbers[output];
   }
-  block.regimes[i] = impact.regime;
-  block.is_inadmissible[i] = impact.sharp_limit_broken || impact.energy_limit_broken;
+  job.SetEnd(i, impact.regime, impact.sharp_limit_broken || impact.energy_limit_broken);
 }
 
-void SetVerdict(const Block& block, size_t i, int verdict) {
-  block.regimes[i] = static_cast<Regime>(verdict & (kInadmissible - 1));
-  block.is_inadmissible[i] = (verdict & kInadmissible) != 0;
+// Solves any problem in double-double arithmetic, wherever lanes do not serve.
+void SolveAlone(const Job& job, size_t i) {
+  RoundingErrors errors;
+  const Impact impact = Solve(job[i], errors);
+  Write(job, i, impact, errors.Largest());
 }
 
-// Some problems of a block, brought together so that they fill vectors. The last one is repeated until they do.
-class Gathered {
+// The rank of W is not an output.
+void WriteSeparating(const Job& job, size_t i) {
+  const Problem problem = job[i];
+  Write(job, i, Separating<Impact>(2, problem.u0, problem.v0), 0.0);
+}
+
+bool ServesPlainly(const Job& job, size_t i, double tolerance) {
+  const PlainImpact plain = SolvePlain(job[i]);
+  const double error = plain.errors.Largest();
+  const bool serves = plain.proved && error <= tolerance;
+  if (serves) Write(job, i, plain.impact, error);
+  return serves;
+}
+
+void SetVerdict(const Job& job, size_t i, int verdict) {
+  job.SetEnd(i, static_cast<Regime>(verdict & (kInadmissible - 1)), (verdict & kInadmissible) != 0);
+}
+
+// Problems wait here for double-double arithmetic until they fill vectors.
+class WaitingRoom {
  public:
-  Gathered(const Block& block, absl::Span<const size_t> indices)
-      : block_(block), indices_(indices), own_{.law = block.law, .parts = block.parts} {
-    const size_t lanes = HWY_DYNAMIC_DISPATCH(CountLanes)();
-    own_.size = std::max(lanes, indices.size());
-    for (size_t k = 0; k < kNumbers; ++k) {
-      for (size_t j = 0; j < own_.size; ++j) {
-        numbers_[k][j] = block.numbers[k][indices[std::min(j, indices.size() - 1)]];
-      }
-      own_.numbers[k] = numbers_[k].data();
-    }
+  explicit WaitingRoom(const Job& job) : job_(job), own_{.law = job.law, .parts = job.parts} {
+    for (size_t k = 0; k < kNumbers; ++k) own_.numbers[k] = numbers_[k].data();
     for (size_t output = 0; output < kOutputCount; ++output) {
-      if (block.places[output] != nullptr) own_.places[output] = results_[output].data();
+      if (job.places[output] != nullptr) own_.places[output] = results_[output].data();
     }
   }
 
-  const Block& problems() const { return own_; }
+  // Takes in the i-th problem of the job. It must not be separating.
+  void TakeIn(size_t i) {
+    indices_[size_] = i;
+    for (size_t k = 0; k < kNumbers; ++k) numbers_[k][size_] = job_.numbers[k][i];
+    if (++size_ == kBlock) SolveAll();
+  }
 
-  // Copies the results back.
-  void Scatter() const {
-    for (size_t output = 0; output < kOutputCount; ++output) {
-      if (block_.places[output] == nullptr) continue;
-      for (size_t j = 0; j < indices_.size(); ++j) block_.places[output][indices_[j]] = results_[output][j];
+  void SolveAll() {
+    const size_t lanes = HWY_DYNAMIC_DISPATCH(CountLanes)();
+    // A vector takes about three times as long as a problem alone.
+    if (size_ < std::min(lanes, size_t{3})) {
+      for (size_t j = 0; j < size_; ++j) SolveAlone(job_, indices_[j]);
+    } else {
+      SolveInLanes(std::max(size_, lanes));
     }
+    size_ = 0;
   }
 
  private:
-  const Block& block_;
-  absl::Span<const size_t> indices_;
-  Block own_;
+  // The first problem is repeated until there are `count`.
+  void SolveInLanes(size_t count) {
+    for (auto& numbers : numbers_) std::fill(numbers.begin() + size_, numbers.begin() + count, numbers[0]);
+    Verdicts verdicts;
+    HWY_DYNAMIC_DISPATCH(SolveBlock)(own_, count, verdicts);
+    for (size_t j = 0; j < size_; ++j) {
+      const int verdict = static_cast<int>(verdicts[j]);
+      if (verdict >= kUnproved) {
+        SolveAlone(job_, indices_[j]);
+      } else {
+        SetVerdict(job_, indices_[j], verdict);
+        CopyBack(j);
+      }
+    }
+  }
+
+  void CopyBack(size_t j) const {
+    for (size_t output = 0; output < kOutputCount; ++output) {
+      if (job_.places[output] != nullptr) job_.places[output][indices_[j]] = results_[output][j];
+    }
+  }
+
+  const Job& job_;
+  Job own_;  // The problems that wait.
+  size_t size_ = 0;
+  std::array<size_t, kBlock> indices_;
   std::array<std::array<double, kBlock>, kNumbers> numbers_;
   std::array<std::array<double, kBlock>, kOutputCount> results_;
 };
 
-// Solves the problems of these indices in double-double arithmetic.
-void SolveCompensated(const Block& block, absl::Span<const size_t> indices) {
-  if (indices.empty()) return;
-  Gathered gathered(block, indices);
+// Solves the problems [first, first + count) as far as plain arithmetic serves. Returns the number of problems for which it
+// does not.
+size_t SolveSome(const Job& job, size_t first, size_t count, double tolerance, WaitingRoom& waiting) {
   Verdicts verdicts;
-  HWY_DYNAMIC_DISPATCH(SolveBlock)(gathered.problems(), verdicts);
-  gathered.Scatter();
-  for (size_t j = 0; j < indices.size(); ++j) {
-    const int verdict = static_cast<int>(verdicts[j]);
-    if (verdict < kUnproved) {
-      SetVerdict(block, indices[j], verdict);
-    } else {
-      SolveAlone(block, indices[j]);
-    }
-  }
-}
-
-void SolvePlainly(const Block& block, double tolerance, Verdicts& verdicts) {
-  const size_t lanes = HWY_DYNAMIC_DISPATCH(CountLanes)();
-  if (block.size >= lanes) return HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(block, tolerance, verdicts);
-  std::array<size_t, kBlock> all;
-  for (size_t i = 0; i < block.size; ++i) all[i] = i;
-  Gathered gathered(block, absl::MakeConstSpan(all).first(block.size));
-  HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(gathered.problems(), tolerance, verdicts);
-  gathered.Scatter();
-}
-
-// Returns the number of problems for which plain arithmetic does not serve.
-size_t SolveOneBlock(const Block& block, double tolerance) {
-  Verdicts verdicts;
-  verdicts.fill(kUnproved);
-  if (tolerance > 0.0) SolvePlainly(block, tolerance, verdicts);
-  std::array<size_t, kBlock> unproved;
-  size_t count = 0;
-  size_t separating = 0;
-  for (size_t i = 0; i < block.size; ++i) {
+  HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(job, first, count, tolerance, verdicts);
+  size_t unproved = 0;
+  for (size_t i = 0; i < count; ++i) {
     const int verdict = static_cast<int>(verdicts[i]);
     if (verdict < kUnproved) {
-      SetVerdict(block, i, verdict);
-    } else if (block.v0(i) >= 0.0) {
-      SolveAlone(block, i);
-      ++separating;
+      SetVerdict(job, first + i, verdict);
+    } else if (job.IsSeparating(first + i)) {
+      WriteSeparating(job, first + i);
     } else {
-      unproved[count++] = i;
+      waiting.TakeIn(first + i);
+      ++unproved;
     }
   }
-  SolveCompensated(block, absl::MakeConstSpan(unproved).first(count));
-  return tolerance > 0.0 ? count : count + separating;
+  return unproved;
+}
+
+size_t SolvePlainFirst(const Job& job, size_t count, double tolerance) {
+  const size_t lanes = HWY_DYNAMIC_DISPATCH(CountLanes)();
+  WaitingRoom waiting(job);
+  size_t unproved = 0;
+  if (count < lanes) {
+    for (size_t i = 0; i < count; ++i) {
+      if (ServesPlainly(job, i, tolerance)) continue;
+      waiting.TakeIn(i);
+      ++unproved;
+    }
+  } else {
+    for (size_t done = 0, size = 0; done < count; done += size) {
+      const size_t left = count - done;
+      // No block has fewer problems than a vector has lanes.
+      size = left > kBlock && left < kBlock + lanes ? kBlock / 2 : std::min(left, kBlock);
+      unproved += SolveSome(job, done, size, tolerance, waiting);
+    }
+  }
+  waiting.SolveAll();
+  return unproved;
+}
+
+void SolveCompensated(const Job& job, size_t count) {
+  WaitingRoom waiting(job);
+  for (size_t i = 0; i < count; ++i) {
+    if (job.IsSeparating(i)) {
+      WriteSeparating(job, i);
+    } else {
+      waiting.TakeIn(i);
+    }
+  }
+  waiting.SolveAll();
 }
 
 unsigned PartsOf(absl::Span<const Output> outputs) {
@@ -338,26 +387,18 @@ Problem ProblemColumns::operator[](size_t i) const {
 
 size_t SolveColumns(const ProblemColumns& problems, double tolerance, const SolvedColumns& solved) {
   assert(solved.outputs.size() == solved.columns.size());
-  const unsigned parts = PartsOf(solved.outputs);
   const std::array columns = {problems.wtt, problems.wtn, problems.wnn,       problems.u0,
                               problems.v0,  problems.mu,  problems.mu_static, problems.coefficient};
-  std::array<Regime, kBlock> own_regimes;
-  std::array<bool, kBlock> own_inadmissible;
-  size_t compensated = 0;
-  for (size_t first = 0; first < problems.size(); first += kBlock) {
-    Block block = {
-        .law = problems.law,
-        .parts = parts,
-        .is_inadmissible = solved.inadmissible.empty() ? own_inadmissible.data() : &solved.inadmissible[first],
-        .regimes = solved.regimes.empty() ? own_regimes.data() : &solved.regimes[first],
-        .size = std::min(kBlock, problems.size() - first)};
-    for (size_t k = 0; k < kNumbers; ++k) block.numbers[k] = columns[k].data() + first;
-    for (size_t c = 0; c < solved.outputs.size(); ++c) {
-      block.places[static_cast<size_t>(solved.outputs[c])] = solved.columns[c] + first;
-    }
-    compensated += SolveOneBlock(block, tolerance);
+  Job job = {.law = problems.law, .parts = PartsOf(solved.outputs)};
+  for (size_t k = 0; k < kNumbers; ++k) job.numbers[k] = columns[k].data();
+  for (size_t c = 0; c < solved.outputs.size(); ++c) {
+    job.places[static_cast<size_t>(solved.outputs[c])] = solved.columns[c];
   }
-  return compensated;
+  if (!solved.regimes.empty()) job.regimes = solved.regimes.data();
+  if (!solved.inadmissible.empty()) job.inadmissible = solved.inadmissible.data();
+  if (tolerance > 0.0) return SolvePlainFirst(job, problems.size(), tolerance);
+  SolveCompensated(job, problems.size());
+  return problems.size();
 }
 
 }  // namespace ricochet::planar
