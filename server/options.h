@@ -25,6 +25,7 @@
 #include "server/log.h"
 #include "server/places.h"
 #include "server/tls_files.h"
+#include "server/transport.h"
 
 namespace ricochet::server {
 
@@ -41,6 +42,7 @@ struct Options {
 
   ConnectionLimits connections;        // Each limit from 1 to 1,000,000.
   int64_t transport_memory_mib = 256;  // For gRPC's buffers of all connections together; 1 to 1,048,576.
+  TransportTimes transport_times;      // Each 1 ms to 1 h.
 
   // Threads that wait for calls or tell callers that they are refused. With this many spare threads an overload is
   // refused by the limit of live calls, which sends a retry delay, and not by gRPC.

@@ -71,7 +71,10 @@ absl::Status Server::Listen() {
   grpc::EnableDefaultHealthCheckService(true);
   grpc::ServerBuilder builder;
   LeaveReflectionOut(builder);
-  SetTransport({.max_threads = options_.max_threads, .memory_bytes = options_.transport_memory_mib << 20}, builder);
+  SetTransport({.max_threads = options_.max_threads,
+                .memory_bytes = options_.transport_memory_mib << 20,
+                .times = options_.transport_times},
+               builder);
   WatchCalls(observer_, builder);
   builder.RegisterService(&bounded_);
   if (absl::Status opened = OpenAuth(); !opened.ok()) return opened;

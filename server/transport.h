@@ -5,13 +5,22 @@
 
 #include <grpcpp/server_builder.h>
 
+#include <chrono>
 #include <cstdint>
 
 namespace ricochet::server {
 
+// Both > 0.
+struct TransportTimes {
+  std::chrono::milliseconds handshake{10'000};  // For TLS and the preface of HTTP/2; a slower connection is closed.
+  std::chrono::milliseconds idle{300'000};      // A connection that has had no call for so long is closed.
+  friend bool operator==(const TransportTimes&, const TransportTimes&) = default;
+};
+
 struct TransportLimits {
   int max_threads = 288;                      // Threads that serve calls and wait for them; at least 2.
   int64_t memory_bytes = int64_t{256} << 20;  // For buffers of messages in all connections together; at least 1 MiB.
+  TransportTimes times;
 };
 
 // Sets the limits, keepalive and the ages at which connections end. Compression is off: a message of 1 MB could unfold

@@ -171,50 +171,46 @@ def warm(server):
     return server.peak_mib()
 
 
-def deadline_and_memory(method, what):
-    with Server() as server:
-        before = warm(server)
-        cpu = server.cpu_s()
-        asked = Asked(server.address, method, what, DEADLINE_S)
-        require(asked.wait(20), "the client's call does not end")
-        idle = cpu_until_idle(server, STOP_CPU_S)
-        used, took = server.cpu_s() - cpu, server.peak_mib() - before
-        require(server.alive(), "the process ended")
-        text = f"{len(what)} bytes: {asked.code}, {used:.2f} CPU s, {took:.0f} MiB, {asked.bytes} bytes out"
-        require(asked.code in PROMISED, text + f"; {asked.text}")
-        require(idle is not None, text + f"; it computes on for {STOP_CPU_S:g} CPU s after its deadline")
-        require(took <= MOST_MIB, text + f"; more than {MOST_MIB} MiB")
-        require_served(server, 5)
-        return {"bytes": len(what), "status": asked.code, "CPU s": used, "MiB": took, "bytes out": asked.bytes}
+def deadline_and_memory(server, before, method, what):
+    cpu = server.cpu_s()
+    asked = Asked(server.address, method, what, DEADLINE_S)
+    require(asked.wait(20), "the client's call does not end")
+    idle = cpu_until_idle(server, STOP_CPU_S)
+    used, took = server.cpu_s() - cpu, server.peak_mib() - before
+    require(server.alive(), "the process ended")
+    text = f"{len(what)} bytes: {asked.code}, {used:.2f} CPU s, {took:.0f} MiB, {asked.bytes} bytes out"
+    require(asked.code in PROMISED, text + f"; {asked.text}")
+    require(idle is not None, text + f"; it computes on for {STOP_CPU_S:g} CPU s after its deadline")
+    require(took <= MOST_MIB, text + f"; more than {MOST_MIB} MiB")
+    require_served(server, 10)
+    return {"bytes": len(what), "status": asked.code, "CPU s": used, "MiB": took, "bytes out": asked.bytes}
 
 
-def disconnection(method, what):
-    with Server() as server:
-        before = warm(server)
-        asked = Asked(server.address, method, what, None)
-        asked.wait(10.0 if tools().soak else 1.5)
-        require(server.peak_mib() - before <= MOST_MIB, f"without a deadline it takes {server.peak_mib() - before:.0f} MiB")
-        asked.hang_up()
-        idle = cpu_until_idle(server, STOP_CPU_S)
-        require(idle is not None, f"it computes on for {STOP_CPU_S:g} CPU s after its client left")
-        return idle
+def disconnection(server, before, method, what):
+    asked = Asked(server.address, method, what, None)
+    asked.wait(10.0 if tools().soak else 1.5)
+    require(server.peak_mib() - before <= MOST_MIB, f"without a deadline it takes {server.peak_mib() - before:.0f} MiB")
+    asked.hang_up()
+    idle = cpu_until_idle(server, STOP_CPU_S)
+    require(idle is not None, f"it computes on for {STOP_CPU_S:g} CPU s after its client left")
+    return idle
 
 
-def sigterm(method, what):
-    with Server(drain_grace=0.5) as server:
-        asked = Asked(server.address, method, what, None)
-        asked.wait(0.5)
-        return server.drain()
+def sigterm(server, method, what):
+    Asked(server.address, method, what, None).wait(0.5)
+    return server.drain()
 
 
 def register(name, make):
     def run():
         method, what = make()
         what = what.SerializeToString()
-        figures = deadline_and_memory(method, what)
-        figures["CPU s after hang-up"] = disconnection(method, what)
-        figures["SIGTERM s"] = sigterm(method, what)
-        return figures
+        with Server(drain_grace=0.2) as server:
+            before = warm(server)
+            figures = deadline_and_memory(server, before, method, what)
+            figures["CPU s after hang-up"] = disconnection(server, before, method, what)
+            figures["SIGTERM s"] = sigterm(server, method, what)
+            return figures
 
     check(f"amplification: {name}",
           f"it computes for at most {STOP_CPU_S:g} CPU s after a deadline of {DEADLINE_S:g} s and after its client hangs up, "

@@ -15,6 +15,7 @@ from certificates import Authority
 from framework import Server, Skipped, check, main, require, tools, wait_until
 
 TAKES_S = 20  # A changed file is taken within this time.
+HANDSHAKE_S = 2  # The server of the check of handshakes closes a connection without one after this time.
 
 
 def replace(path, content):
@@ -27,7 +28,7 @@ def replace(path, content):
 class Secured:
     """An authority, the files of a server, and the server."""
 
-    def __init__(self, name, mutual=False, tokens=None):
+    def __init__(self, name, mutual=False, tokens=None, **more):
         if not tools().has_option("tls-cert"):
             raise Skipped("this server has no TLS")
         self.place = tools().work / name
@@ -43,7 +44,7 @@ class Secured:
         if tokens is not None:
             self.tokens.write_text(tokens, encoding="ascii")
             options += ["--tokens", self.tokens]
-        self.server = Server(*options, log_level="info")
+        self.server = Server(*options, **{"log_level": "info", **more})
 
     def __enter__(self):
         return self
@@ -145,7 +146,7 @@ def rotation():
                     next(sweep)
                 took.append(time.monotonic() - start)
             secured.cert.write_text("no certificate", encoding="ascii")
-            time.sleep(3)
+            time.sleep(2)  # The server looks at its files once a second.
             require(secured.ask(client=client) == "OK", "a bad file ended the service")
             on.Solve(cheap(), timeout=20)
             next(sweep)
@@ -155,7 +156,7 @@ def rotation():
 @check("handshakes that never end", "300 connections that send nothing, half a greeting or noise to a TLS port are closed within 30 s, "
        "and others are served")
 def half_open_tls():
-    with Secured("half_open") as secured:
+    with Secured("half_open", handshake_timeout=HANDSHAKE_S) as secured:
         server = secured.server
         require(secured.ask() == "OK", "no answer")
         before = server.descriptors()
@@ -204,7 +205,7 @@ def tokens():
         require(wait_until(lambda: secured.ask(token=new) == "OK", TAKES_S, 0.5), "the new token is not taken")
         require(secured.ask(token=good) == "UNAUTHENTICATED", "the old token is taken still")
         secured.tokens.write_text("lab sha256:zz everything\n", encoding="ascii")
-        time.sleep(3)
+        time.sleep(2)  # The server looks at its files once a second.
         require(secured.ask(token=new) == "OK", "a bad file ended the service")
         return answers
 

@@ -111,8 +111,11 @@ class RawConnection:
         credit = struct.pack(">I", size)
         return self.send(b"".join(frame(WINDOW_UPDATE, 0, number, credit) for number in {0, stream}))
 
-    def send_data(self, number, chunks, seconds=60):
-        """Sends pieces of at most 16 KiB on a stream as fast as the server gives credit; returns the bytes sent."""
+    def send_data(self, number, chunks, seconds=60, patience_s=60):
+        """Sends pieces of at most 16 KiB on a stream as fast as the server gives credit; returns the bytes sent.
+
+        Gives up after this time in all, or once there has been no credit for as long as the patience lasts.
+        """
         stream = self.streams[number]
         sent = 0
         deadline = time.monotonic() + seconds
@@ -123,7 +126,8 @@ class RawConnection:
                 return min(stream.credit, self.credit_left) >= size
 
             self.read(0)
-            while not may_send() and not stream.over() and not self.closed and time.monotonic() < deadline:
+            until = min(deadline, time.monotonic() + patience_s)
+            while not may_send() and not stream.over() and not self.closed and time.monotonic() < until:
                 self.read(1, may_send)
             if stream.over() or not may_send() or not self.send(frame(DATA, 0, number, chunk)):
                 break

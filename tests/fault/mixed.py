@@ -101,7 +101,7 @@ class Clients:
 @check("mixed load", "no well-made call fails, the memory of the last third stays within 16 MiB of that of the second, and "
        "descriptors and threads go back", kind="load")
 def mixed_load():
-    seconds = 60 * tools().minutes if tools().soak else 15
+    seconds = 60 * tools().minutes if tools().soak else 10
     with Server(log_level="warning") as server:
         for _ in range(20):
             require_served(server)

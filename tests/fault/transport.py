@@ -1,9 +1,11 @@
 """Attacks on HTTP/2 itself. What gRPC 1.51 cannot bear directly must not pass the proxy of deploy/, nor mutual TLS."""
 
+import functools
 import gzip
 import socket
 import struct
 import time
+import zlib
 
 from calls import cheap, dear, request, require_served, HARD_DURATION
 from framework import MIB, Server, check, cpu_until_idle, in_threads, main, require, tools
@@ -20,17 +22,30 @@ def server(**more):
 
 
 def endless_message(connection):
-    """A message that says it has 600 MiB, and as much of it as the server takes."""
+    """A message that says it has 600 MiB, and as much of it as the server takes; who takes no more of it has withstood."""
     stream = connection.open(SERVICE + "Solve", end=False)
     start = struct.pack(">BI", 0, 600 * MIB)
     pieces = (400 if tools().soak else 160) * MIB // 16384
-    return connection.send_data(stream, [start, *[bytes(16384)] * pieces], 30)
+    return connection.send_data(stream, [start, *[bytes(16384)] * pieces], 30 if tools().soak else 8, patience_s=3)
+
+
+@functools.lru_cache
+def gzip_of_zeros(size):
+    """The gzip form of so many MiB of zeros, without compressing each MiB again."""
+    block = zlib.compressobj(9, zlib.DEFLATED, -15)
+    one = block.compress(bytes(MIB)) + block.flush(zlib.Z_FULL_FLUSH)
+    crc = 0
+    for _ in range(size // MIB):
+        crc = zlib.crc32(bytes(MIB), crc)
+    empty = zlib.compressobj(9, zlib.DEFLATED, -15).flush()
+    body = gzip.compress(b"")[:10] + one * (size // MIB) + empty + struct.pack("<II", crc, size % 2**32)
+    return body
 
 
 def gzip_bomb(connection):
     """Zeros that are small while they are compressed."""
     size = (1000 if tools().soak else 300) * MIB
-    body = gzip.compress(bytes(size), 9)
+    body = gzip_of_zeros(size)
     stream = connection.open(SERVICE + "Solve", end=False, extra=[("grpc-encoding", "gzip")])
     payload = message(body, compressed=True)
     connection.send_data(stream, [payload[i:i + 16384] for i in range(0, len(payload), 16384)], 30)

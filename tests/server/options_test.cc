@@ -173,6 +173,12 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                                                          .stream_age = milliseconds(60'000)};
                                         o.unread_limit = milliseconds(2500);
                                       }},
+                             GoodCase{"TransportTimes",
+                                      {.flags = {"--handshake-timeout", "0.5"}, .file = "idle-timeout = 3600\n"},
+                                      [](Options& o) {
+                                        o.transport_times = {.handshake = milliseconds(500),
+                                                             .idle = milliseconds(3'600'000)};
+                                      }},
                              GoodCase{"MostPoints",
                                       {.flags = {"--max-points-per-sweep", "9007199254740992"}},
                                       [](Options& o) { o.limits.max_points_per_sweep = int64_t{1} << 53; }},
@@ -305,6 +311,8 @@ INSTANTIATE_TEST_SUITE_P(
                 {"--max-unary-time = 0: must be a number of seconds from 0.001 to 3600"}},
         BadCase{
             "NoStallTimeout", {.flags = {"--write-stall-timeout", "never"}}, {"--write-stall-timeout = never: must"}},
+        BadCase{"NoIdleTimeout", {.flags = {"--idle-timeout", "0"}}, {"--idle-timeout = 0: must be a number of sec"}},
+        BadCase{"LongHandshake", {.flags = {"--handshake-timeout", "3601"}}, {"--handshake-timeout = 3601: must"}},
         BadCase{
             "NoComputeThreads", {.flags = {"--compute-threads", "0"}}, {"--compute-threads = 0: must be an integer"}},
         BadCase{"PointsNoInteger",
@@ -352,6 +360,8 @@ TEST(Options, HelpNamesEveryOption) {
                              "--max-connections",
                              "--max-connections-per-peer",
                              "--transport-memory",
+                             "--handshake-timeout",
+                             "--idle-timeout",
                              "--max-live-calls",
                              "--max-live-calls-per-peer",
                              "--max-streams",
