@@ -16,7 +16,7 @@ import time
 import grpc
 
 from calls import channel, cheap, code_of, dear, health, long_sweep, require_served, stub, wait_served
-from framework import (Process, Server, Skipped, check, command_line, cpu_until_idle, in_threads, main, require,
+from framework import (Group, Process, Server, Skipped, check, command_line, cpu_until_idle, in_threads, main, require,
                        tools, wait_until)
 from http2 import SERVICE, RawConnection
 
@@ -206,6 +206,14 @@ def bad_starts():
     return {}
 
 
+@check("a port file", "it is gone once the server has ended")
+def port_file():
+    with Server(drain_grace=0) as server:
+        took = server.drain()
+        require(not server.port_file.exists(), "the port file is left")
+        return {"drain s": took}
+
+
 @check("port files that are no plain files", "a symbolic link, a pipe and a device stay what they are")
 def port_files():
     place = tools().work / "port_files"
@@ -348,19 +356,33 @@ def one_millisecond():
         return {"statuses": sorted(code.name for code in codes), "command line": done.returncode}
 
 
-@check("little memory", "64 Solves with full histories at once in 1 GiB of address space leave a server that serves", soak=True)
+@check("512 MiB of memory", "64 Solves with full histories at once are answered or refused by a server in a control group of that "
+       "size, which goes on serving")
 def little_memory():
     what = cheap()
     what.history_intervals = 65535
-    with Server(limits=[(resource.RLIMIT_AS, 1 << 30, 1 << 30)]) as server:
+    with Group("memory", 512 << 20) as group, Server(prefix=group.prefix) as server:
         def ask():
             with channel(server.address) as line:
-                return code_of(lambda: stub(line).Solve(what, timeout=30)).name
+                return code_of(lambda: stub(line).Solve(what, timeout=60)).name
 
-        codes = in_threads([ask] * 64)
+        codes = in_threads([ask] * (64 if tools().soak else 16))
         require(server.alive(), f"the process ended with {server.child.returncode}")
+        require(set(codes) <= {"OK", "RESOURCE_EXHAUSTED"}, f"statuses: {codes}")
         require_served(server)
-        return {code: codes.count(code) for code in sorted(set(codes))}
+        return {**{code: codes.count(code) for code in sorted(set(codes))}, "most MiB": server.peak_mib()}
+
+
+@check("40 threads", "120 sweeps at once that nobody reads leave a server in a control group of that size which serves once they end")
+def few_threads():
+    with Group("pids", 40) as group, Server(prefix=group.prefix, write_stall_timeout=3) as server:
+        with RawConnection(server.host, server.port, source="127.0.0.2", window=0) as connection:
+            for _ in range(120):
+                connection.open(SERVICE + "Sweep", long_sweep().SerializeToString())
+            connection.pump()
+            time.sleep(1)
+            held = server.threads()
+        return {"threads": held, "Solve after s": wait_served(server, 30)}
 
 
 # Networks.

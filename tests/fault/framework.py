@@ -250,6 +250,37 @@ class Server(Process):
         return took
 
 
+class Group:
+    """A control group with one limit, of version 1 or 2: "memory" in bytes or "pids" in threads."""
+
+    FILES = {"memory": ("memory.max", "memory.limit_in_bytes"), "pids": ("pids.max", "pids.max")}
+
+    def __init__(self, kind, limit):
+        root = Path("/sys/fs/cgroup")
+        version_2 = (root / "cgroup.controllers").exists()
+        self.place = (root if version_2 else root / kind) / f"ricochet{os.getpid()}"
+        try:
+            self.place.mkdir()
+            (self.place / self.FILES[kind][0 if version_2 else 1]).write_text(str(limit), encoding="ascii")
+        except OSError as error:
+            self.close()
+            raise Skipped(f"no control group for {kind} can be made here: {error}") from error
+        # Put before a command, these words run it in the group.
+        self.prefix = ["/bin/sh", "-c", f'echo $$ > {self.place}/cgroup.procs; exec "$@"', "sh"]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.close()
+
+    def close(self):
+        try:
+            self.place.rmdir()
+        except OSError:
+            pass  # It was never made.
+
+
 def cpu_while(process, seconds):
     """CPU seconds that the process uses in a time from now."""
     before = process.cpu_s()

@@ -11,7 +11,7 @@ from google.protobuf.descriptor import FieldDescriptor as Field
 from google.protobuf.message import DecodeError
 
 from calls import HERTZ, PENDULUM, channel, cheap, linkage, request, request_class, require_served, stub
-from framework import Server, check, main, require, tools
+from framework import Server, check, main, require, tools, wait_until
 
 # Whether the answer of a method is a stream.
 METHODS = {"Solve": False, "Bounds": False, "Audit": False, "AuditBatch": False, "Plan": False, "Sweep": True, "Cost": True}
@@ -249,7 +249,8 @@ def odd_values():
     return bombard("odd", odd, 0.3)
 
 
-@check("odd envelopes", "unknown methods, nesting of 300, groups of 100,000, unknown fields and a byte too many are refused", kind="input")
+@check("odd envelopes", "unknown methods, nesting of 300, groups of 100,000, unknown fields and a byte too many are refused; what cannot "
+       "be read is in the log", kind="input")
 def odd_envelopes():
     with Server() as server, channel(server.address) as line:
         def ask(path, data):
@@ -277,6 +278,8 @@ def odd_envelopes():
         require(answers["unknown fields"] == "OK", f"{answers}")
         require(answers["2 MiB"] == "RESOURCE_EXHAUSTED", f"{answers}")
         require(answers["groups"] == "INVALID_ARGUMENT", f"{answers}")
+        require(wait_until(lambda: "reason=MALFORMED_REQUEST" in server.log_text(), 5),
+                "a message that cannot be read is not in the log")
         require_served(server)
         return answers
 
