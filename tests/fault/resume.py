@@ -121,7 +121,7 @@ def two_servers():
 
 @check("the summary after a resume", "it is that of an undisturbed run")
 def same_summary():
-    points = 20000000 if tools().soak else 3000000
+    points = 20000000 if tools().soak else 1500000
     arguments = ["sweep", *ELASTIC, "--axis", f"pendulum.b_m=lin:0.5:2:{points}", "--axis", "friction.kinetic_coefficient=0,0.3,4",
                  "--column", "coefficients.newton", "--summary-only"]
 
