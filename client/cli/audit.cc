@@ -42,6 +42,7 @@ struct AuditOptions {
   SceneOptions scene;
   std::optional<std::string> rate, velocity, uncertainty;
   std::string data;
+  std::vector<std::string> skipped_columns;
 };
 
 absl::StatusOr<std::vector<double>> ParseNumbers(const std::string& text, const std::string& what) {
@@ -103,8 +104,8 @@ absl::StatusOr<AuditColumns> ReadData(const AuditOptions& options) {
   }
   const absl::StatusOr<std::string> text = ReadText(options.data);
   if (!text.ok()) return text.status();
-  absl::StatusOr<AuditColumns> columns =
-      ParseAuditData(*text, options.data == "-" ? std::string("standard input") : options.data);
+  absl::StatusOr<AuditColumns> columns = ParseAuditData(
+      *text, options.data == "-" ? std::string("standard input") : options.data, options.skipped_columns);
   if (!columns.ok() || !options.uncertainty.has_value()) return columns;
   const absl::StatusOr<double> uncertainty = ReadUncertainty(options);
   if (!uncertainty.ok()) return uncertainty.status();
@@ -227,6 +228,9 @@ void AddAudit(CLI::App& app, Command& command) {
   sub->add_option("--data", options->data,
                   "Many impacts, one on each line; the header names the columns; - for standard input")
       ->type_name("FILE.csv");
+  sub->add_option("--skip-column", options->skipped_columns, "A column of the data to leave out; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);
   sub->footer(kExample);

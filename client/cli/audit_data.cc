@@ -6,11 +6,15 @@
 #include <optional>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/escaping.h"
+#include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/strip.h"
 #include "client/cli/number_input.h"
+#include "client/cli/suggestion.h"
 
 namespace ricochet::cli {
 namespace {
@@ -31,63 +35,92 @@ constexpr Named kColumns[] = {{"tangential_m_s", &AuditColumns::tangential_m_s},
 
 constexpr char kRates[] = "rates_after_rad_s";
 
-// The destination of a column of the file: a named column, the rates of a link, or neither if its name is unknown.
+// Spreadsheets put it in front of a table in UTF-8.
+constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
+
+// The destination of a column of the file: a named column, or the rates of a link.
 struct Place {
   std::vector<double> AuditColumns::*values = nullptr;
   std::optional<size_t> link;
 
-  bool known() const { return values != nullptr || link.has_value(); }
   friend bool operator==(const Place&, const Place&) = default;
 };
-using Places = std::vector<Place>;
+using Places = std::vector<std::optional<Place>>;  // Absent for a column that is left out.
 
 size_t LinkCount(const Places& places) {
-  return static_cast<size_t>(
-      std::count_if(places.begin(), places.end(), [](const Place& place) { return place.link.has_value(); }));
+  return static_cast<size_t>(std::count_if(places.begin(), places.end(), [](const std::optional<Place>& place) {
+    return place.has_value() && place->link.has_value();
+  }));
 }
 
+// Splits a line at its commas. A cell may stand in double quotes.
 std::vector<std::string> Cells(const std::string& line) {
   std::vector<std::string> cells = absl::StrSplit(line, ',');
-  for (std::string& cell : cells) absl::StripAsciiWhitespace(&cell);
+  for (std::string& cell : cells) {
+    absl::StripAsciiWhitespace(&cell);
+    const bool is_quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+    if (is_quoted) cell = cell.substr(1, cell.size() - 2);
+  }
   return cells;
 }
 
-Place PlaceOf(const std::string& cell) {
+std::optional<Place> PlaceOf(const std::string& cell) {
   for (const Named& known : kColumns) {
-    if (cell == known.name) return {.values = known.values, .link = {}};
+    if (cell == known.name) return Place{.values = known.values, .link = {}};
   }
   absl::string_view index = cell;
   uint32_t link = 0;
   if (absl::ConsumePrefix(&index, absl::StrCat(kRates, "[")) && absl::ConsumeSuffix(&index, "]") &&
       absl::SimpleAtoi(index, &link)) {
-    return {.values = nullptr, .link = link};
+    return Place{.values = nullptr, .link = link};
   }
-  return {};
+  return std::nullopt;
 }
 
-std::string KnownNames() {
-  std::string known;
-  for (const Named& column : kColumns) absl::StrAppend(&known, column.name, ", ");
-  return absl::StrCat(known, kRates, "[0]");
+std::vector<std::string> KnownNames() {
+  std::vector<std::string> known;
+  for (const Named& column : kColumns) known.emplace_back(column.name);
+  known.push_back(absl::StrCat(kRates, "[0]"));
+  return known;
 }
 
-absl::StatusOr<Places> ParseHeader(const std::string& line, const std::string& name) {
+absl::Status UnknownColumn(const std::string& cell, const std::string& name) {
+  const std::vector<std::string> known = KnownNames();
+  return absl::InvalidArgumentError(absl::StrCat(name, " has the column \"", absl::CEscape(cell), "\": must be one of ",
+                                                 absl::StrJoin(known, ", "), DidYouMean(cell, known),
+                                                 "; --skip-column leaves a column out"));
+}
+
+absl::StatusOr<Places> ParseHeader(const std::string& line, const std::string& name,
+                                   const std::vector<std::string>& skipped) {
+  if (absl::StrContains(line, ';')) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(name, " separates its columns by semicolons: must use commas, and decimal points in numbers"));
+  }
   Places places;
-  for (const std::string& cell : Cells(line)) {
-    places.push_back(PlaceOf(cell));
-    if (places.back().known() && std::count(places.begin(), places.end(), places.back()) > 1) {
+  const std::vector<std::string> cells = Cells(line);
+  for (const std::string& column : skipped) {
+    if (std::count(cells.begin(), cells.end(), column) > 0) continue;
+    return absl::InvalidArgumentError(
+        absl::StrCat("--skip-column = ", column, ": must be a column of ", name, DidYouMean(column, cells)));
+  }
+  for (const std::string& cell : cells) {
+    if (std::count(skipped.begin(), skipped.end(), cell) > 0) {
+      places.emplace_back();
+      continue;
+    }
+    const std::optional<Place> place = PlaceOf(cell);
+    if (!place.has_value()) return UnknownColumn(cell, name);
+    if (std::count(places.begin(), places.end(), place) > 0) {
       return absl::InvalidArgumentError(absl::StrCat(name, " has the column ", cell, " twice"));
     }
-  }
-  if (std::none_of(places.begin(), places.end(), [](const Place& place) { return place.known(); })) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(name, " names no known column in its first line: must name some of ", KnownNames()));
+    places.push_back(place);
   }
   const size_t links = LinkCount(places);
-  for (const Place& place : places) {
-    if (!place.link.has_value() || *place.link < links) continue;
+  for (const std::optional<Place>& place : places) {
+    if (!place.has_value() || !place->link.has_value() || *place->link < links) continue;
     return absl::InvalidArgumentError(
-        absl::StrCat(name, " has the column ", kRates, "[", *place.link, "] but not one for each link before it"));
+        absl::StrCat(name, " has the column ", kRates, "[", *place->link, "] but not one for each link before it"));
   }
   return places;
 }
@@ -98,24 +131,27 @@ std::vector<double>& ColumnAt(const Place& place, AuditColumns& columns) {
 
 void AddRow(const std::vector<std::string>& cells, const Places& places, AuditColumns& columns) {
   for (size_t i = 0; i < places.size(); ++i) {
-    if (!places[i].known()) continue;
+    if (!places[i].has_value()) continue;
     const absl::StatusOr<double> value = ParseNumber(i < cells.size() ? cells[i] : "", "");
-    ColumnAt(places[i], columns).push_back(value.ok() ? *value : std::numeric_limits<double>::quiet_NaN());
+    ColumnAt(*places[i], columns).push_back(value.ok() ? *value : std::numeric_limits<double>::quiet_NaN());
   }
 }
 
 }  // namespace
 
-absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::string& name) {
+absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::string& name,
+                                            const std::vector<std::string>& skipped) {
   absl::StatusOr<Places> places = absl::InvalidArgumentError(absl::StrCat(name, " has no header"));
   AuditColumns columns;
-  for (const auto line_view : absl::StrSplit(text, '\n')) {
+  absl::string_view lines = text;
+  absl::ConsumePrefix(&lines, kByteOrderMark);
+  for (const auto line_view : absl::StrSplit(lines, '\n')) {
     const std::string line(absl::StripAsciiWhitespace(line_view));
     if (line.empty() || line[0] == '#') continue;
     if (places.ok()) {
       AddRow(Cells(line), *places, columns);
     } else {
-      places = ParseHeader(line, name);
+      places = ParseHeader(line, name, skipped);
       if (!places.ok()) return places.status();
       columns.rates_after_rad_s.resize(LinkCount(*places));
     }

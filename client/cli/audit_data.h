@@ -12,11 +12,13 @@
 namespace ricochet::cli {
 
 // Reads a table. Columns are named as the fields of AuditColumns (rates_after_rad_s[0] and so on, one for each link)
-// and may come in any order; a column with another name is ignored. A cell that is missing or not a number becomes a
-// NaN, which makes its row invalid but no other. Empty lines and lines that start with # are skipped. `name` names the
-// table in errors.
-// Errors: INVALID_ARGUMENT for a header that names a column twice, names no known column, or leaves out a link.
-absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::string& name);
+// and may come in any order. A cell may stand in double quotes; one that is missing or not a number becomes a NaN, which
+// makes its row invalid but no other. Empty lines, lines that start with # and a byte order mark are skipped. `name` names
+// the table in errors. Columns named in `skipped` are left out.
+// Errors: INVALID_ARGUMENT for a header that names an unknown column or one twice, leaves out a link, has semicolons
+// or lacks a column of `skipped`.
+absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::string& name,
+                                            const std::vector<std::string>& skipped = {});
 
 // Returns the rows [first, end). Each column must be empty or have a value for every row.
 AuditColumns SomeRows(const AuditColumns& columns, size_t first, size_t end);

@@ -218,6 +218,7 @@ absl::Status RunBounds(const BoundsOptions& options) {
   if (!request.ok()) return request.status();
   const absl::StatusOr<BoundsResponse> response = (*solver)->Bounds(*request);
   if (!response.ok()) return response.status();
+  if (absl::Status still = RequireVelocity(request->scene); !still.ok()) return still;
   const absl::StatusOr<std::string> text = Render(*request, *response, options.common.format);
   return text.ok() ? WriteOutput(options.common, *text) : text.status();
 }

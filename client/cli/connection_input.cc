@@ -76,7 +76,8 @@ void AddConnectionOptions(CLI::App& app, ConnectionInput& input) {
   app.add_option("--server", input.server,
                  "Ask the ricochetd at this address, or the first that answers, instead of computing here")
       ->type_name("HOST:PORT|unix:PATH,...");
-  app.add_option("--deadline", input.deadline, "Give up after this time (250ms, 30s, 5m); needs --server")
+  app.add_option("--deadline", input.deadline,
+                 "Give up after this time (250ms, 30s, 5m; a bare number is in seconds); needs --server")
       ->type_name("TIME");
   app.add_flag_callback(
       "--tls", [&input] { input.tls = "true"; },

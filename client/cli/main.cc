@@ -4,6 +4,7 @@
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
 #include <csignal>
+#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,6 +19,7 @@
 #include "client/cli/health.h"
 #include "client/cli/solve.h"
 #include "client/cli/sweep.h"
+#include "client/cli/usage_error.h"
 #include "core/engine/engine.h"
 
 namespace {
@@ -54,7 +56,9 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? ricochet::cli::kOk : ricochet::cli::kUsage;
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::cerr << (argc == 1 ? app.help() : absl::StrCat("ricochet: ", ricochet::cli::UsageError(app, error), "\n"));
+    return ricochet::cli::kUsage;
   }
   const absl::Status status = command();
   ricochet::cli::PrintError(status);

@@ -16,7 +16,9 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "client/cli/number_input.h"
+#include "core/scene/numbers.h"
 #include "proto/wire/scene.h"
 #include "ricochet/error.h"
 
@@ -118,6 +120,20 @@ void AddSceneOptions(CLI::App& app, SceneOptions& options) {
       add("--energetic", options.energetic, "Coefficient of restitution by Stronge: root of the ratio of normal works");
   newton->excludes(poisson)->excludes(energetic);
   poisson->excludes(energetic);
+}
+
+absl::Status RequireVelocity(const Scene& scene) {
+  bool is_moving = false;
+  std::vector<std::string> velocities;
+  VisitNumbers(scene, [&](const NumberPath& path, double value, NumberRule /*rule*/) {
+    const bool is_velocity = absl::EndsWith(path.name, "rad_s") || absl::EndsWith(path.name, "_m_s");
+    if (!is_velocity || absl::StartsWith(path.name, "speed")) return;
+    velocities.push_back(path.Text());
+    is_moving = is_moving || value != 0.0;
+  });
+  if (is_moving || velocities.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(
+      "the scene states no velocity, so that nothing strikes: must set some of ", absl::StrJoin(velocities, ", ")));
 }
 
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {

@@ -33,6 +33,10 @@ void AddSceneOptions(CLI::App& app, SceneOptions& options);
 // Errors: INVALID_ARGUMENT for neither or both of file and flags, a text that is not a number, an unreadable file.
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options);
 
+// Returns INVALID_ARGUMENT, with the fields that may hold one, for a scene that states no velocity at all. Such a scene is
+// valid and nothing happens in it, so that the user has most likely forgotten something.
+absl::Status RequireVelocity(const Scene& scene);
+
 // Returns the whole text of a file, or of standard input for "-". Errors: INVALID_ARGUMENT that names the file.
 absl::StatusOr<std::string> ReadText(const std::string& path);
 

@@ -129,6 +129,7 @@ absl::Status RunSolve(const SolveOptions& options) {
   }
   const absl::StatusOr<SolveResponse> response = (*solver)->Solve(request);
   if (!response.ok()) return response.status();
+  if (absl::Status still = RequireVelocity(*scene); !still.ok()) return still;
   if (!options.plot.empty()) {
     if (absl::Status status = DrawOutcome(response->outcome, options.plot); !status.ok()) return status;
   }

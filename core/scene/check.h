@@ -80,6 +80,8 @@ class Check {
         return "be in [1, 4]";
       case NumberRule::kRatioSquared:
         return "be in [1e-9, 1e9]";
+      case NumberRule::kHalfTurn:
+        return "be in (0, pi), in radians";
     }
     return "";
   }

@@ -72,12 +72,12 @@ bool Field::Set(double value) const {
   if (const auto* scalar = std::get_if<Scalar>(&driver_)) return scalar->Set(value);
   const auto& phi = std::get<Phi>(driver_);
   const bool a_is_right = phi.a.Set(phi.distance * Sin(value));
-  return phi.b.Set(phi.distance * Cos(value)) && a_is_right;
+  return phi.b.Set(phi.distance * Cos(value)) && a_is_right && Holds(value, rule());
 }
 
 NumberRule Field::rule() const {
   const auto* const scalar = std::get_if<Scalar>(&driver_);
-  return scalar == nullptr ? NumberRule::kFinite : scalar->rule;
+  return scalar == nullptr ? NumberRule::kHalfTurn : scalar->rule;
 }
 
 // Finds the number at `path`.

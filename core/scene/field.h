@@ -28,7 +28,8 @@ class Field {
   // Sets the field and returns whether each number that it has set keeps its own rule.
   bool Set(double value) const;
 
-  // The rule of the number that the field sets. phi_rad, which sets two, may be any finite number.
+  // The rule of the number that the field sets. phi_rad, which sets two, must lie in (0, pi): elsewhere the
+  // contact is behind the pin.
   NumberRule rule() const;
 
   // The paths of the numbers that the field sets: one, or two for phi_rad.

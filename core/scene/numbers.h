@@ -9,6 +9,7 @@
 #include <concepts>
 #include <cstddef>
 #include <limits>
+#include <numbers>
 #include <type_traits>
 #include <variant>
 
@@ -23,7 +24,16 @@ inline constexpr double kLeastTangentialRatioSquared = 1e-9;
 inline constexpr double kMostTangentialRatioSquared = 1e9;
 
 // Each rule requires in addition that the number is finite.
-enum class NumberRule { kFinite, kPositive, kNotNegative, kUnitInterval, kPlusMinusOne, kOneToFour, kRatioSquared };
+enum class NumberRule {
+  kFinite,
+  kPositive,
+  kNotNegative,
+  kUnitInterval,
+  kPlusMinusOne,
+  kOneToFour,
+  kRatioSquared,
+  kHalfTurn,  // An angle above 0 and below pi.
+};
 
 // True if `value` keeps `rule`. Every rule compares with two finite ends, so that NaN and infinity break it.
 inline bool Holds(double value, NumberRule rule) {
@@ -41,6 +51,9 @@ inline bool Holds(double value, NumberRule rule) {
       return value >= -1.0 && value <= 1.0;
     case NumberRule::kOneToFour:
       return value >= 1.0 && value <= 4.0;
+    case NumberRule::kHalfTurn:
+      // The double that is called pi lies below pi.
+      return value > 0.0 && value <= std::numbers::pi;
     case NumberRule::kRatioSquared:
       return value >= kLeastTangentialRatioSquared && value <= kMostTangentialRatioSquared;
   }

@@ -19,9 +19,9 @@ using testing::Not;
 
 // Waits until the manifest counts points, at most a minute.
 constexpr char kUntilPoints[] =
-    "for i in $(seq 3000); do grep -qs '\"next_index\": \"[1-9]' result.part.json && break; sleep 0.02; done\n";
+    "for i in $(seq 12000); do grep -qs '\"next_index\": \"[1-9]' result.part.json && break; sleep 0.005; done\n";
 
-std::string Sweep(const std::string& format, const std::string& more, const std::string& points = "400000") {
+std::string Sweep(const std::string& format, const std::string& more, const std::string& points = "1500000") {
   return "\"$R\" sweep --a 0.3 --b 1 --energetic 1 --axis friction.kinetic_coefficient=lin:-0.1:0.4:" + points +
          " --column coefficients.newton --regime --format " + format + " " + more;
 }

@@ -134,9 +134,10 @@ constexpr char kKane[] =
 
 TEST_F(Cli, AuditsEveryRowOfATableAndFlagsTheBadOnes) {
   Write("kane.textproto", kKane);
-  const CliResult result = RunShell("\"$R\" audit --scene kane.textproto --data - --format csv 2> summary",
-                                    "# seen\nid,normal_after_m_s,tangential_after_m_s\r\n"
-                                    "a,0.02,-0.1\r\nb,none,-0.1\n\nc,0.5\nd,5e-1,1\n");
+  const CliResult result =
+      RunShell("\"$R\" audit --scene kane.textproto --data - --skip-column id --format csv 2> summary",
+               "# seen\nid,normal_after_m_s,tangential_after_m_s\r\n"
+               "a,0.02,-0.1\r\nb,none,-0.1\n\nc,0.5\nd,5e-1,1\n");
   EXPECT_EQ(result.exit_code, 0) << Read("summary");
   EXPECT_THAT(result.out, StartsWith("index,admissible,regime,unexplained,distance_m_s,coefficients.newton,"));
   EXPECT_THAT(result.out, HasSubstr("\n1,0,INVALID,"));
@@ -181,6 +182,15 @@ TEST_F(Cli, AnswersATableOfManyCallsAsJsonOfOneResponse) {
   EXPECT_FALSE(response.engine().version().empty());
 }
 
+TEST_F(Cli, AuditsATableAsSpreadsheetsSaveIt) {
+  Write("kane.textproto", kKane);
+  const Arguments audit = {"audit", "--scene", "kane.textproto", "--data", "-", "--format", "csv"};
+  const CliResult plain = Run(audit, "tangential_after_m_s,normal_after_m_s\n0.7,0.2\n");
+  const CliResult saved = Run(audit, "\xEF\xBB\xBF\"tangential_after_m_s\",normal_after_m_s\r\n\"0.7\", \"0.2\"\r\n");
+  EXPECT_EQ(saved.exit_code, 0) << saved.err;
+  EXPECT_EQ(saved.out, plain.out);
+}
+
 TEST_F(Cli, RefusesATableWithoutAKnownHeaderAndAnAuditOfNothing) {
   Write("kane.textproto", kKane);
   const Arguments audit = {"audit", "--scene", "kane.textproto"};
@@ -191,7 +201,15 @@ TEST_F(Cli, RefusesATableWithoutAKnownHeaderAndAnAuditOfNothing) {
   };
   EXPECT_EQ(Run(audit).exit_code, 2);
   EXPECT_THAT(Run(audit).err, HasSubstr("no observation"));
-  EXPECT_THAT(Run(with({"--data", "-"}), "1,2\n").err, HasSubstr("names no known column"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "1,2\n").err,
+              HasSubstr("has the column \"1\": must be one of tangential_m_s"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "normal_after_m_s,velocity_uncertainty\n").err,
+              HasSubstr("has the column \"velocity_uncertainty\": must be one of"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "normal_after_m_s,frictoin\n").err, HasSubstr("did you mean friction?"));
+  EXPECT_THAT(Run(with({"--data", "-", "--skip-column", "idd"}), "id,friction\n").err,
+              HasSubstr("--skip-column = idd: must be a column of standard input; did you mean id?"));
+  EXPECT_THAT(Run(with({"--data", "-"}), "friction;normal_after_m_s\n0,3;1,0\n").err,
+              HasSubstr("separates its columns by semicolons: must use commas"));
   EXPECT_THAT(Run(with({"--data", "-"}), "").err, HasSubstr("has no header"));
   EXPECT_THAT(Run(with({"--data", "-"}), "friction,friction\n").err, HasSubstr("friction twice"));
   EXPECT_THAT(Run(with({"--data", "-"}), "rates_after_rad_s[0],rates_after_rad_s[00]\n").err, HasSubstr("twice"));
@@ -229,7 +247,7 @@ TEST_F(Cli, WritesToADeviceInPlace) {
 
 TEST_F(Cli, AFailureHalfWayLeavesTheOldFileAndNothingElse) {
   Write("result.csv", "old\n");
-  const CliResult result = RunShell("ulimit -f 100\n" + Sweep("100000", "--format csv -o result.csv"));
+  const CliResult result = RunShell("ulimit -f 10\n" + Sweep("100000", "--format csv -o result.csv"));
   EXPECT_EQ(result.exit_code, 42);
   EXPECT_THAT(result.err, HasSubstr("cannot write the output"));
   EXPECT_EQ(Read("result.csv"), "old\n");

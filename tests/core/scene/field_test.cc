@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 #include <string>
 
 namespace ricochet {
@@ -63,10 +64,20 @@ TEST(FieldTest, PhiKeepsTheDistanceOfTheBaseSceneHoweverOftenItIsSet) {
   Scene scene = BaseScene();
   const absl::StatusOr<Field> field = ResolveField("pendulum.phi_rad", scene);
   ASSERT_TRUE(field.ok());
-  for (int i = 0; i < 1'000; ++i) field->Set(0.001 * i);
+  for (int i = 1; i < 1'000; ++i) EXPECT_TRUE(field->Set(0.001 * i));
   field->Set(0.5);
   EXPECT_EQ(std::get<Pendulum>(scene.system).a_m, 5.0 * std::sin(0.5));
   EXPECT_THAT(field->sets(), ElementsAre("pendulum.a_m", "pendulum.b_m"));
+}
+
+// 45 is an angle in degrees; its sine is positive, so that the distances alone do not show the mistake.
+TEST(FieldTest, PhiKeepsItsRuleOnlyBetweenZeroAndPi) {
+  Scene scene = BaseScene();
+  const absl::StatusOr<Field> field = ResolveField("pendulum.phi_rad", scene);
+  ASSERT_TRUE(field.ok());
+  EXPECT_TRUE(field->Set(1e-300));
+  EXPECT_TRUE(field->Set(std::numbers::pi));
+  for (const double phi : {0.0, -1.0, 3.2, 45.0, 200.0}) EXPECT_FALSE(field->Set(phi)) << phi;
 }
 
 TEST(FieldTest, EveryListedPathCanBeDriven) {
