@@ -28,6 +28,7 @@ from pathlib import Path
 
 MIB = 1 << 20
 PROCESSORS = os.cpu_count() or 1
+LONG_MINUTES = 30  # A long run of fewer minutes tries as much less of what is counted.
 
 
 class NotLevel(Exception):
@@ -74,6 +75,8 @@ class Tools:
         self.work = Path(arguments.work).resolve()
         self.soak = arguments.soak
         self.minutes = arguments.minutes
+        # In the long run: the part of all bad requests and kills that are tried.
+        self.part = min(1.0, arguments.minutes / LONG_MINUTES)
         self.seed = arguments.seed
         self.sanitized = arguments.sanitized
         self.help = ""
@@ -389,7 +392,7 @@ def main():
     parser.add_argument("--soak", action="store_true", help="the long run")
     parser.add_argument("--sanitized", action="store_true", help="the server was built with sanitizers, which take memory")
     parser.add_argument("--known", action="store_true", help="also the checks of what is known to lack a guard")
-    parser.add_argument("--minutes", type=float, default=30, help="time of the mixed load in the long run")
+    parser.add_argument("--minutes", type=float, default=LONG_MINUTES, help="time of the mixed load in the long run")
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", default="", help="checks whose name matches this pattern")
     parser.add_argument("--without", default="", help="no checks whose name matches this pattern")

@@ -209,7 +209,7 @@ class Sender:
 def bombard(name, make, share):
     """`share` is the part of all bad requests that are of this kind."""
     rng = tools().random(name)
-    count = int((1000000 if tools().soak else 10000) * share)
+    count = int((1000000 * tools().part if tools().soak else 10000) * share)
     for method in METHODS:
         seeds_of[method] = [what.SerializeToString() for what in seeds(method)]
     with Server(log_level="error") as server, channel(server.address) as line:

@@ -1,6 +1,10 @@
 """Runs every check long, and writes the tables of deploy/README.md from what it measured.
 
-usage: soak.py RICOCHETD RICOCHET WORK_DIRECTORY [MINUTES]    of the mixed load, 30 by default; 0: every check short
+usage: soak.py RICOCHETD RICOCHET WORK_DIRECTORY [MINUTES [TOPIC...]]
+
+MINUTES are those of the mixed load, 30 by default. Fewer minutes try as much less of the bad requests and the kills;
+0 runs every check short. If topics are named, only these are run, and the results of the others are taken from
+WORK_DIRECTORY, where an earlier run left them.
 """
 
 import json
@@ -17,19 +21,23 @@ TOPICS = ["load", "overload", "places", "amplification", "transport", "boundary"
 BEGIN, END = "<!-- written by ./dev soak -->", "<!-- end of what ./dev soak wrote -->"
 
 
-def run(ricochetd, ricochet, work, minutes):
+def run(ricochetd, ricochet, work, minutes, topic):
+    """Runs a topic and leaves its results in the work directory."""
+    found = work / f"{topic}.json"
+    found.unlink(missing_ok=True)
+    print(f"\n== {topic}", flush=True)
+    subprocess.run(
+        [sys.executable, HERE / f"{topic}.py", "--ricochetd", ricochetd, "--ricochet", ricochet, "--proto", SOURCE / "proto",
+         "--work", work / topic, *(["--soak", "--minutes", str(minutes)] if minutes else []), "--known", "--json", found],
+        check=False)
+
+
+def results_in(work):
     results = []
     for topic in TOPICS:
-        program = HERE / f"{topic}.py"
-        if not program.exists():
-            continue
         found = work / f"{topic}.json"
-        found.unlink(missing_ok=True)
-        print(f"\n== {topic}", flush=True)
-        subprocess.run(
-            [sys.executable, program, "--ricochetd", ricochetd, "--ricochet", ricochet, "--proto", SOURCE / "proto",
-             "--work", work / topic, *(["--soak", "--minutes", str(minutes)] if minutes else []), "--known", "--json", found],
-            check=False)
+        if not found.exists():
+            sys.exit(f"there are no results of {topic}: run it")
         results += json.loads(found.read_text(encoding="utf-8"))
     return results
 
@@ -105,24 +113,33 @@ def rows_of(results):
     return "\n".join(lines)
 
 
+def run_of(minutes):
+    if minutes >= 30:
+        return ""
+    return f" This was a run of {minutes:g} minutes instead of 30." if minutes else " This was the short run."
+
+
 def write(results, minutes):
     text = PAGE.read_text(encoding="utf-8")
     if BEGIN not in text or END not in text:
         sys.exit(f"{PAGE} lacks the lines {BEGIN} and {END}")
     head = (f"Measured at commit {commit()} on {machine()}, shared with the clients. Only the ratios carry over to other "
-            f"machines.{'' if minutes else ' This was the short run.'}")
+            f"machines.{run_of(minutes)}")
     made = f"{BEGIN}\n{head}\n\n{summary(results)}\n\n{rows_of(results)}\n{END}"
     start, rest = text.split(BEGIN, 1)
     PAGE.write_text(start + made + rest.split(END, 1)[1], encoding="utf-8")
 
 
 def main():
-    if len(sys.argv) not in (4, 5):
+    topics = sys.argv[5:] or TOPICS
+    if len(sys.argv) < 4 or not set(topics) <= set(TOPICS):
         sys.exit(__doc__)
     ricochetd, ricochet, work = [Path(argument).resolve() for argument in sys.argv[1:4]]
     work.mkdir(parents=True, exist_ok=True)
-    minutes = float(sys.argv[4]) if len(sys.argv) == 5 else 30
-    results = run(ricochetd, ricochet, work, minutes)
+    minutes = float(sys.argv[4]) if len(sys.argv) > 4 else 30
+    for topic in topics:
+        run(ricochetd, ricochet, work, minutes, topic)
+    results = results_in(work)
     (work / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
     write(results, minutes)
     bad = [one["name"] for one in results if one["result"] == "not level" and not one["mitigation"]]
