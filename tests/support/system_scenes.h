@@ -11,7 +11,19 @@ namespace ricochet {
 
 inline PlanarBody Flat() { return {1.0, 0.1, 0.2, -0.3, 1.0, -2.0, 0.5}; }
 inline SpatialBody Body() { return {1.0, {0.3, 0.1, 0.0, 0.2, 0.0, 0.4}, {0.1, 0.2, -0.3}, {1, 2, -3}, {0, 0, 1}}; }
-inline Linkage Chain() { return {{{1.0, 1.0, 0.5, 0.1, 0.3, -1.0}, {1.0, 1.0, 0.5, 0.1, 0.5, -1.0}}}; }
+// Links of the same kind that hang at different angles.
+inline Linkage Chain(size_t links = 2) {
+  Linkage chain;
+  for (size_t i = 0; i < links; ++i) {
+    chain.links.push_back({.length_m = 1.0,
+                           .mass_kg = 1.0,
+                           .com_m = 0.5,
+                           .inertia_com_kg_m2 = 0.1,
+                           .theta_rad = 0.3 + 0.2 * static_cast<double>(i % 9),
+                           .rate_rad_s = -1.0});
+  }
+  return chain;
+}
 inline PlanarContact Contact() { return {2.0, 0.5, 1.0, 1.0, -1.0}; }
 inline SpatialContact ContactInSpace() { return {{1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, {1.0, 0.6}, -1.0}; }
 

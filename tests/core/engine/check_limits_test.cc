@@ -19,6 +19,7 @@
 #include "ricochet/error.h"
 #include "ricochet/limits.h"
 #include "ricochet/solver.h"
+#include "tests/support/system_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -26,21 +27,12 @@ namespace {
 using testing::AllOf;
 using testing::HasSubstr;
 
-Scene Chain(size_t links) {
-  Linkage linkage;
-  for (size_t i = 0; i < links; ++i) {
-    linkage.links.push_back({.length_m = 1.0,
-                             .mass_kg = 1.0,
-                             .com_m = 0.5,
-                             .inertia_com_kg_m2 = 0.1,
-                             .theta_rad = 0.3 + 0.2 * static_cast<double>(i),
-                             .rate_rad_s = -1.0});
-  }
-  return {.system = linkage, .friction = {.kinetic_coefficient = 0.1}, .restitution = EnergeticCoefficient{0.5}};
+Scene ChainScene(size_t links) {
+  return {.system = Chain(links), .friction = {.kinetic_coefficient = 0.1}, .restitution = EnergeticCoefficient{0.5}};
 }
 
 Scene WithTable(size_t speeds) {
-  Scene scene = Chain(1);
+  Scene scene = ChainScene(1);
   SpeedTable table;
   for (size_t i = 0; i < speeds; ++i) {
     table.speed_m_s.push_back(static_cast<double>(i));
@@ -81,30 +73,31 @@ void PrintTo(const Case& tested, std::ostream* out) { *out << tested.name; }
 const std::vector<Case>& Cases() {
   static const std::vector<Case> cases = {
       {"LinksOfASolve", &Limits::max_links, 3, "linkage.links",
-       [](const Solver& solver, size_t n) { return solver.Solve({.scene = Chain(n)}).status(); }},
+       [](const Solver& solver, size_t n) { return solver.Solve({.scene = ChainScene(n)}).status(); }},
       {"LinksOfAPlan", &Limits::max_links, 3, "linkage.links",
-       [](const Solver& solver, size_t n) { return solver.Plan({.scene = Chain(n)}).status(); }},
+       [](const Solver& solver, size_t n) { return solver.Plan({.scene = ChainScene(n)}).status(); }},
       {"LinksOfBounds", &Limits::max_links, 3, "linkage.links",
-       [](const Solver& solver, size_t n) { return solver.Bounds({.scene = Chain(n)}).status(); }},
+       [](const Solver& solver, size_t n) { return solver.Bounds({.scene = ChainScene(n)}).status(); }},
       {"LinksOfAnAudit", &Limits::max_links, 3, "linkage.links",
        [](const Solver& solver, size_t n) {
-         return solver.Audit({.scene = Chain(n), .observed = ObservedRates{Components(n, 0.0)}}).status();
+         return solver.Audit({.scene = ChainScene(n), .observed = ObservedRates{Components(n, 0.0)}}).status();
        },
        2},
       {"RatesOfAnAudit", &Limits::max_links, 3, "rates.rates_rad_s",
        [](const Solver& solver, size_t n) {
-         return solver.Audit({.scene = Chain(std::min<size_t>(n, 3)), .observed = ObservedRates{Components(n, 0.0)}})
+         return solver
+             .Audit({.scene = ChainScene(std::min<size_t>(n, 3)), .observed = ObservedRates{Components(n, 0.0)}})
              .status();
        }},
       {"LinksOfABatch", &Limits::max_links, 3, "linkage.links",
-       [](const Solver& solver, size_t n) { return solver.AuditBatch({.scene = Chain(n)}).status(); }},
+       [](const Solver& solver, size_t n) { return solver.AuditBatch({.scene = ChainScene(n)}).status(); }},
       {"LinksOfASweep", &Limits::max_links, 3, "linkage.links",
        [](const Solver& solver, size_t n) {
-         return FirstOf(solver.Sweep(Sweep(Chain(n), {}, {"coefficients.newton"})));
+         return FirstOf(solver.Sweep(Sweep(ChainScene(n), {}, {"coefficients.newton"})));
        }},
       {"LinksOfAStudyOfCost", &Limits::max_links, 3, "linkage.links",
        [](const Solver& solver, size_t n) {
-         auto stream = solver.Cost({.scene = Chain(n), .time_limit_s = kLeastCostTimeLimitS});
+         auto stream = solver.Cost({.scene = ChainScene(n), .time_limit_s = kLeastCostTimeLimitS});
          return stream.begin()->status();
        }},
       {"NumbersOfATable", &Limits::max_list_numbers, 5, "friction.by_speed.table.speed_m_s",
@@ -113,50 +106,51 @@ const std::vector<Case>& Cases() {
        [](const Solver& solver, size_t n) {
          std::vector<FieldRange> ranges;
          for (const Axis& axis : Axes(n)) ranges.push_back({axis.path, -1.0, -1.0});
-         return solver.Bounds({.scene = Chain(3), .ranges = ranges}).status();
+         return solver.Bounds({.scene = ChainScene(3), .ranges = ranges}).status();
        }},
       {"Axes", &Limits::max_axes, 2, "axes",
        [](const Solver& solver, size_t n) {
-         return FirstOf(solver.Sweep(Sweep(Chain(3), Axes(n), {"coefficients.newton"})));
+         return FirstOf(solver.Sweep(Sweep(ChainScene(3), Axes(n), {"coefficients.newton"})));
        }},
       {"ValuesOfAnAxis", &Limits::max_axis_values, 9, "axes[0].list.values",
        [](const Solver& solver, size_t n) {
          const Axis axis = {.path = "friction.kinetic_coefficient", .values = ListValues{std::vector<double>(n, 0.1)}};
-         return FirstOf(solver.Sweep(Sweep(Chain(1), {axis}, {"coefficients.newton"})));
+         return FirstOf(solver.Sweep(Sweep(ChainScene(1), {axis}, {"coefficients.newton"})));
        }},
       {"Columns", &Limits::max_columns, 1, "columns",
        [](const Solver& solver, size_t n) {
          std::vector<std::string> columns = {"coefficients.newton", "coefficients.poisson"};
          columns.resize(n);
-         return FirstOf(solver.Sweep(Sweep(Chain(1), {}, columns)));
+         return FirstOf(solver.Sweep(Sweep(ChainScene(1), {}, columns)));
        }},
       {"Digits", &Limits::max_digits_times_links, 60, "certified_digits",
        [](const Solver& solver, size_t n) {
-         return solver.Solve({.scene = Chain(2), .certified_digits = static_cast<int32_t>((n + 1) / 2)}).status();
+         return solver.Solve({.scene = ChainScene(2), .certified_digits = static_cast<int32_t>((n + 1) / 2)}).status();
        }},
       {"DigitsOfBounds", &Limits::max_digits_times_links, 20, "certified_digits",
        [](const Solver& solver, size_t n) {
-         return solver.Bounds({.scene = Chain(1), .certified_digits = static_cast<int32_t>(n)}).status();
+         return solver.Bounds({.scene = ChainScene(1), .certified_digits = static_cast<int32_t>(n)}).status();
        }},
       {"StatesOfAHistory", &Limits::max_history_numbers, 30, "history_at_n_s",
        [](const Solver& solver, size_t n) {
          const std::vector<double> history((n + 4) / 5, 0.0);
-         return solver.Solve({.scene = Chain(1), .history_at_n_s = history}).status();
+         return solver.Solve({.scene = ChainScene(1), .history_at_n_s = history}).status();
        }},
       {"StepsOfAHistory", &Limits::max_history_numbers, 30, "history_intervals",
        [](const Solver& solver, size_t n) {
-         return solver.Solve({.scene = Chain(2), .history_intervals = static_cast<int64_t>((n + 5) / 6) - 1}).status();
+         return solver.Solve({.scene = ChainScene(2), .history_intervals = static_cast<int64_t>((n + 5) / 6) - 1})
+             .status();
        }},
       {"RowsOfABatch", &Limits::max_audit_rows, 7, "columns.friction",
        [](const Solver& solver, size_t n) {
-         AuditBatchRequest request = {.scene = Chain(1)};
+         AuditBatchRequest request = {.scene = ChainScene(1)};
          request.columns.friction.assign(n, 0.1);
          request.columns.rates_after_rad_s = {{0.0}};
          return solver.AuditBatch(request).status();
        }},
       {"RatesOfABatch", &Limits::max_audit_rows, 7, "columns.rates_after[0].rates_rad_s",
        [](const Solver& solver, size_t n) {
-         AuditBatchRequest request = {.scene = Chain(1)};
+         AuditBatchRequest request = {.scene = ChainScene(1)};
          request.columns.rates_after_rad_s = {std::vector<double>(n, 0.0)};
          return solver.AuditBatch(request).status();
        }},
@@ -194,7 +188,7 @@ INSTANTIATE_TEST_SUITE_P(Limit, CheckLimitsTest, testing::ValuesIn(Cases()),
 TEST(CheckLimits, ForceIntervals) {
   Limits limits;
   limits.max_force_intervals = 10;
-  SolveRequest request = {.scene = Chain(1), .force_intervals = 11};
+  SolveRequest request = {.scene = ChainScene(1), .force_intervals = 11};
   const absl::Status refused = CheckLimits(request, limits);
   EXPECT_EQ(ReasonOf(refused), ErrorReason::kLimitExceeded);
   EXPECT_THAT(std::string(refused.message()), HasSubstr("force_intervals = 11: must be at most 10"));
@@ -207,7 +201,7 @@ TEST(CheckLimits, PointsOfASweepAreThoseOfItsRange) {
   limits.max_points_per_sweep = 1000;
   const LocalSolver limited(limits);
   const Axis axis = {.path = "friction.kinetic_coefficient", .values = Linspace{0.1, 0.2, 1001}};
-  SweepRequest request = Sweep(Chain(1), {axis}, {"coefficients.newton"});
+  SweepRequest request = Sweep(ChainScene(1), {axis}, {"coefficients.newton"});
   const absl::Status refused = FirstOf(limited.Sweep(request));
   EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
   EXPECT_EQ(ReasonOf(refused), ErrorReason::kSweepTooLarge);
@@ -217,7 +211,7 @@ TEST(CheckLimits, PointsOfASweepAreThoseOfItsRange) {
 }
 
 TEST(CheckLimits, AnEnclosureWithFewBoxesIsWiderButHoldsTheOneWithMany) {
-  BoundsRequest request = {.scene = Chain(2)};
+  BoundsRequest request = {.scene = ChainScene(2)};
   request.ranges = {{"friction.kinetic_coefficient", 0.0, 0.4}, {"linkage.links[0].theta_rad", 0.2, 0.6}};
   const auto whole = LocalSolver().Bounds(request);
   Limits limits;
@@ -237,8 +231,8 @@ TEST(CheckLimits, EveryFieldThatIsTooLargeIsNamed) {
   limits.max_links = 1;
   limits.max_axes = 1;
   limits.max_columns = 1;
-  const absl::Status refused =
-      FirstOf(LocalSolver(limits).Sweep(Sweep(Chain(2), Axes(2), {"coefficients.newton", "coefficients.poisson"})));
+  const absl::Status refused = FirstOf(
+      LocalSolver(limits).Sweep(Sweep(ChainScene(2), Axes(2), {"coefficients.newton", "coefficients.poisson"})));
   EXPECT_EQ(ViolationsOf(refused).size(), 3) << refused;
 }
 

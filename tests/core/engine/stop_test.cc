@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "ricochet/solver.h"
+#include "tests/support/system_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -20,17 +21,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-Scene Chain(int links) {
-  Linkage linkage;
-  for (int i = 0; i < links; ++i) {
-    linkage.links.push_back({.length_m = 1.0,
-                             .mass_kg = 1.0,
-                             .com_m = 0.5,
-                             .inertia_com_kg_m2 = 0.1,
-                             .theta_rad = 0.3 + 0.2 * (i % 9),
-                             .rate_rad_s = -1.0});
-  }
-  return {.system = linkage, .friction = {.kinetic_coefficient = 0.2}, .restitution = EnergeticCoefficient{0.5}};
+Scene ChainScene(size_t links) {
+  return {.system = Chain(links), .friction = {.kinetic_coefficient = 0.2}, .restitution = EnergeticCoefficient{0.5}};
 }
 
 // A contact whose tangential spring is a million times stiffer than the normal one, so that each impact takes a second.
@@ -47,7 +39,7 @@ Scene StiffContact() {
 }
 
 BoundsRequest WideBounds() {
-  BoundsRequest request = {.scene = Chain(64)};
+  BoundsRequest request = {.scene = ChainScene(64)};
   for (int i = 0; i < 32; ++i) {
     request.ranges.push_back({"linkage.links[" + std::to_string(i) + "].mass_kg", 0.8, 1.2});
   }
@@ -88,7 +80,7 @@ std::vector<DearCall> DearCalls() {
   return {
       {"CertifiedChain",
        [solver](const CallOptions& options) {
-         return solver.Solve({.scene = Chain(400), .certified_digits = 1000}, options).status();
+         return solver.Solve({.scene = ChainScene(400), .certified_digits = 1000}, options).status();
        }},
       {"ForcesOfAStiffContact",
        [solver](const CallOptions& options) {
@@ -99,12 +91,12 @@ std::vector<DearCall> DearCalls() {
       {"AuditOfManyRowsInSpace",
        [solver](const CallOptions& options) { return solver.AuditBatch(DeficientRows(), options).status(); }},
       {"SweepOfAStiffContact", [](const CallOptions& options) { return Sweep(StiffContact(), options); }},
-      {"SweepOfAChain", [](const CallOptions& options) { return Sweep(Chain(64), options); }},
+      {"SweepOfAChain", [](const CallOptions& options) { return Sweep(ChainScene(64), options); }},
       {"StudyOfCost",
        [solver](const CallOptions& options) {
          absl::Status last;
          for (const absl::StatusOr<CostChunk>& chunk :
-              solver.Cost({.scene = Chain(64), .time_limit_s = kMostCostTimeLimitS, .samples = 1001}, options)) {
+              solver.Cost({.scene = ChainScene(64), .time_limit_s = kMostCostTimeLimitS, .samples = 1001}, options)) {
            last = chunk.status();
          }
          return last;
