@@ -114,25 +114,30 @@ std::string WorkText(const AuditReport& report) {
 // The columns of a row: the name and the value of each.
 using Row = std::vector<std::pair<std::string, std::string>>;
 
-void AddDirections(const std::string& name, const std::array<double, 2>& values, size_t directions, Row& row) {
-  for (size_t i = 0; i < directions; ++i) row.emplace_back(absl::StrCat(name, "[", i, "]"), ShortestDecimal(values[i]));
-}
+std::string Truth(bool value) { return value ? "true" : "false"; }
 
-// The columns are named as the fields of ricochet.v1.AuditReport.
+// The columns are named as the fields of ricochet.v1.AuditReport. An invalid row has no numbers.
 Row RowOf(const AuditReport& report, size_t directions) {
-  const auto number = [](double value) { return ShortestDecimal(value); };
-  Row row = {
-      {"admissible", report.admissible ? "1" : "0"},        {"regime", RegimeName(report.regime)},
-      {"unexplained", report.unexplained ? "1" : "0"},      {"distance_m_s", number(report.distance)},
-      {"coefficients.newton", number(report.newton)},       {"coefficients.poisson", number(report.poisson)},
-      {"coefficients.energetic", number(report.energetic)}, {"coefficients.tangential", number(report.tangential)},
-      {"normal_impulse_n_s", number(report.normal_impulse)}};
-  AddDirections("tangential_impulse_n_s", report.tangential_impulse, directions, row);
-  AddDirections("friction_mismatch_n_s", report.friction_mismatch, directions, row);
+  const bool is_valid = report.regime != Regime::kInvalid;
+  const auto number = [is_valid](double value) { return is_valid ? ShortestDecimal(value) : "nan"; };
+  Row row = {{"admissible", Truth(report.admissible)},
+             {"regime", RegimeName(report.regime)},
+             {"unexplained", Truth(report.unexplained)},
+             {"distance_m_s", number(report.distance)},
+             {"coefficients.newton", number(report.newton)},
+             {"coefficients.poisson", number(report.poisson)},
+             {"coefficients.energetic", number(report.energetic)},
+             {"coefficients.tangential", number(report.tangential)},
+             {"normal_impulse_n_s", number(report.normal_impulse)}};
+  const auto add_directions = [&](const char* name, const std::array<double, 2>& values) {
+    for (size_t i = 0; i < directions; ++i) row.emplace_back(absl::StrCat(name, "[", i, "]"), number(values[i]));
+  };
+  add_directions("tangential_impulse_n_s", report.tangential_impulse);
+  add_directions("friction_mismatch_n_s", report.friction_mismatch);
   row.emplace_back("energy_change_j", number(report.energy_change));
   for (const LimitName& name : kLimits) {
     const LimitCheck& check = report[name.limit];
-    row.emplace_back(absl::StrCat("limits.", name.column, ".broken"), check.verdict == Verdict::kBroken ? "1" : "0");
+    row.emplace_back(absl::StrCat("limits.", name.column, ".broken"), Truth(check.verdict == Verdict::kBroken));
     row.emplace_back(absl::StrCat("limits.", name.column, ".excess"), number(check.excess));
     row.emplace_back(absl::StrCat("limits.", name.column, ".allowance"), number(check.allowance));
   }
