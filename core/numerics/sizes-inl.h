@@ -28,10 +28,12 @@ struct Sizes {
     least = Smaller(least, Select(Lanes<V>::Fill(0.0) < size, size, Lanes<V>::Fill(1.0)));
   }
 
-  // True where all are at least 1/limit and at most `limit`.
-  HWY_INLINE auto AreWithin(double limit) const {
-    return Both(Lanes<V>::Fill(1.0 / limit) <= least, most <= Lanes<V>::Fill(limit));
+  // True where all are at least `lower` and at most `upper`.
+  HWY_INLINE auto AreWithin(double lower, double upper) const {
+    return Both(Lanes<V>::Fill(lower) <= least, most <= Lanes<V>::Fill(upper));
   }
+  // True where all are at least 1/limit and at most `limit`.
+  HWY_INLINE auto AreWithin(double limit) const { return AreWithin(1.0 / limit, limit); }
 };
 
 }  // namespace ricochet::HWY_NAMESPACE

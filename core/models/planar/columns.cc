@@ -25,27 +25,28 @@ namespace ricochet::planar {
 // Problems are solved in blocks of this many.
 inline constexpr size_t kBlock = 64;
 
-inline constexpr size_t kNumbers = 8;
+// The numbers of a problem.
+enum : size_t { kWtt, kWtn, kWnn, kU0, kV0, kMu, kMuStatic, kCoefficient, kNumbers };
 
 // The problems of a call, and the places of their results.
 struct Job {
   RestitutionLaw law = RestitutionLaw::kEnergetic;
-  std::array<const double*, kNumbers> numbers = {};  // wtt, wtn, wnn, u0, v0, mu, mu_static, coefficient.
-  std::array<double*, kOutputCount> places = {};     // Null for an output that is not wanted.
-  unsigned parts = 0;                                // Those of the outputs wanted.
-  Regime* regimes = nullptr;                         // Null if they are not wanted.
-  bool* inadmissible = nullptr;                      // Null if it is not wanted.
+  std::array<const double*, kNumbers> numbers = {};
+  std::array<double*, kOutputCount> places = {};  // Null for an output that is not wanted.
+  unsigned parts = 0;                             // Those of the outputs wanted.
+  Regime* regimes = nullptr;                      // Null if they are not wanted.
+  bool* inadmissible = nullptr;                   // Null if it is not wanted.
 
   Problem operator[](size_t i) const {
-    return {.w = {numbers[0][i], numbers[1][i], numbers[2][i]},
-            .u0 = numbers[3][i],
-            .v0 = numbers[4][i],
-            .mu = numbers[5][i],
-            .mu_static = numbers[6][i],
+    return {.w = {numbers[kWtt][i], numbers[kWtn][i], numbers[kWnn][i]},
+            .u0 = numbers[kU0][i],
+            .v0 = numbers[kV0][i],
+            .mu = numbers[kMu][i],
+            .mu_static = numbers[kMuStatic][i],
             .law = law,
-            .coefficient = numbers[7][i]};
+            .coefficient = numbers[kCoefficient][i]};
   }
-  bool IsSeparating(size_t i) const { return numbers[4][i] >= 0.0; }
+  bool IsSeparating(size_t i) const { return numbers[kV0][i] >= 0.0; }
 
   void SetEnd(size_t i, Regime regime, bool breaks_limit) const {
     if (regimes != nullptr) regimes[i] = regime;
@@ -70,25 +71,27 @@ using V = ricochet::HWY_NAMESPACE::Vector;
 using VLanes = ricochet::HWY_NAMESPACE::Lanes<V>;
 using Mask = decltype(V() < V());
 
-// True where no number on the path can leave the range in which the arithmetic is exact (kMostModerate).
+// True where DoubleDouble is exact on the whole path.
 HWY_INLINE Mask AreModerate(const Job& job, size_t i) {
   ricochet::HWY_NAMESPACE::Sizes<V> sizes;
-  for (const double* numbers : job.numbers) sizes.TakeIn(VLanes::Load(numbers + i));
-  return sizes.AreWithin(kMostModerate);
+  ricochet::HWY_NAMESPACE::Sizes<V> couplings;
+  for (const size_t k : {kWtt, kWnn, kV0, kMu, kMuStatic, kCoefficient}) sizes.TakeIn(VLanes::Load(job.numbers[k] + i));
+  for (const size_t k : {kWtn, kU0}) couplings.TakeIn(VLanes::Load(job.numbers[k] + i));
+  return Both(sizes.AreWithin(kLeastModerate, kMostModerate), couplings.AreWithin(kLeastCoupling, kMostModerate));
 }
 
 template <typename N>
 HWY_INLINE Inputs<N> LoadInputs(const Job& job, size_t i) {
   const auto load = [&](size_t k) HWY_ATTR { return N::Exactly(VLanes::Load(job.numbers[k] + i)); };
   Inputs<N> in;
-  in.wtt = load(0);
-  in.wtn = load(1);
-  in.wnn = load(2);
-  in.u0 = load(3);
-  in.v0 = load(4);
-  in.mu = load(5);
-  in.mu_static = load(6);
-  in.coefficient = load(7);
+  in.wtt = load(kWtt);
+  in.wtn = load(kWtn);
+  in.wnn = load(kWnn);
+  in.u0 = load(kU0);
+  in.v0 = load(kV0);
+  in.mu = load(kMu);
+  in.mu_static = load(kMuStatic);
+  in.coefficient = load(kCoefficient);
   CompleteInputs(in);
   return in;
 }

@@ -67,9 +67,10 @@ HWY_EXPORT(SolvePlainModerate);
 namespace {
 
 bool FitsDoubleDouble(const Problem& problem) {
-  return AreModerate({problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0, problem.mu, problem.mu_static,
-                      problem.coefficient},
-                     HWY_NAMESPACE::kMostModerate);
+  using HWY_NAMESPACE::kMostModerate;
+  return AreWithin(HWY_NAMESPACE::kLeastModerate, kMostModerate,
+                   {problem.w.tt, problem.w.nn, problem.v0, problem.mu, problem.mu_static, problem.coefficient}) &&
+         AreWithin(HWY_NAMESPACE::kLeastCoupling, kMostModerate, {problem.w.tn, problem.u0});
 }
 
 Impact SolveSeparating(const Problem& problem) {

@@ -57,7 +57,8 @@ struct PlainImpact {
   Impact impact;
   RoundingErrors errors;
   // False if plain arithmetic cannot prove a sign that decides on the regime, on the order of the events or on a broken
-  // limit, or if a number other than 0 lies outside [2^-40, 2^40]. The rest has no meaning then.
+  // limit, or if a number other than 0 lies outside [2^-40, 2^40], u0 or Wtn outside [2^-100, 2^40]. The rest has no meaning
+  // then.
   bool proved = false;
 };
 

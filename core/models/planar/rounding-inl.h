@@ -27,9 +27,13 @@ namespace ricochet::planar::HWY_NAMESPACE {
 using ricochet::HWY_NAMESPACE::DoubleDouble;
 
 // No number on the path leaves the range in which DoubleDouble is exact if every input is 0 or has a size between
-// 1/kMostModerate and kMostModerate. Slopes then lie between 2^-186 (two products of 2^-80 that cancel to their last bit) and
+// kLeastModerate and kMostModerate, u0 and Wtn one between kLeastCoupling and kMostModerate: both are often the rounding
+// error of a number that should be 0. Slopes then lie between 2^-186 (two products of 2^-80 that cancel to their last bit) and
 // 2^81, v where slip stops is below 2^307, impulses are below 2^493, works below 2^800, and v^2 over a slope is above 2^-908.
+// Products with u0 and Wtn are above 2^-286.
+inline constexpr double kLeastModerate = 0x1p-40;
 inline constexpr double kMostModerate = 0x1p40;
+inline constexpr double kLeastCoupling = 0x1p-100;
 
 // A sign is sure if the number is this many times its error, so that every number that later ones divide by is right to
 // 2^-10.

@@ -153,6 +153,20 @@ TEST(PlanarRoundingTest, ClaimsHoldForScalesOf100Decades) {
   both.Print();
 }
 
+// u0 and Wtn are as small as rounding leaves numbers that should be 0.
+TEST(PlanarRoundingTest, ClaimsHoldForSlipAndCouplingThatAreNearlyZero) {
+  Both both;
+  SceneSource source(19);
+  for (int i = 0; i < kScenes && !testing::Test::HasFailure(); ++i) {
+    Problem problem = source.Everyday();
+    if (i % 3 != 0) problem.u0 *= std::exp2(-source.Uniform(30.0, 110.0));
+    if (i % 3 != 1) problem.w.tn *= std::exp2(-source.Uniform(30.0, 110.0));
+    both.Add(problem);
+  }
+  both.Print();
+  EXPECT_GT(both.plain.count(), kScenes * 7 / 10);
+}
+
 // The bounds that follow for the coefficients from those on velocities, impulses and works, as docs/theory states.
 TEST(PlanarRoundingTest, BoundsOnCoefficientsFollow) {
   SceneSource source(15);
@@ -225,6 +239,11 @@ TEST(PlanarRoundingTest, NumbersBeyondTheRangeOfPlainArithmeticAreNotProved) {
   Problem problem = FortyFiveDegreeRod(RestitutionLaw::kEnergetic, 0.5);
   EXPECT_TRUE(SolvePlain(problem).proved);
   problem.u0 = -1e-13;
+  EXPECT_TRUE(SolvePlain(problem).proved);
+  problem.u0 = -1e-31;
+  EXPECT_FALSE(SolvePlain(problem).proved);
+  problem.u0 = 0.0;
+  problem.mu = 1e-13;
   EXPECT_FALSE(SolvePlain(problem).proved);
 }
 
