@@ -51,6 +51,20 @@ bool IsWorthRepeating(const absl::Status& status) {
   return absl::IsResourceExhausted(status) && RetryDelayOf(status).has_value();
 }
 
+bool MayResume(const absl::Status& status) {
+  switch (status.code()) {
+    case absl::StatusCode::kUnavailable:
+    case absl::StatusCode::kUnknown:
+    case absl::StatusCode::kInternal:
+    case absl::StatusCode::kCancelled:
+      return true;
+    case absl::StatusCode::kResourceExhausted:
+      return IsWorthRepeating(status);
+    default:
+      return false;
+  }
+}
+
 CallOptions WithDeadline(CallOptions options, std::optional<milliseconds> most) {
   if (!most.has_value()) return options;
   const Deadline end = std::chrono::steady_clock::now() + std::min<std::chrono::nanoseconds>(*most, kLongestCall);

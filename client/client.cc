@@ -5,12 +5,16 @@
 #include <vector>
 
 #include "client/attempts.h"
+#include "client/batch_session.h"
 #include "client/call_context.h"
 #include "client/channel.h"
 #include "client/cost_reader.h"
 #include "client/sweep_reader.h"
+#include "core/batch/check_rows.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
+#include "proto/wire/engine.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
 #include "proto/wire/sweep.h"
@@ -37,24 +41,31 @@ struct Client::Connection {
   std::vector<std::unique_ptr<Stub>> stubs;  // One for each server.
   PreferredServer preferred;
 
-  // Converts the request to its proto, calls `method` on one server after another until one answers, and converts the
-  // response back.
-  template <typename Request, typename WireRequest, typename WireResponse>
-  auto Ask(Method<WireRequest, WireResponse> method, const Request& request, const CallOptions& given)
-      -> absl::StatusOr<decltype(FromProto(WireResponse()))> {
+  // Calls `method` on one server after another until one answers.
+  template <typename WireRequest, typename WireResponse>
+  absl::StatusOr<WireResponse> AskWire(Method<WireRequest, WireResponse> method, const WireRequest& wire,
+                                       const CallOptions& given) {
     const CallOptions call = WithDeadline(given, options.deadline);
-    const WireRequest wire = ToProto(request);
     for (Attempts attempts(preferred, options.retry);;) {
       if (IsStopped(call)) return StoppedByCaller();
       CallContext context(call, std::nullopt);
       WireResponse response;
       const grpc::Status ended = ((*stubs[attempts.server()]).*method)(&context.get(), wire, &response);
-      if (ended.ok()) return FromProto(response);
+      if (ended.ok()) return response;
       if (IsStopped(call)) return StoppedByCaller();
       const absl::Status status = FromGrpcStatus(ended);
       const auto wait = attempts.AfterFailure(status, MostRetries(status));
       if (!wait.has_value() || !Pause(*wait, call)) return IsStopped(call) ? StoppedByCaller() : status;
     }
+  }
+
+  // Converts the request to its proto, and the response of `method` back.
+  template <typename Request, typename WireRequest, typename WireResponse>
+  auto Ask(Method<WireRequest, WireResponse> method, const Request& request, const CallOptions& given)
+      -> absl::StatusOr<decltype(FromProto(WireResponse()))> {
+    const absl::StatusOr<WireResponse> response = AskWire(method, ToProto(request), given);
+    if (!response.ok()) return response.status();
+    return FromProto(*response);
   }
 
   // gRPC has already repeated a call that ends with UNAVAILABLE or CANCELLED, so that only the other servers are left.
@@ -97,6 +108,38 @@ absl::StatusOr<AuditResponse> Client::DoAudit(const AuditRequest& request, const
 absl::StatusOr<AuditBatchResponse> Client::DoAuditBatch(const AuditBatchRequest& request,
                                                         const CallOptions& options) const {
   return connection_->Ask(&Stub::AuditBatch, request, options);
+}
+
+absl::StatusOr<BatchSession> Client::DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const {
+  auto start = [connection = connection_](size_t server, grpc::ClientContext* context) {
+    return connection->stubs[server]->SolveBatches(context);
+  };
+  return BatchSession(std::make_unique<RemoteBatches>(setup, std::move(start), connection_->preferred,
+                                                      connection_->options.retry, options));
+}
+
+absl::StatusOr<BatchResponse> Client::DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
+                                                   const CallOptions& options) const {
+  const size_t count = RowCount(rows);
+  if (count > RowsOfAPiece(setup)) return SolveInPieces(setup, rows, options);
+  if (absl::Status misfit = CheckRows(rows, setup.fields.size(), setup.columns.size()); !misfit.ok()) return misfit;
+  v1::SolveBatchRequest request;
+  *request.mutable_setup() = ToProto(setup);
+  SetInputs(rows, 0, count, request);
+  const absl::StatusOr<v1::SolveBatchResponse> response = connection_->AskWire(&Stub::SolveBatch, request, options);
+  if (!response.ok()) return response.status();
+  if (absl::Status misfit = CopyOutputs(*response, 0, count, rows); !misfit.ok()) return misfit;
+  return BatchResponse{.summary = FromProto(response->summary()), .engine = FromProto(response->engine())};
+}
+
+absl::StatusOr<BatchResponse> Client::SolveInPieces(const BatchSetup& setup, const BatchRows& rows,
+                                                    const CallOptions& options) const {
+  absl::StatusOr<BatchSession> session =
+      DoOpenBatches(setup, WithDeadline(options, connection_->options.sweep_deadline));
+  if (!session.ok()) return session.status();
+  absl::StatusOr<BatchSummary> summary = session->Solve(rows);
+  if (!summary.ok()) return summary.status();
+  return BatchResponse{.summary = *std::move(summary), .engine = session->engine()};
 }
 
 SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& options) const {

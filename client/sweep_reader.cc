@@ -5,29 +5,8 @@
 
 #include "client/call_context.h"
 #include "proto/wire/sweep.h"
-#include "ricochet/error.h"
 
 namespace ricochet {
-namespace {
-
-// True if another call may get further. Proxies report a dead server as UNKNOWN or INTERNAL, and a server that drains may
-// cancel a call that it has not read yet.
-bool MayResume(const absl::Status& status) {
-  switch (status.code()) {
-    case absl::StatusCode::kUnavailable:
-    case absl::StatusCode::kUnknown:
-    case absl::StatusCode::kInternal:
-    case absl::StatusCode::kCancelled:
-      return true;
-    case absl::StatusCode::kResourceExhausted:
-      return IsWorthRepeating(status);
-    default:
-      return false;
-  }
-}
-
-}  // namespace
-
 SweepReader::SweepReader(const SweepRequest& request, Start start, PreferredServer& servers, const RetryPolicy& policy,
                          std::optional<std::chrono::milliseconds> deadline, const CallOptions& options, Sleeper sleep)
     : checker_(request),

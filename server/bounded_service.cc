@@ -24,8 +24,9 @@ using google::protobuf::internal::WireFormatLite;
 using google::protobuf::io::CodedInputStream;
 
 constexpr int64_t kLeastElements = 16'384;
-constexpr int64_t kLeastBytes = 2;  // An element takes at least a tag and a length.
-constexpr int kMostDepth = 100;     // The parser refuses messages that are nested more deeply.
+constexpr int64_t kMostBytes = int64_t{1} << 20;  // Of a request that is no batch.
+constexpr int64_t kLeastBytes = 2;                // An element takes at least a tag and a length.
+constexpr int kMostDepth = 100;                   // The parser refuses messages that are nested more deeply.
 
 // Walks through the bytes of a message and counts what it holds.
 class ElementCount {
@@ -81,12 +82,19 @@ class ElementCount {
   std::string place_;
 };
 
+absl::Status CheckBytes(int64_t bytes, int64_t most) {
+  if (bytes <= most) return absl::OkStatus();
+  return MakeError(absl::StatusCode::kResourceExhausted, ErrorReason::kLimitExceeded,
+                   absl::StrCat("the request has ", bytes, " bytes: must have at most ", most,
+                                most == kMostBytes ? "" : ", the limit max_request_bytes; send a batch in pieces"));
+}
+
 // Lets another handler parse and answer a request, unless it holds too much.
 class BoundedHandler final : public grpc::internal::MethodHandler {
  public:
   BoundedHandler(std::unique_ptr<grpc::internal::MethodHandler> handler, const Descriptor& request,
-                 int64_t most_elements, UnreadWatch& unread)
-      : handler_(std::move(handler)), request_(request), most_elements_(most_elements), unread_(unread) {}
+                 const MessageBounds& bounds, UnreadWatch& unread)
+      : handler_(std::move(handler)), request_(request), bounds_(bounds), unread_(unread) {}
 
   // Returns when the answer is sent.
   void RunHandler(const HandlerParameter& parameter) override {
@@ -104,14 +112,16 @@ class BoundedHandler final : public grpc::internal::MethodHandler {
 
  private:
   absl::Status Check(grpc_byte_buffer* bytes) const {
+    if (bytes == nullptr) return absl::OkStatus();
+    const auto length = static_cast<int64_t>(grpc_byte_buffer_length(bytes));
+    if (absl::Status too_long = CheckBytes(length, bounds_.bytes); !too_long.ok()) return too_long;
     grpc_byte_buffer_reader reader;
-    if (bytes == nullptr || grpc_byte_buffer_length(bytes) <= static_cast<size_t>(kLeastBytes * most_elements_) ||
-        grpc_byte_buffer_reader_init(&reader, bytes) == 0) {
+    if (length <= kLeastBytes * bounds_.elements || grpc_byte_buffer_reader_init(&reader, bytes) == 0) {
       return absl::OkStatus();
     }
     const grpc_slice whole = grpc_byte_buffer_reader_readall(&reader);
     const absl::string_view view(reinterpret_cast<const char*>(GRPC_SLICE_START_PTR(whole)), GRPC_SLICE_LENGTH(whole));
-    absl::Status checked = CheckElements(view, request_, most_elements_);
+    absl::Status checked = CheckElements(view, request_, bounds_.elements);
     grpc_slice_unref(whole);
     grpc_byte_buffer_reader_destroy(&reader);
     return checked;
@@ -119,7 +129,7 @@ class BoundedHandler final : public grpc::internal::MethodHandler {
 
   const std::unique_ptr<grpc::internal::MethodHandler> handler_;
   const Descriptor& request_;
-  const int64_t most_elements_;
+  const MessageBounds bounds_;
   UnreadWatch& unread_;
 };
 
@@ -143,8 +153,30 @@ absl::Status CheckElements(absl::string_view bytes, const Descriptor& type, int6
                    count.place()));
 }
 
-BoundedService::BoundedService(Methods& service, const Limits& limits, UnreadWatch& unread)
-    : service_(service), most_elements_(MostElements(limits)), unread_(unread) {
+absl::Status CheckMessage(const grpc::ByteBuffer& bytes, const Descriptor& type, const MessageBounds& bounds) {
+  const auto length = static_cast<int64_t>(bytes.Length());
+  if (absl::Status too_long = CheckBytes(length, bounds.bytes); !too_long.ok()) return too_long;
+  grpc::Slice whole;
+  if (length <= kLeastBytes * bounds.elements || !bytes.DumpToSingleSlice(&whole).ok()) return absl::OkStatus();
+  return CheckElements({reinterpret_cast<const char*>(whole.begin()), whole.size()}, type, bounds.elements);
+}
+
+absl::Status BoundedBatches::Parse(v1::SolveBatchRequest& request) {
+  if (absl::Status refused = CheckMessage(received_, *v1::SolveBatchRequest::descriptor(), bounds_); !refused.ok()) {
+    return refused;
+  }
+  const grpc::Status parsed = grpc::SerializationTraits<v1::SolveBatchRequest>::Deserialize(&received_, &request);
+  if (parsed.ok()) return absl::OkStatus();
+  return MakeError(absl::StatusCode::kInvalidArgument, ErrorReason::kInvalidRequest,
+                   "the bytes of the request are not a message of the type that this method takes");
+}
+
+BoundedService::BoundedService(Methods& service, Batches batches, const Limits& limits, UnreadWatch& unread)
+    : service_(service),
+      batches_(std::move(batches)),
+      most_elements_(MostElements(limits)),
+      most_batch_bytes_(limits.max_request_bytes),
+      unread_(unread) {
   AddUnary("/ricochet.v1.ImpactService/Solve", &Methods::Solve);
   AddUnary("/ricochet.v1.ImpactService/Bounds", &Methods::Bounds);
   AddStream("/ricochet.v1.ImpactService/Sweep", &Methods::Sweep);
@@ -152,6 +184,8 @@ BoundedService::BoundedService(Methods& service, const Limits& limits, UnreadWat
   AddUnary("/ricochet.v1.ImpactService/AuditBatch", &Methods::AuditBatch);
   AddUnary("/ricochet.v1.ImpactService/Plan", &Methods::Plan);
   AddStream("/ricochet.v1.ImpactService/Cost", &Methods::Cost);
+  AddUnary("/ricochet.v1.ImpactService/SolveBatch", &Methods::SolveBatch);
+  AddBatches("/ricochet.v1.ImpactService/SolveBatches");
 }
 
 template <typename Request, typename Response>
@@ -159,7 +193,7 @@ void BoundedService::AddUnary(const char* path,
                               grpc::Status (Methods::*method)(grpc::ServerContext*, const Request*, Response*)) {
   const auto run = [method](Methods* service, grpc::ServerContext* context, const Request* request,
                             Response* response) { return (service->*method)(context, request, response); };
-  Add(path, /*is_stream=*/false, *Request::descriptor(),
+  Add(path, grpc::internal::RpcMethod::NORMAL_RPC, *Request::descriptor(),
       std::make_unique<grpc::internal::RpcMethodHandler<Methods, Request, Response>>(run, &service_));
 }
 
@@ -170,16 +204,27 @@ void BoundedService::AddStream(const char* path, grpc::Status (Methods::*method)
                             grpc::ServerWriter<Response>* writer) {
     return (service->*method)(context, request, writer);
   };
-  Add(path, /*is_stream=*/true, *Request::descriptor(),
+  Add(path, grpc::internal::RpcMethod::SERVER_STREAMING, *Request::descriptor(),
       std::make_unique<grpc::internal::ServerStreamingHandler<Methods, Request, Response>>(run, &service_));
 }
 
-void BoundedService::Add(const char* path, bool is_stream, const Descriptor& request,
+void BoundedService::AddBatches(const char* path) {
+  const auto run = [this](grpc::ServerContext* context, BoundedBatches::Stream* stream) {
+    BoundedBatches batches(*stream, {.bytes = most_batch_bytes_, .elements = most_elements_});
+    return batches_(*context, batches);
+  };
+  Add(path, grpc::internal::RpcMethod::BIDI_STREAMING, *v1::SolveBatchRequest::descriptor(),
+      std::make_unique<grpc::internal::TemplatedBidiStreamingHandler<BoundedBatches::Stream, false>>(run));
+}
+
+void BoundedService::Add(const char* path, grpc::internal::RpcMethod::RpcType type, const Descriptor& request,
                          std::unique_ptr<grpc::internal::MethodHandler> handler) {
-  const auto type = is_stream ? grpc::internal::RpcMethod::SERVER_STREAMING : grpc::internal::RpcMethod::NORMAL_RPC;
+  const bool is_batch = &request == v1::SolveBatchRequest::descriptor();
+  const MessageBounds bounds = {.bytes = is_batch ? most_batch_bytes_ : std::min(kMostBytes, most_batch_bytes_),
+                                .elements = most_elements_};
   // The service owns the method, and the method owns the handler.
-  AddMethod(new grpc::internal::RpcServiceMethod(
-      path, type, new BoundedHandler(std::move(handler), request, most_elements_, unread_)));
+  AddMethod(new grpc::internal::RpcServiceMethod(path, type,
+                                                 new BoundedHandler(std::move(handler), request, bounds, unread_)));
 }
 
 }  // namespace ricochet::server

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <stop_token>
 #include <string>
 #include <utility>
 
@@ -76,6 +77,16 @@ absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<vo
   });
   if (!is_done) record_.queued_s += elapsed_s() - asked_s;
   return turned;
+}
+
+absl::StatusOr<bool> Call::Receive(absl::FunctionRef<bool()> read) {
+  const UnreadWatch::Write watched(frame_.unread, context_);
+  // A read cannot be ended but by ending the call.
+  const std::stop_callback drained(drain(), [this] { context_.TryCancel(); });
+  if (read()) return true;
+  if (watched.is_cut()) return PauseLimitReached(frame_.unread.limit());
+  if (context_.IsCancelled()) return absl::CancelledError("the client cancelled the call or went away");
+  return false;
 }
 
 absl::Status Call::Send(absl::FunctionRef<bool()> write) {

@@ -67,6 +67,11 @@ class Call {
   // absent for a part of a stream.
   absl::Status Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work);
 
+  // Waits for the next message of the caller by `read`, which returns false if there is none. Returns what `read` does.
+  // Errors: CANCELLED if the caller has ended the call, if it has sent nothing for as long as it may leave an answer
+  // unread, or if the drain has begun.
+  absl::StatusOr<bool> Receive(absl::FunctionRef<bool()> read);
+
   // Sends one message of a stream by `write`, which returns false if the call has ended.
   absl::Status Send(absl::FunctionRef<bool()> write);
 

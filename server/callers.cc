@@ -28,8 +28,9 @@ constexpr char kLineRule[] =
 // The scope of each method of the service.
 const std::map<std::string, std::string>& MethodScopes() {
   static const std::map<std::string, std::string> scopes = {
-      {"Solve", "solve"},      {"SolveBatch", "solve"}, {"Plan", "solve"}, {"Bounds", "solve"}, {"Audit", "audit"},
-      {"AuditBatch", "audit"}, {"Sweep", "sweep"},      {"Cost", "cost"},  {"Info", "info"},
+      {"Solve", "solve"}, {"SolveBatch", "solve"},   {"Plan", "solve"},  {"Bounds", "solve"},
+      {"Audit", "audit"}, {"AuditBatch", "audit"},   {"Sweep", "sweep"}, {"Cost", "cost"},
+      {"Info", "info"},   {"SolveBatches", "solve"},
   };
   return scopes;
 }

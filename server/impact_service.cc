@@ -9,6 +9,7 @@
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/result_stream.h"
+#include "server/batch_answer.h"
 #include "server/refusals.h"
 #include "server/request_cost.h"
 
@@ -128,6 +129,51 @@ grpc::Status ImpactService::Cost(grpc::ServerContext* context, const v1::CostReq
   if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
   call.record().received_bytes = static_cast<int64_t>(request->ByteSizeLong());
   return call.Finish(Stream(FromProto(*request), *writer, call));
+}
+
+grpc::Status ImpactService::SolveBatch(grpc::ServerContext* context, const v1::SolveBatchRequest* request,
+                                       v1::SolveBatchResponse* response) {
+  Call call("SolveBatch", Call::Kind::kUnary, *context, frame_);
+  if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
+  call.record().received_bytes = static_cast<int64_t>(request->ByteSizeLong());
+  BatchAnswer answer(solver_, call.options());
+  absl::Status status;
+  const absl::Status turn = call.Compute(answer.CostOf(*request), [&] {
+    status = answer.Fill(*request, *response, call.record());
+    call.record().sent_bytes = static_cast<int64_t>(response->ByteSizeLong());
+  });
+  return call.Finish(turn.ok() ? status : turn);
+}
+
+grpc::Status ImpactService::SolveBatches(grpc::ServerContext& context, BoundedBatches& batches) const {
+  Call call("SolveBatches", Call::Kind::kStream, context, frame_);
+  if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
+  return call.Finish(Answer(batches, call));
+}
+
+absl::Status ImpactService::Answer(BoundedBatches& batches, Call& call) const {
+  BatchAnswer answer(solver_, call.options());
+  v1::SolveBatchRequest request;
+  v1::SolveBatchResponse response;
+  for (;;) {
+    const absl::StatusOr<bool> received = call.Receive([&] { return batches.Receive(); });
+    if (!received.ok()) return received.status();
+    if (!*received) return absl::OkStatus();
+    call.record().received_bytes += batches.received_bytes();
+    if (absl::Status wrong = batches.Parse(request); !wrong.ok()) return wrong;
+    // A step of a simulation is short and answered at once; a long batch takes its turn among the parts of streams.
+    const RequestCost cost = answer.CostOf(request);
+    absl::Status status;
+    const absl::Status turn = call.Compute(cost.is_cheap() ? std::optional(cost) : std::nullopt,
+                                           [&] { status = answer.Fill(request, response, call.record()); });
+    if (!turn.ok()) return turn;
+    if (!status.ok()) return status;
+    const auto bytes = static_cast<int64_t>(response.ByteSizeLong());
+    ++call.record().chunks;
+    call.record().chunk_bytes += bytes;
+    call.record().sent_bytes += bytes;
+    if (absl::Status sent = call.Send([&] { return batches.Write(response); }); !sent.ok()) return sent;
+  }
 }
 
 absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer,

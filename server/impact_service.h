@@ -10,6 +10,7 @@
 
 #include "ricochet/solver.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
+#include "server/bounded_service.h"
 #include "server/call.h"
 
 namespace ricochet::server {
@@ -33,6 +34,11 @@ class ImpactService final : public v1::ImpactService::Service {
                      grpc::ServerWriter<v1::SweepResponse>* writer) override;
   grpc::Status Cost(grpc::ServerContext* context, const v1::CostRequest* request,
                     grpc::ServerWriter<v1::CostResponse>* writer) override;
+  grpc::Status SolveBatch(grpc::ServerContext* context, const v1::SolveBatchRequest* request,
+                          v1::SolveBatchResponse* response) override;
+
+  // Handles a stream of batches, whose requests are bounded one by one (server/bounded_service.h).
+  grpc::Status SolveBatches(grpc::ServerContext& context, BoundedBatches& batches) const;
 
  private:
   // Handles a unary call: converts the request, calls `method` of the solver, converts the answer.
@@ -40,6 +46,8 @@ class ImpactService final : public v1::ImpactService::Service {
   grpc::Status Answer(const char* name, Method method, grpc::ServerContext& context, const Request& request,
                       Response& response) const;
 
+  // Answers every batch of a stream.
+  absl::Status Answer(BoundedBatches& batches, Call& call) const;
   // Sends every chunk of a sweep.
   absl::Status Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer, Call& call) const;
   // Sends every part of a study of cost.

@@ -61,6 +61,11 @@ absl::Status UnreadLimitReached(milliseconds limit) {
                    absl::StrCat("the caller did not read one message in ", limit.count(), " ms, the server's limit"));
 }
 
+absl::Status PauseLimitReached(milliseconds limit) {
+  return MakeError(absl::StatusCode::kCancelled, ErrorReason::kUnreadLimit,
+                   absl::StrCat("the caller sent no batch in ", limit.count(), " ms, the server's limit"));
+}
+
 absl::Status Draining() {
   return Refusal(absl::StatusCode::kUnavailable, ErrorReason::kDraining,
                  "the server is shutting down; ask again, a sweep from the first point not received",

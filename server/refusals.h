@@ -31,6 +31,8 @@ absl::Status AgeLimitReached(std::chrono::milliseconds limit);
 
 // CANCELLED: the caller has read nothing for `limit`. The caller cannot see more than the code.
 absl::Status UnreadLimitReached(std::chrono::milliseconds limit);
+// CANCELLED: the caller of a stream of batches has sent nothing for `limit`, and cannot see more either.
+absl::Status PauseLimitReached(std::chrono::milliseconds limit);
 
 // UNAVAILABLE: the server drains.
 absl::Status Draining();

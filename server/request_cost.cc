@@ -34,12 +34,14 @@ RequestCost CertificateCost(const Scene& scene, int32_t digits) {
   return Dear(CostCause::kCertificate, digits * Cube(Links(scene)));
 }
 
-bool TakesTime(const SolveRequest& request) {
-  const auto& compliance = request.scene.compliance;
-  const std::vector<Effect>& required = request.demand.required;
+bool TakesTime(const Scene& scene, const DemandFields& demand) {
+  const auto& compliance = scene.compliance;
   return (compliance.has_value() && !std::holds_alternative<std::monostate>(compliance->normal)) ||
-         request.force_intervals > 0 ||
-         std::find(required.begin(), required.end(), Effect::kFiniteDuration) != required.end();
+         std::find(demand.required.begin(), demand.required.end(), Effect::kFiniteDuration) != demand.required.end();
+}
+
+bool TakesTime(const SolveRequest& request) {
+  return request.force_intervals > 0 || TakesTime(request.scene, request.demand);
 }
 
 size_t Rows(const AuditColumns& columns) {
@@ -81,6 +83,12 @@ RequestCost CostOf(const AuditBatchRequest& request) {
     return Dear(CostCause::kRows, static_cast<double>(rows) * static_cast<double>(Links(request.scene)));
   }
   return CostOf(request.scene);
+}
+
+RequestCost CostOf(const BatchSetup& setup, size_t rows) {
+  const double size = static_cast<double>(rows) * static_cast<double>(Links(setup.scene));
+  if (TakesTime(setup.scene, setup.demand)) return Dear(CostCause::kDuration, size);
+  return rows > kFewRows ? Dear(CostCause::kRows, size) : CostOf(setup.scene);
 }
 
 }  // namespace ricochet::server

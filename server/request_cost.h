@@ -7,6 +7,7 @@
 #define RICOCHET_SERVER_REQUEST_COST_H_
 
 #include <compare>
+#include <cstddef>
 
 #include "ricochet/solver.h"
 
@@ -36,6 +37,7 @@ RequestCost CostOf(const PlanRequest& request);
 RequestCost CostOf(const BoundsRequest& request);
 RequestCost CostOf(const AuditRequest& request);
 RequestCost CostOf(const AuditBatchRequest& request);
+RequestCost CostOf(const BatchSetup& setup, size_t rows);
 
 }  // namespace ricochet::server
 

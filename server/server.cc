@@ -3,7 +3,9 @@
 #include <grpcpp/health_check_service_interface.h>
 #include <grpcpp/server_builder.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <string>
 #include <utility>
 
@@ -19,6 +21,7 @@ namespace ricochet::server {
 namespace {
 
 constexpr std::chrono::milliseconds kTimeForLog(100);
+constexpr int64_t kLeastMessageBytes = int64_t{1} << 20;
 constexpr std::chrono::seconds kWatchdogPause(5);
 constexpr std::chrono::seconds kWatchdogPatience(10);
 
@@ -52,7 +55,12 @@ Server::Server(const Options& options, const Log& log)
                          .drain = drain_.stops(),
                          .limits = options.time_limits,
                          .observer = observer_}),
-      bounded_(service_, options.limits, unread_) {}
+      bounded_(
+          service_,
+          [this](grpc::ServerContext& context, BoundedBatches& batches) {
+            return service_.SolveBatches(context, batches);
+          },
+          options.limits, unread_) {}
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, const Log& log) {
   std::unique_ptr<Server> server(new Server(options, log));
@@ -71,8 +79,11 @@ absl::Status Server::Listen() {
   grpc::EnableDefaultHealthCheckService(true);
   grpc::ServerBuilder builder;
   LeaveReflectionOut(builder);
+  // Up to twice the limit the answer is an error that names the limit; beyond, gRPC refuses the message.
+  const int64_t message_bytes = 2 * std::max(options_.limits.max_request_bytes, kLeastMessageBytes);
   SetTransport({.max_threads = options_.max_threads,
                 .memory_bytes = options_.transport_memory_mib << 20,
+                .message_bytes = message_bytes,
                 .times = options_.transport_times},
                builder);
   WatchCalls(observer_, builder);

@@ -20,6 +20,8 @@ struct TransportTimes {
 struct TransportLimits {
   int max_threads = 288;                      // Threads that serve calls and wait for them; at least 2.
   int64_t memory_bytes = int64_t{256} << 20;  // For buffers of messages in all connections together; at least 1 MiB.
+  // Bytes of one message, from 1 to 2^30. gRPC refuses a longer one without the server's knowledge.
+  int64_t message_bytes = int64_t{1} << 20;
   TransportTimes times;
 };
 

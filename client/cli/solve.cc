@@ -1,7 +1,9 @@
 #include "client/cli/solve.h"
 
 #include <memory>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/certificate_report.h"
@@ -10,6 +12,7 @@
 #include "client/cli/plan_report.h"
 #include "client/cli/plot.h"
 #include "client/cli/scene_input.h"
+#include "client/cli/solve_data.h"
 #include "client/cli/solve_report.h"
 #include "proto/wire/requests.h"
 
@@ -25,6 +28,9 @@ constexpr char kExample[] = R"(Example: the elastic pendulum of Lubarda (2009), 
     Newton      (velocities, -v+/v-)     0.707107
     Poisson     (normal impulses)         1.41421
   ...
+--data FILE.csv solves many impacts, one on each line. Its header names fields of the scene by path, as the axes of a
+sweep do; `ricochet sweep --axis ?` lists them. Text prints a summary and the first rows; csv and json have all rows, and
+csv prints the summary on standard error. A bad row is flagged INVALID; the others are still solved.
 CSV has one row with every number of the outcome, named by its path. Instead it has one row for each state with
 --history, for each sample with --force-history, for each effect with --explain, and for each number with --certified.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
@@ -40,6 +46,8 @@ struct SolveOptions {
   std::string certified;
   bool strict = false;
   std::string plot;
+  std::string data;
+  std::vector<std::string> columns;
 };
 
 absl::StatusOr<int64_t> ParseIntervals(const std::string& text, const char* flag) {
@@ -102,6 +110,18 @@ absl::Status DrawOutcome(const Outcome& outcome, const std::string& path) {
   return plot.ok() ? Draw(*plot, path) : plot.status();
 }
 
+// Solves the rows of a table.
+absl::Status RunData(const SolveOptions& options, const Solver& solver, const Scene& scene,
+                     const DemandFields& demand) {
+  if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || options.strict ||
+      !options.plot.empty() || options.explain || options.plan_only) {
+    return absl::InvalidArgumentError(
+        "--data cannot be combined with --history, --force-history, --certified, --strict, --plot, --explain or "
+        "--plan-only");
+  }
+  return SolveData({.file = options.data, .columns = options.columns}, options.common, solver, scene, demand);
+}
+
 absl::Status RunSolve(const SolveOptions& options) {
   if (!options.plot.empty()) {
     if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
@@ -112,6 +132,8 @@ absl::Status RunSolve(const SolveOptions& options) {
   if (!scene.ok()) return scene.status();
   const absl::StatusOr<DemandFields> demand = ReadDemand(options.demand);
   if (!demand.ok()) return demand.status();
+  if (!options.data.empty()) return RunData(options, **solver, *scene, *demand);
+  if (!options.columns.empty()) return absl::InvalidArgumentError("--column needs --data FILE.csv");
   if (options.plan_only) return RunPlan(options, **solver, *scene, *demand);
   SolveRequest request{.scene = *scene, .inadmissible_is_error = options.strict, .demand = *demand};
   const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
@@ -154,6 +176,14 @@ void AddSolve(CLI::App& app, Command& command) {
   AddCertifiedOption(*sub, options->certified);
   sub->add_flag("--strict", options->strict, "Fail if the outcome is inadmissible");
   sub->add_option("--plot", options->plot, "Draw w(tau), F/N(tau) and f(tau) with gnuplot")->type_name("FILE.svg|.png");
+  sub->add_option("--data", options->data,
+                  "Many impacts, one on each line; the header names fields of the scene; - for standard input")
+      ->type_name("FILE.csv");
+  sub->add_option("--column", options->columns,
+                  "Fields of the outcome to give for --data; default: the contact's velocity after and the impulse")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);
   sub->footer(kExample);

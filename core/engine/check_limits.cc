@@ -166,6 +166,21 @@ absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits)
   return check.status();
 }
 
+absl::Status CheckLimits(const BatchSetup& setup, const Limits& limits) {
+  SizeCheck check(limits);
+  check.Scene(setup.scene);
+  check.Entries("fields", setup.fields.size(), &Limits::max_columns);
+  check.Entries("columns", setup.columns.size(), &Limits::max_columns);
+  return check.status();
+}
+
+absl::Status CheckBatchSize(size_t rows, size_t columns, const Limits& limits) {
+  SizeCheck check(limits);
+  check.Product("inputs", static_cast<int64_t>(rows), " rows, times the columns in or out, ",
+                static_cast<int64_t>(columns), &Limits::max_batch_numbers);
+  return check.status();
+}
+
 absl::Status CheckLimits(const SweepRequest& request, const Limits& limits) {
   SizeCheck check(limits);
   check.Scene(request.grid.scene);

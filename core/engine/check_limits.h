@@ -7,6 +7,7 @@
 #ifndef RICOCHET_CORE_ENGINE_CHECK_LIMITS_H_
 #define RICOCHET_CORE_ENGINE_CHECK_LIMITS_H_
 
+#include <cstddef>
 #include <cstdint>
 
 #include "absl/status/status.h"
@@ -20,8 +21,12 @@ absl::Status CheckLimits(const PlanRequest& request, const Limits& limits);
 absl::Status CheckLimits(const BoundsRequest& request, const Limits& limits);
 absl::Status CheckLimits(const AuditRequest& request, const Limits& limits);
 absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits);
+absl::Status CheckLimits(const BatchSetup& setup, const Limits& limits);
 absl::Status CheckLimits(const SweepRequest& request, const Limits& limits);
 absl::Status CheckLimits(const CostRequest& request, const Limits& limits);
+
+// Compares the rows of a batch times its columns, in or out, with the limit.
+absl::Status CheckBatchSize(size_t rows, size_t columns, const Limits& limits);
 
 // Compares the number of points of a valid sweep with the limit.
 // Errors: RESOURCE_EXHAUSTED with ErrorReason::kSweepTooLarge.

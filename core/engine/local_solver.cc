@@ -1,4 +1,6 @@
 #include <chrono>
+#include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,6 +10,8 @@
 #include "core/answer/scene_bounds.h"
 #include "core/answer/scene_enclosure.h"
 #include "core/answer/scene_outcome.h"
+#include "core/batch/batch_run.h"
+#include "core/batch/check_rows.h"
 #include "core/certified/certified.h"
 #include "core/engine/call_watch.h"
 #include "core/engine/check_limits.h"
@@ -147,6 +151,48 @@ absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchReq
   if (!response.ok()) return watch.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;
+}
+
+namespace {
+
+class LocalBatches final : public BatchSession::Worker {
+ public:
+  LocalBatches(std::unique_ptr<BatchRun> run, const Limits& limits, const CallOptions& options)
+      : run_(std::move(run)), limits_(limits), watch_(options) {}
+
+  absl::Status CheckSize(size_t rows) const override { return CheckBatchSize(rows, run_->columns(), limits_); }
+
+  absl::StatusOr<BatchSummary> Solve(const BatchRows& rows) override {
+    if (absl::Status too_large = CheckSize(RowCount(rows)); !too_large.ok()) return too_large;
+    if (absl::Status ended = watch_.WhyEnded(); !ended.ok()) return ended;
+    absl::StatusOr<BatchSummary> summary = run_->Solve(rows, [this] { return watch_.IsStopped(); });
+    if (!summary.ok()) return watch_.OrWhyEnded(summary.status());
+    return summary;
+  }
+  const EngineInfo& engine() const override { return ThisEngine(); }
+
+ private:
+  std::unique_ptr<BatchRun> run_;
+  const Limits limits_;
+  CallWatch watch_;
+};
+
+}  // namespace
+
+absl::StatusOr<BatchSession> LocalSolver::DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const {
+  if (absl::Status too_large = CheckLimits(setup, limits_); !too_large.ok()) return too_large;
+  absl::StatusOr<std::unique_ptr<BatchRun>> run = BatchRun::Make(setup);
+  if (!run.ok()) return run.status();
+  return BatchSession(std::make_unique<LocalBatches>(*std::move(run), limits_, options));
+}
+
+absl::StatusOr<BatchResponse> LocalSolver::DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
+                                                        const CallOptions& options) const {
+  absl::StatusOr<BatchSession> session = DoOpenBatches(setup, options);
+  if (!session.ok()) return session.status();
+  absl::StatusOr<BatchSummary> summary = session->Solve(rows);
+  if (!summary.ok()) return summary.status();
+  return BatchResponse{.summary = *std::move(summary), .engine = session->engine()};
 }
 
 SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions& options) const {

@@ -9,6 +9,7 @@
 #include "absl/strings/strip.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/elementary.h"
+#include "core/scene/nearest.h"
 
 namespace ricochet {
 namespace {
@@ -61,9 +62,10 @@ bool Spells(absl::string_view text, const NumberPath& path) {
   return Take(path.name, text) && TakeIndex(path.index, text) && text.empty();
 }
 
-absl::Status UnknownField(const std::string& path) {
+absl::Status UnknownField(const std::string& path, const Scene& scene) {
   return absl::InvalidArgumentError(
-      absl::StrCat(Found(path), ": must be a field of the scene; `ricochet sweep --axis '?'` lists them"));
+      absl::StrCat(Found(path), ": must be a field of the scene; `ricochet sweep --axis '?'` lists them",
+                   NearestHint(path, FieldPaths(scene))));
 }
 
 }  // namespace
@@ -101,13 +103,13 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
     return Field(*Field::Find(path, scene), {"restitution.coefficient"});  // The three definitions share one place.
   }
   const bool is_definition = StartsWith(path, "restitution.") && !StartsWith(path, "restitution.by_speed.");
-  if (is_definition) return UnknownField(path);
+  if (is_definition) return UnknownField(path, scene);
   const std::optional<SurfaceVelocity> stated = scene.surface_velocity;
   MakePresent(path, scene);
   const std::optional<Field::Scalar> number = Field::Find(path, scene);
   if (number.has_value()) return Field(*number, {path});
   scene.surface_velocity = stated;
-  return UnknownField(path);
+  return UnknownField(path, scene);
 }
 
 std::string Found(const std::string& text) {

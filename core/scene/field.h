@@ -61,7 +61,7 @@ class Field {
 // surface_velocity path adds it to the scene.
 // It takes time proportional to the numbers of the scene.
 // Errors: an unknown path, or one of another system, gets INVALID_ARGUMENT with a message that says how to list the right
-// ones. The scene is then as it was.
+// ones and names the nearest of them. The scene is then as it was.
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
 
 // Begins the description of a violation by a text of the caller: "= \"TEXT\"". It is escaped, and cut if it is long.

@@ -1,9 +1,13 @@
 #include "core/sweep/column.h"
 
+#include <set>
 #include <variant>
 
+#include "absl/strings/str_cat.h"
 #include "core/answer/model_outcomes.h"
 #include "core/contact/reduction.h"
+#include "core/scene/field.h"
+#include "core/scene/nearest.h"
 #include "ricochet/outcome_numbers.h"
 
 namespace ricochet {
@@ -42,6 +46,31 @@ std::vector<std::string> Columns(const Scene& scene) {
   std::vector<std::string> columns;
   VisitOutcomeNumbers(outcome, [&](const NumberPath& path, double /*number*/) { columns.push_back(path.Text()); });
   return columns;
+}
+
+ColumnPositions PositionsOf(const std::vector<std::string>& columns) {
+  ColumnPositions positions;
+  for (size_t i = 0; i < columns.size(); ++i) positions.emplace(columns[i], i);
+  return positions;
+}
+
+std::vector<Violation> CheckColumns(const std::vector<std::string>& columns, const std::vector<std::string>& all,
+                                    const ColumnPositions& known) {
+  std::vector<Violation> violations;
+  if (columns.empty()) violations.push_back({"columns", "is empty: must name at least one"});
+  std::set<std::string> seen;
+  for (size_t i = 0; i < columns.size() && !IsFull(violations); ++i) {
+    const auto refuse = [&](const std::string& rule) {
+      violations.push_back({absl::StrCat("columns[", i, "]"), absl::StrCat(Found(columns[i]), ": must be ", rule)});
+    };
+    if (!known.contains(columns[i])) {
+      refuse(absl::StrCat("a column of the scene; `ricochet sweep --column '?'` lists them",
+                          NearestHint(columns[i], all)));
+    } else if (!seen.insert(columns[i]).second) {
+      refuse("named once");
+    }
+  }
+  return violations;
 }
 
 void ReadColumns(const Outcome& outcome, std::vector<double>& numbers) {

@@ -11,12 +11,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <set>
-#include <string>
 #include <vector>
 
 #include "core/contact/scene_contact.h"
-#include "core/scene/field.h"
+#include "core/scene/driven_fields.h"
 #include "ricochet/error.h"
 #include "ricochet/grid.h"
 #include "ricochet/scene.h"
@@ -31,10 +29,10 @@ class DrivenScene {
   DrivenScene& operator=(const DrivenScene&) = delete;
 
   // The axes whose path names no field of the scene, or one that another axis drives: "axes[1].path".
-  const std::vector<Violation>& violations() const { return violations_; }
+  const std::vector<Violation>& violations() const { return fields_.violations(); }
 
   // True if driving a field can cure this violation of the base scene. IsValid decides it at each point.
-  bool CanBeCured(const Violation& violation) const;
+  bool CanBeCured(const Violation& violation) const { return fields_.CanBeCured(violation); }
 
   // The scene of the current point; before GoTo it is the base scene.
   const Scene& scene() const { return scene_; }
@@ -48,16 +46,13 @@ class DrivenScene {
   bool IsValid(std::optional<SceneContact>& contact) const;
 
  private:
-  void Resolve();
   void SetField(size_t k);
 
   Grid grid_;
   Scene scene_;
-  std::vector<Field> fields_;  // One an axis.
-  std::vector<Violation> violations_;
-  std::set<std::string> driven_;  // Paths of the numbers that an axis sets whatever their base value.
-  bool has_relations_ = false;    // True if the scene has rules beyond those of single numbers.
-  std::vector<int64_t> counts_;   // Values of each axis.
+  DrivenFields fields_;          // One an axis.
+  bool has_relations_ = false;   // True if the scene has rules beyond those of single numbers.
+  std::vector<int64_t> counts_;  // Values of each axis.
   std::vector<int64_t> positions_;
   std::vector<uint8_t> is_bad_;  // 1 for each field whose value breaks the rule of its number.
   int64_t bad_fields_ = 0;

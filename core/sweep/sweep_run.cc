@@ -4,9 +4,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
-#include <set>
 #include <string>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -32,32 +30,6 @@ constexpr int64_t kFirstChunkPoints = 1024;
 
 void Add(int64_t index, Tally& tally) {
   if (tally.count++ == 0) tally.first_index = index;
-}
-
-// The position of each column by its name.
-using Positions = std::unordered_map<std::string, size_t>;
-
-Positions PositionsOf(const std::vector<std::string>& columns) {
-  Positions positions;
-  for (size_t i = 0; i < columns.size(); ++i) positions.emplace(columns[i], i);
-  return positions;
-}
-
-std::vector<Violation> CheckColumns(const std::vector<std::string>& columns, const Positions& known) {
-  std::vector<Violation> violations;
-  if (columns.empty()) violations.push_back({"columns", "is empty: must name at least one"});
-  std::set<std::string> seen;
-  for (size_t i = 0; i < columns.size() && !IsFull(violations); ++i) {
-    const auto refuse = [&](const char* rule) {
-      violations.push_back({absl::StrCat("columns[", i, "]"), absl::StrCat(Found(columns[i]), ": must be ", rule)});
-    };
-    if (!known.contains(columns[i])) {
-      refuse("a column of the scene; `ricochet sweep --column '?'` lists them");
-    } else if (!seen.insert(columns[i]).second) {
-      refuse("named once");
-    }
-  }
-  return violations;
 }
 
 std::vector<Violation> CheckRange(const SweepRequest& request) {
@@ -95,7 +67,7 @@ class SweepRun::Impl {
                                        int64_t most_bytes);
 
  private:
-  void ResolveColumns(const std::vector<std::string>& columns, const Positions& known);
+  void ResolveColumns(const std::vector<std::string>& columns, const ColumnPositions& known);
   int64_t NextCount(int64_t most_bytes) const;
   absl::StatusOr<int64_t> ComputeBlock(int64_t count, absl::FunctionRef<bool()> stopped,
                                        absl::FunctionRef<bool()> is_enough);
@@ -143,8 +115,9 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   Append(driven_.violations(), violations);
   const std::vector<Violation> axes = ValidateAxes(request.grid);
   Append(axes, violations);
-  const Positions known = PositionsOf(Columns(scene));
-  Append(CheckColumns(request.columns, known), violations);
+  const std::vector<std::string> all = Columns(scene);
+  const ColumnPositions known = PositionsOf(all);
+  Append(CheckColumns(request.columns, all, known), violations);
   if (axes.empty()) Append(CheckRange(request), violations);
   if (!violations.empty()) return InvalidRequest(violations);
 
@@ -161,7 +134,7 @@ absl::Status SweepRun::Impl::Prepare(const SweepRequest& request) {
   return absl::OkStatus();
 }
 
-void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, const Positions& known) {
+void SweepRun::Impl::ResolveColumns(const std::vector<std::string>& columns, const ColumnPositions& known) {
   const Scene& scene = driven_.scene();
   in_lanes_ = HasClosedForm(scene) && !scene.compliance.has_value() &&
               std::all_of(columns.begin(), columns.end(),

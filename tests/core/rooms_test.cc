@@ -141,6 +141,7 @@ const std::vector<std::vector<std::string>>& Floors() {
       {"core/plan"},
       {"core/answer"},
       {"core/study", "core/sweep"},
+      {"core/batch"},
       {"core/engine"},
   };
   return floors;

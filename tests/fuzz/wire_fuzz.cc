@@ -13,6 +13,7 @@
 
 #include "absl/status/status.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
@@ -57,6 +58,8 @@ constexpr void (*kChecks[])(const std::string&) = {
     CheckMessage<v1::AuditResponse>,
     CheckMessage<v1::AuditBatchRequest>,
     CheckMessage<v1::AuditBatchResponse>,
+    CheckMessage<v1::BatchSetup>,
+    CheckMessage<v1::BatchSummary>,
     CheckMessage<v1::SweepRequest>,
     CheckMessage<v1::SweepResponse>,
     CheckError,

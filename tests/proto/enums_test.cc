@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "proto/wire/audit.h"
+#include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
@@ -21,7 +22,7 @@ class EnumTest : public testing::Test {};
 using Enums =
     testing::Types<v1::Regime, v1::Event::Kind, v1::BrokenLimit::Kind, v1::Accuracy::Kind, v1::LimitCheck::Verdict,
                    v1::SweepRequest::Combination, v1::Termination, v1::Effect, v1::Model, v1::Arithmetic,
-                   v1::PlannedEffect::Decision, v1::PlannedArithmetic::Reason, v1::CostRow::Status>;
+                   v1::PlannedEffect::Decision, v1::PlannedArithmetic::Reason, v1::CostRow::Status, v1::RowStatus>;
 TYPED_TEST_SUITE(EnumTest, Enums);
 
 TYPED_TEST(EnumTest, EveryValueOfTheProtoIsTheCoresOfTheSameNumber) {

@@ -8,6 +8,7 @@
 
 #include "fill.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
@@ -36,10 +37,10 @@ v1::SweepResponse ThroughCore(const v1::SweepResponse& proto) {
 template <typename Message>
 class EveryFieldTest : public testing::Test {};
 
-using Messages =
-    testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse, v1::SweepRequest,
-                   v1::SweepResponse, v1::AuditRequest, v1::AuditResponse, v1::AuditBatchRequest,
-                   v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse, v1::CostRequest, v1::CostResponse>;
+using Messages = testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse,
+                                v1::SweepRequest, v1::SweepResponse, v1::AuditRequest, v1::AuditResponse,
+                                v1::AuditBatchRequest, v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse,
+                                v1::CostRequest, v1::CostResponse, v1::BatchSetup, v1::BatchSummary>;
 TYPED_TEST_SUITE(EveryFieldTest, Messages);
 
 TYPED_TEST(EveryFieldTest, SurvivesTheCore) {
@@ -62,7 +63,7 @@ TYPED_TEST(EveryFieldTest, SurvivesTheCoreByteForByte) {
 // The messages above are all messages of the service, so that none is left untested.
 TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   const auto& service = *v1::SolveRequest::descriptor()->file()->FindServiceByName("ImpactService");
-  ASSERT_EQ(service.method_count(), 7);
+  ASSERT_EQ(service.method_count(), 9);
   EXPECT_EQ(service.method(0)->input_type(), v1::SolveRequest::descriptor());
   EXPECT_EQ(service.method(0)->output_type(), v1::SolveResponse::descriptor());
   EXPECT_EQ(service.method(1)->input_type(), v1::BoundsRequest::descriptor());
@@ -77,6 +78,11 @@ TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   EXPECT_EQ(service.method(5)->output_type(), v1::PlanResponse::descriptor());
   EXPECT_EQ(service.method(6)->input_type(), v1::CostRequest::descriptor());
   EXPECT_EQ(service.method(6)->output_type(), v1::CostResponse::descriptor());
+  // Batches hold columns as bytes; tests/proto/batch_test.cc looks after them.
+  for (const int method : {7, 8}) {
+    EXPECT_EQ(service.method(method)->input_type(), v1::SolveBatchRequest::descriptor());
+    EXPECT_EQ(service.method(method)->output_type(), v1::SolveBatchResponse::descriptor());
+  }
 }
 
 TEST(FillTest, ReachesEveryMemberOfEveryOneof) {

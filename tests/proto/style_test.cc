@@ -113,6 +113,9 @@ class Lint {
       case FieldDescriptor::TYPE_MESSAGE:
       case FieldDescriptor::TYPE_STRING:
         return;
+      case FieldDescriptor::TYPE_BYTES:
+        // Columns that foreign clients read at the speed of memory.
+        return Match(field.full_name(), field.name(), "inputs|outputs|regimes|statuses");
       default:
         faults_.push_back(absl::StrCat(field.full_name(), " is a ", field.type_name(),
                                        ": must be double, bool, string, a signed integer, an enum or a message"));
@@ -137,8 +140,10 @@ class Lint {
   void Check(const ServiceDescriptor& service) {
     for (int i = 0; i < service.method_count(); ++i) {
       const auto& method = *service.method(i);
-      Match(method.full_name(), method.input_type()->name(), method.name() + "Request");
-      Match(method.full_name(), method.output_type()->name(), method.name() + "Response");
+      // A stream of batches has the messages of a single one.
+      const std::string stem = method.name() == "SolveBatches" ? "SolveBatch" : method.name();
+      Match(method.full_name(), method.input_type()->name(), stem + "Request");
+      Match(method.full_name(), method.output_type()->name(), stem + "Response");
     }
   }
 

@@ -111,6 +111,11 @@ class AnsweringService final : public v1::ImpactService::Service {
                     grpc::ServerWriter<v1::CostResponse>* /*writer*/) override {
     return {grpc::StatusCode::ABORTED, ""};
   }
+  grpc::Status SolveBatch(grpc::ServerContext* /*context*/, const v1::SolveBatchRequest* request,
+                          v1::SolveBatchResponse* response) override {
+    response->set_regimes(std::to_string(request->inputs_size()));
+    return grpc::Status::OK;
+  }
   grpc::Status Solve(grpc::ServerContext* /*context*/, const v1::SolveRequest* request,
                      v1::SolveResponse* response) override {
     response->mutable_outcome()->set_w_rank(request->scene().linkage().links_size());
@@ -125,12 +130,25 @@ class AnsweringService final : public v1::ImpactService::Service {
   }
 };
 
+// Answers each batch by the number of its columns.
+grpc::Status AnswerBatches(grpc::ServerContext& /*context*/, BoundedBatches& batches) {
+  while (batches.Receive()) {
+    v1::SolveBatchRequest request;
+    if (absl::Status wrong = batches.Parse(request); !wrong.ok()) return ToGrpcStatus(wrong);
+    v1::SolveBatchResponse response;
+    response.set_regimes(std::to_string(request.inputs_size()));
+    batches.Write(response);
+  }
+  return grpc::Status::OK;
+}
+
 class BoundedServiceTest : public testing::Test {
  protected:
   BoundedServiceTest() {
     grpc::ServerBuilder builder;
     int port = 0;
     builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
+    builder.SetMaxReceiveMessageSize(64 << 20);
     builder.RegisterService(&bounded_);
     server_ = builder.BuildAndStart();
     channel_ = grpc::CreateChannel("127.0.0.1:" + std::to_string(port), grpc::InsecureChannelCredentials());
@@ -140,7 +158,7 @@ class BoundedServiceTest : public testing::Test {
 
   AnsweringService service_;
   UnreadWatch unread_{std::chrono::seconds(30)};
-  BoundedService bounded_{service_, Limits(), unread_};
+  BoundedService bounded_{service_, AnswerBatches, Limits(), unread_};
   std::unique_ptr<grpc::Server> server_;
   std::shared_ptr<grpc::Channel> channel_;
   std::unique_ptr<v1::ImpactService::Stub> stub_;
@@ -178,6 +196,45 @@ TEST_F(BoundedServiceTest, RefusesWhatWouldUnfold) {
   v1::SweepResponse chunk;
   EXPECT_FALSE(reader->Read(&chunk));
   EXPECT_EQ(ReasonOf(FromGrpcStatus(reader->Finish())), ErrorReason::kLimitExceeded);
+}
+
+// A batch with one column of so many bytes.
+v1::SolveBatchRequest BatchOf(size_t bytes) {
+  v1::SolveBatchRequest request;
+  request.add_inputs(std::string(bytes, '\0'));
+  return request;
+}
+
+TEST_F(BoundedServiceTest, TakesABatchOfMoreBytesThanAnyOtherRequestAndNoMoreThanItsLimit) {
+  v1::SolveBatchResponse response;
+  grpc::ClientContext fitting;
+  EXPECT_TRUE(stub_->SolveBatch(&fitting, BatchOf(15 << 20), &response).ok());
+  grpc::ClientContext large;
+  const absl::Status refused = FromGrpcStatus(stub_->SolveBatch(&large, BatchOf(17 << 20), &response));
+  EXPECT_EQ(ReasonOf(refused), ErrorReason::kLimitExceeded);
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("must have at most 16777216, the limit max_request_bytes"));
+  grpc::ClientContext solve;
+  v1::SolveRequest history;
+  for (int i = 0; i < 150'000; ++i) history.add_history_at_n_s(1.0);
+  v1::SolveResponse solved;
+  const absl::Status too_long = FromGrpcStatus(stub_->Solve(&solve, history, &solved));
+  EXPECT_THAT(std::string(too_long.message()), HasSubstr("must have at most 1048576"));
+}
+
+TEST_F(BoundedServiceTest, BoundsEachRequestOfAStreamOfBatches) {
+  grpc::ClientContext context;
+  const auto stream = stub_->SolveBatches(&context);
+  v1::SolveBatchResponse response;
+  for (const size_t bytes : {size_t{8}, size_t{15} << 20}) {
+    ASSERT_TRUE(stream->Write(BatchOf(bytes)));
+    ASSERT_TRUE(stream->Read(&response));
+    EXPECT_EQ(response.regimes(), "1");
+  }
+  v1::SolveBatchRequest many;
+  for (int i = 0; i < 200'000; ++i) many.add_inputs();
+  stream->Write(many);
+  EXPECT_FALSE(stream->Read(&response));
+  EXPECT_EQ(ReasonOf(FromGrpcStatus(stream->Finish())), ErrorReason::kLimitExceeded);
 }
 
 // Calls a method with an empty message.

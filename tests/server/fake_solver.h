@@ -47,6 +47,14 @@ class FakeSolver final : public Solver {
                                         const CallOptions& /*options*/) const override {
     return InvalidRequest({{"scene", "is refused"}});
   }
+  absl::StatusOr<BatchResponse> DoSolveBatch(const BatchSetup& /*setup*/, const BatchRows& /*rows*/,
+                                             const CallOptions& /*options*/) const override {
+    return absl::UnimplementedError("fake");
+  }
+  absl::StatusOr<BatchSession> DoOpenBatches(const BatchSetup& /*setup*/,
+                                             const CallOptions& /*options*/) const override {
+    return absl::UnimplementedError("fake");
+  }
   absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& /*request*/,
                                                   const CallOptions& /*options*/) const override {
     return InvalidRequest({{"scene", "is refused"}});

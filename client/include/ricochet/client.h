@@ -29,6 +29,9 @@ namespace ricochet {
 // refused with FAILED_PRECONDITION. A study of cost measures one machine, so that it is repeated only before its first
 // rows, by the same server.
 //
+// Batches: a session keeps one call open, which is replaced by another if it breaks off or if the server ends it after a
+// pause. A step is then answered again from its first row without an answer.
+//
 // Deadlines: a call ends at the deadline of its CallOptions or of ClientOptions, whichever comes first. The server learns
 // of it, and of a stop, and ends its work too.
 //
@@ -50,8 +53,15 @@ class Client final : public Solver {
   absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const override;
   absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                   const CallOptions& options) const override;
+  absl::StatusOr<BatchResponse> DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
+                                             const CallOptions& options) const override;
+  absl::StatusOr<BatchSession> DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const override;
   SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
   CostStream DoCost(const CostRequest& request, const CallOptions& options) const override;
+
+  // Sends a batch that is too long for one message over a stream.
+  absl::StatusOr<BatchResponse> SolveInPieces(const BatchSetup& setup, const BatchRows& rows,
+                                              const CallOptions& options) const;
 
   explicit Client(std::shared_ptr<Connection> connection) : connection_(std::move(connection)) {}
   std::shared_ptr<Connection> connection_;

@@ -30,7 +30,7 @@ enum class ErrorReason {
   kOverloaded = 9,           // RESOURCE_EXHAUSTED: too much work waits to be computed; try again later.
   kTimeLimit = 10,           // DEADLINE_EXCEEDED: the call took longer than the server allows any call of its kind.
   kAgeLimit = 11,     // UNAVAILABLE: a stream has reached the greatest age that the server allows; ask for the rest.
-  kUnreadLimit = 12,  // CANCELLED: the caller did not read what it was sent.
+  kUnreadLimit = 12,  // CANCELLED: the caller did not read what it was sent, or sent no batch.
 };
 
 // The change to a request that could cure a violation.

@@ -3,7 +3,7 @@
 // A LocalSolver with limits looks at the sizes of a request before anything else. A request above a limit fails with
 // RESOURCE_EXHAUSTED and ErrorReason::kLimitExceeded (ErrorReason::kSweepTooLarge for the points of a sweep), naming
 // every field that is too large, its size and the limit. The defaults are those of ricochetd: with them no answer takes
-// more than 4 MiB, and no call more than 64 MiB of memory.
+// more than 4 MiB but that of a batch, which takes 20 MiB at most, and no call more than 64 MiB of memory.
 
 #ifndef RICOCHET_LIMITS_H_
 #define RICOCHET_LIMITS_H_
@@ -27,7 +27,7 @@ struct Limits {
   int64_t max_axes = 32;
   // Values of an axis that lists them.
   int64_t max_axis_values = 65'536;
-  // Columns of a sweep.
+  // Columns of a sweep or a batch.
   int64_t max_columns = 256;
   // Points of a sweep.
   int64_t max_points_per_sweep = 10'000'000'000;
@@ -39,6 +39,10 @@ struct Limits {
   int64_t max_force_intervals = 65'535;
   // Rows of a batch of audits.
   int64_t max_audit_rows = 8192;
+  // Rows of a batch times its columns: those of the request or those of the answer, whichever are more.
+  int64_t max_batch_numbers = 2'097'152;
+  // Bytes of the message of a batch. Of the messages of other requests 1 MiB is the most. A LocalSolver has no messages.
+  int64_t max_request_bytes = int64_t{16} << 20;
 
   // Limits that no request exceeds.
   static constexpr Limits None();
@@ -62,7 +66,7 @@ inline constexpr NamedLimit kLimits[] = {
     {"max_boxes", &Limits::max_boxes, 200'000, "Boxes that one enclosure evaluates; fewer leave it wider"},
     {"max_axes", &Limits::max_axes, 1'000'000, "Axes of a sweep"},
     {"max_axis_values", &Limits::max_axis_values, 1'000'000, "Values of an axis that lists them"},
-    {"max_columns", &Limits::max_columns, 1'000'000, "Columns of a sweep"},
+    {"max_columns", &Limits::max_columns, 1'000'000, "Columns of a sweep or a batch"},
     {"max_points_per_sweep", &Limits::max_points_per_sweep, int64_t{1} << 53, "Points of a sweep"},
     {"max_digits_times_links", &Limits::max_digits_times_links, 1'000'000'000,
      "Certified digits times links of the system"},
@@ -70,6 +74,8 @@ inline constexpr NamedLimit kLimits[] = {
      "States of a history times numbers of a state (4 + links)"},
     {"max_force_intervals", &Limits::max_force_intervals, 65'535, "Steps of a history of forces"},
     {"max_audit_rows", &Limits::max_audit_rows, 8192, "Rows of a batch of audits"},
+    {"max_batch_numbers", &Limits::max_batch_numbers, 100'000'000, "Rows of a batch times its columns, in or out"},
+    {"max_request_bytes", &Limits::max_request_bytes, int64_t{256} << 20, "Bytes of the message of a batch"},
 };
 
 constexpr Limits Limits::None() {

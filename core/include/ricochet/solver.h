@@ -16,6 +16,7 @@
 
 #include "absl/status/statusor.h"
 #include "ricochet/audit.h"
+#include "ricochet/batch.h"
 #include "ricochet/bounds.h"
 #include "ricochet/call_options.h"
 #include "ricochet/certificate.h"
@@ -160,6 +161,20 @@ class Solver {
     return DoAuditBatch(request, options);
   }
 
+  // Computes many impacts of one system, given as columns, into the columns of `rows`. A bad row does not spoil the
+  // others. A Client sends a batch that is too long for one message in pieces.
+  absl::StatusOr<BatchResponse> SolveBatch(const BatchSetup& setup, const BatchRows& rows,
+                                           const CallOptions& options = {}) const {
+    return DoSolveBatch(setup, rows, options);
+  }
+
+  // Opens a session for batch after batch of one setup, such as the steps of a simulation. The session keeps the
+  // options, which end it as a whole. A Client keeps one call open, and learns what is wrong with the setup at the
+  // first batch.
+  absl::StatusOr<BatchSession> OpenBatches(const BatchSetup& setup, const CallOptions& options = {}) const {
+    return DoOpenBatches(setup, options);
+  }
+
   // Computes many impacts and streams them in index order, each point once. The stream keeps the options. An invalid
   // request gives a stream of that one error.
   SweepStream Sweep(const SweepRequest& request, const CallOptions& options = {}) const {
@@ -181,6 +196,9 @@ class Solver {
   virtual absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const = 0;
   virtual absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                           const CallOptions& options) const = 0;
+  virtual absl::StatusOr<BatchResponse> DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
+                                                     const CallOptions& options) const = 0;
+  virtual absl::StatusOr<BatchSession> DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const = 0;
   virtual SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const = 0;
   virtual CostStream DoCost(const CostRequest& request, const CallOptions& options) const = 0;
 };
@@ -199,6 +217,9 @@ class LocalSolver final : public Solver {
   absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const override;
   absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                   const CallOptions& options) const override;
+  absl::StatusOr<BatchResponse> DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
+                                             const CallOptions& options) const override;
+  absl::StatusOr<BatchSession> DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const override;
   SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
   CostStream DoCost(const CostRequest& request, const CallOptions& options) const override;
 

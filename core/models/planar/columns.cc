@@ -192,9 +192,7 @@ HWY_EXPORT(SolvePlainBlock);
 HWY_EXPORT(SolveBlock);
 HWY_EXPORT(CountLanes);
 
-namespace {
-
-std::array<double, kOutputCount> NumbersOf(const Impact& impact, double relative_error) {
+std::array<double, kOutputCount> NumbersOf(const ImpactEnd<double>& impact, double relative_error) {
   const double work_tangential = impact.work_tangential_compression + impact.work_tangential_restitution;
   std::array<double, kOutputCount> numbers = {};
   const auto set = [&](Output output, double value) { numbers[static_cast<size_t>(output)] = value; };
@@ -218,6 +216,8 @@ std::array<double, kOutputCount> NumbersOf(const Impact& impact, double relative
   set(Output::kRelativeError, relative_error);
   return numbers;
 }
+
+namespace {
 
 void Write(const Job& job, size_t i, const Impact& impact, double relative_error) {
   const std::array<double, kOutputCount> numbers = NumbersOf(impact, relative_error);

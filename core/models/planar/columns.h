@@ -13,6 +13,7 @@
 #ifndef RICOCHET_CORE_MODELS_PLANAR_COLUMNS_H_
 #define RICOCHET_CORE_MODELS_PLANAR_COLUMNS_H_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -68,6 +69,9 @@ struct SolvedColumns {
   absl::Span<Regime> regimes;
   absl::Span<bool> inadmissible;
 };
+
+// Every output of an impact, at the number of the output.
+std::array<double, kOutputCount> NumbersOf(const ImpactEnd<double>& impact, double relative_error);
 
 // The tolerance is in [0, 1) and means what RoundingErrors::Largest does. Returns the number of problems for which plain
 // arithmetic did not serve.

@@ -1,0 +1,125 @@
+#include "client/batch_session.h"
+
+#include <cstdint>
+#include <thread>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "core/batch/check_rows.h"
+#include "proto/wire/batch.h"
+#include "proto/wire/engine.h"
+#include "proto/wire/status.h"
+
+namespace ricochet {
+namespace {
+
+constexpr size_t kPieceBytes = size_t{1} << 20;
+
+absl::Status OtherEngine(const EngineInfo& before, const EngineInfo& now) {
+  return absl::FailedPreconditionError(absl::StrCat("the batches began with engine ", before.version, " (",
+                                                    before.fingerprint, ") and would go on with ", now.version, " (",
+                                                    now.fingerprint, "), whose last bits may differ"));
+}
+
+}  // namespace
+
+size_t RowsOfAPiece(const BatchSetup& setup) {
+  const size_t columns = std::max({setup.fields.size(), setup.columns.size(), size_t{1}});
+  return std::max(kPieceBytes / (columns * sizeof(double)), size_t{1});
+}
+
+RemoteBatches::RemoteBatches(const BatchSetup& setup, Start start, PreferredServer& servers, const RetryPolicy& policy,
+                             const CallOptions& options)
+    : setup_(ToProto(setup)),
+      fields_(setup.fields.size()),
+      columns_(setup.columns.size()),
+      piece_(RowsOfAPiece(setup)),
+      start_(std::move(start)),
+      servers_(servers),
+      policy_(policy),
+      options_(options) {}
+
+absl::StatusOr<BatchSummary> RemoteBatches::Solve(const BatchRows& rows) {
+  if (absl::Status misfit = CheckRows(rows, fields_, columns_); !misfit.ok()) return misfit;
+  Rest rest = {.rows = rows, .first = 0, .end = RowCount(rows), .summary = {}};
+  for (Attempts attempts(servers_, policy_);;) {
+    if (IsStopped(options_)) return StoppedByCaller();
+    const absl::Status status = Exchange(rest, attempts);
+    if (status.ok()) return rest.summary;
+    if (IsStopped(options_)) return StoppedByCaller();
+    const int most = std::max(policy_.max_attempts, static_cast<int>(servers_.count())) - 1;
+    const auto wait = MayResume(status) ? attempts.AfterFailure(status, most) : std::nullopt;
+    if (!wait.has_value() || !Pause(*wait, options_)) return IsStopped(options_) ? StoppedByCaller() : status;
+  }
+}
+
+RemoteBatches::~RemoteBatches() {
+  if (!call_.has_value()) return;
+  call_->stream->WritesDone();
+  static_cast<void>(End());
+}
+
+bool RemoteBatches::Write(const BatchRows& rows, size_t first, size_t count) {
+  if (call_->has_setup) {
+    request_.clear_setup();
+  } else {
+    *request_.mutable_setup() = setup_;
+  }
+  call_->has_setup = true;
+  SetInputs(rows, first, count, request_);
+  return call_->stream->Write(request_);
+}
+
+// Asks for the whole rest by one call, and takes the answers as far as they come. The call is over after an error.
+absl::Status RemoteBatches::Exchange(Rest& rest, Attempts& attempts) {
+  if (!call_.has_value()) call_.emplace(options_, start_, attempts.server());
+  std::thread writer;
+  if (PieceAt(rest.first, rest.end) == rest.end - rest.first) {
+    Write(rest.rows, rest.first, rest.end - rest.first);
+  } else {
+    // Another thread writes, because a server whose answer is not read reads no further piece.
+    writer = std::thread([this, &rows = rest.rows, first = rest.first, end = rest.end]() mutable {
+      for (; first < end && Write(rows, first, PieceAt(first, end)); first += PieceAt(first, end)) {
+      }
+    });
+  }
+  const absl::Status taken = ReadAll(rest, attempts);
+  if (!taken.ok()) call_->context.get().TryCancel();
+  if (writer.joinable()) writer.join();
+  if (taken.ok()) return taken;
+  const absl::Status ended = End();
+  return absl::IsUnavailable(taken) ? ended : taken;
+}
+
+// Errors: UNAVAILABLE if the call has ended; its own status then says why.
+absl::Status RemoteBatches::ReadAll(Rest& rest, Attempts& attempts) {
+  do {
+    if (!call_->stream->Read(&response_)) return absl::UnavailableError("the call has ended");
+    if (absl::Status wrong = Take(rest); !wrong.ok()) return wrong;
+    attempts.Succeeded();
+  } while (rest.first < rest.end);
+  return absl::OkStatus();
+}
+
+absl::Status RemoteBatches::Take(Rest& rest) {
+  const EngineInfo engine = FromProto(response_.engine());
+  if (engine_.fingerprint.empty()) engine_ = engine;
+  if (engine.fingerprint != engine_.fingerprint) return OtherEngine(engine_, engine);
+  const size_t count = PieceAt(rest.first, rest.end);
+  if (absl::Status misfit = CopyOutputs(response_, rest.first, count, rest.rows); !misfit.ok()) return misfit;
+  rest.summary = Joined(std::move(rest.summary), FromProto(response_.summary()), static_cast<int64_t>(rest.first));
+  rest.first += count;
+  return absl::OkStatus();
+}
+
+absl::Status RemoteBatches::End() {
+  // gRPC allows Finish only after all answers were read.
+  while (call_->stream->Read(&response_)) {
+  }
+  const absl::Status status = FromGrpcStatus(call_->stream->Finish());
+  call_.reset();
+  // A server ends a call only after the client has, so that this one broke off.
+  return status.ok() ? absl::UnavailableError("the server ended the call before its last answer") : status;
+}
+
+}  // namespace ricochet

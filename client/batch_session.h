@@ -1,0 +1,90 @@
+// RemoteBatches: the batches of one session, asked of a server over one call that stays open.
+//
+// A batch that is longer than a piece is sent piece by piece, while the answers to the pieces before are read. A call that
+// breaks off is replaced by another, which goes on at the first piece without an answer.
+
+#ifndef RICOCHET_CLIENT_BATCH_SESSION_H_
+#define RICOCHET_CLIENT_BATCH_SESSION_H_
+
+#include <grpcpp/client_context.h>
+#include <grpcpp/support/sync_stream.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "client/attempts.h"
+#include "client/call_context.h"
+#include "ricochet/batch.h"
+#include "ricochet/call_options.h"
+#include "ricochet/client_options.h"
+#include "ricochet/v1/batch.pb.h"
+
+namespace ricochet {
+
+// The most rows of one message: so many that its columns, in or out, take a mebibyte. Servers take more, but smaller
+// pieces let sending, computing and receiving overlap.
+size_t RowsOfAPiece(const BatchSetup& setup);
+
+class RemoteBatches final : public BatchSession::Worker {
+ public:
+  using Stream = grpc::ClientReaderWriterInterface<v1::SolveBatchRequest, v1::SolveBatchResponse>;
+  // Starts a call of the server with this number.
+  using Start = std::function<std::unique_ptr<Stream>(size_t server, grpc::ClientContext* context)>;
+
+  // `servers` must outlive this object.
+  RemoteBatches(const BatchSetup& setup, Start start, PreferredServer& servers, const RetryPolicy& policy,
+                const CallOptions& options);
+  ~RemoteBatches() override;
+
+  absl::StatusOr<BatchSummary> Solve(const BatchRows& rows) override;
+  absl::Status CheckSize(size_t /*rows*/) const override { return absl::OkStatus(); }
+  const EngineInfo& engine() const override { return engine_; }
+
+ private:
+  // One call, from its start to its end.
+  struct Call {
+    Call(const CallOptions& options, const Start& start, size_t server)
+        : context(options, std::nullopt), stream(start(server, &context.get())) {}
+    CallContext context;
+    std::unique_ptr<Stream> stream;
+    bool has_setup = false;
+  };
+
+  // The rows [first, end) of a batch that still have no answer, and the summary of those before them.
+  struct Rest {
+    const BatchRows& rows;
+    size_t first;
+    size_t end;
+    BatchSummary summary;
+  };
+
+  size_t PieceAt(size_t first, size_t end) const { return std::min(piece_, end - first); }
+  bool Write(const BatchRows& rows, size_t first, size_t count);
+  absl::Status Exchange(Rest& rest, Attempts& attempts);
+  absl::Status ReadAll(Rest& rest, Attempts& attempts);
+  absl::Status Take(Rest& rest);
+  // Ends the call and returns its status.
+  absl::Status End();
+
+  const v1::BatchSetup setup_;
+  const size_t fields_;
+  const size_t columns_;
+  const size_t piece_;
+  const Start start_;
+  PreferredServer& servers_;
+  const RetryPolicy policy_;
+  const CallOptions options_;
+  std::optional<Call> call_;  // Absent before the first batch and after a failure.
+  v1::SolveBatchRequest request_;
+  v1::SolveBatchResponse response_;
+  EngineInfo engine_;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CLIENT_BATCH_SESSION_H_

@@ -1,0 +1,175 @@
+#include "client/cli/solve_data.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <iostream>
+#include <utility>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/csv_table.h"
+#include "client/cli/output.h"
+#include "client/cli/scene_input.h"
+#include "client/cli/table.h"
+#include "core/sweep/column.h"
+#include "proto/wire/batch.h"
+#include "proto/wire/engine.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr size_t kTextRows = 40;
+
+// A batch and its answer.
+struct Solved {
+  BatchSetup setup;
+  std::vector<std::vector<double>> outputs;
+  std::vector<Regime> regimes;
+  std::vector<RowStatus> statuses;
+  BatchResponse response;
+};
+
+std::vector<std::string> DefaultColumns(const Scene& scene) {
+  std::vector<std::string> columns;
+  for (std::string& column : Columns(scene)) {
+    if (absl::StartsWith(column, "contact_velocity_after.") || absl::StartsWith(column, "impulse.")) {
+      columns.push_back(std::move(column));
+    }
+  }
+  return columns;
+}
+
+absl::Status Solve(const CsvTable& table, const Solver& solver, Solved& solved) {
+  const size_t count = table.columns.front().size();
+  solved.outputs.assign(solved.setup.columns.size(), std::vector<double>(count));
+  solved.regimes.resize(count);
+  solved.statuses.resize(count);
+  BatchRows rows = {.regimes = absl::MakeSpan(solved.regimes), .statuses = absl::MakeSpan(solved.statuses)};
+  for (const std::vector<double>& column : table.columns) rows.inputs.emplace_back(column);
+  for (std::vector<double>& column : solved.outputs) rows.outputs.push_back(absl::MakeSpan(column));
+  absl::StatusOr<BatchResponse> response = solver.SolveBatch(solved.setup, rows);
+  if (response.ok()) solved.response = *std::move(response);
+  return response.status();
+}
+
+// The name in ricochet.v1.RowStatus without its prefix: "OK".
+std::string StatusName(RowStatus status) {
+  return v1::RowStatus_Name(ToProto(status)).substr(sizeof("ROW_STATUS_") - 1);
+}
+
+std::string Number(double number) {
+  std::array<char, 32> buffer;
+  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr};
+}
+
+std::string SummaryText(const BatchSummary& summary) {
+  const auto invalid = summary.counts.by_regime[static_cast<size_t>(Regime::kInvalid)].count;
+  std::string text = absl::StrCat(summary.counts.points, summary.counts.points == 1 ? " row, " : " rows, ", invalid,
+                                  " without numbers, ", summary.counts.inadmissible.count, " inadmissible\n");
+  for (const BadRow& bad : summary.bad_rows) {
+    absl::StrAppend(&text, "  row ", bad.row, ": ", bad.field, " ", bad.description, "\n");
+  }
+  if (invalid > static_cast<int64_t>(summary.bad_rows.size())) {
+    absl::StrAppend(&text, "  and ", invalid - static_cast<int64_t>(summary.bad_rows.size()), " more\n");
+  }
+  return text;
+}
+
+std::string Text(const Solved& solved) {
+  Table table;
+  std::vector<std::string> header = {"row"};
+  header.insert(header.end(), solved.setup.columns.begin(), solved.setup.columns.end());
+  header.insert(header.end(), {"regime", "status"});
+  table.Add(header);
+  for (size_t i = 0; i < std::min(solved.regimes.size(), kTextRows); ++i) {
+    std::vector<std::string> cells = {absl::StrCat(i)};
+    for (const std::vector<double>& column : solved.outputs) cells.push_back(Rounded(column[i]));
+    cells.push_back(RegimeText(solved.regimes[i]));
+    cells.push_back(StatusName(solved.statuses[i]));
+    table.Add(cells);
+  }
+  std::string text = table.Render(0);
+  if (solved.regimes.size() > kTextRows) {
+    absl::StrAppend(&text, "... and ", solved.regimes.size() - kTextRows, " more rows; --format csv has them all\n");
+  }
+  return absl::StrCat(text, "\n", SummaryText(solved.response.summary));
+}
+
+std::string Csv(const Solved& solved) {
+  std::string text = absl::StrCat("row,", absl::StrJoin(solved.setup.columns, ","), ",regime,status\n");
+  for (size_t i = 0; i < solved.regimes.size(); ++i) {
+    absl::StrAppend(&text, i);
+    for (const std::vector<double>& column : solved.outputs) absl::StrAppend(&text, ",", Number(column[i]));
+    absl::StrAppend(&text, ",", RegimeName(solved.regimes[i]), ",", StatusName(solved.statuses[i]), "\n");
+  }
+  return text;
+}
+
+// Numbers are written as proto3 JSON writes them: one that is no number is a text.
+std::string JsonNumber(double number) { return std::isfinite(number) ? Number(number) : "\"NaN\""; }
+
+template <typename List, typename Text>
+std::string JsonList(const List& list, Text text) {
+  const auto append = [&](std::string* out, const auto& entry) { absl::StrAppend(out, text(entry)); };
+  return absl::StrCat("[", absl::StrJoin(list, ",", append), "]");
+}
+
+std::string Quoted(const std::string& text) { return absl::StrCat("\"", text, "\""); }
+
+// Returns an object on one line: a list of numbers for each column, and lists of regimes and statuses.
+absl::StatusOr<std::string> JsonOf(const Solved& solved) {
+  absl::StatusOr<std::string> summary = Json(ToProto(solved.response.summary));
+  if (!summary.ok()) return summary.status();
+  absl::StatusOr<std::string> engine = Json(ToProto(solved.response.engine));
+  if (!engine.ok()) return engine.status();
+  summary->pop_back();
+  engine->pop_back();
+  std::string columns;
+  for (size_t c = 0; c < solved.outputs.size(); ++c) {
+    absl::StrAppend(&columns, c == 0 ? "" : ",", Quoted(solved.setup.columns[c]), ":",
+                    JsonList(solved.outputs[c], JsonNumber));
+  }
+  return absl::StrCat(
+      "{\"columns\":{", columns,
+      "},\"regimes\":", JsonList(solved.regimes, [](Regime regime) { return Quoted(RegimeName(regime)); }),
+      ",\"statuses\":", JsonList(solved.statuses, [](RowStatus status) { return Quoted(StatusName(status)); }),
+      ",\"summary\":", *summary, ",\"engine\":", *engine, "}\n");
+}
+
+absl::Status Write(const Solved& solved, const CommonOptions& options) {
+  switch (options.format) {
+    case Format::kText:
+      return WriteOutput(options, Text(solved));
+    case Format::kJson: {
+      const absl::StatusOr<std::string> json = JsonOf(solved);
+      return json.ok() ? WriteOutput(options, *json) : json.status();
+    }
+    case Format::kCsv:
+      break;
+  }
+  absl::Status written = WriteOutput(options, Csv(solved));
+  if (written.ok()) std::cerr << SummaryText(solved.response.summary);
+  return written;
+}
+
+}  // namespace
+
+absl::Status SolveData(const DataOptions& data, const CommonOptions& options, const Solver& solver, const Scene& scene,
+                       const DemandFields& demand) {
+  const absl::StatusOr<std::string> text = ReadText(data.file);
+  if (!text.ok()) return text.status();
+  const absl::StatusOr<CsvTable> table = ParseCsvTable(*text, data.file == "-" ? "standard input" : data.file);
+  if (!table.ok()) return table.status();
+  Solved solved = {.setup = {.scene = scene,
+                             .fields = table->header,
+                             .columns = data.columns.empty() ? DefaultColumns(scene) : data.columns,
+                             .demand = demand}};
+  if (absl::Status status = Solve(*table, solver, solved); !status.ok()) return status;
+  return Write(solved, options);
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,28 @@
+// `ricochet solve --data`: many impacts of one system, the rows of a table.
+
+#ifndef RICOCHET_CLIENT_CLI_SOLVE_DATA_H_
+#define RICOCHET_CLIENT_CLI_SOLVE_DATA_H_
+
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "client/cli/common.h"
+#include "ricochet/demand.h"
+#include "ricochet/scene.h"
+#include "ricochet/solver.h"
+
+namespace ricochet::cli {
+
+struct DataOptions {
+  std::string file;                  // A table; - for standard input.
+  std::vector<std::string> columns;  // Of the outcome. Empty: the contact's velocity after the impact and the impulse.
+};
+
+// Solves the rows and writes them as the options ask. Errors: those of reading, of the solver and of Output.
+absl::Status SolveData(const DataOptions& data, const CommonOptions& options, const Solver& solver, const Scene& scene,
+                       const DemandFields& demand);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_SOLVE_DATA_H_

@@ -1,0 +1,215 @@
+#include "core/batch/batch_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <utility>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+#include "core/answer/scene_outcome.h"
+#include "core/batch/check_rows.h"
+#include "core/contact/scene_contact.h"
+#include "core/plan/demand_fields.h"
+#include "core/scene/numbers.h"
+#include "core/scene/validate.h"
+#include "core/sweep/column.h"
+
+namespace ricochet {
+namespace {
+
+// The paths of the input columns; none if the scene has no system, which is then the only violation.
+std::vector<std::string> PathsOf(const BatchSetup& setup) {
+  return std::holds_alternative<std::monostate>(setup.scene.system) ? std::vector<std::string>() : setup.fields;
+}
+
+void Append(std::vector<Violation> more, std::vector<Violation>& violations) {
+  std::move(more.begin(), more.end(), std::back_inserter(violations));
+}
+
+void Count(int64_t row, Tally& tally) {
+  if (tally.count++ == 0) tally.first_index = row;
+}
+
+bool HasNumbers(RowStatus status) { return status == RowStatus::kOk || status == RowStatus::kInadmissible; }
+
+}  // namespace
+
+BatchRun::BatchRun(const BatchSetup& setup)
+    : scene_(setup.scene),
+      fields_(
+          PathsOf(setup), [](size_t i) { return absl::StrCat("fields[", i, "]"); }, "", scene_),
+      demand_(ToDemand(setup.demand)),
+      has_relations_(HasRelations(scene_)) {}
+
+absl::StatusOr<std::unique_ptr<BatchRun>> BatchRun::Make(const BatchSetup& setup) {
+  std::unique_ptr<BatchRun> run(new BatchRun(setup));
+  if (absl::Status status = run->Prepare(setup); !status.ok()) return status;
+  return run;
+}
+
+absl::Status BatchRun::Prepare(const BatchSetup& setup) {
+  std::optional<SceneContact> contact;
+  const auto stays = [this](const Violation& violation) { return !fields_.CanBeCured(violation); };
+  std::vector<Violation> violations = Validate(scene_, RestitutionIs::kRequired, contact, stays);
+  if (violations.empty()) {
+    violations = CheckDemand(scene_, contact, setup.demand);
+    std::erase_if(violations, std::not_fn(stays));
+  }
+  if (setup.fields.empty()) violations.push_back({"fields", "is empty: must name at least one"});
+  Append(fields_.violations(), violations);
+  const std::vector<std::string> all = Columns(scene_);
+  const ColumnPositions known = PositionsOf(all);
+  Append(CheckColumns(setup.columns, all, known), violations);
+  if (!violations.empty()) return InvalidRequest(violations);
+  names_ = setup.fields;
+  columns_ = setup.columns;
+  for (const std::string& column : columns_) positions_of_.push_back(known.at(column));
+  numbers_.reserve(all.size());
+  if (std::optional<PlanarRows> planar = PlanarRows::Make(scene_, setup, demand_); planar.has_value()) {
+    planar_ = std::make_unique<PlanarRows>(*std::move(planar));
+    verdicts_.resize(PlanarRows::kBlock);
+  }
+  return absl::OkStatus();
+}
+
+// Returns true if every number keeps its own rule.
+bool BatchRun::SetRow(const BatchRows& rows, size_t i) {
+  bool keeps_rules = true;
+  for (size_t k = 0; k < fields_.size(); ++k) keeps_rules &= fields_[k].Set(rows.inputs[k][i]);
+  return keeps_rules;
+}
+
+// Returns nothing if it was stopped.
+std::optional<BatchRun::Row> BatchRun::SolveRow(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped) {
+  Row row;
+  std::optional<SceneContact> contact;
+  if (!SetRow(rows, i) || (has_relations_ && !KeepsRelations(scene_, contact))) {
+    row.status = RowStatus::kInvalid;
+    return row;
+  }
+  Outcome outcome;
+  const absl::Status solved =
+      SolveScene(scene_, contact, {.extent = {.detail = Detail::kNumbers}, .demand = demand_}, stopped, outcome);
+  if (absl::IsCancelled(solved)) return std::nullopt;
+  if (!solved.ok()) {
+    row.status = RowStatus::kNotRepresentable;
+    return row;
+  }
+  row.status = outcome.admissible ? RowStatus::kOk : RowStatus::kInadmissible;
+  row.regime = outcome.regime;
+  row.model = outcome.plan.model;
+  ReadColumns(outcome, numbers_);
+  for (size_t c = 0; c < columns_.size(); ++c) rows.outputs[c][i] = numbers_[positions_of_[c]];
+  CheckNumbers(rows, i, row);
+  return row;
+}
+
+BatchRun::Row BatchRun::RowOf(const PlanarRows::Verdict& verdict) const {
+  return {.status = verdict.inadmissible ? RowStatus::kInadmissible : RowStatus::kOk,
+          .regime = verdict.regime,
+          .model = verdict.model,
+          .too_large = std::nullopt};
+}
+
+void BatchRun::CheckNumbers(const BatchRows& rows, size_t i, Row& row) const {
+  for (size_t c = 0; c < columns_.size(); ++c) {
+    if (std::isfinite(rows.outputs[c][i])) continue;
+    row.status = RowStatus::kNotRepresentable;
+    row.regime = Regime::kInvalid;
+    row.too_large = c;
+    return;
+  }
+}
+
+// Solves the row, or takes it from its block, which is solved when its first row is asked for. Returns nothing if it was
+// stopped.
+std::optional<BatchRun::Row> BatchRun::SolveInBlock(const BatchRows& rows, size_t i,
+                                                    absl::FunctionRef<bool()> stopped) {
+  const size_t in_block = i % PlanarRows::kBlock;
+  if (planar_ == nullptr || in_block == 0) {
+    if (stopped()) return std::nullopt;
+    if (planar_ != nullptr) {
+      planar_->Solve(rows, i, std::min(PlanarRows::kBlock, RowCount(rows) - i), absl::MakeSpan(verdicts_));
+    }
+  }
+  if (planar_ == nullptr || !verdicts_[in_block].is_solved) return SolveRow(rows, i, stopped);
+  Row row = RowOf(verdicts_[in_block]);
+  CheckNumbers(rows, i, row);
+  return row;
+}
+
+absl::StatusOr<BatchSummary> BatchRun::Solve(const BatchRows& rows, absl::FunctionRef<bool()> stopped) {
+  if (absl::Status misfit = CheckRows(rows, fields_.size(), columns_.size()); !misfit.ok()) return misfit;
+  BatchSummary summary;
+  for (size_t i = 0; i < RowCount(rows); ++i) {
+    const std::optional<Row> row = SolveInBlock(rows, i, stopped);
+    if (!row.has_value()) return absl::CancelledError("the batch was stopped by its caller");
+    Finish(rows, i, *row, summary);
+  }
+  return summary;
+}
+
+// Writes what every row has, and counts the row.
+void BatchRun::Finish(const BatchRows& rows, size_t i, const Row& row, BatchSummary& summary) const {
+  const auto index = static_cast<int64_t>(i);
+  if (!rows.regimes.empty()) rows.regimes[i] = row.regime;
+  if (!rows.statuses.empty()) rows.statuses[i] = row.status;
+  ++summary.counts.points;
+  Count(index, summary.counts.by_regime[static_cast<size_t>(row.regime)]);
+  if (HasNumbers(row.status)) {
+    Count(index, summary.counts.by_model[static_cast<size_t>(row.model)]);
+    if (row.status == RowStatus::kInadmissible) Count(index, summary.counts.inadmissible);
+    return;
+  }
+  for (const absl::Span<double> column : rows.outputs) column[i] = std::numeric_limits<double>::quiet_NaN();
+  if (summary.bad_rows.size() < kMostBadRows) summary.bad_rows.push_back(Describe(rows, index, row));
+}
+
+// A derived field can break a rule of its own in a scene that keeps all of its own. The scene must be that of the row.
+Violation BatchRun::WhyInvalid(const BatchRows& rows, size_t i) const {
+  std::vector<Violation> violations = Validate(scene_);
+  if (!violations.empty()) return std::move(violations.front());
+  for (size_t k = 0; k < fields_.size(); ++k) {
+    const double value = rows.inputs[k][i];
+    if (!Holds(value, fields_[k].rule())) return MakeViolation(names_[k], value, "lie in the range of the field");
+  }
+  return {};
+}
+
+// The scene must be that of the row.
+BadRow BatchRun::Describe(const BatchRows& rows, int64_t index, const Row& row) const {
+  BadRow bad = {.row = index, .status = row.status};
+  if (row.status == RowStatus::kInvalid) {
+    const Violation violation = WhyInvalid(rows, static_cast<size_t>(index));
+    bad.field = violation.field;
+    bad.description = violation.description;
+  } else if (row.too_large.has_value()) {
+    bad.field = columns_[*row.too_large];
+    bad.description = "exceeds the largest double";
+  } else {
+    bad.field = "contact";
+    bad.description = std::string(ContactOverflow().message());
+  }
+  return bad;
+}
+
+BatchSummary Joined(BatchSummary first, BatchSummary second, int64_t first_row) {
+  const auto shift = [first_row](Tally& tally) {
+    if (tally.count > 0) tally.first_index += first_row;
+  };
+  for (Tally& tally : second.counts.by_regime) shift(tally);
+  for (Tally& tally : second.counts.by_model) shift(tally);
+  shift(second.counts.inadmissible);
+  first.counts = Joined(first.counts, second.counts);
+  for (BadRow& bad : second.bad_rows) {
+    if (first.bad_rows.size() == kMostBadRows) break;
+    bad.row += first_row;
+    first.bad_rows.push_back(std::move(bad));
+  }
+  return first;
+}
+
+}  // namespace ricochet

@@ -1,0 +1,77 @@
+// BatchRun: the rows of batches of one setup, solved one after another.
+
+#ifndef RICOCHET_CORE_BATCH_BATCH_RUN_H_
+#define RICOCHET_CORE_BATCH_BATCH_RUN_H_
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/functional/function_ref.h"
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "core/batch/planar_rows.h"
+#include "core/plan/demand.h"
+#include "core/scene/driven_fields.h"
+#include "ricochet/batch.h"
+#include "ricochet/error.h"
+#include "ricochet/outcome.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+class BatchRun {
+ public:
+  // Errors: INVALID_ARGUMENT with every violation of the setup. A rule of the scene that a column can cure is left to
+  // the rows.
+  static absl::StatusOr<std::unique_ptr<BatchRun>> Make(const BatchSetup& setup);
+
+  BatchRun(const BatchRun&) = delete;
+  BatchRun& operator=(const BatchRun&) = delete;
+
+  // The columns in or out, whichever are more.
+  size_t columns() const { return std::max(fields_.size(), columns_.size()); }
+
+  // Solves all rows. `stopped` is asked before each, or before each block of rows that go in SIMD lanes.
+  // Errors: INVALID_ARGUMENT if the columns do not fit, CANCELLED once `stopped` returns true.
+  absl::StatusOr<BatchSummary> Solve(const BatchRows& rows, absl::FunctionRef<bool()> stopped);
+
+ private:
+  // The result of one row.
+  struct Row {
+    RowStatus status = RowStatus::kUnspecified;
+    Regime regime = Regime::kInvalid;
+    Model model = Model::kUnspecified;
+    std::optional<size_t> too_large;  // The first column whose number exceeds the largest double.
+  };
+
+  explicit BatchRun(const BatchSetup& setup);
+  absl::Status Prepare(const BatchSetup& setup);
+  bool SetRow(const BatchRows& rows, size_t i);
+  std::optional<Row> SolveRow(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped);
+  Row RowOf(const PlanarRows::Verdict& verdict) const;
+  void CheckNumbers(const BatchRows& rows, size_t i, Row& row) const;
+  std::optional<Row> SolveInBlock(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped);
+  void Finish(const BatchRows& rows, size_t i, const Row& row, BatchSummary& summary) const;
+  Violation WhyInvalid(const BatchRows& rows, size_t i) const;
+  BadRow Describe(const BatchRows& rows, int64_t index, const Row& row) const;
+
+  Scene scene_;  // The scene of the current row, in which every row sets the same fields.
+  DrivenFields fields_;
+  Demand demand_;
+  bool has_relations_ = false;                 // True if the scene has rules beyond those of single numbers.
+  std::vector<std::string> names_;             // The names of the input columns.
+  std::vector<std::string> columns_;           // The names of the output columns.
+  std::vector<size_t> positions_of_;           // Their positions among all columns of the scene.
+  std::vector<double> numbers_;                // All columns of one row.
+  std::unique_ptr<PlanarRows> planar_;         // Absent if the rows need a scene each.
+  std::vector<PlanarRows::Verdict> verdicts_;  // Of the current block of planar rows.
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_BATCH_BATCH_RUN_H_

@@ -1,0 +1,17 @@
+// Nearest: the known name that a misspelled one most likely means.
+
+#ifndef RICOCHET_CORE_SCENE_NEAREST_H_
+#define RICOCHET_CORE_SCENE_NEAREST_H_
+
+#include <string>
+#include <vector>
+
+namespace ricochet {
+
+// Names the entry of `known` that takes the fewest changed, added or removed characters: "; the nearest is \"...\"". The
+// first of several equally near ones counts. Returns an empty text if `known` is empty or `text` is longer than any name.
+std::string NearestHint(const std::string& text, const std::vector<std::string>& known);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_SCENE_NEAREST_H_

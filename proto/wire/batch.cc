@@ -1,0 +1,167 @@
+#include "proto/wire/batch.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "proto/wire/engine.h"
+#include "proto/wire/enums.h"
+#include "proto/wire/outcome.h"
+#include "proto/wire/plan.h"
+#include "proto/wire/scene.h"
+#include "proto/wire/sweep.h"
+#include "ricochet/error.h"
+
+namespace ricochet {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "columns are little-endian");
+static_assert(kRowStatusCount == v1::RowStatus_ARRAYSIZE);
+
+// A string of fewer bytes may lie within its object, which need not be aligned for doubles.
+constexpr size_t kLeastBytes = 64;
+
+bool LiesAsDoubles(const std::string& bytes) {
+  return reinterpret_cast<uintptr_t>(bytes.data()) % alignof(double) == 0;
+}
+
+// A column of a message, whose bytes are those of doubles.
+absl::Span<const double> Doubles(const std::string& bytes) {
+  return {reinterpret_cast<const double*>(bytes.data()), bytes.size() / sizeof(double)};
+}
+
+// Returns the regime or status of a byte; a number that this build does not know becomes kUnspecified.
+Regime RegimeOf(char byte) { return FromProto(static_cast<v1::Regime>(static_cast<uint8_t>(byte))); }
+RowStatus StatusOf(char byte) { return FromProto(static_cast<v1::RowStatus>(static_cast<uint8_t>(byte))); }
+
+absl::Status Misfit(const std::string& what, size_t found, size_t wanted) {
+  return absl::DataLossError(absl::StrCat("the answer to a batch has ", found, " ", what, " in place of ", wanted));
+}
+
+}  // namespace
+
+v1::RowStatus ToProto(RowStatus status) { return SameNumber<v1::RowStatus>(status, &v1::RowStatus_IsValid); }
+RowStatus FromProto(v1::RowStatus proto) { return SameNumber<RowStatus>(proto, &v1::RowStatus_IsValid); }
+
+v1::BatchSetup ToProto(const BatchSetup& setup) {
+  v1::BatchSetup proto;
+  *proto.mutable_scene() = ToProto(setup.scene);
+  proto.mutable_fields()->Assign(setup.fields.begin(), setup.fields.end());
+  proto.mutable_columns()->Assign(setup.columns.begin(), setup.columns.end());
+  SetDemand(setup.demand, proto);
+  return proto;
+}
+
+BatchSetup FromProto(const v1::BatchSetup& proto) {
+  return {.scene = FromProto(proto.scene()),
+          .fields = {proto.fields().begin(), proto.fields().end()},
+          .columns = {proto.columns().begin(), proto.columns().end()},
+          .demand = DemandOf(proto)};
+}
+
+v1::BatchSummary ToProto(const BatchSummary& summary) {
+  v1::BatchSummary proto;
+  *proto.mutable_counts() = ToProto(summary.counts);
+  for (const BadRow& bad : summary.bad_rows) {
+    v1::BadRow& entry = *proto.add_bad_rows();
+    entry.set_row(bad.row);
+    entry.set_status(ToProto(bad.status));
+    entry.set_field(bad.field);
+    entry.set_description(bad.description);
+  }
+  return proto;
+}
+
+BatchSummary FromProto(const v1::BatchSummary& proto) {
+  BatchSummary summary = {.counts = FromProto(proto.counts())};
+  for (const v1::BadRow& entry : proto.bad_rows()) {
+    summary.bad_rows.push_back({.row = entry.row(),
+                                .status = FromProto(entry.status()),
+                                .field = entry.field(),
+                                .description = entry.description()});
+  }
+  return summary;
+}
+
+void SetInputs(const BatchRows& rows, size_t first, size_t count, v1::SolveBatchRequest& request) {
+  request.clear_inputs();
+  for (const absl::Span<const double> column : rows.inputs) {
+    request.add_inputs()->assign(reinterpret_cast<const char*>(column.data() + first), count * sizeof(double));
+  }
+}
+
+absl::Status CopyOutputs(const v1::SolveBatchResponse& response, size_t first, size_t count, const BatchRows& rows) {
+  const auto columns = static_cast<size_t>(response.outputs_size());
+  if (columns != rows.outputs.size()) return Misfit("columns", columns, rows.outputs.size());
+  for (const std::string& column : response.outputs()) {
+    if (column.size() != count * sizeof(double))
+      return Misfit("bytes in a column", column.size(), count * sizeof(double));
+  }
+  if (response.regimes().size() != count) return Misfit("regimes", response.regimes().size(), count);
+  if (response.statuses().size() != count) return Misfit("statuses", response.statuses().size(), count);
+  for (size_t c = 0; c < columns && count > 0; ++c) {
+    std::memcpy(rows.outputs[c].data() + first, response.outputs(static_cast<int>(c)).data(), count * sizeof(double));
+  }
+  const auto at = static_cast<ptrdiff_t>(first);
+  if (!rows.regimes.empty()) {
+    std::transform(response.regimes().begin(), response.regimes().end(), rows.regimes.begin() + at, RegimeOf);
+  }
+  if (!rows.statuses.empty()) {
+    std::transform(response.statuses().begin(), response.statuses().end(), rows.statuses.begin() + at, StatusOf);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status BatchExchange::OpenInputs(const v1::SolveBatchRequest& request) {
+  const auto columns = static_cast<size_t>(request.inputs_size());
+  std::vector<Violation> violations;
+  rows_ = {};
+  aligned_.resize(columns);
+  for (size_t k = 0; k < columns && !IsFull(violations); ++k) {
+    const std::string& bytes = request.inputs(static_cast<int>(k));
+    if (bytes.size() % sizeof(double) != 0) {
+      violations.push_back(
+          {absl::StrCat("inputs[", k, "]"), absl::StrCat("has ", bytes.size(), " bytes: must have 8 for each row")});
+    } else if (LiesAsDoubles(bytes)) {
+      rows_.inputs.push_back(Doubles(bytes));
+    } else {
+      aligned_[k].resize(bytes.size() / sizeof(double));
+      std::memcpy(aligned_[k].data(), bytes.data(), bytes.size());
+      rows_.inputs.emplace_back(aligned_[k]);
+    }
+  }
+  return violations.empty() ? absl::OkStatus() : InvalidRequest(violations);
+}
+
+void BatchExchange::OpenOutputs(size_t columns, v1::SolveBatchResponse& response) {
+  const size_t count = row_count();
+  response.Clear();
+  for (size_t c = 0; c < columns; ++c) {
+    std::string& bytes = *response.add_outputs();
+    bytes.resize(std::max(count * sizeof(double), kLeastBytes));
+    rows_.outputs.emplace_back(reinterpret_cast<double*>(bytes.data()), count);
+  }
+  regimes_.resize(count);
+  statuses_.resize(count);
+  rows_.regimes = absl::MakeSpan(regimes_);
+  rows_.statuses = absl::MakeSpan(statuses_);
+}
+
+void BatchExchange::Close(const BatchSummary& summary, const EngineInfo& engine, v1::SolveBatchResponse& response) {
+  for (std::string& bytes : *response.mutable_outputs()) bytes.resize(row_count() * sizeof(double));
+  std::string& regimes = *response.mutable_regimes();
+  regimes.resize(row_count());
+  std::transform(regimes_.begin(), regimes_.end(), regimes.begin(),
+                 [](Regime regime) { return static_cast<char>(regime); });
+  std::string& statuses = *response.mutable_statuses();
+  statuses.resize(row_count());
+  std::transform(statuses_.begin(), statuses_.end(), statuses.begin(),
+                 [](RowStatus status) { return static_cast<char>(status); });
+  *response.mutable_summary() = ToProto(summary);
+  *response.mutable_engine() = ToProto(engine);
+}
+
+}  // namespace ricochet

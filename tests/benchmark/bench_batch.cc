@@ -1,0 +1,128 @@
+// Batches: contacts a second in this process and from a server on loopback, by the size of a batch.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_format.h"
+#include "absl/synchronization/mutex.h"
+#include "ricochet/client.h"
+#include "ricochet/solver.h"
+#include "tests/benchmark/measure.h"
+#include "tests/support/server_process.h"
+
+namespace ricochet::bench {
+namespace {
+
+constexpr int kRounds = 5;
+constexpr double kSecondsARound = 0.1;
+
+// Contacts of many courses: slip goes on, stops, or turns back.
+double Spread(size_t row, double step) { return std::sin(step * static_cast<double>(row) + 1.0); }
+
+struct Batch {
+  BatchSetup setup;
+  std::vector<std::vector<double>> in, out;
+
+  Batch(BatchSetup given, size_t rows)
+      : setup(std::move(given)), out(setup.columns.size(), std::vector<double>(rows)) {}
+
+  void AddColumn(size_t rows, double centre, double spread) {
+    const double step = 0.7 + 0.31 * static_cast<double>(in.size());
+    std::vector<double>& column = in.emplace_back(rows);
+    for (size_t i = 0; i < rows; ++i) column[i] = centre + spread * Spread(i, step);
+  }
+
+  BatchRows Rows() {
+    BatchRows rows;
+    for (const auto& column : in) rows.inputs.emplace_back(column);
+    for (auto& column : out) rows.outputs.push_back(absl::MakeSpan(column));
+    return rows;
+  }
+};
+
+Batch Contacts(size_t rows, double tolerance) {
+  Batch batch({.scene = {.system = PlanarContact{}, .restitution = EnergeticCoefficient{0.5}},
+               .fields = {"planar_contact.w_tt_per_kg", "planar_contact.w_tn_per_kg", "planar_contact.w_nn_per_kg",
+                          "planar_contact.tangential_m_s", "planar_contact.normal_m_s", "friction.kinetic_coefficient"},
+               .columns = {"contact_velocity_after.tangential_m_s[0]", "contact_velocity_after.normal_m_s",
+                           "impulse.tangential_n_s[0]", "impulse.normal_total_n_s"},
+               .demand = {.relative_tolerance = tolerance}},
+              rows);
+  batch.AddColumn(rows, 3.0, 0.5);
+  batch.AddColumn(rows, 0.0, 1.0);
+  batch.AddColumn(rows, 1.5, 0.3);
+  batch.AddColumn(rows, 0.0, 2.0);
+  batch.AddColumn(rows, -1.0, 0.5);
+  batch.AddColumn(rows, 0.4, 0.3);
+  return batch;
+}
+
+Batch ContactsInSpace(size_t rows, double tolerance) {
+  Batch batch({.scene = {.system = SpatialContact{{1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, {1.0, 0.6}, -1.0},
+                         .restitution = EnergeticCoefficient{0.5}},
+               .fields = {"spatial_contact.tangential_m_s[0]", "spatial_contact.tangential_m_s[1]",
+                          "spatial_contact.normal_m_s", "friction.kinetic_coefficient"},
+               .columns = {"contact_velocity_after.tangential_m_s[0]", "contact_velocity_after.tangential_m_s[1]",
+                           "contact_velocity_after.normal_m_s"},
+               .demand = {.relative_tolerance = tolerance}},
+              rows);
+  batch.AddColumn(rows, 0.0, 2.0);
+  batch.AddColumn(rows, 0.0, 2.0);
+  batch.AddColumn(rows, -1.0, 0.5);
+  batch.AddColumn(rows, 0.4, 0.3);
+  return batch;
+}
+
+// Contacts a second of a session that solves the batch again and again.
+double Rate(const Solver& solver, Batch& batch) {
+  absl::StatusOr<BatchSession> session = solver.OpenBatches(batch.setup);
+  const BatchRows rows = batch.Rows();
+  const auto solve = [&] {
+    if (!session->Solve(rows).ok()) std::abort();
+  };
+  const double once = Seconds(solve);
+  const int calls = std::max(1, static_cast<int>(kSecondsARound / once));
+  std::vector<double> seconds;
+  for (int i = 0; i < kRounds; ++i) {
+    seconds.push_back(Seconds([&] {
+      for (int k = 0; k < calls; ++k) solve();
+    }));
+  }
+  return static_cast<double>(batch.in[0].size()) * calls / Median(seconds);
+}
+
+void Run(const char* name, const Solver& local, const Solver& remote, Batch (*make)(size_t, double), double tolerance) {
+  std::printf("%s, tolerance %.0e, one thread, medians of %d rounds\n", name, tolerance, kRounds);
+  std::printf("  %9s %16s %16s %18s\n", "rows", "embedded M/s", "loopback M/s", "loopback us/call");
+  for (const size_t rows : {1, 64, 1000, 10'000, 100'000}) {
+    Batch batch = make(rows, tolerance);
+    const double here = Rate(local, batch);
+    const double there = Rate(remote, batch);
+    std::printf("  %9zu %16.2f %16.2f %18.0f\n", rows, here / 1e6, there / 1e6,
+                static_cast<double>(rows) / there * 1e6);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace
+}  // namespace ricochet::bench
+
+int main() {
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  using namespace ricochet;
+  using namespace ricochet::bench;
+  const ServerProcess server;
+  const auto client = Client::Connect({.target = server.address()});
+  if (!client.ok()) return 1;
+  const LocalSolver local;
+  Run("Planar contacts", local, *client, Contacts, 1e-12);
+  Run("Planar contacts", local, *client, Contacts, 1e-6);
+  Run("Contacts in space", local, *client, ContactsInSpace, 1e-6);
+  Run("Contacts in space", local, *client, ContactsInSpace, 1e-10);
+  return 0;
+}
