@@ -234,18 +234,21 @@ std::optional<SystemContact<ArfInterval>> ReduceLinkage(const Scene& scene, cons
   Matrix mass(static_cast<slong>(n), static_cast<slong>(n));
   if (!SetMassMatrix(links, bits, mass, stopped) || !Factorize(n, bits, mass, stopped)) return std::nullopt;
   const auto jt = TransposedJacobian(links, bits);
-  Matrix right(static_cast<slong>(n), 2), solution(static_cast<slong>(n), 2);
-  for (size_t i = 0; i < n; ++i) {
-    Set(right, i, 0, jt[i][0], bits);
-    Set(right, i, 1, jt[i][1], bits);
+  // One column at a time, as each takes milliseconds.
+  Matrix solution_t(static_cast<slong>(n), 1), solution_n(static_cast<slong>(n), 1);
+  for (const size_t column : {size_t{0}, size_t{1}}) {
+    if (stopped()) return std::nullopt;
+    Matrix right(static_cast<slong>(n), 1);
+    for (size_t i = 0; i < n; ++i) Set(right, i, 0, jt[i][column], bits);
+    arb_mat_solve_cho_precomp((column == 0 ? solution_t : solution_n).get(), mass.get(), right.get(), bits);
   }
-  arb_mat_solve_cho_precomp(solution.get(), mass.get(), right.get(), bits);
+  if (stopped()) return std::nullopt;
 
   SystemContact<ArfInterval> system;
   system.velocities = Velocities::kRates;
   Contact<ArfInterval>& contact = system.contact;
   for (size_t i = 0; i < n; ++i) {
-    const std::array<ArfInterval, 2> response = {Get(solution, i, 0, bits), Get(solution, i, 1, bits)};
+    const std::array<ArfInterval, 2> response = {Get(solution_t, i, 0, bits), Get(solution_n, i, 0, bits)};
     const ArfInterval rate = Exactly(links[i].rate_rad_s, bits);
     contact.wtt = contact.wtt + jt[i][0] * response[0];
     contact.wtn = contact.wtn + jt[i][0] * response[1];

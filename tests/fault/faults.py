@@ -16,8 +16,8 @@ import time
 import grpc
 
 from calls import channel, cheap, code_of, dear, health, long_sweep, require_served, stub, wait_served
-from framework import (Group, Process, Server, Skipped, check, command_line, cpu_until_idle, in_threads, main, require,
-                       tools, wait_until)
+from framework import (Group, Process, Server, Skipped, check, command_line, cpu_until_idle, in_threads, main, remove,
+                       require, tools, wait_until)
 from http2 import SERVICE, RawConnection
 
 TRY_AGAIN = 75  # The exit code of the command line for an error that another try may mend.
@@ -32,7 +32,8 @@ def sweep_arguments(points, *more):
 def undisturbed(name, arguments):
     """The bytes that the embedded solver writes."""
     out = tools().work / name
-    done = command_line(*arguments, "-o", out)
+    remove(out)
+    done = command_line(*arguments, "-o", out, timeout_s=300)
     require(done.returncode == 0, f"the embedded run ended with {done.returncode}: {done.stderr}")
     return out.read_bytes()
 
@@ -393,7 +394,8 @@ def few_threads():
 class Network:
     """A server's namespace, joined to this one by two tunnels whose packets pass through this process."""
 
-    HERE, THERE = "10.213.77.1", "10.213.77.2"
+    # Addresses of this process's own, as several of these may run at once.
+    HERE, THERE = [f"10.{200 + os.getpid() // 256 % 50}.{os.getpid() % 256}.{end}" for end in (1, 2)]
 
     def __init__(self, seed):
         self.name = f"ricochet{os.getpid()}"
@@ -464,8 +466,7 @@ def over_a_bad_line(points, disturb):
     expected = undisturbed("network.embedded", arguments)
     out = tools().work / "network.csv"
     part = out.with_name(out.name + ".part")
-    for old in out.parent.glob(out.name + "*"):
-        old.unlink()
+    remove(out)
     with Network(tools().seed) as network, network.server() as server:
         command = [tools().ricochet, *arguments, "--server", server.address, "-o", out]
         client = Process(command, stderr=subprocess.PIPE, text=True)

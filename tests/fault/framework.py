@@ -348,6 +348,12 @@ def percentile(values, part):
     return ordered[min(len(ordered) - 1, int(part * len(ordered)))]
 
 
+def remove(output):
+    """Removes a file that the command line writes, and what an unfinished run has left of it."""
+    for path in output.parent.glob(output.name + "*"):
+        path.unlink()
+
+
 def command_line(*arguments, timeout_s=60, **popen):
     """Runs `ricochet`; returns the finished process with its texts."""
     return subprocess.run([str(TOOLS.ricochet), *[str(a) for a in arguments]], capture_output=True, text=True,

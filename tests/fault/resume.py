@@ -7,7 +7,7 @@ import subprocess
 import threading
 import time
 
-from framework import Process, Server, Skipped, check, command_line, main, require, tools, wait_until
+from framework import Process, Server, Skipped, check, command_line, main, remove, require, tools, wait_until
 
 ELASTIC = ["--a", "0.35", "--b", "1.1", "--mu", "0.12", "--energetic", "0.95"]
 TRY_AGAIN = 75
@@ -24,6 +24,7 @@ def undisturbed(points):
     if "--resume" not in command_line("sweep", "--help").stdout:
         raise Skipped("this command line has no --resume")
     out = tools().work / "embedded.csv"
+    remove(out)
     done = command_line(*sweep(points), "-o", out, timeout_s=300)
     require(done.returncode == 0, f"the embedded run ended with {done.returncode}: {done.stderr}")
     return out.read_bytes()
@@ -35,8 +36,7 @@ class Client:
     def __init__(self, name, arguments, addresses):
         self.out = tools().work / f"{name}.csv"
         self.part = self.out.with_name(self.out.name + ".part")
-        for path in self.out.parent.glob(self.out.name + "*"):
-            path.unlink()
+        remove(self.out)
         self.command = [tools().ricochet, *arguments, "--server", ",".join(addresses), "-o", self.out]
         self.process = None
         self.runs = 0
