@@ -10,8 +10,6 @@
 namespace ricochet {
 namespace {
 
-// The response of a Solve with 65,536 history states may exceed gRPC's default limit of 4 MiB.
-constexpr int kMaxReceiveBytes = 64 << 20;
 // gRPC waits up to two minutes by default, and calls fail meanwhile although the server may be back.
 constexpr int kFirstReconnectMs = 100;
 constexpr int kLongestReconnectMs = 2'000;
@@ -34,7 +32,7 @@ absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const C
   SetUpOnce();
   grpc::ChannelArguments arguments;
   arguments.SetServiceConfigJSON(ServiceConfig(options));
-  arguments.SetMaxReceiveMessageSize(kMaxReceiveBytes);
+  arguments.SetMaxReceiveMessageSize(static_cast<int>(options.max_receive_bytes));
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIME_MS, kKeepaliveTimeMs);
   arguments.SetInt(GRPC_ARG_KEEPALIVE_TIMEOUT_MS, kKeepaliveTimeoutMs);
   if (!options.user_agent.empty()) arguments.SetUserAgentPrefix(options.user_agent);

@@ -1,9 +1,12 @@
 #include "ricochet/client.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
 #include "client/attempts.h"
 #include "client/batch_session.h"
 #include "client/call_context.h"
@@ -15,6 +18,7 @@
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/engine.h"
+#include "proto/wire/info.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
 #include "proto/wire/sweep.h"
@@ -53,7 +57,7 @@ struct Client::Connection {
       const grpc::Status ended = ((*stubs[attempts.server()]).*method)(&context.get(), wire, &response);
       if (ended.ok()) return response;
       if (IsStopped(call)) return StoppedByCaller();
-      const absl::Status status = FromGrpcStatus(ended);
+      const absl::Status status = WithNameOfLimit(FromGrpcStatus(ended));
       const auto wait = attempts.AfterFailure(status, MostRetries(status));
       if (!wait.has_value() || !Pause(*wait, call)) return IsStopped(call) ? StoppedByCaller() : status;
     }
@@ -66,6 +70,14 @@ struct Client::Connection {
     const absl::StatusOr<WireResponse> response = AskWire(method, ToProto(request), given);
     if (!response.ok()) return response.status();
     return FromProto(*response);
+  }
+
+  // Returns the error; one by which gRPC says that an answer is too large says, too, which option decides.
+  absl::Status WithNameOfLimit(const absl::Status& error) const {
+    const std::string by_this_client = absl::StrCat(" vs. ", options.max_receive_bytes, ")");
+    if (!absl::IsResourceExhausted(error) || !absl::EndsWith(error.message(), by_this_client)) return error;
+    return absl::ResourceExhaustedError(absl::StrCat(
+        error.message(), ": the answer has more bytes than ClientOptions::max_receive_bytes (--max-receive) allows"));
   }
 
   // gRPC has already repeated a call that ends with UNAVAILABLE or CANCELLED, so that only the other servers are left.
@@ -160,6 +172,10 @@ CostStream Client::DoCost(const CostRequest& request, const CallOptions& options
       },
       CostChecker(), connection_->options.sweep_deadline, options);
   return CostStream([connection = connection_, reader = std::move(reader)] { return reader->Next(); });
+}
+
+absl::StatusOr<InfoResponse> Client::DoInfo(const InfoRequest& request, const CallOptions& options) const {
+  return connection_->Ask(&Stub::Info, request, options);
 }
 
 }  // namespace ricochet

@@ -67,6 +67,10 @@ absl::Status ValidateOptions(const ClientOptions& options) {
   if (options.sweep_deadline.has_value() && options.sweep_deadline->count() <= 0) {
     violations.push_back({"sweep_deadline", Found(*options.sweep_deadline, "be > 0")});
   }
+  if (options.max_receive_bytes < 1 || options.max_receive_bytes > kMostReceiveBytes) {
+    violations.push_back({"max_receive_bytes",
+                          absl::StrCat("= ", options.max_receive_bytes, ": must be in [1, ", kMostReceiveBytes, "]")});
+  }
   for (Violation& violation : RetryViolations(options.retry)) {
     violations.push_back(std::move(violation));
   }

@@ -31,7 +31,7 @@ Call::Call(const char* method, Kind kind, grpc::ServerContext& context, const Ca
     : kind_(kind),
       context_(context),
       frame_(frame),
-      peer_key_(PeerKey(context)),
+      peer_key_(PeerKey(context, frame.auth)),
       place_(frame.places.Enter(peer_key_, kind == Kind::kStream)),
       record_(RecordOf(method, context)) {
   // Trailing metadata, because a client repeats only a call that was refused without initial metadata.

@@ -31,6 +31,8 @@ struct TimeLimits {
   friend bool operator==(const TimeLimits&, const TimeLimits&) = default;
 };
 
+class Auth;
+
 // CallFrame: the objects that all calls of a server share.
 struct CallFrame {
   Places& places;
@@ -39,6 +41,7 @@ struct CallFrame {
   DrainStops drain;
   TimeLimits limits;
   const Observer& observer;
+  Auth* auth = nullptr;  // Knows callers by token or certificate; null if the server has no such list.
 };
 
 class Call {

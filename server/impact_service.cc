@@ -1,11 +1,13 @@
 #include "server/impact_service.h"
 
+#include <functional>
 #include <optional>
 
 #include "absl/functional/function_ref.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/cost.h"
+#include "proto/wire/info.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/result_stream.h"
@@ -69,7 +71,8 @@ absl::Status Send(const Response& response, grpc::ServerWriter<Response>& writer
 
 }  // namespace
 
-ImpactService::ImpactService(const Solver& solver, const CallFrame& frame) : solver_(solver), frame_(frame) {}
+ImpactService::ImpactService(const Solver& solver, const CallFrame& frame, const ServerLimits& limits)
+    : solver_(solver), frame_(frame), limits_(limits) {}
 
 template <typename Request, typename Response, typename Method>
 grpc::Status ImpactService::Answer(const char* name, Method method, grpc::ServerContext& context,
@@ -80,7 +83,7 @@ grpc::Status ImpactService::Answer(const char* name, Method method, grpc::Server
   const auto asked = FromProto(request);
   absl::Status status;
   const absl::Status turn = call.Compute(CostOf(asked), [&] {
-    const auto answer = (solver_.*method)(asked, call.options());
+    const auto answer = std::invoke(method, solver_, asked, call.options());
     status = answer.status();
     if (!answer.ok()) return;
     CountModel(*answer, call.record());
@@ -174,6 +177,16 @@ absl::Status ImpactService::Answer(BoundedBatches& batches, Call& call) const {
     call.record().sent_bytes += bytes;
     if (absl::Status sent = call.Send([&] { return batches.Write(response); }); !sent.ok()) return sent;
   }
+}
+
+grpc::Status ImpactService::Info(grpc::ServerContext* context, const v1::InfoRequest* request,
+                                 v1::InfoResponse* response) {
+  const auto info = [this](const Solver& solver, const InfoRequest& asked, const CallOptions& options) {
+    absl::StatusOr<InfoResponse> answer = solver.Info(asked, options);
+    if (answer.ok()) answer->server_limits = limits_;
+    return answer;
+  };
+  return Answer("Info", info, *context, *request, *response);
 }
 
 absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWriter<v1::SweepResponse>& writer,

@@ -18,8 +18,8 @@ namespace ricochet::server {
 // Thread safety: gRPC calls every handler from several threads at once.
 class ImpactService final : public v1::ImpactService::Service {
  public:
-  // `solver` and all that `frame` refers to must outlive the service.
-  ImpactService(const Solver& solver, const CallFrame& frame);
+  // `solver` and all that `frame` refers to must outlive the service. Info answers `limits`.
+  ImpactService(const Solver& solver, const CallFrame& frame, const ServerLimits& limits);
 
   grpc::Status Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
                      v1::SolveResponse* response) override;
@@ -39,9 +39,11 @@ class ImpactService final : public v1::ImpactService::Service {
 
   // Handles a stream of batches, whose requests are bounded one by one (server/bounded_service.h).
   grpc::Status SolveBatches(grpc::ServerContext& context, BoundedBatches& batches) const;
+  grpc::Status Info(grpc::ServerContext* context, const v1::InfoRequest* request, v1::InfoResponse* response) override;
 
  private:
-  // Handles a unary call: converts the request, calls `method` of the solver, converts the answer.
+  // Handles a unary call: converts the request, calls `method` with the solver, the request and the options of the call,
+  // converts the answer.
   template <typename Request, typename Response, typename Method>
   grpc::Status Answer(const char* name, Method method, grpc::ServerContext& context, const Request& request,
                       Response& response) const;
@@ -55,6 +57,7 @@ class ImpactService final : public v1::ImpactService::Service {
 
   const Solver& solver_;
   const CallFrame frame_;
+  const ServerLimits limits_;
 };
 
 }  // namespace ricochet::server

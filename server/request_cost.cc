@@ -91,4 +91,6 @@ RequestCost CostOf(const BatchSetup& setup, size_t rows) {
   return rows > kFewRows ? Dear(CostCause::kRows, size) : CostOf(setup.scene);
 }
 
+RequestCost CostOf(const InfoRequest& /*request*/) { return {}; }
+
 }  // namespace ricochet::server

@@ -38,6 +38,7 @@ RequestCost CostOf(const BoundsRequest& request);
 RequestCost CostOf(const AuditRequest& request);
 RequestCost CostOf(const AuditBatchRequest& request);
 RequestCost CostOf(const BatchSetup& setup, size_t rows);
+RequestCost CostOf(const InfoRequest& request);
 
 }  // namespace ricochet::server
 

@@ -14,6 +14,7 @@
 #include "server/descriptor_limit.h"
 #include "server/port_file.h"
 #include "server/self_test.h"
+#include "server/server_limits.h"
 #include "server/serving_check.h"
 #include "server/transport.h"
 
@@ -38,23 +39,33 @@ ConnectionLimits LimitsOfConnections(const Options& options, const Log& log) {
   return limits;
 }
 
+// Returns the callers that the server knows; null if it has no list of them.
+absl::StatusOr<std::shared_ptr<Auth>> OpenAuth(const Options& options, const Log& log) {
+  if (options.tokens.empty()) return nullptr;
+  return Auth::Open(options.tokens, log);
+}
+
 }  // namespace
 
-Server::Server(const Options& options, const Log& log)
+Server::Server(const Options& options, std::shared_ptr<Auth> auth, const Log& log)
     : options_(options),
       log_(log),
+      auth_(std::move(auth)),
       solver_(options.limits),
       places_(options.places),
       drain_(options.drain_grace, options.drain_timeout),
       gate_(options.compute_threads, options.max_waiting_calls, drain_.stops().streams),
       unread_(options.unread_limit),
       observer_(log, options.log_calls),
-      service_(solver_, {.places = places_,
-                         .gate = gate_,
-                         .unread = unread_,
-                         .drain = drain_.stops(),
-                         .limits = options.time_limits,
-                         .observer = observer_}),
+      service_(solver_,
+               {.places = places_,
+                .gate = gate_,
+                .unread = unread_,
+                .drain = drain_.stops(),
+                .limits = options.time_limits,
+                .observer = observer_,
+                .auth = auth_.get()},
+               ServerLimitsOf(options)),
       bounded_(
           service_,
           [this](grpc::ServerContext& context, BoundedBatches& batches) {
@@ -63,7 +74,11 @@ Server::Server(const Options& options, const Log& log)
           options.limits, unread_) {}
 
 absl::StatusOr<std::unique_ptr<Server>> Server::Start(const Options& options, const Log& log) {
-  std::unique_ptr<Server> server(new Server(options, log));
+  Options fitting = options;
+  fitting.connections = LimitsOfConnections(options, log);
+  absl::StatusOr<std::shared_ptr<Auth>> auth = OpenAuth(options, log);
+  if (!auth.ok()) return auth.status();
+  std::unique_ptr<Server> server(new Server(fitting, *std::move(auth), log));
   absl::Status status = TestSolver(server->solver_);
   if (status.ok()) status = server->Listen();
   if (status.ok()) status = server->OpenMetrics();
@@ -88,12 +103,11 @@ absl::Status Server::Listen() {
                builder);
   WatchCalls(observer_, builder);
   builder.RegisterService(&bounded_);
-  if (absl::Status opened = OpenAuth(); !opened.ok()) return opened;
   const auto credentials = MakeCredentials(options_.tls, auth_, log_);
   if (!credentials.ok()) return credentials.status();
   Endpoint::Settings settings = {.addresses = options_.listen,
                                  .socket_mode = options_.socket_mode,
-                                 .connections = LimitsOfConnections(options_, log_),
+                                 .connections = options_.connections,
                                  .credentials = *credentials};
   absl::StatusOr<std::unique_ptr<Endpoint>> endpoint = Endpoint::Open(settings, builder, log_);
   if (!endpoint.ok()) return endpoint.status();
@@ -149,14 +163,6 @@ absl::Status Server::OpenMetrics() {
   if (!page.ok()) return page.status();
   metrics_page_ = *std::move(page);
   log_.Write(LogLevel::kInfo, "metrics", {{"address", ToString(metrics_page_->address())}});
-  return absl::OkStatus();
-}
-
-absl::Status Server::OpenAuth() {
-  if (options_.tokens.empty()) return absl::OkStatus();
-  absl::StatusOr<std::shared_ptr<Auth>> auth = Auth::Open(options_.tokens, log_);
-  if (!auth.ok()) return auth.status();
-  auth_ = *std::move(auth);
   return absl::OkStatus();
 }
 

@@ -54,11 +54,10 @@ class Server {
   void ServeUntil(const Signals& signals);
 
  private:
-  Server(const Options& options, const Log& log);
+  Server(const Options& options, std::shared_ptr<Auth> auth, const Log& log);
   absl::Status Listen();
   // Adds the metrics of what this server holds now, and serves all metrics if the options ask for it.
   absl::Status OpenMetrics();
-  absl::Status OpenAuth();
   void StartWatchdog();
   void SetServing(bool serving);
   void LogAddresses(const std::string& event, const Endpoint& endpoint) const;
@@ -66,6 +65,7 @@ class Server {
 
   const Options options_;
   const Log& log_;
+  const std::shared_ptr<Auth> auth_;  // Null unless there are tokens.
   LocalSolver solver_;
   Places places_;
   Drain drain_;
@@ -76,7 +76,6 @@ class Server {
   std::atomic<bool> serving_ = false;  // The health of the service.
   ImpactService service_;
   BoundedService bounded_;
-  std::shared_ptr<Auth> auth_;  // Null unless there are tokens.
   std::unique_ptr<Endpoint> endpoint_;
   std::unique_ptr<Reflection> reflection_;     // Absent unless the options ask for it.
   std::unique_ptr<MetricsPage> metrics_page_;  // Absent unless the options ask for it.

@@ -9,6 +9,7 @@
 #include "core/engine/engine.h"
 #include "ricochet/limits.h"
 #include "server/listen_address.h"
+#include "server/server_limits.h"
 
 namespace ricochet::server {
 
@@ -32,15 +33,13 @@ std::vector<LogField> StartFields(const Options& options) {
                                   {"engine", ThisEngine().fingerprint},
                                   {"listen", addresses},
                                   {"security", SecurityOf(options)},
-                                  {"max_connections", int64_t{options.connections.in_all}},
-                                  {"max_connections_per_peer", int64_t{options.connections.per_peer}},
                                   {"transport_memory_mib", options.transport_memory_mib},
-                                  {"max_live_calls", int64_t{options.places.calls}},
                                   {"max_threads", int64_t{options.max_threads}},
                                   {"compute_threads", int64_t{options.compute_threads}},
-                                  {"max_waiting_calls", int64_t{options.max_waiting_calls}},
                                   {"drain_grace_ms", int64_t{options.drain_grace.count()}},
                                   {"drain_timeout_ms", int64_t{options.drain_timeout.count()}}};
+  const ServerLimits limits = ServerLimitsOf(options);
+  for (const NamedServerLimit& limit : kServerLimits) fields.push_back({limit.name, limits.*limit.value});
   for (const NamedLimit& limit : kLimits) fields.push_back({limit.name, options.limits.*limit.value});
   return fields;
 }

@@ -17,6 +17,11 @@ struct TransportTimes {
   friend bool operator==(const TransportTimes&, const TransportTimes&) = default;
 };
 
+// A larger request is refused, and so is one with more metadata. A connection carries at most this number of calls at once.
+inline constexpr int kMaxRequestBytes = 1 << 20;
+inline constexpr int kMaxMetadataBytes = 8 << 10;
+inline constexpr int kMaxCallsPerConnection = 128;
+
 struct TransportLimits {
   int max_threads = 288;                      // Threads that serve calls and wait for them; at least 2.
   int64_t memory_bytes = int64_t{256} << 20;  // For buffers of messages in all connections together; at least 1 MiB.

@@ -21,15 +21,16 @@ struct Setting {
   std::string ConnectionInput::*value;
 };
 
-constexpr std::array<Setting, 9> kSettings = {{{"server", &ConnectionInput::server},
-                                               {"deadline", &ConnectionInput::deadline},
-                                               {"tls", &ConnectionInput::tls},
-                                               {"tls-ca", &ConnectionInput::tls_ca},
-                                               {"tls-cert", &ConnectionInput::tls_cert},
-                                               {"tls-key", &ConnectionInput::tls_key},
-                                               {"server-name", &ConnectionInput::server_name},
-                                               {"token-file", &ConnectionInput::token_file},
-                                               {"token", &ConnectionInput::token}}};
+constexpr std::array<Setting, 10> kSettings = {{{"server", &ConnectionInput::server},
+                                                {"deadline", &ConnectionInput::deadline},
+                                                {"max-receive", &ConnectionInput::max_receive},
+                                                {"tls", &ConnectionInput::tls},
+                                                {"tls-ca", &ConnectionInput::tls_ca},
+                                                {"tls-cert", &ConnectionInput::tls_cert},
+                                                {"tls-key", &ConnectionInput::tls_key},
+                                                {"server-name", &ConnectionInput::server_name},
+                                                {"token-file", &ConnectionInput::token_file},
+                                                {"token", &ConnectionInput::token}}};
 
 std::string FromEnvironment(const std::string& name) {
   const std::string variable = "RICOCHET_" + absl::AsciiStrToUpper(absl::StrReplaceAll(name, {{"-", "_"}}));
@@ -52,8 +53,8 @@ absl::StatusOr<ConnectionInput> ReadConfig(const std::string& path) {
     if (setting == kSettings.end() || line.inputs.size() != 1) {
       return absl::InvalidArgumentError(
           absl::StrCat("--config = ", path, ": ", line.fullname(),
-                       " must be one of server, deadline, tls, tls-ca, tls-cert, tls-key, server-name, token-file and "
-                       "token, with one value"));
+                       " must be one of server, deadline, tls, tls-ca, tls-cert, tls-key, server-name, token-file, "
+                       "token and max-receive, with one value"));
     }
     input.*(setting->value) = line.inputs.front();
   }
@@ -79,6 +80,8 @@ void AddConnectionOptions(CLI::App& app, ConnectionInput& input) {
   app.add_option("--deadline", input.deadline,
                  "Give up after this time (250ms, 30s, 5m; a bare number is in seconds); needs --server")
       ->type_name("TIME");
+  app.add_option("--max-receive", input.max_receive, "Refuse a larger message of an answer; needs --server [4194304]")
+      ->type_name("BYTES");
   app.add_flag_callback(
       "--tls", [&input] { input.tls = "true"; },
       "Encrypt, and make sure of the server by the system's authorities; --tls-ca, --tls-cert and --server-name imply "
@@ -130,6 +133,14 @@ absl::StatusOr<ClientOptions> ClientOptionsOf(const ConnectionInput& input) {
       .server_name = input.server_name,
       .token = input.token,
       .token_file = input.token_file};
+  if (!input.max_receive.empty()) {
+    const absl::StatusOr<int64_t> bytes = ParseCount(input.max_receive, "--max-receive");
+    if (!bytes.ok()) return bytes.status();
+    if (*bytes < 1 || *bytes > kMostReceiveBytes) {
+      return InputError("--max-receive", input.max_receive, absl::StrCat("be in [1, ", kMostReceiveBytes, "]"));
+    }
+    client.max_receive_bytes = *bytes;
+  }
   if (!input.deadline.empty()) {
     const auto deadline = ParseDuration(input.deadline, "--deadline");
     if (!deadline.ok()) return deadline.status();

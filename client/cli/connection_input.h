@@ -19,7 +19,8 @@ namespace ricochet::cli {
 struct ConnectionInput {
   std::string server;  // Empty: this process computes the answer.
   std::string deadline;
-  std::string tls;  // "true" or "false".
+  std::string max_receive;  // Bytes.
+  std::string tls;          // "true" or "false".
   std::string tls_ca;
   std::string tls_cert;
   std::string tls_key;
@@ -37,7 +38,7 @@ void AddConnectionOptions(CLI::App& app, ConnectionInput& input);
 absl::StatusOr<ConnectionInput> Resolve(ConnectionInput input);
 
 // Returns the options of a client of the server that is named. `input` must have been resolved.
-// Errors: INVALID_ARGUMENT for a bad deadline or a value of --tls that is neither true nor false.
+// Errors: INVALID_ARGUMENT for a bad deadline or number of bytes, or a value of --tls that is neither true nor false.
 absl::StatusOr<ClientOptions> ClientOptionsOf(const ConnectionInput& input);
 
 }  // namespace ricochet::cli

@@ -17,6 +17,7 @@
 #include "client/cli/cost.h"
 #include "client/cli/exit_code.h"
 #include "client/cli/health.h"
+#include "client/cli/info.h"
 #include "client/cli/solve.h"
 #include "client/cli/sweep.h"
 #include "client/cli/usage_error.h"
@@ -36,6 +37,7 @@ void AddSubcommands(CLI::App& app, std::vector<std::string> arguments, ricochet:
   ricochet::cli::AddSweep(app, std::move(arguments), command);
   ricochet::cli::AddAudit(app, command);
   ricochet::cli::AddCost(app, command);
+  ricochet::cli::AddInfo(app, command);
   ricochet::cli::AddHealth(app, command);
   app.footer(
       "ricochet SUBCOMMAND --help shows a worked example.\n"

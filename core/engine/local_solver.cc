@@ -18,6 +18,7 @@
 #include "core/engine/check_solve.h"
 #include "core/engine/chunk_size.h"
 #include "core/engine/engine.h"
+#include "core/engine/info.h"
 #include "core/numerics/decimal.h"
 #include "core/plan/demand_fields.h"
 #include "core/scene/validate.h"
@@ -230,6 +231,11 @@ CostStream LocalSolver::DoCost(const CostRequest& request, const CallOptions& op
     return chunk;
   };
   return CostStream(std::move(next));
+}
+
+absl::StatusOr<InfoResponse> LocalSolver::DoInfo(const InfoRequest& /*request*/, const CallOptions& options) const {
+  if (absl::Status ended = CallWatch(options).WhyEnded(); !ended.ok()) return ended;
+  return InfoOf(limits_);
 }
 
 }  // namespace ricochet

@@ -219,7 +219,7 @@ void RunAll() {
   const LocalSolver solver;
   const server::Observer observer(log);
   server::MadeFrame made(observer);
-  server::ImpactService service(solver, made.frame);
+  server::ImpactService service(solver, made.frame, ServerLimits());
   EchoService nothing;
   Loopback ricochet(&service);
   Loopback echo(&nothing);

@@ -59,6 +59,8 @@ std::vector<BadInput> Flags() {
       {Plus(kSolve, {"--history", "2.5"}), "--history = 2.5: must be a whole number", ""},
       {Plus(kSolve, {"--deadline", "1s"}), "--deadline needs --server", ""},
       {Plus(kSolve, {"--server", "localhost:1", "--deadline", "soon"}), "--deadline = soon: must be a time", ""},
+      {Plus(kSolve, {"--server", "localhost:1", "--max-receive", "0"}), "--max-receive = 0: must be in [1, 2147483647]",
+       ""},
       {Plus(kSolve, {"--server", "localhost:1", "--deadline", "0"}), "--deadline = 0: must be a time", ""},
       {Plus(kSolve, {"--server", "two words"}), "target = \"two words\": must not contain white space", ""},
       {{"cost"}, "no scene: give --scene FILE", ""},

@@ -6,6 +6,7 @@
 
 #include <string>
 
+#include "core/engine/engine.h"
 #include "ricochet/v1/impact_service.pb.h"
 #include "tests/client/cli_run.h"
 #include "tests/support/paths.h"
@@ -107,8 +108,36 @@ TEST_F(Cli, TellsItsVersionAndEngine) {
   EXPECT_THAT(Run({"--version"}).out, testing::MatchesRegex("ricochet [0-9.]+, engine [0-9a-f]+\n"));
 }
 
+TEST_F(Cli, InfoSaysThatThisProgramTakesRequestsOfAnySize) {
+  const CliResult text = Run({"info"});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, StartsWith("engine    " + ThisEngine().version + ", fingerprint " + ThisEngine().fingerprint));
+  EXPECT_THAT(text.out, HasSubstr("systems   pendulum, planar_body, "));
+  EXPECT_THAT(text.out, HasSubstr("  max_links               unlimited  Links of a linkage\n"));
+  EXPECT_THAT(text.out, Not(HasSubstr("Limits of the server")));
+  EXPECT_THAT(Run({"info", "--format", "csv"}).out, HasSubstr("\nmax_axes,unlimited\n"));
+}
+
+TEST_F(Cli, InfoTellsTheLimitsOfAServer) {
+  const ServerProcess server({"--max-links", "12", "--max-unary-time", "1.5"});
+  const CliResult text = Run({"info", "--server", server.address()});
+  EXPECT_EQ(text.exit_code, 0) << text.err;
+  EXPECT_THAT(text.out, testing::ContainsRegex("  max_links +12  Links of a linkage\n"));
+  EXPECT_THAT(text.out, testing::ContainsRegex("  max_unary_time_ms +1500  The longest that a unary call may take\n"));
+  const CliResult csv = Run({"info", "--server", server.address(), "--format", "csv"});
+  EXPECT_THAT(csv.out, StartsWith("name,value\nversion," + ThisEngine().version + "\n"));
+  EXPECT_THAT(csv.out, HasSubstr("\nmax_links,12\n"));
+  EXPECT_THAT(csv.out, HasSubstr("\nmax_unary_time_ms,1500\n"));
+  v1::InfoResponse message;
+  const CliResult json = Run({"info", "--server", server.address(), "--format", "json"});
+  ASSERT_TRUE(google::protobuf::util::JsonStringToMessage(json.out, &message).ok()) << json.out;
+  EXPECT_EQ(message.limits().max_links(), 12);
+  EXPECT_EQ(message.server_limits().max_unary_time_ms(), 1500);
+  EXPECT_EQ(message.engine().fingerprint(), ThisEngine().fingerprint);
+}
+
 TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
-  for (const std::string subcommand : {"solve", "bounds", "sweep", "audit", "cost"}) {
+  for (const std::string subcommand : {"solve", "bounds", "sweep", "audit", "cost", "info"}) {
     const CliResult help = Run({subcommand, "--help"});
     EXPECT_EQ(help.exit_code, 0);
     const size_t start = help.out.find("$ ricochet ");

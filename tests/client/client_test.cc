@@ -26,6 +26,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 Scene AnyScene() {
   Scene scene;
@@ -43,7 +44,8 @@ SweepRequest Sweep(int64_t points) {
 }
 
 TEST(ClientOptions, AreRefusedAllAtOnceByName) {
-  ClientOptions options{.target = "", .deadline = milliseconds(0), .sweep_deadline = milliseconds(-5)};
+  ClientOptions options{
+      .target = "", .deadline = milliseconds(0), .sweep_deadline = milliseconds(-5), .max_receive_bytes = 0};
   options.retry = {.max_attempts = 6,
                    .max_resumes = -1,
                    .initial_backoff = milliseconds(0),
@@ -56,6 +58,7 @@ TEST(ClientOptions, AreRefusedAllAtOnceByName) {
       ViolationsOf(status),
       ElementsAre(Violation{"target", "is empty: must be \"host:port\""}, Violation{"deadline", "= 0 ms: must be > 0"},
                   Violation{"sweep_deadline", "= -5 ms: must be > 0"},
+                  Violation{"max_receive_bytes", "= 0: must be in [1, 2147483647]"},
                   Violation{"retry.max_attempts", "= 6: must be in [1, 5]"},
                   Violation{"retry.max_resumes", "= -1: must be >= 0"},
                   Violation{"retry.initial_backoff", "= 0 ms: must be > 0"},
@@ -120,6 +123,27 @@ TEST(Client, TellsThatItsServerHasGone) {
   EXPECT_TRUE(client.Solve({.scene = AnyScene(), .history_at_n_s = {}}).ok());
   EXPECT_EQ(server.Stop(), 0);
   EXPECT_EQ(client.Solve({.scene = AnyScene(), .history_at_n_s = {}}).status().code(), absl::StatusCode::kUnavailable);
+}
+
+TEST(Client, AnAnswerThatIsTooLargeNamesTheLimit) {
+  const ServerProcess server;
+  const SolveRequest request = {.scene = AnyScene(), .history_intervals = 1000};
+  const auto solve = [&](int64_t most) {
+    return Client::Connect({.target = server.address(), .max_receive_bytes = most}).value().Solve(request).status();
+  };
+  const absl::Status status = solve(20'000);
+  EXPECT_EQ(status.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_THAT(status.message(), HasSubstr(" vs. 20000)"));
+  EXPECT_THAT(status.message(), HasSubstr("ClientOptions::max_receive_bytes (--max-receive)"));
+  EXPECT_EQ(solve(200'000), absl::OkStatus());
+}
+
+// The largest answer that a server with its default limits gives, and the largest message that a client takes.
+TEST(Client, TakesTheLongestHistory) {
+  const ServerProcess server;
+  const Client client = Client::Connect({.target = server.address()}).value();
+  const auto answer = client.Solve({.scene = AnyScene(), .history_intervals = kMostIntervals});
+  EXPECT_TRUE(answer.ok()) << answer.status();
 }
 
 TEST(Client, ADeadlineEndsASweep) {

@@ -82,7 +82,8 @@ TEST_F(Connection, UnknownLineOfTheFileIsRefused) {
 
 TEST_F(Connection, FlagThatNeedsAServerIsRefusedWithoutOne) {
   const Arguments solve = {"solve", "--a", "0.3", "--b", "1", "--energetic", "1"};
-  for (const char* flag : {"--tls-ca", "--tls-cert", "--tls-key", "--server-name", "--token-file", "--deadline"}) {
+  for (const char* flag :
+       {"--tls-ca", "--tls-cert", "--tls-key", "--server-name", "--token-file", "--deadline", "--max-receive"}) {
     Arguments arguments = solve;
     arguments.insert(arguments.end(), {flag, "x"});
     const CliResult result = Run(arguments);

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <bit>
 #include <chrono>
@@ -53,6 +54,55 @@ TEST_P(SolverContract, SaysWhichEngineAnswered) {
   const auto response = solver().Solve({.scene = PaperScene(), .history_at_n_s = {}});
   ASSERT_TRUE(response.ok()) << response.status();
   EXPECT_EQ(response->engine, ThisEngine());
+}
+
+TEST_P(SolverContract, InfoNamesTheEngineAndWhatItCanCompute) {
+  const auto info = solver().Info();
+  ASSERT_TRUE(info.ok()) << info.status();
+  EXPECT_EQ(info->engine, ThisEngine());
+  EXPECT_THAT(info->systems, ElementsAre("pendulum", "planar_body", "spatial_body", "body_pair", "linkage",
+                                         "planar_contact", "spatial_contact"));
+  EXPECT_THAT(info->models, testing::Contains(Model::kSpatial));
+  EXPECT_THAT(info->models, testing::Not(testing::Contains(Model::kUnspecified)));
+}
+
+TEST_P(SolverContract, InfoSaysWhetherCertificatesAndImpactsThatTakeTimeCanBeComputed) {
+  const auto info = solver().Info();
+  ASSERT_TRUE(info.ok()) << info.status();
+  EXPECT_EQ(solver().Solve({.scene = PaperScene(), .certified_digits = 10}).ok(), info->certified);
+  SolveRequest request = {.scene = PaperScene(), .demand = {.required = {Effect::kFiniteDuration}}};
+  request.scene.compliance = Compliance{.normal = LinearSpring{1e6}};
+  EXPECT_EQ(solver().Solve(request).ok(), info->finite_duration);
+  const bool has_model =
+      std::find(info->models.begin(), info->models.end(), Model::kFiniteDuration) != info->models.end();
+  EXPECT_EQ(has_model, info->finite_duration);
+}
+
+TEST_P(SolverContract, InfoStatesLimitsThatHold) {
+  const auto info = solver().Info();
+  ASSERT_TRUE(info.ok()) << info.status();
+  SolveRequest request = {.scene = PaperScene()};
+  request.scene.system = Linkage{std::vector<Link>(65, Link{1.0, 1.0, 0.5, 0.1, 0.3, -1.0})};
+  const absl::Status status = solver().Solve(request).status();
+  EXPECT_EQ(ReasonOf(status) == ErrorReason::kLimitExceeded, info->limits.max_links < 65) << status;
+}
+
+TEST_P(SolverContract, InfoEndsWithItsOptions) {
+  std::stop_source stop;
+  stop.request_stop();
+  EXPECT_EQ(solver().Info({}, {.stop = stop.get_token()}).status().code(), absl::StatusCode::kCancelled);
+}
+
+TEST(SolverContract, OnlyAServerLimitsRequestsAndCalls) {
+  const auto local = Local().Info();
+  const auto remote = Remote().Info();
+  ASSERT_TRUE(local.ok() && remote.ok());
+  EXPECT_EQ(local->limits, Limits::None());
+  EXPECT_FALSE(local->server_limits.has_value());
+  EXPECT_EQ(remote->limits, Limits());
+  ASSERT_TRUE(remote->server_limits.has_value());
+  EXPECT_EQ(remote->server_limits->max_unary_time_ms, 60'000);
+  EXPECT_EQ(remote->server_limits->max_stream_age_ms, 3'600'000);
 }
 
 TEST_P(SolverContract, BoundsNeedNoRestitution) {

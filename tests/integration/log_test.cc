@@ -71,6 +71,12 @@ TEST_F(ServerLog, TheFirstLineTellsWhichServerThisIsAndWhatItAllows) {
   EXPECT_THAT(first, HasSubstr("listen=127.0.0.1:0"));
   EXPECT_THAT(first, HasSubstr("security=\"plaintext on this host\""));
   EXPECT_THAT(first, HasSubstr("max_live_calls=77"));
+  for (const NamedServerLimit& limit : kServerLimits) {
+    EXPECT_THAT(first, HasSubstr(" " + std::string(limit.name) + "=")) << limit.name;
+  }
+  for (const NamedLimit& limit : kLimits)
+    EXPECT_THAT(first, HasSubstr(" " + std::string(limit.name) + "=")) << limit.name;
+  EXPECT_THAT(first, HasSubstr(" max_unary_time_ms=60000 "));
 }
 
 TEST_F(ServerLog, APipeThatNobodyReadsStopsNeitherCallsNorTheDrain) {

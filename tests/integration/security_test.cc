@@ -315,6 +315,34 @@ TEST_F(Tokens, OneConnectionCarriesSeveralCallers) {
   EXPECT_EQ(client->Solve({.scene = AnyScene()}).status().code(), StatusCode::kUnauthenticated);
 }
 
+// Starts a long sweep and reads its first chunk. The sweep runs as long as what is returned lives.
+struct StartedSweep {
+  StartedSweep(const std::string& target, const std::string& token)
+      : stream(Client::Connect({.target = target,
+                                .retry = {.max_attempts = 1},
+                                .security = {.token = token},
+                                .user_agent = "sweeper/" + token})
+                   .value()
+                   .Sweep({.grid = {.scene = AnyScene(),
+                                    .axes = {{"friction.kinetic_coefficient", Linspace{0.0, 0.4, 1'000'000'000}}}},
+                           .columns = {"coefficients.newton"}})),
+        first(stream.begin()->status()) {}
+
+  SweepStream stream;
+  absl::Status first;
+};
+
+TEST_F(Tokens, CallersBehindOneAddressHavePlacesOfTheirOwn) {
+  files_.Write("tokens", LineOf("lab", "secret", "sweep") + LineOf("shop", "other", "sweep"));
+  const ServerProcess server({"--tokens", files_ / "tokens", "--max-streams-per-peer", "1"});
+  const StartedSweep lab(server.address(), "secret");
+  EXPECT_TRUE(lab.first.ok()) << lab.first;
+  const StartedSweep second(server.address(), "secret");
+  EXPECT_EQ(ReasonOf(second.first), ErrorReason::kTooManyCalls) << second.first;
+  const StartedSweep shop(server.address(), "other");
+  EXPECT_TRUE(shop.first.ok()) << shop.first;
+}
+
 TEST(OpenServer, SaysSoInItsLog) {
   const ServerProcess server({"--listen", "0.0.0.0:0", "--insecure"});
   EXPECT_THAT(server.log(), HasSubstr("warning open to other hosts"));

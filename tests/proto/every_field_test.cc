@@ -10,6 +10,7 @@
 #include "proto/wire/audit.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
+#include "proto/wire/info.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/v1/impact_service.pb.h"
@@ -40,7 +41,8 @@ class EveryFieldTest : public testing::Test {};
 using Messages = testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse,
                                 v1::SweepRequest, v1::SweepResponse, v1::AuditRequest, v1::AuditResponse,
                                 v1::AuditBatchRequest, v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse,
-                                v1::CostRequest, v1::CostResponse, v1::BatchSetup, v1::BatchSummary>;
+                                 v1::CostRequest, v1::CostResponse, v1::BatchSetup, v1::BatchSummary,
+                                 v1::InfoRequest, v1::InfoResponse>;
 TYPED_TEST_SUITE(EveryFieldTest, Messages);
 
 TYPED_TEST(EveryFieldTest, SurvivesTheCore) {
@@ -63,7 +65,7 @@ TYPED_TEST(EveryFieldTest, SurvivesTheCoreByteForByte) {
 // The messages above are all messages of the service, so that none is left untested.
 TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   const auto& service = *v1::SolveRequest::descriptor()->file()->FindServiceByName("ImpactService");
-  ASSERT_EQ(service.method_count(), 9);
+  ASSERT_EQ(service.method_count(), 10);
   EXPECT_EQ(service.method(0)->input_type(), v1::SolveRequest::descriptor());
   EXPECT_EQ(service.method(0)->output_type(), v1::SolveResponse::descriptor());
   EXPECT_EQ(service.method(1)->input_type(), v1::BoundsRequest::descriptor());
@@ -83,6 +85,8 @@ TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
     EXPECT_EQ(service.method(method)->input_type(), v1::SolveBatchRequest::descriptor());
     EXPECT_EQ(service.method(method)->output_type(), v1::SolveBatchResponse::descriptor());
   }
+  EXPECT_EQ(service.method(9)->input_type(), v1::InfoRequest::descriptor());
+  EXPECT_EQ(service.method(9)->output_type(), v1::InfoResponse::descriptor());
 }
 
 TEST(FillTest, ReachesEveryMemberOfEveryOneof) {

@@ -70,6 +70,9 @@ class FakeSolver final : public Solver {
           return chunk;
         });
   }
+  absl::StatusOr<InfoResponse> DoInfo(const InfoRequest& /*request*/, const CallOptions& /*options*/) const override {
+    return InfoResponse{.limits = {.max_links = 7}, .systems = {"pendulum"}};
+  }
   CostStream DoCost(const CostRequest& /*request*/, const CallOptions& options) const override {
     return CostStream([options, next = int64_t{0}]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
       if (next == 2) return WorkUntilEnded(options);

@@ -40,7 +40,7 @@ class ImpactServiceTest : public testing::Test {
   void Serve(const CallFrame& frame) {
     if (server_ != nullptr) server_->Shutdown(std::chrono::system_clock::now());
     server_.reset();
-    service_.emplace(solver_, frame);
+    service_.emplace(solver_, frame, ServerLimits{.max_streams = 5});
     grpc::ServerBuilder builder;
     int port = 0;
     builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
@@ -91,6 +91,15 @@ TEST_F(ImpactServiceTest, PassesTheDeadlineOn) {
   ASSERT_TRUE(stub_->Solve(&unlimited, {}, &response).ok());
   ASSERT_TRUE(solver_.deadline.has_value()) << "the server has a limit of its own";
   EXPECT_LT(*solver_.deadline, steady_clock::now() + TimeLimits().unary_time);
+}
+
+TEST_F(ImpactServiceTest, InfoHasTheLimitsOfTheServerBesidesThoseOfTheSolver) {
+  grpc::ClientContext context;
+  v1::InfoResponse response;
+  ASSERT_TRUE(stub_->Info(&context, {}, &response).ok());
+  EXPECT_EQ(response.limits().max_links(), 7);
+  EXPECT_EQ(response.systems(0), "pendulum");
+  EXPECT_EQ(response.server_limits().max_streams(), 5);
 }
 
 TEST_F(ImpactServiceTest, PassesErrorsBack) {

@@ -58,6 +58,7 @@ class Client final : public Solver {
   absl::StatusOr<BatchSession> DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const override;
   SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
   CostStream DoCost(const CostRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<InfoResponse> DoInfo(const InfoRequest& request, const CallOptions& options) const override;
 
   // Sends a batch that is too long for one message over a stream.
   absl::StatusOr<BatchResponse> SolveInPieces(const BatchSetup& setup, const BatchRows& rows,

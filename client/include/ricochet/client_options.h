@@ -4,6 +4,7 @@
 #define RICOCHET_CLIENT_OPTIONS_H_
 
 #include <chrono>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,6 +29,9 @@ struct RetryPolicy {
   double multiplier = 2.0;                         // >= 1.
 };
 
+// gRPC counts the bytes of a message in 32 bits.
+inline constexpr int64_t kMostReceiveBytes = (int64_t{1} << 31) - 1;
+
 // How a Client reaches its server. Only `target` is required.
 struct ClientOptions {
   // "host:port" or another gRPC target, such as "unix:PATH". Required. A list, separated by commas, names servers that
@@ -35,6 +39,9 @@ struct ClientOptions {
   std::string target;
   std::chrono::milliseconds deadline{10000};                // For Solve, Bounds and CheckHealth, tries included. > 0.
   std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.
+  // Bytes of one message of an answer, in [1, kMostReceiveBytes]. A larger one fails with RESOURCE_EXHAUSTED. A server with its
+  // default limits sends no message above 4 MiB; one whose limits are raised may.
+  int64_t max_receive_bytes = int64_t{4} << 20;
   RetryPolicy retry;
   SecurityOptions security;
   std::string user_agent;  // Text that every call puts before gRPC's own user agent.

@@ -24,6 +24,7 @@
 #include "ricochet/demand.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"
+#include "ricochet/info.h"
 #include "ricochet/limits.h"
 #include "ricochet/outcome.h"
 #include "ricochet/plan.h"
@@ -189,6 +190,11 @@ class Solver {
     return DoCost(request, options);
   }
 
+  // Says which engine answers, what it can answer, and how large and how long a call may be.
+  absl::StatusOr<InfoResponse> Info(const InfoRequest& request = {}, const CallOptions& options = {}) const {
+    return DoInfo(request, options);
+  }
+
  private:
   virtual absl::StatusOr<SolveResponse> DoSolve(const SolveRequest& request, const CallOptions& options) const = 0;
   virtual absl::StatusOr<PlanResponse> DoPlan(const PlanRequest& request, const CallOptions& options) const = 0;
@@ -201,6 +207,7 @@ class Solver {
   virtual absl::StatusOr<BatchSession> DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const = 0;
   virtual SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const = 0;
   virtual CostStream DoCost(const CostRequest& request, const CallOptions& options) const = 0;
+  virtual absl::StatusOr<InfoResponse> DoInfo(const InfoRequest& request, const CallOptions& options) const = 0;
 };
 
 // LocalSolver is the Solver that runs in this process: it needs no server, thread or file. Copying it costs little.
@@ -222,6 +229,7 @@ class LocalSolver final : public Solver {
   absl::StatusOr<BatchSession> DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const override;
   SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
   CostStream DoCost(const CostRequest& request, const CallOptions& options) const override;
+  absl::StatusOr<InfoResponse> DoInfo(const InfoRequest& request, const CallOptions& options) const override;
 
   Limits limits_;
 };

@@ -1,0 +1,145 @@
+#include "client/cli/info.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/plan_report.h"
+#include "proto/wire/info.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] = R"(Example: what this program can compute.
+  $ ricochet info
+  engine    0.1.0, fingerprint 0123456789abcdef
+  features  certified, finite_duration
+  ...
+This program takes requests of any size. With --server the answer is about a server, and has its limits.
+CSV has one row for each property and each limit; several values of one property stand with spaces between them.
+Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+
+struct InfoOptions {
+  CommonOptions common;
+};
+
+// One property or limit: its name, its value, and for a limit what it limits.
+struct Row {
+  std::string name;
+  std::string value;
+  std::string help;
+};
+
+std::string Features(const InfoResponse& info, const char* separator) {
+  std::vector<std::string> features;
+  if (info.certified) features.emplace_back("certified");
+  if (info.finite_duration) features.emplace_back("finite_duration");
+  return absl::StrJoin(features, separator);
+}
+
+std::string Models(const InfoResponse& info, const char* separator) {
+  return absl::StrJoin(info.models, separator,
+                       [](std::string* out, Model model) { *out += absl::AsciiStrToLower(ModelName(model)); });
+}
+
+std::vector<Row> RequestLimits(const Limits& limits) {
+  std::vector<Row> rows;
+  for (const NamedLimit& limit : kLimits) {
+    const int64_t value = limits.*limit.value;
+    const bool is_unlimited = value == std::numeric_limits<int64_t>::max();
+    rows.push_back({limit.name, is_unlimited ? "unlimited" : absl::StrCat(value), limit.help});
+  }
+  return rows;
+}
+
+std::vector<Row> LimitsOfServer(const InfoResponse& info) {
+  std::vector<Row> rows;
+  if (!info.server_limits.has_value()) return rows;
+  for (const NamedServerLimit& limit : kServerLimits) {
+    rows.push_back({limit.name, absl::StrCat((*info.server_limits).*limit.value), limit.help});
+  }
+  return rows;
+}
+
+// Returns names in a column, values aligned to the right, and what each row means.
+std::string Aligned(const std::vector<Row>& rows) {
+  size_t name_width = 0;
+  size_t value_width = 0;
+  for (const Row& row : rows) {
+    name_width = std::max(name_width, row.name.size());
+    value_width = std::max(value_width, row.value.size());
+  }
+  std::string text;
+  for (const Row& row : rows) {
+    absl::StrAppend(&text, "  ", row.name,
+                    std::string(name_width + 2 + value_width - row.name.size() - row.value.size(), ' '), row.value,
+                    "  ", row.help, "\n");
+  }
+  return text;
+}
+
+std::string InfoText(const InfoResponse& info) {
+  const std::string features = Features(info, ", ");
+  std::string text = absl::StrCat("engine    ", info.engine.version, ", fingerprint ", info.engine.fingerprint,  //
+                                  "\nfeatures  ", features.empty() ? "none" : features,                          //
+                                  "\nsystems   ", absl::StrJoin(info.systems, ", "),                             //
+                                  "\nmodels    ", Models(info, ", "),                                            //
+                                  "\n\nLimits of a request\n", Aligned(RequestLimits(info.limits)));
+  const std::vector<Row> of_server = LimitsOfServer(info);
+  if (!of_server.empty()) absl::StrAppend(&text, "\nLimits of the server\n", Aligned(of_server));
+  return text;
+}
+
+std::string InfoCsv(const InfoResponse& info) {
+  std::vector<Row> rows = {{"version", info.engine.version, ""},
+                           {"fingerprint", info.engine.fingerprint, ""},
+                           {"features", Features(info, " "), ""},
+                           {"systems", absl::StrJoin(info.systems, " "), ""},
+                           {"models", Models(info, " "), ""}};
+  for (const std::vector<Row>& more : {RequestLimits(info.limits), LimitsOfServer(info)}) {
+    rows.insert(rows.end(), more.begin(), more.end());
+  }
+  std::string text = "name,value\n";
+  for (const Row& row : rows) absl::StrAppend(&text, row.name, ",", row.value, "\n");
+  return text;
+}
+
+absl::StatusOr<std::string> Render(const InfoResponse& info, Format format) {
+  switch (format) {
+    case Format::kText:
+      return InfoText(info);
+    case Format::kJson:
+      return Json(ToProto(info));
+    case Format::kCsv:
+      break;
+  }
+  return InfoCsv(info);
+}
+
+absl::Status RunInfo(const InfoOptions& options) {
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+  if (!solver.ok()) return solver.status();
+  const absl::StatusOr<InfoResponse> info = (*solver)->Info();
+  if (!info.ok()) return info.status();
+  const absl::StatusOr<std::string> text = Render(*info, options.common.format);
+  return text.ok() ? WriteOutput(options.common, *text) : text.status();
+}
+
+}  // namespace
+
+void AddInfo(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("info", "The engine, what it can compute, and its limits");
+  const auto options = std::make_shared<InfoOptions>();
+  AddServerOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunInfo(*options); }; });
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,34 @@
+#include "core/engine/info.h"
+
+#include <iterator>
+#include <variant>
+
+#include "core/certified/certified.h"
+#include "core/engine/engine.h"
+#include "core/models/finite_duration/finite_duration.h"
+#include "ricochet/system.h"
+
+namespace ricochet {
+namespace {
+
+// In the order of System, whose first alternative stands for none.
+constexpr const char* kSystems[] = {"pendulum", "planar_body",    "spatial_body",   "body_pair",
+                                    "linkage",  "planar_contact", "spatial_contact"};
+static_assert(std::size(kSystems) + 1 == std::variant_size_v<System>);
+
+}  // namespace
+
+InfoResponse InfoOf(const Limits& limits) {
+  InfoResponse info = {.engine = ThisEngine(),
+                       .limits = limits,
+                       .certified = certified::IsAvailable(),
+                       .finite_duration = finite_duration::IsAvailable(),
+                       .systems = {std::begin(kSystems), std::end(kSystems)}};
+  for (int number = 1; number < kModelCount; ++number) {
+    const auto model = static_cast<Model>(number);
+    if (model != Model::kFiniteDuration || info.finite_duration) info.models.push_back(model);
+  }
+  return info;
+}
+
+}  // namespace ricochet
