@@ -35,6 +35,10 @@ ChunkChecker::ChunkChecker(const SweepRequest& request)
 
 absl::StatusOr<SweepChunk> ChunkChecker::Take(const v1::SweepResponse& message) {
   if (absl::Status status = seal_.Check(message); !status.ok()) return status;
+  if (message.values().size() % sizeof(double) != 0) {
+    return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", message.first_index(), " has ",
+                                            message.values().size(), " bytes of values, which are no whole doubles"));
+  }
   SweepChunk chunk = FromProto(message);
   if (absl::Status status = Check(chunk); !status.ok()) return status;
   JoinCalls(chunk);

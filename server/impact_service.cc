@@ -201,7 +201,7 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
       chunk.summary->elapsed_s = call.elapsed_s();
     }
     // A message keeps the room of the largest chunk that it had, which a caller who has become slow need not hold.
-    if (response.values().Capacity() > 2 * static_cast<int>(chunk.values.size())) response = {};
+    if (response.values().capacity() > 2 * sizeof(double) * chunk.values.size()) response = {};
     ToProto(chunk, response);
     // A caller who reads slowly holds the message for long, and need not hold the values twice.
     chunk.values = {};

@@ -13,7 +13,9 @@
 #include "client/cli/table.h"
 #include "core/sweep/grid.h"
 #include "proto/wire/chunk_seal.h"
+#include "proto/wire/outcome.h"
 #include "proto/wire/sweep.h"
+#include "ricochet/cli/sweep_line.pb.h"
 
 namespace ricochet::cli {
 namespace {
@@ -189,12 +191,28 @@ class CsvWriter {
   AxisCursor cursor_;
 };
 
+// `sealed` is the chunk as a message.
+void SetLine(const SweepChunk& chunk, const v1::SweepResponse& sealed, SweepLine& line) {
+  line.set_first_index(chunk.first_index);
+  line.set_count(chunk.count);
+  line.mutable_values()->Assign(chunk.values.begin(), chunk.values.end());
+  line.clear_regimes();
+  for (const Regime regime : chunk.regimes) line.add_regimes(ToProto(regime));
+  line.set_points_done(chunk.points_done);
+  line.set_points_total(chunk.points_total);
+  line.clear_summary();
+  if (sealed.has_summary()) *line.mutable_summary() = sealed.summary();
+  *line.mutable_engine() = sealed.engine();
+  line.set_crc32c(sealed.crc32c());
+  line.set_grid_fingerprint(sealed.grid_fingerprint());
+}
+
 SweepWriter JsonWriter(const SweepRequest& request) {
-  return [seal = ChunkSeal(request), proto = v1::SweepResponse()](const SweepChunk& chunk) mutable {
+  return [seal = ChunkSeal(request), proto = v1::SweepResponse(), line = SweepLine()](const SweepChunk& chunk) mutable {
     ToProto(chunk, proto);
-    proto.clear_tallies();
     seal.Put(proto);
-    return Json(proto);
+    SetLine(chunk, proto, line);
+    return Json(line);
   };
 }
 

@@ -3,9 +3,6 @@
 #include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/io/zero_copy_stream_impl_lite.h>
 
-#include <bit>
-#include <string_view>
-
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
 #include "core/numerics/stable_hash.h"
@@ -14,14 +11,6 @@
 
 namespace ricochet {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "the checksum is over little-endian bytes");
-static_assert(sizeof(int) == 4, "the checksum is over regimes of four bytes");
-
-template <typename Number>
-std::string_view BytesOf(const google::protobuf::RepeatedField<Number>& numbers) {
-  return {reinterpret_cast<const char*>(numbers.data()), static_cast<size_t>(numbers.size()) * sizeof(Number)};
-}
 
 std::string DeterministicBytes(const google::protobuf::Message& message) {
   std::string bytes;
@@ -37,7 +26,7 @@ std::string DeterministicBytes(const google::protobuf::Message& message) {
 }  // namespace
 
 int64_t Crc32cOf(const v1::SweepResponse& chunk) {
-  return ExtendCrc32c(ExtendCrc32c(0, BytesOf(chunk.values())), BytesOf(chunk.regimes()));
+  return ExtendCrc32c(ExtendCrc32c(0, chunk.values()), chunk.regimes());
 }
 
 std::string GridFingerprint(const SweepRequest& request) {

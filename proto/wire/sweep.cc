@@ -1,7 +1,9 @@
 #include "proto/wire/sweep.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
+#include <cstring>
 #include <variant>
 
 #include "proto/wire/engine.h"
@@ -16,6 +18,8 @@ namespace ricochet {
 static_assert(kRegimeCount == v1::Regime_ARRAYSIZE, "SweepSummary::by_regime needs an entry for each regime");
 static_assert(kModelCount == v1::Model_ARRAYSIZE, "SweepSummary::by_model needs an entry for each model");
 static_assert(kEffectCount == v1::Effect_ARRAYSIZE);
+static_assert(std::endian::native == std::endian::little, "a chunk has the bytes of its doubles from the lowest on");
+static_assert(v1::Regime_MAX <= 255, "a chunk has one byte for each regime");
 
 // Linspace and Logspace have the same fields.
 template <typename Space, typename SpaceProto>
@@ -143,10 +147,11 @@ SweepSummary FromProto(const v1::SweepSummary& proto) {
 void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto) {
   proto.set_first_index(chunk.first_index);
   proto.set_count(chunk.count);
-  AssignDoubles(chunk.values, *proto.mutable_values());
-  proto.mutable_regimes()->Resize(static_cast<int>(chunk.regimes.size()), 0);
-  std::transform(chunk.regimes.begin(), chunk.regimes.end(), proto.mutable_regimes()->mutable_data(),
-                 [](Regime regime) { return static_cast<int>(ToProto(regime)); });
+  proto.mutable_values()->assign(reinterpret_cast<const char*>(chunk.values.data()),
+                                 chunk.values.size() * sizeof(double));
+  proto.mutable_regimes()->resize(chunk.regimes.size());
+  std::transform(chunk.regimes.begin(), chunk.regimes.end(), proto.mutable_regimes()->begin(),
+                 [](Regime regime) { return static_cast<char>(ToProto(regime)); });
   proto.set_points_done(chunk.points_done);
   proto.set_points_total(chunk.points_total);
   *proto.mutable_tallies() = ToProto(chunk.tallies);
@@ -161,10 +166,11 @@ SweepChunk FromProto(const v1::SweepResponse& proto) {
   SweepChunk chunk;
   chunk.first_index = proto.first_index();
   chunk.count = proto.count();
-  chunk.values = ToVector(proto.values());
-  chunk.regimes.resize(static_cast<size_t>(proto.regimes_size()));
+  chunk.values.resize(proto.values().size() / sizeof(double));
+  std::memcpy(chunk.values.data(), proto.values().data(), chunk.values.size() * sizeof(double));
+  chunk.regimes.resize(proto.regimes().size());
   std::transform(proto.regimes().begin(), proto.regimes().end(), chunk.regimes.begin(),
-                 [](int number) { return FromProto(static_cast<v1::Regime>(number)); });
+                 [](char number) { return FromProto(static_cast<v1::Regime>(static_cast<unsigned char>(number))); });
   chunk.points_done = proto.points_done();
   chunk.points_total = proto.points_total();
   if (proto.has_tallies()) chunk.tallies = FromProto(proto.tallies());

@@ -24,6 +24,7 @@ SweepSummary FromProto(const v1::SweepSummary& proto);
 
 // Sets or clears every field of `proto`, whose capacity is reused. The seal is cleared: proto/wire/chunk_seal.h puts it on.
 void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto);
+// Values that end in the middle of a double lose its part.
 SweepChunk FromProto(const v1::SweepResponse& proto);
 
 }  // namespace ricochet

@@ -17,7 +17,8 @@ grpc::Status EchoService::Sweep(grpc::ServerContext* /*context*/, const v1::Swee
   for (int64_t first = request->first_index(); first < request->end_index(); first += response.count()) {
     response.set_first_index(first);
     response.set_count(std::min(kChunkPoints, request->end_index() - first));
-    response.mutable_values()->Resize(static_cast<int>(response.count() * request->columns_size()), 0.5);
+    response.mutable_values()->resize(static_cast<size_t>(response.count() * request->columns_size()) * sizeof(double),
+                                      '?');
     if (!writer->Write(response)) return grpc::Status::CANCELLED;
   }
   return grpc::Status::OK;

@@ -5,10 +5,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <functional>
 #include <ostream>
 #include <string>
+#include <utility>
 
 #include "proto/wire/sweep.h"
 
@@ -161,13 +161,22 @@ TEST(ChunkChecker, RefusesEveryFlippedBitOfTheData) {
   const v1::SweepResponse whole = Sealed(chunk, request);
   for (int bit = 0; bit < 64; ++bit) {
     v1::SweepResponse damaged = whole;
-    double& value = *damaged.mutable_values()->Mutable(3 * bit);
-    value = std::bit_cast<double>(std::bit_cast<uint64_t>(value) ^ (uint64_t{1} << bit));
+    char& byte = damaged.mutable_values()->at(25 * static_cast<size_t>(bit));
+    byte = static_cast<char>(byte ^ 1 << bit % 8);
     EXPECT_EQ(CodeOf(ChunkChecker(request).Take(damaged)), absl::StatusCode::kDataLoss) << bit;
   }
   v1::SweepResponse swapped = whole;
-  swapped.mutable_values()->SwapElements(1, 2);
+  std::swap(swapped.mutable_values()->at(1 * sizeof(double) + 7), swapped.mutable_values()->at(2 * sizeof(double) + 7));
   EXPECT_THAT(std::string(ChunkChecker(request).Take(swapped).status().message()), testing::HasSubstr("checksum"));
+}
+
+TEST(ChunkChecker, RefusesAPartOfADouble) {
+  v1::SweepResponse message = Sealed(Chunk(0, 40, false));
+  message.mutable_values()->append("1234567");
+  ChunkSeal(Sweep()).Put(message);
+  const absl::Status status = ChunkChecker(Sweep()).Take(message).status();
+  EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
+  EXPECT_THAT(std::string(status.message()), testing::HasSubstr("647 bytes of values, which are no whole doubles"));
 }
 
 TEST(ChunkChecker, RefusesTheChunkOfAnotherRequest) {

@@ -221,7 +221,7 @@ TEST_F(SweepReaderTest, AnotherEngineIsRefused) {
 TEST_F(SweepReaderTest, ADamagedChunkIsDataLoss) {
   const Joint joint =
       Read({{2, absl::UnavailableError("gone")},
-            {1000, {}, [](v1::SweepResponse& message) { message.set_values(5, message.values(5) + 1e-15); }}});
+            {1000, {}, [](v1::SweepResponse& message) { message.mutable_values()->at(5 * sizeof(double)) ^= 1; }}});
   EXPECT_EQ(joint.end.code(), absl::StatusCode::kDataLoss);
   EXPECT_THAT(asked_, SizeIs(2));
 }

@@ -79,8 +79,8 @@ SweepRequest RequestFrom(Bytes& bytes) {
 void Spoil(uint8_t spoilt, Bytes& bytes, v1::SweepResponse& chunk) {
   if ((spoilt & 1U) != 0) chunk.set_first_index(bytes.Number());
   if ((spoilt & 2U) != 0) chunk.set_count(bytes.Number());
-  if ((spoilt & 4U) != 0) chunk.mutable_values()->Resize(bytes.Byte(), 0.5);
-  if ((spoilt & 8U) != 0) chunk.mutable_regimes()->Resize(bytes.Byte(), 1);
+  if ((spoilt & 4U) != 0) chunk.mutable_values()->resize(bytes.Byte(), '?');
+  if ((spoilt & 8U) != 0) chunk.mutable_regimes()->resize(bytes.Byte(), 1);
   if ((spoilt & 16U) != 0) chunk.set_points_total(bytes.Number());
   if ((spoilt & 32U) != 0) chunk.has_summary() ? chunk.clear_summary() : chunk.mutable_summary()->Clear();
 }
@@ -110,8 +110,8 @@ Script ScriptFrom(Bytes bytes) {
     v1::SweepResponse chunk;
     chunk.set_first_index(next);
     chunk.set_count(count);
-    chunk.mutable_values()->Resize(static_cast<int>(count) * static_cast<int>(request.columns.size()), 0.5);
-    if (request.with_regime) chunk.mutable_regimes()->Resize(static_cast<int>(count), 1);
+    chunk.mutable_values()->resize(static_cast<size_t>(count) * request.columns.size() * sizeof(double), '?');
+    if (request.with_regime) chunk.mutable_regimes()->resize(static_cast<size_t>(count), 1);
     if (script.right) {
       next += count;
       tallies = TalliesOf(next - request.first_index, request.first_index);

@@ -1,12 +1,13 @@
 """Asks a running server through generated stubs. usage: python_client_test.py ADDRESS"""
 
+import array
 import math
 import sys
 import unittest
 
 import grpc
 from google.rpc import error_details_pb2, status_pb2
-from ricochet.v1 import impact_service_pb2, impact_service_pb2_grpc, scene_pb2
+from ricochet.v1 import impact_service_pb2, impact_service_pb2_grpc, outcome_pb2, scene_pb2, sweep_pb2
 
 ADDRESS = sys.argv.pop()
 DEADLINE_S = 10
@@ -44,6 +45,25 @@ class PythonClientTest(unittest.TestCase):
         # kappa^2 = (a - mu b) / (a + mu b) = 0.2 / 0.4 at eta = 1.
         newton = self.solve(0.1).outcome.coefficients.newton
         self.assertLessEqual(abs(newton - math.sqrt(0.5)), 4 * math.ulp(math.sqrt(0.5)))
+
+    def test_columns_of_a_sweep_are_the_bytes_of_their_doubles(self):
+        request = sweep_pb2.SweepRequest(
+            scene=elastic_pendulum(0.1),
+            axes=[sweep_pb2.Axis(path="friction.kinetic_coefficient", list=sweep_pb2.ListValues(values=[0, 0.1, 0.2]))],
+            columns=["coefficients.newton", "coefficients.poisson"],
+            with_regime=True,
+        )
+        newton, poisson, regimes = array.array("d"), array.array("d"), []
+        for chunk in self.service.Sweep(request, timeout=DEADLINE_S):
+            columns = array.array("d", chunk.values)
+            newton += columns[: chunk.count]
+            poisson += columns[chunk.count :]
+            regimes += [outcome_pb2.Regime.Name(number) for number in chunk.regimes]
+        for index, mu in enumerate([0, 0.1, 0.2]):
+            coefficients = self.solve(mu).outcome.coefficients
+            self.assertEqual(newton[index], coefficients.newton)
+            self.assertEqual(poisson[index], coefficients.poisson)
+            self.assertEqual(regimes[index], outcome_pb2.Regime.Name(self.solve(mu).outcome.regime))
 
     def test_bad_request_names_the_field(self):
         with self.assertRaises(grpc.RpcError) as raised:

@@ -99,8 +99,8 @@ TEST(Server, SweepArrivesInOrderAndComplete) {
   std::vector<int64_t> counts;
   while (sweep.Read(&chunk)) {
     ASSERT_EQ(chunk.first_index(), next);
-    ASSERT_EQ(chunk.values_size(), 2 * chunk.count());
-    ASSERT_EQ(chunk.regimes_size(), chunk.count());
+    ASSERT_EQ(chunk.values().size(), 2 * 8 * static_cast<size_t>(chunk.count()));
+    ASSERT_EQ(chunk.regimes().size(), static_cast<size_t>(chunk.count()));
     ASSERT_EQ(chunk.engine().fingerprint(), ThisEngine().fingerprint);
     ASSERT_LE(chunk.ByteSizeLong(), size_t{1} << 20);
     next += chunk.count();

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "ricochet/v1/outcome.pb.h"
 
 namespace ricochet {
 namespace {
@@ -53,7 +54,7 @@ class Filler {
       case FieldDescriptor::CPPTYPE_BOOL:
         return reflection.SetBool(&message, &field, true);
       case FieldDescriptor::CPPTYPE_STRING:
-        return reflection.SetString(&message, &field, absl::StrCat("text ", NextNumber()));
+        return reflection.SetString(&message, &field, NextText(field));
       case FieldDescriptor::CPPTYPE_ENUM:
         return reflection.SetEnumValue(&message, &field, NextValue(*field.enum_type()));
       case FieldDescriptor::CPPTYPE_MESSAGE:
@@ -82,6 +83,12 @@ class Filler {
   }
 
   int NextNumber() { return ++number_; }
+
+  // Bytes are those of whole doubles, and each is the number of a regime.
+  std::string NextText(const FieldDescriptor& field) {
+    if (field.type() != FieldDescriptor::TYPE_BYTES) return absl::StrCat("text ", NextNumber());
+    return std::string(2 * sizeof(double), static_cast<char>(NextNumber() % v1::Regime_MAX + 1));
+  }
 
   int NextValue(const EnumDescriptor& type) {
     int& index = values_[type.full_name()];

@@ -483,9 +483,18 @@ TEST(SweepTest, EveryBitOfAValueSurvives) {
 
 TEST(SweepTest, UnknownRegimeOfAPointIsUnspecified) {
   v1::SweepResponse proto;
-  proto.add_regimes(v1::REGIME_LOCKED);
-  proto.add_regimes(static_cast<v1::Regime>(999));
-  EXPECT_THAT(FromProto(proto).regimes, ElementsAre(Regime::kLocked, Regime::kUnspecified));
+  proto.set_regimes({static_cast<char>(v1::REGIME_LOCKED), static_cast<char>(v1::Regime_MAX + 1), '\xff'});
+  EXPECT_THAT(FromProto(proto).regimes, ElementsAre(Regime::kLocked, Regime::kUnspecified, Regime::kUnspecified));
+}
+
+// Bytes that were written down from IEEE 754 and the proto's comment, so that every language can read them.
+TEST(SweepTest, ValuesAreLittleEndianDoublesAndRegimesAreBytes) {
+  v1::SweepResponse proto;
+  SweepChunk chunk = SomeChunk();
+  chunk.values = {1.0, -2.5};
+  ToProto(chunk, proto);
+  EXPECT_EQ(proto.values(), std::string("\0\0\0\0\0\0\xf0\x3f\0\0\0\0\0\0\x04\xc0", 16));
+  EXPECT_EQ(proto.regimes(), (std::string{v1::REGIME_REBOUND, v1::REGIME_LOCKED}));
 }
 
 TEST(SweepTest, ReusedProtoHoldsNothingOfTheChunkBefore) {
@@ -503,15 +512,15 @@ TEST(SweepTest, ReusedProtoKeepsItsMemory) {
   chunk.values.assign(100'000, 1.5);
   chunk.regimes.assign(10'000, Regime::kRebound);
   ToProto(chunk, proto);
-  const double* values = proto.values().data();
-  const int* regimes = proto.regimes().data();
+  const char* values = proto.values().data();
+  const char* regimes = proto.regimes().data();
   chunk.values.resize(50'000);
   chunk.regimes.resize(5'000);
   ToProto(chunk, proto);
   EXPECT_EQ(proto.values().data(), values);
   EXPECT_EQ(proto.regimes().data(), regimes);
-  EXPECT_EQ(proto.values_size(), 50'000);
-  EXPECT_EQ(proto.regimes_size(), 5'000);
+  EXPECT_EQ(proto.values().size(), 50'000 * sizeof(double));
+  EXPECT_EQ(proto.regimes().size(), 5'000U);
 }
 
 }  // namespace
