@@ -20,6 +20,7 @@
 #include "core/engine/engine.h"
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
+#include "ricochet/info.h"
 #include "tests/support/server_process.h"
 #include "tests/support/service_calls.h"
 #include "tests/support/temporary_directory.h"
