@@ -24,9 +24,8 @@ using google::protobuf::internal::WireFormatLite;
 using google::protobuf::io::CodedInputStream;
 
 constexpr int64_t kLeastElements = 16'384;
-constexpr int64_t kMostBytes = int64_t{1} << 20;  // Of a request that is no batch.
-constexpr int64_t kLeastBytes = 2;                // An element takes at least a tag and a length.
-constexpr int kMostDepth = 100;                   // The parser refuses messages that are nested more deeply.
+constexpr int64_t kLeastBytes = 2;  // An element takes at least a tag and a length.
+constexpr int kMostDepth = 100;     // The parser refuses messages that are nested more deeply.
 
 // Walks through the bytes of a message and counts what it holds.
 class ElementCount {

@@ -28,6 +28,9 @@
 
 namespace ricochet::server {
 
+// The most bytes of a request that is no batch.
+inline constexpr int64_t kMostBytes = int64_t{1} << 20;
+
 // The bounds on one request: its bytes, and the messages, texts and unknown fields in it.
 struct MessageBounds {
   int64_t bytes = 0;

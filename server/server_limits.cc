@@ -1,11 +1,12 @@
 #include "server/server_limits.h"
 
+#include "server/bounded_service.h"
 #include "server/transport.h"
 
 namespace ricochet::server {
 
 ServerLimits ServerLimitsOf(const Options& options) {
-  return {.max_request_bytes = kMaxRequestBytes,
+  return {.max_message_bytes = kMostBytes,
           .max_metadata_bytes = kMaxMetadataBytes,
           .max_calls_per_connection = kMaxCallsPerConnection,
           .max_connections = options.connections.in_all,

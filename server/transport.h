@@ -17,8 +17,7 @@ struct TransportTimes {
   friend bool operator==(const TransportTimes&, const TransportTimes&) = default;
 };
 
-// A larger request is refused, and so is one with more metadata. A connection carries at most this number of calls at once.
-inline constexpr int kMaxRequestBytes = 1 << 20;
+// A request with more metadata is refused. A connection carries at most this number of calls at once.
 inline constexpr int kMaxMetadataBytes = 8 << 10;
 inline constexpr int kMaxCallsPerConnection = 128;
 

@@ -38,11 +38,11 @@ v1::SweepResponse ThroughCore(const v1::SweepResponse& proto) {
 template <typename Message>
 class EveryFieldTest : public testing::Test {};
 
-using Messages = testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse,
-                                v1::SweepRequest, v1::SweepResponse, v1::AuditRequest, v1::AuditResponse,
-                                v1::AuditBatchRequest, v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse,
-                                 v1::CostRequest, v1::CostResponse, v1::BatchSetup, v1::BatchSummary,
-                                 v1::InfoRequest, v1::InfoResponse>;
+using Messages =
+    testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse, v1::SweepRequest,
+                   v1::SweepResponse, v1::AuditRequest, v1::AuditResponse, v1::AuditBatchRequest,
+                   v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse, v1::CostRequest, v1::CostResponse,
+                   v1::BatchSetup, v1::BatchSummary, v1::InfoRequest, v1::InfoResponse>;
 TYPED_TEST_SUITE(EveryFieldTest, Messages);
 
 TYPED_TEST(EveryFieldTest, SurvivesTheCore) {

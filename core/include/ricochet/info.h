@@ -23,7 +23,7 @@ struct InfoRequest {
 // How many calls and connections a server takes at once, how long they may take, and how large their messages may be.
 // Each is >= 1.
 struct ServerLimits {
-  int64_t max_request_bytes = 1;
+  int64_t max_message_bytes = 1;
   int64_t max_metadata_bytes = 1;
   int64_t max_calls_per_connection = 1;
   int64_t max_connections = 1;
@@ -49,7 +49,7 @@ struct NamedServerLimit {
 
 // Every limit of a server, in the order of the struct.
 inline constexpr NamedServerLimit kServerLimits[] = {
-    {"max_request_bytes", &ServerLimits::max_request_bytes, "Bytes of a request"},
+    {"max_message_bytes", &ServerLimits::max_message_bytes, "Bytes of a request that is no batch"},
     {"max_metadata_bytes", &ServerLimits::max_metadata_bytes, "Bytes of the metadata of a request"},
     {"max_calls_per_connection", &ServerLimits::max_calls_per_connection, "Calls on one connection at once"},
     {"max_connections", &ServerLimits::max_connections, "Connections open at once"},
