@@ -77,7 +77,7 @@ double ReadSweep(v1::ImpactService::Stub& stub, const v1::SweepRequest& request)
   const auto reader = stub.Sweep(&context, request);
   v1::SweepResponse response;
   double bytes = 0.0;
-  while (reader->Read(&response)) bytes += 8.0 * response.values_size();
+  while (reader->Read(&response)) bytes += static_cast<double>(response.values().size());
   if (!reader->Finish().ok()) std::abort();
   return bytes;
 }

@@ -115,7 +115,7 @@ class Lint {
         return;
       case FieldDescriptor::TYPE_BYTES:
         // Columns that foreign clients read at the speed of memory.
-        return Match(field.full_name(), field.name(), "inputs|outputs|regimes|statuses");
+        return Match(field.full_name(), field.name(), "inputs|outputs|regimes|statuses|values");
       default:
         faults_.push_back(absl::StrCat(field.full_name(), " is a ", field.type_name(),
                                        ": must be double, bool, string, a signed integer, an enum or a message"));
