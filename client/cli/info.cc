@@ -16,11 +16,9 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr char kExample[] = R"(Example: what this program can compute.
-  $ ricochet info
-  engine    0.1.0, fingerprint 0123456789abcdef
+constexpr char kExample[] = R"(Example: what this program can compute beside its models.
+  $ ricochet info | grep features
   features  certified, finite_duration
-  ...
 This program takes requests of any size. With --server the answer is about a server, and has its limits.
 CSV has one row for each property and each limit; several values of one property stand with spaces between them.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";

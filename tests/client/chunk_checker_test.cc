@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <ostream>
 #include <string>
@@ -166,7 +167,9 @@ TEST(ChunkChecker, RefusesEveryFlippedBitOfTheData) {
     EXPECT_EQ(CodeOf(ChunkChecker(request).Take(damaged)), absl::StatusCode::kDataLoss) << bit;
   }
   v1::SweepResponse swapped = whole;
-  std::swap(swapped.mutable_values()->at(1 * sizeof(double) + 7), swapped.mutable_values()->at(2 * sizeof(double) + 7));
+  char* const second = swapped.mutable_values()->data() + sizeof(double);
+  std::swap_ranges(second, second + sizeof(double), second + sizeof(double));
+  ASSERT_NE(swapped.values(), whole.values());
   EXPECT_THAT(std::string(ChunkChecker(request).Take(swapped).status().message()), testing::HasSubstr("checksum"));
 }
 
