@@ -430,7 +430,11 @@ HWY_INLINE Course<N> Follow(RestitutionLaw law, const Inputs<N>& in) {
   course.path = MakePath(course.in);
   course.locked = Both(in.rank_one, Both(course.path.stops, course.path.sticks));
   Compress(course.in, course.path, course.x);
-  if (!InAllLanes(course.locked)) Restore(law, course.in, course.path, course.x);
+  if (InAllLanes(course.locked)) {
+    course.x.stops_in_restitution = Not(course.locked);
+  } else {
+    Restore(law, course.in, course.path, course.x);
+  }
   if (!InNoLane(course.locked)) Lock(course.locked, course.x);
   return course;
 }
