@@ -11,8 +11,10 @@ namespace {
 // This bounds the time that a hostile text takes.
 constexpr size_t kMostCharacters = 80;
 
-// The Levenshtein distance, computed row by row.
-size_t Distance(const std::string& a, const std::string& b) {
+}  // namespace
+
+// Computes the table of distances row by row.
+size_t EditDistance(absl::string_view a, absl::string_view b) {
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t{0});
   for (size_t i = 0; i < a.size(); ++i) {
@@ -27,13 +29,11 @@ size_t Distance(const std::string& a, const std::string& b) {
   return row.back();
 }
 
-}  // namespace
-
 std::string NearestHint(const std::string& text, const std::vector<std::string>& known) {
   if (known.empty() || text.size() > kMostCharacters) return "";
   std::vector<size_t> distances;
   distances.reserve(known.size());
-  for (const std::string& name : known) distances.push_back(Distance(text, name));
+  for (const std::string& name : known) distances.push_back(EditDistance(text, name));
   const auto nearest = std::min_element(distances.begin(), distances.end()) - distances.begin();
   return absl::StrCat("; the nearest is \"", known[static_cast<size_t>(nearest)], "\"");
 }
