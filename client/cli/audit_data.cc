@@ -2,18 +2,15 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <optional>
+#include <utility>
 
-#include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
-#include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "absl/strings/str_split.h"
 #include "absl/strings/strip.h"
-#include "client/cli/number_input.h"
+#include "client/cli/csv_table.h"
 #include "client/cli/suggestion.h"
 
 namespace ricochet::cli {
@@ -35,9 +32,6 @@ constexpr Named kColumns[] = {{"tangential_m_s", &AuditColumns::tangential_m_s},
 
 constexpr char kRates[] = "rates_after_rad_s";
 
-// Spreadsheets put it in front of a table in UTF-8.
-constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
-
 // The destination of a column of the file: a named column, or the rates of a link.
 struct Place {
   std::vector<double> AuditColumns::*values = nullptr;
@@ -51,17 +45,6 @@ size_t LinkCount(const Places& places) {
   return static_cast<size_t>(std::count_if(places.begin(), places.end(), [](const std::optional<Place>& place) {
     return place.has_value() && place->link.has_value();
   }));
-}
-
-// Splits a line at its commas. A cell may stand in double quotes.
-std::vector<std::string> Cells(const std::string& line) {
-  std::vector<std::string> cells = absl::StrSplit(line, ',');
-  for (std::string& cell : cells) {
-    absl::StripAsciiWhitespace(&cell);
-    const bool is_quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
-    if (is_quoted) cell = cell.substr(1, cell.size() - 2);
-  }
-  return cells;
 }
 
 std::optional<Place> PlaceOf(const std::string& cell) {
@@ -91,14 +74,9 @@ absl::Status UnknownColumn(const std::string& cell, const std::string& name) {
                                                  "; --skip-column leaves a column out"));
 }
 
-absl::StatusOr<Places> ParseHeader(const std::string& line, const std::string& name,
-                                   const std::vector<std::string>& skipped) {
-  if (absl::StrContains(line, ';')) {
-    return absl::InvalidArgumentError(
-        absl::StrCat(name, " separates its columns by semicolons: must use commas, and decimal points in numbers"));
-  }
+absl::StatusOr<Places> PlacesOf(const std::vector<std::string>& cells, const std::string& name,
+                                const std::vector<std::string>& skipped) {
   Places places;
-  const std::vector<std::string> cells = Cells(line);
   for (const std::string& column : skipped) {
     if (std::count(cells.begin(), cells.end(), column) > 0) continue;
     return absl::InvalidArgumentError(
@@ -129,34 +107,20 @@ std::vector<double>& ColumnAt(const Place& place, AuditColumns& columns) {
   return place.link.has_value() ? columns.rates_after_rad_s[*place.link] : columns.*place.values;
 }
 
-void AddRow(const std::vector<std::string>& cells, const Places& places, AuditColumns& columns) {
-  for (size_t i = 0; i < places.size(); ++i) {
-    if (!places[i].has_value()) continue;
-    const absl::StatusOr<double> value = ParseNumber(i < cells.size() ? cells[i] : "", "");
-    ColumnAt(*places[i], columns).push_back(value.ok() ? *value : std::numeric_limits<double>::quiet_NaN());
-  }
-}
-
 }  // namespace
 
 absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::string& name,
                                             const std::vector<std::string>& skipped) {
-  absl::StatusOr<Places> places = absl::InvalidArgumentError(absl::StrCat(name, " has no header"));
-  AuditColumns columns;
-  absl::string_view lines = text;
-  absl::ConsumePrefix(&lines, kByteOrderMark);
-  for (const auto line_view : absl::StrSplit(lines, '\n')) {
-    const std::string line(absl::StripAsciiWhitespace(line_view));
-    if (line.empty() || line[0] == '#') continue;
-    if (places.ok()) {
-      AddRow(Cells(line), *places, columns);
-    } else {
-      places = ParseHeader(line, name, skipped);
-      if (!places.ok()) return places.status();
-      columns.rates_after_rad_s.resize(LinkCount(*places));
-    }
-  }
+  absl::StatusOr<CsvTable> table = ParseCsvTable(text, name);
+  if (!table.ok()) return table.status();
+  const absl::StatusOr<Places> places = PlacesOf(table->header, name, skipped);
   if (!places.ok()) return places.status();
+  AuditColumns columns;
+  columns.rates_after_rad_s.resize(LinkCount(*places));
+  for (size_t i = 0; i < places->size(); ++i) {
+    const std::optional<Place>& place = (*places)[i];
+    if (place.has_value()) ColumnAt(*place, columns) = std::move(table->columns[i]);
+  }
   return columns;
 }
 

@@ -15,9 +15,9 @@ struct CsvTable {
   std::vector<std::vector<double>> columns;  // One for each name of the header, all equally long.
 };
 
-// Reads a table. A cell that is missing or not a number becomes a NaN. Cells beyond the header, empty lines and lines that
-// start with # are skipped. `name` names the table in errors.
-// Errors: INVALID_ARGUMENT if there is no header.
+// Reads a table. A cell may stand in double quotes; one that is missing or not a number becomes a NaN. Cells beyond the
+// header, empty lines, lines that start with # and a byte order mark are skipped. `name` names the table in errors.
+// Errors: INVALID_ARGUMENT if there is no header, or if it has semicolons.
 absl::StatusOr<CsvTable> ParseCsvTable(const std::string& text, const std::string& name);
 
 }  // namespace ricochet::cli
