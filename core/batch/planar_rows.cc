@@ -10,6 +10,7 @@
 #include "core/contact/scene_contact.h"
 #include "core/models/sliding/sliding.h"
 #include "core/plan/arithmetic.h"
+#include "core/plan/straight_problem.h"
 #include "core/problem/scene_problem.h"
 #include "core/scene/numbers.h"
 
@@ -167,11 +168,7 @@ void PlanarRows::Plan(size_t i, Verdict& verdict) {
 }
 
 void PlanarRows::SolveStraight(size_t i, const planar::Problem& problem, Verdict& verdict) {
-  const sliding::Problem<1> straight = {.w = {problem.w.tt, problem.w.tn, problem.w.nn},
-                                        .u0 = {problem.u0},
-                                        .v0 = problem.v0,
-                                        .mu = problem.mu,
-                                        .coefficient = problem.coefficient};
+  const sliding::Problem<1> straight = SlidingProblemOf(problem);
   const ImpactEnd<double> impact = WithScalars(
       verdict.model == Model::kFrictionless ? sliding::SolveFrictionless(straight) : sliding::Solve(straight));
   straight_.push_back(i);

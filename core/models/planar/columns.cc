@@ -121,32 +121,36 @@ HWY_INLINE Answer<DoubleDouble<V>> Judge(unsigned parts, const Course<DoubleDoub
   return {MakeNumbers(parts, course), CompensatedBounds(course).Largest(), all};
 }
 
+// Calls tell(output, value) for every output of an impact. `V` is double or a vector.
+template <typename X, typename V, typename Tell>
+HWY_INLINE void TellOutputs(const X& x, V zero, V relative_error, const Tell& tell) {
+  const V work_tangential = x.work_tangential_compression + x.work_tangential_restitution;
+  tell(Output::kNewton, x.newton);
+  tell(Output::kPoisson, x.poisson);
+  tell(Output::kEnergetic, x.energetic);
+  tell(Output::kTangentialCoefficient, x.tangential);
+  tell(Output::kTangentialVelocityAfter, x.u1);
+  tell(Output::kNormalVelocityAfter, x.v1);
+  tell(Output::kNormalImpulseCompression, x.tau_compression);
+  tell(Output::kNormalImpulse, x.tau1);
+  tell(Output::kTangentialImpulse, x.f1);
+  tell(Output::kWorkNormalCompression, x.work_normal_compression);
+  tell(Output::kWorkNormalRestitution, x.work_normal_restitution);
+  tell(Output::kWorkTangentialCompression, x.work_tangential_compression);
+  tell(Output::kWorkTangentialRestitution, x.work_tangential_restitution);
+  tell(Output::kWorkNormal, x.work_normal_compression + x.work_normal_restitution);
+  tell(Output::kWorkTangential, work_tangential);
+  tell(Output::kFrictionDissipation, zero - work_tangential);
+  tell(Output::kEnergyChange, x.energy_change);
+  tell(Output::kRelativeError, relative_error);
+}
+
 template <typename N>
 HWY_INLINE void Store(const Job& job, size_t i, const Answer<N>& answer) {
-  const Numbers<N>& x = answer.numbers;
-  const auto store = [&](Output output, V value) HWY_ATTR {
+  TellOutputs(answer.numbers, VLanes::Fill(0.0), answer.relative_error, [&](Output output, V value) HWY_ATTR {
     double* const place = job.places[static_cast<size_t>(output)];
     if (place != nullptr) VLanes::Store(value, place + i);
-  };
-  const V work_tangential = x.work_tangential_compression + x.work_tangential_restitution;
-  store(Output::kNewton, x.newton);
-  store(Output::kPoisson, x.poisson);
-  store(Output::kEnergetic, x.energetic);
-  store(Output::kTangentialCoefficient, x.tangential);
-  store(Output::kTangentialVelocityAfter, x.u1);
-  store(Output::kNormalVelocityAfter, x.v1);
-  store(Output::kNormalImpulseCompression, x.tau_compression);
-  store(Output::kNormalImpulse, x.tau1);
-  store(Output::kTangentialImpulse, x.f1);
-  store(Output::kWorkNormalCompression, x.work_normal_compression);
-  store(Output::kWorkNormalRestitution, x.work_normal_restitution);
-  store(Output::kWorkTangentialCompression, x.work_tangential_compression);
-  store(Output::kWorkTangentialRestitution, x.work_tangential_restitution);
-  store(Output::kWorkNormal, x.work_normal_compression + x.work_normal_restitution);
-  store(Output::kWorkTangential, work_tangential);
-  store(Output::kFrictionDissipation, VLanes::Fill(0.0) - work_tangential);
-  store(Output::kEnergyChange, x.energy_change);
-  store(Output::kRelativeError, answer.relative_error);
+  });
 }
 
 // Solves the problems [first, first + count), of which there are at least as many as a vector has lanes. The last vector
@@ -193,27 +197,9 @@ HWY_EXPORT(SolveBlock);
 HWY_EXPORT(CountLanes);
 
 std::array<double, kOutputCount> NumbersOf(const ImpactEnd<double>& impact, double relative_error) {
-  const double work_tangential = impact.work_tangential_compression + impact.work_tangential_restitution;
   std::array<double, kOutputCount> numbers = {};
-  const auto set = [&](Output output, double value) { numbers[static_cast<size_t>(output)] = value; };
-  set(Output::kNewton, impact.newton);
-  set(Output::kPoisson, impact.poisson);
-  set(Output::kEnergetic, impact.energetic);
-  set(Output::kTangentialCoefficient, impact.tangential);
-  set(Output::kTangentialVelocityAfter, impact.u1);
-  set(Output::kNormalVelocityAfter, impact.v1);
-  set(Output::kNormalImpulseCompression, impact.tau_compression);
-  set(Output::kNormalImpulse, impact.tau1);
-  set(Output::kTangentialImpulse, impact.f1);
-  set(Output::kWorkNormalCompression, impact.work_normal_compression);
-  set(Output::kWorkNormalRestitution, impact.work_normal_restitution);
-  set(Output::kWorkTangentialCompression, impact.work_tangential_compression);
-  set(Output::kWorkTangentialRestitution, impact.work_tangential_restitution);
-  set(Output::kWorkNormal, impact.work_normal_compression + impact.work_normal_restitution);
-  set(Output::kWorkTangential, work_tangential);
-  set(Output::kFrictionDissipation, 0.0 - work_tangential);
-  set(Output::kEnergyChange, impact.energy_change);
-  set(Output::kRelativeError, relative_error);
+  HWY_NAMESPACE::TellOutputs(impact, 0.0, relative_error,
+                             [&](Output output, double value) { numbers[static_cast<size_t>(output)] = value; });
   return numbers;
 }
 
