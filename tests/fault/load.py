@@ -123,7 +123,7 @@ class Sweeps:
 
 
 @check("Solves beside sweeps", "p99 of Solves beside 8 sweeps (p90 in the short run) is at most 25 times that alone and 20 ms, "
-       "and no sweep gets more than 4 times another's points", kind="load")
+       "and no sweep gets more than 4 times another's points", kind="load", timed=True)
 def beside_sweeps():
     seconds, part = (20, 0.99) if tools().soak else (3, 0.9)
     with serve() as server:

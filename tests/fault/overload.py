@@ -54,7 +54,7 @@ def goodput(server, call, clients, seconds):
 
 
 @check("goodput under overload", "8 times as many clients as processors, with deadlines, get at least half of the answers a second "
-       "that as many clients as processors get; 80 % in the long run", kind="load")
+       "that as many clients as processors get; 80 % in the long run", kind="load", timed=True)
 def goodput_under_overload():
     seconds = 20 if tools().soak else 4
     with serve() as server:
@@ -73,7 +73,8 @@ def goodput_under_overload():
         return figures
 
 
-@check("short deadlines", "200 dear calls at once, with deadlines of three times their time, use less than a quarter of the CPU time of all", kind="load")
+@check("short deadlines", "200 dear calls at once, with deadlines of three times their time, use less than a quarter of the CPU time of all",
+       kind="load", timed=True)
 def dead_calls():
     with serve() as server:
         call = dear(server)
@@ -112,7 +113,7 @@ def latencies(server, count):
 
 
 @check("Solves beside dear calls", "p99 of a cheap Solve beside the dearest calls of 64 clients is at most 5 times p99 alone "
-       "and 20 ms", kind="load")
+       "and 20 ms", kind="load", timed=True)
 def beside_dear_calls():
     count = 1000 if tools().soak else 150
     with serve() as server:
