@@ -28,9 +28,10 @@ def stub(on):
 
 
 def request_class(method):
-    from ricochet.v1 import cost_pb2, sweep_pb2  # pylint: disable=import-outside-toplevel
-    modules = [module for module in (pb(), sweep_pb2, cost_pb2) if hasattr(module, method + "Request")]
-    return getattr(modules[0], method + "Request")
+    """The class of a method's requests; the name is taken from the service, because two methods may share a class."""
+    from google.protobuf import message_factory  # pylint: disable=import-outside-toplevel
+    service = pb().DESCRIPTOR.services_by_name["ImpactService"]
+    return message_factory.MessageFactory().GetPrototype(service.methods_by_name[method].input_type)
 
 
 def request(method, text):

@@ -3,6 +3,7 @@
 import collections
 import contextlib
 import os
+import struct
 import threading
 import warnings
 
@@ -13,8 +14,9 @@ from google.protobuf.message import DecodeError
 from calls import HERTZ, PENDULUM, channel, cheap, linkage, request, request_class, require_served, stub
 from framework import Server, check, main, require, tools, wait_until
 
-# Whether the answer of a method is a stream.
-METHODS = {"Solve": False, "Bounds": False, "Audit": False, "AuditBatch": False, "Plan": False, "Sweep": True, "Cost": True}
+# Methods whose answer is a stream, and those whose request is one, too.
+STREAMS = {"Sweep", "Cost", "SolveBatches"}
+STREAMED = {"SolveBatches"}
 PROMISED = {"OK", "INVALID_ARGUMENT", "OUT_OF_RANGE", "FAILED_PRECONDITION", "RESOURCE_EXHAUSTED", "DEADLINE_EXCEEDED"}
 ODD_DOUBLES = [0.0, -0.0, 1.0, -1.0, 5e-324, -5e-324, 2.2250738585072014e-308, 1.7976931348623157e308, -1e308, float("nan"),
                float("inf"), float("-inf"), 2.0**53, 2.0**53 + 2, 0.1, 1 / 3, 1e-12, 3.14]
@@ -22,7 +24,8 @@ ODD_INTEGERS = [0, 1, -1, 2, 10, 1000, 65535, 65536, 2**31 - 1, -2**31, 2**53, 2
 PATHS = ["friction.kinetic_coefficient", "pendulum.b_m", "coefficients.newton", "", "x", "a.b[9]", "rates_after_rad_s[0]",
          "linkage.links[0].mass_kg", "☃", "pendulum.phi_rad", "\x00", "%n%s"]
 # How often each method is asked; Sweep and Cost work until the deadline.
-WEIGHTS = {"Solve": 50, "Bounds": 30, "Audit": 30, "AuditBatch": 30, "Plan": 30, "Sweep": 20, "Cost": 1}
+WEIGHTS = {"Solve": 50, "Bounds": 30, "Audit": 30, "AuditBatch": 30, "Plan": 30, "SolveBatch": 30, "SolveBatches": 20,
+           "Info": 5, "Sweep": 20, "Cost": 1}
 IN_FLIGHT = 32
 DEADLINE_S = 0.5
 KEPT = 20000  # The most requests that are kept to be looked at.
@@ -34,6 +37,13 @@ def seeds(method):
         return [request(method, f"""scene {{ {PENDULUM} }} columns: "coefficients.newton" columns: "work.normal_total_j"
           axes {{ path: "pendulum.b_m" linspace {{ start: 0.4 stop: 2.1 count: 7 }} }}
           axes {{ path: "friction.kinetic_coefficient" list {{ values: [0, 0.1, 0.5] }} }} with_regime: true""")]
+    if method == "Info":
+        return [request(method, "")]
+    if method in ("SolveBatch", "SolveBatches"):
+        what = request(method, f"""setup {{ scene {{ {PENDULUM} }} fields: "pendulum.b_m" fields: "friction.kinetic_coefficient"
+          columns: "coefficients.newton" columns: "accuracy.relative_error" }}""")
+        what.inputs.extend([struct.pack("<3d", 0.4, 1.0, 2.1), struct.pack("<3d", 0.0, 0.1, 0.5)])
+        return [what]
     more = {
         "Solve": "history_intervals: 3 certified_digits: 20",
         "Bounds": "certified_digits: 20",
@@ -111,18 +121,23 @@ def fill(rng, into, depth=0):
             setattr(into, field.name, odd_value(rng, field))
 
 
+def scene_of(what):
+    """The scene of a request, or the request if it has none."""
+    return what.setup.scene if hasattr(what, "setup") else getattr(what, "scene", what)
+
+
 def odd(rng, method):
     what = request_class(method)()
     if rng.random() < 0.7:
         what.MergeFromString(rng.choice(seeds_of[method]))
         # A few odd values in a scene that is otherwise right get further than many.
-        part = what.scene if rng.random() < 0.5 else what
+        part = scene_of(what) if rng.random() < 0.5 else what
         other = type(part)()
         fill(rng, other, 2)
         for field, value in other.ListFields():
             if rng.random() < 0.3 and field.type != Field.TYPE_MESSAGE and field.label != Field.LABEL_REPEATED:
                 setattr(part, field.name, value)
-        oneof = part.WhichOneof("system") if hasattr(part, "system") or "scene" not in part.DESCRIPTOR.fields_by_name else None
+        oneof = part.WhichOneof("system") if "system" in part.DESCRIPTOR.oneofs_by_name else None
         if oneof:
             for field in getattr(part, oneof).DESCRIPTOR.fields:
                 if rng.random() < 0.2 and field.type == Field.TYPE_DOUBLE and field.label != Field.LABEL_REPEATED:
@@ -164,8 +179,9 @@ class Sender:
     def __init__(self, line):
         prefix = "/ricochet.v1.ImpactService/"
         self.calls = {
-            method: (line.unary_stream if streams else line.unary_unary)(prefix + method)
-            for method, streams in METHODS.items()}
+            method: (line.stream_stream if method in STREAMED else line.unary_stream if method in STREAMS
+                     else line.unary_unary)(prefix + method)
+            for method in WEIGHTS}
         self.room = threading.Semaphore(IN_FLIGHT)
         self.lock = threading.Lock()
         self.counts = collections.Counter()
@@ -173,8 +189,8 @@ class Sender:
 
     def send(self, method, data):
         self.room.acquire()  # pylint: disable=consider-using-with  # Released when the call has ended.
-        if METHODS[method]:
-            call = self.calls[method](data, timeout=DEADLINE_S)
+        if method in STREAMS:
+            call = self.calls[method](iter([data]) if method in STREAMED else data, timeout=DEADLINE_S)
             threading.Thread(target=self._read, args=(call, method, data), daemon=True).start()
         else:
             self.calls[method].future(data, timeout=DEADLINE_S).add_done_callback(
@@ -210,7 +226,7 @@ def bombard(name, make, share):
     """`share` is the part of all bad requests that are of this kind."""
     rng = tools().random(name)
     count = int((1000000 * tools().part if tools().soak else 10000) * share)
-    for method in METHODS:
+    for method in WEIGHTS:
         seeds_of[method] = [what.SerializeToString() for what in seeds(method)]
     with Server(log_level="error") as server, channel(server.address) as line:
         stub(line).Solve(cheap(), timeout=20)
