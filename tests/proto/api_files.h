@@ -7,17 +7,17 @@
 #include <google/protobuf/descriptor.pb.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <string>
 #include <vector>
+
+#include "proto/comments/commented_protos.h"
 
 namespace ricochet {
 
 // The files of package ricochet.v1 with their comments, as the build collects them.
 inline google::protobuf::FileDescriptorSet ProtosWithComments() {
-  std::ifstream stream(RICOCHET_DESCRIPTOR_SET, std::ios::binary);
   google::protobuf::FileDescriptorSet files;
-  EXPECT_TRUE(files.ParseFromIstream(&stream)) << RICOCHET_DESCRIPTOR_SET;
+  EXPECT_TRUE(files.ParseFromArray(kCommentedProtos, static_cast<int>(kCommentedProtosSize)));
   return files;
 }
 

@@ -7,6 +7,7 @@
 #include <google/protobuf/text_format.h>
 
 #include <cstdlib>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
