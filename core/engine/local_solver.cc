@@ -18,13 +18,15 @@
 #include "core/engine/check_solve.h"
 #include "core/engine/chunk_size.h"
 #include "core/engine/engine.h"
+#include "core/engine/helper_threads.h"
 #include "core/engine/info.h"
+#include "core/engine/sweep_run.h"
 #include "core/numerics/decimal.h"
+#include "core/numerics/invariant.h"
 #include "core/plan/demand_fields.h"
 #include "core/scene/validate.h"
 #include "core/study/audit_scene.h"
 #include "core/study/cost.h"
-#include "core/sweep/sweep_run.h"
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
 
@@ -86,6 +88,11 @@ absl::Status Answer(const SolveRequest& request, CallWatch& watch, SolveResponse
 }
 
 }  // namespace
+
+LocalSolver::LocalSolver(const Limits& limits, int threads)
+    : limits_(limits), helpers_(threads > 1 ? std::make_shared<HelperThreads>(threads - 1) : nullptr) {
+  CheckInvariant(threads >= 1, "a LocalSolver has at least one thread");
+}
 
 absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
   CallWatch watch(options);
@@ -198,7 +205,7 @@ absl::StatusOr<BatchResponse> LocalSolver::DoSolveBatch(const BatchSetup& setup,
 
 SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions& options) const {
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return SweepStream(too_large);
-  absl::StatusOr<SweepRun> made = SweepRun::Make(request);
+  absl::StatusOr<SweepRun> made = SweepRun::Make(request, options.helpers == nullptr ? helpers_ : options.helpers);
   if (!made.ok()) return SweepStream(made.status());
   if (absl::Status too_large = CheckPoints(made->points_total(), limits_); !too_large.ok()) {
     return SweepStream(too_large);

@@ -23,7 +23,8 @@ namespace ricochet {
 
 class DrivenScene {
  public:
-  // Resolves the path of each axis in a copy of the grid's scene, which the resolved fields then point into.
+  // Resolves the path of each axis in a copy of the grid's scene, which the resolved fields then point into. The grid
+  // must outlive this object.
   explicit DrivenScene(const Grid& grid);
   DrivenScene(const DrivenScene&) = delete;
   DrivenScene& operator=(const DrivenScene&) = delete;
@@ -48,7 +49,7 @@ class DrivenScene {
  private:
   void SetField(size_t k);
 
-  Grid grid_;
+  const Grid& grid_;
   Scene scene_;
   DrivenFields fields_;          // One an axis.
   bool has_relations_ = false;   // True if the scene has rules beyond those of single numbers.

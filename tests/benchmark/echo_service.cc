@@ -1,6 +1,6 @@
 #include "tests/benchmark/echo_service.h"
 
-#include "core/sweep/sweep_run.h"
+#include "core/engine/sweep_run.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet::bench {

@@ -81,8 +81,10 @@ double SweepOver(const Scene& scene, const std::vector<std::string>& columns) {
   request.grid.scene = scene;
   request.grid.axes = {{"friction.kinetic_coefficient", Linspace{0.05, 0.25, kPoints}}};
   request.columns = columns;
+  // Callgrind counts the instructions of one thread.
+  const LocalSolver solver(Limits::None(), 1);
   double last = 0.0;
-  for (const absl::StatusOr<SweepChunk>& chunk : LocalSolver().Sweep(request)) last = Value(chunk).values.back();
+  for (const absl::StatusOr<SweepChunk>& chunk : solver.Sweep(request)) last = Value(chunk).values.back();
   return last;
 }
 

@@ -9,8 +9,11 @@
 
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
+
+#include "ricochet/helpers.h"
 
 namespace ricochet {
 
@@ -24,6 +27,8 @@ struct CallOptions {
   // LocalSolver asks on the thread of the call; a Client asks before it sends the request and before each chunk of a
   // sweep. Empty: never asked.
   std::function<bool()> is_stopped = {};
+  // The threads that may help a sweep of a LocalSolver. Null: those of the solver. A Client has no use for them.
+  std::shared_ptr<Helpers> helpers = {};
 };
 
 }  // namespace ricochet

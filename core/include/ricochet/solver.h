@@ -10,6 +10,7 @@
 #define RICOCHET_SOLVER_H_
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@
 #include "ricochet/demand.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"
+#include "ricochet/helpers.h"
 #include "ricochet/info.h"
 #include "ricochet/limits.h"
 #include "ricochet/outcome.h"
@@ -210,12 +212,19 @@ class Solver {
   virtual absl::StatusOr<InfoResponse> DoInfo(const InfoRequest& request, const CallOptions& options) const = 0;
 };
 
-// LocalSolver is the Solver that runs in this process: it needs no server, thread or file. Copying it costs little.
+// LocalSolver is the Solver that runs in this process: it needs no server and no file. Copying it costs little.
+//
+// A call computes on the thread that makes it. A sweep that lasts longer than a millisecond is helped by other threads,
+// which the solver starts when it first needs them, shares with its copies, and ends with the last of them and of their
+// streams. Between two chunks helpers compute one chunk ahead, so that a stream holds a few chunks of 512 KiB at most,
+// and one more for every four helpers. The number of threads changes no bit of an answer.
 class LocalSolver final : public Solver {
  public:
   // Without limits it takes a request of any size, because the process that asks is the one that pays.
   LocalSolver() : LocalSolver(Limits::None()) {}
-  explicit LocalSolver(const Limits& limits) : limits_(limits) {}
+  // At most `threads` threads compute a sweep, the caller's own among them; with 1, no thread is ever started. The
+  // default is one for each core that this process may use. `threads` must be >= 1.
+  explicit LocalSolver(const Limits& limits, int threads = AvailableCores());
 
  private:
   absl::StatusOr<SolveResponse> DoSolve(const SolveRequest& request, const CallOptions& options) const override;
@@ -232,6 +241,7 @@ class LocalSolver final : public Solver {
   absl::StatusOr<InfoResponse> DoInfo(const InfoRequest& request, const CallOptions& options) const override;
 
   Limits limits_;
+  std::shared_ptr<Helpers> helpers_;
 };
 
 }  // namespace ricochet

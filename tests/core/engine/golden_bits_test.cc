@@ -20,13 +20,13 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/engine/sweep_run.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
 #include "core/numerics/stable_hash.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
 #include "core/sweep/column.h"
-#include "core/sweep/sweep_run.h"
 #include "hwy/targets.h"
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/solver.h"

@@ -1,6 +1,6 @@
 // SweepRun: points have the same bits whatever the range and the chunks, bad points are kept apart, stops are honoured.
 
-#include "core/sweep/sweep_run.h"
+#include "core/engine/sweep_run.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

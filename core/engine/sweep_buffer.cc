@@ -1,0 +1,68 @@
+#include "core/engine/sweep_buffer.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace ricochet {
+
+SweepBuffer::SweepBuffer(int64_t first, int64_t room, size_t columns, bool with_regimes)
+    : first_(first),
+      room_(room),
+      columns_(columns),
+      values_(static_cast<size_t>(room) * columns),
+      regimes_(with_regimes ? static_cast<size_t>(room) : 0),
+      untaken_({{0, room}}) {}
+
+std::optional<SweepBuffer::Block> SweepBuffer::Take(int64_t most) {
+  if (untaken_.empty()) return std::nullopt;
+  const auto [start, length] = *untaken_.begin();
+  untaken_.erase(untaken_.begin());
+  const int64_t count = std::min(most, length);
+  if (count < length) untaken_.emplace(start + count, length - count);
+  return Block{.first = first_ + start, .count = count};
+}
+
+void SweepBuffer::Places(const Block& block, std::vector<double*>& columns, absl::Span<Regime>& regimes) {
+  const int64_t start = block.first - first_;
+  columns.resize(columns_);
+  for (size_t c = 0; c < columns_; ++c) columns[c] = values_.data() + static_cast<int64_t>(c) * room_ + start;
+  if (!regimes_.empty()) {
+    regimes = absl::MakeSpan(regimes_).subspan(static_cast<size_t>(start), static_cast<size_t>(block.count));
+  }
+}
+
+void SweepBuffer::Finish(const Block& block, int64_t count, const SweepSummary& tallies) {
+  const int64_t start = block.first - first_;
+  if (count < block.count) untaken_.emplace(start + count, block.count - count);
+  computed_.emplace(start, Part{.count = count, .tallies = tallies});
+  while (!computed_.empty() && computed_.begin()->first == ready_) {
+    const Part& part = computed_.begin()->second;
+    ready_ += part.count;
+    ready_tallies_ = Joined(ready_tallies_, part.tallies);
+    computed_.erase(computed_.begin());
+  }
+}
+
+SweepChunk SweepBuffer::Leave(SweepSummary& tallies) {
+  SweepChunk chunk = {.first_index = first_ + left_, .count = ready_ - left_};
+  if (chunk.count == room_) {
+    chunk.values = std::move(values_);
+    chunk.regimes = std::move(regimes_);
+  } else {
+    CopyReady(chunk);
+  }
+  left_ = ready_;
+  tallies = Joined(tallies, std::exchange(ready_tallies_, {}));
+  return chunk;
+}
+
+void SweepBuffer::CopyReady(SweepChunk& chunk) const {
+  chunk.values.reserve(static_cast<size_t>(chunk.count) * columns_);
+  for (size_t c = 0; c < columns_; ++c) {
+    const auto column = values_.begin() + static_cast<int64_t>(c) * room_;
+    chunk.values.insert(chunk.values.end(), column + left_, column + ready_);
+  }
+  if (!regimes_.empty()) chunk.regimes.assign(regimes_.begin() + left_, regimes_.begin() + ready_);
+}
+
+}  // namespace ricochet

@@ -1,0 +1,73 @@
+// SweepBuffer: the values of consecutive points of a sweep, which several threads fill in any order and which leave in
+// the order of the points.
+
+#ifndef RICOCHET_CORE_ENGINE_SWEEP_BUFFER_H_
+#define RICOCHET_CORE_ENGINE_SWEEP_BUFFER_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "absl/types/span.h"
+#include "ricochet/outcome.h"
+#include "ricochet/sweep.h"
+
+namespace ricochet {
+
+// Thread safety: one thread at a time; but several threads may write to the places of different blocks.
+class SweepBuffer {
+ public:
+  // Points [first, first + count) of the grid.
+  struct Block {
+    int64_t first = 0;
+    int64_t count = 0;
+  };
+
+  // Room for `room` >= 1 points from `first` on, with `columns` values each.
+  SweepBuffer(int64_t first, int64_t room, size_t columns, bool with_regimes);
+
+  // Takes the first points that nobody has taken yet, at most `most` of them; nothing if there are none.
+  std::optional<Block> Take(int64_t most);
+
+  bool has_untaken() const { return !untaken_.empty(); }
+  bool Contains(const Block& block) const { return block.first >= first_ && block.first < first_ + room_; }
+
+  // The places of a block: that of its first value in each column, and those of its regimes.
+  void Places(const Block& block, std::vector<double*>& columns, absl::Span<Regime>& regimes);
+
+  // Says that the first `count` points of a block that was taken are computed. The rest may be taken again.
+  void Finish(const Block& block, int64_t count, const SweepSummary& tallies);
+
+  bool is_complete() const { return ready_ == room_; }
+  // True if the next point to leave is computed.
+  bool has_ready() const { return ready_ > left_; }
+
+  // Moves all points that can leave now into a chunk: its index, count, values and regimes. Adds them to `tallies`.
+  SweepChunk Leave(SweepSummary& tallies);
+
+ private:
+  struct Part {
+    int64_t count = 0;
+    SweepSummary tallies;
+  };
+  // Copies the points [left_, ready_).
+  void CopyReady(SweepChunk& chunk) const;
+
+  const int64_t first_;
+  const int64_t room_;
+  const size_t columns_;
+  std::vector<double> values_;  // Column after column, with room_ values each.
+  std::vector<Regime> regimes_;
+  // Points by their distance from first_.
+  std::map<int64_t, int64_t> untaken_;  // Runs of points: where each starts, and its length.
+  std::map<int64_t, Part> computed_;    // Blocks behind one that is not computed yet.
+  int64_t ready_ = 0;                   // Every point before this one is computed.
+  int64_t left_ = 0;                    // Every point before this one has left.
+  SweepSummary ready_tallies_;          // Those of the points that can leave.
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_ENGINE_SWEEP_BUFFER_H_

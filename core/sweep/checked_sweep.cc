@@ -1,0 +1,86 @@
+#include "core/sweep/checked_sweep.h"
+
+#include <algorithm>
+#include <functional>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/plan/demand_fields.h"
+#include "core/problem/scene_problem.h"
+#include "core/scene/validate.h"
+#include "core/sweep/column.h"
+#include "core/sweep/driven_scene.h"
+#include "core/sweep/grid.h"
+#include "ricochet/error.h"
+
+namespace ricochet {
+namespace {
+
+std::vector<Violation> CheckRange(const SweepRequest& request) {
+  const int64_t points = PointCount(request.grid);
+  const int64_t end = request.end_index.value_or(points);
+  std::vector<Violation> violations;
+  if (end < 0 || end > points) {
+    violations.push_back({"end_index", absl::StrCat("= ", end, ": must be in [0, ", points, "], the grid's points")});
+  } else if (request.first_index < 0 || request.first_index > end) {
+    violations.push_back(
+        {"first_index", absl::StrCat("= ", request.first_index, ": must be in [0, end_index = ", end, "]")});
+  }
+  return violations;
+}
+
+void Append(std::vector<Violation> more, std::vector<Violation>& violations) {
+  std::move(more.begin(), more.end(), std::back_inserter(violations));
+}
+
+// Decides how the columns are computed. `scene` is that of any point.
+void ResolveColumns(const Scene& scene, const std::vector<std::string>& columns, const ColumnPositions& known,
+                    CheckedSweep& sweep) {
+  sweep.columns = columns.size();
+  sweep.in_lanes = HasClosedForm(scene) && !scene.compliance.has_value() &&
+                   std::all_of(columns.begin(), columns.end(),
+                               [](const std::string& column) { return PendulumColumn(column).has_value(); });
+  for (const std::string& column : columns) {
+    if (sweep.in_lanes) {
+      sweep.outputs.push_back(*PendulumColumn(column));
+    } else {
+      sweep.positions.push_back(known.at(column));
+    }
+  }
+}
+
+}  // namespace
+
+absl::StatusOr<CheckedSweep> CheckSweep(const SweepRequest& request) {
+  const DrivenScene driven(request.grid);
+  const Scene& scene = driven.scene();
+  std::optional<SceneContact> contact;
+  const auto stays = [&driven](const Violation& violation) { return !driven.CanBeCured(violation); };
+  std::vector<Violation> violations = Validate(scene, RestitutionIs::kRequired, contact, stays);
+  if (violations.empty()) {
+    violations = CheckDemand(scene, contact, request.demand);
+    std::erase_if(violations, std::not_fn(stays));
+  }
+  Append(driven.violations(), violations);
+  const std::vector<Violation> axes = ValidateAxes(request.grid);
+  Append(axes, violations);
+  const std::vector<std::string> all = Columns(scene);
+  const ColumnPositions known = PositionsOf(all);
+  Append(CheckColumns(request.columns, all, known), violations);
+  if (axes.empty()) Append(CheckRange(request), violations);
+  if (!violations.empty()) return InvalidRequest(violations);
+
+  CheckedSweep sweep = {.grid = request.grid,
+                        .demand = ToDemand(request.demand),
+                        .with_regime = request.with_regime,
+                        .first = request.first_index,
+                        .end = request.end_index.value_or(PointCount(request.grid))};
+  ResolveColumns(scene, request.columns, known, sweep);
+  return sweep;
+}
+
+}  // namespace ricochet

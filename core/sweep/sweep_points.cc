@@ -1,0 +1,169 @@
+#include "core/sweep/sweep_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "core/answer/scene_outcome.h"
+#include "core/contact/reduction.h"
+#include "core/models/pendulum/first_order.h"
+#include "core/numerics/invariant.h"
+#include "core/plan/planned_scene.h"
+#include "core/problem/scene_problem.h"
+#include "core/sweep/column.h"
+
+namespace ricochet {
+namespace {
+
+void Add(int64_t index, Tally& tally) {
+  if (tally.count++ == 0) tally.first_index = index;
+}
+
+absl::Status Stopped() { return absl::CancelledError("the sweep was stopped by its caller"); }
+
+}  // namespace
+
+SweepPoints::SweepPoints(const CheckedSweep& sweep)
+    : sweep_(sweep),
+      driven_(sweep.grid),
+      regimes_(kMostPoints),
+      models_(kMostPoints),
+      valid_(std::make_unique<bool[]>(kMostPoints)),
+      inadmissible_(std::make_unique<bool[]>(kMostPoints)),
+      columns_(sweep.columns) {
+  if (sweep.in_lanes) problems_ = pendulum::ProblemColumns(pendulum::MakeProblem(driven_.scene()).law, kMostPoints);
+}
+
+absl::StatusOr<int64_t> SweepPoints::Compute(int64_t first, int64_t count, absl::Span<double* const> columns,
+                                             absl::Span<Regime> regimes, SweepSummary& tallies,
+                                             absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough) {
+  if (stopped()) return Stopped();
+  if (at_ != first) driven_.GoTo(first);
+  at_ = -1;  // Unknown until the block is complete.
+  columns_.assign(columns.begin(), columns.end());
+  if (sweep_.in_lanes) {
+    SolveLanes(count);
+  } else {
+    const absl::StatusOr<int64_t> solved = SolvePoints(count, stopped, is_enough);
+    if (!solved.ok()) return solved;
+    count = *solved;
+  }
+  at_ = first + count;
+  FinishBlock(first, count, tallies);
+  if (!regimes.empty()) std::copy_n(regimes_.begin(), count, regimes.begin());
+  return count;
+}
+
+absl::StatusOr<int64_t> SweepPoints::SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped,
+                                                 absl::FunctionRef<bool()> is_enough) {
+  for (int64_t i = 0; i < count; ++i) {
+    if (i > 0 && is_enough()) return i;
+    if (i > 0 && stopped()) return Stopped();
+    if (!SolvePoint(static_cast<size_t>(i), stopped)) return Stopped();
+    driven_.Advance();
+  }
+  return count;
+}
+
+// Returns false if it was stopped.
+bool SweepPoints::SolvePoint(size_t i, absl::FunctionRef<bool()> stopped) {
+  std::optional<SceneContact> contact;
+  valid_[i] = driven_.IsValid(contact);
+  if (!valid_[i]) return true;
+  Outcome outcome;
+  const absl::Status status = SolveScene(
+      driven_.scene(), contact, {.extent = {.detail = Detail::kNumbers}, .demand = sweep_.demand}, stopped, outcome);
+  if (absl::IsCancelled(status)) return false;
+  valid_[i] = status.ok();
+  if (!valid_[i]) return true;
+  regimes_[i] = outcome.regime;
+  models_[i] = outcome.plan.model;
+  inadmissible_[i] = !outcome.admissible;
+  ReadColumns(outcome, numbers_);
+  for (size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = numbers_[sweep_.positions[c]];
+  return true;
+}
+
+// Solves each run of points whose plans agree by the model that they call for.
+void SweepPoints::SolveLanes(int64_t count) {
+  const auto is_exact = [this](size_t i) { return models_[i] == Model::kPendulum || models_[i] == Model::kNone; };
+  const auto size = static_cast<size_t>(count);
+  GatherProblems(count);
+  for (size_t first = 0, end = 0; first < size; first = end) {
+    while (end < size && is_exact(end) == is_exact(first)) ++end;
+    if (is_exact(first)) {
+      SolveInLanes(first, end - first);
+    } else {
+      SolveToFirstOrder(first, end - first);
+    }
+  }
+}
+
+void SweepPoints::GatherProblems(int64_t count) {
+  std::optional<SceneContact> contact;
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    valid_[i] = driven_.IsValid(contact);
+    pendulum::Problem problem = {.omega_minus = 1.0, .law = problems_.law()};  // Separating costs least to solve.
+    if (valid_[i]) problem = ClosedFormProblem(driven_.scene());
+    problems_.Set(i, PlanPendulum(i, problem));
+    driven_.Advance();
+  }
+}
+
+// Chooses the model of the i-th problem and returns what it is to solve. A demand that is a tolerance alone, as most are,
+// takes a plan that costs less than the point.
+pendulum::Problem SweepPoints::PlanPendulum(size_t i, pendulum::Problem problem) {
+  if (sweep_.demand.required.IsEmpty() && sweep_.demand.excluded.IsEmpty()) {
+    models_[i] = ModelOfPendulum(problem, sweep_.demand.relative_tolerance);
+    if (models_[i] == Model::kFrictionless) problem.mu = problem.mu_static = 0.0;
+    return problem;
+  }
+  const Choice choice = ChoosePendulum(problem, {}, sweep_.demand);
+  models_[i] = choice.model;
+  CheckInvariant(choice.model != Model::kPendulum || choice.negligible == 0.0,
+                 "the closed form of a rigid pendulum neglects nothing");
+  return Without(choice, problem);
+}
+
+// These models neglect nothing, so that the whole tolerance is left for rounding.
+void SweepPoints::SolveInLanes(size_t first, size_t count) {
+  std::vector<double*> columns = columns_;
+  for (double*& column : columns) column += first;
+  pendulum::SolveColumns(problems_, first, count, sweep_.demand.relative_tolerance,
+                         {.outputs = sweep_.outputs,
+                          .columns = columns,
+                          .regimes = absl::MakeSpan(regimes_).subspan(first, count),
+                          .inadmissible = absl::MakeSpan(inadmissible_.get() + first, count)});
+}
+
+void SweepPoints::SolveToFirstOrder(size_t first, size_t count) {
+  for (size_t i = first; i < first + count; ++i) {
+    const pendulum::Problem problem = problems_[i];
+    const first_order::Approximation approximation = first_order::Approximate(problem);
+    for (size_t c = 0; c < columns_.size(); ++c) {
+      columns_[c][i] = first_order::Value(problem, approximation, sweep_.outputs[c]);
+    }
+    regimes_[i] = first_order::RegimeOf(problem);
+    inadmissible_[i] = false;
+  }
+}
+
+// Overwrites bad points and tallies all of them.
+void SweepPoints::FinishBlock(int64_t first, int64_t count, SweepSummary& tallies) {
+  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+    const auto is_finite = [i](const double* column) { return std::isfinite(column[i]); };
+    if (!valid_[i] || !std::all_of(columns_.begin(), columns_.end(), is_finite)) {
+      regimes_[i] = Regime::kInvalid;
+      inadmissible_[i] = false;
+      for (double* column : columns_) column[i] = std::numeric_limits<double>::quiet_NaN();
+    }
+    const int64_t index = first + static_cast<int64_t>(i);
+    Add(index, tallies.by_regime[static_cast<size_t>(regimes_[i])]);
+    if (inadmissible_[i]) Add(index, tallies.inadmissible);
+    if (regimes_[i] != Regime::kInvalid) Add(index, tallies.by_model[static_cast<size_t>(models_[i])]);
+  }
+  tallies.points += count;
+}
+
+}  // namespace ricochet
