@@ -51,7 +51,7 @@ Server::Server(const Options& options, std::shared_ptr<Auth> auth, const Log& lo
     : options_(options),
       log_(log),
       auth_(std::move(auth)),
-      solver_(options.limits),
+      solver_(options.limits, 1),
       places_(options.places),
       drain_(options.drain_grace, options.drain_timeout),
       gate_(options.compute_threads, options.max_waiting_calls, drain_.stops().streams),

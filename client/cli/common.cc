@@ -40,10 +40,17 @@ absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {
   return ClientOptionsOf(*connection);
 }
 
-absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options) {
+absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads) {
   const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
   if (!connection.ok()) return connection.status();
-  if (connection->server.empty()) return std::make_unique<LocalSolver>();
+  if (connection->server.empty()) {
+    return std::make_unique<LocalSolver>(Limits::None(), threads.value_or(AvailableCores()));
+  }
+  if (threads.has_value()) {
+    return InputError(
+        "--threads", absl::StrCat(*threads),
+        absl::StrCat("not be given with the server ", connection->server, ", which computes with threads of its own"));
+  }
   const absl::StatusOr<ClientOptions> client_options = ClientOptionsOf(*connection);
   if (!client_options.ok()) return client_options.status();
   absl::StatusOr<Client> client = Client::Connect(*client_options);

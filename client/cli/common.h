@@ -6,6 +6,7 @@
 #include <CLI/App.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
@@ -36,8 +37,9 @@ void AddOutputOptions(CLI::App& app, CommonOptions& options);
 // Returns the options of a client of the server that is named. Errors: INVALID_ARGUMENT, also if none is named.
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options);
 
-// Returns a LocalSolver, or a Client if a server is given. Errors: INVALID_ARGUMENT.
-absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options);
+// Returns a LocalSolver, or a Client if a server is given. `threads` are those of the LocalSolver, >= 1; absent: one for
+// each core. Errors: INVALID_ARGUMENT, also for threads beside a server.
+absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads = {});
 
 // Writes `text` to the output that the options name. Errors: those of Output.
 absl::Status WriteOutput(const CommonOptions& options, const std::string& text);

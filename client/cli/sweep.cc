@@ -10,6 +10,7 @@
 #include "client/cli/axis_input.h"
 #include "client/cli/demand_input.h"
 #include "client/cli/interrupt.h"
+#include "client/cli/number_input.h"
 #include "client/cli/output.h"
 #include "client/cli/progress.h"
 #include "client/cli/resume_command.h"
@@ -47,6 +48,7 @@ struct SweepOptions {
   bool regime = false;
   bool summary_only = false;
   std::string plot;
+  std::string threads;
   bool resume = false;
   std::vector<std::string> arguments;  // The command line of this run.
 };
@@ -181,6 +183,17 @@ absl::Status Receive(const Solver& solver, const SweepRequest& request, const Sw
   return status;
 }
 
+// Nothing leaves the number to the solver.
+absl::StatusOr<std::optional<int>> ReadThreads(const std::string& text) {
+  constexpr int64_t kMost = 1024;
+  if (text.empty()) return std::nullopt;
+  const absl::StatusOr<int64_t> threads = ParseCount(text, "--threads");
+  if (!threads.ok() || *threads < 1 || *threads > kMost) {
+    return InputError("--threads", text, absl::StrCat("be a whole number from 1 to ", kMost));
+  }
+  return static_cast<int>(*threads);
+}
+
 bool Asks(const std::vector<std::string>& values) { return values == std::vector<std::string>{"?"}; }
 
 absl::Status List(const std::vector<std::string>& names) {
@@ -203,9 +216,11 @@ absl::Status RunSweep(const SweepOptions& options) {
   if (!options.plot.empty()) {
     if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
   }
-  // This comes before the solver, whose connection starts threads.
+  const absl::StatusOr<std::optional<int>> threads = ReadThreads(options.threads);
+  if (!threads.ok()) return threads.status();
+  // This comes before the solver, which starts threads.
   const Interrupt interrupt;
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common, *threads);
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<SweepRequest> request =
       options.request.empty() ? RequestFromFlags(options) : RequestFromFile(options);
@@ -247,6 +262,9 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   AddGridOptions(*sub, *options);
   AddDemandOptions(*sub, options->demand);
   sub->add_flag("--summary-only", options->summary_only, "Compute every point, but print only the summary");
+  sub->add_option("--threads", options->threads,
+                  "Compute with at most N threads, which changes no result [the number of cores]; not with --server")
+      ->type_name("N");
   sub->add_option("--plot", options->plot, "Draw curves over the last axis with gnuplot")->type_name("FILE.svg|.png");
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);
