@@ -56,24 +56,27 @@ Scene LinkageScene() {
   return With(std::move(linkage), 0.3);
 }
 
+// Callgrind counts the instructions of one thread.
+LocalSolver OneThread() { return LocalSolver(Limits::None(), 1); }
+
 double Solve(const Scene& scene) {
   SolveRequest request;
   request.scene = scene;
-  return Value(LocalSolver().Solve(request)).outcome.contact_velocity_after.normal_m_s;
+  return Value(OneThread().Solve(request)).outcome.contact_velocity_after.normal_m_s;
 }
 
 double Certify() {
   SolveRequest request;
   request.scene = ContactScene();
   request.certified_digits = 50;
-  return Value(LocalSolver().Solve(request)).outcome.contact_velocity_after.normal_m_s;
+  return Value(OneThread().Solve(request)).outcome.contact_velocity_after.normal_m_s;
 }
 
 double Enclose() {
   BoundsRequest request;
   request.scene = ContactScene();
   request.ranges = {{"friction.kinetic_coefficient", 0.45, 0.55}};
-  return Value(LocalSolver().Bounds(request)).bounds.sharp.newton.upper;
+  return Value(OneThread().Bounds(request)).bounds.sharp.newton.upper;
 }
 
 double SweepOver(const Scene& scene, const std::vector<std::string>& columns) {
@@ -81,10 +84,8 @@ double SweepOver(const Scene& scene, const std::vector<std::string>& columns) {
   request.grid.scene = scene;
   request.grid.axes = {{"friction.kinetic_coefficient", Linspace{0.05, 0.25, kPoints}}};
   request.columns = columns;
-  // Callgrind counts the instructions of one thread.
-  const LocalSolver solver(Limits::None(), 1);
   double last = 0.0;
-  for (const absl::StatusOr<SweepChunk>& chunk : solver.Sweep(request)) last = Value(chunk).values.back();
+  for (const absl::StatusOr<SweepChunk>& chunk : OneThread().Sweep(request)) last = Value(chunk).values.back();
   return last;
 }
 
@@ -95,7 +96,7 @@ double AuditRows() {
     request.columns.tangential_after_m_s.push_back(0.1);
     request.columns.normal_after_m_s.push_back(0.002 * static_cast<double>(i));
   }
-  return static_cast<double>(Value(LocalSolver().AuditBatch(request)).reports.size());
+  return static_cast<double>(Value(OneThread().AuditBatch(request)).reports.size());
 }
 
 const std::vector<Work>& Works() {
@@ -119,7 +120,7 @@ const std::vector<Work>& Works() {
        [] {
          PlanRequest request;
          request.scene = SpaceScene();
-         return Value(LocalSolver().Plan(request)).plan.neglected;
+         return Value(OneThread().Plan(request)).plan.neglected;
        }},
   };
   return works;
