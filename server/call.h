@@ -8,6 +8,7 @@
 #include <grpcpp/support/status.h>
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -65,6 +66,9 @@ class Call {
   // Returns the options of the solver's call. It ends at the client's deadline, at the server's limit of time, when the
   // client cancels or vanishes, and when the drain asks for it. This object must outlive them.
   CallOptions options() const;
+
+  // Returns the threads that may help a sweep of this call.
+  std::shared_ptr<Helpers> helpers() const { return frame_.gate.HelpersFor(peer_key_); }
 
   // Does the work when it is this call's turn, and returns OK; or returns the error for which it was not done. `cost` is
   // absent for a part of a stream.

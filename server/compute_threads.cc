@@ -6,13 +6,10 @@
 
 #include <exception>
 #include <future>
+#include <memory>
+#include <utility>
 
 namespace ricochet::server {
-
-struct ComputeThreads::Task {
-  absl::FunctionRef<void()> work;
-  std::promise<void> done;
-};
 
 ComputeThreads::ComputeThreads(int threads, int nicer) {
   for (int i = 0; i < threads; ++i) threads_.emplace_back([this, nicer] { Serve(nicer); });
@@ -28,14 +25,26 @@ ComputeThreads::~ComputeThreads() {
 }
 
 void ComputeThreads::Run(absl::FunctionRef<void()> work) {
-  Task task{.work = work, .done = {}};
-  std::future<void> done = task.done.get_future();
+  // Shared, because this function may have returned before the other thread has left set_value.
+  const auto done = std::make_shared<std::promise<void>>();
+  std::future<void> ended = done->get_future();
+  Start([work, done] {
+    try {
+      work();
+      done->set_value();
+    } catch (...) {
+      done->set_exception(std::current_exception());
+    }
+  });
+  ended.get();
+}
+
+void ComputeThreads::Start(std::function<void()> work) {
   {
     const std::lock_guard lock(mutex_);
-    tasks_.push_back(&task);
+    tasks_.push_back(std::move(work));
   }
   changed_.notify_one();
-  done.get();
 }
 
 void ComputeThreads::Serve(int nicer) {
@@ -46,17 +55,11 @@ void ComputeThreads::Serve(int nicer) {
   for (;;) {
     changed_.wait(lock, [this] { return stopping_ || !tasks_.empty(); });
     if (tasks_.empty()) return;
-    Task& task = *tasks_.front();
+    std::function<void()> task = std::move(tasks_.front());
     tasks_.pop_front();
     lock.unlock();
-    // The promise is moved here because its task is gone as soon as the result is set.
-    std::promise<void> done = std::move(task.done);
-    try {
-      task.work();
-      done.set_value();
-    } catch (...) {
-      done.set_exception(std::current_exception());
-    }
+    task();
+    task = nullptr;
     lock.lock();
   }
 }

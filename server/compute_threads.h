@@ -9,6 +9,7 @@
 
 #include <condition_variable>
 #include <deque>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -30,13 +31,15 @@ class ComputeThreads {
   // is thrown here.
   void Run(absl::FunctionRef<void()> work);
 
+  // Has the work done by one of the threads, once one is free, and returns at once. `work` must not throw.
+  void Start(std::function<void()> work);
+
  private:
-  struct Task;
   void Serve(int nicer);
 
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Task*> tasks_;
+  std::deque<std::function<void()>> tasks_;
   bool stopping_ = false;
   std::vector<std::thread> threads_;
 };

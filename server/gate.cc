@@ -1,8 +1,7 @@
 #include "server/gate.h"
 
-#include <algorithm>
 #include <limits>
-#include <thread>
+#include <memory>
 #include <utility>
 
 namespace ricochet::server {
@@ -45,10 +44,21 @@ class Leaving {
 
 }  // namespace
 
-int AvailableCores() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+class Gate::SweepHelpers final : public Helpers {
+ public:
+  SweepHelpers(Gate& gate, std::string peer) : gate_(gate), peer_(std::move(peer)) {}
+
+  int most() const override { return static_cast<int>(gate_.threads_) - 1; }
+  bool Start(Help help) override { return gate_.StartHelp(peer_, std::move(help)); }
+
+ private:
+  Gate& gate_;
+  const std::string peer_;
+};
 
 Gate::Gate(int threads, int most_waiting, std::stop_token drain)
-    : cheap_(kCheapSlotsPerCore * threads, kUnlimited),
+    : threads_(static_cast<size_t>(threads)),
+      cheap_(kCheapSlotsPerCore * threads, kUnlimited),
       dear_(threads, static_cast<size_t>(most_waiting)),
       streams_(threads, kUnlimited),
       dear_threads_(threads, kDearIsNicer),
@@ -81,6 +91,32 @@ absl::Status Gate::Compute(const Turn& turn, absl::FunctionRef<void()> work) {
     (is_stream ? stream_threads_ : dear_threads_).Run(work);
   }
   return absl::OkStatus();
+}
+
+std::shared_ptr<Helpers> Gate::HelpersFor(std::string peer) {
+  return std::make_shared<SweepHelpers>(*this, std::move(peer));
+}
+
+bool Gate::IsFull(size_t helpers) const {
+  if (dear_.waiting() + streams_.waiting() > 0) return true;
+  return dear_.computing() + streams_.computing() + 1 > threads_ + helpers;
+}
+
+bool Gate::StartHelp(const std::string& peer, Helpers::Help help) {
+  if (IsFull(0)) return false;
+  struct Visit {
+    Lane::Visitor visitor;
+    Helpers::Help help;
+  };
+  const auto visit = std::make_shared<Visit>();
+  visit->visitor.peer = peer;
+  visit->help = std::move(help);
+  if (!streams_.TryEnter(visit->visitor)) return false;
+  stream_threads_.Start([this, visit] {
+    visit->help([this] { return IsFull(1); });
+    streams_.Leave(visit->visitor);
+  });
+  return true;
 }
 
 }  // namespace ricochet::server

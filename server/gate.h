@@ -11,21 +11,20 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
+#include "ricochet/helpers.h"
 #include "server/compute_threads.h"
 #include "server/lane.h"
 #include "server/request_cost.h"
 #include "server/service_times.h"
 
 namespace ricochet::server {
-
-// The number of cores that this process may use, >= 1.
-int AvailableCores();
 
 // Turn: a call's request to the gate.
 struct Turn {
@@ -48,11 +47,22 @@ class Gate {
   // An exception that `work` throws is thrown here.
   absl::Status Compute(const Turn& turn, absl::FunctionRef<void()> work);
 
-  // Calls of all kinds that wait or compute now.
+  // Returns helpers for a sweep of a peer. A helper takes a slot for parts of streams, and its time counts as its peer's.
+  // It gets one only while fewer dear calls and parts of streams compute than there are threads and none waits, and
+  // gives it back once that no longer holds. The gate must outlive the helpers.
+  std::shared_ptr<Helpers> HelpersFor(std::string peer);
+
+  // Calls of all kinds that wait or compute now. A helper counts as one that computes.
   size_t waiting() const { return cheap_.waiting() + dear_.waiting() + streams_.waiting(); }
   size_t computing() const { return cheap_.computing() + dear_.computing() + streams_.computing(); }
 
  private:
+  class SweepHelpers;
+  // True if the calls that compute or wait leave no thread for a helper, of whom `helpers` compute now.
+  bool IsFull(size_t helpers) const;
+  bool StartHelp(const std::string& peer, Helpers::Help help);
+
+  const size_t threads_;
   Lane cheap_;
   Lane dear_;
   Lane streams_;

@@ -34,6 +34,14 @@ absl::Status Lane::Enter(Visitor& visitor, absl::FunctionRef<bool()> is_gone) {
   return ended;
 }
 
+bool Lane::TryEnter(Visitor& visitor) {
+  const std::lock_guard lock(mutex_);
+  if (closed_ || computing_.size() >= slots_ || queue_.size() > 0) return false;
+  queue_.Add(visitor);
+  LetIn();
+  return true;
+}
+
 double Lane::Leave(Visitor& visitor) {
   const std::lock_guard lock(mutex_);
   const double computed_s = Seconds(Clock::now() - visitor.started).count();

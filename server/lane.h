@@ -43,6 +43,9 @@ class Lane {
   // Errors: RESOURCE_EXHAUSTED with kOverloaded, DEADLINE_EXCEEDED, CANCELLED, and UNAVAILABLE with kDraining.
   absl::Status Enter(Visitor& visitor, absl::FunctionRef<bool()> is_gone);
 
+  // Takes a slot if one is free and no call waits, and returns whether it did. Every true must be followed by Leave.
+  bool TryEnter(Visitor& visitor);
+
   // Frees the slot of the visitor. Returns the seconds that it has computed.
   double Leave(Visitor& visitor);
 

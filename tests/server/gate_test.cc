@@ -10,6 +10,7 @@
 #include <atomic>
 #include <chrono>
 #include <future>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <string>
@@ -233,6 +234,69 @@ TEST_F(GateTest, ADrainTurnsAwayCallsThatWaitAndNewOnes) {
   for (const RequestCost& cost : {kCheap, kDear}) {
     EXPECT_EQ(ReasonOf(gate_.Compute(TurnOf("a", cost), [] { FAIL() << "it was computed"; })), ErrorReason::kDraining);
   }
+}
+
+// A help that goes on until it is asked to give way.
+class EndlessHelp {
+ public:
+  bool StartIn(Helpers& helpers) {
+    return helpers.Start([this](absl::FunctionRef<bool()> gives_way) {
+      nice_ = getpriority(PRIO_PROCESS, 0);
+      helps_ = true;
+      while (!gives_way() && !ended_) std::this_thread::sleep_for(milliseconds(1));
+      helps_ = false;
+    });
+  }
+  ~EndlessHelp() {
+    ended_ = true;
+    EXPECT_TRUE(Eventually([this] { return !helps_; }));
+  }
+  bool helps() const { return helps_; }
+  int nice() const { return nice_; }
+
+ private:
+  std::atomic<bool> helps_ = false;
+  std::atomic<bool> ended_ = false;
+  std::atomic<int> nice_ = 0;
+};
+
+TEST_F(GateTest, AHelperComputesAtTheLowestPriorityInASlotThatNoCallWants) {
+  std::stop_source drain;
+  Gate gate(2, 10, drain.get_token());
+  const std::shared_ptr<Helpers> helpers = gate.HelpersFor("a");
+  EXPECT_EQ(helpers->most(), 1);
+  const Holder stream(gate, std::nullopt);
+  EndlessHelp help;
+  ASSERT_TRUE(help.StartIn(*helpers));
+  EXPECT_TRUE(Eventually([&] { return help.helps(); }));
+  EXPECT_GT(help.nice(), getpriority(PRIO_PROCESS, 0));
+  EXPECT_EQ(gate.computing(), 2U);
+  EndlessHelp another;
+  EXPECT_FALSE(another.StartIn(*helpers));
+}
+
+TEST_F(GateTest, AHelperGivesWayToEveryOtherCall) {
+  for (const std::optional<RequestCost> cost : {std::optional<RequestCost>(), std::optional<RequestCost>(kDear)}) {
+    std::stop_source drain;
+    Gate gate(2, 10, drain.get_token());
+    const std::shared_ptr<Helpers> helpers = gate.HelpersFor("a");
+    const Holder stream(gate, std::nullopt);
+    EndlessHelp help;
+    ASSERT_TRUE(help.StartIn(*helpers));
+    EXPECT_TRUE(Eventually([&] { return help.helps(); }));
+    const Holder call(gate, cost);
+    EXPECT_TRUE(Eventually([&] { return !help.helps(); }));
+    EXPECT_TRUE(Eventually([&] { return gate.computing() == 2; }));
+    EXPECT_FALSE(help.StartIn(*helpers));
+  }
+}
+
+TEST_F(GateTest, NoHelperStartsOnceADrainHas) {
+  std::stop_source drain;
+  Gate gate(2, 10, drain.get_token());
+  drain.request_stop();
+  EndlessHelp help;
+  EXPECT_FALSE(help.StartIn(*gate.HelpersFor("a")));
 }
 
 TEST_F(GateTest, ExceptionIsPassedOnAndItsSlotIsFree) {
