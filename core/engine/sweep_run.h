@@ -48,10 +48,11 @@ class SweepRun {
   bool ended() const;            // True once the last chunk has been made.
 
   // Gives the next chunk: a small first one, then up to `most_bytes` of values each, in [1, kChunkBytes], but at least
-  // one point; one that helpers have begun keeps the size that was asked for then. It ends early, but not before its first point, once `is_enough` says that it took long enough; no point depends on that. The last chunk has the summary; a
-  // range without points has that one chunk. The engine is left to the caller. Not to be called once the run has ended.
-  // Both functions are asked on this thread alone: once a chunk at least, before every kPointsBetweenStops points of
-  // SIMD lanes that it computes, before each other point, and every millisecond in which it waits for helpers.
+  // one point. It ends early, but not before its first point, once `is_enough` says that it took long enough; no point
+  // depends on that. The last chunk has the summary; a range without points has that one chunk. The engine is left to
+  // the caller. Not to be called once the run has ended. Both functions are asked on this thread alone: once a chunk at
+  // least, before every kPointsBetweenStops points of SIMD lanes that it computes, before each other point, and every
+  // millisecond in which it waits for helpers.
   // Errors: CANCELLED once `stopped` returns true; the run must not be used any more. An exception that a helper meets
   // is thrown here.
   absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough,
