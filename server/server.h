@@ -66,7 +66,7 @@ class Server {
   const Options options_;
   const Log& log_;
   const std::shared_ptr<Auth> auth_;  // Null unless there are tokens.
-  LocalSolver solver_;  // It has no threads of its own, so that the gate alone decides who computes.
+  LocalSolver solver_;                // It has no threads of its own, so that the gate alone decides who computes.
   Places places_;
   Drain drain_;
   Gate gate_;
