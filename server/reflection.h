@@ -9,16 +9,18 @@
 #include <memory>
 
 #include "absl/status/statusor.h"
+#include "grpc/health/v1/health.grpc.pb.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "server/endpoint.h"
+#include "server/reflection_service.h"
 
 namespace ricochet::server {
 
 class Reflection {
  public:
-  // Opens the endpoint, within small limits of its own in place of those of `settings`. It serves reflection and health;
-  // the methods of ricochet.v1.ImpactService are described, but a call of one gets UNIMPLEMENTED. `log` must outlive the
-  // object.
+  // Opens the endpoint, within small limits of its own in place of those of `settings`. It serves health, and reflection by
+  // version 1 of its protocol and by v1alpha, which older clients ask for. The methods of ricochet.v1.ImpactService are
+  // described, but a call of one gets UNIMPLEMENTED. `log` must outlive the object.
   // Errors: UNAVAILABLE if it cannot listen.
   static absl::StatusOr<std::unique_ptr<Reflection>> Open(Endpoint::Settings settings, const Log& log);
 
@@ -28,6 +30,9 @@ class Reflection {
   Reflection() = default;
 
   v1::ImpactService::Service described_;
+  ReflectionService version_1_{{v1::ImpactService::service_full_name(), grpc::health::v1::Health::service_full_name(),
+                                grpc::reflection::v1::ServerReflection::service_full_name(),
+                                "grpc.reflection.v1alpha.ServerReflection"}};
   std::unique_ptr<Endpoint> endpoint_;
 };
 

@@ -65,15 +65,6 @@ int64_t OpenDescriptors(const ServerProcess& server) {
 
 bool Solves(const std::string& target) { return Solve(*v1::ImpactService::NewStub(MakeChannel(target))).ok(); }
 
-// Returns the address at which the server's log says that it serves `event`.
-std::string LoggedAddress(const ServerProcess& server, const std::string& event) {
-  const std::string log = server.log();
-  const std::string before = " " + event + " address=";
-  const size_t start = log.find(before);
-  if (start == std::string::npos) return "";
-  return log.substr(start + before.size(), log.find('\n', start) - start - before.size());
-}
-
 TEST(Connections, UnixSocketServesBesideTcpAndIsRemoved) {
   const TemporaryDirectory directory;
   const std::string target = "unix:" + directory / "ricochet.sock";
@@ -224,11 +215,11 @@ class ReflectionStream {
 
 TEST(Reflection, ListsTheServiceAtAnAddressOfItsOwn) {
   const ServerProcess server({"--reflection", "127.0.0.1:0"});
-  ReflectionStream stream(LoggedAddress(server, "reflection"));
+  ReflectionStream stream(server.LoggedAddress("reflection"));
   const std::string services = stream.ListServices();
   EXPECT_THAT(services, HasSubstr("ricochet.v1.ImpactService"));
   EXPECT_THAT(services, HasSubstr("grpc.health.v1.Health"));
-  EXPECT_FALSE(Solves(LoggedAddress(server, "reflection")));
+  EXPECT_FALSE(Solves(server.LoggedAddress("reflection")));
 }
 
 TEST(Reflection, IsNotServedBesideTheCalls) {
@@ -240,7 +231,7 @@ TEST(Reflection, IsNotServedBesideTheCalls) {
 
 TEST(Reflection, IdleStreamsTakeNothingFromTheCalls) {
   const ServerProcess server({"--reflection", "127.0.0.1:0", "--max-live-calls", "2"});
-  const std::string target = LoggedAddress(server, "reflection");
+  const std::string target = server.LoggedAddress("reflection");
   std::vector<std::unique_ptr<ReflectionStream>> idle;
   for (int i = 0; i < 30; ++i) idle.push_back(std::make_unique<ReflectionStream>(target));
   EXPECT_TRUE(Solves(server.address()));

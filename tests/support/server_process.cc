@@ -127,6 +127,14 @@ int ServerProcess::Stop() {
   return Wait();
 }
 
+std::string ServerProcess::LoggedAddress(const std::string& event) const {
+  const std::string text = log();
+  const std::string before = " " + event + " address=";
+  const size_t start = text.find(before);
+  if (start == std::string::npos) return "";
+  return text.substr(start + before.size(), text.find('\n', start) - start - before.size());
+}
+
 std::string ServerProcess::WaitForLog(const std::string& text) const {
   std::string found;
   WaitUntil(std::chrono::seconds(10), [&] {

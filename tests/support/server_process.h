@@ -69,6 +69,9 @@ class ServerProcess {
 
   std::string log() const { return process_.output(); }
 
+  // Returns the address at which the log says that the server serves `event`, or an empty text.
+  std::string LoggedAddress(const std::string& event) const;
+
   // Waits until the log contains `text`, at most 10 s, and returns the log.
   std::string WaitForLog(const std::string& text) const;
 
