@@ -18,6 +18,7 @@
 #include "client/cli/exit_code.h"
 #include "client/cli/health.h"
 #include "client/cli/info.h"
+#include "client/cli/merge.h"
 #include "client/cli/solve.h"
 #include "client/cli/sweep.h"
 #include "client/cli/usage_error.h"
@@ -35,6 +36,7 @@ void AddSubcommands(CLI::App& app, std::vector<std::string> arguments, ricochet:
   ricochet::cli::AddSolve(app, command);
   ricochet::cli::AddBounds(app, command);
   ricochet::cli::AddSweep(app, std::move(arguments), command);
+  ricochet::cli::AddMerge(app, command);
   ricochet::cli::AddAudit(app, command);
   ricochet::cli::AddCost(app, command);
   ricochet::cli::AddInfo(app, command);

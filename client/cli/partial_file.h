@@ -31,6 +31,9 @@ class PartialFile {
   const std::string& part_path() const { return part_path_; }
   // The manifest as it was found, or that of a new file.
   const Partial& manifest() const { return manifest_; }
+  // The number of bytes that were written, and their CRC-32C.
+  int64_t bytes() const { return bytes_; }
+  uint32_t crc32c() const { return crc_; }
 
   // Adds text. After an error only the text before it counts. Errors: those of the system.
   absl::Status Write(std::string_view text);

@@ -1,6 +1,7 @@
 #include "client/cli/sweep.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -15,6 +16,8 @@
 #include "client/cli/progress.h"
 #include "client/cli/resume_command.h"
 #include "client/cli/scene_input.h"
+#include "client/cli/shard.h"
+#include "client/cli/shard_input.h"
 #include "client/cli/sweep_output.h"
 #include "client/cli/sweep_plot.h"
 #include "core/scene/field.h"
@@ -50,6 +53,7 @@ struct SweepOptions {
   std::string plot;
   std::string threads;
   bool resume = false;
+  ShardInput shard;
   std::vector<std::string> arguments;  // The command line of this run.
 };
 
@@ -110,7 +114,8 @@ bool IsResumable(const SweepOptions& options) {
 }
 
 absl::Status CheckResume(const SweepOptions& options) {
-  if (!options.resume || (IsResumable(options) && options.plot.empty())) return absl::OkStatus();
+  // A shard is always gone on with.
+  if (!options.resume || options.shard.any() || (IsResumable(options) && options.plot.empty())) return absl::OkStatus();
   return absl::InvalidArgumentError(
       "--resume needs -o FILE and --format csv or json, without --summary-only and --plot: only rows in a file can be "
       "gone on with");
@@ -173,14 +178,37 @@ absl::StatusOr<SweepOutput> OpenOutput(const SweepRequest& request, const SweepO
   return SweepOutput::Open(request, common.output, std::move(text));
 }
 
+absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRequest& request,
+                         const SweepOptions& options, std::stop_token stop) {
+  Receiver receiver(request, options, std::move(output));
+  absl::Status status = ReceiveAll(solver.Sweep(receiver.Rest(request), {.stop = std::move(stop)}), receiver);
+  if (!status.ok()) receiver.output().Break(ResumeCommand(options.arguments));
+  return status;
+}
+
 absl::Status Receive(const Solver& solver, const SweepRequest& request, const SweepOptions& options,
                      std::stop_token stop) {
   absl::StatusOr<SweepOutput> output = OpenOutput(request, options);
   if (!output.ok()) return output.status();
-  Receiver receiver(request, options, *std::move(output));
-  absl::Status status = ReceiveAll(solver.Sweep(receiver.Rest(request), {.stop = std::move(stop)}), receiver);
-  if (!status.ok()) receiver.output().Break(ResumeCommand(options.arguments));
-  return status;
+  return ReceiveInto(*std::move(output), solver, request, options, std::move(stop));
+}
+
+// Computes one shard, unless that was done before.
+absl::Status ReceiveShard(const Solver& solver, const SweepRequest& request, const SweepOptions& options,
+                          std::stop_token stop) {
+  const absl::StatusOr<ShardNumber> number = FindShard(options.shard);
+  if (!number.ok()) return number.status();
+  const absl::StatusOr<SweepShard> shard = MakeShard(request, *number, options.common.output);
+  if (!shard.ok()) return shard.status();
+  const absl::StatusOr<bool> complete = IsComplete(*shard);
+  if (!complete.ok()) return complete.status();
+  if (*complete) {
+    std::fprintf(stderr, "%s is complete\n", shard->path.c_str());
+    return absl::OkStatus();
+  }
+  absl::StatusOr<SweepOutput> output = SweepOutput::OpenShard(*shard);
+  if (!output.ok()) return output.status();
+  return ReceiveInto(*std::move(output), solver, shard->part, options, std::move(stop));
 }
 
 // Nothing leaves the number to the solver.
@@ -225,6 +253,7 @@ absl::Status RunSweep(const SweepOptions& options) {
   const absl::StatusOr<SweepRequest> request =
       options.request.empty() ? RequestFromFlags(options) : RequestFromFile(options);
   if (!request.ok()) return request.status();
+  if (options.shard.any()) return ReceiveShard(**solver, *request, options, interrupt.token());
   return Receive(**solver, *request, options, interrupt.token());
 }
 
@@ -270,6 +299,7 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   AddOutputOptions(*sub, options->common);
   sub->add_flag("--resume", options->resume,
                 "Go on with FILE.part, which a run with -o FILE and --format csv or json left when it was ended");
+  AddShardOptions(*sub, options->shard);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunSweep(*options); }; });
 }

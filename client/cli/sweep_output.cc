@@ -14,9 +14,9 @@ namespace {
 // A manifest costs two waits for the disk. A run that is killed loses the points of this time at most.
 constexpr std::chrono::milliseconds kBetweenCheckpoints{500};
 
-Partial IdentityOf(const SweepRequest& request, Format format) {
+Partial IdentityOf(const SweepRequest& request, const std::string& format) {
   Partial identity;
-  identity.set_format(format == Format::kJson ? "json" : "csv");
+  identity.set_format(format);
   identity.set_grid_fingerprint(GridFingerprint(request));
   identity.set_first_index(request.first_index);
   if (request.end_index.has_value()) identity.set_end_index(*request.end_index);
@@ -63,7 +63,20 @@ absl::StatusOr<SweepOutput> SweepOutput::Open(const SweepRequest& request, const
 
 absl::StatusOr<SweepOutput> SweepOutput::OpenPartial(const SweepRequest& request, const CommonOptions& options,
                                                      SweepText text, bool resume) {
-  absl::StatusOr<PartialFile> file = PartialFile::Open(options.output, IdentityOf(request, options.format), resume);
+  const std::string format = options.format == Format::kJson ? "json" : "csv";
+  return OpenFile(request, options.output, format, std::move(text), resume);
+}
+
+absl::StatusOr<SweepOutput> SweepOutput::OpenShard(const SweepShard& shard) {
+  absl::StatusOr<SweepOutput> output =
+      OpenFile(shard.part, shard.path, "shard", SweepText::OfShard(shard.whole), /*resume=*/true);
+  if (output.ok()) output->shard_ = shard;
+  return output;
+}
+
+absl::StatusOr<SweepOutput> SweepOutput::OpenFile(const SweepRequest& request, const std::string& path,
+                                                  const std::string& format, SweepText text, bool resume) {
+  absl::StatusOr<PartialFile> file = PartialFile::Open(path, IdentityOf(request, format), resume);
   if (!file.ok()) return file.status();
   SweepOutput output(std::move(text));
   output.file_.emplace(*std::move(file));
@@ -113,7 +126,15 @@ absl::Status SweepOutput::Write(const SweepChunk& chunk) {
   return file_->Checkpoint(progress_);
 }
 
-absl::Status SweepOutput::Commit() { return file_.has_value() ? file_->Commit() : output_->Commit(); }
+absl::Status SweepOutput::Commit() {
+  if (!file_.has_value()) return output_->Commit();
+  if (shard_.has_value()) {
+    progress_.set_bytes(file_->bytes());
+    progress_.set_crc32c(file_->crc32c());
+    if (absl::Status status = WriteShardManifest(*shard_, progress_); !status.ok()) return status;
+  }
+  return file_->Commit();
+}
 
 void SweepOutput::Break(const std::string& command) {
   if (!file_.has_value()) return;

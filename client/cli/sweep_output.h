@@ -6,12 +6,14 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/cli/line_blocks.h"
 #include "client/cli/output.h"
 #include "client/cli/partial_file.h"
+#include "client/cli/shard.h"
 #include "client/cli/sweep_writer.h"
 #include "ricochet/sweep.h"
 
@@ -21,6 +23,8 @@ namespace ricochet::cli {
 class SweepText {
  public:
   SweepText(const SweepRequest& request, Format format, bool summary_only);
+  // The text is the bytes of a shard's file.
+  static SweepText OfShard(const SweepRequest& request) { return SweepText(ShardWriter(request)); }
 
   // Goes on after points of which `pending` were received and not written.
   void GoOnAfter(const SweepRequest& request, const SweepChunk& pending);
@@ -29,6 +33,8 @@ class SweepText {
   std::optional<SweepChunk> pending() const;
 
  private:
+  explicit SweepText(SweepWriter writer) : writer_(std::move(writer)) {}
+
   SweepWriter writer_;
   std::optional<LineBlocks> blocks_;  // Lines of JSON alone.
 };
@@ -39,6 +45,8 @@ class SweepOutput {
   static absl::StatusOr<SweepOutput> Open(const SweepRequest& request, const std::string& path, SweepText text);
   static absl::StatusOr<SweepOutput> OpenPartial(const SweepRequest& request, const CommonOptions& options,
                                                  SweepText text, bool resume);
+  // Goes on with an unfinished shard if there is one.
+  static absl::StatusOr<SweepOutput> OpenShard(const SweepShard& shard);
 
   // The first point that the output does not have.
   int64_t next_index() const { return progress_.next_index(); }
@@ -50,7 +58,7 @@ class SweepOutput {
   // Writes the next chunk, which Join has taken. Errors: those of the system.
   absl::Status Write(const SweepChunk& chunk);
 
-  // Makes a file appear under its name. Errors: those of the system.
+  // Makes a file appear under its name, after the manifest if it is a shard. Errors: those of the system.
   absl::Status Commit();
 
   // Ends a run that failed. A partial file is left, and `command` is shown, if there are points in it.
@@ -60,7 +68,12 @@ class SweepOutput {
   using Clock = std::chrono::steady_clock;
   explicit SweepOutput(SweepText text) : text_(std::move(text)) {}
 
+  // `format` is that of the manifest.
+  static absl::StatusOr<SweepOutput> OpenFile(const SweepRequest& request, const std::string& path,
+                                              const std::string& format, SweepText text, bool resume);
+
   SweepText text_;
+  std::optional<SweepShard> shard_;
   std::optional<Output> output_;
   std::optional<PartialFile> file_;
   Partial progress_;      // The manifest of all that was written.

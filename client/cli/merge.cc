@@ -1,0 +1,146 @@
+#include "client/cli/merge.h"
+
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "client/chunk_checker.h"
+#include "client/cli/interrupt.h"
+#include "client/cli/output.h"
+#include "client/cli/progress.h"
+#include "client/cli/shard.h"
+#include "client/cli/shard_coverage.h"
+#include "client/cli/sweep_output.h"
+#include "proto/wire/sweep.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] =
+    R"(Example: a sweep in three parts, which three machines may compute, and one file of them.
+  $ for i in 0 1 2; do
+  >   ricochet sweep --a 0.3 --b 1 --energetic 1 --axis friction.kinetic_coefficient=lin:0:0.4:1000 \
+  >     --column coefficients.newton -o friction --shard-index $i --shard-count 3
+  > done
+  $ ricochet merge --verify friction --format csv -o friction.csv
+The file has the bytes of one run with the same --format.
+Exit codes: 0 done, 2 wrong input or shards of different sweeps, 42 a shard is missing, there twice or damaged,
+130 interrupted.)";
+
+struct MergeOptions {
+  CommonOptions common;
+  std::string file;
+  bool verify = false;
+};
+
+// Puts the messages of all shards together as if they were calls of one sweep, each of which broke off.
+class Merger {
+ public:
+  Merger(const SweepRequest& sweep, Format format, Output output)
+      : end_index_(*sweep.end_index),
+        checker_(sweep),
+        text_(sweep, format, /*summary_only=*/false),
+        output_(std::move(output)) {}
+
+  // Errors: DATA_LOSS for a shard that is not what its manifest says; CANCELLED; those of the system.
+  absl::Status Add(const ShardFile& shard) {
+    absl::StatusOr<ShardReader> reader = ShardReader::Open(shard);
+    if (!reader.ok()) return reader.status();
+    checker_.StartCall();
+    while (true) {
+      absl::StatusOr<std::optional<v1::SweepResponse>> message = reader->Next();
+      if (!message.ok()) return Damaged(shard, message.status());
+      if (!message->has_value()) break;
+      if (absl::Status status = Write(shard, **message); !status.ok()) return status;
+      if (Interrupt::Happened()) return absl::CancelledError("interrupted");
+    }
+    if (checker_.next_index() == shard.manifest.end_index()) return absl::OkStatus();
+    return Damaged(shard, absl::DataLossError(absl::StrCat("it ends at point ", checker_.next_index(), " instead of ",
+                                                           shard.manifest.end_index())));
+  }
+
+  absl::Status Finish() {
+    if (absl::Status status = checker_.CheckEnd(); !status.ok()) return status;
+    return output_.Commit();
+  }
+
+ private:
+  static absl::Status Damaged(const ShardFile& shard, const absl::Status& status) {
+    return {status.code(), absl::StrCat(shard.Name(), ": ", status.message(), ": remove it and compute it anew")};
+  }
+
+  absl::Status Write(const ShardFile& shard, v1::SweepResponse& message) {
+    // Files of shards have no summaries, and the last call of a sweep ends with one.
+    if (message.first_index() + message.count() == end_index_) *message.mutable_summary() = message.tallies();
+    const absl::StatusOr<SweepChunk> chunk = checker_.Take(message);
+    if (!chunk.ok()) return Damaged(shard, chunk.status());
+    progress_.Update(chunk->points_done, chunk->points_total);
+    const absl::StatusOr<std::string> text = text_.Add(*chunk);
+    return text.ok() ? output_.Write(*text) : text.status();
+  }
+
+  int64_t end_index_;
+  ChunkChecker checker_;
+  SweepText text_;
+  Output output_;
+  Progress progress_;
+};
+
+absl::Status Verify(const std::vector<ShardFile>& shards) {
+  int64_t bytes = 0;
+  for (const ShardFile& shard : shards) {
+    if (absl::Status status = CheckShardBytes(shard); !status.ok()) return status;
+    bytes += shard.manifest.bytes();
+  }
+  const Shard& first = shards.front().manifest;
+  std::fprintf(stderr, "%zu shards have each of the points %lld to %lld once, and the %lld bytes that were written.\n",
+               shards.size(), static_cast<long long>(first.sweep().first_index()),
+               static_cast<long long>(first.sweep().end_index()) - 1, static_cast<long long>(bytes));
+  std::fprintf(stderr, "Grid %s, engine %s %s.\n", first.grid_fingerprint().c_str(), first.engine().version().c_str(),
+               first.engine().fingerprint().c_str());
+  return absl::OkStatus();
+}
+
+absl::Status RunMerge(const MergeOptions& options) {
+  const Interrupt interrupt;
+  absl::StatusOr<std::vector<ShardFile>> shards = FindShardFiles(options.file);
+  if (!shards.ok()) return shards.status();
+  if (absl::Status status = CheckCoverage(*shards); !status.ok()) return status;
+  if (options.verify) {
+    if (absl::Status status = Verify(*shards); !status.ok()) return status;
+  }
+  absl::StatusOr<Output> output = Output::Open(options.common.output);
+  if (!output.ok()) return output.status();
+  const SweepRequest sweep = FromProto(shards->front().manifest.sweep());
+  Merger merger(sweep, options.common.format, *std::move(output));
+  const bool is_empty = sweep.first_index == *sweep.end_index;
+  for (const ShardFile& shard : *shards) {
+    if (shard.manifest.rows() == 0 && !is_empty) continue;
+    if (absl::Status status = merger.Add(shard); !status.ok()) return status;
+    if (is_empty) break;
+  }
+  return merger.Finish();
+}
+
+}  // namespace
+
+void AddMerge(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("merge", "Put the shards of a sweep together");
+  const auto options = std::make_shared<MergeOptions>();
+  sub->add_option("file", options->file, "The -o FILE of the shards, which are the files FILE.shard-I-of-N")
+      ->type_name("FILE")
+      ->required();
+  sub->add_flag(
+      "--verify", options->verify,
+      "Before anything is written, read every shard and compare it with the checksum of its manifest, and say "
+      "what was found");
+  AddOutputOptions(*sub, options->common);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunMerge(*options); }; });
+}
+
+}  // namespace ricochet::cli
