@@ -42,7 +42,8 @@ def reflection_messages(version):
     factory = message_factory.MessageFactory(pool)
     return [
         factory.GetPrototype(pool.FindMessageTypeByName(f"reflection.{version}.{name}"))
-        for name in ("ServerReflectionRequest", "ServerReflectionResponse")]
+        for name in ("ServerReflectionRequest", "ServerReflectionResponse")
+    ]
 
 
 class DescribedService:
@@ -55,7 +56,9 @@ class DescribedService:
         with grpc.insecure_channel(reflection_address) as channel:
             ask = channel.stream_stream(
                 f"/grpc.reflection.{version}.ServerReflection/ServerReflectionInfo",
-                request_serializer=request.SerializeToString, response_deserializer=response.FromString)
+                request_serializer=request.SerializeToString,
+                response_deserializer=response.FromString,
+            )
             symbols = ["ricochet.v1.ImpactService", "grpc.health.v1.Health"]
             answers = ask(iter([request(value=symbol) for symbol in symbols]), timeout=DEADLINE_S)
             files = {}
@@ -77,8 +80,10 @@ class DescribedService:
         described = self._pool.FindServiceByName(service).FindMethodByName(method)
         request, response = [self._factory.GetPrototype(kind) for kind in (described.input_type, described.output_type)]
         ask = channel.unary_unary(
-            f"/{service}/{method}", request_serializer=request.SerializeToString,
-            response_deserializer=response.FromString)
+            f"/{service}/{method}",
+            request_serializer=request.SerializeToString,
+            response_deserializer=response.FromString,
+        )
         return ask(request(**fields), timeout=DEADLINE_S)
 
 
@@ -90,8 +95,19 @@ class ReflectionClientTest(unittest.TestCase):
         log, port = WORK / "log", WORK / "port"
         with log.open("w") as output:
             cls.server = subprocess.Popen(
-                [RICOCHETD, "--listen", "127.0.0.1:0", "--reflection", "127.0.0.1:0", "--port-file", port,
-                 "--drain-grace", "0"], stderr=output)
+                [
+                    RICOCHETD,
+                    "--listen",
+                    "127.0.0.1:0",
+                    "--reflection",
+                    "127.0.0.1:0",
+                    "--port-file",
+                    port,
+                    "--drain-grace",
+                    "0",
+                ],
+                stderr=output,
+            )
         cls.addClassCleanup(cls.server.wait)
         cls.addClassCleanup(cls.server.terminate)
         end = time.monotonic() + DEADLINE_S

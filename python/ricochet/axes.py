@@ -1,0 +1,68 @@
+"""Axes: the values that a sweep gives to one field."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ricochet.v1 import sweep_pb2
+
+
+@dataclass(frozen=True)
+class Linspace:
+    """``count`` evenly spaced values from ``start`` to ``stop``, both exact. The server makes them."""
+
+    start: float
+    stop: float
+    count: int
+
+    def values(self) -> NDArray[np.float64]:
+        """Returns the values: the doubles that the server computes with."""
+        a, b = float(self.start), float(self.stop)
+        t = np.arange(self.count) / max(self.count - 1, 1)
+        if min(a, b) <= 0 <= max(a, b):
+            return t * b + (1 - t) * a
+        x = a + t * (b - a)
+        x = np.maximum(x, b) if b < a else np.minimum(x, b)
+        return np.where(t == 1, b, x)
+
+
+@dataclass(frozen=True)
+class Logspace:
+    """``count`` values from ``start`` to ``stop``, both > 0 and exact, that are evenly spaced in their logarithm. The
+    server makes them."""
+
+    start: float
+    stop: float
+    count: int
+
+    def values(self) -> NDArray[np.float64]:
+        """Returns the values; they may differ from those of the server in their last digit."""
+        values: NDArray[np.float64] = np.geomspace(self.start, self.stop, self.count)
+        return values
+
+
+Axis = Union[Linspace, Logspace, ArrayLike]
+"""The values of an axis: a Linspace or a Logspace of any size, or an array of at most 65,536 numbers."""
+
+
+def coordinates(axis: Axis) -> NDArray[np.float64]:
+    """Returns the values of an axis."""
+    if isinstance(axis, (Linspace, Logspace)):
+        return axis.values()
+    return np.atleast_1d(np.asarray(axis, dtype=np.float64))
+
+
+def to_message(path: str, axis: Axis) -> Any:
+    """Returns the axis as ricochet.v1.Axis."""
+    message = sweep_pb2.Axis(path=path)
+    if isinstance(axis, Linspace):
+        message.linspace.start, message.linspace.stop, message.linspace.count = axis.start, axis.stop, axis.count
+    elif isinstance(axis, Logspace):
+        message.logspace.start, message.logspace.stop, message.logspace.count = axis.start, axis.stop, axis.count
+    else:
+        message.list.values.extend(coordinates(axis))
+    return message

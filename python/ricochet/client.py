@@ -1,0 +1,527 @@
+"""Client: asks a server, or one that it starts itself."""
+
+from __future__ import annotations
+
+import os
+from types import TracebackType
+from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
+
+import grpc
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ricochet import axes as sweep_axes
+from ricochet.connection import DEFAULT_DEADLINE_S, Connection, metadata, open_channel, resolve
+from ricochet.embedded import EmbeddedServer
+from ricochet.errors import InvalidRequest, RicochetError, Unavailable, Violation, from_rpc
+from ricochet.messages import Record, enum_names, enum_number, to_message, to_record
+from ricochet.table import Codes, Table
+from ricochet.v1 import (
+    audit_pb2,
+    batch_pb2,
+    impact_service_pb2,
+    impact_service_pb2_grpc,
+    info_pb2,
+    outcome_pb2,
+    plan_pb2,
+    sweep_pb2,
+)
+
+Scene = Mapping[str, Any]
+Progress = Callable[[int, int], object]
+_Answer = TypeVar("_Answer")
+
+_MOST_RESUMES = 10
+_REGIMES = enum_names(outcome_pb2.Regime.DESCRIPTOR)
+_STATUSES = enum_names(batch_pb2.RowStatus.DESCRIPTOR)
+_EFFECT = plan_pb2.Effect.DESCRIPTOR
+
+
+class Client:
+    """Asks the server that is named, or starts a ``ricochetd`` of its own at the first call and stops it at the end.
+
+    Use it as a context manager, or call ``close``; an own server ends with the process in any case. The options are
+    those of the command line; see ``ricochet.connection.Connection``. Several threads may use one client.
+
+    Args:
+        server: ``"HOST:PORT"`` or ``"unix:PATH"``; several with commas between them stand in for each other.
+        options: the other fields of ``Connection``, such as ``tls_ca``, ``token_file`` or ``deadline``.
+
+    Raises:
+        InvalidRequest: an option is wrong.
+    """
+
+    def __init__(self, server: str = "", **options: str) -> None:
+        self._options = resolve(Connection(server=server, **options))
+        self._deadline_s = self._options.deadline_s()
+        self._embedded: EmbeddedServer | None = None
+        self._channels: list[grpc.Channel] = []
+        self._limits: Record | None = None
+        self._pid = os.getpid()
+
+    def __enter__(self) -> "Client":
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Closes the connection, and stops the server if it is an own one. The next call opens another."""
+        for channel in self._channels:
+            channel.close()
+        self._channels = []
+        if self._embedded is not None:
+            self._embedded.stop()
+            self._embedded = None
+
+    def _open(self) -> list[grpc.Channel]:
+        if self._pid != os.getpid():
+            raise RuntimeError("a Client cannot be used after os.fork(); make one in the new process")
+        if not self._channels:
+            targets = self._options.targets
+            if not targets:
+                self._embedded = EmbeddedServer()
+                targets = [self._embedded.target]
+            self._channels = [open_channel(target, self._options) for target in targets]
+        return self._channels
+
+    def _ask(self, call: Callable[[Any], _Answer]) -> _Answer:
+        """Returns what `call` makes of the stub of the first server that is available."""
+        error: RicochetError | None = None
+        make_stub: Callable[[grpc.Channel], Any] = impact_service_pb2_grpc.ImpactServiceStub
+        for channel in self._open():
+            try:
+                return call(make_stub(channel))
+            except grpc.RpcError as failure:
+                error = from_rpc(failure)
+                if not isinstance(error, Unavailable):
+                    break
+        assert error is not None
+        raise error
+
+    def _unary(self, method: str, request: Any) -> Any:
+        deadline_s = self._deadline_s or DEFAULT_DEADLINE_S
+        headers = metadata(self._options)
+
+        def call(stub: Any) -> Any:
+            return getattr(stub, method)(request, timeout=deadline_s, metadata=headers)
+
+        return self._ask(call)
+
+    def solve(
+        self,
+        scene: Scene,
+        *,
+        tolerance: float | None = None,
+        require: Iterable[str] = (),
+        exclude: Iterable[str] = (),
+        strict: bool = False,
+        history: int = 0,
+        force_history: int = 0,
+        certified: int = 0,
+    ) -> Record:
+        """Computes one impact.
+
+        Args:
+            scene: the impact, a dictionary with the names of ricochet.v1.Scene; units are SI and radians.
+            tolerance: largest relative error of the contact velocity after the impact, in [0, 0.1]; default 1e-12.
+            require: effects that are simulated even if they are negligible, such as ``"tangential_compliance"``.
+            exclude: effects that are left out whatever that changes.
+            strict: raise ``Inadmissible`` for an outcome that would create energy.
+            history: also give the states at this number of equal steps of the normal impulse.
+            force_history: also give the forces at this number of equal time steps; needs a spring along n.
+            certified: also give numbers with this many proved significant digits, at most 1000.
+
+        Returns:
+            The outcome as ricochet.v1.Outcome has it: ``outcome.coefficients.newton``,
+            ``outcome.contact_velocity_after.normal_m_s`` (m/s), ``outcome.energy_change_j`` (J), ``outcome.regime``.
+
+        Raises:
+            InvalidRequest: the scene breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        request = impact_service_pb2.SolveRequest(
+            inadmissible_is_error=strict,
+            history_intervals=history,
+            force_intervals=force_history,
+            certified_digits=certified,
+        )
+        to_message(request.scene, scene, "")
+        _set_demand(request, tolerance, require, exclude)
+        return to_record(self._unary("Solve", request).outcome)
+
+    def bounds(
+        self, scene: Scene, *, ranges: Mapping[str, tuple[float, float]] | None = None, certified: int = 0
+    ) -> Record:
+        """Computes the values that the coefficients of an impact can take.
+
+        Args:
+            scene: as in ``solve``; its restitution may be left out.
+            ranges: fields that are uncertain, and the least and the largest value of each, in the field's unit.
+            certified: also give numbers with this many proved significant digits, at most 1000.
+
+        Returns:
+            ``bounds`` as ricochet.v1.Bounds, ``enclosure`` if ranges were given, and ``certificate`` if asked for.
+
+        Raises:
+            InvalidRequest: the scene or a range breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        request = impact_service_pb2.BoundsRequest(certified_digits=certified)
+        to_message(request.scene, scene, "")
+        for path, (low, high) in (ranges or {}).items():
+            request.ranges.add(path=path, low=low, high=high)
+        return to_record(self._unary("Bounds", request))
+
+    def audit(
+        self,
+        scene: Scene,
+        *,
+        contact_velocity: Mapping[str, Any] | None = None,
+        rates_rad_s: ArrayLike | None = None,
+        velocity_uncertainty_m_s: float = 0.0,
+    ) -> Record:
+        """Computes what an observed impact implies, and which limits it breaks.
+
+        Args:
+            scene: the contact and its state before the impact.
+            contact_velocity: observed velocity of the contact after the impact, relative to the surface, m/s:
+                ``{"tangential_m_s": 0.1, "normal_m_s": 0.4}``.
+            rates_rad_s: in its place, the angular velocities of a pendulum or a linkage after the impact, rad/s.
+            velocity_uncertainty_m_s: uncertainty of each component of the contact velocity, m/s.
+
+        Returns:
+            ``report`` as ricochet.v1.AuditReport, and ``contact_energy_j``, the energy that an impact can take, J.
+
+        Raises:
+            InvalidRequest: the scene or the observation breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        request = impact_service_pb2.AuditRequest(velocity_uncertainty_m_s=velocity_uncertainty_m_s)
+        to_message(request.scene, scene, "")
+        if contact_velocity is not None:
+            to_message(request.contact_velocity, contact_velocity, "contact_velocity")
+        if rates_rad_s is not None:
+            request.rates.rates_rad_s.extend(np.atleast_1d(np.asarray(rates_rad_s, dtype=np.float64)))
+        return to_record(self._unary("Audit", request))
+
+    def audit_batch(self, scene: Scene, columns: Mapping[str, Any]) -> Table:
+        """Audits many observed impacts at one contact.
+
+        Args:
+            scene: the contact; its velocity is used for rows that state none.
+            columns: arrays with the names of ricochet.v1.AuditColumns, such as ``tangential_after_m_s`` and
+                ``normal_after_m_s``, m/s, all equally long or single numbers; ``rates_after``, rad/s, is a list with an
+                array for each link. A pandas frame will do.
+
+        Returns:
+            A table with every number of ricochet.v1.AuditReport; ``limits.sharp.verdict`` and its like are codes.
+
+        Raises:
+            InvalidRequest: the scene or a column breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        values = {name: _columns_of(name, columns[name]) for name in columns.keys()}
+        rows = max((column.shape[-1] for column in values.values()), default=0)
+        most = self._limit("max_audit_rows")
+        reports: list[Record] = []
+        summaries = []
+        for start in range(0, rows, most):
+            request = impact_service_pb2.AuditBatchRequest()
+            to_message(request.scene, scene, "")
+            part: dict[str, Any] = {name: _part(column, start, start + most) for name, column in values.items()}
+            if "rates_after" in part:
+                part["rates_after"] = [{"rates_rad_s": link} for link in np.atleast_2d(part["rates_after"])]
+            to_message(request.columns, part, "columns")
+            response = self._unary("AuditBatch", request)
+            reports += map(to_record, response.reports)
+            summaries.append(to_record(response.summary))
+        flat = [_flat(report) for report in reports]
+        return _audit_table(flat, summaries)
+
+    def solve_batch(
+        self,
+        scene: Scene,
+        inputs: Mapping[str, ArrayLike],
+        columns: Sequence[str],
+        *,
+        tolerance: float | None = None,
+        require: Iterable[str] = (),
+        exclude: Iterable[str] = (),
+    ) -> Table:
+        """Computes many different impacts of one system.
+
+        Args:
+            scene: gives every field that no column states.
+            inputs: an array for each field that varies, by the field's path: ``"planar_contact.normal_m_s"``. They are
+                equally long, or single numbers for all rows. A pandas frame will do.
+            columns: the numbers of the outcome to compute: ``"contact_velocity_after.normal_m_s"``.
+            tolerance, require, exclude: as in ``solve``, for every row.
+
+        Returns:
+            A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``;
+            ``table.summary.bad_rows`` has the reasons of the first ones.
+
+        Raises:
+            InvalidRequest: the scene, a path or the length of an array is wrong.
+            RicochetError: the call failed otherwise.
+        """
+        names = list(inputs.keys())
+        if not names:
+            raise InvalidRequest.of([Violation("inputs", "is empty: must have at least one column")])
+        arrays = _equally_long({name: np.atleast_1d(np.asarray(inputs[name], dtype="<f8")) for name in names})
+        rows = len(arrays[names[0]])
+        setup = batch_pb2.BatchSetup(fields=names, columns=columns)
+        to_message(setup.scene, scene, "")
+        _set_demand(setup, tolerance, require, exclude)
+        outputs = {column: np.empty(rows) for column in columns}
+        regimes, statuses = np.empty(rows, np.uint8), np.empty(rows, np.uint8)
+        parts = []
+        most = self._most_batch_rows(max(len(names), len(outputs), 1))
+        for start in range(0, max(rows, 1), most):
+            part = slice(start, start + most)
+            request = batch_pb2.SolveBatchRequest(setup=setup, inputs=[arrays[name][part].tobytes() for name in names])
+            response = self._unary("SolveBatch", request)
+            for column, data in zip(outputs.values(), response.outputs):
+                column[part] = np.frombuffer(data, "<f8")
+            regimes[part] = np.frombuffer(response.regimes, np.uint8)
+            statuses[part] = np.frombuffer(response.statuses, np.uint8)
+            parts.append((start, response.summary))
+        return Table(
+            outputs,
+            {"regime": Codes(regimes, _REGIMES), "status": Codes(statuses, _STATUSES)},
+            axes=arrays,
+            summary=_batch_summary(parts),
+        )
+
+    def sweep(
+        self,
+        scene: Scene,
+        axes: Mapping[str, sweep_axes.Axis],
+        columns: Sequence[str],
+        *,
+        zip_axes: bool = False,
+        tolerance: float | None = None,
+        require: Iterable[str] = (),
+        exclude: Iterable[str] = (),
+        progress: Progress | None = None,
+    ) -> Table:
+        """Computes impacts over a grid.
+
+        A connection that breaks, or a server that stops, does not end the sweep: it goes on from the first point that
+        has not arrived, if another call reaches the same engine.
+
+        Args:
+            scene: gives every field that no axis drives.
+            axes: the values of each field that varies, by the field's path: ``"friction.kinetic_coefficient"``. An
+                array, or ``ricochet.Linspace`` or ``ricochet.Logspace`` for more than 65,536 values.
+            columns: the numbers of the outcome to compute: ``"coefficients.newton"``.
+            zip_axes: the axes advance together; otherwise the points are all combinations of their values.
+            tolerance, require, exclude: as in ``solve``, for every point.
+            progress: is called with the points done and the points in all, after each part of the answer.
+
+        Returns:
+            A table with a row for each point; ``to_xarray`` gives it a dimension for each axis. A point that breaks a
+            rule has NaN and the regime ``"INVALID"``.
+
+        Raises:
+            InvalidRequest: the scene, an axis or a column is wrong.
+            RicochetError: the call failed otherwise.
+        """
+        product = sweep_pb2.SweepRequest.COMBINATION_ZIP if zip_axes else sweep_pb2.SweepRequest.COMBINATION_PRODUCT
+        request = sweep_pb2.SweepRequest(
+            combination=product,
+            columns=columns,
+            with_regime=True,
+            axes=[sweep_axes.to_message(path, axis) for path, axis in axes.items()],
+        )
+        to_message(request.scene, scene, "")
+        _set_demand(request, tolerance, require, exclude)
+        received = _Received(len(columns))
+        for chunk in self._chunks(request, received):
+            received.take(chunk)
+            if progress is not None:
+                progress(received.points, received.total)
+        return Table(
+            dict(zip(columns, received.values)),
+            {"regime": Codes(received.regimes, _REGIMES)},
+            axes={path: sweep_axes.coordinates(axis) for path, axis in axes.items()},
+            is_grid=not zip_axes and bool(axes),
+            summary=received.summary,
+        )
+
+    def _chunks(self, request: Any, received: "_Received") -> Iterator[Any]:
+        """Yields the chunks of a sweep. A call that breaks off is followed by one for the rest."""
+        resumes = 0
+        while not received.complete:
+            before = received.points
+            request.first_index = before
+            try:
+                yield from self._stream(request)
+            except RicochetError as error:
+                resumes = 0 if received.points > before else resumes + 1
+                if not received.points or not isinstance(error, Unavailable) or resumes > _MOST_RESUMES:
+                    raise
+            else:
+                break
+        received.check_complete()
+
+    def _stream(self, request: Any) -> Iterator[Any]:
+        """Yields the chunks of one call, from the first server that is available."""
+        timeout, headers = self._deadline_s, metadata(self._options)
+
+        def start(stub: Any) -> tuple[Any, Any]:
+            stream = stub.Sweep(request, timeout=timeout, metadata=headers)
+            return next(stream), stream
+
+        first, stream = self._ask(start)
+        yield first
+        try:
+            yield from stream
+        except grpc.RpcError as failure:
+            raise from_rpc(failure) from None
+        finally:
+            stream.cancel()
+
+    def info(self) -> Record:
+        """Returns which engine answers, what it can compute, and its limits, as ricochet.v1.InfoResponse has them."""
+        return to_record(self._unary("Info", info_pb2.InfoRequest()))
+
+    def _limit(self, name: str) -> int:
+        """Returns a limit of a request; 2^31 if the server has none."""
+        if self._limits is None:
+            self._limits = self.info().limits
+        limit = self._limits[name]
+        return 1 << 31 if limit is None else int(limit)
+
+    def _most_batch_rows(self, columns: int) -> int:
+        numbers = min(
+            self._limit("max_batch_numbers"),
+            self._limit("max_request_bytes") // 16,
+            self._options.max_receive_bytes() // 16,
+        )
+        return max(numbers // columns, 1)
+
+
+class _Received:
+    """What has arrived of a sweep."""
+
+    def __init__(self, columns: int) -> None:
+        self.values = np.empty((columns, 0))
+        self.regimes = np.empty(0, np.uint8)
+        self.points = 0
+        self.total = 0
+        self.complete = False
+        self.summary = Record()
+        self._origin: tuple[str, str] | None = None
+        self._inadmissible = 0  # Of the calls before this.
+        self._inadmissible_now = 0
+
+    def take(self, chunk: Any) -> None:
+        origin = (chunk.engine.fingerprint, chunk.grid_fingerprint)
+        if self._origin is None:
+            self._origin = origin
+            self.total = chunk.points_total
+            self.values = np.empty((len(self.values), self.total))
+            self.regimes = np.empty(self.total, np.uint8)
+        if origin != self._origin or chunk.first_index != self.points or self.points + chunk.count > self.total:
+            raise RicochetError(
+                "the server that goes on with the sweep is another engine, or points are missing", code="DATA_LOSS"
+            )
+        part = slice(self.points, self.points + chunk.count)
+        self.values[:, part] = np.frombuffer(chunk.values, "<f8").reshape(-1, chunk.count)
+        self.regimes[part] = np.frombuffer(chunk.regimes, np.uint8)
+        self.points += chunk.count
+        if chunk.tallies.points == chunk.count:  # The first chunk of a call.
+            self._inadmissible += self._inadmissible_now
+        self._inadmissible_now = chunk.tallies.inadmissible.count
+        self.complete = self.points == self.total and chunk.HasField("summary")
+        if self.complete:
+            self.summary = Record(
+                points=self.total,
+                by_regime=Codes(self.regimes, _REGIMES).counts(),
+                inadmissible=self._inadmissible + self._inadmissible_now,
+            )
+
+    def check_complete(self) -> None:
+        if not self.complete:
+            raise RicochetError(f"the sweep ended after {self.points} of {self.total} points", code="DATA_LOSS")
+
+
+def _set_demand(message: Any, tolerance: float | None, require: Iterable[str], exclude: Iterable[str]) -> None:
+    if tolerance is not None:
+        message.relative_tolerance = tolerance
+    message.required.extend(enum_number(_EFFECT, name, "require") for name in require)
+    message.excluded.extend(enum_number(_EFFECT, name, "exclude") for name in exclude)
+
+
+def _equally_long(arrays: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
+    rows = max(len(array) for array in arrays.values())
+    wrong = [
+        Violation(name, f"has shape {array.shape}: must be one number, or {rows} as the longest array")
+        for name, array in arrays.items()
+        if array.ndim != 1 or len(array) not in (1, rows)
+    ]
+    if wrong:
+        raise InvalidRequest.of(wrong)
+    return {name: np.broadcast_to(array, rows) for name, array in arrays.items()}
+
+
+def _batch_summary(parts: list[tuple[int, Any]]) -> Record:
+    """Joins the summaries of the parts of a batch, whose rows are counted from the first of all."""
+    bad_rows = [Record(to_record(bad), row=bad.row + start) for start, summary in parts for bad in summary.bad_rows]
+    return Record(
+        rows=sum(summary.counts.points for _, summary in parts),
+        inadmissible=sum(summary.counts.inadmissible.count for _, summary in parts),
+        bad_rows=bad_rows,
+    )
+
+
+def _columns_of(name: str, value: Any) -> NDArray[Any]:
+    array = np.asarray(value, dtype=np.float64)
+    return np.atleast_2d(array) if name == "rates_after" else np.atleast_1d(array)
+
+
+def _part(column: NDArray[Any], start: int, end: int) -> NDArray[Any]:
+    return column if column.shape[-1] == 1 else column[..., start:end]
+
+
+def _flat(record: Record, path: str = "") -> dict[str, Any]:
+    """Returns the numbers and names of nested records by their paths."""
+    flat: dict[str, Any] = {}
+    for name, value in record.items():
+        where = f"{path}{name}"
+        if isinstance(value, Record):
+            flat.update(_flat(value, where + "."))
+        elif isinstance(value, list):
+            flat.update({f"{where}[{i}]": entry for i, entry in enumerate(value)})
+        else:
+            flat[where] = value
+    return flat
+
+
+def _audit_table(rows: list[dict[str, Any]], summaries: list[Record]) -> Table:
+    # Lists of invalid rows are empty, so that the names are those of the fullest row.
+    fullest: dict[str, Any] = max(rows, key=len, default={})
+    names = list(fullest)
+    codes: dict[str, Codes] = {}
+    columns: dict[str, NDArray[np.float64]] = {}
+    for name in names:
+        values = [row.get(name) for row in rows]
+        if any(isinstance(value, str) for value in values):
+            known = _REGIMES if name == "regime" else enum_names(audit_pb2.LimitCheck.Verdict.DESCRIPTOR)
+            codes[name] = Codes(np.array([known.index(str(value)) for value in values], np.uint8), known)
+        else:
+            columns[name] = np.array(values, dtype=np.float64)
+    invalid = codes["regime"].equal("INVALID") if codes else np.empty(0, np.bool_)
+    for column in columns.values():
+        column[invalid] = np.nan
+    summary = Record(
+        rows=sum(each.rows for each in summaries),
+        admissible=sum(each.admissible for each in summaries),
+        invalid=sum(each.invalid.count for each in summaries),
+        parts=summaries,
+    )
+    return Table(columns, codes or {"regime": Codes(np.empty(0, np.uint8), _REGIMES)}, summary=summary)

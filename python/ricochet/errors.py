@@ -1,0 +1,127 @@
+"""Errors: what a call can fail with, as exceptions that name every wrong field."""
+
+from __future__ import annotations
+
+import importlib.resources
+from dataclasses import dataclass
+from typing import Any, Iterable
+
+import grpc
+from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+
+
+@dataclass(frozen=True)
+class Violation:
+    """A rule that a request breaks."""
+
+    field: str
+    """The path of the field, such as ``"scene.friction.kinetic_coefficient"``."""
+    description: str
+    """The value found, and the rule."""
+
+    def __str__(self) -> str:
+        return f"{self.field} {self.description}"
+
+
+class RicochetError(Exception):
+    """A call failed.
+
+    Attributes:
+        code: the gRPC code by name, such as ``"UNAVAILABLE"``.
+        reason: the name of ``ricochet.v1.ErrorReason`` without its prefix, such as ``"DRAINING"``; empty if unknown.
+        violations: the rules that the request breaks; empty for other errors.
+        retry_after_s: time after which the server asks to try again, s; None if it does not.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        code: str = "UNKNOWN",
+        reason: str = "",
+        violations: Iterable[Violation] = (),
+        retry_after_s: float | None = None,
+    ) -> None:
+        super().__init__(message)
+        self.code = code
+        self.reason = reason
+        self.violations = tuple(violations)
+        self.retry_after_s = retry_after_s
+
+
+class InvalidRequest(RicochetError, ValueError):
+    """The request breaks rules; ``violations`` lists all of them."""
+
+    @classmethod
+    def of(cls, violations: Iterable[Violation]) -> "InvalidRequest":
+        """Makes the error for rules that this package has checked itself."""
+        found = list(violations)
+        text = "; ".join(map(str, found))
+        return cls(text, code="INVALID_ARGUMENT", reason="INVALID_REQUEST", violations=found)
+
+
+class Inadmissible(RicochetError):
+    """The outcome would create energy, and the call was strict."""
+
+
+class OutOfRange(RicochetError, OverflowError):
+    """An exact result lies above the largest double."""
+
+
+class LimitReached(RicochetError):
+    """The request is larger, or the server busier, than a limit allows."""
+
+
+class Unavailable(RicochetError, ConnectionError):
+    """No server answers, or it is about to stop."""
+
+
+class TimedOut(RicochetError, TimeoutError):
+    """The call took longer than its deadline, or than the server allows."""
+
+
+_CLASSES: dict[str, type[RicochetError]] = {
+    "INVALID_ARGUMENT": InvalidRequest,
+    "FAILED_PRECONDITION": Inadmissible,
+    "OUT_OF_RANGE": OutOfRange,
+    "RESOURCE_EXHAUSTED": LimitReached,
+    "UNAVAILABLE": Unavailable,
+    "DEADLINE_EXCEEDED": TimedOut,
+}
+
+
+def _details() -> dict[str, Any]:
+    """The messages of google.rpc, in a pool of their own so that other packages may define them, too."""
+    data = importlib.resources.files(__package__).joinpath("error_details.binpb").read_bytes()
+    pool = descriptor_pool.DescriptorPool()
+    for file in descriptor_pb2.FileDescriptorSet.FromString(data).file:
+        pool.Add(file)
+    factory = message_factory.MessageFactory(pool)
+    names = ("Status", "BadRequest", "ErrorInfo", "RetryInfo")
+    return {name: factory.GetPrototype(pool.FindMessageTypeByName(f"google.rpc.{name}")) for name in names}
+
+
+_MESSAGES = _details()
+
+
+def from_rpc(error: grpc.RpcError) -> RicochetError:
+    """Makes the exception for a call that failed."""
+    code = error.code().name
+    reason = ""
+    violations: list[Violation] = []
+    retry_after_s = None
+    metadata = dict(error.trailing_metadata() or ())
+    for detail in _MESSAGES["Status"].FromString(metadata.get("grpc-status-details-bin", b"")).details:
+        name = detail.type_url.rpartition(".")[2]
+        if name not in _MESSAGES:
+            continue
+        message = _MESSAGES[name].FromString(detail.value)
+        if name == "ErrorInfo":
+            reason = message.reason
+        elif name == "BadRequest":
+            violations = [Violation(each.field, each.description) for each in message.field_violations]
+        elif name == "RetryInfo":
+            retry_after_s = message.retry_delay.seconds + message.retry_delay.nanos * 1e-9
+    return _CLASSES.get(code, RicochetError)(
+        error.details() or code, code=code, reason=reason, violations=violations, retry_after_s=retry_after_s
+    )

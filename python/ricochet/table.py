@@ -1,0 +1,111 @@
+"""Table: columns of numbers, each of which has a name and a unit, and what happened to each row."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ricochet.messages import Record
+from ricochet.units import unit_of
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+Numbers = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Codes:
+    """One name for each row, as numbers into a list of names."""
+
+    numbers: NDArray[np.uint8]
+    """One number for each row."""
+    names: list[str]
+    """The name of each number."""
+
+    def __len__(self) -> int:
+        return len(self.numbers)
+
+    def __getitem__(self, row: int) -> str:
+        return self.names[int(self.numbers[row])]
+
+    def counts(self) -> dict[str, int]:
+        """Returns how many rows have each name, for the names that occur."""
+        numbers, counts = np.unique(self.numbers, return_counts=True)
+        return {self.names[number]: int(count) for number, count in zip(numbers, counts)}
+
+    def equal(self, name: str) -> NDArray[np.bool_]:
+        """Returns for each row whether it has this name."""
+        equal: NDArray[np.bool_] = self.numbers == self.names.index(name)
+        return equal
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows of numbers: the points of a sweep, the impacts of a batch or the observations of an audit."""
+
+    columns: dict[str, Numbers]
+    """The numbers by name; NaN in a row without numbers. ``ricochet.unit_of`` tells the unit of a name."""
+    codes: dict[str, Codes]
+    """``regime`` and, for a batch, ``status``: names instead of numbers."""
+    axes: dict[str, Numbers] = field(default_factory=dict)
+    """The values that the fields of the scene had: along each axis of a sweep, or in each row."""
+    is_grid: bool = False
+    """True if the rows are all combinations of the axes, the last of which runs fastest."""
+    summary: Record = field(default_factory=Record)
+    """Counts of the rows: ``inadmissible`` and by regime for a sweep; ``bad_rows`` with the reasons for a batch."""
+
+    def __len__(self) -> int:
+        return len(next(iter(self.codes.values())))
+
+    def __getitem__(self, name: str) -> Numbers:
+        return self.columns[name]
+
+    def inputs(self) -> dict[str, Numbers]:
+        """Returns the values of the axes in each row."""
+        if not self.is_grid:
+            return dict(self.axes)
+        grid = np.meshgrid(*self.axes.values(), indexing="ij")
+        return {name: values.reshape(-1) for name, values in zip(self.axes, grid)}
+
+    def to_xarray(self) -> "xarray.Dataset":
+        """Returns a dataset whose variables have the attribute ``units``.
+
+        A grid has a dimension for each axis, other rows have the dimension ``row`` with the inputs as coordinates.
+        ``regime`` and ``status`` hold numbers, which the attributes ``flag_values`` and ``flag_meanings`` explain (the
+        CF conventions).
+        """
+        import xarray
+
+        shape = [len(values) for values in self.axes.values()] if self.is_grid else [len(self)]
+        dimensions = list(self.axes) if self.is_grid else ["row"]
+        coordinates = {
+            name: ([name] if self.is_grid else dimensions, values, {"units": unit_of(name)})
+            for name, values in self.axes.items()
+        }
+        variables: dict[str, Any] = {
+            name: (dimensions, values.reshape(shape), {"units": unit_of(name)}) for name, values in self.columns.items()
+        }
+        for name, codes in self.codes.items():
+            flags = {"flag_values": np.arange(len(codes.names), dtype=np.uint8), "flag_meanings": " ".join(codes.names)}
+            variables[name] = (dimensions, codes.numbers.reshape(shape), flags)
+        return xarray.Dataset(variables, coordinates)
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """Returns a frame with a row for each row: the inputs, the numbers, and the codes as categories.
+
+        ``frame.attrs["units"]`` maps each name to its unit.
+        """
+        import pandas
+
+        columns: dict[str, Any] = {**self.inputs(), **self.columns}
+        units = {name: unit_of(name) for name in columns}
+        for name, codes in self.codes.items():
+            columns[name] = pandas.Categorical.from_codes(codes.numbers.astype(np.int8), categories=codes.names)
+        frame = pandas.DataFrame(columns)
+        frame.attrs["units"] = units
+        return frame

@@ -1,0 +1,38 @@
+"""Units: the unit of a field or column, which is the ending of its name."""
+
+from __future__ import annotations
+
+import re
+
+_UNITS = {
+    "stiffness_n_m1_5": "N/m^1.5",
+    "stiffness_n_m_p": "N/m^p",
+    "stiffness_n_m": "N/m",
+    "damping_s_m": "s/m",
+    "_kg_m2": "kg m^2",
+    "_per_kg": "1/kg",
+    "_rad_s": "rad/s",
+    "_m_s2": "m/s^2",
+    "_m_s": "m/s",
+    "_n_s": "N s",
+    "moment_n_m": "N m",
+    "_rad": "rad",
+    "_kg": "kg",
+    "_m": "m",
+    "_n": "N",
+    "_j": "J",
+    "_s": "s",
+}
+
+
+def unit_of(path: str) -> str:
+    """Returns the unit of a field of a scene or of an answer, such as ``"rad/s"``; ``"1"`` for a pure number.
+
+    >>> unit_of("pendulum.omega_minus_rad_s"), unit_of("coefficients.newton"), unit_of("rates_after_rad_s[0]")
+    ('rad/s', '1', 'rad/s')
+    """
+    name = re.sub(r"\[\d+\]$", "", path)
+    for ending, unit in _UNITS.items():
+        if name.endswith(ending):
+            return unit
+    return "1"

@@ -1,0 +1,217 @@
+"""The numbers that arrive in Python, against references of 25 digits and closed forms."""
+
+import math
+import unittest
+
+import numpy as np
+import ricochet
+from support import PENDULUM, vectors
+
+ULPS = 4  # What tolerance 0 promises for a pendulum.
+LAWS = ("newton", "poisson", "energetic")
+
+
+def columns(rows, names):
+    return {path: np.array([float(row[name]) for row in rows]) for path, name in names.items()}
+
+
+class Vectors(unittest.TestCase):
+    def solve(self, rows, scene, inputs, outputs, tolerance):
+        """Yields for each law the rows, the table and the references of the outputs."""
+        for law in LAWS:
+            chosen = [row for row in rows if row["law"] == law]
+            self.assertGreater(len(chosen), 10)
+            fields = columns(chosen, {**inputs, f"restitution.{law}": "coefficient"})
+            table = ricochet.solve_batch(scene, fields, list(outputs), tolerance=tolerance)
+            yield chosen, table, columns(chosen, outputs)
+
+    def test_pendulums_of_a_batch_lie_within_4_ulp(self):
+        inputs = {
+            "pendulum.a_m": "a",
+            "pendulum.b_m": "b",
+            "pendulum.inertia_kg_m2": "j0",
+            "pendulum.omega_minus_rad_s": "omega_minus",
+            "friction.kinetic_coefficient": "mu",
+        }
+        outputs = {
+            "coefficients.newton": "newton",
+            "coefficients.poisson": "poisson",
+            "rates_after_rad_s[0]": "omega_plus",
+            "impulse.normal_total_n_s": "tau1",
+            "impulse.tangential_n_s[0]": "friction_impulse",
+        }
+        for rows, table, expected in self.solve(vectors("pendulum.csv"), {"pendulum": {}}, inputs, outputs, 0):
+            self.assertEqual(table.codes["status"].counts().get("INVALID", 0), 0)
+            for name, values in expected.items():
+                with self.subTest(rows[0]["law"], column=name):
+                    np.testing.assert_array_max_ulp(table[name], values, ULPS)
+
+    def test_planar_contacts_of_a_batch_lie_within_the_tolerance(self):
+        inputs = {
+            "planar_contact.w_tt_per_kg": "wtt",
+            "planar_contact.w_tn_per_kg": "wtn",
+            "planar_contact.w_nn_per_kg": "wnn",
+            "planar_contact.tangential_m_s": "u0",
+            "planar_contact.normal_m_s": "v0",
+            "friction.kinetic_coefficient": "mu",
+        }
+        outputs = {"contact_velocity_after.tangential_m_s[0]": "u1", "contact_velocity_after.normal_m_s": "v1"}
+        rows = [row for row in vectors("planar.csv") if float(row["v0"]) < 0]
+        for chosen, table, expected in self.solve(rows, {"planar_contact": {}}, inputs, outputs, None):
+            scale = np.maximum(*(np.abs(values) for values in columns(chosen, {"u": "u0", "v": "v0"}).values()))
+            for name, values in expected.items():
+                with self.subTest(chosen[0]["law"], column=name):
+                    self.assertLessEqual(np.max(np.abs(table[name] - values) / scale), 1e-12)
+
+    def test_contacts_in_space_lie_within_their_tolerance(self):
+        tolerance = 1e-9
+        for row in vectors("spatial.csv")[:12]:
+            number = {name: float(value) for name, value in row.items() if name not in ("law", "phases")}
+            speeds = [number["u0_1"], number["u0_2"], number["v0"]]
+            scene = {
+                "spatial_contact": {
+                    "w_per_kg": [number[name] for name in ("w11", "w12", "w13", "w22", "w23", "w33")],
+                    "tangential_m_s": np.array(speeds[:2]),
+                    "normal_m_s": speeds[2],
+                },
+                "friction": {"kinetic_coefficient": number["mu"]},
+                "restitution": {row["law"]: number["coefficient"]},
+            }
+            after = ricochet.solve(scene, tolerance=tolerance).contact_velocity_after
+            for found, name in zip([*after.tangential_m_s, after.normal_m_s], ("u1_1", "u1_2", "v1")):
+                self.assertLessEqual(abs(found - number[name]), tolerance * max(map(abs, speeds)))
+
+
+class Sweeps(unittest.TestCase):
+    def test_a_dataset_has_the_closed_form_at_each_coordinate(self):
+        # Lubarda (2009), eq. 38: Newton's coefficient is sqrt((1 - x)/(1 + x)), x = mu b/a, if the energetic one is 1.
+        data = ricochet.sweep(
+            PENDULUM,
+            {"friction.kinetic_coefficient": [0.0, 0.05, 0.2], "pendulum.a_m": ricochet.Linspace(0.3, 2, 5)},
+            ["coefficients.newton", "rates_after_rad_s[0]"],
+        )
+        self.assertEqual(data["coefficients.newton"].dims, ("friction.kinetic_coefficient", "pendulum.a_m"))
+        self.assertEqual(data["coefficients.newton"].shape, (3, 5))
+        for mu in (0.0, 0.05, 0.2):
+            for a in (0.3, 0.725, 1.15, 1.575, 2.0):
+                point = data.sel({"friction.kinetic_coefficient": mu}).sel({"pendulum.a_m": a}, method="nearest")
+                self.assertAlmostEqual(float(point["coefficients.newton"]), math.sqrt((1 - mu / a) / (1 + mu / a)), 14)
+        self.assertEqual(data["pendulum.a_m"].attrs["units"], "m")
+        self.assertEqual(data["rates_after_rad_s[0]"].attrs["units"], "rad/s")
+
+    def test_flags_name_the_regimes(self):
+        # At mu = a/b the pendulum is locked; without friction it rebounds frictionless.
+        data = ricochet.sweep(PENDULUM, {"friction.kinetic_coefficient": [0, 0.1, 0.3]}, ["coefficients.newton"])
+        names = data["regime"].attrs["flag_meanings"].split()
+        self.assertEqual([names[number] for number in data["regime"].values], ["FRICTIONLESS", "REBOUND", "LOCKED"])
+
+    def test_a_frame_has_a_row_for_each_point(self):
+        frame = ricochet.sweep(
+            PENDULUM,
+            {"friction.kinetic_coefficient": [0, 0.3], "restitution.energetic": [0.5, 1]},
+            ["coefficients.newton"],
+            form="pandas",
+        )
+        self.assertEqual(list(frame["friction.kinetic_coefficient"]), [0, 0, 0.3, 0.3])
+        self.assertEqual(list(frame["restitution.energetic"]), [0.5, 1, 0.5, 1])
+        self.assertEqual(list(frame["coefficients.newton"]), [0.5, 1, 0, 0])
+        self.assertEqual(list(frame["regime"]), ["FRICTIONLESS", "FRICTIONLESS", "LOCKED", "LOCKED"])
+
+    def test_axes_may_advance_together(self):
+        table = ricochet.sweep(
+            PENDULUM,
+            {"pendulum.a_m": [0.3, 1], "friction.kinetic_coefficient": [0, 0]},
+            ["coefficients.newton"],
+            form="table",
+            zip_axes=True,
+        )
+        self.assertEqual(list(table["coefficients.newton"]), [1, 1])
+        self.assertEqual(table.to_xarray()["pendulum.a_m"].dims, ("row",))
+
+    def test_a_wrong_point_is_nan_and_invalid(self):
+        table = ricochet.sweep(
+            PENDULUM, {"friction.kinetic_coefficient": [-1, 0]}, ["coefficients.newton"], form="table"
+        )
+        self.assertTrue(math.isnan(table["coefficients.newton"][0]))
+        self.assertEqual(table.codes["regime"].counts(), {"FRICTIONLESS": 1, "INVALID": 1})
+
+    def test_coordinates_are_the_doubles_that_the_server_used(self):
+        # Without friction and with e = 1, the rate after the impact is minus the rate before it.
+        for axis in (ricochet.Linspace(-3, 0.7, 1001), ricochet.Linspace(-0.1, -7, 1001), ricochet.Linspace(-2, -2, 1)):
+            table = ricochet.sweep(
+                {**PENDULUM, "friction": {}},
+                {"pendulum.omega_minus_rad_s": axis},
+                ["rates_after_rad_s[0]"],
+                form="table",
+            )
+            rates = table.inputs()["pendulum.omega_minus_rad_s"]
+            np.testing.assert_array_equal(np.abs(table["rates_after_rad_s[0]"]), np.abs(rates))
+
+    def test_points_of_many_chunks_are_in_order(self):
+        done = []
+        table = ricochet.sweep(
+            {**PENDULUM, "friction": {}},
+            {"restitution.energetic": ricochet.Linspace(0, 1, 300_001)},
+            ["coefficients.newton", "coefficients.poisson"],
+            form="table",
+            progress=lambda *numbers: done.append(numbers),
+        )
+        np.testing.assert_array_max_ulp(table["coefficients.newton"], np.linspace(0, 1, 300_001), ULPS)
+        np.testing.assert_array_max_ulp(table["coefficients.poisson"], np.linspace(0, 1, 300_001), ULPS)
+        self.assertGreater(len(done), 3)
+        self.assertEqual(done[-1], (300_001, 300_001))
+
+
+class Batches(unittest.TestCase):
+    def test_a_batch_above_the_limit_is_asked_in_parts(self):
+        rows = 1_100_000
+        rates = -np.linspace(1, 2, rows)
+        table = ricochet.solve_batch(
+            {**PENDULUM, "friction": {}},
+            {"pendulum.omega_minus_rad_s": rates, "pendulum.a_m": 0.3},
+            ["rates_after_rad_s[0]"],
+        )
+        np.testing.assert_array_equal(table["rates_after_rad_s[0]"], -rates)
+
+    def test_a_bad_row_has_its_number_and_its_reason(self):
+        table = ricochet.solve_batch(PENDULUM, {"pendulum.a_m": [0.3, -1, 0.3]}, ["coefficients.newton"])
+        self.assertEqual(list(table.codes["status"].numbers), [1, 3, 1])
+        self.assertEqual(table.codes["status"][1], "INVALID")
+        [bad] = table.summary.bad_rows
+        self.assertEqual((bad.row, bad.field, bad.description), (1, "pendulum.a_m", "= -1: must be > 0"))
+
+
+class BoundsAndAudits(unittest.TestCase):
+    def test_newtons_sharp_bound_is_that_of_the_elastic_impact(self):
+        answer = ricochet.bounds(PENDULUM, ranges={"friction.kinetic_coefficient": (0.0, 0.1)})
+        self.assertAlmostEqual(answer.bounds.sharp.newton.upper, math.sqrt(0.5), 15)
+        outer = answer.enclosure.outer.newton
+        self.assertLessEqual(outer.lower, 0)
+        self.assertGreaterEqual(outer.upper, 1)
+        self.assertLess(outer.upper, 1.006)
+
+    def test_an_observation_that_doubles_the_rate_breaks_the_limits(self):
+        answer = ricochet.audit(PENDULUM, rates_rad_s=2.0)
+        self.assertFalse(answer.report.admissible)
+        self.assertAlmostEqual(answer.report.coefficients.newton, 2, 14)
+        # E+ - E- = (2^2 - 1^2)/2 J at 1 kg m^2.
+        self.assertAlmostEqual(answer.report.energy_change_j, 1.5, 13)
+        self.assertEqual(answer.report.limits.energy.verdict, "BROKEN")
+
+    def test_rows_of_an_audit_are_columns(self):
+        # v+ = a w+ = 0.3 w+ and u+ = b w+ = w+.
+        rates = np.array([0.5, 2.0, np.nan])
+        table = ricochet.audit_batch(PENDULUM, {"tangential_after_m_s": rates, "normal_after_m_s": 0.3 * rates})
+        np.testing.assert_allclose(table["coefficients.newton"], rates, rtol=1e-14)
+        self.assertEqual([table.codes["limits.energy.verdict"][row] for row in range(2)], ["KEPT", "BROKEN"])
+        self.assertEqual([table.codes["regime"][row] for row in (1, 2)], ["REBOUND", "INVALID"])
+        self.assertEqual((table.summary.rows, table.summary.invalid), (3, 1))
+
+    def test_an_audit_of_many_rows_is_asked_in_parts(self):
+        rates = np.linspace(0.1, 0.7, 10_000)
+        table = ricochet.audit_batch(PENDULUM, {"rates_after": [rates]})
+        np.testing.assert_allclose(table["coefficients.newton"], rates, rtol=1e-14)
+
+
+if __name__ == "__main__":
+    unittest.main()
