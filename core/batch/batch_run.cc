@@ -70,7 +70,7 @@ absl::Status BatchRun::Prepare(const BatchSetup& setup) {
   numbers_.reserve(all.size());
   if (std::optional<PlanarRows> planar = PlanarRows::Make(scene_, setup, demand_); planar.has_value()) {
     planar_ = std::make_unique<PlanarRows>(*std::move(planar));
-    verdicts_.resize(PlanarRows::kBlock);
+    block_ = std::make_unique<PlanarRows::Block>();
   }
   return absl::OkStatus();
 }
@@ -107,13 +107,6 @@ std::optional<BatchRun::Row> BatchRun::SolveRow(const BatchRows& rows, size_t i,
   return row;
 }
 
-BatchRun::Row BatchRun::RowOf(const PlanarRows::Verdict& verdict) const {
-  return {.status = verdict.inadmissible ? RowStatus::kInadmissible : RowStatus::kOk,
-          .regime = verdict.regime,
-          .model = verdict.model,
-          .too_large = std::nullopt};
-}
-
 void BatchRun::CheckNumbers(const BatchRows& rows, size_t i, Row& row) const {
   for (size_t c = 0; c < columns_.size(); ++c) {
     if (std::isfinite(rows.outputs[c][i])) continue;
@@ -124,30 +117,52 @@ void BatchRun::CheckNumbers(const BatchRows& rows, size_t i, Row& row) const {
   }
 }
 
-// Solves the row, or takes it from its block, which is solved when its first row is asked for. Returns nothing if it was
-// stopped.
-std::optional<BatchRun::Row> BatchRun::SolveInBlock(const BatchRows& rows, size_t i,
-                                                    absl::FunctionRef<bool()> stopped) {
-  const size_t in_block = i % PlanarRows::kBlock;
-  if (planar_ == nullptr || in_block == 0) {
-    if (stopped()) return std::nullopt;
-    if (planar_ != nullptr) {
-      planar_->Solve(rows, i, std::min(PlanarRows::kBlock, RowCount(rows) - i), absl::MakeSpan(verdicts_));
+// Returns false if it was stopped.
+bool BatchRun::SolveAlone(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped, BatchSummary& summary) {
+  const std::optional<Row> row = SolveRow(rows, i, stopped);
+  if (row.has_value()) Finish(rows, i, *row, summary);
+  return row.has_value();
+}
+
+// Returns false if it was stopped. The rows are finished in their order.
+bool BatchRun::SolveBlock(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
+                          BatchSummary& summary) {
+  if (stopped()) return false;
+  planar_->Solve(rows, first, count, *block_);
+  const bool has_all_numbers = planar_->HasAllNumbers(count, *block_);
+  for (size_t k = 0; k < count; ++k) {
+    if (block_->models[k] == Model::kUnspecified) {
+      if (!SolveAlone(rows, first + k, stopped, summary)) return false;
+      continue;
     }
+    Row row = {.status = block_->inadmissible[k] ? RowStatus::kInadmissible : RowStatus::kOk,
+               .regime = block_->regimes[k],
+               .model = block_->models[k],
+               .too_large = std::nullopt};
+    if (!has_all_numbers) CheckNumbers(rows, first + k, row);
+    Finish(rows, first + k, row, summary);
   }
-  if (planar_ == nullptr || !verdicts_[in_block].is_solved) return SolveRow(rows, i, stopped);
-  Row row = RowOf(verdicts_[in_block]);
-  CheckNumbers(rows, i, row);
-  return row;
+  return true;
+}
+
+// Returns false if it was stopped.
+bool BatchRun::SolveSome(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
+                         BatchSummary& summary) {
+  if (planar_ != nullptr) return SolveBlock(rows, first, count, stopped, summary);
+  for (size_t i = first; i < first + count; ++i) {
+    if (stopped() || !SolveAlone(rows, i, stopped, summary)) return false;
+  }
+  return true;
 }
 
 absl::StatusOr<BatchSummary> BatchRun::Solve(const BatchRows& rows, absl::FunctionRef<bool()> stopped) {
   if (absl::Status misfit = CheckRows(rows, fields_.size(), columns_.size()); !misfit.ok()) return misfit;
   BatchSummary summary;
-  for (size_t i = 0; i < RowCount(rows); ++i) {
-    const std::optional<Row> row = SolveInBlock(rows, i, stopped);
-    if (!row.has_value()) return absl::CancelledError("the batch was stopped by its caller");
-    Finish(rows, i, *row, summary);
+  const size_t all = RowCount(rows);
+  for (size_t first = 0; first < all; first += PlanarRows::kBlock) {
+    if (!SolveSome(rows, first, std::min(PlanarRows::kBlock, all - first), stopped, summary)) {
+      return absl::CancelledError("the batch was stopped by its caller");
+    }
   }
   return summary;
 }

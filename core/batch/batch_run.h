@@ -36,7 +36,7 @@ class BatchRun {
   // The columns in or out, whichever are more.
   size_t columns() const { return std::max(fields_.size(), columns_.size()); }
 
-  // Solves all rows. `stopped` is asked before each, or before each block of rows that go in SIMD lanes.
+  // Solves all rows. `stopped` is asked before each row that goes alone, and before each block that goes in SIMD lanes.
   // Errors: INVALID_ARGUMENT if the columns do not fit, CANCELLED once `stopped` returns true.
   absl::StatusOr<BatchSummary> Solve(const BatchRows& rows, absl::FunctionRef<bool()> stopped);
 
@@ -53,9 +53,12 @@ class BatchRun {
   absl::Status Prepare(const BatchSetup& setup);
   bool SetRow(const BatchRows& rows, size_t i);
   std::optional<Row> SolveRow(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped);
-  Row RowOf(const PlanarRows::Verdict& verdict) const;
   void CheckNumbers(const BatchRows& rows, size_t i, Row& row) const;
-  std::optional<Row> SolveInBlock(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped);
+  bool SolveBlock(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
+                  BatchSummary& summary);
+  bool SolveAlone(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped, BatchSummary& summary);
+  bool SolveSome(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
+                 BatchSummary& summary);
   void Finish(const BatchRows& rows, size_t i, const Row& row, BatchSummary& summary) const;
   Violation WhyInvalid(const BatchRows& rows, size_t i) const;
   BadRow Describe(const BatchRows& rows, int64_t index, const Row& row) const;
@@ -63,13 +66,13 @@ class BatchRun {
   Scene scene_;  // The scene of the current row, in which every row sets the same fields.
   DrivenFields fields_;
   Demand demand_;
-  bool has_relations_ = false;                 // True if the scene has rules beyond those of single numbers.
-  std::vector<std::string> names_;             // The names of the input columns.
-  std::vector<std::string> columns_;           // The names of the output columns.
-  std::vector<size_t> positions_of_;           // Their positions among all columns of the scene.
-  std::vector<double> numbers_;                // All columns of one row.
-  std::unique_ptr<PlanarRows> planar_;         // Absent if the rows need a scene each.
-  std::vector<PlanarRows::Verdict> verdicts_;  // Of the current block of planar rows.
+  bool has_relations_ = false;                // True if the scene has rules beyond those of single numbers.
+  std::vector<std::string> names_;            // The names of the input columns.
+  std::vector<std::string> columns_;          // The names of the output columns.
+  std::vector<size_t> positions_of_;          // Their positions among all columns of the scene.
+  std::vector<double> numbers_;               // All columns of one row.
+  std::unique_ptr<PlanarRows> planar_;        // Absent if the rows need a scene each.
+  std::unique_ptr<PlanarRows::Block> block_;  // The current block of planar rows.
 };
 
 }  // namespace ricochet

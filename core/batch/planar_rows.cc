@@ -1,43 +1,49 @@
 #include "core/batch/planar_rows.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "core/contact/scene_contact.h"
-#include "core/models/sliding/sliding.h"
+#include "core/models/impact_end.h"
+#include "core/models/planar/columns.h"
+#include "core/models/sliding/columns.h"
 #include "core/plan/arithmetic.h"
-#include "core/plan/straight_problem.h"
+#include "core/plan/choose.h"
+#include "core/plan/planar_models.h"
 #include "core/problem/scene_problem.h"
 #include "core/scene/numbers.h"
 
 namespace ricochet {
 namespace {
 
-constexpr std::pair<const char*, planar::Output> kOutputs[] = {
-    {"coefficients.newton", planar::Output::kNewton},
-    {"coefficients.poisson", planar::Output::kPoisson},
-    {"coefficients.energetic", planar::Output::kEnergetic},
-    {"coefficients.tangential", planar::Output::kTangentialCoefficient},
-    {"contact_velocity_after.tangential_m_s[0]", planar::Output::kTangentialVelocityAfter},
-    {"contact_velocity_after.normal_m_s", planar::Output::kNormalVelocityAfter},
-    {"impulse.normal_compression_n_s", planar::Output::kNormalImpulseCompression},
-    {"impulse.normal_total_n_s", planar::Output::kNormalImpulse},
-    {"impulse.tangential_n_s[0]", planar::Output::kTangentialImpulse},
-    {"work.normal_compression_j", planar::Output::kWorkNormalCompression},
-    {"work.normal_restitution_j", planar::Output::kWorkNormalRestitution},
-    {"work.tangential_compression_j", planar::Output::kWorkTangentialCompression},
-    {"work.tangential_restitution_j", planar::Output::kWorkTangentialRestitution},
-    {"work.normal_total_j", planar::Output::kWorkNormal},
-    {"work.tangential_total_j", planar::Output::kWorkTangential},
-    {"work.friction_dissipation_j", planar::Output::kFrictionDissipation},
-    {"energy_change_j", planar::Output::kEnergyChange},
+constexpr std::pair<const char*, PlanarOutput> kOutputs[] = {
+    {"coefficients.newton", PlanarOutput::kNewton},
+    {"coefficients.poisson", PlanarOutput::kPoisson},
+    {"coefficients.energetic", PlanarOutput::kEnergetic},
+    {"coefficients.tangential", PlanarOutput::kTangentialCoefficient},
+    {"contact_velocity_after.tangential_m_s[0]", PlanarOutput::kTangentialVelocityAfter},
+    {"contact_velocity_after.normal_m_s", PlanarOutput::kNormalVelocityAfter},
+    {"impulse.normal_compression_n_s", PlanarOutput::kNormalImpulseCompression},
+    {"impulse.normal_total_n_s", PlanarOutput::kNormalImpulse},
+    {"impulse.tangential_n_s[0]", PlanarOutput::kTangentialImpulse},
+    {"work.normal_compression_j", PlanarOutput::kWorkNormalCompression},
+    {"work.normal_restitution_j", PlanarOutput::kWorkNormalRestitution},
+    {"work.tangential_compression_j", PlanarOutput::kWorkTangentialCompression},
+    {"work.tangential_restitution_j", PlanarOutput::kWorkTangentialRestitution},
+    {"work.normal_total_j", PlanarOutput::kWorkNormal},
+    {"work.tangential_total_j", PlanarOutput::kWorkTangential},
+    {"work.friction_dissipation_j", PlanarOutput::kFrictionDissipation},
+    {"energy_change_j", PlanarOutput::kEnergyChange},
 };
 
-std::optional<planar::Output> OutputAt(const std::string& path) {
+std::optional<PlanarOutput> OutputAt(const std::string& path) {
   for (const auto& [name, output] : kOutputs) {
     if (path == name) return output;
   }
@@ -82,137 +88,160 @@ bool IsSurelyValid(const planar::Problem& problem) {
          problem.coefficient >= 0.0 && problem.coefficient <= most;
 }
 
-// The same numbers with a scalar for each list of one direction.
-ImpactEnd<double> WithScalars(const sliding::Impact<1>& impact) {
-  return {.regime = impact.regime,
-          .termination = impact.termination,
-          .w_rank = impact.w_rank,
-          .sharp_limit_broken = impact.sharp_limit_broken,
-          .energy_limit_broken = impact.energy_limit_broken,
-          .newton = impact.newton,
-          .poisson = impact.poisson,
-          .energetic = impact.energetic,
-          .tangential = impact.tangential,
-          .energetic_excess = impact.energetic_excess,
-          .u1 = impact.u1[0],
-          .v1 = impact.v1,
-          .tau_compression = impact.tau_compression,
-          .tau1 = impact.tau1,
-          .f1 = impact.f1[0],
-          .work_normal_compression = impact.work_normal_compression,
-          .work_normal_restitution = impact.work_normal_restitution,
-          .work_tangential_compression = impact.work_tangential_compression,
-          .work_tangential_restitution = impact.work_tangential_restitution,
-          .energy_change = impact.energy_change};
-}
+// The numbers of a contact that separates. The rank of W is not an output.
+ImpactEnd<double> Separated(double u0, double v0) { return Separating<ImpactEnd<double>>(2, u0, v0); }
 
 }  // namespace
 
 std::optional<PlanarRows> PlanarRows::Make(const Scene& scene, const BatchSetup& setup, const Demand& demand) {
   if (!IsPlain(scene) || !demand.required.IsEmpty() || !demand.excluded.IsEmpty()) return std::nullopt;
   PlanarRows rows(demand);
-  rows.numbers_ = {};
   for (const std::string& column : setup.columns) {
-    const std::optional<planar::Output> output = OutputAt(column);
+    const std::optional<PlanarOutput> output = OutputAt(column);
     if (!output.has_value()) return std::nullopt;
     rows.outputs_.push_back(*output);
   }
   const planar::Problem base =
       planar::MakeProblem(std::get<PlanarReduction>(Reduce(scene)), scene.restitution, CoefficientsAtSpeed(scene, 0.0));
   rows.law_ = base.law;
-  rows.base_ = {base.w.tt, base.w.tn, base.w.nn, base.u0, base.v0, base.mu, base.mu_static, base.coefficient};
+  const std::array<double, kNumberCount> numbers = {base.w.tt, base.w.tn, base.w.nn,      base.u0,
+                                                    base.v0,   base.mu,   base.mu_static, base.coefficient};
+  for (size_t n = 0; n < kNumberCount; ++n) rows.base_[n].fill(numbers[n]);
   rows.static_is_kinetic_ = !scene.friction.static_coefficient.has_value();
   for (size_t k = 0; k < setup.fields.size(); ++k) rows.column_of_[NumberAt(setup.fields[k])] = k;
+  rows.places_.resize(rows.outputs_.size());
+  rows.answer_places_.resize(rows.outputs_.size());
+  rows.answers_.resize(rows.outputs_.size());
   return rows;
 }
 
-void PlanarRows::Load(const BatchRows& rows, size_t first, size_t count) {
+PlanarRows::Columns PlanarRows::ColumnsOf(const BatchRows& rows, size_t first) const {
+  Columns columns;
   for (size_t n = 0; n < kNumberCount; ++n) {
-    if (column_of_[n].has_value()) {
-      std::copy_n(rows.inputs[*column_of_[n]].begin() + static_cast<ptrdiff_t>(first), count, numbers_[n].begin());
-    } else if (n == kMuStatic && static_is_kinetic_) {
-      std::copy_n(numbers_[kMu].begin(), count, numbers_[n].begin());
-    } else {
-      std::fill_n(numbers_[n].begin(), count, base_[n]);
-    }
+    columns[n] = column_of_[n].has_value() ? rows.inputs[*column_of_[n]].data() + first : base_[n].data();
+  }
+  if (static_is_kinetic_ && !column_of_[kMuStatic].has_value()) columns[kMuStatic] = columns[kMu];
+  return columns;
+}
+
+PlanarProblemColumns PlanarRows::ProblemsIn(const Columns& columns, size_t count) const {
+  const auto column = [&](Number n) { return absl::MakeConstSpan(columns[n], count); };
+  return {.law = law_,
+          .wtt = column(kWtt),
+          .wtn = column(kWtn),
+          .wnn = column(kWnn),
+          .u0 = column(kU0),
+          .v0 = column(kV0),
+          .mu = column(kMu),
+          .mu_static = column(kMuStatic),
+          .coefficient = column(kCoefficient)};
+}
+
+void PlanarRows::SolveBy(Model model, const Columns& columns, size_t count, const PlanarSolvedColumns& solved) const {
+  const PlanarProblemColumns problems = ProblemsIn(columns, count);
+  if (model == Model::kFrictionless) {
+    sliding::SolveFrictionlessColumns(problems, solved);
+  } else if (model == Model::kSliding) {
+    sliding::SolveColumns(problems, solved);
+  } else {
+    planar::SolveColumns(problems, ToleranceLeft(demand_.relative_tolerance, 0.0), solved);
   }
 }
 
-planar::Problem PlanarRows::ProblemAt(size_t i) const {
-  return {.w = {numbers_[kWtt][i], numbers_[kWtn][i], numbers_[kWnn][i]},
-          .u0 = numbers_[kU0][i],
-          .v0 = numbers_[kV0][i],
-          .mu = numbers_[kMu][i],
-          .mu_static = numbers_[kMuStatic][i],
-          .law = law_,
-          .coefficient = numbers_[kCoefficient][i]};
-}
-
-// Solves the row by a straight model, or prepares it for the lanes, or leaves it to its scene.
-void PlanarRows::Plan(size_t i, Verdict& verdict) {
-  const planar::Problem problem = ProblemAt(i);
-  verdict = {};
-  if (IsSurelyValid(problem)) {
-    const Choice choice = ChoosePlanar(problem, {}, demand_);
-    verdict.model = choice.model;
-    const planar::Problem kept = Without(choice, problem);
-    if (choice.model == Model::kSliding || choice.model == Model::kFrictionless) return SolveStraight(i, kept, verdict);
-    verdict.is_solved = (choice.model == Model::kPlanar && choice.negligible == 0.0) || choice.model == Model::kNone;
-    numbers_[kMu][i] = kept.mu;
-    numbers_[kMuStatic][i] = kept.mu_static;
+// Puts the numbers of some rows side by side.
+PlanarRows::Columns PlanarRows::Gather(const Columns& columns, absl::Span<const uint16_t> some) {
+  Columns gathered = columns;
+  for (size_t n = 0; n < kNumberCount; ++n) {
+    if (!column_of_[n].has_value()) continue;
+    const double* const from = columns[n];
+    double* const to = gathered_[n].data();
+    for (size_t k = 0; k < some.size(); ++k) to[k] = from[some[k]];
+    gathered[n] = to;
   }
-  if (verdict.is_solved) return;
-  // A contact that separates costs the lanes least.
-  numbers_[kV0][i] = 0.0;
-  numbers_[kWnn][i] = 1.0;
+  if (columns[kMuStatic] == columns[kMu]) gathered[kMuStatic] = gathered[kMu];
+  return gathered;
 }
 
-void PlanarRows::SolveStraight(size_t i, const planar::Problem& problem, Verdict& verdict) {
-  const sliding::Problem<1> straight = SlidingProblemOf(problem);
-  const ImpactEnd<double> impact = WithScalars(
-      verdict.model == Model::kFrictionless ? sliding::SolveFrictionless(straight) : sliding::Solve(straight));
-  straight_.push_back(i);
-  answers_.push_back(planar::NumbersOf(impact, 0.0));
-  verdict.is_solved = true;
-  verdict.regime = impact.regime;
-  verdict.inadmissible = impact.sharp_limit_broken || impact.energy_limit_broken;
-  numbers_[kV0][i] = 0.0;
-}
-
-void PlanarRows::Solve(const BatchRows& rows, size_t first, size_t count, absl::Span<Verdict> verdicts) {
-  Load(rows, first, count);
-  straight_.clear();
-  answers_.clear();
-  for (size_t i = 0; i < count; ++i) Plan(i, verdicts[i]);
+// Solves some rows of the block by one model, in columns of their own unless they are the whole block.
+void PlanarRows::SolveTogether(const Columns& columns, absl::Span<const uint16_t> some, size_t count, Model model,
+                               Block& block) {
+  if (some.size() == count) {
+    return SolveBy(model, columns, count,
+                   {.outputs = outputs_,
+                    .columns = places_,
+                    .regimes = absl::MakeSpan(block.regimes).first(count),
+                    .inadmissible = absl::MakeSpan(block.inadmissible).first(count)});
+  }
   std::array<Regime, kBlock> regimes;
   std::array<bool, kBlock> inadmissible;
-  std::vector<double*>& places = places_;
-  places.clear();
-  for (const absl::Span<double> column : rows.outputs) places.push_back(column.data() + first);
-  const auto numbers = [&](Number n) { return absl::MakeConstSpan(numbers_[n].data(), count); };
-  planar::SolveColumns({.law = law_,
-                        .wtt = numbers(kWtt),
-                        .wtn = numbers(kWtn),
-                        .wnn = numbers(kWnn),
-                        .u0 = numbers(kU0),
-                        .v0 = numbers(kV0),
-                        .mu = numbers(kMu),
-                        .mu_static = numbers(kMuStatic),
-                        .coefficient = numbers(kCoefficient)},
-                       ToleranceLeft(demand_.relative_tolerance, 0.0),
-                       {.outputs = outputs_,
-                        .columns = places,
-                        .regimes = absl::MakeSpan(regimes.data(), count),
-                        .inadmissible = absl::MakeSpan(inadmissible.data(), count)});
-  for (size_t k = 0; k < straight_.size(); ++k) {
-    for (size_t c = 0; c < outputs_.size(); ++c)
-      places[c][straight_[k]] = answers_[k][static_cast<size_t>(outputs_[c])];
+  SolveBy(model, Gather(columns, some), some.size(),
+          {.outputs = outputs_,
+           .columns = answer_places_,
+           .regimes = absl::MakeSpan(regimes).first(some.size()),
+           .inadmissible = absl::MakeSpan(inadmissible).first(some.size())});
+  for (size_t c = 0; c < outputs_.size(); ++c) {
+    const double* const from = answers_[c].data();
+    double* const to = places_[c];
+    for (size_t k = 0; k < some.size(); ++k) to[some[k]] = from[k];
   }
+  for (size_t k = 0; k < some.size(); ++k) {
+    block.regimes[some[k]] = regimes[k];
+    block.inadmissible[some[k]] = inadmissible[k];
+  }
+}
+
+void PlanarRows::Separate(const Columns& columns, size_t i, Block& block) const {
+  const auto numbers = planar::NumbersOf(Separated(columns[kU0][i], columns[kV0][i]), 0.0);
+  for (size_t c = 0; c < outputs_.size(); ++c) places_[c][i] = numbers[static_cast<size_t>(outputs_[c])];
+  block.regimes[i] = Regime::kSeparating;
+  block.inadmissible[i] = false;
+}
+
+// The model of a row that the lanes leave open.
+Model PlanarRows::ModelAlone(const planar::Problem& problem) const {
+  if (!IsSurelyValid(problem)) return Model::kUnspecified;
+  return ChoosePlanar(problem, {}, demand_).model;
+}
+
+void PlanarRows::Solve(const BatchRows& rows, size_t first, size_t count, Block& block) {
+  const Columns columns = ColumnsOf(rows, first);
+  const PlanarProblemColumns problems = ProblemsIn(columns, count);
+  for (size_t c = 0; c < outputs_.size(); ++c) {
+    places_[c] = rows.outputs[c].data() + first;
+    answer_places_[c] = answers_[c].data();
+  }
+  ModelsOfPlanar(problems, demand_.relative_tolerance, absl::MakeSpan(block.models).first(count));
+  // The rows of each model.
+  std::array<std::array<uint16_t, kBlock>, kModelCount> lists;
+  std::array<size_t, kModelCount> sizes = {};
   for (size_t i = 0; i < count; ++i) {
-    if (verdicts[i].model != Model::kPlanar && verdicts[i].model != Model::kNone) continue;
-    verdicts[i].regime = regimes[i];
-    verdicts[i].inadmissible = inadmissible[i];
+    Model& model = block.models[i];
+    if (model == Model::kUnspecified) model = ModelAlone(problems[i]);
+    const auto number = static_cast<size_t>(model);
+    lists[number][sizes[number]++] = static_cast<uint16_t>(i);
   }
+  const auto rows_of = [&](Model model) {
+    const auto number = static_cast<size_t>(model);
+    return absl::MakeConstSpan(lists[number].data(), sizes[number]);
+  };
+  for (const size_t i : rows_of(Model::kNone)) Separate(columns, i, block);
+  for (const Model model : {Model::kFrictionless, Model::kSliding, Model::kPlanar}) {
+    if (!rows_of(model).empty()) SolveTogether(columns, rows_of(model), count, model, block);
+  }
+}
+
+bool PlanarRows::HasAllNumbers(size_t count, const Block& block) const {
+  bool is_solved = true;
+  for (size_t i = 0; i < count; ++i) is_solved &= block.models[i] != Model::kUnspecified;
+  if (!is_solved) return false;
+  // Added to a magnitude, the least exponent carries into the sign if the number is infinite or NaN.
+  constexpr uint64_t kSign = uint64_t{1} << 63;
+  constexpr uint64_t kLeastExponent = uint64_t{1} << 52;
+  uint64_t carry = 0;
+  for (const double* const column : places_) {
+    for (size_t i = 0; i < count; ++i) carry |= (std::bit_cast<uint64_t>(column[i]) & ~kSign) + kLeastExponent;
+  }
+  return (carry & kSign) == 0;
 }
 
 }  // namespace ricochet

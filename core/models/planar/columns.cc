@@ -14,6 +14,7 @@
 #include "core/models/planar/kernel-inl.h"
 #include "core/models/planar/report-inl.h"
 #include "core/models/planar/rounding-inl.h"
+#include "core/models/planar_outputs-inl.h"
 #include "core/numerics/lanes-inl.h"
 #include "core/numerics/sizes-inl.h"
 // clang-format on
@@ -121,36 +122,13 @@ HWY_INLINE Answer<DoubleDouble<V>> Judge(unsigned parts, const Course<DoubleDoub
   return {MakeNumbers(parts, course), CompensatedBounds(course).Largest(), all};
 }
 
-// Calls tell(output, value) for every output of an impact. `V` is double or a vector.
-template <typename X, typename V, typename Tell>
-HWY_INLINE void TellOutputs(const X& x, V zero, V relative_error, const Tell& tell) {
-  const V work_tangential = x.work_tangential_compression + x.work_tangential_restitution;
-  tell(Output::kNewton, x.newton);
-  tell(Output::kPoisson, x.poisson);
-  tell(Output::kEnergetic, x.energetic);
-  tell(Output::kTangentialCoefficient, x.tangential);
-  tell(Output::kTangentialVelocityAfter, x.u1);
-  tell(Output::kNormalVelocityAfter, x.v1);
-  tell(Output::kNormalImpulseCompression, x.tau_compression);
-  tell(Output::kNormalImpulse, x.tau1);
-  tell(Output::kTangentialImpulse, x.f1);
-  tell(Output::kWorkNormalCompression, x.work_normal_compression);
-  tell(Output::kWorkNormalRestitution, x.work_normal_restitution);
-  tell(Output::kWorkTangentialCompression, x.work_tangential_compression);
-  tell(Output::kWorkTangentialRestitution, x.work_tangential_restitution);
-  tell(Output::kWorkNormal, x.work_normal_compression + x.work_normal_restitution);
-  tell(Output::kWorkTangential, work_tangential);
-  tell(Output::kFrictionDissipation, zero - work_tangential);
-  tell(Output::kEnergyChange, x.energy_change);
-  tell(Output::kRelativeError, relative_error);
-}
-
 template <typename N>
 HWY_INLINE void Store(const Job& job, size_t i, const Answer<N>& answer) {
-  TellOutputs(answer.numbers, VLanes::Fill(0.0), answer.relative_error, [&](Output output, V value) HWY_ATTR {
-    double* const place = job.places[static_cast<size_t>(output)];
-    if (place != nullptr) VLanes::Store(value, place + i);
-  });
+  ricochet::HWY_NAMESPACE::TellOutputs(answer.numbers, VLanes::Fill(0.0), answer.relative_error,
+                                       [&](Output output, V value) HWY_ATTR {
+                                         double* const place = job.places[static_cast<size_t>(output)];
+                                         if (place != nullptr) VLanes::Store(value, place + i);
+                                       });
 }
 
 // Solves the problems [first, first + count), of which there are at least as many as a vector has lanes. The last vector
@@ -198,8 +176,8 @@ HWY_EXPORT(CountLanes);
 
 std::array<double, kOutputCount> NumbersOf(const ImpactEnd<double>& impact, double relative_error) {
   std::array<double, kOutputCount> numbers = {};
-  HWY_NAMESPACE::TellOutputs(impact, 0.0, relative_error,
-                             [&](Output output, double value) { numbers[static_cast<size_t>(output)] = value; });
+  ricochet::HWY_NAMESPACE::TellOutputs(
+      impact, 0.0, relative_error, [&](Output output, double value) { numbers[static_cast<size_t>(output)] = value; });
   return numbers;
 }
 
@@ -363,16 +341,6 @@ unsigned PartsOf(absl::Span<const Output> outputs) {
 }
 
 }  // namespace
-
-Problem ProblemColumns::operator[](size_t i) const {
-  return {.w = {wtt[i], wtn[i], wnn[i]},
-          .u0 = u0[i],
-          .v0 = v0[i],
-          .mu = mu[i],
-          .mu_static = mu_static[i],
-          .law = law,
-          .coefficient = coefficient[i]};
-}
 
 size_t SolveColumns(const ProblemColumns& problems, double tolerance, const SolvedColumns& solved) {
   assert(solved.outputs.size() == solved.columns.size());
