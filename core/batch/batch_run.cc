@@ -86,7 +86,7 @@ bool BatchRun::SetRow(const BatchRows& rows, size_t i) {
 std::optional<BatchRun::Row> BatchRun::SolveRow(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped) {
   Row row;
   std::optional<SceneContact> contact;
-  if (!SetRow(rows, i) || (has_relations_ && !KeepsRelations(scene_, contact))) {
+  if (!SetRow(rows, i) || (has_relations_ && !KeepsRelations(scene_, nullptr, contact))) {
     row.status = RowStatus::kInvalid;
     return row;
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "absl/strings/match.h"
 #include "core/contact/delassus.h"
 #include "core/contact/finite_forces.h"
 #include "core/contact/linkage_matrices.h"
@@ -250,6 +251,11 @@ AnyReduction Reduce(const Scene& scene) {
       },
       reduction);
   return reduction;
+}
+
+bool ReductionDependsOn(absl::string_view path) {
+  constexpr std::array kOthers = {"friction.", "restitution.", "compliance."};
+  return std::none_of(kOthers.begin(), kOthers.end(), [&](const char* part) { return absl::StartsWith(path, part); });
 }
 
 bool IsFinite(const AnyReduction& reduction) {

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "absl/container/inlined_vector.h"
+#include "absl/strings/string_view.h"
 #include "ricochet/scene.h"
 
 namespace ricochet {
@@ -57,8 +58,11 @@ using PlanarReduction = Reduction<1>;   // w: tt, tn, nn
 using SpatialReduction = Reduction<2>;  // w: 11, 12, 13, 22, 23, 33
 using AnyReduction = std::variant<PlanarReduction, SpatialReduction>;
 
-// Reduces a scene whose system keeps its own rules. Restitution and impact law do not matter.
+// Reduces a scene whose system keeps its own rules. Friction, restitution, compliance and impact law do not matter.
 AnyReduction Reduce(const Scene& scene);
+
+// False if no number at this path of a scene, such as "friction.kinetic_coefficient", changes what Reduce returns.
+bool ReductionDependsOn(absl::string_view path);
 
 // True if W and the velocities are finite.
 bool IsFinite(const AnyReduction& reduction);

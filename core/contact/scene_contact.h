@@ -5,6 +5,8 @@
 #ifndef RICOCHET_CORE_CONTACT_SCENE_CONTACT_H_
 #define RICOCHET_CORE_CONTACT_SCENE_CONTACT_H_
 
+#include <utility>
+
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
 #include "ricochet/outcome.h"
@@ -14,8 +16,11 @@ namespace ricochet {
 
 struct SceneContact {
   // The rules of the scene's own fields hold already. W or the velocity may overflow: see FitsDoubles.
-  explicit SceneContact(const Scene& scene)
-      : reduction(Reduce(scene)), coefficients(CoefficientsAtSpeed(scene, ApproachSpeed(reduction))) {}
+  explicit SceneContact(const Scene& scene) : SceneContact(scene, Reduce(scene)) {}
+
+  // For a scene whose Reduce is known.
+  SceneContact(const Scene& scene, AnyReduction known)
+      : reduction(std::move(known)), coefficients(CoefficientsAtSpeed(scene, ApproachSpeed(reduction))) {}
 
   AnyReduction reduction;
   EffectiveCoefficients coefficients;  // A restitution that is left open counts as 0.

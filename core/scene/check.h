@@ -104,8 +104,8 @@ void CheckEffects(const Scene& scene, Check& check);
 
 // Checks the rules that depend on the contact: the velocity lies in the range of W, and the coefficients keep their
 // rules at the approach speed. All other rules must hold already. If that takes reducing the scene, `contact` is what it
-// was reduced to.
-void CheckContact(const Scene& scene, Check& check, std::optional<SceneContact>& contact);
+// was reduced to; `known` is that if the caller has it, else null.
+void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, std::optional<SceneContact>& contact);
 
 }  // namespace ricochet
 

@@ -97,10 +97,14 @@ bool RangeIsSure(const Scene& scene) {
 
 }  // namespace
 
-void CheckContact(const Scene& scene, Check& check, std::optional<SceneContact>& contact) {
+void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, std::optional<SceneContact>& contact) {
   const bool with_spring = scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.restitution);
   if (RangeIsSure(scene) && !DependsOnSpeed(scene) && !with_spring) return;
-  contact.emplace(scene);
+  if (known == nullptr) {
+    contact.emplace(scene);
+  } else {
+    contact.emplace(scene, *known);
+  }
   const AnyReduction& reduction = contact->reduction;
   if (!IsFinite(reduction)) return;  // The caller reports the overflow, because no single field causes it.
   if (!RangeIsSure(scene)) CheckRange(scene, reduction, check);

@@ -111,10 +111,10 @@ void CheckFields(const Scene& scene, RestitutionIs restitution, Scope scope, Che
 }
 
 void CheckScene(const Scene& scene, RestitutionIs restitution, Scope scope, Check& check,
-                std::optional<SceneContact>& contact) {
+                std::optional<SceneContact>& contact, const AnyReduction* known = nullptr) {
   contact.reset();
   CheckFields(scene, restitution, scope, check);
-  if (!check.failed()) CheckContact(scene, check, contact);
+  if (!check.failed()) CheckContact(scene, known, check, contact);
 }
 
 }  // namespace
@@ -147,9 +147,9 @@ bool HasRelations(const Scene& scene) {
   return scene != plain;
 }
 
-bool KeepsRelations(const Scene& scene, std::optional<SceneContact>& contact) {
+bool KeepsRelations(const Scene& scene, const AnyReduction* known, std::optional<SceneContact>& contact) {
   Check check(Check::Mode::kVerdict);
-  CheckScene(scene, RestitutionIs::kRequired, Scope::kRelations, check, contact);
+  CheckScene(scene, RestitutionIs::kRequired, Scope::kRelations, check, contact, known);
   return !check.failed();
 }
 

@@ -32,8 +32,8 @@ std::vector<Violation> Validate(const Scene& scene, RestitutionIs restitution, s
 
 // A fast check for sweeps. `scene` must differ from a valid scene in numbers only, and every number must keep its own
 // rule (Holds in core/scene/numbers.h). Returns true if the rules between numbers hold as well.
-// `contact` is as in Validate.
-bool KeepsRelations(const Scene& scene, std::optional<SceneContact>& contact);
+// `known` is Reduce(scene) if the caller has it, else null. `contact` is as in Validate.
+bool KeepsRelations(const Scene& scene, const AnyReduction* known, std::optional<SceneContact>& contact);
 
 // False if KeepsRelations is true for all numbers that `scene` may have.
 bool HasRelations(const Scene& scene);

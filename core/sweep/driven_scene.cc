@@ -1,10 +1,12 @@
 #include "core/sweep/driven_scene.h"
 
+#include <algorithm>
 #include <string>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "absl/types/span.h"
+#include "core/contact/reduction.h"
 #include "core/scene/validate.h"
 #include "core/sweep/grid.h"
 
@@ -24,6 +26,8 @@ DrivenScene::DrivenScene(const Grid& grid)
       fields_(
           PathsOf(grid), [](size_t i) { return absl::StrCat("axes[", i, "]"); }, ".path", scene_) {
   has_relations_ = HasRelations(scene_);
+  reduces_once_ = std::none_of(grid_.axes.begin(), grid_.axes.end(),
+                               [](const Axis& axis) { return ReductionDependsOn(axis.path); });
   for (const Axis& axis : grid_.axes) counts_.push_back(AxisCount(axis));
   positions_.resize(grid_.axes.size());
   is_bad_.resize(fields_.size());
@@ -38,6 +42,7 @@ void DrivenScene::SetField(size_t k) {
 void DrivenScene::GoTo(int64_t index) {
   AxisPositions(grid_, index, absl::MakeSpan(positions_));
   for (size_t k = 0; k < fields_.size(); ++k) SetField(k);
+  if (has_relations_ && reduces_once_ && !reduction_.has_value()) reduction_ = Reduce(scene_);
 }
 
 void DrivenScene::Advance() {
@@ -51,7 +56,8 @@ void DrivenScene::Advance() {
 
 bool DrivenScene::IsValid(std::optional<SceneContact>& contact) const {
   contact.reset();
-  return bad_fields_ == 0 && (!has_relations_ || KeepsRelations(scene_, contact));
+  return bad_fields_ == 0 &&
+         (!has_relations_ || KeepsRelations(scene_, reduction_.has_value() ? &*reduction_ : nullptr, contact));
 }
 
 }  // namespace ricochet

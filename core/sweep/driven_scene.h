@@ -13,6 +13,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/contact/reduction.h"
 #include "core/contact/scene_contact.h"
 #include "core/scene/driven_fields.h"
 #include "ricochet/error.h"
@@ -51,9 +52,11 @@ class DrivenScene {
 
   const Grid& grid_;
   Scene scene_;
-  DrivenFields fields_;          // One an axis.
-  bool has_relations_ = false;   // True if the scene has rules beyond those of single numbers.
-  std::vector<int64_t> counts_;  // Values of each axis.
+  DrivenFields fields_;                    // One an axis.
+  bool has_relations_ = false;             // True if the scene has rules beyond those of single numbers.
+  bool reduces_once_ = false;              // True if no axis changes the reduction.
+  std::optional<AnyReduction> reduction_;  // That of all points if they share one, once a point has asked for it.
+  std::vector<int64_t> counts_;            // Values of each axis.
   std::vector<int64_t> positions_;
   std::vector<uint8_t> is_bad_;  // 1 for each field whose value breaks the rule of its number.
   int64_t bad_fields_ = 0;

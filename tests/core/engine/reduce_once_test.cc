@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <functional>
+#include <string>
 #include <utility>
 
 #include "core/contact/reduction.h"
@@ -12,7 +14,7 @@
 
 namespace {
 
-int reductions = 0;
+std::atomic<int> reductions = 0;  // A sweep may be helped by other threads.
 
 }  // namespace
 
@@ -65,14 +67,22 @@ TEST(ReduceOnceTest, BoundsAndAuditsReduceTheirSceneOnce) {
             1);
 }
 
-TEST(ReduceOnceTest, ASweepReducesEachPointOnceAndItsBaseSceneOnce) {
-  const SweepRequest request = {
-      .grid = {.scene = With(Flat()), .axes = {{"friction.kinetic_coefficient", Linspace{0.1, 0.5, 100}}}},
-      .columns = {"coefficients.newton"}};
-  EXPECT_EQ(Count([&] {
-              for (const auto& chunk : LocalSolver().Sweep(request)) EXPECT_TRUE(chunk.ok());
-            }),
-            101);
+// The reductions of a sweep of 100 points on one thread.
+int OfSweep(const std::string& path, double start, double stop) {
+  const SweepRequest request = {.grid = {.scene = With(Flat()), .axes = {{path, Linspace{start, stop, 100}}}},
+                                .columns = {"coefficients.newton"}};
+  return Count([&] {
+    for (const auto& chunk : LocalSolver(Limits::None(), 1).Sweep(request)) EXPECT_TRUE(chunk.ok());
+  });
+}
+
+TEST(ReduceOnceTest, ASweepReducesItsBaseSceneOnceAndEachPointOnce) {
+  EXPECT_EQ(OfSweep("planar_body.velocity_n_m_s", -2.0, -1.0), 101);
+}
+
+TEST(ReduceOnceTest, ASweepThatLeavesTheSystemAloneReducesAllPointsOnce) {
+  EXPECT_EQ(OfSweep("friction.kinetic_coefficient", 0.1, 0.5), 2);
+  EXPECT_EQ(OfSweep("restitution.energetic", 0.1, 0.5), 2);
 }
 
 }  // namespace

@@ -356,7 +356,7 @@ TEST_P(BadSystemTest, BreaksARelationWhereItsShapeAndEachNumberByItselfAreRight)
   if (whole && numbers_are_right) {
     EXPECT_TRUE(HasRelations(scene));
     std::optional<SceneContact> contact;
-    EXPECT_FALSE(KeepsRelations(scene, contact));
+    EXPECT_FALSE(KeepsRelations(scene, nullptr, contact));
   }
 }
 
