@@ -30,7 +30,8 @@ void Append(std::vector<Violation> more, std::vector<Violation>& violations) {
 }
 
 void Count(int64_t row, Tally& tally) {
-  if (tally.count++ == 0) tally.first_index = row;
+  tally.first_index = tally.count == 0 ? row : tally.first_index;
+  ++tally.count;
 }
 
 bool HasNumbers(RowStatus status) { return status == RowStatus::kOk || status == RowStatus::kInadmissible; }
@@ -129,7 +130,10 @@ bool BatchRun::SolveBlock(const BatchRows& rows, size_t first, size_t count, abs
                           BatchSummary& summary) {
   if (stopped()) return false;
   planar_->Solve(rows, first, count, *block_);
-  const bool has_all_numbers = planar_->HasAllNumbers(count, *block_);
+  if (planar_->HasAllNumbers(count, *block_)) {
+    FinishBlock(rows, first, count, summary);
+    return true;
+  }
   for (size_t k = 0; k < count; ++k) {
     if (block_->models[k] == Model::kUnspecified) {
       if (!SolveAlone(rows, first + k, stopped, summary)) return false;
@@ -139,7 +143,7 @@ bool BatchRun::SolveBlock(const BatchRows& rows, size_t first, size_t count, abs
                .regime = block_->regimes[k],
                .model = block_->models[k],
                .too_large = std::nullopt};
-    if (!has_all_numbers) CheckNumbers(rows, first + k, row);
+    CheckNumbers(rows, first + k, row);
     Finish(rows, first + k, row, summary);
   }
   return true;
@@ -165,6 +169,24 @@ absl::StatusOr<BatchSummary> BatchRun::Solve(const BatchRows& rows, absl::Functi
     }
   }
   return summary;
+}
+
+// Does for every row of a block with all its numbers what Finish does.
+void BatchRun::FinishBlock(const BatchRows& rows, size_t first, size_t count, BatchSummary& summary) const {
+  SweepSummary& counts = summary.counts;
+  counts.points += static_cast<int64_t>(count);
+  for (size_t k = 0; k < count; ++k) {
+    const auto index = static_cast<int64_t>(first + k);
+    Count(index, counts.by_regime[static_cast<size_t>(block_->regimes[k])]);
+    Count(index, counts.by_model[static_cast<size_t>(block_->models[k])]);
+    if (block_->inadmissible[k]) Count(index, counts.inadmissible);
+  }
+  const auto at = static_cast<ptrdiff_t>(first);
+  if (!rows.regimes.empty()) std::copy_n(block_->regimes.begin(), count, rows.regimes.begin() + at);
+  if (!rows.statuses.empty()) {
+    std::transform(block_->inadmissible.begin(), block_->inadmissible.begin() + count, rows.statuses.begin() + at,
+                   [](bool inadmissible) { return inadmissible ? RowStatus::kInadmissible : RowStatus::kOk; });
+  }
 }
 
 // Writes what every row has, and counts the row.

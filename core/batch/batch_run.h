@@ -59,6 +59,7 @@ class BatchRun {
   bool SolveAlone(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped, BatchSummary& summary);
   bool SolveSome(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
                  BatchSummary& summary);
+  void FinishBlock(const BatchRows& rows, size_t first, size_t count, BatchSummary& summary) const;
   void Finish(const BatchRows& rows, size_t i, const Row& row, BatchSummary& summary) const;
   Violation WhyInvalid(const BatchRows& rows, size_t i) const;
   BadRow Describe(const BatchRows& rows, int64_t index, const Row& row) const;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
 #include "core/scene/numbers.h"
 #include "ricochet/error.h"
 
@@ -32,10 +33,10 @@ class SizeCheck {
   }
 
   // Requires that `count` times `each`, neither of them negative, is no larger than the limit.
-  void Product(const std::string& field, int64_t count, const std::string& what, int64_t each, int64_t Limits::*limit) {
+  void Product(absl::string_view field, int64_t count, absl::string_view what, int64_t each, int64_t Limits::*limit) {
     if (count <= limits_.*limit / each) return;
-    Exceeded(field, absl::StrCat("asks for ", count, what, each, ": the product must be at most ", limits_.*limit),
-             limit);
+    Exceeded(std::string(field),
+             absl::StrCat("asks for ", count, what, each, ": the product must be at most ", limits_.*limit), limit);
   }
 
   void Scene(const ricochet::Scene& scene);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <string>
@@ -79,7 +80,8 @@ void CheckOne(const PlanarContact& contact, Check& check) {
   const double tt = contact.w_tt_per_kg;
   const double nn = contact.w_nn_per_kg;
   const double tn = contact.w_tn_per_kg;
-  if (!AllFinite({tt, tn, nn}) || tt < 0.0 || nn < 0.0) return;
+  const bool is_finite = std::isfinite(tt) && std::isfinite(tn) && std::isfinite(nn);
+  if (!is_finite || tt < 0.0 || nn < 0.0) return;
   check.Require(PlanarDelassus{tt, tn, nn}.IsSemidefinite(), [&] {
     return MakeViolation("planar_contact.w_tn_per_kg", tn,
                          absl::StrCat("leave W positive semidefinite: w_tn^2 <= w_tt w_nn = ", ShortestDecimal(tt),

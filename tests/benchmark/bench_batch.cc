@@ -1,6 +1,8 @@
-// Batches: contacts a second in this process and from a server on loopback, by the size of a batch.
+// Batches: contacts a second in this process and from a server on loopback, by the size of a batch, and the time of a
+// batch of planar contacts against that of the planar model's SIMD lanes alone.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -10,6 +12,7 @@
 
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
+#include "core/models/planar/columns.h"
 #include "ricochet/client.h"
 #include "ricochet/solver.h"
 #include "tests/benchmark/measure.h"
@@ -96,6 +99,42 @@ double Rate(const Solver& solver, Batch& batch) {
   return static_cast<double>(batch.in[0].size()) * calls / Median(seconds);
 }
 
+// The share that checks, plans and the order of rows have in the time of a batch: 1 would be the lanes alone.
+void RunAgainstLanes(const Solver& local, double tolerance) {
+  constexpr size_t kRows = 1000;
+  constexpr int kTimes = 50;
+  Batch batch = Contacts(kRows, tolerance);
+  const std::vector<double> restitution(kRows, 0.5);
+  constexpr std::array kOutputs = {PlanarOutput::kTangentialVelocityAfter, PlanarOutput::kNormalVelocityAfter,
+                                   PlanarOutput::kTangentialImpulse, PlanarOutput::kNormalImpulse};
+  std::vector<double*> places;
+  for (auto& column : batch.out) places.push_back(column.data());
+  absl::StatusOr<BatchSession> session = local.OpenBatches(batch.setup);
+  const BatchRows rows = batch.Rows();
+  const auto solve_batch = [&] {
+    for (int i = 0; i < kTimes; ++i) {
+      if (!session->Solve(rows).ok()) std::abort();
+    }
+  };
+  const auto solve_lanes = [&] {
+    for (int i = 0; i < kTimes; ++i) {
+      planar::SolveColumns({.wtt = batch.in[0],
+                            .wtn = batch.in[1],
+                            .wnn = batch.in[2],
+                            .u0 = batch.in[3],
+                            .v0 = batch.in[4],
+                            .mu = batch.in[5],
+                            .mu_static = batch.in[5],
+                            .coefficient = restitution},
+                           tolerance, {.outputs = kOutputs, .columns = places, .regimes = {}, .inadmissible = {}});
+    }
+  };
+  const Comparison compared = Compare(21, solve_batch, solve_lanes);
+  Print(absl::StrFormat("A planar contact in a batch of %d, tolerance %.0e", kRows, tolerance),
+        absl::StrFormat("%.1f ns", compared.seconds_a / (kRows * kTimes) * 1e9),
+        absl::StrFormat("%.2f of the planar model in lanes alone", compared.ratio));
+}
+
 void Run(const char* name, const Solver& local, const Solver& remote, Batch (*make)(size_t, double), double tolerance) {
   std::printf("%s, tolerance %.0e, one thread, medians of %d rounds\n", name, tolerance, kRounds);
   std::printf("  %9s %16s %16s %18s\n", "rows", "embedded M/s", "loopback M/s", "loopback us/call");
@@ -120,6 +159,7 @@ int main() {
   const auto client = Client::Connect({.target = server.address()});
   if (!client.ok()) return 1;
   const LocalSolver local;
+  RunAgainstLanes(local, 1e-12);
   Run("Planar contacts", local, *client, Contacts, 1e-12);
   Run("Planar contacts", local, *client, Contacts, 1e-6);
   Run("Contacts in space", local, *client, ContactsInSpace, 1e-6);

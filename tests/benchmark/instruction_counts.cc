@@ -1,4 +1,4 @@
-// Runs ten fixed pieces of work under callgrind, so that tests/benchmark/instruction_counts.py can compare what each
+// Runs fixed pieces of work under callgrind, so that tests/benchmark/instruction_counts.py can compare what each
 // executes with what it executed before.
 //
 // ricochet_instruction_counts prints the names of the pieces, in the order of their numbers. Each runs once before it is
@@ -25,6 +25,7 @@ namespace {
 constexpr int kCannotRun = 77;
 constexpr int64_t kPoints = 4096;
 constexpr size_t kRows = 256;
+constexpr size_t kWorks = 11;
 
 struct Work {
   const char* name;
@@ -99,6 +100,24 @@ double AuditRows() {
   return static_cast<double>(Value(OneThread().AuditBatch(request)).reports.size());
 }
 
+// Rows of which some slide on and others stop.
+double SolveRows() {
+  const BatchSetup setup = {.scene = ContactScene(),
+                            .fields = {"planar_contact.tangential_m_s", "planar_contact.w_tn_per_kg"},
+                            .columns = {"contact_velocity_after.tangential_m_s[0]", "impulse.normal_total_n_s"}};
+  std::vector<double> slip(kPoints);
+  std::vector<double> coupling(kPoints);
+  for (size_t i = 0; i < slip.size(); ++i) {
+    slip[i] = 0.001 * static_cast<double>(i);
+    coupling[i] = 0.01 * static_cast<double>(i % 100) - 0.5;
+  }
+  std::vector<double> slip_after(kPoints);
+  std::vector<double> impulse(kPoints);
+  Value(OneThread().SolveBatch(
+      setup, {.inputs = {slip, coupling}, .outputs = {absl::MakeSpan(slip_after), absl::MakeSpan(impulse)}}));
+  return impulse.back();
+}
+
 const std::vector<Work>& Works() {
   static const std::vector<Work> works = {
       {"solve_pendulum", [] { return Solve(PendulumScene()); }},
@@ -122,6 +141,7 @@ const std::vector<Work>& Works() {
          request.scene = SpaceScene();
          return Value(OneThread().Plan(request)).plan.neglected;
        }},
+      {"batch_planar_contact", SolveRows},
   };
   return works;
 }
@@ -142,12 +162,13 @@ int Main() {
     std::fprintf(stderr, "this processor has no AVX2, for which the instructions were counted\n");
     return kCannotRun;
   }
+  if (Works().size() != kWorks) return 1;
   const OnlyTarget avx2(HWY_AVX2);
   for (const Work& work : Works()) {
     Keep(work.run());
     std::printf("%s\n", work.name);
   }
-  CountAll(std::make_index_sequence<10>());
+  CountAll(std::make_index_sequence<kWorks>());
   return 0;
 }
 
