@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# A Python program asks a real server, with stubs made as the README says.
+# A Python program asks a real server, with stubs made by protoc as for any other language.
 # usage: python_client_test.sh PROTO_DIRECTORY RICOCHETD WORK_DIRECTORY
 set -euo pipefail
 readonly proto=$1 ricochetd=$2 work=$3
