@@ -1,0 +1,23 @@
+#!/bin/sh
+# Submits one sweep to Slurm: an array with a task for each shard, and a merge that starts once all of them are done.
+#
+# usage: submit.sh FILE SHARDS SWEEP-ARGUMENT...
+#   FILE, in a directory that all nodes share, is what the merge writes; its ending .csv, .json, .npy or .nc is its format.
+#   RICOCHET names the program if it is not in the PATH of the nodes. SBATCH_* variables go to sbatch: SBATCH_PARTITION=...
+#
+# Slurm starts the tasks of a node that has died again on another one, and each goes on from its last half second.
+# Whatever else ends a task, submit the same line again: shards that are complete are not computed anew.
+set -eu
+
+if [ $# -lt 3 ]; then
+  sed -n '4,6s/^# //p' "$0" >&2
+  exit 2
+fi
+here=$(cd "$(dirname "$0")" && pwd)
+file=$1
+shards=$2
+shift 2
+
+array=$(sbatch --parsable --array="0-$((shards - 1))" --requeue "$here/shard.sbatch" "$file" "$shards" "$@")
+merge=$(sbatch --parsable --dependency="afterok:$array" "$here/merge.sbatch" "$file")
+echo "array $array, then merge $merge"
