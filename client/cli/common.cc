@@ -6,6 +6,7 @@
 #include <map>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/strip.h"
@@ -31,6 +32,38 @@ void AddOutputOptions(CLI::App& app, CommonOptions& options) {
   app.add_option("-o,--output", options.output,
                  "Write to this file, which is replaced only when the output is complete")
       ->type_name("FILE");
+}
+
+void AddSweepOutputOptions(CLI::App& app, CommonOptions& options) {
+  struct Choice {
+    Format format;
+    ArrayFormat array;
+  };
+  const std::map<std::string, Choice> formats = {{"text", {Format::kText, ArrayFormat::kNone}},
+                                                 {"json", {Format::kJson, ArrayFormat::kNone}},
+                                                 {"csv", {Format::kCsv, ArrayFormat::kNone}},
+                                                 {"npy", {Format::kText, ArrayFormat::kNpy}},
+                                                 {"netcdf", {Format::kText, ArrayFormat::kNetcdf}}};
+  app.add_option_function<std::string>(
+         "--format",
+         [&options, formats](const std::string& name) {
+           options.format = formats.at(name).format;
+           options.array = formats.at(name).array;
+           options.has_format = true;
+         },
+         "text: tables; json: the response message; csv: rows at full precision; npy: records for NumPy; netcdf: a "
+         "NetCDF-4 file. Default: npy or netcdf if FILE ends in .npy or .nc, else text")
+      ->check(CLI::IsMember({"text", "json", "csv", "npy", "netcdf"}))
+      ->option_text("text|json|csv|npy|netcdf");
+  app.add_option("-o,--output", options.output,
+                 "Write to this file, which is replaced only when the output is complete")
+      ->type_name("FILE");
+}
+
+ArrayFormat ArrayFormatOf(const CommonOptions& options) {
+  if (options.has_format) return options.array;
+  if (absl::EndsWith(options.output, ".npy")) return ArrayFormat::kNpy;
+  return absl::EndsWith(options.output, ".nc") ? ArrayFormat::kNetcdf : ArrayFormat::kNone;
 }
 
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {

@@ -25,14 +25,24 @@ using Command = std::function<absl::Status()>;
 
 enum class Format { kText, kJson, kCsv };
 
+// Formats that programs for arrays open, which sweeps alone have.
+enum class ArrayFormat { kNone, kNpy, kNetcdf };
+
 struct CommonOptions {
   ConnectionInput connection;
   Format format = Format::kText;
-  std::string output;  // Empty: standard output.
+  ArrayFormat array = ArrayFormat::kNone;  // kNone: `format` holds, or the ending of `output`.
+  bool has_format = false;                 // True if --format was given to a sweep.
+  std::string output;                      // Empty: standard output.
 };
 
 void AddServerOptions(CLI::App& app, CommonOptions& options);
 void AddOutputOptions(CLI::App& app, CommonOptions& options);
+// The options of sweeps, which also have the formats of arrays.
+void AddSweepOutputOptions(CLI::App& app, CommonOptions& options);
+
+// Returns the format of --format, or that of a file that ends in .npy or .nc if --format was not given.
+ArrayFormat ArrayFormatOf(const CommonOptions& options);
 
 // Returns the options of a client of the server that is named. Errors: INVALID_ARGUMENT, also if none is named.
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options);

@@ -10,7 +10,6 @@
 #include "absl/strings/str_cat.h"
 #include "client/chunk_checker.h"
 #include "client/cli/interrupt.h"
-#include "client/cli/output.h"
 #include "client/cli/progress.h"
 #include "client/cli/shard.h"
 #include "client/cli/shard_coverage.h"
@@ -40,11 +39,8 @@ struct MergeOptions {
 // Puts the messages of all shards together as if they were calls of one sweep, each of which broke off.
 class Merger {
  public:
-  Merger(const SweepRequest& sweep, Format format, Output output)
-      : end_index_(*sweep.end_index),
-        checker_(sweep),
-        text_(sweep, format, /*summary_only=*/false),
-        output_(std::move(output)) {}
+  Merger(const SweepRequest& sweep, SweepOutput output)
+      : end_index_(*sweep.end_index), checker_(sweep), output_(std::move(output)) {}
 
   // Errors: DATA_LOSS for a shard that is not what its manifest says; CANCELLED; those of the system.
   absl::Status Add(const ShardFile& shard) {
@@ -79,14 +75,12 @@ class Merger {
     const absl::StatusOr<SweepChunk> chunk = checker_.Take(message);
     if (!chunk.ok()) return Damaged(shard, chunk.status());
     progress_.Update(chunk->points_done, chunk->points_total);
-    const absl::StatusOr<std::string> text = text_.Add(*chunk);
-    return text.ok() ? output_.Write(*text) : text.status();
+    return output_.Write(*chunk);
   }
 
   int64_t end_index_;
   ChunkChecker checker_;
-  SweepText text_;
-  Output output_;
+  SweepOutput output_;
   Progress progress_;
 };
 
@@ -113,10 +107,10 @@ absl::Status RunMerge(const MergeOptions& options) {
   if (options.verify) {
     if (absl::Status status = Verify(*shards); !status.ok()) return status;
   }
-  absl::StatusOr<Output> output = Output::Open(options.common.output);
-  if (!output.ok()) return output.status();
   const SweepRequest sweep = FromProto(shards->front().manifest.sweep());
-  Merger merger(sweep, options.common.format, *std::move(output));
+  absl::StatusOr<SweepOutput> output = SweepOutput::Open(sweep, options.common, /*summary_only=*/false);
+  if (!output.ok()) return output.status();
+  Merger merger(sweep, *std::move(output));
   const bool is_empty = sweep.first_index == *sweep.end_index;
   for (const ShardFile& shard : *shards) {
     if (shard.manifest.rows() == 0 && !is_empty) continue;
@@ -138,7 +132,7 @@ void AddMerge(CLI::App& app, Command& command) {
       "--verify", options->verify,
       "Before anything is written, read every shard and compare it with the checksum of its manifest, and say "
       "what was found");
-  AddOutputOptions(*sub, options->common);
+  AddSweepOutputOptions(*sub, options->common);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunMerge(*options); }; });
 }

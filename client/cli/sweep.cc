@@ -110,14 +110,16 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
 // summary none, so that they are written when they are complete.
 bool IsResumable(const SweepOptions& options) {
   const CommonOptions& common = options.common;
-  return !common.output.empty() && common.format != Format::kText && !options.summary_only && !IsDevice(common.output);
+  const bool has_rows = common.format != Format::kText || ArrayFormatOf(common) == ArrayFormat::kNpy;
+  return !common.output.empty() && has_rows && !options.summary_only && !IsDevice(common.output);
 }
 
 absl::Status CheckResume(const SweepOptions& options) {
   // A shard is always gone on with.
   if (!options.resume || options.shard.any() || (IsResumable(options) && options.plot.empty())) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      "--resume needs -o FILE and --format csv or json, without --summary-only and --plot: only rows in a file can be "
+      "--resume needs -o FILE and --format csv, json or npy, without --summary-only and --plot: only rows in a file "
+      "can be "
       "gone on with");
 }
 
@@ -173,9 +175,8 @@ absl::Status ReceiveAll(SweepStream stream, Receiver& receiver) {
 
 absl::StatusOr<SweepOutput> OpenOutput(const SweepRequest& request, const SweepOptions& options) {
   const CommonOptions& common = options.common;
-  SweepText text(request, common.format, options.summary_only);
-  if (IsResumable(options)) return SweepOutput::OpenPartial(request, common, std::move(text), options.resume);
-  return SweepOutput::Open(request, common.output, std::move(text));
+  if (IsResumable(options)) return SweepOutput::OpenPartial(request, common, options.resume);
+  return SweepOutput::Open(request, common, options.summary_only);
 }
 
 absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRequest& request,
@@ -240,6 +241,9 @@ absl::Status ListFor(const SceneOptions& options, std::vector<std::string> (*nam
 absl::Status RunSweep(const SweepOptions& options) {
   if (Asks(options.axes)) return ListFor(options.scene, FieldPaths);
   if (Asks(options.columns)) return ListFor(options.scene, Columns);
+  if (options.summary_only && ArrayFormatOf(options.common) != ArrayFormat::kNone) {
+    return absl::InvalidArgumentError("--summary-only needs --format text, json or csv: a summary is no array");
+  }
   if (absl::Status status = CheckResume(options); !status.ok()) return status;
   if (!options.plot.empty()) {
     if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
@@ -296,9 +300,9 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
       ->type_name("N");
   sub->add_option("--plot", options->plot, "Draw curves over the last axis with gnuplot")->type_name("FILE.svg|.png");
   AddServerOptions(*sub, options->common);
-  AddOutputOptions(*sub, options->common);
+  AddSweepOutputOptions(*sub, options->common);
   sub->add_flag("--resume", options->resume,
-                "Go on with FILE.part, which a run with -o FILE and --format csv or json left when it was ended");
+                "Go on with FILE.part, which a run with -o FILE and --format csv, json or npy left when it was ended");
   AddShardOptions(*sub, options->shard);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunSweep(*options); }; });

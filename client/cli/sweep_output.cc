@@ -23,11 +23,21 @@ Partial IdentityOf(const SweepRequest& request, const std::string& format) {
   return identity;
 }
 
+SweepWriter MakeWriter(const SweepRequest& request, const CommonOptions& options, bool summary_only) {
+  if (ArrayFormatOf(options) == ArrayFormat::kNpy) return NpyWriter(request);
+  return MakeSweepWriter(request, options.format, summary_only);
+}
+
+std::string NameOf(const CommonOptions& options) {
+  if (ArrayFormatOf(options) == ArrayFormat::kNpy) return "npy";
+  return options.format == Format::kJson ? "json" : "csv";
+}
+
 }  // namespace
 
-SweepText::SweepText(const SweepRequest& request, Format format, bool summary_only)
-    : writer_(MakeSweepWriter(request, format, summary_only)) {
-  if (format == Format::kJson && !summary_only) {
+SweepText::SweepText(const SweepRequest& request, const CommonOptions& options, bool summary_only)
+    : writer_(MakeWriter(request, options, summary_only)) {
+  if (options.format == Format::kJson && !summary_only) {
     blocks_.emplace(request, SweepChunk{.first_index = request.first_index, .values = {}, .regimes = {}});
   }
 }
@@ -52,19 +62,26 @@ std::optional<SweepChunk> SweepText::pending() const {
   return blocks_->pending();
 }
 
-absl::StatusOr<SweepOutput> SweepOutput::Open(const SweepRequest& request, const std::string& path, SweepText text) {
-  absl::StatusOr<Output> opened = Output::Open(path);
-  if (!opened.ok()) return opened.status();
-  SweepOutput output(std::move(text));
-  output.output_.emplace(*std::move(opened));
+absl::StatusOr<SweepOutput> SweepOutput::Open(const SweepRequest& request, const CommonOptions& options,
+                                              bool summary_only) {
+  SweepOutput output(SweepText(request, options, summary_only));
   output.progress_.set_next_index(request.first_index);
+  if (ArrayFormatOf(options) == ArrayFormat::kNetcdf) {
+    absl::StatusOr<NetcdfFile> file = NetcdfFile::Create(request, options.output);
+    if (!file.ok()) return file.status();
+    output.netcdf_.emplace(*std::move(file));
+    return output;
+  }
+  absl::StatusOr<Output> opened = Output::Open(options.output);
+  if (!opened.ok()) return opened.status();
+  output.output_.emplace(*std::move(opened));
   return output;
 }
 
 absl::StatusOr<SweepOutput> SweepOutput::OpenPartial(const SweepRequest& request, const CommonOptions& options,
-                                                     SweepText text, bool resume) {
-  const std::string format = options.format == Format::kJson ? "json" : "csv";
-  return OpenFile(request, options.output, format, std::move(text), resume);
+                                                     bool resume) {
+  return OpenFile(request, options.output, NameOf(options), SweepText(request, options, /*summary_only=*/false),
+                  resume);
 }
 
 absl::StatusOr<SweepOutput> SweepOutput::OpenShard(const SweepShard& shard) {
@@ -106,6 +123,7 @@ absl::Status SweepOutput::Join(SweepChunk& chunk) {
 }
 
 absl::Status SweepOutput::Write(const SweepChunk& chunk) {
+  if (netcdf_.has_value()) return netcdf_->Write(chunk);
   const absl::StatusOr<std::string> text = text_.Add(chunk);
   if (!text.ok()) return text.status();
   if (!file_.has_value()) return output_->Write(*text);
@@ -127,6 +145,7 @@ absl::Status SweepOutput::Write(const SweepChunk& chunk) {
 }
 
 absl::Status SweepOutput::Commit() {
+  if (netcdf_.has_value()) return netcdf_->Commit();
   if (!file_.has_value()) return output_->Commit();
   if (shard_.has_value()) {
     progress_.set_bytes(file_->bytes());

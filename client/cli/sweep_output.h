@@ -11,6 +11,8 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/cli/line_blocks.h"
+#include "client/cli/netcdf_file.h"
+#include "client/cli/npy_writer.h"
 #include "client/cli/output.h"
 #include "client/cli/partial_file.h"
 #include "client/cli/shard.h"
@@ -22,7 +24,7 @@ namespace ricochet::cli {
 // The text of a sweep, chunk by chunk.
 class SweepText {
  public:
-  SweepText(const SweepRequest& request, Format format, bool summary_only);
+  SweepText(const SweepRequest& request, const CommonOptions& options, bool summary_only);
   // The text is the bytes of a shard's file.
   static SweepText OfShard(const SweepRequest& request) { return SweepText(ShardWriter(request)); }
 
@@ -41,10 +43,10 @@ class SweepText {
 
 class SweepOutput {
  public:
-  // Errors: those of Output::Open and PartialFile::Open.
-  static absl::StatusOr<SweepOutput> Open(const SweepRequest& request, const std::string& path, SweepText text);
+  // Errors: those of Output::Open, NetcdfFile::Create and PartialFile::Open.
+  static absl::StatusOr<SweepOutput> Open(const SweepRequest& request, const CommonOptions& options, bool summary_only);
   static absl::StatusOr<SweepOutput> OpenPartial(const SweepRequest& request, const CommonOptions& options,
-                                                 SweepText text, bool resume);
+                                                 bool resume);
   // Goes on with an unfinished shard if there is one.
   static absl::StatusOr<SweepOutput> OpenShard(const SweepShard& shard);
 
@@ -75,6 +77,7 @@ class SweepOutput {
   SweepText text_;
   std::optional<SweepShard> shard_;
   std::optional<Output> output_;
+  std::optional<NetcdfFile> netcdf_;
   std::optional<PartialFile> file_;
   Partial progress_;      // The manifest of all that was written.
   SweepSummary earlier_;  // The counts of earlier runs.

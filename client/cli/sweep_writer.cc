@@ -8,10 +8,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "absl/types/span.h"
+#include "client/cli/axis_cursor.h"
 #include "client/cli/plan_report.h"
 #include "client/cli/table.h"
-#include "core/sweep/grid.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/sweep.h"
@@ -28,30 +27,6 @@ void AppendNumber(Number number, std::string& text) {
   const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
   text.append(buffer.data(), result.ptr);
 }
-
-// Gives the axis values of one point after another. It keeps the last value of each axis, because most stay the same
-// for many points.
-class AxisCursor {
- public:
-  explicit AxisCursor(const Grid& grid)
-      : grid_(&grid), positions_(grid.axes.size(), -1), next_(grid.axes.size()), values_(grid.axes.size()) {}
-
-  const std::vector<double>& At(int64_t index) {
-    AxisPositions(*grid_, index, absl::MakeSpan(next_));
-    for (size_t i = 0; i < next_.size(); ++i) {
-      if (next_[i] == positions_[i]) continue;
-      positions_[i] = next_[i];
-      values_[i] = AxisValue(grid_->axes[i], next_[i]);
-    }
-    return values_;
-  }
-
- private:
-  const Grid* grid_;
-  std::vector<int64_t> positions_;
-  std::vector<int64_t> next_;
-  std::vector<double> values_;
-};
 
 double ValueAt(const SweepChunk& chunk, size_t column, int64_t i) {
   return chunk.values[column * static_cast<size_t>(chunk.count) + static_cast<size_t>(i)];

@@ -40,7 +40,7 @@ class CliResume : public CliTest, public testing::WithParamInterface<const char*
   }
 };
 
-INSTANTIATE_TEST_SUITE_P(Formats, CliResume, testing::Values("csv", "json"),
+INSTANTIATE_TEST_SUITE_P(Formats, CliResume, testing::Values("csv", "json", "npy"),
                          [](const auto& parameter) { return std::string(parameter.param); });
 
 TEST_P(CliResume, AfterKillMinusNineGivesTheFileOfAnUndisturbedRun) {
