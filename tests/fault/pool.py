@@ -1,0 +1,229 @@
+"""Several servers behind HAProxy, behind nginx, and by the client's own round robin, while each in turn dies and returns."""
+
+import os
+import shutil
+import socket
+import struct
+import threading
+import time
+
+import grpc
+
+from calls import channel, cheap, code_of, stub
+from framework import (
+    Process, Server, Skipped, check, command_line, in_threads, main, require, tools, wait_until)
+
+POLICY = """{"loadBalancingConfig": [{"round_robin": {}}], "methodConfig": [{"name": [{}], "waitForReady": true,
+  "retryPolicy": {"maxAttempts": 5, "initialBackoff": "0.05s", "maxBackoff": "0.5s", "backoffMultiplier": 2,
+                  "retryableStatusCodes": ["UNAVAILABLE"]}}]}"""
+RECONNECT = {f"{kind}_reconnect_backoff_ms": ms for kind, ms in {"initial": 100, "min": 100, "max": 500}.items()}
+POINTS = 3_000_000
+SWEEP = ["sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", f"friction.kinetic_coefficient=lin:0:0.4:{POINTS}",
+         "--column", "coefficients.newton", "--format", "npy"]
+
+
+class Servers:
+    """Three servers, of which one after another is killed or drained and comes back at its own port."""
+
+    def __init__(self):
+        first = Server(drain_grace=0.5, host="127.0.0.1")
+        # One port, as the pods of a Deployment have.
+        self.servers = [first, *(Server(drain_grace=0.5, host=f"127.0.0.{i}", port=first.port) for i in (2, 3))]
+        self.addresses = [server.address for server in self.servers]
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        for server in self.servers:
+            server.kill()
+
+    def replace(self, which, drained):
+        old = self.servers[which]
+        if drained:
+            old.drain()
+        else:
+            old.kill()
+        time.sleep(0.3)
+        self.servers[which] = Server(drain_grace=0.5, host=old.host, port=old.port)
+        # It is in use again before the next one goes.
+        require(wait_until(lambda: "Solve" in self.servers[which].log_text(), 60), "no call reaches the server that is back")
+
+
+class Proxy:
+    """A program that listens at `address` and ends with this object."""
+
+    count = 0
+
+    def __init__(self, name, command, address, environment):
+        Proxy.count += 1
+        self.address = address
+        self.place = tools().work / f"proxy_{name}_{os.getpid()}_{Proxy.count}"
+        shutil.rmtree(self.place, ignore_errors=True)
+        self.place.mkdir(parents=True)
+        with open(self.place / "log", "wb") as log:
+            self.process = Process(command(self.place), stdout=log, stderr=log, env={**os.environ, **environment})
+
+    def __enter__(self):
+        with channel(self.address) as line:
+            require(wait_until(lambda: code_of(lambda: stub(line).Solve(cheap(), timeout=5)) == grpc.StatusCode.OK, 30),
+                    f"the proxy lets no call through: {(self.place / 'log').read_text()[-500:]}")
+        return self
+
+    def __exit__(self, *_):
+        self.process.kill()
+
+
+class Names(threading.Thread):
+    """A name server that gives three addresses to every name, as that of Kubernetes does for a headless Service."""
+
+    def __init__(self):
+        super().__init__(daemon=True)
+        self.socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        self.socket.bind(("127.0.0.1", 0))
+        self.port = self.socket.getsockname()[1]
+        self.asked = 0
+        self.start()
+
+    def run(self):
+        while True:
+            query, sender = self.socket.recvfrom(512)
+            if not query:
+                return
+            self.asked += 1
+            end = query.index(b"\0", 12) + 5
+            question = query[12:end]
+            addresses = [bytes((127, 0, 0, i)) for i in (1, 2, 3)] if question[-4:-2] == b"\0\x01" else []
+            # A pointer to the name of the question, type A, class IN, 1 s, 4 bytes.
+            answers = b"".join(b"\xc0\x0c" + struct.pack(">HHIH", 1, 1, 1, 4) + address for address in addresses)
+            self.socket.sendto(query[:2] + struct.pack(">HHHHH", 0x8180, 1, len(addresses), 0, 0) + question + answers, sender)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        self.socket.sendto(b"", ("127.0.0.1", self.port))
+        self.join()
+        self.socket.close()
+
+
+def program(name):
+    found = shutil.which(name, path="/usr/sbin:/usr/bin:/sbin:/bin")
+    if found is None:
+        raise Skipped(f"{name} is not installed")
+    return found
+
+
+def recipe(name):
+    return tools().proto.parent / "deploy/pool" / name
+
+
+def free_address():
+    """An address that nobody uses: servers and proxies have hosts of their own."""
+    with Server(host="127.0.0.9") as server:
+        return server.address
+
+
+def haproxy(addresses):
+    address = free_address()
+    environment = dict(zip(("RICOCHET_ONE", "RICOCHET_TWO", "RICOCHET_THREE"), addresses), RICOCHET_BIND=address)
+    path = program("haproxy")
+    return Proxy("haproxy", lambda place: [path, "-db", "-f", recipe("haproxy.cfg")], address, environment)
+
+
+def nginx(addresses):
+    address = free_address()
+    path = program("nginx")
+
+    def command(place):
+        text = recipe("nginx.conf").read_text(encoding="utf-8").replace("listen 50051", f"listen {address}")
+        for name, server in zip(("one", "two", "three"), addresses):
+            text = text.replace(f"server {name}:50051", f"server {server}")
+        text = text.replace("pid nginx.pid", f"pid {place}/nginx.pid")
+        for kind in ("client_body", "proxy", "fastcgi", "uwsgi", "scgi"):
+            text = text.replace("access_log off;", f"access_log off;\n  {kind}_temp_path {place}/{kind};", 1)
+        (place / "nginx.conf").write_text(text, encoding="utf-8")
+        return [path, "-p", place, "-c", place / "nginx.conf", "-e", "stderr"]
+
+    return Proxy("nginx", command, address, {})
+
+
+def call_until(stop, target, failed):
+    count = 0
+    with channel(target, enable_retries=1, service_config=POLICY, **RECONNECT) as line:
+        on = stub(line)
+        while not stop.is_set():
+            code = code_of(lambda: on.Solve(cheap(), timeout=30))
+            count += 1
+            if code != grpc.StatusCode.OK:
+                failed.append(code.name)
+    return count
+
+
+def try_pool(servers, target, server_option):
+    """Replaces each server once while clients call and a sweep runs; returns the figures."""
+    stop = threading.Event()
+    failed = []
+    output = tools().work / f"pool_{os.getpid()}.npy"
+
+    def disturb():
+        try:
+            for i in range(12 if tools().soak else 3):
+                servers.replace(i % 3, drained=i % 2 == 1)
+        finally:
+            stop.set()
+
+    def sweep():
+        count = 0
+        while not stop.is_set():
+            runs = 0
+            while True:
+                done = command_line(*SWEEP, "--server", server_option, "-o", output, *(["--resume"] if runs else []))
+                runs += 1
+                if done.returncode == 0:
+                    break
+                require(done.returncode == 75 and runs < 50, f"the sweep ended with {done.returncode}: {done.stderr}")
+            require(output.read_bytes() == whole.read_bytes(), "the sweep differs from that of the embedded engine")
+            count += 1
+        return count
+
+    whole = tools().work / f"whole_{os.getpid()}.npy"
+    require(command_line(*SWEEP, "-o", whole).returncode == 0, "the embedded engine fails")
+    caller = lambda: call_until(stop, target, failed)  # noqa: E731
+    _, sweeps, *calls = in_threads([disturb, sweep, caller, caller])
+    require(not failed, f"{len(failed)} of {sum(calls)} calls failed: {sorted(set(failed))}")
+    return {"calls": sum(calls), "failed": 0, "sweeps": sweeps, "points of each": POINTS}
+
+
+RULE = "no unary call fails while each of three servers dies or drains and returns, and sweeps end with the embedded engine's bytes"
+
+
+@check("HAProxy before three servers", RULE)
+def behind_haproxy():
+    with Servers() as servers, haproxy(servers.addresses) as proxy:
+        return try_pool(servers, proxy.address, proxy.address)
+
+
+@check("nginx before three servers", RULE)
+def behind_nginx():
+    with Servers() as servers, nginx(servers.addresses) as proxy:
+        return try_pool(servers, proxy.address, proxy.address)
+
+
+@check("round robin over a list of addresses", RULE)
+def address_list():
+    with Servers() as servers:
+        return try_pool(servers, "ipv4:" + ",".join(servers.addresses), ",".join(servers.addresses))
+
+
+@check("round robin over the addresses of a name", RULE)
+def headless_service():
+    with Servers() as servers, Names() as names:
+        target = f"dns://127.0.0.1:{names.port}/ricochet:{servers.servers[0].port}"
+        figures = try_pool(servers, target, ",".join(servers.addresses))
+        require(names.asked, "nobody asked for the addresses of the name")
+        return figures
+
+
+if __name__ == "__main__":
+    main()
