@@ -357,15 +357,22 @@ absl::StatusOr<std::variant<Options, Notice>> Parse(CLI::App& app, int argc, con
   return Options();
 }
 
-}  // namespace
+// The options as the command line has them. An element of `given` points into `settings`.
+struct CommandLine {
+  std::unique_ptr<CLI::App> app;
+  std::vector<std::vector<Setting>> settings;
+  std::vector<Given> given;
+};
 
-absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const char* const* argv) {
-  CLI::App app(
+CommandLine DeclareOptions() {
+  CommandLine line;
+  line.app = std::make_unique<CLI::App>(
       "ricochetd: answers what happens when something hits a surface with friction.\n"
       "Each option can also be set in the environment, as RICOCHETD_MAX_LIVE_CALLS=10, "
       "or in the file of --config, as max-live-calls = 10; a flag overrides the environment, "
       "which overrides the file.\n\nExample: ricochetd --listen 127.0.0.1:50051 --log-format json\n",
       "ricochetd");
+  CLI::App& app = *line.app;
   app.set_help_flag("--help", "Print this help and exit");
   app.set_version_flag("--version",
                        absl::StrCat("ricochetd ", ThisEngine().version, " (engine ", ThisEngine().fingerprint, ")"));
@@ -375,20 +382,28 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   app.set_config("--config", file, "Read options from this file (RICOCHETD_CONFIG)", !file.empty())
       ->option_text("FILE");
 
-  const std::vector<Setting> settings[] = {NetworkSettings(), SecuritySettings(), RequestLimitSettings(),
-                                           CallSettings(),    DrainSettings(),    LogSettings()};
+  line.settings = {NetworkSettings(), SecuritySettings(), RequestLimitSettings(),
+                   CallSettings(),    DrainSettings(),    LogSettings()};
   const char* const groups[] = {"Network", "Security", "Limits of a request", "Calls", "Drain", "Log"};
-  std::vector<Given> given;
-  for (size_t i = 0; i < std::size(settings); ++i) {
-    const std::vector<Given> added = AddOptions(settings[i], groups[i], app);
-    given.insert(given.end(), added.begin(), added.end());
+  for (size_t i = 0; i < line.settings.size(); ++i) {
+    const std::vector<Given> added = AddOptions(line.settings[i], groups[i], app);
+    line.given.insert(line.given.end(), added.begin(), added.end());
   }
+  return line;
+}
 
+}  // namespace
+
+std::unique_ptr<CLI::App> MakeCommandLine() { return DeclareOptions().app; }
+
+absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const char* const* argv) {
+  const CommandLine line = DeclareOptions();
+  CLI::App& app = *line.app;
   auto parsed = Parse(app, argc, argv);
   if (!parsed.ok() || std::holds_alternative<Notice>(*parsed)) return parsed;
   auto& options = std::get<Options>(*parsed);
   std::vector<std::string> violations;
-  Read(given, options, violations);
+  Read(line.given, options, violations);
   const PlaceLimits usual = PlacesFor(options.places.calls);
   const auto or_usual = [&app](const char* flag, int usual_limit, int& limit) {
     if (app.count(flag) == 0) limit = usual_limit;

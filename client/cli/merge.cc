@@ -22,8 +22,9 @@ namespace {
 constexpr char kExample[] =
     R"(Example: a sweep in three parts, which three machines may compute, and one file of them.
   $ for i in 0 1 2; do
-  >   ricochet sweep --a 0.3 --b 1 --energetic 1 --axis friction.kinetic_coefficient=lin:0:0.4:1000 \
-  >     --column coefficients.newton -o friction --shard-index $i --shard-count 3
+  >   ricochet sweep --a 0.3 --b 1 --energetic 1 -o friction \
+  >     --axis friction.kinetic_coefficient=lin:0:0.4:1000 \
+  >     --column coefficients.newton --shard-index $i --shard-count 3
   > done
   $ ricochet merge --verify friction --format csv -o friction.csv
 The file has the bytes of one run with the same --format.

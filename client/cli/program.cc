@@ -1,0 +1,43 @@
+#include "client/cli/program.h"
+
+#include <CLI/Config.hpp>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "client/cli/audit.h"
+#include "client/cli/bounds.h"
+#include "client/cli/cost.h"
+#include "client/cli/health.h"
+#include "client/cli/help_format.h"
+#include "client/cli/info.h"
+#include "client/cli/merge.h"
+#include "client/cli/solve.h"
+#include "client/cli/sweep.h"
+#include "core/engine/engine.h"
+
+namespace ricochet::cli {
+
+std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Command& command) {
+  auto app = std::make_unique<CLI::App>(
+      "Computes what happens when something hits a surface with friction. Units are SI and radians.", "ricochet");
+  // Subcommands take over the format that is set before them.
+  app->formatter(std::make_shared<HelpFormat>());
+  app->set_version_flag("--version", [] {
+    return absl::StrCat("ricochet ", ThisEngine().version, ", engine ", ThisEngine().fingerprint);
+  });
+  app->require_subcommand(1);
+  AddSolve(*app, command);
+  AddBounds(*app, command);
+  AddSweep(*app, std::move(arguments), command);
+  AddMerge(*app, command);
+  AddAudit(*app, command);
+  AddCost(*app, command);
+  AddInfo(*app, command);
+  AddHealth(*app, command);
+  app->footer(
+      "ricochet SUBCOMMAND --help shows a worked example.\n"
+      "Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again, 130 interrupted.");
+  return app;
+}
+
+}  // namespace ricochet::cli

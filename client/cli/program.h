@@ -1,0 +1,21 @@
+// Program: the subcommands of ricochet, put together.
+
+#ifndef RICOCHET_CLIENT_CLI_PROGRAM_H_
+#define RICOCHET_CLIENT_CLI_PROGRAM_H_
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/cli/common.h"
+
+namespace ricochet::cli {
+
+// Returns the command line. Parsing it sets `command`, which must outlive it. `arguments` are those of main, which a sweep
+// keeps to say how it can be resumed.
+std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Command& command);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_PROGRAM_H_

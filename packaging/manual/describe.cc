@@ -1,0 +1,65 @@
+// ricochet_describe: prints the options of both programs as JSON, from which the manual pages and the completions are made.
+// It is not installed.
+
+#include <google/protobuf/struct.pb.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <CLI/App.hpp>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "absl/strings/ascii.h"
+#include "absl/synchronization/mutex.h"
+#include "client/cli/program.h"
+#include "server/command_line.h"
+
+namespace {
+
+using google::protobuf::ListValue;
+using google::protobuf::Struct;
+
+void Set(Struct& object, const std::string& name, const std::string& text) {
+  (*object.mutable_fields())[name].set_string_value(text);
+}
+
+ListValue& List(Struct& object, const std::string& name) { return *(*object.mutable_fields())[name].mutable_list_value(); }
+
+void Describe(const CLI::Option& option, Struct& object) {
+  ListValue& names = List(object, "names");
+  for (const std::string& name : option.get_snames()) names.add_values()->set_string_value("-" + name);
+  for (const std::string& name : option.get_lnames()) names.add_values()->set_string_value("--" + name);
+  const bool is_flag = option.get_type_size() == 0;
+  const std::string value = option.get_option_text().empty() ? option.get_type_name() : option.get_option_text();
+  Set(object, "value", is_flag ? "" : std::string(absl::StripAsciiWhitespace(value)));
+  Set(object, "positional", option.get_positional() ? option.get_name(true) : "");
+  Set(object, "description", option.get_description());
+  Set(object, "group", option.get_group());
+}
+
+void Describe(const CLI::App& app, Struct& object) {
+  Set(object, "name", app.get_name());
+  Set(object, "description", app.get_description());
+  Set(object, "footer", app.get_footer());
+  for (const CLI::Option* option : app.get_options()) {
+    Describe(*option, *List(object, "options").add_values()->mutable_struct_value());
+  }
+  // A command without a name groups options and is no command.
+  for (const CLI::App* sub : app.get_subcommands([](const CLI::App* any) { return !any->get_name().empty(); })) {
+    Describe(*sub, *List(object, "commands").add_values()->mutable_struct_value());
+  }
+}
+
+}  // namespace
+
+int main() {
+  absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  Struct programs;
+  ricochet::cli::Command command;
+  Describe(*ricochet::cli::MakeProgram({"ricochet"}, command), *List(programs, "programs").add_values()->mutable_struct_value());
+  Describe(*ricochet::server::MakeCommandLine(), *List(programs, "programs").add_values()->mutable_struct_value());
+  std::string text;
+  if (!google::protobuf::util::MessageToJsonString(programs, &text).ok()) return 1;
+  std::cout << text << '\n';
+  return 0;
+}
