@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "core/contact/delassus.h"
+#include "core/contact/inertia.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/check.h"
@@ -17,6 +18,10 @@ namespace ricochet {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+// How far the largest principal moment may exceed the sum of the other two, divided by the sum of all three: tensors of
+// plates and rods that were rounded to single precision are taken.
+constexpr double kMomentRounding = 1e-6;
 
 bool AllFinite(const std::vector<double>& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
@@ -33,13 +38,26 @@ std::vector<std::string> EntriesOf(const std::string& field, size_t count) {
   return entries;
 }
 
-// The smallest eigenvalue of the matrix, scaled to a unit diagonal, must exceed `least`.
-void CheckMatrix(const std::string& field, const std::vector<double>& upper, double least, const char* rule,
+Violation MatrixViolation(const std::string& field, const std::vector<double>& upper, const char* rule) {
+  return {field, absl::StrCat("= ", ListText(upper), ": must be ", rule), ViolationKind::kValue,
+          EntriesOf(field, upper.size())};
+}
+
+// The smallest eigenvalue of the matrix, scaled to a unit diagonal, must exceed `least`. Returns whether it does.
+bool CheckMatrix(const std::string& field, const std::vector<double>& upper, double least, const char* rule,
                  Check& check) {
-  if (!check.Length(field, upper.size(), 6) || !AllFinite(upper)) return;
-  check.Require(SmallestScaledEigenvalue(upper) > least, [&] {
-    return Violation{field, absl::StrCat("= ", ListText(upper), ": must be ", rule), ViolationKind::kValue,
-                     EntriesOf(field, upper.size())};
+  if (!check.Length(field, upper.size(), 6) || !AllFinite(upper)) return false;
+  const bool holds = SmallestScaledEigenvalue(upper) > least;
+  check.Require(holds, [&] { return MatrixViolation(field, upper, rule); });
+  return holds;
+}
+
+// A body's tensor is positive definite, and none of its principal moments exceeds the sum of the other two.
+void CheckInertia(const std::string& field, const std::vector<double>& upper, Check& check) {
+  if (!CheckMatrix(field, upper, 16.0 * kEpsilon, "positive definite", check)) return;
+  check.Require(LargestMomentShare(upper) <= 0.5 + 0.5 * kMomentRounding, [&] {
+    return MatrixViolation(field, upper,
+                           "that of a body: its largest principal moment is at most the sum of the other two");
   });
 }
 
@@ -53,7 +71,7 @@ void CheckOne(const Pendulum& /*pendulum*/, Check& /*check*/) {}
 void CheckOne(const PlanarBody& /*body*/, Check& /*check*/) {}
 
 void CheckBody(const SpatialBody& body, const std::string& prefix, Check& check) {
-  CheckMatrix(prefix + ".inertia_com_kg_m2", body.inertia_com_kg_m2, 16.0 * kEpsilon, "positive definite", check);
+  CheckInertia(prefix + ".inertia_com_kg_m2", body.inertia_com_kg_m2, check);
   check.Length(prefix + ".offset_m", body.offset_m.size(), 3);
   check.Length(prefix + ".linear_m_s", body.linear_m_s.size(), 3);
   check.Length(prefix + ".angular_rad_s", body.angular_rad_s.size(), 3);

@@ -27,6 +27,7 @@ namespace {
 using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::Not;
+using testing::SizeIs;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
@@ -73,6 +74,14 @@ std::vector<BadScene> BadSystems() {
        "spatial_body.inertia_com_kg_m2", "= [1, 2, 0, 1, 0, 1]: must be positive definite"},
       {"SingularInertia", Spoil<SpatialBody>(Body(), [](auto& b) { b.inertia_com_kg_m2 = {1, 0, 0, 1, 0, 0}; }),
        "spatial_body.inertia_com_kg_m2", "= [1, 0, 0, 1, 0, 0]: must be positive definite"},
+      {"ImpossibleInertia", Spoil<SpatialBody>(Body(), [](auto& b) { b.inertia_com_kg_m2 = {1, 0, 0, 1, 0, 5}; }),
+       "spatial_body.inertia_com_kg_m2",
+       "= [1, 0, 0, 1, 0, 5]: must be that of a body: its largest principal moment is at most the sum of the other two"},
+      // In its own axes, this tensor is [1, 0, 0, 3, 0, 5].
+      {"ImpossibleInertiaInTurnedAxes",
+       Spoil<SpatialBody>(Body(), [](auto& b) { b.inertia_com_kg_m2 = {2, 1, 0, 2, 0, 5}; }),
+       "spatial_body.inertia_com_kg_m2",
+       "= [2, 1, 0, 2, 0, 5]: must be that of a body: its largest principal moment is at most the sum of the other two"},
       {"LongOffset", Spoil<SpatialBody>(Body(), [](auto& b) { b.offset_m.push_back(1.0); }), "spatial_body.offset_m",
        "has 4 entries: must have 3"},
       {"NoVelocity", Spoil<SpatialBody>(Body(), [](auto& b) { b.linear_m_s.clear(); }), "spatial_body.linear_m_s",
@@ -358,6 +367,20 @@ TEST_P(BadSystemTest, BreaksARelationWhereItsShapeAndEachNumberByItselfAreRight)
     std::optional<SceneContact> contact;
     EXPECT_FALSE(KeepsRelations(scene, nullptr, contact));
   }
+}
+
+// A plate has a moment that is exactly the sum of the other two, and so does a rod without thickness.
+TEST(ValidateSystemsTest, InertiasOfPlatesAndRodsAreValidAsRoundedToSinglePrecision) {
+  const auto with = [](const std::vector<double>& inertia) {
+    SpatialBody body = Body();
+    body.inertia_com_kg_m2 = inertia;
+    return Validate(With(body));
+  };
+  EXPECT_THAT(with({0.1, 0, 0, 0.2, 0, 0.1 + 0.2}), IsEmpty());
+  EXPECT_THAT(with({0.1F, 0, 0, 0.2F, 0, 0.30000004F}), IsEmpty());
+  EXPECT_THAT(with({1, 0, 0, 1, 0, 1e-12}), IsEmpty());
+  EXPECT_THAT(with({1e300, 0, 0, 1e300, 0, 2e300}), IsEmpty());
+  EXPECT_THAT(with({0.1, 0, 0, 0.2, 0, 0.30001}), SizeIs(1));
 }
 
 TEST(ValidateSystemsTest, ContactsThatDoNotApproachNeedNoRange) {
