@@ -1,0 +1,101 @@
+"""Brings up deploy/pool/compose.yaml, kills a server under a sweep, and asks Prometheus what it has seen.
+
+usage: compose_test.py SOURCE_DIRECTORY RICOCHET WORK_DIRECTORY RICOCHET_IMAGE
+
+HAProxy and Prometheus come from images that are made of Debian's packages, so no registry is needed.
+"""
+import json
+import os
+import pathlib
+import shutil
+import subprocess
+import sys
+import time
+import urllib.parse
+import urllib.request
+
+SOURCE, RICOCHET, WORK = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
+IMAGE = sys.argv[4]
+# What works without systemd. The ulimits spare podman a capability it may lack.
+CONTAINERS = """[containers]
+default_ulimits = ["nofile=1024:4096", "nproc=4096:4096"]
+[engine]
+runtime = "runc"
+cgroup_manager = "cgroupfs"
+events_logger = "file"
+"""
+PROGRAMS = {"HAPROXY_IMAGE": "haproxy", "PROMETHEUS_IMAGE": "prometheus"}
+SWEEP = ["sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", "friction.kinetic_coefficient=lin:0:0.4:3000000",
+         "--column", "coefficients.newton", "--format", "npy"]
+
+
+def run(*command, **options):
+    return subprocess.run(command, check=True, text=True, timeout=600, **options)
+
+
+def wait_for(what, ask, seconds=90):
+    end = time.monotonic() + seconds
+    while time.monotonic() < end:
+        try:
+            answer = ask()
+        except (OSError, subprocess.CalledProcessError):
+            answer = None
+        if answer:
+            return answer
+        time.sleep(0.5)
+    raise SystemExit(f"no {what} within {seconds} s")
+
+
+def query(expression):
+    url = "http://127.0.0.1:9090/api/v1/query?" + urllib.parse.urlencode({"query": expression})
+    with urllib.request.urlopen(url, timeout=10) as reply:
+        return [float(one["value"][1]) for one in json.load(reply)["data"]["result"]]
+
+
+def serving():
+    done = subprocess.run([RICOCHET, "health", "--server", "127.0.0.1:50051"], check=False, stdout=subprocess.PIPE,
+                          stderr=subprocess.DEVNULL, timeout=60)
+    return done.returncode == 0
+
+
+def main():
+    shutil.rmtree(WORK, ignore_errors=True)
+    WORK.mkdir(parents=True)
+    (WORK / "containers.conf").write_text(CONTAINERS)
+    env = {**os.environ, "CONTAINERS_CONF": str(WORK / "containers.conf"), "RICOCHET_IMAGE": IMAGE}
+    for variable, package in PROGRAMS.items():
+        env[variable] = f"localhost/ricochet-{package}:dev"
+        run("buildah", "bud", "--pull-never", "--layers", "--format", "docker", "--isolation", "chroot", "--quiet",
+            "--build-arg", f"PACKAGE={package}", "--file", SOURCE / "tests/deploy/program.Dockerfile", "--tag", env[variable],
+            WORK, stdout=subprocess.DEVNULL)
+    compose = ["podman-compose", "--project-name", "ricochet-test", "--file", str(SOURCE / "deploy/pool/compose.yaml")]
+    run(RICOCHET, *SWEEP, "-o", WORK / "whole.npy")
+    try:
+        run(*compose, "up", "--detach", env=env)
+        wait_for("server behind HAProxy", serving)
+        wait_for("three servers that Prometheus reads", lambda: query('sum(up{job="ricochet"})') == [3])
+        print("three servers serve behind HAProxy, and Prometheus reads all of them", flush=True)
+        sweep = subprocess.Popen([RICOCHET, *SWEEP, "--server", "127.0.0.1:50051", "-o", WORK / "sweep.npy"])
+        wait_for("first points", lambda: (WORK / "sweep.npy.part").exists() or sweep.poll() is not None, 60)
+        run("podman", "kill", "--signal", "KILL", "ricochet-test_one_1", env=env, stdout=subprocess.DEVNULL)
+        code = sweep.wait(300)
+        while code == 75:
+            code = subprocess.run([RICOCHET, *SWEEP, "--server", "127.0.0.1:50051", "-o", WORK / "sweep.npy", "--resume"],
+                                  check=False, timeout=300).returncode
+        if code != 0 or (WORK / "sweep.npy").read_bytes() != (WORK / "whole.npy").read_bytes():
+            raise SystemExit(f"the sweep ended with {code}, or differs from that of the embedded engine")
+        print("one was killed under a sweep, which ended with the bytes of the embedded engine", flush=True)
+        # A container that has been killed stays down until somebody starts it.
+        wait_for("alarm for the server that is gone", lambda: query('count(up{job="ricochet"} == 0)') == [1])
+        print("Prometheus sees that one is down", flush=True)
+        run("podman", "stop", "--time", "20", "ricochet-test_two_1", env=env, stdout=subprocess.DEVNULL)
+        code = run("podman", "inspect", "--format", "{{.State.ExitCode}}", "ricochet-test_two_1", env=env,
+                   stdout=subprocess.PIPE).stdout.strip()
+        if code != "0" or not serving():
+            raise SystemExit(f"the drained server ended with {code}, or the last one does not serve")
+        print("another drained and ended with 0, and the third serves alone", flush=True)
+    finally:
+        subprocess.run([*compose, "down", "--timeout", "20"], env=env, check=False, stdout=subprocess.DEVNULL, timeout=300)
+
+
+main()
