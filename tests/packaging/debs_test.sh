@@ -15,7 +15,8 @@ apt() { apt-get -qq -o Dpkg::Use-Pty=0 "$@" >/dev/null; }
 # Every file but what the package manager and a running system keep for themselves.
 files() {
   find / -xdev \( -path /proc -o -path /sys -o -path /tmp -o -path /run -o -path /var/cache -o -path /var/log \
-    -o -path /var/lib/apt -o -path /var/lib/dpkg -o -path "$directory" \) -prune -o -print | sort
+    -o -path /var/lib/apt -o -path /var/lib/dpkg -o -path "$directory" \
+    -o -path '/etc/*shadow-' -o -path /etc/passwd- -o -path /etc/group- \) -prune -o -print | sort
 }
 
 say "Installing what the packages depend on, and the packages"
