@@ -55,8 +55,10 @@ double Call::elapsed_s() const {
 
 CallOptions Call::options() const {
   using std::chrono::system_clock;
-  CallOptions options = {
-      .stop = drain(), .deadline = start_ + time_limit(), .is_stopped = [this] { return context_.IsCancelled(); }};
+  CallOptions options = {.stop = drain(),
+                         .deadline = start_ + time_limit(),
+                         .is_stopped = [this] { return context_.IsCancelled(); },
+                         .helpers = frame_.gate.HelpersFor(peer_key_)};
   const system_clock::time_point deadline = context_.deadline();
   if (deadline != system_clock::time_point::max()) {
     const auto left = deadline - system_clock::now();

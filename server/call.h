@@ -67,9 +67,6 @@ class Call {
   // client cancels or vanishes, and when the drain asks for it. This object must outlive them.
   CallOptions options() const;
 
-  // Returns the threads that may help a sweep of this call.
-  std::shared_ptr<Helpers> helpers() const { return frame_.gate.HelpersFor(peer_key_); }
-
   // Does the work when it is this call's turn, and returns OK; or returns the error for which it was not done. `cost` is
   // absent for a part of a stream.
   absl::Status Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work);

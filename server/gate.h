@@ -47,9 +47,9 @@ class Gate {
   // An exception that `work` throws is thrown here.
   absl::Status Compute(const Turn& turn, absl::FunctionRef<void()> work);
 
-  // Returns helpers for a sweep of a peer. A helper takes a slot for parts of streams, and its time counts as its peer's.
-  // It gets one only while fewer dear calls and parts of streams compute than there are threads and none waits, and
-  // gives it back once that no longer holds. The gate must outlive the helpers.
+  // Returns helpers for a sweep or a batch of a peer. A helper takes a slot for parts of streams, and its time counts as
+  // its peer's. It gets one only while fewer dear calls and parts of streams compute than there are threads and none
+  // waits, and gives it back once that no longer holds. The gate must outlive the helpers.
   std::shared_ptr<Helpers> HelpersFor(std::string peer);
 
   // Calls of all kinds that wait or compute now. A helper counts as one that computes.

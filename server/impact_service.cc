@@ -208,12 +208,9 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
     chunk.regimes = {};
     seal.Put(response);
   };
-  const auto open = [&] {
-    CallOptions options = call.options();
-    options.helpers = call.helpers();
-    return solver_.Sweep(request, options);
-  };
-  return PassOn<SweepChunk>(call, open, prepare, [&] { return Send(response, writer, call); });
+  return PassOn<SweepChunk>(
+      call, [&] { return solver_.Sweep(request, call.options()); }, prepare,
+      [&] { return Send(response, writer, call); });
 }
 
 absl::Status ImpactService::Stream(const CostRequest& request, grpc::ServerWriter<v1::CostResponse>& writer,

@@ -10,7 +10,6 @@
 #include "core/answer/scene_bounds.h"
 #include "core/answer/scene_enclosure.h"
 #include "core/answer/scene_outcome.h"
-#include "core/batch/batch_run.h"
 #include "core/batch/check_rows.h"
 #include "core/certified/certified.h"
 #include "core/engine/call_watch.h"
@@ -20,6 +19,7 @@
 #include "core/engine/engine.h"
 #include "core/engine/helper_threads.h"
 #include "core/engine/info.h"
+#include "core/engine/parallel_batch.h"
 #include "core/engine/sweep_run.h"
 #include "core/numerics/decimal.h"
 #include "core/numerics/invariant.h"
@@ -165,7 +165,7 @@ namespace {
 
 class LocalBatches final : public BatchSession::Worker {
  public:
-  LocalBatches(std::unique_ptr<BatchRun> run, const Limits& limits, const CallOptions& options)
+  LocalBatches(std::unique_ptr<ParallelBatch> run, const Limits& limits, const CallOptions& options)
       : run_(std::move(run)), limits_(limits), watch_(options) {}
 
   absl::Status CheckSize(size_t rows) const override { return CheckBatchSize(rows, run_->columns(), limits_); }
@@ -180,7 +180,7 @@ class LocalBatches final : public BatchSession::Worker {
   const EngineInfo& engine() const override { return ThisEngine(); }
 
  private:
-  std::unique_ptr<BatchRun> run_;
+  std::unique_ptr<ParallelBatch> run_;
   const Limits limits_;
   CallWatch watch_;
 };
@@ -189,7 +189,7 @@ class LocalBatches final : public BatchSession::Worker {
 
 absl::StatusOr<BatchSession> LocalSolver::DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const {
   if (absl::Status too_large = CheckLimits(setup, limits_); !too_large.ok()) return too_large;
-  absl::StatusOr<std::unique_ptr<BatchRun>> run = BatchRun::Make(setup);
+  absl::StatusOr<std::unique_ptr<ParallelBatch>> run = ParallelBatch::Make(setup, HelpersOf(options));
   if (!run.ok()) return run.status();
   return BatchSession(std::make_unique<LocalBatches>(*std::move(run), limits_, options));
 }
@@ -205,7 +205,7 @@ absl::StatusOr<BatchResponse> LocalSolver::DoSolveBatch(const BatchSetup& setup,
 
 SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions& options) const {
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return SweepStream(too_large);
-  absl::StatusOr<SweepRun> made = SweepRun::Make(request, options.helpers == nullptr ? helpers_ : options.helpers);
+  absl::StatusOr<SweepRun> made = SweepRun::Make(request, HelpersOf(options));
   if (!made.ok()) return SweepStream(made.status());
   if (absl::Status too_large = CheckPoints(made->points_total(), limits_); !too_large.ok()) {
     return SweepStream(too_large);

@@ -135,14 +135,22 @@ void RunAgainstLanes(const Solver& local, double tolerance) {
         absl::StrFormat("%.2f of the planar model in lanes alone", compared.ratio));
 }
 
-void Run(const char* name, const Solver& local, const Solver& remote, Batch (*make)(size_t, double), double tolerance) {
-  std::printf("%s, tolerance %.0e, one thread, medians of %d rounds\n", name, tolerance, kRounds);
-  std::printf("  %9s %16s %16s %18s\n", "rows", "embedded M/s", "loopback M/s", "loopback us/call");
+struct Solvers {
+  LocalSolver one_thread{Limits::None(), 1};
+  LocalSolver all_cores;
+  const Solver& remote;
+};
+
+void Run(const char* name, const Solvers& solvers, Batch (*make)(size_t, double), double tolerance) {
+  std::printf("%s, tolerance %.0e, medians of %d rounds\n", name, tolerance, kRounds);
+  std::printf("  %9s %16s %16s %16s %18s\n", "rows", "one thread M/s", "all cores M/s", "loopback M/s",
+              "loopback us/call");
   for (const size_t rows : {1, 64, 1000, 10'000, 100'000}) {
     Batch batch = make(rows, tolerance);
-    const double here = Rate(local, batch);
-    const double there = Rate(remote, batch);
-    std::printf("  %9zu %16.2f %16.2f %18.0f\n", rows, here / 1e6, there / 1e6,
+    const double alone = Rate(solvers.one_thread, batch);
+    const double together = Rate(solvers.all_cores, batch);
+    const double there = Rate(solvers.remote, batch);
+    std::printf("  %9zu %16.2f %16.2f %16.2f %18.0f\n", rows, alone / 1e6, together / 1e6, there / 1e6,
                 static_cast<double>(rows) / there * 1e6);
     std::fflush(stdout);
   }
@@ -158,11 +166,11 @@ int main() {
   const ServerProcess server;
   const auto client = Client::Connect({.target = server.address()});
   if (!client.ok()) return 1;
-  const LocalSolver local;
-  RunAgainstLanes(local, 1e-12);
-  Run("Planar contacts", local, *client, Contacts, 1e-12);
-  Run("Planar contacts", local, *client, Contacts, 1e-6);
-  Run("Contacts in space", local, *client, ContactsInSpace, 1e-6);
-  Run("Contacts in space", local, *client, ContactsInSpace, 1e-10);
+  const Solvers solvers = {.remote = *client};
+  RunAgainstLanes(solvers.one_thread, 1e-12);
+  Run("Planar contacts", solvers, Contacts, 1e-12);
+  Run("Planar contacts", solvers, Contacts, 1e-6);
+  Run("Contacts in space", solvers, ContactsInSpace, 1e-6);
+  Run("Contacts in space", solvers, ContactsInSpace, 1e-10);
   return 0;
 }

@@ -214,7 +214,7 @@ class Solver {
 
 // LocalSolver is the Solver that runs in this process: it needs no server and no file. Copying it costs little.
 //
-// A call computes on the thread that makes it. A sweep that lasts longer than a millisecond is helped by other threads,
+// A call computes on the thread that makes it. A sweep or a batch that lasts longer than a millisecond is helped by others,
 // which the solver starts when it first needs them, shares with its copies, and ends with the last of them and of their
 // streams. Between two chunks helpers compute one chunk ahead, so that a stream holds a few chunks of 512 KiB at most,
 // and one more for every four helpers. The number of threads changes no bit of an answer.
@@ -222,7 +222,7 @@ class LocalSolver final : public Solver {
  public:
   // Without limits it takes a request of any size, because the process that asks is the one that pays.
   LocalSolver() : LocalSolver(Limits::None()) {}
-  // At most `threads` threads compute a sweep, the caller's own among them; with 1, no thread is ever started. The
+  // At most `threads` threads compute a sweep or a batch, the caller's own among them; with 1, no thread is ever started. The
   // default is one for each core that this process may use. `threads` must be >= 1.
   explicit LocalSolver(const Limits& limits, int threads = AvailableCores());
 
@@ -239,6 +239,10 @@ class LocalSolver final : public Solver {
   SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override;
   CostStream DoCost(const CostRequest& request, const CallOptions& options) const override;
   absl::StatusOr<InfoResponse> DoInfo(const InfoRequest& request, const CallOptions& options) const override;
+
+  const std::shared_ptr<Helpers>& HelpersOf(const CallOptions& options) const {
+    return options.helpers == nullptr ? helpers_ : options.helpers;
+  }
 
   Limits limits_;
   std::shared_ptr<Helpers> helpers_;

@@ -14,10 +14,10 @@
 #include <utility>
 #include <vector>
 
-#include "core/engine/helper_threads.h"
 #include "core/engine/sweep_run.h"
 #include "core/sweep/column.h"
 #include "ricochet/solver.h"
+#include "tests/support/counted_threads.h"
 #include "tests/support/system_scenes.h"
 
 namespace ricochet {
@@ -25,30 +25,6 @@ namespace {
 
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
-
-// Counts the helps, and can have every help give way at once.
-class CountedThreads final : public Helpers {
- public:
-  explicit CountedThreads(int most, bool gives_way = false) : threads_(most), gives_way_(gives_way) {}
-
-  int most() const override { return threads_.most(); }
-  bool Start(Help help) override {
-    return threads_.Start([this, help = std::move(help)](absl::FunctionRef<bool()> /*gives_way*/) mutable {
-      ++started_;
-      ++running_;
-      help([this] { return gives_way_; });
-      --running_;
-    });
-  }
-  int started() const { return started_; }
-  int running() const { return running_; }
-
- private:
-  std::atomic<int> started_ = 0;
-  std::atomic<int> running_ = 0;
-  HelperThreads threads_;
-  const bool gives_way_;
-};
 
 // A sweep of a system with points of several regimes and bad ones.
 SweepRequest Frictions(const System& system, int64_t count) {
