@@ -61,23 +61,25 @@ const std::set<std::string>& BarredFromCore() {
 // This file writes the reason why the process aborts, and needs a stream for it.
 constexpr char kLastWords[] = "core/numerics/invariant.cc";
 
-// Some files compare the deadline of a call with the clock, one how soon the reader of a stream comes back, and two measure
-// the time that a method takes.
+// Some files compare the deadline of a call with the clock, some how long a call has lasted before
+// others help it, one how soon the reader of a stream comes back, and two measure the time that a method takes.
 const std::set<std::string>& ReadersOfTheClock() {
   static const std::set<std::string> files = {"core/include/ricochet/call_options.h",
                                               "core/engine/call_watch.h",
                                               "core/engine/call_watch.cc",
                                               "core/engine/chunk_size.h",
                                               "core/engine/local_solver.cc",
+                                              "core/engine/parallel_batch.cc",
                                               "core/engine/sweep_run.cc",
                                               "core/study/stopwatch.h",
                                               "core/study/stopwatch.cc"};
   return files;
 }
 
-// The files of the threads that help a sweep, and of what these share.
+// The files of the threads that help a sweep or a batch, and of what these share.
 const std::set<std::string>& KeepersOfThreads() {
   static const std::set<std::string> files = {"core/engine/helper_threads.h", "core/engine/helper_threads.cc",
+                                              "core/engine/parallel_batch.h", "core/engine/parallel_batch.cc",
                                               "core/engine/sweep_run.cc"};
   return files;
 }
