@@ -129,8 +129,7 @@ bool BatchRun::SolveAlone(const BatchRows& rows, size_t i, absl::FunctionRef<boo
 bool BatchRun::SolveBlock(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
                           BatchSummary& summary) {
   if (stopped()) return false;
-  planar_->Solve(rows, first, count, *block_);
-  if (planar_->HasAllNumbers(count, *block_)) {
+  if (planar_->Solve(rows, first, count, *block_)) {
     FinishBlock(rows, first, count, summary);
     return true;
   }

@@ -82,7 +82,7 @@ class SweepRun::Impl {
   void HelpInTurn(SweepPoints& points, absl::FunctionRef<bool()> gives_way, std::unique_lock<std::mutex>& lock);
 
   // Lanes are fast enough for large blocks, and a caller who is alone leaves none for others to wait for.
-  bool adapts_blocks() const { return !sweep_.in_lanes && most_helpers_ > 0; }
+  bool adapts_blocks() const { return !sweep_.is_fast() && most_helpers_ > 0; }
 
   // The functions below are called with the mutex locked.
   // Takes a block, in a new buffer if need be. Nothing if all points are taken or the buffers that may be open are.

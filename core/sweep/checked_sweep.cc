@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/answer/planar_lanes.h"
 #include "core/plan/demand_fields.h"
 #include "core/problem/scene_problem.h"
 #include "core/scene/validate.h"
@@ -80,6 +81,7 @@ absl::StatusOr<CheckedSweep> CheckSweep(const SweepRequest& request) {
                         .first = request.first_index,
                         .end = request.end_index.value_or(PointCount(request.grid))};
   ResolveColumns(scene, request.columns, known, sweep);
+  sweep.planar_outputs = PlanarLanes::OutputsOf(scene, request.columns, sweep.demand);
   return sweep;
 }
 

@@ -1,10 +1,12 @@
 #include "core/sweep/sweep_points.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/answer/planar_lanes.h"
 #include "core/answer/scene_outcome.h"
 #include "core/contact/reduction.h"
 #include "core/models/pendulum/first_order.h"
@@ -24,6 +26,21 @@ absl::Status Stopped() { return absl::CancelledError("the sweep was stopped by i
 
 }  // namespace
 
+struct SweepPoints::Planar {
+  Planar(const Scene& scene, const CheckedSweep& sweep)
+      : lanes(scene, *sweep.planar_outputs, sweep.demand.relative_tolerance) {
+    columns.varies.fill(true);
+    for (size_t n = 0; n < numbers.size(); ++n) columns.of[n] = numbers[n].data();
+  }
+
+  PlanarLanes lanes;
+  PlanarLanes::Columns columns;
+  PlanarLanes::Block block;
+  std::array<std::array<double, PlanarLanes::kBlock>, PlanarLanes::kNumberCount> numbers;
+};
+
+SweepPoints::~SweepPoints() = default;
+
 SweepPoints::SweepPoints(const CheckedSweep& sweep)
     : sweep_(sweep),
       driven_(sweep.grid),
@@ -33,6 +50,7 @@ SweepPoints::SweepPoints(const CheckedSweep& sweep)
       inadmissible_(std::make_unique<bool[]>(kMostPoints)),
       columns_(sweep.columns) {
   if (sweep.in_lanes) problems_ = pendulum::ProblemColumns(pendulum::MakeProblem(driven_.scene()).law, kMostPoints);
+  if (sweep.planar_outputs.has_value()) planar_ = std::make_unique<Planar>(driven_.scene(), sweep);
 }
 
 absl::StatusOr<int64_t> SweepPoints::Compute(int64_t first, int64_t count, absl::Span<double* const> columns,
@@ -44,6 +62,8 @@ absl::StatusOr<int64_t> SweepPoints::Compute(int64_t first, int64_t count, absl:
   columns_.assign(columns.begin(), columns.end());
   if (sweep_.in_lanes) {
     SolveLanes(count);
+  } else if (planar_ != nullptr) {
+    if (absl::Status solved = SolvePlanar(first, count, stopped); !solved.ok()) return solved;
   } else {
     const absl::StatusOr<int64_t> solved = SolvePoints(count, stopped, is_enough);
     if (!solved.ok()) return solved;
@@ -147,6 +167,42 @@ void SweepPoints::SolveToFirstOrder(size_t first, size_t count) {
     regimes_[i] = first_order::RegimeOf(problem);
     inadmissible_[i] = false;
   }
+}
+
+// Solves the points in the lanes of planar contacts, then goes back to those that the lanes leave to their scenes.
+absl::Status SweepPoints::SolvePlanar(int64_t first, int64_t count, absl::FunctionRef<bool()> stopped) {
+  const auto size = static_cast<size_t>(count);
+  for (size_t done = 0; done < size; done += PlanarLanes::kBlock) {
+    SolvePlanarBlock(done, std::min(PlanarLanes::kBlock, size - done));
+  }
+  const auto is_left = [](Model model) { return model == Model::kUnspecified; };
+  if (std::none_of(models_.begin(), models_.begin() + count, is_left)) return absl::OkStatus();
+  for (size_t i = 0; i < size; ++i) {
+    if (!is_left(models_[i])) continue;
+    if (stopped()) return Stopped();
+    driven_.GoTo(first + static_cast<int64_t>(i));
+    if (!SolvePoint(i, stopped)) return Stopped();
+  }
+  driven_.GoTo(first + count - 1);
+  driven_.Advance();
+  return absl::OkStatus();
+}
+
+void SweepPoints::SolvePlanarBlock(size_t first, size_t count) {
+  for (size_t i = 0; i < count; ++i) {
+    const PlanarLanes::Numbers numbers = PlanarLanes::NumbersOf(driven_.scene());
+    for (size_t n = 0; n < numbers.size(); ++n) planar_->numbers[n][i] = numbers[n];
+    driven_.Advance();
+  }
+  std::vector<double*> places = columns_;
+  for (double*& place : places) place += first;
+  const PlanarLanes::Block& block = planar_->block;
+  planar_->lanes.Solve(planar_->columns, count, places, planar_->block);
+  const auto at = static_cast<ptrdiff_t>(first);
+  std::copy_n(block.models.begin(), count, models_.begin() + at);
+  std::copy_n(block.regimes.begin(), count, regimes_.begin() + at);
+  std::copy_n(block.inadmissible.begin(), count, inadmissible_.get() + at);
+  std::fill_n(valid_.get() + at, count, true);
 }
 
 // Overwrites bad points and tallies all of them.

@@ -29,6 +29,7 @@ class SweepPoints {
 
   // The sweep must outlive this object.
   explicit SweepPoints(const CheckedSweep& sweep);
+  ~SweepPoints();
   SweepPoints(const SweepPoints&) = delete;
   SweepPoints& operator=(const SweepPoints&) = delete;
 
@@ -50,6 +51,8 @@ class SweepPoints {
   pendulum::Problem PlanPendulum(size_t i, pendulum::Problem problem);
   void SolveInLanes(size_t first, size_t count);
   void SolveToFirstOrder(size_t first, size_t count);
+  absl::Status SolvePlanar(int64_t first, int64_t count, absl::FunctionRef<bool()> stopped);
+  void SolvePlanarBlock(size_t first, size_t count);
   void FinishBlock(int64_t first, int64_t count, SweepSummary& tallies);
 
   const CheckedSweep& sweep_;
@@ -59,6 +62,8 @@ class SweepPoints {
 
   // One block of points.
   pendulum::ProblemColumns problems_;  // Only if the lanes give the columns.
+  struct Planar;                       // Contacts of the plane on their way through their lanes.
+  std::unique_ptr<Planar> planar_;     // Only if these lanes give the columns.
   std::vector<Regime> regimes_;
   std::vector<Model> models_;
   std::unique_ptr<bool[]> valid_;
