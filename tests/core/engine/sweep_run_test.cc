@@ -481,8 +481,12 @@ TEST(SweepRunTest, PointsAreTheSameWhereverAChunkEndsEarly) {
   pendulum.with_regime = true;
   SweepRequest contact = pendulum;
   contact.grid.scene.system = PlanarContact{2.5, 1.0, 2.5, -0.5, -1.0};
-  contact.grid.axes = {Lin("friction.kinetic_coefficient", 0.0, 1.0, 3'000)};
-  for (const SweepRequest& request : {pendulum, contact}) {
+  contact.grid.axes = {Lin("friction.kinetic_coefficient", 0.0, 1.0, 10'000)};
+  // No lanes give this column, so that the points are solved one by one.
+  SweepRequest one_by_one = contact;
+  one_by_one.grid.axes = {Lin("friction.kinetic_coefficient", 0.0, 1.0, 3'000)};
+  one_by_one.columns.push_back("accuracy.relative_error");
+  for (const SweepRequest& request : {pendulum, contact, one_by_one}) {
     int chunks = 0;
     const SweepChunk whole = Whole(
         request, [] { return false; }, chunks);
