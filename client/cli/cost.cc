@@ -14,7 +14,7 @@
 #include "client/cli/interrupt.h"
 #include "client/cli/number_input.h"
 #include "client/cli/output.h"
-#include "client/cli/plot.h"
+#include "client/cli/picture_input.h"
 #include "client/cli/progress.h"
 #include "client/cli/scene_input.h"
 #include "proto/wire/cost.h"
@@ -35,7 +35,7 @@ struct CostOptions {
   SceneOptions scene;
   std::string time_limit;
   std::string samples;
-  std::string plot;
+  PictureOptions picture;
   std::string html;
 };
 
@@ -96,9 +96,7 @@ absl::Status WritePage(const Scene& scene, const CostChunk& study, const std::st
 }
 
 absl::Status RunCost(const CostOptions& options) {
-  if (!options.plot.empty()) {
-    if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
-  }
+  if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   // This comes before the solver, whose connection starts threads.
   const Interrupt interrupt;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
@@ -107,15 +105,15 @@ absl::Status RunCost(const CostOptions& options) {
   if (!request.ok()) return request.status();
   const absl::StatusOr<CostChunk> study = Study(**solver, *request, interrupt.token());
   if (!study.ok()) return study.status();
-  if (!options.plot.empty()) {
-    const std::string title = absl::StrCat("What accuracy costs: one impact, ", SystemText(request->scene));
-    if (absl::Status status = Draw(CostPlot(*study, title), options.plot); !status.ok()) return status;
-  }
+  const absl::StatusOr<std::string> text = Render(*study, options.common.format);
+  if (!text.ok()) return text.status();
+  if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
   if (!options.html.empty()) {
     if (absl::Status status = WritePage(request->scene, *study, options.html); !status.ok()) return status;
   }
-  const absl::StatusOr<std::string> text = Render(*study, options.common.format);
-  return text.ok() ? WriteOutput(options.common, *text) : text.status();
+  if (options.picture.file.empty()) return absl::OkStatus();
+  const std::string title = absl::StrCat("What accuracy costs: one impact, ", SystemText(request->scene));
+  return DrawPicture(CostPlot(*study, title), options.picture);
 }
 
 }  // namespace
@@ -127,8 +125,7 @@ void AddCost(CLI::App& app, Command& command) {
   sub->add_option("--time-limit", options->time_limit, "Time for the whole study (500ms, 10s, 1m), at most 60 s [3s]")
       ->type_name("TIME");
   sub->add_option("--samples", options->samples, "Samples taken of each time [21]")->type_name("N");
-  sub->add_option("--plot", options->plot, "Draw time over error, and error made over error claimed, with gnuplot")
-      ->type_name("FILE.svg|.png");
+  AddPictureOptions(*sub, "time over error, and error made over error claimed,", options->picture);
   sub->add_option("--html", options->html, "Write tables and pictures as one page that needs nothing beside it")
       ->type_name("FILE");
   AddServerOptions(*sub, options->common);

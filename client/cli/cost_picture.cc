@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/cost_report.h"
+#include "client/cli/plot_axis.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
 
@@ -180,14 +181,6 @@ Curve FrontCurve(const CostChunk& study) {
     if (HasPlace(at)) front.points.push_back(TimePlace(at));
   }
   return front;
-}
-
-std::string PowerOfTen(int exponent) {
-  static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
-  if (exponent == 0) return "1";
-  std::string text = exponent < 0 ? "10⁻" : "10";
-  for (const char digit : absl::StrCat(std::abs(exponent))) text += kDigits[digit - '0'];
-  return text;
 }
 
 // The labels of an axis of errors: every `every` decades, the least, and `beyond` for what has no error.

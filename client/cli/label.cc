@@ -1,15 +1,15 @@
 #include "client/cli/label.h"
 
 #include <array>
-#include <utility>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_replace.h"
+#include "client/cli/field_table.h"
 
 namespace ricochet::cli {
 namespace {
 
+// Fields with a letter of their own.
 struct Named {
   const char* path;
   const char* symbol;
@@ -31,28 +31,19 @@ constexpr std::array kNamed = {
     Named{"coefficients.poisson", "Poisson", "Poisson's coefficient of restitution"},
     Named{"coefficients.energetic", "energetic", "energetic coefficient of restitution"},
     Named{"coefficients.tangential", "tangential", "tangential coefficient (Brach)"},
-    Named{"rates_after_rad_s[0]", "ω+", "angular velocity after, ω+"},
 };
 
-// Maps the suffix of a field's name to its unit. A longer suffix stands before the shorter ones that it ends in.
-constexpr std::array kUnits = {
-    std::pair{"_kg_m2", "kg m²"}, std::pair{"_rad_s", "rad/s"}, std::pair{"_n_s", "N s"}, std::pair{"_m_s", "m/s"},
-    std::pair{"_rad", "rad"},     std::pair{"_m", "m"},         std::pair{"_j", "J"},
-};
+constexpr char kRates[] = "rates_after_rad_s";
 
 }  // namespace
 
 Label LabelOf(const std::string& path) {
-  std::string stem = path.substr(0, path.find('['));
-  Label label;
-  for (const auto& [suffix, unit] : kUnits) {
-    if (!absl::EndsWith(stem, suffix)) continue;
-    stem.resize(stem.size() - std::string(suffix).size());
-    label.unit = unit;
-    break;
+  Label label{.symbol = path, .name = path, .unit = ""};
+  if (absl::StartsWith(path, kRates)) {
+    label.symbol = absl::StrCat("ω+", path.substr(sizeof(kRates) - 1));
+    label.name = absl::StrCat("angular velocity after, ", label.symbol);
   }
-  label.name = absl::StrReplaceAll(stem, {{".", " "}, {"_", " "}});
-  label.symbol = label.name;
+  if (const FieldInfo* field = FindFieldInfo(path); field != nullptr) label.unit = field->unit;
   for (const Named& named : kNamed) {
     if (path != named.path) continue;
     label.symbol = named.symbol;

@@ -13,7 +13,8 @@ struct Label {
   std::string unit;    // "rad/s"; empty for a pure number.
 };
 
-// Returns the label of a path of a scene or an outcome. A path without a name of its own is spelled with spaces.
+// Returns the label of a path of a scene or an outcome, with the unit of the field table. A path without a name of its
+// own is its own name.
 Label LabelOf(const std::string& path);
 
 // Returns "name [unit]".

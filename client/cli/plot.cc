@@ -1,177 +1,358 @@
 #include "client/cli/plot.h"
 
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-#include <cerrno>
-#include <csignal>
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <limits>
 
 #include "absl/status/status.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/gnuplot.h"
 #include "client/cli/output.h"
 #include "core/numerics/decimal.h"
 
 namespace ricochet::cli {
 namespace {
 
-constexpr int kHeight = 620;
-constexpr int kWidthOfOne = 960;
-constexpr int kWidthOfSeveral = 640;
-
 // Okabe and Ito's colours, which the colour-blind can tell apart, without the yellow.
-constexpr char kStyle[] = R"(set linetype 1 linecolor rgb '#0072B2'
-set linetype 2 linecolor rgb '#D55E00'
-set linetype 3 linecolor rgb '#009E73'
-set linetype 4 linecolor rgb '#CC79A7'
-set linetype 5 linecolor rgb '#56B4E9'
-set linetype 6 linecolor rgb '#E69F00'
-set linetype 7 linecolor rgb '#000000'
-set linetype cycle 7
-set grid linetype 1 linecolor rgb '#d8d8d8' linewidth 1
-set autoscale fix
-set offsets graph 0, graph 0, graph 0.04, graph 0.04
-)";
+constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"};
+// After all colours the next dashes begin: 49 looks in all.
+constexpr std::array kDashes = {"1", "'-'", "'.'", "'-.'", "'_ '", "'-..'", "'_.'"};
+
+constexpr char kGrid[] = "set grid linecolor rgb '#d8d8d8' linewidth 1 linetype 1\n";
+
+// The size of the picture, and of the cell that each panel has in it.
+struct Layout {
+  int rows = 1;
+  int columns = 1;
+  int width = 0;
+  int height = 0;
+  double font = 0.0;  // Height of the letters in pixels.
+
+  double cell_width() const { return static_cast<double>(width) / columns; }
+  double cell_height() const { return static_cast<double>(height) / rows; }
+  double character() const { return 0.62 * font; }  // The mean width of a letter.
+};
+
+constexpr int kCellWidth = 640;
+constexpr int kCellHeight = 520;
+constexpr int kMostColumns = 3;
+
+// Returns the number of columns that makes the cells most like a panel of its own: 4 wide and 3 high.
+int ColumnsFor(int panels, double width, double height) {
+  const auto unlikeness = [&](int columns) {
+    const int rows = (panels + columns - 1) / columns;
+    return std::abs(std::log(width / columns / (height / rows) / (4.0 / 3.0)));
+  };
+  int best = 1;
+  for (int columns = 2; columns <= panels; ++columns) {
+    if (unlikeness(columns) < unlikeness(best)) best = columns;
+  }
+  return best;
+}
+
+Layout LayoutOf(const Plot& plot) {
+  const auto panels = static_cast<int>(plot.panels.size());
+  Layout layout;
+  if (plot.width > 0 && plot.height > 0) {
+    layout.width = plot.width;
+    layout.height = plot.height;
+    layout.columns = ColumnsFor(panels, layout.width, layout.height);
+  } else {
+    layout.columns = panels == 4 ? 2 : std::min(panels, kMostColumns);
+    const int rows = (panels + layout.columns - 1) / layout.columns;
+    layout.width = panels == 1 ? 960 : kCellWidth * layout.columns;
+    layout.height = rows == 1 ? 620 : kCellHeight * rows;
+  }
+  layout.rows = (panels + layout.columns - 1) / layout.columns;
+  layout.font = std::clamp(std::min(layout.cell_width() / 40.0, layout.cell_height() / 30.0), 9.0, 15.0);
+  return layout;
+}
 
 // Returns a gnuplot string, in which only the quote is a special character.
 std::string Quoted(const std::string& text) {
-  return absl::StrCat("'", absl::StrReplaceAll(text, {{"'", "''"}, {"\n", " "}}), "'");
+  std::vector<std::string> lines = absl::StrSplit(text, '\n');
+  for (std::string& line : lines) line = absl::StrCat("'", absl::StrReplaceAll(line, {{"'", "''"}}), "'");
+  return absl::StrJoin(lines, ".\"\\n\".");
 }
 
-std::string Terminal(const std::string& terminal, const Plot& plot) {
-  const auto panels = static_cast<int>(plot.panels.size());
-  const int width = panels == 1 ? kWidthOfOne : kWidthOfSeveral * panels;
-  const std::string size =
-      absl::StrCat(plot.width > 0 ? plot.width : width, ",", plot.height > 0 ? plot.height : kHeight);
-  return terminal == "svg" ? absl::StrCat("svg size ", size, " font 'DejaVu Sans,15' background 'white'")
-                           : absl::StrCat("pngcairo size ", size, " font 'DejaVu Sans,13'");
-}
-
-void AppendData(const std::string& name, const Curve& curve, std::string& script) {
-  absl::StrAppend(&script, "$", name, " << EOD\n");
-  for (const auto& [x, y] : curve.points) {
-    absl::StrAppend(&script, ShortestDecimal(x), " ", ShortestDecimal(y), "\n");
+// Breaks the text at blanks into lines of at most `most` characters, as far as its words allow.
+std::string Wrapped(const std::string& text, double most) {
+  std::string wrapped;
+  size_t length = 0;
+  for (const auto word : absl::StrSplit(text, ' ')) {
+    if (length > 0 && static_cast<double>(length + 1 + word.size()) > most) {
+      wrapped += '\n';
+      length = 0;
+    } else if (length > 0) {
+      wrapped += ' ';
+      ++length;
+    }
+    absl::StrAppend(&wrapped, word);
+    length += word.size();
   }
+  return wrapped;
+}
+
+std::string Terminal(const std::string& terminal, const Layout& layout) {
+  const std::string size = absl::StrCat(layout.width, ",", layout.height);
+  const auto font = static_cast<int>(layout.font);
+  if (terminal == "svg") return absl::StrCat("svg size ", size, " font 'DejaVu Sans,", font, "' background 'white'");
+  // Letters of cairo are measured in points, of which 72 are an inch; a pixel is taken as a 96th.
+  if (terminal == "png") return absl::StrCat("pngcairo size ", size, " font 'DejaVu Sans,", 0.8 * layout.font, "'");
+  return absl::StrCat("pdfcairo size ", layout.width / 96.0, "in,", layout.height / 96.0,
+                      "in fontscale 1 font 'DejaVu Sans,", 0.75 * layout.font, "' background 'white'");
+}
+
+std::string ColourOf(int look) { return kColours[static_cast<size_t>(look) % kColours.size()]; }
+
+std::string LineStyle(int look) {
+  const size_t dash = static_cast<size_t>(look) / kColours.size() % kDashes.size();
+  return absl::StrCat("with lines linewidth 2 dashtype ", kDashes[dash], " linecolor rgb '", ColourOf(look), "'");
+}
+
+std::string MarkStyle(int look) {
+  return absl::StrCat("with points pointtype 7 pointsize 0.6 linecolor rgb '", ColourOf(look), "'");
+}
+
+// Which points of a panel its axes can show.
+class Shown {
+ public:
+  explicit Shown(const Panel& panel) : panel_(panel) {}
+  bool operator()(const std::pair<double, double>& point) const {
+    return std::isfinite(point.first) && std::isfinite(point.second) && !(panel_.log_x && point.first <= 0.0) &&
+           !(panel_.log_y && point.second <= 0.0);
+  }
+
+ private:
+  const Panel& panel_;
+};
+
+using Points = std::vector<std::pair<double, double>>;
+
+// Returns the points of a curve without a shown point beside them: a line does not show them.
+Points Isolated(const Points& points, const Shown& is_shown) {
+  Points isolated;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const bool after = i > 0 && is_shown(points[i - 1]);
+    const bool before = i + 1 < points.size() && is_shown(points[i + 1]);
+    if (is_shown(points[i]) && !after && !before) isolated.push_back(points[i]);
+  }
+  return isolated;
+}
+
+// Appends a block of data; an empty line ends a line of the picture.
+void AppendData(const std::string& name, const Points& points, const Shown& is_shown, std::string& script) {
+  absl::StrAppend(&script, "$", name, " << EOD\n");
+  bool any = false;
+  for (const auto& point : points) {
+    any = any || is_shown(point);
+    absl::StrAppend(&script, is_shown(point)
+                                 ? absl::StrCat(ShortestDecimal(point.first), " ", ShortestDecimal(point.second), "\n")
+                                 : "\n");
+  }
+  // gnuplot refuses a block without a point.
+  if (!any) absl::StrAppend(&script, "nan nan\n");
   absl::StrAppend(&script, "EOD\n");
 }
 
-void AppendPanel(size_t number, const Panel& panel, std::string& script) {
-  for (size_t i = 0; i < panel.curves.size(); ++i) {
-    AppendData(absl::StrCat("p", number, "c", i), panel.curves[i], script);
+struct Ends {
+  double least = std::numeric_limits<double>::infinity();
+  double most = -std::numeric_limits<double>::infinity();
+  void Add(double value) {
+    least = std::min(least, value);
+    most = std::max(most, value);
   }
-  absl::StrAppend(&script, "set title ", Quoted(panel.title), "\nset xlabel ", Quoted(panel.x_label), "\nset ylabel ",
-                  Quoted(panel.y_label), "\n");
-  absl::StrAppend(&script, panel.log_x ? "set" : "unset", " logscale x\n");
-  absl::StrAppend(&script, panel.curves.size() > 1 ? "set key outside right center reverse Left\n" : "unset key\n");
-  absl::StrAppend(&script, "unset arrow\n", panel.settings);
-  for (const double mark : panel.x_marks) {
-    const std::string x = ShortestDecimal(mark);
-    absl::StrAppend(&script, "set arrow from ", x, ", graph 0 to ", x,
-                    ", graph 1 nohead dashtype 2 linecolor rgb 'gray40'\n");
-  }
-  for (size_t i = 0; i < panel.curves.size(); ++i) {
-    const Curve& curve = panel.curves[i];
-    const std::string style =
-        !curve.style.empty() ? curve.style
-                             : absl::StrCat("with ", curve.points.size() == 1 ? "points" : "lines", " linewidth 2");
-    absl::StrAppend(&script, i == 0 ? "plot " : ", ", "$p", number, "c", i, " using 1:2 ", style,
-                    curve.title.empty() ? " notitle" : absl::StrCat(" title ", Quoted(curve.title)));
-  }
-  absl::StrAppend(&script, "\n");
-}
-
-// Writes all of `text` to the pipe and closes it. Returns false if the reader went away.
-bool Feed(int pipe, const std::string& text) {
-  size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t count = write(pipe, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) break;
-    if (count > 0) done += static_cast<size_t>(count);
-  }
-  close(pipe);
-  return done == text.size();
-}
-
-// The environment of this process with a UTF-8 locale: in others gnuplot warns of characters that it cannot write.
-class Utf8Environment {
- public:
-  Utf8Environment() {
-    for (char** variable = environ; *variable != nullptr; ++variable) {
-      const std::string text = *variable;
-      if (text.rfind("LC_", 0) != 0 && text.rfind("LANG=", 0) != 0) texts_.push_back(text);
-    }
-    texts_.emplace_back("LC_ALL=C.UTF-8");
-    for (std::string& text : texts_) pointers_.push_back(text.data());
-    pointers_.push_back(nullptr);
-  }
-  char* const* get() const { return pointers_.data(); }
-
- private:
-  std::vector<std::string> texts_;
-  std::vector<char*> pointers_;
+  bool any() const { return least <= most; }
 };
 
-// Starts gnuplot with `input` as its standard input and with no signal blocked or ignored. Returns 0 or an errno.
-int SpawnGnuplot(int input, pid_t& child) {
-  posix_spawn_file_actions_t actions;
-  posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
-  posix_spawnattr_t attributes;
-  posix_spawnattr_init(&attributes);
-  sigset_t none;
-  sigemptyset(&none);
-  sigset_t broken_pipe = none;
-  sigaddset(&broken_pipe, SIGPIPE);
-  posix_spawnattr_setsigmask(&attributes, &none);
-  posix_spawnattr_setsigdefault(&attributes, &broken_pipe);
-  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
-  std::string name = "gnuplot";
-  char* const arguments[] = {name.data(), nullptr};
-  const Utf8Environment environment;
-  const int error = posix_spawnp(&child, "gnuplot", &actions, &attributes, arguments, environment.get());
-  posix_spawnattr_destroy(&attributes);
-  posix_spawn_file_actions_destroy(&actions);
-  return error;
+struct Axes {
+  AxisRange x;
+  AxisRange y;
+  int64_t left_out = 0;  // Points that a logarithmic axis cannot show.
+};
+
+Axes AxesOf(const Panel& panel) {
+  const Shown is_shown(panel);
+  Ends x;
+  Ends y;
+  Axes axes;
+  for (const Curve& curve : panel.curves) {
+    for (const auto& point : curve.points) {
+      if (is_shown(point)) {
+        x.Add(point.first);
+        y.Add(point.second);
+      } else if (std::isfinite(point.first) && std::isfinite(point.second)) {
+        ++axes.left_out;
+      }
+    }
+  }
+  for (const double missing : panel.x_missing) {
+    if (!panel.log_x || missing > 0.0) x.Add(missing);
+  }
+  for (const double mark : panel.y_marks) {
+    if (!panel.log_y || mark > 0.0) y.Add(mark);
+  }
+  for (const Tick& tick : panel.y_ticks) {
+    y.Add(tick.at - 0.6);
+    y.Add(tick.at + 0.6);
+  }
+  axes.x = x.any()
+               ? RangeFor(x.least, x.most, panel.y_ticks.empty() && !panel.equal_scales ? 0.0 : 0.04, 0.0, panel.log_x)
+               : AxisRange{1.0, 10.0};
+  axes.y = y.any() ? RangeFor(y.least, y.most, panel.y_ticks.empty() ? 0.05 : 0.0, panel.y_noise, panel.log_y)
+                   : AxisRange{1.0, 10.0};
+  return axes;
 }
 
-absl::Status RunGnuplot(const std::string& script) {
-  int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return absl::ErrnoToStatus(errno, "cannot start gnuplot");
-  pid_t child = -1;
-  const int error = SpawnGnuplot(ends[0], child);
-  close(ends[0]);
-  if (error != 0) {
-    close(ends[1]);
-    if (error != ENOENT) return absl::ErrnoToStatus(error, "cannot start gnuplot");
-    return absl::FailedPreconditionError("pictures need gnuplot, which is not installed (Debian: gnuplot-nox)");
+std::string TickList(const std::vector<Tick>& ticks) {
+  const auto append = [](std::string* text, const Tick& tick) {
+    absl::StrAppend(text, Quoted(tick.label), " ", ShortestDecimal(tick.at));
+  };
+  return absl::StrCat("(", absl::StrJoin(ticks, ", ", append), ")");
+}
+
+// A legend: beside the panel, below it, or none.
+struct Legend {
+  enum class Place { kNone, kBeside, kBelow } place = Place::kNone;
+  double width = 0.0;  // Pixels that it takes from the panel, beside it.
+  int lines = 0;       // Lines that it takes from the panel, below it.
+};
+
+Legend LegendOf(const Panel& panel, const Layout& layout) {
+  size_t longest = 0;
+  int titles = panel.x_missing.empty() ? 0 : 1;
+  for (const Curve& curve : panel.curves) {
+    if (curve.title.empty()) continue;
+    longest = std::max(longest, curve.title.size());
+    ++titles;
   }
-  const bool fed = Feed(ends[1], script);
-  int result = 0;
-  while (waitpid(child, &result, 0) < 0 && errno == EINTR) {
+  if (titles == 0 || (titles == 1 && panel.curves.size() == 1)) return {};
+  const double width = (static_cast<double>(longest) + 7.0) * layout.character();
+  const double height = 1.3 * layout.font * titles;
+  const bool fits = width <= 0.34 * layout.cell_width() && height <= layout.cell_height() - 6.0 * layout.font;
+  if (layout.columns == 1 && fits) return {Legend::Place::kBeside, width, 0};
+  const int in_a_line = std::max(1, static_cast<int>(0.9 * layout.cell_width() / width));
+  return {Legend::Place::kBelow, 0.0, (titles + in_a_line - 1) / in_a_line};
+}
+
+void AppendLegend(const Legend& legend, std::string& script) {
+  if (legend.place == Legend::Place::kNone) {
+    absl::StrAppend(&script, "unset key\n");
+    return;
   }
-  if (fed && WIFEXITED(result) && WEXITSTATUS(result) == 0) return absl::OkStatus();
-  return absl::InternalError("gnuplot failed");
+  absl::StrAppend(&script, "set key outside ",
+                  legend.place == Legend::Place::kBeside ? "right center vertical" : "bottom center horizontal",
+                  " reverse Left samplen 2\n");
+}
+
+void AppendAxes(const Panel& panel, const Axes& axes, const Layout& layout, std::string& script) {
+  // What is left of a cell between the labels of the axes, the title and the legend.
+  const Legend legend = LegendOf(panel, layout);
+  double width = layout.cell_width() - 9.0 * layout.character() - 2.0 * layout.font - legend.width;
+  double height = layout.cell_height() - (7.0 + 1.3 * legend.lines) * layout.font;
+  if (panel.equal_scales) {
+    const double x = axes.x.upper - axes.x.lower;
+    const double y = axes.y.upper - axes.y.lower;
+    const double scale = std::min(width / x, height / y);
+    width = scale * x;
+    height = scale * y;
+  }
+  const std::vector<Tick> x_ticks = TicksFor(axes.x, width, layout.character(), false, panel.log_x);
+  const std::vector<Tick> y_ticks =
+      !panel.y_ticks.empty() ? panel.y_ticks : TicksFor(axes.y, height, layout.character(), true, panel.log_y);
+  const auto range = [](const AxisRange& axis) {
+    return absl::StrCat("[", ShortestDecimal(axis.lower), ":", ShortestDecimal(axis.upper), "]");
+  };
+  // Ranges come first: a logarithmic axis refuses those of the panel before.
+  absl::StrAppend(&script, "unset logscale\nset xrange ", range(axes.x), "\nset yrange ", range(axes.y), "\n");
+  if (panel.log_x) absl::StrAppend(&script, "set logscale x\n");
+  if (panel.log_y) absl::StrAppend(&script, "set logscale y\n");
+  absl::StrAppend(&script, "set xtics ", TickList(x_ticks), "\nset ytics ", TickList(y_ticks), "\n",
+                  panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n");
+}
+
+void AppendMarks(const Panel& panel, std::string& script) {
+  absl::StrAppend(&script, "unset arrow\n");
+  constexpr char kStyle[] = " nohead dashtype 2 linecolor rgb 'gray40'\n";
+  for (const double mark : panel.x_marks) {
+    const std::string x = ShortestDecimal(mark);
+    absl::StrAppend(&script, "set arrow from ", x, ", graph 0 to ", x, ", graph 1", kStyle);
+  }
+  for (const double mark : panel.y_marks) {
+    const std::string y = ShortestDecimal(mark);
+    absl::StrAppend(&script, "set arrow from graph 0, first ", y, " to graph 1, first ", y, kStyle);
+  }
+}
+
+void AppendPanel(size_t number, const Panel& panel, const Layout& layout, std::string& script) {
+  const Shown is_shown(panel);
+  const Axes axes = AxesOf(panel);
+  std::vector<std::string> parts;
+  const auto add = [&](const std::string& name, const Points& points, const std::string& style,
+                       const std::string& title) {
+    AppendData(name, points, is_shown, script);
+    parts.push_back(absl::StrCat("$", name, " using 1:2 ", style,
+                                 title.empty() ? " notitle" : absl::StrCat(" title ", Quoted(title))));
+  };
+  for (size_t i = 0; i < panel.curves.size(); ++i) {
+    const Curve& curve = panel.curves[i];
+    const int look = curve.look >= 0 ? curve.look : static_cast<int>(i);
+    const std::string name = absl::StrCat("p", number, "c", i);
+    add(name, curve.points, curve.style.empty() ? LineStyle(look) : curve.style, curve.title);
+    if (!curve.style.empty()) continue;
+    const Points isolated = Isolated(curve.points, is_shown);
+    if (!isolated.empty()) add(absl::StrCat(name, "points"), isolated, MarkStyle(look), "");
+  }
+  if (!panel.x_missing.empty()) {
+    Points crosses;
+    for (const double x : panel.x_missing) crosses.emplace_back(x, axes.y.lower);
+    add(absl::StrCat("p", number, "missing"), crosses,
+        "with points pointtype 2 pointsize 1.2 linewidth 2 linecolor rgb 'red'", "no value (invalid)");
+  }
+  const double across = layout.cell_width() / layout.character() - 4.0;
+  const double up = layout.cell_height() / layout.character() - 8.0;
+  std::string title = panel.title;
+  if (axes.left_out > 0) {
+    absl::StrAppend(&title, title.empty() ? "" : "\n", axes.left_out, axes.left_out == 1 ? " point" : " points",
+                    " at or below 0 not shown");
+  }
+  absl::StrAppend(&script, "set title ", Quoted(title), "\nset xlabel ", Quoted(Wrapped(panel.x_label, across)),
+                  "\nset ylabel ", Quoted(Wrapped(panel.y_label, up)), "\n");
+  AppendLegend(LegendOf(panel, layout), script);
+  AppendMarks(panel, script);
+  if (panel.settings.empty()) {
+    AppendAxes(panel, axes, layout, script);
+  } else {
+    absl::StrAppend(&script, panel.settings);
+  }
+  absl::StrAppend(&script, "plot ", absl::StrJoin(parts, ", "), "\n");
 }
 
 }  // namespace
 
 absl::Status CheckPlotPath(const std::string& path) {
-  if (absl::EndsWith(path, ".svg") || absl::EndsWith(path, ".png")) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat("--plot ", path, ": must end in .svg or .png"));
+  for (const char* ending : {".svg", ".png", ".pdf"}) {
+    if (absl::EndsWith(path, ending)) return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(absl::StrCat("--plot ", path, ": must end in .svg, .png or .pdf"));
 }
 
 std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path) {
-  std::string script = absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, plot),
-                                    "\nset termoption noenhanced\nset output ", Quoted(path), "\n", kStyle,
-                                    "set multiplot layout 1,", plot.panels.size(), " title ", Quoted(plot.title), "\n");
-  for (size_t i = 0; i < plot.panels.size(); ++i) AppendPanel(i, plot.panels[i], script);
+  const Layout layout = LayoutOf(plot);
+  const double across = layout.width / layout.character() / 1.1 - 2.0;
+  std::string script =
+      absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, layout),
+                   "\nset termoption noenhanced\nset output ", Quoted(path), "\n", kGrid, "set multiplot layout ",
+                   layout.rows, ",", layout.columns, " title ", Quoted(Wrapped(plot.title, across)), "\n");
+  for (size_t i = 0; i < plot.panels.size(); ++i) AppendPanel(i, plot.panels[i], layout, script);
   absl::StrAppend(&script, "unset multiplot\nunset output\n");
   return script;
 }
@@ -189,7 +370,7 @@ absl::StatusOr<std::string> DrawSvg(const Plot& plot) {
 absl::Status Draw(const Plot& plot, const std::string& path) {
   absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
   if (!file.ok()) return file.status();
-  const std::string terminal = absl::EndsWith(path, ".svg") ? "svg" : "png";
+  const std::string terminal = path.substr(path.size() - 3);
   if (absl::Status status = RunGnuplot(PlotScript(plot, terminal, file->temporary_path())); !status.ok()) {
     return status;
   }

@@ -1,4 +1,4 @@
-// Plots: curves in panels side by side, which gnuplot draws as a child process.
+// Plots: curves in panels, which gnuplot draws as a child process.
 
 #ifndef RICOCHET_CLIENT_CLI_PLOT_H_
 #define RICOCHET_CLIENT_CLI_PLOT_H_
@@ -9,25 +9,35 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "client/cli/plot_axis.h"
 
 namespace ricochet::cli {
 
 struct Curve {
   std::string title;                              // Empty: the legend leaves the curve out.
   std::vector<std::pair<double, double>> points;  // NaN leaves a gap.
-  // How gnuplot draws the points, such as "with points pointtype 6". Empty: a line, or a mark if there is one point.
+  // How gnuplot draws the points, such as "with points pointtype 6". Empty: a line in the colour and dashes of `look`,
+  // and a mark at each point that has no neighbour.
   std::string style;
+  int look = -1;  // Curves of equal look are drawn alike. -1: the place of the curve in its panel.
 };
 
 struct Panel {
   std::string title;
   std::string x_label;
   std::string y_label;
+  // On a logarithmic axis points at or below 0 are not drawn, and a line above the panel says how many.
   bool log_x = false;
+  bool log_y = false;
+  bool equal_scales = false;    // One unit is as long to the right as upwards.
+  double y_noise = 0.0;         // Values that differ by no more than this differ by rounding alone.
   std::vector<double> x_marks;  // A vertical dashed line is drawn at each.
+  std::vector<double> y_marks;  // A horizontal dashed line is drawn at each.
   std::vector<Curve> curves;
-  // Further commands of gnuplot, each with a line feed, that replace what the panel has by default. They stay in force
-  // for the panels that follow.
+  std::vector<double> x_missing;  // A cross at the lower edge marks each place without a value.
+  std::vector<Tick> y_ticks;      // Names in place of numbers upwards; empty: numbers.
+  // Further commands of gnuplot, each with a line feed, in place of the axes that the panel would choose. They stay in
+  // force for the panels that follow.
   std::string settings;
 };
 
@@ -39,10 +49,10 @@ struct Plot {
   int height = 0;
 };
 
-// Errors: INVALID_ARGUMENT unless the name ends in .svg or .png.
+// Errors: INVALID_ARGUMENT unless the name ends in .svg, .png or .pdf.
 absl::Status CheckPlotPath(const std::string& path);
 
-// Returns the commands for gnuplot; `terminal` is "svg" or "png".
+// Returns the commands for gnuplot; `terminal` is "svg", "png" or "pdf".
 std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path);
 
 // Returns the text of an SVG file. Errors: those of Draw.

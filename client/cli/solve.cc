@@ -9,10 +9,11 @@
 #include "client/cli/certificate_report.h"
 #include "client/cli/demand_input.h"
 #include "client/cli/number_input.h"
+#include "client/cli/picture_input.h"
 #include "client/cli/plan_report.h"
-#include "client/cli/plot.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/solve_data.h"
+#include "client/cli/solve_plot.h"
 #include "client/cli/solve_report.h"
 #include "proto/wire/requests.h"
 
@@ -45,7 +46,7 @@ struct SolveOptions {
   std::string force_history;
   std::string certified;
   bool strict = false;
-  std::string plot;
+  PictureOptions picture;
   std::string data;
   std::vector<std::string> columns;
 };
@@ -95,7 +96,7 @@ absl::StatusOr<std::string> Render(const PlanResponse& response, Format format) 
 absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
   if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || options.strict ||
-      !options.plot.empty()) {
+      !options.picture.file.empty()) {
     return absl::InvalidArgumentError(
         "--plan-only cannot be combined with --history, --force-history, --certified, --strict or --plot");
   }
@@ -105,16 +106,11 @@ absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Sc
   return text.ok() ? WriteOutput(options.common, *text) : text.status();
 }
 
-absl::Status DrawOutcome(const Outcome& outcome, const std::string& path) {
-  const absl::StatusOr<Plot> plot = SolvePlot(outcome);
-  return plot.ok() ? Draw(*plot, path) : plot.status();
-}
-
 // Solves the rows of a table.
 absl::Status RunData(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
   if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || options.strict ||
-      !options.plot.empty() || options.explain || options.plan_only) {
+      !options.picture.file.empty() || options.explain || options.plan_only) {
     return absl::InvalidArgumentError(
         "--data cannot be combined with --history, --force-history, --certified, --strict, --plot, --explain or "
         "--plan-only");
@@ -123,9 +119,7 @@ absl::Status RunData(const SolveOptions& options, const Solver& solver, const Sc
 }
 
 absl::Status RunSolve(const SolveOptions& options) {
-  if (!options.plot.empty()) {
-    if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
-  }
+  if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<Scene> scene = ReadScene(options.scene);
@@ -152,11 +146,11 @@ absl::Status RunSolve(const SolveOptions& options) {
   const absl::StatusOr<SolveResponse> response = (*solver)->Solve(request);
   if (!response.ok()) return response.status();
   if (absl::Status still = RequireVelocity(*scene); !still.ok()) return still;
-  if (!options.plot.empty()) {
-    if (absl::Status status = DrawOutcome(response->outcome, options.plot); !status.ok()) return status;
-  }
   const absl::StatusOr<std::string> text = Render(*response, options);
-  return text.ok() ? WriteOutput(options.common, *text) : text.status();
+  if (!text.ok()) return text.status();
+  if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
+  if (options.picture.file.empty()) return absl::OkStatus();
+  return DrawPicture(SolvePlot(**solver, request, *response), options.picture);
 }
 
 }  // namespace
@@ -175,7 +169,9 @@ void AddSolve(CLI::App& app, Command& command) {
   AddDemandOptions(*sub, options->demand);
   AddCertifiedOption(*sub, options->certified);
   sub->add_flag("--strict", options->strict, "Fail if the outcome is inadmissible");
-  sub->add_option("--plot", options->plot, "Draw w(tau), F/N(tau) and f(tau) with gnuplot")->type_name("FILE.svg|.png");
+  AddPictureOptions(*sub, "the impact: velocities and forces over impulse or time, in space the slip",
+                    options->picture);
+  AddAxisOptions(*sub, options->picture);
   sub->add_option("--data", options->data,
                   "Many impacts, one on each line; the header names fields of the scene; - for standard input")
       ->type_name("FILE.csv");

@@ -253,8 +253,6 @@ bool IsLinear(Model model) {
   return model != Model::kSpatial && model != Model::kCompliant && model != Model::kFiniteDuration;
 }
 
-bool IsPlanar(const State& state) { return state.tangential_impulse_n_s.size() == 1; }
-
 std::string StatesText(const char* title, const Table& table) {
   return absl::StrCat("\n", title, "\n", table.Render(2));
 }
@@ -387,44 +385,5 @@ std::string SolveCsv(const Outcome& outcome) {
 std::string HistoryCsv(const Outcome& outcome) { return RowsOf(ToProto(outcome).history()); }
 
 std::string ForceHistoryCsv(const Outcome& outcome) { return RowsOf(ToProto(outcome).contact().history()); }
-
-absl::StatusOr<Plot> SolvePlot(const Outcome& outcome) {
-  if (outcome.timeline.size() < 2) {
-    return absl::FailedPreconditionError("--plot: the contact separates, so there is nothing to draw");
-  }
-  if (!IsPlanar(outcome.timeline.front().state)) {
-    return absl::FailedPreconditionError("--plot: the path of an impact in space between its events is not stored");
-  }
-  const bool has_rates = !outcome.rates_after_rad_s.empty();
-  Curve motion, ratio, impulse;
-  const State* previous = nullptr;
-  for (const Event& event : outcome.timeline) {
-    const State& state = event.state;
-    const double tau = state.normal_impulse_n_s;
-    const double f = state.tangential_impulse_n_s.at(0);
-    motion.points.emplace_back(tau, has_rates ? state.rates_rad_s.at(0) : state.contact_velocity.normal_m_s);
-    impulse.points.emplace_back(tau, f);
-    if (previous != nullptr && tau > previous->normal_impulse_n_s) {
-      const double force = (f - previous->tangential_impulse_n_s[0]) / (tau - previous->normal_impulse_n_s);
-      ratio.points.emplace_back(previous->normal_impulse_n_s, force);
-      ratio.points.emplace_back(tau, force);
-    }
-    previous = &state;
-  }
-  std::vector<double> marks;
-  if (outcome.impulse.normal_compression_n_s.has_value()) marks.push_back(*outcome.impulse.normal_compression_n_s);
-  const auto panel = [&marks](const char* title, const char* y_label, Curve curve) {
-    return Panel{.title = title,
-                 .x_label = "normal impulse τ [N s]",
-                 .y_label = y_label,
-                 .x_marks = marks,
-                 .curves = {std::move(curve)}};
-  };
-  return Plot{.title = absl::StrCat("Impact: ", RegimeText(outcome.regime), " (dashed: compression ends)"),
-              .panels = {has_rates ? panel("Angular velocity ω(τ)", "ω [rad/s]", std::move(motion))
-                                   : panel("Normal velocity v(τ)", "v [m/s]", std::move(motion)),
-                         panel("Friction force to normal force", "F/N", std::move(ratio)),
-                         panel("Friction impulse f(τ)", "f [N s]", std::move(impulse))}};
-}
 
 }  // namespace ricochet::cli

@@ -1,12 +1,10 @@
-// The report of an outcome as text, CSV and picture.
+// The report of an outcome as text and CSV.
 
 #ifndef RICOCHET_CLIENT_CLI_SOLVE_REPORT_H_
 #define RICOCHET_CLIENT_CLI_SOLVE_REPORT_H_
 
 #include <string>
 
-#include "absl/status/statusor.h"
-#include "client/cli/plot.h"
 #include "ricochet/outcome.h"
 
 namespace ricochet::cli {
@@ -23,11 +21,6 @@ std::string HistoryCsv(const Outcome& outcome);
 
 // Returns a header and one row for each sample of the forces.
 std::string ForceHistoryCsv(const Outcome& outcome);
-
-// Returns w(tau), F/N(tau) and f(tau) side by side, as in figs. 3 and 5 of Lubarda (2009). Without angular velocities,
-// v(tau) replaces w(tau).
-// Errors: FAILED_PRECONDITION if the contact separates, and for an impact in space.
-absl::StatusOr<Plot> SolvePlot(const Outcome& outcome);
 
 }  // namespace ricochet::cli
 

@@ -13,6 +13,7 @@
 #include "client/cli/interrupt.h"
 #include "client/cli/number_input.h"
 #include "client/cli/output.h"
+#include "client/cli/picture_input.h"
 #include "client/cli/progress.h"
 #include "client/cli/resume_command.h"
 #include "client/cli/scene_input.h"
@@ -50,7 +51,7 @@ struct SweepOptions {
   bool zip = false;
   bool regime = false;
   bool summary_only = false;
-  std::string plot;
+  PictureOptions picture;
   std::string threads;
   bool resume = false;
   ShardInput shard;
@@ -116,7 +117,8 @@ bool IsResumable(const SweepOptions& options) {
 
 absl::Status CheckResume(const SweepOptions& options) {
   // A shard is always gone on with.
-  if (!options.resume || options.shard.any() || (IsResumable(options) && options.plot.empty())) return absl::OkStatus();
+  const bool may_resume = IsResumable(options) && options.picture.file.empty();
+  if (!options.resume || options.shard.any() || may_resume) return absl::OkStatus();
   return absl::InvalidArgumentError(
       "--resume needs -o FILE and --format csv, json or npy, without --summary-only and --plot: only rows in a file "
       "can be "
@@ -127,14 +129,14 @@ absl::Status CheckResume(const SweepOptions& options) {
 class Receiver {
  public:
   Receiver(const SweepRequest& request, const SweepOptions& options, SweepOutput output)
-      : options_(&options), output_(std::move(output)) {
-    if (!options.plot.empty()) plot_.emplace(request);
+      : options_(&options), with_regime_(request.with_regime), output_(std::move(output)) {
+    if (!options.picture.file.empty()) plot_.emplace(request);
   }
 
   // The points that the output does not have yet.
   SweepRequest Rest(SweepRequest request) const {
     request.first_index = output_.next_index();
-    return request;
+    return plot_.has_value() ? SweepPlot::Wanted(std::move(request)) : request;
   }
 
   absl::Status Add(SweepChunk& chunk) {
@@ -144,22 +146,22 @@ class Receiver {
       chunk.summary->elapsed_s = progress_.Seconds();
     }
     if (plot_.has_value()) {
-      if (absl::Status status = plot_->Add(chunk); !status.ok()) return status;
+      plot_->Add(chunk);
+      if (!with_regime_) chunk.regimes.clear();
     }
     return output_.Write(chunk);
   }
 
   absl::Status Finish() {
-    if (plot_.has_value()) {
-      if (absl::Status status = Draw(plot_->Make(), options_->plot); !status.ok()) return status;
-    }
-    return output_.Commit();
+    if (absl::Status status = output_.Commit(); !status.ok()) return status;
+    return plot_.has_value() ? DrawPicture(plot_->Make(), options_->picture) : absl::OkStatus();
   }
 
   SweepOutput& output() { return output_; }
 
  private:
   const SweepOptions* options_;
+  bool with_regime_;  // The output has the regimes, too.
   SweepOutput output_;
   std::optional<SweepPlot> plot_;
   Progress progress_;
@@ -245,9 +247,7 @@ absl::Status RunSweep(const SweepOptions& options) {
     return absl::InvalidArgumentError("--summary-only needs --format text, json or csv: a summary is no array");
   }
   if (absl::Status status = CheckResume(options); !status.ok()) return status;
-  if (!options.plot.empty()) {
-    if (absl::Status status = CheckPlotPath(options.plot); !status.ok()) return status;
-  }
+  if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   const absl::StatusOr<std::optional<int>> threads = ReadThreads(options.threads);
   if (!threads.ok()) return threads.status();
   // This comes before the solver, which starts threads.
@@ -298,7 +298,8 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   sub->add_option("--threads", options->threads,
                   "Compute with at most N threads, which changes no result [the number of cores]; not with --server")
       ->type_name("N");
-  sub->add_option("--plot", options->plot, "Draw curves over the last axis with gnuplot")->type_name("FILE.svg|.png");
+  AddPictureOptions(*sub, "curves over the last axis, in one panel for each unit,", options->picture);
+  AddAxisOptions(*sub, options->picture);
   AddServerOptions(*sub, options->common);
   AddSweepOutputOptions(*sub, options->common);
   sub->add_flag("--resume", options->resume,

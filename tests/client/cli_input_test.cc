@@ -84,10 +84,24 @@ TEST(Rounded, ShowsSixDigitsAndNoNegativeZero) {
 }
 
 TEST(LabelOf, KnowsSymbolsAndUnits) {
-  EXPECT_EQ(WithUnit(LabelOf("rates_after_rad_s[0]")), "angular velocity after, ω+ [rad/s]");
+  EXPECT_EQ(WithUnit(LabelOf("rates_after_rad_s[1]")), "angular velocity after, ω+[1] [rad/s]");
   EXPECT_EQ(WithUnit(LabelOf("pendulum.inertia_kg_m2")), "moment of inertia J [kg m²]");
-  EXPECT_EQ(WithUnit(LabelOf("work.normal_total_j")), "work normal total [J]");
+  EXPECT_EQ(WithUnit(LabelOf("work.normal_total_j")), "work.normal_total_j [J]");
   EXPECT_EQ(WithUnit(LabelOf("friction.kinetic_coefficient")), "kinetic friction μ");
+}
+
+// A unit is not the end of a name: a stiffness is no length.
+TEST(LabelOf, KnowsTheUnitsThatANameDoesNotEndIn) {
+  EXPECT_EQ(LabelOf("compliance.linear.stiffness_n_m").unit, "N/m");
+  EXPECT_EQ(LabelOf("compliance.hunt_crossley.damping_s_m").unit, "s/m");
+  EXPECT_EQ(LabelOf("pin_moment.moment_n_m").unit, "N m");
+  EXPECT_EQ(LabelOf("contact.peak_normal_n").unit, "N");
+  EXPECT_EQ(LabelOf("contact.duration_s").unit, "s");
+}
+
+TEST(LabelOf, ShowsIndices) {
+  EXPECT_EQ(WithUnit(LabelOf("linkage.links[1].theta_rad")), "linkage.links[1].theta_rad [rad]");
+  EXPECT_EQ(WithUnit(LabelOf("bodies_after[0].linear_m_s[1]")), "bodies_after[0].linear_m_s[1] [m/s]");
 }
 
 }  // namespace

@@ -1,0 +1,85 @@
+#include "client/cli/picture_input.h"
+
+#include <cstdint>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/number_input.h"
+
+namespace ricochet::cli {
+namespace {
+
+// Below this nothing can be read, above it a program that shows pictures fails.
+constexpr int64_t kLeastSide = 200;
+constexpr int64_t kMostSide = 10'000;
+
+struct Size {
+  int width = 0;  // 0 means that the panels choose it.
+  int height = 0;
+};
+
+absl::StatusOr<Size> ParseSize(const std::string& text) {
+  if (text.empty()) return Size{};
+  const std::vector<std::string> parts = absl::StrSplit(text, 'x');
+  const absl::Status wrong =
+      InputError("--size", text, absl::StrCat("be WIDTHxHEIGHT in pixels, each from ", kLeastSide, " to ", kMostSide));
+  if (parts.size() != 2) return wrong;
+  std::vector<int> sides;
+  for (const std::string& part : parts) {
+    const absl::StatusOr<int64_t> side = ParseCount(part, "--size");
+    if (!side.ok() || *side < kLeastSide || *side > kMostSide) return wrong;
+    sides.push_back(static_cast<int>(*side));
+  }
+  return Size{sides[0], sides[1]};
+}
+
+}  // namespace
+
+void AddPictureOptions(CLI::App& app, const std::string& what, PictureOptions& options) {
+  app.add_option("--plot", options.file, absl::StrCat("Draw ", what, " with gnuplot"))
+      ->type_name("FILE.svg|.png|.pdf")
+      ->group("Picture");
+  app.add_option("--title", options.title, "Title of the picture, instead of one that says what it shows")
+      ->type_name("TEXT")
+      ->group("Picture");
+  app.add_option("--size", options.size, "Width and height of the picture in pixels, such as 960x620")
+      ->type_name("WxH")
+      ->group("Picture");
+}
+
+void AddAxisOptions(CLI::App& app, PictureOptions& options) {
+  app.add_flag("--logx", options.log_x, "Logarithmic axis to the right")->group("Picture");
+  app.add_flag("--logy", options.log_y, "Logarithmic axis upwards")->group("Picture");
+}
+
+absl::Status CheckPicture(const PictureOptions& options) {
+  if (options.file.empty()) {
+    if (options.title.empty() && options.size.empty() && !options.log_x && !options.log_y) return absl::OkStatus();
+    return absl::InvalidArgumentError("--title, --size, --logx and --logy need --plot FILE");
+  }
+  if (absl::Status status = CheckPlotPath(options.file); !status.ok()) return status;
+  return ParseSize(options.size).status();
+}
+
+absl::Status DrawPicture(absl::StatusOr<Plot> plot, const PictureOptions& options) {
+  const auto failure = [&options](const absl::Status& status) {
+    return absl::Status(status.code(), absl::StrCat("the numbers are complete, but ", options.file,
+                                                    " was not drawn: ", status.message()));
+  };
+  if (!plot.ok()) return failure(plot.status());
+  const absl::StatusOr<Size> size = ParseSize(options.size);
+  if (!size.ok()) return size.status();
+  if (!options.title.empty()) plot->title = options.title;
+  if (size->width > 0) std::tie(plot->width, plot->height) = std::pair(size->width, size->height);
+  for (Panel& panel : plot->panels) {
+    panel.log_x = panel.log_x || (options.log_x && panel.y_ticks.empty());
+    panel.log_y = panel.log_y || (options.log_y && panel.y_ticks.empty());
+  }
+  const absl::Status drawn = Draw(*plot, options.file);
+  return drawn.ok() ? drawn : failure(drawn);
+}
+
+}  // namespace ricochet::cli
