@@ -1,6 +1,7 @@
 #include "client/cli/audit_data.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -10,8 +11,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/strip.h"
-#include "client/cli/csv_table.h"
 #include "client/cli/suggestion.h"
+#include "core/numerics/decimal.h"
 
 namespace ricochet::cli {
 namespace {
@@ -32,34 +33,6 @@ constexpr Named kColumns[] = {{"tangential_m_s", &AuditColumns::tangential_m_s},
 
 constexpr char kRates[] = "rates_after_rad_s";
 
-// The destination of a column of the file: a named column, or the rates of a link.
-struct Place {
-  std::vector<double> AuditColumns::*values = nullptr;
-  std::optional<size_t> link;
-
-  friend bool operator==(const Place&, const Place&) = default;
-};
-using Places = std::vector<std::optional<Place>>;  // Absent for a column that is left out.
-
-size_t LinkCount(const Places& places) {
-  return static_cast<size_t>(std::count_if(places.begin(), places.end(), [](const std::optional<Place>& place) {
-    return place.has_value() && place->link.has_value();
-  }));
-}
-
-std::optional<Place> PlaceOf(const std::string& cell) {
-  for (const Named& known : kColumns) {
-    if (cell == known.name) return Place{.values = known.values, .link = {}};
-  }
-  absl::string_view index = cell;
-  uint32_t link = 0;
-  if (absl::ConsumePrefix(&index, absl::StrCat(kRates, "[")) && absl::ConsumeSuffix(&index, "]") &&
-      absl::SimpleAtoi(index, &link)) {
-    return Place{.values = nullptr, .link = link};
-  }
-  return std::nullopt;
-}
-
 std::vector<std::string> KnownNames() {
   std::vector<std::string> known;
   for (const Named& column : kColumns) known.emplace_back(column.name);
@@ -74,8 +47,37 @@ absl::Status UnknownColumn(const std::string& cell, const std::string& name) {
                                                  "; --skip-column leaves a column out"));
 }
 
-absl::StatusOr<Places> PlacesOf(const std::vector<std::string>& cells, const std::string& name,
-                                const std::vector<std::string>& skipped) {
+// Returns why the value breaks the rule of a number that is not negative; empty if it keeps it.
+std::string WhyNegative(const char* name, const std::vector<double>& column, size_t row) {
+  if (column.empty()) return "";
+  const double value = column[row];
+  return value >= 0.0 && std::isfinite(value) ? ""
+                                              : absl::StrCat(name, " = ", ShortestDecimal(value), ": must be >= 0");
+}
+
+}  // namespace
+
+size_t AuditTable::LinkCount(const Places& places) {
+  return static_cast<size_t>(std::count_if(places.begin(), places.end(), [](const std::optional<Place>& place) {
+    return place.has_value() && place->link.has_value();
+  }));
+}
+
+std::optional<AuditTable::Place> AuditTable::PlaceOf(const std::string& cell) {
+  for (const Named& known : kColumns) {
+    if (cell == known.name) return Place{.values = known.values, .link = {}};
+  }
+  absl::string_view index = cell;
+  uint32_t link = 0;
+  if (absl::ConsumePrefix(&index, absl::StrCat(kRates, "[")) && absl::ConsumeSuffix(&index, "]") &&
+      absl::SimpleAtoi(index, &link)) {
+    return Place{.values = nullptr, .link = link};
+  }
+  return std::nullopt;
+}
+
+absl::StatusOr<AuditTable::Places> AuditTable::PlacesOf(const std::vector<std::string>& cells, const std::string& name,
+                                                        const std::vector<std::string>& skipped) {
   Places places;
   for (const std::string& column : skipped) {
     if (std::count(cells.begin(), cells.end(), column) > 0) continue;
@@ -94,6 +96,9 @@ absl::StatusOr<Places> PlacesOf(const std::vector<std::string>& cells, const std
     }
     places.push_back(place);
   }
+  if (std::count(places.begin(), places.end(), std::nullopt) == static_cast<ptrdiff_t>(places.size())) {
+    return absl::InvalidArgumentError(absl::StrCat(name, " has no column that is not left out"));
+  }
   const size_t links = LinkCount(places);
   for (const std::optional<Place>& place : places) {
     if (!place.has_value() || !place->link.has_value() || *place->link < links) continue;
@@ -103,43 +108,46 @@ absl::StatusOr<Places> PlacesOf(const std::vector<std::string>& cells, const std
   return places;
 }
 
-std::vector<double>& ColumnAt(const Place& place, AuditColumns& columns) {
-  return place.link.has_value() ? columns.rates_after_rad_s[*place.link] : columns.*place.values;
-}
-
-}  // namespace
-
-absl::StatusOr<AuditColumns> ParseAuditData(const std::string& text, const std::string& name,
+absl::StatusOr<AuditTable> AuditTable::Open(std::istream& stream, const std::string& name,
                                             const std::vector<std::string>& skipped) {
-  absl::StatusOr<CsvTable> table = ParseCsvTable(text, name);
-  if (!table.ok()) return table.status();
-  const absl::StatusOr<Places> places = PlacesOf(table->header, name, skipped);
+  absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, name);
+  if (!reader.ok()) return reader.status();
+  absl::StatusOr<Places> places = PlacesOf(reader->header(), name, skipped);
   if (!places.ok()) return places.status();
-  AuditColumns columns;
-  columns.rates_after_rad_s.resize(LinkCount(*places));
-  for (size_t i = 0; i < places->size(); ++i) {
-    const std::optional<Place>& place = (*places)[i];
-    if (place.has_value()) ColumnAt(*place, columns) = std::move(table->columns[i]);
+  std::vector<bool> left_out;
+  for (const std::optional<Place>& place : *places) left_out.push_back(!place.has_value());
+  reader->Skip(std::move(left_out));
+  return AuditTable(*std::move(reader), *std::move(places));
+}
+
+bool AuditTable::has_uncertainty() const {
+  return std::any_of(places_.begin(), places_.end(), [](const std::optional<Place>& place) {
+    return place.has_value() && place->values == &AuditColumns::velocity_uncertainty_m_s;
+  });
+}
+
+AuditRows AuditTable::Next(size_t most) {
+  CsvTable table = reader_.Next(most);
+  AuditRows rows{.columns = {}, .lines = std::move(table.lines), .bad_cells = {}};
+  rows.columns.rates_after_rad_s.resize(LinkCount(places_));
+  for (size_t i = 0; i < places_.size(); ++i) {
+    const std::optional<Place>& place = places_[i];
+    if (!place.has_value()) continue;
+    (place->link.has_value() ? rows.columns.rates_after_rad_s[*place->link] : rows.columns.*place->values) =
+        std::move(table.columns[i]);
   }
-  return columns;
-}
-
-AuditColumns SomeRows(const AuditColumns& columns, size_t first, size_t end) {
-  const auto some_of = [first, end](const std::vector<double>& all) {
-    if (all.empty()) return all;
-    return std::vector<double>(all.begin() + static_cast<ptrdiff_t>(first), all.begin() + static_cast<ptrdiff_t>(end));
-  };
-  AuditColumns some;
-  for (const Named& column : kColumns) some.*column.values = some_of(columns.*column.values);
-  for (const std::vector<double>& rates : columns.rates_after_rad_s) some.rates_after_rad_s.push_back(some_of(rates));
-  return some;
-}
-
-size_t RowCount(const AuditColumns& columns) {
-  size_t rows = 0;
-  for (const Named& column : kColumns) rows = std::max(rows, (columns.*column.values).size());
-  for (const std::vector<double>& rates : columns.rates_after_rad_s) rows = std::max(rows, rates.size());
+  rows.bad_cells.resize(rows.lines.size());
+  for (BadCells& bad : table.bad) rows.bad_cells[bad.row] = std::move(bad.reason);
   return rows;
+}
+
+std::string WhyInvalid(const AuditRows& rows, size_t row) {
+  const AuditColumns& columns = rows.columns;
+  for (const std::string& reason : {rows.bad_cells[row], WhyNegative("friction", columns.friction, row),
+                                    WhyNegative("velocity_uncertainty_m_s", columns.velocity_uncertainty_m_s, row)}) {
+    if (!reason.empty()) return reason;
+  }
+  return "the contact cannot have this velocity before the impact, or a number exceeds the largest double";
 }
 
 }  // namespace ricochet::cli

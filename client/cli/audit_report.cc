@@ -180,4 +180,20 @@ std::string AuditSummaryText(const AuditSummary& summary) {
   return absl::StrCat(summary.rows, summary.rows == 1 ? " row\n" : " rows\n", table.Render(2));
 }
 
+std::string AuditComplaint(const AuditReport& report, const std::string& invalid_reason) {
+  if (report.regime == Regime::kInvalid) return absl::StrCat("invalid: ", invalid_reason);
+  std::vector<std::string> complaints;
+  for (const LimitName& name : kLimits) {
+    const LimitCheck& check = report[name.limit];
+    if (check.verdict == Verdict::kBroken) {
+      complaints.push_back(absl::StrCat(name.broken, Rounded(check.excess), name.unit));
+    }
+  }
+  if (report.unexplained) {
+    complaints.push_back(
+        absl::StrCat("no impulse explains it, the nearest is ", Rounded(report.distance), " m/s away"));
+  }
+  return absl::StrJoin(complaints, "; ");
+}
+
 }  // namespace ricochet::cli

@@ -19,6 +19,10 @@ std::string AuditCsvRow(const AuditReport& report, size_t directions);
 // Returns the summary of many rows as a table. Row numbers start at 0.
 std::string AuditSummaryText(const AuditSummary& summary);
 
+// Returns in words what is wrong with a row: `invalid_reason` if it is invalid, else the limits that it breaks and by
+// how much. Empty for an admissible row.
+std::string AuditComplaint(const AuditReport& report, const std::string& invalid_reason);
+
 }  // namespace ricochet::cli
 
 #endif  // RICOCHET_CLIENT_CLI_AUDIT_REPORT_H_

@@ -10,7 +10,9 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/axis_input.h"
+#include "client/cli/bounds_plot.h"
 #include "client/cli/certificate_report.h"
+#include "client/cli/picture_input.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
@@ -37,6 +39,7 @@ struct BoundsOptions {
   SceneOptions scene;
   std::vector<std::string> ranges;
   std::string certified;
+  PictureOptions picture;
 };
 
 // One quantity: its names, and the fields that hold its range, its first-order error and its coefficient.
@@ -212,6 +215,7 @@ absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
 }
 
 absl::Status RunBounds(const BoundsOptions& options) {
+  if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<BoundsRequest> request = ReadRequest(options);
@@ -220,7 +224,9 @@ absl::Status RunBounds(const BoundsOptions& options) {
   if (!response.ok()) return response.status();
   if (absl::Status still = RequireVelocity(request->scene); !still.ok()) return still;
   const absl::StatusOr<std::string> text = Render(*request, *response, options.common.format);
-  return text.ok() ? WriteOutput(options.common, *text) : text.status();
+  if (!text.ok()) return text.status();
+  if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
+  return options.picture.file.empty() ? absl::OkStatus() : DrawPicture(BoundsPlot(*response), options.picture);
 }
 
 }  // namespace
@@ -234,6 +240,7 @@ void AddBounds(CLI::App& app, Command& command) {
       ->type_name("PATH=LOW:HIGH")
       ->allow_extra_args(false);
   AddCertifiedOption(*sub, options->certified);
+  AddPictureOptions(*sub, "the ranges as bars", options->picture);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common);
   sub->footer(kExample);

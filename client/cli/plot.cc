@@ -34,11 +34,14 @@ struct Layout {
   int columns = 1;
   int width = 0;
   int height = 0;
-  double font = 0.0;  // Height of the letters in pixels.
+  double font = 0.0;    // Height of the letters in pixels.
+  int title_lines = 0;  // Of the title of the picture, above all rows.
 
   double cell_width() const { return static_cast<double>(width) / columns; }
   double cell_height() const { return static_cast<double>(height) / rows; }
   double character() const { return 0.62 * font; }  // The mean width of a letter.
+  // The length of a line of the title; its letters are a tenth larger.
+  double title_characters() const { return width / character() / 1.1 - 2.0; }
 };
 
 constexpr int kCellWidth = 640;
@@ -56,31 +59,6 @@ int ColumnsFor(int panels, double width, double height) {
     if (unlikeness(columns) < unlikeness(best)) best = columns;
   }
   return best;
-}
-
-Layout LayoutOf(const Plot& plot) {
-  const auto panels = static_cast<int>(plot.panels.size());
-  Layout layout;
-  if (plot.width > 0 && plot.height > 0) {
-    layout.width = plot.width;
-    layout.height = plot.height;
-    layout.columns = ColumnsFor(panels, layout.width, layout.height);
-  } else {
-    layout.columns = panels == 4 ? 2 : std::min(panels, kMostColumns);
-    const int rows = (panels + layout.columns - 1) / layout.columns;
-    layout.width = panels == 1 ? 960 : kCellWidth * layout.columns;
-    layout.height = rows == 1 ? 620 : kCellHeight * rows;
-  }
-  layout.rows = (panels + layout.columns - 1) / layout.columns;
-  layout.font = std::clamp(std::min(layout.cell_width() / 40.0, layout.cell_height() / 30.0), 9.0, 15.0);
-  return layout;
-}
-
-// Returns a gnuplot string, in which only the quote is a special character.
-std::string Quoted(const std::string& text) {
-  std::vector<std::string> lines = absl::StrSplit(text, '\n');
-  for (std::string& line : lines) line = absl::StrCat("'", absl::StrReplaceAll(line, {{"'", "''"}}), "'");
-  return absl::StrJoin(lines, ".\"\\n\".");
 }
 
 // Breaks the text at blanks into lines of at most `most` characters, as far as its words allow.
@@ -101,14 +79,43 @@ std::string Wrapped(const std::string& text, double most) {
   return wrapped;
 }
 
+Layout LayoutOf(const Plot& plot) {
+  const auto panels = static_cast<int>(plot.panels.size());
+  Layout layout;
+  if (plot.width > 0 && plot.height > 0) {
+    layout.width = plot.width;
+    layout.height = plot.height;
+    layout.columns = ColumnsFor(panels, layout.width, layout.height);
+  } else {
+    layout.columns = panels == 4 ? 2 : std::min(panels, kMostColumns);
+    const int rows = (panels + layout.columns - 1) / layout.columns;
+    layout.width = panels == 1 ? 960 : kCellWidth * layout.columns;
+    layout.height = rows == 1 ? 620 : kCellHeight * rows;
+  }
+  layout.rows = (panels + layout.columns - 1) / layout.columns;
+  layout.font = std::clamp(std::min(layout.cell_width() / 40.0, layout.cell_height() / 30.0), 9.0, 15.0);
+  const std::string title = Wrapped(plot.title, layout.title_characters());
+  layout.title_lines = 1 + static_cast<int>(std::count(title.begin(), title.end(), '\n'));
+  return layout;
+}
+
+// Returns a gnuplot string, in which only the quote is a special character.
+std::string Quoted(const std::string& text) {
+  std::vector<std::string> lines = absl::StrSplit(text, '\n');
+  for (std::string& line : lines) line = absl::StrCat("'", absl::StrReplaceAll(line, {{"'", "''"}}), "'");
+  return absl::StrJoin(lines, ".\"\\n\".");
+}
+
 std::string Terminal(const std::string& terminal, const Layout& layout) {
   const std::string size = absl::StrCat(layout.width, ",", layout.height);
   const auto font = static_cast<int>(layout.font);
-  if (terminal == "svg") return absl::StrCat("svg size ", size, " font 'DejaVu Sans,", font, "' background 'white'");
+  if (terminal == "svg")
+    return absl::StrCat("svg size ", size, " font 'DejaVu Sans,", font, "' rounded background 'white'");
   // Letters of cairo are measured in points, of which 72 are an inch; a pixel is taken as a 96th.
-  if (terminal == "png") return absl::StrCat("pngcairo size ", size, " font 'DejaVu Sans,", 0.8 * layout.font, "'");
+  if (terminal == "png")
+    return absl::StrCat("pngcairo size ", size, " font 'DejaVu Sans,", 0.8 * layout.font, "' rounded");
   return absl::StrCat("pdfcairo size ", layout.width / 96.0, "in,", layout.height / 96.0,
-                      "in fontscale 1 font 'DejaVu Sans,", 0.75 * layout.font, "' background 'white'");
+                      "in fontscale 1 font 'DejaVu Sans,", 0.75 * layout.font, "' rounded background 'white'");
 }
 
 std::string ColourOf(int look) { return kColours[static_cast<size_t>(look) % kColours.size()]; }
@@ -204,9 +211,10 @@ Axes AxesOf(const Panel& panel) {
     y.Add(tick.at - 0.6);
     y.Add(tick.at + 0.6);
   }
-  axes.x = x.any()
-               ? RangeFor(x.least, x.most, panel.y_ticks.empty() && !panel.equal_scales ? 0.0 : 0.04, 0.0, panel.log_x)
-               : AxisRange{1.0, 10.0};
+  // Lines may begin and end at the frame; marks need room.
+  const bool has_marks =
+      std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& curve) { return !curve.style.empty(); });
+  axes.x = x.any() ? RangeFor(x.least, x.most, has_marks ? 0.04 : 0.0, 0.0, panel.log_x) : AxisRange{1.0, 10.0};
   axes.y = y.any() ? RangeFor(y.least, y.most, panel.y_ticks.empty() ? 0.05 : 0.0, panel.y_noise, panel.log_y)
                    : AxisRange{1.0, 10.0};
   return axes;
@@ -219,11 +227,11 @@ std::string TickList(const std::vector<Tick>& ticks) {
   return absl::StrCat("(", absl::StrJoin(ticks, ", ", append), ")");
 }
 
-// A legend: beside the panel, below it, or none.
+// A legend: beside the panel, above it, or none.
 struct Legend {
-  enum class Place { kNone, kBeside, kBelow } place = Place::kNone;
+  enum class Place { kNone, kBeside, kAbove } place = Place::kNone;
   double width = 0.0;  // Pixels that it takes from the panel, beside it.
-  int lines = 0;       // Lines that it takes from the panel, below it.
+  int lines = 0;       // Lines that it takes from the panel, above it.
 };
 
 Legend LegendOf(const Panel& panel, const Layout& layout) {
@@ -240,7 +248,7 @@ Legend LegendOf(const Panel& panel, const Layout& layout) {
   const bool fits = width <= 0.34 * layout.cell_width() && height <= layout.cell_height() - 6.0 * layout.font;
   if (layout.columns == 1 && fits) return {Legend::Place::kBeside, width, 0};
   const int in_a_line = std::max(1, static_cast<int>(0.9 * layout.cell_width() / width));
-  return {Legend::Place::kBelow, 0.0, (titles + in_a_line - 1) / in_a_line};
+  return {Legend::Place::kAbove, 0.0, (titles + in_a_line - 1) / in_a_line};
 }
 
 void AppendLegend(const Legend& legend, std::string& script) {
@@ -249,7 +257,7 @@ void AppendLegend(const Legend& legend, std::string& script) {
     return;
   }
   absl::StrAppend(&script, "set key outside ",
-                  legend.place == Legend::Place::kBeside ? "right center vertical" : "bottom center horizontal",
+                  legend.place == Legend::Place::kBeside ? "right center vertical" : "top center horizontal",
                   " reverse Left samplen 2\n");
 }
 
@@ -257,7 +265,8 @@ void AppendAxes(const Panel& panel, const Axes& axes, const Layout& layout, std:
   // What is left of a cell between the labels of the axes, the title and the legend.
   const Legend legend = LegendOf(panel, layout);
   double width = layout.cell_width() - 9.0 * layout.character() - 2.0 * layout.font - legend.width;
-  double height = layout.cell_height() - (7.0 + 1.3 * legend.lines) * layout.font;
+  const double lines = 7.0 + 1.3 * legend.lines + 1.5 * layout.title_lines / layout.rows;
+  double height = std::max(layout.font, layout.cell_height() - lines * layout.font);
   if (panel.equal_scales) {
     const double x = axes.x.upper - axes.x.lower;
     const double y = axes.y.upper - axes.y.lower;
@@ -265,7 +274,8 @@ void AppendAxes(const Panel& panel, const Axes& axes, const Layout& layout, std:
     width = scale * x;
     height = scale * y;
   }
-  const std::vector<Tick> x_ticks = TicksFor(axes.x, width, layout.character(), false, panel.log_x);
+  const std::vector<Tick> x_ticks =
+      TicksFor(axes.x, width, layout.character(), false, panel.log_x, panel.whole_x ? 1.0 : 0.0);
   const std::vector<Tick> y_ticks =
       !panel.y_ticks.empty() ? panel.y_ticks : TicksFor(axes.y, height, layout.character(), true, panel.log_y);
   const auto range = [](const AxisRange& axis) {
@@ -347,11 +357,16 @@ absl::Status CheckPlotPath(const std::string& path) {
 
 std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path) {
   const Layout layout = LayoutOf(plot);
-  const double across = layout.width / layout.character() / 1.1 - 2.0;
+  std::string title = Wrapped(plot.title, layout.title_characters());
+  // Room for the legends between the title and the panels.
+  const bool has_legends = std::any_of(plot.panels.begin(), plot.panels.end(), [&](const Panel& panel) {
+    return LegendOf(panel, layout).place == Legend::Place::kAbove;
+  });
+  if (has_legends) title += '\n';
   std::string script =
       absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, layout),
                    "\nset termoption noenhanced\nset output ", Quoted(path), "\n", kGrid, "set multiplot layout ",
-                   layout.rows, ",", layout.columns, " title ", Quoted(Wrapped(plot.title, across)), "\n");
+                   layout.rows, ",", layout.columns, " title ", Quoted(title), "\n");
   for (size_t i = 0; i < plot.panels.size(); ++i) AppendPanel(i, plot.panels[i], layout, script);
   absl::StrAppend(&script, "unset multiplot\nunset output\n");
   return script;

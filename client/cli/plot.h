@@ -29,6 +29,7 @@ struct Panel {
   // On a logarithmic axis points at or below 0 are not drawn, and a line above the panel says how many.
   bool log_x = false;
   bool log_y = false;
+  bool whole_x = false;         // Values to the right are whole numbers.
   bool equal_scales = false;    // One unit is as long to the right as upwards.
   double y_noise = 0.0;         // Values that differ by no more than this differ by rounding alone.
   std::vector<double> x_marks;  // A vertical dashed line is drawn at each.

@@ -99,6 +99,35 @@ std::vector<Tick> ShortLogTicks(const AxisRange& range) {
   return ticks;
 }
 
+// Ticks may lie outside of the range by its rounding.
+std::vector<Tick> UnclampedTicks(const AxisRange& range, double length, double character, bool stacked, bool log,
+                                 double least_step) {
+  if (log) {
+    const int first = static_cast<int>(std::ceil(std::log10(range.lower) - 1e-9));
+    const int last = static_cast<int>(std::floor(std::log10(range.upper) + 1e-9));
+    if (last > first) {
+      const double decade = length / std::log10(range.upper / range.lower);
+      int every = 1;
+      while (every * decade < RoomFor(PowerTicks(first, last, every), character, stacked)) ++every;
+      return PowerTicks(first, last, every);
+    }
+    std::vector<Tick> ticks = ShortLogTicks(range);
+    if (ticks.size() > 1) return ticks;
+  }
+  const double width = range.upper - range.lower;
+  // A hundredth of the range is finer than any label allows.
+  Step step{1, static_cast<int>(std::floor(std::log10(width))) - 2};
+  while (step.value() < least_step) step = Next(step);
+  while (true) {
+    std::vector<Tick> ticks = LinearTicks(range, step);
+    if (length * step.value() / width >= RoomFor(ticks, character, stacked)) return ticks;
+    const Step next = Next(step);
+    // An axis has at least two labels, even if they are crowded.
+    if (LinearTicks(range, next).size() < 2) return ticks;
+    step = next;
+  }
+}
+
 }  // namespace
 
 std::string PowerOfTen(int exponent) {
@@ -125,30 +154,11 @@ AxisRange RangeFor(double least, double most, double margin, double noise, bool 
   return {least - distance, most + distance};
 }
 
-std::vector<Tick> TicksFor(const AxisRange& range, double length, double character, bool stacked, bool log) {
-  if (log) {
-    const int first = static_cast<int>(std::ceil(std::log10(range.lower) - 1e-9));
-    const int last = static_cast<int>(std::floor(std::log10(range.upper) + 1e-9));
-    if (last > first) {
-      const double decade = length / std::log10(range.upper / range.lower);
-      int every = 1;
-      while (every * decade < RoomFor(PowerTicks(first, last, every), character, stacked)) ++every;
-      return PowerTicks(first, last, every);
-    }
-    std::vector<Tick> ticks = ShortLogTicks(range);
-    if (ticks.size() > 1) return ticks;
-  }
-  const double width = range.upper - range.lower;
-  // A hundredth of the range is finer than any label allows.
-  Step step{1, static_cast<int>(std::floor(std::log10(width))) - 2};
-  while (true) {
-    std::vector<Tick> ticks = LinearTicks(range, step);
-    if (length * step.value() / width >= RoomFor(ticks, character, stacked)) return ticks;
-    const Step next = Next(step);
-    // An axis has at least two labels, even if they are crowded.
-    if (LinearTicks(range, next).size() < 2) return ticks;
-    step = next;
-  }
+std::vector<Tick> TicksFor(const AxisRange& range, double length, double character, bool stacked, bool log,
+                           double least_step) {
+  std::vector<Tick> ticks = UnclampedTicks(range, length, character, stacked, log, least_step);
+  for (Tick& tick : ticks) tick.at = std::clamp(tick.at, range.lower, range.upper);
+  return ticks;
 }
 
 }  // namespace ricochet::cli

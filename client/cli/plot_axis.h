@@ -26,10 +26,11 @@ struct Tick {
 AxisRange RangeFor(double least, double most, double margin, double noise, bool log);
 
 // Returns 1, 2 or 5 times a power of ten as steps of the axis, as fine as there is room for: an axis is `length` pixels
-// long. Labels stand side by side along it, so that a label needs `character` pixels for each character and two more; or,
+// long. Labels stand side by side along it, so that each needs `character` pixels for each character and two more; or,
 // if `stacked`, one above the other, so that each needs four times `character` pixels. A logarithmic axis has powers
-// of ten, if at least two of them lie in the range.
-std::vector<Tick> TicksFor(const AxisRange& range, double length, double character, bool stacked, bool log);
+// of ten, if at least two of them lie in the range. The steps of a linear axis are at least `least_step`.
+std::vector<Tick> TicksFor(const AxisRange& range, double length, double character, bool stacked, bool log,
+                           double least_step = 0.0);
 
 // Returns "10⁻³"; "1" for 0.
 std::string PowerOfTen(int exponent);

@@ -161,8 +161,8 @@ Plot DurationPlot(const Outcome& outcome) {
 
 // --- In space ---
 
-// An audit of a velocity between those before and after the impact gives the state of Coulomb's path at that part of the
-// normal impulse, because W is constant.
+// An audit of a velocity between those before and after the impact gives the state of Coulomb's path at that part of
+// the normal impulse, because W is constant.
 AuditColumns PartsOfTheWay(const Outcome& outcome) {
   const ContactVelocity& from = outcome.timeline.front().state.contact_velocity;
   const ContactVelocity& to = outcome.timeline.back().state.contact_velocity;

@@ -14,8 +14,8 @@ namespace ricochet::cli {
 // takes time has its forces, indentation and velocities over time, and the loop of its normal force over the
 // indentation. An impact in space has the slip hodograph, the velocities of the contact and the friction impulse.
 //
-// `response` is the answer to `request`. What a picture needs beyond it is asked of `solver`, with the same numbers: the
-// forces at kPlotIntervals steps unless the request asks for others, and the path of an impact in space at as many.
+// `response` is the answer to `request`. What a picture needs beyond it is asked of `solver`, with the same numbers:
+// the forces at kPlotIntervals steps unless the request asks for others, and the path of an impact in space at as many.
 // Errors: FAILED_PRECONDITION if the contact separates; those of the solver.
 absl::StatusOr<Plot> SolvePlot(const Solver& solver, const SolveRequest& request, const SolveResponse& response);
 

@@ -117,12 +117,10 @@ bool IsResumable(const SweepOptions& options) {
 
 absl::Status CheckResume(const SweepOptions& options) {
   // A shard is always gone on with.
-  const bool may_resume = IsResumable(options) && options.picture.file.empty();
-  if (!options.resume || options.shard.any() || may_resume) return absl::OkStatus();
+  if (!options.resume || options.shard.any() || IsResumable(options)) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      "--resume needs -o FILE and --format csv, json or npy, without --summary-only and --plot: only rows in a file "
-      "can be "
-      "gone on with");
+      "--resume needs -o FILE and --format csv, json or npy, without --summary-only: only rows in a file can be gone on "
+      "with");
 }
 
 // Passes the chunks of one sweep on to the output, the picture and the progress bar.
@@ -152,8 +150,23 @@ class Receiver {
     return output_.Write(chunk);
   }
 
-  absl::Status Finish() {
-    if (absl::Status status = output_.Commit(); !status.ok()) return status;
+  // The points that an earlier run has written, which a picture needs once more.
+  std::optional<SweepRequest> Earlier(SweepRequest request) const {
+    if (!plot_.has_value() || output_.next_index() <= request.first_index) return std::nullopt;
+    request.end_index = output_.next_index();
+    return SweepPlot::Wanted(std::move(request));
+  }
+
+  // Draws the points of a chunk. Returns false if there are more than a picture can show.
+  bool Draw(const SweepChunk& chunk) {
+    plot_->Add(chunk);
+    return plot_->fits();
+  }
+
+  absl::Status Commit() { return output_.Commit(); }
+
+  // Draws the picture, if one is wanted, after the output was committed.
+  absl::Status Picture() const {
     return plot_.has_value() ? DrawPicture(plot_->Make(), options_->picture) : absl::OkStatus();
   }
 
@@ -172,7 +185,7 @@ absl::Status ReceiveAll(SweepStream stream, Receiver& receiver) {
     if (!chunk.ok()) return chunk.status();
     if (absl::Status status = receiver.Add(*chunk); !status.ok()) return status;
   }
-  return receiver.Finish();
+  return receiver.Commit();
 }
 
 absl::StatusOr<SweepOutput> OpenOutput(const SweepRequest& request, const SweepOptions& options) {
@@ -184,8 +197,15 @@ absl::StatusOr<SweepOutput> OpenOutput(const SweepRequest& request, const SweepO
 absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRequest& request,
                          const SweepOptions& options, std::stop_token stop) {
   Receiver receiver(request, options, std::move(output));
+  if (const std::optional<SweepRequest> earlier = receiver.Earlier(request); earlier.has_value()) {
+    for (const absl::StatusOr<SweepChunk>& chunk : solver.Sweep(*earlier, {.stop = stop})) {
+      if (!chunk.ok()) return chunk.status();
+      if (!receiver.Draw(*chunk)) break;
+    }
+  }
   absl::Status status = ReceiveAll(solver.Sweep(receiver.Rest(request), {.stop = std::move(stop)}), receiver);
-  if (!status.ok()) receiver.output().Break(ResumeCommand(options.arguments));
+  if (status.ok()) return receiver.Picture();
+  receiver.output().Break(ResumeCommand(options.arguments));
   return status;
 }
 

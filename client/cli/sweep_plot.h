@@ -29,6 +29,7 @@ class SweepPlot {
 
   // Adds the points of a chunk. After an error it ignores all further chunks, and Make returns the error.
   void Add(const SweepChunk& chunk);
+  bool fits() const { return status_.ok(); }
   // Returns the plot of all points added. Errors: FAILED_PRECONDITION for too many points or curves, or without an
   // axis.
   absl::StatusOr<Plot> Make() const;

@@ -92,7 +92,8 @@ class ExamplesTest(unittest.TestCase):
                     self.assertEqual(without_times(printed), without_times(output))
                 count += 1
         self.assertGreaterEqual(count, 8)
-        self.assertEqual(picture(WORK / "figure4.svg"), picture(SOURCE / "client/cli/figure4.svg"))
+        for name in ["figure4.svg", "dropped_rod.svg", "spheres.svg"]:
+            self.assertEqual(picture(WORK / name), picture(SOURCE / "docs/images" / name), name)
 
     def test_cpp_is_compiled_by_the_consumer_project(self):
         compiled = [path.read_text() for path in sorted((SOURCE / "tests/consumer").glob("*.cc"))]
