@@ -8,6 +8,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
 #include "absl/strings/strip.h"
 #include "proto/comments/commented_protos.h"
 
@@ -65,8 +66,9 @@ std::string MeaningOf(const std::string& comment, const std::string& unit) {
 }
 
 FieldInfo InfoOf(const std::string& path, const FieldDescriptor& field) {
-  FieldInfo info{.path = path, .unit = UnitOf(field), .meaning = "", .comment = CommentOf(field)};
+  FieldInfo info{.path = path, .unit = UnitOf(field), .meaning = "", .range = "", .comment = CommentOf(field)};
   info.meaning = MeaningOf(info.comment, info.unit);
+  info.range = RangeOf(info.comment);
   return info;
 }
 
@@ -110,6 +112,19 @@ std::string UnitOf(const FieldDescriptor& field) {
   return "";
 }
 
+// A range is a sentence of its own.
+std::string RangeOf(const std::string& comment) {
+  for (absl::string_view sentence : absl::StrSplit(comment, ". ")) {
+    absl::ConsumeSuffix(&sentence, ".");
+    const bool is_comparison = sentence == "> 0" || sentence == ">= 0";
+    if (is_comparison || absl::StrContains(sentence, " <= value <= ") || absl::StartsWith(sentence, "In [") ||
+        absl::StartsWith(sentence, "In (")) {
+      return std::string(sentence);
+    }
+  }
+  return "";
+}
+
 const std::vector<FieldInfo>& SceneFieldTable() {
   static const auto* const table = [] {
     auto* made = new std::vector<FieldInfo>(NumbersOf("ricochet.v1.Scene"));
@@ -117,6 +132,7 @@ const std::vector<FieldInfo>& SceneFieldTable() {
     made->push_back({.path = "pendulum.phi_rad",
                      .unit = "rad",
                      .meaning = meaning,
+                     .range = "In (0, pi)",
                      .comment = meaning + ", rad. It moves the contact at its distance from the pin. In (0, pi). Only "
                                           "an axis or a range can drive it."});
     return made;

@@ -19,6 +19,7 @@ struct FieldInfo {
   std::string path;     // As axes and columns spell it, without indices: "linkage.links.theta_rad".
   std::string unit;     // "rad/s", "kg m²", "N/m"; empty for a pure number.
   std::string meaning;  // The first sentence of the comment, without its unit: "k, stiffness".
+  std::string range;    // The range as the comment states it: "> 0", "0 <= value <= 1"; empty for any finite number.
   std::string comment;  // The whole comment on one line, with range and default.
 };
 
@@ -31,6 +32,9 @@ const std::vector<FieldInfo>& OutcomeFieldTable();
 // Returns what is known of a number of a scene or an outcome, for a path with or without indices, such as
 // "linkage.links[1].theta_rad". Returns null if there is no such number.
 const FieldInfo* FindFieldInfo(absl::string_view path);
+
+// Returns the range that the comment of a number states, or an empty text.
+std::string RangeOf(const std::string& comment);
 
 // Returns the unit of a field of any message of ricochet.v1; empty for a pure number.
 std::string UnitOf(const google::protobuf::FieldDescriptor& field);

@@ -13,6 +13,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/scene/field.h"
+#include "core/scene/numbers.h"
 #include "core/sweep/column.h"
 #include "tests/support/system_scenes.h"
 
@@ -114,6 +115,36 @@ TEST(FieldTable, KnowsEveryAxisAndColumn) {
   EXPECT_THAT(unknown, IsEmpty());
   for (const FieldInfo& info : SceneFieldTable()) EXPECT_TRUE(seen.contains(&info)) << info.path;
   EXPECT_EQ(FindFieldInfo("pendulum.c_m"), nullptr);
+}
+
+const char* RangeText(NumberRule rule) {
+  switch (rule) {
+    case NumberRule::kFinite:
+      return "";
+    case NumberRule::kPositive:
+      return "> 0";
+    case NumberRule::kNotNegative:
+      return ">= 0";
+    case NumberRule::kUnitInterval:
+      return "0 <= value <= 1";
+    case NumberRule::kPlusMinusOne:
+      return "-1 <= value <= 1";
+    case NumberRule::kOneToFour:
+      return "1 <= value <= 4";
+    case NumberRule::kRatioSquared:
+      return "In [1e-9, 1e9]";
+    case NumberRule::kHalfTurn:
+      return "In (0, pi)";
+  }
+  return "?";
+}
+
+TEST(FieldTable, EveryRangeIsTheRuleThatValidationChecks) {
+  for (const Scene& scene : ScenesWithEveryNumber()) {
+    VisitNumbers(scene, [](const NumberPath& path, double /*value*/, NumberRule rule) {
+      EXPECT_EQ(FindFieldInfo(path.Text())->range, RangeText(rule)) << path.Text();
+    });
+  }
 }
 
 TEST(FieldTable, TakesPathsWithIndices) {

@@ -40,6 +40,7 @@ const std::vector<Room>& Rooms() {
       {"client/cli",
        {"client/", "proto/comments/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/",
         "CLI/", "spdlog/"}},
+      {"client/cli/json", {"client/cli/", "proto/comments/", "absl/", "google/", "nlohmann/"}},
       {"server",
        {"server/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/",
         "openssl/", "prometheus/"}},
@@ -280,6 +281,7 @@ TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
   const std::vector<Library> libraries = {
       {"spdlog/", {"server/", "client/cli/"}},
       {"CLI/", {"server/", "client/cli/"}},
+      {"nlohmann/", {"client/cli/json/"}},
       {"hwy/", {"core/models/", "core/numerics/", "core/plan/planar_models."}},
       {"Eigen/", {"core/contact/"}},
       {"cvode/", {"core/models/finite_duration/integrator."}},

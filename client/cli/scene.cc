@@ -1,0 +1,186 @@
+#include "client/cli/scene.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/text_format.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/field_table.h"
+#include "client/cli/json/json_text.h"
+#include "client/cli/json/scene_schema.h"
+#include "client/cli/scene_input.h"
+#include "client/cli/scene_templates.h"
+#include "client/cli/suggestion.h"
+#include "client/cli/table.h"
+#include "core/scene/field.h"
+#include "core/scene/validate.h"
+#include "core/sweep/column.h"
+#include "proto/comments/commented_protos.h"
+#include "proto/wire/scene.h"
+#include "ricochet/error.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] = R"(Example: a scene of your own, from a template.
+  $ ricochet scene template planar_contact | grep friction
+  friction { kinetic_coefficient: 0.7 }
+Then: ricochet scene template planar_contact > my.textproto, edit it, and ricochet solve --scene my.textproto.
+Exit codes: 0 done, 2 wrong input.)";
+
+struct SceneCommand {
+  CommonOptions common;
+  SceneOptions scene;
+  std::string system;
+  bool json = false;
+};
+
+absl::Status Write(const SceneCommand& options, const std::string& text) { return WriteOutput(options.common, text); }
+
+// --- list, template, print, schema ---
+
+std::string CommentOfSystem(const std::string& system) {
+  const auto* scene = CommentedProtos().FindMessageTypeByName("ricochet.v1.Scene");
+  return CommentOf(*scene->FindFieldByName(system));
+}
+
+absl::Status RunList(const SceneCommand& options) {
+  Table table(Table::Align::kLeft);
+  std::string json = "[";
+  for (const SceneTemplate& one : SceneTemplates()) {
+    const std::string comment = CommentOfSystem(one.system);
+    table.Add({one.system, comment});
+    absl::StrAppend(&json, json.size() > 1 ? "," : "", "{\"system\":");
+    AppendJson(one.system, json);
+    json += ",\"meaning\":";
+    AppendJson(comment, json);
+    json += "}";
+  }
+  return Write(options, options.json ? json + "]\n" : table.Render(0));
+}
+
+// Returns the scene as JSON or textproto.
+std::string SceneText(const v1::Scene& scene, bool json) {
+  if (json) return SparseJsonOf(scene);
+  std::string text;
+  google::protobuf::TextFormat::PrintToString(scene, &text);
+  return text;
+}
+
+absl::Status RunTemplate(const SceneCommand& options) {
+  std::vector<std::string> systems;
+  for (const SceneTemplate& one : SceneTemplates()) {
+    systems.push_back(one.system);
+    if (one.system != options.system) continue;
+    if (!options.json) return Write(options, one.text);
+    v1::Scene scene;
+    if (absl::Status parsed = ParseMessage("template.textproto", one.text, scene); !parsed.ok()) return parsed;
+    return Write(options, SceneText(scene, /*json=*/true));
+  }
+  return absl::InvalidArgumentError(absl::StrCat(options.system, " is not a system",
+                                                 DidYouMean(options.system, systems),
+                                                 "\nSystems: ", absl::StrJoin(systems, ", ")));
+}
+
+absl::Status RunPrint(const SceneCommand& options) {
+  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  if (!scene.ok()) return scene.status();
+  const std::vector<Violation> violations = Validate(*scene, RestitutionIs::kOptional);
+  if (!violations.empty()) return InvalidRequest(violations);
+  return Write(options, SceneText(ToProto(*scene), options.json));
+}
+
+// --- fields and columns ---
+
+std::string InfoJson(const std::string& path, const FieldInfo& info) {
+  std::string json = "{";
+  const auto add = [&json](const char* key, const std::string& text) {
+    absl::StrAppend(&json, json.size() > 1 ? "," : "", "\"", key, "\":");
+    AppendJson(text, json);
+  };
+  add("path", path);
+  add("unit", info.unit);
+  add("range", info.range);
+  add("meaning", info.meaning);
+  add("description", info.comment);
+  return json + "}";
+}
+
+// Each path with its unit, and what it is on the line below.
+absl::Status ListPaths(const SceneCommand& options, const std::vector<std::string>& paths) {
+  std::string text;
+  std::string json = "[";
+  for (const std::string& path : paths) {
+    const FieldInfo* info = FindFieldInfo(path);
+    if (info == nullptr) return absl::InternalError(absl::StrCat("no description of ", path));
+    absl::StrAppend(&json, json.size() > 1 ? ",\n" : "\n", InfoJson(path, *info));
+    absl::StrAppend(&text, path, info->unit.empty() ? "" : absl::StrCat("  [", info->unit, "]"), "\n",
+                    Wrapped(info->comment, 4));
+  }
+  return Write(options, options.json ? json + "\n]\n" : text);
+}
+
+std::vector<std::string> PathsOf(const std::vector<FieldInfo>& table) {
+  std::vector<std::string> paths;
+  for (const FieldInfo& info : table) paths.push_back(info.path);
+  return paths;
+}
+
+absl::Status RunFields(const SceneCommand& options) {
+  if (!options.scene.any()) return ListPaths(options, PathsOf(SceneFieldTable()));
+  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  return scene.ok() ? ListPaths(options, FieldPaths(*scene)) : scene.status();
+}
+
+absl::Status RunColumns(const SceneCommand& options) {
+  if (!options.scene.any()) return ListPaths(options, Columns({.system = Pendulum()}));
+  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  return scene.ok() ? ListPaths(options, Columns(*scene)) : scene.status();
+}
+
+using Run = absl::Status (*)(const SceneCommand&);
+
+// Adds `ricochet scene NAME`, which sets the command to `run`.
+CLI::App* AddOne(CLI::App& scene, const char* name, const char* help, Run run,
+                 const std::shared_ptr<SceneCommand>& options, Command& command) {
+  CLI::App* sub = scene.add_subcommand(name, help);
+  sub->add_option("-o,--output", options->common.output, "Write to this file instead of standard output")
+      ->type_name("FILE");
+  sub->callback([options, run, &command] { command = [options, run] { return run(*options); }; });
+  return sub;
+}
+
+}  // namespace
+
+void AddScene(CLI::App& app, Command& command) {
+  CLI::App* scene = app.add_subcommand("scene", "Show what scenes look like: templates, schema, fields, columns");
+  scene->require_subcommand(1);
+  scene->footer(kExample);
+  const auto options = std::make_shared<SceneCommand>();
+  const auto add = [&](const char* name, const char* help, Run run) {
+    return AddOne(*scene, name, help, run, options, command);
+  };
+  const auto add_json = [&](CLI::App* sub) { sub->add_flag("--json", options->json, "Print JSON"); };
+  add_json(add("list", "List the systems that can strike", RunList));
+  CLI::App* one = add("template", "Print a commented scene to start from", RunTemplate);
+  one->add_option("SYSTEM", options->system, "A system of `ricochet scene list`")->required();
+  add_json(one);
+  CLI::App* print = add("print", "Print the scene of a file or of flags as textproto", RunPrint);
+  AddSceneOptions(*print, options->scene);
+  add_json(print);
+  add("schema", "Print the JSON Schema of a scene, draft 2020-12",
+      [](const SceneCommand& all) { return Write(all, SceneSchema()); });
+  CLI::App* fields = add("fields", "List the numbers of a scene with units, ranges and meanings", RunFields);
+  AddSceneOptions(*fields, options->scene);
+  add_json(fields);
+  CLI::App* columns = add("columns", "List the numbers of an answer; without a scene those of a pendulum", RunColumns);
+  AddSceneOptions(*columns, options->scene);
+  add_json(columns);
+}
+
+}  // namespace ricochet::cli

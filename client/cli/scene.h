@@ -1,0 +1,16 @@
+// The subcommand `scene`: what scenes look like.
+
+#ifndef RICOCHET_CLIENT_CLI_SCENE_H_
+#define RICOCHET_CLIENT_CLI_SCENE_H_
+
+#include <CLI/App.hpp>
+
+#include "client/cli/common.h"
+
+namespace ricochet::cli {
+
+void AddScene(CLI::App& app, Command& command);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_SCENE_H_
