@@ -119,7 +119,8 @@ absl::Status CheckResume(const SweepOptions& options) {
   // A shard is always gone on with.
   if (!options.resume || options.shard.any() || IsResumable(options)) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      "--resume needs -o FILE and --format csv, json or npy, without --summary-only: only rows in a file can be gone on "
+      "--resume needs -o FILE and --format csv, json or npy, without --summary-only: only rows in a file can be gone "
+      "on "
       "with");
 }
 

@@ -76,12 +76,14 @@ std::vector<BadScene> BadSystems() {
        "spatial_body.inertia_com_kg_m2", "= [1, 0, 0, 1, 0, 0]: must be positive definite"},
       {"ImpossibleInertia", Spoil<SpatialBody>(Body(), [](auto& b) { b.inertia_com_kg_m2 = {1, 0, 0, 1, 0, 5}; }),
        "spatial_body.inertia_com_kg_m2",
-       "= [1, 0, 0, 1, 0, 5]: must be that of a body: its largest principal moment is at most the sum of the other two"},
+       "= [1, 0, 0, 1, 0, 5]: must be that of a body: its largest principal moment is at most the sum of the other "
+       "two"},
       // In its own axes, this tensor is [1, 0, 0, 3, 0, 5].
       {"ImpossibleInertiaInTurnedAxes",
        Spoil<SpatialBody>(Body(), [](auto& b) { b.inertia_com_kg_m2 = {2, 1, 0, 2, 0, 5}; }),
        "spatial_body.inertia_com_kg_m2",
-       "= [2, 1, 0, 2, 0, 5]: must be that of a body: its largest principal moment is at most the sum of the other two"},
+       "= [2, 1, 0, 2, 0, 5]: must be that of a body: its largest principal moment is at most the sum of the other "
+       "two"},
       {"LongOffset", Spoil<SpatialBody>(Body(), [](auto& b) { b.offset_m.push_back(1.0); }), "spatial_body.offset_m",
        "has 4 entries: must have 3"},
       {"NoVelocity", Spoil<SpatialBody>(Body(), [](auto& b) { b.linear_m_s.clear(); }), "spatial_body.linear_m_s",
