@@ -87,12 +87,17 @@ absl::StatusOr<CsvReader> CsvReader::Open(std::istream& stream, const std::strin
   return reader;
 }
 
+bool CsvReader::NextRow(std::vector<std::string>& cells) {
+  if (!NextLine()) return false;
+  Split(line_, cells);
+  return true;
+}
+
 CsvTable CsvReader::Next(size_t most) {
   CsvTable table{.header = header_, .columns = {}, .lines = {}, .bad = {}};
   table.columns.resize(header_.size());
   std::vector<std::string> cells;
-  while (table.lines.size() < most && NextLine()) {
-    Split(line_, cells);
+  while (table.lines.size() < most && NextRow(cells)) {
     table.lines.push_back(number_);
     Append(cells, table);
   }

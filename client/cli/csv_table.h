@@ -41,6 +41,10 @@ class CsvReader {
   void Skip(std::vector<bool> skipped) { skipped_ = std::move(skipped); }
   // Returns the next rows, at most `most`; none at the end.
   CsvTable Next(size_t most);
+  // Reads the cells of the next row as text. Returns false at the end.
+  bool NextRow(std::vector<std::string>& cells);
+  // The line of the last row in the text, from 1.
+  int64_t line() const { return number_; }
   // The bytes read so far.
   int64_t bytes() const { return bytes_; }
 

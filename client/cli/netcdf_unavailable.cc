@@ -1,8 +1,9 @@
-// What stands in for netcdf_file.cc in a build without NetCDF.
+// Stands in for netcdf_file.cc and netcdf_table.cc in a build without NetCDF.
 
 #include <utility>
 
 #include "client/cli/netcdf_file.h"
+#include "client/cli/sweep_file.h"
 
 namespace ricochet::cli {
 
@@ -20,5 +21,11 @@ absl::StatusOr<NetcdfFile> NetcdfFile::Create(const SweepRequest& /*request*/, c
 
 absl::Status NetcdfFile::Write(const SweepChunk& /*chunk*/) { return absl::OkStatus(); }
 absl::Status NetcdfFile::Commit() { return absl::OkStatus(); }
+
+absl::StatusOr<SweepTable> ReadSweepNetcdf(const std::string& /*path*/, const std::vector<std::string>& /*columns*/) {
+  return absl::UnimplementedError(
+      "this build of ricochet cannot read NetCDF: take a file of csv or npy, or a build that was configured with "
+      "-DRICOCHET_NETCDF=ON");
+}
 
 }  // namespace ricochet::cli

@@ -42,6 +42,10 @@ void AddPictureOptions(CLI::App& app, const std::string& what, PictureOptions& o
   app.add_option("--plot", options.file, absl::StrCat("Draw ", what, " with gnuplot"))
       ->type_name("FILE.svg|.png|.pdf")
       ->group("Picture");
+  AddLookOptions(app, options);
+}
+
+void AddLookOptions(CLI::App& app, PictureOptions& options) {
   app.add_option("--title", options.title, "Title of the picture, instead of one that says what it shows")
       ->type_name("TEXT")
       ->group("Picture");
@@ -55,21 +59,30 @@ void AddAxisOptions(CLI::App& app, PictureOptions& options) {
   app.add_flag("--logy", options.log_y, "Logarithmic axis upwards")->group("Picture");
 }
 
+void AddKindOption(CLI::App& app, PictureOptions& options) {
+  app.add_option_function<std::string>(
+         "--kind",
+         [&options](const std::string& name) { options.kind = name == "map" ? PlotKind::kMap : PlotKind::kCurves; },
+         "Curves over the last axis, or a map of two axes in colours [a map if both axes have more than 12 values]")
+      ->check(CLI::IsMember({"curves", "map"}))
+      ->option_text("curves|map")
+      ->group("Picture");
+}
+
 absl::Status CheckPicture(const PictureOptions& options) {
   if (options.file.empty()) {
-    if (options.title.empty() && options.size.empty() && !options.log_x && !options.log_y) return absl::OkStatus();
-    return absl::InvalidArgumentError("--title, --size, --logx and --logy need --plot FILE");
+    if (options.title.empty() && options.size.empty() && !options.log_x && !options.log_y &&
+        options.kind == PlotKind::kAuto) {
+      return absl::OkStatus();
+    }
+    return absl::InvalidArgumentError("--title, --size, --logx, --logy and --kind need --plot FILE");
   }
-  if (absl::Status status = CheckPlotPath(options.file); !status.ok()) return status;
+  if (absl::Status status = CheckPlotPath(options.option, options.file); !status.ok()) return status;
   return ParseSize(options.size).status();
 }
 
-absl::Status DrawPicture(absl::StatusOr<Plot> plot, const PictureOptions& options) {
-  const auto failure = [&options](const absl::Status& status) {
-    return absl::Status(status.code(), absl::StrCat("the numbers are complete, but ", options.file,
-                                                    " was not drawn: ", status.message()));
-  };
-  if (!plot.ok()) return failure(plot.status());
+absl::Status DrawWith(absl::StatusOr<Plot> plot, const PictureOptions& options) {
+  if (!plot.ok()) return plot.status();
   const absl::StatusOr<Size> size = ParseSize(options.size);
   if (!size.ok()) return size.status();
   if (!options.title.empty()) plot->title = options.title;
@@ -78,8 +91,14 @@ absl::Status DrawPicture(absl::StatusOr<Plot> plot, const PictureOptions& option
     panel.log_x = panel.log_x || (options.log_x && panel.y_ticks.empty());
     panel.log_y = panel.log_y || (options.log_y && panel.y_ticks.empty());
   }
-  const absl::Status drawn = Draw(*plot, options.file);
-  return drawn.ok() ? drawn : failure(drawn);
+  return Draw(*plot, options.file);
+}
+
+absl::Status DrawPicture(absl::StatusOr<Plot> plot, const PictureOptions& options) {
+  const absl::Status drawn = DrawWith(std::move(plot), options);
+  if (drawn.ok()) return drawn;
+  return {drawn.code(),
+          absl::StrCat("the numbers are complete, but ", options.file, " was not drawn: ", drawn.message())};
 }
 
 }  // namespace ricochet::cli

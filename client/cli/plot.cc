@@ -183,8 +183,28 @@ struct Ends {
 struct Axes {
   AxisRange x;
   AxisRange y;
+  AxisRange z;           // That of the colours of a map.
   int64_t left_out = 0;  // Points that a logarithmic axis cannot show.
 };
+
+// Cells fill the frame.
+Axes AxesOfMap(const Panel& panel, const std::vector<MapCell>& cells) {
+  Ends x;
+  Ends y;
+  Ends z;
+  for (const MapCell& cell : cells) {
+    x.Add(cell.left);
+    x.Add(cell.right);
+    y.Add(cell.bottom);
+    y.Add(cell.top);
+    if (std::isfinite(cell.value)) z.Add(cell.value);
+  }
+  const AxisRange none{1.0, 10.0};
+  return {.x = x.any() ? AxisRange{x.least, x.most} : none,
+          .y = y.any() ? AxisRange{y.least, y.most} : none,
+          .z = z.any() ? RangeFor(z.least, z.most, 0.0, 0.0, false) : none,
+          .left_out = static_cast<int64_t>(panel.map.size() - cells.size())};
+}
 
 Axes AxesOf(const Panel& panel) {
   const Shown is_shown(panel);
@@ -262,9 +282,10 @@ void AppendLegend(const Legend& legend, std::string& script) {
 }
 
 void AppendAxes(const Panel& panel, const Axes& axes, const Layout& layout, std::string& script) {
-  // What is left of a cell between the labels of the axes, the title and the legend.
+  // What is left of a cell between the labels of the axes, the title and the legend or the scale of the colours.
   const Legend legend = LegendOf(panel, layout);
-  double width = layout.cell_width() - 9.0 * layout.character() - 2.0 * layout.font - legend.width;
+  const double beside = panel.map.empty() ? legend.width : 14.0 * layout.character();
+  double width = layout.cell_width() - 9.0 * layout.character() - 2.0 * layout.font - beside;
   const double lines = 7.0 + 1.3 * legend.lines + 1.5 * layout.title_lines / layout.rows;
   double height = std::max(layout.font, layout.cell_height() - lines * layout.font);
   if (panel.equal_scales) {
@@ -287,6 +308,10 @@ void AppendAxes(const Panel& panel, const Axes& axes, const Layout& layout, std:
   if (panel.log_y) absl::StrAppend(&script, "set logscale y\n");
   absl::StrAppend(&script, "set xtics ", TickList(x_ticks), "\nset ytics ", TickList(y_ticks), "\n",
                   panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n");
+  if (panel.map.empty()) return;
+  const double up = layout.cell_height() / layout.character() - 8.0;
+  AppendColours(axes.z, TickList(TicksFor(axes.z, height, layout.character(), true, false)),
+                Quoted(Wrapped(panel.map_label, up)), script);
 }
 
 void AppendMarks(const Panel& panel, std::string& script) {
@@ -304,8 +329,9 @@ void AppendMarks(const Panel& panel, std::string& script) {
 
 void AppendPanel(size_t number, const Panel& panel, const Layout& layout, std::string& script) {
   const Shown is_shown(panel);
-  const Axes axes = AxesOf(panel);
-  std::vector<std::string> parts;
+  const std::vector<MapCell> cells = CellsOf(panel.map, panel.log_x, panel.log_y);
+  const Axes axes = panel.map.empty() ? AxesOf(panel) : AxesOfMap(panel, cells);
+  std::vector<std::string> parts = AppendCells(absl::StrCat("p", number, "map"), cells, script);
   const auto add = [&](const std::string& name, const Points& points, const std::string& style,
                        const std::string& title) {
     AppendData(name, points, is_shown, script);
@@ -330,6 +356,9 @@ void AppendPanel(size_t number, const Panel& panel, const Layout& layout, std::s
   const double across = layout.cell_width() / layout.character() - 4.0;
   const double up = layout.cell_height() / layout.character() - 8.0;
   std::string title = panel.title;
+  if (std::any_of(cells.begin(), cells.end(), [](const MapCell& cell) { return !std::isfinite(cell.value); })) {
+    absl::StrAppend(&title, title.empty() ? "" : "\n", "grey: no value (invalid)");
+  }
   if (axes.left_out > 0) {
     absl::StrAppend(&title, title.empty() ? "" : "\n", axes.left_out, axes.left_out == 1 ? " point" : " points",
                     " at or below 0 not shown");
@@ -343,16 +372,18 @@ void AppendPanel(size_t number, const Panel& panel, const Layout& layout, std::s
   } else {
     absl::StrAppend(&script, panel.settings);
   }
+  // Every cell of a logarithmic map may be at or below 0.
+  if (parts.empty()) add(absl::StrCat("p", number, "nothing"), {}, "with dots", "");
   absl::StrAppend(&script, "plot ", absl::StrJoin(parts, ", "), "\n");
 }
 
 }  // namespace
 
-absl::Status CheckPlotPath(const std::string& path) {
+absl::Status CheckPlotPath(const std::string& option, const std::string& path) {
   for (const char* ending : {".svg", ".png", ".pdf"}) {
     if (absl::EndsWith(path, ending)) return absl::OkStatus();
   }
-  return absl::InvalidArgumentError(absl::StrCat("--plot ", path, ": must end in .svg, .png or .pdf"));
+  return absl::InvalidArgumentError(absl::StrCat(option, " ", path, ": must end in .svg, .png or .pdf"));
 }
 
 std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path) {

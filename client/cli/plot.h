@@ -1,4 +1,4 @@
-// Plots: curves in panels, which gnuplot draws as a child process.
+// Plots: curves or maps in panels, which gnuplot draws as a child process.
 
 #ifndef RICOCHET_CLIENT_CLI_PLOT_H_
 #define RICOCHET_CLIENT_CLI_PLOT_H_
@@ -10,6 +10,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/cli/plot_axis.h"
+#include "client/cli/plot_map.h"
 
 namespace ricochet::cli {
 
@@ -37,6 +38,9 @@ struct Panel {
   std::vector<Curve> curves;
   std::vector<double> x_missing;  // A cross at the lower edge marks each place without a value.
   std::vector<Tick> y_ticks;      // Names in place of numbers upwards; empty: numbers.
+  // The points of a grid, which are drawn as coloured cells in place of curves, and what the colours mean.
+  std::vector<MapPoint> map;
+  std::string map_label;
   // Further commands of gnuplot, each with a line feed, in place of the axes that the panel would choose. They stay in
   // force for the panels that follow.
   std::string settings;
@@ -50,8 +54,8 @@ struct Plot {
   int height = 0;
 };
 
-// Errors: INVALID_ARGUMENT unless the name ends in .svg, .png or .pdf.
-absl::Status CheckPlotPath(const std::string& path);
+// Errors: INVALID_ARGUMENT, which names the option, unless the path ends in .svg, .png or .pdf.
+absl::Status CheckPlotPath(const std::string& option, const std::string& path);
 
 // Returns the commands for gnuplot; `terminal` is "svg", "png" or "pdf".
 std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path);

@@ -11,6 +11,7 @@
 #include "client/cli/help_format.h"
 #include "client/cli/info.h"
 #include "client/cli/merge.h"
+#include "client/cli/plot_file.h"
 #include "client/cli/scene.h"
 #include "client/cli/solve.h"
 #include "client/cli/sweep.h"
@@ -31,6 +32,7 @@ std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Comman
   AddBounds(*app, command);
   AddSweep(*app, std::move(arguments), command);
   AddMerge(*app, command);
+  AddPlotFile(*app, command);
   AddAudit(*app, command);
   AddScene(*app, command);
   AddCost(*app, command);

@@ -129,7 +129,7 @@ class Receiver {
  public:
   Receiver(const SweepRequest& request, const SweepOptions& options, SweepOutput output)
       : options_(&options), with_regime_(request.with_regime), output_(std::move(output)) {
-    if (!options.picture.file.empty()) plot_.emplace(request);
+    if (!options.picture.file.empty()) plot_.emplace(request, options.picture.kind);
   }
 
   // The points that the output does not have yet.
@@ -319,8 +319,9 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   sub->add_option("--threads", options->threads,
                   "Compute with at most N threads, which changes no result [the number of cores]; not with --server")
       ->type_name("N");
-  AddPictureOptions(*sub, "curves over the last axis, in one panel for each unit,", options->picture);
+  AddPictureOptions(*sub, "curves over the last axis, or a map of two axes,", options->picture);
   AddAxisOptions(*sub, options->picture);
+  AddKindOption(*sub, options->picture);
   AddServerOptions(*sub, options->common);
   AddSweepOutputOptions(*sub, options->common);
   sub->add_flag("--resume", options->resume,

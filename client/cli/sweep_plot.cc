@@ -3,28 +3,40 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <set>
-#include <variant>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "absl/types/span.h"
 #include "client/cli/label.h"
 #include "client/cli/table.h"
-#include "core/sweep/grid.h"
 
 namespace ricochet::cli {
 namespace {
 
 constexpr double kGap = std::numeric_limits<double>::quiet_NaN();
+constexpr size_t kMostCurves = 49;
+constexpr size_t kMostCells = 250'000;
+// Two axes that both have more values than this are drawn as a map, unless curves are asked for.
+constexpr size_t kFewValues = 12;
+
+Label LabelIn(const SweepTable& table, const std::string& path) {
+  Label label = LabelOf(path);
+  const auto unit = table.units.find(path);
+  if (unit != table.units.end()) label.unit = unit->second;
+  return label;
+}
 
 // Returns the columns of each unit, in the order in which the units first appear.
-std::vector<std::vector<size_t>> ByUnit(const std::vector<std::string>& columns) {
+std::vector<std::vector<size_t>> ByUnit(const SweepTable& table) {
   std::vector<std::vector<size_t>> groups;
-  for (size_t column = 0; column < columns.size(); ++column) {
-    const std::string unit = LabelOf(columns[column]).unit;
+  for (size_t column = 0; column < table.columns.size(); ++column) {
+    const std::string unit = LabelIn(table, table.columns[column]).unit;
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const std::vector<size_t>& others) {
-      return LabelOf(columns[others.front()]).unit == unit;
+      return LabelIn(table, table.columns[others.front()]).unit == unit;
     });
     if (group == groups.end()) {
       groups.push_back({column});
@@ -36,95 +48,201 @@ std::vector<std::vector<size_t>> ByUnit(const std::vector<std::string>& columns)
 }
 
 // Returns the name of the only column, else the symbols of up to three or "value", with the unit that all share.
-Label LabelOfAll(const std::vector<size_t>& columns, const std::vector<std::string>& names) {
-  Label label = LabelOf(names[columns.front()]);
+Label LabelOfAll(const SweepTable& table, const std::vector<size_t>& columns) {
+  Label label = LabelIn(table, table.columns[columns.front()]);
   if (columns.size() == 1) return label;
   std::vector<std::string> symbols;
-  for (const size_t column : columns) symbols.push_back(LabelOf(names[column]).symbol);
+  for (const size_t column : columns) symbols.push_back(LabelIn(table, table.columns[column]).symbol);
   label.name = columns.size() <= 3 ? absl::StrJoin(symbols, ", ") : "value";
   return label;
 }
 
+std::vector<double> Distinct(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+  return values;
+}
+
+// True for three or more values whose ratios are equal but for rounding. `values` grow.
+bool AreLogSpaced(const std::vector<double>& values) {
+  if (values.size() < 3 || !(values.front() > 0.0)) return false;
+  const auto steps = static_cast<double>(values.size() - 1);
+  const double step = std::log(values.back() / values.front()) / steps;
+  for (size_t i = 0; i < values.size(); ++i) {
+    const double expected = std::log(values.front()) + static_cast<double>(i) * step;
+    if (std::abs(std::log(values[i]) - expected) > 1e-6 * step) return false;
+  }
+  return true;
+}
+
+// --- Curves ---
+
+// The points that agree on all axes but the last, in the order of the table.
+struct Group {
+  std::vector<double> outer;  // Their values on those axes.
+  std::vector<size_t> points;
+};
+
+std::vector<Group> GroupsOf(const SweepTable& table) {
+  std::vector<Group> groups;
+  std::map<std::vector<double>, size_t> known;
+  std::vector<double> outer(table.axes.size() - 1);
+  for (size_t i = 0; i < table.points(); ++i) {
+    for (size_t axis = 0; axis < outer.size(); ++axis) outer[axis] = table.at[axis][i];
+    if (groups.empty() || groups.back().outer != outer) {
+      const auto [place, is_new] = known.emplace(outer, groups.size());
+      if (is_new) groups.push_back({outer, {}});
+      groups[place->second].points.push_back(i);
+    } else {
+      groups.back().points.push_back(i);
+    }
+  }
+  // Where no two points agree, the axes advance together, and the points are one curve.
+  if (groups.size() < 2 || groups.size() != table.points() || Distinct(table.at.back()).size() < 2) return groups;
+  Group all;
+  for (size_t i = 0; i < table.points(); ++i) all.points.push_back(i);
+  return {all};
+}
+
+std::string TitleOf(const SweepTable& table, const Group& group, size_t column, size_t columns_in_panel) {
+  std::vector<std::string> parts;
+  if (columns_in_panel > 1 || group.outer.empty()) parts.push_back(LabelIn(table, table.columns[column]).symbol);
+  for (size_t i = 0; i < group.outer.size(); ++i) {
+    const Label label = LabelIn(table, table.axes[i]);
+    const std::string unit = label.unit.empty() ? "" : absl::StrCat(" ", label.unit);
+    parts.push_back(absl::StrCat(label.symbol, " = ", Rounded(group.outer[i]), unit));
+  }
+  return absl::StrJoin(parts, ", ");
+}
+
+// Adds to `missing` where the curve has no value.
+Curve CurveOf(const SweepTable& table, const Group& group, size_t column, std::set<double>& missing) {
+  Curve curve;
+  const std::vector<double>& values = table.values[column];
+  for (size_t k = 0; k < group.points.size(); ++k) {
+    const size_t i = group.points[k];
+    const double x = table.at.back()[i];
+    const bool changes = k > 0 && !table.regimes.empty() && table.regimes[group.points[k - 1]] != table.regimes[i];
+    if (changes) curve.points.emplace_back(kGap, kGap);
+    curve.points.emplace_back(x, values[i]);
+    if (!std::isfinite(values[i])) missing.insert(x);
+  }
+  return curve;
+}
+
+Panel CurvePanel(const SweepTable& table, const std::vector<Group>& groups, const std::vector<size_t>& columns) {
+  Panel panel{.title = "",
+              .x_label = WithUnit(LabelIn(table, table.axes.back())),
+              .y_label = WithUnit(LabelOfAll(table, columns)),
+              .log_x = AreLogSpaced(Distinct(table.at.back()))};
+  std::set<double> missing;
+  for (const Group& group : groups) {
+    for (const size_t column : columns) {
+      panel.curves.push_back(CurveOf(table, group, column, missing));
+      panel.curves.back().title = TitleOf(table, group, column, columns.size());
+    }
+  }
+  panel.x_missing.assign(missing.begin(), missing.end());
+  return panel;
+}
+
+absl::Status TooManyCurves(const SweepTable& table) {
+  return absl::FailedPreconditionError(absl::StrCat("the sweep has more than ", kMostCurves,
+                                                    " curves; the last axis should be the long one",
+                                                    table.axes.size() == 2 ? ", or --kind map draws cells" : ""));
+}
+
+absl::StatusOr<Plot> CurvesOf(const SweepTable& table) {
+  const std::vector<Group> groups = GroupsOf(table);
+  if (groups.size() * table.columns.size() > kMostCurves) return TooManyCurves(table);
+  Plot plot;
+  std::vector<std::string> names;
+  for (const std::vector<size_t>& columns : ByUnit(table)) {
+    plot.panels.push_back(CurvePanel(table, groups, columns));
+    names.push_back(LabelOfAll(table, columns).name);
+  }
+  plot.title = absl::StrCat(absl::StrJoin(names, "; "), " over ", LabelIn(table, table.axes.back()).name);
+  return plot;
+}
+
+// --- Maps ---
+
+absl::StatusOr<Plot> MapsOf(const SweepTable& table, const std::vector<double>& xs, const std::vector<double>& ys) {
+  const size_t cells = table.points() * table.columns.size();
+  if (cells > kMostCells) {
+    return absl::FailedPreconditionError(absl::StrCat(cells, " cells are more than a map can show (", kMostCells, ")"));
+  }
+  const Label x = LabelIn(table, table.axes[1]);
+  const Label y = LabelIn(table, table.axes[0]);
+  Plot plot;
+  std::vector<std::string> names;
+  for (size_t column = 0; column < table.columns.size(); ++column) {
+    const Label label = LabelIn(table, table.columns[column]);
+    Panel panel{.title = "",
+                .x_label = WithUnit(x),
+                .y_label = WithUnit(y),
+                .log_x = AreLogSpaced(xs),
+                .log_y = AreLogSpaced(ys)};
+    panel.map_label = WithUnit(label);
+    for (size_t i = 0; i < table.points(); ++i) {
+      panel.map.push_back({table.at[1][i], table.at[0][i], table.values[column][i]});
+    }
+    plot.panels.push_back(std::move(panel));
+    names.push_back(label.name);
+  }
+  plot.title = absl::StrCat(absl::StrJoin(names, "; "), " over ", x.name, " and ", y.name);
+  return plot;
+}
+
 }  // namespace
+
+absl::StatusOr<Plot> PlotOf(const SweepTable& table, PlotKind kind) {
+  if (table.axes.empty()) return absl::FailedPreconditionError("a sweep without an axis cannot be drawn");
+  if (kind != PlotKind::kCurves && table.axes.size() == 2) {
+    const std::vector<double> xs = Distinct(table.at[1]);
+    const std::vector<double> ys = Distinct(table.at[0]);
+    const bool is_whole = table.points() == xs.size() * ys.size();
+    const bool is_large = xs.size() > kFewValues && ys.size() > kFewValues;
+    if (kind == PlotKind::kAuto && is_whole && is_large) return MapsOf(table, xs, ys);
+    if (kind == PlotKind::kMap && table.points() > std::max(xs.size(), ys.size())) return MapsOf(table, xs, ys);
+  }
+  if (kind == PlotKind::kMap) {
+    return absl::FailedPreconditionError("--kind map needs a grid of two axes that are combined with each other");
+  }
+  return CurvesOf(table);
+}
+
+SweepPlot::SweepPlot(const SweepRequest& request, PlotKind kind) : grid_(request.grid), cursor_(grid_), kind_(kind) {
+  for (const Axis& axis : grid_.axes) table_.axes.push_back(axis.path);
+  table_.columns = request.columns;
+  table_.at.resize(table_.axes.size());
+  table_.values.resize(table_.columns.size());
+}
 
 SweepRequest SweepPlot::Wanted(SweepRequest request) {
   request.with_regime = true;
   return request;
 }
 
-absl::Status SweepPlot::Check(const SweepChunk& chunk) const {
-  if (request_.grid.axes.empty()) return absl::FailedPreconditionError("a sweep without an axis cannot be drawn");
-  if (chunk.points_total > kMostPoints) {
-    return absl::FailedPreconditionError(
-        absl::StrCat(chunk.points_total, " points are more than a picture can show (", kMostPoints, ")"));
-  }
-  if (lines_.size() > kMostCurves) {
-    return absl::FailedPreconditionError(
-        absl::StrCat("the sweep has more than ", kMostCurves, " curves; the last axis should be the long one"));
-  }
-  return absl::OkStatus();
-}
-
 void SweepPlot::Add(const SweepChunk& chunk) {
-  if (status_.ok()) status_ = Check(chunk);
-  const std::vector<Axis>& axes = request_.grid.axes;
-  std::vector<int64_t> positions(axes.size());
-  for (int64_t i = 0; status_.ok() && i < chunk.count; ++i) {
-    AxisPositions(request_.grid, chunk.first_index + i, absl::MakeSpan(positions));
-    const double x = AxisValue(axes.back(), positions.back());
-    const Regime regime = chunk.regimes.at(static_cast<size_t>(i));
-    Line line{.outer = {}, .column = 0};
-    if (request_.grid.combination != Combination::kZip) line.outer.assign(positions.begin(), positions.end() - 1);
-    for (; line.column < request_.columns.size(); ++line.column) {
-      const double y = chunk.values[line.column * static_cast<size_t>(chunk.count) + static_cast<size_t>(i)];
-      Points& points = lines_[line];
-      if (!points.all.empty() && points.regime != regime) points.all.emplace_back(kGap, kGap);
-      points.all.emplace_back(x, y);
-      points.regime = regime;
-      if (!std::isfinite(y)) points.missing.push_back(x);
-    }
-    if (lines_.size() > kMostCurves) status_ = Check(chunk);
+  if (status_.ok() && table_.columns.size() > kMostCurves) status_ = TooManyCurves(table_);
+  if (status_.ok() && chunk.points_total > SweepTable::kMostPoints) {
+    status_ = absl::FailedPreconditionError(
+        absl::StrCat(chunk.points_total, " points are more than a picture can show (", SweepTable::kMostPoints, ")"));
   }
+  if (!status_.ok()) return;
+  for (int64_t i = 0; i < chunk.count; ++i) {
+    const std::vector<double>& at = cursor_.At(chunk.first_index + i);
+    for (size_t axis = 0; axis < at.size(); ++axis) table_.at[axis].push_back(at[axis]);
+  }
+  const auto count = static_cast<std::ptrdiff_t>(chunk.count);
+  for (size_t column = 0; column < table_.values.size(); ++column) {
+    const auto first = chunk.values.begin() + static_cast<std::ptrdiff_t>(column) * count;
+    table_.values[column].insert(table_.values[column].end(), first, first + count);
+  }
+  table_.regimes.insert(table_.regimes.end(), chunk.regimes.begin(), chunk.regimes.end());
 }
 
-std::string SweepPlot::Title(const Line& line, size_t columns_in_panel) const {
-  std::vector<std::string> parts;
-  if (columns_in_panel > 1 || line.outer.empty()) parts.push_back(LabelOf(request_.columns[line.column]).symbol);
-  for (size_t i = 0; i < line.outer.size(); ++i) {
-    const Axis& axis = request_.grid.axes[i];
-    const Label label = LabelOf(axis.path);
-    const std::string unit = label.unit.empty() ? "" : absl::StrCat(" ", label.unit);
-    parts.push_back(absl::StrCat(label.symbol, " = ", Rounded(AxisValue(axis, line.outer[i])), unit));
-  }
-  return absl::StrJoin(parts, ", ");
-}
-
-Panel SweepPlot::PanelOf(const std::vector<size_t>& columns) const {
-  const Axis& last = request_.grid.axes.back();
-  Panel panel{.title = "",
-              .x_label = WithUnit(LabelOf(last.path)),
-              .y_label = WithUnit(LabelOfAll(columns, request_.columns)),
-              .log_x = std::holds_alternative<Logspace>(last.values)};
-  std::set<double> missing;
-  for (const auto& [line, points] : lines_) {
-    if (std::find(columns.begin(), columns.end(), line.column) == columns.end()) continue;
-    panel.curves.push_back({.title = Title(line, columns.size()), .points = points.all});
-    missing.insert(points.missing.begin(), points.missing.end());
-  }
-  panel.x_missing.assign(missing.begin(), missing.end());
-  return panel;
-}
-
-absl::StatusOr<Plot> SweepPlot::Make() const {
-  if (!status_.ok()) return status_;
-  Plot plot;
-  std::vector<std::string> names;
-  for (const std::vector<size_t>& columns : ByUnit(request_.columns)) {
-    plot.panels.push_back(PanelOf(columns));
-    names.push_back(LabelOfAll(columns, request_.columns).name);
-  }
-  plot.title = absl::StrCat(absl::StrJoin(names, "; "), " over ", LabelOf(request_.grid.axes.back().path).name);
-  return plot;
-}
+absl::StatusOr<Plot> SweepPlot::Make() const { return status_.ok() ? PlotOf(table_, kind_) : status_; }
 
 }  // namespace ricochet::cli

@@ -1,0 +1,79 @@
+#include "client/cli/plot_file.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "client/cli/picture_input.h"
+#include "client/cli/sweep_file.h"
+#include "client/cli/sweep_plot.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] =
+    R"(Example: the picture of a sweep that was computed before.
+  $ ricochet sweep --a 0.3 --b 1 --energetic 1 --regime -o friction.npy \
+      --axis friction.kinetic_coefficient=lin:0:0.4:1000 \
+      --column coefficients.newton
+  $ ricochet plot friction.npy
+  friction.svg
+The picture has the bytes of the one that ricochet sweep --regime --plot draws.
+Exit codes: 0 done, 2 wrong input, 42 the picture could not be drawn.)";
+
+struct PlotFileOptions {
+  std::string file;
+  std::vector<std::string> columns;
+  PictureOptions picture;
+};
+
+// Returns the name of the file with the ending .svg in place of its own.
+std::string DefaultPicture(const std::string& file) {
+  return std::filesystem::path(file).replace_extension(".svg").string();
+}
+
+absl::Status RunPlotFile(PlotFileOptions options) {
+  options.picture.option = "-o";
+  if (options.picture.file.empty()) options.picture.file = DefaultPicture(options.file);
+  if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
+  const absl::StatusOr<SweepTable> table = ReadSweepFile(options.file, options.columns);
+  if (!table.ok()) return table.status();
+  absl::StatusOr<Plot> plot = PlotOf(*table, options.picture.kind);
+  if (!plot.ok()) return {plot.status().code(), absl::StrCat(options.file, ": ", plot.status().message())};
+  const bool has_curves = !plot->panels.front().curves.empty();
+  if (absl::Status status = DrawWith(*std::move(plot), options.picture); !status.ok()) return status;
+  if (has_curves && table->regimes.empty()) {
+    std::fprintf(
+        stderr,
+        "%s has no regimes, so that lines go on where the regime changes: ricochet sweep --regime writes them\n",
+        options.file.c_str());
+  }
+  return WriteOutput({}, options.picture.file + "\n");
+}
+
+}  // namespace
+
+void AddPlotFile(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("plot", "Draw a file that sweep or merge wrote");
+  const auto options = std::make_shared<PlotFileOptions>();
+  sub->add_option("file", options->file, "A sweep as csv, npy or netcdf; the content says which")
+      ->type_name("FILE")
+      ->required();
+  sub->add_option("-o,--output", options->picture.file, "The picture [FILE with the ending .svg]")
+      ->type_name("FILE.svg|.png|.pdf");
+  sub->add_option("--column", options->columns, "Columns of the file to draw, in this order [all]")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  AddLookOptions(*sub, options->picture);
+  AddAxisOptions(*sub, options->picture);
+  AddKindOption(*sub, options->picture);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunPlotFile(*options); }; });
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,110 @@
+#include "client/cli/sweep_rows.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/common.h"
+#include "client/cli/field_table.h"
+#include "client/cli/suggestion.h"
+
+namespace ricochet::cli {
+namespace {
+
+bool IsOf(const std::vector<FieldInfo>& table, const FieldInfo* info) {
+  return info >= &table.front() && info <= &table.back();
+}
+
+size_t PlaceOf(const std::string& name, const std::vector<std::string>& names) {
+  return static_cast<size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+}
+
+// Axes come before columns.
+absl::Status Sort(const std::vector<std::string>& names, std::vector<std::string>& axes,
+                  std::vector<std::string>& columns) {
+  if (names.empty() || names.front() != "index") {
+    return absl::InvalidArgumentError("the first column must be index, as in every table that ricochet sweep writes");
+  }
+  for (size_t i = 1; i < names.size(); ++i) {
+    if (names[i] == "regime" || names[i] == "status") continue;
+    const FieldInfo* const info = FindFieldInfo(names[i]);
+    if (info == nullptr) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("the column ", names[i], " must be a field of a scene or an outcome"));
+    }
+    (IsOf(SceneFieldTable(), info) ? axes : columns).push_back(names[i]);
+  }
+  if (!columns.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError("there is no column of an outcome, such as coefficients.newton");
+}
+
+}  // namespace
+
+absl::Status TooManyPoints() {
+  return absl::FailedPreconditionError(
+      absl::StrCat("has more points than a picture can show (", SweepTable::kMostPoints, ")"));
+}
+
+absl::StatusOr<std::vector<std::string>> ChooseColumns(const std::vector<std::string>& columns,
+                                                       const std::vector<std::string>& wanted) {
+  std::set<std::string> seen;
+  for (const std::string& name : wanted) {
+    if (PlaceOf(name, columns) == columns.size()) {
+      return absl::InvalidArgumentError(absl::StrCat("--column ", name, ": must be a column of the file",
+                                                     DidYouMean(name, columns),
+                                                     "\nColumns: ", absl::StrJoin(columns, ", ")));
+    }
+    if (!seen.insert(name).second) {
+      return absl::InvalidArgumentError(absl::StrCat("--column ", name, ": must be named once"));
+    }
+  }
+  return wanted.empty() ? columns : wanted;
+}
+
+absl::StatusOr<SweepRows> SweepRows::Create(const std::vector<std::string>& names,
+                                            const std::vector<std::string>& wanted) {
+  SweepRows rows;
+  SweepTable& table = rows.table_;
+  std::vector<std::string> columns;
+  if (absl::Status status = Sort(names, table.axes, columns); !status.ok()) return status;
+  absl::StatusOr<std::vector<std::string>> chosen = ChooseColumns(columns, wanted);
+  if (!chosen.ok()) return chosen.status();
+  table.columns = *std::move(chosen);
+  table.at.resize(table.axes.size());
+  table.values.resize(table.columns.size());
+  for (const std::string& name : names) {
+    const size_t axis = PlaceOf(name, table.axes);
+    const size_t column = PlaceOf(name, table.columns);
+    const bool is_axis = axis < table.axes.size();
+    const bool is_number = is_axis || column < table.columns.size();
+    rows.kinds_.push_back(name == "regime" ? Kind::kRegime : is_number ? Kind::kNumber : Kind::kSkipped);
+    rows.places_.push_back(is_axis ? axis : table.axes.size() + column);
+  }
+  return rows;
+}
+
+void SweepRows::AddNumber(size_t cell, double value) {
+  const size_t place = places_[cell];
+  const size_t axes = table_.axes.size();
+  (place < axes ? table_.at[place] : table_.values[place - axes]).push_back(value);
+}
+
+absl::Status SweepRows::AddRegime(const std::string& name) {
+  for (int i = 0; i < kRegimeCount; ++i) {
+    if (name == RegimeName(static_cast<Regime>(i))) return AddRegime(i);
+  }
+  return absl::InvalidArgumentError(absl::StrCat("regime = ", name, ": must be the name of a regime, such as REBOUND"));
+}
+
+absl::Status SweepRows::AddRegime(int64_t number) {
+  if (number < 0 || number >= kRegimeCount) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("regime = ", number, ": must be the number of a regime, from 0 to ", kRegimeCount - 1));
+  }
+  table_.regimes.push_back(static_cast<Regime>(number));
+  return absl::OkStatus();
+}
+
+}  // namespace ricochet::cli

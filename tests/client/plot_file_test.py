@@ -1,0 +1,162 @@
+"""Draws files of sweeps by `ricochet plot` and holds each picture to that of the sweep itself, byte by byte.
+
+usage: plot_file_test.py RICOCHET WORK_DIRECTORY
+"""
+import csv
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import unittest
+
+import netCDF4
+import numpy
+
+WORK, RICOCHET = [pathlib.Path(sys.argv.pop()).resolve() for _ in range(2)]
+MU, PHI, NEWTON, RATE = "friction.kinetic_coefficient", "pendulum.phi_rad", "coefficients.newton", "rates_after_rad_s[0]"
+SWEEP = ["sweep", "--a", "0.6", "--b", "0.8", "--energetic", "1", "--regime"]
+LINE = [*SWEEP, "--axis", f"{MU}=lin:0:0.5:101", "--column", f"{NEWTON},coefficients.poisson"]
+MAP = [*SWEEP, "--axis", f"{MU}=lin:-0.02:0.5:20", "--axis", f"{PHI}=log:0.1:1.5:30", "--column", f"{NEWTON},{RATE}"]
+SWEEPS = {
+    "line": LINE,
+    "family": [*SWEEP, "--axis", f"{MU}=0.1,1/3,0.5", "--axis", f"{PHI}=lin:0.01:1.57:50", "--column", NEWTON],
+    "map": MAP,
+    "zip": [*SWEEP, "--zip", "--axis", f"{MU}=lin:0.1:0.5:20", "--axis", f"{PHI}=lin:0.1:1.5:20", "--column", NEWTON],
+    "part": [*SWEEP, "--range", "3:77", "--axis", f"{MU}=lin:0.1:0.5:3", "--axis", f"{PHI}=log:0.1:1.5:40",
+             "--column", NEWTON],
+    "three": [*SWEEP, "--axis", f"{MU}=0.1,0.2", "--axis", "restitution.energetic=1,0.5", "--axis",
+              f"{PHI}=lin:0.1:1.5:9", "--column", f"{RATE},{NEWTON}"],
+}
+FORMATS = ["csv", "npy", "netcdf"]
+LOOKS = {"line": ["--title", "It's mine", "--size", "700x500", "--logy"], "map": ["--logx", "--size", "1200x500"]}
+
+
+def ricochet(*arguments):
+    done = subprocess.run([RICOCHET, *arguments], cwd=WORK, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          check=False, timeout=120)
+    return done.returncode, done.stdout, done.stderr
+
+
+class PlotFileTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(WORK, ignore_errors=True)
+        WORK.mkdir(parents=True)
+
+    def made(self, *arguments):
+        code, out, error = ricochet(*arguments)
+        self.assertEqual(code, 0, error)
+        return out
+
+    def refused(self, *arguments, code=2):
+        found, out, error = ricochet(*arguments)
+        self.assertEqual((found, out), (code, ""), error)
+        return error
+
+    def test_the_picture_of_a_file_is_that_of_its_sweep(self):
+        for name, sweep in SWEEPS.items():
+            for look in ([], LOOKS[name]) if name in LOOKS else ([],):
+                self.made(*sweep, "--summary-only", "--plot", "sweep.svg", *look)
+                expected = (WORK / "sweep.svg").read_bytes()
+                for kind in FORMATS:
+                    with self.subTest(sweep=name, format=kind, look=look):
+                        self.made(*sweep, "--format", kind, "-o", "points")
+                        self.assertEqual(self.made("plot", "points", "-o", "file.svg", *look), "file.svg\n")
+                        self.assertEqual((WORK / "file.svg").read_bytes(), expected)
+
+    def test_the_picture_takes_the_name_and_the_columns_that_are_asked_for(self):
+        self.made(*MAP, "-o", "two.nc")
+        self.assertEqual(self.made("plot", "two.nc", "--column", RATE), "two.svg\n")
+        one = [*MAP[:-1], RATE]
+        self.made(*one, "--summary-only", "--plot", "one.svg")
+        self.assertEqual((WORK / "two.svg").read_bytes(), (WORK / "one.svg").read_bytes())
+        for ending, start in {"png": b"\x89PNG", "pdf": b"%PDF"}.items():
+            self.made("plot", "two.nc", "-o", f"two.{ending}")
+            self.assertTrue((WORK / f"two.{ending}").read_bytes().startswith(start))
+
+    def test_two_long_axes_are_a_map_of_cells(self):
+        table = list(csv.DictReader(self.made(*MAP, "--format", "csv").splitlines()))
+        self.made(*MAP, "--summary-only", "--plot", "map.svg")
+        text = (WORK / "map.svg").read_text(encoding="utf-8")
+        invalid = sum(row["regime"] == "INVALID" for row in table)
+        self.assertGreater(invalid, 10)
+        self.assertEqual(len(re.findall(r"fill = 'rgb\(200, 200, 200\)'", text)), 2 * invalid)
+        # Each valid point is a cell in both panels; the scales of the colours are polygons of another class.
+        self.assertEqual(text.count("<polygon") - 2 * invalid - self.scale_polygons(), 2 * (len(table) - invalid))
+        self.assertIn("kinetic friction μ", text)
+        self.assertIn("grey: no value (invalid)", text)
+        self.made(*MAP[:-1], NEWTON, "--summary-only", "--plot", "curves.svg", "--kind", "curves")
+        self.assertNotIn("<polygon", (WORK / "curves.svg").read_text(encoding="utf-8"))
+
+    def scale_polygons(self):
+        """The polygons that two scales of colours take, from a map of 2 x 2 cells in each of two panels."""
+        small = [*SWEEP, "--axis", f"{MU}=0.1,0.2", "--axis", f"{PHI}=1,1.2", "--column", f"{NEWTON},{RATE}"]
+        self.made(*small, "--summary-only", "--plot", "small.svg", "--kind", "map")
+        return (WORK / "small.svg").read_text(encoding="utf-8").count("<polygon") - 8
+
+    def test_lines_over_unknown_regimes_are_said_to_go_on(self):
+        self.made(*[word for word in LINE if word != "--regime"], "--format", "csv", "-o", "plain.csv")
+        code, _, error = ricochet("plot", "plain.csv")
+        self.assertEqual(code, 0)
+        self.assertIn("plain.csv has no regimes", error)
+
+    def test_units_of_unknown_variables_come_from_the_file(self):
+        self.made(*LINE, "-o", "units.nc")
+        with netCDF4.Dataset(WORK / "units.nc", "a") as data:
+            data.renameVariable(NEWTON, "my_torque")
+            data["my_torque"].units = "N m"
+        self.made("plot", "units.nc")
+        self.assertIn("my_torque [N m]", (WORK / "units.svg").read_text(encoding="utf-8"))
+
+    def test_wrong_files_are_refused_by_name_and_reason(self):
+        self.made(*LINE, "--format", "csv", "-o", "whole.csv")
+        whole = (WORK / "whole.csv").read_text().splitlines(keepends=True)
+        self.made(*LINE, "-o", "whole.npy")
+        self.made(*LINE, "-o", "whole.nc")
+        self.made("sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--column", NEWTON, "-o", "point.npy")
+        self.made(*LINE, "-o", "table.txt")
+        self.made(*LINE, "--summary-only", "--format", "csv", "-o", "summary.csv")
+        self.made(*LINE, "-o", "part", "--shard-index", "0", "--shard-count", "2")
+        numpy.save(WORK / "plain.npy", numpy.zeros(3))
+        with netCDF4.Dataset(WORK / "other.nc", "w") as data:
+            data.createDimension("x", 2)
+            data.createVariable("x", "f8", ("x",))
+        files = {
+            "torn.csv": "".join(whole)[:-12], "word.csv": "".join(whole).replace("\n3,", "\n3,x", 1),
+            "wide.csv": "".join(whole[:4]) + whole[4].rstrip("\n") + ",7\n", "other.csv": "time,force\n0,1\n",
+            "foreign.csv": "index,my.axis,coefficients.newton\n0,1,1\n", "empty.csv": "", "head.csv": whole[0],
+            "regime.csv": "".join(whole).replace("REBOUND", "BOUND")}
+        for name, text in files.items():
+            (WORK / name).write_text(text)
+        for name in ("whole.npy", "whole.nc"):
+            (WORK / f"torn{pathlib.Path(name).suffix}").write_bytes((WORK / name).read_bytes()[:-500])
+        (WORK / "picture.png").write_bytes(b"\x89PNG\r\n\x1a\n" + bytes(20))
+        (WORK / "folder").mkdir()
+        for name, reason in {
+                "absent.csv": "No such file or directory", "folder": "is a directory", "empty.csv": "is empty",
+                "head.csv": "has no points", "torn.csv": "line 102: has 4 cells: must have 5",
+                "word.csv": f'line 5: {MU} = "x0.015": must be a number', "wide.csv": "line 5: has 6 cells",
+                "other.csv": "the first column must be index", "foreign.csv": "the column my.axis must be a field",
+                "regime.csv": "regime = BOUND: must be the name of a regime", "table.txt": "is a table for people",
+                "summary.csv": "is a summary", "part.shard-0-of-2": "ricochet merge makes one file",
+                "plain.npy": "its numbers have no names", "torn.npy": "of its 101 records",
+                "torn.nc": "cannot be read as NetCDF", "other.nc": "has no attribute ricochet_request",
+                "picture.png": "is neither CSV nor NPY nor NetCDF-4"}.items():
+            with self.subTest(name=name):
+                code, out, error = ricochet("plot", name, "-o", "refused.svg")
+                self.assertEqual(out, "")
+                self.assertIn(code, (2, 42))
+                self.assertIn(name, error)
+                self.assertIn(reason, error)
+        self.assertIn("without an axis", self.refused("plot", "point.npy", code=42))
+        self.assertIn("-o refused.gif: must end in .svg, .png or .pdf",
+                      self.refused("plot", "whole.csv", "-o", "refused.gif"))
+        self.assertIn("did you mean coefficients.newton", self.refused("plot", "whole.csv", "--column", "coefficients.nevton"))
+        self.assertIn("named once", self.refused("plot", "whole.csv", "--column", f"{NEWTON},{NEWTON}"))
+        self.assertIn("needs a grid of two axes", self.refused("plot", "whole.csv", "--kind", "map", code=42))
+        self.assertFalse(list(WORK.glob("refused*")))
+
+
+if __name__ == "__main__":
+    unittest.main()
