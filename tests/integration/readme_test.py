@@ -12,6 +12,8 @@ import time
 import unittest
 from pathlib import Path
 
+from page import commands_and_outputs, files, without_times
+
 WORK, RICOCHETD, RICOCHET, SOURCE = [Path(sys.argv.pop()).resolve() for _ in range(4)]
 ADDRESS = "127.0.0.1:50051"  # The pages write this address; the server of this test has a port of its own.
 README = SOURCE / "README.md"
@@ -28,16 +30,6 @@ WAIT_S = 10
 
 def blocks(language, page):
     return re.findall(rf"^```{language}\n(.*?)^```$", PAGES[page], re.MULTILINE | re.DOTALL)
-
-
-def commands_and_outputs(page):
-    for block in blocks("console", page):
-        for command, output in re.findall(r"^\$ (.*)\n((?:(?!\$ ).*\n)*)", block, re.MULTILINE):
-            yield command, output
-
-
-def without_times(text):
-    return re.sub(r" in [0-9.e-]+ s\n", " in ELAPSED s\n", text)
 
 
 def picture(path):
@@ -80,13 +72,13 @@ class ExamplesTest(unittest.TestCase):
     def write_files(cls):
         """Writes every block that follows "A file `NAME`:"."""
         for text in PAGES.values():
-            for name, content in re.findall(r"`([\w.]+)`:\n\n```(?:json|python)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL):
+            for name, content in files(text):
                 (WORK / name).write_text(content.replace(ADDRESS, cls.address))
 
     def test_commands_print_what_the_pages_show(self):
         count = 0
         for page in PAGES:
-            for command, output in commands_and_outputs(page):
+            for command, output in commands_and_outputs(PAGES[page]):
                 with self.subTest(page=page.name, command=command):
                     _, printed = shell(command.replace(ADDRESS, self.address))
                     self.assertEqual(without_times(printed), without_times(output))

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # In a bare Debian 12: installs the packages, tries what each is for, removes them, and demands that nothing is left.
-# usage: debs_test.sh DIRECTORY, as root
+# usage: debs_test.sh DIRECTORY, as root. The directory has the packages, page.py and first_hour.md.
 set -euo pipefail
 readonly directory=$1
 export DEBIAN_FRONTEND=noninteractive
@@ -24,7 +24,7 @@ apt update
 dependencies=$(for deb in "$directory"/*.deb; do dpkg-deb --field "$deb" Depends; done |
   sed 's/([^)]*)//g; s/|[^,]*//g' | tr ',' '\n' | tr -d ' ' | grep -Ev '^(ricochet.*|)$' | sort -u)
 # shellcheck disable=SC2086  # A word is a package.
-apt install --no-install-recommends $dependencies adduser cmake g++ make pkg-config python3-xarray
+apt install --no-install-recommends $dependencies adduser cmake g++ make pkg-config gnuplot-nox python3-xarray
 files >/tmp/before
 apt install --no-install-recommends "$directory"/*.deb
 
@@ -70,6 +70,12 @@ data = ricochet.sweep(scene, {"friction.kinetic_coefficient": [0.0, 0.1]}, ["coe
 print(data["coefficients.newton"].values)
 assert abs(float(data["coefficients.newton"][1]) - 0.5**0.5) < 1e-15
 PYTHON
+
+say "The first hour of a new user"
+mkdir /tmp/first_hour
+cd /tmp/first_hour
+python3 "$directory/page.py" "$directory/first_hour.md"
+[[ $(head -c 5 friction.svg) == "<?xml" ]] || fail "no picture of the sweep"
 
 say "A C++ program by CMake, and one by pkg-config"
 mkdir /tmp/consumer && cd /tmp/consumer
