@@ -28,10 +28,10 @@ constexpr char kExample[] =
 --data FILE.csv audits many impacts at one contact. Its header names the columns: tangential_m_s and normal_m_s before
 the impact (default: those of the scene), tangential_after_m_s, normal_after_m_s, friction (default: that of the scene)
 and velocity_uncertainty_m_s; in space also tangential_2_m_s and tangential_2_after_m_s. For a pendulum or a linkage,
-rates_after_rad_s[0] and so on, one for each link, may replace the velocity after. Text prints a summary; csv prints one
-row for each impact, and the summary on standard error; json prints both. A row with a cell that is no number, or that
-breaks a rule, is INVALID and has its reason; the others are still audited. Cells are separated by commas and may stand
-in double quotes; numbers have a decimal point.
+rates_after_rad_s[0] and so on, one for each link, may replace the velocity after. Text prints a summary; csv and jsonl
+print a line for each impact, and the summary on standard error; json prints both. A row with a cell that is no number,
+or that breaks a rule, is INVALID and has its reason; the others are still audited. Cells are separated by commas and
+may stand in double quotes; numbers have a decimal point.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct AuditOptions {
@@ -71,11 +71,12 @@ absl::StatusOr<double> ReadUncertainty(const AuditOptions& options) {
   return options.uncertainty.has_value() ? ParseNumber(*options.uncertainty, "--uncertainty") : 0.0;
 }
 
-absl::StatusOr<std::string> Render(const AuditResponse& response, size_t directions, Format format) {
+std::string Render(const AuditResponse& response, size_t directions, Format format) {
   switch (format) {
     case Format::kText:
       return AuditText(response, directions);
     case Format::kJson:
+    case Format::kJsonLines:
       return Json(ToProto(response));
     case Format::kCsv:
       break;
@@ -91,9 +92,8 @@ absl::Status AuditOne(const AuditOptions& options, const Solver& solver, const S
   const absl::StatusOr<AuditResponse> response =
       solver.Audit({.scene = scene, .observed = *observed, .velocity_uncertainty_m_s = *uncertainty});
   if (!response.ok()) return response.status();
-  const absl::StatusOr<std::string> text = Render(*response, TangentialDirections(scene.system), options.common.format);
-  if (!text.ok()) return text.status();
-  if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
+  const std::string text = Render(*response, TangentialDirections(scene.system), options.common.format);
+  if (absl::Status status = WriteOutput(options.common, text); !status.ok()) return status;
   if (!options.data.picture.file.empty()) {
     AuditPlot plot;
     plot.Add(response->report);
@@ -156,7 +156,7 @@ void AddAudit(CLI::App& app, Command& command) {
   sub->add_flag("--strict", options->data.strict, "Fail if an impact is not admissible, after writing the answer");
   AddPictureOptions(*sub, "the impulses in the friction cone, and each row beside its limits,", options->data.picture);
   AddServerOptions(*sub, options->common);
-  AddOutputOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common, /*has_lines=*/true);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunAudit(*options); }; });
 }

@@ -16,6 +16,7 @@
 #include "client/cli/audit_plot.h"
 #include "client/cli/audit_report.h"
 #include "client/cli/interrupt.h"
+#include "client/cli/json/json_text.h"
 #include "client/cli/output.h"
 #include "client/cli/progress.h"
 #include "core/contact/reduction.h"
@@ -29,7 +30,7 @@ namespace {
 // The summary names this many invalid rows.
 constexpr size_t kNamedRows = 8;
 
-// What the writers of the three formats are given of a row.
+// What the writers of the formats are given of a row.
 struct Row {
   int64_t index;
   int64_t line;  // Of the file.
@@ -47,8 +48,8 @@ class Writer {
  public:
   virtual ~Writer() = default;
   virtual std::string Begin() { return ""; }
-  virtual absl::StatusOr<std::string> RowText(const Row& row) = 0;
-  virtual absl::StatusOr<std::string> End(const Ending& ending) = 0;
+  virtual std::string RowText(const Row& row) = 0;
+  virtual std::string End(const Ending& ending) = 0;
 };
 
 std::string Complaint(const Row& row) {
@@ -63,10 +64,10 @@ class TextWriter : public Writer {
  public:
   explicit TextWriter(bool list) : list_(list) {}
   std::string Begin() override { return list_ ? "Rows that are not admissible\n" : ""; }
-  absl::StatusOr<std::string> RowText(const Row& row) override {
+  std::string RowText(const Row& row) override {
     return list_ && !row.report.admissible ? Complaint(row) : std::string();
   }
-  absl::StatusOr<std::string> End(const Ending& ending) override {
+  std::string End(const Ending& ending) override {
     return list_ ? absl::StrCat("\n", AuditSummaryText(ending.summary)) : SummaryText(ending);
   }
 
@@ -79,12 +80,12 @@ class CsvWriter : public Writer {
  public:
   explicit CsvWriter(size_t directions) : directions_(directions) {}
   std::string Begin() override { return absl::StrCat("index,", AuditCsvHeader(directions_), ",invalid_reason\n"); }
-  absl::StatusOr<std::string> RowText(const Row& row) override {
+  std::string RowText(const Row& row) override {
     const std::string reason =
         row.reason.empty() ? "" : absl::StrCat("\"", absl::StrReplaceAll(row.reason, {{"\"", "\"\""}}), "\"");
     return absl::StrCat(row.index, ",", AuditCsvRow(row.report, directions_), ",", reason, "\n");
   }
-  absl::StatusOr<std::string> End(const Ending& ending) override {
+  std::string End(const Ending& ending) override {
     std::cerr << SummaryText(ending);
     return std::string();
   }
@@ -93,31 +94,41 @@ class CsvWriter : public Writer {
   size_t directions_;
 };
 
-// Writes the members of an AuditBatchResponse one after the other, as if one call had answered all rows. The report of
-// an invalid row also has its reason.
+// Returns the report as the members of an object of JSON. An invalid row has no numbers, but a reason.
+std::string Members(const Row& row) {
+  if (row.reason.empty()) {
+    const std::string json = JsonOf(ToProto(row.report));
+    return json.substr(1, json.size() - 2);
+  }
+  std::string json = R"("regime":"REGIME_INVALID","admissible":false,"invalid_reason":)";
+  AppendJson(row.reason, json);
+  return json;
+}
+
+// Writes the members of an AuditBatchResponse one after the other, as if one call had answered all rows.
 class JsonWriter : public Writer {
  public:
   std::string Begin() override { return "{\"reports\":["; }
-  absl::StatusOr<std::string> RowText(const Row& row) override {
-    absl::StatusOr<std::string> json = Json(ToProto(row.report));
-    if (!json.ok()) return json;
-    json->resize(json->rfind('}'));
-    const std::string reason =
-        row.reason.empty() ? ""
-                           : absl::StrCat(",\"invalid_reason\":\"",
-                                          absl::StrReplaceAll(row.reason, {{"\\", "\\\\"}, {"\"", "\\\""}}), "\"");
-    return absl::StrCat(row.index == 0 ? "" : ",", *json, reason, "}");
+  std::string RowText(const Row& row) override {
+    return absl::StrCat(row.index == 0 ? "\n{" : ",\n{", Members(row), "}");
   }
-  absl::StatusOr<std::string> End(const Ending& ending) override {
+  std::string End(const Ending& ending) override {
     AuditBatchResponse rest;
     rest.summary = ending.summary;
-    absl::StatusOr<std::string> summary = Json(ToProto(rest).summary());
-    if (!summary.ok()) return summary;
-    absl::StatusOr<std::string> engine = Json(ToProto(ending.engine));
-    if (!engine.ok()) return engine;
-    summary->pop_back();
-    engine->pop_back();
-    return absl::StrCat("],\"summary\":", *summary, ",\"engine\":", *engine, "}\n");
+    return absl::StrCat("\n],\"summary\":", JsonOf(ToProto(rest).summary()),
+                        ",\"engine\":", JsonOf(ToProto(ending.engine)), "}\n");
+  }
+};
+
+// Writes an object on a line for each row. The summary goes to standard error.
+class JsonLinesWriter : public Writer {
+ public:
+  std::string RowText(const Row& row) override {
+    return absl::StrCat("{\"index\":", row.index, ",", Members(row), "}\n");
+  }
+  std::string End(const Ending& ending) override {
+    std::cerr << SummaryText(ending);
+    return "";
   }
 };
 
@@ -127,6 +138,8 @@ std::unique_ptr<Writer> MakeWriter(Format format, const Scene& scene, bool list)
       break;
     case Format::kJson:
       return std::make_unique<JsonWriter>();
+    case Format::kJsonLines:
+      return std::make_unique<JsonLinesWriter>();
     case Format::kCsv:
       return std::make_unique<CsvWriter>(TangentialDirections(scene.system));
   }
@@ -154,9 +167,7 @@ class Auditor {
       if (is_invalid && named_++ < kNamedRows) ending_.first_invalid += Complaint(row);
       if (!data_.picture.file.empty()) plot_.Add(report);
       audit::Add(row.index, report, ending_.summary);
-      const absl::StatusOr<std::string> written = writer_.RowText(row);
-      if (!written.ok()) return written.status();
-      text += *written;
+      text += writer_.RowText(row);
     }
     ending_.engine = std::move(response->engine);
     return output_.Write(text);
@@ -166,9 +177,7 @@ class Auditor {
     if (named_ > kNamedRows) {
       absl::StrAppend(&ending_.first_invalid, "  and ", named_ - kNamedRows, " more invalid rows; --list names all\n");
     }
-    const absl::StatusOr<std::string> text = writer_.End(ending_);
-    if (!text.ok()) return text.status();
-    if (absl::Status status = output_.Write(*text); !status.ok()) return status;
+    if (absl::Status status = output_.Write(writer_.End(ending_)); !status.ok()) return status;
     if (absl::Status status = output_.Commit(); !status.ok()) return status;
     if (!data_.picture.file.empty()) {
       if (absl::Status status = DrawPicture(plot_.Make(), data_.picture); !status.ok()) return status;

@@ -193,6 +193,7 @@ absl::StatusOr<std::string> Render(const BoundsRequest& request, const BoundsRes
     case Format::kText:
       return BoundsText(request, response);
     case Format::kJson:
+    case Format::kJsonLines:
       return Json(ToProto(response));
     case Format::kCsv:
       break;

@@ -1,7 +1,5 @@
 #include "client/cli/common.h"
 
-#include <google/protobuf/util/json_util.h>
-
 #include <array>
 #include <map>
 
@@ -10,6 +8,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/strip.h"
+#include "client/cli/json/json_text.h"
 #include "client/cli/number_input.h"
 #include "client/cli/output.h"
 #include "core/engine/engine.h"
@@ -21,14 +20,16 @@ namespace ricochet::cli {
 
 void AddServerOptions(CLI::App& app, CommonOptions& options) { AddConnectionOptions(app, options.connection); }
 
-void AddOutputOptions(CLI::App& app, CommonOptions& options) {
-  const std::map<std::string, Format> formats = {
-      {"text", Format::kText}, {"json", Format::kJson}, {"csv", Format::kCsv}};
+void AddOutputOptions(CLI::App& app, CommonOptions& options, bool has_lines) {
+  std::map<std::string, Format> formats;
+  for (const Format format : {Format::kText, Format::kJson, Format::kCsv}) formats[FormatName(format)] = format;
+  if (has_lines) formats[FormatName(Format::kJsonLines)] = Format::kJsonLines;
   app.add_option_function<std::string>(
          "--format", [&options, formats](const std::string& name) { options.format = formats.at(name); },
-         "text: tables; json: the response message; csv: rows at full precision")
-      ->check(CLI::IsMember({"text", "json", "csv"}))
-      ->option_text("text|json|csv");
+         has_lines ? "text: tables; json: one document; jsonl: an object on each line; csv: rows at full precision"
+                   : "text: tables; json: the response message; csv: rows at full precision")
+      ->check(CLI::IsMember(formats))
+      ->option_text(has_lines ? "text|json|jsonl|csv" : "text|json|csv");
   app.add_option("-o,--output", options.output,
                  "Write to this file, which is replaced only when the output is complete")
       ->type_name("FILE");
@@ -39,11 +40,10 @@ void AddSweepOutputOptions(CLI::App& app, CommonOptions& options) {
     Format format;
     ArrayFormat array;
   };
-  const std::map<std::string, Choice> formats = {{"text", {Format::kText, ArrayFormat::kNone}},
-                                                 {"json", {Format::kJson, ArrayFormat::kNone}},
-                                                 {"csv", {Format::kCsv, ArrayFormat::kNone}},
-                                                 {"npy", {Format::kText, ArrayFormat::kNpy}},
-                                                 {"netcdf", {Format::kText, ArrayFormat::kNetcdf}}};
+  const std::map<std::string, Choice> formats = {
+      {"text", {Format::kText, ArrayFormat::kNone}},       {"json", {Format::kJson, ArrayFormat::kNone}},
+      {"jsonl", {Format::kJsonLines, ArrayFormat::kNone}}, {"csv", {Format::kCsv, ArrayFormat::kNone}},
+      {"npy", {Format::kText, ArrayFormat::kNpy}},         {"netcdf", {Format::kText, ArrayFormat::kNetcdf}}};
   app.add_option_function<std::string>(
          "--format",
          [&options, formats](const std::string& name) {
@@ -51,10 +51,11 @@ void AddSweepOutputOptions(CLI::App& app, CommonOptions& options) {
            options.array = formats.at(name).array;
            options.has_format = true;
          },
-         "text: tables; json: the response message; csv: rows at full precision; npy: records for NumPy; netcdf: a "
-         "NetCDF-4 file. Default: npy or netcdf if FILE ends in .npy or .nc, else text")
-      ->check(CLI::IsMember({"text", "json", "csv", "npy", "netcdf"}))
-      ->option_text("text|json|csv|npy|netcdf");
+         "text: tables; json: one document; jsonl: an object on each line; csv: rows at full precision; npy: records "
+         "for "
+         "NumPy; netcdf: a NetCDF-4 file. Default: npy or netcdf if FILE ends in .npy or .nc, else text")
+      ->check(CLI::IsMember(formats))
+      ->option_text("text|json|jsonl|csv|npy|netcdf");
   app.add_option("-o,--output", options.output,
                  "Write to this file, which is replaced only when the output is complete")
       ->type_name("FILE");
@@ -98,14 +99,20 @@ absl::Status WriteOutput(const CommonOptions& options, const std::string& text) 
   return output->Commit();
 }
 
-absl::StatusOr<std::string> Json(const google::protobuf::Message& message) {
-  google::protobuf::util::JsonPrintOptions options;
-  options.always_print_primitive_fields = true;
-  std::string text;
-  const auto status = google::protobuf::util::MessageToJsonString(message, &text, options);
-  if (!status.ok()) return absl::InternalError(status.ToString());
-  text.push_back('\n');
-  return text;
+std::string Json(const google::protobuf::Message& message) { return JsonOf(message) + "\n"; }
+
+std::string FormatName(Format format) {
+  switch (format) {
+    case Format::kText:
+      return "text";
+    case Format::kJson:
+      return "json";
+    case Format::kJsonLines:
+      return "jsonl";
+    case Format::kCsv:
+      break;
+  }
+  return "csv";
 }
 
 const std::string& RegimeName(Regime regime) {

@@ -23,7 +23,7 @@ namespace ricochet::cli {
 // The work of a subcommand. Parsing the command line sets it, and main then runs it.
 using Command = std::function<absl::Status()>;
 
-enum class Format { kText, kJson, kCsv };
+enum class Format { kText, kJson, kJsonLines, kCsv };
 
 // Formats that programs for arrays open, which sweeps alone have.
 enum class ArrayFormat { kNone, kNpy, kNetcdf };
@@ -37,7 +37,8 @@ struct CommonOptions {
 };
 
 void AddServerOptions(CLI::App& app, CommonOptions& options);
-void AddOutputOptions(CLI::App& app, CommonOptions& options);
+// Adds --format, with jsonl for a subcommand that answers with many points or rows, and --output.
+void AddOutputOptions(CLI::App& app, CommonOptions& options, bool has_lines = false);
 // The options of sweeps, which also have the formats of arrays.
 void AddSweepOutputOptions(CLI::App& app, CommonOptions& options);
 
@@ -54,8 +55,11 @@ absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options,
 // Writes `text` to the output that the options name. Errors: those of Output.
 absl::Status WriteOutput(const CommonOptions& options, const std::string& text);
 
-// Returns canonical proto3 JSON on one line with a line feed, including default values.
-absl::StatusOr<std::string> Json(const google::protobuf::Message& message);
+// Returns the message as JSON on one line with a line feed (client/cli/json/json_text.h).
+std::string Json(const google::protobuf::Message& message);
+
+// Returns the name of a format as a user types it: "csv".
+std::string FormatName(Format format);
 
 // Returns the regime as words: "rebound", "stick in compression".
 std::string RegimeText(Regime regime);

@@ -82,6 +82,7 @@ absl::StatusOr<std::string> Render(const CostChunk& study, Format format) {
     case Format::kText:
       return CostText(study);
     case Format::kJson:
+    case Format::kJsonLines:
       return Json(ToProto(study));
     case Format::kCsv:
       break;

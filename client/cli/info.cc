@@ -113,6 +113,7 @@ absl::StatusOr<std::string> Render(const InfoResponse& info, Format format) {
     case Format::kText:
       return InfoText(info);
     case Format::kJson:
+    case Format::kJsonLines:
       return Json(ToProto(info));
     case Format::kCsv:
       break;

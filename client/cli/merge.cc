@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/chunk_checker.h"
 #include "client/cli/interrupt.h"
+#include "client/cli/invalid_points.h"
 #include "client/cli/progress.h"
 #include "client/cli/shard.h"
 #include "client/cli/shard_coverage.h"
@@ -41,7 +42,7 @@ struct MergeOptions {
 class Merger {
  public:
   Merger(const SweepRequest& sweep, SweepOutput output)
-      : end_index_(*sweep.end_index), checker_(sweep), output_(std::move(output)) {}
+      : end_index_(*sweep.end_index), checker_(sweep), output_(std::move(output)), invalid_(sweep) {}
 
   // Errors: DATA_LOSS for a shard that is not what its manifest says; CANCELLED; those of the system.
   absl::Status Add(const ShardFile& shard) {
@@ -62,7 +63,9 @@ class Merger {
 
   absl::Status Finish() {
     if (absl::Status status = checker_.CheckEnd(); !status.ok()) return status;
-    return output_.Commit();
+    absl::Status written = output_.Commit();
+    if (written.ok()) std::fputs(invalid_.Text().c_str(), stderr);
+    return written;
   }
 
  private:
@@ -76,12 +79,14 @@ class Merger {
     const absl::StatusOr<SweepChunk> chunk = checker_.Take(message);
     if (!chunk.ok()) return Damaged(shard, chunk.status());
     progress_.Update(chunk->points_done, chunk->points_total);
+    invalid_.Add(*chunk);
     return output_.Write(*chunk);
   }
 
   int64_t end_index_;
   ChunkChecker checker_;
   SweepOutput output_;
+  InvalidCounts invalid_;
   Progress progress_;
 };
 

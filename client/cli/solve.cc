@@ -70,6 +70,7 @@ absl::StatusOr<std::string> Render(const SolveResponse& response, const SolveOpt
     case Format::kText:
       return Text(response.outcome, options);
     case Format::kJson:
+    case Format::kJsonLines:
       return Json(ToProto(response));
     case Format::kCsv:
       break;
@@ -85,6 +86,7 @@ absl::StatusOr<std::string> Render(const PlanResponse& response, Format format) 
     case Format::kText:
       return PlanText(response.plan);
     case Format::kJson:
+    case Format::kJsonLines:
       return Json(ToProto(response));
     case Format::kCsv:
       break;
@@ -181,7 +183,7 @@ void AddSolve(CLI::App& app, Command& command) {
       ->delimiter(',')
       ->allow_extra_args(false);
   AddServerOptions(*sub, options->common);
-  AddOutputOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common, /*has_lines=*/true);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunSolve(*options); }; });
 }

@@ -12,8 +12,10 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/csv_table.h"
+#include "client/cli/json/json_text.h"
 #include "client/cli/output.h"
 #include "client/cli/scene_input.h"
+#include "client/cli/sweep_head.h"
 #include "client/cli/table.h"
 #include "core/sweep/column.h"
 #include "proto/wire/batch.h"
@@ -79,12 +81,16 @@ std::string SummaryText(const BatchSummary& summary) {
   return text;
 }
 
+std::vector<std::string> Names(const Solved& solved) {
+  std::vector<std::string> names = {"row"};
+  names.insert(names.end(), solved.setup.columns.begin(), solved.setup.columns.end());
+  names.insert(names.end(), {"regime", "status"});
+  return names;
+}
+
 std::string Text(const Solved& solved) {
   Table table;
-  std::vector<std::string> header = {"row"};
-  header.insert(header.end(), solved.setup.columns.begin(), solved.setup.columns.end());
-  header.insert(header.end(), {"regime", "status"});
-  table.Add(header);
+  table.Add(Names(solved));
   for (size_t i = 0; i < std::min(solved.regimes.size(), kTextRows); ++i) {
     std::vector<std::string> cells = {absl::StrCat(i)};
     for (const std::vector<double>& column : solved.outputs) cells.push_back(Rounded(column[i]));
@@ -100,7 +106,7 @@ std::string Text(const Solved& solved) {
 }
 
 std::string Csv(const Solved& solved) {
-  std::string text = absl::StrCat("row,", absl::StrJoin(solved.setup.columns, ","), ",regime,status\n");
+  std::string text = absl::StrJoin(Names(solved), ",") + "\n";
   for (size_t i = 0; i < solved.regimes.size(); ++i) {
     absl::StrAppend(&text, i);
     for (const std::vector<double>& column : solved.outputs) absl::StrAppend(&text, ",", Number(column[i]));
@@ -109,49 +115,50 @@ std::string Csv(const Solved& solved) {
   return text;
 }
 
-// Numbers are written as proto3 JSON writes them: one that is no number is a text.
-std::string JsonNumber(double number) { return std::isfinite(number) ? Number(number) : "\"NaN\""; }
-
-template <typename List, typename Text>
-std::string JsonList(const List& list, Text text) {
-  const auto append = [&](std::string* out, const auto& entry) { absl::StrAppend(out, text(entry)); };
-  return absl::StrCat("[", absl::StrJoin(list, ",", append), "]");
+// Returns the cells of a row as JSON, in the order of Names().
+std::vector<std::string> JsonCells(const Solved& solved, size_t row) {
+  std::vector<std::string> cells(1);
+  AppendJson(static_cast<int64_t>(row), cells.back());
+  for (const std::vector<double>& column : solved.outputs) AppendJson(column[row], cells.emplace_back());
+  AppendJson(RegimeName(solved.regimes[row]), cells.emplace_back());
+  AppendJson(StatusName(solved.statuses[row]), cells.emplace_back());
+  return cells;
 }
 
-std::string Quoted(const std::string& text) { return absl::StrCat("\"", text, "\""); }
-
-// Returns an object on one line: a list of numbers for each column, and lists of regimes and statuses.
-absl::StatusOr<std::string> JsonOf(const Solved& solved) {
-  absl::StatusOr<std::string> summary = Json(ToProto(solved.response.summary));
-  if (!summary.ok()) return summary.status();
-  absl::StatusOr<std::string> engine = Json(ToProto(solved.response.engine));
-  if (!engine.ok()) return engine.status();
-  summary->pop_back();
-  engine->pop_back();
-  std::string columns;
-  for (size_t c = 0; c < solved.outputs.size(); ++c) {
-    absl::StrAppend(&columns, c == 0 ? "" : ",", Quoted(solved.setup.columns[c]), ":",
-                    JsonList(solved.outputs[c], JsonNumber));
+// Returns one document: the columns with their units, a list for each row, and the summary.
+std::string JsonDocument(const Solved& solved) {
+  std::string text = absl::StrCat("{\"engine\":", JsonOf(ToProto(solved.response.engine)),
+                                  ",\"columns\":", ColumnsJson(Names(solved)), ",\"values\":[");
+  for (size_t i = 0; i < solved.regimes.size(); ++i) {
+    absl::StrAppend(&text, i == 0 ? "\n[" : ",\n[", absl::StrJoin(JsonCells(solved, i), ","), "]");
   }
-  return absl::StrCat(
-      "{\"columns\":{", columns,
-      "},\"regimes\":", JsonList(solved.regimes, [](Regime regime) { return Quoted(RegimeName(regime)); }),
-      ",\"statuses\":", JsonList(solved.statuses, [](RowStatus status) { return Quoted(StatusName(status)); }),
-      ",\"summary\":", *summary, ",\"engine\":", *engine, "}\n");
+  return absl::StrCat(text, "\n],\"summary\":", JsonOf(ToProto(solved.response.summary)), "}\n");
+}
+
+// Returns an object on a line for each row.
+std::string JsonLines(const Solved& solved) {
+  std::vector<std::string> keys;
+  for (const std::string& name : Names(solved)) AppendJson(name, keys.emplace_back());
+  std::string text;
+  for (size_t i = 0; i < solved.regimes.size(); ++i) {
+    const std::vector<std::string> cells = JsonCells(solved, i);
+    for (size_t c = 0; c < cells.size(); ++c) absl::StrAppend(&text, c == 0 ? "{" : ",", keys[c], ":", cells[c]);
+    text += "}\n";
+  }
+  return text;
 }
 
 absl::Status Write(const Solved& solved, const CommonOptions& options) {
   switch (options.format) {
     case Format::kText:
       return WriteOutput(options, Text(solved));
-    case Format::kJson: {
-      const absl::StatusOr<std::string> json = JsonOf(solved);
-      return json.ok() ? WriteOutput(options, *json) : json.status();
-    }
+    case Format::kJson:
+      return WriteOutput(options, JsonDocument(solved));
+    case Format::kJsonLines:
     case Format::kCsv:
       break;
   }
-  absl::Status written = WriteOutput(options, Csv(solved));
+  absl::Status written = WriteOutput(options, options.format == Format::kCsv ? Csv(solved) : JsonLines(solved));
   if (written.ok()) std::cerr << SummaryText(solved.response.summary);
   return written;
 }

@@ -11,6 +11,7 @@
 #include "client/cli/axis_input.h"
 #include "client/cli/demand_input.h"
 #include "client/cli/interrupt.h"
+#include "client/cli/invalid_points.h"
 #include "client/cli/number_input.h"
 #include "client/cli/output.h"
 #include "client/cli/picture_input.h"
@@ -38,7 +39,8 @@ constexpr char kExample[] =
   0                                0.1               0.01                     0
   ...
 The last axis runs fastest. --axis ? and --column ? list all axes and columns, of the scene if one is given.
-Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again, 130 interrupted.)";
+Points that break a rule are INVALID and have no numbers; standard error counts them by reason.
+Exit codes: 0 done, also with invalid points, 2 wrong input, 42 failed, 75 try again, 130 interrupted.)";
 
 struct SweepOptions {
   CommonOptions common;
@@ -119,16 +121,15 @@ absl::Status CheckResume(const SweepOptions& options) {
   // A shard is always gone on with.
   if (!options.resume || options.shard.any() || IsResumable(options)) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      "--resume needs -o FILE and --format csv, json or npy, without --summary-only: only rows in a file can be gone "
-      "on "
-      "with");
+      "--resume needs -o FILE and --format csv, json, jsonl or npy, without --summary-only: only rows in a file can be "
+      "gone on with");
 }
 
 // Passes the chunks of one sweep on to the output, the picture and the progress bar.
 class Receiver {
  public:
   Receiver(const SweepRequest& request, const SweepOptions& options, SweepOutput output)
-      : options_(&options), with_regime_(request.with_regime), output_(std::move(output)) {
+      : options_(&options), with_regime_(request.with_regime), output_(std::move(output)), invalid_(request) {
     if (!options.picture.file.empty()) plot_.emplace(request, options.picture.kind);
   }
 
@@ -141,6 +142,7 @@ class Receiver {
   absl::Status Add(SweepChunk& chunk) {
     if (absl::Status status = output_.Join(chunk); !status.ok()) return status;
     progress_.Update(chunk.points_done, chunk.points_total);
+    invalid_.Add(chunk);
     if (chunk.summary.has_value() && !chunk.summary->elapsed_s.has_value()) {
       chunk.summary->elapsed_s = progress_.Seconds();
     }
@@ -164,7 +166,11 @@ class Receiver {
     return plot_->fits();
   }
 
-  absl::Status Commit() { return output_.Commit(); }
+  absl::Status Commit() {
+    absl::Status written = output_.Commit();
+    if (written.ok()) std::fputs(invalid_.Text().c_str(), stderr);
+    return written;
+  }
 
   // Draws the picture, if one is wanted, after the output was committed.
   absl::Status Picture() const {
@@ -177,6 +183,7 @@ class Receiver {
   const SweepOptions* options_;
   bool with_regime_;  // The output has the regimes, too.
   SweepOutput output_;
+  InvalidCounts invalid_;
   std::optional<SweepPlot> plot_;
   Progress progress_;
 };
@@ -296,7 +303,9 @@ void AddGridOptions(CLI::App& sub, SweepOptions& options) {
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group("Grid");
-  sub.add_flag("--regime", options.regime, "Also print the regime of every point")->group("Grid");
+  sub.add_flag("--regime", options.regime,
+               "Also print the regime of every point, and its status: OK, or why it has no numbers")
+      ->group("Grid");
   sub.add_option("--range", options.range, "Only the points FIRST <= index < END")
       ->type_name("FIRST:END")
       ->group("Grid");
@@ -325,7 +334,8 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   AddServerOptions(*sub, options->common);
   AddSweepOutputOptions(*sub, options->common);
   sub->add_flag("--resume", options->resume,
-                "Go on with FILE.part, which a run with -o FILE and --format csv, json or npy left when it was ended");
+                "Go on with FILE.part, which a run with -o FILE and --format csv, json, jsonl or npy left when it was "
+                "ended");
   AddShardOptions(*sub, options->shard);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunSweep(*options); }; });

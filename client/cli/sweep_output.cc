@@ -30,37 +30,15 @@ SweepWriter MakeWriter(const SweepRequest& request, const CommonOptions& options
 
 std::string NameOf(const CommonOptions& options) {
   if (ArrayFormatOf(options) == ArrayFormat::kNpy) return "npy";
-  return options.format == Format::kJson ? "json" : "csv";
+  return FormatName(options.format);
 }
 
 }  // namespace
 
 SweepText::SweepText(const SweepRequest& request, const CommonOptions& options, bool summary_only)
-    : writer_(MakeWriter(request, options, summary_only)) {
-  if (options.format == Format::kJson && !summary_only) {
-    blocks_.emplace(request, SweepChunk{.first_index = request.first_index, .values = {}, .regimes = {}});
-  }
-}
+    : writer_(MakeWriter(request, options, summary_only)) {}
 
-void SweepText::GoOnAfter(const SweepRequest& request, const SweepChunk& pending) {
-  if (blocks_.has_value()) blocks_.emplace(request, pending);
-}
-
-absl::StatusOr<std::string> SweepText::Add(const SweepChunk& chunk) {
-  if (!blocks_.has_value()) return writer_(chunk);
-  std::string lines;
-  for (const SweepChunk& block : blocks_->Add(chunk)) {
-    const absl::StatusOr<std::string> line = writer_(block);
-    if (!line.ok()) return line.status();
-    lines += *line;
-  }
-  return lines;
-}
-
-std::optional<SweepChunk> SweepText::pending() const {
-  if (!blocks_.has_value()) return std::nullopt;
-  return blocks_->pending();
-}
+absl::StatusOr<std::string> SweepText::Add(const SweepChunk& chunk) { return writer_(chunk); }
 
 absl::StatusOr<SweepOutput> SweepOutput::Open(const SweepRequest& request, const CommonOptions& options,
                                               bool summary_only) {
@@ -100,9 +78,6 @@ absl::StatusOr<SweepOutput> SweepOutput::OpenFile(const SweepRequest& request, c
   output.progress_ = output.file_->manifest();
   if (output.next_index() > request.first_index) {
     output.earlier_ = FromProto(output.progress_.tallies());
-    SweepChunk pending = FromProto(output.progress_.pending());
-    if (!output.progress_.has_pending()) pending.first_index = output.next_index();
-    output.text_.GoOnAfter(request, pending);
   }
   return output;
 }
@@ -131,10 +106,6 @@ absl::Status SweepOutput::Write(const SweepChunk& chunk) {
   progress_.set_next_index(chunk.first_index + chunk.count);
   *progress_.mutable_engine() = ToProto(chunk.engine);
   *progress_.mutable_tallies() = ToProto(chunk.tallies);
-  progress_.clear_pending();
-  if (const auto pending = text_.pending(); pending.has_value() && pending->count > 0) {
-    ToProto(*pending, *progress_.mutable_pending());
-  }
   // The last checkpoint is that of Commit.
   const Clock::time_point now = Clock::now();
   if (chunk.summary.has_value() || (checkpoint_.has_value() && now - *checkpoint_ < kBetweenCheckpoints)) {

@@ -10,7 +10,6 @@
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "client/cli/line_blocks.h"
 #include "client/cli/netcdf_file.h"
 #include "client/cli/npy_writer.h"
 #include "client/cli/output.h"
@@ -28,17 +27,12 @@ class SweepText {
   // The text is the bytes of a shard's file.
   static SweepText OfShard(const SweepRequest& request) { return SweepText(ShardWriter(request)); }
 
-  // Goes on after points of which `pending` were received and not written.
-  void GoOnAfter(const SweepRequest& request, const SweepChunk& pending);
   absl::StatusOr<std::string> Add(const SweepChunk& chunk);
-  // The points that wait to fill a line of JSON; absent in other formats.
-  std::optional<SweepChunk> pending() const;
 
  private:
   explicit SweepText(SweepWriter writer) : writer_(std::move(writer)) {}
 
   SweepWriter writer_;
-  std::optional<LineBlocks> blocks_;  // Lines of JSON alone.
 };
 
 class SweepOutput {

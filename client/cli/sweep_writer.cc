@@ -8,13 +8,14 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/str_replace.h"
 #include "client/cli/axis_cursor.h"
+#include "client/cli/invalid_points.h"
+#include "client/cli/json/json_text.h"
 #include "client/cli/plan_report.h"
+#include "client/cli/sweep_head.h"
 #include "client/cli/table.h"
-#include "proto/wire/chunk_seal.h"
-#include "proto/wire/outcome.h"
 #include "proto/wire/sweep.h"
-#include "ricochet/cli/sweep_line.pb.h"
 
 namespace ricochet::cli {
 namespace {
@@ -28,17 +29,53 @@ void AppendNumber(Number number, std::string& text) {
   text.append(buffer.data(), result.ptr);
 }
 
+// Appends a text, in quotes if it has a comma or a quote.
+void AppendCsv(const std::string& words, std::string& text) {
+  if (words.find_first_of(",\"\n") == std::string::npos) {
+    text += words;
+  } else {
+    absl::StrAppend(&text, "\"", absl::StrReplaceAll(words, {{"\"", "\"\""}}), "\"");
+  }
+}
+
 double ValueAt(const SweepChunk& chunk, size_t column, int64_t i) {
   return chunk.values[column * static_cast<size_t>(chunk.count) + static_cast<size_t>(i)];
 }
 
-std::vector<std::string> Header(const SweepRequest& request) {
-  std::vector<std::string> header = {"index"};
-  for (const Axis& axis : request.grid.axes) header.push_back(axis.path);
-  header.insert(header.end(), request.columns.begin(), request.columns.end());
-  if (request.with_regime) header.emplace_back("regime");
-  return header;
-}
+// The points of chunks, cell by cell.
+class Points {
+ public:
+  explicit Points(const SweepRequest& request)
+      : request_(std::make_shared<SweepRequest>(request)), cursor_(request_->grid), invalid_(request_->grid) {}
+
+  const SweepRequest& request() const { return *request_; }
+
+  std::vector<std::string> Names() const {
+    std::vector<std::string> names = {"index"};
+    for (const Axis& axis : request_->grid.axes) names.push_back(axis.path);
+    names.insert(names.end(), request_->columns.begin(), request_->columns.end());
+    if (request_->with_regime) names.insert(names.end(), {"regime", "status"});
+    return names;
+  }
+
+  // Gives the cells of point `i` of the chunk, in the order of Names(), to a cell writer.
+  template <typename Cells>
+  void Visit(const SweepChunk& chunk, int64_t i, Cells& cells) {
+    const int64_t index = chunk.first_index + i;
+    cells.Index(index);
+    for (const double value : cursor_.At(index)) cells.Number(value);
+    for (size_t c = 0; c < request_->columns.size(); ++c) cells.Number(ValueAt(chunk, c, i));
+    if (!request_->with_regime) return;
+    const Regime regime = chunk.regimes[static_cast<size_t>(i)];
+    cells.Kind(regime);
+    cells.Words(regime == Regime::kInvalid ? absl::StrCat("INVALID: ", invalid_.Reason(index)) : "OK");
+  }
+
+ private:
+  std::shared_ptr<const SweepRequest> request_;  // Shared, because writers are copied and the cursor points to it.
+  AxisCursor cursor_;
+  InvalidPoints invalid_;
+};
 
 // --- Summary ---
 
@@ -90,22 +127,75 @@ std::string SummaryCsv(const SweepSummary& summary) {
 SweepWriter SummaryWriter(Format format) {
   return [format](const SweepChunk& chunk) -> absl::StatusOr<std::string> {
     if (!chunk.summary.has_value()) return std::string();
-    if (format == Format::kJson) return Json(ToProto(*chunk.summary));
+    if (format == Format::kJson || format == Format::kJsonLines) return Json(ToProto(*chunk.summary));
     return format == Format::kCsv ? SummaryCsv(*chunk.summary) : SummaryText(*chunk.summary);
   };
 }
 
 // --- Points ---
 
+// Makes cells of a table.
+struct TextCells {
+  std::vector<std::string> row;
+  void Index(int64_t index) { row.push_back(absl::StrCat(index)); }
+  void Number(double value) { row.push_back(Rounded(value)); }
+  void Kind(Regime regime) { row.push_back(RegimeText(regime)); }
+  void Words(const std::string& words) { row.push_back(words); }
+};
+
+// Makes a line of CSV, or a list of JSON.
+struct LineCells {
+  Format format;
+  std::string* text;
+  bool is_first = true;
+
+  void Separate() {
+    if (!is_first) text->push_back(',');
+    is_first = false;
+  }
+  void Index(int64_t index) {
+    Separate();
+    AppendNumber(index, *text);
+  }
+  void Number(double value) {
+    Separate();
+    format == Format::kCsv ? AppendNumber(value, *text) : AppendJson(value, *text);
+  }
+  void Kind(Regime regime) { Words(RegimeName(regime)); }
+  void Words(const std::string& words) {
+    Separate();
+    format == Format::kCsv ? AppendCsv(words, *text) : AppendJson(words, *text);
+  }
+};
+
+// Makes an object of JSON.
+struct ObjectCells {
+  const std::vector<std::string>* keys;  // A name, quoted, and its colon.
+  LineCells cells;
+  size_t next = 0;
+
+  LineCells& Key() {
+    cells.Separate();
+    cells.is_first = true;
+    *cells.text += (*keys)[next++];
+    return cells;
+  }
+  void Index(int64_t index) { Key().Index(index); }
+  void Number(double value) { Key().Number(value); }
+  void Kind(Regime regime) { Key().Kind(regime); }
+  void Words(const std::string& words) { Key().Words(words); }
+};
+
 class TextWriter {
  public:
-  explicit TextWriter(const SweepRequest& request)
-      : request_(std::make_shared<SweepRequest>(request)), cursor_(request_->grid) {
-    table_.Add(Header(request));
-  }
+  explicit TextWriter(const SweepRequest& request) : points_(request) { table_.Add(points_.Names()); }
 
   absl::StatusOr<std::string> operator()(const SweepChunk& chunk) {
-    for (int64_t i = 0; i < chunk.count && shown_ < kTextPoints; ++i, ++shown_) table_.Add(Row(chunk, i));
+    for (int64_t i = 0; i < chunk.count && shown_ < kTextPoints; ++i, ++shown_) {
+      TextCells cells;
+      points_.Visit(chunk, i, cells);
+      table_.Add(std::move(cells.row));
+    }
     if (!chunk.summary.has_value()) return std::string();
     const int64_t left_out = chunk.points_total - shown_;
     std::string text = table_.Render(0);
@@ -116,80 +206,82 @@ class TextWriter {
   }
 
  private:
-  std::vector<std::string> Row(const SweepChunk& chunk, int64_t i) {
-    const int64_t index = chunk.first_index + i;
-    std::vector<std::string> row = {absl::StrCat(index)};
-    for (const double value : cursor_.At(index)) row.push_back(Rounded(value));
-    for (size_t c = 0; c < request_->columns.size(); ++c) row.push_back(Rounded(ValueAt(chunk, c, i)));
-    if (request_->with_regime) row.push_back(RegimeText(chunk.regimes[static_cast<size_t>(i)]));
-    return row;
-  }
-
-  std::shared_ptr<const SweepRequest> request_;  // Shared, because the writer is copied and the cursor points to it.
-  AxisCursor cursor_;
+  Points points_;
   Table table_;
   int64_t shown_ = 0;
 };
 
 class CsvWriter {
  public:
-  explicit CsvWriter(const SweepRequest& request)
-      : request_(std::make_shared<SweepRequest>(request)), cursor_(request_->grid) {}
+  explicit CsvWriter(const SweepRequest& request) : points_(request) {}
 
   absl::StatusOr<std::string> operator()(const SweepChunk& chunk) {
     std::string text;
-    if (chunk.first_index == request_->first_index) text = absl::StrCat(absl::StrJoin(Header(*request_), ","), "\n");
-    for (int64_t i = 0; i < chunk.count; ++i) AppendRow(chunk, i, text);
+    if (chunk.first_index == points_.request().first_index) {
+      text = absl::StrCat(absl::StrJoin(points_.Names(), ","), "\n");
+    }
+    for (int64_t i = 0; i < chunk.count; ++i) {
+      LineCells cells{.format = Format::kCsv, .text = &text};
+      points_.Visit(chunk, i, cells);
+      text.push_back('\n');
+    }
     return text;
   }
 
  private:
-  void AppendRow(const SweepChunk& chunk, int64_t i, std::string& text) {
-    const int64_t index = chunk.first_index + i;
-    AppendNumber(index, text);
-    for (const double value : cursor_.At(index)) {
-      text.push_back(',');
-      AppendNumber(value, text);
-    }
-    for (size_t c = 0; c < request_->columns.size(); ++c) {
-      text.push_back(',');
-      AppendNumber(ValueAt(chunk, c, i), text);
-    }
-    if (request_->with_regime) {
-      text.push_back(',');
-      text.append(RegimeName(chunk.regimes[static_cast<size_t>(i)]));
-    }
-    text.push_back('\n');
-  }
-
-  std::shared_ptr<const SweepRequest> request_;  // Shared, as in TextWriter.
-  AxisCursor cursor_;
+  Points points_;
 };
 
-// `sealed` is the chunk as a message.
-void SetLine(const SweepChunk& chunk, const v1::SweepResponse& sealed, SweepLine& line) {
-  line.set_first_index(chunk.first_index);
-  line.set_count(chunk.count);
-  line.mutable_values()->Assign(chunk.values.begin(), chunk.values.end());
-  line.clear_regimes();
-  for (const Regime regime : chunk.regimes) line.add_regimes(ToProto(regime));
-  line.set_points_done(chunk.points_done);
-  line.set_points_total(chunk.points_total);
-  line.clear_summary();
-  if (sealed.has_summary()) *line.mutable_summary() = sealed.summary();
-  *line.mutable_engine() = sealed.engine();
-  line.set_crc32c(sealed.crc32c());
-  line.set_grid_fingerprint(sealed.grid_fingerprint());
-}
+// An object on a line for each point.
+class LinesWriter {
+ public:
+  explicit LinesWriter(const SweepRequest& request) : points_(request) {
+    for (const std::string& name : points_.Names()) {
+      AppendJson(name, keys_.emplace_back());
+      keys_.back() += ":";
+    }
+  }
 
-SweepWriter JsonWriter(const SweepRequest& request) {
-  return [seal = ChunkSeal(request), proto = v1::SweepResponse(), line = SweepLine()](const SweepChunk& chunk) mutable {
-    ToProto(chunk, proto);
-    seal.Put(proto);
-    SetLine(chunk, proto, line);
-    return Json(line);
-  };
-}
+  absl::StatusOr<std::string> operator()(const SweepChunk& chunk) {
+    std::string text;
+    for (int64_t i = 0; i < chunk.count; ++i) {
+      ObjectCells cells{.keys = &keys_, .cells = {.format = Format::kJsonLines, .text = &text}};
+      text.push_back('{');
+      points_.Visit(chunk, i, cells);
+      text += "}\n";
+    }
+    return text;
+  }
+
+ private:
+  Points points_;
+  std::vector<std::string> keys_;
+};
+
+// One document: what the sweep is, a list for each point, and the summary.
+class DocumentWriter {
+ public:
+  explicit DocumentWriter(const SweepRequest& request) : points_(request) {}
+
+  absl::StatusOr<std::string> operator()(const SweepChunk& chunk) {
+    const bool is_start = chunk.first_index == points_.request().first_index;
+    std::string text = is_start ? SweepHeadJson(points_.request(), points_.Names(), chunk.engine) : "";
+    for (int64_t i = 0; i < chunk.count; ++i) {
+      text += is_start && i == 0 ? "\n[" : ",\n[";
+      LineCells cells{.format = Format::kJson, .text = &text};
+      points_.Visit(chunk, i, cells);
+      text.push_back(']');
+    }
+    if (!chunk.summary.has_value()) return text;
+    // A time would make the file of each run another one.
+    SweepSummary summary = *chunk.summary;
+    summary.elapsed_s.reset();
+    return absl::StrCat(text, "\n],\"summary\":", JsonOf(ToProto(summary)), "}\n");
+  }
+
+ private:
+  Points points_;
+};
 
 }  // namespace
 
@@ -199,7 +291,9 @@ SweepWriter MakeSweepWriter(const SweepRequest& request, Format format, bool sum
     case Format::kText:
       return TextWriter(request);
     case Format::kJson:
-      return JsonWriter(request);
+      return DocumentWriter(request);
+    case Format::kJsonLines:
+      return LinesWriter(request);
     case Format::kCsv:
       break;
   }

@@ -2,7 +2,8 @@
 # Submits one sweep to Slurm: an array with a task for each shard, and a merge that starts once all of them are done.
 #
 # usage: submit.sh FILE SHARDS SWEEP-ARGUMENT...
-#   FILE, in a directory that all nodes share, is what the merge writes; its ending .csv, .json, .npy or .nc is its format.
+#   FILE, in a directory that all nodes share, is what the merge writes. Its ending .csv, .json, .jsonl, .npy or .nc is the
+#   format.
 #   RICOCHET names the program if it is not in the PATH of the nodes. SBATCH_* variables go to sbatch: SBATCH_PARTITION=...
 #
 # Slurm starts the tasks of a node that has died again on another one, and each goes on from its last half second.
@@ -10,7 +11,7 @@
 set -eu
 
 if [ $# -lt 3 ]; then
-  sed -n '4,6s/^# //p' "$0" >&2
+  sed -n '4,7s/^# //p' "$0" >&2
   exit 2
 fi
 here=$(cd "$(dirname "$0")" && pwd)

@@ -44,7 +44,7 @@ def picked(study, index):
     ranges = []
     for pick in study['summary']['picks']:
         if int(pick['row']) == index:
-            ends = ['%g' % float(pick[end]) for end in ('leastTolerance', 'mostTolerance')]
+            ends = ['%g' % float(pick[end]) for end in ('least_tolerance', 'most_tolerance')]
             ranges.append(ends[0] if ends[0] == ends[1] else ' to '.join(ends))
     return ', '.join(ranges)
 
@@ -56,7 +56,7 @@ def cost_table(study):
     for index, row in enumerate(study['rows']):
         made = row.get('achieved')
         cells = [row['name'] + (' ●' if index in front else '')]
-        cells += [time(row[part]['medianS']) if row.get(part) else '-' for part in ('solve', 'batch')]
+        cells += [time(row[part]['median_s']) if row.get(part) else '-' for part in ('solve', 'batch')]
         cells.append(error(row['claimed']['total']) if row['status'] == 'STATUS_MEASURED' else '-')
         cells += [error(made[part]) if made else '-' for part in ('total', 'numerical', 'modelling')]
         cells.append(picked(study, index))
@@ -69,8 +69,8 @@ def cost(study):
     answers = sum('achieved' in row and row['achieved'] is not None for row in study['rows'])
     return cost_table(study) + [
         '', 'Answers that err by more than they claim: %s of %d. Methods without an answer: %s; without time left: %s. '
-        'Exact answer: %s' % (summary['deceived'], answers, summary['failed'], summary['outOfTime'],
-                              summary['referenceSource'])]
+        'Exact answer: %s' % (summary['deceived'], answers, summary['failed'], summary['out_of_time'],
+                              summary['reference_source'])]
 
 
 def block(path):

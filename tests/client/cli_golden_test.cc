@@ -80,6 +80,9 @@ const Golden kGolden[] = {
     {"audit_data.json",
      {"audit", "--scene", Scenes("double_pendulum.textproto"), "--data", TestDataPath("observed.csv"), "--format",
       "json"}},
+    {"audit_data.jsonl",
+     {"audit", "--scene", Scenes("double_pendulum.textproto"), "--data", TestDataPath("observed.csv"), "--format",
+      "jsonl"}},
     {"sweep_friction.txt",
      {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", "friction.kinetic_coefficient=lin:0:0.4:5",
       "--regime"}},
@@ -96,6 +99,14 @@ const Golden kGolden[] = {
     {"sweep_friction.json",
      {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", "friction.kinetic_coefficient=0,0.1,-1",
       "--regime", "--format", "json"}},
+    {"sweep_friction.jsonl",
+     {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", "friction.kinetic_coefficient=0,0.1,-1",
+      "--regime", "--format", "jsonl"}},
+    {"solve_data.jsonl",
+     {"solve", "--scene", Scenes("rod_contact.textproto"), "--data", Scenes("contacts.csv"), "--column",
+      "coefficients.newton", "--format", "jsonl"}},
+    {"solve_law.json", {"solve", "--scene", Scenes("kane_levinson.textproto"), "--format", "json"}},
+    {"solve_law.csv", {"solve", "--scene", Scenes("kane_levinson.textproto"), "--format", "csv"}},
     {"sweep_summary.txt",
      {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis",
       "friction.kinetic_coefficient=lin:-0.1:0.4:100001", "--summary-only"}},
@@ -108,8 +119,13 @@ const Golden kGolden[] = {
 std::string Normalised(const std::string& text) {
   std::string result = std::regex_replace(text, std::regex(R"("version":"[0-9.]+","fingerprint":"[0-9a-f]{16}")"),
                                           R"("version":"VERSION","fingerprint":"FINGERPRINT")");
-  result = std::regex_replace(result, std::regex(R"("elapsedS":[0-9.e+-]+)"), R"("elapsedS":ELAPSED)");
+  result = std::regex_replace(result, std::regex(R"("elapsed_s":[0-9.e+-]+)"), R"("elapsed_s":ELAPSED)");
   return std::regex_replace(result, std::regex(R"( in [0-9.e+-]+ s\n)"), " in ELAPSED s\n");
+}
+
+// Standard output, and what standard error has beside it.
+std::string Printed(const CliResult& result) {
+  return Normalised(result.out) + (result.err.empty() ? "" : "Standard error:\n" + result.err);
 }
 
 class CliGolden : public CliTest, public testing::WithParamInterface<Golden> {
@@ -124,9 +140,8 @@ INSTANTIATE_TEST_SUITE_P(Outputs, CliGolden, testing::ValuesIn(kGolden), [](cons
 TEST_P(CliGolden, IsPrintedWordForWord) {
   const CliResult result = Run(GetParam().arguments);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "");
-  if (std::getenv("RICOCHET_UPDATE_GOLDEN") != nullptr) std::ofstream(path()) << Normalised(result.out);
-  EXPECT_EQ(Normalised(result.out), ReadFile(path()));
+  if (std::getenv("RICOCHET_UPDATE_GOLDEN") != nullptr) std::ofstream(path()) << Printed(result);
+  EXPECT_EQ(Printed(result), ReadFile(path()));
 }
 
 TEST_P(CliGolden, IsTheSameFromAServer) {
@@ -135,8 +150,7 @@ TEST_P(CliGolden, IsTheSameFromAServer) {
   arguments.insert(arguments.end(), {"--server", server.address(), "--deadline", "30s"});
   const CliResult result = Run(arguments);
   EXPECT_EQ(result.exit_code, 0);
-  EXPECT_EQ(result.err, "");
-  EXPECT_EQ(Normalised(result.out), ReadFile(path()));
+  EXPECT_EQ(Printed(result), ReadFile(path()));
 }
 
 }  // namespace

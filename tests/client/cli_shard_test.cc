@@ -58,7 +58,7 @@ TEST_F(CliShard, MergeToTheFileOfOneRun) {
   for (const int count : {1, 3, 7}) {
     RunShell("rm -f s.*");
     Compute(count);
-    for (const std::string format : {"csv", "json"}) ExpectMergedLike(format, Sweep(""));
+    for (const std::string format : {"csv", "json", "jsonl"}) ExpectMergedLike(format, Sweep(""));
   }
 }
 

@@ -73,7 +73,7 @@ class PageTest(unittest.TestCase):
         self.assertRegex(text, r"\d{4}-\d\d-\d\d \d\d:\d\d UTC")
 
     def test_no_answer_errs_by_more_than_it_claims(self):
-        self.assertEqual(self.study["summary"]["deceived"], "0")
+        self.assertEqual(self.study["summary"]["deceived"], 0)
         self.assertRegex(self.text, "Errors claimed and made: 0 of [0-9]+ claim too little")
 
 

@@ -135,8 +135,8 @@ class PlotFileTest(unittest.TestCase):
         (WORK / "folder").mkdir()
         for name, reason in {
                 "absent.csv": "No such file or directory", "folder": "is a directory", "empty.csv": "is empty",
-                "head.csv": "has no points", "torn.csv": "line 102: has 4 cells: must have 5",
-                "word.csv": f'line 5: {MU} = "x0.015": must be a number', "wide.csv": "line 5: has 6 cells",
+                "head.csv": "has no points", "torn.csv": "line 102: has 4 cells: must have 6",
+                "word.csv": f'line 5: {MU} = "x0.015": must be a number', "wide.csv": "line 5: has 7 cells",
                 "other.csv": "the first column must be index", "foreign.csv": "the column my.axis must be a field",
                 "regime.csv": "regime = BOUND: must be the name of a regime", "table.txt": "is a table for people",
                 "summary.csv": "is a summary", "part.shard-0-of-2": "ricochet merge makes one file",

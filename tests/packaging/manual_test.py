@@ -108,7 +108,7 @@ class BashCompletion(unittest.TestCase):
         self.assertEqual(completions("ricochet", "solve", "--a", "0.3", "--energ"), {"--energetic"})
 
     def test_words_that_a_flag_takes(self):
-        self.assertEqual(completions("ricochet", "sweep", "--format", ""), {"text", "json", "csv", "npy", "netcdf"})
+        self.assertEqual(completions("ricochet", "sweep", "--format", ""), {"text", "json", "jsonl", "csv", "npy", "netcdf"})
 
     def test_files(self):
         self.assertIn(str(MANUAL / "bash"), completions("ricochet", "solve", "--scene", str(MANUAL / "ba")))

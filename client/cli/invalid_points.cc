@@ -1,0 +1,73 @@
+#include "client/cli/invalid_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/types/span.h"
+#include "core/scene/numbers.h"
+#include "core/scene/validate.h"
+#include "core/sweep/grid.h"
+
+namespace ricochet::cli {
+namespace {
+
+// The one field that an axis drives although no scene has it, so that checking the scene does not check it.
+constexpr char kPhi[] = "pendulum.phi_rad";
+
+}  // namespace
+
+InvalidPoints::InvalidPoints(const Grid& grid) : grid_(grid) {}
+
+Violation InvalidPoints::First(int64_t index) {
+  std::vector<int64_t> positions(grid_.axes.size());
+  AxisPositions(grid_, index, absl::MakeSpan(positions));
+  for (size_t i = 0; i < positions.size(); ++i) {
+    const double value = AxisValue(grid_.axes[i], positions[i]);
+    if (grid_.axes[i].path != kPhi || Holds(value, NumberRule::kHalfTurn)) continue;
+    return MakeViolation(kPhi, value, "be in (0, pi), in radians");
+  }
+  if (driven_ == nullptr) driven_ = std::make_shared<DrivenScene>(grid_);
+  driven_->GoTo(index);
+  const std::vector<Violation> violations = Validate(driven_->scene());
+  // A scene that keeps every rule has no numbers only for this reason.
+  return violations.empty() ? Violation{"a column", ": must not exceed the largest double"} : violations.front();
+}
+
+std::string InvalidPoints::Reason(int64_t index) {
+  const Violation first = First(index);
+  return absl::StrCat(first.field, first.description[0] == ':' ? "" : " ", first.description);
+}
+
+std::string InvalidPoints::Rule(int64_t index) {
+  const Violation first = First(index);
+  const size_t rule = first.description.find(": must ");
+  return absl::StrCat(first.field,
+                      rule == std::string::npos ? " " + first.description : first.description.substr(rule));
+}
+
+void InvalidCounts::Add(const SweepChunk& chunk) {
+  // A sweep has at least one column, and a valid point has a number in each.
+  for (int64_t i = 0; i < chunk.count; ++i) {
+    if (!std::isnan(chunk.values[static_cast<size_t>(i)]) || ++count_ > kMostReasons) continue;
+    const int64_t index = chunk.first_index + i;
+    Tally& tally = by_rule_[points_.Rule(index)];
+    if (tally.count++ == 0) tally.first_index = index;
+  }
+  if (chunk.summary.has_value()) total_ = chunk.summary->by_regime[static_cast<size_t>(Regime::kInvalid)].count;
+}
+
+std::string InvalidCounts::Text() const {
+  if (total_ == 0) return "";
+  std::string text = absl::StrCat(total_, total_ == 1 ? " point is" : " points are", " invalid");
+  const int64_t known = std::min(count_, kMostReasons);
+  if (known < total_) absl::StrAppend(&text, "; the reasons of ", known, " of them");
+  absl::StrAppend(&text, ":\n");
+  for (const auto& [rule, tally] : by_rule_) {
+    absl::StrAppend(&text, "  ", tally.count, ", first at index ", tally.first_index, ": ", rule, "\n");
+  }
+  return text;
+}
+
+}  // namespace ricochet::cli
