@@ -185,14 +185,13 @@ absl::StatusOr<std::vector<Event>> SpatialPath(const Solver& solver, const Scene
   std::vector<Event> path = outcome.timeline;
   for (const AuditReport& report : parts->reports) {
     if (report.regime == Regime::kInvalid || report.unexplained) continue;
-    State state;
+    State& state = path.emplace_back().state;
     state.normal_impulse_n_s = report.normal_impulse;
     for (size_t i = 0; i < 2; ++i) {
       state.tangential_impulse_n_s.push_back(report.tangential_impulse[i] - report.friction_mismatch[i]);
       state.contact_velocity.tangential_m_s.push_back(report.path_tangential_velocity[i]);
     }
     state.contact_velocity.normal_m_s = report.path_normal_velocity;
-    path.push_back({.kind = EventKind::kUnspecified, .state = std::move(state)});
   }
   std::stable_sort(path.begin(), path.end(), [](const Event& a, const Event& b) {
     return a.state.normal_impulse_n_s < b.state.normal_impulse_n_s;
