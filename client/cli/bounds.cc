@@ -14,6 +14,7 @@
 #include "client/cli/certificate_report.h"
 #include "client/cli/picture_input.h"
 #include "client/cli/scene_input.h"
+#include "client/cli/short_name.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
 #include "proto/wire/requests.h"
@@ -208,9 +209,10 @@ absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
   if (!digits.ok()) return digits.status();
   BoundsRequest request{.scene = *scene, .ranges = {}, .certified_digits = *digits};
   for (const std::string& text : options.ranges) {
-    const absl::StatusOr<FieldRange> range = ParseFieldRange(text);
+    absl::StatusOr<FieldRange> range = ParseFieldRange(text);
     if (!range.ok()) return range.status();
-    request.ranges.push_back(*range);
+    if (absl::Status status = ExpandField(request.scene, "--range", range->path); !status.ok()) return status;
+    request.ranges.push_back(*std::move(range));
   }
   return request;
 }

@@ -8,6 +8,7 @@
 #include "absl/synchronization/mutex.h"
 #include "client/cli/common.h"
 #include "client/cli/exit_code.h"
+#include "client/cli/flag_names.h"
 #include "client/cli/program.h"
 #include "client/cli/usage_error.h"
 
@@ -26,6 +27,6 @@ int main(int argc, char** argv) {
     return ricochet::cli::kUsage;
   }
   const absl::Status status = command();
-  ricochet::cli::PrintError(status);
+  ricochet::cli::PrintError(ricochet::cli::NameFlags(*app, status));
   return ricochet::cli::ExitCodeOf(status);
 }

@@ -17,6 +17,9 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/str_replace.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/json/json_errors.h"
 #include "client/cli/number_input.h"
 #include "core/scene/numbers.h"
 #include "proto/wire/scene.h"
@@ -28,11 +31,19 @@ namespace {
 constexpr double kDefaultInertia = 1.0;
 constexpr double kDefaultOmega = -1.0;
 
+// The parser says: Field "b" is specified along with field "a", another member of oneof "system".
+std::string InWords(const std::string& message) {
+  std::vector<std::string> quoted = absl::StrSplit(message, '"');
+  if (quoted.size() != 7 || !absl::StrContains(message, "another member of oneof")) return message;
+  return absl::StrCat("\"", quoted[1], "\" cannot be given beside \"", quoted[3], "\": there is one ",
+                      absl::StrReplaceAll(quoted[5], {{"_", " "}}), " only");
+}
+
 // Keeps the first error of the textproto parser.
 class FirstError final : public google::protobuf::io::ErrorCollector {
  public:
   void AddError(int line, google::protobuf::io::ColumnNumber column, const std::string& message) override {
-    if (text.empty()) text = absl::StrCat("line ", line + 1, ", column ", column + 1, ": ", message);
+    if (text.empty()) text = absl::StrCat("line ", line + 1, ", column ", column + 1, ": ", InWords(message));
   }
   std::string text;
 };
@@ -177,8 +188,9 @@ absl::Status ParseMessage(const std::string& path, const std::string& text, goog
   if (IsJson(path, text)) {
     const auto status = google::protobuf::util::JsonStringToMessage(text, &message);
     if (status.ok()) return absl::OkStatus();
-    return absl::InvalidArgumentError(
-        absl::StrCat(name, " is not a ", type, " in JSON: ", status.message().ToString()));
+    const std::string explained = ExplainJson(text, *message.GetDescriptor());
+    return absl::InvalidArgumentError(absl::StrCat(
+        name, " is not a ", type, " in JSON: ", explained.empty() ? status.message().ToString() : explained));
   }
   FirstError error;
   google::protobuf::TextFormat::Parser parser;

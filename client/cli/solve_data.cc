@@ -15,6 +15,7 @@
 #include "client/cli/json/json_text.h"
 #include "client/cli/output.h"
 #include "client/cli/scene_input.h"
+#include "client/cli/short_name.h"
 #include "client/cli/sweep_head.h"
 #include "client/cli/table.h"
 #include "core/sweep/column.h"
@@ -171,9 +172,11 @@ absl::Status SolveData(const DataOptions& data, const CommonOptions& options, co
   if (!text.ok()) return text.status();
   const absl::StatusOr<CsvTable> table = ParseCsvTable(*text, data.file == "-" ? "standard input" : data.file);
   if (!table.ok()) return table.status();
+  const absl::StatusOr<std::vector<std::string>> columns = FullColumns(scene, data.columns);
+  if (!columns.ok()) return columns.status();
   Solved solved = {.setup = {.scene = scene,
                              .fields = table->header,
-                             .columns = data.columns.empty() ? DefaultColumns(scene) : data.columns,
+                             .columns = columns->empty() ? DefaultColumns(scene) : *columns,
                              .demand = demand}};
   if (absl::Status status = Solve(*table, solver, solved); !status.ok()) return status;
   return Write(solved, options);

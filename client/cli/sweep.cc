@@ -20,6 +20,7 @@
 #include "client/cli/scene_input.h"
 #include "client/cli/shard.h"
 #include "client/cli/shard_input.h"
+#include "client/cli/short_name.h"
 #include "client/cli/sweep_output.h"
 #include "client/cli/sweep_plot.h"
 #include "core/scene/field.h"
@@ -38,7 +39,8 @@ constexpr char kExample[] =
   index   friction.kinetic_coefficient   pendulum.phi_rad   coefficients.newton
   0                                0.1               0.01                     0
   ...
-The last axis runs fastest. --axis ? and --column ? list all axes and columns, of the scene if one is given.
+The last axis runs fastest. --axis ? and --column ? list all axes and columns, of the scene if one is given. The end of
+a name will do if it means one of them: mu, phi, newton, energy_change; coefficients.* are all that start so.
 Points that break a rule are INVALID and have no numbers; standard error counts them by reason.
 Exit codes: 0 done, also with invalid points, 2 wrong input, 42 failed, 75 try again, 130 interrupted.)";
 
@@ -93,10 +95,13 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   for (const std::string& text : options.axes) {
     absl::StatusOr<Axis> axis = ParseAxis(text);
     if (!axis.ok()) return axis.status();
+    if (absl::Status status = ExpandField(request.grid.scene, "--axis", axis->path); !status.ok()) return status;
     request.grid.axes.push_back(*std::move(axis));
   }
   request.grid.combination = options.zip ? Combination::kZip : Combination::kProduct;
-  request.columns = options.columns.empty() ? DefaultColumns(request.grid.scene) : options.columns;
+  absl::StatusOr<std::vector<std::string>> columns = FullColumns(request.grid.scene, options.columns);
+  if (!columns.ok()) return columns.status();
+  request.columns = columns->empty() ? DefaultColumns(request.grid.scene) : *std::move(columns);
   request.with_regime = options.regime;
   const absl::StatusOr<DemandFields> demand = ReadDemand(options.demand);
   if (!demand.ok()) return demand.status();
@@ -285,6 +290,9 @@ absl::Status RunSweep(const SweepOptions& options) {
   const absl::StatusOr<SweepRequest> request =
       options.request.empty() ? RequestFromFlags(options) : RequestFromFile(options);
   if (!request.ok()) return request.status();
+  if (request->grid.axes.empty()) {
+    std::fputs("The sweep is one point, because it has no --axis PATH=VALUES; --axis ? lists the paths.\n", stderr);
+  }
   if (options.shard.any()) return ReceiveShard(**solver, *request, options, interrupt.token());
   return Receive(**solver, *request, options, interrupt.token());
 }

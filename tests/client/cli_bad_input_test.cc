@@ -81,7 +81,10 @@ std::vector<BadInput> Flags() {
 
 std::vector<BadInput> Scenes() {
   return {
-      {{"solve", "--b", "1", "--energetic", "1"}, "pendulum.a_m = 0: must be > 0", ""},
+      {{"solve", "--b", "1", "--energetic", "1"}, "--a: pendulum.a_m is missing: must be > 0\n", ""},
+      {{"solve", "--a", "0", "--energetic", "1"}, "--a: pendulum.a_m = 0: must be > 0\n", ""},
+      {kSolveInput, "pendulum.a_m = 0: must be > 0\n",
+       "pendulum { inertia_kg_m2: 0 omega_minus_rad_s: -1 } restitution { energetic: 1 }"},
       {{"solve", "--a", "1"}, "restitution.coefficient is not set: must be one of newton, poisson, energetic", ""},
       {{"solve", "--a", "-0.3", "--energetic", "1"}, "pendulum.a_m = -0.3: must be > 0", ""},
       {{"solve", "--a", "inf", "--energetic", "1"}, "pendulum.a_m = inf: must be finite", ""},
@@ -110,6 +113,17 @@ std::vector<BadInput> Scenes() {
       {kSolveInput, "standard input is not a ricochet.v1.Scene in JSON", "{\"pendulum\": {"},
       {kSolveInput, "mass", R"({"pendulum": {"mass": 1}})"},
       {kSolveInput, "a_m", R"({"pendulum": {"a_m": "wide"}})"},
+      {kSolveInput, "in JSON: line 3, column 11: pendulum.inertia: is no field of Pendulum",
+       "{\n \"pendulum\": {\n  \"inertia\": 1}}"},
+      {kSolveInput, "line 2, column 24: pendulum.a_n: is no field of Pendulum; did you mean a_m?",
+       "{\n   \"pendulum\": {   \"a_n\": 1}}"},
+      {kSolveInput, "line 2, column 17: planar_body: cannot be given beside pendulum: there is one system only",
+       "{\"pendulum\": {},\n \"planar_body\": {}}"},
+      {kSolveInput, "line 1, column 24: syntax error", R"({"pendulum": {"a_m": 1,,}})"},
+      {kSolveInput, "line 1, column 46: linkage.links[1].mass_kg = \"heavy\": must be a number",
+       R"({"linkage": {"links": [{}, {"mass_kg": "heavy"}]}})"},
+      {kSolveInput, "line 1, column 25: \"planar_body\" cannot be given beside \"pendulum\": there is one system only",
+       "pendulum {} planar_body {}"},
       {kSolveInput, "is not a ricochet.v1.Scene in textproto: line 2, column 7", "pendulum {\n  mass: 1\n}"},
       {kSolveInput, "restitution.energetic = 2: must be in [0, 1]",
        "pendulum { inertia_kg_m2: 1 a_m: 1 } restitution { energetic: 2 }"},
@@ -141,6 +155,8 @@ std::vector<BadInput> Sweeps() {
       {Plus(kSweep, {"--column", "coefficients.elastic"}),
        "columns[0] = \"coefficients.elastic\": must be a column of the scene", ""},
       {Plus(kSweep, {"--column", "energy_change_j,energy_change_j"}), "columns[1]", ""},
+      {Plus(kSweep, {"--column", "normal_total"}),
+       "--column normal_total: must name one of\n  impulse.normal_total_n_s\n  work.normal_total_j\n", ""},
       {Plus(kSweep, {"--threads", "0"}), "--threads = 0: must be a whole number from 1 to 1024", ""},
       {Plus(kSweep, {"--threads", "-2"}), "--threads = -2: must be a whole number from 1 to 1024", ""},
       {Plus(kSweep, {"--threads", "2.5"}), "--threads = 2.5: must be a whole number from 1 to 1024", ""},
@@ -176,9 +192,9 @@ TEST_F(CliBadInputLines, ThereIsOneForEachViolation) {
   const CliResult result = Run({"solve", "--a", "-1", "--mu", "-0.1", "--newton", "-2"});
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_EQ(result.err,
-            "pendulum.a_m = -1: must be > 0\n"
-            "friction.kinetic_coefficient = -0.1: must be >= 0\n"
-            "restitution.newton = -2: must be >= 0\n");
+            "--a: pendulum.a_m = -1: must be > 0\n"
+            "--mu: friction.kinetic_coefficient = -0.1: must be >= 0\n"
+            "--newton: restitution.newton = -2: must be >= 0\n");
 }
 
 TEST_F(CliBadInputLines, AllUnreadableNumbersAreReportedAtOnce) {

@@ -136,6 +136,38 @@ TEST_F(Cli, InfoTellsTheLimitsOfAServer) {
   EXPECT_EQ(message.engine().fingerprint(), ThisEngine().fingerprint);
 }
 
+TEST_F(Cli, ShortNamesMeanTheFieldsAndColumnsThatEndInThem) {
+  const Arguments sweep = {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--format", "csv"};
+  const auto with = [&sweep](const Arguments& more) {
+    Arguments all = sweep;
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+  };
+  const CliResult full =
+      Run(with({"--axis", "friction.kinetic_coefficient=0,0.1", "--axis", "pendulum.inertia_kg_m2=1,2", "--column",
+                "coefficients.newton,energy_change_j,rates_after_rad_s[0]"}));
+  const CliResult brief =
+      Run(with({"--axis", "mu=0,0.1", "--axis", "inertia=1,2", "--column", "newton, energy_change,rates_after[0]"}));
+  EXPECT_EQ(brief.exit_code, 0) << brief.err;
+  EXPECT_EQ(brief.out, full.out);
+  EXPECT_THAT(Run(with({"--axis", "mu=0,0.1", "--column", "coefficients.*"})).out,
+              StartsWith("index,friction.kinetic_coefficient,coefficients.newton,coefficients.poisson,"
+                         "coefficients.energetic,coefficients.tangential\n"));
+  const Arguments bounds = {"bounds", "--a", "0.3", "--b", "1", "--range"};
+  const auto over = [&bounds](const std::string& range) {
+    Arguments all = bounds;
+    all.push_back(range);
+    return all;
+  };
+  EXPECT_EQ(Run(over("mu=0.1:0.2")).out, Run(over("friction.kinetic_coefficient=0.1:0.2")).out);
+}
+
+TEST_F(Cli, ASweepWithoutAnAxisSaysSo) {
+  const CliResult result = Run({"sweep", "--a", "0.3", "--energetic", "1"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_THAT(result.err, StartsWith("The sweep is one point, because it has no --axis"));
+}
+
 TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
   for (const std::string subcommand : {"solve", "bounds", "sweep", "audit", "cost", "info"}) {
     const CliResult help = Run({subcommand, "--help"});
