@@ -1,5 +1,6 @@
 #include "client/cli/audit.h"
 
+#include <CLI/App.hpp>
 #include <memory>
 #include <optional>
 #include <utility>

@@ -1,5 +1,6 @@
 #include "client/cli/bounds.h"
 
+#include <CLI/App.hpp>
 #include <array>
 #include <cmath>
 #include <memory>

@@ -1,5 +1,6 @@
 #include "client/cli/certificate_report.h"
 
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstddef>
 

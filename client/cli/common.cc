@@ -1,5 +1,6 @@
 #include "client/cli/common.h"
 
+#include <CLI/App.hpp>
 #include <array>
 #include <map>
 

@@ -3,7 +3,6 @@
 #ifndef RICOCHET_CLIENT_CLI_COMMON_H_
 #define RICOCHET_CLIENT_CLI_COMMON_H_
 
-#include <CLI/App.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,6 +12,10 @@
 #include "client/cli/connection_input.h"
 #include "ricochet/client_options.h"
 #include "ricochet/solver.h"
+
+namespace CLI {
+class App;
+}
 
 namespace google::protobuf {
 class Message;

@@ -1,5 +1,6 @@
 #include "client/cli/connection_input.h"
 
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <algorithm>
 #include <array>

@@ -7,11 +7,14 @@
 #ifndef RICOCHET_CLIENT_CLI_CONNECTION_INPUT_H_
 #define RICOCHET_CLIENT_CLI_CONNECTION_INPUT_H_
 
-#include <CLI/App.hpp>
 #include <string>
 
 #include "absl/status/statusor.h"
 #include "ricochet/client_options.h"
+
+namespace CLI {
+class App;
+}
 
 namespace ricochet::cli {
 

@@ -1,5 +1,6 @@
 #include "client/cli/cost.h"
 
+#include <CLI/App.hpp>
 #include <chrono>
 #include <memory>
 #include <string>

@@ -1,5 +1,7 @@
 #include "client/cli/demand_input.h"
 
+#include <CLI/App.hpp>
+
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/number_input.h"

@@ -3,12 +3,15 @@
 #ifndef RICOCHET_CLIENT_CLI_DEMAND_INPUT_H_
 #define RICOCHET_CLIENT_CLI_DEMAND_INPUT_H_
 
-#include <CLI/App.hpp>
 #include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
 #include "core/plan/demand_fields.h"
+
+namespace CLI {
+class App;
+}
 
 namespace ricochet::cli {
 

@@ -1,5 +1,6 @@
 #include "client/cli/health.h"
 
+#include <CLI/App.hpp>
 #include <cstdio>
 #include <memory>
 

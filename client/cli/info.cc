@@ -1,5 +1,6 @@
 #include "client/cli/info.h"
 
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdint>
 #include <limits>

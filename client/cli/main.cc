@@ -1,5 +1,6 @@
 // ricochet: the command line program.
 
+#include <CLI/App.hpp>
 #include <csignal>
 #include <iostream>
 #include <memory>

@@ -1,5 +1,6 @@
 #include "client/cli/merge.h"
 
+#include <CLI/App.hpp>
 #include <cstdio>
 #include <memory>
 #include <optional>

@@ -1,5 +1,6 @@
 #include "client/cli/picture_input.h"
 
+#include <CLI/App.hpp>
 #include <cstdint>
 #include <tuple>
 #include <utility>

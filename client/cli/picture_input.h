@@ -3,12 +3,15 @@
 #ifndef RICOCHET_CLIENT_CLI_PICTURE_INPUT_H_
 #define RICOCHET_CLIENT_CLI_PICTURE_INPUT_H_
 
-#include <CLI/App.hpp>
 #include <string>
 
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/cli/plot.h"
+
+namespace CLI {
+class App;
+}
 
 namespace ricochet::cli {
 

@@ -1,5 +1,6 @@
 #include "client/cli/program.h"
 
+#include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <utility>
 

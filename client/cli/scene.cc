@@ -3,6 +3,7 @@
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/text_format.h>
 
+#include <CLI/App.hpp>
 #include <map>
 #include <memory>
 #include <string>

@@ -3,9 +3,11 @@
 #ifndef RICOCHET_CLIENT_CLI_SCENE_H_
 #define RICOCHET_CLIENT_CLI_SCENE_H_
 
-#include <CLI/App.hpp>
-
 #include "client/cli/common.h"
+
+namespace CLI {
+class App;
+}
 
 namespace ricochet::cli {
 

@@ -4,6 +4,7 @@
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
 
+#include <CLI/App.hpp>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>

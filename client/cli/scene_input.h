@@ -3,12 +3,15 @@
 #ifndef RICOCHET_CLIENT_CLI_SCENE_INPUT_H_
 #define RICOCHET_CLIENT_CLI_SCENE_INPUT_H_
 
-#include <CLI/App.hpp>
 #include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
 #include "ricochet/scene.h"
+
+namespace CLI {
+class App;
+}
 
 namespace google::protobuf {
 class Message;

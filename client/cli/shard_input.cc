@@ -1,5 +1,6 @@
 #include "client/cli/shard_input.h"
 
+#include <CLI/App.hpp>
 #include <cstdlib>
 
 #include "absl/strings/str_cat.h"

@@ -4,11 +4,14 @@
 #ifndef RICOCHET_CLIENT_CLI_SHARD_INPUT_H_
 #define RICOCHET_CLIENT_CLI_SHARD_INPUT_H_
 
-#include <CLI/App.hpp>
 #include <cstdint>
 #include <string>
 
 #include "absl/status/statusor.h"
+
+namespace CLI {
+class App;
+}
 
 namespace ricochet::cli {
 

@@ -1,5 +1,6 @@
 #include "client/cli/solve.h"
 
+#include <CLI/App.hpp>
 #include <memory>
 #include <string>
 #include <utility>

@@ -1,5 +1,6 @@
 #include "client/cli/sweep.h"
 
+#include <CLI/App.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <memory>

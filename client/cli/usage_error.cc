@@ -1,5 +1,6 @@
 #include "client/cli/usage_error.h"
 
+#include <CLI/App.hpp>
 #include <vector>
 
 #include "absl/strings/match.h"

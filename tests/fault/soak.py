@@ -17,8 +17,14 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 SOURCE = HERE.parent.parent
 PAGE = SOURCE / "deploy/README.md"
-TOPICS = ["load", "overload", "places", "amplification", "transport", "boundary", "faults", "resume", "credentials", "garbage", "mixed"]
+TOPICS = [
+    "load", "overload", "places", "amplification", "transport", "boundary", "faults", "pool", "resume", "credentials",
+    "garbage", "mixed"]
 BEGIN, END = "<!-- written by ./dev soak -->", "<!-- end of what ./dev soak wrote -->"
+
+
+# The checks start processes while gRPC has threads; its handlers of fork can wait for each other without an end.
+os.environ["GRPC_ENABLE_FORK_SUPPORT"] = "0"
 
 
 def run(ricochetd, ricochet, work, minutes, topic):
