@@ -1,5 +1,6 @@
 #include "client/cli/plot_file.h"
 
+#include <CLI/App.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
