@@ -61,7 +61,7 @@ absl::Status RunPlotFile(PlotFileOptions options) {
 void AddPlotFile(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("plot", "Draw a file that sweep or merge wrote");
   const auto options = std::make_shared<PlotFileOptions>();
-  sub->add_option("file", options->file, "A sweep as csv, npy or netcdf; the content says which")
+  sub->add_option("file", options->file, "A sweep as csv, json, jsonl, npy or netcdf; the content says which")
       ->type_name("FILE")
       ->required();
   sub->add_option("-o,--output", options->picture.file, "The picture [FILE with the ending .svg]")

@@ -13,6 +13,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/csv_table.h"
+#include "client/cli/json/sweep_json.h"
 #include "client/cli/sweep_rows.h"
 
 namespace ricochet::cli {
@@ -78,9 +79,9 @@ absl::StatusOr<SweepTable> Read(std::ifstream& stream, const std::string& path,
   if (absl::StartsWith(start, "\x89HDF") || absl::StartsWith(start, "CDF")) return ReadSweepNetcdf(path, columns);
   if (std::any_of(start.begin(), start.end(),
                   [](char c) { return absl::ascii_iscntrl(c) && !absl::ascii_isspace(c); })) {
-    return absl::InvalidArgumentError("is neither CSV nor NPY nor NetCDF-4 of a sweep");
+    return absl::InvalidArgumentError("is neither CSV nor JSON nor NPY nor NetCDF-4 of a sweep");
   }
-  return ReadCsv(stream, columns);
+  return start.front() == '{' ? ReadSweepJson(stream, columns) : ReadCsv(stream, columns);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 namespace ricochet::cli {
 
-// Reads CSV, NPY or NetCDF-4; the content says which, not the name. `columns` are those to read, empty: all. Every error
+// Reads CSV, JSON, NPY or NetCDF-4; the content says which, not the name. `columns` are those to read, empty: all. Every error
 // names the file. Errors: INVALID_ARGUMENT if the file is not whole or not one of a sweep, or lacks a column;
 // FAILED_PRECONDITION for more points than a picture can show; UNIMPLEMENTED for NetCDF in a build without it; those of
 // the system.

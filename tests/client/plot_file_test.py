@@ -28,7 +28,7 @@ SWEEPS = {
     "three": [*SWEEP, "--axis", f"{MU}=0.1,0.2", "--axis", "restitution.energetic=1,0.5", "--axis",
               f"{PHI}=lin:0.1:1.5:9", "--column", f"{RATE},{NEWTON}"],
 }
-FORMATS = ["csv", "npy", "netcdf"]
+FORMATS = ["csv", "json", "jsonl", "npy", "netcdf"]
 LOOKS = {"line": ["--title", "It's mine", "--size", "700x500", "--logy"], "map": ["--logx", "--size", "1200x500"]}
 
 
@@ -122,7 +122,13 @@ class PlotFileTest(unittest.TestCase):
         with netCDF4.Dataset(WORK / "other.nc", "w") as data:
             data.createDimension("x", 2)
             data.createVariable("x", "f8", ("x",))
+        self.made(*LINE, "--format", "json", "-o", "whole.json")
+        self.made(*LINE, "--format", "jsonl", "-o", "whole.jsonl")
+        document, lines = (WORK / "whole.json").read_text(), (WORK / "whole.jsonl").read_text()
         files = {
+            "torn.json": document[:-200], "torn.jsonl": lines[:-20], "scene.json": '{"pendulum": {"a_m": 0.3}}',
+            "word.json": document.replace("\n[3,0.015,", '\n[3,"x",', 1), "short.json": document.replace("\n[3,", "\n[", 1),
+            "mixed.jsonl": lines.replace('{"index":3,"friction', '{"index":3,"fricton', 1),
             "torn.csv": "".join(whole)[:-12], "word.csv": "".join(whole).replace("\n3,", "\n3,x", 1),
             "wide.csv": "".join(whole[:4]) + whole[4].rstrip("\n") + ",7\n", "other.csv": "time,force\n0,1\n",
             "foreign.csv": "index,my.axis,coefficients.newton\n0,1,1\n", "empty.csv": "", "head.csv": whole[0],
@@ -142,7 +148,10 @@ class PlotFileTest(unittest.TestCase):
                 "summary.csv": "is a summary", "part.shard-0-of-2": "ricochet merge makes one file",
                 "plain.npy": "its numbers have no names", "torn.npy": "of its 101 records",
                 "torn.nc": "cannot be read as NetCDF", "other.nc": "has no attribute ricochet_request",
-                "picture.png": "is neither CSV nor NPY nor NetCDF-4"}.items():
+                "torn.json": "is not a whole JSON document", "torn.jsonl": "line 101: must be a JSON object",
+                "scene.json": "has no columns", "word.json": f'point 3: {MU} = "x": must be a number or null',
+                "short.json": "point 3: has 5 cells: must have 6", "mixed.jsonl": "line 4: has the name fricton",
+                "picture.png": "is neither CSV nor JSON nor NPY nor NetCDF-4"}.items():
             with self.subTest(name=name):
                 code, out, error = ricochet("plot", name, "-o", "refused.svg")
                 self.assertEqual(out, "")
