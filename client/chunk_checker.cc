@@ -17,6 +17,11 @@ std::optional<int64_t> EndIndex(const SweepRequest& request) {
   return PointCount(request.grid);
 }
 
+std::string EnginesDiffer(int64_t index, const std::string& fingerprint, const std::string& before) {
+  return absl::StrCat("the points from ", index, " on come from the engine \"", absl::CEscape(fingerprint),
+                      "\", those before from \"", absl::CEscape(before), "\"");
+}
+
 // The result is unsigned, because the ends of a range that no server answers may differ by more than an int64_t holds.
 uint64_t PointsLeft(int64_t next_index, int64_t end_index) {
   if (end_index <= next_index) return 0;
@@ -24,6 +29,12 @@ uint64_t PointsLeft(int64_t next_index, int64_t end_index) {
 }
 
 }  // namespace
+
+absl::Status OtherEngine(int64_t index, const std::string& fingerprint, const std::string& before) {
+  return absl::FailedPreconditionError(
+      absl::StrCat(EnginesDiffer(index, fingerprint, before),
+                   ": they may differ in their last bits and must not be mixed; start the sweep anew"));
+}
 
 ChunkChecker::ChunkChecker(const SweepRequest& request)
     : columns_(static_cast<int64_t>(request.columns.size())),
@@ -75,12 +86,8 @@ absl::Status ChunkChecker::Check(const SweepChunk& chunk) {
 absl::Status ChunkChecker::CheckEngine(const SweepChunk& chunk) {
   if (!engine_.has_value()) engine_ = chunk.engine.fingerprint;
   if (chunk.engine.fingerprint == *engine_) return absl::OkStatus();
-  const std::string found =
-      absl::StrCat("the points from ", next_index_, " on come from the engine \"",
-                   absl::CEscape(chunk.engine.fingerprint), "\", those before from \"", absl::CEscape(*engine_), "\"");
-  if (tallies_.counted().points > 0) return absl::DataLossError(found);
-  return absl::FailedPreconditionError(
-      absl::StrCat(found, ": they may differ in their last bits and must not be mixed; start the sweep anew"));
+  if (tallies_.counted().points == 0) return OtherEngine(next_index_, chunk.engine.fingerprint, *engine_);
+  return absl::DataLossError(EnginesDiffer(next_index_, chunk.engine.fingerprint, *engine_));
 }
 
 absl::Status ChunkChecker::CheckSize(const SweepChunk& chunk) {

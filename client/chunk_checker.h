@@ -56,6 +56,9 @@ class ChunkChecker {
   bool summarised_ = false;
 };
 
+// Returns the error FAILED_PRECONDITION for a sweep whose points from `index` on come from another engine than those before.
+absl::Status OtherEngine(int64_t index, const std::string& fingerprint, const std::string& before);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CLIENT_CHUNK_CHECKER_H_

@@ -12,8 +12,10 @@
 #include "client/call_context.h"
 #include "client/channel.h"
 #include "client/cost_reader.h"
+#include "client/sweep_fan_out.h"
 #include "client/sweep_reader.h"
 #include "core/batch/check_rows.h"
+#include "core/sweep/grid.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
@@ -32,6 +34,17 @@ using Stub = v1::ImpactService::StubInterface;
 // A unary method of the service.
 template <typename WireRequest, typename WireResponse>
 using Method = grpc::Status (Stub::*)(grpc::ClientContext*, const WireRequest&, WireResponse*);
+
+// Returns the sweep with its end, or nothing if it has no points to divide or is one that a server refuses.
+std::optional<SweepRequest> Divisible(const SweepRequest& request) {
+  if (!ValidateAxes(request.grid).empty()) return std::nullopt;
+  SweepRequest whole = request;
+  const int64_t points = PointCount(request.grid);
+  whole.end_index = request.end_index.value_or(points);
+  const bool has_points = whole.first_index >= 0 && whole.first_index < *whole.end_index && *whole.end_index <= points;
+  if (!has_points) return std::nullopt;
+  return whole;
+}
 
 }  // namespace
 
@@ -156,12 +169,22 @@ absl::StatusOr<BatchResponse> Client::SolveInPieces(const BatchSetup& setup, con
 
 SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& options) const {
   // The stream keeps the connection, so it may outlive the Client that made it.
-  auto reader = std::make_shared<SweepReader>(
-      request,
-      [connection = connection_](size_t server, grpc::ClientContext* context, const v1::SweepRequest& part) {
-        return connection->stubs[server]->Sweep(context, part);
-      },
-      connection_->preferred, connection_->options.retry, connection_->options.sweep_deadline, options);
+  auto start = [connection = connection_](size_t server, grpc::ClientContext* context, const v1::SweepRequest& part) {
+    return connection->stubs[server]->Sweep(context, part);
+  };
+  const ClientOptions& given = connection_->options;
+  const size_t servers = connection_->stubs.size();
+  if (std::optional<SweepRequest> whole = Divisible(request);
+      given.fan_out.has_value() && servers > 1 && whole.has_value()) {
+    auto reader = std::make_shared<SweepFanOut>(
+        *std::move(whole),
+        SweepFanOut::Servers{
+            .start = std::move(start), .count = servers, .retry = given.retry, .fan_out = *given.fan_out},
+        WithDeadline(options, given.sweep_deadline));
+    return SweepStream([reader = std::move(reader)] { return reader->Next(); });
+  }
+  auto reader = std::make_shared<SweepReader>(request, std::move(start), connection_->preferred, given.retry,
+                                              given.sweep_deadline, options);
   return SweepStream([reader = std::move(reader)] { return reader->Next(); });
 }
 

@@ -74,6 +74,12 @@ absl::Status ValidateOptions(const ClientOptions& options) {
   for (Violation& violation : RetryViolations(options.retry)) {
     violations.push_back(std::move(violation));
   }
+  if (options.fan_out.has_value() && options.fan_out->buffer_bytes <= 0) {
+    violations.push_back({"fan_out.buffer_bytes", absl::StrCat("= ", options.fan_out->buffer_bytes, ": must be > 0")});
+  }
+  if (options.fan_out.has_value() && options.fan_out->slow_after.count() <= 0) {
+    violations.push_back({"fan_out.slow_after", Found(options.fan_out->slow_after, "be > 0")});
+  }
   for (const std::string& target : Targets(options)) {
     const std::vector<Violation> broken = SecurityViolations(options.security, target);
     violations.insert(violations.end(), broken.begin(), broken.end());

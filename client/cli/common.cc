@@ -68,6 +68,23 @@ ArrayFormat ArrayFormatOf(const CommonOptions& options) {
   return absl::EndsWith(options.output, ".nc") ? ArrayFormat::kNetcdf : ArrayFormat::kNone;
 }
 
+namespace {
+
+absl::Status CheckThreads(const ConnectionInput& connection, std::optional<int> threads) {
+  if (!threads.has_value()) return absl::OkStatus();
+  return InputError(
+      "--threads", absl::StrCat(*threads),
+      absl::StrCat("not be given with the server ", connection.server, ", which computes with threads of its own"));
+}
+
+absl::StatusOr<std::unique_ptr<Solver>> Connect(const ClientOptions& options) {
+  absl::StatusOr<Client> client = Client::Connect(options);
+  if (!client.ok()) return client.status();
+  return std::make_unique<Client>(*std::move(client));
+}
+
+}  // namespace
+
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {
   const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
   if (!connection.ok()) return connection.status();
@@ -81,16 +98,24 @@ absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options,
   if (connection->server.empty()) {
     return std::make_unique<LocalSolver>(Limits::None(), threads.value_or(AvailableCores()));
   }
-  if (threads.has_value()) {
-    return InputError(
-        "--threads", absl::StrCat(*threads),
-        absl::StrCat("not be given with the server ", connection->server, ", which computes with threads of its own"));
-  }
-  const absl::StatusOr<ClientOptions> client_options = ClientOptionsOf(*connection);
-  if (!client_options.ok()) return client_options.status();
-  absl::StatusOr<Client> client = Client::Connect(*client_options);
+  if (absl::Status status = CheckThreads(*connection, threads); !status.ok()) return status;
+  const absl::StatusOr<ClientOptions> client = ClientOptionsOf(*connection);
   if (!client.ok()) return client.status();
-  return std::make_unique<Client>(*std::move(client));
+  return Connect(*client);
+}
+
+absl::StatusOr<std::unique_ptr<Solver>> MakeFanOut(const CommonOptions& options, std::optional<int> threads) {
+  const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
+  if (!connection.ok()) return connection.status();
+  if (connection->server.empty()) return absl::InvalidArgumentError("--fan-out needs --server A,B,...");
+  if (!absl::StrContains(connection->server, ',')) {
+    return InputError("--server", connection->server, "name at least two servers, separated by commas, for --fan-out");
+  }
+  if (absl::Status status = CheckThreads(*connection, threads); !status.ok()) return status;
+  absl::StatusOr<ClientOptions> client = ClientOptionsOf(*connection);
+  if (!client.ok()) return client.status();
+  client->fan_out.emplace();
+  return Connect(*client);
 }
 
 absl::Status WriteOutput(const CommonOptions& options, const std::string& text) {

@@ -55,6 +55,10 @@ absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options);
 // each core. Errors: INVALID_ARGUMENT, also for threads beside a server.
 absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads = {});
 
+// Returns a Client whose sweeps all servers of --server compute together. Errors: INVALID_ARGUMENT, also for less than two
+// servers and for threads.
+absl::StatusOr<std::unique_ptr<Solver>> MakeFanOut(const CommonOptions& options, std::optional<int> threads);
+
 // Writes `text` to the output that the options name. Errors: those of Output.
 absl::Status WriteOutput(const CommonOptions& options, const std::string& text);
 

@@ -59,6 +59,7 @@ struct SweepOptions {
   PictureOptions picture;
   std::string threads;
   bool resume = false;
+  bool fan_out = false;
   ShardInput shard;
   std::vector<std::string> arguments;  // The command line of this run.
 };
@@ -286,7 +287,8 @@ absl::Status RunSweep(const SweepOptions& options) {
   if (!threads.ok()) return threads.status();
   // This comes before the solver, which starts threads.
   const Interrupt interrupt;
-  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common, *threads);
+  const absl::StatusOr<std::unique_ptr<Solver>> solver =
+      options.fan_out ? MakeFanOut(options.common, *threads) : MakeSolver(options.common, *threads);
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<SweepRequest> request =
       options.request.empty() ? RequestFromFlags(options) : RequestFromFile(options);
@@ -341,6 +343,8 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   AddAxisOptions(*sub, options->picture);
   AddKindOption(*sub, options->picture);
   AddServerOptions(*sub, options->common);
+  sub->add_flag("--fan-out", options->fan_out,
+                "Let all servers of --server A,B,... compute the sweep together, a range of points each at a time");
   AddSweepOutputOptions(*sub, options->common);
   sub->add_flag("--resume", options->resume,
                 "Go on with FILE.part, which a run with -o FILE and --format csv, json, jsonl or npy left when it was "

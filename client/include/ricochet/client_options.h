@@ -29,6 +29,18 @@ struct RetryPolicy {
   double multiplier = 2.0;                         // >= 1.
 };
 
+// How all servers of a list compute one sweep together: each a range of points at a time, the faster ones longer ranges. A
+// server that fails is left alone for a while and its range goes to another one. The sweep fails once every server of the
+// list has failed in a row as often as RetryPolicy allows.
+struct FanOut {
+  // Bytes of values and regimes that may wait in the client until the points before them have arrived, > 0. A server that is
+  // further ahead waits. One message of each server comes on top.
+  int64_t buffer_bytes = int64_t{64} << 20;
+  // If the caller has waited this long for the next point, a second server is asked for it, too, and the first that
+  // answers goes on. > 0. A server sends a chunk at least each second, unless one point takes longer.
+  std::chrono::milliseconds slow_after{5000};
+};
+
 // gRPC counts the bytes of a message in 32 bits.
 inline constexpr int64_t kMostReceiveBytes = (int64_t{1} << 31) - 1;
 
@@ -36,6 +48,7 @@ inline constexpr int64_t kMostReceiveBytes = (int64_t{1} << 31) - 1;
 struct ClientOptions {
   // "host:port" or another gRPC target, such as "unix:PATH". Required. A list, separated by commas, names servers that
   // stand in for each other: calls go to the first; where it fails, they and those after them go to the next.
+  // A server may be named twice, for a `fan_out` over the servers behind one proxy.
   std::string target;
   std::chrono::milliseconds deadline{10000};                // For Solve, Bounds and CheckHealth, tries included. > 0.
   std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.
@@ -43,6 +56,7 @@ struct ClientOptions {
   // default limits sends no message above 4 MiB; one whose limits are raised may.
   int64_t max_receive_bytes = int64_t{4} << 20;
   RetryPolicy retry;
+  std::optional<FanOut> fan_out;  // Present: the servers of the list compute a sweep together, not one after another.
   SecurityOptions security;
   std::string user_agent;  // Text that every call puts before gRPC's own user agent.
 };
