@@ -1,9 +1,15 @@
-"""Several servers behind HAProxy, behind nginx, and by the client's own round robin, while each in turn dies and returns."""
+"""Several servers behind HAProxy, behind nginx, and by the client's own round robin, while each in turn dies and returns.
 
+RICOCHET_POOL_POINTS=N gives the sweep that three servers share N points instead of three million.
+"""
+
+import hashlib
 import os
 import shutil
+import signal
 import socket
 import struct
+import subprocess
 import threading
 import time
 
@@ -18,8 +24,15 @@ POLICY = """{"loadBalancingConfig": [{"round_robin": {}}], "methodConfig": [{"na
                   "retryableStatusCodes": ["UNAVAILABLE"]}}]}"""
 RECONNECT = {f"{kind}_reconnect_backoff_ms": ms for kind, ms in {"initial": 100, "min": 100, "max": 500}.items()}
 POINTS = 3_000_000
-SWEEP = ["sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", f"friction.kinetic_coefficient=lin:0:0.4:{POINTS}",
-         "--column", "coefficients.newton", "--format", "npy"]
+SHARED_POINTS = int(os.environ.get("RICOCHET_POOL_POINTS", POINTS))
+
+
+def sweep_of(points):
+    return ["sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", f"friction.kinetic_coefficient=lin:0:0.4:{points}",
+            "--column", "coefficients.newton", "--format", "npy"]
+
+
+SWEEP = sweep_of(POINTS)
 
 
 class Servers:
@@ -223,6 +236,41 @@ def headless_service():
         figures = try_pool(servers, target, ",".join(servers.addresses))
         require(names.asked, "nobody asked for the addresses of the name")
         return figures
+
+
+def checksum(*arguments, events=()):
+    """The SHA-256 of what `ricochet` prints, its bytes and its seconds. Each event (bytes, function) is called once so many
+    bytes have come."""
+    events = list(events)
+    start = time.monotonic()
+    with open(tools().work / "shared_errors", "w+b") as errors:
+        process = Process([tools().ricochet, *arguments], stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=errors)
+        whole, size = hashlib.sha256(), 0
+        while block := process.child.stdout.read(1 << 20):
+            whole.update(block)
+            size += len(block)
+            while events and size > events[0][0]:
+                events.pop(0)[1]()
+        code = process.child.wait()
+        errors.seek(0)
+        require(code == 0, f"ricochet ended with {code}: {errors.read()[-500:]}")
+    require(not events, "the sweep ended before every server was disturbed")
+    return whole.hexdigest(), size, time.monotonic() - start
+
+
+@check("one sweep shared by three servers behind HAProxy", "one server is killed and one drained, neither comes back, and the sweep "
+       "ends with the checksum of the undisturbed embedded run")
+def shared_behind_haproxy():
+    sweep = sweep_of(SHARED_POINTS)
+    expected, size, alone_s = checksum(*sweep)
+    with Servers() as servers, haproxy(servers.addresses) as proxy:
+        one, two, three = servers.servers
+        events = [(size // 4, one.kill), (size // 2, lambda: two.signal(signal.SIGTERM))]
+        found, _, shared_s = checksum(*sweep, "--server", ",".join([proxy.address] * 3), "--fan-out", events=events)
+        require(found == expected, f"the checksum {found} is not {expected}, that of the embedded engine")
+        require(two.wait(20) == 0, "the drained server did not end with 0")
+        require(not one.alive() and three.alive(), "the killed server runs, or the third one does not")
+    return {"points": SHARED_POINTS, "bytes": size, "sha256": found, "embedded s": alone_s, "shared s": shared_s}
 
 
 if __name__ == "__main__":
