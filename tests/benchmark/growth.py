@@ -137,10 +137,11 @@ def relative(rows):
 
 def page(found):
     alone, beside = found["clients"][0], found["clients"][-1]
-    points = [(f"{count:,}", f"{took * 1e3:.3g}", f"{(took - found['points'][0][1]) / count * 1e9:.1f}", f"{mib:.0f}")
+    start = found["points"][0][1]
+    points = [(f"{count:,}", f"{took * 1e3:,.0f}", f"{(took - start) / count * 1e9:.1f}" if took > 2 * start else "–", f"{mib:.0f}")
               for count, took, mib in found["points"]]
     threads = [(int(count), f"{found['threads'][0][1] / took:.2f}") for count, took in found["threads"]]
-    contacts = [(f"{count:,}", f"{each * 1e6:.3g}", f"{each * count * 1e6:.0f}") for count, each in found["contacts"]]
+    contacts = [(f"{count:,}", f"{each * 1e6:,.3f}", f"{each * count * 1e6:,.0f}") for count, each in found["contacts"]]
     clients = [(int(row[0]), f"{row[2]:,.0f}", f"{row[3] / alone[3]:.1f}", f"{row[4] / alone[3]:.1f}")
                for row in found["clients"][:-1]]
     return "\n".join([
@@ -150,7 +151,8 @@ def page(found):
         "![Cost against points, columns, axes, links, contacts and clients](images/growth.svg)", "",
         "## Points of a sweep", "",
         "One column of a pendulum, one thread, in the process of the command line. The time of the shortest sweep, which is that of",
-        "starting the process, is taken off before it is divided by the points. Memory does not grow with the points.", "",
+        "starting the process, is taken off before it is divided by the points; a sweep that takes less than twice as long (–) says",
+        "nothing about its points. Memory does not grow with the points.", "",
         *table(["points", "ms", "ns a point", "peak MiB"], points),
         "## Columns, axes and links", "", "The time of a point against that of the first row. All columns are outputs of the closed form.", "",
         *table(["columns", "time"], relative(found["columns"])), *table(["axes", "time"], relative(found["axes"])),

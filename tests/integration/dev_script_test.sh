@@ -19,7 +19,7 @@ expect_code() {
 help=$("$dev" help)
 commands=$(sed -n 's/^cmd_\([a-z]*\)() .*/\1/p' "$dev")
 [[ -n $commands ]] || fail "no commands found in $dev"
-known=$(sed -n '/^case $command in/,/^esac/p' "$dev")
+known=$(sed -n '/^case .command in/,/^esac/p' "$dev")
 for command in $commands; do
   grep -q "^  $command " <<<"$help" || fail "./dev help says nothing about $command"
   grep -qw "$command" <<<"$known" || fail "./dev refuses its own command $command"
