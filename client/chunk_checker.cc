@@ -111,10 +111,10 @@ absl::Status ChunkChecker::CheckSize(const SweepChunk& chunk) {
                                             chunk.count, " points of ", columns_, " columns, in a range that ends at ",
                                             *end_index_));
   }
-  const int64_t regimes = with_regime_ ? chunk.count : 0;
-  if (static_cast<int64_t>(chunk.regimes.size()) != regimes) {
+  const size_t wanted = with_regime_ ? static_cast<size_t>(chunk.count) : 0;
+  if (chunk.regimes.size() != wanted || chunk.statuses.size() != wanted) {
     return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", next_index_, " has ", chunk.regimes.size(),
-                                            " regimes instead of ", regimes));
+                                            " regimes and ", chunk.statuses.size(), " statuses instead of ", wanted));
   }
   return absl::OkStatus();
 }

@@ -28,15 +28,18 @@ bool GrowBy(int64_t points, const std::array<Tally, kKinds>& before, const std::
   return points == 0;
 }
 
-// True if the chunk has no regimes, or if `after` counts them.
-bool CountsRegimes(std::array<Tally, kRegimeCount> before, const std::array<Tally, kRegimeCount>& after,
-                   const SweepChunk& chunk) {
+// True if the chunk has no regimes, or if `after` counts them and the statuses.
+bool CountsRegimes(const SweepSummary& before, const SweepSummary& after, const SweepChunk& chunk) {
   if (chunk.regimes.empty()) return true;
+  std::array<Tally, kRegimeCount> by_regime = before.by_regime;
+  Tally inadmissible = before.inadmissible;
   for (size_t i = 0; i < chunk.regimes.size(); ++i) {
-    Tally& tally = before[static_cast<size_t>(chunk.regimes[i])];
-    tally = Joined(tally, {1, chunk.first_index + static_cast<int64_t>(i)});
+    const Tally point = {1, chunk.first_index + static_cast<int64_t>(i)};
+    Tally& tally = by_regime[static_cast<size_t>(chunk.regimes[i])];
+    tally = Joined(tally, point);
+    if (chunk.statuses[i] == RowStatus::kInadmissible) inadmissible = Joined(inadmissible, point);
   }
-  return before == after;
+  return by_regime == after.by_regime && inadmissible == after.inadmissible;
 }
 
 bool Counts(const SweepSummary& before, const SweepChunk& chunk) {
@@ -46,8 +49,7 @@ bool Counts(const SweepSummary& before, const SweepChunk& chunk) {
   if (!GrowBy(chunk.count, before.by_regime, after.by_regime, chunk)) return false;
   const int64_t valid = chunk.count - (after.by_regime[kInvalid].count - before.by_regime[kInvalid].count);
   return GrowBy(valid, before.by_model, after.by_model, chunk) &&
-         Grows(before.inadmissible, after.inadmissible, chunk) &&
-         CountsRegimes(before.by_regime, after.by_regime, chunk);
+         Grows(before.inadmissible, after.inadmissible, chunk) && CountsRegimes(before, after, chunk);
 }
 
 }  // namespace

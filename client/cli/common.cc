@@ -14,6 +14,7 @@
 #include "client/cli/output.h"
 #include "core/engine/engine.h"
 #include "proto/wire/outcome.h"
+#include "proto/wire/sweep.h"
 #include "ricochet/client.h"
 #include "ricochet/solver.h"
 
@@ -151,6 +152,18 @@ const std::string& RegimeName(Regime regime) {
     return all;
   }();
   return names.at(static_cast<size_t>(regime));
+}
+
+const std::string& StatusName(RowStatus status) {
+  static const auto names = [] {
+    std::array<std::string, kRowStatusCount> all;
+    for (int i = 0; i < kRowStatusCount; ++i) {
+      const std::string full = v1::RowStatus_Name(ToProto(static_cast<RowStatus>(i)));
+      all[static_cast<size_t>(i)] = std::string(absl::StripPrefix(full, "ROW_STATUS_"));
+    }
+    return all;
+  }();
+  return names.at(static_cast<size_t>(status));
 }
 
 std::string RegimeText(Regime regime) {

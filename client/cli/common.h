@@ -74,6 +74,9 @@ std::string RegimeText(Regime regime);
 // Returns the name in ricochet.v1.Regime without its prefix: "REBOUND".
 const std::string& RegimeName(Regime regime);
 
+// Returns the name in ricochet.v1.RowStatus without its prefix: "INADMISSIBLE".
+const std::string& StatusName(RowStatus status);
+
 }  // namespace ricochet::cli
 
 #endif  // RICOCHET_CLIENT_CLI_COMMON_H_

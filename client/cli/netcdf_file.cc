@@ -101,7 +101,10 @@ class NetcdfFile::Impl {
         return nc_put_vara_double(id_, columns_[c], corner.data(), edges.data(), block);
       }));
     }
-    if (request_.with_regime) PutRegimes(chunk, first);
+    if (request_.with_regime) {
+      PutCodes(regime_, chunk.regimes, first);
+      PutCodes(status_, chunk.statuses, first);
+    }
     if (is_flat_) PutPoints(chunk, first);
     return Check(error_);
   }
@@ -160,22 +163,30 @@ class NetcdfFile::Impl {
       axes_.push_back(DefineNumber(grid.axes[i].path, {dimensions[is_flat_ ? 0 : i]}));
     }
     for (const std::string& column : request_.columns) columns_.push_back(DefineNumber(column, dimensions));
-    if (request_.with_regime) DefineRegime(dimensions);
+    if (request_.with_regime) {
+      regime_ = DefineCodes<Regime, kRegimeCount>("regime", "what the contact did", RegimeName, dimensions);
+      status_ = DefineCodes<RowStatus, kRowStatusCount>("status", "whether the point has numbers and is admissible",
+                                                        StatusName, dimensions);
+    }
     if (is_flat_) DefineCoordinates();
     DefineProvenance();
   }
 
-  void DefineRegime(const std::vector<int>& dimensions) {
-    regime_ = DefineVariable("regime", NC_UBYTE, dimensions);
+  // Defines a variable of bytes, each of which stands for a value of an enum.
+  template <typename Code, int kCount>
+  int DefineCodes(const std::string& name, const std::string& meaning, const std::string& (*name_of)(Code),
+                  const std::vector<int>& dimensions) {
+    const int variable = DefineVariable(name, NC_UBYTE, dimensions);
     std::vector<unsigned char> numbers;
     std::vector<std::string> names;
-    for (int i = 0; i < kRegimeCount; ++i) {
+    for (int i = 0; i < kCount; ++i) {
       numbers.push_back(static_cast<unsigned char>(i));
-      names.push_back(RegimeName(static_cast<Regime>(i)));
+      names.push_back(name_of(static_cast<Code>(i)));
     }
-    PutText(regime_, "long_name", "what the contact did");
-    Take(nc_put_att_uchar(id_, regime_, "flag_values", NC_UBYTE, numbers.size(), numbers.data()));
-    PutText(regime_, "flag_meanings", absl::StrJoin(names, " "));
+    PutText(variable, "long_name", meaning);
+    Take(nc_put_att_uchar(id_, variable, "flag_values", NC_UBYTE, numbers.size(), numbers.data()));
+    PutText(variable, "flag_meanings", absl::StrJoin(names, " "));
+    return variable;
   }
 
   // Tells readers that the index and the axes are coordinates of the points.
@@ -184,7 +195,9 @@ class NetcdfFile::Impl {
     for (const Axis& axis : request_.grid.axes) names.push_back(axis.path);
     const std::string coordinates = absl::StrJoin(names, " ");
     for (const int column : columns_) PutText(column, "coordinates", coordinates);
-    if (request_.with_regime) PutText(regime_, "coordinates", coordinates);
+    if (!request_.with_regime) return;
+    PutText(regime_, "coordinates", coordinates);
+    PutText(status_, "coordinates", coordinates);
   }
 
   void DefineProvenance() {
@@ -218,14 +231,15 @@ class NetcdfFile::Impl {
     }
   }
 
-  void PutRegimes(const SweepChunk& chunk, size_t first) {
+  template <typename Code>
+  void PutCodes(int variable, const std::vector<Code>& codes, size_t first) {
     std::vector<unsigned char> numbers;
-    for (const Regime regime : chunk.regimes) numbers.push_back(static_cast<unsigned char>(regime));
+    for (const Code code : codes) numbers.push_back(static_cast<unsigned char>(code));
     const unsigned char* next = numbers.data();
     Take(ForEachBlock(counts_, first, numbers.size(), [&](const auto& corner, const auto& edges, size_t taken) {
       const unsigned char* const block = next;
       next += taken;
-      return nc_put_vara_uchar(id_, regime_, corner.data(), edges.data(), block);
+      return nc_put_vara_uchar(id_, variable, corner.data(), edges.data(), block);
     }));
   }
 
@@ -256,6 +270,7 @@ class NetcdfFile::Impl {
   std::vector<size_t> counts_;  // The lengths of the dimensions.
   int index_ = -1;
   int regime_ = -1;
+  int status_ = -1;
   std::vector<int> axes_;
   std::vector<int> columns_;
 };

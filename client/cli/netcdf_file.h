@@ -2,8 +2,8 @@
 //
 // A sweep over a whole grid has a dimension for each axis, with the values of the axis as its coordinate; the last axis
 // runs fastest. A zip, a part of a grid, or a grid without axes has the one dimension `point`, with the grid's `index` and
-// the axes as coordinates. Columns are variables of doubles, an invalid point is NaN, and the regime is a variable of
-// bytes with its numbers and names as attributes. Global attributes tell the request, the grid and the engine.
+// the axes as coordinates. Columns are variables of doubles, an invalid point is NaN, and the regime and the
+// status are variables of bytes with their numbers and names as attributes. Global attributes tell the request, the grid and the engine.
 
 #ifndef RICOCHET_CLIENT_CLI_NETCDF_FILE_H_
 #define RICOCHET_CLIENT_CLI_NETCDF_FILE_H_

@@ -171,13 +171,15 @@ std::vector<double> AtPoints(File& file, const std::vector<Variable>& variables,
   return at;
 }
 
-absl::Status ReadRegimes(File& file, const std::vector<Variable>& variables, const Contents& contents,
-                         SweepTable& table) {
-  const size_t regime = PlaceOf("regime", variables);
-  if (regime == variables.size()) return absl::OkStatus();
-  for (const double number : file.Numbers(static_cast<int>(regime), contents.points)) {
-    if (number >= kRegimeCount) return absl::InvalidArgumentError("regime has a number that is no regime");
-    table.regimes.push_back(static_cast<Regime>(static_cast<int>(number)));
+// Reads a variable whose numbers are those of an enum; a file need not have it.
+template <typename Code>
+absl::Status ReadCodes(File& file, const std::vector<Variable>& variables, const Contents& contents,
+                       const std::string& name, int count, std::vector<Code>& codes) {
+  const size_t variable = PlaceOf(name, variables);
+  if (variable == variables.size()) return absl::OkStatus();
+  for (const double number : file.Numbers(static_cast<int>(variable), contents.points)) {
+    if (number >= count) return absl::InvalidArgumentError(absl::StrCat(name, " has a number that is no ", name));
+    codes.push_back(static_cast<Code>(static_cast<int>(number)));
   }
   return absl::OkStatus();
 }
@@ -213,7 +215,9 @@ absl::StatusOr<SweepTable> ReadSweepNetcdf(const std::string& path, const std::v
     table.values.push_back(file.Numbers(static_cast<int>(column), contents->points));
     AddUnit(file, column, name, table);
   }
-  if (absl::Status status = ReadRegimes(file, variables, *contents, table); !status.ok()) return status;
+  absl::Status status = ReadCodes(file, variables, *contents, "regime", kRegimeCount, table.regimes);
+  status.Update(ReadCodes(file, variables, *contents, "status", kRowStatusCount, table.statuses));
+  if (!status.ok()) return status;
   if (!file.status().ok()) return file.status();
   return table;
 }

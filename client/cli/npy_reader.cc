@@ -89,9 +89,12 @@ absl::Status AddRecord(const std::vector<Field>& fields, const char*& bytes, Swe
       whole = fields[i].type == "<i8" ? Take<int64_t>(bytes) : Take<uint8_t>(bytes);
       value = static_cast<double>(whole);
     }
-    if (rows.KindOf(i) == SweepRows::Kind::kNumber) rows.AddNumber(i, value);
-    if (rows.KindOf(i) != SweepRows::Kind::kRegime) continue;
-    if (absl::Status status = rows.AddRegime(whole); !status.ok()) return status;
+    if (rows.KindOf(i) == SweepRows::Kind::kSkipped) continue;
+    if (rows.KindOf(i) == SweepRows::Kind::kNumber) {
+      rows.AddNumber(i, value);
+    } else if (absl::Status status = rows.AddCode(i, whole); !status.ok()) {
+      return status;
+    }
   }
   return absl::OkStatus();
 }

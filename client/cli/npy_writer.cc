@@ -25,7 +25,7 @@ std::string Header(const SweepRequest& request, int64_t points) {
   std::string fields = Field("index", "<i8");
   for (const Axis& axis : request.grid.axes) fields += Field(axis.path, "<f8");
   for (const std::string& column : request.columns) fields += Field(column, "<f8");
-  if (request.with_regime) fields += Field("regime", "|u1");
+  if (request.with_regime) absl::StrAppend(&fields, Field("regime", "|u1"), Field("status", "|u1"));
   std::string text = absl::StrCat("{'descr': [", fields, "], 'fortran_order': False, 'shape': (", points, ",), }");
   // Version 2.0 of the format: a length of four bytes.
   const std::string magic("\x93NUMPY\x02\x00", 8);
@@ -48,7 +48,9 @@ absl::StatusOr<std::string> NpyWriter::operator()(const SweepChunk& chunk) {
     for (size_t c = 0; c < request_->columns.size(); ++c) {
       AppendBytes(chunk.values[c * static_cast<size_t>(chunk.count) + static_cast<size_t>(i)], bytes);
     }
-    if (request_->with_regime) AppendBytes(static_cast<uint8_t>(chunk.regimes[static_cast<size_t>(i)]), bytes);
+    if (!request_->with_regime) continue;
+    AppendBytes(static_cast<uint8_t>(chunk.regimes[static_cast<size_t>(i)]), bytes);
+    AppendBytes(static_cast<uint8_t>(chunk.statuses[static_cast<size_t>(i)]), bytes);
   }
   return bytes;
 }

@@ -13,8 +13,8 @@
 namespace ricochet::cli {
 
 // A SweepWriter: the header before the first point of the range, and then one record for each point. The fields of a record
-// are index (int64), the axes and the columns by their paths (float64), and regime (uint8, the number of the
-// ricochet.v1.Regime) if it was asked for.
+// are index (int64), the axes and the columns by their paths (float64), and regime and status (uint8, the
+// numbers of ricochet.v1.Regime and RowStatus) if they were asked for.
 class NpyWriter {
  public:
   explicit NpyWriter(const SweepRequest& request)

@@ -59,11 +59,6 @@ absl::Status Solve(const CsvTable& table, const Solver& solver, Solved& solved) 
   return response.status();
 }
 
-// The name in ricochet.v1.RowStatus without its prefix: "OK".
-std::string StatusName(RowStatus status) {
-  return v1::RowStatus_Name(ToProto(status)).substr(sizeof("ROW_STATUS_") - 1);
-}
-
 std::string Number(double number) {
   std::array<char, 32> buffer;
   return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr};

@@ -155,7 +155,10 @@ class Receiver {
     }
     if (plot_.has_value()) {
       plot_->Add(chunk);
-      if (!with_regime_) chunk.regimes.clear();
+      if (!with_regime_) {
+        chunk.regimes.clear();
+        chunk.statuses.clear();
+      }
     }
     return output_.Write(chunk);
   }
@@ -315,7 +318,7 @@ void AddGridOptions(CLI::App& sub, SweepOptions& options) {
       ->allow_extra_args(false)
       ->group("Grid");
   sub.add_flag("--regime", options.regime,
-               "Also print the regime of every point, and its status: OK, or why it has no numbers")
+               "Also print the regime of every point, and its status: OK, INADMISSIBLE, or why it has no numbers")
       ->group("Grid");
   sub.add_option("--range", options.range, "Only the points FIRST <= index < END")
       ->type_name("FIRST:END")

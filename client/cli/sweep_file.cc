@@ -19,10 +19,10 @@
 namespace ricochet::cli {
 namespace {
 
-// Appends the number or the regime of a cell. A sweep writes the shortest decimals, nan and inf.
+// Appends the number, the regime or the status of a cell. A sweep writes the shortest decimals, nan and inf.
 absl::Status AddCell(const std::string& name, const std::string& text, size_t cell, SweepRows& rows) {
   if (rows.KindOf(cell) == SweepRows::Kind::kSkipped) return absl::OkStatus();
-  if (rows.KindOf(cell) == SweepRows::Kind::kRegime) return rows.AddRegime(text);
+  if (rows.KindOf(cell) != SweepRows::Kind::kNumber) return rows.AddName(cell, text);
   double value = 0.0;
   const char* const last = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data(), last, value);

@@ -27,7 +27,7 @@ std::string MeaningOfPath(const std::string& path) {
   if (path == "index") return "number of the point in the grid";
   if (path == "row") return "number of the row, from 0";
   if (path == "regime") return "how the contact behaved";
-  if (path == "status") return "OK, or why there are no numbers";
+  if (path == "status") return "OK, INADMISSIBLE, or why there are no numbers";
   const FieldInfo* info = FindFieldInfo(path);
   return info == nullptr ? "" : info->meaning;
 }

@@ -130,6 +130,18 @@ Curve CurveOf(const SweepTable& table, const Group& group, size_t column, std::s
   return curve;
 }
 
+// Returns marks on the points of the curves whose outcome breaks a limit.
+Curve InadmissibleMarks(const SweepTable& table, const std::vector<size_t>& columns) {
+  Curve marks{.title = "inadmissible",
+              .points = {},
+              .style = "with points pointtype 6 pointsize 0.6 linewidth 1.5 linecolor rgb 'red'"};
+  for (size_t i = 0; i < table.statuses.size(); ++i) {
+    if (table.statuses[i] != RowStatus::kInadmissible) continue;
+    for (const size_t column : columns) marks.points.emplace_back(table.at.back()[i], table.values[column][i]);
+  }
+  return marks;
+}
+
 Panel CurvePanel(const SweepTable& table, const std::vector<Group>& groups, const std::vector<size_t>& columns) {
   Panel panel{.title = "",
               .x_label = WithUnit(LabelIn(table, table.axes.back())),
@@ -143,6 +155,8 @@ Panel CurvePanel(const SweepTable& table, const std::vector<Group>& groups, cons
     }
   }
   panel.x_missing.assign(missing.begin(), missing.end());
+  Curve marks = InadmissibleMarks(table, columns);
+  if (!marks.points.empty()) panel.curves.push_back(std::move(marks));
   return panel;
 }
 
@@ -241,6 +255,7 @@ void SweepPlot::Add(const SweepChunk& chunk) {
     table_.values[column].insert(table_.values[column].end(), first, first + count);
   }
   table_.regimes.insert(table_.regimes.end(), chunk.regimes.begin(), chunk.regimes.end());
+  table_.statuses.insert(table_.statuses.end(), chunk.statuses.begin(), chunk.statuses.end());
 }
 
 absl::StatusOr<Plot> SweepPlot::Make() const { return status_.ok() ? PlotOf(table_, kind_) : status_; }

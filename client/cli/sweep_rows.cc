@@ -79,7 +79,10 @@ absl::StatusOr<SweepRows> SweepRows::Create(const std::vector<std::string>& name
     const size_t column = PlaceOf(name, table.columns);
     const bool is_axis = axis < table.axes.size();
     const bool is_number = is_axis || column < table.columns.size();
-    rows.kinds_.push_back(name == "regime" ? Kind::kRegime : is_number ? Kind::kNumber : Kind::kSkipped);
+    rows.kinds_.push_back(name == "regime"   ? Kind::kRegime
+                          : name == "status" ? Kind::kStatus
+                          : is_number        ? Kind::kNumber
+                                             : Kind::kSkipped);
     rows.places_.push_back(is_axis ? axis : table.axes.size() + column);
   }
   return rows;
@@ -91,19 +94,34 @@ void SweepRows::AddNumber(size_t cell, double value) {
   (place < axes ? table_.at[place] : table_.values[place - axes]).push_back(value);
 }
 
-absl::Status SweepRows::AddRegime(const std::string& name) {
-  for (int i = 0; i < kRegimeCount; ++i) {
-    if (name == RegimeName(static_cast<Regime>(i))) return AddRegime(i);
+absl::Status SweepRows::AddName(size_t cell, const std::string& name) {
+  if (KindOf(cell) == Kind::kRegime) {
+    for (int i = 0; i < kRegimeCount; ++i) {
+      if (name == RegimeName(static_cast<Regime>(i))) return AddCode(cell, i);
+    }
+    return absl::InvalidArgumentError(
+        absl::StrCat("regime = ", name, ": must be the name of a regime, such as REBOUND"));
   }
-  return absl::InvalidArgumentError(absl::StrCat("regime = ", name, ": must be the name of a regime, such as REBOUND"));
+  const std::string kind = name.substr(0, name.find(':'));
+  for (int i = 0; i < kRowStatusCount; ++i) {
+    if (kind == StatusName(static_cast<RowStatus>(i))) return AddCode(cell, i);
+  }
+  return absl::InvalidArgumentError(absl::StrCat("status = ", name, ": must be the name of a status, such as OK"));
 }
 
-absl::Status SweepRows::AddRegime(int64_t number) {
-  if (number < 0 || number >= kRegimeCount) {
+absl::Status SweepRows::AddCode(size_t cell, int64_t number) {
+  const bool is_regime = KindOf(cell) == Kind::kRegime;
+  const int count = is_regime ? kRegimeCount : kRowStatusCount;
+  if (number < 0 || number >= count) {
+    const char* const name = is_regime ? "regime" : "status";
     return absl::InvalidArgumentError(
-        absl::StrCat("regime = ", number, ": must be the number of a regime, from 0 to ", kRegimeCount - 1));
+        absl::StrCat(name, " = ", number, ": must be the number of a ", name, ", from 0 to ", count - 1));
   }
-  table_.regimes.push_back(static_cast<Regime>(number));
+  if (is_regime) {
+    table_.regimes.push_back(static_cast<Regime>(number));
+  } else {
+    table_.statuses.push_back(static_cast<RowStatus>(number));
+  }
   return absl::OkStatus();
 }
 

@@ -16,7 +16,7 @@ namespace ricochet::cli {
 
 class SweepRows {
  public:
-  enum class Kind { kSkipped, kNumber, kRegime };
+  enum class Kind { kSkipped, kNumber, kRegime, kStatus };
 
   // `names` are those of the cells of each row: the index, the axes, the columns, and what else a sweep writes. `wanted`
   // are the columns to read, empty: all.
@@ -28,9 +28,10 @@ class SweepRows {
   Kind KindOf(size_t cell) const { return kinds_[cell]; }
   // Call one of these for each cell that is not skipped, row by row.
   void AddNumber(size_t cell, double value);
-  // Errors: INVALID_ARGUMENT if there is no such regime.
-  absl::Status AddRegime(const std::string& name);
-  absl::Status AddRegime(int64_t number);
+  // Adds a regime or a status, by its name or by its number. The reason behind the name of a status is not kept.
+  // Errors: INVALID_ARGUMENT if there is none of that name or number.
+  absl::Status AddName(size_t cell, const std::string& name);
+  absl::Status AddCode(size_t cell, int64_t number);
 
   SweepTable& table() { return table_; }
 

@@ -68,7 +68,9 @@ class Points {
     if (!request_->with_regime) return;
     const Regime regime = chunk.regimes[static_cast<size_t>(i)];
     cells.Kind(regime);
-    cells.Words(regime == Regime::kInvalid ? absl::StrCat("INVALID: ", invalid_.Reason(index)) : "OK");
+    const RowStatus status = chunk.statuses[static_cast<size_t>(i)];
+    const bool has_numbers = regime != Regime::kInvalid;
+    cells.Words(has_numbers ? StatusName(status) : absl::StrCat(StatusName(status), ": ", invalid_.Reason(index)));
   }
 
  private:

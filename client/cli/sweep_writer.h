@@ -15,8 +15,8 @@ namespace ricochet::cli {
 // Returns the text of one chunk, which may be empty. The text of all points does not depend on how chunks cut them.
 using SweepWriter = std::function<absl::StatusOr<std::string>(const SweepChunk&)>;
 
-// A point has its index, the values of the axes, the columns and, with the regimes, its regime and its status: OK, or
-// INVALID and the reason. kText gives a table of the first points and the summary. kJson gives one document: engine, axes
+// A point has its index, the values of the axes, the columns and, with the regimes, its regime and its status: OK,
+// INADMISSIBLE, or INVALID or NOT_REPRESENTABLE and the reason. kText gives a table of the first points and the summary. kJson gives one document: engine, axes
 // and columns with their units, a list for each point, and the summary. kJsonLines gives an object on a line for each
 // point. kCsv gives a header before the first point of the range, and a line for each point. With `summary_only` there is
 // only the summary, as text, as the JSON of ricochet.v1.SweepSummary, or as CSV.

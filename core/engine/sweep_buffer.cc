@@ -11,6 +11,7 @@ SweepBuffer::SweepBuffer(int64_t first, int64_t room, size_t columns, bool with_
       columns_(columns),
       values_(static_cast<size_t>(room) * columns),
       regimes_(with_regimes ? static_cast<size_t>(room) : 0),
+      statuses_(regimes_.size()),
       untaken_({{0, room}}) {}
 
 std::optional<SweepBuffer::Block> SweepBuffer::Take(int64_t most) {
@@ -22,13 +23,17 @@ std::optional<SweepBuffer::Block> SweepBuffer::Take(int64_t most) {
   return Block{.first = first_ + start, .count = count};
 }
 
-void SweepBuffer::Places(const Block& block, std::vector<double*>& columns, absl::Span<Regime>& regimes) {
+SweepBuffer::Places SweepBuffer::PlacesOf(const Block& block) {
   const int64_t start = block.first - first_;
-  columns.resize(columns_);
-  for (size_t c = 0; c < columns_; ++c) columns[c] = values_.data() + static_cast<int64_t>(c) * room_ + start;
+  Places places;
+  places.columns.resize(columns_);
+  for (size_t c = 0; c < columns_; ++c) places.columns[c] = values_.data() + static_cast<int64_t>(c) * room_ + start;
   if (!regimes_.empty()) {
-    regimes = absl::MakeSpan(regimes_).subspan(static_cast<size_t>(start), static_cast<size_t>(block.count));
+    const auto count = static_cast<size_t>(block.count);
+    places.regimes = absl::MakeSpan(regimes_).subspan(static_cast<size_t>(start), count);
+    places.statuses = absl::MakeSpan(statuses_).subspan(static_cast<size_t>(start), count);
   }
+  return places;
 }
 
 void SweepBuffer::Finish(const Block& block, int64_t count, const SweepSummary& tallies) {
@@ -48,6 +53,7 @@ SweepChunk SweepBuffer::Leave(SweepSummary& tallies) {
   if (chunk.count == room_) {
     chunk.values = std::move(values_);
     chunk.regimes = std::move(regimes_);
+    chunk.statuses = std::move(statuses_);
   } else {
     CopyReady(chunk);
   }
@@ -62,7 +68,9 @@ void SweepBuffer::CopyReady(SweepChunk& chunk) const {
     const auto column = values_.begin() + static_cast<int64_t>(c) * room_;
     chunk.values.insert(chunk.values.end(), column + left_, column + ready_);
   }
-  if (!regimes_.empty()) chunk.regimes.assign(regimes_.begin() + left_, regimes_.begin() + ready_);
+  if (regimes_.empty()) return;
+  chunk.regimes.assign(regimes_.begin() + left_, regimes_.begin() + ready_);
+  chunk.statuses.assign(statuses_.begin() + left_, statuses_.begin() + ready_);
 }
 
 }  // namespace ricochet

@@ -25,7 +25,7 @@ class SweepBuffer {
     int64_t count = 0;
   };
 
-  // Room for `room` >= 1 points from `first` on, with `columns` values each.
+  // Room for `room` >= 1 points from `first` on, with `columns` values each, and with a regime and a status if wanted.
   SweepBuffer(int64_t first, int64_t room, size_t columns, bool with_regimes);
 
   // Takes the first points that nobody has taken yet, at most `most` of them; nothing if there are none.
@@ -34,8 +34,13 @@ class SweepBuffer {
   bool has_untaken() const { return !untaken_.empty(); }
   bool Contains(const Block& block) const { return block.first >= first_ && block.first < first_ + room_; }
 
-  // The places of a block: that of its first value in each column, and those of its regimes.
-  void Places(const Block& block, std::vector<double*>& columns, absl::Span<Regime>& regimes);
+  // The places of the points of a block.
+  struct Places {
+    std::vector<double*> columns;    // That of the first point's value in each column.
+    absl::Span<Regime> regimes;      // Empty without regimes.
+    absl::Span<RowStatus> statuses;  // Empty without regimes.
+  };
+  Places PlacesOf(const Block& block);
 
   // Says that the first `count` points of a block that was taken are computed. The rest may be taken again.
   void Finish(const Block& block, int64_t count, const SweepSummary& tallies);
@@ -44,7 +49,7 @@ class SweepBuffer {
   // True if the next point to leave is computed.
   bool has_ready() const { return ready_ > left_; }
 
-  // Moves all points that can leave now into a chunk: its index, count, values and regimes. Adds them to `tallies`.
+  // Moves all points that can leave now into a chunk: its index, count, values, regimes and statuses. Adds them to `tallies`.
   SweepChunk Leave(SweepSummary& tallies);
 
  private:
@@ -60,6 +65,7 @@ class SweepBuffer {
   const size_t columns_;
   std::vector<double> values_;  // Column after column, with room_ values each.
   std::vector<Regime> regimes_;
+  std::vector<RowStatus> statuses_;
   // Points by their distance from first_.
   std::map<int64_t, int64_t> untaken_;  // Runs of points: where each starts, and its length.
   std::map<int64_t, Part> computed_;    // Blocks behind one that is not computed yet.

@@ -69,8 +69,7 @@ class SweepRun::Impl {
   struct Task {
     SweepBuffer* buffer = nullptr;
     Block block;
-    std::vector<double*> columns;
-    absl::Span<Regime> regimes;
+    SweepBuffer::Places places;
   };
 
   // Computes a block with the mutex unlocked, and makes its points known. Returns how many they are.
@@ -187,7 +186,8 @@ absl::StatusOr<int64_t> SweepRun::Impl::Compute(const Task& task, SweepPoints& p
   SweepSummary tallies;
   const Clock::time_point start = Clock::now();
   const absl::StatusOr<int64_t> count =
-      points.Compute(task.block.first, task.block.count, task.columns, task.regimes, tallies, stopped, is_enough);
+      points.Compute(task.block.first, task.block.count, task.places.columns, task.places.regimes, task.places.statuses,
+                     tallies, stopped, is_enough);
   const Clock::duration time = Clock::now() - start;
   lock.lock();
   if (!count.ok()) return count;
@@ -240,9 +240,8 @@ std::optional<SweepRun::Impl::Task> SweepRun::Impl::Take() {
     buffer = buffers_.emplace(buffers_.end(), next_, room, sweep_.columns, sweep_.with_regime);
     next_ += room;
   }
-  Task task = {.buffer = &*buffer, .block = *buffer->Take(block_), .columns = {}, .regimes = {}};
-  buffer->Places(task.block, task.columns, task.regimes);
-  return task;
+  const Block block = *buffer->Take(block_);
+  return Task{.buffer = &*buffer, .block = block, .places = buffer->PlacesOf(block)};
 }
 
 bool SweepRun::Impl::CanTake() const {

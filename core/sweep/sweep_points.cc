@@ -46,7 +46,7 @@ SweepPoints::SweepPoints(const CheckedSweep& sweep)
       driven_(sweep.grid),
       regimes_(kMostPoints),
       models_(kMostPoints),
-      valid_(std::make_unique<bool[]>(kMostPoints)),
+      statuses_(kMostPoints),
       inadmissible_(std::make_unique<bool[]>(kMostPoints)),
       columns_(sweep.columns) {
   if (sweep.in_lanes) problems_ = pendulum::ProblemColumns(pendulum::MakeProblem(driven_.scene()).law, kMostPoints);
@@ -54,8 +54,9 @@ SweepPoints::SweepPoints(const CheckedSweep& sweep)
 }
 
 absl::StatusOr<int64_t> SweepPoints::Compute(int64_t first, int64_t count, absl::Span<double* const> columns,
-                                             absl::Span<Regime> regimes, SweepSummary& tallies,
-                                             absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough) {
+                                             absl::Span<Regime> regimes, absl::Span<RowStatus> statuses,
+                                             SweepSummary& tallies, absl::FunctionRef<bool()> stopped,
+                                             absl::FunctionRef<bool()> is_enough) {
   if (stopped()) return Stopped();
   if (at_ != first) driven_.GoTo(first);
   at_ = -1;  // Unknown until the block is complete.
@@ -72,6 +73,7 @@ absl::StatusOr<int64_t> SweepPoints::Compute(int64_t first, int64_t count, absl:
   at_ = first + count;
   FinishBlock(first, count, tallies);
   if (!regimes.empty()) std::copy_n(regimes_.begin(), count, regimes.begin());
+  if (!statuses.empty()) std::copy_n(statuses_.begin(), count, statuses.begin());
   return count;
 }
 
@@ -89,14 +91,16 @@ absl::StatusOr<int64_t> SweepPoints::SolvePoints(int64_t count, absl::FunctionRe
 // Returns false if it was stopped.
 bool SweepPoints::SolvePoint(size_t i, absl::FunctionRef<bool()> stopped) {
   std::optional<SceneContact> contact;
-  valid_[i] = driven_.IsValid(contact);
-  if (!valid_[i]) return true;
+  statuses_[i] = driven_.IsValid(contact) ? RowStatus::kOk : RowStatus::kInvalid;
+  if (statuses_[i] != RowStatus::kOk) return true;
   Outcome outcome;
   const absl::Status status = SolveScene(
       driven_.scene(), contact, {.extent = {.detail = Detail::kNumbers}, .demand = sweep_.demand}, stopped, outcome);
   if (absl::IsCancelled(status)) return false;
-  valid_[i] = status.ok();
-  if (!valid_[i]) return true;
+  if (!status.ok()) {
+    statuses_[i] = RowStatus::kNotRepresentable;
+    return true;
+  }
   regimes_[i] = outcome.regime;
   models_[i] = outcome.plan.model;
   inadmissible_[i] = !outcome.admissible;
@@ -123,9 +127,9 @@ void SweepPoints::SolveLanes(int64_t count) {
 void SweepPoints::GatherProblems(int64_t count) {
   std::optional<SceneContact> contact;
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    valid_[i] = driven_.IsValid(contact);
+    statuses_[i] = driven_.IsValid(contact) ? RowStatus::kOk : RowStatus::kInvalid;
     pendulum::Problem problem = {.omega_minus = 1.0, .law = problems_.law()};  // Separating costs least to solve.
-    if (valid_[i]) problem = ClosedFormProblem(driven_.scene());
+    if (statuses_[i] == RowStatus::kOk) problem = ClosedFormProblem(driven_.scene());
     problems_.Set(i, PlanPendulum(i, problem));
     driven_.Advance();
   }
@@ -202,21 +206,25 @@ void SweepPoints::SolvePlanarBlock(size_t first, size_t count) {
   std::copy_n(block.models.begin(), count, models_.begin() + at);
   std::copy_n(block.regimes.begin(), count, regimes_.begin() + at);
   std::copy_n(block.inadmissible.begin(), count, inadmissible_.get() + at);
-  std::fill_n(valid_.get() + at, count, true);
+  std::fill_n(statuses_.begin() + at, count, RowStatus::kOk);
 }
 
 // Overwrites bad points and tallies all of them.
 void SweepPoints::FinishBlock(int64_t first, int64_t count, SweepSummary& tallies) {
   for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
     const auto is_finite = [i](const double* column) { return std::isfinite(column[i]); };
-    if (!valid_[i] || !std::all_of(columns_.begin(), columns_.end(), is_finite)) {
+    RowStatus& status = statuses_[i];
+    if (status == RowStatus::kOk && !std::all_of(columns_.begin(), columns_.end(), is_finite)) {
+      status = RowStatus::kNotRepresentable;
+    }
+    if (status == RowStatus::kOk && inadmissible_[i]) status = RowStatus::kInadmissible;
+    if (status != RowStatus::kOk && status != RowStatus::kInadmissible) {
       regimes_[i] = Regime::kInvalid;
-      inadmissible_[i] = false;
       for (double* column : columns_) column[i] = std::numeric_limits<double>::quiet_NaN();
     }
     const int64_t index = first + static_cast<int64_t>(i);
     Add(index, tallies.by_regime[static_cast<size_t>(regimes_[i])]);
-    if (inadmissible_[i]) Add(index, tallies.inadmissible);
+    if (status == RowStatus::kInadmissible) Add(index, tallies.inadmissible);
     if (regimes_[i] != Regime::kInvalid) Add(index, tallies.by_model[static_cast<size_t>(models_[i])]);
   }
   tallies.points += count;

@@ -34,13 +34,13 @@ class SweepPoints {
   SweepPoints& operator=(const SweepPoints&) = delete;
 
   // Computes points from `first` on, `count` <= kMostPoints of them unless `is_enough` ends the block after fewer.
-  // `columns` has the place of the first point's value in each column; `regimes` has room for `count`, or none if they
-  // are not wanted. The points are added to `tallies`. Returns how many they are.
+  // `columns` has the place of the first point's value in each column; `regimes` and `statuses` have room for `count`, or
+  // none if they are not wanted. The points are added to `tallies`. Returns how many they are.
   // Both functions are asked before each point, `stopped` alone before the first; SIMD lanes ask `stopped` once a block.
   // Errors: CANCELLED once `stopped` returns true.
   absl::StatusOr<int64_t> Compute(int64_t first, int64_t count, absl::Span<double* const> columns,
-                                  absl::Span<Regime> regimes, SweepSummary& tallies, absl::FunctionRef<bool()> stopped,
-                                  absl::FunctionRef<bool()> is_enough);
+                                  absl::Span<Regime> regimes, absl::Span<RowStatus> statuses, SweepSummary& tallies,
+                                  absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough);
 
  private:
   absl::StatusOr<int64_t> SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped,
@@ -66,7 +66,7 @@ class SweepPoints {
   std::unique_ptr<Planar> planar_;     // Only if these lanes give the columns.
   std::vector<Regime> regimes_;
   std::vector<Model> models_;
-  std::unique_ptr<bool[]> valid_;
+  std::vector<RowStatus> statuses_;  // Until the block is finished: whether a point has numbers.
   std::unique_ptr<bool[]> inadmissible_;
   std::vector<double*> columns_;  // The place of the block's values of each column.
 };

@@ -19,7 +19,6 @@ namespace ricochet {
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "columns are little-endian");
-static_assert(kRowStatusCount == v1::RowStatus_ARRAYSIZE);
 
 // A string of fewer bytes may lie within its object, which need not be aligned for doubles.
 constexpr size_t kLeastBytes = 64;
@@ -42,9 +41,6 @@ absl::Status Misfit(const std::string& what, size_t found, size_t wanted) {
 }
 
 }  // namespace
-
-v1::RowStatus ToProto(RowStatus status) { return SameNumber<v1::RowStatus>(status, &v1::RowStatus_IsValid); }
-RowStatus FromProto(v1::RowStatus proto) { return SameNumber<RowStatus>(proto, &v1::RowStatus_IsValid); }
 
 v1::BatchSetup ToProto(const BatchSetup& setup) {
   v1::BatchSetup proto;

@@ -17,8 +17,6 @@ v1::BatchSetup ToProto(const BatchSetup& setup);
 BatchSetup FromProto(const v1::BatchSetup& proto);
 v1::BatchSummary ToProto(const BatchSummary& summary);
 BatchSummary FromProto(const v1::BatchSummary& proto);
-v1::RowStatus ToProto(RowStatus status);
-RowStatus FromProto(v1::RowStatus proto);
 
 // Puts the rows [first, first + count) of the input columns into the request.
 void SetInputs(const BatchRows& rows, size_t first, size_t count, v1::SolveBatchRequest& request);

@@ -26,7 +26,7 @@ std::string DeterministicBytes(const google::protobuf::Message& message) {
 }  // namespace
 
 int64_t Crc32cOf(const v1::SweepResponse& chunk) {
-  return ExtendCrc32c(ExtendCrc32c(0, chunk.values()), chunk.regimes());
+  return ExtendCrc32c(ExtendCrc32c(ExtendCrc32c(0, chunk.values()), chunk.regimes()), chunk.statuses());
 }
 
 std::string GridFingerprint(const SweepRequest& request) {

@@ -15,7 +15,7 @@
 
 namespace ricochet {
 
-// Returns the checksum of the chunk's values and regimes.
+// Returns the checksum of the chunk's values, regimes and statuses.
 int64_t Crc32cOf(const v1::SweepResponse& chunk);
 
 // Returns the fingerprint of the request without its range. Protobuf does not promise the same bytes in each of its

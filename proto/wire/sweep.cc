@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "proto/wire/engine.h"
+#include "proto/wire/enums.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/overloaded.h"
 #include "proto/wire/plan.h"
@@ -17,6 +18,7 @@ namespace ricochet {
 
 static_assert(kRegimeCount == v1::Regime_ARRAYSIZE, "SweepSummary::by_regime needs an entry for each regime");
 static_assert(kModelCount == v1::Model_ARRAYSIZE, "SweepSummary::by_model needs an entry for each model");
+static_assert(kRowStatusCount == v1::RowStatus_ARRAYSIZE);
 static_assert(kEffectCount == v1::Effect_ARRAYSIZE);
 static_assert(std::endian::native == std::endian::little, "a chunk has the bytes of its doubles from the lowest on");
 static_assert(v1::Regime_MAX <= 255, "a chunk has one byte for each regime");
@@ -104,6 +106,9 @@ v1::Tally ToProto(const Tally& tally) {
 
 Tally FromProto(const v1::Tally& proto) { return {proto.count(), proto.first_index()}; }
 
+v1::RowStatus ToProto(RowStatus status) { return SameNumber<v1::RowStatus>(status, &v1::RowStatus_IsValid); }
+RowStatus FromProto(v1::RowStatus proto) { return SameNumber<RowStatus>(proto, &v1::RowStatus_IsValid); }
+
 v1::SweepSummary ToProto(const SweepSummary& summary) {
   v1::SweepSummary proto;
   proto.set_points(summary.points);
@@ -152,6 +157,9 @@ void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto) {
   proto.mutable_regimes()->resize(chunk.regimes.size());
   std::transform(chunk.regimes.begin(), chunk.regimes.end(), proto.mutable_regimes()->begin(),
                  [](Regime regime) { return static_cast<char>(ToProto(regime)); });
+  proto.mutable_statuses()->resize(chunk.statuses.size());
+  std::transform(chunk.statuses.begin(), chunk.statuses.end(), proto.mutable_statuses()->begin(),
+                 [](RowStatus status) { return static_cast<char>(ToProto(status)); });
   proto.set_points_done(chunk.points_done);
   proto.set_points_total(chunk.points_total);
   *proto.mutable_tallies() = ToProto(chunk.tallies);
@@ -171,6 +179,9 @@ SweepChunk FromProto(const v1::SweepResponse& proto) {
   chunk.regimes.resize(proto.regimes().size());
   std::transform(proto.regimes().begin(), proto.regimes().end(), chunk.regimes.begin(),
                  [](char number) { return FromProto(static_cast<v1::Regime>(static_cast<unsigned char>(number))); });
+  chunk.statuses.resize(proto.statuses().size());
+  std::transform(proto.statuses().begin(), proto.statuses().end(), chunk.statuses.begin(),
+                 [](char number) { return FromProto(static_cast<v1::RowStatus>(static_cast<unsigned char>(number))); });
   chunk.points_done = proto.points_done();
   chunk.points_total = proto.points_total();
   if (proto.has_tallies()) chunk.tallies = FromProto(proto.tallies());

@@ -18,6 +18,10 @@ Combination FromProto(v1::SweepRequest::Combination proto);
 v1::Tally ToProto(const Tally& tally);
 Tally FromProto(const v1::Tally& proto);
 
+// A number that this build does not know becomes kUnspecified.
+v1::RowStatus ToProto(RowStatus status);
+RowStatus FromProto(v1::RowStatus proto);
+
 // Points with regimes that this build does not know are counted together as kUnspecified.
 v1::SweepSummary ToProto(const SweepSummary& summary);
 SweepSummary FromProto(const v1::SweepSummary& proto);

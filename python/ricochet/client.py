@@ -33,7 +33,7 @@ _Answer = TypeVar("_Answer")
 
 _MOST_RESUMES = 10
 _REGIMES = enum_names(outcome_pb2.Regime.DESCRIPTOR)
-_STATUSES = enum_names(batch_pb2.RowStatus.DESCRIPTOR)
+_STATUSES = enum_names(sweep_pb2.RowStatus.DESCRIPTOR)
 _EFFECT = plan_pb2.Effect.DESCRIPTOR
 
 
@@ -323,8 +323,8 @@ class Client:
             progress: is called with the points done and the points in all, after each part of the answer.
 
         Returns:
-            A table with a row for each point; ``to_xarray`` gives it a dimension for each axis. A point that breaks a
-            rule has NaN and the regime ``"INVALID"``.
+            A table with a row for each point; ``to_xarray`` gives it a dimension for each axis. ``status`` says
+            whether a point is ``"OK"`` or ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN.
 
         Raises:
             InvalidRequest: the scene, an axis or a column is wrong.
@@ -346,7 +346,7 @@ class Client:
                 progress(received.points, received.total)
         return Table(
             dict(zip(columns, received.values)),
-            {"regime": Codes(received.regimes, _REGIMES)},
+            {"regime": Codes(received.regimes, _REGIMES), "status": Codes(received.statuses, _STATUSES)},
             axes={path: sweep_axes.coordinates(axis) for path, axis in axes.items()},
             is_grid=not zip_axes and bool(axes),
             summary=received.summary,
@@ -411,13 +411,12 @@ class _Received:
     def __init__(self, columns: int) -> None:
         self.values = np.empty((columns, 0))
         self.regimes = np.empty(0, np.uint8)
+        self.statuses = np.empty(0, np.uint8)
         self.points = 0
         self.total = 0
         self.complete = False
         self.summary = Record()
         self._origin: tuple[str, str] | None = None
-        self._inadmissible = 0  # Of the calls before this.
-        self._inadmissible_now = 0
 
     def take(self, chunk: Any) -> None:
         origin = (chunk.engine.fingerprint, chunk.grid_fingerprint)
@@ -426,6 +425,7 @@ class _Received:
             self.total = chunk.points_total
             self.values = np.empty((len(self.values), self.total))
             self.regimes = np.empty(self.total, np.uint8)
+            self.statuses = np.empty(self.total, np.uint8)
         if origin != self._origin or chunk.first_index != self.points or self.points + chunk.count > self.total:
             raise RicochetError(
                 "the server that goes on with the sweep is another engine, or points are missing", code="DATA_LOSS"
@@ -433,16 +433,14 @@ class _Received:
         part = slice(self.points, self.points + chunk.count)
         self.values[:, part] = np.frombuffer(chunk.values, "<f8").reshape(-1, chunk.count)
         self.regimes[part] = np.frombuffer(chunk.regimes, np.uint8)
+        self.statuses[part] = np.frombuffer(chunk.statuses, np.uint8)
         self.points += chunk.count
-        if chunk.tallies.points == chunk.count:  # The first chunk of a call.
-            self._inadmissible += self._inadmissible_now
-        self._inadmissible_now = chunk.tallies.inadmissible.count
         self.complete = self.points == self.total and chunk.HasField("summary")
         if self.complete:
             self.summary = Record(
                 points=self.total,
                 by_regime=Codes(self.regimes, _REGIMES).counts(),
-                inadmissible=self._inadmissible + self._inadmissible_now,
+                inadmissible=int(Codes(self.statuses, _STATUSES).equal("INADMISSIBLE").sum()),
             )
 
     def check_complete(self) -> None:

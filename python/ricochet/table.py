@@ -51,7 +51,7 @@ class Table:
     columns: dict[str, Numbers]
     """The numbers by name; NaN in a row without numbers. ``ricochet.unit_of`` tells the unit of a name."""
     codes: dict[str, Codes]
-    """``regime`` and, for a batch, ``status``: names instead of numbers."""
+    """``regime`` and ``status``: names instead of numbers."""
     axes: dict[str, Numbers] = field(default_factory=dict)
     """The values that the fields of the scene had: along each axis of a sweep, or in each row."""
     is_grid: bool = False

@@ -150,15 +150,29 @@ TEST(ChunkChecker, CountsTheRegimesThatTheRequestAskedFor) {
   SweepChunk chunk = Chunk(0, 100, true);
   EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
   chunk.regimes.resize(100, Regime::kRebound);
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
+  chunk.statuses.resize(100, RowStatus::kOk);
   EXPECT_TRUE(ChunkChecker(request).Take(Sealed(chunk, request)).ok());
   chunk.regimes[7] = Regime::kSliding;
   EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
+}
+
+TEST(ChunkChecker, CountsTheInadmissiblePoints) {
+  const SweepRequest request = Sweep(true);
+  SweepChunk chunk = Chunk(0, 100, true);
+  chunk.regimes.resize(100, Regime::kRebound);
+  chunk.statuses.resize(100, RowStatus::kOk);
+  chunk.statuses[7] = RowStatus::kInadmissible;
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
+  chunk.tallies.inadmissible = chunk.summary->inadmissible = {1, 7};
+  EXPECT_TRUE(ChunkChecker(request).Take(Sealed(chunk, request)).ok());
 }
 
 TEST(ChunkChecker, RefusesEveryFlippedBitOfTheData) {
   const SweepRequest request = Sweep(true);
   SweepChunk chunk = Chunk(0, 100, true);
   chunk.regimes.resize(100, Regime::kRebound);
+  chunk.statuses.resize(100, RowStatus::kOk);
   const v1::SweepResponse whole = Sealed(chunk, request);
   for (int bit = 0; bit < 64; ++bit) {
     v1::SweepResponse damaged = whole;

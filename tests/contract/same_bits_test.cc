@@ -44,6 +44,7 @@ void ExpectSame(const absl::StatusOr<Response>& local, const absl::StatusOr<Resp
 struct Points {
   std::vector<std::string> values;  // The bytes of the values of each column.
   std::vector<Regime> regimes;
+  std::vector<RowStatus> statuses;
   std::string summary;
 };
 
@@ -56,6 +57,7 @@ Points Join(const std::vector<absl::StatusOr<SweepChunk>>& chunks, size_t column
       points.values[c].append(reinterpret_cast<const char*>(chunk->values.data() + c * count), count * sizeof(double));
     }
     points.regimes.insert(points.regimes.end(), chunk->regimes.begin(), chunk->regimes.end());
+    points.statuses.insert(points.statuses.end(), chunk->statuses.begin(), chunk->statuses.end());
     if (!chunk->summary.has_value()) continue;
     points.summary = Bytes({.values = {}, .regimes = {}, .summary = chunk->summary, .engine = {}});
   }
@@ -71,6 +73,7 @@ void ExpectSameSweep(const SweepRequest& request) {
   const Points there = Join(remote, request.columns.size());
   EXPECT_TRUE(here.values == there.values);
   EXPECT_TRUE(here.regimes == there.regimes);
+  EXPECT_TRUE(here.statuses == there.statuses);
   EXPECT_EQ(here.summary, there.summary);
   EXPECT_FALSE(here.summary.empty());
 }

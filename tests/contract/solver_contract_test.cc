@@ -518,9 +518,57 @@ TEST_P(SolverContract, GivesABadPointQuietNaNAndGoesOn) {
   ASSERT_EQ(chunks.size(), 1);
   ASSERT_TRUE(chunks[0].ok()) << chunks[0].status();
   EXPECT_THAT(chunks[0]->regimes, ElementsAre(Regime::kRebound, Regime::kInvalid, Regime::kRebound));
+  EXPECT_THAT(chunks[0]->statuses, ElementsAre(RowStatus::kOk, RowStatus::kInvalid, RowStatus::kOk));
   EXPECT_TRUE(std::isnan(chunks[0]->values[1]));
   EXPECT_TRUE((std::bit_cast<uint64_t>(chunks[0]->values[1]) & (uint64_t{1} << 51)) != 0) << "a signalling NaN";
   EXPECT_EQ(chunks[0]->summary->by_regime[static_cast<size_t>(Regime::kInvalid)], (Tally{1, 1}));
+}
+
+// Expects that each point of the sweep has the status that its Solve has, of which some break a limit and some do not.
+void ExpectStatusesOfSolves(const Solver& solver, SweepRequest request) {
+  request.with_regime = true;
+  const auto chunks = Collect(solver.Sweep(request));
+  ASSERT_EQ(chunks.size(), 1);
+  ASSERT_TRUE(chunks[0].ok()) << chunks[0].status();
+  ASSERT_EQ(chunks[0]->statuses.size(), static_cast<size_t>(chunks[0]->count));
+  int64_t inadmissible = 0;
+  for (int64_t i = 0; i < chunks[0]->count; ++i) {
+    Scene scene = request.grid.scene;
+    scene.friction.kinetic_coefficient = AxisValue(request.grid.axes[0], i);
+    const auto response = solver.Solve({.scene = scene, .history_at_n_s = {}});
+    ASSERT_TRUE(response.ok()) << response.status();
+    const bool admissible = response->outcome.admissible;
+    EXPECT_EQ(chunks[0]->statuses[static_cast<size_t>(i)], admissible ? RowStatus::kOk : RowStatus::kInadmissible) << i;
+    if (!admissible) ++inadmissible;
+  }
+  EXPECT_EQ(chunks[0]->summary->inadmissible.count, inadmissible);
+  EXPECT_GT(inadmissible, 0);
+  EXPECT_LT(inadmissible, chunks[0]->count);
+}
+
+TEST_P(SolverContract, AStatusSaysWhichPointsBreakALimit) {
+  SweepRequest request = FrictionSweep(41);
+  request.grid.scene.restitution = NewtonCoefficient{0.6};
+  ExpectStatusesOfSolves(solver(), request);
+  // A contact that slides both ways, for which Newton's law can ask for more energy than there is.
+  request.grid.scene.system = PlanarContact{
+      .w_tt_per_kg = 2.5, .w_tn_per_kg = 1.5, .w_nn_per_kg = 2.5, .tangential_m_s = -1.0, .normal_m_s = -1.0};
+  request.grid.scene.restitution = NewtonCoefficient{0.9};
+  request.columns = {"coefficients.energetic"};
+  ExpectStatusesOfSolves(solver(), request);
+}
+
+TEST_P(SolverContract, ASumThatIsTooLargeHasItsOwnStatus) {
+  SweepRequest request = FrictionSweep(2);
+  request.grid.scene.system = PlanarContact{
+      .w_tt_per_kg = 1e-300, .w_tn_per_kg = 0.0, .w_nn_per_kg = 1e-300, .tangential_m_s = -1.0, .normal_m_s = -1e100};
+  request.columns = {"impulse.normal_total_n_s"};
+  request.with_regime = true;
+  const auto chunks = Collect(solver().Sweep(request));
+  ASSERT_EQ(chunks.size(), 1);
+  ASSERT_TRUE(chunks[0].ok()) << chunks[0].status();
+  EXPECT_THAT(chunks[0]->statuses, ElementsAre(RowStatus::kNotRepresentable, RowStatus::kNotRepresentable));
+  EXPECT_THAT(chunks[0]->regimes, ElementsAre(Regime::kInvalid, Regime::kInvalid));
 }
 
 TEST_P(SolverContract, AnEmptyRangeIsOneEmptyChunkWithItsSummary) {

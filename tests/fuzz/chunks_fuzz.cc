@@ -111,7 +111,10 @@ Script ScriptFrom(Bytes bytes) {
     chunk.set_first_index(next);
     chunk.set_count(count);
     chunk.mutable_values()->resize(static_cast<size_t>(count) * request.columns.size() * sizeof(double), '?');
-    if (request.with_regime) chunk.mutable_regimes()->resize(static_cast<size_t>(count), 1);
+    if (request.with_regime) {
+      chunk.mutable_regimes()->resize(static_cast<size_t>(count), 1);
+      chunk.mutable_statuses()->resize(static_cast<size_t>(count), 1);
+    }
     if (script.right) {
       next += count;
       tallies = TalliesOf(next - request.first_index, request.first_index);
@@ -166,6 +169,7 @@ class Receiver {
     if (static_cast<int64_t>(chunk.values.size()) != chunk.count * columns) Fail("another number of values");
     const int64_t regimes = script_.request.with_regime ? chunk.count : 0;
     if (static_cast<int64_t>(chunk.regimes.size()) != regimes) Fail("another number of regimes");
+    if (static_cast<int64_t>(chunk.statuses.size()) != regimes) Fail("another number of statuses");
     next_ += chunk.count;
     summarised_ = chunk.summary.has_value();
   }

@@ -30,9 +30,10 @@ TEST(Crc32c, GivesTheExamplesOfItsStandard) {
   EXPECT_EQ(Crc32cOf(ValuesOfBytes(31, -1)), 0x113fdb5c);
 }
 
-TEST(Crc32c, GoesOnOverTheRegimes) {
+TEST(Crc32c, GoesOnOverTheRegimesAndTheStatuses) {
   v1::SweepResponse chunk = ValuesOfBytes(0, 1);
-  chunk.set_regimes(chunk.values().substr(16));
+  chunk.set_regimes(chunk.values().substr(16, 10));
+  chunk.set_statuses(chunk.values().substr(26));
   chunk.mutable_values()->resize(16);
   EXPECT_EQ(Crc32cOf(chunk), 0x46dd794e);
 }

@@ -452,6 +452,7 @@ SweepChunk SomeChunk() {
           .count = 2,
           .values = {1.0, 2.0, 3.0, 4.0},
           .regimes = {Regime::kRebound, Regime::kLocked},
+          .statuses = {RowStatus::kInadmissible, RowStatus::kOk},
           .points_done = 1026,
           .points_total = 4096,
           .tallies = SomeSummary(),
@@ -487,14 +488,21 @@ TEST(SweepTest, UnknownRegimeOfAPointIsUnspecified) {
   EXPECT_THAT(FromProto(proto).regimes, ElementsAre(Regime::kLocked, Regime::kUnspecified, Regime::kUnspecified));
 }
 
+TEST(SweepTest, UnknownStatusOfAPointIsUnspecified) {
+  v1::SweepResponse proto;
+  proto.set_statuses({static_cast<char>(v1::ROW_STATUS_OK), static_cast<char>(v1::RowStatus_MAX + 1), '\xff'});
+  EXPECT_THAT(FromProto(proto).statuses, ElementsAre(RowStatus::kOk, RowStatus::kUnspecified, RowStatus::kUnspecified));
+}
+
 // Bytes that were written down from IEEE 754 and the proto's comment, so that every language can read them.
-TEST(SweepTest, ValuesAreLittleEndianDoublesAndRegimesAreBytes) {
+TEST(SweepTest, ValuesAreLittleEndianDoublesAndRegimesAndStatusesAreBytes) {
   v1::SweepResponse proto;
   SweepChunk chunk = SomeChunk();
   chunk.values = {1.0, -2.5};
   ToProto(chunk, proto);
   EXPECT_EQ(proto.values(), std::string("\0\0\0\0\0\0\xf0\x3f\0\0\0\0\0\0\x04\xc0", 16));
   EXPECT_EQ(proto.regimes(), (std::string{v1::REGIME_REBOUND, v1::REGIME_LOCKED}));
+  EXPECT_EQ(proto.statuses(), "\x02\x01");
 }
 
 TEST(SweepTest, ReusedProtoHoldsNothingOfTheChunkBefore) {
@@ -504,6 +512,7 @@ TEST(SweepTest, ReusedProtoHoldsNothingOfTheChunkBefore) {
   EXPECT_EQ(FromProto(proto), SweepChunk());
   EXPECT_FALSE(proto.has_summary());
   EXPECT_THAT(proto.regimes(), IsEmpty());
+  EXPECT_THAT(proto.statuses(), IsEmpty());
 }
 
 TEST(SweepTest, ReusedProtoKeepsItsMemory) {

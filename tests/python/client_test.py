@@ -281,7 +281,12 @@ class BreakingService(impact_service_pb2_grpc.ImpactServiceServicer):
             if index == request.first_index + 2:
                 context.abort(grpc.StatusCode.UNAVAILABLE, "the server stops")
             chunk = sweep_pb2.SweepResponse(
-                first_index=index, count=1, values=struct.pack("<d", index), regimes=b"\x02", points_total=total
+                first_index=index,
+                count=1,
+                values=struct.pack("<d", index),
+                regimes=b"\x02",
+                statuses=b"\x02",
+                points_total=total,
             )
             chunk.engine.fingerprint = fingerprint
             chunk.tallies.points = index + 1 - request.first_index

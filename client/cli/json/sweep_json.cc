@@ -26,8 +26,9 @@ std::optional<double> NumberOf(const Json& cell) {
 
 absl::Status AddCell(const Json& cell, size_t place, const std::string& name, SweepRows& rows) {
   if (rows.KindOf(place) == SweepRows::Kind::kSkipped) return absl::OkStatus();
-  if (rows.KindOf(place) == SweepRows::Kind::kRegime)
-    return rows.AddRegime(cell.is_string() ? cell.get<std::string>() : cell.dump());
+  if (rows.KindOf(place) != SweepRows::Kind::kNumber) {
+    return rows.AddName(place, cell.is_string() ? cell.get<std::string>() : cell.dump());
+  }
   const std::optional<double> number = NumberOf(cell);
   if (!number.has_value()) {
     return absl::InvalidArgumentError(absl::StrCat(name, " = ", cell.dump(), ": must be a number or null"));

@@ -38,16 +38,6 @@ struct BatchSetup {
   friend bool operator==(const BatchSetup&, const BatchSetup&) = default;
 };
 
-// The result of one row. The numbers are those of ricochet.v1.RowStatus.
-enum class RowStatus : uint8_t {
-  kUnspecified = 0,
-  kOk = 1,
-  kInadmissible = 2,      // The row has its numbers, but its outcome breaks a limit.
-  kInvalid = 3,           // The row breaks a rule of its scene.
-  kNotRepresentable = 4,  // A number asked for exceeds the largest double.
-};
-inline constexpr int kRowStatusCount = 5;
-
 // Rows in memory of the caller. The number of rows is the length of every column.
 struct BatchRows {
   std::vector<absl::Span<const double>> inputs;  // One for each field of the setup.

@@ -18,10 +18,20 @@
 
 namespace ricochet {
 
+// The result of one point of a sweep, or of one row of a batch. The numbers are those of ricochet.v1.RowStatus.
+enum class RowStatus : uint8_t {
+  kUnspecified = 0,
+  kOk = 1,
+  kInadmissible = 2,      // The row has its numbers, but its outcome breaks a limit.
+  kInvalid = 3,           // The row breaks a rule of its scene.
+  kNotRepresentable = 4,  // A number asked for exceeds the largest double.
+};
+inline constexpr int kRowStatusCount = 5;
+
 struct SweepRequest {
   Grid grid;
   std::vector<std::string> columns;  // Paths into the outcome, at least one, no two equal (core/sweep/column.h).
-  bool with_regime = false;          // If true, every chunk has the regimes of its points.
+  bool with_regime = false;          // If true, every chunk has the regimes and the statuses of its points.
   // The request covers the points [first_index, end_index) of the grid; an absent end means all to the end. A point has
   // the same bits in every range.
   int64_t first_index = 0;
@@ -57,6 +67,7 @@ struct SweepChunk {
   int64_t count = 0;                    // Points in this chunk.
   std::vector<double> values;           // Column after column, `count` values each; quiet NaN for an invalid point.
   std::vector<Regime> regimes;          // One for each point if asked for, else empty.
+  std::vector<RowStatus> statuses;      // One for each point if asked for, else empty.
   int64_t points_done = 0;              // Number of points computed so far, this chunk included.
   int64_t points_total = 0;             // Number of points of the range asked for.
   SweepSummary tallies;                 // Counts of the points computed so far, this chunk included; no time.

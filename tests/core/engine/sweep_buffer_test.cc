@@ -17,14 +17,14 @@ using Block = SweepBuffer::Block;
 
 // Computes the first `count` points of a block: the value of point i in column c is 100 i + c.
 void Compute(const Block& block, int64_t count, SweepBuffer& buffer) {
-  std::vector<double*> columns;
-  absl::Span<Regime> regimes;
-  buffer.Places(block, columns, regimes);
+  const SweepBuffer::Places places = buffer.PlacesOf(block);
   for (int64_t i = 0; i < count; ++i) {
-    for (size_t c = 0; c < columns.size(); ++c) {
-      columns[c][i] = static_cast<double>(100 * (block.first + i)) + static_cast<double>(c);
+    for (size_t c = 0; c < places.columns.size(); ++c) {
+      places.columns[c][i] = static_cast<double>(100 * (block.first + i)) + static_cast<double>(c);
     }
-    if (!regimes.empty()) regimes[static_cast<size_t>(i)] = static_cast<Regime>((block.first + i) % 3);
+    if (places.regimes.empty()) continue;
+    places.regimes[static_cast<size_t>(i)] = static_cast<Regime>((block.first + i) % 3);
+    places.statuses[static_cast<size_t>(i)] = static_cast<RowStatus>((block.first + i) % 5);
   }
   buffer.Finish(block, count, {.points = count});
 }
@@ -74,6 +74,8 @@ TEST(SweepBufferTest, PointsThatAreReadyLeaveBeforeTheRest) {
   EXPECT_EQ(chunk.first_index, 1);
   EXPECT_THAT(chunk.values, ElementsAre(100.0, 200.0, 300.0, 101.0, 201.0, 301.0));
   EXPECT_THAT(chunk.regimes, ElementsAre(static_cast<Regime>(1), static_cast<Regime>(2), static_cast<Regime>(0)));
+  EXPECT_THAT(chunk.statuses,
+              ElementsAre(static_cast<RowStatus>(1), static_cast<RowStatus>(2), static_cast<RowStatus>(3)));
   EXPECT_EQ(tallies.points, 4);
 }
 
