@@ -63,6 +63,9 @@ class ArraysTest(unittest.TestCase):
             self.assertTrue(data[RATE].attrs["long_name"])
             names = data["regime"].attrs["flag_meanings"].split()
             self.assertEqual([names[i] for i in data["regime"].values.ravel()], rows["regime"])
+            names = data["status"].attrs["flag_meanings"].split()
+            self.assertEqual(
+                [names[i] for i in data["status"].values.ravel()], [text.split(":")[0] for text in rows["status"]])
             # An angle picks the curve over the other axes.
             self.assertFalse(numpy.isnan(data[RATE].sel({PHI: 0.8, MU: 0.2}, method="nearest")).any())
 
@@ -94,11 +97,12 @@ class ArraysTest(unittest.TestCase):
             self.made(*GRID, "--regime", *format_arguments)
             records = numpy.load(WORK / format_arguments[-1])
             rows = self.rows([*GRID, "--regime"])
-            self.assertEqual(records.dtype.names, ("index", MU, "restitution.energetic", PHI, RATE, WORK_DONE, "regime"))
+            self.assertEqual(records.dtype.names, ("index", MU, "restitution.energetic", PHI, RATE, WORK_DONE, "regime", "status"))
             self.assertEqual(records["index"].tolist(), list(range(3 * 5 * 7)))
             for path in (MU, PHI, RATE, WORK_DONE):
                 numpy.testing.assert_array_equal(records[path], self.numbers(rows[path]))
             self.assertEqual({number for number, name in zip(records["regime"], rows["regime"]) if name == "REBOUND"}, {2})
+            self.assertEqual({number for number, name in zip(records["status"], rows["status"]) if name == "OK"}, {1})
 
     def test_without_axes_there_is_one_point(self):
         sweep = ["sweep", "--a", "0.6", "--b", "0.8", "--mu", "0.1", "--energetic", "1", "--column", RATE]

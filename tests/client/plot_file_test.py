@@ -27,6 +27,8 @@ SWEEPS = {
              "--column", NEWTON],
     "three": [*SWEEP, "--axis", f"{MU}=0.1,0.2", "--axis", "restitution.energetic=1,0.5", "--axis",
               f"{PHI}=lin:0.1:1.5:9", "--column", f"{RATE},{NEWTON}"],
+    "limit": [*SWEEP, "--axis", "restitution.newton=0.3,0.9", "--axis", f"{MU}=lin:-0.1:0.5:31", "--column",
+              "coefficients.energetic,coefficients.poisson"],
 }
 FORMATS = ["csv", "json", "jsonl", "npy", "netcdf"]
 LOOKS = {"line": ["--title", "It's mine", "--size", "700x500", "--logy"], "map": ["--logx", "--size", "1200x500"]}
@@ -94,6 +96,18 @@ class PlotFileTest(unittest.TestCase):
         small = [*SWEEP, "--axis", f"{MU}=0.1,0.2", "--axis", f"{PHI}=1,1.2", "--column", f"{NEWTON},{RATE}"]
         self.made(*small, "--summary-only", "--plot", "small.svg", "--kind", "map")
         return (WORK / "small.svg").read_text(encoding="utf-8").count("<polygon") - 8
+
+    def test_inadmissible_points_have_rings(self):
+        self.made(*SWEEPS["limit"], "--format", "csv", "-o", "limit.csv", "--plot", "limit.svg", "--size", "1600x900")
+        with open(WORK / "limit.csv", encoding="utf-8") as table:
+            statuses = [row["status"] for row in csv.DictReader(table)]
+        self.assertEqual(len(statuses), 62)
+        picture = (WORK / "limit.svg").read_text(encoding="utf-8")
+        rings = re.findall(r"xlink:href='#gpPt5'", picture)
+        # One in each column, and one in the legend.
+        self.assertEqual(len(rings), 2 * statuses.count("INADMISSIBLE") + 1)
+        self.assertIn(">inadmissible<", picture)
+        self.assertGreater(statuses.count("OK"), 10)
 
     def test_lines_over_unknown_regimes_are_said_to_go_on(self):
         self.made(*[word for word in LINE if word != "--regime"], "--format", "csv", "-o", "plain.csv")
