@@ -103,7 +103,7 @@ class PlotFileTest(unittest.TestCase):
             statuses = [row["status"] for row in csv.DictReader(table)]
         self.assertEqual(len(statuses), 62)
         picture = (WORK / "limit.svg").read_text(encoding="utf-8")
-        rings = re.findall(r"xlink:href='#gpPt5'", picture)
+        rings = re.findall("xlink:href='#gpPt5' transform", picture)
         # One in each column, and one in the legend.
         self.assertEqual(len(rings), 2 * statuses.count("INADMISSIBLE") + 1)
         self.assertIn(">inadmissible<", picture)
