@@ -6,7 +6,7 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "ricochet/v1/outcome.pb.h"
+#include "ricochet/v1/sweep.pb.h"
 
 namespace ricochet {
 namespace {
@@ -84,10 +84,10 @@ class Filler {
 
   int NextNumber() { return ++number_; }
 
-  // Bytes are those of whole doubles, and each is the number of a regime.
+  // Bytes are those of whole doubles, and each is the number of a regime and of a status.
   std::string NextText(const FieldDescriptor& field) {
     if (field.type() != FieldDescriptor::TYPE_BYTES) return absl::StrCat("text ", NextNumber());
-    return std::string(2 * sizeof(double), static_cast<char>(NextNumber() % v1::Regime_MAX + 1));
+    return std::string(2 * sizeof(double), static_cast<char>(NextNumber() % v1::RowStatus_MAX + 1));
   }
 
   int NextValue(const EnumDescriptor& type) {
