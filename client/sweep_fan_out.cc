@@ -28,7 +28,8 @@ constexpr milliseconds kLook{20};
 
 int64_t PointBytes(const SweepRequest& request) {
   const auto columns = std::max<int64_t>(1, static_cast<int64_t>(request.columns.size()));
-  return columns * static_cast<int64_t>(sizeof(double)) + (request.with_regime ? 1 : 0);
+  // The regime and the status are a byte each.
+  return columns * static_cast<int64_t>(sizeof(double)) + (request.with_regime ? 2 : 0);
 }
 
 SweepRequest Part(SweepRequest request, const RangeBoard::Task& task) {
@@ -101,8 +102,9 @@ void SweepFanOut::StartThreads() {
   } catch (const std::system_error&) {
     const std::lock_guard lock(mutex_);
     // The servers that have a thread can do all the work.
-    if (threads_.empty())
+    if (threads_.empty()) {
       failure_ = absl::ResourceExhaustedError("the system gives no thread for a server of the sweep");
+    }
     for (size_t number = threads_.size(); number < servers_.count; ++number) is_lost_[number] = true;
   }
 }
