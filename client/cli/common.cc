@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <array>
 #include <map>
+#include <string_view>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
@@ -142,27 +143,27 @@ std::string FormatName(Format format) {
   return "csv";
 }
 
+namespace {
+
+// Returns the names of all values of an enum that counts from 0, as the protos have them, without their prefix.
+template <typename Enum, size_t kCount, typename ProtoName>
+std::array<std::string, kCount> NamesOf(ProtoName proto_name, std::string_view prefix) {
+  std::array<std::string, kCount> names;
+  for (size_t i = 0; i < kCount; ++i) {
+    names[i] = std::string(absl::StripPrefix(proto_name(ToProto(static_cast<Enum>(i))), prefix));
+  }
+  return names;
+}
+
+}  // namespace
+
 const std::string& RegimeName(Regime regime) {
-  static const auto names = [] {
-    std::array<std::string, kRegimeCount> all;
-    for (int i = 0; i < kRegimeCount; ++i) {
-      const std::string full = v1::Regime_Name(ToProto(static_cast<Regime>(i)));
-      all[static_cast<size_t>(i)] = std::string(absl::StripPrefix(full, "REGIME_"));
-    }
-    return all;
-  }();
+  static const auto names = NamesOf<Regime, kRegimeCount>(v1::Regime_Name<v1::Regime>, "REGIME_");
   return names.at(static_cast<size_t>(regime));
 }
 
 const std::string& StatusName(RowStatus status) {
-  static const auto names = [] {
-    std::array<std::string, kRowStatusCount> all;
-    for (int i = 0; i < kRowStatusCount; ++i) {
-      const std::string full = v1::RowStatus_Name(ToProto(static_cast<RowStatus>(i)));
-      all[static_cast<size_t>(i)] = std::string(absl::StripPrefix(full, "ROW_STATUS_"));
-    }
-    return all;
-  }();
+  static const auto names = NamesOf<RowStatus, kRowStatusCount>(v1::RowStatus_Name<v1::RowStatus>, "ROW_STATUS_");
   return names.at(static_cast<size_t>(status));
 }
 
