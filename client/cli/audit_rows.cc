@@ -11,10 +11,10 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_replace.h"
 #include "client/cli/audit_data.h"
 #include "client/cli/audit_plot.h"
 #include "client/cli/audit_report.h"
+#include "client/cli/csv_table.h"
 #include "client/cli/interrupt.h"
 #include "client/cli/json/json_text.h"
 #include "client/cli/output.h"
@@ -81,8 +81,7 @@ class CsvWriter : public Writer {
   explicit CsvWriter(size_t directions) : directions_(directions) {}
   std::string Begin() override { return absl::StrCat("index,", AuditCsvHeader(directions_), ",invalid_reason\n"); }
   std::string RowText(const Row& row) override {
-    const std::string reason =
-        row.reason.empty() ? "" : absl::StrCat("\"", absl::StrReplaceAll(row.reason, {{"\"", "\"\""}}), "\"");
+    const std::string reason = row.reason.empty() ? "" : CsvQuoted(row.reason);
     return absl::StrCat(row.index, ",", AuditCsvRow(row.report, directions_), ",", reason, "\n");
   }
   std::string End(const Ending& ending) override {

@@ -8,9 +8,9 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_join.h"
-#include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/strip.h"
+#include "client/cli/csv_table.h"
 #include "client/cli/plan_report.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
@@ -115,15 +115,11 @@ void AddError(const std::string& name, const std::optional<CostError>& error, Co
   add("modelling", &CostError::modelling);
 }
 
-std::string InQuotes(const std::string& text) {
-  return absl::StrCat("\"", absl::StrReplaceAll(text, {{"\"", "\"\""}}), "\"");
-}
-
 Columns ColumnsOf(const CostChunk& study, size_t index, bool on_front) {
   const CostRow& row = study.rows[index];
   Columns columns = {
       {"index", absl::StrCat(index)},
-      {"name", InQuotes(row.name)},
+      {"name", CsvQuoted(row.name)},
       {"status", StatusName(row.status)},
       {"method.model", ModelName(row.method.model)},
       {"method.arithmetic", absl::AsciiStrToUpper(ArithmeticText(row.method.arithmetic))},
@@ -144,8 +140,8 @@ Columns ColumnsOf(const CostChunk& study, size_t index, bool on_front) {
   for (const CostPick& pick : study.summary->picks) {
     if (pick.row == static_cast<int64_t>(index)) picked.push_back(PickRangeText(pick));
   }
-  columns.emplace_back("picked_for_tolerances", InQuotes(absl::StrJoin(picked, "; ")));
-  columns.emplace_back("note", InQuotes(row.note));
+  columns.emplace_back("picked_for_tolerances", CsvQuoted(absl::StrJoin(picked, "; ")));
+  columns.emplace_back("note", CsvQuoted(row.note));
   return columns;
 }
 

@@ -111,4 +111,8 @@ absl::StatusOr<CsvTable> ParseCsvTable(const std::string& text, const std::strin
   return reader->Next(std::numeric_limits<size_t>::max());
 }
 
+std::string CsvQuoted(const std::string& text) {
+  return absl::StrCat("\"", absl::StrReplaceAll(text, {{"\"", "\"\""}}), "\"");
+}
+
 }  // namespace ricochet::cli

@@ -66,6 +66,9 @@ class CsvReader {
 // Reads a whole table. Errors: those of CsvReader::Open.
 absl::StatusOr<CsvTable> ParseCsvTable(const std::string& text, const std::string& name);
 
+// Returns the text as a cell in double quotes, which may have commas and quotes.
+std::string CsvQuoted(const std::string& text);
+
 }  // namespace ricochet::cli
 
 #endif  // RICOCHET_CLIENT_CLI_CSV_TABLE_H_

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/types/span.h"
+#include "core/scene/check.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
 #include "core/sweep/grid.h"
@@ -14,7 +16,7 @@ namespace ricochet::cli {
 namespace {
 
 // The one field that an axis drives although no scene has it, so that checking the scene does not check it.
-constexpr char kPhi[] = "pendulum.phi_rad";
+constexpr NumberPath kPhi = {.prefix = "pendulum", .name = "phi_rad"};
 
 }  // namespace
 
@@ -24,9 +26,10 @@ Violation InvalidPoints::First(int64_t index) {
   std::vector<int64_t> positions(grid_.axes.size());
   AxisPositions(grid_, index, absl::MakeSpan(positions));
   for (size_t i = 0; i < positions.size(); ++i) {
-    const double value = AxisValue(grid_.axes[i], positions[i]);
-    if (grid_.axes[i].path != kPhi || Holds(value, NumberRule::kHalfTurn)) continue;
-    return MakeViolation(kPhi, value, "be in (0, pi), in radians");
+    if (grid_.axes[i].path != kPhi.Text()) continue;
+    Check check(Check::Mode::kListing);
+    check.Number(kPhi, AxisValue(grid_.axes[i], positions[i]), NumberRule::kHalfTurn);
+    if (check.failed()) return std::move(check).violations().front();
   }
   if (driven_ == nullptr) driven_ = std::make_shared<DrivenScene>(grid_);
   driven_->GoTo(index);

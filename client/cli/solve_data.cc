@@ -1,8 +1,6 @@
 #include "client/cli/solve_data.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <iostream>
@@ -18,6 +16,7 @@
 #include "client/cli/short_name.h"
 #include "client/cli/sweep_head.h"
 #include "client/cli/table.h"
+#include "core/numerics/decimal.h"
 #include "core/sweep/column.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/engine.h"
@@ -57,11 +56,6 @@ absl::Status Solve(const CsvTable& table, const Solver& solver, Solved& solved) 
   absl::StatusOr<BatchResponse> response = solver.SolveBatch(solved.setup, rows);
   if (response.ok()) solved.response = *std::move(response);
   return response.status();
-}
-
-std::string Number(double number) {
-  std::array<char, 32> buffer;
-  return {buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr};
 }
 
 std::string SummaryText(const BatchSummary& summary) {
@@ -105,7 +99,7 @@ std::string Csv(const Solved& solved) {
   std::string text = absl::StrJoin(Names(solved), ",") + "\n";
   for (size_t i = 0; i < solved.regimes.size(); ++i) {
     absl::StrAppend(&text, i);
-    for (const std::vector<double>& column : solved.outputs) absl::StrAppend(&text, ",", Number(column[i]));
+    for (const std::vector<double>& column : solved.outputs) absl::StrAppend(&text, ",", ShortestDecimal(column[i]));
     absl::StrAppend(&text, ",", RegimeName(solved.regimes[i]), ",", StatusName(solved.statuses[i]), "\n");
   }
   return text;

@@ -1,20 +1,19 @@
 #include "client/cli/sweep_writer.h"
 
-#include <array>
-#include <charconv>
 #include <memory>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "absl/strings/str_replace.h"
 #include "client/cli/axis_cursor.h"
+#include "client/cli/csv_table.h"
 #include "client/cli/invalid_points.h"
 #include "client/cli/json/json_text.h"
 #include "client/cli/plan_report.h"
 #include "client/cli/sweep_head.h"
 #include "client/cli/table.h"
+#include "core/numerics/decimal.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet::cli {
@@ -22,19 +21,12 @@ namespace {
 
 constexpr int64_t kTextPoints = 40;
 
-template <typename Number>
-void AppendNumber(Number number, std::string& text) {
-  std::array<char, 32> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), number);
-  text.append(buffer.data(), result.ptr);
-}
-
 // Appends a text, in quotes if it has a comma or a quote.
 void AppendCsv(const std::string& words, std::string& text) {
   if (words.find_first_of(",\"\n") == std::string::npos) {
     text += words;
   } else {
-    absl::StrAppend(&text, "\"", absl::StrReplaceAll(words, {{"\"", "\"\""}}), "\"");
+    text += CsvQuoted(words);
   }
 }
 
@@ -157,11 +149,11 @@ struct LineCells {
   }
   void Index(int64_t index) {
     Separate();
-    AppendNumber(index, *text);
+    AppendDecimal(index, *text);
   }
   void Number(double value) {
     Separate();
-    format == Format::kCsv ? AppendNumber(value, *text) : AppendJson(value, *text);
+    format == Format::kCsv ? AppendDecimal(value, *text) : AppendJson(value, *text);
   }
   void Kind(Regime regime) { Words(RegimeName(regime)); }
   void Words(const std::string& words) {

@@ -1,4 +1,4 @@
-// Doubles as text.
+// Numbers as text.
 
 #ifndef RICOCHET_CORE_NUMERICS_DECIMAL_H_
 #define RICOCHET_CORE_NUMERICS_DECIMAL_H_
@@ -9,11 +9,19 @@
 
 namespace ricochet {
 
-// The shortest decimal that reads back as exactly `value`: "0.1", "1e-300", "inf", "nan".
-inline std::string ShortestDecimal(double value) {
+// Appends the shortest decimal that reads back as exactly `number`, a double or a 64-bit integer: "0.1", "1e-300",
+// "inf", "nan".
+template <typename Number>
+void AppendDecimal(Number number, std::string& text) {
   std::array<char, 32> buffer;
-  const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), result.ptr};
+  text.append(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr);
+}
+
+// Returns what AppendDecimal appends.
+inline std::string ShortestDecimal(double value) {
+  std::string text;
+  AppendDecimal(value, text);
+  return text;
 }
 
 }  // namespace ricochet

@@ -4,13 +4,12 @@
 #include <google/protobuf/message.h>
 #include <google/protobuf/util/json_util.h>
 
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
+#include "core/numerics/decimal.h"
 
 namespace ricochet::cli {
 namespace {
@@ -18,12 +17,6 @@ namespace {
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
-
-template <typename Number>
-void AppendDigits(Number number, std::string& text) {
-  std::array<char, 32> buffer;
-  text.append(buffer.data(), std::to_chars(buffer.data(), buffer.data() + buffer.size(), number).ptr);
-}
 
 // Appends a value of a field that is a message, or a bool, a text, bytes or an enum.
 void AppendOther(const Message& message, const FieldDescriptor& field, int index, std::string& text);
@@ -102,11 +95,11 @@ void AppendJson(double number, std::string& text) {
   } else if (std::isinf(number)) {
     text += number > 0.0 ? "\"Infinity\"" : "\"-Infinity\"";
   } else {
-    AppendDigits(number, text);
+    AppendDecimal(number, text);
   }
 }
 
-void AppendJson(int64_t number, std::string& text) { AppendDigits(number, text); }
+void AppendJson(int64_t number, std::string& text) { AppendDecimal(number, text); }
 
 void AppendJson(absl::string_view words, std::string& text) {
   text += nlohmann::json(std::string(words)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
