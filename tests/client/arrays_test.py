@@ -4,16 +4,14 @@ usage: arrays_test.py RICOCHET WORK_DIRECTORY
 """
 import csv
 import pathlib
-import shutil
-import subprocess
-import sys
 import unittest
 
 import netCDF4
 import numpy
 import xarray
 
-WORK, RICOCHET = [pathlib.Path(sys.argv.pop()).resolve() for _ in range(2)]
+from ricochet_case import RicochetCase, WORK, ricochet
+
 MU, PHI = "friction.kinetic_coefficient", "pendulum.phi_rad"
 RATE, WORK_DONE = "rates_after_rad_s[0]", "work.normal_total_j"
 # Frictions of which the first is invalid, and angles; 3 x 5 x 7 points.
@@ -23,23 +21,7 @@ ZIP = ["sweep", "--a", "0.6", "--b", "0.8", "--energetic", "1", "--zip", "--axis
        f"{PHI}=lin:0.1:1.5:4", "--column", RATE]
 
 
-def ricochet(*arguments):
-    done = subprocess.run([RICOCHET, *arguments], cwd=WORK, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          check=False, timeout=120)
-    return done.returncode, done.stdout, done.stderr
-
-
-class ArraysTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        shutil.rmtree(WORK, ignore_errors=True)
-        WORK.mkdir(parents=True)
-
-    def made(self, *arguments):
-        code, out, error = ricochet(*arguments)
-        self.assertEqual(code, 0, error)
-        return out
-
+class ArraysTest(RicochetCase):
     def rows(self, sweep):
         """The lines of the CSV, by column."""
         lines = list(csv.reader(self.made(*sweep, "--format", "csv").splitlines()))

@@ -5,15 +5,13 @@ usage: plot_file_test.py RICOCHET WORK_DIRECTORY
 import csv
 import pathlib
 import re
-import shutil
-import subprocess
-import sys
 import unittest
 
 import netCDF4
 import numpy
 
-WORK, RICOCHET = [pathlib.Path(sys.argv.pop()).resolve() for _ in range(2)]
+from ricochet_case import RicochetCase, WORK, ricochet
+
 MU, PHI, NEWTON, RATE = "friction.kinetic_coefficient", "pendulum.phi_rad", "coefficients.newton", "rates_after_rad_s[0]"
 SWEEP = ["sweep", "--a", "0.6", "--b", "0.8", "--energetic", "1", "--regime"]
 LINE = [*SWEEP, "--axis", f"{MU}=lin:0:0.5:101", "--column", f"{NEWTON},coefficients.poisson"]
@@ -34,28 +32,7 @@ FORMATS = ["csv", "json", "jsonl", "npy", "netcdf"]
 LOOKS = {"line": ["--title", "It's mine", "--size", "700x500", "--logy"], "map": ["--logx", "--size", "1200x500"]}
 
 
-def ricochet(*arguments):
-    done = subprocess.run([RICOCHET, *arguments], cwd=WORK, text=True, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                          check=False, timeout=120)
-    return done.returncode, done.stdout, done.stderr
-
-
-class PlotFileTest(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        shutil.rmtree(WORK, ignore_errors=True)
-        WORK.mkdir(parents=True)
-
-    def made(self, *arguments):
-        code, out, error = ricochet(*arguments)
-        self.assertEqual(code, 0, error)
-        return out
-
-    def refused(self, *arguments, code=2):
-        found, out, error = ricochet(*arguments)
-        self.assertEqual((found, out), (code, ""), error)
-        return error
-
+class PlotFileTest(RicochetCase):
     def test_the_picture_of_a_file_is_that_of_its_sweep(self):
         for name, sweep in SWEEPS.items():
             for look in ([], LOOKS[name]) if name in LOOKS else ([],):

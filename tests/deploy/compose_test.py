@@ -5,25 +5,16 @@ usage: compose_test.py SOURCE_DIRECTORY RICOCHET WORK_DIRECTORY RICOCHET_IMAGE
 HAProxy and Prometheus come from images that are made of Debian's packages, so no registry is needed.
 """
 import json
-import os
 import pathlib
-import shutil
 import subprocess
 import sys
-import time
 import urllib.parse
 import urllib.request
 
+from containers import environment, is_serving, wait_for
+
 SOURCE, RICOCHET, WORK = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 IMAGE = sys.argv[4]
-# What works without systemd. The ulimits spare podman a capability it may lack.
-CONTAINERS = """[containers]
-default_ulimits = ["nofile=1024:4096", "nproc=4096:4096"]
-[engine]
-runtime = "runc"
-cgroup_manager = "cgroupfs"
-events_logger = "file"
-"""
 PROGRAMS = {"HAPROXY_IMAGE": "haproxy", "PROMETHEUS_IMAGE": "prometheus"}
 SWEEP = ["sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", "friction.kinetic_coefficient=lin:0:0.4:3000000",
          "--column", "coefficients.newton", "--format", "npy"]
@@ -33,19 +24,6 @@ def run(*command, **options):
     return subprocess.run(command, check=True, text=True, timeout=600, **options)
 
 
-def wait_for(what, ask, seconds=90):
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        try:
-            answer = ask()
-        except (OSError, subprocess.CalledProcessError):
-            answer = None
-        if answer:
-            return answer
-        time.sleep(0.5)
-    raise SystemExit(f"no {what} within {seconds} s")
-
-
 def query(expression):
     url = "http://127.0.0.1:9090/api/v1/query?" + urllib.parse.urlencode({"query": expression})
     with urllib.request.urlopen(url, timeout=10) as reply:
@@ -53,16 +31,11 @@ def query(expression):
 
 
 def serving():
-    done = subprocess.run([RICOCHET, "health", "--server", "127.0.0.1:50051"], check=False, stdout=subprocess.PIPE,
-                          stderr=subprocess.DEVNULL, timeout=60)
-    return done.returncode == 0
+    return is_serving(RICOCHET, "127.0.0.1:50051")
 
 
 def main():
-    shutil.rmtree(WORK, ignore_errors=True)
-    WORK.mkdir(parents=True)
-    (WORK / "containers.conf").write_text(CONTAINERS)
-    env = {**os.environ, "CONTAINERS_CONF": str(WORK / "containers.conf"), "RICOCHET_IMAGE": IMAGE}
+    env = {**environment(WORK), "RICOCHET_IMAGE": IMAGE}
     for variable, package in PROGRAMS.items():
         env[variable] = f"localhost/ricochet-{package}:dev"
         run("buildah", "bud", "--pull-never", "--layers", "--format", "docker", "--isolation", "chroot", "--quiet",

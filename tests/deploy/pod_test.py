@@ -5,27 +5,17 @@ usage: pod_test.py MANIFEST RICOCHET WORK_DIRECTORY RICOCHET_IMAGE
 MANIFEST is what `kubectl kustomize deploy/kubernetes/base` prints. The pod is as in the manifest but for the name of the
 image. podman neither asks the gRPC probes nor runs preStop, so this test asks for health itself.
 """
-import os
 import pathlib
-import shutil
 import subprocess
 import sys
-import time
 import urllib.request
 
 import yaml
 
+from containers import environment, is_serving, wait_for
+
 MANIFEST, RICOCHET, WORK = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 IMAGE = sys.argv[4]
-# What works without systemd. podman 4.3 exchanges the two limits of the container that holds a pod's network, so they are
-# equal.
-CONTAINERS = """[containers]
-default_ulimits = ["nofile=4096:4096", "nproc=4096:4096"]
-[engine]
-runtime = "runc"
-cgroup_manager = "cgroupfs"
-events_logger = "file"
-"""
 SERVER = "127.0.0.1:50051"
 POD = "ricochet-pod-0"
 CONTAINER = f"{POD}-ricochetd"
@@ -39,15 +29,6 @@ def run(*command, **options):
     return subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE, timeout=120, **options).stdout
 
 
-def wait_until_serving(seconds=60):
-    end = time.monotonic() + seconds
-    while subprocess.run([RICOCHET, "health", "--server", SERVER], check=False, stdout=subprocess.DEVNULL,
-                         stderr=subprocess.DEVNULL, timeout=60).returncode:
-        if time.monotonic() > end:
-            raise SystemExit(f"no server within {seconds} s")
-        time.sleep(0.5)
-
-
 def expect(found, expected, what):
     if found != expected:
         raise SystemExit(f"{what}: {found!r}, not {expected!r}")
@@ -55,7 +36,7 @@ def expect(found, expected, what):
 
 def play(env):
     run("podman", "play", "kube", WORK / "pod.yaml", env=env)
-    wait_until_serving()
+    wait_for("server in the pod", lambda: is_serving(RICOCHET, SERVER), 60)
     print("the pod of the Deployment serves", flush=True)
     answer = run(RICOCHET, "solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--server", SERVER)
     if NEWTON not in answer:
@@ -71,10 +52,7 @@ def play(env):
 
 
 def main():
-    shutil.rmtree(WORK, ignore_errors=True)
-    WORK.mkdir(parents=True)
-    (WORK / "containers.conf").write_text(CONTAINERS)
-    env = {**os.environ, "CONTAINERS_CONF": str(WORK / "containers.conf")}
+    env = environment(WORK)
     [deployment] = [part for part in yaml.safe_load_all(MANIFEST.read_text()) if part["kind"] == "Deployment"]
     deployment["spec"]["template"]["spec"]["containers"][0]["image"] = IMAGE
     (WORK / "pod.yaml").write_text(yaml.safe_dump(deployment))
