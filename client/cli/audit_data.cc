@@ -11,8 +11,8 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/strip.h"
-#include "client/cli/suggestion.h"
 #include "core/numerics/decimal.h"
+#include "core/scene/nearest.h"
 
 namespace ricochet::cli {
 namespace {

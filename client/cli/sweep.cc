@@ -282,7 +282,7 @@ absl::Status RunSweep(const SweepOptions& options) {
   if (Asks(options.axes)) return ListFor(options.scene, FieldPaths);
   if (Asks(options.columns)) return ListFor(options.scene, Columns);
   if (options.summary_only && ArrayFormatOf(options.common) != ArrayFormat::kNone) {
-    return absl::InvalidArgumentError("--summary-only needs --format text, json or csv: a summary is no array");
+    return absl::InvalidArgumentError("--summary-only needs --format text, json, jsonl or csv: a summary is no array");
   }
   if (absl::Status status = CheckResume(options); !status.ok()) return status;
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;

@@ -8,7 +8,7 @@
 #include "absl/strings/str_join.h"
 #include "client/cli/common.h"
 #include "client/cli/field_table.h"
-#include "client/cli/suggestion.h"
+#include "core/scene/nearest.h"
 
 namespace ricochet::cli {
 namespace {

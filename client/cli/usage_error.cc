@@ -6,7 +6,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "client/cli/suggestion.h"
+#include "core/scene/nearest.h"
 
 namespace ricochet::cli {
 namespace {

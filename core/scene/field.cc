@@ -65,7 +65,7 @@ bool Spells(absl::string_view text, const NumberPath& path) {
 absl::Status UnknownField(const std::string& path, const Scene& scene) {
   return absl::InvalidArgumentError(
       absl::StrCat(Found(path), ": must be a field of the scene; `ricochet sweep --axis '?'` lists them",
-                   NearestHint(path, FieldPaths(scene))));
+                   DidYouMean(path, FieldPaths(scene))));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "core/scene/nearest.h"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 #include "absl/strings/str_cat.h"
@@ -29,13 +30,26 @@ size_t EditDistance(absl::string_view a, absl::string_view b) {
   return row.back();
 }
 
-std::string NearestHint(const std::string& text, const std::vector<std::string>& known) {
-  if (known.empty() || text.size() > kMostCharacters) return "";
-  std::vector<size_t> distances;
-  distances.reserve(known.size());
-  for (const std::string& name : known) distances.push_back(EditDistance(text, name));
-  const auto nearest = std::min_element(distances.begin(), distances.end()) - distances.begin();
-  return absl::StrCat("; the nearest is \"", known[static_cast<size_t>(nearest)], "\"");
+std::string NearestName(absl::string_view name, const std::vector<std::string>& known) {
+  if (name.size() > kMostCharacters) return "";
+  std::string nearest;
+  size_t least = std::numeric_limits<size_t>::max();
+  for (const std::string& candidate : known) {
+    const size_t distance = EditDistance(name, candidate);
+    // A name of which every letter differs is not near, however short it is.
+    if (distance >= least || distance >= std::max(name.size(), candidate.size())) continue;
+    const auto differ = std::mismatch(name.begin(), name.end(), candidate.begin(), candidate.end()).first;
+    const auto rest = static_cast<size_t>(name.end() - differ);
+    if (distance > std::max<size_t>(2, rest / 3)) continue;
+    least = distance;
+    nearest = candidate;
+  }
+  return nearest;
+}
+
+std::string DidYouMean(absl::string_view name, const std::vector<std::string>& known) {
+  const std::string nearest = NearestName(name, known);
+  return nearest.empty() ? "" : absl::StrCat("; did you mean ", nearest, "?");
 }
 
 }  // namespace ricochet

@@ -14,9 +14,13 @@ namespace ricochet {
 // Returns the Levenshtein distance: the fewest characters to be changed, added or removed to make one text the other.
 size_t EditDistance(absl::string_view a, absl::string_view b);
 
-// Names the entry of `known` that takes the fewest changed, added or removed characters: "; the nearest is \"...\"". The
-// first of several equally near ones counts. Returns an empty text if `known` is empty or `text` is longer than any name.
-std::string NearestHint(const std::string& text, const std::vector<std::string>& known);
+// Returns the entry of `known` to which `name` has the least distance, the first of several, if that is at most two, or a
+// third of the characters of `name` after those with which both begin. Returns an empty text if no entry is so near, or if
+// `name` is longer than any name.
+std::string NearestName(absl::string_view name, const std::vector<std::string>& known);
+
+// Returns "; did you mean NEAREST?", or an empty text if no known name is near.
+std::string DidYouMean(absl::string_view name, const std::vector<std::string>& known);
 
 }  // namespace ricochet
 

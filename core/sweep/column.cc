@@ -65,7 +65,7 @@ std::vector<Violation> CheckColumns(const std::vector<std::string>& columns, con
     };
     if (!known.contains(columns[i])) {
       refuse(absl::StrCat("a column of the scene; `ricochet sweep --column '?'` lists them",
-                          NearestHint(columns[i], all)));
+                          DidYouMean(columns[i], all)));
     } else if (!seen.insert(columns[i]).second) {
       refuse("named once");
     }

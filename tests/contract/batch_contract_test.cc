@@ -221,9 +221,9 @@ TEST_P(BatchContract, AWrongSetupFailsTheCallWithEveryViolation) {
   ASSERT_EQ(violations.size(), 4U) << response.status();
   EXPECT_EQ(violations[0].field, "restitution.energetic");
   EXPECT_EQ(violations[1].field, "fields[0]");
-  EXPECT_THAT(violations[1].description, HasSubstr("the nearest is \"planar_contact.tangential_m_s\""));
+  EXPECT_THAT(violations[1].description, HasSubstr("did you mean planar_contact.tangential_m_s?"));
   EXPECT_EQ(violations[2].field, "columns[1]");
-  EXPECT_THAT(violations[2].description, HasSubstr("the nearest is \"energy_change_j\""));
+  EXPECT_THAT(violations[2].description, HasSubstr("did you mean energy_change_j?"));
   EXPECT_EQ(violations[3].field, "columns[2]");
 }
 

@@ -12,7 +12,7 @@
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
-#include "client/cli/suggestion.h"
+#include "core/scene/nearest.h"
 
 namespace ricochet::cli {
 namespace {
