@@ -130,16 +130,15 @@ Curve CurveOf(const SweepTable& table, const Group& group, size_t column, std::s
   return curve;
 }
 
-// Returns marks on the points of the curves whose outcome breaks a limit.
-Curve InadmissibleMarks(const SweepTable& table, const std::vector<size_t>& columns) {
-  Curve marks{.title = "inadmissible",
-              .points = {},
-              .style = "with points pointtype 6 pointsize 0.6 linewidth 1.5 linecolor rgb 'red'"};
+// Adds marks at the points whose outcome breaks a limit, one for each of the columns `ys`.
+void MarkInadmissible(const SweepTable& table, const std::vector<const std::vector<double>*>& ys,
+                      const std::string& style, Panel& panel) {
+  Curve marks{.title = "inadmissible", .points = {}, .style = style};
   for (size_t i = 0; i < table.statuses.size(); ++i) {
     if (table.statuses[i] != RowStatus::kInadmissible) continue;
-    for (const size_t column : columns) marks.points.emplace_back(table.at.back()[i], table.values[column][i]);
+    for (const std::vector<double>* const y : ys) marks.points.emplace_back(table.at.back()[i], (*y)[i]);
   }
-  return marks;
+  if (!marks.points.empty()) panel.curves.push_back(std::move(marks));
 }
 
 Panel CurvePanel(const SweepTable& table, const std::vector<Group>& groups, const std::vector<size_t>& columns) {
@@ -155,8 +154,9 @@ Panel CurvePanel(const SweepTable& table, const std::vector<Group>& groups, cons
     }
   }
   panel.x_missing.assign(missing.begin(), missing.end());
-  Curve marks = InadmissibleMarks(table, columns);
-  if (!marks.points.empty()) panel.curves.push_back(std::move(marks));
+  std::vector<const std::vector<double>*> ys;
+  for (const size_t column : columns) ys.push_back(&table.values[column]);
+  MarkInadmissible(table, ys, "with points pointtype 6 pointsize 0.6 linewidth 1.5 linecolor rgb 'red'", panel);
   return panel;
 }
 
@@ -201,6 +201,7 @@ absl::StatusOr<Plot> MapsOf(const SweepTable& table, const std::vector<double>& 
     for (size_t i = 0; i < table.points(); ++i) {
       panel.map.push_back({table.at[1][i], table.at[0][i], table.values[column][i]});
     }
+    MarkInadmissible(table, {&table.at[0]}, "with points pointtype 7 pointsize 0.2 linecolor rgb 'red'", panel);
     plot.panels.push_back(std::move(panel));
     names.push_back(label.name);
   }
