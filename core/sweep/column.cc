@@ -64,8 +64,8 @@ std::vector<Violation> CheckColumns(const std::vector<std::string>& columns, con
       violations.push_back({absl::StrCat("columns[", i, "]"), absl::StrCat(Found(columns[i]), ": must be ", rule)});
     };
     if (!known.contains(columns[i])) {
-      refuse(absl::StrCat("a column of the scene; `ricochet sweep --column '?'` lists them",
-                          DidYouMean(columns[i], all)));
+      refuse(
+          absl::StrCat("a column of the scene; `ricochet sweep --column '?'` lists them", DidYouMean(columns[i], all)));
     } else if (!seen.insert(columns[i]).second) {
       refuse("named once");
     }

@@ -86,6 +86,18 @@ class PlotFileTest(RicochetCase):
         self.assertIn(">inadmissible<", picture)
         self.assertGreater(statuses.count("OK"), 10)
 
+    def test_inadmissible_cells_of_a_map_have_dots(self):
+        limits = [*SWEEP, "--axis", "restitution.newton=lin:0.1:0.9:20", "--axis", f"{MU}=lin:-0.1:0.5:25",
+                  "--column", NEWTON]
+        self.made(*limits, "--format", "csv", "-o", "cells.csv", "--plot", "cells.svg")
+        with open(WORK / "cells.csv", encoding="utf-8") as table:
+            statuses = [row["status"] for row in csv.DictReader(table)]
+        self.assertGreater(statuses.count("INADMISSIBLE"), 10)
+        self.assertGreater(statuses.count("OK"), 10)
+        picture = (WORK / "cells.svg").read_text(encoding="utf-8")
+        self.assertEqual(len(re.findall("xlink:href='#gpPt6' transform", picture)), statuses.count("INADMISSIBLE") + 1)
+        self.assertIn(">inadmissible<", picture)
+
     def test_lines_over_unknown_regimes_are_said_to_go_on(self):
         self.made(*[word for word in LINE if word != "--regime"], "--format", "csv", "-o", "plain.csv")
         code, _, error = ricochet("plot", "plain.csv")
