@@ -3,12 +3,12 @@
 #include <CLI/App.hpp>
 #include <array>
 #include <map>
-#include <string_view>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
 #include "client/cli/json/json_text.h"
 #include "client/cli/number_input.h"
@@ -147,7 +147,7 @@ namespace {
 
 // Returns the names of all values of an enum that counts from 0, as the protos have them, without their prefix.
 template <typename Enum, size_t kCount, typename ProtoName>
-std::array<std::string, kCount> NamesOf(ProtoName proto_name, std::string_view prefix) {
+std::array<std::string, kCount> NamesOf(ProtoName proto_name, absl::string_view prefix) {
   std::array<std::string, kCount> names;
   for (size_t i = 0; i < kCount; ++i) {
     names[i] = std::string(absl::StripPrefix(proto_name(ToProto(static_cast<Enum>(i))), prefix));
