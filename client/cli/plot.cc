@@ -262,11 +262,14 @@ Legend LegendOf(const Panel& panel, const Layout& layout) {
     longest = std::max(longest, curve.title.size());
     ++titles;
   }
-  if (titles == 0 || (titles == 1 && panel.curves.size() == 1)) return {};
+  const bool is_map = !panel.map.empty();
+  // A curve that is alone needs no name; marks on a map do.
+  if (titles == 0 || (titles == 1 && panel.curves.size() == 1 && !is_map)) return {};
   const double width = (static_cast<double>(longest) + 7.0) * layout.character();
   const double height = 1.3 * layout.font * titles;
   const bool fits = width <= 0.34 * layout.cell_width() && height <= layout.cell_height() - 6.0 * layout.font;
-  if (layout.columns == 1 && fits) return {Legend::Place::kBeside, width, 0};
+  // Beside a map is the scale of its colours.
+  if (layout.columns == 1 && fits && !is_map) return {Legend::Place::kBeside, width, 0};
   const int in_a_line = std::max(1, static_cast<int>(0.9 * layout.cell_width() / width));
   return {Legend::Place::kAbove, 0.0, (titles + in_a_line - 1) / in_a_line};
 }
