@@ -236,16 +236,12 @@ double PendulumFrictionlessError(const pendulum::Problem& problem) {
 }
 
 // True if cheap lower bounds show that neither friction nor higher orders can be left out. The first-order form has an
-// error of at least c x^2/2. The changes v1 and tau1 by friction (core/plan/sizes.cc) cannot both be small. Under the
-// energetic law, with root^2 = (1 - x)/(1 + x), (1 + x) tau1 >= x (1 + c) - v1/root, so that the larger of the two is at
-// least x/(1 + x + 1/root). This is at least x 2^-11 if 1 - x >= kLeastSlope; otherwise the size is infinite. Under
-// Poisson's law tau1 >= x/2. Newton's law fixes v1, and tau1 has no lower bound.
+// error of at least c x^2/2 but under Newton's law, which fixes v1. Friction changes tau0 by x/(1 + x) (core/plan/sizes.cc),
+// which is at least x/2 if friction does not lock the body; otherwise the size is infinite.
 bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance) {
-  static_assert(kLeastSlope >= 0x1p-20);
   if (problem.law == RestitutionLaw::kNewton) return false;
-  const double b = std::fabs(problem.b);
   const double x = first_order::FrictionRatio(problem);
-  return problem.coefficient * x * x > 4.0 * tolerance && problem.mu * b > 0x1p12 * tolerance * std::max(problem.a, b);
+  return problem.coefficient * x * x > 4.0 * tolerance && x > 4.0 * tolerance;
 }
 
 }  // namespace

@@ -382,7 +382,9 @@ Size PendulumFrictionSize(const pendulum::Problem& problem) {
   const double tau1 = (std::fabs(grown - x * (1.0 + c)) + kRounding * (grown + x * (1.0 + c))) / (1.0 + x);
   const double arm = b / problem.a;
   const double f1 = arm * x * (std::fabs(1.0 - kappa) + kRounding * (1.0 + kappa)) / (1.0 + x);
-  const double largest = std::max({v1, arm * v1, tau1, f1}) / std::max(1.0, arm);
+  // Under Newton's law with kappa = 1, friction changes nothing but the impulses of compression.
+  const double tau0 = x / (1.0 + x);
+  const double largest = std::max({v1, arm * v1, tau1, f1, tau0, arm * tau0}) / std::max(1.0, arm);
   return {.value = Padded(largest + std::numeric_limits<double>::min()), .ground = Ground::kInequality, .number = x};
 }
 

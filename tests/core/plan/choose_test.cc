@@ -327,6 +327,23 @@ TEST(ChooseTest, APendulumGoesFromFrictionlessOverFirstOrderToTheClosedForm) {
   EXPECT_NEAR(forced.neglected, 0.5e-4 / 4.0, 0.5e-4);
 }
 
+// With kappa = e (1 + x)/(1 - x) = 1 the impulses of friction in compression and in restitution cancel. Under Newton's law
+// all velocities and total impulses are then those without friction, but the works are not.
+TEST(ChooseTest, FrictionThatCancelsInTheEndIsSimulated) {
+  const pendulum::Problem problem = {.inertia = 1.0,
+                                     .a = 0.6,
+                                     .b = 0.8,
+                                     .omega_minus = -1.0,
+                                     .mu = 0.375,
+                                     .mu_static = 0.375,
+                                     .law = RestitutionLaw::kNewton,
+                                     .coefficient = 1.0 / 3.0};
+  EXPECT_EQ(ChoosePendulum(problem, {}, {.relative_tolerance = 0.1}).model, Model::kPendulum);
+  EXPECT_EQ(ModelOfPendulum(problem, 0.1), Model::kPendulum);
+  // x = 1/2, and the change of tau0 is x/(1 + x).
+  EXPECT_NEAR(PendulumFrictionSize(problem).value, 1.0 / 3.0, 1e-5);
+}
+
 TEST(ChooseTest, InSpaceTheModelIsGivenTheBudget) {
   spatial::Problem problem = {.w11 = 1.96,
                               .w12 = .24,
