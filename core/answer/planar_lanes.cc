@@ -2,15 +2,16 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 
 #include "absl/container/inlined_vector.h"
+#include "absl/memory/memory.h"
 #include "core/models/impact_end.h"
 #include "core/models/planar/columns.h"
 #include "core/models/sliding/columns.h"
@@ -20,6 +21,11 @@
 
 namespace ricochet {
 namespace {
+
+constexpr const char* kPaths[] = {"planar_contact.w_tt_per_kg", "planar_contact.w_tn_per_kg",
+                                  "planar_contact.w_nn_per_kg", "planar_contact.tangential_m_s",
+                                  "planar_contact.normal_m_s",  "friction.kinetic_coefficient",
+                                  "friction.static_coefficient"};
 
 constexpr std::pair<const char*, PlanarOutput> kOutputs[] = {
     {"coefficients.newton", PlanarOutput::kNewton},
@@ -48,16 +54,6 @@ std::optional<PlanarOutput> OutputAt(const std::string& path) {
   return std::nullopt;
 }
 
-// True if the scene has a planar contact, friction and restitution, and nothing else.
-bool IsPlain(const Scene& scene) {
-  Scene plain;
-  plain.system = scene.system;
-  plain.friction.kinetic_coefficient = scene.friction.kinetic_coefficient;
-  plain.friction.static_coefficient = scene.friction.static_coefficient;
-  plain.restitution = scene.restitution;
-  return std::holds_alternative<PlanarContact>(scene.system) && scene == plain;
-}
-
 // True if a number keeps its rule and lies where no product of a few of them can overflow or vanish.
 bool IsModerate(double number) {
   const double size = std::fabs(number);
@@ -80,20 +76,20 @@ ImpactEnd<double> Separated(double u0, double v0) { return Separating<ImpactEnd<
 
 }  // namespace
 
-std::optional<std::vector<PlanarOutput>> PlanarLanes::OutputsOf(const Scene& scene,
-                                                                absl::Span<const std::string> columns,
-                                                                const Demand& demand) {
-  if (!IsPlain(scene) || !demand.required.IsEmpty() || !demand.excluded.IsEmpty()) return std::nullopt;
+std::unique_ptr<SceneLanes> PlanarLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
+                                              const Demand& demand) {
+  if (!std::holds_alternative<PlanarContact>(scene.system) || !IsPlain(scene)) return nullptr;
+  if (!demand.required.IsEmpty() || !demand.excluded.IsEmpty()) return nullptr;
   std::vector<PlanarOutput> outputs;
   for (const std::string& column : columns) {
     const std::optional<PlanarOutput> output = OutputAt(column);
-    if (!output.has_value()) return std::nullopt;
+    if (!output.has_value()) return nullptr;
     outputs.push_back(*output);
   }
-  return outputs;
+  return absl::WrapUnique(new PlanarLanes(scene, std::move(outputs), demand.relative_tolerance));
 }
 
-PlanarLanes::Numbers PlanarLanes::NumbersOf(const Scene& scene) {
+SceneLanes::Numbers PlanarLanes::NumbersOf(const Scene& scene) const {
   const auto& contact = std::get<PlanarContact>(scene.system);
   const double mu = scene.friction.kinetic_coefficient;
   return {contact.w_tt_per_kg,
@@ -107,7 +103,8 @@ PlanarLanes::Numbers PlanarLanes::NumbersOf(const Scene& scene) {
 }
 
 PlanarLanes::PlanarLanes(const Scene& scene, std::vector<PlanarOutput> outputs, double tolerance)
-    : law_(StatedBy(scene.restitution).law),
+    : SceneLanes(kPaths),
+      law_(StatedBy(scene.restitution).law),
       tolerance_(tolerance),
       outputs_(std::move(outputs)),
       answers_(outputs_.size()) {}
@@ -137,7 +134,7 @@ void PlanarLanes::SolveBy(Model model, const Columns& columns, size_t count, con
 }
 
 // Puts the numbers of some contacts side by side.
-PlanarLanes::Columns PlanarLanes::Gather(const Columns& columns, absl::Span<const uint16_t> some) {
+SceneLanes::Columns PlanarLanes::Gather(const Columns& columns, absl::Span<const uint16_t> some) {
   Columns gathered = columns;
   for (size_t n = 0; n < kNumberCount; ++n) {
     const double* const from = columns.of[n];
@@ -194,6 +191,7 @@ Model PlanarLanes::ModelAlone(const planar::Problem& problem) const {
 }
 
 void PlanarLanes::Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) {
+  block.is_uniform = false;
   const PlanarProblemColumns problems = ProblemsIn(columns, count);
   ModelsOfPlanar(problems, tolerance_, absl::MakeSpan(block.models).first(count));
   // The contacts of each model.
@@ -213,20 +211,6 @@ void PlanarLanes::Solve(const Columns& columns, size_t count, absl::Span<double*
   for (const Model model : {Model::kFrictionless, Model::kSliding, Model::kPlanar}) {
     if (!contacts_of(model).empty()) SolveTogether(columns, contacts_of(model), count, model, places, block);
   }
-}
-
-bool PlanarLanes::HasAllNumbers(size_t count, absl::Span<double* const> places, const Block& block) const {
-  bool is_solved = true;
-  for (size_t i = 0; i < count; ++i) is_solved &= block.models[i] != Model::kUnspecified;
-  if (!is_solved) return false;
-  // Added to a magnitude, the least exponent carries into the sign if the number is infinite or NaN.
-  constexpr uint64_t kSign = uint64_t{1} << 63;
-  constexpr uint64_t kLeastExponent = uint64_t{1} << 52;
-  uint64_t carry = 0;
-  for (const double* const column : places) {
-    for (size_t i = 0; i < count; ++i) carry |= (std::bit_cast<uint64_t>(column[i]) & ~kSign) + kLeastExponent;
-  }
-  return (carry & kSign) == 0;
 }
 
 }  // namespace ricochet

@@ -69,10 +69,7 @@ absl::Status BatchRun::Prepare(const BatchSetup& setup) {
   columns_ = setup.columns;
   for (const std::string& column : columns_) positions_of_.push_back(known.at(column));
   numbers_.reserve(all.size());
-  if (std::optional<PlanarRows> planar = PlanarRows::Make(scene_, setup, demand_); planar.has_value()) {
-    planar_ = std::make_unique<PlanarRows>(*std::move(planar));
-    block_ = std::make_unique<PlanarRows::Block>();
-  }
+  lanes_ = LaneRows::Make(scene_, setup, demand_);
   return absl::OkStatus();
 }
 
@@ -129,18 +126,19 @@ bool BatchRun::SolveAlone(const BatchRows& rows, size_t i, absl::FunctionRef<boo
 bool BatchRun::SolveBlock(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
                           BatchSummary& summary) {
   if (stopped()) return false;
-  if (planar_->Solve(rows, first, count, *block_)) {
+  if (lanes_->Solve(rows, first, count)) {
     FinishBlock(rows, first, count, summary);
     return true;
   }
+  const SceneLanes::Block& block = lanes_->block();
   for (size_t k = 0; k < count; ++k) {
-    if (block_->models[k] == Model::kUnspecified) {
+    if (block.models[k] == Model::kUnspecified) {
       if (!SolveAlone(rows, first + k, stopped, summary)) return false;
       continue;
     }
-    Row row = {.status = block_->inadmissible[k] ? RowStatus::kInadmissible : RowStatus::kOk,
-               .regime = block_->regimes[k],
-               .model = block_->models[k],
+    Row row = {.status = block.inadmissible[k] ? RowStatus::kInadmissible : RowStatus::kOk,
+               .regime = block.regimes[k],
+               .model = block.models[k],
                .too_large = std::nullopt};
     CheckNumbers(rows, first + k, row);
     Finish(rows, first + k, row, summary);
@@ -151,7 +149,7 @@ bool BatchRun::SolveBlock(const BatchRows& rows, size_t first, size_t count, abs
 // Returns false if it was stopped.
 bool BatchRun::SolveSome(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
                          BatchSummary& summary) {
-  if (planar_ != nullptr) return SolveBlock(rows, first, count, stopped, summary);
+  if (lanes_ != nullptr) return SolveBlock(rows, first, count, stopped, summary);
   for (size_t i = first; i < first + count; ++i) {
     if (stopped() || !SolveAlone(rows, i, stopped, summary)) return false;
   }
@@ -162,8 +160,8 @@ absl::StatusOr<BatchSummary> BatchRun::Solve(const BatchRows& rows, absl::Functi
   if (absl::Status misfit = CheckRows(rows, fields_.size(), columns_.size()); !misfit.ok()) return misfit;
   BatchSummary summary;
   const size_t all = RowCount(rows);
-  for (size_t first = 0; first < all; first += PlanarRows::kBlock) {
-    if (!SolveSome(rows, first, std::min(PlanarRows::kBlock, all - first), stopped, summary)) {
+  for (size_t first = 0; first < all; first += LaneRows::kBlock) {
+    if (!SolveSome(rows, first, std::min(LaneRows::kBlock, all - first), stopped, summary)) {
       return absl::CancelledError("the batch was stopped by its caller");
     }
   }
@@ -172,18 +170,19 @@ absl::StatusOr<BatchSummary> BatchRun::Solve(const BatchRows& rows, absl::Functi
 
 // Does for every row of a block with all its numbers what Finish does.
 void BatchRun::FinishBlock(const BatchRows& rows, size_t first, size_t count, BatchSummary& summary) const {
+  const SceneLanes::Block& block = lanes_->block();
   SweepSummary& counts = summary.counts;
   counts.points += static_cast<int64_t>(count);
   for (size_t k = 0; k < count; ++k) {
     const auto index = static_cast<int64_t>(first + k);
-    Count(index, counts.by_regime[static_cast<size_t>(block_->regimes[k])]);
-    Count(index, counts.by_model[static_cast<size_t>(block_->models[k])]);
-    if (block_->inadmissible[k]) Count(index, counts.inadmissible);
+    Count(index, counts.by_regime[static_cast<size_t>(block.regimes[k])]);
+    Count(index, counts.by_model[static_cast<size_t>(block.models[k])]);
+    if (block.inadmissible[k]) Count(index, counts.inadmissible);
   }
   const auto at = static_cast<ptrdiff_t>(first);
-  if (!rows.regimes.empty()) std::copy_n(block_->regimes.begin(), count, rows.regimes.begin() + at);
+  if (!rows.regimes.empty()) std::copy_n(block.regimes.begin(), count, rows.regimes.begin() + at);
   if (!rows.statuses.empty()) {
-    std::transform(block_->inadmissible.begin(), block_->inadmissible.begin() + count, rows.statuses.begin() + at,
+    std::transform(block.inadmissible.begin(), block.inadmissible.begin() + count, rows.statuses.begin() + at,
                    [](bool inadmissible) { return inadmissible ? RowStatus::kInadmissible : RowStatus::kOk; });
   }
 }

@@ -14,7 +14,7 @@
 #include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
-#include "core/batch/planar_rows.h"
+#include "core/batch/lane_rows.h"
 #include "core/plan/demand.h"
 #include "core/scene/driven_fields.h"
 #include "ricochet/batch.h"
@@ -72,8 +72,7 @@ class BatchRun {
   std::vector<std::string> columns_;          // The names of the output columns.
   std::vector<size_t> positions_of_;          // Their positions among all columns of the scene.
   std::vector<double> numbers_;               // All columns of one row.
-  std::unique_ptr<PlanarRows> planar_;        // Absent if the rows need a scene each.
-  std::unique_ptr<PlanarRows::Block> block_;  // The current block of planar rows.
+  std::unique_ptr<LaneRows> lanes_;           // Null if the rows need a scene each.
 };
 
 }  // namespace ricochet

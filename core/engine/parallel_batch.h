@@ -23,7 +23,7 @@ namespace ricochet {
 class ParallelBatch {
  public:
   // Rows that a thread takes at once.
-  static constexpr size_t kPiece = PlanarRows::kBlock;
+  static constexpr size_t kPiece = LaneRows::kBlock;
 
   // Helpers are asked once a batch has lasted for a millisecond; null stands for none.
   // Errors: those of BatchRun::Make.

@@ -81,7 +81,7 @@ class SweepRun::Impl {
   void HelpInTurn(SweepPoints& points, absl::FunctionRef<bool()> gives_way, std::unique_lock<std::mutex>& lock);
 
   // Lanes are fast enough for large blocks, and a caller who is alone leaves none for others to wait for.
-  bool adapts_blocks() const { return !sweep_.is_fast() && most_helpers_ > 0; }
+  bool adapts_blocks() const { return !sweep_.in_lanes && most_helpers_ > 0; }
 
   // The functions below are called with the mutex locked.
   // Takes a block, in a new buffer if need be. Nothing if all points are taken or the buffers that may be open are.
@@ -237,7 +237,7 @@ std::optional<SweepRun::Impl::Task> SweepRun::Impl::Take() {
   auto buffer = std::find_if(buffers_.begin(), buffers_.end(), [](const SweepBuffer& b) { return b.has_untaken(); });
   if (buffer == buffers_.end()) {
     const int64_t room = RoomOfNextBuffer();
-    buffer = buffers_.emplace(buffers_.end(), next_, room, sweep_.columns, sweep_.with_regime);
+    buffer = buffers_.emplace(buffers_.end(), next_, room, sweep_.columns.size(), sweep_.with_regime);
     next_ += room;
   }
   const Block block = *buffer->Take(block_);
@@ -252,7 +252,7 @@ bool SweepRun::Impl::CanTake() const {
 
 // The first chunk is small, so that a caller soon sees something.
 int64_t SweepRun::Impl::RoomOfNextBuffer() const {
-  const auto bytes_a_point = static_cast<int64_t>(sweep_.columns * sizeof(double));
+  const auto bytes_a_point = static_cast<int64_t>(sweep_.columns.size() * sizeof(double));
   const int64_t fitting = std::max(most_bytes_ / bytes_a_point, int64_t{1});
   return std::min({next_ == sweep_.first ? kFirstChunkPoints : fitting, fitting, sweep_.end - next_});
 }

@@ -235,6 +235,8 @@ double PendulumFrictionlessError(const pendulum::Problem& problem) {
   return kReduction + sliding::FrictionlessErrorsOf(SlidingProblemOf(PlanarOf(problem))).Largest();
 }
 
+}  // namespace
+
 // True if cheap lower bounds show that neither friction nor higher orders can be left out. The first-order form has an
 // error of at least c x^2/2 but under Newton's law, which fixes v1. Friction changes tau0 by x/(1 + x) (core/plan/sizes.cc),
 // which is at least x/2 if friction does not lock the body; otherwise the size is infinite.
@@ -243,8 +245,6 @@ bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance) {
   const double x = first_order::FrictionRatio(problem);
   return problem.coefficient * x * x > 4.0 * tolerance && x > 4.0 * tolerance;
 }
-
-}  // namespace
 
 ContactPhysics Without(EffectSet effects, ContactPhysics physics) {
   if (effects.Has(Effect::kTangentialCompliance)) physics.ratio_squared = 0.0;

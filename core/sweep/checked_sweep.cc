@@ -9,9 +9,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/answer/planar_lanes.h"
+#include "core/answer/scene_lanes.h"
 #include "core/plan/demand_fields.h"
-#include "core/problem/scene_problem.h"
 #include "core/scene/validate.h"
 #include "core/sweep/column.h"
 #include "core/sweep/driven_scene.h"
@@ -36,22 +35,6 @@ std::vector<Violation> CheckRange(const SweepRequest& request) {
 
 void Append(std::vector<Violation> more, std::vector<Violation>& violations) {
   std::move(more.begin(), more.end(), std::back_inserter(violations));
-}
-
-// Decides how the columns are computed. `scene` is that of any point.
-void ResolveColumns(const Scene& scene, const std::vector<std::string>& columns, const ColumnPositions& known,
-                    CheckedSweep& sweep) {
-  sweep.columns = columns.size();
-  sweep.in_lanes = HasClosedForm(scene) && !scene.compliance.has_value() &&
-                   std::all_of(columns.begin(), columns.end(),
-                               [](const std::string& column) { return PendulumColumn(column).has_value(); });
-  for (const std::string& column : columns) {
-    if (sweep.in_lanes) {
-      sweep.outputs.push_back(*PendulumColumn(column));
-    } else {
-      sweep.positions.push_back(known.at(column));
-    }
-  }
 }
 
 }  // namespace
@@ -79,9 +62,10 @@ absl::StatusOr<CheckedSweep> CheckSweep(const SweepRequest& request) {
                         .demand = ToDemand(request.demand),
                         .with_regime = request.with_regime,
                         .first = request.first_index,
-                        .end = request.end_index.value_or(PointCount(request.grid))};
-  ResolveColumns(scene, request.columns, known, sweep);
-  sweep.planar_outputs = PlanarLanes::OutputsOf(scene, request.columns, sweep.demand);
+                        .end = request.end_index.value_or(PointCount(request.grid)),
+                        .columns = request.columns};
+  for (const std::string& column : request.columns) sweep.positions.push_back(known.at(column));
+  sweep.in_lanes = SceneLanes::Make(scene, request.columns, sweep.demand) != nullptr;
   return sweep;
 }
 

@@ -78,13 +78,4 @@ void ReadColumns(const Outcome& outcome, std::vector<double>& numbers) {
   VisitOutcomeNumbers(outcome, [&](const NumberPath& /*path*/, double number) { numbers.push_back(number); });
 }
 
-std::optional<pendulum::Output> PendulumColumn(const std::string& name) {
-  for (int i = 0; i < pendulum::kOutputCount; ++i) {
-    const auto output = static_cast<pendulum::Output>(i);
-    const std::string path = pendulum::OutputPath(output);
-    if (!path.empty() && path == name) return output;
-  }
-  return std::nullopt;
-}
-
 }  // namespace ricochet

@@ -3,12 +3,10 @@
 #ifndef RICOCHET_CORE_SWEEP_COLUMN_H_
 #define RICOCHET_CORE_SWEEP_COLUMN_H_
 
-#include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "core/models/pendulum/pendulum.h"
 #include "ricochet/error.h"
 #include "ricochet/outcome.h"
 #include "ricochet/scene.h"
@@ -29,9 +27,6 @@ std::vector<Violation> CheckColumns(const std::vector<std::string>& columns, con
 
 // Replaces `numbers` by the number behind each of Columns(scene), in that order, for an outcome of that scene.
 void ReadColumns(const Outcome& outcome, std::vector<double>& numbers);
-
-// The output of a pendulum's closed form behind a column; nothing for a name that it does not give in SIMD lanes.
-std::optional<pendulum::Output> PendulumColumn(const std::string& name);
 
 }  // namespace ricochet
 

@@ -27,6 +27,9 @@ int64_t PointCount(const Grid& grid);
 // Value `i` of an axis, 0 <= i < AxisCount(axis). It has the same bits whatever part of the grid is asked for.
 double AxisValue(const Axis& axis, int64_t i);
 
+// Writes the values `first`, `first` + 1 ... of an axis, each with the bits of AxisValue.
+void AxisValues(const Axis& axis, int64_t first, absl::Span<double> values);
+
 // Writes the position of point `index` on each axis. `positions` has one entry an axis.
 void AxisPositions(const Grid& grid, int64_t index, absl::Span<int64_t> positions);
 

@@ -6,13 +6,7 @@
 #include <limits>
 #include <optional>
 
-#include "core/answer/planar_lanes.h"
 #include "core/answer/scene_outcome.h"
-#include "core/contact/reduction.h"
-#include "core/models/pendulum/first_order.h"
-#include "core/numerics/invariant.h"
-#include "core/plan/planned_scene.h"
-#include "core/problem/scene_problem.h"
 #include "core/sweep/column.h"
 
 namespace ricochet {
@@ -26,17 +20,9 @@ absl::Status Stopped() { return absl::CancelledError("the sweep was stopped by i
 
 }  // namespace
 
-struct SweepPoints::Planar {
-  Planar(const Scene& scene, const CheckedSweep& sweep)
-      : lanes(scene, *sweep.planar_outputs, sweep.demand.relative_tolerance) {
-    columns.varies.fill(true);
-    for (size_t n = 0; n < numbers.size(); ++n) columns.of[n] = numbers[n].data();
-  }
-
-  PlanarLanes lanes;
-  PlanarLanes::Columns columns;
-  PlanarLanes::Block block;
-  std::array<std::array<double, PlanarLanes::kBlock>, PlanarLanes::kNumberCount> numbers;
+struct SweepPoints::SceneColumns {
+  SceneLanes::Columns columns;
+  std::array<std::array<double, SceneLanes::kBlock>, SceneLanes::kMostNumbers> numbers;
 };
 
 SweepPoints::~SweepPoints() = default;
@@ -48,9 +34,15 @@ SweepPoints::SweepPoints(const CheckedSweep& sweep)
       models_(kMostPoints),
       statuses_(kMostPoints),
       inadmissible_(std::make_unique<bool[]>(kMostPoints)),
-      columns_(sweep.columns) {
-  if (sweep.in_lanes) problems_ = pendulum::ProblemColumns(pendulum::MakeProblem(driven_.scene()).law, kMostPoints);
-  if (sweep.planar_outputs.has_value()) planar_ = std::make_unique<Planar>(driven_.scene(), sweep);
+      columns_(sweep.columns.size()) {
+  if (!sweep.in_lanes) return;
+  lanes_ = SceneLanes::Make(driven_.scene(), sweep.columns, sweep.demand);
+  block_ = std::make_unique<SceneLanes::Block>();
+  if (lanes_->TakesFields()) {
+    point_columns_ = std::make_unique<PointColumns>(sweep.grid, *lanes_);
+  } else {
+    scene_columns_ = std::make_unique<SceneColumns>();
+  }
 }
 
 absl::StatusOr<int64_t> SweepPoints::Compute(int64_t first, int64_t count, absl::Span<double* const> columns,
@@ -58,34 +50,40 @@ absl::StatusOr<int64_t> SweepPoints::Compute(int64_t first, int64_t count, absl:
                                              SweepSummary& tallies, absl::FunctionRef<bool()> stopped,
                                              absl::FunctionRef<bool()> is_enough) {
   if (stopped()) return Stopped();
-  if (at_ != first) driven_.GoTo(first);
-  at_ = -1;  // Unknown until the block is complete.
   columns_.assign(columns.begin(), columns.end());
-  if (sweep_.in_lanes) {
-    SolveLanes(count);
-  } else if (planar_ != nullptr) {
-    if (absl::Status solved = SolvePlanar(first, count, stopped); !solved.ok()) return solved;
+  if (lanes_ != nullptr) {
+    if (absl::Status solved = SolveInLanes(first, count, tallies, stopped); !solved.ok()) return solved;
   } else {
-    const absl::StatusOr<int64_t> solved = SolvePoints(count, stopped, is_enough);
+    const absl::StatusOr<int64_t> solved = SolvePoints(first, count, stopped, is_enough);
     if (!solved.ok()) return solved;
     count = *solved;
+    Finish(first, 0, static_cast<size_t>(count), tallies);
   }
-  at_ = first + count;
-  FinishBlock(first, count, tallies);
+  tallies.points += count;
   if (!regimes.empty()) std::copy_n(regimes_.begin(), count, regimes.begin());
   if (!statuses.empty()) std::copy_n(statuses_.begin(), count, statuses.begin());
   return count;
 }
 
-absl::StatusOr<int64_t> SweepPoints::SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped,
+absl::StatusOr<int64_t> SweepPoints::SolvePoints(int64_t first, int64_t count, absl::FunctionRef<bool()> stopped,
                                                  absl::FunctionRef<bool()> is_enough) {
   for (int64_t i = 0; i < count; ++i) {
     if (i > 0 && is_enough()) return i;
     if (i > 0 && stopped()) return Stopped();
+    GoTo(first + i);
     if (!SolvePoint(static_cast<size_t>(i), stopped)) return Stopped();
-    driven_.Advance();
   }
   return count;
+}
+
+// Drives the scene of a point, which costs least from one point to the next.
+void SweepPoints::GoTo(int64_t index) {
+  if (at_ >= 0 && at_ + 1 == index) {
+    driven_.Advance();
+  } else if (at_ != index) {
+    driven_.GoTo(index);
+  }
+  at_ = index;
 }
 
 // Returns false if it was stopped.
@@ -109,109 +107,75 @@ bool SweepPoints::SolvePoint(size_t i, absl::FunctionRef<bool()> stopped) {
   return true;
 }
 
-// Solves each run of points whose plans agree by the model that they call for.
-void SweepPoints::SolveLanes(int64_t count) {
-  const auto is_exact = [this](size_t i) { return models_[i] == Model::kPendulum || models_[i] == Model::kNone; };
+absl::Status SweepPoints::SolveInLanes(int64_t first, int64_t count, SweepSummary& tallies,
+                                       absl::FunctionRef<bool()> stopped) {
   const auto size = static_cast<size_t>(count);
-  GatherProblems(count);
-  for (size_t first = 0, end = 0; first < size; first = end) {
-    while (end < size && is_exact(end) == is_exact(first)) ++end;
-    if (is_exact(first)) {
-      SolveInLanes(first, end - first);
+  for (size_t done = 0; done < size; done += SceneLanes::kBlock) {
+    const size_t some = std::min(SceneLanes::kBlock, size - done);
+    if (absl::Status solved = SolveBlock(first, done, some, stopped); !solved.ok()) return solved;
+    if (block_->is_uniform) {
+      FinishAlike(first, done, some, tallies);
     } else {
-      SolveToFirstOrder(first, end - first);
+      Finish(first, done, some, tallies);
     }
   }
-}
-
-void SweepPoints::GatherProblems(int64_t count) {
-  std::optional<SceneContact> contact;
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
-    statuses_[i] = driven_.IsValid(contact) ? RowStatus::kOk : RowStatus::kInvalid;
-    pendulum::Problem problem = {.omega_minus = 1.0, .law = problems_.law()};  // Separating costs least to solve.
-    if (statuses_[i] == RowStatus::kOk) problem = ClosedFormProblem(driven_.scene());
-    problems_.Set(i, PlanPendulum(i, problem));
-    driven_.Advance();
-  }
-}
-
-// Chooses the model of the i-th problem and returns what it is to solve. A demand that is a tolerance alone, as most are,
-// takes a plan that costs less than the point.
-pendulum::Problem SweepPoints::PlanPendulum(size_t i, pendulum::Problem problem) {
-  if (sweep_.demand.required.IsEmpty() && sweep_.demand.excluded.IsEmpty()) {
-    models_[i] = ModelOfPendulum(problem, sweep_.demand.relative_tolerance);
-    if (models_[i] == Model::kFrictionless) problem.mu = problem.mu_static = 0.0;
-    return problem;
-  }
-  const Choice choice = ChoosePendulum(problem, {}, sweep_.demand);
-  models_[i] = choice.model;
-  CheckInvariant(choice.model != Model::kPendulum || choice.negligible == 0.0,
-                 "the closed form of a rigid pendulum neglects nothing");
-  return Without(choice, problem);
-}
-
-// These models neglect nothing, so that the whole tolerance is left for rounding.
-void SweepPoints::SolveInLanes(size_t first, size_t count) {
-  std::vector<double*> columns = columns_;
-  for (double*& column : columns) column += first;
-  pendulum::SolveColumns(problems_, first, count, sweep_.demand.relative_tolerance,
-                         {.outputs = sweep_.outputs,
-                          .columns = columns,
-                          .regimes = absl::MakeSpan(regimes_).subspan(first, count),
-                          .inadmissible = absl::MakeSpan(inadmissible_.get() + first, count)});
-}
-
-void SweepPoints::SolveToFirstOrder(size_t first, size_t count) {
-  for (size_t i = first; i < first + count; ++i) {
-    const pendulum::Problem problem = problems_[i];
-    const first_order::Approximation approximation = first_order::Approximate(problem);
-    for (size_t c = 0; c < columns_.size(); ++c) {
-      columns_[c][i] = first_order::Value(problem, approximation, sweep_.outputs[c]);
-    }
-    regimes_[i] = first_order::RegimeOf(problem);
-    inadmissible_[i] = false;
-  }
-}
-
-// Solves the points in the lanes of planar contacts, then goes back to those that the lanes leave to their scenes.
-absl::Status SweepPoints::SolvePlanar(int64_t first, int64_t count, absl::FunctionRef<bool()> stopped) {
-  const auto size = static_cast<size_t>(count);
-  for (size_t done = 0; done < size; done += PlanarLanes::kBlock) {
-    SolvePlanarBlock(done, std::min(PlanarLanes::kBlock, size - done));
-  }
-  const auto is_left = [](Model model) { return model == Model::kUnspecified; };
-  if (std::none_of(models_.begin(), models_.begin() + count, is_left)) return absl::OkStatus();
-  for (size_t i = 0; i < size; ++i) {
-    if (!is_left(models_[i])) continue;
-    if (stopped()) return Stopped();
-    driven_.GoTo(first + static_cast<int64_t>(i));
-    if (!SolvePoint(i, stopped)) return Stopped();
-  }
-  driven_.GoTo(first + count - 1);
-  driven_.Advance();
   return absl::OkStatus();
 }
 
-void SweepPoints::SolvePlanarBlock(size_t first, size_t count) {
+// Solves the points [from, from + count) of those that begin at `first`. Those that the lanes leave go by their scenes.
+absl::Status SweepPoints::SolveBlock(int64_t first, size_t from, size_t count, absl::FunctionRef<bool()> stopped) {
+  const int64_t at = first + static_cast<int64_t>(from);
+  places_.clear();
+  for (double* const column : columns_) places_.push_back(column + from);
+  lanes_->Solve(point_columns_ != nullptr ? point_columns_->At(at, count) : ColumnsOfScenes(at, count), count, places_,
+                *block_);
+  if (block_->is_uniform) return absl::OkStatus();
   for (size_t i = 0; i < count; ++i) {
-    const PlanarLanes::Numbers numbers = PlanarLanes::NumbersOf(driven_.scene());
-    for (size_t n = 0; n < numbers.size(); ++n) planar_->numbers[n][i] = numbers[n];
-    driven_.Advance();
+    models_[from + i] = block_->models[i];
+    regimes_[from + i] = block_->regimes[i];
+    inadmissible_[from + i] = block_->inadmissible[i];
+    statuses_[from + i] = RowStatus::kOk;
+    if (models_[from + i] != Model::kUnspecified) continue;
+    if (stopped()) return Stopped();
+    GoTo(at + static_cast<int64_t>(i));
+    if (!SolvePoint(from + i, stopped)) return Stopped();
   }
-  std::vector<double*> places = columns_;
-  for (double*& place : places) place += first;
-  const PlanarLanes::Block& block = planar_->block;
-  planar_->lanes.Solve(planar_->columns, count, places, planar_->block);
-  const auto at = static_cast<ptrdiff_t>(first);
-  std::copy_n(block.models.begin(), count, models_.begin() + at);
-  std::copy_n(block.regimes.begin(), count, regimes_.begin() + at);
-  std::copy_n(block.inadmissible.begin(), count, inadmissible_.get() + at);
-  std::fill_n(statuses_.begin() + at, count, RowStatus::kOk);
+  return absl::OkStatus();
+}
+
+// The numbers of scenes whose coefficients depend on the speed. No lanes take those of a point that is not valid.
+const SceneLanes::Columns& SweepPoints::ColumnsOfScenes(int64_t first, size_t count) {
+  SceneColumns& scenes = *scene_columns_;
+  for (size_t i = 0; i < count; ++i) {
+    GoTo(first + static_cast<int64_t>(i));
+    SceneLanes::Numbers numbers;
+    numbers.fill(std::numeric_limits<double>::quiet_NaN());
+    std::optional<SceneContact> contact;
+    if (driven_.IsValid(contact)) numbers = lanes_->NumbersOf(driven_.scene());
+    for (size_t n = 0; n < numbers.size(); ++n) scenes.numbers[n][i] = numbers[n];
+  }
+  for (size_t n = 0; n < scenes.numbers.size(); ++n) scenes.columns.of[n] = scenes.numbers[n].data();
+  scenes.columns.varies.fill(true);
+  return scenes.columns;
+}
+
+// Finishes points that all have numbers and the model, the regime and the admissibility of the first.
+void SweepPoints::FinishAlike(int64_t first, size_t from, size_t count, SweepSummary& tallies) {
+  const Regime regime = block_->regimes[0];
+  const bool inadmissible = block_->inadmissible[0];
+  const auto at = static_cast<ptrdiff_t>(from);
+  std::fill_n(regimes_.begin() + at, count, regime);
+  std::fill_n(statuses_.begin() + at, count, inadmissible ? RowStatus::kInadmissible : RowStatus::kOk);
+  const Tally tally = {.count = static_cast<int64_t>(count), .first_index = first + static_cast<int64_t>(from)};
+  const auto add = [&tally](Tally& to) { to = Joined(to, tally); };
+  add(tallies.by_regime[static_cast<size_t>(regime)]);
+  add(tallies.by_model[static_cast<size_t>(block_->models[0])]);
+  if (inadmissible) add(tallies.inadmissible);
 }
 
 // Overwrites bad points and tallies all of them.
-void SweepPoints::FinishBlock(int64_t first, int64_t count, SweepSummary& tallies) {
-  for (size_t i = 0; i < static_cast<size_t>(count); ++i) {
+void SweepPoints::Finish(int64_t first, size_t from, size_t count, SweepSummary& tallies) {
+  for (size_t i = from; i < from + count; ++i) {
     const auto is_finite = [i](const double* column) { return std::isfinite(column[i]); };
     RowStatus& status = statuses_[i];
     if (status == RowStatus::kOk && !std::all_of(columns_.begin(), columns_.end(), is_finite)) {
@@ -227,7 +191,6 @@ void SweepPoints::FinishBlock(int64_t first, int64_t count, SweepSummary& tallie
     if (status == RowStatus::kInadmissible) Add(index, tallies.inadmissible);
     if (regimes_[i] != Regime::kInvalid) Add(index, tallies.by_model[static_cast<size_t>(models_[i])]);
   }
-  tallies.points += count;
 }
 
 }  // namespace ricochet

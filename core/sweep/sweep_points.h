@@ -13,9 +13,10 @@
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
-#include "core/models/pendulum/columns.h"
+#include "core/answer/scene_lanes.h"
 #include "core/sweep/checked_sweep.h"
 #include "core/sweep/driven_scene.h"
+#include "core/sweep/point_columns.h"
 #include "ricochet/outcome.h"
 #include "ricochet/sweep.h"
 
@@ -43,32 +44,37 @@ class SweepPoints {
                                   absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough);
 
  private:
-  absl::StatusOr<int64_t> SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped,
+  // Numbers that are gathered from scenes.
+  struct SceneColumns;
+
+  absl::StatusOr<int64_t> SolvePoints(int64_t first, int64_t count, absl::FunctionRef<bool()> stopped,
                                       absl::FunctionRef<bool()> is_enough);
+  void GoTo(int64_t index);
   bool SolvePoint(size_t i, absl::FunctionRef<bool()> stopped);
-  void SolveLanes(int64_t count);
-  void GatherProblems(int64_t count);
-  pendulum::Problem PlanPendulum(size_t i, pendulum::Problem problem);
-  void SolveInLanes(size_t first, size_t count);
-  void SolveToFirstOrder(size_t first, size_t count);
-  absl::Status SolvePlanar(int64_t first, int64_t count, absl::FunctionRef<bool()> stopped);
-  void SolvePlanarBlock(size_t first, size_t count);
-  void FinishBlock(int64_t first, int64_t count, SweepSummary& tallies);
+  absl::Status SolveInLanes(int64_t first, int64_t count, SweepSummary& tallies, absl::FunctionRef<bool()> stopped);
+  absl::Status SolveBlock(int64_t first, size_t from, size_t count, absl::FunctionRef<bool()> stopped);
+  const SceneLanes::Columns& ColumnsOfScenes(int64_t first, size_t count);
+  void FinishAlike(int64_t first, size_t from, size_t count, SweepSummary& tallies);
+  void Finish(int64_t first, size_t from, size_t count, SweepSummary& tallies);
 
   const CheckedSweep& sweep_;
   DrivenScene driven_;
   int64_t at_ = -1;              // The index of the scene that is driven now.
   std::vector<double> numbers_;  // All columns of one point.
 
-  // One block of points.
-  pendulum::ProblemColumns problems_;  // Only if the lanes give the columns.
-  struct Planar;                       // Contacts of the plane on their way through their lanes.
-  std::unique_ptr<Planar> planar_;     // Only if these lanes give the columns.
+  // Null if the points need a scene each.
+  std::unique_ptr<SceneLanes> lanes_;
+  std::unique_ptr<SceneLanes::Block> block_;
+  std::unique_ptr<PointColumns> point_columns_;  // If the lanes take fields,
+  std::unique_ptr<SceneColumns> scene_columns_;  // else.
+
+  // The points of one call.
   std::vector<Regime> regimes_;
   std::vector<Model> models_;
-  std::vector<RowStatus> statuses_;  // Until the block is finished: whether a point has numbers.
+  std::vector<RowStatus> statuses_;  // Until a point is finished: whether it has numbers.
   std::unique_ptr<bool[]> inadmissible_;
-  std::vector<double*> columns_;  // The place of the block's values of each column.
+  std::vector<double*> columns_;  // The place of the first point's value in each column,
+  std::vector<double*> places_;   // and that of the current block.
 };
 
 }  // namespace ricochet

@@ -53,6 +53,9 @@ struct Block {
 inline constexpr int kInadmissible = 64;
 inline constexpr int kUnproved = 128;
 
+// Which problems of a block plain arithmetic has proved.
+enum class Proof { kNotAll, kAll, kAllUsual };
+
 // A verdict for each problem of a block, as lanes store it. Whole vectors are stored, which may reach beyond the block.
 using Verdicts = std::array<double, Block::kCapacity + ProblemColumns::kMostLanes>;
 
@@ -207,10 +210,10 @@ HWY_INLINE Mask AreUsual(RestitutionLaw law, const Inputs<N, Mask>& in, const So
   return Both(Both(rebounds, keeps_limits), Both(Rounded(x.kappa) <= most_kappa, IsModerate(in)));
 }
 
-// Solves each problem plainly, and returns whether all are proved. The law and the parts are constants, because telling them
-// apart takes as long as computing them.
+// Solves each problem plainly. The law and the parts are constants, because telling them apart takes as long as computing
+// them.
 template <RestitutionLaw kLaw, unsigned kParts>
-HWY_INLINE bool SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
+HWY_INLINE Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
   using N = Plain<V>;
   const unsigned parts = kParts | (block.parts & kDearParts);
   const Loader loader(block);
@@ -240,20 +243,20 @@ HWY_INLINE bool SolvePlainBlockOf(const Block& block, double tolerance, Verdicts
   if (all_usual) {
     std::fill_n(block.solved.regimes.data() + block.place, block.size, Regime::kRebound);
     std::fill_n(block.solved.inadmissible.data() + block.place, block.size, false);
-  } else {
-    StoreVerdicts(block, verdicts);
+    return Proof::kAllUsual;
   }
-  return InAllLanes(all);
+  StoreVerdicts(block, verdicts);
+  return InAllLanes(all) ? Proof::kAll : Proof::kNotAll;
 }
 
 template <RestitutionLaw kLaw>
-bool SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
+Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
   constexpr unsigned kFew = kPartKappa | kPartKappaHat;
   if ((block.parts & ~kFew) == 0) return SolvePlainBlockOf<kLaw, kFew>(block, tolerance, verdicts);
   return SolvePlainBlockOf<kLaw, kPartAll & ~kDearParts>(block, tolerance, verdicts);
 }
 
-bool SolvePlainBlock(const Block& block, double tolerance, Verdicts& verdicts) {
+Proof SolvePlainBlock(const Block& block, double tolerance, Verdicts& verdicts) {
   switch (block.problems.law()) {
     case RestitutionLaw::kNewton:
       return SolvePlainBlockOf<RestitutionLaw::kNewton>(block, tolerance, verdicts);
@@ -262,7 +265,7 @@ bool SolvePlainBlock(const Block& block, double tolerance, Verdicts& verdicts) {
     case RestitutionLaw::kEnergetic:
       return SolvePlainBlockOf<RestitutionLaw::kEnergetic>(block, tolerance, verdicts);
   }
-  return false;
+  return Proof::kNotAll;
 }
 
 HWY_INLINE bool FitsDoubleDouble(const Block& block) {
@@ -343,9 +346,11 @@ void SolveCompensated(const Block& block) {
   }
 }
 
-void SolvePlainFirst(const Block& block, double tolerance) {
+// Returns true if all problems are usual (AreUsual).
+bool SolvePlainFirst(const Block& block, double tolerance) {
   Verdicts verdicts;
-  if (HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(block, tolerance, verdicts)) return;
+  const Proof proof = HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(block, tolerance, verdicts);
+  if (proof != Proof::kNotAll) return proof == Proof::kAllUsual;
   const auto is_proved = [&verdicts](size_t i) { return verdicts[i] < kUnproved; };
   for (size_t from = 0; from < block.size;) {
     size_t to = from;
@@ -353,44 +358,40 @@ void SolvePlainFirst(const Block& block, double tolerance) {
     if (!is_proved(from)) SolveCompensated(block.Part(from, to - from));
     from = to;
   }
+  return false;
 }
 
 }  // namespace
 
 ProblemColumns::ProblemColumns(RestitutionLaw law, size_t size) : law_(law), size_(size) {
-  for (auto* column : {&inertia_, &a_, &b_, &omega_minus_, &mu_, &mu_static_, &coefficient_}) {
-    column->resize(size + kMostLanes);
-  }
+  for (AlignedVector<double>& column : numbers_) column.resize(size + kMostLanes);
 }
 
 void ProblemColumns::Set(size_t i, const Problem& problem) {
   assert(i < size_ && problem.law == law_);
-  inertia_[i] = problem.inertia;
-  a_[i] = problem.a;
-  b_[i] = problem.b;
-  omega_minus_[i] = problem.omega_minus;
-  mu_[i] = problem.mu;
-  mu_static_[i] = problem.mu_static;
-  coefficient_[i] = problem.coefficient;
+  const double numbers[] = {problem.inertia, problem.a,         problem.b,          problem.omega_minus,
+                            problem.mu,      problem.mu_static, problem.coefficient};
+  for (size_t n = 0; n < kNumbers; ++n) numbers_[n][i] = numbers[n];
 }
 
 Problem ProblemColumns::operator[](size_t i) const {
-  return {.inertia = inertia_[i],
-          .a = a_[i],
-          .b = b_[i],
-          .omega_minus = omega_minus_[i],
-          .mu = mu_[i],
-          .mu_static = mu_static_[i],
+  return {.inertia = inertia()[i],
+          .a = a()[i],
+          .b = b()[i],
+          .omega_minus = omega_minus()[i],
+          .mu = mu()[i],
+          .mu_static = mu_static()[i],
           .law = law_,
-          .coefficient = coefficient_[i]};
+          .coefficient = coefficient()[i]};
 }
 
-void SolveColumns(const ProblemColumns& problems, size_t first, size_t count, double tolerance,
+bool SolveColumns(const ProblemColumns& problems, size_t first, size_t count, double tolerance,
                   const SolvedColumns& solved) {
   assert(first + count <= problems.size() && solved.outputs.size() == solved.columns.size());
   const bool may_be_plain = tolerance >= HWY_NAMESPACE::kLeastError;
   // The bound on the rounding error needs kappa.
   const unsigned parts = PartsOf(solved.outputs) | (may_be_plain ? kPartKappa : 0U);
+  bool all_usual = may_be_plain;
   for (size_t done = 0; done < count; done += Block::kCapacity) {
     const Block block = {.problems = problems,
                          .solved = solved,
@@ -399,11 +400,12 @@ void SolveColumns(const ProblemColumns& problems, size_t first, size_t count, do
                          .place = done,
                          .size = std::min(Block::kCapacity, count - done)};
     if (may_be_plain) {
-      SolvePlainFirst(block, tolerance);
+      all_usual &= SolvePlainFirst(block, tolerance);
     } else {
       SolveCompensated(block);
     }
   }
+  return all_usual;
 }
 
 }  // namespace ricochet::pendulum

@@ -8,6 +8,7 @@
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_H_
 #define RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_H_
 
+#include <array>
 #include <cstddef>
 
 #include "absl/types/span.h"
@@ -33,18 +34,23 @@ class ProblemColumns {
 
   // The columns may be read for kMostLanes entries beyond the last problem, because vectors are loaded whole.
   static constexpr size_t kMostLanes = 64;
-  const double* inertia() const { return inertia_.data(); }
-  const double* a() const { return a_.data(); }
-  const double* b() const { return b_.data(); }
-  const double* omega_minus() const { return omega_minus_.data(); }
-  const double* mu() const { return mu_.data(); }
-  const double* mu_static() const { return mu_static_.data(); }
-  const double* coefficient() const { return coefficient_.data(); }
+  const double* inertia() const { return numbers_[0].data(); }
+  const double* a() const { return numbers_[1].data(); }
+  const double* b() const { return numbers_[2].data(); }
+  const double* omega_minus() const { return numbers_[3].data(); }
+  const double* mu() const { return numbers_[4].data(); }
+  const double* mu_static() const { return numbers_[5].data(); }
+  const double* coefficient() const { return numbers_[6].data(); }
+
+  // The n-th of the columns above.
+  static constexpr size_t kNumbers = 7;
+  double* numbers(size_t n) { return numbers_[n].data(); }
+  const double* numbers(size_t n) const { return numbers_[n].data(); }
 
  private:
   RestitutionLaw law_ = RestitutionLaw::kEnergetic;
   size_t size_ = 0;
-  AlignedVector<double> inertia_, a_, b_, omega_minus_, mu_, mu_static_, coefficient_;
+  std::array<AlignedVector<double>, kNumbers> numbers_;
 };
 
 // The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]` of
@@ -57,7 +63,9 @@ struct SolvedColumns {
 };
 
 // Solves the problems [first, first + count). The tolerance is in [0, 1) and means what PlainImpact::relative_error does.
-void SolveColumns(const ProblemColumns& problems, size_t first, size_t count, double tolerance,
+// Returns true if plain arithmetic has shown that all of them rebound, keep all limits and have finite outputs, as in most
+// blocks of a sweep. Otherwise nothing is known.
+bool SolveColumns(const ProblemColumns& problems, size_t first, size_t count, double tolerance,
                   const SolvedColumns& solved);
 
 }  // namespace ricochet::pendulum

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "core/answer/model_outcomes.h"
+#include "core/answer/scene_lanes.h"
 #include "core/bounds/pendulum_bounds.h"
 #include "core/engine/engine.h"
 #include "core/engine/sweep_run.h"
@@ -418,11 +418,10 @@ TEST(EngineTest, FingerprintIsTheSameAtEveryCall) {
 
 TEST(ColumnTest, EveryColumnIsKnownByItsNameAndNoOther) {
   for (const std::string& name : PendulumColumns()) {
-    EXPECT_TRUE(PendulumColumn(name).has_value()) << name;
-    EXPECT_EQ(pendulum::OutputPath(*PendulumColumn(name)), name);
+    EXPECT_NE(SceneLanes::Make(ExactScene(), {name}, {}), nullptr) << name;
   }
   for (const char* name : {"", "coefficients", "coefficients.newton ", "Coefficients.newton", "work.residual_j"}) {
-    EXPECT_FALSE(PendulumColumn(name).has_value()) << name;
+    EXPECT_EQ(SceneLanes::Make(ExactScene(), {name}, {}), nullptr) << name;
   }
 }
 

@@ -1,0 +1,50 @@
+#include "core/answer/scene_lanes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+#include "absl/strings/match.h"
+#include "core/answer/pendulum_lanes.h"
+#include "core/answer/planar_lanes.h"
+
+namespace ricochet {
+
+std::unique_ptr<SceneLanes> SceneLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
+                                             const Demand& demand) {
+  if (auto pendulum = PendulumLanes::Make(scene, columns, demand)) return pendulum;
+  return PlanarLanes::Make(scene, columns, demand);
+}
+
+std::optional<size_t> SceneLanes::NumberAt(const std::string& path) const {
+  if (absl::StartsWith(path, "restitution.")) return paths_.size();
+  const auto found = std::find(paths_.begin(), paths_.end(), path);
+  if (found == paths_.end()) return std::nullopt;
+  return static_cast<size_t>(found - paths_.begin());
+}
+
+bool HasAllNumbers(size_t count, absl::Span<double* const> places, const SceneLanes::Block& block) {
+  if (block.is_uniform) return true;
+  bool is_solved = true;
+  for (size_t i = 0; i < count; ++i) is_solved &= block.models[i] != Model::kUnspecified;
+  if (!is_solved) return false;
+  // Added to a magnitude, the least exponent carries into the sign if the number is infinite or NaN.
+  constexpr uint64_t kSign = uint64_t{1} << 63;
+  constexpr uint64_t kLeastExponent = uint64_t{1} << 52;
+  uint64_t carry = 0;
+  for (const double* const column : places) {
+    for (size_t i = 0; i < count; ++i) carry |= (std::bit_cast<uint64_t>(column[i]) & ~kSign) + kLeastExponent;
+  }
+  return (carry & kSign) == 0;
+}
+
+bool IsPlain(const Scene& scene) {
+  Scene plain;
+  plain.system = scene.system;
+  plain.friction.kinetic_coefficient = scene.friction.kinetic_coefficient;
+  plain.friction.static_coefficient = scene.friction.static_coefficient;
+  plain.restitution = scene.restitution;
+  return scene == plain;
+}
+
+}  // namespace ricochet
