@@ -9,8 +9,8 @@
 #include "core/answer/model_outcomes.h"
 #include "core/models/pendulum/first_order.h"
 #include "core/models/restitution_law.h"
-#include "core/numerics/range.h"
 #include "core/plan/choose.h"
+#include "core/plan/pendulum_models.h"
 #include "core/problem/scene_problem.h"
 
 namespace ricochet {
@@ -19,9 +19,12 @@ namespace {
 using pendulum::Output;
 using pendulum::Problem;
 
-constexpr const char* kPaths[] = {"pendulum.inertia_kg_m2",       "pendulum.a_m",
-                                  "pendulum.b_m",                 "pendulum.omega_minus_rad_s",
-                                  "friction.kinetic_coefficient", "friction.static_coefficient"};
+constexpr const char* kPaths[] = {"pendulum.inertia_kg_m2",
+                                  "pendulum.a_m",
+                                  "pendulum.b_m",
+                                  "pendulum.omega_minus_rad_s",
+                                  "friction.kinetic_coefficient",
+                                  "friction.static_coefficient"};
 
 std::optional<Output> OutputAt(const std::string& path) {
   for (int i = 0; i < pendulum::kOutputCount; ++i) {
@@ -119,48 +122,6 @@ void PendulumLanes::TakeIn(const Columns& columns, size_t count) {
   }
 }
 
-// True if every problem of the block is surely valid and calls for the closed form with friction, judged by the ends of
-// the ranges of its numbers, which costs less than a look at each.
-bool PendulumLanes::AllNeedClosedForm(const Columns& columns, size_t count) const {
-  if (!demand_.required.IsEmpty() || !demand_.excluded.IsEmpty()) return false;
-  const auto range = [&](Number n) {
-    const double* const numbers = problems_.numbers(n);
-    return columns.varies[n] ? RangeOf(numbers, count) : Range{numbers[0], numbers[0]};
-  };
-  const Range inertia = range(kInertia);
-  const Range a = range(kA);
-  const Range b = range(kB);
-  const Range omega = range(kOmega);
-  const Range mu = range(kMu);
-  const bool is_same = columns.of[kMuStatic] == columns.of[kMu];
-  const Range mu_static = is_same ? mu : range(kMuStatic);
-  const Range coefficient = range(kCoefficient);
-  // Static friction is not below kinetic friction if it is the same, or if their ranges do not overlap.
-  const bool is_static = is_same || mu.most <= mu_static.least;
-  const Problem least = {.inertia = inertia.least,
-                         .a = a.least,
-                         .b = b.least,
-                         .omega_minus = omega.least,
-                         .mu = mu.least,
-                         .mu_static = is_static ? mu_static.least : std::numeric_limits<double>::quiet_NaN(),
-                         .law = problems_.law(),
-                         .coefficient = coefficient.least};
-  const Problem most = {.inertia = inertia.most,
-                        .a = a.most,
-                        .b = b.most,
-                        .omega_minus = omega.most,
-                        .mu = mu.most,
-                        .mu_static = mu_static.most,
-                        .law = problems_.law(),
-                        .coefficient = coefficient.most};
-  if (!(IsSurelyValid(least) && IsSurelyValid(most) && omega.most < 0.0)) return false;
-  // Of all problems in the ranges this one is the nearest to a simpler model.
-  Problem nearest = least;
-  nearest.a = a.most;
-  nearest.b = b.least > 0.0 ? b.least : std::max(0.0, -b.most);
-  return IsFarFromSimple(nearest, demand_.relative_tolerance);
-}
-
 // Chooses the model of a problem and leaves out what that neglects. A demand that is a tolerance alone, as most are, takes
 // a plan that costs less than the solution.
 Model PendulumLanes::Plan(size_t i) {
@@ -203,15 +164,33 @@ void PendulumLanes::SolveToFirstOrder(size_t first, size_t count, Block& block) 
   }
 }
 
-// Solves each run of problems that go the same way.
-void PendulumLanes::SolveRuns(size_t count, Block& block) {
-  for (size_t i = 0; i < count; ++i) block.models[i] = Plan(i);
+// Chooses the models of a block. Returns true if all problems call for the closed form with friction.
+bool PendulumLanes::PlanAll(size_t count, Block& block) {
+  const absl::Span<Model> models = absl::MakeSpan(block.models).first(count);
+  if (!demand_.required.IsEmpty() || !demand_.excluded.IsEmpty()) {
+    std::fill(models.begin(), models.end(), Model::kUnspecified);
+  } else if (ModelsOfPendulum(problems_, demand_.relative_tolerance, models)) {
+    return true;
+  }
+  bool all = true;
+  for (size_t i = 0; i < count; ++i) {
+    if (models[i] == Model::kUnspecified) models[i] = Plan(i);
+    all &= models[i] == Model::kPendulum;
+  }
+  return all;
+}
+
+// Solves each run of problems that go the same way. Returns true if none is left and all numbers are finite.
+bool PendulumLanes::SolveRuns(size_t count, Block& block) {
+  bool is_complete = true;
   for (size_t first = 0, end = 0; first < count; first = end) {
     const Way way = WayOf(block.models[first]);
     while (end < count && WayOf(block.models[end]) == way) ++end;
-    if (way == Way::kClosedForm) SolveByClosedForm(first, end - first, block);
+    const bool has_numbers = way == Way::kClosedForm && SolveByClosedForm(first, end - first, block);
     if (way == Way::kFirstOrder) SolveToFirstOrder(first, end - first, block);
+    is_complete = is_complete && way != Way::kLeft && (has_numbers || AreFinite(places_, first, end - first));
   }
+  return is_complete;
 }
 
 void PendulumLanes::Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) {
@@ -219,13 +198,9 @@ void PendulumLanes::Solve(const Columns& columns, size_t count, absl::Span<doubl
   for (size_t c = 0; c < outputs_.size(); ++c) {
     places_[c] = column_of_[c].has_value() ? places[*column_of_[c]] : friction_work_.data();
   }
-  block.is_uniform = false;
-  if (AllNeedClosedForm(columns, count)) {
-    std::fill_n(block.models.begin(), count, Model::kPendulum);
-    block.is_uniform = SolveByClosedForm(0, count, block);
-  } else {
-    SolveRuns(count, block);
-  }
+  const bool is_alike = PlanAll(count, block);
+  block.is_uniform = is_alike && SolveByClosedForm(0, count, block);
+  block.is_complete = block.is_uniform || (is_alike ? AreFinite(places_, 0, count) : SolveRuns(count, block));
   if (dissipation_.has_value()) {
     const double* const work = places_[friction_];
     std::transform(work, work + count, places[*dissipation_], [](double lost) { return 0.0 - lost; });

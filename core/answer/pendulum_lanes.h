@@ -36,11 +36,11 @@ class PendulumLanes : public SceneLanes {
   PendulumLanes(const Scene& scene, const Demand& demand);
   bool SetColumns(absl::Span<const std::string> paths);
   void TakeIn(const Columns& columns, size_t count);
-  bool AllNeedClosedForm(const Columns& columns, size_t count) const;
   Model Plan(size_t i);
+  bool PlanAll(size_t count, Block& block);
   bool SolveByClosedForm(size_t first, size_t count, Block& block);
   void SolveToFirstOrder(size_t first, size_t count, Block& block) const;
-  void SolveRuns(size_t count, Block& block);
+  bool SolveRuns(size_t count, Block& block);
 
   const Demand demand_;
   const bool takes_fields_;

@@ -211,6 +211,7 @@ void PlanarLanes::Solve(const Columns& columns, size_t count, absl::Span<double*
   for (const Model model : {Model::kFrictionless, Model::kSliding, Model::kPlanar}) {
     if (!contacts_of(model).empty()) SolveTogether(columns, contacts_of(model), count, model, places, block);
   }
+  block.is_complete = contacts_of(Model::kUnspecified).empty() && AreFinite(places, 0, count);
 }
 
 }  // namespace ricochet

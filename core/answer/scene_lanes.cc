@@ -23,17 +23,14 @@ std::optional<size_t> SceneLanes::NumberAt(const std::string& path) const {
   return static_cast<size_t>(found - paths_.begin());
 }
 
-bool HasAllNumbers(size_t count, absl::Span<double* const> places, const SceneLanes::Block& block) {
-  if (block.is_uniform) return true;
-  bool is_solved = true;
-  for (size_t i = 0; i < count; ++i) is_solved &= block.models[i] != Model::kUnspecified;
-  if (!is_solved) return false;
+bool AreFinite(absl::Span<double* const> columns, size_t first, size_t count) {
   // Added to a magnitude, the least exponent carries into the sign if the number is infinite or NaN.
   constexpr uint64_t kSign = uint64_t{1} << 63;
   constexpr uint64_t kLeastExponent = uint64_t{1} << 52;
   uint64_t carry = 0;
-  for (const double* const column : places) {
-    for (size_t i = 0; i < count; ++i) carry |= (std::bit_cast<uint64_t>(column[i]) & ~kSign) + kLeastExponent;
+  for (const double* const column : columns) {
+    for (size_t i = first; i < first + count; ++i)
+      carry |= (std::bit_cast<uint64_t>(column[i]) & ~kSign) + kLeastExponent;
   }
   return (carry & kSign) == 0;
 }

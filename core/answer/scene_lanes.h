@@ -41,8 +41,9 @@ class SceneLanes {
     std::array<Model, kBlock> models;
     std::array<Regime, kBlock> regimes;
     std::array<bool, kBlock> inadmissible;
-    // The model, the regime and the admissibility of all scenes are those of the first, and all numbers are finite. False
-    // if that is not known.
+    bool is_complete = false;  // No scene is left, and every number is finite.
+    // It is complete, and the model, the regime and the admissibility of all are those of the first. False if that is not
+    // known.
     bool is_uniform = false;
   };
 
@@ -80,8 +81,8 @@ class SceneLanes {
   absl::Span<const char* const> paths_;
 };
 
-// True if no scene of the block solved last was left, and every number of it is finite.
-bool HasAllNumbers(size_t count, absl::Span<double* const> places, const SceneLanes::Block& block);
+// True if the numbers [first, first + count) of every column are finite.
+bool AreFinite(absl::Span<double* const> columns, size_t first, size_t count);
 
 // True if the scene has a system, coefficients of friction and restitution, and nothing else.
 bool IsPlain(const Scene& scene);

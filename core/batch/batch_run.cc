@@ -126,7 +126,8 @@ bool BatchRun::SolveAlone(const BatchRows& rows, size_t i, absl::FunctionRef<boo
 bool BatchRun::SolveBlock(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
                           BatchSummary& summary) {
   if (stopped()) return false;
-  if (lanes_->Solve(rows, first, count)) {
+  lanes_->Solve(rows, first, count);
+  if (lanes_->block().is_complete) {
     FinishBlock(rows, first, count, summary);
     return true;
   }

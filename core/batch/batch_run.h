@@ -67,12 +67,12 @@ class BatchRun {
   Scene scene_;  // The scene of the current row, in which every row sets the same fields.
   DrivenFields fields_;
   Demand demand_;
-  bool has_relations_ = false;                // True if the scene has rules beyond those of single numbers.
-  std::vector<std::string> names_;            // The names of the input columns.
-  std::vector<std::string> columns_;          // The names of the output columns.
-  std::vector<size_t> positions_of_;          // Their positions among all columns of the scene.
-  std::vector<double> numbers_;               // All columns of one row.
-  std::unique_ptr<LaneRows> lanes_;           // Null if the rows need a scene each.
+  bool has_relations_ = false;        // True if the scene has rules beyond those of single numbers.
+  std::vector<std::string> names_;    // The names of the input columns.
+  std::vector<std::string> columns_;  // The names of the output columns.
+  std::vector<size_t> positions_of_;  // Their positions among all columns of the scene.
+  std::vector<double> numbers_;       // All columns of one row.
+  std::unique_ptr<LaneRows> lanes_;   // Null if the rows need a scene each.
 };
 
 }  // namespace ricochet

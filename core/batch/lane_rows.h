@@ -24,9 +24,8 @@ class LaneRows {
   // `scene` is the base scene in which the setup's fields are resolved. Returns null if its rows cannot go this way.
   static std::unique_ptr<LaneRows> Make(const Scene& scene, const BatchSetup& setup, const Demand& demand);
 
-  // Solves the rows [first, first + count), of at most kBlock, as far as they are plain. Returns true if each has numbers
-  // and all of them are finite.
-  bool Solve(const BatchRows& rows, size_t first, size_t count);
+  // Solves the rows [first, first + count), of at most kBlock, as far as they are plain.
+  void Solve(const BatchRows& rows, size_t first, size_t count);
 
   // The rows solved last.
   const SceneLanes::Block& block() const { return block_; }
@@ -37,9 +36,9 @@ class LaneRows {
 
   std::unique_ptr<SceneLanes> lanes_;
   std::array<std::optional<size_t>, SceneLanes::kMostNumbers> column_of_ = {};  // The input column of the number.
-  bool static_is_kinetic_ = false;                                             // The scene states no static coefficient.
-  std::array<std::array<double, kBlock>, SceneLanes::kMostNumbers> base_;      // The numbers that no column states.
-  std::vector<double*> places_;                                                // Of the outputs of the current block.
+  bool static_is_kinetic_ = false;                                         // The scene states no static coefficient.
+  std::array<std::array<double, kBlock>, SceneLanes::kMostNumbers> base_;  // The numbers that no column states.
+  std::vector<double*> places_;                                            // Of the outputs of the current block.
   SceneLanes::Block block_;
 };
 

@@ -237,15 +237,6 @@ double PendulumFrictionlessError(const pendulum::Problem& problem) {
 
 }  // namespace
 
-// True if cheap lower bounds show that neither friction nor higher orders can be left out. The first-order form has an
-// error of at least c x^2/2 but under Newton's law, which fixes v1. Friction changes tau0 by x/(1 + x) (core/plan/sizes.cc),
-// which is at least x/2 if friction does not lock the body; otherwise the size is infinite.
-bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance) {
-  if (problem.law == RestitutionLaw::kNewton) return false;
-  const double x = first_order::FrictionRatio(problem);
-  return problem.coefficient * x * x > 4.0 * tolerance && x > 4.0 * tolerance;
-}
-
 ContactPhysics Without(EffectSet effects, ContactPhysics physics) {
   if (effects.Has(Effect::kTangentialCompliance)) physics.ratio_squared = 0.0;
   if (effects.Has(Effect::kFiniteForces)) physics.tangential_acceleration = physics.normal_acceleration = 0.0;
@@ -280,7 +271,6 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
 // For a rigid pendulum all other effects have size 0, so that the candidates are those of ChoosePendulum.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance) {
   if (problem.omega_minus >= 0.0) return Model::kNone;
-  if (IsFarFromSimple(problem, tolerance)) return Model::kPendulum;
   const double friction = PendulumFrictionSize(problem).value;
   if (friction <= tolerance && friction + PendulumFrictionlessError(problem) <= tolerance) return Model::kFrictionless;
   const bool serves = first_order::Serves(problem);

@@ -43,9 +43,6 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
 // of the cost.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance);
 
-// True if that is surely the closed form with friction. It stays true if mu, |b| or the coefficient grows, or a shrinks.
-bool IsFarFromSimple(const pendulum::Problem& problem, double tolerance);
-
 // Leaves effects out of both coefficients of friction: without friction mu = mu_s = 0, without static friction mu_s = mu.
 inline void LeaveOut(EffectSet effects, double& mu, double& mu_static) {
   if (effects.Has(Effect::kFriction)) mu = mu_static = 0.0;

@@ -23,7 +23,7 @@ struct CheckedSweep {
   int64_t end = 0;
   std::vector<std::string> columns;  // At least one.
   std::vector<size_t> positions;     // Those of the columns in Columns(scene).
-  bool in_lanes = false;             // True if SIMD lanes give the columns, so that a point takes well below a microsecond.
+  bool in_lanes = false;  // True if SIMD lanes give the columns, so that a point takes well below a microsecond.
 };
 
 // Errors: INVALID_ARGUMENT with every violation of the scene's undriven fields, the axes, the columns and the range.

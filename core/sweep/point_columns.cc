@@ -10,6 +10,9 @@
 
 namespace ricochet {
 
+// An axis of at most so many values is computed once for all points.
+static constexpr int64_t kMostKept = 4096;
+
 static std::vector<std::string> PathsOf(const Grid& grid) {
   std::vector<std::string> paths;
   for (const Axis& axis : grid.axes) paths.push_back(axis.path);
@@ -28,6 +31,10 @@ PointColumns::PointColumns(const Grid& grid, const SceneLanes& lanes)
   for (size_t k = grid.axes.size(); k-- > 0;) {
     Run run = {.axis = &grid.axes[k], .field = &fields_[k], .count = AxisCount(grid.axes[k]), .stride = stride};
     for (const std::string& path : fields_[k].sets()) run.numbers.push_back(*lanes_.NumberAt(path));
+    if (stride == 1 && run.count <= kMostKept && run.numbers.size() == 1) {
+      run.values.resize(static_cast<size_t>(run.count));
+      AxisValues(*run.axis, 0, absl::MakeSpan(run.values));
+    }
     if (grid.combination != Combination::kZip) stride *= run.count;
     runs_.push_back(std::move(run));
   }
@@ -69,9 +76,12 @@ void PointColumns::PutAlike(const Run& run, int64_t position, size_t from, size_
 
 // Writes the values of the axis from `position` on.
 void PointColumns::PutRunning(const Run& run, int64_t position, size_t from, size_t count) {
-  if (run.numbers.size() == 1) {
-    return AxisValues(*run.axis, position, absl::MakeSpan(numbers_[run.numbers[0]]).subspan(from, count));
+  double* const to = numbers_[run.numbers[0]].data() + from;
+  if (!run.values.empty()) {
+    std::copy_n(run.values.begin() + position, count, to);
+    return;
   }
+  if (run.numbers.size() == 1) return AxisValues(*run.axis, position, absl::MakeSpan(to, count));
   for (size_t i = 0; i < count; ++i) PutAlike(run, position + static_cast<int64_t>(i), from + i, 1);
 }
 

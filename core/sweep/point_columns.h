@@ -37,6 +37,7 @@ class PointColumns {
     int64_t count;
     int64_t stride;
     std::vector<size_t> numbers;  // One, or several if the field is derived.
+    std::vector<double> values;   // Those of all positions, if they are asked for again and again and are few.
   };
 
   // A number for each of those that an axis drives.

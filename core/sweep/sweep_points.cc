@@ -12,10 +12,6 @@
 namespace ricochet {
 namespace {
 
-void Add(int64_t index, Tally& tally) {
-  if (tally.count++ == 0) tally.first_index = index;
-}
-
 absl::Status Stopped() { return absl::CancelledError("the sweep was stopped by its caller"); }
 
 }  // namespace
@@ -130,12 +126,13 @@ absl::Status SweepPoints::SolveBlock(int64_t first, size_t from, size_t count, a
   lanes_->Solve(point_columns_ != nullptr ? point_columns_->At(at, count) : ColumnsOfScenes(at, count), count, places_,
                 *block_);
   if (block_->is_uniform) return absl::OkStatus();
+  const auto to = static_cast<ptrdiff_t>(from);
+  std::copy_n(block_->models.begin(), count, models_.begin() + to);
+  std::copy_n(block_->regimes.begin(), count, regimes_.begin() + to);
+  std::copy_n(block_->inadmissible.begin(), count, inadmissible_.get() + to);
+  std::fill_n(statuses_.begin() + to, count, RowStatus::kOk);
   for (size_t i = 0; i < count; ++i) {
-    models_[from + i] = block_->models[i];
-    regimes_[from + i] = block_->regimes[i];
-    inadmissible_[from + i] = block_->inadmissible[i];
-    statuses_[from + i] = RowStatus::kOk;
-    if (models_[from + i] != Model::kUnspecified) continue;
+    if (block_->models[i] != Model::kUnspecified) continue;
     if (stopped()) return Stopped();
     GoTo(at + static_cast<int64_t>(i));
     if (!SolvePoint(from + i, stopped)) return Stopped();
@@ -161,36 +158,51 @@ const SceneLanes::Columns& SweepPoints::ColumnsOfScenes(int64_t first, size_t co
 
 // Finishes points that all have numbers and the model, the regime and the admissibility of the first.
 void SweepPoints::FinishAlike(int64_t first, size_t from, size_t count, SweepSummary& tallies) {
-  const Regime regime = block_->regimes[0];
-  const bool inadmissible = block_->inadmissible[0];
   const auto at = static_cast<ptrdiff_t>(from);
-  std::fill_n(regimes_.begin() + at, count, regime);
-  std::fill_n(statuses_.begin() + at, count, inadmissible ? RowStatus::kInadmissible : RowStatus::kOk);
-  const Tally tally = {.count = static_cast<int64_t>(count), .first_index = first + static_cast<int64_t>(from)};
-  const auto add = [&tally](Tally& to) { to = Joined(to, tally); };
-  add(tallies.by_regime[static_cast<size_t>(regime)]);
-  add(tallies.by_model[static_cast<size_t>(block_->models[0])]);
-  if (inadmissible) add(tallies.inadmissible);
+  std::fill_n(regimes_.begin() + at, count, block_->regimes[0]);
+  std::fill_n(statuses_.begin() + at, count, block_->inadmissible[0] ? RowStatus::kInadmissible : RowStatus::kOk);
+  models_[from] = block_->models[0];
+  Add(first, from, from + count, tallies);
 }
 
-// Overwrites bad points and tallies all of them.
-void SweepPoints::Finish(int64_t first, size_t from, size_t count, SweepSummary& tallies) {
-  for (size_t i = from; i < from + count; ++i) {
-    const auto is_finite = [i](const double* column) { return std::isfinite(column[i]); };
-    RowStatus& status = statuses_[i];
-    if (status == RowStatus::kOk && !std::all_of(columns_.begin(), columns_.end(), is_finite)) {
-      status = RowStatus::kNotRepresentable;
-    }
-    if (status == RowStatus::kOk && inadmissible_[i]) status = RowStatus::kInadmissible;
-    if (status != RowStatus::kOk && status != RowStatus::kInadmissible) {
-      regimes_[i] = Regime::kInvalid;
-      for (double* column : columns_) column[i] = std::numeric_limits<double>::quiet_NaN();
-    }
-    const int64_t index = first + static_cast<int64_t>(i);
-    Add(index, tallies.by_regime[static_cast<size_t>(regimes_[i])]);
-    if (status == RowStatus::kInadmissible) Add(index, tallies.inadmissible);
-    if (regimes_[i] != Regime::kInvalid) Add(index, tallies.by_model[static_cast<size_t>(models_[i])]);
+// Overwrites a bad point, of which nothing but whether it has numbers is known yet.
+void SweepPoints::FinishPoint(size_t i) {
+  const auto is_finite = [i](const double* column) { return std::isfinite(column[i]); };
+  RowStatus& status = statuses_[i];
+  if (status == RowStatus::kOk && !std::all_of(columns_.begin(), columns_.end(), is_finite)) {
+    status = RowStatus::kNotRepresentable;
   }
+  if (status == RowStatus::kOk && inadmissible_[i]) status = RowStatus::kInadmissible;
+  if (status == RowStatus::kOk || status == RowStatus::kInadmissible) return;
+  regimes_[i] = Regime::kInvalid;
+  for (double* column : columns_) column[i] = std::numeric_limits<double>::quiet_NaN();
+}
+
+// Finishes the points [from, from + count) of those that begin at `first`, and tallies each run of equal ones at once.
+void SweepPoints::Finish(int64_t first, size_t from, size_t count, SweepSummary& tallies) {
+  if (lanes_ != nullptr && block_->is_complete) {
+    std::transform(inadmissible_.get() + from, inadmissible_.get() + from + count,
+                   statuses_.begin() + static_cast<ptrdiff_t>(from),
+                   [](bool is_out) { return is_out ? RowStatus::kInadmissible : RowStatus::kOk; });
+  } else {
+    for (size_t i = from; i < from + count; ++i) FinishPoint(i);
+  }
+  for (size_t i = from, end = from; i < from + count; i = end) {
+    while (end < from + count && regimes_[end] == regimes_[i] && statuses_[end] == statuses_[i] &&
+           (regimes_[i] == Regime::kInvalid || models_[end] == models_[i])) {
+      ++end;
+    }
+    Add(first, i, end, tallies);
+  }
+}
+
+// Tallies the points [from, end), which are all alike.
+void SweepPoints::Add(int64_t first, size_t from, size_t end, SweepSummary& tallies) const {
+  const Tally tally = {.count = static_cast<int64_t>(end - from), .first_index = first + static_cast<int64_t>(from)};
+  const auto add = [&tally](Tally& to) { to = Joined(to, tally); };
+  add(tallies.by_regime[static_cast<size_t>(regimes_[from])]);
+  if (statuses_[from] == RowStatus::kInadmissible) add(tallies.inadmissible);
+  if (regimes_[from] != Regime::kInvalid) add(tallies.by_model[static_cast<size_t>(models_[from])]);
 }
 
 }  // namespace ricochet

@@ -55,7 +55,9 @@ class SweepPoints {
   absl::Status SolveBlock(int64_t first, size_t from, size_t count, absl::FunctionRef<bool()> stopped);
   const SceneLanes::Columns& ColumnsOfScenes(int64_t first, size_t count);
   void FinishAlike(int64_t first, size_t from, size_t count, SweepSummary& tallies);
+  void FinishPoint(size_t i);
   void Finish(int64_t first, size_t from, size_t count, SweepSummary& tallies);
+  void Add(int64_t first, size_t from, size_t end, SweepSummary& tallies) const;
 
   const CheckedSweep& sweep_;
   DrivenScene driven_;
