@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "absl/container/inlined_vector.h"
-#include "absl/memory/memory.h"
 #include "core/answer/model_outcomes.h"
 #include "core/models/pendulum/first_order.h"
 #include "core/models/restitution_law.h"
@@ -66,7 +65,7 @@ Way WayOf(Model model) {
 std::unique_ptr<SceneLanes> PendulumLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
                                                 const Demand& demand) {
   if (!HasClosedForm(scene) || scene.compliance.has_value()) return nullptr;
-  auto lanes = absl::WrapUnique(new PendulumLanes(scene, demand));
+  std::unique_ptr<PendulumLanes> lanes(new PendulumLanes(scene, demand));
   if (!lanes->SetColumns(columns)) return nullptr;
   return lanes;
 }

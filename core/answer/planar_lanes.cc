@@ -11,7 +11,6 @@
 #include <variant>
 
 #include "absl/container/inlined_vector.h"
-#include "absl/memory/memory.h"
 #include "core/models/impact_end.h"
 #include "core/models/planar/columns.h"
 #include "core/models/sliding/columns.h"
@@ -86,7 +85,7 @@ std::unique_ptr<SceneLanes> PlanarLanes::Make(const Scene& scene, absl::Span<con
     if (!output.has_value()) return nullptr;
     outputs.push_back(*output);
   }
-  return absl::WrapUnique(new PlanarLanes(scene, std::move(outputs), demand.relative_tolerance));
+  return std::unique_ptr<SceneLanes>(new PlanarLanes(scene, std::move(outputs), demand.relative_tolerance));
 }
 
 SceneLanes::Numbers PlanarLanes::NumbersOf(const Scene& scene) const {

@@ -1,13 +1,11 @@
 #include "core/batch/lane_rows.h"
 
-#include "absl/memory/memory.h"
-
 namespace ricochet {
 
 std::unique_ptr<LaneRows> LaneRows::Make(const Scene& scene, const BatchSetup& setup, const Demand& demand) {
   std::unique_ptr<SceneLanes> lanes = SceneLanes::Make(scene, setup.columns, demand);
   if (lanes == nullptr || !lanes->TakesFields()) return nullptr;
-  auto rows = absl::WrapUnique(new LaneRows(std::move(lanes)));
+  std::unique_ptr<LaneRows> rows(new LaneRows(std::move(lanes)));
   for (size_t k = 0; k < setup.fields.size(); ++k) {
     const std::optional<size_t> number = rows->lanes_->NumberAt(setup.fields[k]);
     if (!number.has_value()) return nullptr;

@@ -16,7 +16,7 @@ Impact Solve(const Problem& problem) {
 
 Instant At(const Problem& problem, double tau) {
   const Approximation of = Approximate(problem);
-  const double mu = std::copysign(problem.mu, problem.b);
+  const double mu = SignedFriction(problem);
   if (tau <= of.tau0) {
     return {.omega = problem.omega_minus * ((of.tau0 - tau) / of.tau0) + 0.0, .tangential_impulse = mu * tau + 0.0};
   }

@@ -5,7 +5,7 @@
 // are of order x^2. Works add up to the change of energy up to rounding. For x <= 1/2 and with c, the coefficient that the
 // law states, velocities are right to 2 c x^2 of max(|u0|, |v0|), and impulses times their mobility to (8/3) c x^2.
 // docs/theory/pendulum_numerics.md lists the formulas, their errors and their rounding.
-// For mu = 0 this is the impact without friction, whose forms are exact up to rounding.
+// For mu = 0 or b = 0 this is the impact without friction, whose forms are exact up to rounding.
 // The model has no answer for a problem with mu > 0 that `Serves` refuses.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_FIRST_ORDER_H_
@@ -86,10 +86,15 @@ inline Approximation Approximate(const Problem& problem) {
                      .impulse = share * (kEnlarged * forms.poisson.error + 12.0 * kEps * (1.0 + kappa))}};
 }
 
+// mu with the sign of b; 0 if b = 0.
+inline double SignedFriction(const Problem& problem) {
+  return problem.b == 0.0 ? 0.0 : std::copysign(problem.mu, problem.b);
+}
+
 // Computes one output.
 inline double Value(const Problem& problem, const Approximation& of, Output output) {
   const auto& [x, one_minus_x, newton, poisson, energetic, tangential, tau0, omega_plus, errors] = of;
-  const double mu = std::copysign(problem.mu, problem.b);
+  const double mu = SignedFriction(problem);
   const double omega = problem.omega_minus;
   const double normal_compression = 0.5 * problem.a * tau0 * omega;
   const double normal_restitution = 0.5 * problem.inertia * omega_plus * omega_plus / one_minus_x;
@@ -142,8 +147,10 @@ inline RelativeErrors ErrorsOf(const Problem& problem) { return Approximate(prob
 // Computes all outputs of one impact. It breaks no limit.
 Impact Solve(const Problem& problem);
 
-// The regime is kRebound, or kFrictionless if mu = 0.
-inline Regime RegimeOf(const Problem& problem) { return problem.mu > 0.0 ? Regime::kRebound : Regime::kFrictionless; }
+// The regime is kRebound, or kFrictionless if mu = 0 or b = 0.
+inline Regime RegimeOf(const Problem& problem) {
+  return SignedFriction(problem) == 0.0 ? Regime::kFrictionless : Regime::kRebound;
+}
 
 // The state at normal impulse tau in [0, tau1], by [7], [12] and [48] with tau0, tau1 and omega+ of the model.
 // Accuracy: 4 ulp of |omega-| or of mu tau0.

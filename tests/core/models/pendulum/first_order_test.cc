@@ -228,6 +228,27 @@ TEST(FirstOrderTest, WorksAddUpToTheEnergyOfTheVelocitiesAndAreExactToSecondOrde
   }
 }
 
+// A body that meets the surface right below its pin has no tangential velocity, so that friction does nothing.
+TEST(FirstOrderTest, RightBelowThePinFrictionHasNoImpulse) {
+  for (const RestitutionLaw law : kLaws) {
+    const Problem problem = {.inertia = 2.0,
+                             .a = 0.6,
+                             .b = 0.0,
+                             .omega_minus = -1.0,
+                             .mu = 0.5,
+                             .mu_static = 0.5,
+                             .law = law,
+                             .coefficient = 0.5};
+    const Impact impact = first_order::Solve(problem);
+    EXPECT_EQ(impact.regime, Regime::kFrictionless);
+    EXPECT_EQ(impact[Output::kTangentialImpulse], 0.0);
+    EXPECT_EQ(impact[Output::kTangentialImpulseCompression], 0.0);
+    EXPECT_EQ(impact[Output::kTangentialCoefficient], 0.0);
+    EXPECT_EQ(first_order::At(problem, 1.0).tangential_impulse, 0.0);
+    EXPECT_DOUBLE_EQ(impact[Output::kNormalImpulse], 2.0 * 1.5 / 0.6);
+  }
+}
+
 TEST(FirstOrderTest, HistoriesAreBilinearAndMeetTheEvents) {
   for (const RestitutionLaw law : kLaws) {
     SceneSource source(550 + static_cast<uint64_t>(law));
