@@ -289,6 +289,19 @@ double SmallestScaledEigenvalue(const std::vector<double>& upper) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
 }
 
+bool IsSurelyDefinite(absl::Span<const double> upper) {
+  // Products of the roots of two such numbers are normal.
+  constexpr double kLeast = 0x1p-400;
+  if (!(upper[0] >= kLeast && upper[3] >= kLeast && upper[5] >= kLeast)) return false;
+  const double r1 = std::sqrt(upper[0]);
+  const double r2 = std::sqrt(upper[3]);
+  const double r3 = std::sqrt(upper[5]);
+  const double c12 = upper[1] / (r1 * r2);
+  const double c13 = upper[2] / (r1 * r3);
+  const double c23 = upper[4] / (r2 * r3);
+  return std::abs(c12) < 1.0 && 1.0 + 2.0 * c12 * c13 * c23 - (c12 * c12 + c13 * c13 + c23 * c23) > 0x1p-10;
+}
+
 static double ContactEnergy(const SpatialReduction& reduction) {
   const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
   const Eigen::Vector3d scales = InverseScales(matrix);
@@ -312,6 +325,7 @@ double ContactEnergy(const AnyReduction& any) {
 }
 
 double ShareOutsideRange(const SpatialReduction& reduction) {
+  if (IsSurelyDefinite(reduction.w)) return 0.0;
   const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
   const Eigen::Vector3d scales = InverseScales(matrix);
   const Eigen::Vector3d velocity(reduction.u0[0], reduction.u0[1], reduction.v0);

@@ -61,13 +61,13 @@ struct PathError {
   T f1{0}, f2{0};  // of the friction impulse
   T work{0};       // of the normal work in this phase
 
-  T Velocity1(const Matrix<T>& w) const { return w.w11 * f1 + w.w12 * f2; }
-  T Velocity2(const Matrix<T>& w) const { return w.w12 * f1 + w.w22 * f2; }
-  T NormalVelocity(const Matrix<T>& w) const { return w.w13 * f1 + w.w23 * f2; }
+  HWY_INLINE T Velocity1(const Matrix<T>& w) const { return w.w11 * f1 + w.w12 * f2; }
+  HWY_INLINE T Velocity2(const Matrix<T>& w) const { return w.w12 * f1 + w.w22 * f2; }
+  HWY_INLINE T NormalVelocity(const Matrix<T>& w) const { return w.w13 * f1 + w.w23 * f2; }
   // sqrt(df^T Wtt df), which never grows.
   T Norm(const Matrix<T>& w) const { return std::sqrt(std::max(T{0}, f1 * Velocity1(w) + f2 * Velocity2(w))); }
 
-  void Add(const PathError& other, T factor) {
+  HWY_INLINE void Add(const PathError& other, T factor) {
     f1 += factor * other.f1;
     f2 += factor * other.f2;
     work += factor * other.work;

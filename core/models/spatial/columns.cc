@@ -1,0 +1,48 @@
+// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run time.
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/models/spatial/columns.cc"
+#include "core/models/spatial/columns.h"
+
+#include <algorithm>
+#include <cassert>
+
+// Highway prescribes the order of these includes.
+// clang-format off
+#include "hwy/foreach_target.h"
+#include "core/models/spatial/crew-inl.h"
+// clang-format on
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::spatial::HWY_NAMESPACE {
+
+// Impacts whose series have as many terms step together.
+void SolveAll(absl::Span<const Problem> problems, absl::Span<Impact> impacts) {
+#if RICOCHET_SIMD
+  for (const int order : {8, 9, 11, 14, 17, 20, kMaxOrder}) {
+    const auto is_of_order = [order](const Problem& problem) {
+      return Solver<double>::OrderFor(problem.tolerance) == order;
+    };
+    if (std::any_of(problems.begin(), problems.end(), is_of_order)) Crew(order, problems, impacts).Run();
+  }
+#else
+  std::transform(problems.begin(), problems.end(), impacts.begin(), Solve);
+#endif
+}
+
+}  // namespace ricochet::spatial::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+
+namespace ricochet::spatial {
+
+HWY_EXPORT(SolveAll);
+
+void SolveColumns(absl::Span<const Problem> problems, absl::Span<Impact> impacts) {
+  assert(problems.size() == impacts.size());
+  HWY_DYNAMIC_DISPATCH(SolveAll)(problems, impacts);
+}
+
+}  // namespace ricochet::spatial
+
+#endif  // HWY_ONCE
