@@ -290,16 +290,13 @@ double SmallestScaledEigenvalue(const std::vector<double>& upper) {
 }
 
 bool IsSurelyDefinite(absl::Span<const double> upper) {
-  // Products of the roots of two such numbers are normal.
-  constexpr double kLeast = 0x1p-400;
-  if (!(upper[0] >= kLeast && upper[3] >= kLeast && upper[5] >= kLeast)) return false;
-  const double r1 = std::sqrt(upper[0]);
-  const double r2 = std::sqrt(upper[3]);
-  const double r3 = std::sqrt(upper[5]);
-  const double c12 = upper[1] / (r1 * r2);
-  const double c13 = upper[2] / (r1 * r3);
-  const double c23 = upper[4] / (r2 * r3);
-  return std::abs(c12) < 1.0 && 1.0 + 2.0 * c12 * c13 * c23 - (c12 * c12 + c13 * c13 + c23 * c23) > 0x1p-10;
+  // The product of three such numbers is normal.
+  const auto is_moderate = [](double size) { return size >= 0x1p-300 && size <= 0x1p300; };
+  const double w11 = upper[0], w12 = upper[1], w13 = upper[2], w22 = upper[3], w23 = upper[4], w33 = upper[5];
+  if (!is_moderate(w11) || !is_moderate(w22) || !is_moderate(w33) || !(w12 * w12 < w11 * w22)) return false;
+  const double diagonal = w11 * w22 * w33;
+  const double others = 2.0 * (w12 * w13 * w23) - w11 * (w23 * w23) - w22 * (w13 * w13) - w33 * (w12 * w12);
+  return diagonal + others > 0x1p-10 * diagonal;
 }
 
 static double ContactEnergy(const SpatialReduction& reduction) {

@@ -14,7 +14,9 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <utility>
 
 #include "absl/types/span.h"
 #include "core/models/spatial/attempts.h"
@@ -42,50 +44,58 @@ class Crew {
   }
 
  private:
-  // Takes over the step of a lane, and what follows up to its next one.
+  // Takes over the steps of a lane since the last call, and what follows up to its next one.
   void GoOn(size_t lane) {
     Solver<double>& solver = *solvers_[lane];
-    solver.Accept(step_.EndOf(lane));
+    ++steps_[lane];
+    if (!step_.NeedsAttention(lane) && steps_[lane] < solver.StepsLeft()) return;
+    solver.Accept(step_.EndOf(lane), std::exchange(steps_[lane], 0));
     const bool goes_on = solver.IsUnderWay() && (!step_.Pauses(lane) || solver.GoOn().has_value());
-    if (goes_on) return step_.SetPath(lane, solver.path().WayAhead());
-    Finish(solver, at_[lane]);
-    solvers_[lane].reset();
+    if (goes_on) return step_.SetPath(lane, solver);
     --busy_;
-    TakeNext(lane);
+    if (!Finish(lane)) TakeNext(lane);
   }
 
   // Gives the lane the next impact that needs steps, if there is one.
   void TakeNext(size_t lane) {
-    while (next_ < problems_.size()) {
-      const size_t i = next_++;
-      const Problem& problem = problems_[i];
+    for (; next_ < problems_.size(); ++next_) {
+      const Problem& problem = problems_[next_];
       if (Solver<double>::OrderFor(problem.tolerance) != order_) continue;
       if (problem.v0 >= 0.0) {
-        impacts_[i] = SeparatingImpact(problem);
+        impacts_[next_] = SeparatingImpact(problem);
         continue;
       }
-      Solver<double>& solver = solvers_[lane].emplace(problem, problem.Delassus().Rank(), problem.tolerance);
-      if (solver.Start().has_value()) {
-        at_[lane] = i;
-        ++busy_;
-        return step_.Set(lane, solver, problem.tolerance);
-      }
-      Finish(solver, i);
+      at_[lane] = next_;
+      attempts_[lane].emplace(problem.tolerance);
+      if (!Begin(lane, problem.Delassus().Rank())) continue;
+      ++next_;
+      return;
     }
     solvers_[lane].reset();
     step_.Rest(lane);
   }
 
-  // Further attempts are rare, and need other tolerances.
-  void Finish(const Solver<double>& solver, size_t i) {
-    const Problem& problem = problems_[i];
-    Attempts attempts(problem.tolerance);
-    bool needs_another = attempts.NeedsAnotherAfter(solver.Report());
+  // Begins the next attempt at the impact of a lane, and ends it if it needs no steps. Returns true if it needs some.
+  bool Begin(size_t lane, int rank) {
+    Solver<double>& solver = solvers_[lane].emplace(problems_[at_[lane]], rank, attempts_[lane]->tolerance());
+    if (!solver.Start().has_value()) return Finish(lane);
+    step_.Set(lane, solver);
+    ++busy_;
+    return true;
+  }
+
+  // Ends an attempt. Returns true if the lane goes on with another one, which it can if that has as many terms.
+  bool Finish(size_t lane) {
+    Attempts& attempts = *attempts_[lane];
+    const int rank = solvers_[lane]->problem().w.rank;
+    bool needs_another = attempts.NeedsAnotherAfter(solvers_[lane]->Report());
     while (needs_another) {
+      if (Solver<double>::OrderFor(attempts.tolerance()) == order_) return Begin(lane, rank);
       needs_another =
-          attempts.NeedsAnotherAfter(Solver<double>(problem, solver.problem().w.rank, attempts.tolerance()).Run());
+          attempts.NeedsAnotherAfter(Solver<double>(problems_[at_[lane]], rank, attempts.tolerance()).Run());
     }
-    impacts_[i] = attempts.Best();
+    impacts_[at_[lane]] = attempts.Best();
+    return false;
   }
 
   const int order_;
@@ -93,8 +103,11 @@ class Crew {
   const absl::Span<Impact> impacts_;
   size_t next_ = 0;
   size_t busy_ = 0;
-  std::array<std::optional<Solver<double>>, kLanes> solvers_;
+  // The impact of each lane: its place, its attempts, the present one, and its steps that are not taken over yet.
   std::array<size_t, kLanes> at_ = {};
+  std::array<std::optional<Attempts>, kLanes> attempts_;
+  std::array<std::optional<Solver<double>>, kLanes> solvers_;
+  std::array<int64_t, kLanes> steps_ = {};
   StepColumns step_;
 };
 

@@ -76,7 +76,7 @@ struct Way {
   T target;
   MaskOf<T> to_velocity, to_impulse;  // The goal is one of v or of tau, and else one of work.
   MaskOf<T> may_turn;                 // The goal's quantity need not grow all the way.
-  MaskOf<T> in_motion;                // v is not 0, in restitution.
+  MaskOf<T> in_restitution;
 };
 
 template <typename T>
@@ -90,7 +90,7 @@ struct Path {
             .to_velocity = goal.quantity == Quantity::kVelocity,
             .to_impulse = goal.quantity == Quantity::kImpulse,
             .may_turn = problem.may_jam,
-            .in_motion = in_restitution && !(state.v == T{0})};
+            .in_restitution = in_restitution};
   }
   T NormalWork(const State<T>& at) const { return WayAhead().NormalWork(at); }
 

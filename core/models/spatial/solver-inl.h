@@ -36,15 +36,16 @@ class Solver {
 
   Impact Run() {
     for (auto heading = Start(); heading.has_value(); heading = GoOn()) {
-      Accept(TakeStep(problem_, impact_.path.WayAhead(), *heading, tolerance_, order_));
+      Accept(TakeStep<T>(problem_, impact_.path.WayAhead(), errors(), *heading, tolerance_, order_), 1);
     }
     return Report();
   }
 
   // Run, step by step, for a caller who takes the steps himself. Start and GoOn follow what needs no step, and return
-  // the heading of the step that comes next, if there is one. Accept takes over its end.
+  // the heading of the step that comes next, if there is one. Accept takes over the end of the last of some steps, of
+  // which the others may not reach a goal or pause, and if dv/dtau < 0 is possible there must be no others.
   std::optional<Heading<T>> Start();
-  void Accept(const StepEnd<T>& end);
+  void Accept(const StepEnd<T>& end, int64_t steps);
   std::optional<Heading<T>> GoOn();
   Impact Report() const;
 
@@ -55,15 +56,18 @@ class Solver {
   static HWY_INLINE MaskOf<N> Pauses(const Contact<N>& contact, const Heading<N>& heading, N stopped, N tolerance) {
     return Either(heading.slip < stopped, heading.IsNearlyStraight(contact, N{kSwitchShare} * tolerance));
   }
-  bool IsUnderWay() const { return !impact_.path.ended && steps_ < kStepBudget; }
+  bool IsUnderWay() const { return !impact_.path.ended && StepsLeft() > 0; }
+  // The budget lies far above the number of steps of every impact that tests have found.
+  int64_t StepsLeft() const { return kStepBudget - steps_; }
   // Slip below this size has stopped as far as velocities go. Where static friction exceeds kinetic friction, the
   // threshold is lower, because a near miss must not stick.
   T StoppedSlip() const { return problem_.mu_static > problem_.mu ? T{0x1p-400} : T{0x1p-70}; }
   const ScaledProblem<T>& problem() const { return problem_; }
+  T tolerance() const { return tolerance_; }
   const Path<T>& path() const { return impact_.path; }
+  const StepErrors<T>& errors() const { return impact_.errors.BeforeStep(); }
 
  private:
-  // The budget lies far above the number of steps of every impact that tests have found.
   static constexpr int64_t kStepBudget = 10000;
   // The share of the tolerance for leaving a curve for its asymptote.
   static constexpr double kSwitchShare = 0.2;
@@ -144,14 +148,13 @@ std::optional<Heading<T>> Solver<T>::GoOn() {
 }
 
 template <typename T>
-void Solver<T>::Accept(const StepEnd<T>& end) {
-  ++steps_;
-  ErrorLedger<T>& errors = impact_.errors;
-  errors.AddStep(end.error, end.state.tau - state_.tau, end.first, end.first_slip, end.e, end.slip, end.state.v);
+void Solver<T>::Accept(const StepEnd<T>& end, int64_t steps) {
+  steps_ += steps;
   state_ = end.state;
-  if (problem_.may_jam) errors.NoteGap(impact_.path, std::fabs(end.beyond));
+  impact_.errors.SetAfterStep(end.errors);
+  if (problem_.may_jam) impact_.errors.NoteGap(impact_.path, std::fabs(end.beyond));
   if (!end.reaches_goal) return;
-  errors.SetEventOffset(end.offset);
+  impact_.errors.SetEventOffset(end.offset);
   impact_.EndPhase(problem_.SlopesAlong(end.e));
 }
 

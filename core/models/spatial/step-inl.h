@@ -10,11 +10,11 @@
 
 #include <cmath>
 
-#include "core/models/spatial/error_ledger-inl.h"
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
 #include "core/models/spatial/problem-inl.h"
 #include "core/models/spatial/series-inl.h"
+#include "core/models/spatial/step_errors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
@@ -83,7 +83,7 @@ class Step {
     const auto velocity = [this](T xi) HWY_ATTR { return NormalVelocity(xi); };
     end = EndAtSignChange(across, way_.may_turn, end);
     end = EndAtSignChange(normal, way_.may_turn, end);
-    return EndAtSignChange(velocity, Both(way_.may_turn, way_.in_motion), end);
+    return EndAtSignChange(velocity, Both(Both(way_.may_turn, way_.in_restitution), Not(way_.from.v == T{0})), end);
   }
   // Where `is_reached`, the xi at which the phase reaches its goal, which is at most `end`; found to `relative` of
   // itself.
@@ -243,46 +243,40 @@ HWY_INLINE Rates<T> Step<T>::NormalRate(T xi) const {
 // The outcome of a step.
 template <typename T>
 struct StepEnd {
-  Direction<T> first;  // of slip at the start of the step
-  T first_slip;
   State<T> state;
-  Direction<T> e;  // of slip at the end
-  T slip;
-  StepError<T> error;
+  Direction<T> e;  // of slip
+  StepErrors<T> errors;
   T beyond;                // how far the goal's quantity lies beyond the goal at the accurate end
   MaskOf<T> reaches_goal;  // The step ends at the goal, which counts as reached.
-  T offset;                // The distance from the goal in normal impulse, where it is reached.
+  T offset;                // the distance from the goal, in normal impulse, where it is reached
 };
 
-// Follows slip as far as its error stays below kStepShare of the tolerance, and not beyond the goal of the phase.
+// Follows slip as far as its error stays below a share of the tolerance, and not beyond the goal of the phase.
 template <typename T>
-HWY_INLINE StepEnd<T> TakeStep(const Contact<T>& contact, const Way<T>& way, const Heading<T>& heading, T tolerance,
-                               int order) {
+HWY_INLINE StepEnd<T> TakeStep(const Contact<T>& contact, const Way<T>& way, const StepErrors<T>& errors,
+                               const Heading<T>& heading, T tolerance, int order) {
   const T step_share{0.175};
   const Step<T> step(contact, way, heading, order);
-  T end = step.AccurateEnd(step_share * tolerance * contact.velocity);
-  if (!InNoLane(way.may_turn)) end = step.MonotonicEnd(end);
-  State<T> next = step.At(end);
-  const T beyond = way.Value(next) - way.target;
+  T xi = step.AccurateEnd(step_share * tolerance * contact.velocity);
+  if (!InNoLane(way.may_turn)) xi = step.MonotonicEnd(xi);
+  State<T> state = step.At(xi);
+  const T beyond = way.Value(state) - way.target;
   const auto reaches_goal = beyond >= T{0};
   T offset{0};
   if (!InNoLane(reaches_goal)) {
-    end = step.GoalWithin(reaches_goal, end, T{1e-2} * SquareRoot(tolerance));
-    next = step.At(end);
-    const Rates<T> rates = way.GoalRates(contact, next);
-    offset = T{2} * Absolute(rates.value / rates.slope) * next.Slip() / contact.rate;
+    xi = step.GoalWithin(reaches_goal, xi, T{1e-2} * SquareRoot(tolerance));
+    state = step.At(xi);
+    const Rates<T> rates = way.GoalRates(contact, state);
+    offset = T{2} * Absolute(rates.value / rates.slope) * state.Slip() / contact.rate;
   }
-  const T slip = next.Slip();
-  const Direction<T> e = {next.u1 / slip, next.u2 / slip};
-  return {.first = {heading.frame.c, heading.frame.s},
-          .first_slip = heading.slip,
-          .state = next,
-          .e = e,
-          .slip = slip,
-          .error = step.ErrorAt(end, next, e),
-          .beyond = beyond,
-          .reaches_goal = reaches_goal,
-          .offset = offset};
+  const T slip = state.Slip();
+  const Direction<T> e = {state.u1 / slip, state.u2 / slip};
+  const Stretch<T> stretch = {.length = state.tau - way.from.tau,
+                              .m = {heading.frame.c + e.c, heading.frame.s + e.s},
+                              .slip = {heading.slip, slip}};
+  StepErrors<T> sum = errors;
+  sum.AddStep(contact, step.ErrorAt(xi, state, e), stretch, state.v);
+  return {.state = state, .e = e, .errors = sum, .beyond = beyond, .reaches_goal = reaches_goal, .offset = offset};
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

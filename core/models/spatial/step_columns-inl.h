@@ -40,42 +40,48 @@ struct alignas(kLanes * sizeof(double)) Column {
 class StepColumns {
  public:
   // Sets a lane to an impact whose first step is to be taken.
-  void Set(size_t lane, const Solver<double>& solver, double tolerance);
-  // Sets a lane to a later step of the same impact.
-  void SetPath(size_t lane, const Way<double>& way);
-  // Leaves a lane without an impact: it never comes to a goal, whatever it computes.
+  void Set(size_t lane, const Solver<double>& solver);
+  // Sets a lane to another place on the path of the same impact.
+  void SetPath(size_t lane, const Solver<double>& solver);
+  // Leaves a lane without an impact: none of its numbers is one, so that it never comes to a goal.
   void Rest(size_t lane);
 
-  // Takes the steps of all lanes.
+  // Takes the steps of all lanes. Each lane is then set to its next step, unless it needs attention.
   void Take(int order);
 
+  // True if something other than another step may follow, or if every step is to be accepted.
+  bool NeedsAttention(size_t lane) const {
+    return pauses_.of[lane] != 0.0 || reaches_goal_.of[lane] != 0.0 || may_turn_.of[lane] != 0.0;
+  }
   // The end of a lane's step.
   StepEnd<double> EndOf(size_t lane) const;
-  // True if the impact may do something other than to take another step, unless it has ended its phase.
+  // True if the impact would do something other than to take another step, also if it has not ended its phase.
   bool Pauses(size_t lane) const { return pauses_.of[lane] != 0.0; }
 
  private:
   Contact<LaneNumber> LoadContact() const;
   Way<LaneNumber> LoadWay() const;
+  StepErrors<LaneNumber> LoadErrors() const;
   void Store(const StepEnd<LaneNumber>& end);
 
-  // What is read.
+  // The impact and its phase.
   Column w11_, w12_, w13_, w22_, w23_, w33_;
   Column mu_, velocity_, rate_, largest_root_, smallest_root_, normal_root_, steepest_;
   Column tolerance_, stopped_;
-  State<Column> from_;
   Slopes<Column> start_;
-  Column target_, to_velocity_, to_impulse_, may_turn_, in_motion_;
+  Column target_, to_velocity_, to_impulse_, may_turn_, in_restitution_;
 
-  // What is written.
-  Direction<Column> first_, e_;
-  Column first_slip_, slip_;
-  State<Column> end_;
-  PathError<Column> known_, rest_;
+  // The path at the end of the last step, and its errors.
+  State<Column> state_;
+  PathError<Column> known_, doubtful_;
+  Column friction_, v_rounding_, work_;
+
+  // What else is known of that step.
+  Direction<Column> e_;
   Column beyond_, reaches_goal_, offset_, pauses_;
 };
 
-inline void StepColumns::Set(size_t lane, const Solver<double>& solver, double tolerance) {
+inline void StepColumns::Set(size_t lane, const Solver<double>& solver) {
   const ScaledProblem<double>& problem = solver.problem();
   const Matrix<double>& w = problem.w;
   w11_.of[lane] = w.w11;
@@ -91,20 +97,21 @@ inline void StepColumns::Set(size_t lane, const Solver<double>& solver, double t
   smallest_root_.of[lane] = problem.smallest_root;
   normal_root_.of[lane] = problem.normal_root;
   steepest_.of[lane] = problem.steepest;
-  tolerance_.of[lane] = tolerance;
+  tolerance_.of[lane] = solver.tolerance();
   stopped_.of[lane] = solver.StoppedSlip();
-  SetPath(lane, solver.path().WayAhead());
+  SetPath(lane, solver);
 }
 
-inline void StepColumns::SetPath(size_t lane, const Way<double>& way) {
-  const State<double>& from = way.from;
-  from_.tau.of[lane] = from.tau;
-  from_.f1.of[lane] = from.f1;
-  from_.f2.of[lane] = from.f2;
-  from_.u1.of[lane] = from.u1;
-  from_.u2.of[lane] = from.u2;
-  from_.v.of[lane] = from.v;
-  from_.friction_work.of[lane] = from.friction_work;
+inline void StepColumns::SetPath(size_t lane, const Solver<double>& solver) {
+  const Way<double> way = solver.path().WayAhead();
+  const StepErrors<double>& errors = solver.errors();
+  state_.tau.of[lane] = way.from.tau;
+  state_.f1.of[lane] = way.from.f1;
+  state_.f2.of[lane] = way.from.f2;
+  state_.u1.of[lane] = way.from.u1;
+  state_.u2.of[lane] = way.from.u2;
+  state_.v.of[lane] = way.from.v;
+  state_.friction_work.of[lane] = way.from.friction_work;
   start_.u1.of[lane] = way.start.u1;
   start_.u2.of[lane] = way.start.u2;
   start_.v.of[lane] = way.start.v;
@@ -112,12 +119,22 @@ inline void StepColumns::SetPath(size_t lane, const Way<double>& way) {
   to_velocity_.of[lane] = way.to_velocity ? 1.0 : 0.0;
   to_impulse_.of[lane] = way.to_impulse ? 1.0 : 0.0;
   may_turn_.of[lane] = way.may_turn ? 1.0 : 0.0;
-  in_motion_.of[lane] = way.in_motion ? 1.0 : 0.0;
+  in_restitution_.of[lane] = way.in_restitution ? 1.0 : 0.0;
+  known_.f1.of[lane] = errors.known.f1;
+  known_.f2.of[lane] = errors.known.f2;
+  known_.work.of[lane] = errors.known.work;
+  doubtful_.f1.of[lane] = errors.doubtful.f1;
+  doubtful_.f2.of[lane] = errors.doubtful.f2;
+  doubtful_.work.of[lane] = errors.doubtful.work;
+  friction_.of[lane] = errors.friction;
+  v_rounding_.of[lane] = errors.v_rounding;
+  work_.of[lane] = errors.work;
 }
 
 inline void StepColumns::Rest(size_t lane) {
   may_turn_.of[lane] = 0.0;
-  target_.of[lane] = std::numeric_limits<double>::infinity();
+  state_.u1.of[lane] = state_.u2.of[lane] = state_.v.of[lane] = std::numeric_limits<double>::quiet_NaN();
+  target_.of[lane] = std::numeric_limits<double>::quiet_NaN();
 }
 
 HWY_INLINE Contact<LaneNumber> StepColumns::LoadContact() const {
@@ -139,41 +156,48 @@ HWY_INLINE Contact<LaneNumber> StepColumns::LoadContact() const {
 }
 
 HWY_INLINE Way<LaneNumber> StepColumns::LoadWay() const {
-  return {.from = {.tau = from_.tau.Load(),
-                   .f1 = from_.f1.Load(),
-                   .f2 = from_.f2.Load(),
-                   .u1 = from_.u1.Load(),
-                   .u2 = from_.u2.Load(),
-                   .v = from_.v.Load(),
-                   .friction_work = from_.friction_work.Load()},
+  return {.from = {.tau = state_.tau.Load(),
+                   .f1 = state_.f1.Load(),
+                   .f2 = state_.f2.Load(),
+                   .u1 = state_.u1.Load(),
+                   .u2 = state_.u2.Load(),
+                   .v = state_.v.Load(),
+                   .friction_work = state_.friction_work.Load()},
           .start = {start_.u1.Load(), start_.u2.Load(), start_.v.Load()},
           .target = target_.Load(),
           .to_velocity = to_velocity_.LoadMask(),
           .to_impulse = to_impulse_.LoadMask(),
           .may_turn = may_turn_.LoadMask(),
-          .in_motion = in_motion_.LoadMask()};
+          .in_restitution = in_restitution_.LoadMask()};
+}
+
+HWY_INLINE StepErrors<LaneNumber> StepColumns::LoadErrors() const {
+  return {.known = {.f1 = known_.f1.Load(), .f2 = known_.f2.Load(), .work = known_.work.Load()},
+          .doubtful = {.f1 = doubtful_.f1.Load(), .f2 = doubtful_.f2.Load(), .work = doubtful_.work.Load()},
+          .friction = friction_.Load(),
+          .v_rounding = v_rounding_.Load(),
+          .work = work_.Load()};
 }
 
 HWY_INLINE void StepColumns::Store(const StepEnd<LaneNumber>& end) {
-  first_.c.Store(end.first.c);
-  first_.s.Store(end.first.s);
-  first_slip_.Store(end.first_slip);
+  state_.tau.Store(end.state.tau);
+  state_.f1.Store(end.state.f1);
+  state_.f2.Store(end.state.f2);
+  state_.u1.Store(end.state.u1);
+  state_.u2.Store(end.state.u2);
+  state_.v.Store(end.state.v);
+  state_.friction_work.Store(end.state.friction_work);
+  known_.f1.Store(end.errors.known.f1);
+  known_.f2.Store(end.errors.known.f2);
+  known_.work.Store(end.errors.known.work);
+  doubtful_.f1.Store(end.errors.doubtful.f1);
+  doubtful_.f2.Store(end.errors.doubtful.f2);
+  doubtful_.work.Store(end.errors.doubtful.work);
+  friction_.Store(end.errors.friction);
+  v_rounding_.Store(end.errors.v_rounding);
+  work_.Store(end.errors.work);
   e_.c.Store(end.e.c);
   e_.s.Store(end.e.s);
-  slip_.Store(end.slip);
-  end_.tau.Store(end.state.tau);
-  end_.f1.Store(end.state.f1);
-  end_.f2.Store(end.state.f2);
-  end_.u1.Store(end.state.u1);
-  end_.u2.Store(end.state.u2);
-  end_.v.Store(end.state.v);
-  end_.friction_work.Store(end.state.friction_work);
-  known_.f1.Store(end.error.known.f1);
-  known_.f2.Store(end.error.known.f2);
-  known_.work.Store(end.error.known.work);
-  rest_.f1.Store(end.error.rest.f1);
-  rest_.f2.Store(end.error.rest.f2);
-  rest_.work.Store(end.error.rest.work);
   beyond_.Store(end.beyond);
   reaches_goal_.Store(end.reaches_goal);
   offset_.Store(end.offset);
@@ -183,26 +207,29 @@ inline void StepColumns::Take(int order) {
   const Contact<LaneNumber> contact = LoadContact();
   const Way<LaneNumber> way = LoadWay();
   const LaneNumber tolerance = tolerance_.Load();
-  const StepEnd<LaneNumber> end = TakeStep(contact, way, Heading<LaneNumber>(contact, way.from), tolerance, order);
+  const Heading<LaneNumber> heading(contact, way.from);
+  const StepEnd<LaneNumber> end = TakeStep(contact, way, LoadErrors(), heading, tolerance, order);
   Store(end);
   const Heading<LaneNumber> next(contact, end.state);
   pauses_.Store(Solver<double>::Pauses(contact, next, stopped_.Load(), tolerance));
 }
 
 inline StepEnd<double> StepColumns::EndOf(size_t lane) const {
-  return {.first = {first_.c.of[lane], first_.s.of[lane]},
-          .first_slip = first_slip_.of[lane],
-          .state = {.tau = end_.tau.of[lane],
-                    .f1 = end_.f1.of[lane],
-                    .f2 = end_.f2.of[lane],
-                    .u1 = end_.u1.of[lane],
-                    .u2 = end_.u2.of[lane],
-                    .v = end_.v.of[lane],
-                    .friction_work = end_.friction_work.of[lane]},
+  return {.state = {.tau = state_.tau.of[lane],
+                    .f1 = state_.f1.of[lane],
+                    .f2 = state_.f2.of[lane],
+                    .u1 = state_.u1.of[lane],
+                    .u2 = state_.u2.of[lane],
+                    .v = state_.v.of[lane],
+                    .friction_work = state_.friction_work.of[lane]},
           .e = {e_.c.of[lane], e_.s.of[lane]},
-          .slip = slip_.of[lane],
-          .error = {.known = {.f1 = known_.f1.of[lane], .f2 = known_.f2.of[lane], .work = known_.work.of[lane]},
-                    .rest = {.f1 = rest_.f1.of[lane], .f2 = rest_.f2.of[lane], .work = rest_.work.of[lane]}},
+          .errors = {.known = {.f1 = known_.f1.of[lane], .f2 = known_.f2.of[lane], .work = known_.work.of[lane]},
+                     .doubtful = {.f1 = doubtful_.f1.of[lane],
+                                  .f2 = doubtful_.f2.of[lane],
+                                  .work = doubtful_.work.of[lane]},
+                     .friction = friction_.of[lane],
+                     .v_rounding = v_rounding_.of[lane],
+                     .work = work_.of[lane]},
           .beyond = beyond_.of[lane],
           .reaches_goal = reaches_goal_.of[lane] != 0.0,
           .offset = offset_.of[lane]};

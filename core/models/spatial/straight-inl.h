@@ -80,7 +80,7 @@ void FollowSlip(Progress<T>& impact, const Direction<T>& e) {
   T growth = slopes.u1 * e.c + slopes.u2 * e.s;
   // Slip that starts grows, however slowly: rounded to below 0, the growth would stop it where it is.
   if (slip == T{0}) growth = std::max(growth, T{0});
-  impact.errors.AddFrictionError(impact.errors.SlipRounding(slip));
+  impact.errors.AddSlipRounding(slip);
   StraightPiece<T> piece = {.motion = problem.mu > T{0} ? Motion::kSlips : Motion::kIsFree,
                             .slopes = {growth * e.c, growth * e.s, slopes.v},
                             .e = e,
