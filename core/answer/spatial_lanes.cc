@@ -1,5 +1,6 @@
 #include "core/answer/spatial_lanes.h"
 
+#include <algorithm>
 #include <utility>
 #include <variant>
 
@@ -7,6 +8,8 @@
 #include "core/answer/model_outcomes.h"
 #include "core/answer/scene_outcome.h"
 #include "core/models/spatial/columns.h"
+#include "core/plan/needs_spatial.h"
+#include "core/problem/scene_problem.h"
 
 namespace ricochet {
 
@@ -15,11 +18,29 @@ void SpatialLanes::Clear() {
   problems_.clear();
 }
 
-size_t SpatialLanes::Add(const Scene& scene, SceneContact& contact, const PlannedScene& planned) {
-  auto& reduction = std::get<SpatialReduction>(contact.reduction);
-  problems_.push_back(SpatialProblemOf(scene, reduction, planned));
-  added_.push_back({std::move(reduction), planned.effective, planned.choice.negligible});
+size_t SpatialLanes::Add(const spatial::Problem& problem, double negligible, SceneContact& contact) {
+  problems_.push_back(problem);
+  added_.push_back({std::move(std::get<SpatialReduction>(contact.reduction)), contact.coefficients, negligible});
   return added_.size() - 1;
+}
+
+std::optional<size_t> SpatialLanes::Add(const Scene& scene, const Demand& demand,
+                                        std::optional<SceneContact>& contact) {
+  if (!contact.has_value() || !demand.required.IsEmpty() || !demand.excluded.IsEmpty()) return std::nullopt;
+  const auto* reduction = std::get_if<SpatialReduction>(&contact->reduction);
+  if (reduction == nullptr || !FitsDoubles(contact->reduction)) return std::nullopt;
+  const double tolerance = std::clamp(demand.relative_tolerance, spatial::kLeastTolerance, spatial::kMostTolerance);
+  const spatial::Problem problem =
+      spatial::MakeProblem(*reduction, scene.restitution, contact->coefficients, tolerance);
+  if (!NeedsSpatial(problem, demand.relative_tolerance)) return std::nullopt;
+  return Add(problem, 0.0, *contact);
+}
+
+std::optional<size_t> SpatialLanes::Add(const Scene& scene, const PlannedScene& planned,
+                                        std::optional<SceneContact>& contact) {
+  if (planned.choice.model != Model::kSpatial) return std::nullopt;
+  const auto& reduction = std::get<SpatialReduction>(contact->reduction);
+  return Add(SpatialProblemOf(scene, reduction, planned), planned.choice.negligible, *contact);
 }
 
 void SpatialLanes::Solve() {

@@ -7,10 +7,12 @@
 #define RICOCHET_CORE_ANSWER_SPATIAL_LANES_H_
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "core/contact/scene_contact.h"
 #include "core/models/spatial/spatial.h"
+#include "core/plan/demand.h"
 #include "core/plan/planned_scene.h"
 #include "ricochet/outcome.h"
 #include "ricochet/scene.h"
@@ -19,12 +21,12 @@ namespace ricochet {
 
 class SpatialLanes {
  public:
-  static bool Serves(const PlannedScene& planned) { return planned.choice.model == Model::kSpatial; }
-
   // Forgets all scenes.
   void Clear();
-  // Adds a scene whose plan is served, takes its reduction over, and returns its place.
-  size_t Add(const Scene& scene, SceneContact& contact, const PlannedScene& planned);
+  // Adds a scene if the spatial model is to solve it, takes the reduction of its contact over, and returns its place.
+  // The first form plans the scene itself, and may leave it to a plan (PlanScene) although the second form would add it.
+  std::optional<size_t> Add(const Scene& scene, const Demand& demand, std::optional<SceneContact>& contact);
+  std::optional<size_t> Add(const Scene& scene, const PlannedScene& planned, std::optional<SceneContact>& contact);
   void Solve();
 
   // Sets the numbers of the scene at a place, as SolveScene does with Detail::kNumbers, into an outcome that is empty.
@@ -36,6 +38,8 @@ class SpatialLanes {
     EffectiveCoefficients effective;
     double negligible = 0.0;
   };
+
+  size_t Add(const spatial::Problem& problem, double negligible, SceneContact& contact);
 
   std::vector<Added> added_;
   std::vector<spatial::Problem> problems_;

@@ -92,11 +92,11 @@ std::optional<BatchRun::Begun> BatchRun::BeginRow(const BatchRows& rows, size_t 
     begun.row.status = RowStatus::kInvalid;
     return begun;
   }
+  begun.lane = spatial_.Add(scene_, demand_, contact);
+  if (begun.lane.has_value()) return begun;
   const PlannedScene planned = PlanScene(scene_, contact, demand_);
-  if (SpatialLanes::Serves(planned)) {
-    begun.lane = spatial_.Add(scene_, *contact, planned);
-    return begun;
-  }
+  begun.lane = spatial_.Add(scene_, planned, contact);
+  if (begun.lane.has_value()) return begun;
   Outcome outcome;
   const absl::Status solved = SolvePlanned(
       scene_, contact, planned, {.extent = {.detail = Detail::kNumbers}, .demand = demand_}, stopped, outcome);

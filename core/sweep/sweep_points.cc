@@ -79,34 +79,72 @@ absl::StatusOr<int64_t> SweepPoints::Compute(int64_t first, int64_t count, absl:
 
 absl::StatusOr<int64_t> SweepPoints::SolvePoints(int64_t count, absl::FunctionRef<bool()> stopped,
                                                  absl::FunctionRef<bool()> is_enough) {
-  for (int64_t i = 0; i < count; ++i) {
-    if (i > 0 && is_enough()) return i;
-    if (i > 0 && stopped()) return Stopped();
-    if (!SolvePoint(static_cast<size_t>(i), stopped)) return Stopped();
-    driven_.Advance();
+  const int64_t together = TangentialDirections(driven_.scene().system) == 2 ? kTogether : 1;
+  for (int64_t done = 0; done < count; done += together) {
+    if (done > 0 && is_enough()) return done;
+    if (done > 0 && stopped()) return Stopped();
+    const int64_t size = std::min(together, count - done);
+    if (!SolveTogether(static_cast<size_t>(done), static_cast<size_t>(size), stopped)) return Stopped();
   }
   return count;
 }
 
 // Returns false if it was stopped.
-bool SweepPoints::SolvePoint(size_t i, absl::FunctionRef<bool()> stopped) {
+bool SweepPoints::SolveTogether(size_t first, size_t count, absl::FunctionRef<bool()> stopped) {
+  spatial_.Clear();
+  in_spatial_.clear();
+  for (size_t i = first; i < first + count; ++i) {
+    if (i > first && stopped()) return false;
+    if (!BeginPoint(i, stopped)) return false;
+    driven_.Advance();
+  }
+  spatial_.Solve();
+  for (const auto& [i, place] : in_spatial_) {
+    Outcome outcome;
+    spatial_.SetOutcome(place, outcome);
+    SetPoint(i, outcome);
+  }
+  return true;
+}
+
+// Checks and plans a point, and solves it unless the spatial lanes do. Returns false if it was stopped.
+bool SweepPoints::BeginPoint(size_t i, absl::FunctionRef<bool()> stopped) {
   std::optional<SceneContact> contact;
+  const Scene& scene = driven_.scene();
   statuses_[i] = driven_.IsValid(contact) ? RowStatus::kOk : RowStatus::kInvalid;
   if (statuses_[i] != RowStatus::kOk) return true;
+  std::optional<size_t> place = spatial_.Add(scene, sweep_.demand, contact);
+  if (!place.has_value()) {
+    const PlannedScene planned = PlanScene(scene, contact, sweep_.demand);
+    place = spatial_.Add(scene, planned, contact);
+    if (!place.has_value()) return SolvePlannedPoint(i, contact, planned, stopped);
+  }
+  in_spatial_.emplace_back(i, *place);
+  return true;
+}
+
+// Returns false if it was stopped.
+bool SweepPoints::SolvePlannedPoint(size_t i, const std::optional<SceneContact>& contact, const PlannedScene& planned,
+                                    absl::FunctionRef<bool()> stopped) {
   Outcome outcome;
-  const absl::Status status = SolveScene(
-      driven_.scene(), contact, {.extent = {.detail = Detail::kNumbers}, .demand = sweep_.demand}, stopped, outcome);
+  const absl::Status status =
+      SolvePlanned(driven_.scene(), contact, planned, {.extent = {.detail = Detail::kNumbers}, .demand = sweep_.demand},
+                   stopped, outcome);
   if (absl::IsCancelled(status)) return false;
   if (!status.ok()) {
     statuses_[i] = RowStatus::kNotRepresentable;
     return true;
   }
+  SetPoint(i, outcome);
+  return true;
+}
+
+void SweepPoints::SetPoint(size_t i, const Outcome& outcome) {
   regimes_[i] = outcome.regime;
   models_[i] = outcome.plan.model;
   inadmissible_[i] = !outcome.admissible;
   ReadColumns(outcome, numbers_);
   for (size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = numbers_[sweep_.positions[c]];
-  return true;
 }
 
 // Solves each run of points whose plans agree by the model that they call for.
@@ -185,7 +223,7 @@ absl::Status SweepPoints::SolvePlanar(int64_t first, int64_t count, absl::Functi
     if (!is_left(models_[i])) continue;
     if (stopped()) return Stopped();
     driven_.GoTo(first + static_cast<int64_t>(i));
-    if (!SolvePoint(i, stopped)) return Stopped();
+    if (!SolveTogether(i, 1, stopped)) return Stopped();
   }
   driven_.GoTo(first + count - 1);
   driven_.Advance();

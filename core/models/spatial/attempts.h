@@ -3,9 +3,8 @@
 // An event that depends sensitively on the path can amplify the errors of the steps beyond what was allowed for. The
 // impact is then solved again to a smaller tolerance, three times in all, and the attempt with the smallest error counts.
 //
-//   Attempts attempts(problem.tolerance);
-//   do impact = ...; while (attempts.NeedsAnotherAfter(impact));   // to attempts.tolerance()
-//   return attempts.Best();
+//   Attempts attempts(problem.tolerance, impact);
+//   do attempt = ...; while (attempts.NeedsAnotherAfter(attempt));   // to attempts.tolerance()
 
 #ifndef RICOCHET_CORE_MODELS_SPATIAL_ATTEMPTS_H_
 #define RICOCHET_CORE_MODELS_SPATIAL_ATTEMPTS_H_
@@ -19,7 +18,8 @@ namespace ricochet::spatial {
 
 class Attempts {
  public:
-  explicit Attempts(double tolerance) : asked_(tolerance), tolerance_(tolerance) {}
+  // The impact that counts is written to `best`.
+  Attempts(double tolerance, Impact& best) : asked_(tolerance), tolerance_(tolerance), best_(&best) {}
 
   // That of the next attempt.
   double tolerance() const { return tolerance_; }
@@ -28,18 +28,15 @@ class Attempts {
     const double estimate = impact.error_estimate;
     steps_ += impact.steps;
     right_hand_sides_ += impact.right_hand_sides;
-    if (made_++ == 0 || estimate < best_.error_estimate) best_ = impact;
-    if (made_ == kMost || estimate <= asked_ || tolerance_ <= kSmallestTolerance) return false;
-    tolerance_ = std::fmax(kMargin * tolerance_ * (asked_ / estimate), kSmallestTolerance);
-    return true;
-  }
-
-  Impact Best() const {
-    Impact best = best_;
-    best.steps = steps_;
-    best.right_hand_sides = right_hand_sides_;
-    if (!best.Converged()) best.regime = Regime::kWedged;
-    return best;
+    if (made_++ == 0 || estimate < best_->error_estimate) *best_ = impact;
+    if (made_ < kMost && !(estimate <= asked_) && tolerance_ > kSmallestTolerance) {
+      tolerance_ = std::fmax(kMargin * tolerance_ * (asked_ / estimate), kSmallestTolerance);
+      return true;
+    }
+    best_->steps = steps_;
+    best_->right_hand_sides = right_hand_sides_;
+    if (!best_->Converged()) best_->regime = Regime::kWedged;
+    return false;
   }
 
  private:
@@ -47,12 +44,12 @@ class Attempts {
   static constexpr double kSmallestTolerance = 1e-17;
   static constexpr double kMargin = 0.3;
 
-  const double asked_;
+  double asked_;
   double tolerance_;
+  Impact* best_;
   int made_ = 0;
   int64_t steps_ = 0;
   int64_t right_hand_sides_ = 0;
-  Impact best_;
 };
 
 // The impact of a contact that does not approach.

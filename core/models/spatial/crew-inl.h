@@ -66,7 +66,7 @@ class Crew {
         continue;
       }
       at_[lane] = next_;
-      attempts_[lane].emplace(problem.tolerance);
+      attempts_[lane].emplace(problem.tolerance, impacts_[next_]);
       if (!Begin(lane, problem.Delassus().Rank())) continue;
       ++next_;
       return;
@@ -94,7 +94,6 @@ class Crew {
       needs_another =
           attempts.NeedsAnotherAfter(Solver<double>(problems_[at_[lane]], rank, attempts.tolerance()).Run());
     }
-    impacts_[at_[lane]] = attempts.Best();
     return false;
   }
 

@@ -31,10 +31,11 @@ HWY_EXPORT(SolveTo);
 Impact Solve(const Problem& problem) {
   if (problem.v0 >= 0.0) return SeparatingImpact(problem);
   const int rank = problem.Delassus().Rank();
-  Attempts attempts(problem.tolerance);
+  Impact best;
+  Attempts attempts(problem.tolerance, best);
   while (attempts.NeedsAnotherAfter(HWY_DYNAMIC_DISPATCH(SolveTo)(problem, rank, attempts.tolerance()))) {
   }
-  return attempts.Best();
+  return best;
 }
 
 }  // namespace ricochet::spatial
