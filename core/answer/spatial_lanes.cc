@@ -44,6 +44,7 @@ std::optional<size_t> SpatialLanes::Add(const Scene& scene, const PlannedScene& 
 }
 
 void SpatialLanes::Solve() {
+  if (problems_.empty()) return;
   impacts_.resize(problems_.size());
   spatial::SolveColumns(problems_, absl::MakeSpan(impacts_));
 }

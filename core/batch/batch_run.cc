@@ -97,6 +97,7 @@ std::optional<BatchRun::Begun> BatchRun::BeginRow(const BatchRows& rows, size_t 
   const PlannedScene planned = PlanScene(scene_, contact, demand_);
   begun.lane = spatial_.Add(scene_, planned, contact);
   if (begun.lane.has_value()) return begun;
+  if (stopped()) return std::nullopt;
   Outcome outcome;
   const absl::Status solved = SolvePlanned(
       scene_, contact, planned, {.extent = {.detail = Detail::kNumbers}, .demand = demand_}, stopped, outcome);
@@ -136,8 +137,8 @@ bool BatchRun::SolveScenes(const BatchRows& rows, size_t first, size_t count, ab
                            BatchSummary& summary) {
   begun_.clear();
   spatial_.Clear();
+  if (stopped()) return false;
   for (size_t k = 0; k < count; ++k) {
-    if (stopped()) return false;
     const std::optional<Begun> begun = BeginRow(rows, first + k, stopped);
     if (!begun.has_value()) return false;
     begun_.push_back(*begun);

@@ -15,14 +15,15 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
-// Impacts whose series have as many terms step together.
+// Impacts whose steps are alike step together.
 void SolveAll(absl::Span<const Problem> problems, absl::Span<Impact> impacts) {
 #if RICOCHET_SIMD
   for (const int order : {8, 9, 11, 14, 17, 20, kMaxOrder}) {
-    const auto is_of_order = [order](const Problem& problem) {
-      return Solver<double>::OrderFor(problem.tolerance) == order;
-    };
-    if (std::any_of(problems.begin(), problems.end(), is_of_order)) Crew(order, problems, impacts).Run();
+    for (const bool may_jam : {false, true}) {
+      const StepGroup group = {order, may_jam};
+      const auto is_in_group = [&group](const Problem& problem) { return group.Has(problem); };
+      if (std::any_of(problems.begin(), problems.end(), is_in_group)) Crew(group, problems, impacts).Run();
+    }
   }
 #else
   std::transform(problems.begin(), problems.end(), impacts.begin(), Solve);

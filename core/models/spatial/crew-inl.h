@@ -13,6 +13,7 @@
 #endif
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -27,16 +28,28 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
+// Impacts whose steps are alike: they have as many terms, and each or none of them has to look for turns of v.
+struct StepGroup {
+  int order;
+  bool may_jam;
+
+  bool Has(const Problem& problem) const {
+    const double coupling = std::sqrt(problem.w13 * problem.w13 + problem.w23 * problem.w23);
+    return HasOrderOf(problem.tolerance) && (problem.mu * coupling >= problem.w33) == may_jam;
+  }
+  bool HasOrderOf(double tolerance) const { return Solver<double>::OrderFor(tolerance) == order; }
+};
+
 class Crew {
  public:
-  // Those of the problems are solved whose series have `order` terms at their tolerance.
-  Crew(int order, absl::Span<const Problem> problems, absl::Span<Impact> impacts)
-      : order_(order), problems_(problems), impacts_(impacts) {}
+  // Those of the problems are solved that belong to `group`.
+  Crew(const StepGroup& group, absl::Span<const Problem> problems, absl::Span<Impact> impacts)
+      : group_(group), problems_(problems), impacts_(impacts) {}
 
   void Run() {
     for (size_t lane = 0; lane < kLanes; ++lane) TakeNext(lane);
     while (busy_ > 0) {
-      step_.Take(order_);
+      step_.Take(group_.order);
       for (size_t lane = 0; lane < kLanes; ++lane) {
         if (solvers_[lane].has_value()) GoOn(lane);
       }
@@ -60,7 +73,7 @@ class Crew {
   void TakeNext(size_t lane) {
     for (; next_ < problems_.size(); ++next_) {
       const Problem& problem = problems_[next_];
-      if (Solver<double>::OrderFor(problem.tolerance) != order_) continue;
+      if (!group_.Has(problem)) continue;
       if (problem.v0 >= 0.0) {
         impacts_[next_] = SeparatingImpact(problem);
         continue;
@@ -90,14 +103,14 @@ class Crew {
     const int rank = solvers_[lane]->problem().w.rank;
     bool needs_another = attempts.NeedsAnotherAfter(solvers_[lane]->Report());
     while (needs_another) {
-      if (Solver<double>::OrderFor(attempts.tolerance()) == order_) return Begin(lane, rank);
+      if (group_.HasOrderOf(attempts.tolerance())) return Begin(lane, rank);
       needs_another =
           attempts.NeedsAnotherAfter(Solver<double>(problems_[at_[lane]], rank, attempts.tolerance()).Run());
     }
     return false;
   }
 
-  const int order_;
+  const StepGroup group_;
   const absl::Span<const Problem> problems_;
   const absl::Span<Impact> impacts_;
   size_t next_ = 0;
