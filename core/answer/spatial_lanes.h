@@ -1,7 +1,7 @@
 // SpatialLanes: scenes of any system in space whose impacts are solved together, in SIMD lanes, as batches need them.
 //
-// A scene is checked and planned by itself. If its plan asks for the spatial model, it is added here, and has its outcome
-// once the impacts of all are solved. The outcome has the bits of SolveScene.
+// A scene is checked and planned by itself. If its plan asks for the spatial model, it is added here, and has its
+// outcome once the impacts of all are solved. The outcome has the bits of SolveScene.
 
 #ifndef RICOCHET_CORE_ANSWER_SPATIAL_LANES_H_
 #define RICOCHET_CORE_ANSWER_SPATIAL_LANES_H_
@@ -24,7 +24,7 @@ class SpatialLanes {
   // Forgets all scenes.
   void Clear();
   // Adds a scene if the spatial model is to solve it, takes the reduction of its contact over, and returns its place.
-  // The first form plans the scene itself, and may leave it to a plan (PlanScene) although the second form would add it.
+  // The first form plans the scene itself, and may leave it to a plan (PlanScene), by which the second form decides.
   std::optional<size_t> Add(const Scene& scene, const Demand& demand, std::optional<SceneContact>& contact);
   std::optional<size_t> Add(const Scene& scene, const PlannedScene& planned, std::optional<SceneContact>& contact);
   void Solve();

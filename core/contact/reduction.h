@@ -83,8 +83,8 @@ double ContactEnergy(const AnyReduction& reduction);
 // negative, or is 0 in a row that is not 0.
 double SmallestScaledEigenvalue(const std::vector<double>& upper);
 
-// True only if that eigenvalue exceeds 2^-12, at a fraction of its cost: with a unit diagonal the three eigenvalues add up
-// to 3, so that the smallest of three positive ones is at least 4/9 of the determinant.
+// True only if that eigenvalue exceeds 2^-12, at a fraction of its cost: with a unit diagonal the three eigenvalues add
+// up to 3, so that the smallest of three positive ones is at least 4/9 of the determinant.
 bool IsSurelyDefinite(absl::Span<const double> upper);
 
 // The share of the velocity (u0, v0) that lies outside the range of W: 0 if the velocity lies within it, 1 if it is

@@ -1,8 +1,8 @@
 // NeedsSpatial: whether a contact in space surely needs the spatial model, at a fraction of the cost of ChooseSpatial.
 //
-// For a demand that is a tolerance alone, the spatial model is chosen if both friction and the turn of slip are too large
-// to be left out. Lower bounds on their sizes decide this for nearly every contact; docs/theory/plan.md, section 7,
-// derives them.
+// For a demand that is a tolerance alone, the spatial model is chosen if both friction and the turn of slip are too
+// large to be left out. Lower bounds on their sizes decide this for nearly every contact; docs/theory/plan.md,
+// section 7, derives them.
 
 #ifndef RICOCHET_CORE_PLAN_NEEDS_SPATIAL_H_
 #define RICOCHET_CORE_PLAN_NEEDS_SPATIAL_H_

@@ -117,8 +117,8 @@ Turn Supposing(const Scaled& contact, double angle) {
   return {.angle = contact.turning * passed / left * (1.0 + 0x1p-20), .least_slip = std::min(contact.slip, end)};
 }
 
-// Tries a few angles and returns the bounds of the smallest one that proves itself. Where nothing follows from an angle,
-// nothing follows from a larger one.
+// Tries a few angles and returns the bounds of the smallest one that proves itself. Where nothing follows from an
+// angle, nothing follows from a larger one.
 Turn LargestTurn(const Scaled& contact) {
   if (!(contact.slip > 0.0)) return {};
   double angle = 1.5 * contact.turning / (contact.slip * contact.SlideSlope());

@@ -42,8 +42,8 @@ class SweepPoints {
   // Computes points from `first` on, `count` <= kMostPoints of them unless `is_enough` ends the block after fewer.
   // `columns` has the place of the first point's value in each column; `regimes` and `statuses` have room for `count`, or
   // none if they are not wanted. The points are added to `tallies`. Returns how many they are.
-  // Both functions are asked before each point, `stopped` alone before the first; SIMD lanes ask `stopped` once a block,
-  // and points in space `is_enough` before each kTogether of them.
+  // Both functions are asked before each point, `stopped` alone before the first; SIMD lanes ask `stopped` once a
+  // block, and points in space `is_enough` before each kTogether of them.
   // Errors: CANCELLED once `stopped` returns true.
   absl::StatusOr<int64_t> Compute(int64_t first, int64_t count, absl::Span<double* const> columns,
                                   absl::Span<Regime> regimes, absl::Span<RowStatus> statuses, SweepSummary& tallies,

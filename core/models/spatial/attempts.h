@@ -1,7 +1,8 @@
 // Attempts: one impact, solved until its error is as small as asked.
 //
 // An event that depends sensitively on the path can amplify the errors of the steps beyond what was allowed for. The
-// impact is then solved again to a smaller tolerance, three times in all, and the attempt with the smallest error counts.
+// impact is then solved again to a smaller tolerance, three times in all, and the attempt with the smallest error
+// counts.
 //
 //   Attempts attempts(problem.tolerance, impact);
 //   do attempt = ...; while (attempts.NeedsAnotherAfter(attempt));   // to attempts.tolerance()

@@ -1,8 +1,8 @@
 // StepErrors: the errors to which steps of slip add, and which they carry on. T is a floating type or a LaneNumber.
 //
 // The error of each step is known to leading order and carried along the path with its sign, and so is its doubt.
-// Rounding, and what is no longer carried, counts by the norm of Wtt^-1. core/models/spatial/error_ledger-inl.h says what
-// they do to the end of the impact.
+// Rounding, and what is no longer carried, counts by the norm of Wtt^-1. core/models/spatial/error_ledger-inl.h says
+// what they do to the end of the impact.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_SPATIAL_STEP_ERRORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -25,7 +25,7 @@ struct StepError {
   PathError<T> known, rest;
 };
 
-// A stretch of slip: its length in normal impulse, its mean direction, of any length, and the sizes of slip at its ends.
+// A stretch of slip: its length in normal impulse, its mean direction at any length, and the sizes of slip at its ends.
 template <typename T>
 struct Stretch {
   T length;
