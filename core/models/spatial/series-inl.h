@@ -23,6 +23,14 @@
 #include "core/models/spatial/matrix-inl.h"
 #include "core/numerics/lane_number-inl.h"
 
+// Sanitizers watch every access: all terms of all orders in one function would take a compiler minutes.
+#undef RICOCHET_UNROLLED
+#if HWY_IS_ASAN || defined(__SANITIZE_ADDRESS__)
+#define RICOCHET_UNROLLED HWY_NOINLINE
+#else
+#define RICOCHET_UNROLLED HWY_INLINE
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
@@ -166,7 +174,7 @@ void SlipSeries<T>::Expand(const Frame<T>& frame, int order) {
 // Templates unroll the loops over terms, whose changing counts a processor predicts badly.
 template <typename T>
 template <size_t kOrder, size_t k>
-HWY_INLINE void SlipSeries<T>::Terms() {
+RICOCHET_UNROLLED void SlipSeries<T>::Terms() {
   const T inverse{internal::kInverses<Constant<T>>[k + 1]};
   const T x = x_integral_[k + 1] = x_[k] * inverse;
   const T y = y_integral_[k + 1] = y_[k] * inverse;
@@ -202,7 +210,7 @@ HWY_INLINE void SlipSeries<T>::Products(T& u_terms, T& s_terms) const {
 }
 
 template <typename T>
-HWY_INLINE SeriesValues<T> SlipSeries<T>::At(T xi) const {
+RICOCHET_UNROLLED SeriesValues<T> SlipSeries<T>::At(T xi) const {
   T x{0};
   T y{0};
   T s{0};
