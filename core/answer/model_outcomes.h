@@ -62,7 +62,7 @@ absl::Status MakeOutcome(const Impact<kTangential>& impact, const RelativeErrors
 namespace spatial {
 
 // The path between events is not kept, so that there is no history.
-absl::Status MakeOutcome(const Problem& problem, const SpatialReduction& reduction, const Extent& extent,
+absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction, const Extent& extent,
                          Outcome& outcome);
 
 }  // namespace spatial

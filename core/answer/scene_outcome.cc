@@ -12,6 +12,13 @@
 namespace ricochet {
 namespace {
 
+// The coefficients that the model is to use.
+EffectiveCoefficients EffectiveOf(const PlannedScene& planned) {
+  EffectiveCoefficients effective = planned.effective;
+  LeaveOut(planned.choice.left_out, effective.kinetic_friction, effective.static_friction);
+  return effective;
+}
+
 // One scene on its way through the model that was chosen.
 struct Job {
   const Scene& scene;
@@ -20,12 +27,7 @@ struct Job {
   absl::FunctionRef<bool()> stopped;
   Outcome& outcome;
 
-  // The coefficients that the model is to use.
-  EffectiveCoefficients Effective() const {
-    EffectiveCoefficients effective = planned.effective;
-    LeaveOut(planned.choice.left_out, effective.kinetic_friction, effective.static_friction);
-    return effective;
-  }
+  EffectiveCoefficients Effective() const { return EffectiveOf(planned); }
 
   // The part of the tolerance that the effects left out do not use.
   double Tolerance() const { return ToleranceLeft(options.demand.relative_tolerance, planned.choice.negligible); }
@@ -92,10 +94,8 @@ absl::Status SolveContact(const Job& job, const SpatialReduction& reduction) {
   if (job.planned.choice.model == Model::kSliding) {
     return SolveStraight(job, sliding::Solve(sliding::MakeProblem(reduction, effective)), reduction);
   }
-  const double tolerance =
-      job.planned.choice.model == Model::kNone ? spatial::kMostTolerance : job.planned.choice.model_tolerance;
-  return spatial::MakeOutcome(spatial::MakeProblem(reduction, job.scene.restitution, effective, tolerance), reduction,
-                              extent, job.outcome);
+  return spatial::MakeOutcome(spatial::Solve(SpatialProblemOf(job.scene, reduction, job.planned)), reduction, extent,
+                              job.outcome);
 }
 
 absl::Status SolvePendulum(const Job& job, const pendulum::Problem& stated) {
@@ -115,9 +115,19 @@ absl::Status ContactOverflow() {
       "smallest");
 }
 
+spatial::Problem SpatialProblemOf(const Scene& scene, const SpatialReduction& reduction, const PlannedScene& planned) {
+  const double tolerance =
+      planned.choice.model == Model::kNone ? spatial::kMostTolerance : planned.choice.model_tolerance;
+  return spatial::MakeProblem(reduction, scene.restitution, EffectiveOf(planned), tolerance);
+}
+
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const SolveOptions& options,
                         absl::FunctionRef<bool()> stopped, Outcome& outcome) {
-  const PlannedScene planned = PlanScene(scene, contact, options.demand);
+  return SolvePlanned(scene, contact, PlanScene(scene, contact, options.demand), options, stopped, outcome);
+}
+
+absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
+                          const SolveOptions& options, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
   const Job job = {.scene = scene, .options = options, .planned = planned, .stopped = stopped, .outcome = outcome};
   absl::Status status =

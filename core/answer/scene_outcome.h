@@ -11,7 +11,9 @@
 #include "absl/status/statusor.h"
 #include "core/answer/outcome_parts.h"
 #include "core/contact/scene_contact.h"
+#include "core/models/spatial/spatial.h"
 #include "core/plan/demand.h"
+#include "core/plan/planned_scene.h"
 #include "ricochet/outcome.h"
 #include "ricochet/plan.h"
 #include "ricochet/scene.h"
@@ -31,6 +33,13 @@ struct SolveOptions {
 // An impact that takes time asks `stopped` every few steps and ends soon after it says true, with CANCELLED.
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const SolveOptions& options,
                         absl::FunctionRef<bool()> stopped, Outcome& outcome);
+
+// The second half of SolveScene, for a scene that PlanScene has planned.
+absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
+                          const SolveOptions& options, absl::FunctionRef<bool()> stopped, Outcome& outcome);
+
+// The problem of a scene that is planned for the spatial model, or that separates.
+spatial::Problem SpatialProblemOf(const Scene& scene, const SpatialReduction& reduction, const PlannedScene& planned);
 
 // Plans such a scene without computing it.
 // Errors: ContactOverflow.

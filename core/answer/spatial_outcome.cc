@@ -2,9 +2,8 @@
 
 namespace ricochet::spatial {
 
-absl::Status MakeOutcome(const Problem& problem, const SpatialReduction& reduction, const Extent& extent,
+absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction, const Extent& extent,
                          Outcome& outcome) {
-  const Impact impact = Solve(problem);
   SetEnd(impact, reduction, 0.0, outcome);
   outcome.accuracy = {.relative_error = impact.error_estimate,
                       .kind = AccuracyKind::kEstimate,

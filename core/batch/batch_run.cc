@@ -13,6 +13,7 @@
 #include "core/batch/check_rows.h"
 #include "core/contact/scene_contact.h"
 #include "core/plan/demand_fields.h"
+#include "core/plan/planned_scene.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
 #include "core/sweep/column.h"
@@ -80,25 +81,38 @@ bool BatchRun::SetRow(const BatchRows& rows, size_t i) {
   return keeps_rules;
 }
 
-// Returns nothing if it was stopped.
-std::optional<BatchRun::Row> BatchRun::SolveRow(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped) {
-  Row row;
+// Checks and plans a row, and solves it unless the spatial lanes do. Returns nothing if it was stopped.
+std::optional<BatchRun::Begun> BatchRun::BeginRow(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped) {
+  Begun begun;
   std::optional<SceneContact> contact;
   if (!SetRow(rows, i) || (has_relations_ && !KeepsRelations(scene_, nullptr, contact))) {
-    row.status = RowStatus::kInvalid;
-    return row;
+    begun.row.status = RowStatus::kInvalid;
+    return begun;
   }
+  begun.lane = spatial_.Add(scene_, demand_, contact);
+  if (begun.lane.has_value()) return begun;
+  const PlannedScene planned = PlanScene(scene_, contact, demand_);
+  begun.lane = spatial_.Add(scene_, planned, contact);
+  if (begun.lane.has_value()) return begun;
+  if (stopped()) return std::nullopt;
   Outcome outcome;
-  const absl::Status solved =
-      SolveScene(scene_, contact, {.extent = {.detail = Detail::kNumbers}, .demand = demand_}, stopped, outcome);
+  const absl::Status solved = SolvePlanned(
+      scene_, contact, planned, {.extent = {.detail = Detail::kNumbers}, .demand = demand_}, stopped, outcome);
   if (absl::IsCancelled(solved)) return std::nullopt;
-  if (!solved.ok()) {
-    row.status = RowStatus::kNotRepresentable;
-    return row;
+  if (solved.ok()) {
+    begun.row = RowOf(rows, i, outcome);
+  } else {
+    begun.row.status = RowStatus::kNotRepresentable;
   }
-  row.status = outcome.admissible ? RowStatus::kOk : RowStatus::kInadmissible;
-  row.regime = outcome.regime;
-  row.model = outcome.plan.model;
+  return begun;
+}
+
+// Writes the numbers of a row.
+BatchRun::Row BatchRun::RowOf(const BatchRows& rows, size_t i, const Outcome& outcome) {
+  Row row = {.status = outcome.admissible ? RowStatus::kOk : RowStatus::kInadmissible,
+             .regime = outcome.regime,
+             .model = outcome.plan.model,
+             .too_large = std::nullopt};
   ReadColumns(outcome, numbers_);
   for (size_t c = 0; c < columns_.size(); ++c) rows.outputs[c][i] = numbers_[positions_of_[c]];
   CheckNumbers(rows, i, row);
@@ -115,11 +129,30 @@ void BatchRun::CheckNumbers(const BatchRows& rows, size_t i, Row& row) const {
   }
 }
 
-// Returns false if it was stopped.
-bool BatchRun::SolveAlone(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped, BatchSummary& summary) {
-  const std::optional<Row> row = SolveRow(rows, i, stopped);
-  if (row.has_value()) Finish(rows, i, *row, summary);
-  return row.has_value();
+// Solves rows that need a scene each, and finishes them in their order. Returns false if it was stopped.
+bool BatchRun::SolveScenes(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
+                           BatchSummary& summary) {
+  begun_.clear();
+  spatial_.Clear();
+  if (stopped()) return false;
+  for (size_t k = 0; k < count; ++k) {
+    const std::optional<Begun> begun = BeginRow(rows, first + k, stopped);
+    if (!begun.has_value()) return false;
+    begun_.push_back(*begun);
+  }
+  spatial_.Solve();
+  for (size_t k = 0; k < count; ++k) {
+    Row& row = begun_[k].row;
+    if (begun_[k].lane.has_value()) {
+      Outcome outcome;
+      spatial_.SetOutcome(*begun_[k].lane, outcome);
+      row = RowOf(rows, first + k, outcome);
+    }
+    // The scene has to be that of a row that is described.
+    if (!HasNumbers(row.status)) SetRow(rows, first + k);
+    Finish(rows, first + k, row, summary);
+  }
+  return true;
 }
 
 // Returns false if it was stopped. The rows are finished in their order.
@@ -134,7 +167,7 @@ bool BatchRun::SolveBlock(const BatchRows& rows, size_t first, size_t count, abs
   const SceneLanes::Block& block = lanes_->block();
   for (size_t k = 0; k < count; ++k) {
     if (block.models[k] == Model::kUnspecified) {
-      if (!SolveAlone(rows, first + k, stopped, summary)) return false;
+      if (!SolveScenes(rows, first + k, 1, stopped, summary)) return false;
       continue;
     }
     Row row = {.status = block.inadmissible[k] ? RowStatus::kInadmissible : RowStatus::kOk,
@@ -151,10 +184,7 @@ bool BatchRun::SolveBlock(const BatchRows& rows, size_t first, size_t count, abs
 bool BatchRun::SolveSome(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
                          BatchSummary& summary) {
   if (lanes_ != nullptr) return SolveBlock(rows, first, count, stopped, summary);
-  for (size_t i = first; i < first + count; ++i) {
-    if (stopped() || !SolveAlone(rows, i, stopped, summary)) return false;
-  }
-  return true;
+  return SolveScenes(rows, first, count, stopped, summary);
 }
 
 absl::StatusOr<BatchSummary> BatchRun::Solve(const BatchRows& rows, absl::FunctionRef<bool()> stopped) {

@@ -14,6 +14,7 @@
 #include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "core/answer/spatial_lanes.h"
 #include "core/batch/lane_rows.h"
 #include "core/plan/demand.h"
 #include "core/scene/driven_fields.h"
@@ -52,11 +53,18 @@ class BatchRun {
   explicit BatchRun(const BatchSetup& setup);
   absl::Status Prepare(const BatchSetup& setup);
   bool SetRow(const BatchRows& rows, size_t i);
-  std::optional<Row> SolveRow(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped);
+  // A row on its way: its result, or its place among the spatial lanes.
+  struct Begun {
+    Row row;
+    std::optional<size_t> lane;
+  };
+  std::optional<Begun> BeginRow(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped);
+  Row RowOf(const BatchRows& rows, size_t i, const Outcome& outcome);
   void CheckNumbers(const BatchRows& rows, size_t i, Row& row) const;
   bool SolveBlock(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
                   BatchSummary& summary);
-  bool SolveAlone(const BatchRows& rows, size_t i, absl::FunctionRef<bool()> stopped, BatchSummary& summary);
+  bool SolveScenes(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
+                   BatchSummary& summary);
   bool SolveSome(const BatchRows& rows, size_t first, size_t count, absl::FunctionRef<bool()> stopped,
                  BatchSummary& summary);
   void FinishBlock(const BatchRows& rows, size_t first, size_t count, BatchSummary& summary) const;
@@ -73,6 +81,8 @@ class BatchRun {
   std::vector<size_t> positions_of_;  // Their positions among all columns of the scene.
   std::vector<double> numbers_;       // All columns of one row.
   std::unique_ptr<LaneRows> lanes_;   // Null if the rows need a scene each.
+  SpatialLanes spatial_;              // The rows of the current block that are solved together in space.
+  std::vector<Begun> begun_;          // All rows of the current block that need a scene each.
 };
 
 }  // namespace ricochet

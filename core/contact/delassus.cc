@@ -18,7 +18,10 @@ int SpatialDelassus::Rank() const {
   int exponent = 0;
   (void)std::frexp(std::max({w[0], w[3], w[5]}), &exponent);
   std::array<double, 6> scaled = {};
-  for (size_t i = 0; i < w.size(); ++i) scaled[i] = std::scalbn(w[i], -exponent);
+  // Where this power of two is a double, to multiply by it is to scale by its exponent.
+  const double power = std::scalbn(1.0, -exponent);
+  const bool is_double = std::isfinite(power);
+  for (size_t i = 0; i < w.size(); ++i) scaled[i] = is_double ? w[i] * power : std::scalbn(w[i], -exponent);
   const auto& [w11, w12, w13, w22, w23, w33] = scaled;
   const double m11 = Determinant(w11, w13, w13, w33);
   const double m22 = Determinant(w22, w23, w23, w33);

@@ -289,6 +289,16 @@ double SmallestScaledEigenvalue(const std::vector<double>& upper) {
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
 }
 
+bool IsSurelyDefinite(absl::Span<const double> upper) {
+  // The product of three such numbers is normal.
+  const auto is_moderate = [](double size) { return size >= 0x1p-300 && size <= 0x1p300; };
+  const double w11 = upper[0], w12 = upper[1], w13 = upper[2], w22 = upper[3], w23 = upper[4], w33 = upper[5];
+  if (!is_moderate(w11) || !is_moderate(w22) || !is_moderate(w33) || !(w12 * w12 < w11 * w22)) return false;
+  const double diagonal = w11 * w22 * w33;
+  const double others = 2.0 * (w12 * w13 * w23) - w11 * (w23 * w23) - w22 * (w13 * w13) - w33 * (w12 * w12);
+  return diagonal + others > 0x1p-10 * diagonal;
+}
+
 static double ContactEnergy(const SpatialReduction& reduction) {
   const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
   const Eigen::Vector3d scales = InverseScales(matrix);
@@ -312,6 +322,7 @@ double ContactEnergy(const AnyReduction& any) {
 }
 
 double ShareOutsideRange(const SpatialReduction& reduction) {
+  if (IsSurelyDefinite(reduction.w)) return 0.0;
   const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
   const Eigen::Vector3d scales = InverseScales(matrix);
   const Eigen::Vector3d velocity(reduction.u0[0], reduction.u0[1], reduction.v0);

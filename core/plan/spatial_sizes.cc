@@ -117,13 +117,15 @@ Turn Supposing(const Scaled& contact, double angle) {
   return {.angle = contact.turning * passed / left * (1.0 + 0x1p-20), .least_slip = std::min(contact.slip, end)};
 }
 
-// Tries a few angles and returns the bounds of the smallest one that proves itself.
+// Tries a few angles and returns the bounds of the smallest one that proves itself. Where nothing follows from an
+// angle, nothing follows from a larger one.
 Turn LargestTurn(const Scaled& contact) {
   if (!(contact.slip > 0.0)) return {};
   double angle = 1.5 * contact.turning / (contact.slip * contact.SlideSlope());
   for (int i = 0; i < 8; ++i, angle *= 2.0) {
     const Turn turn = Supposing(contact, angle);
     if (turn.angle < angle) return turn;
+    if (turn.angle == kUnbounded) break;
   }
   return {};
 }

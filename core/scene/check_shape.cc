@@ -47,7 +47,7 @@ Violation MatrixViolation(const std::string& field, const std::vector<double>& u
 bool CheckMatrix(const std::string& field, const std::vector<double>& upper, double least, const char* rule,
                  Check& check) {
   if (!check.Length(field, upper.size(), 6) || !AllFinite(upper)) return false;
-  const bool holds = SmallestScaledEigenvalue(upper) > least;
+  const bool holds = IsSurelyDefinite(upper) || SmallestScaledEigenvalue(upper) > least;
   check.Require(holds, [&] { return MatrixViolation(field, upper, rule); });
   return holds;
 }

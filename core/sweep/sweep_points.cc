@@ -7,6 +7,8 @@
 #include <optional>
 
 #include "core/answer/scene_outcome.h"
+#include "core/contact/reduction.h"
+#include "core/plan/planned_scene.h"
 #include "core/sweep/column.h"
 
 namespace ricochet {
@@ -63,11 +65,12 @@ absl::StatusOr<int64_t> SweepPoints::Compute(int64_t first, int64_t count, absl:
 
 absl::StatusOr<int64_t> SweepPoints::SolvePoints(int64_t first, int64_t count, absl::FunctionRef<bool()> stopped,
                                                  absl::FunctionRef<bool()> is_enough) {
-  for (int64_t i = 0; i < count; ++i) {
-    if (i > 0 && is_enough()) return i;
-    if (i > 0 && stopped()) return Stopped();
-    GoTo(first + i);
-    if (!SolvePoint(static_cast<size_t>(i), stopped)) return Stopped();
+  const int64_t together = TangentialDirections(driven_.scene().system) == 2 ? kTogether : 1;
+  for (int64_t done = 0; done < count; done += together) {
+    if (done > 0 && is_enough()) return done;
+    if (done > 0 && stopped()) return Stopped();
+    const int64_t size = std::min(together, count - done);
+    if (!SolveTogether(first, static_cast<size_t>(done), static_cast<size_t>(size), stopped)) return Stopped();
   }
   return count;
 }
@@ -82,25 +85,62 @@ void SweepPoints::GoTo(int64_t index) {
   at_ = index;
 }
 
-// Returns false if it was stopped.
-bool SweepPoints::SolvePoint(size_t i, absl::FunctionRef<bool()> stopped) {
+// Solves the points [from, from + count) of those that begin at `first`. Returns false if it was stopped.
+bool SweepPoints::SolveTogether(int64_t first, size_t from, size_t count, absl::FunctionRef<bool()> stopped) {
+  spatial_.Clear();
+  in_spatial_.clear();
+  for (size_t i = from; i < from + count; ++i) {
+    if (i > from && stopped()) return false;
+    GoTo(first + static_cast<int64_t>(i));
+    if (!BeginPoint(i, stopped)) return false;
+  }
+  spatial_.Solve();
+  for (const auto& [i, place] : in_spatial_) {
+    Outcome outcome;
+    spatial_.SetOutcome(place, outcome);
+    SetPoint(i, outcome);
+  }
+  return true;
+}
+
+// Checks and plans a point, and solves it unless the spatial lanes do. Returns false if it was stopped.
+bool SweepPoints::BeginPoint(size_t i, absl::FunctionRef<bool()> stopped) {
   std::optional<SceneContact> contact;
+  const Scene& scene = driven_.scene();
   statuses_[i] = driven_.IsValid(contact) ? RowStatus::kOk : RowStatus::kInvalid;
   if (statuses_[i] != RowStatus::kOk) return true;
+  std::optional<size_t> place = spatial_.Add(scene, sweep_.demand, contact);
+  if (!place.has_value()) {
+    const PlannedScene planned = PlanScene(scene, contact, sweep_.demand);
+    place = spatial_.Add(scene, planned, contact);
+    if (!place.has_value()) return SolvePlannedPoint(i, contact, planned, stopped);
+  }
+  in_spatial_.emplace_back(i, *place);
+  return true;
+}
+
+// Returns false if it was stopped.
+bool SweepPoints::SolvePlannedPoint(size_t i, const std::optional<SceneContact>& contact, const PlannedScene& planned,
+                                    absl::FunctionRef<bool()> stopped) {
   Outcome outcome;
-  const absl::Status status = SolveScene(
-      driven_.scene(), contact, {.extent = {.detail = Detail::kNumbers}, .demand = sweep_.demand}, stopped, outcome);
+  const absl::Status status =
+      SolvePlanned(driven_.scene(), contact, planned, {.extent = {.detail = Detail::kNumbers}, .demand = sweep_.demand},
+                   stopped, outcome);
   if (absl::IsCancelled(status)) return false;
   if (!status.ok()) {
     statuses_[i] = RowStatus::kNotRepresentable;
     return true;
   }
+  SetPoint(i, outcome);
+  return true;
+}
+
+void SweepPoints::SetPoint(size_t i, const Outcome& outcome) {
   regimes_[i] = outcome.regime;
   models_[i] = outcome.plan.model;
   inadmissible_[i] = !outcome.admissible;
   ReadColumns(outcome, numbers_);
   for (size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = numbers_[sweep_.positions[c]];
-  return true;
 }
 
 absl::Status SweepPoints::SolveInLanes(int64_t first, int64_t count, SweepSummary& tallies,
@@ -134,8 +174,7 @@ absl::Status SweepPoints::SolveBlock(int64_t first, size_t from, size_t count, a
   for (size_t i = 0; i < count; ++i) {
     if (block_->models[i] != Model::kUnspecified) continue;
     if (stopped()) return Stopped();
-    GoTo(at + static_cast<int64_t>(i));
-    if (!SolvePoint(from + i, stopped)) return Stopped();
+    if (!SolveTogether(first, from + i, 1, stopped)) return Stopped();
   }
   return absl::OkStatus();
 }

@@ -8,12 +8,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
 #include "core/answer/scene_lanes.h"
+#include "core/answer/spatial_lanes.h"
 #include "core/sweep/checked_sweep.h"
 #include "core/sweep/driven_scene.h"
 #include "core/sweep/point_columns.h"
@@ -28,6 +31,9 @@ class SweepPoints {
   // The most points of a block: those of a pendulum's SIMD lanes take well below a microsecond each.
   static constexpr int64_t kMostPoints = 1024;
 
+  // Points in space are solved together in groups of so many, each of which takes about a microsecond.
+  static constexpr int64_t kTogether = 128;
+
   // The sweep must outlive this object.
   explicit SweepPoints(const CheckedSweep& sweep);
   ~SweepPoints();
@@ -37,7 +43,8 @@ class SweepPoints {
   // Computes points from `first` on, `count` <= kMostPoints of them unless `is_enough` ends the block after fewer.
   // `columns` has the place of the first point's value in each column; `regimes` and `statuses` have room for `count`, or
   // none if they are not wanted. The points are added to `tallies`. Returns how many they are.
-  // Both functions are asked before each point, `stopped` alone before the first; SIMD lanes ask `stopped` once a block.
+  // Both functions are asked before each point, `stopped` alone before the first; SIMD lanes ask `stopped` once a
+  // block, and points in space `is_enough` before each kTogether of them.
   // Errors: CANCELLED once `stopped` returns true.
   absl::StatusOr<int64_t> Compute(int64_t first, int64_t count, absl::Span<double* const> columns,
                                   absl::Span<Regime> regimes, absl::Span<RowStatus> statuses, SweepSummary& tallies,
@@ -50,7 +57,11 @@ class SweepPoints {
   absl::StatusOr<int64_t> SolvePoints(int64_t first, int64_t count, absl::FunctionRef<bool()> stopped,
                                       absl::FunctionRef<bool()> is_enough);
   void GoTo(int64_t index);
-  bool SolvePoint(size_t i, absl::FunctionRef<bool()> stopped);
+  bool SolveTogether(int64_t first, size_t from, size_t count, absl::FunctionRef<bool()> stopped);
+  bool BeginPoint(size_t i, absl::FunctionRef<bool()> stopped);
+  bool SolvePlannedPoint(size_t i, const std::optional<SceneContact>& contact, const PlannedScene& planned,
+                         absl::FunctionRef<bool()> stopped);
+  void SetPoint(size_t i, const Outcome& outcome);
   absl::Status SolveInLanes(int64_t first, int64_t count, SweepSummary& tallies, absl::FunctionRef<bool()> stopped);
   absl::Status SolveBlock(int64_t first, size_t from, size_t count, absl::FunctionRef<bool()> stopped);
   const SceneLanes::Columns& ColumnsOfScenes(int64_t first, size_t count);
@@ -69,6 +80,9 @@ class SweepPoints {
   std::unique_ptr<SceneLanes::Block> block_;
   std::unique_ptr<PointColumns> point_columns_;  // If the lanes take fields,
   std::unique_ptr<SceneColumns> scene_columns_;  // else.
+
+  SpatialLanes spatial_;                               // Points that are solved together in space,
+  std::vector<std::pair<size_t, size_t>> in_spatial_;  // and their numbers in the call, with their places there.
 
   // The points of one call.
   std::vector<Regime> regimes_;

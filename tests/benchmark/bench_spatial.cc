@@ -8,6 +8,7 @@
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
 #include "core/models/planar/planar.h"
+#include "core/models/spatial/columns.h"
 #include "core/models/spatial/spatial.h"
 #include "tests/benchmark/measure.h"
 #include "tests/support/known_contacts.h"
@@ -72,11 +73,32 @@ void Measure(const char* what, const std::vector<Problem>& problems) {
                         errors.largest, terms / kCount, time.ratio));
 }
 
+// The same impacts together, in SIMD lanes.
+void MeasureColumns(const char* what, const std::vector<Problem>& problems) {
+  std::vector<spatial::Impact> impacts(problems.size());
+  const Comparison time = Compare(
+      kRounds,
+      [&] {
+        SolveColumns(problems, absl::MakeSpan(impacts));
+        Keep(impacts.back().v1);
+      },
+      [&] {
+        double sum = 0.0;
+        for (const Problem& problem : problems) sum += Solve(problem).v1;
+        Keep(sum);
+      });
+  Print(absl::StrFormat("%s in columns, tolerance %.0e", what, problems[0].tolerance),
+        absl::StrFormat("%.0f ns", time.seconds_a / kCount * 1e9),
+        absl::StrFormat("%.2f of single impacts", time.ratio));
+}
+
 void RunAll() {
   std::printf("Spatial impact, one solve\n");
   for (const double tolerance : {1e-3, 1e-6, 1e-10}) {
     spatial::SceneSource typical(1);
-    Measure("1000 typical scenes", Problems(tolerance, [&] { return typical.Typical(); }));
+    const std::vector<Problem> problems = Problems(tolerance, [&] { return typical.Typical(); });
+    Measure("1000 typical scenes", problems);
+    MeasureColumns("1000 typical scenes", problems);
     spatial::SceneSource singular(2);
     Measure("1000 nearly singular scenes", Problems(tolerance, [&] { return singular.NearSingular(); }));
   }

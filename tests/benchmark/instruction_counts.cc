@@ -25,7 +25,7 @@ namespace {
 constexpr int kCannotRun = 77;
 constexpr int64_t kPoints = 4096;
 constexpr size_t kRows = 256;
-constexpr size_t kWorks = 11;
+constexpr size_t kWorks = 12;
 
 struct Work {
   const char* name;
@@ -118,6 +118,24 @@ double SolveRows() {
   return impulse.back();
 }
 
+// Rows in space of which some turn much and others little.
+double SolveRowsInSpace() {
+  const BatchSetup setup = {.scene = SpaceScene(),
+                            .fields = {"spatial_contact.tangential_m_s[0]", "friction.kinetic_coefficient"},
+                            .columns = {"contact_velocity_after.tangential_m_s[0]", "impulse.normal_total_n_s"}};
+  std::vector<double> slip(kPoints);
+  std::vector<double> friction(kPoints);
+  for (size_t i = 0; i < slip.size(); ++i) {
+    slip[i] = 0.001 * static_cast<double>(i) - 0.5;
+    friction[i] = 0.1 + 0.01 * static_cast<double>(i % 50);
+  }
+  std::vector<double> slip_after(kPoints);
+  std::vector<double> impulse(kPoints);
+  Value(OneThread().SolveBatch(
+      setup, {.inputs = {slip, friction}, .outputs = {absl::MakeSpan(slip_after), absl::MakeSpan(impulse)}}));
+  return impulse.back();
+}
+
 const std::vector<Work>& Works() {
   static const std::vector<Work> works = {
       {"solve_pendulum", [] { return Solve(PendulumScene()); }},
@@ -142,6 +160,7 @@ const std::vector<Work>& Works() {
          return Value(OneThread().Plan(request)).plan.neglected;
        }},
       {"batch_planar_contact", SolveRows},
+      {"batch_spatial_contact", SolveRowsInSpace},
   };
   return works;
 }

@@ -15,43 +15,35 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "core/models/restitution_law.h"
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
 #include "core/models/spatial/path_error-inl.h"
 #include "core/models/spatial/problem-inl.h"
+#include "core/models/spatial/step_errors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
-
-// The error of one step to leading order, and one like what that leaves out.
-template <typename T>
-struct StepError {
-  PathError<T> known, rest;
-};
 
 template <typename T>
 class ErrorLedger {
  public:
   explicit ErrorLedger(const ScaledProblem<T>& problem) : problem_(problem) {}
 
-  // Adds an error of the friction impulse, in the norm sqrt(df^T Wtt df).
-  void AddFrictionError(T error) { friction_ += error; }
-  // The rounding of the direction of slip, in the same norm.
-  T SlipRounding(T slip) const { return kEpsilon<T> * slip / problem_.smallest_root; }
+  // The errors before a step of slip that turns, and those after it.
+  const StepErrors<T>& BeforeStep() const { return sum_; }
+  void SetAfterStep(const StepErrors<T>& errors) { sum_ = errors; }
+  // Adds the rounding of the direction of slip.
+  void AddSlipRounding(T slip) { sum_.friction += StepErrors<T>::SlipRounding(problem_, slip); }
   // Slip is turned by the friction impulse (f1, f2).
-  void AddTurn(T f1, T f2) { AddKnown({.known = {.f1 = -f1, .f2 = -f2}, .rest = {}}); }
-  // Adds a step of curved slip over the normal impulse `length`, from slip along e to slip along `next_e`.
-  void AddStep(const StepError<T>& error, T length, const Direction<T>& e, T slip, const Direction<T>& next_e,
-               T next_slip, T v);
+  void AddTurn(T f1, T f2) { sum_.AddKnown(problem_.w, {.known = {.f1 = -f1, .f2 = -f2}, .rest = {}}); }
   // Adds a straight piece over `length`, with `slip` along e at its start and v at its end.
   void AddStraightSlip(const Direction<T>& e, T length, T slip, T next_slip, T v);
   // Adds a piece without slip.
   void AddStick(T length, T v);
   // Adds a piece without friction.
-  void AddFree(T length, T v) { AddRounding(problem_.w.w33 * length, v, length); }
+  void AddFree(T length, T v) { sum_.AddRounding(problem_, problem_.w.w33 * length, v, length); }
   // Sets the distance from an event, in normal impulse, at which root finding stopped.
   void SetEventOffset(T offset) { event_offset_ = offset; }
   // Says that the path came so near to a goal, or so little beyond it, that the true path may not agree: `gap` is the
@@ -63,7 +55,7 @@ class ErrorLedger {
   // Slip stops at tau. What is known of its errors is no longer carried linearly.
   void StopSlip(T tau) {
     stop_tau_ = tau;
-    CountByNorm();
+    sum_.CountByNorm(problem_.w, true);
   }
   void Stick(const Sticking<T>& sticking);
   // Closes the account of compression, which ends at the state of `path` with these slopes.
@@ -72,26 +64,15 @@ class ErrorLedger {
   T EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) const;
 
  private:
-  // The known error is a linear estimate of an error that is not: it counts so often, its doubt is this part of it, and
-  // this part of it in addition counts by its norm, as an error of any direction.
+  // The known error is a linear estimate of an error that is not: it counts so often.
   static constexpr T kSafety{2};
-  static constexpr T kDoubt{0.5};
-  static constexpr T kAnyDirection{0.13};
 
   // Errors of the end of compression: of its normal impulse and of its normal work.
   struct Compression {
     T impulse{0}, work{0};
   };
 
-  void AddKnown(const StepError<T>& error);
-  void AddRounding(T change_of_v, T v, T length) {
-    v_rounding_ += kEpsilon<T> * (change_of_v + T{0.5} * std::fabs(v));
-    work_ += VelocityError() * length;
-  }
-  void Carry(T m1, T m2, T length, const SlipSizes<T>& slip);
-  void CountByNorm();
-  T KnownSlipError() const;
-  T VelocityError() const { return problem_.normal_root * friction_ + v_rounding_; }
+  T VelocityError() const { return sum_.VelocityError(problem_); }
   // A bound on the error, in normal impulse, of the event at which v reaches its target. For a slope near 0 it is the
   // bound of a double root.
   T ImpulseErrorOfVelocityEvent(T error, const Slopes<T>& slopes) const {
@@ -115,12 +96,9 @@ class ErrorLedger {
 
   const ScaledProblem<T>& problem_;
   // The scaled errors so far.
-  PathError<T> known_, doubtful_;
+  StepErrors<T> sum_;
   Compression known_compression_, doubtful_compression_, compression_;
-  T friction_{0};  // of the friction impulse, in the norm above
-  T v_rounding_{0};
   T u_rounding_{0};
-  T work_{0};  // of the normal work in this phase
   T event_offset_{0};
   T compression_end_v_{0};      // the v found in place of 0
   T stop_tau_ = -kInfinity<T>;  // where slip stopped, from the start of the phase
@@ -129,87 +107,47 @@ class ErrorLedger {
   Slopes<T> slip_slopes_ = {T{0}, T{0}, T{0}};
 };
 template <typename T>
-void ErrorLedger<T>::AddStep(const StepError<T>& error, T length, const Direction<T>& e, T slip,
-                             const Direction<T>& next_e, T next_slip, T v) {
-  Carry(e.c + next_e.c, e.s + next_e.s, length, {slip, next_slip});
-  AddKnown(error);
-  if (next_slip < T{4} * KnownSlipError()) CountByNorm();
-  AddFrictionError(SlipRounding(slip));
-  AddRounding(problem_.w.w33 * length, v, length);
-}
-
-template <typename T>
 void ErrorLedger<T>::AddStraightSlip(const Direction<T>& e, T length, T slip, T next_slip, T v) {
-  Carry(e.c, e.s, length, {slip, next_slip});
+  sum_.Carry(problem_, {.length = length, .m = e, .slip = {slip, next_slip}});
   u_rounding_ += kEpsilon<T> * (problem_.rate * length + T{0.5} * slip);
-  AddRounding(T{2} * problem_.steepest * length, v, length);
+  sum_.AddRounding(problem_, T{2} * problem_.steepest * length, v, length);
 }
 
 // The true path sticks a little later, and is off by no more than before until then.
 template <typename T>
 void ErrorLedger<T>::AddStick(T length, T v) {
   const T unsettled = std::min(length, settles_);
-  work_ += problem_.normal_root * friction_ * unsettled;
-  if (!(settles_ > length)) friction_ = T{0};
+  sum_.work += problem_.normal_root * sum_.friction * unsettled;
+  if (!(settles_ > length)) sum_.friction = T{0};
   settles_ -= unsettled;
-  v_rounding_ += kEpsilon<T> * (T{2} * problem_.w.w33 * length + T{0.5} * std::fabs(v));
-  work_ += v_rounding_ * length;
-}
-
-// Doubts add up: they take the sign of the sum so far.
-template <typename T>
-void ErrorLedger<T>::AddKnown(const StepError<T>& error) {
-  const Matrix<T>& w = problem_.w;
-  known_.Add(error.known, T{1});
-  AddFrictionError(kAnyDirection * error.known.Norm(w));
-  for (const auto& [doubt, part] : {std::pair(&error.known, kDoubt), std::pair(&error.rest, T{1})}) {
-    const T product = doubtful_.f1 * doubt->Velocity1(w) + doubtful_.f2 * doubt->Velocity2(w);
-    doubtful_.Add(*doubt, std::copysign(part, product));
-  }
-}
-
-template <typename T>
-T ErrorLedger<T>::KnownSlipError() const {
-  return Size(known_.Velocity1(problem_.w), known_.Velocity2(problem_.w));
-}
-
-// Carries the known error over slip in the direction of (m1, m2).
-template <typename T>
-void ErrorLedger<T>::Carry(T m1, T m2, T length, const SlipSizes<T>& slip) {
-  if (known_.f1 == T{0} && known_.f2 == T{0}) return;
-  const Decay<T> decay = DecayOver(problem_.w, problem_.mu, m1, m2, length, slip, KnownSlipError());
-  known_.CarryOver(problem_.w, decay);
-  doubtful_.CarryOver(problem_.w, decay);
-}
-
-template <typename T>
-void ErrorLedger<T>::CountByNorm() {
-  friction_ += known_.Norm(problem_.w) + doubtful_.Norm(problem_.w);
-  known_.f1 = known_.f2 = doubtful_.f1 = doubtful_.f2 = T{0};
+  sum_.v_rounding += kEpsilon<T> * (T{2} * problem_.w.w33 * length + T{0.5} * std::fabs(v));
+  sum_.work += sum_.v_rounding * length;
 }
 
 template <typename T>
 void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
   const T margin = problem_.mu - Size(sticking.f1, sticking.f2);
-  settles_ = friction_ == T{0} ? T{0} : margin > T{0} ? friction_ / (problem_.smallest_root * margin) : kInfinity<T>;
-  if (sticking.v_slope == T{0}) friction_ = T{0};
+  settles_ = sum_.friction == T{0} ? T{0}
+             : margin > T{0}       ? sum_.friction / (problem_.smallest_root * margin)
+                                   : kInfinity<T>;
+  if (sticking.v_slope == T{0}) sum_.friction = T{0};
   if (sticking.v_slope == T{0}) return;
   // A stop at the wrong impulse leaves in v the difference of the two slopes times the error of that impulse.
   const Slopes<T>& before = slip_slopes_;
   const T slowing = Size(before.u1, before.u2);
-  if (slowing > T{0}) v_rounding_ += std::fabs(before.v - sticking.v_slope) * (u_rounding_ / slowing);
+  if (slowing > T{0}) sum_.v_rounding += std::fabs(before.v - sticking.v_slope) * (u_rounding_ / slowing);
   u_rounding_ = T{0};
 }
 
 template <typename T>
 void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes) {
-  const T doubtful = std::fabs(doubtful_.NormalVelocity(problem_.w));
+  const T doubtful = std::fabs(sum_.doubtful.NormalVelocity(problem_.w));
   compression_ = {.impulse = ImpulseErrorOfVelocityEvent(VelocityError() + doubtful, slopes) + event_offset_,
-                  .work = work_ + std::fabs(doubtful_.work) + WorkRounding(path.state)};
-  known_compression_ = {.impulse = ImpulseErrorOfVelocityEvent(known_.NormalVelocity(problem_.w), slopes),
-                        .work = known_.work};
+                  .work = sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state)};
+  known_compression_ = {.impulse = ImpulseErrorOfVelocityEvent(sum_.known.NormalVelocity(problem_.w), slopes),
+                        .work = sum_.known.work};
   compression_end_v_ = path.state.v;
-  event_offset_ = work_ = known_.work = doubtful_.work = T{0};
+  event_offset_ = sum_.work = sum_.known.work = sum_.doubtful.work = T{0};
   stop_tau_ -= path.state.tau;
 }
 
@@ -235,13 +173,14 @@ T ErrorLedger<T>::GoalError(const Path<T>& path) const {
   const Matrix<T>& w = problem_.w;
   switch (path.goal.quantity) {
     case Quantity::kVelocity:
-      return VelocityError() + kSafety * std::fabs(known_.NormalVelocity(w)) + std::fabs(doubtful_.NormalVelocity(w));
+      return VelocityError() + kSafety * std::fabs(sum_.known.NormalVelocity(w)) +
+             std::fabs(sum_.doubtful.NormalVelocity(w));
     case Quantity::kImpulse:
       return T{0};
     case Quantity::kWork:
       break;
   }
-  return work_ + kSafety * std::fabs(known_.work) + std::fabs(doubtful_.work) + WorkRounding(path.state);
+  return sum_.work + kSafety * std::fabs(sum_.known.work) + std::fabs(sum_.doubtful.work) + WorkRounding(path.state);
 }
 
 template <typename T>
@@ -255,13 +194,15 @@ T ErrorLedger<T>::EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) co
   const Matrix<T>& w = problem_.w;
   // Poisson's impulse may have been spent at a v whose sign is in doubt.
   const bool v_is_turned = problem_.law == RestitutionLaw::kPoisson && path.goal.quantity == Quantity::kVelocity;
-  const T v_found = v_is_turned ? std::fabs(compression_end_v_) + kSafety * std::fabs(known_.NormalVelocity(w)) : T{0};
-  const T v_error_of_state = VelocityError() + std::fabs(doubtful_.NormalVelocity(w)) + v_found;
+  const T v_found =
+      v_is_turned ? std::fabs(compression_end_v_) + kSafety * std::fabs(sum_.known.NormalVelocity(w)) : T{0};
+  const T v_error_of_state = VelocityError() + std::fabs(sum_.doubtful.NormalVelocity(w)) + v_found;
   const T jump = compression_end_v_ * compression_end_v_ / std::max(slopes.v, kEpsilon<T>);
-  T impulse = ImpulseErrorOfEnd(path, slopes, v_error_of_state,
-                                work_ + std::fabs(doubtful_.work) + WorkRounding(path.state) + jump, compression_) +
-              event_offset_;
-  const T known_impulse = SignedImpulseErrorOfEnd(path, slopes, known_, known_compression_);
+  T impulse =
+      ImpulseErrorOfEnd(path, slopes, v_error_of_state,
+                        sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state) + jump, compression_) +
+      event_offset_;
+  const T known_impulse = SignedImpulseErrorOfEnd(path, slopes, sum_.known, known_compression_);
   const T all = impulse + kSafety * std::fabs(known_impulse);
   T u_slope = Size(slopes.u1, slopes.u2);
   T v_slope = std::fabs(slopes.v);
@@ -271,10 +212,10 @@ T ErrorLedger<T>::EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) co
     v_slope = std::max(v_slope, std::fabs(slip_slopes_.v));
   }
   const T known_u =
-      Size(known_.Velocity1(w) + slopes.u1 * known_impulse, known_.Velocity2(w) + slopes.u2 * known_impulse);
-  const T known_v = std::fabs(known_.NormalVelocity(w) + slopes.v * known_impulse);
-  const T u_error = kSafety * known_u + Size(doubtful_.Velocity1(w), doubtful_.Velocity2(w)) +
-                    problem_.largest_root * friction_ + u_rounding_ + impulse * u_slope;
+      Size(sum_.known.Velocity1(w) + slopes.u1 * known_impulse, sum_.known.Velocity2(w) + slopes.u2 * known_impulse);
+  const T known_v = std::fabs(sum_.known.NormalVelocity(w) + slopes.v * known_impulse);
+  const T u_error = kSafety * known_u + Size(sum_.doubtful.Velocity1(w), sum_.doubtful.Velocity2(w)) +
+                    problem_.largest_root * sum_.friction + u_rounding_ + impulse * u_slope;
   // A v that ends the impact has its error from root finding alone.
   const bool v_is_goal = problem_.coefficient == T{0} || (path.goal.quantity == Quantity::kVelocity && !v_is_turned);
   const T v_error = v_is_goal ? event_offset_ * v_slope : kSafety * known_v + v_error_of_state + impulse * v_slope;

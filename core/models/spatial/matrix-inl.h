@@ -15,9 +15,27 @@
 
 #include "core/contact/delassus.h"
 #include "core/numerics/double_double-inl.h"
+#include "core/numerics/lane_number-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
+
+using ricochet::HWY_NAMESPACE::Absolute;
+using ricochet::HWY_NAMESPACE::Both;
+using ricochet::HWY_NAMESPACE::Constant;
+using ricochet::HWY_NAMESPACE::CopySign;
+using ricochet::HWY_NAMESPACE::Differ;
+using ricochet::HWY_NAMESPACE::Either;
+using ricochet::HWY_NAMESPACE::InNoLane;
+using ricochet::HWY_NAMESPACE::MaskOf;
+using ricochet::HWY_NAMESPACE::Max;
+using ricochet::HWY_NAMESPACE::Min;
+using ricochet::HWY_NAMESPACE::Not;
+using ricochet::HWY_NAMESPACE::Select;
+using ricochet::HWY_NAMESPACE::SquareRoot;
+#if RICOCHET_SIMD
+using ricochet::HWY_NAMESPACE::LaneNumber;
+#endif
 
 // A unit vector e = (c, s) = (cos phi, sin phi) in the tangent plane.
 template <typename T>

@@ -34,7 +34,7 @@ struct State {
   T u1{0}, u2{0}, v{0};
   T friction_work{0};
 
-  T Slip() const { return std::sqrt(u1 * u1 + u2 * u2); }
+  HWY_INLINE T Slip() const { return SquareRoot(u1 * u1 + u2 * u2); }
 };
 
 // A phase ends when this quantity reaches the target: v, tau or the normal work of the phase.
@@ -45,42 +45,54 @@ struct Goal {
   T target;
 };
 
+// The way from the present state to the goal of its phase. T is a floating type or a LaneNumber.
+template <typename T>
+struct Way {
+  // The value of the goal's quantity.
+  HWY_INLINE T Value(const State<T>& at) const {
+    return Select(to_velocity, at.v, Select(to_impulse, at.tau, NormalWork(at)));
+  }
+  // The goal's quantity less its target, with its slope over xi.
+  HWY_INLINE Rates<T> GoalRates(const Contact<T>& contact, const State<T>& at) const {
+    const T tau_rate = at.Slip() / contact.rate;
+    const T slope = Select(to_impulse, tau_rate, at.v * tau_rate);
+    return {Value(at) - target, Select(to_velocity, VelocityRate(contact, at), slope)};
+  }
+  // dv/dxi
+  HWY_INLINE static T VelocityRate(const Contact<T>& contact, const State<T>& at) {
+    const Matrix<T>& w = contact.w;
+    return (w.w33 * at.Slip() - contact.mu * (w.w13 * at.u1 + w.w23 * at.u2)) / contact.rate;
+  }
+  // The normal work of this phase, which is the change of energy that friction did not make.
+  HWY_INLINE T NormalWork(const State<T>& at) const {
+    return T{0.5} * (at.f1 * (at.u1 + start.u1) + at.f2 * (at.u2 + start.u2) + at.tau * (at.v + start.v)) -
+           at.friction_work;
+  }
+  // The normal impulse left until the goal if the slopes stay as they are; infinity if the goal is never reached.
+  HWY_INLINE T ImpulseToGoal(const Slopes<T>& slopes) const;
+
+  State<T> from;
+  Slopes<T> start;  // the contact velocity with which the phase has started
+  T target;
+  MaskOf<T> to_velocity, to_impulse;  // The goal is one of v or of tau, and else one of work.
+  MaskOf<T> may_turn;                 // The goal's quantity need not grow all the way.
+  MaskOf<T> in_restitution;
+};
+
 template <typename T>
 struct Path {
   explicit Path(const ScaledProblem<T>& its_problem);
 
-  // The value of the goal's quantity.
-  T Value(const State<T>& at) const {
-    switch (goal.quantity) {
-      case Quantity::kVelocity:
-        return at.v;
-      case Quantity::kImpulse:
-        return at.tau;
-      case Quantity::kWork:
-        break;
-    }
-    return NormalWork(at);
+  Way<T> WayAhead() const {
+    return {.from = state,
+            .start = {phase_start.u1, phase_start.u2, phase_start.v},
+            .target = goal.target,
+            .to_velocity = goal.quantity == Quantity::kVelocity,
+            .to_impulse = goal.quantity == Quantity::kImpulse,
+            .may_turn = problem.may_jam,
+            .in_restitution = in_restitution};
   }
-  // The goal's quantity less its target, with its slope over xi.
-  Rates<T> GoalRates(const State<T>& at) const {
-    const T value = Value(at) - goal.target;
-    if (goal.quantity == Quantity::kVelocity) return {value, VelocityRate(at)};
-    const T tau_rate = at.Slip() / problem.rate;
-    return {value, goal.quantity == Quantity::kImpulse ? tau_rate : at.v * tau_rate};
-  }
-  // dv/dxi
-  T VelocityRate(const State<T>& at) const {
-    const Matrix<T>& w = problem.w;
-    return (w.w33 * at.Slip() - problem.mu * (w.w13 * at.u1 + w.w23 * at.u2)) / problem.rate;
-  }
-  // The normal work of this phase, which is the change of energy that friction did not make.
-  T NormalWork(const State<T>& at) const {
-    return T{0.5} *
-               (at.f1 * (at.u1 + phase_start.u1) + at.f2 * (at.u2 + phase_start.u2) + at.tau * (at.v + phase_start.v)) -
-           at.friction_work;
-  }
-  // The normal impulse left until the goal if the slopes stay as they are; infinity if the goal is never reached.
-  T ImpulseToGoal(const Slopes<T>& slopes) const;
+  T NormalWork(const State<T>& at) const { return WayAhead().NormalWork(at); }
 
   bool IsAtStart() const { return event_count == 1 && state.tau == T{0}; }
   bool Sticks() const {
@@ -119,22 +131,17 @@ Path<T>::Path(const ScaledProblem<T>& its_problem)
 }
 
 template <typename T>
-T Path<T>::ImpulseToGoal(const Slopes<T>& slopes) const {
-  const T missing = goal.target - Value(state);
-  if (!(missing > T{0})) return T{0};
-  switch (goal.quantity) {
-    case Quantity::kVelocity:
-      return slopes.v > T{0} ? missing / slopes.v : kInfinity<T>;
-    case Quantity::kImpulse:
-      return missing;
-    case Quantity::kWork:
-      break;
-  }
-  const T square = state.v * state.v + T{2} * slopes.v * missing;
-  if (square < T{0}) return kInfinity<T>;
-  const T root = std::sqrt(square);
-  if (state.v >= T{0}) return root > T{0} ? T{2} * missing / (state.v + root) : kInfinity<T>;
-  return slopes.v > T{0} ? (root - state.v) / slopes.v : kInfinity<T>;
+HWY_INLINE T Way<T>::ImpulseToGoal(const Slopes<T>& slopes) const {
+  const T never{kInfinity<Constant<T>>};
+  const T zero{0};
+  const T missing = target - Value(from);
+  const T square = from.v * from.v + T{2} * slopes.v * missing;
+  const T root = SquareRoot(square);
+  const T while_parting = Select(root > zero, T{2} * missing / (from.v + root), never);
+  const T while_closing = Select(slopes.v > zero, (root - from.v) / slopes.v, never);
+  const T to_work = Select(square < zero, never, Select(from.v >= zero, while_parting, while_closing));
+  const T to_v = Select(slopes.v > zero, missing / slopes.v, never);
+  return Select(missing > zero, Select(to_velocity, to_v, Select(to_impulse, missing, to_work)), zero);
 }
 
 template <typename T>

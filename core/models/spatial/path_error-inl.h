@@ -2,7 +2,7 @@
 //
 // A lack df of the friction impulse is one of Wtt df in u and of wtn.df in v. Slip along e carries it on by
 // d(df)/dtau = -(mu/s) e' (e'.Wtt df), where e' is across e: the part of Wtt df across slip decays, the part along slip
-// stays. docs/theory/spatial.md has the derivation.
+// stays. docs/theory/spatial.md has the derivation. T is a floating type or a LaneNumber.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_SPATIAL_PATH_ERROR_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -11,9 +11,6 @@
 #else
 #define RICOCHET_CORE_MODELS_SPATIAL_PATH_ERROR_INL_H_
 #endif
-
-#include <algorithm>
-#include <cmath>
 
 #include "core/models/spatial/matrix-inl.h"
 
@@ -39,21 +36,26 @@ struct SlipSizes {
 // The decay over a stretch of slip along a direction of any length m = (m1, m2). `error` is that of slip: where it is as
 // large as slip, it decays no faster than it would at a slip of its own size.
 template <typename T>
-Decay<T> DecayOver(const Matrix<T>& w, T mu, T m1, T m2, T length, const SlipSizes<T>& slip, T error) {
+HWY_INLINE Decay<T> DecayOver(const Matrix<T>& w, T mu, T m1, T m2, T length, const SlipSizes<T>& slip, T error) {
+  const T zero{0};
   const T square = m1 * m1 + m2 * m2;
   const T mobility = m2 * m2 * w.w11 + m1 * m1 * w.w22 - T{2} * m1 * m2 * w.w12;
   const T first = slip.first + error;
   const T last = slip.last + error;
   const T rate = mu * mobility * length / square;
-  if (!(first + last > T{0}) || !(mobility > T{0})) return {.length = length};
   // Slip changes linearly. The mean of 1/s is one over the logarithmic mean of its ends, which (2 G + A)/3 exceeds by
   // little, with the geometric mean G and the arithmetic mean A; 1/(1 + z + z^2/2) stands for exp(-z).
-  const T z = std::min(T{6} * rate / (T{4} * std::sqrt(first * last) + (first + last)), T{1e9});
-  const T left = last > T{0} ? T{1} / (T{1} + z + T{0.5} * z * z) : T{0};
+  const T z = Min(T{6} * rate / (T{4} * SquareRoot(first * last) + (first + last)), T{1e9});
+  const T left = Select(last > zero, T{1} / (T{1} + z + T{0.5} * z * z), zero);
   // The mean over slip that slows is exact where slip stops.
   const T steady = rate / first;
-  const T mean_gone = last > first ? T{0.5} * z * (T{1} + z) * left : steady / (T{1} + steady);
-  return {.a1 = -m2, .a2 = m1, .mobility = mobility, .gone = T{1} - left, .mean_gone = mean_gone, .length = length};
+  const T mean_gone = Select(last > first, T{0.5} * z * (T{1} + z) * left, steady / (T{1} + steady));
+  return {.a1 = -m2,
+          .a2 = m1,
+          .mobility = Select(first + last > zero, mobility, zero),
+          .gone = T{1} - left,
+          .mean_gone = mean_gone,
+          .length = length};
 }
 
 template <typename T>
@@ -61,30 +63,34 @@ struct PathError {
   T f1{0}, f2{0};  // of the friction impulse
   T work{0};       // of the normal work in this phase
 
-  T Velocity1(const Matrix<T>& w) const { return w.w11 * f1 + w.w12 * f2; }
-  T Velocity2(const Matrix<T>& w) const { return w.w12 * f1 + w.w22 * f2; }
-  T NormalVelocity(const Matrix<T>& w) const { return w.w13 * f1 + w.w23 * f2; }
+  HWY_INLINE T Velocity1(const Matrix<T>& w) const { return w.w11 * f1 + w.w12 * f2; }
+  HWY_INLINE T Velocity2(const Matrix<T>& w) const { return w.w12 * f1 + w.w22 * f2; }
+  HWY_INLINE T NormalVelocity(const Matrix<T>& w) const { return w.w13 * f1 + w.w23 * f2; }
   // sqrt(df^T Wtt df), which never grows.
-  T Norm(const Matrix<T>& w) const { return std::sqrt(std::max(T{0}, f1 * Velocity1(w) + f2 * Velocity2(w))); }
+  HWY_INLINE T Norm(const Matrix<T>& w) const { return SquareRoot(Max(T{0}, f1 * Velocity1(w) + f2 * Velocity2(w))); }
 
-  void Add(const PathError& other, T factor) {
+  HWY_INLINE void Add(const PathError& other, T factor) {
     f1 += factor * other.f1;
     f2 += factor * other.f2;
     work += factor * other.work;
   }
-  void CarryOver(const Matrix<T>& w, const Decay<T>& decay) {
+  HWY_INLINE void CarryOver(const Matrix<T>& w, const Decay<T>& decay) {
+    const auto decays = decay.mobility > T{0};
     const T before = NormalVelocity(w);
-    if (!(decay.mobility > T{0})) {
-      work += decay.length * before;
-      return;
-    }
     const T across = (decay.a1 * Velocity1(w) + decay.a2 * Velocity2(w)) / decay.mobility;
     const T v_across = across * (w.w13 * decay.a1 + w.w23 * decay.a2);
-    f1 -= decay.gone * across * decay.a1;
-    f2 -= decay.gone * across * decay.a2;
-    work += decay.length * (before - decay.mean_gone * v_across);
+    f1 = Select(decays, f1 - decay.gone * across * decay.a1, f1);
+    f2 = Select(decays, f2 - decay.gone * across * decay.a2, f2);
+    work += decay.length * Select(decays, before - decay.mean_gone * v_across, before);
   }
 };
+
+template <typename T>
+HWY_INLINE PathError<T> Select(MaskOf<T> condition, const PathError<T>& yes, const PathError<T>& no) {
+  return {.f1 = Select(condition, yes.f1, no.f1),
+          .f2 = Select(condition, yes.f2, no.f2),
+          .work = Select(condition, yes.work, no.work)};
+}
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

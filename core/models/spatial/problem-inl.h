@@ -60,14 +60,31 @@ inline int Exponent(double value) {
 
 }  // namespace internal
 
+// The numbers of the problem that steps of slip read. T is a floating type or a LaneNumber.
 template <typename T>
-struct ScaledProblem {
-  // `rank` is the rank of the problem's W.
-  ScaledProblem(const Problem& problem, int rank);
-
+struct Contact {
   // A frame of which mu must not be 0, and the slopes while slip has the direction e.
   Frame<T> FrameAt(const Direction<T>& e) const;
   Slopes<T> SlopesAlong(const Direction<T>& e) const;
+
+  Matrix<T> w;
+  T mu;
+  T velocity;      // max(|u0|, |v0|), to which errors are relative
+  T rate;          // mu |Wtt| + |wtn|, the unit of 1/xi
+  T largest_root;  // square roots of the eigenvalues of Wtt, the smaller one not below rounding
+  T smallest_root;
+  T normal_root;  // sqrt(Wnn)
+  T steepest;     // the largest |dv/dtau| of slip
+};
+
+template <typename T>
+struct ScaledProblem : Contact<T> {
+  using Contact<T>::w, Contact<T>::mu, Contact<T>::velocity, Contact<T>::rate, Contact<T>::largest_root,
+      Contact<T>::smallest_root, Contact<T>::normal_root, Contact<T>::steepest, Contact<T>::FrameAt;
+
+  // `rank` is the rank of the problem's W.
+  ScaledProblem(const Problem& problem, int rank);
+
   // The direction near that of `frame` in which slip does not turn and which attracts its neighbours, if there is one.
   std::optional<Direction<T>> AttractingDirectionNear(const Frame<T>& frame) const;
 
@@ -79,24 +96,17 @@ struct ScaledProblem {
   double Work(T value) const { return static_cast<double>(work_unit * value) + 0.0; }
 
   internal::PowerOfTwo velocity_unit, impulse_unit, work_unit;
-  Matrix<T> w;
   T u1, u2, v;  // before the impact
-  T mu, mu_static;
+  T mu_static;
   RestitutionLaw law;
   T coefficient;
-
-  T velocity;      // max(|u0|, |v0|), to which errors are relative
-  T rate;          // mu |Wtt| + |wtn|, the unit of 1/xi
-  T largest_root;  // square roots of the eigenvalues of Wtt, the smaller one not below rounding
-  T smallest_root;
-  T normal_root;  // sqrt(Wnn)
-  T steepest;     // the largest |dv/dtau| of slip
-  bool may_jam;   // dv/dtau < 0 is possible.
+  bool may_jam;  // dv/dtau < 0 is possible.
 };
 
 template <typename T>
 ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
-    : mu(problem.mu), mu_static(problem.mu_static), law(problem.law), coefficient(problem.coefficient) {
+    : mu_static(problem.mu_static), law(problem.law), coefficient(problem.coefficient) {
+  mu = problem.mu;
   const double largest_velocity =
       std::max(std::max(std::fabs(problem.u0[0]), std::fabs(problem.u0[1])), std::fabs(problem.v0));
   const int velocity_exponent = internal::Exponent(largest_velocity);
@@ -123,7 +133,7 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
 }
 
 template <typename T>
-Frame<T> ScaledProblem<T>::FrameAt(const Direction<T>& e) const {
+HWY_INLINE Frame<T> Contact<T>::FrameAt(const Direction<T>& e) const {
   const T c = e.c;
   const T s = e.s;
   const T along = c * w.w11 + s * w.w12;  // Wtt e
@@ -139,7 +149,7 @@ Frame<T> ScaledProblem<T>::FrameAt(const Direction<T>& e) const {
 }
 
 template <typename T>
-Slopes<T> ScaledProblem<T>::SlopesAlong(const Direction<T>& e) const {
+HWY_INLINE Slopes<T> Contact<T>::SlopesAlong(const Direction<T>& e) const {
   return {.u1 = w.w13 - mu * (w.w11 * e.c + w.w12 * e.s),
           .u2 = w.w23 - mu * (w.w12 * e.c + w.w22 * e.s),
           .v = w.w33 - mu * (w.w13 * e.c + w.w23 * e.s)};

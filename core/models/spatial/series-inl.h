@@ -3,8 +3,9 @@
 // Slip obeys du/dxi = A u + s wtn, where u is the tangential velocity, s = |u| and A = -mu Wtt. This is homogeneous:
 // each series starts from u = (1, 0) in the frame of its own direction, and needs neither sine nor angle. Its
 // coefficients follow from (k + 1) u_{k+1} = A u_k + s_k wtn and (s s)_k = (x x)_k + (y y)_k.
-// Accuracy: the last two terms are not used but tell the error, and the fall of the terms what follows them. Sums and products only, hence the same bits on every
-// machine. Source: Keller (1986); docs/theory/spatial.md.
+// Accuracy: the last two terms are not used but tell the error, and the fall of the terms what follows them. Sums and
+// products only, hence the same bits on every machine. T is a floating type or a LaneNumber.
+// Source: Keller (1986); docs/theory/spatial.md.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_SPATIAL_SERIES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -14,14 +15,21 @@
 #define RICOCHET_CORE_MODELS_SPATIAL_SERIES_INL_H_
 #endif
 
-#include <algorithm>
 #include <array>
 #include <bit>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/models/spatial/matrix-inl.h"
-#include "hwy/highway.h"
+#include "core/numerics/lane_number-inl.h"
+
+// Sanitizers watch every access: all terms of all orders in one function would take a compiler minutes.
+#undef RICOCHET_UNROLLED
+#if HWY_IS_ASAN || defined(__SANITIZE_ADDRESS__)
+#define RICOCHET_UNROLLED HWY_NOINLINE
+#else
+#define RICOCHET_UNROLLED HWY_INLINE
+#endif
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
@@ -47,9 +55,22 @@ inline double RoughRoot(double x, int k) {
       static_cast<double>(std::bit_cast<int64_t>(x) - kOne) * kInverses<double>[static_cast<size_t>(k)];
   return 0.94 * std::bit_cast<double>(kOne + static_cast<int64_t>(logarithm));
 }
+inline long double RoughRoot(long double x, int k) { return RoughRoot(static_cast<double>(x), k); }
+
+#if RICOCHET_SIMD
+HWY_INLINE LaneNumber RoughRoot(LaneNumber x, int k) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::ScalableTag<double> numbers;
+  const hn::ScalableTag<int64_t> whole;
+  const auto one = hn::Set(whole, std::bit_cast<int64_t>(1.0));
+  const auto logarithm = hn::ConvertTo(numbers, hn::BitCast(whole, x.value) - one) *
+                         hn::Set(numbers, kInverses<double>[static_cast<size_t>(k)]);
+  return LaneNumber{0.94} * LaneNumber(hn::BitCast(numbers, one + hn::ConvertTo(whole, logarithm)));
+}
+#endif
 
 template <typename T>
-T Power(T x, int k) {
+HWY_INLINE T Power(T x, int k) {
   T power{1};
   for (; k > 0; k >>= 1) {
     if (k & 1) power *= x;
@@ -96,20 +117,19 @@ class SlipSeries {
   T LongestStep(T bound, T square_bound) const;
 
  private:
-  T Size(int k) const {
-    return std::fabs(x_integral_[Index(k)]) + std::fabs(y_integral_[Index(k)]) + std::fabs(s_integral_[Index(k)]);
+  HWY_INLINE T Size(int k) const {
+    return Absolute(x_integral_[Index(k)]) + Absolute(y_integral_[Index(k)]) + Absolute(s_integral_[Index(k)]);
   }
   // The factor by which each further term is smaller than the one before it, judged by the last four or eight terms. Both
   // are needed, because a complex pair of singularities makes terms oscillate, and some of them are small by chance.
-  T Fall() const {
-    constexpr T kSmallest{1e-290};
-    constexpr double kRoughness = 1.1;
-    const T last = Size(order_ + 1) + kSmallest;
-    const auto root = [&](int span) {
-      const auto fall = static_cast<double>(last / (Size(order_ + 1 - span) + kSmallest));
-      return static_cast<T>(kRoughness * internal::RoughRoot(fall, span));
+  HWY_INLINE T Fall() const {
+    const T smallest{1e-290};
+    const T roughness{1.1};
+    const T last = Size(order_ + 1) + smallest;
+    const auto root = [&](int span) HWY_ATTR {
+      return roughness * internal::RoughRoot(last / (Size(order_ + 1 - span) + smallest), span);
     };
-    return order_ < 9 ? root(4) : std::max(root(4), root(8));
+    return order_ < 9 ? root(4) : Max(root(4), root(8));
   }
   static size_t Index(int k) { return static_cast<size_t>(k); }
 
@@ -154,8 +174,8 @@ void SlipSeries<T>::Expand(const Frame<T>& frame, int order) {
 // Templates unroll the loops over terms, whose changing counts a processor predicts badly.
 template <typename T>
 template <size_t kOrder, size_t k>
-HWY_INLINE void SlipSeries<T>::Terms() {
-  const T inverse = internal::kInverses<T>[k + 1];
+RICOCHET_UNROLLED void SlipSeries<T>::Terms() {
+  const T inverse{internal::kInverses<Constant<T>>[k + 1]};
   const T x = x_integral_[k + 1] = x_[k] * inverse;
   const T y = y_integral_[k + 1] = y_[k] * inverse;
   const T s = s_integral_[k + 1] = s_[k] * inverse;
@@ -190,7 +210,7 @@ HWY_INLINE void SlipSeries<T>::Products(T& u_terms, T& s_terms) const {
 }
 
 template <typename T>
-HWY_INLINE SeriesValues<T> SlipSeries<T>::At(T xi) const {
+RICOCHET_UNROLLED SeriesValues<T> SlipSeries<T>::At(T xi) const {
   T x{0};
   T y{0};
   T s{0};
@@ -213,25 +233,25 @@ HWY_INLINE SeriesValues<T> SlipSeries<T>::At(T xi) const {
 }
 
 template <typename T>
-LastTerms<T> SlipSeries<T>::LastTermsAt(T xi) const {
-  constexpr T kLargestRatio{0.8};
-  const auto term = [this](int k, T power) {
+HWY_INLINE LastTerms<T> SlipSeries<T>::LastTermsAt(T xi) const {
+  const T largest_ratio{0.8};
+  const auto term = [this](int k, T power) HWY_ATTR {
     const size_t i = Index(k);
     return SeriesTerm<T>{power * x_integral_[i], power * y_integral_[i], power * s_integral_[i],
                          power * square_integral_[i]};
   };
   const T power = internal::Power(xi, order_);
-  return {term(order_, power), term(order_ + 1, power * xi), std::min(Fall() * xi, kLargestRatio)};
+  return {term(order_, power), term(order_ + 1, power * xi), Min(Fall() * xi, largest_ratio)};
 }
 
 template <typename T>
 HWY_INLINE T SlipSeries<T>::LongestStep(T bound, T square_bound) const {
-  constexpr T kSmallest{1e-300};
-  const auto step_for = [&](int k) {
-    const T size = std::max(Size(k) / bound, std::fabs(square_integral_[Index(k)]) / square_bound);
-    return internal::RoughRoot(static_cast<double>(T{1} / (size + kSmallest)), k);
+  const T smallest{1e-300};
+  const auto step_for = [&](int k) HWY_ATTR {
+    const T size = Max(Size(k) / bound, Absolute(square_integral_[Index(k)]) / square_bound);
+    return internal::RoughRoot(T{1} / (size + smallest), k);
   };
-  return static_cast<T>(std::min(step_for(order_), step_for(order_ + 1)));
+  return Min(step_for(order_), step_for(order_ + 1));
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
@@ -32,20 +33,47 @@ template <typename T>
 class Solver {
  public:
   Solver(const Problem& problem, int rank, T tolerance);
-  Impact Run();
+
+  Impact Run() {
+    for (auto heading = Start(); heading.has_value(); heading = GoOn()) {
+      Accept(TakeStep<T>(problem_, impact_.path.WayAhead(), errors(), *heading, tolerance_, order_), 1);
+    }
+    return Report();
+  }
+
+  // Run, step by step, for a caller who takes the steps himself. Start and GoOn follow what needs no step, and return
+  // the heading of the step that comes next, if there is one. Accept takes over the end of the last of some steps, of
+  // which the others may not reach a goal or pause, and if dv/dtau < 0 is possible there must be no others.
+  std::optional<Heading<T>> Start();
+  void Accept(const StepEnd<T>& end, int64_t steps);
+  std::optional<Heading<T>> GoOn();
+  Impact Report() const;
+
+  // The number of terms of each series.
+  static int OrderFor(T tolerance);
+  // True where GoOn would do more than return the heading of a path that is under way.
+  template <typename N>
+  static HWY_INLINE MaskOf<N> Pauses(const Contact<N>& contact, const Heading<N>& heading, N stopped, N tolerance) {
+    return Either(heading.slip < stopped, heading.IsNearlyStraight(contact, N{kSwitchShare} * tolerance));
+  }
+  bool IsUnderWay() const { return !impact_.path.ended && StepsLeft() > 0; }
+  // The budget lies far above the number of steps of every impact that tests have found.
+  int64_t StepsLeft() const { return kStepBudget - steps_; }
+  // Slip below this size has stopped as far as velocities go. Where static friction exceeds kinetic friction, the
+  // threshold is lower, because a near miss must not stick.
+  T StoppedSlip() const { return problem_.mu_static > problem_.mu ? T{0x1p-400} : T{0x1p-70}; }
+  const ScaledProblem<T>& problem() const { return problem_; }
+  T tolerance() const { return tolerance_; }
+  const Path<T>& path() const { return impact_.path; }
+  const StepErrors<T>& errors() const { return impact_.errors.BeforeStep(); }
 
  private:
-  // The budget lies far above the number of steps of every impact that tests have found.
   static constexpr int64_t kStepBudget = 10000;
-  // Shares of the tolerance: for the last terms of a step, and for leaving a curve for its asymptote.
-  static constexpr T kStepShare{0.175};
-  static constexpr T kSwitchShare{0.2};
+  // The share of the tolerance for leaving a curve for its asymptote.
+  static constexpr double kSwitchShare = 0.2;
 
-  static int OrderFor(T tolerance);
   bool SlipKeepsItsDirection() const;
-  void FollowCurve();
-  void TakeStep(const Frame<T>& frame, T slip);
-  bool SwitchToStraight(const Frame<T>& frame, T slip);
+  bool SwitchToStraight(const Heading<T>& heading);
   void TurnSlipTo(const Direction<T>& e);
 
   const T tolerance_;
@@ -53,6 +81,7 @@ class Solver {
   Progress<T> impact_;
   const ScaledProblem<T>& problem_ = impact_.problem;
   State<T>& state_ = impact_.path.state;
+  bool closed_form_ = true;
   int64_t steps_ = 0;
 };
 
@@ -72,9 +101,8 @@ int Solver<T>::OrderFor(T tolerance) {
 }
 
 template <typename T>
-Impact Solver<T>::Run() {
+std::optional<Heading<T>> Solver<T>::Start() {
   const bool slips = state_.u1 != T{0} || state_.u2 != T{0};
-  bool closed_form = true;
   if (problem_.w.HasNoTangentialMobility() || (slips && problem_.mu == T{0})) {
     SlideFreely(impact_);
   } else if (!slips) {
@@ -82,12 +110,17 @@ Impact Solver<T>::Run() {
   } else if (SlipKeepsItsDirection()) {
     SlideStraight(impact_, Normalized(state_.u1, state_.u2));
   } else {
-    closed_form = false;
-    FollowCurve();
+    closed_form_ = false;
+    return GoOn();
   }
+  return std::nullopt;
+}
+
+template <typename T>
+Impact Solver<T>::Report() const {
   Impact impact = MakeImpact(problem_, impact_.path, impact_.estimate);
   if (!impact_.path.ended && steps_ >= kStepBudget) impact.termination = Termination::kBudgetUsedUp;
-  impact.closed_form = closed_form;
+  impact.closed_form = closed_form_;
   impact.steps = steps_;
   impact.right_hand_sides = steps_ * order_;
   return impact;
@@ -101,59 +134,35 @@ bool Solver<T>::SlipKeepsItsDirection() const {
 }
 
 template <typename T>
-void Solver<T>::FollowCurve() {
-  // Slip below this size has stopped as far as velocities go. Where static friction exceeds kinetic friction, the
-  // threshold is lower, because a near miss must not stick.
-  const T stopped = problem_.mu_static > problem_.mu ? T{0x1p-400} : T{0x1p-70};
-  while (!impact_.path.ended && steps_ < kStepBudget) {
-    const T slip = state_.Slip();
-    if (slip < stopped) {
-      if (slip > T{0}) impact_.errors.SetSlopesOfSlip(problem_.SlopesAlong(Normalized(state_.u1, state_.u2)));
-      return ContinueFromStop(impact_);
-    }
-    const Frame<T> frame = problem_.FrameAt({state_.u1 / slip, state_.u2 / slip});
-    if (SwitchToStraight(frame, slip)) return;
-    TakeStep(frame, slip);
+std::optional<Heading<T>> Solver<T>::GoOn() {
+  if (!IsUnderWay()) return std::nullopt;
+  const Heading<T> heading(problem_, state_);
+  if (!Pauses(problem_, heading, StoppedSlip(), tolerance_)) return heading;
+  if (heading.slip < StoppedSlip()) {
+    if (heading.slip > T{0}) impact_.errors.SetSlopesOfSlip(problem_.SlopesAlong(Normalized(state_.u1, state_.u2)));
+    ContinueFromStop(impact_);
+    return std::nullopt;
   }
+  if (SwitchToStraight(heading)) return std::nullopt;
+  return heading;
 }
 
 template <typename T>
-void Solver<T>::TakeStep(const Frame<T>& frame, T slip) {
-  const Path<T>& path = impact_.path;
-  const Step<T> step(problem_, path, frame, slip, order_);
-  ++steps_;
-  T end = step.AccurateEnd(kStepShare * tolerance_ * problem_.velocity);
-  if (problem_.may_jam) end = step.MonotonicEnd(end);
-  State<T> next = step.At(end);
-  const T beyond = path.Value(next) - path.goal.target;
-  const bool reaches_goal = beyond >= T{0};
-  if (reaches_goal) {
-    end = step.GoalWithin(end, T{1e-2} * std::sqrt(tolerance_));
-    next = step.At(end);
-  }
-  ErrorLedger<T>& errors = impact_.errors;
-  const T next_slip = next.Slip();
-  const Direction<T> next_e = {next.u1 / next_slip, next.u2 / next_slip};
-  errors.AddStep(step.ErrorAt(end, next, next_e), next.tau - state_.tau, {frame.c, frame.s}, slip, next_e, next_slip,
-                 next.v);
-  state_ = next;
-  if (problem_.may_jam) errors.NoteGap(path, std::fabs(beyond));
-  if (!reaches_goal) return;
-  const Rates<T> rates = path.GoalRates(next);
-  errors.SetEventOffset(T{2} * std::fabs(rates.value / rates.slope) * next_slip / problem_.rate);
-  impact_.EndPhase(problem_.SlopesAlong(next_e));
+void Solver<T>::Accept(const StepEnd<T>& end, int64_t steps) {
+  steps_ += steps;
+  state_ = end.state;
+  impact_.errors.SetAfterStep(end.errors);
+  if (problem_.may_jam) impact_.errors.NoteGap(impact_.path, std::fabs(end.beyond));
+  if (!end.reaches_goal) return;
+  impact_.errors.SetEventOffset(end.offset);
+  impact_.EndPhase(problem_.SlopesAlong(end.e));
 }
 
 // Slip may be so near to a direction that attracts it that what it still turns by cannot be seen in the result. It then
 // follows that direction, exactly linear in tau, until it stops or the impact ends.
 template <typename T>
-bool Solver<T>::SwitchToStraight(const Frame<T>& frame, T slip) {
-  const T turn_slope = frame.TurnSlope();
-  if (!(turn_slope < T{0})) return false;
-  constexpr T kNear{0.1};
-  if (!(std::fabs(frame.Turn()) <= -kNear * turn_slope)) return false;
-  if (!(slip * std::fabs(frame.Turn() / turn_slope) <= kSwitchShare * tolerance_ * problem_.velocity)) return false;
-  const auto attracting = problem_.AttractingDirectionNear(frame);
+bool Solver<T>::SwitchToStraight(const Heading<T>& heading) {
+  const auto attracting = problem_.AttractingDirectionNear(heading.frame);
   if (!attracting.has_value()) return false;
   TurnSlipTo(*attracting);
   SlideStraight(impact_, *attracting);

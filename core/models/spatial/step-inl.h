@@ -8,89 +8,118 @@
 #define RICOCHET_CORE_MODELS_SPATIAL_STEP_INL_H_
 #endif
 
-#include <algorithm>
 #include <cmath>
 
-#include "core/models/spatial/error_ledger-inl.h"
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/path-inl.h"
 #include "core/models/spatial/problem-inl.h"
 #include "core/models/spatial/series-inl.h"
+#include "core/models/spatial/step_errors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
-// The root of an increasing function with f(0) < 0 <= f(end), from a first guess. A step that would leave the bracket
-// is replaced by a bisection, and the first step of at most `last` times the root is the last one.
+// Where `is_sought`, the root of an increasing function with f(0) < 0 <= f(end), from a first guess. A step that would
+// leave the bracket is replaced by a bisection, and the first step of at most `last` times the root is the last one.
 template <typename T, typename Function>
-T FindRoot(const Function& function, T guess, T end, T last) {
-  T low{0};
+HWY_INLINE T FindRoot(const Function& function, MaskOf<T> is_sought, T guess, T end, T last) {
+  const T zero{0};
+  T low = zero;
   T high = end;
-  T x = guess > T{0} && guess < end ? guess : end;
+  T x = Select(Both(guess > zero, guess < end), guess, end);
   constexpr int kEnough = 200;
-  for (int i = 0; i < kEnough && high > low; ++i) {
+  for (int i = 0; i < kEnough; ++i) {
+    is_sought = Both(is_sought, high > low);
+    if (InNoLane(is_sought)) break;
     const Rates<T> at = function(x);
-    (at.value < T{0} ? low : high) = x;
-    T next = x - at.value / at.slope;
-    if (!(next > low && next < high)) {
-      if (at.value == T{0} || std::fabs(next - x) <= last * x) return x;
-      next = T{0.5} * (low + high);
-    }
-    if (std::fabs(next - x) <= last * next) return next;
-    x = next;
+    const auto is_below = at.value < zero;
+    low = Select(is_below, x, low);
+    high = Select(is_below, high, x);
+    const T newton = x - at.value / at.slope;
+    const auto stays_inside = Both(newton > low, newton < high);
+    const auto is_found = Both(Not(stays_inside), Either(at.value == zero, Absolute(newton - x) <= last * x));
+    const T next = Select(is_found, x, Select(stays_inside, newton, T{0.5} * (low + high)));
+    const auto is_last = Either(is_found, Absolute(next - x) <= last * next);
+    x = Select(is_sought, next, x);
+    is_sought = Both(is_sought, Not(is_last));
   }
   return x;
 }
 
+// Slip that turns, as seen in the frame of its direction.
+template <typename T>
+struct Heading {
+  HWY_INLINE Heading(const Contact<T>& contact, const State<T>& state)
+      : slip(state.Slip()), frame(contact.FrameAt({state.u1 / slip, state.u2 / slip})) {}
+
+  // True where slip is so near to a direction that attracts it that what it still turns by stays below `share` of the
+  // tolerance.
+  HWY_INLINE MaskOf<T> IsNearlyStraight(const Contact<T>& contact, T share) const {
+    const T near{0.1};
+    const T turn = Absolute(frame.Turn());
+    const T slope = frame.TurnSlope();
+    return Both(Both(slope < T{0}, turn <= -near * slope),
+                slip * Absolute(frame.Turn() / slope) <= share * contact.velocity);
+  }
+
+  T slip;
+  Frame<T> frame;
+};
+
+// A step from the present state of a path, in the direction in which it slips. T is a floating type or a LaneNumber.
 template <typename T>
 class Step {
  public:
-  // The state of `path` slips along e = (frame.c, frame.s) with the size `slip`, and must stay as it is meanwhile.
-  Step(const ScaledProblem<T>& problem, const Path<T>& path, const Frame<T>& frame, T slip, int order);
+  // All that is given must stay as it is meanwhile.
+  HWY_INLINE Step(const Contact<T>& contact, const Way<T>& way, const Heading<T>& heading, int order);
 
-  State<T> At(T xi) const;
+  HWY_INLINE State<T> At(T xi) const;
   // The largest xi at which the errors of the velocities stay below `allowed`.
-  T AccurateEnd(T allowed) const;
+  HWY_INLINE T AccurateEnd(T allowed) const;
   // `end`, or an earlier xi up to which the quantity that ends the phase grows monotonically.
-  T MonotonicEnd(T end) const {
-    end = EndAtSignChange([this](T xi) { return SlipAcrossCoupling(xi); }, end);
-    end = EndAtSignChange([this](T xi) { return NormalRate(xi); }, end);
-    if (!path_.in_restitution || path_.state.v == T{0}) return end;
-    return EndAtSignChange([this](T xi) { return NormalVelocity(xi); }, end);
+  HWY_INLINE T MonotonicEnd(T end) const {
+    const auto across = [this](T xi) HWY_ATTR { return SlipAcrossCoupling(xi); };
+    const auto normal = [this](T xi) HWY_ATTR { return NormalRate(xi); };
+    const auto velocity = [this](T xi) HWY_ATTR { return NormalVelocity(xi); };
+    end = EndAtSignChange(across, way_.may_turn, end);
+    end = EndAtSignChange(normal, way_.may_turn, end);
+    return EndAtSignChange(velocity, Both(Both(way_.may_turn, way_.in_restitution), Not(way_.from.v == T{0})), end);
   }
-  // The xi at which the phase reaches its goal, which is at most `end`; found to `relative` of itself.
-  T GoalWithin(T end, T relative) const {
-    const T guess = path_.ImpulseToGoal(problem_.SlopesAlong({frame_.c, frame_.s})) * problem_.rate / slip_;
-    return FindRoot<T>([this](T xi) { return path_.GoalRates(At(xi)); }, guess, end, relative);
+  // Where `is_reached`, the xi at which the phase reaches its goal, which is at most `end`; found to `relative` of
+  // itself.
+  HWY_INLINE T GoalWithin(MaskOf<T> is_reached, T end, T relative) const {
+    const T guess = way_.ImpulseToGoal(contact_.SlopesAlong({frame_.c, frame_.s})) * contact_.rate / slip_;
+    const auto rates = [this](T xi) HWY_ATTR { return way_.GoalRates(contact_, At(xi)); };
+    return Select(is_reached, FindRoot<T>(rates, is_reached, guess, end, relative), end);
   }
 
   // The error at xi, where the state is `end` and slip has the direction `e`.
-  StepError<T> ErrorAt(T xi, const State<T>& end, const Direction<T>& e) const;
+  HWY_INLINE StepError<T> ErrorAt(T xi, const State<T>& end, const Direction<T>& e) const;
 
  private:
-  PathError<T> ErrorOf(const SeriesTerm<T>& term, const State<T>& end, const Direction<T>& e) const;
+  HWY_INLINE PathError<T> ErrorOf(const SeriesTerm<T>& term, const State<T>& end, const Direction<T>& e) const;
   // The slip of the series and its slopes over xi.
   struct SlipRates {
     T x, y, size;
     T x_slope, y_slope;
   };
-  SlipRates SlipAt(T xi) const;
+  HWY_INLINE SlipRates SlipAt(T xi) const;
   // Three quantities over xi: the component of slip across wtn, which vanishes where v' is extremal; v' times slip; v.
-  Rates<T> SlipAcrossCoupling(T xi) const {
+  HWY_INLINE Rates<T> SlipAcrossCoupling(T xi) const {
     const SlipRates at = SlipAt(xi);
     return {-frame_.w2 * at.x + frame_.w1 * at.y, -frame_.w2 * at.x_slope + frame_.w1 * at.y_slope};
   }
-  Rates<T> NormalRate(T xi) const;
-  Rates<T> NormalVelocity(T xi) const {
+  HWY_INLINE Rates<T> NormalRate(T xi) const;
+  HWY_INLINE Rates<T> NormalVelocity(T xi) const {
     const State<T> at = At(xi);
-    return {at.v, path_.VelocityRate(at)};
+    return {at.v, way_.VelocityRate(contact_, at)};
   }
-  // `end`, or the xi before it where the quantity changes its sign.
+  // `end`, or the xi before it where the quantity changes its sign, where that counts.
   template <typename Function>
-  static T EndAtSignChange(const Function& quantity, T end);
+  HWY_INLINE static T EndAtSignChange(const Function& quantity, MaskOf<T> counts, T end);
 
-  const ScaledProblem<T>& problem_;
-  const Path<T>& path_;
+  const Contact<T>& contact_;
+  const Way<T>& way_;
   const Frame<T>& frame_;
   const T slip_;
   const int order_;
@@ -99,24 +128,24 @@ class Step {
 };
 
 template <typename T>
-Step<T>::Step(const ScaledProblem<T>& problem, const Path<T>& path, const Frame<T>& frame, T slip, int order)
-    : problem_(problem),
-      path_(path),
-      frame_(frame),
-      slip_(slip),
+HWY_INLINE Step<T>::Step(const Contact<T>& contact, const Way<T>& way, const Heading<T>& heading, int order)
+    : contact_(contact),
+      way_(way),
+      frame_(heading.frame),
+      slip_(heading.slip),
       order_(order),
-      friction_unit_(problem.largest_root * problem.mu * slip / problem.rate),
-      work_unit_(problem.mu * slip * slip / problem.rate) {
-  series_.Expand(frame, order);
+      friction_unit_(contact.largest_root * contact.mu * slip_ / contact.rate),
+      work_unit_(contact.mu * slip_ * slip_ / contact.rate) {
+  series_.Expand(frame_, order);
 }
 
 template <typename T>
-State<T> Step<T>::At(T xi) const {
+HWY_INLINE State<T> Step<T>::At(T xi) const {
   const SeriesValues<T> values = series_.At(xi);
-  const State<T>& from = path_.state;
-  const Matrix<T>& w = problem_.w;
-  const T mu = problem_.mu;
-  const T unit = slip_ / problem_.rate;
+  const State<T>& from = way_.from;
+  const Matrix<T>& w = contact_.w;
+  const T mu = contact_.mu;
+  const T unit = slip_ / contact_.rate;
   const T tau = unit * values.s_integral;
   const T f1 = -mu * unit * (frame_.c * values.x_integral - frame_.s * values.y_integral);
   const T f2 = -mu * unit * (frame_.s * values.x_integral + frame_.c * values.y_integral);
@@ -129,26 +158,30 @@ State<T> Step<T>::At(T xi) const {
           .friction_work = from.friction_work - mu * slip_ * unit * values.square_integral};
 }
 
-// The terms beyond the last one are taken for a geometric series that starts at the larger of the values to which the last two lead.
+// The terms beyond the last one are taken for a geometric series that starts at the larger of the values to which the
+// last two lead.
 template <typename T>
-StepError<T> Step<T>::ErrorAt(T xi, const State<T>& end, const Direction<T>& e) const {
+HWY_INLINE StepError<T> Step<T>::ErrorAt(T xi, const State<T>& end, const Direction<T>& e) const {
   const LastTerms<T> terms = series_.LastTermsAt(xi);
   const PathError<T> before = ErrorOf(terms.before, end, e);
   const PathError<T> last = ErrorOf(terms.last, end, e);
-  const auto size = [](const PathError<T>& of) { return std::fabs(of.f1) + std::fabs(of.f2); };
+  const auto size = [](const PathError<T>& of) HWY_ATTR { return Absolute(of.f1) + Absolute(of.f2); };
   const T q = terms.ratio;
-  StepError<T> error = {.known = before, .rest = size(before) * q > size(last) ? before : last};
+  StepError<T> error = {.known = before, .rest = last};
   error.known.Add(last, T{1});
-  const T factor = T{3} * q / (T{1} - q) * (size(before) * q > size(last) ? q : T{1});
-  error.rest = {.f1 = factor * error.rest.f1, .f2 = factor * error.rest.f2, .work = factor * error.rest.work};
+  const auto falls_fast = size(before) * q > size(last);
+  const T factor = T{3} * q / (T{1} - q) * Select(falls_fast, q, T{1});
+  error.rest = {.f1 = factor * Select(falls_fast, before.f1, last.f1),
+                .f2 = factor * Select(falls_fast, before.f2, last.f2),
+                .work = factor * Select(falls_fast, before.work, last.work)};
   return error;
 }
 
 // A lack in tau counts, too: at equal tau the friction impulse and its work lack less, as both would have gone on
 // meanwhile. The change of energy is u.df, and the normal work is that less the work of friction.
 template <typename T>
-PathError<T> Step<T>::ErrorOf(const SeriesTerm<T>& term, const State<T>& end, const Direction<T>& e) const {
-  const T unit = problem_.mu * slip_ / problem_.rate;
+HWY_INLINE PathError<T> Step<T>::ErrorOf(const SeriesTerm<T>& term, const State<T>& end, const Direction<T>& e) const {
+  const T unit = contact_.mu * slip_ / contact_.rate;
   const T late = unit * term.s_integral;
   const T f1 = late * e.c - unit * (frame_.c * term.x_integral - frame_.s * term.y_integral);
   const T f2 = late * e.s - unit * (frame_.s * term.x_integral + frame_.c * term.y_integral);
@@ -157,37 +190,40 @@ PathError<T> Step<T>::ErrorOf(const SeriesTerm<T>& term, const State<T>& end, co
 }
 
 template <typename T>
-T Step<T>::AccurateEnd(T allowed) const {
+HWY_INLINE T Step<T>::AccurateEnd(T allowed) const {
   // However small the slip is, the step stays within the convergence of the series, and comes nearer to a direction
   // that attracts slip.
-  const T off = std::fabs(frame_.Turn() / frame_.TurnSlope());
-  const T nearer = frame_.TurnSlope() < T{0} ? std::max(T{0.1} * off, kEpsilon<T>) : T{1};
-  const T relative = std::min(internal::Power(T{0.5}, 4 * order_ / 5), nearer);
-  const T velocity_per_friction = std::max(problem_.largest_root, problem_.normal_root);
-  return series_.LongestStep(std::min(allowed / (velocity_per_friction * friction_unit_), relative),
-                             std::min(allowed * problem_.velocity / (problem_.steepest * work_unit_), relative));
+  const T off = Absolute(frame_.Turn() / frame_.TurnSlope());
+  const T nearer = Select(frame_.TurnSlope() < T{0}, Max(T{0.1} * off, T{kEpsilon<Constant<T>>}), T{1});
+  const T relative = Min(internal::Power(T{0.5}, 4 * order_ / 5), nearer);
+  const T velocity_per_friction = Max(contact_.largest_root, contact_.normal_root);
+  return series_.LongestStep(Min(allowed / (velocity_per_friction * friction_unit_), relative),
+                             Min(allowed * contact_.velocity / (contact_.steepest * work_unit_), relative));
 }
 
 template <typename T>
 template <typename Function>
-T Step<T>::EndAtSignChange(const Function& quantity, T end) {
-  constexpr T kNegligible{1e-6};
-  const Rates<T> first = quantity(T{0});
-  const Rates<T> last = quantity(end);
-  if ((first.value < T{0}) == (last.value < T{0})) return end;
-  const T sign = first.value < T{0} ? T{1} : T{-1};
-  const auto increasing = [&](T xi) {
+HWY_INLINE T Step<T>::EndAtSignChange(const Function& quantity, MaskOf<T> counts, T end) {
+  const T zero{0};
+  if (InNoLane(counts)) return end;
+  const T first = quantity(zero).value;
+  const T last = quantity(end).value;
+  const auto changes = Both(counts, Differ(first < zero, last < zero));
+  if (InNoLane(changes)) return end;
+  const T sign = Select(first < zero, T{1}, T{-1});
+  const auto increasing = [&](T xi) HWY_ATTR {
     const Rates<T> here = quantity(xi);
     return Rates<T>{sign * here.value, sign * here.slope};
   };
-  const T root = FindRoot<T>(increasing, end, end, T{1e-9});
-  return root > kNegligible * end ? root : end;
+  const T negligible{1e-6};
+  const T root = FindRoot<T>(increasing, changes, end, end, T{1e-9});
+  return Select(Both(changes, root > negligible * end), root, end);
 }
 
 template <typename T>
-typename Step<T>::SlipRates Step<T>::SlipAt(T xi) const {
+HWY_INLINE typename Step<T>::SlipRates Step<T>::SlipAt(T xi) const {
   const SeriesValues<T> at = series_.At(xi);
-  const T size = std::sqrt(at.x * at.x + at.y * at.y);
+  const T size = SquareRoot(at.x * at.x + at.y * at.y);
   return {.x = at.x,
           .y = at.y,
           .size = size,
@@ -196,12 +232,51 @@ typename Step<T>::SlipRates Step<T>::SlipAt(T xi) const {
 }
 
 template <typename T>
-Rates<T> Step<T>::NormalRate(T xi) const {
+HWY_INLINE Rates<T> Step<T>::NormalRate(T xi) const {
   const SlipRates at = SlipAt(xi);
-  const T wnn = problem_.w.w33 / problem_.rate;
+  const T wnn = contact_.w.w33 / contact_.rate;
   const T size_slope = (at.x * at.x_slope + at.y * at.y_slope) / at.size;
-  return {wnn * at.size - problem_.mu * (frame_.w1 * at.x + frame_.w2 * at.y),
-          wnn * size_slope - problem_.mu * (frame_.w1 * at.x_slope + frame_.w2 * at.y_slope)};
+  return {wnn * at.size - contact_.mu * (frame_.w1 * at.x + frame_.w2 * at.y),
+          wnn * size_slope - contact_.mu * (frame_.w1 * at.x_slope + frame_.w2 * at.y_slope)};
+}
+
+// The outcome of a step.
+template <typename T>
+struct StepEnd {
+  State<T> state;
+  Direction<T> e;  // of slip
+  StepErrors<T> errors;
+  T beyond;                // how far the goal's quantity lies beyond the goal at the accurate end
+  MaskOf<T> reaches_goal;  // The step ends at the goal, which counts as reached.
+  T offset;                // the distance from the goal, in normal impulse, where it is reached
+};
+
+// Follows slip as far as its error stays below a share of the tolerance, and not beyond the goal of the phase.
+template <typename T>
+HWY_INLINE StepEnd<T> TakeStep(const Contact<T>& contact, const Way<T>& way, const StepErrors<T>& errors,
+                               const Heading<T>& heading, T tolerance, int order) {
+  const T step_share{0.175};
+  const Step<T> step(contact, way, heading, order);
+  T xi = step.AccurateEnd(step_share * tolerance * contact.velocity);
+  if (!InNoLane(way.may_turn)) xi = step.MonotonicEnd(xi);
+  State<T> state = step.At(xi);
+  const T beyond = way.Value(state) - way.target;
+  const auto reaches_goal = beyond >= T{0};
+  T offset{0};
+  if (!InNoLane(reaches_goal)) {
+    xi = step.GoalWithin(reaches_goal, xi, T{1e-2} * SquareRoot(tolerance));
+    state = step.At(xi);
+    const Rates<T> rates = way.GoalRates(contact, state);
+    offset = T{2} * Absolute(rates.value / rates.slope) * state.Slip() / contact.rate;
+  }
+  const T slip = state.Slip();
+  const Direction<T> e = {state.u1 / slip, state.u2 / slip};
+  const Stretch<T> stretch = {.length = state.tau - way.from.tau,
+                              .m = {heading.frame.c + e.c, heading.frame.s + e.s},
+                              .slip = {heading.slip, slip}};
+  StepErrors<T> sum = errors;
+  sum.AddStep(contact, step.ErrorAt(xi, state, e), stretch, state.v);
+  return {.state = state, .e = e, .errors = sum, .beyond = beyond, .reaches_goal = reaches_goal, .offset = offset};
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

@@ -61,7 +61,7 @@ template <typename T>
 void Follow(Progress<T>& impact, const StraightPiece<T>& piece) {
   T left = piece.length;
   while (!impact.path.ended) {
-    const T to_goal = piece.ends_locked ? kInfinity<T> : impact.path.ImpulseToGoal(piece.slopes);
+    const T to_goal = piece.ends_locked ? kInfinity<T> : impact.path.WayAhead().ImpulseToGoal(piece.slopes);
     const T length = std::min(to_goal, left);
     if (!(length < kInfinity<T>)) return;
     Advance(impact, piece, length);
@@ -80,7 +80,7 @@ void FollowSlip(Progress<T>& impact, const Direction<T>& e) {
   T growth = slopes.u1 * e.c + slopes.u2 * e.s;
   // Slip that starts grows, however slowly: rounded to below 0, the growth would stop it where it is.
   if (slip == T{0}) growth = std::max(growth, T{0});
-  impact.errors.AddFrictionError(impact.errors.SlipRounding(slip));
+  impact.errors.AddSlipRounding(slip);
   StraightPiece<T> piece = {.motion = problem.mu > T{0} ? Motion::kSlips : Motion::kIsFree,
                             .slopes = {growth * e.c, growth * e.s, slopes.v},
                             .e = e,

@@ -1,0 +1,115 @@
+// StepErrors: the errors to which steps of slip add, and which they carry on. T is a floating type or a LaneNumber.
+//
+// The error of each step is known to leading order and carried along the path with its sign, and so is its doubt.
+// Rounding, and what is no longer carried, counts by the norm of Wtt^-1. core/models/spatial/error_ledger-inl.h says
+// what they do to the end of the impact.
+
+// Per-target include guard.
+#if defined(RICOCHET_CORE_MODELS_SPATIAL_STEP_ERRORS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_SPATIAL_STEP_ERRORS_INL_H_
+#undef RICOCHET_CORE_MODELS_SPATIAL_STEP_ERRORS_INL_H_
+#else
+#define RICOCHET_CORE_MODELS_SPATIAL_STEP_ERRORS_INL_H_
+#endif
+
+#include "core/models/spatial/matrix-inl.h"
+#include "core/models/spatial/path_error-inl.h"
+#include "core/models/spatial/problem-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace ricochet::spatial::HWY_NAMESPACE {
+
+// The error of one step to leading order, and one like what that leaves out.
+template <typename T>
+struct StepError {
+  PathError<T> known, rest;
+};
+
+// A stretch of slip: its length in normal impulse, its mean direction at any length, and the sizes of slip at its ends.
+template <typename T>
+struct Stretch {
+  T length;
+  Direction<T> m;
+  SlipSizes<T> slip;
+};
+
+template <typename T>
+struct StepErrors {
+  // Adds a step with v at its end.
+  HWY_INLINE void AddStep(const Contact<T>& contact, const StepError<T>& error, const Stretch<T>& stretch, T v) {
+    Carry(contact, stretch);
+    AddKnown(contact.w, error);
+    CountByNorm(contact.w, stretch.slip.last < T{4} * KnownSlipError(contact.w));
+    friction += SlipRounding(contact, stretch.slip.first);
+    AddRounding(contact, contact.w.w33 * stretch.length, v, stretch.length);
+  }
+
+  // Carries the known error over slip.
+  HWY_INLINE void Carry(const Contact<T>& contact, const Stretch<T>& stretch) {
+    const T zero{0};
+    const auto is_known = Not(Both(known.f1 == zero, known.f2 == zero));
+    if (InNoLane(is_known)) return;
+    const Decay<T> decay = DecayOver(contact.w, contact.mu, stretch.m.c, stretch.m.s, stretch.length, stretch.slip,
+                                     KnownSlipError(contact.w));
+    PathError<T> of_known = known;
+    PathError<T> of_doubtful = doubtful;
+    of_known.CarryOver(contact.w, decay);
+    of_doubtful.CarryOver(contact.w, decay);
+    known = Select(is_known, of_known, known);
+    doubtful = Select(is_known, of_doubtful, doubtful);
+  }
+
+  // Doubts add up: they take the sign of the sum so far.
+  HWY_INLINE void AddKnown(const Matrix<T>& w, const StepError<T>& error) {
+    known.Add(error.known, T{1});
+    friction += T{kAnyDirection} * error.known.Norm(w);
+    AddDoubt(w, error.known, T{kDoubt});
+    AddDoubt(w, error.rest, T{1});
+  }
+  HWY_INLINE void AddDoubt(const Matrix<T>& w, const PathError<T>& doubt, T part) {
+    const T product = doubtful.f1 * doubt.Velocity1(w) + doubtful.f2 * doubt.Velocity2(w);
+    doubtful.Add(doubt, CopySign(part, product));
+  }
+
+  // Carries on no longer what is known where `counts`.
+  HWY_INLINE void CountByNorm(const Matrix<T>& w, MaskOf<T> counts) {
+    if (InNoLane(counts)) return;
+    const T zero{0};
+    friction = Select(counts, friction + (known.Norm(w) + doubtful.Norm(w)), friction);
+    known.f1 = Select(counts, zero, known.f1);
+    known.f2 = Select(counts, zero, known.f2);
+    doubtful.f1 = Select(counts, zero, doubtful.f1);
+    doubtful.f2 = Select(counts, zero, doubtful.f2);
+  }
+
+  HWY_INLINE void AddRounding(const Contact<T>& contact, T change_of_v, T v, T length) {
+    v_rounding += T{kEpsilon<Constant<T>>} * (change_of_v + T{0.5} * Absolute(v));
+    work += VelocityError(contact) * length;
+  }
+
+  HWY_INLINE T KnownSlipError(const Matrix<T>& w) const {
+    const T u1 = known.Velocity1(w);
+    const T u2 = known.Velocity2(w);
+    return SquareRoot(u1 * u1 + u2 * u2);
+  }
+  HWY_INLINE T VelocityError(const Contact<T>& contact) const { return contact.normal_root * friction + v_rounding; }
+  // The rounding of the direction of slip, in the norm of `friction`.
+  HWY_INLINE static T SlipRounding(const Contact<T>& contact, T slip) {
+    return T{kEpsilon<Constant<T>>} * slip / contact.smallest_root;
+  }
+
+  // The known error is a linear estimate of an error that is not: its doubt is this part of it, and this part of it in
+  // addition counts by its norm, as an error of any direction.
+  static constexpr double kDoubt = 0.5;
+  static constexpr double kAnyDirection = 0.13;
+
+  PathError<T> known, doubtful;
+  T friction{0};    // of the friction impulse, in the norm sqrt(df^T Wtt df)
+  T v_rounding{0};  // of v
+  T work{0};        // of the normal work in this phase
+};
+
+}  // namespace ricochet::spatial::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard
