@@ -47,21 +47,32 @@ double ErrorOfStraightPath(const ScaledContact& contact, const Path& path) {
   return error / std::max(1.0, std::fabs(contact.u0));
 }
 
+// How far u may be off beyond its own local errors because of the springs along t and n. An error of the tangential force
+// swings into a velocity, and a relative one of the normal force counts as that part of the mean size of u.
+double ErrorOfCompliantSlip(const ScaledContact& contact, const Path& path, double normal) {
+  const double swing = std::sqrt(contact.wtt * contact.ratio_squared / contact.stiffness);
+  const double mean = 0.5 * (std::fabs(contact.u0) + path.peaks.slip);
+  return swing * path.local_errors[kSpringForce] + mean * normal;
+}
+
 // Local errors add up at worst in size. They grow where restitution slows down, because v^2 carries over, and they shift
 // the end, up to which a_t acts. The safety covers all other growth.
 double ErrorOfAnyPath(const ScaledContact& contact, const Path& path) {
-  constexpr double kSafety = 4.0;
+  const double safety = contact.compliant ? 3.5 : 4.0;
   const Motion& end = path.end;
   const Motion& local = path.local_errors;
   const double growth = end[kV] > 0.0 ? path.peaks.restitution_speed / end[kV] : 1.0;
   // A force with a given relative error changes the velocities by that part of their change.
   const double normal = std::max(local[kPlace] / std::max(1.0, path.peaks.place), local[kV]);
   const double shift = std::fabs(contact.at) * end[kTime] * normal;
-  const double error = std::max(growth * normal, local[kU]) + shift;
+  double error = std::max(growth * normal, local[kU]) + shift;
+  if (contact.compliant) {
+    error = growth * std::max(normal, local[kU] + ErrorOfCompliantSlip(contact, path, normal)) + shift;
+  }
   double terms = std::fabs(contact.u0) + 1.0 + (std::fabs(contact.at) + std::fabs(contact.an)) * end[kTime];
   // Springs along t and n work against each other where W is close to rank one.
   if (contact.compliant) terms += (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu) * end[kNormal];
-  return (kSafety * error + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
+  return (safety * error + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
 }
 
 // Returns how far the velocities at the end of a path may be from the truth, over max(|u0|, |v0|).

@@ -237,6 +237,7 @@ void Peaks::Add(const ScaledContact& contact, const Mode& mode, const Motion& y)
   normal = std::max(normal, forces.normal);
   tangential = std::max(tangential, std::fabs(forces.tangential));
   place = std::max(place, y[kPlace]);
+  slip = std::max(slip, std::fabs(y[kU]));
   if (mode.Unloads()) restitution_speed = std::max(restitution_speed, y[kV]);
   indentation = std::max(indentation, Indentation(contact, mode, y));
 }

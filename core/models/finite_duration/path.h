@@ -43,6 +43,7 @@ struct Peaks {
   double indentation = 0.0;
   double place = 0.0;  // kPlace
   double restitution_speed = 0.0;
+  double slip = 0.0;  // |u|
 
   void Add(const ScaledContact& contact, const Mode& mode, const Motion& y);
 };

@@ -31,6 +31,19 @@ TEST_P(FiniteDurationClaimsTest, WithASpringAlongTNobodyIsDeceived) {
   EXPECT_LE(tally.MedianRatio(), 50.0);
 }
 
+// Scenes 4725 and 3830 of ricochet_claims, in which the local errors of the velocities alone claim a quarter of the error:
+// the tangential spring carries more of it than they do.
+TEST_P(FiniteDurationClaimsTest, WhereTheSpringCarriesTheErrorNobodyIsDeceived) {
+  ClaimScenes scenes(ClaimKind::kCompliant, /*hard=*/false, 77);
+  for (int i = 0; i <= 4725; ++i) {
+    Problem problem = scenes.Next();
+    if (i != 3830 && i != 4725) continue;
+    problem.tolerance = GetParam();
+    const Impact impact = Solve(problem);
+    EXPECT_GE(impact.error_estimate, ErrorOf(problem, impact, *ClosedForm(problem))) << "scene " << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Tolerances, FiniteDurationClaimsTest, testing::ValuesIn(kClaimTolerances));
 
 }  // namespace
