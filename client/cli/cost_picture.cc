@@ -269,7 +269,7 @@ Plot Alone(Panel panel, PictureWidth width) {
   const bool wide = width == PictureWidth::kWide;
   const auto legend_lines = static_cast<int>(panel.curves.size());
   const int height = wide ? std::max(560, 90 + 25 * legend_lines) : 440 + 26 * legend_lines;
-  absl::StrAppend(&panel.settings, "set key reverse Left samplen 2.5 spacing 1.25\n");
+  absl::StrAppend(&panel.settings, "set key reverse Left samplen 2.5 spacing 1.25 maxcols 1\n");
   if (wide) {
     absl::StrAppend(&panel.settings,
                     "set key at screen 0.735, 0.97 left top\nset rmargin at screen 0.70\n"
@@ -295,7 +295,7 @@ Plot CostPlot(const CostChunk& study, const std::string& title) {
                   "unset key\nset lmargin at screen 0.085\nset rmargin at screen 0.41\n"
                   "set tmargin at screen 0.87\nset bmargin at screen 0.12\n");
   absl::StrAppend(&claim.settings,
-                  "set key at screen 0.80, 0.88 left top reverse Left samplen 2 spacing 1.25\n"
+                  "set key at screen 0.80, 0.88 left top reverse Left samplen 2 spacing 1.25 maxcols 1\n"
                   "set lmargin at screen 0.485\nset rmargin at screen 0.785\n");
   // The legend is that of the second panel, which lacks the front and the failures: they are added as empty curves.
   for (const Curve& curve : time.curves) {

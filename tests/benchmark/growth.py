@@ -186,7 +186,7 @@ def picture(found):
         lines += [f"set xlabel '{label}'", f"set title '{unit}'", "unset logscale"]
         lines += [f"set logscale {axes}"] if axes else []
         lines += ["set yrange [*:*]" if "y" in axes else "set yrange [0:*]",
-                  "set format x '10^{%L}'; set xtics 10" if name == "points" else "set format x '%g'; set xtics autofreq",
+                  "set format x '10^{%L}'; set xtics 10" if name in ("points", "contacts") else "set format x '%g'; set xtics autofreq",
                   "plot '-' with linespoints lw 2 pt 7 ps 0.6 lc '#0072b2'"]
         lines += [f"{x} {y}" for x, y in map(of, rows)] + ["e"]
     return "\n".join(lines + ["unset multiplot", ""])
