@@ -378,7 +378,8 @@ Outcome FullOutcome(const PlanarReduction& reduction, const Restitution& restitu
 Outcome FullOutcome(const SpatialReduction& reduction, const Restitution& restitution,
                     const EffectiveCoefficients& effective) {
   const spatial::Problem problem = spatial::MakeProblem(reduction, restitution, effective, 1e-12);
-  return Made([&](Outcome& made) { return spatial::MakeOutcome(spatial::Solve(problem), reduction, {}, made); }).value();
+  return Made([&](Outcome& made) { return spatial::MakeOutcome(spatial::Solve(problem), reduction, {}, made); })
+      .value();
 }
 
 template <size_t kTangential>
