@@ -183,7 +183,7 @@ set output '{picture}'
 set multiplot title 'One impact of a pendulum: time against error'
 set logscale xy
 set format '10^{{%T}}'
-set yrange [10:1e8]
+set yrange [1:1e8]
 set grid linetype 1 linecolor rgb '#d8d8d8' linewidth 1
 set tics nomirror scale 0.6
 set mxtics 1
