@@ -1,13 +1,11 @@
 #include "core/answer/pendulum_lanes.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 
 #include "absl/container/inlined_vector.h"
 #include "core/answer/model_outcomes.h"
 #include "core/models/pendulum/first_order.h"
-#include "core/models/restitution_law.h"
+#include "core/numerics/moderate.h"
 #include "core/plan/choose.h"
 #include "core/plan/pendulum_models.h"
 #include "core/problem/scene_problem.h"
@@ -33,23 +31,10 @@ std::optional<Output> OutputAt(const std::string& path) {
   return std::nullopt;
 }
 
-double MostCoefficient(RestitutionLaw law) {
-  return law == RestitutionLaw::kEnergetic ? 1.0 : std::numeric_limits<double>::max();
-}
-
-// True if the number lies where no product of a few of them can overflow or vanish.
-bool IsModerate(double number) {
-  const double size = std::fabs(number);
-  return size == 0.0 || (size > 0x1p-200 && size < 0x1p200);
-}
-
 // True if every rule of a scene holds for sure. Any other problem is left to the checks of a scene.
 bool IsSurelyValid(const Problem& x) {
-  for (const double number : {x.inertia, x.a, x.b, x.omega_minus, x.mu, x.mu_static, x.coefficient}) {
-    if (!IsModerate(number)) return false;
-  }
-  return x.inertia > 0.0 && x.a > 0.0 && x.mu >= 0.0 && x.mu_static >= x.mu && x.coefficient >= 0.0 &&
-         x.coefficient <= MostCoefficient(x.law);
+  return AreModerate({x.inertia, x.a, x.b, x.omega_minus, x.mu, x.mu_static, x.coefficient}, kMostInLanes) &&
+         x.inertia > 0.0 && x.a > 0.0 && KeepCoefficientRules(x.mu, x.mu_static, x.law, x.coefficient);
 }
 
 enum class Way { kClosedForm, kFirstOrder, kLeft };

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -14,6 +12,7 @@
 #include "core/models/impact_end.h"
 #include "core/models/planar/columns.h"
 #include "core/models/sliding/columns.h"
+#include "core/numerics/moderate.h"
 #include "core/plan/arithmetic.h"
 #include "core/plan/choose.h"
 #include "core/plan/planar_models.h"
@@ -53,21 +52,13 @@ std::optional<PlanarOutput> OutputAt(const std::string& path) {
   return std::nullopt;
 }
 
-// True if a number keeps its rule and lies where no product of a few of them can overflow or vanish.
-bool IsModerate(double number) {
-  const double size = std::fabs(number);
-  return size == 0.0 || (size > 0x1p-200 && size < 0x1p200);
-}
-
 // True if every rule of the scene holds for sure and W has full rank. Any other problem is left to the checks of a scene.
 bool IsSurelyValid(const planar::Problem& problem) {
   const auto& [tt, tn, nn] = problem.w;
-  for (const double number : {tt, tn, nn, problem.u0, problem.v0, problem.mu, problem.mu_static, problem.coefficient}) {
-    if (!IsModerate(number)) return false;
-  }
-  const double most = problem.law == RestitutionLaw::kEnergetic ? 1.0 : std::numeric_limits<double>::max();
-  return tt > 0.0 && nn > 0.0 && tn * tn < 0.999 * (tt * nn) && problem.mu >= 0.0 && problem.mu_static >= problem.mu &&
-         problem.coefficient >= 0.0 && problem.coefficient <= most;
+  return AreModerate({tt, tn, nn, problem.u0, problem.v0, problem.mu, problem.mu_static, problem.coefficient},
+                     kMostInLanes) &&
+         tt > 0.0 && nn > 0.0 && tn * tn < 0.999 * (tt * nn) &&
+         KeepCoefficientRules(problem.mu, problem.mu_static, problem.law, problem.coefficient);
 }
 
 // The numbers of a contact that separates. The rank of W is not an output.

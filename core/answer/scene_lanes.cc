@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <limits>
 
 #include "absl/strings/match.h"
 #include "core/answer/pendulum_lanes.h"
@@ -21,6 +22,11 @@ std::optional<size_t> SceneLanes::NumberAt(const std::string& path) const {
   const auto found = std::find(paths_.begin(), paths_.end(), path);
   if (found == paths_.end()) return std::nullopt;
   return static_cast<size_t>(found - paths_.begin());
+}
+
+bool KeepCoefficientRules(double mu, double mu_static, RestitutionLaw law, double coefficient) {
+  const double most = law == RestitutionLaw::kEnergetic ? 1.0 : std::numeric_limits<double>::max();
+  return mu >= 0.0 && mu_static >= mu && coefficient >= 0.0 && coefficient <= most;
 }
 
 bool AreFinite(absl::Span<double* const> columns, size_t first, size_t count) {

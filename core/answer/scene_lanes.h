@@ -13,6 +13,7 @@
 #include <string>
 
 #include "absl/types/span.h"
+#include "core/models/restitution_law.h"
 #include "core/plan/demand.h"
 #include "ricochet/outcome.h"
 #include "ricochet/plan.h"
@@ -54,9 +55,6 @@ class SceneLanes {
 
   virtual ~SceneLanes() = default;
 
-  // The paths of the numbers but the last, which is the coefficient of restitution by whatever path the scene states it.
-  absl::Span<const char* const> paths() const { return paths_; }
-  size_t number_count() const { return paths_.size() + 1; }
   // The number that the field at `path` states by itself, or nothing.
   std::optional<size_t> NumberAt(const std::string& path) const;
   // Makes the column of kinetic friction that of static friction, too: so it is for a scene that states no static friction.
@@ -75,11 +73,18 @@ class SceneLanes {
   virtual void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) = 0;
 
  protected:
+  // `paths` are those of the numbers but the last, the coefficient of restitution, by whatever path a scene states it.
   explicit SceneLanes(absl::Span<const char* const> paths) : paths_(paths) {}
 
  private:
   absl::Span<const char* const> paths_;
 };
+
+// No product of a few numbers overflows or vanishes that are 0 or have magnitudes between the inverse of this one and it.
+inline constexpr double kMostInLanes = 0x1p200;
+
+// True if coefficients of friction and restitution keep the rules of a scene; a comparison with NaN is false.
+bool KeepCoefficientRules(double mu, double mu_static, RestitutionLaw law, double coefficient);
 
 // True if the numbers [first, first + count) of every column are finite.
 bool AreFinite(absl::Span<double* const> columns, size_t first, size_t count);

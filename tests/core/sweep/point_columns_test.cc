@@ -37,7 +37,7 @@ void ExpectColumnsOfScenes(const Grid& grid, int64_t first, size_t count) {
       std::optional<SceneContact> contact;
       if (!driven.IsValid(contact)) continue;
       const SceneLanes::Numbers expected = lanes->NumbersOf(driven.scene());
-      for (size_t n = 0; n < lanes->number_count(); ++n) {
+      for (size_t n = 0; n < expected.size(); ++n) {
         const double number = found.of[n][i];
         ASSERT_EQ(std::bit_cast<uint64_t>(number), std::bit_cast<uint64_t>(expected[n])) << at << " " << i << " " << n;
         if (found.varies[n]) continue;
