@@ -112,7 +112,7 @@ Model PendulumLanes::Plan(size_t i) {
   const Problem problem = problems_[i];
   if (!IsSurelyValid(problem)) return Model::kUnspecified;
   Choice choice;
-  if (demand_.required.IsEmpty() && demand_.excluded.IsEmpty()) {
+  if (demand_.IsToleranceAlone()) {
     choice.model = ModelOfPendulum(problem, demand_.relative_tolerance);
     if (choice.model != Model::kFrictionless) return choice.model;
     choice.left_out = {Effect::kFriction};
@@ -151,7 +151,7 @@ void PendulumLanes::SolveToFirstOrder(size_t first, size_t count, Block& block) 
 // Chooses the models of a block. Returns true if all problems call for the closed form with friction.
 bool PendulumLanes::PlanAll(size_t count, Block& block) {
   const absl::Span<Model> models = absl::MakeSpan(block.models).first(count);
-  if (!demand_.required.IsEmpty() || !demand_.excluded.IsEmpty()) {
+  if (!demand_.IsToleranceAlone()) {
     std::fill(models.begin(), models.end(), Model::kUnspecified);
   } else if (ModelsOfPendulum(problems_, demand_.relative_tolerance, models)) {
     return true;

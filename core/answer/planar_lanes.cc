@@ -69,7 +69,7 @@ ImpactEnd<double> Separated(double u0, double v0) { return Separating<ImpactEnd<
 std::unique_ptr<SceneLanes> PlanarLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
                                               const Demand& demand) {
   if (!std::holds_alternative<PlanarContact>(scene.system) || !IsPlain(scene)) return nullptr;
-  if (!demand.required.IsEmpty() || !demand.excluded.IsEmpty()) return nullptr;
+  if (!demand.IsToleranceAlone()) return nullptr;
   std::vector<PlanarOutput> outputs;
   for (const std::string& column : columns) {
     const std::optional<PlanarOutput> output = OutputAt(column);

@@ -26,7 +26,7 @@ size_t SpatialLanes::Add(const spatial::Problem& problem, double negligible, Sce
 
 std::optional<size_t> SpatialLanes::Add(const Scene& scene, const Demand& demand,
                                         std::optional<SceneContact>& contact) {
-  if (!contact.has_value() || !demand.required.IsEmpty() || !demand.excluded.IsEmpty()) return std::nullopt;
+  if (!contact.has_value() || !demand.IsToleranceAlone()) return std::nullopt;
   const auto* reduction = std::get_if<SpatialReduction>(&contact->reduction);
   if (reduction == nullptr || !FitsDoubles(contact->reduction)) return std::nullopt;
   const double tolerance = std::clamp(demand.relative_tolerance, spatial::kLeastTolerance, spatial::kMostTolerance);

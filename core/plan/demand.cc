@@ -195,7 +195,7 @@ std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContac
     return violations;
   }
   CheckComponents(scene, violations);
-  if (demand.required.IsEmpty() && demand.excluded.IsEmpty()) return violations;
+  if (demand.IsToleranceAlone()) return violations;
   CheckRequired(scene, demand, violations);
   if (CheckExcluded(scene, demand, violations) && violations.empty()) CheckForms(scene, contact, demand, violations);
   return violations;

@@ -19,6 +19,9 @@ struct Demand {
   double relative_tolerance = 1e-12;
   EffectSet required;  // Effects to simulate even if they are negligible.
   EffectSet excluded;  // Effects to leave out whatever that changes; WithImplied adds those that depend on them.
+
+  // True if no effect is required or excluded.
+  bool IsToleranceAlone() const { return required.IsEmpty() && excluded.IsEmpty(); }
   friend bool operator==(const Demand&, const Demand&) = default;
 };
 

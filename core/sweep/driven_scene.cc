@@ -14,10 +14,8 @@ namespace ricochet {
 
 // The paths of the axes; none if the scene has no system, which is then the only violation.
 static std::vector<std::string> PathsOf(const Grid& grid) {
-  std::vector<std::string> paths;
-  if (std::holds_alternative<std::monostate>(grid.scene.system)) return paths;
-  for (const Axis& axis : grid.axes) paths.push_back(axis.path);
-  return paths;
+  if (std::holds_alternative<std::monostate>(grid.scene.system)) return {};
+  return AxisPaths(grid);
 }
 
 DrivenScene::DrivenScene(const Grid& grid)

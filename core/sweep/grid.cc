@@ -126,6 +126,12 @@ std::vector<Violation> ValidateAxes(const Grid& grid) {
   return violations;
 }
 
+std::vector<std::string> AxisPaths(const Grid& grid) {
+  std::vector<std::string> paths;
+  for (const Axis& axis : grid.axes) paths.push_back(axis.path);
+  return paths;
+}
+
 int64_t AxisCount(const Axis& axis) {
   return std::visit([](const auto& values) { return CountOf(values); }, axis.values);
 }

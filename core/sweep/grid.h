@@ -4,6 +4,7 @@
 #define RICOCHET_CORE_SWEEP_GRID_H_
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "absl/types/span.h"
@@ -15,6 +16,9 @@ namespace ricochet {
 // Lists every rule that the axes and their combination break, by path ("axes[0].linspace.count"). Whether the scene has
 // the fields that they drive is checked in core/sweep/driven_scene.h.
 std::vector<Violation> ValidateAxes(const Grid& grid);
+
+// The paths of the axes.
+std::vector<std::string> AxisPaths(const Grid& grid);
 
 // The functions below take valid axes.
 

@@ -13,17 +13,11 @@ namespace ricochet {
 // An axis of at most so many values is computed once for all points.
 static constexpr int64_t kMostKept = 4096;
 
-static std::vector<std::string> PathsOf(const Grid& grid) {
-  std::vector<std::string> paths;
-  for (const Axis& axis : grid.axes) paths.push_back(axis.path);
-  return paths;
-}
-
 PointColumns::PointColumns(const Grid& grid, const SceneLanes& lanes)
     : lanes_(lanes),
       scene_(grid.scene),
       fields_(
-          PathsOf(grid), [](size_t i) { return absl::StrCat("axes[", i, "]"); }, ".path", scene_),
+          AxisPaths(grid), [](size_t i) { return absl::StrCat("axes[", i, "]"); }, ".path", scene_),
       static_is_kinetic_(!scene_.friction.static_coefficient.has_value()) {
   const SceneLanes::Numbers numbers = lanes_.NumbersOf(scene_);
   for (size_t n = 0; n < numbers.size(); ++n) Hold(n, numbers[n]);
