@@ -3,7 +3,6 @@
 import fcntl
 import os
 import random
-import resource
 import select
 import shutil
 import signal
@@ -316,7 +315,7 @@ def closed_descriptors():
 
 
 def burst_of_connections(hard):
-    with Server(limits=[(resource.RLIMIT_NOFILE, 64, hard)]) as server:
+    with Server(limits=[f"--nofile=64:{hard}"]) as server:
         require_served(server)
         connections = []
         for i in range(300):

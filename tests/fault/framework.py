@@ -10,13 +10,11 @@ check and ends with 1 if one is not level, unless the check states a mitigation:
 """
 
 import argparse
-import ctypes
 import dataclasses
 import json
 import os
 import random
 import re
-import resource
 import shutil
 import signal
 import subprocess
@@ -127,20 +125,13 @@ def tools():
     return TOOLS
 
 
-def _die_with_parent():
-    ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
-
-
 class Process:
-    """A child process, with what /proc says about it."""
+    """A child process, with what /proc says about it. `limits` are options of prlimit."""
 
     def __init__(self, command, limits=(), **popen):
-        def before():
-            _die_with_parent()
-            for which, soft, hard in limits:
-                resource.setrlimit(which, (soft, hard))
-
-        self.child = subprocess.Popen([str(part) for part in command], preexec_fn=before, **popen)
+        # Programs set up the child, because a function of Python needs a true fork, in which threads of gRPC abort or hang.
+        setup = ["setpriv", "--pdeathsig", "KILL", *(["prlimit", *limits] if limits else [])]
+        self.child = subprocess.Popen([*setup, *(str(part) for part in command)], **popen)
         self.pid = self.child.pid
         _live.append(self)
 
