@@ -124,7 +124,8 @@ class Simulation {
   }
 
   ExactImpact Run() {
-    constexpr int kMostSteps = 100'000;
+    // Near rank one a path may last a million radians of its fastest oscillation.
+    constexpr int kMostSteps = 1'000'000;
     Record();
     for (int i = 0; i < kMostSteps && !done_; ++i) Step();
     impact_.ends = done_;
