@@ -16,7 +16,6 @@
 #include "core/models/planar/rounding-inl.h"
 #include "core/models/planar_outputs-inl.h"
 #include "core/numerics/lanes-inl.h"
-#include "core/numerics/sizes-inl.h"
 // clang-format on
 
 #ifndef RICOCHET_CORE_MODELS_PLANAR_COLUMNS_CC_
@@ -71,15 +70,6 @@ namespace ricochet::planar::HWY_NAMESPACE {
 using V = ricochet::HWY_NAMESPACE::Vector;
 using VLanes = ricochet::HWY_NAMESPACE::Lanes<V>;
 using Mask = decltype(V() < V());
-
-// True where DoubleDouble is exact on the whole path.
-HWY_INLINE Mask AreModerate(const Job& job, size_t i) {
-  ricochet::HWY_NAMESPACE::Sizes<V> sizes;
-  ricochet::HWY_NAMESPACE::Sizes<V> couplings;
-  for (const size_t k : {kWtt, kWnn, kV0, kMu, kMuStatic, kCoefficient}) sizes.TakeIn(VLanes::Load(job.numbers[k] + i));
-  for (const size_t k : {kWtn, kU0}) couplings.TakeIn(VLanes::Load(job.numbers[k] + i));
-  return Both(sizes.AreWithin(kLeastModerate, kMostModerate), couplings.AreWithin(kLeastCoupling, kMostModerate));
-}
 
 template <typename N>
 HWY_INLINE Inputs<N> LoadInputs(const Job& job, size_t i) {
@@ -143,7 +133,7 @@ HWY_INLINE void SolveAll(const Job& job, size_t first, size_t count, double tole
     const Inputs<N> in = LoadInputs<N>(job, i);
     const Course<N> course = Follow(job.law, in);
     const Answer<N> answer = Judge(job.parts, course);
-    const Mask is_regular = Both(IsNegative(in.v0), AreModerate(job, i));
+    const Mask is_regular = Both(IsNegative(in.v0), IsModerate(in));
     const Mask serves = Both(is_regular, Both(answer.proved, answer.relative_error <= VLanes::Fill(tolerance)));
     const Mask breaks_limit = Either(answer.numbers.sharp_limit_broken, answer.numbers.energy_limit_broken);
     const V verdict = RegimeOf(course) + Select(breaks_limit, VLanes::Fill(kInadmissible), zero);

@@ -6,7 +6,6 @@
 
 #include <cmath>
 
-#include "core/numerics/moderate.h"
 // Highway prescribes the order of these includes.
 // clang-format off
 #include "hwy/foreach_target.h"
@@ -39,16 +38,17 @@ Impact SolveModerateWithErrors(const Problem& problem, RoundingErrors& errors) {
   return SolveOne<Moderate>(problem, errors);
 }
 
-PlainImpact SolvePlainModerate(const Problem& problem) {
+PlainImpact SolvePlainApproaching(const Problem& problem) {
   using N = Plain<double>;
   const Course<N> course = Follow<N>(problem.law, MakeInputs<N>(problem));
   const EndErrors<N> errors = ErrorsOf(course);
   Numbers<N> numbers = MakeNumbers(kAllParts, course);
   const bool keeps_limits = KeepsLimits(course);
   KeepLimits(keeps_limits, course, numbers);
-  return {.impact = Report(problem, course, numbers),
-          .errors = ToErrors(PlainBounds(course, errors)),
-          .proved = PathIsSure(course, errors) && (keeps_limits || LimitsAreSure(course, errors))};
+  return {
+      .impact = Report(problem, course, numbers),
+      .errors = ToErrors(PlainBounds(course, errors)),
+      .proved = IsModerate(course.in) && PathIsSure(course, errors) && (keeps_limits || LimitsAreSure(course, errors))};
 }
 
 }  // namespace ricochet::planar::HWY_NAMESPACE
@@ -62,15 +62,12 @@ namespace ricochet::planar {
 
 HWY_EXPORT(SolveModerate);
 HWY_EXPORT(SolveModerateWithErrors);
-HWY_EXPORT(SolvePlainModerate);
+HWY_EXPORT(SolvePlainApproaching);
 
 namespace {
 
 bool FitsDoubleDouble(const Problem& problem) {
-  using HWY_NAMESPACE::kMostModerate;
-  return AreWithin(HWY_NAMESPACE::kLeastModerate, kMostModerate,
-                   {problem.w.tt, problem.w.nn, problem.v0, problem.mu, problem.mu_static, problem.coefficient}) &&
-         AreWithin(HWY_NAMESPACE::kLeastCoupling, kMostModerate, {problem.w.tn, problem.u0});
+  return HWY_NAMESPACE::IsModerate(HWY_NAMESPACE::MakeInputs<HWY_NAMESPACE::Plain<double>>(problem));
 }
 
 Impact SolveSeparating(const Problem& problem) {
@@ -81,8 +78,7 @@ Impact SolveSeparating(const Problem& problem) {
 
 PlainImpact SolvePlain(const Problem& problem) {
   if (problem.v0 >= 0.0) return {.impact = SolveSeparating(problem), .proved = true};
-  if (!FitsDoubleDouble(problem)) return {};
-  return HWY_DYNAMIC_DISPATCH(SolvePlainModerate)(problem);
+  return HWY_DYNAMIC_DISPATCH(SolvePlainApproaching)(problem);
 }
 
 Impact Solve(const Problem& problem, RoundingErrors& errors) {

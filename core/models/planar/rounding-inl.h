@@ -20,6 +20,7 @@
 #include "core/models/planar/planar.h"
 #include "core/models/planar/report-inl.h"
 #include "core/models/restitution_law.h"
+#include "core/numerics/sizes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::planar::HWY_NAMESPACE {
@@ -52,6 +53,16 @@ HWY_INLINE Plain<V> Coarse(const DoubleDouble<V>& x) {
 }
 template <typename N>
 using CoarseOf = decltype(Coarse(N()));
+
+// True where DoubleDouble is exact on the whole path.
+template <typename N>
+HWY_INLINE MaskOf<CoarseOf<N>> IsModerate(const Inputs<N>& in) {
+  ricochet::HWY_NAMESPACE::Sizes<RoundedOf<N>> sizes;
+  ricochet::HWY_NAMESPACE::Sizes<RoundedOf<N>> couplings;
+  for (const N* x : {&in.wtt, &in.wnn, &in.v0, &in.mu, &in.mu_static, &in.coefficient}) sizes.TakeIn(Coarse(*x).value);
+  for (const N* x : {&in.wtn, &in.stated_u0}) couplings.TakeIn(Coarse(*x).value);
+  return Both(sizes.AreWithin(kLeastModerate, kMostModerate), couplings.AreWithin(kLeastCoupling, kMostModerate));
+}
 
 template <typename M>
 HWY_INLINE M Times(double count, const M& x) {
