@@ -7,6 +7,7 @@
 
 #include "absl/strings/match.h"
 #include "core/answer/pendulum_lanes.h"
+#include "core/answer/planar_body_lanes.h"
 #include "core/answer/planar_lanes.h"
 
 namespace ricochet {
@@ -14,7 +15,8 @@ namespace ricochet {
 std::unique_ptr<SceneLanes> SceneLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
                                              const Demand& demand) {
   if (auto pendulum = PendulumLanes::Make(scene, columns, demand)) return pendulum;
-  return PlanarLanes::Make(scene, columns, demand);
+  if (auto contact = PlanarLanes::Make(scene, columns, demand)) return contact;
+  return PlanarBodyLanes::Make(scene, columns, demand);
 }
 
 std::optional<size_t> SceneLanes::NumberAt(const std::string& path) const {

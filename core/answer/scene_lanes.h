@@ -25,7 +25,7 @@ class SceneLanes {
  public:
   // Scenes are solved in blocks of at most this many.
   static constexpr size_t kBlock = 256;
-  static constexpr size_t kMostNumbers = 8;
+  static constexpr size_t kMostNumbers = 17;  // Those of two bodies in a plane.
 
   // The numbers of a scene. The last three of those that the lanes have are kinetic friction, static friction and the
   // coefficient of restitution.

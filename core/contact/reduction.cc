@@ -12,6 +12,7 @@
 #include "core/contact/delassus.h"
 #include "core/contact/finite_forces.h"
 #include "core/contact/linkage_matrices.h"
+#include "core/contact/planar_body_share.h"
 #include "core/numerics/products.h"
 
 namespace ricochet {
@@ -104,24 +105,16 @@ PlanarReduction ReduceOne(const Linkage& linkage) {
 // --- Bodies. `side` is 1 for the body on which the impulses act, -1 for the one on which their opposites act. ---
 
 void AddBody(const PlanarBody& body, double side, PlanarReduction& reduction) {
-  const double st = body.offset_t_m;
-  const double sn = body.offset_n_m;
-  const double m = body.mass_kg;
-  const double inertia = body.inertia_com_kg_m2;
-  const double root = std::sqrt(inertia);
-  const double yt = -sn / root;
-  const double yn = st / root;
-  reduction.w[0] += 1.0 / m + yt * yt;
-  reduction.w[1] += yt * yn;
-  reduction.w[2] += 1.0 / m + yn * yn;
-  reduction.u0[0] += side * (body.velocity_t_m_s - body.rate_rad_s * sn);
-  reduction.v0 += side * (body.velocity_n_m_s + body.rate_rad_s * st);
+  const PlanarBodyShare share = ShareOf(body);
+  reduction.w[0] += share.wtt;
+  reduction.w[1] += share.wtn;
+  reduction.w[2] += share.wnn;
+  reduction.u0[0] += side * share.u0;
+  reduction.v0 += side * share.v0;
   for (const double velocity : {body.velocity_t_m_s, body.velocity_n_m_s, body.rate_rad_s}) {
     reduction.before.push_back(velocity);
   }
-  for (const double share : {side / m, 0.0, 0.0, side / m, side * (-sn / inertia), side * (st / inertia)}) {
-    reduction.response.push_back(share);
-  }
+  for (const double change : ResponseOf(body, side)) reduction.response.push_back(change);
 }
 
 Eigen::Vector3d ToEigen(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }

@@ -65,6 +65,49 @@ Batch Contacts(size_t rows, double tolerance) {
   return batch;
 }
 
+// The bodies have these fields each, in the order of their numbers below.
+void AddBody(const std::string& prefix, size_t rows, double velocity_n_m_s, Batch& batch) {
+  const auto add = [&](const char* field, double centre, double spread) {
+    batch.setup.fields.push_back(prefix + field);
+    batch.AddColumn(rows, centre, spread);
+  };
+  add(".mass_kg", 2.0, 1.0);
+  add(".inertia_com_kg_m2", 0.5, 0.2);
+  add(".offset_t_m", 0.0, 0.5);
+  add(".offset_n_m", -0.5, 0.2);
+  add(".velocity_t_m_s", 0.0, 2.0);
+  add(".velocity_n_m_s", velocity_n_m_s, 0.5);
+}
+
+Batch BodiesWithFriction(BatchSetup setup, size_t rows, double tolerance) {
+  setup.scene.restitution = EnergeticCoefficient{0.5};
+  setup.demand.relative_tolerance = tolerance;
+  Batch batch(std::move(setup), rows);
+  batch.setup.fields.emplace_back("friction.kinetic_coefficient");
+  batch.AddColumn(rows, 0.4, 0.3);
+  return batch;
+}
+
+Batch Bodies(size_t rows, double tolerance) {
+  Batch batch = BodiesWithFriction({.scene = {.system = PlanarBody{1.0, 1.0}},
+                                    .columns = {"bodies_after[0].linear_m_s[0]", "bodies_after[0].linear_m_s[1]",
+                                                "bodies_after[0].angular_rad_s[0]"}},
+                                   rows, tolerance);
+  AddBody("planar_body", rows, -2.0, batch);
+  return batch;
+}
+
+Batch Pairs(size_t rows, double tolerance) {
+  Batch batch =
+      BodiesWithFriction({.scene = {.system = BodyPair{PlanarPair{PlanarBody{1.0, 1.0}, PlanarBody{1.0, 1.0}}}},
+                          .columns = {"bodies_after[0].linear_m_s[1]", "bodies_after[1].linear_m_s[1]",
+                                      "bodies_after[0].angular_rad_s[0]", "bodies_after[1].angular_rad_s[0]"}},
+                         rows, tolerance);
+  AddBody("body_pair.planar.body_1", rows, -2.0, batch);
+  AddBody("body_pair.planar.body_2", rows, 0.0, batch);
+  return batch;
+}
+
 Batch ContactsInSpace(size_t rows, double tolerance) {
   Batch batch({.scene = {.system = SpatialContact{{1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, {1.0, 0.6}, -1.0},
                          .restitution = EnergeticCoefficient{0.5}},
@@ -170,6 +213,8 @@ int main() {
   RunAgainstLanes(solvers.one_thread, 1e-12);
   Run("Planar contacts", solvers, Contacts, 1e-12);
   Run("Planar contacts", solvers, Contacts, 1e-6);
+  Run("Bodies in a plane", solvers, Bodies, 1e-12);
+  Run("Pairs of bodies in a plane", solvers, Pairs, 1e-12);
   Run("Contacts in space", solvers, ContactsInSpace, 1e-6);
   Run("Contacts in space", solvers, ContactsInSpace, 1e-10);
   return 0;

@@ -7,13 +7,13 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "core/sweep/column.h"
 #include "ricochet/solver.h"
+#include "tests/support/batch_table.h"
 #include "tests/support/vectors.h"
 
 namespace ricochet {
@@ -27,35 +27,13 @@ const std::vector<std::string>& Fields() {
 }
 
 // Rows of planar contacts under one law of restitution.
-struct Contacts {
-  explicit Contacts(const std::string& law) {
-    setup.scene = {.system = PlanarContact{}, .restitution = EnergeticCoefficient{}};
-    setup.fields = Fields();
-    setup.fields.push_back("restitution." + law);
-    in.resize(setup.fields.size());
-  }
-
-  void Add(const std::vector<double>& row) {
-    for (size_t k = 0; k < in.size(); ++k) in[k].push_back(row[k]);
-  }
-
-  size_t size() const { return in[0].size(); }
-
-  absl::StatusOr<BatchResponse> Solve() {
-    out.assign(setup.columns.size(), std::vector<double>(size(), -7.0));
-    regimes.resize(size());
-    statuses.resize(size());
-    BatchRows rows = {.regimes = absl::MakeSpan(regimes), .statuses = absl::MakeSpan(statuses)};
-    for (const auto& column : in) rows.inputs.emplace_back(column);
-    for (auto& column : out) rows.outputs.push_back(absl::MakeSpan(column));
-    return LocalSolver().SolveBatch(setup, rows);
-  }
-
-  BatchSetup setup;
-  std::vector<std::vector<double>> in, out;
-  std::vector<Regime> regimes;
-  std::vector<RowStatus> statuses;
-};
+BatchTable Contacts(const std::string& law) {
+  BatchTable contacts;
+  contacts.setup.scene = {.system = PlanarContact{}, .restitution = EnergeticCoefficient{}};
+  contacts.setup.fields = Fields();
+  contacts.setup.fields.push_back("restitution." + law);
+  return contacts;
+}
 
 double Number(const VectorRow& row, const std::string& name) { return std::stod(row.at(name)); }
 
@@ -68,7 +46,7 @@ TEST(BatchRunTest, MatchesTheIndependentVectorsOfPlanarContacts) {
       {"impulse.tangential_n_s[0]", "friction_impulse"}};
   size_t compared = 0;
   for (const std::string law : {"newton", "poisson", "energetic"}) {
-    Contacts contacts(law);
+    BatchTable contacts = Contacts(law);
     for (const auto& [path, name] : columns) contacts.setup.columns.push_back(path);
     std::vector<VectorRow> expected;
     for (const VectorRow& row : ReadVectors("planar.csv")) {
@@ -131,7 +109,7 @@ std::vector<double> RandomRow(std::mt19937_64& random) {
   return row;
 }
 
-Scene SceneOf(const Contacts& contacts, const std::string& law, size_t i) {
+Scene SceneOf(const BatchTable& contacts, const std::string& law, size_t i) {
   const auto at = [&](size_t k) { return contacts.in[k][i]; };
   Scene scene = {.system = PlanarContact{at(0), at(1), at(2), at(3), at(4)}, .friction = contacts.setup.scene.friction};
   scene.friction.kinetic_coefficient = at(5);
@@ -156,7 +134,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, BatchBits,
 
 TEST_P(BatchBits, AreThoseOfSolveInEveryRow) {
   const auto& [law, tolerance, static_coefficient] = GetParam();
-  Contacts contacts(law);
+  BatchTable contacts = Contacts(law);
   contacts.setup.columns = PlainColumns();
   contacts.setup.demand.relative_tolerance = tolerance;
   contacts.setup.scene.friction.static_coefficient = static_coefficient;
@@ -164,47 +142,24 @@ TEST_P(BatchBits, AreThoseOfSolveInEveryRow) {
   for (int i = 0; i < 3000; ++i) contacts.Add(RandomRow(random));
   const auto response = contacts.Solve();
   ASSERT_TRUE(response.ok()) << response.status();
-  const std::vector<std::string> all = Columns({.system = PlanarContact{}});
-  const ColumnPositions positions = PositionsOf(all);
-  std::vector<double> numbers;
-  std::map<Model, int> models;
-  int invalid = 0;
-  for (size_t i = 0; i < contacts.size(); ++i) {
-    const auto solved = LocalSolver().Solve({.scene = SceneOf(contacts, law, i), .demand = contacts.setup.demand});
-    if (solved.status().code() == absl::StatusCode::kInvalidArgument) {
-      ++invalid;
-      EXPECT_EQ(contacts.statuses[i], RowStatus::kInvalid) << i << solved.status();
-      EXPECT_TRUE(std::isnan(contacts.out[0][i]));
-      continue;
-    }
-    if (!solved.ok()) continue;  // A number that is not among the columns may exceed the largest double.
-    ++models[solved->outcome.plan.model];
-    EXPECT_EQ(contacts.statuses[i], solved->outcome.admissible ? RowStatus::kOk : RowStatus::kInadmissible) << i;
-    EXPECT_EQ(contacts.regimes[i], solved->outcome.regime) << i;
-    ReadColumns(solved->outcome, numbers);
-    for (size_t c = 0; c < contacts.setup.columns.size(); ++c) {
-      const double number = numbers[positions.at(contacts.setup.columns[c])];
-      EXPECT_EQ(std::bit_cast<uint64_t>(contacts.out[c][i]), std::bit_cast<uint64_t>(number))
-          << contacts.setup.columns[c] << " of row " << i << ": " << contacts.out[c][i] << " and " << number;
-    }
-  }
-  EXPECT_GT(invalid, 100);
+  RowCounts counts = ExpectBitsOfSolve(contacts, [&, &law = law](size_t i) { return SceneOf(contacts, law, i); });
+  EXPECT_GT(counts.invalid, 100);
   for (const Model model : {Model::kPlanar, Model::kSliding, Model::kFrictionless, Model::kNone}) {
     const int64_t counted = response->summary.counts.by_model[static_cast<size_t>(model)].count;
-    EXPECT_GE(counted, models[model]);
+    EXPECT_GE(counted, counts.models[model]);
     if (static_coefficient.has_value() || tolerance == 0.0) continue;
-    EXPECT_GT(models[model], 20) << static_cast<int>(model);
+    EXPECT_GT(counts.models[model], 20) << static_cast<int>(model);
   }
 }
 
 TEST(BatchRunTest, ARowHasTheSameBitsWhateverItsPlace) {
-  Contacts whole("energetic");
+  BatchTable whole = Contacts("energetic");
   whole.setup.columns = PlainColumns();
   std::mt19937_64 random(6);
   for (int i = 0; i < 700; ++i) whole.Add(RandomRow(random));
   ASSERT_TRUE(whole.Solve().ok());
   for (const size_t i : {0, 1, 255, 256, 257, 511, 699}) {
-    Contacts alone("energetic");
+    BatchTable alone = Contacts("energetic");
     alone.setup.columns = PlainColumns();
     std::vector<double> row;
     for (const auto& column : whole.in) row.push_back(column[i]);

@@ -3,17 +3,14 @@
 
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cmath>
-#include <cstdint>
-#include <map>
 #include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "core/sweep/column.h"
 #include "ricochet/solver.h"
+#include "tests/support/batch_table.h"
 
 namespace ricochet {
 namespace {
@@ -70,57 +67,28 @@ INSTANTIATE_TEST_SUITE_P(Laws, PendulumBatch,
 TEST_P(PendulumBatch, HasTheBitsOfSolveInEveryRow) {
   constexpr size_t kRows = 3000;
   const Case& with = GetParam();
-  BatchSetup setup = {.scene = SceneOf({1.0, 1.0, 1.0, -1.0, 0.1, 0.5}, with),
-                      .fields = {"pendulum.inertia_kg_m2", "pendulum.a_m", "pendulum.b_m", "pendulum.omega_minus_rad_s",
-                                 "friction.kinetic_coefficient", "restitution." + with.law},
-                      .columns = {"coefficients.newton", "work.friction_dissipation_j", "energy_change_j",
-                                  "work.tangential_spring_j", "impulse.tangential_n_s[0]", "rates_after_rad_s[0]"},
-                      .demand = {.relative_tolerance = with.tolerance, .excluded = with.excluded}};
+  BatchTable table;
+  table.setup = {.scene = SceneOf({1.0, 1.0, 1.0, -1.0, 0.1, 0.5}, with),
+                 .fields = {"pendulum.inertia_kg_m2", "pendulum.a_m", "pendulum.b_m", "pendulum.omega_minus_rad_s",
+                            "friction.kinetic_coefficient", "restitution." + with.law},
+                 .columns = {"coefficients.newton", "work.friction_dissipation_j", "energy_change_j",
+                             "work.tangential_spring_j", "impulse.tangential_n_s[0]", "rates_after_rad_s[0]"},
+                 .demand = {.relative_tolerance = with.tolerance, .excluded = with.excluded}};
   Rows source(7);
   std::vector<std::vector<double>> rows;
-  std::vector<std::vector<double>> in(setup.fields.size());
   for (size_t i = 0; i < kRows; ++i) {
     rows.push_back(source.Next());
-    for (size_t k = 0; k < in.size(); ++k) in[k].push_back(rows.back()[k]);
+    table.Add(rows.back());
   }
-  std::vector<std::vector<double>> out(setup.columns.size(), std::vector<double>(kRows, -7.0));
-  std::vector<Regime> regimes(kRows);
-  std::vector<RowStatus> statuses(kRows);
-  BatchRows batch = {.regimes = absl::MakeSpan(regimes), .statuses = absl::MakeSpan(statuses)};
-  for (const auto& column : in) batch.inputs.emplace_back(column);
-  for (auto& column : out) batch.outputs.push_back(absl::MakeSpan(column));
-  const auto response = LocalSolver().SolveBatch(setup, batch);
+  const auto response = table.Solve();
   ASSERT_TRUE(response.ok()) << response.status();
-
-  const ColumnPositions positions = PositionsOf(Columns(setup.scene));
-  std::vector<double> numbers;
-  std::map<Model, int64_t> models;
-  int invalid = 0;
-  for (size_t i = 0; i < kRows; ++i) {
-    const auto solved = LocalSolver().Solve({.scene = SceneOf(rows[i], with), .demand = setup.demand});
-    if (solved.status().code() == absl::StatusCode::kInvalidArgument) {
-      ++invalid;
-      EXPECT_EQ(statuses[i], RowStatus::kInvalid) << i << solved.status();
-      EXPECT_TRUE(std::isnan(out[0][i]));
-      continue;
-    }
-    if (!solved.ok()) continue;  // A number that is not among the columns may exceed the largest double.
-    ++models[solved->outcome.plan.model];
-    EXPECT_EQ(statuses[i], solved->outcome.admissible ? RowStatus::kOk : RowStatus::kInadmissible) << i;
-    EXPECT_EQ(regimes[i], solved->outcome.regime) << i;
-    ReadColumns(solved->outcome, numbers);
-    for (size_t c = 0; c < out.size(); ++c) {
-      const double number = numbers[positions.at(setup.columns[c])];
-      EXPECT_EQ(std::bit_cast<uint64_t>(out[c][i]), std::bit_cast<uint64_t>(number))
-          << setup.columns[c] << " of row " << i << ": " << out[c][i] << " and " << number;
-    }
-  }
-  EXPECT_GT(invalid, 50);
-  EXPECT_GT(models[Model::kNone], 20);
+  RowCounts counts = ExpectBitsOfSolve(table, [&](size_t i) { return SceneOf(rows[i], with); });
+  EXPECT_GT(counts.invalid, 50);
+  EXPECT_GT(counts.models[Model::kNone], 20);
   if (with.excluded.empty()) {
-    EXPECT_GT(models[Model::kPendulum], 500);
+    EXPECT_GT(counts.models[Model::kPendulum], 500);
   }
-  for (const auto& [model, count] : models) {
+  for (const auto& [model, count] : counts.models) {
     EXPECT_GE(response->summary.counts.by_model[static_cast<size_t>(model)].count, count);
   }
 }

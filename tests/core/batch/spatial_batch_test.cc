@@ -10,6 +10,7 @@
 
 #include "core/sweep/column.h"
 #include "ricochet/solver.h"
+#include "tests/support/batch_table.h"
 #include "tests/support/spatial_scenes.h"
 #include "tests/support/system_scenes.h"
 
@@ -39,7 +40,7 @@ std::vector<Case> Cases() {
 }
 
 // Rows of one case with random numbers in its two fields and friction; some rows are invalid.
-struct Rows {
+struct Rows : BatchTable {
   Rows(const Case& of, uint64_t seed, size_t count) : scene(With(of.system)) {
     scene.restitution = of.restitution;
     setup = {.scene = scene, .fields = of.fields, .columns = Columns(scene), .demand = {of.tolerance}};
@@ -50,18 +51,6 @@ struct Rows {
       for (size_t k = 0; k < 2; ++k) in[k].push_back(source.Below(20) == 0 ? 0.0 : source.Uniform(-2.0, 2.0));
       in[2].push_back(source.Below(20) == 0 ? 1e-13 : source.Below(40) == 0 ? -1.0 : source.Uniform(0.0, 3.0));
     }
-  }
-
-  size_t size() const { return in[0].size(); }
-
-  absl::StatusOr<BatchResponse> Solve() {
-    out.assign(setup.columns.size(), std::vector<double>(size(), -7.0));
-    regimes.resize(size());
-    statuses.resize(size());
-    BatchRows rows = {.regimes = absl::MakeSpan(regimes), .statuses = absl::MakeSpan(statuses)};
-    for (const auto& column : in) rows.inputs.emplace_back(column);
-    for (auto& column : out) rows.outputs.push_back(absl::MakeSpan(column));
-    return LocalSolver().SolveBatch(setup, rows);
   }
 
   // The scene of a row.
@@ -81,10 +70,6 @@ struct Rows {
   }
 
   Scene scene;
-  BatchSetup setup;
-  std::vector<std::vector<double>> in, out;
-  std::vector<Regime> regimes;
-  std::vector<RowStatus> statuses;
 };
 
 class SpatialBatchTest : public testing::TestWithParam<Case> {};
@@ -96,29 +81,11 @@ TEST_P(SpatialBatchTest, EveryRowHasTheBitsOfSolve) {
   Rows rows(GetParam(), 7, 1500);
   const auto response = rows.Solve();
   ASSERT_TRUE(response.ok()) << response.status();
-  std::vector<double> numbers;
-  int spatial = 0;
-  int invalid = 0;
-  for (size_t i = 0; i < rows.size(); ++i) {
-    const auto solved = LocalSolver().Solve({.scene = rows.SceneOf(i), .demand = rows.setup.demand});
-    if (!solved.ok()) {
-      ++invalid;
-      EXPECT_EQ(rows.statuses[i], RowStatus::kInvalid) << i << solved.status();
-      EXPECT_TRUE(std::isnan(rows.out[0][i]));
-      continue;
-    }
-    spatial += solved->outcome.plan.model == Model::kSpatial ? 1 : 0;
-    EXPECT_EQ(rows.statuses[i], solved->outcome.admissible ? RowStatus::kOk : RowStatus::kInadmissible) << i;
-    EXPECT_EQ(rows.regimes[i], solved->outcome.regime) << i;
-    ReadColumns(solved->outcome, numbers);
-    for (size_t c = 0; c < numbers.size(); ++c) {
-      ASSERT_EQ(std::bit_cast<uint64_t>(rows.out[c][i]), std::bit_cast<uint64_t>(numbers[c]))
-          << rows.setup.columns[c] << " of row " << i << ": " << rows.out[c][i] << " and " << numbers[c];
-    }
-  }
+  RowCounts counts = ExpectBitsOfSolve(rows, [&](size_t i) { return rows.SceneOf(i); });
+  const int64_t spatial = counts.models[Model::kSpatial];
   EXPECT_EQ(response->summary.counts.by_model[static_cast<size_t>(Model::kSpatial)].count, spatial);
   EXPECT_GT(spatial, 1000);
-  EXPECT_GT(invalid, 10);
+  EXPECT_GT(counts.invalid, 10);
   ASSERT_EQ(response->summary.bad_rows.size(), kMostBadRows);
   EXPECT_EQ(response->summary.bad_rows[0].field, "friction.kinetic_coefficient");
 }

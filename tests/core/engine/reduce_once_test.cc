@@ -68,8 +68,8 @@ TEST(ReduceOnceTest, BoundsAndAuditsReduceTheirSceneOnce) {
 }
 
 // The reductions of a sweep of 100 points on one thread.
-int OfSweep(const std::string& path, double start, double stop) {
-  const SweepRequest request = {.grid = {.scene = With(Flat()), .axes = {{path, Linspace{start, stop, 100}}}},
+int OfSweep(const System& system, const std::string& path, double start, double stop) {
+  const SweepRequest request = {.grid = {.scene = With(system), .axes = {{path, Linspace{start, stop, 100}}}},
                                 .columns = {"coefficients.newton"}};
   return Count([&] {
     for (const auto& chunk : LocalSolver(Limits::None(), 1).Sweep(request)) EXPECT_TRUE(chunk.ok());
@@ -77,12 +77,16 @@ int OfSweep(const std::string& path, double start, double stop) {
 }
 
 TEST(ReduceOnceTest, ASweepReducesItsBaseSceneOnceAndEachPointOnce) {
-  EXPECT_EQ(OfSweep("planar_body.velocity_n_m_s", -2.0, -1.0), 101);
+  EXPECT_EQ(OfSweep(Body(), "spatial_body.linear_m_s[2]", -2.0, -1.0), 101);
 }
 
 TEST(ReduceOnceTest, ASweepThatLeavesTheSystemAloneReducesAllPointsOnce) {
-  EXPECT_EQ(OfSweep("friction.kinetic_coefficient", 0.1, 0.5), 2);
-  EXPECT_EQ(OfSweep("restitution.energetic", 0.1, 0.5), 2);
+  EXPECT_EQ(OfSweep(Body(), "friction.kinetic_coefficient", 0.1, 0.5), 2);
+  EXPECT_EQ(OfSweep(Body(), "restitution.energetic", 0.1, 0.5), 2);
+}
+
+TEST(ReduceOnceTest, ASweepOfABodyInAPlaneReducesItsPointsInLanes) {
+  EXPECT_EQ(OfSweep(Flat(), "planar_body.velocity_n_m_s", -2.0, -1.0), 1);
 }
 
 }  // namespace
