@@ -129,37 +129,59 @@ struct Tally {
 
 // The limits for one impact, in its own units.
 struct Limits {
-  double friction;     // Limit of |f1|.
-  double energy_gain;  // Limit of the gain under the energetic law.
-  double ledger;       // Limit of |sum of works - change of energy|.
+  double outside_cone;  // Limit of OutsideCone.
+  double energy_gain;   // Limit of the gain under the energetic law.
+  double ledger;        // Limit of |sum of works - change of energy|.
 };
 
-Limits LimitsOf(const planar::Problem& problem, const planar::Impact& impact) {
+Limits LimitsOf(const planar::Problem& /*problem*/, const planar::Impact& impact) {
   // tau1 and the works may lie below 2^-1022, where an ulp is that of no more than this.
   constexpr double kSmallest = 0x1p-1074;
-  return {.friction = problem.mu_static * (impact.tau1 * (1.0 + 0x1p-50) + kSmallest) + kSmallest,
-          .energy_gain = 0.0,
-          .ledger = 0x1p-50 * LargestWork(impact) + 4.0 * kSmallest};
+  return {.outside_cone = 0.0, .energy_gain = 0.0, .ledger = 0x1p-50 * LargestWork(impact) + 4.0 * kSmallest};
 }
 
 Limits LimitsOf(const spatial::Problem& problem, const spatial::Impact& impact) {
   const double speed = std::max(std::hypot(problem.u0[0], problem.u0[1]), std::fabs(problem.v0));
   const double impulse = impact.tau1 + std::hypot(impact.f1[0], impact.f1[1]);
   const double work = speed * impulse;
-  // An error df of friction's impulse is an error Wtt df of u, which is at most the estimate; the solver bounds it
-  // through sqrt(df Wtt df). If Wtt is singular, the error of f itself has no bound.
-  const double det = std::max(problem.w11 * problem.w22 - problem.w12 * problem.w12, 0.0);
-  const double friction_error = impact.error_estimate * speed / std::sqrt(det);
   // Near rank two, W times large impulses cancels to the velocities, with an error of an ulp of the terms.
   const double cancelled = 0x1p-52 * (problem.w11 + problem.w22 + problem.w33) * impulse;
   constexpr double kRounding = 1e-13;
-  return {.friction = problem.mu_static * impact.tau1 * (1.0 + kRounding) + friction_error,
+  return {.outside_cone = impact.error_estimate * speed,
           .energy_gain = impact.error_estimate * work,
           .ledger = kRounding * work + cancelled * impulse};
 }
 
-double Friction(const planar::Impact& impact) { return std::fabs(impact.f1); }
-double Friction(const spatial::Impact& impact) { return std::hypot(impact.f1[0], impact.f1[1]); }
+// By how much |f1| exceeds what friction can give.
+double OutsideCone(const planar::Problem& problem, const planar::Impact& impact) {
+  constexpr double kSmallest = 0x1p-1074;
+  const double most = problem.mu_static * (impact.tau1 * (1.0 + 0x1p-50) + kSmallest) + kSmallest;
+  return std::max(0.0, std::fabs(impact.f1) - most);
+}
+
+// The least |Wtt df| of all df that bring f1 into the cone of friction: the error of u that goes with this f1. In the
+// principal axes of Wtt, df minimises it if (lambda^2 + nu) (f1 - df) = lambda^2 f1 for some nu >= 0.
+double OutsideCone(const spatial::Problem& problem, const spatial::Impact& impact) {
+  constexpr double kRounding = 1e-13;
+  const double most = problem.mu_static * impact.tau1 * (1.0 + kRounding);
+  if (std::hypot(impact.f1[0], impact.f1[1]) <= most) return 0.0;
+  const double angle = 0.5 * std::atan2(2.0 * problem.w12, problem.w11 - problem.w22);
+  const double c = std::cos(angle), s = std::sin(angle);
+  const double along = c * impact.f1[0] + s * impact.f1[1];
+  const double across = c * impact.f1[1] - s * impact.f1[0];
+  const double first = problem.w11 * c * c + 2.0 * problem.w12 * c * s + problem.w22 * s * s;
+  const double second = problem.w11 * s * s - 2.0 * problem.w12 * c * s + problem.w22 * c * c;
+  const auto kept = [](double lambda, double nu) { return lambda * lambda / (lambda * lambda + nu); };
+  double low = 0.0;
+  double high = first * first;
+  const auto size = [&](double nu) { return std::hypot(along * kept(first, nu), across * kept(second, nu)); };
+  while (size(high) > most) high *= 2.0;
+  for (int i = 0; i < 200; ++i) {
+    const double nu = 0.5 * (low + high);
+    (size(nu) > most ? low : high) = nu;
+  }
+  return std::hypot(first * along * (1.0 - kept(first, high)), second * across * (1.0 - kept(second, high)));
+}
 
 bool GaveUp(const planar::Impact& /*impact*/) { return false; }
 bool GaveUp(const spatial::Impact& impact) { return !impact.Converged(); }
@@ -171,7 +193,7 @@ int64_t Steps(const spatial::Impact& impact) { return impact.steps; }
 template <typename Problem, typename Impact>
 std::string Complaint(const Problem& problem, const Impact& impact, const Limits& limits) {
   if (GaveUp(impact) || !Ended(impact)) return "did not end";
-  if (Friction(impact) > limits.friction) return "friction outside its cone";
+  if (OutsideCone(problem, impact) > limits.outside_cone) return "friction outside its cone";
   if (LedgerResidual(impact) > limits.ledger) {
     return absl::StrFormat("the ledger is open by %.2g of its limit", LedgerResidual(impact) / limits.ledger);
   }
@@ -229,37 +251,12 @@ Tally PlanarCases(int64_t cases) {
   return tally;
 }
 
-// A contact of a mechanism with fewer than three degrees of freedom: W = sum of g g^T, velocity = sum of g times a
-// rate.
-spatial::Problem WithDegreesOfFreedom(int count, spatial::SceneSource& source) {
-  spatial::Problem problem = source.Typical();
-  problem.w11 = problem.w12 = problem.w13 = problem.w22 = problem.w23 = problem.w33 = 0.0;
-  problem.u0 = {};
-  problem.v0 = 0.0;
-  for (int i = 0; i < count; ++i) {
-    const double g1 = source.Uniform(-1.0, 1.0);
-    const double g2 = source.Uniform(-1.0, 1.0);
-    const double g3 = source.Uniform(0.1, 1.0);
-    const double rate = -source.Uniform(0.1, 1.0);
-    problem.w11 += g1 * g1;
-    problem.w12 += g1 * g2;
-    problem.w13 += g1 * g3;
-    problem.w22 += g2 * g2;
-    problem.w23 += g2 * g3;
-    problem.w33 += g3 * g3;
-    problem.u0[0] += g1 * rate;
-    problem.u0[1] += g2 * rate;
-    problem.v0 += g3 * rate;
-  }
-  return problem;
-}
-
 spatial::Problem AnySpatial(spatial::SceneSource& source) {
   switch (source.Below(16)) {
     case 0:
-      return WithDegreesOfFreedom(1, source);
+      return source.WithDegreesOfFreedom(1);
     case 1:
-      return WithDegreesOfFreedom(2, source);
+      return source.WithDegreesOfFreedom(2);
     case 2: {
       spatial::Problem problem = source.Below(2) == 0 ? source.Typical() : source.NearSingular();
       problem.u0 = {};

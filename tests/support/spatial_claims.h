@@ -41,15 +41,20 @@ inline Problem HardScene(SceneSource& source) {
   return problem;
 }
 
+// Solves a scene and adds what it claims and achieves.
+inline void AddClaim(const Problem& problem, ClaimTally& tally) {
+  const Impact reference = HWY_NAMESPACE::Solver<long double>(problem, problem.Delassus().Rank(), 1e-16L).Run();
+  const Impact found = Solve(problem);
+  tally.Add(found.error_estimate, VelocityError(problem, found, reference));
+}
+
 inline ClaimTally SpatialClaims(bool hard, double tolerance, int count, uint64_t seed) {
   SceneSource source(seed);
   ClaimTally tally(tolerance);
   for (int i = 0; i < count; ++i) {
     Problem problem = hard ? HardScene(source) : source.Typical();
     problem.tolerance = tolerance;
-    const Impact reference = HWY_NAMESPACE::Solver<long double>(problem, problem.Delassus().Rank(), 1e-16L).Run();
-    const Impact found = Solve(problem);
-    tally.Add(found.error_estimate, VelocityError(problem, found, reference));
+    AddClaim(problem, tally);
   }
   return tally;
 }

@@ -46,6 +46,31 @@ class SceneSource {
     }
   }
 
+  // The contact of a mechanism with fewer than three degrees of freedom: W is the sum of g g^T, the velocity that of g
+  // times a rate.
+  Problem WithDegreesOfFreedom(int count) {
+    Problem problem = Typical();
+    problem.w11 = problem.w12 = problem.w13 = problem.w22 = problem.w23 = problem.w33 = 0.0;
+    problem.u0 = {};
+    problem.v0 = 0.0;
+    for (int i = 0; i < count; ++i) {
+      const double g1 = Uniform(-1.0, 1.0);
+      const double g2 = Uniform(-1.0, 1.0);
+      const double g3 = Uniform(0.1, 1.0);
+      const double rate = -Uniform(0.1, 1.0);
+      problem.w11 += g1 * g1;
+      problem.w12 += g1 * g2;
+      problem.w13 += g1 * g3;
+      problem.w22 += g2 * g2;
+      problem.w23 += g2 * g3;
+      problem.w33 += g3 * g3;
+      problem.u0[0] += g1 * rate;
+      problem.u0[1] += g2 * rate;
+      problem.v0 += g3 * rate;
+    }
+    return problem;
+  }
+
   Problem SmallSlip() {
     Problem problem = Typical();
     const double size = Power(0.0, 14.0);

@@ -47,8 +47,14 @@ class ErrorLedger {
   // Sets the distance from an event, in normal impulse, at which root finding stopped.
   void SetEventOffset(T offset) { event_offset_ = offset; }
   // Says that the path came so near to a goal, or so little beyond it, that the true path may not agree: `gap` is the
-  // distance, in the goal's quantity, at the end of a step.
-  void NoteGap(const Path<T>& path, T gap) { in_doubt_ = in_doubt_ || gap <= GoalError(path); }
+  // distance, in the goal's quantity, at the end of a step. Where the contact is nearly at rest, the paths on both sides of
+  // the goal stay as near to each other as they are to rest.
+  void NoteGap(const Path<T>& path, T gap) {
+    if (!(gap <= GoalError(path))) return;
+    const T velocity = path.state.Slip() + std::fabs(path.state.v);
+    in_doubt_ = in_doubt_ || velocity > T{kNearRest} * problem_.velocity;
+    doubtful_velocity_ = std::max(doubtful_velocity_, velocity);
+  }
 
   // Sets the slopes of the last straight slip, or of slip just before it stops.
   void SetSlopesOfSlip(const Slopes<T>& slopes) { slip_slopes_ = slopes; }
@@ -66,6 +72,8 @@ class ErrorLedger {
  private:
   // The known error is a linear estimate of an error that is not: it counts so often.
   static constexpr T kSafety{2};
+  // A contact is nearly at rest below this part of its velocity before.
+  static constexpr double kNearRest = 1e-6;
 
   // Errors of the end of compression: of its normal impulse and of its normal work.
   struct Compression {
@@ -93,6 +101,21 @@ class ErrorLedger {
     return T{2} * kEpsilon<T> * (f + at.tau) * problem_.velocity;
   }
   static T Size(T x, T y) { return std::sqrt(x * x + y * y); }
+  // The difference of the paths on both sides of a goal at which the contact is nearly at rest, in v and in u: the norm of
+  // Wtt^-1 never grows. It does not count where the contact is locked, because both paths end at rest.
+  T DoubtOfV() const {
+    return locks_ ? T{0} : (T{1} + problem_.normal_root / problem_.smallest_root) * doubtful_velocity_;
+  }
+  T DoubtOfU() const { return locks_ ? T{0} : problem_.largest_root / problem_.smallest_root * doubtful_velocity_; }
+  // The error of a contact that is locked during restitution: that of a true path that ends before the lock. It does so
+  // with the velocities that its energy allows from where it came to be in doubt, or, if Poisson's impulse is spent just
+  // before the lock, with what the slopes of slip give over the error of that impulse.
+  T EstimateOfLock() const {
+    const T growth = (T{1} + problem_.mu_static) * problem_.largest_root / problem_.smallest_root;
+    const T spent =
+        problem_.law == RestitutionLaw::kPoisson ? (T{1} + problem_.coefficient) * compression_.impulse : T{0};
+    return growth * doubtful_velocity_ + spent * std::max(problem_.rate, problem_.steepest);
+  }
 
   const ScaledProblem<T>& problem_;
   // The scaled errors so far.
@@ -103,7 +126,9 @@ class ErrorLedger {
   T compression_end_v_{0};      // the v found in place of 0
   T stop_tau_ = -kInfinity<T>;  // where slip stopped, from the start of the phase
   T settles_{0};                // the normal impulse after which the true path sticks as well
-  bool in_doubt_ = false;
+  bool in_doubt_ = false;       // Whether the path passes a goal that it came near to, while it was not nearly at rest.
+  T doubtful_velocity_{0};      // The largest velocity at which it came near to a goal.
+  bool locks_ = false;
   Slopes<T> slip_slopes_ = {T{0}, T{0}, T{0}};
 };
 template <typename T>
@@ -130,8 +155,9 @@ void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
   settles_ = sum_.friction == T{0} ? T{0}
              : margin > T{0}       ? sum_.friction / (problem_.smallest_root * margin)
                                    : kInfinity<T>;
-  if (sticking.v_slope == T{0}) sum_.friction = T{0};
-  if (sticking.v_slope == T{0}) return;
+  locks_ = sticking.v_slope == T{0};
+  if (locks_) sum_.friction = T{0};
+  if (locks_) return;
   // A stop at the wrong impulse leaves in v the difference of the two slopes times the error of that impulse.
   const Slopes<T>& before = slip_slopes_;
   const T slowing = Size(before.u1, before.u2);
@@ -141,7 +167,7 @@ void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
 
 template <typename T>
 void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes) {
-  const T doubtful = std::fabs(sum_.doubtful.NormalVelocity(problem_.w));
+  const T doubtful = std::fabs(sum_.doubtful.NormalVelocity(problem_.w)) + DoubtOfV();
   compression_ = {.impulse = ImpulseErrorOfVelocityEvent(VelocityError() + doubtful, slopes) + event_offset_,
                   .work = sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state)};
   known_compression_ = {.impulse = ImpulseErrorOfVelocityEvent(sum_.known.NormalVelocity(problem_.w), slopes),
@@ -185,6 +211,8 @@ T ErrorLedger<T>::GoalError(const Path<T>& path) const {
 
 template <typename T>
 T ErrorLedger<T>::EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) const {
+  constexpr T kOutput = T{1.5} * kEpsilon<T>;
+  if (locks_ && !in_doubt_ && path.regime != Regime::kLocked) return EstimateOfLock() / problem_.velocity + kOutput;
   // Restitution that has to give back work ends with v > 0, if the work of compression is known at all.
   const bool lost_work =
       problem_.coefficient > T{0} && path.goal.quantity == Quantity::kWork && !path.Sticks() && !(path.state.v > T{0});
@@ -196,12 +224,13 @@ T ErrorLedger<T>::EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) co
   const bool v_is_turned = problem_.law == RestitutionLaw::kPoisson && path.goal.quantity == Quantity::kVelocity;
   const T v_found =
       v_is_turned ? std::fabs(compression_end_v_) + kSafety * std::fabs(sum_.known.NormalVelocity(w)) : T{0};
-  const T v_error_of_state = VelocityError() + std::fabs(sum_.doubtful.NormalVelocity(w)) + v_found;
+  const T v_error_of_state = VelocityError() + std::fabs(sum_.doubtful.NormalVelocity(w)) + v_found + DoubtOfV();
   const T jump = compression_end_v_ * compression_end_v_ / std::max(slopes.v, kEpsilon<T>);
-  T impulse =
-      ImpulseErrorOfEnd(path, slopes, v_error_of_state,
-                        sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state) + jump, compression_) +
-      event_offset_;
+  T impulse = ImpulseErrorOfEnd(path, slopes, v_error_of_state,
+                                sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state) + jump +
+                                    DoubtOfV() * path.state.tau,
+                                compression_) +
+              event_offset_;
   const T known_impulse = SignedImpulseErrorOfEnd(path, slopes, sum_.known, known_compression_);
   const T all = impulse + kSafety * std::fabs(known_impulse);
   T u_slope = Size(slopes.u1, slopes.u2);
@@ -215,11 +244,10 @@ T ErrorLedger<T>::EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) co
       Size(sum_.known.Velocity1(w) + slopes.u1 * known_impulse, sum_.known.Velocity2(w) + slopes.u2 * known_impulse);
   const T known_v = std::fabs(sum_.known.NormalVelocity(w) + slopes.v * known_impulse);
   const T u_error = kSafety * known_u + Size(sum_.doubtful.Velocity1(w), sum_.doubtful.Velocity2(w)) +
-                    problem_.largest_root * sum_.friction + u_rounding_ + impulse * u_slope;
+                    problem_.largest_root * sum_.friction + u_rounding_ + DoubtOfU() + impulse * u_slope;
   // A v that ends the impact has its error from root finding alone.
   const bool v_is_goal = problem_.coefficient == T{0} || (path.goal.quantity == Quantity::kVelocity && !v_is_turned);
   const T v_error = v_is_goal ? event_offset_ * v_slope : kSafety * known_v + v_error_of_state + impulse * v_slope;
-  constexpr T kOutput = T{1.5} * kEpsilon<T>;
   return std::max(u_error, v_error) / problem_.velocity + kOutput;
 }
 

@@ -32,6 +32,20 @@ TEST_P(SpatialClaimsTest, HardScenesDeceiveNobody) {
   EXPECT_LE(tally.MedianRatio(), 12.0);
 }
 
+// Where W has rank two, v often vanishes with u, so that friction locks the contact.
+TEST_P(SpatialClaimsTest, ScenesOfRankTwoDeceiveNobodyAndHaveAnError) {
+  SceneSource source(kSeed);
+  ClaimTally tally(GetParam());
+  for (int i = 0; i < 2 * kCount; ++i) {
+    Problem problem = source.WithDegreesOfFreedom(2);
+    problem.tolerance = GetParam();
+    AddClaim(problem, tally);
+  }
+  PrintClaims("space", "rank two", tally);
+  EXPECT_EQ(tally.deceived(), 0);
+  EXPECT_EQ(tally.unknown(), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Tolerances, SpatialClaimsTest, testing::ValuesIn(kClaimTolerances));
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "core/models/restitution_law.h"
 #include "core/models/spatial/solver-inl.h"
 #include "tests/support/known_contacts.h"
+#include "tests/support/spatial_claims.h"
 #include "tests/support/spatial_scenes.h"
 
 namespace ricochet::spatial {
@@ -578,6 +579,48 @@ TEST(SpatialTest, RankTwoThatSticksIsLocked) {
   EXPECT_EQ(impact.v1, 0.0);
   EXPECT_EQ(impact.tau1, impact.tau_compression);
   EXPECT_EQ(impact.energetic, 0.0);
+}
+
+// Compression ends when slip is below rounding already, so that it is in doubt which comes first; but either way the
+// contact is locked, or starts from rest.
+TEST(SpatialTest, HasAnErrorWhereCompressionEndsNearlyAtRest) {
+  const Problem locks = {.w11 = 0x1.aa6d845335bdep-2,
+                         .w12 = -0x1.76a61a4e8cdd6p-4,
+                         .w13 = -0x1.1bf89b498293dp-3,
+                         .w22 = 0x1.58c01c6628fa2p-1,
+                         .w23 = 0x1.44734d407528p-7,
+                         .w33 = 0x1.7f81f6d89d2e5p-5,
+                         .u0 = {0x1.1a8a10f4b4978p-1, -0x1.46faaa9fe864ep-3},
+                         .v0 = -0x1.75d33fc3b3b89p-3,
+                         .mu = 0x1.820b8a6268ba1p-1,
+                         .mu_static = 0x1.820b8a6268ba1p-1,
+                         .coefficient = 0x1.87f9536ed0205p-1};
+  const Problem restarts = {.w11 = 0x1.ca1795b4c7dd9p-1,
+                            .w12 = -0x1.3442e2586a706p-2,
+                            .w13 = -0x1.147a1f255d788p-4,
+                            .w22 = 0x1.999b50d878952p-2,
+                            .w23 = 0x1.8e6920476e5fap-3,
+                            .w33 = 0x1.a9b0013f4a723p-4,
+                            .u0 = {0x1.10e880c709ab3p-1, -0x1.7337ec9da6e95p-1},
+                            .v0 = -0x1.6a991f3068418p-2,
+                            .mu = 0x1.0caccfb17d37p-1,
+                            .mu_static = 0x1.0caccfb17d37p-1,
+                            .coefficient = 0x1.52321592a568cp-1};
+  for (Problem problem : {locks, restarts}) {
+    problem.tolerance = 1e-9;
+    for (const RestitutionLaw law : {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
+      problem.law = law;
+      const Impact impact = Solve(problem);
+      const Impact reference = HWY_NAMESPACE::Solver<long double>(problem, 2, 1e-16L).Run();
+      EXPECT_LE(impact.error_estimate, problem.tolerance);
+      EXPECT_GE(impact.error_estimate, VelocityError(problem, impact, reference));
+      if (problem.mu == locks.mu) {
+        EXPECT_EQ(impact.v1, 0.0);
+      } else {
+        EXPECT_GT(impact.v1, 0.01);
+      }
+    }
+  }
 }
 
 TEST(SpatialTest, ASingularTangentMatrixSticksByTheSmallestForce) {
