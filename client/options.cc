@@ -1,6 +1,7 @@
 #include <cmath>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
@@ -23,10 +24,20 @@ std::string Found(std::chrono::milliseconds time, const char* rule) {
   return absl::StrCat("= ", time.count(), " ms: must ", rule);
 }
 
+// Without a port gRPC would try that of HTTPS. A name with a scheme, such as dns:///HOST:PORT or unix:PATH, keeps rules of
+// its own.
+bool LacksPort(absl::string_view server) {
+  if (absl::StartsWith(server, "[")) return absl::EndsWith(server, "]");
+  return !absl::StrContains(server, ":") && !absl::StrContains(server, "/");
+}
+
 std::string TargetRule(const std::string& target) {
   if (target.empty()) return "is empty: must be \"host:port\"";
   for (const absl::string_view server : absl::StrSplit(target, ',')) {
     if (server.empty()) return absl::StrCat("= \"", target, "\": must name a server before and after each comma");
+    if (LacksPort(server) && !absl::StrContains(server, ' ')) {
+      return absl::StrCat("= \"", target, "\": must have a port, as ", server, ":50051");
+    }
   }
   if (target.find_first_of(" \t\r\n") != std::string::npos) {
     return absl::StrCat("= \"", target, "\": must not contain white space");

@@ -1,10 +1,13 @@
 #include "server/options.h"
 
+#include <unistd.h>
+
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <functional>
 #include <limits>
 #include <memory>
@@ -14,11 +17,15 @@
 #include <vector>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "core/engine/engine.h"
+#include "core/scene/nearest.h"
 
 namespace ricochet::server {
 namespace {
@@ -249,8 +256,10 @@ std::vector<Setting> LogSettings() {
   };
 }
 
+constexpr char kEnvironmentPrefix[] = "RICOCHETD_";
+
 std::string EnvironmentName(const std::string& name) {
-  return "RICOCHETD_" + absl::AsciiStrToUpper(absl::StrReplaceAll(name, {{"-", "_"}}));
+  return kEnvironmentPrefix + absl::AsciiStrToUpper(absl::StrReplaceAll(name, {{"-", "_"}}));
 }
 
 std::string FromEnvironment(const std::string& name) {
@@ -344,6 +353,55 @@ void CheckTogether(const Options& options, std::vector<std::string>& violations)
   }
 }
 
+std::vector<std::string> OptionNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back(name);
+  }
+  return names;
+}
+
+std::vector<std::string> WithPrefix(const std::string& prefix, const std::vector<std::string>& names) {
+  std::vector<std::string> longer;
+  for (const std::string& name : names) longer.push_back(prefix + name);
+  return longer;
+}
+
+// The message of an error of the parser, which names what it does not know.
+std::string InWords(const CLI::App& app, const CLI::ParseError& error) {
+  const std::vector<std::string> extras = app.remaining();
+  const std::vector<std::string> names = OptionNames(app);
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError) && !extras.empty()) {
+    const std::string word = extras.front().substr(0, extras.front().find('='));
+    if (!absl::StartsWith(word, "-")) return absl::StrCat(word, " is not expected: must follow an option");
+    return absl::StrCat(word, " is not an option", DidYouMean(word, WithPrefix("--", names)));
+  }
+  absl::string_view what = error.what();
+  if (absl::ConsumePrefix(&what, "INI was not able to parse ")) {
+    return absl::StrCat("--config: ", what, " is not an option", DidYouMean(what, names));
+  }
+  return error.what();
+}
+
+// Kubernetes tells a pod of a Service that is called ricochetd by RICOCHETD_SERVICE_HOST, RICOCHETD_PORT_50051_TCP and so on.
+bool IsOfKubernetes(absl::string_view rest) {
+  if (absl::StartsWith(rest, "SERVICE_") || rest == "PORT") return true;
+  return absl::ConsumePrefix(&rest, "PORT_") && !rest.empty() && absl::ascii_isdigit(rest.front());
+}
+
+// Finds variables that look like options and are none.
+void CheckEnvironment(const CLI::App& app, std::vector<std::string>& violations) {
+  std::vector<std::string> known;
+  for (const std::string& name : OptionNames(app)) known.push_back(EnvironmentName(name));
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const absl::string_view variable(*entry, std::strcspn(*entry, "="));
+    absl::string_view rest = variable;
+    if (!absl::ConsumePrefix(&rest, kEnvironmentPrefix) || IsOfKubernetes(rest)) continue;
+    if (std::find(known.begin(), known.end(), variable) != known.end()) continue;
+    violations.push_back(absl::StrCat(variable, " in the environment is not an option", DidYouMean(variable, known)));
+  }
+}
+
 absl::StatusOr<std::variant<Options, Notice>> Parse(CLI::App& app, int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
@@ -352,7 +410,7 @@ absl::StatusOr<std::variant<Options, Notice>> Parse(CLI::App& app, int argc, con
   } catch (const CLI::CallForVersion& version) {
     return Notice{absl::StrCat(version.what(), "\n")};
   } catch (const CLI::ParseError& error) {
-    return absl::InvalidArgumentError(absl::StrCat(error.what(), "\nRun with --help for more."));
+    return absl::InvalidArgumentError(absl::StrCat(InWords(app, error), "\nRun with --help for more."));
   }
   return Options();
 }
@@ -403,6 +461,7 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   if (!parsed.ok() || std::holds_alternative<Notice>(*parsed)) return parsed;
   auto& options = std::get<Options>(*parsed);
   std::vector<std::string> violations;
+  CheckEnvironment(app, violations);
   Read(line.given, options, violations);
   const PlaceLimits usual = PlacesFor(options.places.calls);
   const auto or_usual = [&app](const char* flag, int usual_limit, int& limit) {

@@ -13,11 +13,13 @@
 #include "client/cli/axis_input.h"
 #include "client/cli/bounds_plot.h"
 #include "client/cli/certificate_report.h"
+#include "client/cli/name_list.h"
 #include "client/cli/picture_input.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/short_name.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
+#include "core/scene/field.h"
 #include "proto/wire/requests.h"
 
 namespace ricochet::cli {
@@ -219,6 +221,7 @@ absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
 }
 
 absl::Status RunBounds(const BoundsOptions& options) {
+  if (AsksForNames(options.ranges)) return ListNames(options.scene, FieldPaths);
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
   if (!solver.ok()) return solver.status();

@@ -1,18 +1,23 @@
 #include "client/cli/connection_input.h"
 
+#include <unistd.h>
+
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <cstring>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "client/cli/number_input.h"
 #include "core/engine/engine.h"
+#include "core/scene/nearest.h"
 
 namespace ricochet::cli {
 namespace {
@@ -33,10 +38,27 @@ constexpr std::array<Setting, 10> kSettings = {{{"server", &ConnectionInput::ser
                                                 {"token-file", &ConnectionInput::token_file},
                                                 {"token", &ConnectionInput::token}}};
 
+std::string VariableOf(const std::string& name) {
+  return "RICOCHET_" + absl::AsciiStrToUpper(absl::StrReplaceAll(name, {{"-", "_"}}));
+}
+
 std::string FromEnvironment(const std::string& name) {
-  const std::string variable = "RICOCHET_" + absl::AsciiStrToUpper(absl::StrReplaceAll(name, {{"-", "_"}}));
-  const char* const value = std::getenv(variable.c_str());
+  const char* const value = std::getenv(VariableOf(name).c_str());
   return value == nullptr ? "" : value;
+}
+
+// Finds a variable that is nearly one of these, because it would silently do nothing. Others may belong to anybody.
+absl::Status CheckEnvironment() {
+  std::vector<std::string> known = {VariableOf("config")};
+  for (const Setting& setting : kSettings) known.push_back(VariableOf(setting.name));
+  for (char** entry = environ; *entry != nullptr; ++entry) {
+    const std::string variable(*entry, std::strcspn(*entry, "="));
+    if (!absl::StartsWith(variable, "RICOCHET_") || std::find(known.begin(), known.end(), variable) != known.end()) continue;
+    const std::string meant = DidYouMean(variable, known);
+    if (meant.empty()) continue;
+    return absl::InvalidArgumentError(absl::StrCat(variable, " in the environment is not an option", meant));
+  }
+  return absl::OkStatus();
 }
 
 // Returns the input of the lines in a file.
@@ -102,6 +124,7 @@ void AddConnectionOptions(CLI::App& app, ConnectionInput& input) {
 }
 
 absl::StatusOr<ConnectionInput> Resolve(ConnectionInput input) {
+  if (absl::Status unknown = CheckEnvironment(); !unknown.ok()) return unknown;
   const ConnectionInput flags = input;
   ConnectionInput file;
   if (input.config.empty()) input.config = FromEnvironment("config");

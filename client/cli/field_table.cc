@@ -6,8 +6,10 @@
 #include <map>
 #include <utility>
 
+#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/strip.h"
 #include "proto/comments/commented_protos.h"
@@ -155,6 +157,18 @@ const FieldInfo* FindFieldInfo(absl::string_view path) {
   }();
   const auto found = by_path->find(WithoutIndices(path));
   return found == by_path->end() ? nullptr : found->second;
+}
+
+std::string WithoutUnit(const std::string& path) {
+  const FieldInfo* info = FindFieldInfo(path);
+  if (info == nullptr || info->unit.empty()) return path;
+  const std::string ending = absl::StrCat(
+      "_",
+      absl::StrReplaceAll(absl::AsciiStrToLower(info->unit), {{"1/", "per_"}, {"/", "_"}, {" ", "_"}, {"²", "2"}}));
+  const size_t index = absl::EndsWith(path, "]") ? path.rfind('[') : path.size();
+  absl::string_view stem(path.data(), index);
+  absl::ConsumeSuffix(&stem, ending);
+  return absl::StrCat(stem, path.substr(index));
 }
 
 }  // namespace ricochet::cli

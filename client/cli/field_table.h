@@ -33,6 +33,10 @@ const std::vector<FieldInfo>& OutcomeFieldTable();
 // "linkage.links[1].theta_rad". Returns null if there is no such number.
 const FieldInfo* FindFieldInfo(absl::string_view path);
 
+// Returns a path without the unit in its name: "pendulum.a" for "pendulum.a_m", "rates_after[0]" for
+// "rates_after_rad_s[0]".
+std::string WithoutUnit(const std::string& path);
+
 // Returns the range that the comment of a number states, or an empty text.
 std::string RangeOf(const std::string& comment);
 

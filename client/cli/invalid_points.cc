@@ -68,7 +68,8 @@ std::string InvalidCounts::Text() const {
   if (known < total_) absl::StrAppend(&text, "; the reasons of ", known, " of them");
   absl::StrAppend(&text, ":\n");
   for (const auto& [rule, tally] : by_rule_) {
-    absl::StrAppend(&text, "  ", tally.count, ", first at index ", tally.first_index, ": ", rule, "\n");
+    absl::StrAppend(&text, "  ", tally.count, tally.count == 1 ? " point, at index " : " points, the first at index ",
+                    tally.first_index, ": ", rule, "\n");
   }
   return text;
 }

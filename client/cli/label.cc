@@ -4,6 +4,7 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 #include "client/cli/field_table.h"
 
 namespace ricochet::cli {
@@ -38,7 +39,8 @@ constexpr char kRates[] = "rates_after_rad_s";
 }  // namespace
 
 Label LabelOf(const std::string& path) {
-  Label label{.symbol = path, .name = path, .unit = ""};
+  const std::string words = absl::StrReplaceAll(WithoutUnit(path), {{"_", " "}, {".", " "}});
+  Label label{.symbol = words, .name = words, .unit = ""};
   if (absl::StartsWith(path, kRates)) {
     label.symbol = absl::StrCat("ω+", path.substr(sizeof(kRates) - 1));
     label.name = absl::StrCat("angular velocity after, ", label.symbol);

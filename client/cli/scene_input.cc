@@ -1,5 +1,6 @@
 #include "client/cli/scene_input.h"
 
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/io/tokenizer.h>
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
@@ -22,6 +23,7 @@
 #include "absl/strings/str_split.h"
 #include "client/cli/json/json_errors.h"
 #include "client/cli/number_input.h"
+#include "core/scene/nearest.h"
 #include "core/scene/numbers.h"
 #include "proto/wire/scene.h"
 #include "ricochet/error.h"
@@ -32,9 +34,18 @@ namespace {
 constexpr double kDefaultInertia = 1.0;
 constexpr double kDefaultOmega = -1.0;
 
+// The parser says: Message type "ricochet.v1.Pendulum" has no field named "am".
+std::string WithNearestField(const std::vector<std::string>& quoted) {
+  const auto* const type = google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(quoted[1]);
+  std::vector<std::string> names;
+  for (int i = 0; type != nullptr && i < type->field_count(); ++i) names.push_back(type->field(i)->name());
+  return absl::StrCat(quoted[1], " has no field \"", quoted[3], "\"", DidYouMean(quoted[3], names));
+}
+
 // The parser says: Field "b" is specified along with field "a", another member of oneof "system".
 std::string InWords(const std::string& message) {
-  std::vector<std::string> quoted = absl::StrSplit(message, '"');
+  const std::vector<std::string> quoted = absl::StrSplit(message, '"');
+  if (quoted.size() == 5 && absl::StrContains(message, "has no field named")) return WithNearestField(quoted);
   if (quoted.size() != 7 || !absl::StrContains(message, "another member of oneof")) return message;
   return absl::StrCat("\"", quoted[1], "\" cannot be given beside \"", quoted[3], "\": there is one ",
                       absl::StrReplaceAll(quoted[5], {{"_", " "}}), " only");
@@ -144,8 +155,9 @@ absl::Status RequireVelocity(const Scene& scene) {
     is_moving = is_moving || value != 0.0;
   });
   if (is_moving || velocities.empty()) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(
-      "the scene states no velocity, so that nothing strikes: must set some of ", absl::StrJoin(velocities, ", ")));
+  return absl::InvalidArgumentError(absl::StrCat("no velocity of the scene is other than 0, so that nothing strikes: must set ",
+                                                 velocities.size() == 1 ? "" : "one of ",
+                                                 absl::StrJoin(velocities, ", ")));
 }
 
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {

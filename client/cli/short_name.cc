@@ -8,10 +8,10 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "absl/strings/str_replace.h"
 #include "absl/strings/strip.h"
 #include "client/cli/field_table.h"
 #include "core/scene/field.h"
+#include "core/scene/nearest.h"
 #include "core/sweep/column.h"
 
 namespace ricochet::cli {
@@ -24,19 +24,6 @@ constexpr std::pair<const char*, const char*> kLetters[] = {
     {"inertia", "pendulum.inertia_kg_m2"},   {"phi", "pendulum.phi_rad"},
 };
 
-// Returns "pendulum.a" for "pendulum.a_m", and "rates_after[0]" for "rates_after_rad_s[0]".
-std::string WithoutUnit(const std::string& path) {
-  const FieldInfo* info = FindFieldInfo(path);
-  if (info == nullptr || info->unit.empty()) return path;
-  const std::string ending = absl::StrCat(
-      "_",
-      absl::StrReplaceAll(absl::AsciiStrToLower(info->unit), {{"1/", "per_"}, {"/", "_"}, {" ", "_"}, {"²", "2"}}));
-  const size_t index = absl::EndsWith(path, "]") ? path.rfind('[') : path.size();
-  absl::string_view stem(path.data(), index);
-  absl::ConsumeSuffix(&stem, ending);
-  return absl::StrCat(stem, path.substr(index));
-}
-
 // True if `path` is `name`, or ends in it after a dot.
 bool EndsIn(const std::string& path, const std::string& name) {
   return path == name || absl::EndsWith(path, absl::StrCat(".", name));
@@ -44,6 +31,21 @@ bool EndsIn(const std::string& path, const std::string& name) {
 
 bool Contains(const std::vector<std::string>& known, const std::string& name) {
   return std::find(known.begin(), known.end(), name) != known.end();
+}
+
+// Returns the name itself, which the checks of a request will refuse, unless it is nearly the last part of a known name.
+absl::StatusOr<std::string> NearShortName(const std::string& name, const std::vector<std::string>& known,
+                                          const std::string& what) {
+  // Shorter names are near to too many.
+  constexpr size_t kLeast = 4;
+  if (name.size() < kLeast || absl::StrContains(name, '.') || absl::StrContains(name, '*')) return name;
+  std::vector<std::string> endings;
+  for (const std::string& path : known) endings.push_back(WithoutUnit(path).substr(path.rfind('.') + 1));
+  const std::string nearest = NearestName(name, endings);
+  if (nearest.empty()) return name;
+  const auto found = std::find(endings.begin(), endings.end(), nearest);
+  return absl::InvalidArgumentError(absl::StrCat(what, " ", name, ": names nothing; did you mean ",
+                                                 known[static_cast<size_t>(found - endings.begin())], "?"));
 }
 
 }  // namespace
@@ -58,7 +60,7 @@ absl::StatusOr<std::string> FullName(const std::string& name, const std::vector<
   for (const std::string& path : known) {
     if (EndsIn(path, name) || EndsIn(WithoutUnit(path), name)) meant.push_back(path);
   }
-  if (meant.empty()) return name;
+  if (meant.empty()) return NearShortName(name, known, what);
   if (meant.size() == 1) return meant.front();
   return absl::InvalidArgumentError(
       absl::StrCat(what, " ", name, ": must name one of\n  ", absl::StrJoin(meant, "\n  ")));

@@ -15,7 +15,8 @@ namespace ricochet::cli {
 // Returns the entry of `known` that `name` means: itself, or the only one that ends in it, with or without its unit
 // ("theta", "links[1].theta"). Letters of the paper and names of flags (mu, phi, omega) mean their fields. A name that
 // means none is returned as it is, for the solver to refuse.
-// Errors: INVALID_ARGUMENT, led by `what`, for a name that means several, which are listed one a line.
+// Errors: INVALID_ARGUMENT, led by `what`, for a name that means several, which are listed one a line, or that is nearly
+// the last part of a known name.
 absl::StatusOr<std::string> FullName(const std::string& name, const std::vector<std::string>& known,
                                      const std::string& what);
 

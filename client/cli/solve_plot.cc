@@ -96,10 +96,15 @@ std::string Heading(const Outcome& outcome) {
   return absl::StrCat(outcome.admissible ? "Impact: " : "INADMISSIBLE impact: ", RegimeText(outcome.regime));
 }
 
+// Explains the line that MarkCompression draws.
+std::string Legend(const Outcome& outcome) {
+  return outcome.impulse.normal_compression_n_s.has_value() ? " (dashed: compression ends)" : "";
+}
+
 Plot PlanarPlot(const Outcome& outcome) {
   const std::vector<Event>& timeline = outcome.timeline;
   const bool has_rates = !timeline.front().state.rates_rad_s.empty();
-  Plot plot{.title = absl::StrCat(Heading(outcome), " (dashed: compression ends)")};
+  Plot plot{.title = absl::StrCat(Heading(outcome), Legend(outcome))};
   plot.panels = {has_rates ? RatesPanel(timeline) : VelocityPanel(timeline), RatioPanel(timeline),
                  ImpulsePanel(timeline)};
   const bool is_straight = outcome.plan.model != Model::kCompliant;
@@ -228,7 +233,7 @@ absl::StatusOr<Plot> SpatialPlot(const Solver& solver, const Scene& scene, const
   Panel impulse = ImpulsePanel(*path);
   MarkCompression(outcome, velocity);
   MarkCompression(outcome, impulse);
-  return Plot{.title = absl::StrCat(Heading(outcome), " (dashed: compression ends)"),
+  return Plot{.title = absl::StrCat(Heading(outcome), Legend(outcome)),
               .panels = {HodographPanel(*path), std::move(velocity), std::move(impulse)}};
 }
 

@@ -27,7 +27,7 @@ const char* Sentence(Regime regime) {
     case Regime::kRebound:
       return "Rebound: slip reverses at the end of compression, and the contact separates.";
     case Regime::kSliding:
-      return "Sliding: slip keeps its direction.";
+      return "Sliding: slip never stops.";
     case Regime::kStickInCompression:
       return "Slip stops in compression and the contact sticks.";
     case Regime::kStickInRestitution:
@@ -105,6 +105,8 @@ std::string Verdict(const Outcome& outcome) {
 std::string CoefficientsText(const Outcome& outcome) {
   const Coefficients& coefficients = outcome.coefficients;
   const EffectiveCoefficients& effective = outcome.effective;
+  // Nothing strikes, so that no ratio of after and before means anything. Outcomes have 0 there.
+  if (outcome.regime == Regime::kSeparating) return "Coefficients\n  none: nothing strikes\n";
   Table table;
   table.Add({"Newton      (velocities, -v+/v-)", Rounded(coefficients.newton)});
   table.Add({"Poisson     (normal impulses)", IfKnown(coefficients.poisson)});

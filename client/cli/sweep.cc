@@ -13,6 +13,7 @@
 #include "client/cli/demand_input.h"
 #include "client/cli/interrupt.h"
 #include "client/cli/invalid_points.h"
+#include "client/cli/name_list.h"
 #include "client/cli/number_input.h"
 #include "client/cli/output.h"
 #include "client/cli/picture_input.h"
@@ -263,24 +264,9 @@ absl::StatusOr<std::optional<int>> ReadThreads(const std::string& text) {
   return static_cast<int>(*threads);
 }
 
-bool Asks(const std::vector<std::string>& values) { return values == std::vector<std::string>{"?"}; }
-
-absl::Status List(const std::vector<std::string>& names) {
-  std::string text;
-  for (const std::string& name : names) absl::StrAppend(&text, name, "\n");
-  return WriteOutput({}, text);
-}
-
-// Lists the axes or columns of the scene; without a scene those of a pendulum.
-absl::Status ListFor(const SceneOptions& options, std::vector<std::string> (*names)(const Scene&)) {
-  if (!options.any()) return List(names({.system = Pendulum()}));
-  const absl::StatusOr<Scene> scene = ReadScene(options);
-  return scene.ok() ? List(names(*scene)) : scene.status();
-}
-
 absl::Status RunSweep(const SweepOptions& options) {
-  if (Asks(options.axes)) return ListFor(options.scene, FieldPaths);
-  if (Asks(options.columns)) return ListFor(options.scene, Columns);
+  if (AsksForNames(options.axes)) return ListNames(options.scene, FieldPaths);
+  if (AsksForNames(options.columns)) return ListNames(options.scene, Columns);
   if (options.summary_only && ArrayFormatOf(options.common) != ArrayFormat::kNone) {
     return absl::InvalidArgumentError("--summary-only needs --format text, json, jsonl or csv: a summary is no array");
   }

@@ -131,7 +131,7 @@ void SweepOutput::Break(const std::string& command) {
   if (!progress_.has_engine()) return file_->Discard();
   // If this fails, the manifest before stands, and the command below goes on from there.
   static_cast<void>(file_->Checkpoint(progress_));
-  std::fprintf(stderr, "%s is the first part of the sweep, up to point %lld. To go on:\n  %s\n",
+  std::fprintf(stderr, "%s is the first part of the sweep, the points before %lld. To go on:\n  %s\n",
                file_->part_path().c_str(), static_cast<long long>(file_->manifest().next_index()), command.c_str());
 }
 

@@ -62,7 +62,11 @@ class Points {
     cells.Kind(regime);
     const RowStatus status = chunk.statuses[static_cast<size_t>(i)];
     const bool has_numbers = regime != Regime::kInvalid;
-    cells.Words(has_numbers ? StatusName(status) : absl::StrCat(StatusName(status), ": ", invalid_.Reason(index)));
+    if constexpr (Cells::kHasReasons) {
+      cells.Words(has_numbers ? StatusName(status) : absl::StrCat(StatusName(status), ": ", invalid_.Reason(index)));
+    } else {
+      cells.Words(StatusName(status));
+    }
   }
 
  private:
@@ -128,8 +132,9 @@ SweepWriter SummaryWriter(Format format) {
 
 // --- Points ---
 
-// Makes cells of a table.
+// Makes cells of a table, for which the reasons of invalid points are too long. They are told once, below it.
 struct TextCells {
+  static constexpr bool kHasReasons = false;
   std::vector<std::string> row;
   void Index(int64_t index) { row.push_back(absl::StrCat(index)); }
   void Number(double value) { row.push_back(Rounded(value)); }
@@ -139,6 +144,7 @@ struct TextCells {
 
 // Makes a line of CSV, or a list of JSON.
 struct LineCells {
+  static constexpr bool kHasReasons = true;
   Format format;
   std::string* text;
   bool is_first = true;
@@ -164,6 +170,7 @@ struct LineCells {
 
 // Makes an object of JSON.
 struct ObjectCells {
+  static constexpr bool kHasReasons = true;
   const std::vector<std::string>* keys;  // A name, quoted, and its colon.
   LineCells cells;
   size_t next = 0;

@@ -198,14 +198,14 @@ std::vector<Violation> CheckCertifiable(const Scene& scene, int digits) {
         MakeViolation("certified_digits", digits, absl::StrCat("be in [1, ", kMostCertifiedDigits, "]")));
   }
   refuse(TangentialDirections(scene.system) > 1, "system",
-         "is in space: certified answers are for a pendulum, planar bodies, a linkage or planar_contact");
+         "lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
   refuse(!std::holds_alternative<std::monostate>(scene.impact_law), "impact_law",
-         "is set: certified answers are for Coulomb friction and a coefficient of restitution");
-  refuse(scene.compliance.has_value(), "compliance", "is set: certified answers are for rigid contact");
+         "is set: must not be for a certified answer, which needs Coulomb friction and a coefficient of restitution");
+  refuse(scene.compliance.has_value(), "compliance", "is set: must not be for a certified answer, which needs rigid contact");
   refuse(!std::holds_alternative<std::monostate>(scene.finite_forces), "finite_forces",
-         "are set: certified answers are for impacts that take no time");
+         "are set: must not be for a certified answer, whose impact takes no time");
   refuse(scene.surface_velocity.has_value() && certified::HasParallelLinks(scene), "surface_velocity",
-         "is set: certified answers for links that are all parallel are for a surface at rest");
+         "is set: must not be for a certified answer about links that are all parallel");
   return violations;
 }
 

@@ -22,6 +22,12 @@ void CheckForceIntervals(const SolveRequest& request, std::optional<SceneContact
   const int64_t intervals = request.force_intervals;
   CheckIntervals("force_intervals", intervals, violations);
   if (intervals == 0 || !violations.empty()) return;
+  const std::optional<Compliance>& compliance = request.scene.compliance;
+  if (!compliance.has_value() || std::holds_alternative<std::monostate>(compliance->normal)) {
+    const char* const rule = ": must be 0 without a normal spring in compliance, such as linear, whose force it samples";
+    violations.push_back({"force_intervals", absl::StrCat("= ", intervals, rule)});
+    return;
+  }
   for (const Violation& violation : CheckDemand(request.scene, contact, DemandOf(request))) {
     const std::string rule = violation.description.substr(violation.description.find("must "));
     violations.push_back({"force_intervals", absl::StrCat("= ", intervals, ": needs finite_duration, which ", rule)});

@@ -334,15 +334,30 @@ INSTANTIATE_TEST_SUITE_P(
                  .environment = {{"RICOCHETD_MAX_LIVE_CALLS", "many"}},
                  .file = "drain-grace = soon\n"},
                 {"--listen = nowhere", "\n--max-live-calls = many", "\n--drain-grace = soon"}},
-        BadCase{"UnknownFlag", {.flags = {"--max-speed", "1"}}, {"--max-speed"}},
-        BadCase{"UnknownKey", {.file = "max_live_calls = 1\n"}, {"max_live_calls"}},
-        BadCase{"Positional", {.flags = {"localhost:1"}}, {"localhost:1"}},
+        BadCase{"UnknownFlag",
+                {.flags = {"--max-live-call", "1"}},
+                {"--max-live-call is not an option; did you mean --max-live-calls?"}},
+        BadCase{"UnknownKey",
+                {.file = "max_live_calls = 1\n"},
+                {"--config: max_live_calls is not an option; did you mean max-live-calls?"}},
+        BadCase{"UnknownVariable",
+                {.environment = {{"RICOCHETD_MAX_LIVE_CALL", "1"}}},
+                {"RICOCHETD_MAX_LIVE_CALL in the environment is not an option; did you mean RICOCHETD_MAX_LIVE_CALLS?"}},
+        BadCase{"Positional", {.flags = {"localhost:1"}}, {"localhost:1 is not expected: must follow an option"}},
         BadCase{"Twice", {.flags = {"--drain-grace", "1", "--drain-grace", "2"}}, {"--drain-grace"}},
         BadCase{"NoSuchFile", {.flags = {"--config", "/nonexistent.toml"}}, {"/nonexistent.toml"}},
         BadCase{"NoSuchFileByEnvironment",
                 {.environment = {{"RICOCHETD_CONFIG", "/nonexistent.toml"}}},
                 {"/nonexistent.toml"}}),
     [](const auto& tested) { return tested.param.name; });
+
+TEST(Options, TakesNoVariableOfKubernetesForAnOption) {
+  const auto parsed = Parse("", {.environment = {{"RICOCHETD_SERVICE_HOST", "10.0.0.1"},
+                                                 {"RICOCHETD_SERVICE_PORT_GRPC", "50051"},
+                                                 {"RICOCHETD_PORT", "tcp://10.0.0.1:50051"},
+                                                 {"RICOCHETD_PORT_50051_TCP_ADDR", "10.0.0.1"}}});
+  EXPECT_TRUE(parsed.ok()) << parsed.status();
+}
 
 TEST(Options, HelpNamesEveryOption) {
   const auto parsed = Parse("", {.flags = {"--help"}});

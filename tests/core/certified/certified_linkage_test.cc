@@ -129,26 +129,26 @@ std::string Refusal(const Scene& scene, int digits) {
 
 TEST(CertifiedRefusalTest, NamesWhatStandsAgainstACertificate) {
   EXPECT_EQ(Refusal(With(Body()), 10),
-            "system is in space: certified answers are for a pendulum, planar bodies, a linkage or planar_contact");
+            "system lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
   EXPECT_EQ(Refusal(With(Contact()), 1001), "certified_digits = 1001: must be in [1, 1000]");
   EXPECT_EQ(Refusal(With(Contact()), -1), "certified_digits = -1: must be in [1, 1000]");
   Scene scene = With(Contact());
   scene.finite_forces = ContactAcceleration{0.0, -9.81};
-  EXPECT_EQ(Refusal(scene, 10), "finite_forces are set: certified answers are for impacts that take no time");
+  EXPECT_EQ(Refusal(scene, 10), "finite_forces are set: must not be for a certified answer, whose impact takes no time");
   scene = With(Contact());
   scene.compliance = Compliance{.tangential_ratio_squared = 1.2};
-  EXPECT_EQ(Refusal(scene, 10), "compliance is set: certified answers are for rigid contact");
+  EXPECT_EQ(Refusal(scene, 10), "compliance is set: must not be for a certified answer, which needs rigid contact");
   scene = With(Contact());
   scene.restitution = {};
   scene.impact_law = WhittakerLaw{0.5};
   EXPECT_EQ(Refusal(scene, 10),
-            "impact_law is set: certified answers are for Coulomb friction and a coefficient of restitution");
+            "impact_law is set: must not be for a certified answer, which needs Coulomb friction and a coefficient of restitution");
   Linkage parallel = Chain();
   parallel.links[1].theta_rad = parallel.links[0].theta_rad;
   scene = With(parallel);
   scene.surface_velocity = SurfaceVelocity{{0.0}, 0.0};
   EXPECT_EQ(Refusal(scene, 10),
-            "surface_velocity is set: certified answers for links that are all parallel are for a surface at rest");
+            "surface_velocity is set: must not be for a certified answer about links that are all parallel");
 }
 
 TEST(CertifiedRefusalTest, NoEffectIsLeftOut) {
@@ -160,7 +160,7 @@ TEST(CertifiedRefusalTest, NoEffectIsLeftOut) {
 
 TEST(CertifiedRefusalTest, BoundsRefuseTheSame) {
   EXPECT_EQ(LocalSolver().Bounds({.scene = With(Body()), .certified_digits = 10}).status().message(),
-            "system is in space: certified answers are for a pendulum, planar bodies, a linkage or planar_contact");
+            "system lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
 }
 
 }  // namespace

@@ -66,8 +66,8 @@ TEST(PlannedSolveTest, ForcesAreSampledAtEqualStepsOfTimeUntilTheLastTouch) {
 TEST(PlannedSolveTest, ForcesNeedASpring) {
   EXPECT_THAT(Refused({.scene = With(Contact()), .force_intervals = 8}),
               ElementsAre(Violation{"force_intervals",
-                                    "= 8: needs finite_duration, which must not be required of a scene without a "
-                                    "normal spring in compliance"}));
+                                    "= 8: must be 0 without a normal spring in compliance, such as linear, whose force "
+                                    "it samples"}));
   EXPECT_THAT(Refused({.scene = OnASpring(Contact(), {}), .force_intervals = -1}),
               ElementsAre(Violation{"force_intervals", "= -1: must be in [0, 65535]"}));
 }
