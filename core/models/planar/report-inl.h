@@ -62,6 +62,7 @@ HWY_INLINE Instant MakeInstant(EventKind kind, const State<N>& at) {
   return {.kind = kind, .tau = Out(at.tau), .f = Out(at.f), .u = Out(at.u), .v = Out(at.v)};
 }
 
+// The numbers of the impact must be set.
 template <typename N>
 HWY_INLINE void WriteEvents(const Problem& problem, const Course<N>& course, Impact& impact) {
   const Solution<N>& x = course.x;
@@ -71,10 +72,15 @@ HWY_INLINE void WriteEvents(const Problem& problem, const Course<N>& course, Imp
   const bool stops_before =
       (x.stops_in_compression && course.path.slips_first) || stops_at_compression_end || course.locked;
   if (stops_before) *next++ = MakeInstant(EventKind::kSlipStops, x.stop);
-  *next++ = MakeInstant(EventKind::kCompressionEnds, x.compression_end);
+  *next++ = {.kind = EventKind::kCompressionEnds,
+             .tau = impact.tau_compression,
+             .f = impact.f_compression,
+             .u = Out(x.compression_end.u),
+             .v = 0.0};
   if (!course.locked) {
     if (x.stops_in_restitution && !stops_at_compression_end) *next++ = MakeInstant(EventKind::kSlipStops, x.stop);
-    *next++ = MakeInstant(EventKind::kRestitutionEnds, x.end);
+    *next++ = {
+        .kind = EventKind::kRestitutionEnds, .tau = impact.tau1, .f = impact.f1, .u = impact.u1, .v = impact.v1};
   }
   impact.event_count = static_cast<int>(next - impact.events.data());
 }

@@ -247,6 +247,38 @@ TEST(PlanarRoundingTest, NumbersBeyondTheRangeOfPlainArithmeticAreNotProved) {
   EXPECT_FALSE(SolvePlain(problem).proved);
 }
 
+// One number at a time crosses an end of the range that core/models/planar/planar.h states, or is 0.
+TEST(PlanarRoundingTest, PlainArithmeticServesUpToTheEndsOfItsRange) {
+  struct Number {
+    const char* name;
+    double Problem::*of;
+    double least;
+  };
+  const Problem typical = {.w = {2.0, 0.5, 1.5}, .u0 = 0.3, .v0 = -1.0, .mu = 0.2, .mu_static = 0.3, .coefficient = 0.5};
+  for (const auto& [name, of, least] : {Number{"u0", &Problem::u0, 0x1p-100}, Number{"mu", &Problem::mu, 0x1p-40},
+                                        Number{"coefficient", &Problem::coefficient, 0x1p-40}}) {
+    Problem problem = typical;
+    for (const auto& [size, serves] : {std::pair(least, true), std::pair(0.99 * least, false), std::pair(0.0, true)}) {
+      problem.*of = size;
+      EXPECT_EQ(SolvePlain(problem).proved, serves) << name << " = " << size;
+    }
+  }
+  Problem weak = typical;
+  weak.w.tn = 0x1p-100;
+  EXPECT_TRUE(SolvePlain(weak).proved);
+  weak.w.tn *= 0.99;
+  EXPECT_FALSE(SolvePlain(weak).proved);
+  Problem fast = typical;
+  fast.v0 = -0x1p40;
+  fast.u0 = 0x1p40;
+  EXPECT_TRUE(SolvePlain(fast).proved);
+  fast.v0 *= 1.01;
+  EXPECT_FALSE(SolvePlain(fast).proved);
+  fast.v0 = -0x1p39;
+  fast.u0 *= 1.01;
+  EXPECT_FALSE(SolvePlain(fast).proved);
+}
+
 TEST(PlanarRoundingTest, ASeparatingContactHasNoError) {
   Problem problem = FortyFiveDegreeRod();
   problem.v0 = 1.0;
