@@ -64,6 +64,9 @@ std::string Heading(const AuditResponse& response) {
     absl::StrAppend(&text, "  no impulse explains the observation; the nearest point of the path, shown here, is ",
                     Rounded(report.distance), " m/s away\n");
   }
+  if (!report.compression_ended && report.regime != Regime::kSeparating) {
+    absl::StrAppend(&text, "  the normal impulse is too small to end compression: Poisson's coefficient is negative\n");
+  }
   return text;
 }
 

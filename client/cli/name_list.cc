@@ -2,7 +2,7 @@
 
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
-#include "client/cli/output.h"
+#include "client/cli/common.h"
 
 namespace ricochet::cli {
 

@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdint>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <utility>
@@ -91,7 +92,7 @@ absl::StatusOr<SweepTable> ReadSweepFile(const std::string& path, const std::vec
     return absl::InvalidArgumentError(absl::StrCat(path, ": is a directory: must be a file of a sweep"));
   }
   std::ifstream stream(path, std::ios::binary);
-  if (!stream) return absl::ErrnoToStatus(errno, path);
+  if (!stream) return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": ", std::strerror(errno)));
   absl::StatusOr<SweepTable> table = Read(stream, path, columns);
   if (stream.bad()) return absl::ErrnoToStatus(errno, path);
   if (!table.ok()) return absl::Status(table.status().code(), absl::StrCat(path, ": ", table.status().message()));

@@ -115,6 +115,7 @@ std::vector<BadInput> Scenes() {
       {{"solve", "--a", "1", "--energetic", "1.5"}, "restitution.energetic = 1.5: must be in [0, 1]", ""},
       {{"solve", "--scene", "no/such/file"}, "cannot read no/such/file: No such file", ""},
       {{"solve", "--scene", "."}, "cannot read .", ""},
+      {{"plot", "no/such/file"}, "cannot read no/such/file: No such file", ""},
       {kSolveInput, "system is not set: must be one of pendulum", ""},
       {kSolveInput,
        "no velocity of the scene is other than 0, so that nothing strikes: must set pendulum.omega_minus_rad_s",
