@@ -39,13 +39,15 @@ constexpr char kRates[] = "rates_after_rad_s";
 }  // namespace
 
 Label LabelOf(const std::string& path) {
-  const std::string words = absl::StrReplaceAll(WithoutUnit(path), {{"_", " "}, {".", " "}});
-  Label label{.symbol = words, .name = words, .unit = ""};
+  Label label{.symbol = path, .name = path, .unit = ""};
   if (absl::StartsWith(path, kRates)) {
     label.symbol = absl::StrCat("ω+", path.substr(sizeof(kRates) - 1));
     label.name = absl::StrCat("angular velocity after, ", label.symbol);
   }
-  if (const FieldInfo* field = FindFieldInfo(path); field != nullptr) label.unit = field->unit;
+  if (const FieldInfo* field = FindFieldInfo(path); field != nullptr) {
+    label.unit = field->unit;
+    if (label.name == path) label.name = label.symbol = absl::StrReplaceAll(WithoutUnit(path), {{"_", " "}, {".", " "}});
+  }
   for (const Named& named : kNamed) {
     if (path != named.path) continue;
     label.symbol = named.symbol;

@@ -354,7 +354,7 @@ void AppendPanel(size_t number, const Panel& panel, const Layout& layout, std::s
     Points crosses;
     for (const double x : panel.x_missing) crosses.emplace_back(x, axes.y.lower);
     add(absl::StrCat("p", number, "missing"), crosses,
-        "with points pointtype 1 pointsize 1.2 linewidth 2 linecolor rgb '#7F7F7F'", "no value (invalid)");
+        "with points pointtype 2 pointsize 1.2 linewidth 2 linecolor rgb '#7F7F7F'", "no value (invalid)");
   }
   const double across = layout.cell_width() / layout.character() - 4.0;
   const double up = layout.cell_height() / layout.character() - 8.0;

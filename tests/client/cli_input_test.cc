@@ -86,7 +86,7 @@ TEST(Rounded, ShowsSixDigitsAndNoNegativeZero) {
 TEST(LabelOf, KnowsSymbolsAndUnits) {
   EXPECT_EQ(WithUnit(LabelOf("rates_after_rad_s[1]")), "angular velocity after, ω+[1] [rad/s]");
   EXPECT_EQ(WithUnit(LabelOf("pendulum.inertia_kg_m2")), "moment of inertia J [kg m²]");
-  EXPECT_EQ(WithUnit(LabelOf("work.normal_total_j")), "work.normal_total_j [J]");
+  EXPECT_EQ(WithUnit(LabelOf("work.normal_total_j")), "work normal total [J]");
   EXPECT_EQ(WithUnit(LabelOf("friction.kinetic_coefficient")), "kinetic friction μ");
 }
 
@@ -100,8 +100,8 @@ TEST(LabelOf, KnowsTheUnitsThatANameDoesNotEndIn) {
 }
 
 TEST(LabelOf, ShowsIndices) {
-  EXPECT_EQ(WithUnit(LabelOf("linkage.links[1].theta_rad")), "linkage.links[1].theta_rad [rad]");
-  EXPECT_EQ(WithUnit(LabelOf("bodies_after[0].linear_m_s[1]")), "bodies_after[0].linear_m_s[1] [m/s]");
+  EXPECT_EQ(WithUnit(LabelOf("linkage.links[1].theta_rad")), "linkage links[1] theta [rad]");
+  EXPECT_EQ(WithUnit(LabelOf("bodies_after[0].linear_m_s[1]")), "bodies after[0] linear[1] [m/s]");
 }
 
 }  // namespace

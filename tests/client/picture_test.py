@@ -146,18 +146,18 @@ class Labels(PictureTest):
     def test_units_come_from_the_field_table(self):
         picture, _ = self.draw("sweep", *scene("dropped_rod.textproto"), "--axis",
                                "compliance.linear.stiffness_n_m=log:1e4:1e8:9", "--column", "contact.peak_normal_n")
-        self.assertIn("compliance.linear.stiffness_n_m [N/m]", picture.texts)
-        self.assertIn("contact.peak_normal_n [N]", picture.texts)
+        self.assertIn("compliance linear stiffness [N/m]", picture.texts)
+        self.assertIn("contact peak normal [N]", picture.texts)
 
     def test_indices_are_shown(self):
         picture, _ = self.draw("sweep", *scene("double_pendulum.textproto"), "--axis",
                                "linkage.links[1].theta_rad=lin:0:1:5", "--column", "rates_after_rad_s[1]")
-        self.assertIn("linkage.links[1].theta_rad [rad]", picture.texts)
+        self.assertIn("linkage links[1] theta [rad]", picture.texts)
         self.assertIn("angular velocity after, ω+[1] [rad/s]", picture.texts)
         picture, _ = self.draw("sweep", *scene("spatial_body.json"), "--axis",
                                "friction.kinetic_coefficient=lin:0.1:0.3:3", "--column",
                                "bodies_after[0].linear_m_s[0],bodies_after[0].linear_m_s[1]")
-        self.assertIn("bodies_after[0].linear_m_s[1]", picture.texts)
+        self.assertIn("bodies after[0] linear[1]", picture.texts)
 
     def test_each_unit_has_a_panel(self):
         picture, table = self.draw("sweep", *scene("dropped_rod.textproto"), "--axis",
@@ -223,7 +223,7 @@ class Curves(PictureTest):
         missing = [float(row["friction.kinetic_coefficient"]) for row in table
                    if row["coefficients.newton"] in ("nan", "")]
         panel = picture.panels[0]
-        crosses = sorted(x for colour, x, _ in panel.marks if colour == "red" or "255,   0,   0" in colour)
+        crosses = sorted(x for colour, x, _ in panel.marks if "127, 127, 127" in colour)
         self.assertGreater(len(missing), 3)
         self.assertEqual(len(crosses), len(missing))
         for cross, x in zip(crosses, missing):
