@@ -53,7 +53,8 @@ absl::Status CheckEnvironment() {
   for (const Setting& setting : kSettings) known.push_back(VariableOf(setting.name));
   for (char** entry = environ; *entry != nullptr; ++entry) {
     const std::string variable(*entry, std::strcspn(*entry, "="));
-    if (!absl::StartsWith(variable, "RICOCHET_") || std::find(known.begin(), known.end(), variable) != known.end()) continue;
+    if (!absl::StartsWith(variable, "RICOCHET_") || std::find(known.begin(), known.end(), variable) != known.end())
+      continue;
     const std::string meant = DidYouMean(variable, known);
     if (meant.empty()) continue;
     return absl::InvalidArgumentError(absl::StrCat(variable, " in the environment is not an option", meant));

@@ -98,17 +98,18 @@ std::string CellsText(const CostRow& row) {
   const auto error = [&row](double CostError::*part) {
     return row.achieved.has_value() ? ErrorText((*row.achieved).*part) : "";
   };
-  const std::vector<std::string> cells = {row.name,
-                                          row.solve.has_value()                  ? TimeText(row.solve->median_s)
-                                          : row.status == CostStatus::kOutOfTime ? "no time left"
-                                                                                 : "no answer",
-                                          row.solve.has_value() ? absl::StrCat(row.solve->samples < 2 ? "" : "± ", SpreadText(*row.solve)) : "",
-                                          row.batch.has_value() ? TimeText(row.batch->median_s) : "",
-                                          row.status == CostStatus::kMeasured ? ErrorText(row.claimed.total) : "",
-                                          error(&CostError::total),
-                                          error(&CostError::numerical),
-                                          error(&CostError::modelling),
-                                          row.steps > 0 ? absl::StrCat(row.steps) : ""};
+  const std::vector<std::string> cells = {
+      row.name,
+      row.solve.has_value()                  ? TimeText(row.solve->median_s)
+      : row.status == CostStatus::kOutOfTime ? "no time left"
+                                             : "no answer",
+      row.solve.has_value() ? absl::StrCat(row.solve->samples < 2 ? "" : "± ", SpreadText(*row.solve)) : "",
+      row.batch.has_value() ? TimeText(row.batch->median_s) : "",
+      row.status == CostStatus::kMeasured ? ErrorText(row.claimed.total) : "",
+      error(&CostError::total),
+      error(&CostError::numerical),
+      error(&CostError::modelling),
+      row.steps > 0 ? absl::StrCat(row.steps) : ""};
   std::string text;
   for (size_t i = 0; i < cells.size(); ++i) {
     absl::StrAppend(

@@ -46,7 +46,8 @@ Label LabelOf(const std::string& path) {
   }
   if (const FieldInfo* field = FindFieldInfo(path); field != nullptr) {
     label.unit = field->unit;
-    if (label.name == path) label.name = label.symbol = absl::StrReplaceAll(WithoutUnit(path), {{"_", " "}, {".", " "}});
+    if (label.name == path)
+      label.name = label.symbol = absl::StrReplaceAll(WithoutUnit(path), {{"_", " "}, {".", " "}});
   }
   for (const Named& named : kNamed) {
     if (path != named.path) continue;

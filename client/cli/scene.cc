@@ -179,7 +179,10 @@ void AddScene(CLI::App& app, Command& command) {
   CLI::App* fields = add("fields", "List the numbers of a scene with units, ranges and meanings", RunFields);
   AddSceneOptions(*fields, options->scene);
   add_json(fields);
-  CLI::App* columns = add("columns", "List the numbers of an answer, with the equations of the paper in brackets; without a scene those of a pendulum", RunColumns);
+  CLI::App* columns = add(
+      "columns",
+      "List the numbers of an answer, with the equations of the paper in brackets; without a scene those of a pendulum",
+      RunColumns);
   AddSceneOptions(*columns, options->scene);
   add_json(columns);
 }

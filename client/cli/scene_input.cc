@@ -155,9 +155,9 @@ absl::Status RequireVelocity(const Scene& scene) {
     is_moving = is_moving || value != 0.0;
   });
   if (is_moving || velocities.empty()) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat("no velocity of the scene is other than 0, so that nothing strikes: must set ",
-                                                 velocities.size() == 1 ? "" : "one of ",
-                                                 absl::StrJoin(velocities, ", ")));
+  return absl::InvalidArgumentError(
+      absl::StrCat("no velocity of the scene is other than 0, so that nothing strikes: must set ",
+                   velocities.size() == 1 ? "" : "one of ", absl::StrJoin(velocities, ", ")));
 }
 
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {

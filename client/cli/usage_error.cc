@@ -65,7 +65,8 @@ std::string UsageError(const CLI::App& app, const CLI::ParseError& error) {
     return lacks_subcommand && extras.empty() ? NoSubcommand(chosen) : error.what();
   }
   const std::string& word = extras.front();
-  return lacks_subcommand && !absl::StartsWith(word, "-") ? NoSuchSubcommand(chosen, word) : NoSuchArgument(chosen, word);
+  return lacks_subcommand && !absl::StartsWith(word, "-") ? NoSuchSubcommand(chosen, word)
+                                                          : NoSuchArgument(chosen, word);
 }
 
 }  // namespace ricochet::cli

@@ -201,7 +201,8 @@ std::vector<Violation> CheckCertifiable(const Scene& scene, int digits) {
          "lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
   refuse(!std::holds_alternative<std::monostate>(scene.impact_law), "impact_law",
          "is set: must not be for a certified answer, which needs Coulomb friction and a coefficient of restitution");
-  refuse(scene.compliance.has_value(), "compliance", "is set: must not be for a certified answer, which needs rigid contact");
+  refuse(scene.compliance.has_value(), "compliance",
+         "is set: must not be for a certified answer, which needs rigid contact");
   refuse(!std::holds_alternative<std::monostate>(scene.finite_forces), "finite_forces",
          "are set: must not be for a certified answer, whose impact takes no time");
   refuse(scene.surface_velocity.has_value() && certified::HasParallelLinks(scene), "surface_velocity",

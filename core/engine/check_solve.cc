@@ -24,7 +24,8 @@ void CheckForceIntervals(const SolveRequest& request, std::optional<SceneContact
   if (intervals == 0 || !violations.empty()) return;
   const std::optional<Compliance>& compliance = request.scene.compliance;
   if (!compliance.has_value() || std::holds_alternative<std::monostate>(compliance->normal)) {
-    const char* const rule = ": must be 0 without a normal spring in compliance, such as linear, whose force it samples";
+    const char* const rule =
+        ": must be 0 without a normal spring in compliance, such as linear, whose force it samples";
     violations.push_back({"force_intervals", absl::StrCat("= ", intervals, rule)});
     return;
   }

@@ -340,9 +340,10 @@ INSTANTIATE_TEST_SUITE_P(
         BadCase{"UnknownKey",
                 {.file = "max_live_calls = 1\n"},
                 {"--config: max_live_calls is not an option; did you mean max-live-calls?"}},
-        BadCase{"UnknownVariable",
-                {.environment = {{"RICOCHETD_MAX_LIVE_CALL", "1"}}},
-                {"RICOCHETD_MAX_LIVE_CALL in the environment is not an option; did you mean RICOCHETD_MAX_LIVE_CALLS?"}},
+        BadCase{
+            "UnknownVariable",
+            {.environment = {{"RICOCHETD_MAX_LIVE_CALL", "1"}}},
+            {"RICOCHETD_MAX_LIVE_CALL in the environment is not an option; did you mean RICOCHETD_MAX_LIVE_CALLS?"}},
         BadCase{"Positional", {.flags = {"localhost:1"}}, {"localhost:1 is not expected: must follow an option"}},
         BadCase{"Twice", {.flags = {"--drain-grace", "1", "--drain-grace", "2"}}, {"--drain-grace"}},
         BadCase{"NoSuchFile", {.flags = {"--config", "/nonexistent.toml"}}, {"/nonexistent.toml"}},

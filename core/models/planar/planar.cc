@@ -70,10 +70,10 @@ PlainImpact SolvePlainApproaching(const Problem& problem) {
   Numbers<N> numbers = MakeNumbers(kAllParts, course);
   const bool keeps_limits = KeepsLimits(course);
   KeepLimits(keeps_limits, course, numbers);
-  return {
-      .impact = Report(problem, course, numbers),
-      .errors = ToErrors(PlainBounds(course, errors)),
-      .proved = IsModerateAlone(problem) && PathIsSure(course, errors) && (keeps_limits || LimitsAreSure(course, errors))};
+  return {.impact = Report(problem, course, numbers),
+          .errors = ToErrors(PlainBounds(course, errors)),
+          .proved = IsModerateAlone(problem) && PathIsSure(course, errors) &&
+                    (keeps_limits || LimitsAreSure(course, errors))};
 }
 
 }  // namespace ricochet::planar::HWY_NAMESPACE

@@ -79,8 +79,7 @@ HWY_INLINE void WriteEvents(const Problem& problem, const Course<N>& course, Imp
              .v = 0.0};
   if (!course.locked) {
     if (x.stops_in_restitution && !stops_at_compression_end) *next++ = MakeInstant(EventKind::kSlipStops, x.stop);
-    *next++ = {
-        .kind = EventKind::kRestitutionEnds, .tau = impact.tau1, .f = impact.f1, .u = impact.u1, .v = impact.v1};
+    *next++ = {.kind = EventKind::kRestitutionEnds, .tau = impact.tau1, .f = impact.f1, .u = impact.u1, .v = impact.v1};
   }
   impact.event_count = static_cast<int>(next - impact.events.data());
 }

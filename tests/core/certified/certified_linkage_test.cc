@@ -128,13 +128,15 @@ std::string Refusal(const Scene& scene, int digits) {
 }
 
 TEST(CertifiedRefusalTest, NamesWhatStandsAgainstACertificate) {
-  EXPECT_EQ(Refusal(With(Body()), 10),
-            "system lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
+  EXPECT_EQ(
+      Refusal(With(Body()), 10),
+      "system lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
   EXPECT_EQ(Refusal(With(Contact()), 1001), "certified_digits = 1001: must be in [1, 1000]");
   EXPECT_EQ(Refusal(With(Contact()), -1), "certified_digits = -1: must be in [1, 1000]");
   Scene scene = With(Contact());
   scene.finite_forces = ContactAcceleration{0.0, -9.81};
-  EXPECT_EQ(Refusal(scene, 10), "finite_forces are set: must not be for a certified answer, whose impact takes no time");
+  EXPECT_EQ(Refusal(scene, 10),
+            "finite_forces are set: must not be for a certified answer, whose impact takes no time");
   scene = With(Contact());
   scene.compliance = Compliance{.tangential_ratio_squared = 1.2};
   EXPECT_EQ(Refusal(scene, 10), "compliance is set: must not be for a certified answer, which needs rigid contact");
@@ -142,7 +144,8 @@ TEST(CertifiedRefusalTest, NamesWhatStandsAgainstACertificate) {
   scene.restitution = {};
   scene.impact_law = WhittakerLaw{0.5};
   EXPECT_EQ(Refusal(scene, 10),
-            "impact_law is set: must not be for a certified answer, which needs Coulomb friction and a coefficient of restitution");
+            "impact_law is set: must not be for a certified answer, which needs Coulomb friction and a coefficient of "
+            "restitution");
   Linkage parallel = Chain();
   parallel.links[1].theta_rad = parallel.links[0].theta_rad;
   scene = With(parallel);
@@ -159,8 +162,9 @@ TEST(CertifiedRefusalTest, NoEffectIsLeftOut) {
 }
 
 TEST(CertifiedRefusalTest, BoundsRefuseTheSame) {
-  EXPECT_EQ(LocalSolver().Bounds({.scene = With(Body()), .certified_digits = 10}).status().message(),
-            "system lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
+  EXPECT_EQ(
+      LocalSolver().Bounds({.scene = With(Body()), .certified_digits = 10}).status().message(),
+      "system lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
 }
 
 }  // namespace

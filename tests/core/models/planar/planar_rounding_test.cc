@@ -255,7 +255,8 @@ TEST(PlanarRoundingTest, PlainArithmeticServesUpToTheEndsOfItsRange) {
     double Problem::*of;
     double least;
   };
-  const Problem typical = {.w = {2.0, 0.5, 1.5}, .u0 = 0.3, .v0 = -1.0, .mu = 0.2, .mu_static = 0.3, .coefficient = 0.5};
+  const Problem typical = {
+      .w = {2.0, 0.5, 1.5}, .u0 = 0.3, .v0 = -1.0, .mu = 0.2, .mu_static = 0.3, .coefficient = 0.5};
   for (const auto& [name, of, least] : {Number{"u0", &Problem::u0, 0x1p-100}, Number{"mu", &Problem::mu, 0x1p-40},
                                         Number{"coefficient", &Problem::coefficient, 0x1p-40}}) {
     Problem problem = typical;
