@@ -52,8 +52,8 @@ void Keep(const T& value) {
   asm volatile("" : : "g"(&value) : "memory");
 }
 
-// The factor of the velocity before impact number i of a batch, in [1, 1.001].
-inline double BatchFactor(int64_t i) { return 1.0 + 1e-3 * static_cast<double>(i) / static_cast<double>(kCostBatch); }
+// The factor of the velocity before impact number i of a batch, in (0.999, 1], so that no velocity exceeds the largest double.
+inline double BatchFactor(int64_t i) { return 1.0 - 1e-3 * static_cast<double>(i) / static_cast<double>(kCostBatch); }
 
 // `solve(problem, stopped)` gives the model's result, `read(problem, result)` a KernelAnswer, `scaled(problem, factor)` the
 // problem with its velocities multiplied.

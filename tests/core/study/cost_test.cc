@@ -7,12 +7,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "core/certified/certified.h"
 #include "core/models/finite_duration/finite_duration.h"
+#include "core/study/cost_families.h"
+#include "core/study/cost_kernel.h"
 #include "core/study/cost_summary.h"
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
@@ -317,6 +320,22 @@ TEST(ParetoFrontTest, AnErrorCountsAsNoSmallerThanItsReferenceTells) {
   std::vector<CostRow> rows = {MadeRow(1.0, 1e-12), MadeRow(2.0, 0.0)};
   rows[1].reference_error = 1e-11;
   EXPECT_THAT(ParetoFront(rows), ElementsAre(0));
+}
+
+// The velocities of a batch differ, and none may leave the range of doubles: a certified answer takes finite numbers only.
+TEST(CostTest, ABatchOfTheFastestImpactStaysWithinDoubles) {
+  constexpr double kFastest = -std::numeric_limits<double>::max();
+  for (const System& system :
+       {System(Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.3, .b_m = 1.0, .omega_minus_rad_s = kFastest}),
+        System(PlanarContact{1.0, 0.0, 1.0, 0.0, kFastest})}) {
+    Methods methods;
+    AddCertified({.system = system, .restitution = EnergeticCoefficient{0.5}}, 1.0, 0.0, nullptr, methods);
+    for (const StudiedMethod& method : methods) {
+      if (method.kernel.make_batch == nullptr) continue;  // This build has no certified answers.
+      method.kernel.make_batch()(kCostBatch - 2, 2, Never);
+    }
+    EXPECT_EQ(methods.size(), 3U);
+  }
 }
 
 }  // namespace
