@@ -103,7 +103,7 @@ std::string CellsText(const CostRow& row) {
       row.solve.has_value()                  ? TimeText(row.solve->median_s)
       : row.status == CostStatus::kOutOfTime ? "no time left"
                                              : "no answer",
-      row.solve.has_value() ? absl::StrCat(row.solve->samples < 2 ? "" : "± ", SpreadText(*row.solve)) : "",
+      row.solve.has_value() ? absl::StrCat(row.solve->samples == 1 ? "" : "± ", SpreadText(*row.solve)) : "",
       row.batch.has_value() ? TimeText(row.batch->median_s) : "",
       row.status == CostStatus::kMeasured ? ErrorText(row.claimed.total) : "",
       error(&CostError::total),

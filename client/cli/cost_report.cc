@@ -164,7 +164,7 @@ std::string TimeText(double seconds) {
 }
 
 std::string SpreadText(const CostTime& time) {
-  if (time.samples < 2) return "once";
+  if (time.samples == 1) return "once";
   const double half = 0.5 * (time.upper_quartile_s - time.lower_quartile_s);
   return absl::StrFormat("%.0f %%", time.median_s > 0.0 ? 100.0 * half / time.median_s : 0.0);
 }

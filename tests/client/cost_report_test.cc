@@ -64,6 +64,7 @@ TEST(CostReportTest, TimesHaveThreeDigits) {
 
 TEST(CostReportTest, TheSpreadIsHalfTheDistanceOfTheQuartiles) {
   EXPECT_EQ(SpreadText({.median_s = 1e-6, .lower_quartile_s = 0.9e-6, .upper_quartile_s = 1.3e-6}), "20 %");
+  EXPECT_EQ(SpreadText({.median_s = 2.0, .lower_quartile_s = 2.0, .upper_quartile_s = 2.0, .samples = 1}), "once");
 }
 
 TEST(CostReportTest, TheTableFitsIn100ColumnsWithTheLongestNames) {
