@@ -10,8 +10,10 @@ namespace {
 // Positions in a covariance.
 constexpr size_t kNormalForce = 0, kSpringForce = 1, kU = 2, kV = 3;
 
-// A velocity errs by no more than so many standard deviations.
+// A velocity errs by no more than so many standard deviations, and by this part of one more for each section: sections that
+// repeat each other do not round independently.
 constexpr double kSafety = 2.0;
+constexpr double kSafetyOfSection = 0.02;
 constexpr double kUnit = 0x1p-53;
 // A path that misses an event by no more than so many standard deviations may have it in truth.
 constexpr double kDoubt = 8.0;
@@ -196,6 +198,7 @@ void PathError::LeaveModes(const SectionMode& mode, const NormalModes& modes, co
 }
 
 void PathError::LeaveSection(const SectionMode& mode, const ContactState& after, const SectionEnd& end) {
+  ++sections_;
   const bool hardly_parts = end.parts && after.v <= kDoubt * kUnit * Size(kV);
   const bool hardly_turns = end.turns && !mode.indenting && after.normal_force <= kDoubt * kUnit * Size(kNormalForce);
   in_doubt_ = in_doubt_ || hardly_parts || hardly_turns;
@@ -224,7 +227,8 @@ void PathError::EndAtRest(const SectionMode& mode, const ContactState& state) {
 
 double PathError::OfVelocity() const {
   if (in_doubt_) return std::numeric_limits<double>::infinity();
-  const double size = kUnit * kSafety * std::max(Size(kU), Size(kV));
+  const double safety = kSafety + kSafetyOfSection * sections_;
+  const double size = kUnit * safety * std::max(Size(kU), Size(kV));
   return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
 }
 
