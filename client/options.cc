@@ -33,14 +33,14 @@ bool LacksPort(absl::string_view server) {
 
 std::string TargetRule(const std::string& target) {
   if (target.empty()) return "is empty: must be \"host:port\"";
-  for (const absl::string_view server : absl::StrSplit(target, ',')) {
-    if (server.empty()) return absl::StrCat("= \"", target, "\": must name a server before and after each comma");
-    if (LacksPort(server) && !absl::StrContains(server, ' ')) {
-      return absl::StrCat("= \"", target, "\": must have a port, as ", server, ":50051");
-    }
-  }
   if (target.find_first_of(" \t\r\n") != std::string::npos) {
     return absl::StrCat("= \"", target, "\": must not contain white space");
+  }
+  for (const absl::string_view server : absl::StrSplit(target, ',')) {
+    if (server.empty()) return absl::StrCat("= \"", target, "\": must name a server before and after each comma");
+    if (LacksPort(server)) {
+      return absl::StrCat("= \"", target, "\": must have a port, as ", server, ":50051");
+    }
   }
   return "";
 }

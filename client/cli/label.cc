@@ -40,14 +40,13 @@ constexpr char kRates[] = "rates_after_rad_s";
 
 Label LabelOf(const std::string& path) {
   Label label{.symbol = path, .name = path, .unit = ""};
+  if (const FieldInfo* field = FindFieldInfo(path); field != nullptr) {
+    label.unit = field->unit;
+    label.name = label.symbol = absl::StrReplaceAll(WithoutUnit(path), {{"_", " "}, {".", " "}});
+  }
   if (absl::StartsWith(path, kRates)) {
     label.symbol = absl::StrCat("ω+", path.substr(sizeof(kRates) - 1));
     label.name = absl::StrCat("angular velocity after, ", label.symbol);
-  }
-  if (const FieldInfo* field = FindFieldInfo(path); field != nullptr) {
-    label.unit = field->unit;
-    if (label.name == path)
-      label.name = label.symbol = absl::StrReplaceAll(WithoutUnit(path), {{"_", " "}, {".", " "}});
   }
   for (const Named& named : kNamed) {
     if (path != named.path) continue;

@@ -1,9 +1,7 @@
 #include "core/answer/planar_body_lanes.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <utility>
 #include <variant>
 
 #include "absl/strings/str_cat.h"

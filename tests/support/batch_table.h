@@ -1,4 +1,4 @@
-// BatchTable: a batch with room for its answer, and the check that every row has the bits of Solve.
+// BatchTable: a batch with room for its answer, and the checks that every row has the bits of Solve and of a sweep.
 
 #ifndef RICOCHET_TESTS_SUPPORT_BATCH_TABLE_H_
 #define RICOCHET_TESTS_SUPPORT_BATCH_TABLE_H_
@@ -74,6 +74,29 @@ inline RowCounts ExpectBitsOfSolve(const BatchTable& table, absl::FunctionRef<Sc
     }
   }
   return counts;
+}
+
+// Expects the bits of a table that has been solved in a sweep whose axes are the columns of its inputs.
+inline void ExpectBitsOfTheRowsInASweep(const BatchTable& table) {
+  SweepRequest request = {.grid = {.scene = table.setup.scene, .combination = Combination::kZip},
+                          .columns = table.setup.columns,
+                          .demand = table.setup.demand};
+  for (size_t k = 0; k < table.in.size(); ++k)
+    request.grid.axes.push_back({table.setup.fields[k], ListValues{table.in[k]}});
+  size_t first = 0;
+  for (const absl::StatusOr<SweepChunk>& chunk : LocalSolver().Sweep(request)) {
+    ASSERT_TRUE(chunk.ok()) << chunk.status();
+    const auto count = static_cast<size_t>(chunk->count);
+    for (size_t c = 0; c < table.out.size(); ++c) {
+      for (size_t i = 0; i < count; ++i) {
+        ASSERT_EQ(std::bit_cast<uint64_t>(chunk->values[c * count + i]),
+                  std::bit_cast<uint64_t>(table.out[c][first + i]))
+            << table.setup.columns[c] << " of point " << first + i;
+      }
+    }
+    first += count;
+  }
+  EXPECT_EQ(first, table.size());
 }
 
 }  // namespace ricochet

@@ -94,25 +94,7 @@ TEST_P(SpatialBatchTest, EveryPointOfASweepHasTheBitsOfItsRow) {
   Rows rows(GetParam(), 8, 700);
   for (double& friction : rows.in[2]) friction = std::fabs(friction);
   ASSERT_TRUE(rows.Solve().ok());
-  SweepRequest request = {.grid = {.scene = rows.scene, .combination = Combination::kZip},
-                          .columns = rows.setup.columns,
-                          .demand = rows.setup.demand};
-  for (size_t k = 0; k < rows.in.size(); ++k)
-    request.grid.axes.push_back({rows.setup.fields[k], ListValues{rows.in[k]}});
-  size_t first = 0;
-  for (const absl::StatusOr<SweepChunk>& chunk : LocalSolver().Sweep(request)) {
-    ASSERT_TRUE(chunk.ok()) << chunk.status();
-    const auto count = static_cast<size_t>(chunk->count);
-    for (size_t c = 0; c < rows.out.size(); ++c) {
-      for (size_t i = 0; i < count; ++i) {
-        ASSERT_EQ(std::bit_cast<uint64_t>(chunk->values[c * count + i]),
-                  std::bit_cast<uint64_t>(rows.out[c][first + i]))
-            << rows.setup.columns[c] << " of point " << first + i;
-      }
-    }
-    first += count;
-  }
-  EXPECT_EQ(first, rows.size());
+  ExpectBitsOfTheRowsInASweep(rows);
 }
 
 }  // namespace
