@@ -1,5 +1,7 @@
 // ricochet: the command line program.
 
+#include <malloc.h>
+
 #include <CLI/App.hpp>
 #include <csignal>
 #include <iostream>
@@ -13,8 +15,21 @@
 #include "client/cli/program.h"
 #include "client/cli/usage_error.h"
 
+namespace {
+
+// Makes glibc keep the memory of the chunks of a sweep for the next ones. It would return each to the system, whose pages
+// cost as much as the points in them.
+void KeepMemoryOfChunks() {
+  constexpr int kAboveAnyChunk = 32 << 20;
+  mallopt(M_MMAP_THRESHOLD, kAboveAnyChunk);
+  mallopt(M_TRIM_THRESHOLD, kAboveAnyChunk);
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
+  KeepMemoryOfChunks();
   // Ignoring these signals turns a closed pipe and a full quota into errors of write; temporary files are then removed.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);

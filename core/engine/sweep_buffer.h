@@ -16,7 +16,8 @@
 
 namespace ricochet {
 
-// Thread safety: one thread at a time; but several threads may write to the places of different blocks.
+// Thread safety: one thread at a time; but several threads may ask for the places of different blocks that they have taken,
+// and write to them.
 class SweepBuffer {
  public:
   // Points [first, first + count) of the grid.

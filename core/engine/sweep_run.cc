@@ -31,6 +31,10 @@ constexpr std::chrono::milliseconds kAloneTime(1);
 // waits long for the last block of a chunk.
 constexpr std::chrono::microseconds kBlockTime(500);
 
+// Threads that share a sweep in SIMD lanes take so many points at once, which is some 10 us, so that they seldom meet at the
+// lock.
+constexpr int64_t kSharedLanePoints = 2 * SweepPoints::kMostPoints;
+
 // A helper gives back the rest of a block that takes longer than this, because its points have become dear.
 constexpr std::chrono::milliseconds kMostBlockTime(10);
 
@@ -47,7 +51,7 @@ class SweepRun::Impl {
       : sweep_(std::move(sweep)),
         helpers_(std::move(helpers)),
         most_helpers_(helpers_ == nullptr ? 0 : helpers_->most()),
-        block_(adapts_blocks() ? 1 : SweepPoints::kMostPoints),
+        block_(FirstBlock()),
         next_(sweep_.first) {}
   ~Impl();
   Impl(const Impl&) = delete;
@@ -65,23 +69,29 @@ class SweepRun::Impl {
  private:
   absl::Status ComputeChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough, SweepChunk& chunk);
 
-  // A block that a thread computes, with its place.
+  // A block that a thread computes, with the buffer that it is of.
   struct Task {
     SweepBuffer* buffer = nullptr;
     Block block;
-    SweepBuffer::Places places;
   };
 
   // Computes a block with the mutex unlocked, and makes its points known. Returns how many they are.
   // Errors: CANCELLED if it was stopped.
   absl::StatusOr<int64_t> Compute(const Task& task, SweepPoints& points, std::unique_lock<std::mutex>& lock,
                                   absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough);
+  // Computes the points of a block one group of SIMD lanes after the other. Several threads may call it at once.
+  absl::StatusOr<int64_t> ComputePoints(const Task& task, SweepPoints& points, SweepSummary& tallies,
+                                        absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough) const;
   // Helps until nothing is to be done, or another needs the thread.
   void Help(absl::FunctionRef<bool()> gives_way);
   void HelpInTurn(SweepPoints& points, absl::FunctionRef<bool()> gives_way, std::unique_lock<std::mutex>& lock);
 
   // Lanes are fast enough for large blocks, and a caller who is alone leaves none for others to wait for.
   bool adapts_blocks() const { return !sweep_.in_lanes && most_helpers_ > 0; }
+  int64_t FirstBlock() const {
+    if (adapts_blocks()) return 1;
+    return most_helpers_ > 0 ? kSharedLanePoints : SweepPoints::kMostPoints;
+  }
 
   // The functions below are called with the mutex locked.
   // Takes a block, in a new buffer if need be. Nothing if all points are taken or the buffers that may be open are.
@@ -185,9 +195,7 @@ absl::StatusOr<int64_t> SweepRun::Impl::Compute(const Task& task, SweepPoints& p
   lock.unlock();
   SweepSummary tallies;
   const Clock::time_point start = Clock::now();
-  const absl::StatusOr<int64_t> count =
-      points.Compute(task.block.first, task.block.count, task.places.columns, task.places.regimes, task.places.statuses,
-                     tallies, stopped, is_enough);
+  const absl::StatusOr<int64_t> count = ComputePoints(task, points, tallies, stopped, is_enough);
   const Clock::duration time = Clock::now() - start;
   lock.lock();
   if (!count.ok()) return count;
@@ -195,6 +203,23 @@ absl::StatusOr<int64_t> SweepRun::Impl::Compute(const Task& task, SweepPoints& p
   points_done_ += *count;
   if (adapts_blocks()) LearnBlockTime(*count, time);
   return count;
+}
+
+absl::StatusOr<int64_t> SweepRun::Impl::ComputePoints(const Task& task, SweepPoints& points, SweepSummary& tallies,
+                                                      absl::FunctionRef<bool()> stopped,
+                                                      absl::FunctionRef<bool()> is_enough) const {
+  int64_t done = 0;
+  while (done < task.block.count && (done == 0 || !is_enough())) {
+    const Block part = {.first = task.block.first + done,
+                        .count = std::min(task.block.count - done, SweepPoints::kMostPoints)};
+    const SweepBuffer::Places places = task.buffer->PlacesOf(part);
+    const absl::StatusOr<int64_t> count = points.Compute(part.first, part.count, places.columns, places.regimes,
+                                                         places.statuses, tallies, stopped, is_enough);
+    if (!count.ok()) return count;
+    done += *count;
+    if (*count < part.count) break;
+  }
+  return done;
 }
 
 void SweepRun::Impl::Help(absl::FunctionRef<bool()> gives_way) {
@@ -240,8 +265,7 @@ std::optional<SweepRun::Impl::Task> SweepRun::Impl::Take() {
     buffer = buffers_.emplace(buffers_.end(), next_, room, sweep_.columns.size(), sweep_.with_regime);
     next_ += room;
   }
-  const Block block = *buffer->Take(block_);
-  return Task{.buffer = &*buffer, .block = block, .places = buffer->PlacesOf(block)};
+  return Task{.buffer = &*buffer, .block = *buffer->Take(block_)};
 }
 
 bool SweepRun::Impl::CanTake() const {
