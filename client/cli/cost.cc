@@ -115,7 +115,9 @@ absl::Status RunCost(const CostOptions& options) {
   }
   if (options.picture.file.empty()) return absl::OkStatus();
   const std::string title = absl::StrCat("What accuracy costs: one impact, ", SystemText(request->scene));
-  return DrawPicture(CostPlot(*study, title), options.picture);
+  const absl::StatusOr<PictureSize> size = SizeOf(options.picture);
+  if (!size.ok()) return size.status();
+  return DrawPicture(CostPlot(*study, title, size->width, size->height), options.picture);
 }
 
 }  // namespace

@@ -246,8 +246,8 @@ Panel TimePanel(const CostChunk& study, PictureWidth width) {
 }
 
 Panel ClaimPanel(const CostChunk& study, PictureWidth width) {
-  Panel panel{.title = absl::StrCat("Error made over error claimed: ", study.summary->deceived, " of ",
-                                    AnswerCount(study), " claim too little"),
+  Panel panel{.title = absl::StrCat("Error made over error claimed:", width == PictureWidth::kWide ? " " : "\n",
+                                    study.summary->deceived, " of ", AnswerCount(study), " claim too little"),
               .x_label = "error claimed",
               .y_label = "error made"};
   const bool beyond = std::any_of(study.rows.begin(), study.rows.end(),
@@ -282,28 +282,71 @@ Plot Alone(Panel panel, PictureWidth width) {
   return {.title = "", .panels = {std::move(panel)}, .width = wide ? 1040 : 420, .height = height};
 }
 
+// Where two panels beside each other and their legend stand, as fractions of the picture.
+struct SideBySide {
+  double left_1, right_1, left_2, right_2, top, bottom;
+  std::string key;
+};
+
+const SideBySide kLegendBeside = {
+    0.085,
+    0.41,
+    0.485,
+    0.785,
+    0.87,
+    0.12,
+    "set key at screen 0.80, 0.88 left top reverse Left samplen 2 spacing 1.25 maxcols 1\n"};
+constexpr int kLeastWidthWithLegendBeside = 1300;
+constexpr int kLeastWidthWithDetail = 900;
+
+// The legend of `panel` takes as many columns as the picture has room for.
+SideBySide LegendBelow(const Panel& panel, int width, int height) {
+  const double letter = LetterHeight(width / 2.0, height);
+  const double letter_width = kLetterWidth * letter;
+  size_t longest = 0;
+  for (const Curve& curve : panel.curves) longest = std::max(longest, curve.title.size());
+  const int columns = std::max(1, static_cast<int>(width / (letter_width * (static_cast<double>(longest) + 7.0))));
+  const int lines = (static_cast<int>(panel.curves.size()) + columns - 1) / columns;
+  const double legend = (1.4 * lines + 0.5) * letter / height;
+  const double labels = (7.0 * letter_width + 3.0 * letter) / width;
+  return {labels,
+          0.49,
+          0.5 + labels,
+          0.985,
+          1.0 - 6.5 * letter / height,
+          legend + 4.0 * letter / height,
+          absl::StrCat("set key at screen ", Rounded(2.0 * letter_width / width), ", ", Rounded(legend),
+                       " left top reverse Left samplen 2 spacing 1.15 vertical maxrows ", lines, "\n")};
+}
+
+void AppendPlace(double left, double right, const SideBySide& place, const std::string& key, Panel& panel) {
+  absl::StrAppend(&panel.settings, key, "set lmargin at screen ", Rounded(left), "\nset rmargin at screen ",
+                  Rounded(right), "\nset tmargin at screen ", Rounded(place.top), "\nset bmargin at screen ",
+                  Rounded(place.bottom), "\n");
+}
+
 }  // namespace
 
 Plot CostTimePlot(const CostChunk& study, PictureWidth width) { return Alone(TimePanel(study, width), width); }
 
 Plot CostClaimPlot(const CostChunk& study, PictureWidth width) { return Alone(ClaimPanel(study, width), width); }
 
-Plot CostPlot(const CostChunk& study, const std::string& title) {
-  Panel time = TimePanel(study, PictureWidth::kWide);
-  Panel claim = ClaimPanel(study, PictureWidth::kWide);
-  absl::StrAppend(&time.settings,
-                  "unset key\nset lmargin at screen 0.085\nset rmargin at screen 0.41\n"
-                  "set tmargin at screen 0.87\nset bmargin at screen 0.12\n");
-  absl::StrAppend(&claim.settings,
-                  "set key at screen 0.80, 0.88 left top reverse Left samplen 2 spacing 1.25 maxcols 1\n"
-                  "set lmargin at screen 0.485\nset rmargin at screen 0.785\n");
+Plot CostPlot(const CostChunk& study, const std::string& title, int width, int height) {
+  if (width == 0) std::tie(width, height) = std::pair(1480, 620);
+  const bool wide = width >= kLeastWidthWithLegendBeside;
+  const PictureWidth detail = width >= kLeastWidthWithDetail ? PictureWidth::kWide : PictureWidth::kNarrow;
+  Panel time = TimePanel(study, detail);
+  Panel claim = ClaimPanel(study, detail);
   // The legend is that of the second panel, which lacks the front and the failures: they are added as empty curves.
   for (const Curve& curve : time.curves) {
     if (curve.title == kParetoFront || curve.title == kNoAnswer) {
       claim.curves.push_back({.title = curve.title, .points = {{NAN, NAN}}, .style = curve.style});
     }
   }
-  return {.title = title, .panels = {std::move(time), std::move(claim)}, .width = 1480, .height = 620};
+  const SideBySide place = wide ? kLegendBeside : LegendBelow(claim, width, height);
+  AppendPlace(place.left_1, place.right_1, place, "unset key\n", time);
+  AppendPlace(place.left_2, place.right_2, place, place.key, claim);
+  return {.title = title, .panels = {std::move(time), std::move(claim)}, .width = width, .height = height};
 }
 
 }  // namespace ricochet::cli

@@ -21,8 +21,9 @@ Plot CostTimePlot(const CostChunk& study, PictureWidth width);
 // Returns the error made over the error claimed.
 Plot CostClaimPlot(const CostChunk& study, PictureWidth width);
 
-// Returns both, side by side with one legend; `title` stands above them.
-Plot CostPlot(const CostChunk& study, const std::string& title);
+// Returns both, side by side with one legend, beside them or below where there is no room; `title` stands above them.
+// The size is in pixels, or 0 and 0 for one that suits.
+Plot CostPlot(const CostChunk& study, const std::string& title, int width = 0, int height = 0);
 
 }  // namespace ricochet::cli
 

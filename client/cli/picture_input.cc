@@ -17,26 +17,6 @@ namespace {
 constexpr int64_t kLeastSide = 200;
 constexpr int64_t kMostSide = 10'000;
 
-struct Size {
-  int width = 0;  // 0 means that the panels choose it.
-  int height = 0;
-};
-
-absl::StatusOr<Size> ParseSize(const std::string& text) {
-  if (text.empty()) return Size{};
-  const std::vector<std::string> parts = absl::StrSplit(text, 'x');
-  const absl::Status wrong =
-      InputError("--size", text, absl::StrCat("be WIDTHxHEIGHT in pixels, each from ", kLeastSide, " to ", kMostSide));
-  if (parts.size() != 2) return wrong;
-  std::vector<int> sides;
-  for (const std::string& part : parts) {
-    const absl::StatusOr<int64_t> side = ParseCount(part, "--size");
-    if (!side.ok() || *side < kLeastSide || *side > kMostSide) return wrong;
-    sides.push_back(static_cast<int>(*side));
-  }
-  return Size{sides[0], sides[1]};
-}
-
 }  // namespace
 
 void AddPictureOptions(CLI::App& app, const std::string& what, PictureOptions& options) {
@@ -70,6 +50,22 @@ void AddKindOption(CLI::App& app, PictureOptions& options) {
       ->group("Picture");
 }
 
+absl::StatusOr<PictureSize> SizeOf(const PictureOptions& options) {
+  const std::string& text = options.size;
+  if (text.empty()) return PictureSize{};
+  const std::vector<std::string> parts = absl::StrSplit(text, 'x');
+  const absl::Status wrong =
+      InputError("--size", text, absl::StrCat("be WIDTHxHEIGHT in pixels, each from ", kLeastSide, " to ", kMostSide));
+  if (parts.size() != 2) return wrong;
+  std::vector<int> sides;
+  for (const std::string& part : parts) {
+    const absl::StatusOr<int64_t> side = ParseCount(part, "--size");
+    if (!side.ok() || *side < kLeastSide || *side > kMostSide) return wrong;
+    sides.push_back(static_cast<int>(*side));
+  }
+  return PictureSize{sides[0], sides[1]};
+}
+
 absl::Status CheckPicture(const PictureOptions& options) {
   if (options.file.empty()) {
     if (options.title.empty() && options.size.empty() && !options.log_x && !options.log_y &&
@@ -79,12 +75,12 @@ absl::Status CheckPicture(const PictureOptions& options) {
     return absl::InvalidArgumentError("--title, --size, --logx, --logy and --kind need --plot FILE");
   }
   if (absl::Status status = CheckPlotPath(options.option, options.file); !status.ok()) return status;
-  return ParseSize(options.size).status();
+  return SizeOf(options).status();
 }
 
 absl::Status DrawWith(absl::StatusOr<Plot> plot, const PictureOptions& options) {
   if (!plot.ok()) return plot.status();
-  const absl::StatusOr<Size> size = ParseSize(options.size);
+  const absl::StatusOr<PictureSize> size = SizeOf(options);
   if (!size.ok()) return size.status();
   if (!options.title.empty()) plot->title = options.title;
   if (size->width > 0) std::tie(plot->width, plot->height) = std::pair(size->width, size->height);

@@ -37,6 +37,14 @@ void AddAxisOptions(CLI::App& app, PictureOptions& options);
 // Adds --kind, for pictures of sweeps.
 void AddKindOption(CLI::App& app, PictureOptions& options);
 
+// Pixels; 0 and 0 mean that the panels choose them.
+struct PictureSize {
+  int width = 0;
+  int height = 0;
+};
+// Errors: INVALID_ARGUMENT.
+absl::StatusOr<PictureSize> SizeOf(const PictureOptions& options);
+
 // Refuses what no picture can have, before anything is computed. Errors: INVALID_ARGUMENT.
 absl::Status CheckPicture(const PictureOptions& options);
 

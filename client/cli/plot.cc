@@ -39,7 +39,7 @@ struct Layout {
 
   double cell_width() const { return static_cast<double>(width) / columns; }
   double cell_height() const { return static_cast<double>(height) / rows; }
-  double character() const { return 0.62 * font; }  // The mean width of a letter.
+  double character() const { return kLetterWidth * font; }  // The mean width of a letter.
   // The length of a line of the title; its letters are a tenth larger.
   double title_characters() const { return width / character() / 1.1 - 2.0; }
 };
@@ -93,7 +93,7 @@ Layout LayoutOf(const Plot& plot) {
     layout.height = rows == 1 ? 620 : kCellHeight * rows;
   }
   layout.rows = (panels + layout.columns - 1) / layout.columns;
-  layout.font = std::clamp(std::min(layout.cell_width() / 40.0, layout.cell_height() / 30.0), 9.0, 15.0);
+  layout.font = LetterHeight(layout.cell_width(), layout.cell_height());
   const std::string title = Wrapped(plot.title, layout.title_characters());
   layout.title_lines = 1 + static_cast<int>(std::count(title.begin(), title.end(), '\n'));
   return layout;
@@ -366,8 +366,8 @@ void AppendPanel(size_t number, const Panel& panel, const Layout& layout, std::s
     absl::StrAppend(&title, title.empty() ? "" : "\n", axes.left_out, axes.left_out == 1 ? " point" : " points",
                     " at or below 0 not shown");
   }
-  absl::StrAppend(&script, "set title ", Quoted(title), "\nset xlabel ", Quoted(Wrapped(panel.x_label, across)),
-                  "\nset ylabel ", Quoted(Wrapped(panel.y_label, up)), "\n");
+  absl::StrAppend(&script, "set title ", Quoted(Wrapped(title, across)), "\nset xlabel ",
+                  Quoted(Wrapped(panel.x_label, across)), "\nset ylabel ", Quoted(Wrapped(panel.y_label, up)), "\n");
   AppendLegend(LegendOf(panel, layout), script);
   AppendMarks(panel, script);
   if (panel.settings.empty()) {
@@ -381,6 +381,10 @@ void AppendPanel(size_t number, const Panel& panel, const Layout& layout, std::s
 }
 
 }  // namespace
+
+double LetterHeight(double cell_width, double cell_height) {
+  return std::clamp(std::min(cell_width / 40.0, cell_height / 30.0), 9.0, 15.0);
+}
 
 absl::Status CheckPlotPath(const std::string& option, const std::string& path) {
   for (const char* ending : {".svg", ".png", ".pdf"}) {

@@ -54,6 +54,10 @@ struct Plot {
   int height = 0;
 };
 
+// The height in pixels of the letters where each panel has a cell of this size, and their mean width over their height.
+double LetterHeight(double cell_width, double cell_height);
+inline constexpr double kLetterWidth = 0.62;
+
 // Errors: INVALID_ARGUMENT, which names the option, unless the path ends in .svg, .png or .pdf.
 absl::Status CheckPlotPath(const std::string& option, const std::string& path);
 

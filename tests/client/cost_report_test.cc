@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -181,6 +182,23 @@ TEST(CostPictureTest, TheTwoPicturesOfAFileShareOneLegend) {
   for (const Curve& curve : plot.panels[0].curves) {
     EXPECT_THAT(plot.panels[1].curves, Contains(Field(&Curve::title, curve.title)));
   }
+}
+
+TEST(CostPictureTest, TheLegendStandsBelowWhereThereIsNoRoomBeside) {
+  const Plot wide = CostPlot(MadeCost(), "title");
+  EXPECT_THAT(wide.panels[1].settings, HasSubstr("set key at screen 0.80, 0.88 "));
+  const Plot narrow = CostPlot(MadeCost(), "title", 480, 360);
+  EXPECT_EQ(narrow.width, 480);
+  EXPECT_EQ(narrow.height, 360);
+  const std::string& settings = narrow.panels[1].settings;
+  EXPECT_THAT(settings, HasSubstr("set rmargin at screen 0.985\n"));
+  const auto number_after = [&settings](const std::string& text) {
+    const size_t at = settings.rfind(text);
+    return at == std::string::npos ? NAN : std::stod(settings.substr(at + text.size()));
+  };
+  const double legend = number_after(" 0.02325, ");
+  EXPECT_GT(legend, 0.1);
+  EXPECT_LT(legend + 3.0 * 9.0 / 360.0, number_after("set bmargin at screen "));
 }
 
 TEST(CostPageTest, ShowsEveryMethodAndBothPicturesInTwoWidths) {
