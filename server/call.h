@@ -89,6 +89,10 @@ class Call {
  private:
   std::chrono::milliseconds time_limit() const;
   const std::stop_token& drain() const;
+  // True once the caller has cancelled the call or went away, but a millisecond late at most. One thread at a time.
+  bool IsCancelled() const;
+  // Returns the status that the caller sees of a call that ends now with `code`.
+  absl::StatusCode SeenByCaller(absl::StatusCode code) const;
   absl::Status Explained(const absl::Status& status) const;
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -96,6 +100,8 @@ class Call {
   grpc::ServerContext& context_;
   const CallFrame& frame_;
   const std::string peer_key_;
+  mutable std::chrono::steady_clock::time_point next_look_;
+  mutable bool is_cancelled_ = false;
   absl::StatusOr<Places::Place> place_;
   // The status UNKNOWN stays if a handler throws and never finishes; gRPC then answers the same.
   CallRecord record_;
