@@ -121,7 +121,7 @@ absl::Status BatchExchange::OpenInputs(const v1::SolveBatchRequest& request) {
     if (bytes.size() % sizeof(double) != 0) {
       violations.push_back(
           {absl::StrCat("inputs[", k, "]"), absl::StrCat("has ", bytes.size(), " bytes: must have 8 for each row")});
-    } else if (LiesAsDoubles(bytes)) {
+    } else if (bytes.empty() || LiesAsDoubles(bytes)) {
       rows_.inputs.push_back(Doubles(bytes));
     } else {
       aligned_[k].resize(bytes.size() / sizeof(double));
