@@ -36,6 +36,22 @@ def run(ricochetd, ricochet, work, minutes, topic):
         [sys.executable, HERE / f"{topic}.py", "--ricochetd", ricochetd, "--ricochet", ricochet, "--proto", SOURCE / "proto",
          "--work", work / topic, *(["--soak", "--minutes", str(minutes)] if minutes else []), "--known", "--json", found],
         check=False)
+    commit_file(work, topic).write_text(commit(), encoding="ascii")
+
+
+def commit_file(work, topic):
+    """Where the commit stands at which a topic was run."""
+    return work / f"{topic}.commit"
+
+
+def commits_in(work):
+    """Says at which commit the topics were run, or which of them at which."""
+    topics_of = {}
+    for topic in TOPICS:
+        topics_of.setdefault(commit_file(work, topic).read_text(encoding="ascii"), []).append(topic)
+    if len(topics_of) == 1:
+        return f"commit {next(iter(topics_of))}"
+    return "commits " + ", ".join(f"{name} ({', '.join(topics)})" for name, topics in topics_of.items())
 
 
 def results_in(work):
@@ -125,11 +141,11 @@ def run_of(minutes):
     return f" This was a run of {minutes:g} minutes instead of 30." if minutes else " This was the short run."
 
 
-def write(results, minutes):
+def write(results, commits, minutes):
     text = PAGE.read_text(encoding="utf-8")
     if BEGIN not in text or END not in text:
         sys.exit(f"{PAGE} lacks the lines {BEGIN} and {END}")
-    head = (f"Measured at commit {commit()} on {machine()}, shared with the clients. Only the ratios carry over to other "
+    head = (f"Measured at {commits} on {machine()}, shared with the clients. Only the ratios carry over to other "
             f"machines.{run_of(minutes)}")
     made = f"{BEGIN}\n{head}\n\n{summary(results)}\n\n{rows_of(results)}\n{END}"
     start, rest = text.split(BEGIN, 1)
@@ -147,7 +163,7 @@ def main():
         run(ricochetd, ricochet, work, minutes, topic)
     results = results_in(work)
     (work / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
-    write(results, minutes)
+    write(results, commits_in(work), minutes)
     bad = [one["name"] for one in results if one["result"] == "not level" and not one["mitigation"]]
     print(f"\n{len(results)} checks, {len(bad)} not level{': ' if bad else ''}{', '.join(bad)}")
     sys.exit(1 if bad else 0)
