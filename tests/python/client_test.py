@@ -42,7 +42,8 @@ class OwnServer(unittest.TestCase):
         self.directory = directory.name
 
     def start(self, code):
-        environment = {**os.environ, "TMPDIR": self.directory}
+        # Without its handlers of fork gRPC aborts or hangs in a child.
+        environment = {**os.environ, "TMPDIR": self.directory, "GRPC_ENABLE_FORK_SUPPORT": "1"}
         return subprocess.Popen(
             [sys.executable, "-c", textwrap.dedent(code)],
             env=environment,
