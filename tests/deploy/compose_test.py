@@ -6,6 +6,7 @@ HAProxy and Prometheus come from images that are made of Debian's packages, so n
 """
 import json
 import pathlib
+import signal
 import subprocess
 import sys
 import urllib.parse
@@ -16,8 +17,10 @@ from containers import environment, is_serving, wait_for
 SOURCE, RICOCHET, WORK = (pathlib.Path(argument).resolve() for argument in sys.argv[1:4])
 IMAGE = sys.argv[4]
 PROGRAMS = {"HAPROXY_IMAGE": "haproxy", "PROMETHEUS_IMAGE": "prometheus"}
-SWEEP = ["sweep", "--a", "0.3", "--b", "1", "--energetic", "1", "--axis", "friction.kinetic_coefficient=lin:0:0.4:3000000",
-         "--column", "coefficients.newton", "--format", "npy"]
+SERVERS = ["one", "two", "three"]
+# An impact that takes time costs a millisecond, so that Prometheus, which reads every 15 s, sees who computes the sweep.
+SWEEP = ["sweep", "--scene", SOURCE / "tests/data/scenes/dropped_rod.textproto", "--axis",
+         "friction.kinetic_coefficient=lin:0.01:1.5:60000", "--column", "coefficients.newton", "--format", "npy"]
 
 
 def run(*command, **options):
@@ -25,9 +28,18 @@ def run(*command, **options):
 
 
 def query(expression):
+    """The values that Prometheus finds, by the name of the server or None."""
     url = "http://127.0.0.1:9090/api/v1/query?" + urllib.parse.urlencode({"query": expression})
     with urllib.request.urlopen(url, timeout=10) as reply:
-        return [float(one["value"][1]) for one in json.load(reply)["data"]["result"]]
+        found = json.load(reply)["data"]["result"]
+    return {one["metric"].get("instance", ":").split(":")[0] or None: float(one["value"][1]) for one in found}
+
+
+def exit_code(name, env):
+    """Stops a container and returns how its process ended."""
+    run("podman", "stop", "--time", "20", f"ricochet-test_{name}_1", env=env, stdout=subprocess.DEVNULL)
+    return int(run("podman", "inspect", "--format", "{{.State.ExitCode}}", f"ricochet-test_{name}_1", env=env,
+                   stdout=subprocess.PIPE).stdout)
 
 
 def serving():
@@ -46,27 +58,32 @@ def main():
     try:
         run(*compose, "up", "--detach", env=env)
         wait_for("server behind HAProxy", serving)
-        wait_for("three servers that Prometheus reads", lambda: query('sum(up{job="ricochet"})') == [3])
+        wait_for("three servers that Prometheus reads", lambda: query('sum(up{job="ricochet"})') == {None: 3})
         print("three servers serve behind HAProxy, and Prometheus reads all of them", flush=True)
         sweep = subprocess.Popen([RICOCHET, *SWEEP, "--server", "127.0.0.1:50051", "-o", WORK / "sweep.npy"])
-        wait_for("first points", lambda: (WORK / "sweep.npy.part").exists() or sweep.poll() is not None, 60)
-        run("podman", "kill", "--signal", "KILL", "ricochet-test_one_1", env=env, stdout=subprocess.DEVNULL)
+        killed = next(iter(wait_for("server with a live call", lambda: query("ricochet_live_calls > 0"))))
+        drained = next(name for name in SERVERS if name != killed)
+        run("podman", "kill", "--signal", "KILL", f"ricochet-test_{killed}_1", env=env, stdout=subprocess.DEVNULL)
+        if sweep.poll() is not None:
+            raise SystemExit("the sweep ended before its server was killed")
         code = sweep.wait(300)
         while code == 75:
             code = subprocess.run([RICOCHET, *SWEEP, "--server", "127.0.0.1:50051", "-o", WORK / "sweep.npy", "--resume"],
                                   check=False, timeout=300).returncode
         if code != 0 or (WORK / "sweep.npy").read_bytes() != (WORK / "whole.npy").read_bytes():
             raise SystemExit(f"the sweep ended with {code}, or differs from that of the embedded engine")
-        print("one was killed under a sweep, which ended with the bytes of the embedded engine", flush=True)
+        print(f"{killed} was killed under a sweep, which ended with the bytes of the embedded engine", flush=True)
         # A container that has been killed stays down until somebody starts it.
-        wait_for("alarm for the server that is gone", lambda: query('count(up{job="ricochet"} == 0)') == [1])
-        print("Prometheus sees that one is down", flush=True)
-        run("podman", "stop", "--time", "20", "ricochet-test_two_1", env=env, stdout=subprocess.DEVNULL)
-        code = run("podman", "inspect", "--format", "{{.State.ExitCode}}", "ricochet-test_two_1", env=env,
-                   stdout=subprocess.PIPE).stdout.strip()
-        if code != "0" or not serving():
+        wait_for("alarm for the server that is gone", lambda: query('up{job="ricochet"} == 0') == {killed: 0})
+        print(f"Prometheus sees that {killed} is down", flush=True)
+        code = exit_code(drained, env)
+        if code != 0 or not serving():
             raise SystemExit(f"the drained server ended with {code}, or the last one does not serve")
-        print("another drained and ended with 0, and the third serves alone", flush=True)
+        print(f"{drained} drained and ended with 0, and the last one serves alone", flush=True)
+        code = exit_code("haproxy", env)
+        if code == 128 + signal.SIGKILL:
+            raise SystemExit("HAProxy did not end by itself within 20 s")
+        print(f"HAProxy ended by itself, with {code}", flush=True)
     finally:
         subprocess.run([*compose, "down", "--timeout", "20"], env=env, check=False, stdout=subprocess.DEVNULL, timeout=300)
 
