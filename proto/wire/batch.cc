@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <string>
 
 #include "absl/strings/str_cat.h"
@@ -11,6 +10,7 @@
 #include "proto/wire/enums.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
+#include "proto/wire/repeated.h"
 #include "proto/wire/scene.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/error.h"
@@ -98,8 +98,8 @@ absl::Status CopyOutputs(const v1::SolveBatchResponse& response, size_t first, s
   }
   if (response.regimes().size() != count) return Misfit("regimes", response.regimes().size(), count);
   if (response.statuses().size() != count) return Misfit("statuses", response.statuses().size(), count);
-  for (size_t c = 0; c < columns && count > 0; ++c) {
-    std::memcpy(rows.outputs[c].data() + first, response.outputs(static_cast<int>(c)).data(), count * sizeof(double));
+  for (size_t c = 0; c < columns; ++c) {
+    CopyDoubles(response.outputs(static_cast<int>(c)), rows.outputs[c].subspan(first, count));
   }
   const auto at = static_cast<ptrdiff_t>(first);
   if (!rows.regimes.empty()) {
@@ -121,11 +121,11 @@ absl::Status BatchExchange::OpenInputs(const v1::SolveBatchRequest& request) {
     if (bytes.size() % sizeof(double) != 0) {
       violations.push_back(
           {absl::StrCat("inputs[", k, "]"), absl::StrCat("has ", bytes.size(), " bytes: must have 8 for each row")});
-    } else if (bytes.empty() || LiesAsDoubles(bytes)) {
+    } else if (LiesAsDoubles(bytes)) {
       rows_.inputs.push_back(Doubles(bytes));
     } else {
       aligned_[k].resize(bytes.size() / sizeof(double));
-      std::memcpy(aligned_[k].data(), bytes.data(), bytes.size());
+      CopyDoubles(bytes, absl::MakeSpan(aligned_[k]));
       rows_.inputs.emplace_back(aligned_[k]);
     }
   }

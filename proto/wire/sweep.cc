@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
-#include <cstring>
 #include <variant>
 
 #include "proto/wire/engine.h"
@@ -175,10 +174,7 @@ SweepChunk FromProto(const v1::SweepResponse& proto) {
   chunk.first_index = proto.first_index();
   chunk.count = proto.count();
   chunk.values.resize(proto.values().size() / sizeof(double));
-  // An empty vector has no address that memcpy takes.
-  if (!chunk.values.empty()) {
-    std::memcpy(chunk.values.data(), proto.values().data(), chunk.values.size() * sizeof(double));
-  }
+  CopyDoubles(proto.values(), absl::MakeSpan(chunk.values));
   chunk.regimes.resize(proto.regimes().size());
   std::transform(proto.regimes().begin(), proto.regimes().end(), chunk.regimes.begin(),
                  [](char number) { return FromProto(static_cast<v1::Regime>(static_cast<unsigned char>(number))); });
