@@ -28,11 +28,11 @@ def run(*command, **options):
 
 
 def query(expression):
-    """The values that Prometheus finds, by the name of the server or None."""
+    """The values that Prometheus finds, by the name of the server."""
     url = "http://127.0.0.1:9090/api/v1/query?" + urllib.parse.urlencode({"query": expression})
     with urllib.request.urlopen(url, timeout=10) as reply:
         found = json.load(reply)["data"]["result"]
-    return {one["metric"].get("instance", ":").split(":")[0] or None: float(one["value"][1]) for one in found}
+    return {one["metric"]["instance"].split(":")[0]: float(one["value"][1]) for one in found}
 
 
 def exit_code(name, env):
@@ -58,7 +58,8 @@ def main():
     try:
         run(*compose, "up", "--detach", env=env)
         wait_for("server behind HAProxy", serving)
-        wait_for("three servers that Prometheus reads", lambda: query('sum(up{job="ricochet"})') == {None: 3})
+        wait_for("three servers that Prometheus reads",
+                 lambda: query('up{job="ricochet"} == 1') == dict.fromkeys(SERVERS, 1))
         print("three servers serve behind HAProxy, and Prometheus reads all of them", flush=True)
         sweep = subprocess.Popen([RICOCHET, *SWEEP, "--server", "127.0.0.1:50051", "-o", WORK / "sweep.npy"])
         killed = next(iter(wait_for("server with a live call", lambda: query("ricochet_live_calls > 0"))))
