@@ -60,6 +60,8 @@ std::string TerminationText(Termination termination) {
       return "Not converged: the model's budget of steps ran out before the contact separated.\n";
     case Termination::kRefused:
       return "No answer: the contact never separates, rounding has destroyed its path, or the law has no solution.\n";
+    case Termination::kLessAccurate:
+      return "Less accurate than asked: the stated error exceeds the tolerance.\n";
     case Termination::kUnspecified:
     case Termination::kConverged:
       break;
@@ -89,15 +91,31 @@ const char* EventText(EventKind kind) {
   return "?";
 }
 
+const char* LimitText(LimitKind kind) {
+  switch (kind) {
+    case LimitKind::kSharp:
+      return "energetic coefficient";
+    case LimitKind::kEnergy:
+      return "kinetic energy created [J]";
+    case LimitKind::kFriction:
+      return "work of friction [J]";
+    case LimitKind::kUnspecified:
+      break;
+  }
+  return "?";
+}
+
 std::string Verdict(const Outcome& outcome) {
   if (outcome.admissible) return "Admissible.\n";
-  std::string text = "INADMISSIBLE: the coefficient would return more energy than the impact stored.\n";
+  const bool friction_alone =
+      outcome.broken_limits.size() == 1 && outcome.broken_limits.front().kind == LimitKind::kFriction;
+  std::string text = friction_alone
+                         ? "INADMISSIBLE: friction would push along the slip.\n"
+                         : "INADMISSIBLE: the coefficient would return more energy than the impact stored.\n";
   Table table;
   table.Add({"broken limit", "value", "limit", "excess"});
   for (const BrokenLimit& broken : outcome.broken_limits) {
-    const bool sharp = broken.kind == LimitKind::kSharp;
-    table.Add({sharp ? "energetic coefficient" : "kinetic energy created [J]", Rounded(broken.value),
-               Rounded(broken.limit), Rounded(broken.excess)});
+    table.Add({LimitText(broken.kind), Rounded(broken.value), Rounded(broken.limit), Rounded(broken.excess)});
   }
   return absl::StrCat(text, table.Render(2));
 }

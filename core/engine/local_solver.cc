@@ -33,13 +33,24 @@
 namespace ricochet {
 namespace {
 
+std::string BrokenLimitText(const BrokenLimit& limit) {
+  const std::string value = ShortestDecimal(limit.value);
+  switch (limit.kind) {
+    case LimitKind::kSharp:
+      return " its energetic coefficient " + value + " exceeds 1;";
+    case LimitKind::kEnergy:
+      return " it creates " + value + " J of kinetic energy;";
+    case LimitKind::kFriction:
+      return " its friction does " + value + " J of work along the slip;";
+    case LimitKind::kUnspecified:
+      break;
+  }
+  return " of an unknown limit;";
+}
+
 absl::Status Inadmissible(const Outcome& outcome) {
   std::string message = "the outcome is inadmissible:";
-  for (const BrokenLimit& limit : outcome.broken_limits) {
-    message += limit.kind == LimitKind::kSharp
-                   ? " its energetic coefficient " + ShortestDecimal(limit.value) + " exceeds 1;"
-                   : " it creates " + ShortestDecimal(limit.value) + " J of kinetic energy;";
-  }
+  for (const BrokenLimit& limit : outcome.broken_limits) message += BrokenLimitText(limit);
   message.pop_back();
   return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
 }

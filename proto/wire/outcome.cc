@@ -185,6 +185,55 @@ static Accuracy FromProto(const v1::Accuracy& proto) {
           .right_hand_sides = proto.right_hand_sides()};
 }
 
+static v1::Errors ToProto(const NumberErrors& errors) {
+  v1::Errors proto;
+  if (errors.newton.has_value()) proto.set_newton(*errors.newton);
+  if (errors.poisson.has_value()) proto.set_poisson(*errors.poisson);
+  if (errors.energetic.has_value()) proto.set_energetic(*errors.energetic);
+  if (errors.tangential.has_value()) proto.set_tangential(*errors.tangential);
+  if (errors.tangential_m_s.has_value()) proto.set_tangential_m_s(*errors.tangential_m_s);
+  if (errors.normal_m_s.has_value()) proto.set_normal_m_s(*errors.normal_m_s);
+  if (errors.normal_compression_n_s.has_value()) proto.set_normal_compression_n_s(*errors.normal_compression_n_s);
+  if (errors.normal_total_n_s.has_value()) proto.set_normal_total_n_s(*errors.normal_total_n_s);
+  if (errors.tangential_n_s.has_value()) proto.set_tangential_n_s(*errors.tangential_n_s);
+  if (errors.normal_compression_j.has_value()) proto.set_normal_compression_j(*errors.normal_compression_j);
+  if (errors.normal_restitution_j.has_value()) proto.set_normal_restitution_j(*errors.normal_restitution_j);
+  if (errors.tangential_compression_j.has_value()) proto.set_tangential_compression_j(*errors.tangential_compression_j);
+  if (errors.tangential_restitution_j.has_value()) proto.set_tangential_restitution_j(*errors.tangential_restitution_j);
+  if (errors.energy_change_j.has_value()) proto.set_energy_change_j(*errors.energy_change_j);
+  return proto;
+}
+
+static NumberErrors FromProto(const v1::Errors& proto) {
+  return {.newton = IfSet(proto.has_newton(), proto.newton()),
+          .poisson = IfSet(proto.has_poisson(), proto.poisson()),
+          .energetic = IfSet(proto.has_energetic(), proto.energetic()),
+          .tangential = IfSet(proto.has_tangential(), proto.tangential()),
+          .tangential_m_s = IfSet(proto.has_tangential_m_s(), proto.tangential_m_s()),
+          .normal_m_s = IfSet(proto.has_normal_m_s(), proto.normal_m_s()),
+          .normal_compression_n_s = IfSet(proto.has_normal_compression_n_s(), proto.normal_compression_n_s()),
+          .normal_total_n_s = IfSet(proto.has_normal_total_n_s(), proto.normal_total_n_s()),
+          .tangential_n_s = IfSet(proto.has_tangential_n_s(), proto.tangential_n_s()),
+          .normal_compression_j = IfSet(proto.has_normal_compression_j(), proto.normal_compression_j()),
+          .normal_restitution_j = IfSet(proto.has_normal_restitution_j(), proto.normal_restitution_j()),
+          .tangential_compression_j = IfSet(proto.has_tangential_compression_j(), proto.tangential_compression_j()),
+          .tangential_restitution_j = IfSet(proto.has_tangential_restitution_j(), proto.tangential_restitution_j()),
+          .energy_change_j = IfSet(proto.has_energy_change_j(), proto.energy_change_j())};
+}
+
+static v1::Note ToProto(const Note& note) {
+  v1::Note proto;
+  proto.set_kind(SameNumber<v1::Note::Kind>(note.kind, v1::Note::Kind_IsValid));
+  proto.set_path(note.path);
+  proto.set_text(note.text);
+  return proto;
+}
+
+static Note FromProto(const v1::Note& proto) {
+  return {
+      .kind = SameNumber<NoteKind>(proto.kind(), v1::Note::Kind_IsValid), .path = proto.path(), .text = proto.text()};
+}
+
 static v1::ImpactSolution ToProto(const ImpactSolution& solution) {
   v1::ImpactSolution proto;
   *proto.mutable_contact_velocity_after() = ToProto(solution.contact_velocity_after);
@@ -256,7 +305,10 @@ v1::Outcome ToProto(const Outcome& outcome) {
   for (const BodyVelocity& body : outcome.bodies_after) *proto.add_bodies_after() = ToProto(body);
   *proto.mutable_effective() = ToProto(outcome.effective);
   *proto.mutable_accuracy() = ToProto(outcome.accuracy);
+  *proto.mutable_errors() = ToProto(outcome.errors);
+  for (const Note& note : outcome.notes) *proto.add_notes() = ToProto(note);
   for (const ImpactSolution& solution : outcome.alternatives) *proto.add_alternatives() = ToProto(solution);
+  proto.set_alternatives_are_ends(outcome.alternatives_are_ends);
   *proto.mutable_plan() = ToProto(outcome.plan);
   if (outcome.contact.has_value()) *proto.mutable_contact() = ToProto(*outcome.contact);
   if (outcome.certificate.has_value()) *proto.mutable_certificate() = ToProto(*outcome.certificate);
@@ -283,9 +335,12 @@ Outcome FromProto(const v1::Outcome& proto) {
   for (const v1::BodyVelocity& body : proto.bodies_after()) outcome.bodies_after.push_back(FromProto(body));
   outcome.effective = FromProto(proto.effective());
   outcome.accuracy = FromProto(proto.accuracy());
+  outcome.errors = FromProto(proto.errors());
+  for (const v1::Note& note : proto.notes()) outcome.notes.push_back(FromProto(note));
   for (const v1::ImpactSolution& solution : proto.alternatives()) {
     outcome.alternatives.push_back(FromProto(solution));
   }
+  outcome.alternatives_are_ends = proto.alternatives_are_ends();
   outcome.plan = FromProto(proto.plan());
   if (proto.has_contact()) outcome.contact = FromProto(proto.contact());
   if (proto.has_certificate()) outcome.certificate = FromProto(proto.certificate());

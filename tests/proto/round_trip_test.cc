@@ -78,7 +78,10 @@ Outcome SomeOutcome() {
           .bodies_after = {{{1.0, 2.0}, {3.0}}, {{4.0, 5.0, 6.0}, {7.0, 8.0, 9.0}}},
           .effective = {0.1, 0.2, 0.3},
           .accuracy = {1e-12, AccuracyKind::kEstimate, 7, 8},
-          .alternatives = {{start.contact_velocity, {0.0, 1.0, {2.0}}}}};
+          .errors = {1e-1, 2e-1, 3e-1, 4e-1, 5e-1, 6e-1, 7e-1, 8e-1, 9e-1, 1.0, 1.1, 1.2, 1.3, 1.4},
+          .notes = {{NoteKind::kLargeAngle, "linkage.links[1].theta_rad", "It is in radians."}},
+          .alternatives = {{start.contact_velocity, {0.0, 1.0, {2.0}}}},
+          .alternatives_are_ends = true};
 }
 
 TEST(SceneTest, SurvivesWithEachDefinitionOfRestitution) {

@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "absl/container/inlined_vector.h"
@@ -91,15 +92,17 @@ struct Event {
 // The numbers are those of ricochet.v1.BrokenLimit.Kind.
 enum class LimitKind {
   kUnspecified = 0,
-  kSharp = 1,   // Implied energetic coefficient > 1: the spring gives back more than it stored. Eq. (29).
-  kEnergy = 2,  // Kinetic energy is created: E+ > E-. Eqs. (27), (28).
+  kSharp = 1,     // Implied energetic coefficient > 1: the spring gives back more than it stored. Eq. (29).
+  kEnergy = 2,    // Kinetic energy is created: E+ > E-. Eqs. (27), (28).
+  kFriction = 3,  // Friction does positive work: it pushes along the slip instead of against it.
 };
 
 // Why an outcome is inadmissible.
 struct BrokenLimit {
   LimitKind kind = LimitKind::kUnspecified;
-  double value = 0.0;   // kSharp: the implied energetic coefficient; kEnergy: E+ - E- in J.
-  double limit = 0.0;   // kSharp: 1; kEnergy: 0.
+  // kSharp: the implied energetic coefficient; kEnergy: E+ - E- in J; kFriction: the work of friction in J.
+  double value = 0.0;
+  double limit = 0.0;   // kSharp: 1; kEnergy and kFriction: 0.
   double excess = 0.0;  // value - limit, without cancellation.
   friend bool operator==(const BrokenLimit&, const BrokenLimit&) = default;
 };
@@ -115,12 +118,14 @@ struct BodyVelocity {
 // How the computation of an impact ended. The numbers are those of ricochet.v1.Termination.
 enum class Termination {
   kUnspecified = 0,
-  kConverged = 1,  // The impact was followed to its end.
+  kConverged = 1,  // The impact was followed to its end, with a stated error within the tolerance if that is above 0.
   kBudgetUsedUp =
       2,  // The model's budget of steps ran out first. The outcome is the state reached, its error infinite.
   // The model gave up: friction or a spring holds the contact for ever, rounding has destroyed the path, or an impact
   // law has no solution. The outcome is the state reached, and its error is infinite except under a law.
   kRefused = 3,
+  // The impact was followed to its end, but the stated error exceeds the tolerance asked for, which is above 0.
+  kLessAccurate = 4,
 };
 
 // The coefficients that the impact was computed with: those of the scene at its approach speed.
@@ -146,6 +151,37 @@ struct Accuracy {
   int64_t steps = 0;             // 0 for a closed form.
   int64_t right_hand_sides = 0;  // 0 for a closed form.
   friend bool operator==(const Accuracy&, const Accuracy&) = default;
+};
+
+// Errors of the numbers of an outcome, each in the unit of its number and not below the true error: W, the velocity
+// before and the coefficients of the scene are taken as exact. Accuracy::kind says if they are proved or estimated.
+// A number without an error has none that is known. The error of a tangential quantity holds for each component.
+// `friction_dissipation_j` and the total works err by no more than the sum of the errors of their two phases.
+struct NumberErrors {
+  std::optional<double> newton, poisson, energetic, tangential;  // Coefficients
+  std::optional<double> tangential_m_s, normal_m_s;              // ContactVelocity after the impact
+  std::optional<double> normal_compression_n_s, normal_total_n_s, tangential_n_s;
+  std::optional<double> normal_compression_j, normal_restitution_j;
+  std::optional<double> tangential_compression_j, tangential_restitution_j;
+  std::optional<double> energy_change_j;
+  friend bool operator==(const NumberErrors&, const NumberErrors&) = default;
+};
+
+// What a note tells. The numbers are those of ricochet.v1.Note.Kind.
+enum class NoteKind {
+  kUnspecified = 0,
+  kDurationLeftOut = 1,  // The scene has a normal spring, but the answer has no duration and no forces.
+  kLargeAngle = 2,       // An angle is beyond a full turn, as a number of degrees would be.
+  kManySolutions = 3,    // Other impulses solve the same impact; the answer holds one of them.
+  kUndetermined = 4,     // A part of the motion does not depend on the contact, or cannot be known from it.
+};
+
+// Something that a caller should know about an answer and that no number of it says.
+struct Note {
+  NoteKind kind = NoteKind::kUnspecified;
+  std::string path;  // The field of the scene or of the outcome that the note is about: "linkage.links[1].theta_rad".
+  std::string text;  // One sentence, which says what to do about it.
+  friend bool operator==(const Note&, const Note&) = default;
 };
 
 // The forces at one instant of an impact that takes time, and the contact's state.
@@ -194,7 +230,11 @@ struct Outcome {
   absl::InlinedVector<BodyVelocity, 2> bodies_after;  // Body 1 first. Empty for systems other than free bodies.
   EffectiveCoefficients effective;
   Accuracy accuracy;
+  NumberErrors errors;
+  std::vector<Note> notes;                   // In the order of their kinds and fields.
   std::vector<ImpactSolution> alternatives;  // Every solution of a Kane-Levinson law that has several or none.
+  // True if every mixture of the alternatives solves the law, too: they are the ends of a range.
+  bool alternatives_are_ends = false;
   Plan plan;
   std::optional<ContactDuration> contact;  // Present exactly if the model is Model::kFiniteDuration.
   std::optional<Certificate> certificate;  // Present exactly if SolveRequest::certified_digits asks for it.
