@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <map>
 
 #include "absl/status/status.h"
 #include "absl/strings/match.h"
@@ -16,6 +19,8 @@
 #include "absl/strings/str_split.h"
 #include "client/cli/gnuplot.h"
 #include "client/cli/output.h"
+#include "client/cli/plot_layout.h"
+#include "client/cli/plot_scale.h"
 #include "core/numerics/decimal.h"
 
 namespace ricochet::cli {
@@ -28,76 +33,12 @@ constexpr std::array kDashes = {"1", "'-'", "'.'", "'-.'", "'_ '", "'-..'", "'_.
 
 constexpr char kGrid[] = "set grid linecolor rgb '#d8d8d8' linewidth 1 linetype 1\n";
 
-// The size of the picture, and of the cell that each panel has in it.
-struct Layout {
-  int rows = 1;
-  int columns = 1;
-  int width = 0;
-  int height = 0;
-  double font = 0.0;    // Height of the letters in pixels.
-  int title_lines = 0;  // Of the title of the picture, above all rows.
+constexpr double kLineWidth = 2.0;
+// Of curves that lie on each other, each is so much wider than the next one, which is drawn upon it.
+constexpr double kRibbon = 3.0;
+constexpr int kMostRibbons = 4;
 
-  double cell_width() const { return static_cast<double>(width) / columns; }
-  double cell_height() const { return static_cast<double>(height) / rows; }
-  double character() const { return kLetterWidth * font; }  // The mean width of a letter.
-  // The length of a line of the title; its letters are a tenth larger.
-  double title_characters() const { return width / character() / 1.1 - 2.0; }
-};
-
-constexpr int kCellWidth = 640;
-constexpr int kCellHeight = 520;
-constexpr int kMostColumns = 3;
-
-// Returns the number of columns that makes the cells most like a panel of its own: 4 wide and 3 high.
-int ColumnsFor(int panels, double width, double height) {
-  const auto unlikeness = [&](int columns) {
-    const int rows = (panels + columns - 1) / columns;
-    return std::abs(std::log(width / columns / (height / rows) / (4.0 / 3.0)));
-  };
-  int best = 1;
-  for (int columns = 2; columns <= panels; ++columns) {
-    if (unlikeness(columns) < unlikeness(best)) best = columns;
-  }
-  return best;
-}
-
-// Breaks the text at blanks into lines of at most `most` characters, as far as its words allow.
-std::string Wrapped(const std::string& text, double most) {
-  std::string wrapped;
-  size_t length = 0;
-  for (const auto word : absl::StrSplit(text, ' ')) {
-    if (length > 0 && static_cast<double>(length + 1 + word.size()) > most) {
-      wrapped += '\n';
-      length = 0;
-    } else if (length > 0) {
-      wrapped += ' ';
-      ++length;
-    }
-    absl::StrAppend(&wrapped, word);
-    length += word.size();
-  }
-  return wrapped;
-}
-
-Layout LayoutOf(const Plot& plot) {
-  const auto panels = static_cast<int>(plot.panels.size());
-  Layout layout;
-  if (plot.width > 0 && plot.height > 0) {
-    layout.width = plot.width;
-    layout.height = plot.height;
-    layout.columns = ColumnsFor(panels, layout.width, layout.height);
-  } else {
-    layout.columns = panels == 4 ? 2 : std::min(panels, kMostColumns);
-    const int rows = (panels + layout.columns - 1) / layout.columns;
-    layout.width = panels == 1 ? 960 : kCellWidth * layout.columns;
-    layout.height = rows == 1 ? 620 : kCellHeight * rows;
-  }
-  layout.rows = (panels + layout.columns - 1) / layout.columns;
-  layout.font = LetterHeight(layout.cell_width(), layout.cell_height());
-  const std::string title = Wrapped(plot.title, layout.title_characters());
-  layout.title_lines = 1 + static_cast<int>(std::count(title.begin(), title.end(), '\n'));
-  return layout;
-}
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Returns a gnuplot string, in which only the quote is a special character.
 std::string Quoted(const std::string& text) {
@@ -120,55 +61,21 @@ std::string Terminal(const std::string& terminal, const Layout& layout) {
 
 std::string ColourOf(int look) { return kColours[static_cast<size_t>(look) % kColours.size()]; }
 
-std::string LineStyle(int look) {
+std::string LineStyle(int look, double width) {
   const size_t dash = static_cast<size_t>(look) / kColours.size() % kDashes.size();
-  return absl::StrCat("with lines linewidth 2 dashtype ", kDashes[dash], " linecolor rgb '", ColourOf(look), "'");
+  return absl::StrCat("with lines linewidth ", width, " dashtype ", kDashes[dash], " linecolor rgb '", ColourOf(look),
+                      "'");
 }
 
-std::string MarkStyle(int look) {
-  return absl::StrCat("with points pointtype 7 pointsize 0.6 linecolor rgb '", ColourOf(look), "'");
+// A full circle, or a triangle up or down, by gnuplot's numbers.
+enum class Mark { kCircle = 7, kUp = 9, kDown = 11 };
+
+std::string MarkStyle(Mark mark, int look) {
+  return absl::StrCat("with points pointtype ", static_cast<int>(mark), " pointsize ",
+                      mark == Mark::kCircle ? 0.6 : 1.0, " linecolor rgb '", ColourOf(look), "'");
 }
-
-// Which points of a panel its axes can show.
-class Shown {
- public:
-  explicit Shown(const Panel& panel) : panel_(panel) {}
-  bool operator()(const std::pair<double, double>& point) const {
-    return std::isfinite(point.first) && std::isfinite(point.second) && !(panel_.log_x && point.first <= 0.0) &&
-           !(panel_.log_y && point.second <= 0.0);
-  }
-
- private:
-  const Panel& panel_;
-};
 
 using Points = std::vector<std::pair<double, double>>;
-
-// Returns the points of a curve without a shown point beside them: a line does not show them.
-Points Isolated(const Points& points, const Shown& is_shown) {
-  Points isolated;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const bool after = i > 0 && is_shown(points[i - 1]);
-    const bool before = i + 1 < points.size() && is_shown(points[i + 1]);
-    if (is_shown(points[i]) && !after && !before) isolated.push_back(points[i]);
-  }
-  return isolated;
-}
-
-// Appends a block of data; an empty line ends a line of the picture.
-void AppendData(const std::string& name, const Points& points, const Shown& is_shown, std::string& script) {
-  absl::StrAppend(&script, "$", name, " << EOD\n");
-  bool any = false;
-  for (const auto& point : points) {
-    any = any || is_shown(point);
-    absl::StrAppend(&script, is_shown(point)
-                                 ? absl::StrCat(ShortestDecimal(point.first), " ", ShortestDecimal(point.second), "\n")
-                                 : "\n");
-  }
-  // gnuplot refuses a block without a point.
-  if (!any) absl::StrAppend(&script, "nan nan\n");
-  absl::StrAppend(&script, "EOD\n");
-}
 
 struct Ends {
   double least = std::numeric_limits<double>::infinity();
@@ -180,40 +87,98 @@ struct Ends {
   bool any() const { return least <= most; }
 };
 
+constexpr AxisRange kNoRange{1.0, 10.0};
+
+// What the axes of a panel show.
 struct Axes {
-  AxisRange x;
-  AxisRange y;
-  AxisRange z;           // That of the colours of a map.
-  int64_t left_out = 0;  // Points that a logarithmic axis cannot show.
+  bool log_x = false;
+  bool log_y = false;
+  AxisRange x = kNoRange;
+  AxisRange y = kNoRange;
+  AxisRange z = kNoRange;  // That of the colours of a map.
+  Scale scale;             // Of the colours of a map, else upwards; without values where the panel has a fixed one.
+  int64_t left_out = 0;    // Points that a logarithmic axis cannot show.
+
+  bool Shows(const std::pair<double, double>& point) const {
+    return std::isfinite(point.first) && std::isfinite(point.second) && !(log_x && point.first <= 0.0) &&
+           !(log_y && point.second <= 0.0);
+  }
+  // Returns where a shown value is on the axis upwards: 0 at its lower end, 1 at its upper end.
+  double Height(double value) const {
+    return log_y ? std::log(value / y.lower) / std::log(y.upper / y.lower) : (value - y.lower) / (y.upper - y.lower);
+  }
 };
+
+// Returns the points of a curve without a shown point beside them: a line does not show them.
+Points Isolated(const Points& points, const Axes& axes) {
+  Points isolated;
+  for (size_t i = 0; i < points.size(); ++i) {
+    const bool after = i > 0 && axes.Shows(points[i - 1]);
+    const bool before = i + 1 < points.size() && axes.Shows(points[i + 1]);
+    if (axes.Shows(points[i]) && !after && !before) isolated.push_back(points[i]);
+  }
+  return isolated;
+}
+
+// Appends a block of data; an empty line ends a line of the picture.
+void AppendData(const std::string& name, const Points& points, const Axes& axes, std::string& script) {
+  absl::StrAppend(&script, "$", name, " << EOD\n");
+  bool any = false;
+  for (const auto& point : points) {
+    any = any || axes.Shows(point);
+    absl::StrAppend(&script, axes.Shows(point)
+                                 ? absl::StrCat(ShortestDecimal(point.first), " ", ShortestDecimal(point.second), "\n")
+                                 : "\n");
+  }
+  // gnuplot refuses a block without a point.
+  if (!any) absl::StrAppend(&script, "nan nan\n");
+  absl::StrAppend(&script, "EOD\n");
+}
 
 // Cells fill the frame.
 Axes AxesOfMap(const Panel& panel, const std::vector<MapCell>& cells) {
   Ends x;
   Ends y;
-  Ends z;
   for (const MapCell& cell : cells) {
     x.Add(cell.left);
     x.Add(cell.right);
     y.Add(cell.bottom);
     y.Add(cell.top);
-    if (std::isfinite(cell.value)) z.Add(cell.value);
   }
-  const AxisRange none{1.0, 10.0};
-  return {.x = x.any() ? AxisRange{x.least, x.most} : none,
-          .y = y.any() ? AxisRange{y.least, y.most} : none,
-          .z = z.any() ? RangeFor(z.least, z.most, 0.0, 0.0, false) : none,
+  const Scale scale = ScaleOfCells(cells);
+  return {.log_x = panel.log_x,
+          .log_y = panel.log_y,
+          .x = x.any() ? AxisRange{x.least, x.most} : kNoRange,
+          .y = y.any() ? AxisRange{y.least, y.most} : kNoRange,
+          .z = RangeOf(scale, 0.0, 0.0),
+          .scale = scale,
           .left_out = static_cast<int64_t>(panel.map.size() - cells.size())};
 }
 
+Scale ScaleOfCurves(const Panel& panel) {
+  std::vector<std::vector<double>> groups;
+  for (const Curve& curve : panel.curves) {
+    if (!curve.key_style.empty()) continue;
+    std::vector<double>& group = groups.emplace_back();
+    for (const auto& [x, y] : curve.points) {
+      if (!panel.log_x || x > 0.0) group.push_back(y);
+    }
+  }
+  return ScaleFor(std::move(groups), panel.log_y);
+}
+
 Axes AxesOf(const Panel& panel) {
-  const Shown is_shown(panel);
+  Axes axes{.log_x = panel.log_x, .log_y = panel.log_y};
+  if (panel.robust) {
+    axes.scale = ScaleOfCurves(panel);
+    axes.log_y = axes.scale.log;
+  }
   Ends x;
   Ends y;
-  Axes axes;
   for (const Curve& curve : panel.curves) {
+    if (!curve.key_style.empty()) continue;
     for (const auto& point : curve.points) {
-      if (is_shown(point)) {
+      if (axes.Shows(point)) {
         x.Add(point.first);
         y.Add(point.second);
       } else if (std::isfinite(point.first) && std::isfinite(point.second)) {
@@ -225,18 +190,23 @@ Axes AxesOf(const Panel& panel) {
     if (!panel.log_x || missing > 0.0) x.Add(missing);
   }
   for (const double mark : panel.y_marks) {
-    if (!panel.log_y || mark > 0.0) y.Add(mark);
+    if (!axes.log_y || mark > 0.0) y.Add(mark);
   }
   for (const Tick& tick : panel.y_ticks) {
     y.Add(tick.at - 0.6);
     y.Add(tick.at + 0.6);
   }
   // Lines may begin and end at the frame; marks need room.
-  const bool has_marks =
-      std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& curve) { return !curve.style.empty(); });
-  axes.x = x.any() ? RangeFor(x.least, x.most, has_marks ? 0.04 : 0.0, 0.0, panel.log_x) : AxisRange{1.0, 10.0};
-  axes.y = y.any() ? RangeFor(y.least, y.most, panel.y_ticks.empty() ? 0.05 : 0.0, panel.y_noise, panel.log_y)
-                   : AxisRange{1.0, 10.0};
+  const bool needs_room = std::any_of(panel.curves.begin(), panel.curves.end(), [](const Curve& curve) {
+    return !curve.style.empty() && curve.key_style.empty();
+  });
+  if (x.any()) axes.x = RangeFor(x.least, x.most, needs_room ? 0.04 : 0.0, 0.0, axes.log_x);
+  const double margin = panel.y_ticks.empty() ? 0.05 : 0.0;
+  if (panel.robust) {
+    axes.y = RangeOf(axes.scale, margin, panel.y_noise);
+  } else if (y.any()) {
+    axes.y = RangeFor(y.least, y.most, margin, panel.y_noise, axes.log_y);
+  }
   return axes;
 }
 
@@ -247,31 +217,15 @@ std::string TickList(const std::vector<Tick>& ticks) {
   return absl::StrCat("(", absl::StrJoin(ticks, ", ", append), ")");
 }
 
-// A legend: beside the panel, above it, or none.
-struct Legend {
-  enum class Place { kNone, kBeside, kAbove } place = Place::kNone;
-  double width = 0.0;  // Pixels that it takes from the panel, beside it.
-  int lines = 0;       // Lines that it takes from the panel, above it.
-};
+std::string RangeText(const AxisRange& range) {
+  return absl::StrCat("[", ShortestDecimal(range.lower), ":", ShortestDecimal(range.upper), "]");
+}
 
-Legend LegendOf(const Panel& panel, const Layout& layout) {
-  size_t longest = 0;
-  int titles = panel.x_missing.empty() ? 0 : 1;
-  for (const Curve& curve : panel.curves) {
-    if (curve.title.empty()) continue;
-    longest = std::max(longest, curve.title.size());
-    ++titles;
-  }
-  const bool is_map = !panel.map.empty();
-  // A curve that is alone needs no name; marks on a map do.
-  if (titles == 0 || (titles == 1 && panel.curves.size() == 1 && !is_map)) return {};
-  const double width = (static_cast<double>(longest) + 7.0) * layout.character();
-  const double height = 1.3 * layout.font * titles;
-  const bool fits = width <= 0.34 * layout.cell_width() && height <= layout.cell_height() - 6.0 * layout.font;
-  // Beside a map is the scale of its colours.
-  if (layout.columns == 1 && fits && !is_map) return {Legend::Place::kBeside, width, 0};
-  const int in_a_line = std::max(1, static_cast<int>(0.9 * layout.cell_width() / width));
-  return {Legend::Place::kAbove, 0.0, (titles + in_a_line - 1) / in_a_line};
+// Returns the ticks of a scale with values on it, one above the other along `length` pixels.
+std::vector<Tick> TicksOf(const Scale& scale, const AxisRange& range, double length, const Layout& layout) {
+  if (!scale.any) return {};
+  const double character = layout.character();
+  return WithMarkedEnds(TicksFor(range, length, character, true, scale.log), scale, range, 2.5 * character / length);
 }
 
 void AppendLegend(const Legend& legend, std::string& script) {
@@ -284,13 +238,50 @@ void AppendLegend(const Legend& legend, std::string& script) {
                   " reverse Left samplen 2\n");
 }
 
-void AppendAxes(const Panel& panel, const Axes& axes, const Layout& layout, std::string& script) {
-  // What is left of a cell between the labels of the axes, the title and the legend or the scale of the colours.
-  const Legend legend = LegendOf(panel, layout);
-  const double beside = panel.map.empty() ? legend.width : 14.0 * layout.character();
-  double width = layout.cell_width() - 9.0 * layout.character() - 2.0 * layout.font - beside;
-  const double lines = 7.0 + 1.3 * legend.lines + 1.5 * layout.title_lines / layout.rows;
-  double height = std::max(layout.font, layout.cell_height() - lines * layout.font);
+// A panel with all that is to be known before it is drawn.
+struct Drawing {
+  const Panel& panel;
+  std::vector<MapCell> cells;
+  Axes axes;
+  Legend legend;
+  std::string title;
+
+  double top_lines() const { return LinesOf(title) + 1.1 * legend.lines + 1.3; }
+};
+
+Drawing DrawingOf(const Panel& panel, const Layout& layout) {
+  std::vector<MapCell> cells = CellsOf(panel.map, panel.log_x, panel.log_y);
+  Axes axes = panel.map.empty() ? AxesOf(panel) : AxesOfMap(panel, cells);
+  std::vector<std::string> lines;
+  const auto add = [&](const std::string& line) {
+    if (!line.empty()) lines.push_back(WrappedAt(line, layout.across()));
+  };
+  add(panel.title);
+  add(OutsideText(axes.scale));
+  if (axes.left_out > 0) {
+    add(absl::StrCat(axes.left_out, axes.left_out == 1 ? " point" : " points", " at or below 0 not shown"));
+  }
+  return {panel, std::move(cells), axes, LegendOf(panel, layout), absl::StrJoin(lines, "\n")};
+}
+
+// The scale of the colours stands on the right of the frame: gnuplot leaves it no room for labels of its ticks.
+void AppendScaleOfColours(size_t number, const Drawing& drawing, const Layout& layout, std::string& script) {
+  const std::vector<Tick> ticks = TicksOf(drawing.axes.scale, drawing.axes.z, layout.frame_height(), layout);
+  const std::string label = WrappedAt(drawing.panel.map_label, layout.upwards());
+  const double letters = (static_cast<double>(Widest(ticks)) + 3.0) * layout.character();
+  const double beside = letters + 1.5 * layout.font * LinesOf(label);
+  // gnuplot draws the colours from 0.025 to 0.075 of the frame's width beside it.
+  const double room = beside + 0.075 / 1.075 * layout.frame_width(beside);
+  const auto column = static_cast<int>(number) % layout.columns;
+  AppendColours(drawing.axes.scale, drawing.axes.z, TickList(ticks), Quoted(label), script);
+  absl::StrAppend(&script, "set rmargin at screen ", (column + 1.0) / layout.columns - room / layout.width, "\n");
+}
+
+void AppendAxes(size_t number, const Drawing& drawing, const Layout& layout, std::string& script) {
+  const Panel& panel = drawing.panel;
+  const Axes& axes = drawing.axes;
+  double width = layout.frame_width(panel.map.empty() ? drawing.legend.width : 14.0 * layout.character());
+  double height = layout.frame_height();
   if (panel.equal_scales) {
     const double x = axes.x.upper - axes.x.lower;
     const double y = axes.y.upper - axes.y.lower;
@@ -299,22 +290,17 @@ void AppendAxes(const Panel& panel, const Axes& axes, const Layout& layout, std:
     height = scale * y;
   }
   const std::vector<Tick> x_ticks =
-      TicksFor(axes.x, width, layout.character(), false, panel.log_x, panel.whole_x ? 1.0 : 0.0);
-  const std::vector<Tick> y_ticks =
-      !panel.y_ticks.empty() ? panel.y_ticks : TicksFor(axes.y, height, layout.character(), true, panel.log_y);
-  const auto range = [](const AxisRange& axis) {
-    return absl::StrCat("[", ShortestDecimal(axis.lower), ":", ShortestDecimal(axis.upper), "]");
-  };
+      TicksFor(axes.x, width, layout.character(), false, axes.log_x, panel.whole_x ? 1.0 : 0.0);
+  const std::vector<Tick> y_ticks = !panel.y_ticks.empty() ? panel.y_ticks
+                                    : panel.robust         ? TicksOf(axes.scale, axes.y, height, layout)
+                                                   : TicksFor(axes.y, height, layout.character(), true, axes.log_y);
   // Ranges come first: a logarithmic axis refuses those of the panel before.
-  absl::StrAppend(&script, "unset logscale\nset xrange ", range(axes.x), "\nset yrange ", range(axes.y), "\n");
-  if (panel.log_x) absl::StrAppend(&script, "set logscale x\n");
-  if (panel.log_y) absl::StrAppend(&script, "set logscale y\n");
+  absl::StrAppend(&script, "unset logscale\nset xrange ", RangeText(axes.x), "\nset yrange ", RangeText(axes.y), "\n");
+  if (axes.log_x) absl::StrAppend(&script, "set logscale x\n");
+  if (axes.log_y) absl::StrAppend(&script, "set logscale y\n");
   absl::StrAppend(&script, "set xtics ", TickList(x_ticks), "\nset ytics ", TickList(y_ticks), "\n",
                   panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n");
-  if (panel.map.empty()) return;
-  const double up = layout.cell_height() / layout.character() - 8.0;
-  AppendColours(axes.z, TickList(TicksFor(axes.z, height, layout.character(), true, false)),
-                Quoted(Wrapped(panel.map_label, up)), script);
+  if (!panel.map.empty()) AppendScaleOfColours(number, drawing, layout, script);
 }
 
 void AppendMarks(const Panel& panel, std::string& script) {
@@ -330,61 +316,131 @@ void AppendMarks(const Panel& panel, std::string& script) {
   }
 }
 
-void AppendPanel(size_t number, const Panel& panel, const Layout& layout, std::string& script) {
-  const Shown is_shown(panel);
-  const std::vector<MapCell> cells = CellsOf(panel.map, panel.log_x, panel.log_y);
-  const Axes axes = panel.map.empty() ? AxesOf(panel) : AxesOfMap(panel, cells);
-  std::vector<std::string> parts = AppendCells(absl::StrCat("p", number, "map"), cells, script);
+// How many later curves of the panel go through each point of a curve, to a pixel: they would hide it.
+class Upon {
+ public:
+  Upon(const Panel& panel, const Axes& axes) : axes_(axes) {
+    for (size_t i = 0; i < panel.curves.size(); ++i) {
+      if (!panel.curves[i].style.empty()) continue;
+      for (const auto& point : panel.curves[i].points) {
+        if (axes.Shows(point)) curves_[PixelOf(point)].push_back(i);
+      }
+    }
+  }
+
+  // Returns the points of the curve that at least `least` later curves go through; NaN stands between parts of the line.
+  Points On(const Points& points, size_t curve, int least) const {
+    Points found;
+    for (const auto& point : points) {
+      bool is_hidden = false;
+      if (axes_.Shows(point)) {
+        const std::vector<size_t>& here = curves_.at(PixelOf(point));
+        is_hidden = here.end() - std::upper_bound(here.begin(), here.end(), curve) >= least;
+      }
+      found.push_back(is_hidden ? point : std::pair(kNan, kNan));
+    }
+    return found;
+  }
+
+ private:
+  using Pixel = std::pair<double, int64_t>;
+  Pixel PixelOf(const std::pair<double, double>& point) const {
+    const double height = std::clamp(axes_.Height(point.second), -1e9, 1e9);
+    return {point.first, std::llround(1000.0 * height)};
+  }
+
+  const Axes& axes_;
+  std::map<Pixel, std::vector<size_t>> curves_;
+};
+
+// Moves marks beyond the ends of the axis upwards to its ends.
+Points WithinFrame(Points points, const Axes& axes) {
+  for (auto& [x, y] : points) y = std::clamp(y, axes.y.lower, axes.y.upper);
+  return points;
+}
+
+// Returns where the curve is beyond the upper or the lower end of the axis, at this end.
+Points Beyond(const Points& points, const Axes& axes, Mark mark) {
+  Points beyond;
+  for (const auto& [x, y] : points) {
+    if (mark == Mark::kUp ? y > axes.y.upper : y < axes.y.lower) {
+      beyond.emplace_back(x, mark == Mark::kUp ? axes.y.upper : axes.y.lower);
+    }
+  }
+  return beyond;
+}
+
+// Appends the data of a panel, and returns the parts of the command that plots them.
+std::vector<std::string> AppendCurves(const std::string& prefix, const Drawing& drawing, std::string& script) {
+  const Panel& panel = drawing.panel;
+  const Axes& axes = drawing.axes;
+  const Upon upon(panel, axes);
+  std::vector<std::string> parts;
+  std::vector<std::string> keys;
   const auto add = [&](const std::string& name, const Points& points, const std::string& style,
                        const std::string& title) {
-    AppendData(name, points, is_shown, script);
+    AppendData(name, points, axes, script);
     parts.push_back(absl::StrCat("$", name, " using 1:2 ", style,
                                  title.empty() ? " notitle" : absl::StrCat(" title ", Quoted(title))));
+  };
+  const auto add_marks = [&](const std::string& name, const Points& points, const std::string& style) {
+    if (!points.empty()) add(name, points, style, "");
   };
   for (size_t i = 0; i < panel.curves.size(); ++i) {
     const Curve& curve = panel.curves[i];
     const int look = curve.look >= 0 ? curve.look : static_cast<int>(i);
-    const std::string name = absl::StrCat("p", number, "c", i);
-    add(name, curve.points, curve.style.empty() ? LineStyle(look) : curve.style, curve.title);
+    const std::string name = absl::StrCat(prefix, "c", i);
+    if (!curve.key_style.empty()) {
+      add(name, WithinFrame(curve.points, axes), curve.style, "");
+      keys.push_back(absl::StrCat("keyentry ", curve.key_style, " title ", Quoted(curve.title)));
+    } else if (!curve.style.empty()) {
+      add(name, curve.points, curve.style, curve.title);
+    }
     if (!curve.style.empty()) continue;
-    const Points isolated = Isolated(curve.points, is_shown);
-    if (!isolated.empty()) add(absl::StrCat(name, "points"), isolated, MarkStyle(look), "");
+    // Where later curves lie on this one, it is a ribbon below them, as wide as they are many.
+    for (int later = kMostRibbons; later > 0; --later) {
+      const Points hidden = upon.On(curve.points, i, later);
+      const auto shows = [&](const auto& point) { return axes.Shows(point); };
+      if (std::count_if(hidden.begin(), hidden.end(), shows) < 2) continue;
+      add(absl::StrCat(name, "ribbon", later), hidden, LineStyle(look, kLineWidth + kRibbon * later), "");
+    }
+    add(name, curve.points, LineStyle(look, kLineWidth), curve.title);
+    add_marks(name + "points", Isolated(curve.points, axes), MarkStyle(Mark::kCircle, look));
+    if (!panel.robust) continue;
+    add_marks(name + "above", Beyond(curve.points, axes, Mark::kUp), MarkStyle(Mark::kUp, look));
+    add_marks(name + "below", Beyond(curve.points, axes, Mark::kDown), MarkStyle(Mark::kDown, look));
   }
   if (!panel.x_missing.empty()) {
     Points crosses;
     for (const double x : panel.x_missing) crosses.emplace_back(x, axes.y.lower);
-    add(absl::StrCat("p", number, "missing"), crosses,
-        "with points pointtype 2 pointsize 1.2 linewidth 2 linecolor rgb '#7F7F7F'", "no value (invalid)");
+    add(prefix + "missing", crosses, "with points pointtype 2 pointsize 1.2 linewidth 2 linecolor rgb '#7F7F7F'",
+        kNoValue);
   }
-  const double across = layout.cell_width() / layout.character() - 4.0;
-  const double up = layout.cell_height() / layout.character() - 8.0;
-  std::string title = panel.title;
-  if (std::any_of(cells.begin(), cells.end(), [](const MapCell& cell) { return !std::isfinite(cell.value); })) {
-    absl::StrAppend(&title, title.empty() ? "" : "\n", "grey: no value (invalid)");
-  }
-  if (axes.left_out > 0) {
-    absl::StrAppend(&title, title.empty() ? "" : "\n", axes.left_out, axes.left_out == 1 ? " point" : " points",
-                    " at or below 0 not shown");
-  }
-  absl::StrAppend(&script, "set title ", Quoted(Wrapped(title, across)), "\nset xlabel ",
-                  Quoted(Wrapped(panel.x_label, across)), "\nset ylabel ", Quoted(Wrapped(panel.y_label, up)), "\n");
-  AppendLegend(LegendOf(panel, layout), script);
+  parts.insert(parts.end(), keys.begin(), keys.end());
+  // Every cell of a logarithmic map may be at or below 0.
+  if (parts.empty() && drawing.cells.empty()) add(prefix + "nothing", {}, "with dots", "");
+  return parts;
+}
+
+void AppendPanel(size_t number, const Drawing& drawing, const Layout& layout, std::string& script) {
+  const Panel& panel = drawing.panel;
+  const std::string prefix = absl::StrCat("p", number);
+  std::vector<std::string> parts = AppendCells(prefix + "map", drawing.cells, drawing.axes.z, script);
+  for (std::string& part : AppendCurves(prefix, drawing, script)) parts.push_back(std::move(part));
+  absl::StrAppend(&script, "set title ", Quoted(drawing.title), "\nset xlabel ",
+                  Quoted(WrappedAt(panel.x_label, layout.across())), "\nset ylabel ",
+                  Quoted(WrappedAt(panel.y_label, layout.upwards())), "\nset tmargin ", layout.top_lines, "\n");
+  AppendLegend(drawing.legend, script);
   AppendMarks(panel, script);
   if (panel.settings.empty()) {
-    AppendAxes(panel, axes, layout, script);
+    AppendAxes(number, drawing, layout, script);
   } else {
     absl::StrAppend(&script, panel.settings);
   }
-  // Every cell of a logarithmic map may be at or below 0.
-  if (parts.empty()) add(absl::StrCat("p", number, "nothing"), {}, "with dots", "");
   absl::StrAppend(&script, "plot ", absl::StrJoin(parts, ", "), "\n");
 }
 
 }  // namespace
-
-double LetterHeight(double cell_width, double cell_height) {
-  return std::clamp(std::min(cell_width / 40.0, cell_height / 30.0), 9.0, 15.0);
-}
 
 absl::Status CheckPlotPath(const std::string& option, const std::string& path) {
   for (const char* ending : {".svg", ".png", ".pdf"}) {
@@ -394,18 +450,23 @@ absl::Status CheckPlotPath(const std::string& option, const std::string& path) {
 }
 
 std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path) {
-  const Layout layout = LayoutOf(plot);
-  std::string title = Wrapped(plot.title, layout.title_characters());
+  Layout layout = LayoutOf(plot);
+  std::vector<Drawing> drawings;
+  for (const Panel& panel : plot.panels) {
+    drawings.push_back(DrawingOf(panel, layout));
+    layout.top_lines = std::max(layout.top_lines, drawings.back().top_lines());
+  }
+  std::string title = WrappedAt(plot.title, layout.title_characters());
   // Room for the legends between the title and the panels.
-  const bool has_legends = std::any_of(plot.panels.begin(), plot.panels.end(), [&](const Panel& panel) {
-    return LegendOf(panel, layout).place == Legend::Place::kAbove;
+  const bool has_legends = std::any_of(drawings.begin(), drawings.end(), [](const Drawing& drawing) {
+    return drawing.legend.place == Legend::Place::kAbove;
   });
   if (has_legends) title += '\n';
   std::string script =
       absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, layout),
                    "\nset termoption noenhanced\nset output ", Quoted(path), "\n", kGrid, "set multiplot layout ",
                    layout.rows, ",", layout.columns, " title ", Quoted(title), "\n");
-  for (size_t i = 0; i < plot.panels.size(); ++i) AppendPanel(i, plot.panels[i], layout, script);
+  for (size_t i = 0; i < drawings.size(); ++i) AppendPanel(i, drawings[i], layout, script);
   absl::StrAppend(&script, "unset multiplot\nunset output\n");
   return script;
 }

@@ -20,6 +20,8 @@ struct Curve {
   // How gnuplot draws the points, such as "with points pointtype 6". Empty: a line in the colour and dashes of `look`,
   // and a mark at each point that has no neighbour.
   std::string style;
+  // For marks at points that other curves or cells show: how the legend, whose last names are theirs, draws them.
+  std::string key_style;
   int look = -1;  // Curves of equal look are drawn alike. -1: the place of the curve in its panel.
 };
 
@@ -30,6 +32,8 @@ struct Panel {
   // On a logarithmic axis points at or below 0 are not drawn, and a line above the panel says how many.
   bool log_x = false;
   bool log_y = false;
+  // The scale upwards is that of plot_scale.h: it may leave out a few values far beyond the rest, or be logarithmic.
+  bool robust = false;
   bool whole_x = false;         // Values to the right are whole numbers.
   bool equal_scales = false;    // One unit is as long to the right as upwards.
   double y_noise = 0.0;         // Values that differ by no more than this differ by rounding alone.

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "client/cli/table.h"
@@ -67,17 +68,9 @@ std::vector<Tick> LinearTicks(const AxisRange& range, const Step& step) {
   return ticks;
 }
 
-// Counts characters, not bytes.
-size_t Characters(const std::string& text) {
-  return static_cast<size_t>(
-      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
-}
-
 double RoomFor(const std::vector<Tick>& ticks, double character, bool stacked) {
   if (stacked) return 4.0 * character;
-  size_t widest = 0;
-  for (const Tick& tick : ticks) widest = std::max(widest, Characters(tick.label));
-  return (static_cast<double>(widest) + 2.0) * character;
+  return (static_cast<double>(Widest(ticks)) + 2.0) * character;
 }
 
 // The ticks at every `every`-th power of ten.
@@ -130,12 +123,31 @@ std::vector<Tick> UnclampedTicks(const AxisRange& range, double length, double c
 
 }  // namespace
 
+size_t Characters(const std::string& text) {
+  return static_cast<size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
+}
+
+size_t Widest(const std::vector<Tick>& ticks) {
+  size_t widest = 0;
+  for (const Tick& tick : ticks) widest = std::max(widest, Characters(tick.label));
+  return widest;
+}
+
 std::string PowerOfTen(int exponent) {
   static constexpr const char* kDigits[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
   if (exponent == 0) return "1";
   std::string text = exponent < 0 ? "10⁻" : "10";
   for (const char digit : absl::StrCat(std::abs(exponent))) text += kDigits[digit - '0'];
   return text;
+}
+
+std::string NumberText(double value) {
+  const std::string text = Rounded(value);
+  const size_t mark = text.find('e');
+  int exponent = 0;
+  if (mark == std::string::npos || !absl::SimpleAtoi(text.substr(mark + 1), &exponent)) return text;
+  return absl::StrCat(text.substr(0, mark), "×", PowerOfTen(exponent));
 }
 
 AxisRange RangeFor(double least, double most, double margin, double noise, bool log) {

@@ -3,6 +3,7 @@
 #ifndef RICOCHET_CLIENT_CLI_PLOT_AXIS_H_
 #define RICOCHET_CLIENT_CLI_PLOT_AXIS_H_
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -32,8 +33,17 @@ AxisRange RangeFor(double least, double most, double margin, double noise, bool 
 std::vector<Tick> TicksFor(const AxisRange& range, double length, double character, bool stacked, bool log,
                            double least_step = 0.0);
 
+// Counts characters of UTF-8, not bytes.
+size_t Characters(const std::string& text);
+
+// Returns the characters of the longest label.
+size_t Widest(const std::vector<Tick>& ticks);
+
 // Returns "10⁻³"; "1" for 0.
 std::string PowerOfTen(int exponent);
+
+// Returns the number with six significant digits, "1670" or "2.5×10⁻⁵".
+std::string NumberText(double value);
 
 }  // namespace ricochet::cli
 

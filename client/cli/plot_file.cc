@@ -45,13 +45,11 @@ absl::Status RunPlotFile(PlotFileOptions options) {
   if (!table.ok()) return table.status();
   absl::StatusOr<Plot> plot = PlotOf(*table, options.picture.kind);
   if (!plot.ok()) return {plot.status().code(), absl::StrCat(options.file, ": ", plot.status().message())};
-  const bool has_curves = !plot->panels.front().curves.empty();
+  const bool is_map = !plot->panels.front().map.empty();
   if (absl::Status status = DrawWith(*std::move(plot), options.picture); !status.ok()) return status;
-  if (has_curves && table->regimes.empty()) {
-    std::fprintf(
-        stderr,
-        "%s has no regimes, so that lines go on where the regime changes: ricochet sweep --regime writes them\n",
-        options.file.c_str());
+  if (table->regimes.empty()) {
+    std::fprintf(stderr, "%s has no regimes, so that %s: ricochet sweep --regime writes them\n", options.file.c_str(),
+                 is_map ? "jammed points look like others" : "lines go on where the regime changes");
   }
   return WriteOutput({}, options.picture.file + "\n");
 }

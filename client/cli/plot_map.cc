@@ -80,44 +80,69 @@ std::vector<MapCell> CellsOf(const std::vector<MapPoint>& points, bool log_x, bo
   for (const MapPoint& point : shown) {
     const auto [left, right] = across.Around(point.x);
     const auto [bottom, top] = up.Around(point.y);
-    cells.push_back({left, right, bottom, top, point.value});
+    cells.push_back({left, right, bottom, top, point.value, point.is_jammed});
   }
   return cells;
 }
 
-std::vector<std::string> AppendCells(const std::string& name, const std::vector<MapCell>& cells, std::string& script) {
+std::vector<std::string> LegendOfCells(const std::vector<MapPoint>& points) {
+  std::vector<std::string> names;
+  const auto any = [&](auto is) { return std::any_of(points.begin(), points.end(), is); };
+  if (any([](const MapPoint& point) { return std::isnan(point.value); })) names.emplace_back(kNoValue);
+  if (any([](const MapPoint& point) { return point.is_jammed; })) names.emplace_back(kJammed);
+  return names;
+}
+
+Scale ScaleOfCells(const std::vector<MapCell>& cells) {
+  std::vector<double> values;
+  for (const MapCell& cell : cells) {
+    if (!cell.is_jammed) values.push_back(cell.value);
+  }
+  return ScaleFor({std::move(values)}, false);
+}
+
+std::vector<std::string> AppendCells(const std::string& name, const std::vector<MapCell>& cells, const AxisRange& range,
+                                     std::string& script) {
   std::vector<MapCell> coloured;
   std::vector<MapCell> missing;
+  std::vector<MapCell> jammed;
   double right_end = cells.empty() ? 0.0 : cells.back().right;
   double top_end = cells.empty() ? 0.0 : cells.back().top;
   for (const MapCell& cell : cells) {
     right_end = std::max(right_end, cell.right);
     top_end = std::max(top_end, cell.top);
-    (std::isfinite(cell.value) ? coloured : missing).push_back(cell);
+    (cell.is_jammed ? jammed : std::isnan(cell.value) ? missing : coloured).push_back(cell);
   }
-  // A cell reaches under those that are drawn after it: no seam is seen where pixels lie across a border.
   for (MapCell& cell : coloured) {
+    // A cell reaches under those that are drawn after it: no seam is seen where pixels lie across a border.
     cell.right = std::min(right_end, cell.right + 0.5 * (cell.right - cell.left));
     cell.top = std::min(top_end, cell.top + 0.5 * (cell.top - cell.bottom));
+    cell.value = std::clamp(cell.value, range.lower, range.upper);
   }
   constexpr char kBoxes[] = " using (0.5*($1+$2)):(0.5*($3+$4)):1:2:3:4";
-  constexpr char kSolid[] = " with boxxyerror fillstyle solid noborder linecolor ";
+  constexpr char kSolid[] = " with boxxyerror fillstyle solid ";
   std::vector<std::string> parts;
-  if (!coloured.empty()) {
-    AppendBlock(name, coloured, script);
-    parts.push_back(absl::StrCat("$", name, kBoxes, ":5", kSolid, "palette notitle"));
-  }
-  if (!missing.empty()) {
-    for (MapCell& cell : missing) cell.value = 0.0;
-    AppendBlock(absl::StrCat(name, "missing"), missing, script);
-    parts.push_back(absl::StrCat("$", name, "missing", kBoxes, kSolid, "rgb '#c8c8c8' notitle"));
-  }
+  const auto add = [&](const char* kind, std::vector<MapCell>& of, const std::string& look) {
+    if (of.empty()) return;
+    AppendBlock(absl::StrCat(name, kind), of, script);
+    parts.push_back(absl::StrCat("$", name, kind, kBoxes, look));
+  };
+  add("", coloured, absl::StrCat(":5", kSolid, "noborder linecolor palette notitle"));
+  // A border covers the seams between cells of one colour.
+  const auto plain = [&](const char* colour, const char* title) {
+    return absl::StrCat(kSolid, "border rgb '", colour, "' linecolor rgb '", colour, "' linewidth 1 title '", title,
+                        "'");
+  };
+  add("missing", missing, plain("#c8c8c8", kNoValue));
+  add("jammed", jammed, plain(kJamColour, kJammed));
   return parts;
 }
 
-void AppendColours(const AxisRange& range, const std::string& ticks, const std::string& label, std::string& script) {
+void AppendColours(const Scale& scale, const AxisRange& range, const std::string& ticks, const std::string& label,
+                   std::string& script) {
   absl::StrAppend(&script, kPalette, "set cbrange [", ShortestDecimal(range.lower), ":", ShortestDecimal(range.upper),
-                  "]\nset cbtics ", ticks, "\nset cblabel ", label, "\n");
+                  "]\n", scale.log ? "set logscale cb\n" : "", "set cbtics ", ticks, "\nset cblabel ", label, "\n",
+                  scale.any ? "set colorbox\n" : "unset colorbox\n");
 }
 
 }  // namespace ricochet::cli

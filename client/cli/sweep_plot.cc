@@ -11,6 +11,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/str_split.h"
 #include "client/cli/label.h"
 #include "client/cli/table.h"
 
@@ -47,10 +48,26 @@ std::vector<std::vector<size_t>> ByUnit(const SweepTable& table) {
   return groups;
 }
 
-// Returns the name of the only column, else the symbols of up to three or "value", with the unit that all share.
+// Returns the words that the symbols of all columns begin with, if each has more words.
+std::string SharedWords(const SweepTable& table, const std::vector<size_t>& columns) {
+  std::vector<std::string> shared;
+  for (size_t i = 0; i < columns.size(); ++i) {
+    std::vector<std::string> words = absl::StrSplit(LabelIn(table, table.columns[columns[i]]).symbol, ' ');
+    words.pop_back();
+    if (i == 0) shared = words;
+    const auto ends = std::mismatch(shared.begin(), shared.end(), words.begin(), words.end());
+    shared.erase(ends.first, shared.end());
+  }
+  return columns.size() > 1 ? absl::StrJoin(shared, " ") : "";
+}
+
+// Returns the name of the only column, else the words that all share, else the symbols of up to three or "value", with
+// the unit that all share.
 Label LabelOfAll(const SweepTable& table, const std::vector<size_t>& columns) {
   Label label = LabelIn(table, table.columns[columns.front()]);
   if (columns.size() == 1) return label;
+  label.name = SharedWords(table, columns);
+  if (!label.name.empty()) return label;
   std::vector<std::string> symbols;
   for (const size_t column : columns) symbols.push_back(LabelIn(table, table.columns[column]).symbol);
   label.name = columns.size() <= 3 ? absl::StrJoin(symbols, ", ") : "value";
@@ -104,9 +121,13 @@ std::vector<Group> GroupsOf(const SweepTable& table) {
   return {all};
 }
 
-std::string TitleOf(const SweepTable& table, const Group& group, size_t column, size_t columns_in_panel) {
+std::string TitleOf(const SweepTable& table, const Group& group, size_t column, const std::vector<size_t>& columns) {
   std::vector<std::string> parts;
-  if (columns_in_panel > 1 || group.outer.empty()) parts.push_back(LabelIn(table, table.columns[column]).symbol);
+  if (columns.size() > 1 || group.outer.empty()) {
+    const std::string symbol = LabelIn(table, table.columns[column]).symbol;
+    const std::string shared = SharedWords(table, columns);
+    parts.push_back(shared.empty() ? symbol : symbol.substr(shared.size() + 1));
+  }
   for (size_t i = 0; i < group.outer.size(); ++i) {
     const Label label = LabelIn(table, table.axes[i]);
     const std::string unit = label.unit.empty() ? "" : absl::StrCat(" ", label.unit);
@@ -130,33 +151,65 @@ Curve CurveOf(const SweepTable& table, const Group& group, size_t column, std::s
   return curve;
 }
 
-// Adds marks at the points whose outcome breaks a limit, one for each of the columns `ys`.
-void MarkInadmissible(const SweepTable& table, const std::vector<const std::vector<double>*>& ys,
-                      const std::string& style, Panel& panel) {
-  Curve marks{.title = "inadmissible", .points = {}, .style = style};
-  for (size_t i = 0; i < table.statuses.size(); ++i) {
-    if (table.statuses[i] != RowStatus::kInadmissible) continue;
-    for (const std::vector<double>* const y : ys) marks.points.emplace_back(table.at.back()[i], (*y)[i]);
+bool IsJammed(const SweepTable& table, size_t point) {
+  return !table.regimes.empty() && table.regimes[point] == Regime::kLocked;
+}
+
+bool IsInadmissible(const SweepTable& table, size_t point) {
+  return !table.statuses.empty() && table.statuses[point] == RowStatus::kInadmissible;
+}
+
+using Values = std::vector<double>;
+
+struct Mark {
+  const char* title;
+  const char* colour;
+  bool (*holds)(const SweepTable& table, size_t point);
+};
+constexpr Mark kJam{kJammed, kJamColour, IsJammed};
+constexpr Mark kLimit{"inadmissible", "red", IsInadmissible};
+
+// Adds marks of this shape and size at the points that have it, one for each of `ys`.
+void AddMarks(const SweepTable& table, const Mark& mark, int shape, double size, const std::vector<const Values*>& ys,
+              Panel& panel) {
+  const auto style = [&](double pointsize) {
+    return absl::StrCat("with points pointtype ", shape, " pointsize ", pointsize, " linewidth 1.5 linecolor rgb '",
+                        mark.colour, "'");
+  };
+  Curve marks{.title = mark.title, .points = {}, .style = style(size), .key_style = style(std::max(size, 0.6))};
+  for (size_t i = 0; i < table.points(); ++i) {
+    if (!mark.holds(table, i)) continue;
+    for (const Values* const y : ys) marks.points.emplace_back(table.at.back()[i], (*y)[i]);
   }
   if (!marks.points.empty()) panel.curves.push_back(std::move(marks));
 }
+
+// gnuplot's numbers.
+constexpr int kSquare = 5;
+constexpr int kRing = 6;
+constexpr int kDot = 7;
 
 Panel CurvePanel(const SweepTable& table, const std::vector<Group>& groups, const std::vector<size_t>& columns) {
   Panel panel{.title = "",
               .x_label = WithUnit(LabelIn(table, table.axes.back())),
               .y_label = WithUnit(LabelOfAll(table, columns)),
-              .log_x = AreLogSpaced(Distinct(table.at.back()))};
+              .log_x = AreLogSpaced(Distinct(table.at.back())),
+              .robust = true};
+  std::vector<const Values*> ys;
+  for (const size_t column : columns) ys.push_back(&table.values[column]);
+  // Lines are drawn upon the marks of jammed points, and rings upon lines.
+  AddMarks(table, kJam, kSquare, 1.0, ys, panel);
   std::set<double> missing;
+  int look = 0;
   for (const Group& group : groups) {
     for (const size_t column : columns) {
-      panel.curves.push_back(CurveOf(table, group, column, missing));
-      panel.curves.back().title = TitleOf(table, group, column, columns.size());
+      Curve& curve = panel.curves.emplace_back(CurveOf(table, group, column, missing));
+      curve.title = TitleOf(table, group, column, columns);
+      curve.look = look++;
     }
   }
   panel.x_missing.assign(missing.begin(), missing.end());
-  std::vector<const std::vector<double>*> ys;
-  for (const size_t column : columns) ys.push_back(&table.values[column]);
-  MarkInadmissible(table, ys, "with points pointtype 6 pointsize 0.6 linewidth 1.5 linecolor rgb 'red'", panel);
+  AddMarks(table, kLimit, kRing, 0.6, ys, panel);
   return panel;
 }
 
@@ -181,6 +234,14 @@ absl::StatusOr<Plot> CurvesOf(const SweepTable& table) {
 
 // --- Maps ---
 
+// True if jammed points have nothing to show in this column but that they are jammed: coefficients and velocities are 0.
+bool JamIsZero(const SweepTable& table, const Values& values) {
+  for (size_t i = 0; i < table.points(); ++i) {
+    if (IsJammed(table, i) && values[i] != 0.0) return false;
+  }
+  return true;
+}
+
 absl::StatusOr<Plot> MapsOf(const SweepTable& table, const std::vector<double>& xs, const std::vector<double>& ys) {
   const size_t cells = table.points() * table.columns.size();
   if (cells > kMostCells) {
@@ -188,6 +249,8 @@ absl::StatusOr<Plot> MapsOf(const SweepTable& table, const std::vector<double>& 
   }
   const Label x = LabelIn(table, table.axes[1]);
   const Label y = LabelIn(table, table.axes[0]);
+  // Dots fit into cells.
+  const double dot = std::clamp(8.0 / static_cast<double>(std::max(xs.size(), ys.size())), 0.2, 0.5);
   Plot plot;
   std::vector<std::string> names;
   for (size_t column = 0; column < table.columns.size(); ++column) {
@@ -198,10 +261,13 @@ absl::StatusOr<Plot> MapsOf(const SweepTable& table, const std::vector<double>& 
                 .log_x = AreLogSpaced(xs),
                 .log_y = AreLogSpaced(ys)};
     panel.map_label = WithUnit(label);
+    const Values& values = table.values[column];
+    const bool is_plain = JamIsZero(table, values);
     for (size_t i = 0; i < table.points(); ++i) {
-      panel.map.push_back({table.at[1][i], table.at[0][i], table.values[column][i]});
+      panel.map.push_back({table.at[1][i], table.at[0][i], values[i], is_plain && IsJammed(table, i)});
     }
-    MarkInadmissible(table, {&table.at[0]}, "with points pointtype 7 pointsize 0.2 linecolor rgb 'red'", panel);
+    if (!is_plain) AddMarks(table, kJam, kDot, dot, {&table.at[0]}, panel);
+    AddMarks(table, kLimit, kDot, dot, {&table.at[0]}, panel);
     plot.panels.push_back(std::move(panel));
     names.push_back(label.name);
   }
