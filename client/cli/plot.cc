@@ -120,6 +120,10 @@ Points Isolated(const Points& points, const Axes& axes) {
   return isolated;
 }
 
+int64_t Shown(const Points& points, const Axes& axes) {
+  return std::count_if(points.begin(), points.end(), [&](const auto& point) { return axes.Shows(point); });
+}
+
 // Appends a block of data; an empty line ends a line of the picture.
 void AppendData(const std::string& name, const Points& points, const Axes& axes, std::string& script) {
   absl::StrAppend(&script, "$", name, " << EOD\n");
@@ -210,11 +214,13 @@ Axes AxesOf(const Panel& panel) {
   return axes;
 }
 
-std::string TickList(const std::vector<Tick>& ticks) {
+// Without ticks gnuplot would choose some.
+std::string SetTicks(const std::string& axis, const std::vector<Tick>& ticks) {
+  if (ticks.empty()) return absl::StrCat("unset ", axis, "tics\n");
   const auto append = [](std::string* text, const Tick& tick) {
     absl::StrAppend(text, Quoted(tick.label), " ", ShortestDecimal(tick.at));
   };
-  return absl::StrCat("(", absl::StrJoin(ticks, ", ", append), ")");
+  return absl::StrCat("set ", axis, "tics (", absl::StrJoin(ticks, ", ", append), ")\n");
 }
 
 std::string RangeText(const AxisRange& range) {
@@ -268,12 +274,12 @@ Drawing DrawingOf(const Panel& panel, const Layout& layout) {
 void AppendScaleOfColours(size_t number, const Drawing& drawing, const Layout& layout, std::string& script) {
   const std::vector<Tick> ticks = TicksOf(drawing.axes.scale, drawing.axes.z, layout.frame_height(), layout);
   const std::string label = WrappedAt(drawing.panel.map_label, layout.upwards());
-  const double letters = (static_cast<double>(Widest(ticks)) + 3.0) * layout.character();
+  const double letters = (static_cast<double>(Widest(ticks)) + 5.0) * layout.character();
   const double beside = letters + 1.5 * layout.font * LinesOf(label);
   // gnuplot draws the colours from 0.025 to 0.075 of the frame's width beside it.
   const double room = beside + 0.075 / 1.075 * layout.frame_width(beside);
   const auto column = static_cast<int>(number) % layout.columns;
-  AppendColours(drawing.axes.scale, drawing.axes.z, TickList(ticks), Quoted(label), script);
+  AppendColours(drawing.axes.scale, drawing.axes.z, SetTicks("cb", ticks), Quoted(label), script);
   absl::StrAppend(&script, "set rmargin at screen ", (column + 1.0) / layout.columns - room / layout.width, "\n");
 }
 
@@ -298,7 +304,7 @@ void AppendAxes(size_t number, const Drawing& drawing, const Layout& layout, std
   absl::StrAppend(&script, "unset logscale\nset xrange ", RangeText(axes.x), "\nset yrange ", RangeText(axes.y), "\n");
   if (axes.log_x) absl::StrAppend(&script, "set logscale x\n");
   if (axes.log_y) absl::StrAppend(&script, "set logscale y\n");
-  absl::StrAppend(&script, "set xtics ", TickList(x_ticks), "\nset ytics ", TickList(y_ticks), "\n",
+  absl::StrAppend(&script, SetTicks("x", x_ticks), SetTicks("y", y_ticks),
                   panel.equal_scales ? "set size ratio -1\n" : "set size noratio\n");
   if (!panel.map.empty()) AppendScaleOfColours(number, drawing, layout, script);
 }
@@ -397,11 +403,10 @@ std::vector<std::string> AppendCurves(const std::string& prefix, const Drawing& 
       add(name, curve.points, curve.style, curve.title);
     }
     if (!curve.style.empty()) continue;
-    // Where later curves lie on this one, it is a ribbon below them, as wide as they are many.
+    // Where later curves lie on a tenth of this one or more, it is a ribbon below them, as wide as they are many.
     for (int later = kMostRibbons; later > 0; --later) {
       const Points hidden = upon.On(curve.points, i, later);
-      const auto shows = [&](const auto& point) { return axes.Shows(point); };
-      if (std::count_if(hidden.begin(), hidden.end(), shows) < 2) continue;
+      if (10 * Shown(hidden, axes) < std::max<int64_t>(20, Shown(curve.points, axes))) continue;
       add(absl::StrCat(name, "ribbon", later), hidden, LineStyle(look, kLineWidth + kRibbon * later), "");
     }
     add(name, curve.points, LineStyle(look, kLineWidth), curve.title);

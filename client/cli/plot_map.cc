@@ -141,7 +141,7 @@ std::vector<std::string> AppendCells(const std::string& name, const std::vector<
 void AppendColours(const Scale& scale, const AxisRange& range, const std::string& ticks, const std::string& label,
                    std::string& script) {
   absl::StrAppend(&script, kPalette, "set cbrange [", ShortestDecimal(range.lower), ":", ShortestDecimal(range.upper),
-                  "]\n", scale.log ? "set logscale cb\n" : "", "set cbtics ", ticks, "\nset cblabel ", label, "\n",
+                  "]\n", scale.log ? "set logscale cb\n" : "", ticks, "set cblabel ", label, " offset 2, 0\n",
                   scale.any ? "set colorbox\n" : "unset colorbox\n");
 }
 

@@ -47,8 +47,8 @@ std::vector<MapCell> CellsOf(const std::vector<MapPoint>& points, bool log_x, bo
 std::vector<std::string> AppendCells(const std::string& name, const std::vector<MapCell>& cells, const AxisRange& range,
                                      std::string& script);
 
-// Appends what the colours mean: the palette, its range, and its scale with the ticks and the quoted label. Without a
-// value there is none.
+// Appends what the colours mean: the palette, its range, and its scale with the command for its ticks and the quoted
+// label. Without a value there is none.
 void AppendColours(const Scale& scale, const AxisRange& range, const std::string& ticks, const std::string& label,
                    std::string& script);
 

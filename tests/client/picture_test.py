@@ -157,7 +157,9 @@ class Labels(PictureTest):
         picture, _ = self.draw("sweep", *scene("spatial_body.json"), "--axis",
                                "friction.kinetic_coefficient=lin:0.1:0.3:3", "--column",
                                "bodies_after[0].linear_m_s[0],bodies_after[0].linear_m_s[1]")
-        self.assertIn("bodies after[0] linear[1]", picture.texts)
+        # Columns of one panel share the words that their names begin with.
+        self.assertIn("bodies after[0] [m/s]", picture.texts)
+        self.assertIn("linear[1]", picture.texts)
 
     def test_each_unit_has_a_panel(self):
         picture, table = self.draw("sweep", *scene("dropped_rod.textproto"), "--axis",
@@ -249,6 +251,144 @@ class Curves(PictureTest):
         zeros = sum(float(row["coefficients.newton"]) == 0.0 for row in table)
         self.assertGreater(zeros, 1)
         self.assertIn(f"{zeros} points at or below 0 not shown", picture.texts)
+
+
+class Scales(PictureTest):
+    """Near jamming Poisson's coefficient diverges: some values own any scale that shows them all."""
+    POLE = ["sweep", "--a", "0.6", "--b", "0.8", "--energetic", "1", "--regime", "--column", "coefficients.poisson"]
+    MAP = [*POLE, "--axis", "friction.kinetic_coefficient=lin:0:1:41", "--axis", "pendulum.phi_rad=lin:0.05:1.5:41"]
+    BROWN = "rgb(166,97,26)"
+
+    def expect_outside(self, picture, values):
+        """The line that says what is outside agrees with the values; returns the end of the scale."""
+        said = [re.fullmatch(r"(\d+) of (\d+) points lie above ([\d.]+), up to ([\d.]+)", text) for text in picture.texts]
+        said = [match for match in said if match]
+        self.assertEqual(len(said), 1, picture.texts)
+        above, count, end, highest = map(float, said[0].groups())
+        self.assertEqual(count, len(values))
+        self.assertEqual(above, sum(value > end for value in values))
+        self.assertLessEqual(above, len(values) / 20)
+        self.assertAlmostEqual(highest, max(values), delta=1e-5 * highest)
+        # The median is not on the ground.
+        self.assertGreater(sorted(values)[len(values) // 2], end / 5)
+        self.assertIn(f"≥ {said[0].group(3)}", picture.texts)
+        return end
+
+    @staticmethod
+    def fills(picture):
+        return [polygon.get("fill").replace(" ", "") for polygon in picture.root.iter(SVG + "polygon")]
+
+    def test_one_pole_does_not_own_the_colours(self):
+        picture, table = self.draw(*self.MAP)
+        locked = [row for row in table if row["regime"] == "LOCKED"]
+        values = [float(row["coefficients.poisson"]) for row in table if row["regime"] != "LOCKED"]
+        self.assertGreater(max(values), 100)
+        self.assertGreater(len(locked), 100)
+        self.expect_outside(picture, values)
+        self.assertGreater(len(set(self.fills(picture))), 60)
+        # One cell for each point, and the sample of the legend.
+        self.assertEqual(self.fills(picture).count(self.BROWN), len(locked) + 1)
+        self.assertIn("jammed (locked)", picture.texts)
+
+    def test_one_pole_does_not_own_the_axis(self):
+        picture, table = self.draw(*self.POLE, "--axis", "friction.kinetic_coefficient=lin:0:0.7499999999:201")
+        values = [float(row["coefficients.poisson"]) for row in table]
+        end = self.expect_outside(picture, values)
+        panel = picture.panels[0]
+        colour = panel.curves[0][0]
+        panel.y.ticks = [(place, label.removeprefix("≥ ")) for place, label in panel.y.ticks]
+        self.assertAlmostEqual(panel.y.value(min(place for place, _ in panel.y.ticks)), end)
+        above = [mark for mark in panel.marks if mark[0] == colour]
+        self.assertEqual(len(above), sum(value > end for value in values))
+        for _, _, y in above:
+            self.assertAlmostEqual(panel.y.value(y), end, delta=0.01 * end)
+
+    def test_jammed_points_of_a_line_are_marked(self):
+        picture, table = self.draw(*self.POLE, "--axis", "friction.kinetic_coefficient=lin:0:1:201")
+        panel = picture.panels[0]
+        locked = [row for row in table if row["regime"] == "LOCKED"]
+        self.assertGreater(len(locked), 10)
+        self.assertEqual(sum(mark[0].replace(" ", "") == self.BROWN for mark in panel.marks), len(locked))
+
+    def test_values_of_jammed_points_are_seen(self):
+        picture, table = self.draw(*self.MAP[:-6], "--column", "impulse.normal_total_n_s", *self.MAP[-4:])
+        locked = [row for row in table if row["regime"] == "LOCKED"]
+        self.assertGreater(len({row["impulse.normal_total_n_s"] for row in locked}), 100)
+        self.assertNotIn(self.BROWN, self.fills(picture))
+        marks = [mark for mark in picture.panels[0].marks if mark[0].replace(" ", "") == self.BROWN]
+        self.assertEqual(len(marks), len(locked))
+
+    def test_values_over_decades_have_a_logarithmic_scale(self):
+        rod = [*scene("dropped_rod.textproto"), "--column", "contact.peak_normal_n"]
+        stiffness = "compliance.linear.stiffness_n_m=log:1e-1:1e9:31"
+        picture, table = self.draw("sweep", *rod, "--axis", stiffness)
+        panel = picture.panels[0]
+        self.assertIn("10²", [label for _, label in panel.y.ticks])
+        for (x, y), row in zip((point for line in panel.curves[0][2] for point in line), table):
+            self.assertAlmostEqual(math.log10(panel.y.value(y, log=True)),
+                                   math.log10(float(row["contact.peak_normal_n"])), delta=0.02)
+
+    def test_without_a_value_there_are_no_numbers(self):
+        picture, table = self.draw("sweep", *PENDULUM, "--axis", "friction.kinetic_coefficient=lin:-0.5:-0.1:5",
+                                   "--column", "coefficients.newton")
+        self.assertEqual({row["coefficients.newton"] for row in table}, {"nan"})
+        self.assertEqual(picture.panels[0].y.ticks, [])
+        picture, _ = self.draw("sweep", *PENDULUM, "--axis", "friction.kinetic_coefficient=-0.2,-0.1", "--axis",
+                               "pendulum.phi_rad=0.1,0.2", "--column", "coefficients.newton", "--kind", "map")
+        self.assertEqual(set(self.fills(picture)), {"rgb(200,200,200)"})
+
+    def test_equal_curves_are_all_seen(self):
+        columns = ["coefficients.newton", "coefficients.poisson", "coefficients.energetic"]
+        picture, table = self.draw("sweep", *scene("spatial_body.json"), "--axis",
+                                   "spatial_body.linear_m_s[0]=lin:1:3:31", "--column", ",".join(columns))
+        for row in table:
+            self.assertAlmostEqual(float(row[columns[0]]), float(row[columns[2]]), delta=1e-9)
+        widths = {}
+        for group in picture.root.iter(SVG + "g"):
+            for path in group.findall(SVG + "path"):
+                widths.setdefault(path.get("stroke"), []).append(float(group.get("stroke-width") or 0.0))
+        newton, poisson, energetic = (max(widths[colour]) for colour in
+                                      ["rgb(  0, 114, 178)", "rgb(213,  94,   0)", "rgb(  0, 158, 115)"])
+        self.assertGreater(newton, poisson + 2)
+        self.assertGreater(poisson, energetic + 2)
+
+
+class Places(PictureTest):
+    def places(self, picture):
+        """The places of all texts, as (text, x, y, height of the letters, is it upright)."""
+        found = []
+        for group in picture.root.iter(SVG + "g"):
+            text = group.find(SVG + "text")
+            if text is not None and group.get("transform"):
+                x, y = map(float, re.findall(r"-?[\d.]+", group.get("transform"))[:2])
+                found.append(("".join(text.itertext()), x, y, float(group.get("font-size")),
+                              "rotate" in group.get("transform")))
+        return found
+
+    def test_titles_of_panels_stand_at_one_height(self):
+        picture, _ = self.draw("solve", *scene("dropped_rod.textproto"), "--tolerance", "1e-6", "--force-history", "20")
+        heights = {text: y for text, _, y, _, _ in self.places(picture)}
+        self.assertIn("F tangential", heights)
+        self.assertEqual(heights["Forces"], heights["Indentation"])
+        self.assertEqual(heights["Velocity of the contact"], heights["Normal force over indentation"])
+
+    def test_the_label_of_the_colours_touches_no_number(self):
+        columns = {"coefficients.poisson": "Poisson's", "accuracy.relative_error": "accuracy"}
+        for size in ["960x620", "1280x520", "480x360"]:
+            picture, _ = self.draw(*Scales.MAP, *[word for column in columns for word in ("--column", column)][2:],
+                                   "--size", size)
+            width = float(picture.root.get("width"))
+            places = self.places(picture)
+            for first, edge in zip(columns.values(), [width if size == "480x360" else width / 2, width]):
+                label = next(place for place in places if place[4] and place[0].startswith(first) and place[1] > edge / 2)
+                numbers = [place for place in places if not place[4] and label[1] - 10 * place[3] < place[1] < label[1]
+                           and re.match(r"^(≥ )?[\d.]+(×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?$", place[0])]
+                self.assertGreater(len(numbers), 1)
+                for text, x, _, height, _ in numbers:
+                    # Digits of DejaVu Sans are 0.64 of the height wide, and letters reach 0.76 above their line.
+                    letters = len(re.sub("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]", "", text)) + 0.65 * len(re.findall("[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]", text))
+                    self.assertGreater(label[1] - 0.76 * height, x + 0.64 * height * letters + 1, (size, text))
+                self.assertLess(label[1] + 0.24 * label[3], edge, size)
 
 
 class Impacts(PictureTest):

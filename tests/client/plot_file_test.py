@@ -58,13 +58,18 @@ class PlotFileTest(RicochetCase):
         table = list(csv.DictReader(self.made(*MAP, "--format", "csv").splitlines()))
         self.made(*MAP, "--summary-only", "--plot", "map.svg")
         text = (WORK / "map.svg").read_text(encoding="utf-8")
-        invalid = sum(row["regime"] == "INVALID" for row in table)
-        self.assertGreater(invalid, 10)
-        self.assertEqual(len(re.findall(r"fill = 'rgb\(200, 200, 200\)'", text)), 2 * invalid)
-        # Each valid point is a cell in both panels; the scales of the colours are polygons of another class.
-        self.assertEqual(text.count("<polygon") - 2 * invalid - self.scale_polygons(), 2 * (len(table) - invalid))
+        cells = 2 * len(table)
+        for regime, colour, name in [("INVALID", r"200, 200, 200", "no value or invalid"),
+                                     ("LOCKED", r"166,  97,  26", "jammed (locked)")]:
+            count = sum(row["regime"] == regime for row in table)
+            self.assertGreater(count, 10)
+            # Each panel has one more in its legend.
+            self.assertEqual(len(re.findall(rf"fill = 'rgb\({colour}\)'", text)), 2 * count + 2)
+            self.assertIn(name, text)
+            cells += 2
+        # Each point is a cell in both panels; the scales of the colours are polygons, too.
+        self.assertEqual(text.count("<polygon") - self.scale_polygons(), cells)
         self.assertIn("kinetic friction μ", text)
-        self.assertIn("grey: no value (invalid)", text)
         self.made(*MAP[:-1], NEWTON, "--summary-only", "--plot", "curves.svg", "--kind", "curves")
         self.assertNotIn("<polygon", (WORK / "curves.svg").read_text(encoding="utf-8"))
 
@@ -102,7 +107,14 @@ class PlotFileTest(RicochetCase):
         self.made(*[word for word in LINE if word != "--regime"], "--format", "csv", "-o", "plain.csv")
         code, _, error = ricochet("plot", "plain.csv")
         self.assertEqual(code, 0)
-        self.assertIn("plain.csv has no regimes", error)
+        self.assertIn("plain.csv has no regimes, so that lines go on", error)
+
+    def test_jammed_points_without_regimes_are_said_to_look_like_others(self):
+        self.made(*[word for word in MAP if word != "--regime"], "--format", "csv", "-o", "cells.csv")
+        code, _, error = ricochet("plot", "cells.csv")
+        self.assertEqual(code, 0)
+        self.assertIn("cells.csv has no regimes, so that jammed points look like others", error)
+        self.assertNotIn("jammed", (WORK / "cells.svg").read_text(encoding="utf-8"))
 
     def test_units_of_unknown_variables_come_from_the_file(self):
         self.made(*LINE, "-o", "units.nc")
