@@ -1,7 +1,6 @@
 #include "client/cli/plot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,16 +8,14 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
-#include <map>
 
 #include "absl/status/status.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "absl/strings/str_replace.h"
-#include "absl/strings/str_split.h"
 #include "client/cli/gnuplot.h"
 #include "client/cli/output.h"
+#include "client/cli/plot_curves.h"
 #include "client/cli/plot_layout.h"
 #include "client/cli/plot_scale.h"
 #include "core/numerics/decimal.h"
@@ -26,26 +23,7 @@
 namespace ricochet::cli {
 namespace {
 
-// Okabe and Ito's colours, which the colour-blind can tell apart, without the yellow.
-constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#56B4E9", "#E69F00", "#000000"};
-// After all colours the next dashes begin: 49 looks in all.
-constexpr std::array kDashes = {"1", "'-'", "'.'", "'-.'", "'_ '", "'-..'", "'_.'"};
-
 constexpr char kGrid[] = "set grid linecolor rgb '#d8d8d8' linewidth 1 linetype 1\n";
-
-constexpr double kLineWidth = 2.0;
-// Of curves that lie on each other, each is so much wider than the next one, which is drawn upon it.
-constexpr double kRibbon = 3.0;
-constexpr int kMostRibbons = 4;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-// Returns a gnuplot string, in which only the quote is a special character.
-std::string Quoted(const std::string& text) {
-  std::vector<std::string> lines = absl::StrSplit(text, '\n');
-  for (std::string& line : lines) line = absl::StrCat("'", absl::StrReplaceAll(line, {{"'", "''"}}), "'");
-  return absl::StrJoin(lines, ".\"\\n\".");
-}
 
 std::string Terminal(const std::string& terminal, const Layout& layout) {
   const std::string size = absl::StrCat(layout.width, ",", layout.height);
@@ -59,24 +37,6 @@ std::string Terminal(const std::string& terminal, const Layout& layout) {
                       "in fontscale 1 font 'DejaVu Sans,", 0.75 * layout.font, "' rounded background 'white'");
 }
 
-std::string ColourOf(int look) { return kColours[static_cast<size_t>(look) % kColours.size()]; }
-
-std::string LineStyle(int look, double width) {
-  const size_t dash = static_cast<size_t>(look) / kColours.size() % kDashes.size();
-  return absl::StrCat("with lines linewidth ", width, " dashtype ", kDashes[dash], " linecolor rgb '", ColourOf(look),
-                      "'");
-}
-
-// A full circle, or a triangle up or down, by gnuplot's numbers.
-enum class Mark { kCircle = 7, kUp = 9, kDown = 11 };
-
-std::string MarkStyle(Mark mark, int look) {
-  return absl::StrCat("with points pointtype ", static_cast<int>(mark), " pointsize ",
-                      mark == Mark::kCircle ? 0.6 : 1.0, " linecolor rgb '", ColourOf(look), "'");
-}
-
-using Points = std::vector<std::pair<double, double>>;
-
 struct Ends {
   double least = std::numeric_limits<double>::infinity();
   double most = -std::numeric_limits<double>::infinity();
@@ -86,58 +46,6 @@ struct Ends {
   }
   bool any() const { return least <= most; }
 };
-
-constexpr AxisRange kNoRange{1.0, 10.0};
-
-// What the axes of a panel show.
-struct Axes {
-  bool log_x = false;
-  bool log_y = false;
-  AxisRange x = kNoRange;
-  AxisRange y = kNoRange;
-  AxisRange z = kNoRange;  // That of the colours of a map.
-  Scale scale;             // Of the colours of a map, else upwards; without values where the panel has a fixed one.
-  int64_t left_out = 0;    // Points that a logarithmic axis cannot show.
-
-  bool Shows(const std::pair<double, double>& point) const {
-    return std::isfinite(point.first) && std::isfinite(point.second) && !(log_x && point.first <= 0.0) &&
-           !(log_y && point.second <= 0.0);
-  }
-  // Returns where a shown value is on the axis upwards: 0 at its lower end, 1 at its upper end.
-  double Height(double value) const {
-    return log_y ? std::log(value / y.lower) / std::log(y.upper / y.lower) : (value - y.lower) / (y.upper - y.lower);
-  }
-};
-
-// Returns the points of a curve without a shown point beside them: a line does not show them.
-Points Isolated(const Points& points, const Axes& axes) {
-  Points isolated;
-  for (size_t i = 0; i < points.size(); ++i) {
-    const bool after = i > 0 && axes.Shows(points[i - 1]);
-    const bool before = i + 1 < points.size() && axes.Shows(points[i + 1]);
-    if (axes.Shows(points[i]) && !after && !before) isolated.push_back(points[i]);
-  }
-  return isolated;
-}
-
-int64_t Shown(const Points& points, const Axes& axes) {
-  return std::count_if(points.begin(), points.end(), [&](const auto& point) { return axes.Shows(point); });
-}
-
-// Appends a block of data; an empty line ends a line of the picture.
-void AppendData(const std::string& name, const Points& points, const Axes& axes, std::string& script) {
-  absl::StrAppend(&script, "$", name, " << EOD\n");
-  bool any = false;
-  for (const auto& point : points) {
-    any = any || axes.Shows(point);
-    absl::StrAppend(&script, axes.Shows(point)
-                                 ? absl::StrCat(ShortestDecimal(point.first), " ", ShortestDecimal(point.second), "\n")
-                                 : "\n");
-  }
-  // gnuplot refuses a block without a point.
-  if (!any) absl::StrAppend(&script, "nan nan\n");
-  absl::StrAppend(&script, "EOD\n");
-}
 
 // Cells fill the frame.
 Axes AxesOfMap(const Panel& panel, const std::vector<MapCell>& cells) {
@@ -322,116 +230,13 @@ void AppendMarks(const Panel& panel, std::string& script) {
   }
 }
 
-// How many later curves of the panel go through each point of a curve, to a pixel: they would hide it.
-class Upon {
- public:
-  Upon(const Panel& panel, const Axes& axes) : axes_(axes) {
-    for (size_t i = 0; i < panel.curves.size(); ++i) {
-      if (!panel.curves[i].style.empty()) continue;
-      for (const auto& point : panel.curves[i].points) {
-        if (axes.Shows(point)) curves_[PixelOf(point)].push_back(i);
-      }
-    }
-  }
-
-  // Returns the points of the curve that at least `least` later curves go through; NaN stands between parts of the line.
-  Points On(const Points& points, size_t curve, int least) const {
-    Points found;
-    for (const auto& point : points) {
-      bool is_hidden = false;
-      if (axes_.Shows(point)) {
-        const std::vector<size_t>& here = curves_.at(PixelOf(point));
-        is_hidden = here.end() - std::upper_bound(here.begin(), here.end(), curve) >= least;
-      }
-      found.push_back(is_hidden ? point : std::pair(kNan, kNan));
-    }
-    return found;
-  }
-
- private:
-  using Pixel = std::pair<double, int64_t>;
-  Pixel PixelOf(const std::pair<double, double>& point) const {
-    const double height = std::clamp(axes_.Height(point.second), -1e9, 1e9);
-    return {point.first, std::llround(1000.0 * height)};
-  }
-
-  const Axes& axes_;
-  std::map<Pixel, std::vector<size_t>> curves_;
-};
-
-// Moves marks beyond the ends of the axis upwards to its ends.
-Points WithinFrame(Points points, const Axes& axes) {
-  for (auto& [x, y] : points) y = std::clamp(y, axes.y.lower, axes.y.upper);
-  return points;
-}
-
-// Returns where the curve is beyond the upper or the lower end of the axis, at this end.
-Points Beyond(const Points& points, const Axes& axes, Mark mark) {
-  Points beyond;
-  for (const auto& [x, y] : points) {
-    if (mark == Mark::kUp ? y > axes.y.upper : y < axes.y.lower) {
-      beyond.emplace_back(x, mark == Mark::kUp ? axes.y.upper : axes.y.lower);
-    }
-  }
-  return beyond;
-}
-
-// Appends the data of a panel, and returns the parts of the command that plots them.
-std::vector<std::string> AppendCurves(const std::string& prefix, const Drawing& drawing, std::string& script) {
-  const Panel& panel = drawing.panel;
-  const Axes& axes = drawing.axes;
-  const Upon upon(panel, axes);
-  std::vector<std::string> parts;
-  std::vector<std::string> keys;
-  const auto add = [&](const std::string& name, const Points& points, const std::string& style,
-                       const std::string& title) {
-    AppendData(name, points, axes, script);
-    parts.push_back(absl::StrCat("$", name, " using 1:2 ", style,
-                                 title.empty() ? " notitle" : absl::StrCat(" title ", Quoted(title))));
-  };
-  const auto add_marks = [&](const std::string& name, const Points& points, const std::string& style) {
-    if (!points.empty()) add(name, points, style, "");
-  };
-  for (size_t i = 0; i < panel.curves.size(); ++i) {
-    const Curve& curve = panel.curves[i];
-    const int look = curve.look >= 0 ? curve.look : static_cast<int>(i);
-    const std::string name = absl::StrCat(prefix, "c", i);
-    if (!curve.key_style.empty()) {
-      add(name, WithinFrame(curve.points, axes), curve.style, "");
-      keys.push_back(absl::StrCat("keyentry ", curve.key_style, " title ", Quoted(curve.title)));
-    } else if (!curve.style.empty()) {
-      add(name, curve.points, curve.style, curve.title);
-    }
-    if (!curve.style.empty()) continue;
-    // Where later curves lie on a tenth of this one or more, it is a ribbon below them, as wide as they are many.
-    for (int later = kMostRibbons; later > 0; --later) {
-      const Points hidden = upon.On(curve.points, i, later);
-      if (10 * Shown(hidden, axes) < std::max<int64_t>(20, Shown(curve.points, axes))) continue;
-      add(absl::StrCat(name, "ribbon", later), hidden, LineStyle(look, kLineWidth + kRibbon * later), "");
-    }
-    add(name, curve.points, LineStyle(look, kLineWidth), curve.title);
-    add_marks(name + "points", Isolated(curve.points, axes), MarkStyle(Mark::kCircle, look));
-    if (!panel.robust) continue;
-    add_marks(name + "above", Beyond(curve.points, axes, Mark::kUp), MarkStyle(Mark::kUp, look));
-    add_marks(name + "below", Beyond(curve.points, axes, Mark::kDown), MarkStyle(Mark::kDown, look));
-  }
-  if (!panel.x_missing.empty()) {
-    Points crosses;
-    for (const double x : panel.x_missing) crosses.emplace_back(x, axes.y.lower);
-    add(prefix + "missing", crosses, "with points pointtype 2 pointsize 1.2 linewidth 2 linecolor rgb '#7F7F7F'",
-        kNoValue);
-  }
-  parts.insert(parts.end(), keys.begin(), keys.end());
-  // Every cell of a logarithmic map may be at or below 0.
-  if (parts.empty() && drawing.cells.empty()) add(prefix + "nothing", {}, "with dots", "");
-  return parts;
-}
-
 void AppendPanel(size_t number, const Drawing& drawing, const Layout& layout, std::string& script) {
   const Panel& panel = drawing.panel;
   const std::string prefix = absl::StrCat("p", number);
   std::vector<std::string> parts = AppendCells(prefix + "map", drawing.cells, drawing.axes.z, script);
-  for (std::string& part : AppendCurves(prefix, drawing, script)) parts.push_back(std::move(part));
+  for (std::string& part : AppendCurves(prefix, panel, drawing.axes, script)) parts.push_back(std::move(part));
+  // Every cell of a logarithmic map may be at or below 0.
+  if (parts.empty()) parts.emplace_back("NaN with dots notitle");
   absl::StrAppend(&script, "set title ", Quoted(drawing.title), "\nset xlabel ",
                   Quoted(WrappedAt(panel.x_label, layout.across())), "\nset ylabel ",
                   Quoted(WrappedAt(panel.y_label, layout.upwards())), "\nset tmargin ", layout.top_lines, "\n");

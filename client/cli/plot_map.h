@@ -42,8 +42,8 @@ Scale ScaleOfCells(const std::vector<MapCell>& cells);
 // points, on a logarithmic axis by their ratio. Points at or below 0 have no cell on a logarithmic axis.
 std::vector<MapCell> CellsOf(const std::vector<MapPoint>& points, bool log_x, bool log_y);
 
-// Appends the data of the cells as blocks that begin with `name`. Values beyond the range of the colours have those of its
-// ends. Returns the parts of the command that plots them.
+// Appends the data of the cells as blocks that begin with `name`. Values beyond the range of the colours have those of
+// its ends. Returns the parts of the command that plots them.
 std::vector<std::string> AppendCells(const std::string& name, const std::vector<MapCell>& cells, const AxisRange& range,
                                      std::string& script);
 

@@ -54,7 +54,7 @@ size_t CountBelowTheFar(const std::vector<double>& places, double low, double hi
   if (length <= kRounding * std::max(std::abs(low), std::abs(high))) return places.size();
   if (places.back() - high <= kFarBeyond * length) return places.size();
   const auto far = std::upper_bound(places.begin(), places.end(), high + kBeside * length);
-  // One value may be a pole of any size; beside a region of others, so short a middle part is the rounding of a constant.
+  // One value may be a pole of any size; beside a region of others, so short a middle part is the rounding of zero.
   if (places.end() - far > 1 && length <= kRounding * std::abs(*far)) return places.size();
   return static_cast<size_t>(far - places.begin());
 }

@@ -1,12 +1,12 @@
-// ScaleFor: the ends of an axis or of a scale of colours, from the numbers alone, such that they show most of the numbers
-// well. Maps and lines share this one rule.
+// ScaleFor: the ends of an axis or of a scale of colours, from the numbers alone, such that they show most of the
+// numbers well. Maps and lines share this one rule.
 //
-// All values lie inside, but for a few far beyond the rest. The middle part is the shortest interval that holds the values
-// of every group but a twentieth of them, rounded up, on each side; of fewer than 10 values it holds all. So no curve is
-// lost because others are smaller. If values beyond one end of the middle part reach further than four times its length,
-// they would squeeze it into a fifth of the scale: the scale then ends at the last value within a quarter of its length,
-// rounded outwards to two digits. A middle part whose length is rounding, beside its own values or the region of others
-// that would be left out, moves no end.
+// All values lie inside, but for a few far beyond the rest. The middle part is the shortest interval that holds the
+// values of every group but a twentieth of them, rounded up, on each side; of fewer than 10 values it holds all. So no
+// curve is lost because others are smaller. If values beyond one end of the middle part reach further than four times
+// its length, they would squeeze it into a fifth of the scale: the scale then ends at the last value within a quarter of
+// its length, rounded outwards to two digits. A middle part whose length is rounding, beside its own values or the
+// region of others that would be left out, moves no end.
 //
 // The scale is logarithmic if that is asked for, or if all values are > 0 and a third of them would lie in the lowest
 // thirtieth of a linear one without a few of the largest. Lengths are then those of the logarithms.
@@ -41,8 +41,8 @@ Scale ScaleFor(std::vector<std::vector<double>> groups, bool log_asked);
 // Returns the range of an axis on this scale, as RangeFor does; there is no margin at an end that values lie beyond.
 AxisRange RangeOf(const Scale& scale, double margin, double noise);
 
-// Returns the ticks of that range with a mark such as "≥ 5.2" at each end that values lie beyond, in place of the ticks
-// beside it. `room` is what a label takes of the length of the axis, as a fraction.
+// Returns the ticks of that range with a mark such as "≥ 5.2" at each end that values lie beyond, in place of the
+// ticks beside it. `room` is what a label takes of the length of the axis, as a fraction.
 std::vector<Tick> WithMarkedEnds(std::vector<Tick> ticks, const Scale& scale, const AxisRange& range, double room);
 
 // Returns how many points lie beyond the ends and how far, such as "7 of 6561 points lie above 5.2, up to 1670"; empty if

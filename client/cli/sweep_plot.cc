@@ -234,7 +234,7 @@ absl::StatusOr<Plot> CurvesOf(const SweepTable& table) {
 
 // --- Maps ---
 
-// True if jammed points have nothing to show in this column but that they are jammed: coefficients and velocities are 0.
+// True if jammed points have nothing to show in this column but that they jam: coefficients and velocities are 0.
 bool JamIsZero(const SweepTable& table, const Values& values) {
   for (size_t i = 0; i < table.points(); ++i) {
     if (IsJammed(table, i) && values[i] != 0.0) return false;

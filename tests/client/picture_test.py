@@ -261,8 +261,8 @@ class Scales(PictureTest):
 
     def expect_outside(self, picture, values):
         """The line that says what is outside agrees with the values; returns the end of the scale."""
-        said = [re.fullmatch(r"(\d+) of (\d+) points lie above ([\d.]+), up to ([\d.]+)", text) for text in picture.texts]
-        said = [match for match in said if match]
+        outside = re.compile(r"(\d+) of (\d+) points lie above ([\d.]+), up to ([\d.]+)")
+        said = [match for match in map(outside.fullmatch, picture.texts) if match]
         self.assertEqual(len(said), 1, picture.texts)
         above, count, end, highest = map(float, said[0].groups())
         self.assertEqual(count, len(values))
@@ -378,7 +378,9 @@ class Places(PictureTest):
             width = float(picture.root.get("width"))
             places = self.places(picture)
             for first, edge in zip(columns.values(), [width if size == "480x360" else width / 2, width]):
-                label = next(place for place in places if place[4] and place[0].startswith(first) and place[1] > edge / 2)
+                labels = [place for place in places if place[4] and place[0].startswith(first) and place[1] > edge / 2]
+                self.assertEqual(len(labels), 1, (size, places))
+                label = labels[0]
                 numbers = [place for place in places if not place[4] and label[1] - 10 * place[3] < place[1] < label[1]
                            and re.match(r"^(≥ )?[\d.]+(×10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?$", place[0])]
                 self.assertGreater(len(numbers), 1)
