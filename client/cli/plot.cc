@@ -160,7 +160,10 @@ struct Drawing {
   Legend legend;
   std::string title;
 
-  double top_lines() const { return LinesOf(title) + 1.1 * legend.lines + 1.3; }
+  double top_lines() const {
+    const double lines = LinesOf(title) + 1.1 * legend.lines;
+    return lines + (lines > 0.0 ? 1.9 : 1.3);
+  }
 };
 
 Drawing DrawingOf(const Panel& panel, const Layout& layout) {

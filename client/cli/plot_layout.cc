@@ -108,8 +108,10 @@ Legend LegendOf(const Panel& panel, const Layout& layout) {
   const bool fits = width <= 0.34 * layout.cell_width() && height <= layout.cell_height() - 6.0 * layout.font;
   // Beside a map is the scale of its colours.
   if (layout.columns == 1 && fits && !is_map) return {Legend::Place::kBeside, width, 0};
-  const double room = layout.frame_width(is_map ? 10.0 * layout.character() : 0.0);
-  const int in_a_line = std::max(1, static_cast<int>(room / width));
+  // gnuplot puts as many names into a line as the frame is wide.
+  const double room = layout.frame_width(is_map ? 10.0 * layout.character() : -2.0 * layout.character());
+  const int in_a_line =
+      std::max(1, static_cast<int>(room / ((static_cast<double>(longest) + 4.5) * layout.character())));
   return {Legend::Place::kAbove, 0.0, (count + in_a_line - 1) / in_a_line};
 }
 
