@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <limits>
-#include <map>
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
@@ -76,42 +76,51 @@ void AppendData(const std::string& name, const Points& points, const Axes& axes,
   absl::StrAppend(&script, "EOD\n");
 }
 
-// How many later curves of the panel go through each point of a curve, to a pixel: they would hide it.
-class Upon {
- public:
-  Upon(const Panel& panel, const Axes& axes) : axes_(axes) {
-    for (size_t i = 0; i < panel.curves.size(); ++i) {
-      if (!panel.curves[i].style.empty()) continue;
-      for (const auto& point : panel.curves[i].points) {
-        if (axes.Shows(point)) curves_[PixelOf(point)].push_back(i);
-      }
-    }
-  }
-
-  // Returns the points of the curve that at least `least` later curves go through; NaN stands between parts of it.
-  Points On(const Points& points, size_t curve, int least) const {
-    Points found;
-    for (const auto& point : points) {
-      bool is_hidden = false;
-      if (axes_.Shows(point)) {
-        const std::vector<size_t>& here = curves_.at(PixelOf(point));
-        is_hidden = here.end() - std::upper_bound(here.begin(), here.end(), curve) >= least;
-      }
-      found.push_back(is_hidden ? point : std::pair(kNan, kNan));
-    }
-    return found;
-  }
-
- private:
-  using Pixel = std::pair<double, int64_t>;
-  Pixel PixelOf(const std::pair<double, double>& point) const {
-    const double height = std::clamp(axes_.Height(point.second), -1e9, 1e9);
-    return {point.first, std::llround(1000.0 * height)};
-  }
-
-  const Axes& axes_;
-  std::map<Pixel, std::vector<size_t>> curves_;
+// A point of a curve, to a pixel upwards.
+struct Place {
+  double x;
+  int64_t pixel;
+  size_t curve;
+  size_t point;
+  friend auto operator<=>(const Place&, const Place&) = default;
 };
+
+// Returns for each point of each curve how many later curves go through the same place: they would hide it.
+std::vector<std::vector<int64_t>> CountLater(const Panel& panel, const Axes& axes) {
+  std::vector<std::vector<int64_t>> later(panel.curves.size());
+  std::vector<Place> places;
+  for (size_t curve = 0; curve < panel.curves.size(); ++curve) {
+    if (!panel.curves[curve].style.empty()) continue;
+    const Points& points = panel.curves[curve].points;
+    later[curve].resize(points.size());
+    for (size_t i = 0; i < points.size(); ++i) {
+      if (!axes.Shows(points[i])) continue;
+      const double height = std::clamp(axes.Height(points[i].second), -1e9, 1e9);
+      places.push_back({points[i].first, std::llround(1000.0 * height), curve, i});
+    }
+  }
+  std::sort(places.begin(), places.end());
+  for (auto first = places.begin(); first != places.end();) {
+    const auto end = std::find_if(first, places.end(), [&](const Place& other) {
+      return std::pair(other.x, other.pixel) != std::pair(first->x, first->pixel);
+    });
+    auto next = end;  // Where later curves begin.
+    for (auto at = end; at != first;) {
+      --at;
+      if (at + 1 != end && (at + 1)->curve != at->curve) next = at + 1;
+      later[at->curve][at->point] = end - next;
+    }
+    first = end;
+  }
+  return later;
+}
+
+// Returns the points that at least `least` later curves go through; NaN stands between parts of the line.
+Points Hidden(const Points& points, const std::vector<int64_t>& later, int64_t least) {
+  Points hidden;
+  for (size_t i = 0; i < points.size(); ++i) hidden.push_back(later[i] >= least ? points[i] : std::pair(kNan, kNan));
+  return hidden;
+}
 
 // Moves marks beyond the ends of the axis upwards to its ends.
 Points WithinFrame(Points points, const Axes& axes) {
@@ -140,7 +149,7 @@ std::string Quoted(const std::string& text) {
 
 std::vector<std::string> AppendCurves(const std::string& prefix, const Panel& panel, const Axes& axes,
                                       std::string& script) {
-  const Upon upon(panel, axes);
+  const std::vector<std::vector<int64_t>> later = CountLater(panel, axes);
   std::vector<std::string> parts;
   std::vector<std::string> keys;
   const auto add = [&](const std::string& name, const Points& points, const std::string& style,
@@ -164,10 +173,12 @@ std::vector<std::string> AppendCurves(const std::string& prefix, const Panel& pa
     }
     if (!curve.style.empty()) continue;
     // Where later curves lie on a tenth of this one or more, it is a ribbon below them, as wide as they are many.
-    for (int later = kMostRibbons; later > 0; --later) {
-      const Points hidden = upon.On(curve.points, i, later);
-      if (10 * Shown(hidden, axes) < std::max<int64_t>(20, Shown(curve.points, axes))) continue;
-      add(absl::StrCat(name, "ribbon", later), hidden, LineStyle(look, kLineWidth + kRibbon * later), "");
+    for (int64_t least = kMostRibbons; least > 0; --least) {
+      const auto is_hidden = [&](int64_t count) { return count >= least; };
+      const int64_t hidden = std::count_if(later[i].begin(), later[i].end(), is_hidden);
+      if (10 * hidden < std::max<int64_t>(20, Shown(curve.points, axes))) continue;
+      add(absl::StrCat(name, "ribbon", least), Hidden(curve.points, later[i], least),
+          LineStyle(look, kLineWidth + kRibbon * static_cast<double>(least)), "");
     }
     add(name, curve.points, LineStyle(look, kLineWidth), curve.title);
     add_marks(name + "points", Isolated(curve.points, axes), MarkStyle(Mark::kCircle, look));
