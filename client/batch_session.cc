@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/connection_failure.h"
 #include "core/batch/check_rows.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/engine.h"
@@ -49,7 +50,9 @@ absl::StatusOr<BatchSummary> RemoteBatches::Solve(const BatchRows& rows) {
     if (IsStopped(options_)) return StoppedByCaller();
     const int most = std::max(policy_.max_attempts, static_cast<int>(servers_.count())) - 1;
     const auto wait = MayResume(status) ? attempts.AfterFailure(status, most) : std::nullopt;
-    if (!wait.has_value() || !Pause(*wait, options_)) return IsStopped(options_) ? StoppedByCaller() : status;
+    if (!wait.has_value() || !Pause(*wait, options_)) {
+      return IsStopped(options_) ? StoppedByCaller() : ExplainConnection(status);
+    }
   }
 }
 

@@ -11,6 +11,7 @@
 #include "client/batch_session.h"
 #include "client/call_context.h"
 #include "client/channel.h"
+#include "client/connection_failure.h"
 #include "client/cost_reader.h"
 #include "client/sweep_fan_out.h"
 #include "client/sweep_reader.h"
@@ -34,6 +35,16 @@ using Stub = v1::ImpactService::StubInterface;
 // A unary method of the service.
 template <typename WireRequest, typename WireResponse>
 using Method = grpc::Status (Stub::*)(grpc::ClientContext*, const WireRequest&, WireResponse*);
+
+// Makes a stream of what `reader` reads. It keeps the reader, and what else it needs.
+template <typename Stream, typename Reader>
+Stream StreamOf(std::shared_ptr<Reader> reader, std::shared_ptr<const void> needed = nullptr) {
+  return Stream([needed = std::move(needed), reader = std::move(reader)] {
+    auto next = reader->Next();
+    if (next.has_value() && !next->ok()) *next = ExplainConnection(next->status());
+    return next;
+  });
+}
 
 // Returns the sweep with its end, or nothing if it has no points to divide or is one that a server refuses.
 std::optional<SweepRequest> Divisible(const SweepRequest& request) {
@@ -72,7 +83,9 @@ struct Client::Connection {
       if (IsStopped(call)) return StoppedByCaller();
       const absl::Status status = WithNameOfLimit(FromGrpcStatus(ended));
       const auto wait = attempts.AfterFailure(status, MostRetries(status));
-      if (!wait.has_value() || !Pause(*wait, call)) return IsStopped(call) ? StoppedByCaller() : status;
+      if (!wait.has_value() || !Pause(*wait, call)) {
+        return IsStopped(call) ? StoppedByCaller() : ExplainConnection(status);
+      }
     }
   }
 
@@ -181,11 +194,11 @@ SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& opti
         SweepFanOut::Servers{
             .start = std::move(start), .count = servers, .retry = given.retry, .fan_out = *given.fan_out},
         WithDeadline(options, given.sweep_deadline));
-    return SweepStream([reader = std::move(reader)] { return reader->Next(); });
+    return StreamOf<SweepStream>(std::move(reader));
   }
   auto reader = std::make_shared<SweepReader>(request, std::move(start), connection_->preferred, given.retry,
                                               given.sweep_deadline, options);
-  return SweepStream([reader = std::move(reader)] { return reader->Next(); });
+  return StreamOf<SweepStream>(std::move(reader));
 }
 
 CostStream Client::DoCost(const CostRequest& request, const CallOptions& options) const {
@@ -194,7 +207,7 @@ CostStream Client::DoCost(const CostRequest& request, const CallOptions& options
         return connection_->stubs[connection_->preferred.get()]->Cost(context, ToProto(request));
       },
       CostChecker(), connection_->options.sweep_deadline, options);
-  return CostStream([connection = connection_, reader = std::move(reader)] { return reader->Next(); });
+  return StreamOf<CostStream>(std::move(reader), connection_);
 }
 
 absl::StatusOr<InfoResponse> Client::DoInfo(const InfoRequest& request, const CallOptions& options) const {

@@ -20,7 +20,7 @@ namespace ricochet {
 std::vector<Violation> SecurityViolations(const SecurityOptions& options, const std::string& target);
 
 // Makes the credentials. The options must be valid.
-// Errors: INVALID_ARGUMENT that names the option whose file cannot be read.
+// Errors: INVALID_ARGUMENT that names each option whose file cannot be read or does not hold what it should.
 absl::StatusOr<std::shared_ptr<grpc::ChannelCredentials>> MakeChannelCredentials(const SecurityOptions& options,
                                                                                  const std::string& target);
 

@@ -1,12 +1,12 @@
 #include <cmath>
 #include <vector>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
 #include "client/credentials.h"
+#include "client/server_address.h"
 #include "core/numerics/decimal.h"
 #include "ricochet/client_options.h"
 #include "ricochet/error.h"
@@ -24,13 +24,6 @@ std::string Found(std::chrono::milliseconds time, const char* rule) {
   return absl::StrCat("= ", time.count(), " ms: must ", rule);
 }
 
-// Without a port gRPC would try that of HTTPS. A name with a scheme, such as dns:///HOST:PORT or unix:PATH, keeps rules of
-// its own.
-bool LacksPort(absl::string_view server) {
-  if (absl::StartsWith(server, "[")) return absl::EndsWith(server, "]");
-  return !absl::StrContains(server, ":") && !absl::StrContains(server, "/");
-}
-
 std::string TargetRule(const std::string& target) {
   if (target.empty()) return "is empty: must be \"host:port\"";
   if (target.find_first_of(" \t\r\n") != std::string::npos) {
@@ -38,8 +31,8 @@ std::string TargetRule(const std::string& target) {
   }
   for (const absl::string_view server : absl::StrSplit(target, ',')) {
     if (server.empty()) return absl::StrCat("= \"", target, "\": must name a server before and after each comma");
-    if (LacksPort(server)) {
-      return absl::StrCat("= \"", target, "\": must have a port, as ", server, ":50051");
+    if (const std::string wrong = WhyNoAddress(std::string(server)); !wrong.empty()) {
+      return absl::StrCat("= \"", target, "\": ", wrong);
     }
   }
   return "";

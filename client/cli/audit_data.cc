@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "absl/strings/strip.h"
+#include "client/cli/short_name.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/nearest.h"
 
@@ -76,28 +77,22 @@ std::optional<AuditTable::Place> AuditTable::PlaceOf(const std::string& cell) {
   return std::nullopt;
 }
 
-absl::StatusOr<AuditTable::Places> AuditTable::PlacesOf(const std::vector<std::string>& cells, const std::string& name,
-                                                        const std::vector<std::string>& skipped) {
+absl::StatusOr<AuditTable::Places> AuditTable::PlacesOf(const CsvReader& reader, const std::string& name) {
   Places places;
-  for (const std::string& column : skipped) {
-    if (std::count(cells.begin(), cells.end(), column) > 0) continue;
-    return absl::InvalidArgumentError(
-        absl::StrCat("--skip-column = ", column, ": must be a column of ", name, DidYouMean(column, cells)));
-  }
-  for (const std::string& cell : cells) {
-    if (std::count(skipped.begin(), skipped.end(), cell) > 0) {
+  for (size_t i = 0; i < reader.header().size(); ++i) {
+    const std::string& cell = reader.header()[i];
+    if (reader.IsSkipped(i)) {
       places.emplace_back();
       continue;
     }
-    const std::optional<Place> place = PlaceOf(cell);
+    const absl::StatusOr<std::string> full = FullName(cell, KnownNames(), absl::StrCat(name, " has the column"));
+    if (!full.ok()) return full.status();
+    const std::optional<Place> place = PlaceOf(*full);
     if (!place.has_value()) return UnknownColumn(cell, name);
     if (std::count(places.begin(), places.end(), place) > 0) {
       return absl::InvalidArgumentError(absl::StrCat(name, " has the column ", cell, " twice"));
     }
     places.push_back(place);
-  }
-  if (std::count(places.begin(), places.end(), std::nullopt) == static_cast<ptrdiff_t>(places.size())) {
-    return absl::InvalidArgumentError(absl::StrCat(name, " has no column that is not left out"));
   }
   const size_t links = LinkCount(places);
   for (const std::optional<Place>& place : places) {
@@ -112,11 +107,9 @@ absl::StatusOr<AuditTable> AuditTable::Open(std::istream& stream, const std::str
                                             const std::vector<std::string>& skipped) {
   absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, name);
   if (!reader.ok()) return reader.status();
-  absl::StatusOr<Places> places = PlacesOf(reader->header(), name, skipped);
+  if (absl::Status status = reader->Skip(skipped); !status.ok()) return status;
+  absl::StatusOr<Places> places = PlacesOf(*reader, name);
   if (!places.ok()) return places.status();
-  std::vector<bool> left_out;
-  for (const std::optional<Place>& place : *places) left_out.push_back(!place.has_value());
-  reader->Skip(std::move(left_out));
   return AuditTable(*std::move(reader), *std::move(places));
 }
 
@@ -137,7 +130,7 @@ AuditRows AuditTable::Next(size_t most) {
         std::move(table.columns[i]);
   }
   rows.bad_cells.resize(rows.lines.size());
-  for (BadCells& bad : table.bad) rows.bad_cells[bad.row] = std::move(bad.reason);
+  for (const BadCells& bad : table.bad) rows.bad_cells[bad.row] = bad.Reason();
   return rows;
 }
 

@@ -54,8 +54,7 @@ class AuditTable {
   AuditTable(CsvReader reader, Places places) : reader_(std::move(reader)), places_(std::move(places)) {}
   static size_t LinkCount(const Places& places);
   static std::optional<Place> PlaceOf(const std::string& cell);
-  static absl::StatusOr<Places> PlacesOf(const std::vector<std::string>& cells, const std::string& name,
-                                         const std::vector<std::string>& skipped);
+  static absl::StatusOr<Places> PlacesOf(const CsvReader& reader, const std::string& name);
 
   CsvReader reader_;
   Places places_;

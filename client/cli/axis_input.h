@@ -9,13 +9,16 @@
 
 #include "absl/status/statusor.h"
 #include "core/sweep/grid.h"
+#include "ricochet/scene.h"
 #include "ricochet/solver.h"
 
 namespace ricochet::cli {
 
-// Reads "PATH=0.1,1/3,0.5", "PATH=lin:START:STOP:COUNT" or "PATH=log:START:STOP:COUNT".
-// Errors: INVALID_ARGUMENT for another form. The solver checks that the path exists and the values are valid.
-absl::StatusOr<Axis> ParseAxis(const std::string& text);
+// Reads "PATH=0.1,1/3,0.5", "PATH=lin:START:STOP:COUNT" or "PATH=log:START:STOP:COUNT" for an axis of the scene. PATH may
+// be short (client/cli/short_name.h), and values of an angle may be in degrees, "10deg".
+// Errors: INVALID_ARGUMENT for another form, and those of FullName. The solver checks that the path exists and the values
+// are valid.
+absl::StatusOr<Axis> ParseAxis(const std::string& text, const Scene& scene);
 
 struct IndexRange {
   int64_t first = 0;
@@ -25,9 +28,8 @@ struct IndexRange {
 // Reads "FIRST:END"; an empty FIRST means 0, an empty END the end of the grid. Errors: INVALID_ARGUMENT.
 absl::StatusOr<IndexRange> ParseRange(const std::string& text);
 
-// Reads "PATH=LOW:HIGH".
-// Errors: INVALID_ARGUMENT for another form. The solver checks that the path exists and the values are valid.
-absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text);
+// Reads "PATH=LOW:HIGH" by the rules of ParseAxis.
+absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text, const Scene& scene);
 
 }  // namespace ricochet::cli
 

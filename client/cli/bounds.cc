@@ -16,7 +16,6 @@
 #include "client/cli/name_list.h"
 #include "client/cli/picture_input.h"
 #include "client/cli/scene_input.h"
-#include "client/cli/short_name.h"
 #include "client/cli/table.h"
 #include "core/numerics/decimal.h"
 #include "core/scene/field.h"
@@ -212,9 +211,8 @@ absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
   if (!digits.ok()) return digits.status();
   BoundsRequest request{.scene = *scene, .ranges = {}, .certified_digits = *digits};
   for (const std::string& text : options.ranges) {
-    absl::StatusOr<FieldRange> range = ParseFieldRange(text);
+    absl::StatusOr<FieldRange> range = ParseFieldRange(text, request.scene);
     if (!range.ok()) return range.status();
-    if (absl::Status status = ExpandField(request.scene, "--range", range->path); !status.ok()) return status;
     request.ranges.push_back(*std::move(range));
   }
   return request;

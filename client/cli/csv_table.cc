@@ -1,7 +1,7 @@
 #include "client/cli/csv_table.h"
 
+#include <algorithm>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "absl/strings/ascii.h"
@@ -11,12 +11,10 @@
 #include "absl/strings/str_replace.h"
 #include "absl/strings/strip.h"
 #include "client/cli/number_input.h"
+#include "core/scene/nearest.h"
 
 namespace ricochet::cli {
 namespace {
-
-// Spreadsheets put it in front of a table in UTF-8.
-constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
 
 // Returns a cell without the blanks and the quotes around it. Two quotes within quotes stand for one.
 std::string Unquoted(absl::string_view cell) {
@@ -39,10 +37,11 @@ void Split(const std::string& line, std::vector<std::string>& cells) {
   }
 }
 
-std::string WhyNoNumber(const std::string& name, const std::string& cell) {
-  if (cell.empty()) return absl::StrCat(name, " is missing");
-  return absl::StrCat(name, " = \"", absl::CEscape(cell), "\": must be a number",
-                      absl::StrContains(cell, ',') ? " with a decimal point, not a comma" : "");
+// Reads a cell into `value`. Returns what is wrong with it; empty if it is a number.
+std::string ReadCell(const std::string& cell, CellKind kind, double& value) {
+  if (cell.empty()) return "is missing";
+  const std::string rule = ReadNumber(cell, kind == CellKind::kAngle ? Spelling::kAngle : Spelling::kNumber, value);
+  return rule.empty() ? "" : absl::StrCat("= \"", absl::CEscape(cell), "\": must ", rule);
 }
 
 }  // namespace
@@ -59,32 +58,55 @@ bool CsvReader::NextLine() {
 
 void CsvReader::Append(const std::vector<std::string>& cells, CsvTable& table) const {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  const size_t row = table.columns.front().size();
-  std::string reason;
+  BadCells bad{.row = table.columns.front().size(), .column = {}, .description = {}};
   const bool fits = cells.size() <= header_.size();
   if (!fits) {
-    reason = absl::StrCat("has ", cells.size(), " cells: must have ", header_.size(),
-                          "; a number has a decimal point, not a comma");
+    bad.description = absl::StrCat("has ", cells.size(), " cells: must have ", header_.size(),
+                                   "; a number has a decimal point, not a comma");
   }
   for (size_t i = 0; i < table.columns.size(); ++i) {
-    const bool is_read = fits && i < cells.size() && (skipped_.empty() || !skipped_[i]);
-    const absl::StatusOr<double> number = is_read ? ParseNumber(cells[i], "") : kNone;
-    table.columns[i].push_back(number.ok() ? *number : kNone);
-    const bool is_bad = !number.ok() || (i >= cells.size() && (skipped_.empty() || !skipped_[i]));
-    if (is_bad && reason.empty()) reason = WhyNoNumber(header_[i], i < cells.size() ? cells[i] : "");
+    double value = kNone;
+    const std::string wrong =
+        !fits || IsSkipped(i) ? "" : ReadCell(i < cells.size() ? cells[i] : std::string(), kinds_[i], value);
+    table.columns[i].push_back(wrong.empty() ? value : kNone);
+    if (wrong.empty() || !bad.description.empty()) continue;
+    bad.column = header_[i];
+    bad.description = wrong;
   }
-  if (!reason.empty()) table.bad.push_back({row, std::move(reason)});
+  if (!bad.description.empty()) table.bad.push_back(std::move(bad));
 }
 
 absl::StatusOr<CsvReader> CsvReader::Open(std::istream& stream, const std::string& name) {
-  CsvReader reader(stream);
+  CsvReader reader(stream, name);
   if (!reader.NextLine()) return absl::InvalidArgumentError(absl::StrCat(name, " has no header"));
   if (absl::StrContains(reader.line_, ';')) {
     return absl::InvalidArgumentError(
         absl::StrCat(name, " separates its columns by semicolons: must use commas, and decimal points in numbers"));
   }
   Split(reader.line_, reader.header_);
+  reader.kinds_.resize(reader.header_.size());
   return reader;
+}
+
+absl::Status CsvReader::Skip(const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    if (std::find(header_.begin(), header_.end(), name) == header_.end()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("--skip-column = ", name, ": must be a column of ", name_, DidYouMean(name, header_)));
+    }
+    for (size_t i = 0; i < header_.size(); ++i) {
+      if (header_[i] == name) kinds_[i] = CellKind::kSkipped;
+    }
+  }
+  if (std::any_of(kinds_.begin(), kinds_.end(), [](CellKind kind) { return kind != CellKind::kSkipped; })) {
+    return absl::OkStatus();
+  }
+  return absl::InvalidArgumentError(absl::StrCat(name_, " has no column that is not left out"));
+}
+
+void CsvReader::Define(size_t column, std::string name, CellKind kind) {
+  header_[column] = std::move(name);
+  kinds_[column] = kind;
 }
 
 bool CsvReader::NextRow(std::vector<std::string>& cells) {
@@ -102,13 +124,6 @@ CsvTable CsvReader::Next(size_t most) {
     Append(cells, table);
   }
   return table;
-}
-
-absl::StatusOr<CsvTable> ParseCsvTable(const std::string& text, const std::string& name) {
-  std::istringstream stream(text);
-  absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, name);
-  if (!reader.ok()) return reader.status();
-  return reader->Next(std::numeric_limits<size_t>::max());
 }
 
 std::string CsvQuoted(const std::string& text) {

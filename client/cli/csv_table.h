@@ -10,15 +10,25 @@
 #include <utility>
 #include <vector>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 
 namespace ricochet::cli {
 
+// Spreadsheets and some editors put it in front of a text in UTF-8.
+inline constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
+
 // A row that has a NaN in place of a number, and why.
 struct BadCells {
   size_t row = 0;
-  std::string reason;  // Of the first such cell: `normal_m_s = "0,7": must be a number with a decimal point`.
+  std::string column;       // The name of the first such column; empty if the row has too many cells.
+  std::string description;  // What is wrong: `= "0,7": must be a number with a decimal point`.
+
+  std::string Reason() const { return column.empty() ? description : column + " " + description; }
 };
+
+// How the cells of a column are read.
+enum class CellKind { kNumber, kAngle, kSkipped };
 
 struct CsvTable {
   std::vector<std::string> header;
@@ -36,9 +46,14 @@ class CsvReader {
   // Errors: INVALID_ARGUMENT if there is no header, or if it has semicolons.
   static absl::StatusOr<CsvReader> Open(std::istream& stream, const std::string& name);
 
+  // The names of the columns, as the text or Define has them.
   const std::vector<std::string>& header() const { return header_; }
-  // Reads no numbers from the columns for which `skipped` is true: they have NaN in every row, and no reason for it.
-  void Skip(std::vector<bool> skipped) { skipped_ = std::move(skipped); }
+  // Leaves columns out: they have NaN in every row, and no reason for it.
+  // Errors: INVALID_ARGUMENT for a name that the header lacks, or if no column is left.
+  absl::Status Skip(const std::vector<std::string>& names);
+  bool IsSkipped(size_t column) const { return kinds_[column] == CellKind::kSkipped; }
+  // Sets the name by which a column is called from now on, and how its cells are read.
+  void Define(size_t column, std::string name, CellKind kind);
   // Returns the next rows, at most `most`; none at the end.
   CsvTable Next(size_t most);
   // Reads the cells of the next row as text. Returns false at the end.
@@ -49,22 +64,20 @@ class CsvReader {
   int64_t bytes() const { return bytes_; }
 
  private:
-  explicit CsvReader(std::istream& stream) : stream_(&stream) {}
+  CsvReader(std::istream& stream, std::string name) : stream_(&stream), name_(std::move(name)) {}
   // Reads up to the next line that is not skipped. Returns false at the end.
   bool NextLine();
   // Appends a row to the table.
   void Append(const std::vector<std::string>& cells, CsvTable& table) const;
 
   std::istream* stream_;
+  std::string name_;  // Of the table.
   std::vector<std::string> header_;
-  std::vector<bool> skipped_;  // Empty, or one for each name of the header.
+  std::vector<CellKind> kinds_;  // One for each name of the header.
   std::string line_;
   int64_t number_ = 0;  // That of line_.
   int64_t bytes_ = 0;
 };
-
-// Reads a whole table. Errors: those of CsvReader::Open.
-absl::StatusOr<CsvTable> ParseCsvTable(const std::string& text, const std::string& name);
 
 // Returns the text as a cell in double quotes, which may have commas and quotes.
 std::string CsvQuoted(const std::string& text);

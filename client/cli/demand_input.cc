@@ -6,6 +6,7 @@
 #include "absl/strings/str_join.h"
 #include "client/cli/number_input.h"
 #include "client/cli/plan_report.h"
+#include "core/scene/nearest.h"
 
 namespace ricochet::cli {
 namespace {
@@ -22,7 +23,7 @@ absl::StatusOr<std::vector<Effect>> ReadEffects(const std::vector<std::string>& 
   for (const std::string& word : words) {
     size_t i = 0;
     while (i < known.size() && known[i] != word) ++i;
-    if (i == known.size()) return InputError(flag, word, absl::StrCat("be one of ", absl::StrJoin(known, ", ")));
+    if (i == known.size()) return InputError(flag, word, absl::StrCat("be one of ", absl::StrJoin(known, ", "), DidYouMean(word, known)));
     effects.push_back(static_cast<Effect>(i + 1));
   }
   return effects;

@@ -10,7 +10,17 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr std::pair<const char*, const char*> kFlags[] = {
+constexpr std::pair<const char*, const char*> kConnectionFlags[] = {
+    {"target", "--server"},
+    {"security.tls_ca", "--tls-ca"},
+    {"security.tls_cert", "--tls-cert"},
+    {"security.tls_key", "--tls-key"},
+    {"security.server_name", "--server-name"},
+    {"security.token_file", "--token-file"},
+    {"security.token", "RICOCHET_TOKEN"},
+};
+
+constexpr std::pair<const char*, const char*> kSceneFlags[] = {
     {"pendulum.a_m", "--a"},
     {"pendulum.b_m", "--b"},
     {"pendulum.inertia_kg_m2", "--inertia"},
@@ -34,8 +44,11 @@ bool HasFlagsForScene(const CLI::App& command) {
 }
 
 void NameFlag(const CLI::App& command, Violation& violation) {
-  for (const auto& [field, flag] : kFlags) {
-    if (violation.field != field) continue;
+  for (const auto& [field, flag] : kConnectionFlags) {
+    if (violation.field == field) violation.field = absl::StrCat(flag, ": ", field);
+  }
+  for (const auto& [field, flag] : kSceneFlags) {
+    if (violation.field != field || !HasFlagsForScene(command)) continue;
     const absl::string_view rule = violation.description;
     if (!IsGiven(command, flag) && absl::StartsWith(rule, "= 0: ")) {
       violation.description = absl::StrCat("is missing: ", rule.substr(5));
@@ -51,7 +64,6 @@ absl::Status NameFlags(const CLI::App& app, const absl::Status& error) {
   std::vector<Violation> violations = ViolationsOf(error);
   if (error.code() != absl::StatusCode::kInvalidArgument || violations.empty()) return error;
   for (const CLI::App* command : app.get_subcommands()) {
-    if (!HasFlagsForScene(*command)) continue;
     for (Violation& violation : violations) NameFlag(*command, violation);
     return InvalidRequest(violations);
   }

@@ -13,7 +13,7 @@ namespace {
 constexpr char kExample[] = R"(Example: the health probe of a container.
   $ ricochet health --server 127.0.0.1:50051
   SERVING
-Exit codes: 0 serving, 75 any other state or no answer, 2 wrong input.)";
+Exit codes: 0 serving, 75 any other state or no answer, 42 a server that no retry reaches, 2 wrong input.)";
 
 struct HealthOptions {
   CommonOptions common;
@@ -36,11 +36,9 @@ absl::Status RunHealth(const HealthOptions& options) {
   const absl::StatusOr<ClientOptions> client_options = MakeClientOptions(options.common);
   if (!client_options.ok()) return client_options.status();
   const absl::StatusOr<Health> health = CheckHealth(*client_options, options.service);
-  if (!health.ok()) {
-    // A probe distinguishes only two answers, and a service that is missing may still be starting.
-    if (health.status().code() == absl::StatusCode::kInvalidArgument) return health.status();
-    return absl::UnavailableError(std::string(health.status().message()));
-  }
+  // A service that is missing may still be starting.
+  if (absl::IsNotFound(health.status())) return absl::UnavailableError(health.status().message());
+  if (!health.ok()) return health.status();
   std::printf("%s\n", Name(*health));
   if (*health == Health::kServing) return absl::OkStatus();
   return absl::UnavailableError(absl::StrCat(options.service, " is ", Name(*health)));

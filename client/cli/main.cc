@@ -3,15 +3,20 @@
 #include <malloc.h>
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <csignal>
 #include <iostream>
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
 #include "client/cli/common.h"
 #include "client/cli/exit_code.h"
 #include "client/cli/flag_names.h"
+#include "client/cli/grpc_log.h"
 #include "client/cli/program.h"
 #include "client/cli/usage_error.h"
 
@@ -30,19 +35,22 @@ void KeepMemoryOfChunks() {
 int main(int argc, char** argv) {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   KeepMemoryOfChunks();
+  ricochet::cli::QuietGrpc();
   // Ignoring these signals turns a closed pipe and a full quota into errors of write; temporary files are then removed.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
   ricochet::cli::Command command;
   const std::unique_ptr<CLI::App> app = ricochet::cli::MakeProgram({argv, argv + argc}, command);
+  std::vector<std::string> words = ricochet::cli::WithHelpAsFlag({argv + 1, argv + argc});
+  std::reverse(words.begin(), words.end());  // CLI11 takes them from the end.
   try {
-    app->parse(argc, argv);
+    app->parse(std::move(words));
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app->exit(error);
     std::cerr << (argc == 1 ? app->help() : absl::StrCat("ricochet: ", ricochet::cli::UsageError(*app, error), "\n"));
     return ricochet::cli::kUsage;
   }
-  const absl::Status status = command();
+  const absl::Status status = ricochet::cli::WithTlsAlert(command());
   ricochet::cli::PrintError(ricochet::cli::NameFlags(*app, status));
   return ricochet::cli::ExitCodeOf(status);
 }

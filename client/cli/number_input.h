@@ -11,9 +11,17 @@
 
 namespace ricochet::cli {
 
-// Reads "0.1", "-1e-3", or a fraction of two such numbers, "1/3". `what` names the input in the error.
-// Errors: INVALID_ARGUMENT, here and below.
-absl::StatusOr<double> ParseNumber(const std::string& text, const std::string& what);
+// How a number may be written: "0.1", "-1e-3", or a fraction of two such numbers, "1/3". An angle may also be given in
+// degrees, "45deg" or "180/7deg", which become the radians nearest to them.
+enum class Spelling { kNumber, kAngle };
+
+// Reads a number into `value`. Returns the rule that the text breaks, such as "be a number such as 0.1"; empty if it breaks
+// none.
+std::string ReadNumber(const std::string& text, Spelling spelling, double& value);
+
+// Reads a number. `what` names the input in the error. Errors: INVALID_ARGUMENT, here and below.
+absl::StatusOr<double> ParseNumber(const std::string& text, const std::string& what,
+                                   Spelling spelling = Spelling::kNumber);
 
 // Reads a whole number of at most 2^53: "1000", "1e6".
 absl::StatusOr<int64_t> ParseCount(const std::string& text, const std::string& what);

@@ -65,7 +65,7 @@ void AddPlotFile(CLI::App& app, Command& command) {
   sub->add_option("-o,--output", options->picture.file, "The picture [FILE with the ending .svg]")
       ->type_name("FILE.svg|.png|.pdf");
   sub->add_option("--column", options->columns, "Columns of the file to draw, in this order [all]")
-      ->type_name("NAME,...")
+      ->type_name("COLUMN,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   AddLookOptions(*sub, options->picture);

@@ -25,7 +25,7 @@ std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Comman
       "Computes what happens when something hits a surface with friction. Units are SI and radians.", "ricochet");
   // Subcommands take over the format that is set before them.
   app->formatter(std::make_shared<HelpFormat>());
-  app->set_version_flag("--version", [] {
+  app->set_version_flag("-V,--version", [] {
     return absl::StrCat("ricochet ", ThisEngine().version, ", engine ", ThisEngine().fingerprint);
   });
   app->require_subcommand(1);
@@ -43,6 +43,16 @@ std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Comman
       "ricochet SUBCOMMAND --help shows a worked example.\n"
       "Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again, 130 interrupted.");
   return app;
+}
+
+std::vector<std::string> WithHelpAsFlag(std::vector<std::string> words) {
+  if (words.empty()) return words;
+  if (words.front() == "version") words.front() = "--version";
+  if (words.front() == "help") {
+    words.erase(words.begin());
+    words.emplace_back("--help");
+  }
+  return words;
 }
 
 }  // namespace ricochet::cli

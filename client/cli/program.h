@@ -16,6 +16,10 @@ namespace ricochet::cli {
 // keeps to say how it can be resumed.
 std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Command& command);
 
+// Returns the words after the name of the program in the spelling of the options: `help solve` is `solve --help`, and
+// `version` is `--version`.
+std::vector<std::string> WithHelpAsFlag(std::vector<std::string> words);
+
 }  // namespace ricochet::cli
 
 #endif  // RICOCHET_CLIENT_CLI_PROGRAM_H_

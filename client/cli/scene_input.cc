@@ -21,9 +21,9 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
+#include "client/cli/csv_table.h"
 #include "client/cli/json/json_errors.h"
 #include "client/cli/number_input.h"
-#include "core/scene/nearest.h"
 #include "core/scene/numbers.h"
 #include "proto/wire/scene.h"
 #include "ricochet/error.h"
@@ -37,9 +37,7 @@ constexpr double kDefaultOmega = -1.0;
 // The parser says: Message type "ricochet.v1.Pendulum" has no field named "am".
 std::string WithNearestField(const std::vector<std::string>& quoted) {
   const auto* const type = google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(quoted[1]);
-  std::vector<std::string> names;
-  for (int i = 0; type != nullptr && i < type->field_count(); ++i) names.push_back(type->field(i)->name());
-  return absl::StrCat(quoted[1], " has no field \"", quoted[3], "\"", DidYouMean(quoted[3], names));
+  return absl::StrCat(quoted[1], " has no field \"", quoted[3], "\"", type == nullptr ? "" : FieldHint(*type, quoted[3]));
 }
 
 // The parser says: Field "b" is specified along with field "a", another member of oneof "system".
@@ -174,7 +172,7 @@ absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
   return FromProto(proto);
 }
 
-absl::StatusOr<std::string> ReadText(const std::string& path) {
+static absl::StatusOr<std::string> ReadBytes(const std::string& path) {
   if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
   if (std::filesystem::is_directory(path)) {
     return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": Is a directory"));
@@ -189,6 +187,12 @@ absl::StatusOr<std::string> ReadText(const std::string& path) {
   return text.str();
 }
 
+absl::StatusOr<std::string> ReadText(const std::string& path) {
+  absl::StatusOr<std::string> text = ReadBytes(path);
+  if (text.ok() && absl::StartsWith(*text, kByteOrderMark)) text->erase(0, sizeof(kByteOrderMark) - 1);
+  return text;
+}
+
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message) {
   const absl::StatusOr<std::string> text = ReadText(path);
   if (!text.ok()) return text.status();
@@ -199,11 +203,13 @@ absl::Status ParseMessage(const std::string& path, const std::string& text, goog
   const std::string name = path == "-" ? "standard input" : path;
   const std::string type = message.GetTypeName();
   if (IsJson(path, text)) {
-    const auto status = google::protobuf::util::JsonStringToMessage(text, &message);
-    if (status.ok()) return absl::OkStatus();
-    const std::string explained = ExplainJson(text, *message.GetDescriptor());
-    return absl::InvalidArgumentError(absl::StrCat(
-        name, " is not a ", type, " in JSON: ", explained.empty() ? status.message().ToString() : explained));
+    std::string wrong = ExplainJson(text, *message.GetDescriptor());
+    if (wrong.empty()) {
+      const auto status = google::protobuf::util::JsonStringToMessage(text, &message);
+      if (status.ok()) return absl::OkStatus();
+      wrong = status.message().ToString();
+    }
+    return absl::InvalidArgumentError(absl::StrCat(name, " is not a ", type, " in JSON: ", wrong));
   }
   FirstError error;
   google::protobuf::TextFormat::Parser parser;

@@ -40,7 +40,8 @@ absl::StatusOr<Scene> ReadScene(const SceneOptions& options);
 // valid and nothing happens in it, so that the user has most likely forgotten something.
 absl::Status RequireVelocity(const Scene& scene);
 
-// Returns the whole text of a file, or of standard input for "-". Errors: INVALID_ARGUMENT that names the file.
+// Returns the whole text of a file, or of standard input for "-", without a byte order mark in front of it.
+// Errors: INVALID_ARGUMENT that names the file.
 absl::StatusOr<std::string> ReadText(const std::string& path);
 
 // Reads a message of any type from a file, or from standard input for "-". A file *.json is JSON; *.textproto, *.txtpb

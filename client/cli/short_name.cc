@@ -12,7 +12,6 @@
 #include "client/cli/field_table.h"
 #include "core/scene/field.h"
 #include "core/scene/nearest.h"
-#include "core/sweep/column.h"
 
 namespace ricochet::cli {
 namespace {
@@ -22,6 +21,7 @@ constexpr std::pair<const char*, const char*> kLetters[] = {
     {"mu", "friction.kinetic_coefficient"},  {"mu_static", "friction.static_coefficient"},
     {"omega", "pendulum.omega_minus_rad_s"}, {"mu-static", "friction.static_coefficient"},
     {"inertia", "pendulum.inertia_kg_m2"},   {"phi", "pendulum.phi_rad"},
+    {"mu", "friction"},
 };
 
 // True if `path` is `name`, or ends in it after a dot.
@@ -66,15 +66,17 @@ absl::StatusOr<std::string> FullName(const std::string& name, const std::vector<
       absl::StrCat(what, " ", name, ": must name one of\n  ", absl::StrJoin(meant, "\n  ")));
 }
 
-absl::Status ExpandField(const Scene& scene, const std::string& what, std::string& path) {
-  absl::StatusOr<std::string> full = FullName(path, FieldPaths(scene), what);
-  if (!full.ok()) return full.status();
-  path = *std::move(full);
-  return absl::OkStatus();
+absl::StatusOr<std::string> FullField(const Scene& scene, const std::string& name, const std::string& what) {
+  return FullName(name, FieldPaths(scene), what);
 }
 
-absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names) {
-  const std::vector<std::string> known = Columns(scene);
+Spelling SpellingOf(const std::string& path) {
+  const FieldInfo* const info = FindFieldInfo(path);
+  return info != nullptr && info->unit == "rad" ? Spelling::kAngle : Spelling::kNumber;
+}
+
+absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::string>& known,
+                                                     const std::vector<std::string>& names) {
   std::vector<std::string> columns;
   for (const std::string& text : names) {
     const std::string name(absl::StripAsciiWhitespace(text));

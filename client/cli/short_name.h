@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "absl/status/status.h"
 #include "absl/status/statusor.h"
+#include "client/cli/number_input.h"
 #include "ricochet/scene.h"
 
 namespace ricochet::cli {
@@ -20,12 +20,16 @@ namespace ricochet::cli {
 absl::StatusOr<std::string> FullName(const std::string& name, const std::vector<std::string>& known,
                                      const std::string& what);
 
-// Puts the full path of a field of the scene in place of a short name. Errors: those of FullName.
-absl::Status ExpandField(const Scene& scene, const std::string& what, std::string& path);
+// Returns the full path of the field of the scene that `name` means. Errors: those of FullName.
+absl::StatusOr<std::string> FullField(const Scene& scene, const std::string& name, const std::string& what);
 
-// Returns the columns of the scene that `names` mean; "coefficients.*" means all that start with "coefficients.", and
-// spaces around a name do not count. Errors: those of FullName.
-absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names);
+// How the number at the path of a field may be written.
+Spelling SpellingOf(const std::string& path);
+
+// Returns the columns that `names`, the values of --column, mean among all that are known; "coefficients.*" means all that
+// start with "coefficients.", and spaces around a name do not count. Errors: those of FullName.
+absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::string>& known,
+                                                     const std::vector<std::string>& names);
 
 }  // namespace ricochet::cli
 

@@ -30,9 +30,11 @@ constexpr char kExample[] = R"(Example: the elastic pendulum of Lubarda (2009), 
     Newton      (velocities, -v+/v-)     0.707107
     Poisson     (normal impulses)         1.41421
   ...
---data FILE.csv solves many impacts, one on each line. Its header names fields of the scene by path, as the axes of a
-sweep do; `ricochet sweep --axis ?` lists them. Text prints a summary and the first rows; csv and json have all rows, and
-csv prints the summary on standard error. A bad row is flagged INVALID; the others are still solved.
+--data FILE.csv solves many impacts, one on each line. Its header names fields of the scene, by path or shorter, as the
+axes of a sweep do; `ricochet sweep --axis ?` lists them. Cells are separated by commas and may stand in double quotes;
+numbers have a decimal point, and angles may be in degrees, 45deg. Text prints a summary and the first rows; csv and json
+have all rows, and csv prints the summary on standard error. A row that lacks a number, or breaks a rule, is INVALID and
+the first have their reasons; the others are still solved.
 CSV has one row with every number of the outcome, named by its path. Instead it has one row for each state with
 --history, for each sample with --force-history, for each effect with --explain, and for each number with --certified.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
@@ -48,8 +50,7 @@ struct SolveOptions {
   std::string certified;
   bool strict = false;
   PictureOptions picture;
-  std::string data;
-  std::vector<std::string> columns;
+  DataOptions data;
 };
 
 absl::StatusOr<int64_t> ParseIntervals(const std::string& text, const char* flag) {
@@ -112,13 +113,14 @@ absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Sc
 // Solves the rows of a table.
 absl::Status RunData(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
-  if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || options.strict ||
+  if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() ||
       !options.picture.file.empty() || options.explain || options.plan_only) {
     return absl::InvalidArgumentError(
-        "--data cannot be combined with --history, --force-history, --certified, --strict, --plot, --explain or "
-        "--plan-only");
+        "--data cannot be combined with --history, --force-history, --certified, --plot, --explain or --plan-only");
   }
-  return SolveData({.file = options.data, .columns = options.columns}, options.common, solver, scene, demand);
+  DataOptions data = options.data;
+  data.strict = options.strict;
+  return SolveData(data, options.common, solver, scene, demand);
 }
 
 absl::Status RunSolve(const SolveOptions& options) {
@@ -129,8 +131,10 @@ absl::Status RunSolve(const SolveOptions& options) {
   if (!scene.ok()) return scene.status();
   const absl::StatusOr<DemandFields> demand = ReadDemand(options.demand);
   if (!demand.ok()) return demand.status();
-  if (!options.data.empty()) return RunData(options, **solver, *scene, *demand);
-  if (!options.columns.empty()) return absl::InvalidArgumentError("--column needs --data FILE.csv");
+  if (!options.data.file.empty()) return RunData(options, **solver, *scene, *demand);
+  if (!options.data.columns.empty() || !options.data.skipped_columns.empty()) {
+    return absl::InvalidArgumentError("--column and --skip-column need --data FILE.csv");
+  }
   if (options.plan_only) return RunPlan(options, **solver, *scene, *demand);
   SolveRequest request{.scene = *scene, .inadmissible_is_error = options.strict, .demand = *demand};
   const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
@@ -171,16 +175,20 @@ void AddSolve(CLI::App& app, Command& command) {
   sub->add_flag("--plan-only", options->plan_only, "Print only the plan, without computing the impact");
   AddDemandOptions(*sub, options->demand);
   AddCertifiedOption(*sub, options->certified);
-  sub->add_flag("--strict", options->strict, "Fail if the outcome is inadmissible");
-  AddPictureOptions(*sub, "the impact: velocities and forces over impulse or time, in space the slip",
+  sub->add_flag("--strict", options->strict,
+                "Fail if the outcome is inadmissible; with --data, if one is or has no numbers, after writing all");
+  AddPictureOptions(*sub, "velocities and forces over impulse or time, and in space also the slip,",
                     options->picture);
   AddAxisOptions(*sub, options->picture);
-  sub->add_option("--data", options->data,
+  sub->add_option("--data", options->data.file,
                   "Many impacts, one on each line; the header names fields of the scene; - for standard input")
       ->type_name("FILE.csv");
-  sub->add_option("--column", options->columns,
+  sub->add_option("--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  sub->add_option("--column", options->data.columns,
                   "Fields of the outcome to give for --data; default: the contact's velocity after and the impulse")
-      ->type_name("NAME,...")
+      ->type_name("COLUMN,...")
       ->delimiter(',')
       ->allow_extra_args(false);
   AddServerOptions(*sub, options->common);

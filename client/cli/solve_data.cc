@@ -4,6 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <iostream>
+#include <limits>
+#include <sstream>
 #include <utility>
 
 #include "absl/strings/match.h"
@@ -11,6 +13,7 @@
 #include "absl/strings/str_join.h"
 #include "client/cli/csv_table.h"
 #include "client/cli/json/json_text.h"
+#include "client/cli/number_input.h"
 #include "client/cli/output.h"
 #include "client/cli/scene_input.h"
 #include "client/cli/short_name.h"
@@ -29,6 +32,7 @@ constexpr size_t kTextRows = 40;
 // A batch and its answer.
 struct Solved {
   BatchSetup setup;
+  std::vector<int64_t> lines;  // The line of each row in the table.
   std::vector<std::vector<double>> outputs;
   std::vector<Regime> regimes;
   std::vector<RowStatus> statuses;
@@ -45,25 +49,64 @@ std::vector<std::string> DefaultColumns(const Scene& scene) {
   return columns;
 }
 
-absl::Status Solve(const CsvTable& table, const Solver& solver, Solved& solved) {
-  const size_t count = table.columns.front().size();
+// Opens the table, whose header then has the full paths of the fields of the scene that it means.
+absl::StatusOr<CsvReader> OpenTable(std::istream& stream, const DataOptions& data, const Scene& scene) {
+  absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, data.file == "-" ? "standard input" : data.file);
+  if (!reader.ok()) return reader.status();
+  if (absl::Status status = reader->Skip(data.skipped_columns); !status.ok()) return status;
+  for (size_t i = 0; i < reader->header().size(); ++i) {
+    if (reader->IsSkipped(i)) continue;
+    const absl::StatusOr<std::string> field = FullField(scene, reader->header()[i], "--data, column");
+    if (!field.ok()) return field.status();
+    reader->Define(i, *field, SpellingOf(*field) == Spelling::kAngle ? CellKind::kAngle : CellKind::kNumber);
+  }
+  return reader;
+}
+
+// A cell that is no number says more than the NaN that the solver was given in its place.
+void NameBadCells(const std::vector<BadCells>& cells, BatchSummary& summary) {
+  for (BadRow& row : summary.bad_rows) {
+    for (const BadCells& bad : cells) {
+      if (static_cast<int64_t>(bad.row) != row.row) continue;
+      row.field = bad.column;
+      row.description = bad.description;
+    }
+  }
+}
+
+absl::Status Solve(CsvReader& reader, const Solver& solver, Solved& solved) {
+  const CsvTable table = reader.Next(std::numeric_limits<size_t>::max());
+  const size_t count = table.lines.size();
   solved.outputs.assign(solved.setup.columns.size(), std::vector<double>(count));
+  solved.lines = table.lines;
   solved.regimes.resize(count);
   solved.statuses.resize(count);
   BatchRows rows = {.regimes = absl::MakeSpan(solved.regimes), .statuses = absl::MakeSpan(solved.statuses)};
-  for (const std::vector<double>& column : table.columns) rows.inputs.emplace_back(column);
+  for (size_t i = 0; i < table.columns.size(); ++i) {
+    if (reader.IsSkipped(i)) continue;
+    solved.setup.fields.push_back(table.header[i]);
+    rows.inputs.emplace_back(table.columns[i]);
+  }
   for (std::vector<double>& column : solved.outputs) rows.outputs.push_back(absl::MakeSpan(column));
   absl::StatusOr<BatchResponse> response = solver.SolveBatch(solved.setup, rows);
-  if (response.ok()) solved.response = *std::move(response);
-  return response.status();
+  if (!response.ok()) return response.status();
+  solved.response = *std::move(response);
+  NameBadCells(table.bad, solved.response.summary);
+  return absl::OkStatus();
 }
 
-std::string SummaryText(const BatchSummary& summary) {
-  const auto invalid = summary.counts.by_regime[static_cast<size_t>(Regime::kInvalid)].count;
+int64_t InvalidRows(const BatchSummary& summary) {
+  return summary.counts.by_regime[static_cast<size_t>(Regime::kInvalid)].count;
+}
+
+std::string SummaryText(const Solved& solved) {
+  const BatchSummary& summary = solved.response.summary;
+  const int64_t invalid = InvalidRows(summary);
   std::string text = absl::StrCat(summary.counts.points, summary.counts.points == 1 ? " row, " : " rows, ", invalid,
                                   " without numbers, ", summary.counts.inadmissible.count, " inadmissible\n");
   for (const BadRow& bad : summary.bad_rows) {
-    absl::StrAppend(&text, "  row ", bad.row, ": ", bad.field, " ", bad.description, "\n");
+    absl::StrAppend(&text, "  row ", bad.row, " (line ", solved.lines[static_cast<size_t>(bad.row)],
+                    "): ", bad.field, bad.field.empty() ? "" : " ", bad.description, "\n");
   }
   if (invalid > static_cast<int64_t>(summary.bad_rows.size())) {
     absl::StrAppend(&text, "  and ", invalid - static_cast<int64_t>(summary.bad_rows.size()), " more\n");
@@ -92,7 +135,7 @@ std::string Text(const Solved& solved) {
   if (solved.regimes.size() > kTextRows) {
     absl::StrAppend(&text, "... and ", solved.regimes.size() - kTextRows, " more rows; --format csv has them all\n");
   }
-  return absl::StrCat(text, "\n", SummaryText(solved.response.summary));
+  return absl::StrCat(text, "\n", SummaryText(solved));
 }
 
 std::string Csv(const Solved& solved) {
@@ -149,7 +192,7 @@ absl::Status Write(const Solved& solved, const CommonOptions& options) {
       break;
   }
   absl::Status written = WriteOutput(options, options.format == Format::kCsv ? Csv(solved) : JsonLines(solved));
-  if (written.ok()) std::cerr << SummaryText(solved.response.summary);
+  if (written.ok()) std::cerr << SummaryText(solved);
   return written;
 }
 
@@ -159,16 +202,21 @@ absl::Status SolveData(const DataOptions& data, const CommonOptions& options, co
                        const DemandFields& demand) {
   const absl::StatusOr<std::string> text = ReadText(data.file);
   if (!text.ok()) return text.status();
-  const absl::StatusOr<CsvTable> table = ParseCsvTable(*text, data.file == "-" ? "standard input" : data.file);
-  if (!table.ok()) return table.status();
-  const absl::StatusOr<std::vector<std::string>> columns = FullColumns(scene, data.columns);
+  std::istringstream stream(*text);
+  absl::StatusOr<CsvReader> reader = OpenTable(stream, data, scene);
+  if (!reader.ok()) return reader.status();
+  const absl::StatusOr<std::vector<std::string>> columns = FullColumns(Columns(scene), data.columns);
   if (!columns.ok()) return columns.status();
   Solved solved = {.setup = {.scene = scene,
-                             .fields = table->header,
+                             .fields = {},
                              .columns = columns->empty() ? DefaultColumns(scene) : *columns,
                              .demand = demand}};
-  if (absl::Status status = Solve(*table, solver, solved); !status.ok()) return status;
-  return Write(solved, options);
+  if (absl::Status status = Solve(*reader, solver, solved); !status.ok()) return status;
+  if (absl::Status status = Write(solved, options); !status.ok()) return status;
+  const BatchSummary& summary = solved.response.summary;
+  const int64_t bad = InvalidRows(summary) + summary.counts.inadmissible.count;
+  if (!data.strict || bad == 0) return absl::OkStatus();
+  return absl::FailedPreconditionError(absl::StrCat(bad, " of ", summary.counts.points, " rows are not admissible"));
 }
 
 }  // namespace ricochet::cli

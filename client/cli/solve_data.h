@@ -15,11 +15,14 @@
 namespace ricochet::cli {
 
 struct DataOptions {
-  std::string file;                  // A table; - for standard input.
-  std::vector<std::string> columns;  // Of the outcome. Empty: the contact's velocity after the impact and the impulse.
+  std::string file;                          // A table; - for standard input.
+  std::vector<std::string> skipped_columns;  // Of the table, to be left out.
+  std::vector<std::string> columns;          // Of the outcome. Empty: the contact's velocity after and the impulse.
+  bool strict = false;                       // A row that has no numbers, or is inadmissible, is an error.
 };
 
-// Solves the rows and writes them as the options ask. Errors: those of reading, of the solver and of Output.
+// Solves the rows and writes them as the options ask. The header may have short names (client/cli/short_name.h).
+// Errors: those of reading, of the solver and of Output; FAILED_PRECONDITION under `strict`, after everything was written.
 absl::Status SolveData(const DataOptions& data, const CommonOptions& options, const Solver& solver, const Scene& scene,
                        const DemandFields& demand);
 

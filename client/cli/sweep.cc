@@ -96,13 +96,12 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   if (!scene.ok()) return scene.status();
   request.grid.scene = *std::move(scene);
   for (const std::string& text : options.axes) {
-    absl::StatusOr<Axis> axis = ParseAxis(text);
+    absl::StatusOr<Axis> axis = ParseAxis(text, request.grid.scene);
     if (!axis.ok()) return axis.status();
-    if (absl::Status status = ExpandField(request.grid.scene, "--axis", axis->path); !status.ok()) return status;
     request.grid.axes.push_back(*std::move(axis));
   }
   request.grid.combination = options.zip ? Combination::kZip : Combination::kProduct;
-  absl::StatusOr<std::vector<std::string>> columns = FullColumns(request.grid.scene, options.columns);
+  absl::StatusOr<std::vector<std::string>> columns = FullColumns(Columns(request.grid.scene), options.columns);
   if (!columns.ok()) return columns.status();
   request.columns = columns->empty() ? DefaultColumns(request.grid.scene) : *std::move(columns);
   request.with_regime = options.regime;
@@ -291,15 +290,15 @@ absl::Status RunSweep(const SweepOptions& options) {
 
 void AddGridOptions(CLI::App& sub, SweepOptions& options) {
   sub.add_option("--axis", options.axes,
-                 "A field that varies: a list 0.1,1/3,0.5 or lin:START:STOP:COUNT or log:START:STOP:COUNT; may be "
-                 "repeated")
+                 "A field that varies: a list 0.1,1/3,0.5 or lin:START:STOP:COUNT or log:START:STOP:COUNT; an angle may "
+                 "be in degrees, 45deg; may be repeated")
       ->type_name("PATH=VALUES")
       ->allow_extra_args(false)
       ->group("Grid");
   sub.add_flag("--zip", options.zip, "Advance all axes together instead of combining their values")->group("Grid");
   sub.add_option("--column", options.columns,
                  "Fields of the outcome to compute; default: the three coefficients and rates_after_rad_s[0]")
-      ->type_name("NAME,...")
+      ->type_name("COLUMN,...")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->group("Grid");

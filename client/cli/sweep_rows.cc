@@ -8,6 +8,7 @@
 #include "absl/strings/str_join.h"
 #include "client/cli/common.h"
 #include "client/cli/field_table.h"
+#include "client/cli/short_name.h"
 #include "core/scene/nearest.h"
 
 namespace ricochet::cli {
@@ -49,8 +50,10 @@ absl::Status TooManyPoints() {
 
 absl::StatusOr<std::vector<std::string>> ChooseColumns(const std::vector<std::string>& columns,
                                                        const std::vector<std::string>& wanted) {
+  absl::StatusOr<std::vector<std::string>> chosen = FullColumns(columns, wanted);
+  if (!chosen.ok()) return chosen.status();
   std::set<std::string> seen;
-  for (const std::string& name : wanted) {
+  for (const std::string& name : *chosen) {
     if (PlaceOf(name, columns) == columns.size()) {
       return absl::InvalidArgumentError(absl::StrCat("--column ", name, ": must be a column of the file",
                                                      DidYouMean(name, columns),
@@ -60,7 +63,7 @@ absl::StatusOr<std::vector<std::string>> ChooseColumns(const std::vector<std::st
       return absl::InvalidArgumentError(absl::StrCat("--column ", name, ": must be named once"));
     }
   }
-  return wanted.empty() ? columns : wanted;
+  return chosen->empty() ? columns : *std::move(chosen);
 }
 
 absl::StatusOr<SweepRows> SweepRows::Create(const std::vector<std::string>& names,

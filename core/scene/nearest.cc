@@ -4,6 +4,7 @@
 #include <limits>
 #include <numeric>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 
 namespace ricochet {
@@ -11,6 +12,18 @@ namespace {
 
 // This bounds the time that a hostile text takes.
 constexpr size_t kMostCharacters = 80;
+
+// Returns the only path that ends in `name` after a dot; empty if there is none, or several.
+std::string OnlyPathThatEndsIn(absl::string_view name, const std::vector<std::string>& known) {
+  const std::string ending = absl::StrCat(".", name);
+  std::string only;
+  for (const std::string& path : known) {
+    if (name.empty() || !absl::EndsWith(path, ending)) continue;
+    if (!only.empty()) return "";
+    only = path;
+  }
+  return only;
+}
 
 }  // namespace
 
@@ -32,7 +45,8 @@ size_t EditDistance(absl::string_view a, absl::string_view b) {
 
 std::string NearestName(absl::string_view name, const std::vector<std::string>& known) {
   if (name.size() > kMostCharacters) return "";
-  std::string nearest;
+  std::string nearest = OnlyPathThatEndsIn(name, known);
+  if (!nearest.empty()) return nearest;
   size_t least = std::numeric_limits<size_t>::max();
   for (const std::string& candidate : known) {
     const size_t distance = EditDistance(name, candidate);

@@ -1,17 +1,27 @@
 // ricochet_describe: prints the options of both programs as JSON, from which the manual pages and the completions are made.
-// It is not installed.
+// It also prints the words that complete values: systems, effects, paths and columns. It is not installed.
 
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "absl/status/status.h"
 #include "absl/strings/ascii.h"
 #include "absl/synchronization/mutex.h"
+#include "client/cli/plan_report.h"
 #include "client/cli/program.h"
+#include "client/cli/scene_input.h"
+#include "client/cli/scene_templates.h"
+#include "core/scene/field.h"
+#include "core/sweep/column.h"
+#include "proto/wire/scene.h"
+#include "ricochet/plan.h"
 #include "server/command_line.h"
 
 namespace {
@@ -50,6 +60,41 @@ void Describe(const CLI::App& app, Struct& object) {
   }
 }
 
+// Appends the words that are not there yet.
+void AddNew(const std::vector<std::string>& words, std::vector<std::string>& all) {
+  for (const std::string& word : words) {
+    if (std::find(all.begin(), all.end(), word) == all.end()) all.push_back(word);
+  }
+}
+
+void SetWords(Struct& object, const std::string& value, const std::vector<std::string>& words) {
+  ListValue& list = List(object, value);
+  for (const std::string& word : words) list.add_values()->set_string_value(word);
+}
+
+// Describes the words that may stand for each kind of value, by the name of the kind in the help. Paths and columns are
+// those of the scenes of all templates together.
+absl::Status DescribeValues(Struct& object) {
+  std::vector<std::string> systems, paths, columns, effects;
+  for (const ricochet::cli::SceneTemplate& one : ricochet::cli::SceneTemplates()) {
+    ricochet::v1::Scene proto;
+    if (absl::Status bad = ricochet::cli::ParseMessage("template.textproto", one.text, proto); !bad.ok()) return bad;
+    const ricochet::Scene scene = ricochet::FromProto(proto);
+    systems.push_back(one.system);
+    AddNew(ricochet::FieldPaths(scene), paths);
+    AddNew(ricochet::Columns(scene), columns);
+  }
+  for (int i = 1; i < ricochet::kEffectCount; ++i) {
+    effects.push_back(ricochet::cli::EffectWord(static_cast<ricochet::Effect>(i)));
+  }
+  SetWords(object, "SYSTEM", systems);
+  SetWords(object, "EFFECT,...", effects);
+  SetWords(object, "COLUMN,...", columns);
+  SetWords(object, "PATH=VALUES", paths);
+  SetWords(object, "PATH=LOW:HIGH", paths);
+  return absl::OkStatus();
+}
+
 }  // namespace
 
 int main() {
@@ -58,6 +103,7 @@ int main() {
   ricochet::cli::Command command;
   Describe(*ricochet::cli::MakeProgram({"ricochet"}, command), *List(programs, "programs").add_values()->mutable_struct_value());
   Describe(*ricochet::server::MakeCommandLine(), *List(programs, "programs").add_values()->mutable_struct_value());
+  if (!DescribeValues(*(*programs.mutable_fields())["values"].mutable_struct_value()).ok()) return 1;
   std::string text;
   if (!google::protobuf::util::MessageToJsonString(programs, &text).ok()) return 1;
   std::cout << text << '\n';

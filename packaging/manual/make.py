@@ -21,14 +21,15 @@ def write(path, text):
 
 def main():
     source, version, directory = sys.argv[1], sys.argv[2], Path(sys.argv[3])
-    for program in json.loads(Path(source).read_text(encoding="utf-8"))["programs"]:
+    described = json.loads(Path(source).read_text(encoding="utf-8"))
+    for program in described["programs"]:
         name = program["name"]
         section = SECTIONS[name]
         folder = directory / f"man{section}"
         for title, text in man_page.pages(program, section, SUMMARIES[name], version):
             write(folder / f"{title}.{section}", text)
-        write(directory / "bash" / name, completion.bash(program))
-        write(directory / "zsh" / f"_{name}", completion.zsh(program))
+        write(directory / "bash" / name, completion.bash(program, described["values"]))
+        write(directory / "zsh" / f"_{name}", completion.zsh(program, described["values"]))
 
 
 if __name__ == "__main__":

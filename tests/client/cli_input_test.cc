@@ -1,8 +1,10 @@
 // Numbers, times, axes and ranges are read as people type them, and progress is shown as people read it.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <limits>
 
 #include "client/cli/axis_input.h"
 #include "client/cli/label.h"
@@ -14,6 +16,7 @@ namespace ricochet::cli {
 namespace {
 
 using std::chrono::milliseconds;
+using testing::HasSubstr;
 
 TEST(ParseNumber, TakesDecimalsAndFractions) {
   EXPECT_EQ(ParseNumber("0.1", "x").value(), 0.1);
@@ -26,6 +29,29 @@ TEST(ParseNumber, TakesNothingElse) {
   for (const char* text : {"", "/", "1/", "/2", "1 2", "0x10", "1,5", "pi", "1/2/3", "1e999"}) {
     EXPECT_EQ(ParseNumber(text, "x").status().code(), absl::StatusCode::kInvalidArgument) << text;
   }
+}
+
+TEST(ParseNumber, TakesDegreesForAnglesAlone) {
+  const auto angle = [](const char* text) { return ParseNumber(text, "x", Spelling::kAngle).value(); };
+  // The decimals are those of pi and its parts to 20 digits.
+  EXPECT_EQ(angle("180deg"), 3.1415926535897932385);
+  EXPECT_EQ(angle("45deg"), 0.78539816339744830962);
+  EXPECT_EQ(angle("-30deg"), -0.52359877559829887308);
+  EXPECT_EQ(angle("180/7deg"), 0.44879895051282760550);
+  EXPECT_EQ(angle("0.5"), 0.5);
+  for (const char* text : {"deg", "45 deg", "45degrees", "45degdeg", "1/0deg", "45rad"}) {
+    EXPECT_FALSE(ParseNumber(text, "x", Spelling::kAngle).ok()) << text;
+  }
+  EXPECT_EQ(ParseNumber("45deg", "x").status().message(),
+            "x = 45deg: must be a number without deg, because it is no angle");
+}
+
+TEST(ParseNumber, SaysThatANumberIsNoDoubleOrHasADecimalComma) {
+  constexpr char kSize[] = "must be 0, or a number of a size from 4.95e-324 to 1.7976931348623157e+308";
+  EXPECT_THAT(ParseNumber("1e400", "x").status().message(), HasSubstr(kSize));
+  EXPECT_THAT(ParseNumber("-1e-400", "x").status().message(), HasSubstr(kSize));
+  EXPECT_EQ(ParseNumber("5e-324", "x").value(), std::numeric_limits<double>::denorm_min());
+  EXPECT_THAT(ParseNumber("0,7", "x").status().message(), HasSubstr("with a decimal point, not a comma"));
 }
 
 TEST(ParseCount, TakesWholeNumbersInEitherForm) {
@@ -45,11 +71,29 @@ TEST(ParseDuration, TakesUnits) {
   for (const char* text : {"", "s", "-1s", "0.1ms", "1d", "9000h"}) EXPECT_FALSE(ParseDuration(text, "x").ok()) << text;
 }
 
+const Scene kPendulum = {.system = Pendulum()};
+
 TEST(ParseAxis, TakesListsLinspacesAndLogspaces) {
-  EXPECT_EQ(ParseAxis("friction.kinetic_coefficient=0.1,1/3").value(),
+  EXPECT_EQ(ParseAxis("friction.kinetic_coefficient=0.1,1/3", kPendulum).value(),
             (Axis{"friction.kinetic_coefficient", ListValues{{0.1, 1.0 / 3.0}}}));
-  EXPECT_EQ(ParseAxis("pendulum.a_m=lin:0:1/2:1e3").value(), (Axis{"pendulum.a_m", Linspace{0.0, 0.5, 1000}}));
-  EXPECT_EQ(ParseAxis("pendulum.a_m=log:1e-3:1:4").value(), (Axis{"pendulum.a_m", Logspace{1e-3, 1.0, 4}}));
+  EXPECT_EQ(ParseAxis("pendulum.a_m=lin:0:1/2:1e3", kPendulum).value(),
+            (Axis{"pendulum.a_m", Linspace{0.0, 0.5, 1000}}));
+  EXPECT_EQ(ParseAxis("a=log:1e-3:1:4", kPendulum).value(), (Axis{"pendulum.a_m", Logspace{1e-3, 1.0, 4}}));
+}
+
+// The decimals are those of pi/4 and pi/3 to 20 digits.
+TEST(ParseAxis, TakesDegreesWhereTheFieldIsAnAngle) {
+  EXPECT_EQ(ParseAxis("phi=45deg,1", kPendulum).value(),
+            (Axis{"pendulum.phi_rad", ListValues{{0.78539816339744830962, 1.0}}}));
+  EXPECT_EQ(ParseAxis("phi=lin:45deg:60deg:15", kPendulum).value(),
+            (Axis{"pendulum.phi_rad", Linspace{0.78539816339744830962, 1.0471975511965977462, 15}}));
+  EXPECT_EQ(ParseFieldRange("phi=45deg:60deg", kPendulum).value(),
+            (FieldRange{"pendulum.phi_rad", 0.78539816339744830962, 1.0471975511965977462}));
+  // A rate is no angle, and neither is a length.
+  for (const char* text : {"omega=45deg", "a=45deg", "mu=lin:0deg:1:3", "phi=lin:0:1:3deg"}) {
+    EXPECT_FALSE(ParseAxis(text, kPendulum).ok()) << text;
+  }
+  EXPECT_FALSE(ParseFieldRange("a=1deg:2", kPendulum).ok());
 }
 
 TEST(ParseRange, MayLeaveEitherEndOpen) {
@@ -60,9 +104,9 @@ TEST(ParseRange, MayLeaveEitherEndOpen) {
 }
 
 TEST(ParseFieldRange, TakesAPathAndTwoNumbers) {
-  EXPECT_EQ(ParseFieldRange("pendulum.b_m=-1/2:1e-3").value(), (FieldRange{"pendulum.b_m", -0.5, 1e-3}));
+  EXPECT_EQ(ParseFieldRange("pendulum.b_m=-1/2:1e-3", kPendulum).value(), (FieldRange{"pendulum.b_m", -0.5, 1e-3}));
   for (const char* text : {"", "pendulum.b_m", "=1:2", "pendulum.b_m=1", "pendulum.b_m=:1", "pendulum.b_m=1:2:3"}) {
-    EXPECT_FALSE(ParseFieldRange(text).ok()) << text;
+    EXPECT_FALSE(ParseFieldRange(text, kPendulum).ok()) << text;
   }
 }
 

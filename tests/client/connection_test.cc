@@ -19,6 +19,7 @@ using testing::ElementsAre;
 using testing::Field;
 using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 std::vector<Violation> ViolationsOf(const std::string& target, const SecurityOptions& security) {
   return ricochet::ViolationsOf(Client::Connect({.target = target, .security = security}).status());
@@ -92,6 +93,119 @@ TEST_F(Connection, FlagThatNeedsAServerIsRefusedWithoutOne) {
   }
   // A setting for all commands of a shell does no harm to those that compute here.
   EXPECT_EQ(RunShell("RICOCHET_TLS_CA=x \"$R\" solve --a 0.3 --b 1 --energetic 1 -o /dev/null").exit_code, 0);
+}
+
+// A real server with TLS that wants certificates of its clients, one with TLS alone, and one without, with the files that
+// clients may show them.
+class ExitCodes : public CliTest {
+ protected:
+  ExitCodes() {
+    files_.MakeAuthority("other");
+    files_.Make("server", "ricochet.test");
+    files_.Make("ended", "ricochet.test", "ca", -1);
+    files_.Make("client", "lab.test");
+    files_.Make("old", "lab.test", "ca", -1);
+    files_.Make("stranger", "lab.test", "other");
+    files_.Write("garbage.pem", "-----BEGIN CERTIFICATE-----\nAAAA\n");
+    files_.Write("empty", "");
+    files_.Write("blank", " \n");
+    files_.Write("two words", "secret secret\n");
+  }
+
+  // Returns what `ricochet solve` says of the server with these flags.
+  CliResult Solve(const std::string& server, const Arguments& flags) const {
+    Arguments all = {"solve", "--a", "0.3", "--b", "1", "--energetic", "1", "--server", server};
+    all.insert(all.end(), flags.begin(), flags.end());
+    return Run(all);
+  }
+
+  TestCertificates files_;
+};
+
+struct Failure {
+  std::string server;
+  Arguments flags;
+  int exit_code;
+  std::string message;
+};
+
+TEST_F(ExitCodes, TryAgainIsSaidOnlyOfWhatARetryCanMend) {
+  const ServerProcess tls({"--tls-cert", files_ / "server.pem", "--tls-key", files_ / "server.key"});
+  const ServerProcess mutual({"--tls-cert", files_ / "server.pem", "--tls-key", files_ / "server.key",
+                              "--tls-client-ca", files_ / "ca.pem"});
+  const ServerProcess plain;
+  const std::string ca = files_ / "ca.pem";
+  const Arguments trusting = {"--tls-ca", ca, "--server-name", "ricochet.test"};
+  const auto showing = [&](const std::string& certificate, const std::string& key) {
+    return Arguments{"--tls-ca", ca, "--server-name", "ricochet.test", "--tls-cert", files_ / certificate,
+                     "--tls-key", files_ / key};
+  };
+  const Failure failures[] = {
+      // The request is wrong: its files, its address.
+      {tls.address(), {"--tls-ca", "nosuch"}, 2, "--tls-ca: security.tls_ca = nosuch: must be a file"},
+      {tls.address(), {"--tls-ca", files_ / "empty"}, 2, "must be a file that can be read and is not empty"},
+      {tls.address(), {"--tls-ca", files_ / "garbage.pem"}, 2, "garbage.pem: must hold a certificate in PEM form"},
+      {tls.address(), showing("garbage.pem", "client.key"), 2, "--tls-cert: security.tls_cert = "},
+      {tls.address(), showing("old.pem", "old.key"), 2, "must hold a certificate whose time has not ended"},
+      {tls.address(), showing("client.pem", "nosuch"), 2, "--tls-key: security.tls_key = "},
+      {tls.address(), showing("client.pem", "garbage.pem"), 2, "must hold a private key in PEM form"},
+      {tls.address(), showing("client.pem", "stranger.key"), 2, "must hold the private key of security.tls_cert"},
+      {plain.address(), {"--token-file", "nosuch"}, 2, "--token-file: security.token_file = nosuch: must be a file"},
+      {plain.address(), {"--token-file", files_ / "blank"}, 2, "must hold a token of visible ASCII characters only"},
+      {plain.address(), {"--token-file", files_ / "two words"}, 2, "must hold a token of visible ASCII characters"},
+      {"http://127.0.0.1:5", {}, 2, "--server: target = \"http://127.0.0.1:5\": must be HOST:PORT or unix:PATH"},
+      {"127.0.0.1:65536", {}, 2, "must have a port from 1 to 65535"},
+      // The server is not the one that is meant, or refuses this client.
+      {tls.address(), {"--tls-ca", files_ / "other.pem", "--server-name", "ricochet.test"}, 42, "is not trusted"},
+      {tls.address(), {"--tls", "--server-name", "ricochet.test"}, 42, "is not trusted"},
+      {tls.address(), {"--tls-ca", ca, "--server-name", "other.test"}, 42, "is for another name"},
+      {tls.address(), {"--tls-ca", ca}, 42, "is for another name"},
+      {plain.address(), trusting, 42, "the server does not speak TLS"},
+      {mutual.address(), trusting, 42, "the server refuses this client: tlsv13 alert certificate required"},
+      {mutual.address(), showing("stranger.pem", "stranger.key"), 42, "the server refuses this client: tlsv1 alert"},
+      // The server may be there soon, or have room soon.
+      {"127.0.0.1:1", {}, 75, "UNAVAILABLE"},
+      {"127.0.0.1:1", trusting, 75, "UNAVAILABLE"},
+      {"unix:/nonexistent", {}, 75, "UNAVAILABLE"},
+      {tls.address(), {}, 75, "it has no room, or it wants TLS"},
+      // And what is right is right.
+      {tls.address(), trusting, 0, ""},
+      {mutual.address(), showing("client.pem", "client.key"), 0, ""},
+      {plain.address(), {}, 0, ""},
+  };
+  for (const Failure& failure : failures) {
+    const CliResult result = Solve(failure.server, failure.flags);
+    EXPECT_EQ(result.exit_code, failure.exit_code) << testing::PrintToString(failure.flags) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(failure.message));
+    EXPECT_THAT(result.err, Not(HasSubstr(".cc:"))) << "the log of gRPC";
+  }
+}
+
+TEST_F(ExitCodes, ACertificateOfTheServerThatHasEndedIsNotToBeTriedAgain) {
+  const ServerProcess server({"--tls-cert", files_ / "ended.pem", "--tls-key", files_ / "ended.key"});
+  const CliResult result = Solve(server.address(), {"--tls-ca", files_ / "ca.pem", "--server-name", "ricochet.test"});
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("is not trusted"));
+}
+
+TEST_F(ExitCodes, EveryKindOfCallIsToldTheSame) {
+  const ServerProcess tls({"--tls-cert", files_ / "server.pem", "--tls-key", files_ / "server.key"});
+  const std::string flags = " --server " + tls.address() + " --tls-ca " + files_ / "other.pem";
+  const std::string scene = " --a 0.3 --b 1 --mu 0.1 --energetic 1";
+  for (const std::string& command :
+       {"solve" + scene, "bounds" + scene, "cost" + scene, "audit --observed-rate 0.1" + scene, std::string("info"),
+        std::string("health"), "sweep --axis mu=lin:0:0.4:3" + scene, "solve --data -" + scene}) {
+    const CliResult result = RunShell("\"$R\" " + command + flags, "mu\n0.1\n");
+    EXPECT_EQ(result.exit_code, 42) << command << result.err;
+    EXPECT_THAT(result.err, HasSubstr("the server's certificate is not trusted")) << command;
+  }
+}
+
+TEST_F(ExitCodes, TheLogOfGrpcIsShownWhereItIsAskedFor) {
+  const ServerProcess tls({"--tls-cert", files_ / "server.pem", "--tls-key", files_ / "server.key"});
+  const CliResult result = RunShell("GRPC_VERBOSITY=ERROR \"$R\" health --tls --server " + tls.address());
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("ssl_transport_security.cc"));
 }
 
 TEST_F(Connection, EverySubcommandProvesWhoItIs) {

@@ -15,7 +15,7 @@ int main() {
   const ricochet::LocalSolver solver;
   const auto response = solver.Solve({.scene = scene});
   if (!response.ok()) {
-    std::cerr << response.status() << '\n';
+    std::cerr << response.status().message() << '\n';
     return 1;
   }
   for (const ricochet::BodyVelocity& body : response->outcome.bodies_after) {

@@ -102,25 +102,39 @@ TEST_F(Tls, ServesClientsThatTrustItsAuthority) {
 TEST_F(Tls, ClientDistrustsAnotherAuthority) {
   files_.MakeAuthority("other");
   const ServerProcess server(Flags());
-  EXPECT_EQ(SolveCode(server, Trusting("other")), StatusCode::kUnavailable);
+  EXPECT_EQ(SolveCode(server, Trusting("other")), StatusCode::kFailedPrecondition);
 }
 
 TEST_F(Tls, ClientDistrustsAnotherName) {
   const ServerProcess server(Flags());
   SecurityOptions security = Trusting();
   security.server_name = "other.test";
-  EXPECT_EQ(SolveCode(server, security), StatusCode::kUnavailable);
+  EXPECT_EQ(SolveCode(server, security), StatusCode::kFailedPrecondition);
 }
 
 TEST_F(Tls, ClientDistrustsAnExpiredCertificate) {
   files_.Make("server", kHost, "ca", -1);
   const ServerProcess server(Flags());
-  EXPECT_EQ(SolveCode(server, Trusting()), StatusCode::kUnavailable);
+  EXPECT_EQ(SolveCode(server, Trusting()), StatusCode::kFailedPrecondition);
 }
 
 TEST_F(Tls, PlaintextIsRefused) {
   const ServerProcess server(Flags());
   EXPECT_EQ(SolveCode(server, {}), StatusCode::kUnavailable);
+}
+
+// A list of servers is still gone through to the end: the one that is trusted answers.
+TEST_F(Tls, ServerThatIsNotTrustedLeavesTheCallToTheNext) {
+  files_.MakeAuthority("other");
+  files_.Make("stranger", kHost, "other");
+  const ServerProcess stranger({"--tls-cert", files_ / "stranger.pem", "--tls-key", files_ / "stranger.key"});
+  const ServerProcess server(Flags());
+  const std::string both = stranger.address() + "," + server.address();
+  EXPECT_EQ(Solve(both, Trusting()).code(), StatusCode::kOk);
+  const Client client = Client::Connect({.target = both, .security = Trusting(), .user_agent = "list"}).value();
+  for (const auto& chunk : client.Sweep({.grid = {.scene = AnyScene()}, .columns = {"coefficients.newton"}})) {
+    EXPECT_TRUE(chunk.ok()) << chunk.status();
+  }
 }
 
 TEST_F(Tls, NewCertificateIsUsedWithoutRestart) {
@@ -130,7 +144,7 @@ TEST_F(Tls, NewCertificateIsUsedWithoutRestart) {
   ASSERT_EQ(SolveCode(server, Trusting()), StatusCode::kOk);
   files_.Replace("server", "new");
   EXPECT_TRUE(Eventually([&] { return SolveCode(server, Trusting("next")) == StatusCode::kOk; }));
-  EXPECT_EQ(SolveCode(server, Trusting()), StatusCode::kUnavailable);
+  EXPECT_EQ(SolveCode(server, Trusting()), StatusCode::kFailedPrecondition);
 }
 
 TEST_F(Tls, BrokenNewCertificateLeavesTheOldOneInUse) {
@@ -213,7 +227,8 @@ TEST_F(MutualTls, RefusesCertificatesOfAnotherAuthorityAndExpiredOnes) {
   files_.Make("old", "lab.test", "ca", -1);
   const ServerProcess server(Flags());
   EXPECT_EQ(SolveCode(server, WithCertificate("stranger")), StatusCode::kUnavailable);
-  EXPECT_EQ(SolveCode(server, WithCertificate("old")), StatusCode::kUnavailable);
+  // Its client knows that it has ended, and does not show it.
+  EXPECT_EQ(SolveCode(server, WithCertificate("old")), StatusCode::kInvalidArgument);
 }
 
 TEST_F(MutualTls, CertificateCountsByItsNameWhereThereAreTokens) {

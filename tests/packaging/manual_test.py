@@ -58,6 +58,15 @@ class Help(unittest.TestCase):
             self.assertRegex(help_of(RICOCHET, name), rf"(?m)^  [$>]( .*)? ricochet {name}\b", name)
 
 
+    def test_the_words_of_other_programs_ask_for_it(self):
+        self.assertEqual(run(RICOCHET, "help").stdout, help_of(RICOCHET))
+        self.assertEqual(run(RICOCHET, "help", "solve").stdout, help_of(RICOCHET, "solve"))
+        self.assertEqual(run(RICOCHET, "help", "scene", "list").stdout, help_of(RICOCHET, "scene", "list"))
+        for word in ("version", "-V"):
+            self.assertEqual(run(RICOCHET, word).stdout, run(RICOCHET, "--version").stdout)
+        self.assertIn("ricochet 0.", run(RICOCHET, "version").stdout)
+
+
 class ManualPages(unittest.TestCase):
     def pages(self):
         pages = sorted(MANUAL.glob("man?/*"))
@@ -110,6 +119,31 @@ class BashCompletion(unittest.TestCase):
     def test_words_that_a_flag_takes(self):
         self.assertEqual(completions("ricochet", "sweep", "--format", ""), {"text", "json", "jsonl", "csv", "npy", "netcdf"})
 
+    def test_words_stand_for_systems_effects_and_paths(self):
+        systems = set(run(RICOCHET, "scene", "list").stdout.split("\n"))
+        systems = {line.split()[0] for line in systems if re.match("[a-z]", line)}
+        self.assertGreaterEqual(len(systems), 7)
+        self.assertEqual(completions("ricochet", "scene", "template", ""), systems)
+        self.assertEqual(completions("ricochet", "scene", "template", "lin"), {"linkage"})
+        for flag in ("--require", "--exclude"):
+            self.assertEqual(completions("ricochet", "solve", flag, "finite-"), {"finite-duration", "finite-forces"})
+        self.assertEqual(completions("ricochet", "solve", "--exclude", "friction,fin"),
+                         {"friction,finite-duration", "friction,finite-forces"})
+
+    def test_axes_and_columns_are_those_of_every_system(self):
+        for system in ("pendulum", "linkage", "body_pair", "spatial_contact"):
+            with self.subTest(system):
+                scene = run(RICOCHET, "scene", "template", system).stdout
+                axes = set(run(RICOCHET, "sweep", "--scene", "-", "--axis", "?", text=scene).stdout.split())
+                columns = set(run(RICOCHET, "sweep", "--scene", "-", "--column", "?", text=scene).stdout.split())
+                self.assertLessEqual({f"{path}=" for path in axes}, completions("ricochet", "sweep", "--axis", ""))
+                self.assertLessEqual(columns, completions("ricochet", "sweep", "--column", ""))
+        self.assertEqual(completions("ricochet", "bounds", "--range", "pendulum.a"), {"pendulum.a_m="})
+        self.assertEqual(completions("ricochet", "sweep", "--axis", "pendulum.a_m=0"), set())
+        for command in ("solve", "sweep", "plot"):
+            self.assertEqual(completions("ricochet", command, "--column", "coefficients.newton,coefficients.p"),
+                             {"coefficients.newton,coefficients.poisson"})
+
     def test_files(self):
         self.assertIn(str(MANUAL / "bash"), completions("ricochet", "solve", "--scene", str(MANUAL / "ba")))
 
@@ -128,6 +162,13 @@ class ZshCompletion(unittest.TestCase):
         for name in subcommands():
             self.assertIn(f"_ricochet_{name}() {{", text)
             self.assertIn(f"{name}) _ricochet_{name} ;;", text)
+
+    def test_values_have_functions(self):
+        text = (MANUAL / "zsh/_ricochet").read_text()
+        for name in set(re.findall(r":value:(_\w+)", text)):
+            self.assertIn(f"{name}() {{", text)
+        self.assertRegex(text, r"'\*--exclude\[.*:value:_ricochet_effect_word'")
+        self.assertRegex(text, r"'\*--axis\[.*:value:_ricochet_path_word'")
 
 
 if __name__ == "__main__":

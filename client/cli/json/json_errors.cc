@@ -11,6 +11,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "core/scene/nearest.h"
 
@@ -95,15 +96,16 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     Level& level = levels_.back();
     level.name = name;
     level.field = nullptr;
-    if (level.type == nullptr) return true;
-    std::vector<std::string> known;
-    for (int i = 0; i < level.type->field_count(); ++i) {
+    for (int i = 0; level.type != nullptr && i < level.type->field_count(); ++i) {
       const FieldDescriptor* field = level.type->field(i);
-      known.push_back(field->name());
       if (name == field->name() || name == field->json_name()) level.field = field;
     }
-    if (level.field != nullptr) return true;
-    return Fail(absl::StrCat(Path(), ": is no field of ", level.type->name(), DidYouMean(name, known)));
+    if (level.type != nullptr && level.field == nullptr) {
+      return Fail(absl::StrCat(Path(), ": is no field of ", level.type->name(), FieldHint(*level.type, name)));
+    }
+    const auto [before, is_first] = level.given.emplace(level.field == nullptr ? name : level.field->name(), name);
+    if (is_first) return true;
+    return Fail(absl::StrCat(Path(), ": is given twice", before->second == name ? "" : ", before as " + before->second));
   }
 
   bool parse_error(size_t /*position*/, const std::string& /*token*/,
@@ -122,6 +124,7 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     size_t entries = 0;  // Those of a list before the one at hand.
     const FieldDescriptor* field = nullptr;
     std::string name = {};
+    std::map<std::string, std::string> given = {};  // How each field that was given before is spelled, by its name.
     std::map<const OneofDescriptor*, std::string> chosen = {};
   };
 
@@ -200,6 +203,13 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
 };
 
 }  // namespace
+
+std::string FieldHint(const Descriptor& type, const std::string& name) {
+  std::vector<std::string> known;
+  for (int i = 0; i < type.field_count(); ++i) known.push_back(type.field(i)->name());
+  const std::string nearest = DidYouMean(name, known);
+  return nearest.empty() ? absl::StrCat("; its fields are ", absl::StrJoin(known, ", ")) : nearest;
+}
 
 std::string ExplainJson(const std::string& text, const Descriptor& type) {
   Checker checker(text, type);

@@ -20,7 +20,7 @@ enum class Health {
 // Asks for the health of `service`, given by its full name; an empty name means the server as a whole. It waits for
 // ClientOptions::deadline at most. Of a list of servers the first that can be reached answers.
 // Errors: INVALID_ARGUMENT for invalid options, NOT_FOUND for a service that the server does not know, UNAVAILABLE and
-// DEADLINE_EXCEEDED of the network.
+// DEADLINE_EXCEEDED of the network, FAILED_PRECONDITION for a server that is not trusted or does not speak TLS.
 absl::StatusOr<Health> CheckHealth(const ClientOptions& options, const std::string& service);
 
 }  // namespace ricochet

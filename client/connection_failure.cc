@@ -1,0 +1,50 @@
+#include "client/connection_failure.h"
+
+#include <array>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+
+namespace ricochet {
+namespace {
+
+struct Cause {
+  const char* sign;  // A part of gRPC's message.
+  const char* words;
+  bool is_lasting;
+};
+
+// The first whose sign is found counts, so that a special one stands before the kind that it belongs to.
+constexpr std::array kCauses = {
+    Cause{"certificate verify failed",
+          "the server's certificate is not trusted: no authority of security.tls_ca (--tls-ca; default: those of the "
+          "system) has issued it, or its time has ended",
+          true},
+    Cause{"is not in peer certificate",
+          "the server's certificate is for another name: security.server_name (--server-name) says which one is expected",
+          true},
+    Cause{"wrong version number", "the server does not speak TLS", true},
+    Cause{"Ssl handshake failed: SSL_ERROR_SSL", "the server and this client cannot agree on TLS", true},
+    Cause{"Trying to connect an http1.x server", "the server speaks HTTP/1, so that it is no ricochetd", true},
+    Cause{"Socket closed", "the server closed the connection: it has no room, or it wants TLS (security.tls, --tls)", false},
+    Cause{"Endpoint read failed",
+          "the server closed the connection after the TLS handshake: it has no room, or it wants another certificate of "
+          "this client (security.tls_cert, --tls-cert)",
+          false},
+};
+
+}  // namespace
+
+absl::Status ExplainConnection(const absl::Status& status) {
+  if (!absl::IsUnavailable(status) || !absl::StartsWith(status.message(), "failed to connect to all addresses")) {
+    return status;
+  }
+  for (const Cause& cause : kCauses) {
+    if (!absl::StrContains(status.message(), cause.sign)) continue;
+    const absl::StatusCode code = cause.is_lasting ? absl::StatusCode::kFailedPrecondition : status.code();
+    return {code, absl::StrCat(cause.words, " (", status.message(), ")")};
+  }
+  return status;
+}
+
+}  // namespace ricochet
