@@ -220,7 +220,7 @@ SystemContact<Surd> ReduceExactly(const Scene& scene, const EffectiveCoefficient
   SetCoefficients(
       scene, effective, [](double x) { return Surd(x); }, system.contact);
   if (!scene.surface_velocity.has_value()) return system;
-  system.contact.u0 = system.contact.u0 - Surd(scene.surface_velocity->tangential_m_s[0]);
+  for (const double u : scene.surface_velocity->tangential_m_s) system.contact.u0 = system.contact.u0 - Surd(u);
   system.contact.v0 = system.contact.v0 - Surd(scene.surface_velocity->normal_m_s);
   system.lever.reset();
   system.is_pendulum = false;
@@ -267,7 +267,7 @@ std::optional<SystemContact<ArfInterval>> ReduceLinkage(const Scene& scene, cons
     if (n == 1) system.lever = jt[0][1];
     return system;
   }
-  contact.u0 = contact.u0 - Exactly(scene.surface_velocity->tangential_m_s[0], bits);
+  for (const double u : scene.surface_velocity->tangential_m_s) contact.u0 = contact.u0 - Exactly(u, bits);
   contact.v0 = contact.v0 - Exactly(scene.surface_velocity->normal_m_s, bits);
   return system;
 }

@@ -232,7 +232,9 @@ IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters, absl:
   if (!box.low.surface_velocity.has_value()) return contact;
   const SurfaceVelocity& low = *box.low.surface_velocity;
   const SurfaceVelocity& high = *box.high.surface_velocity;
-  contact.u0 = contact.u0 - SlopeForm::Parameter({low.tangential_m_s[0], high.tangential_m_s[0]}, parameters);
+  if (!low.tangential_m_s.empty()) {
+    contact.u0 = contact.u0 - SlopeForm::Parameter({low.tangential_m_s[0], high.tangential_m_s[0]}, parameters);
+  }
   contact.v0 = contact.v0 - SlopeForm::Parameter({low.normal_m_s, high.normal_m_s}, parameters);
   return contact;
 }

@@ -239,7 +239,7 @@ AnyReduction Reduce(const Scene& scene) {
   if (!scene.surface_velocity.has_value()) return reduction;
   std::visit(
       [&surface = *scene.surface_velocity](auto& reduced) {
-        for (size_t i = 0; i < reduced.u0.size(); ++i) reduced.u0[i] -= surface.tangential_m_s[i];
+        for (size_t i = 0; i < surface.tangential_m_s.size(); ++i) reduced.u0[i] -= surface.tangential_m_s[i];
         reduced.v0 -= surface.normal_m_s;
       },
       reduction);

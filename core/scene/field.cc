@@ -22,10 +22,12 @@ void Switch(Scene& scene) {
   if (!std::holds_alternative<T>(scene.restitution)) scene.restitution = T{};
 }
 
-// Gives the scene a surface at rest if it states none. A pair has no surface but its body 2.
+// Gives the scene a surface with every velocity that it does not state, which is 0. A pair has no surface but its body 2.
 void MakeSurface(Scene& scene) {
-  if (scene.surface_velocity.has_value() || std::holds_alternative<BodyPair>(scene.system)) return;
-  scene.surface_velocity = SurfaceVelocity{std::vector<double>(TangentialDirections(scene.system), 0.0), 0.0};
+  if (std::holds_alternative<BodyPair>(scene.system)) return;
+  if (!scene.surface_velocity.has_value()) scene.surface_velocity.emplace();
+  std::vector<double>& tangential = scene.surface_velocity->tangential_m_s;
+  if (tangential.empty()) tangential.resize(TangentialDirections(scene.system));
 }
 
 bool StartsWith(const std::string& text, const char* prefix) { return text.rfind(prefix, 0) == 0; }

@@ -83,7 +83,8 @@ void CheckTogether(const Scene& scene, Check& check) {
     check.Require(!std::holds_alternative<BodyPair>(scene.system), [] {
       return Violation{"surface_velocity", "is set: must not be for body_pair, whose body 2 is the surface"};
     });
-    check.Length("surface_velocity.tangential_m_s", scene.surface_velocity->tangential_m_s.size(), directions);
+    const size_t entries = scene.surface_velocity->tangential_m_s.size();
+    if (entries > 0) check.Length("surface_velocity.tangential_m_s", entries, directions);
   }
   check.Require(std::holds_alternative<std::monostate>(scene.impact_law) || directions == 1, [&] {
     return Violation{NameOf(scene.impact_law), "is set: must not be for a system in space"};

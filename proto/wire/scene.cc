@@ -407,11 +407,7 @@ Scene FromProto(const v1::Scene& proto) {
               .finite_forces = FiniteForcesOf(proto)};
   if (proto.restitution().has_by_speed()) scene.restitution_by_speed = FromProto(proto.restitution().by_speed());
   if (proto.has_compliance()) scene.compliance = FromProto(proto.compliance());
-  if (proto.has_surface_velocity()) {
-    scene.surface_velocity = FromProto(proto.surface_velocity());
-    std::vector<double>& tangential = scene.surface_velocity->tangential_m_s;
-    if (tangential.empty()) tangential.assign(TangentialDirections(scene.system), 0.0);
-  }
+  if (proto.has_surface_velocity()) scene.surface_velocity = FromProto(proto.surface_velocity());
   return scene;
 }
 

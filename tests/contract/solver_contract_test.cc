@@ -50,6 +50,31 @@ TEST_P(SolverContract, SolvesThePapersExample) {
   EXPECT_NEAR(response->outcome.coefficients.tangential, -0.0172, 5e-5);
 }
 
+TEST_P(SolverContract, ASurfaceThatOnlyRisesNeedsNoTangentialVelocity) {
+  for (const System& system : Systems()) {
+    if (std::holds_alternative<BodyPair>(system)) continue;
+    const size_t directions = TangentialDirections(system);
+    Scene stated = With(system);
+    stated.surface_velocity = SurfaceVelocity{std::vector<double>(directions, 0.0), 0.25};
+    Scene left_out = stated;
+    left_out.surface_velocity->tangential_m_s.clear();
+    const int32_t digits = directions == 1 ? 10 : 0;
+    const auto wanted = solver().Solve({.scene = stated, .certified_digits = digits});
+    const auto found = solver().Solve({.scene = left_out, .certified_digits = digits});
+    ASSERT_TRUE(wanted.ok() && found.ok()) << found.status();
+    EXPECT_EQ(found->outcome, wanted->outcome);
+    const SweepGrid grid = {.scene = left_out, .axes = {{"surface_velocity.tangential_m_s[0]", ListValues{{0.0}}}}};
+    for (const auto& chunk : solver().Sweep({.grid = grid, .columns = {"coefficients.newton"}})) {
+      ASSERT_TRUE(chunk.ok()) << chunk.status();
+      EXPECT_THAT(chunk->columns, ElementsAre(ElementsAre(wanted->outcome.coefficients.newton)));
+    }
+    if (directions > 1) continue;
+    const std::vector<FieldRange> ranges = {{"friction.kinetic_coefficient", 0.4, 0.5}};
+    EXPECT_EQ(solver().Bounds({.scene = left_out, .ranges = ranges})->enclosure,
+              solver().Bounds({.scene = stated, .ranges = ranges})->enclosure);
+  }
+}
+
 TEST_P(SolverContract, SaysWhichEngineAnswered) {
   const auto response = solver().Solve({.scene = PaperScene(), .history_at_n_s = {}});
   ASSERT_TRUE(response.ok()) << response.status();

@@ -98,6 +98,11 @@ class ExamplesTest(unittest.TestCase):
 
 
 class PagesTest(unittest.TestCase):
+    def test_examples_print_the_message_of_a_status_and_not_its_data(self):
+        for page in PAGES:
+            for block in blocks("cpp", page):
+                self.assertNotRegex(block, r"<<\s*[\w.>-]*status\(\)\s*(<<|;)")
+
     def test_readme_is_short(self):
         self.assertLessEqual(PAGES[README].count("\n"), MOST_README_LINES)
 

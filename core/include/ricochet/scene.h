@@ -55,7 +55,7 @@ struct EnergeticCoefficient {
 
 // The velocity of a moving surface; contact velocities are relative to it. A body pair has no surface.
 struct SurfaceVelocity {
-  std::vector<double> tangential_m_s;  // One entry in a plane, two in space.
+  std::vector<double> tangential_m_s;  // One entry in a plane, two in space; empty: 0 each.
   double normal_m_s = 0.0;
 
   friend bool operator==(const SurfaceVelocity&, const SurfaceVelocity&) = default;

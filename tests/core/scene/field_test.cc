@@ -87,6 +87,17 @@ TEST(FieldTest, EveryListedPathCanBeDriven) {
   }
 }
 
+TEST(FieldTest, TheEndOfOnePathIsTakenForItAndTheEndOfSeveralForNone) {
+  const auto message = [](const char* path) {
+    Scene scene = BaseScene();
+    return std::string(ResolveField(path, scene).status().message());
+  };
+  EXPECT_THAT(message("kinetic_coefficient"), HasSubstr("; did you mean friction.kinetic_coefficient?"));
+  EXPECT_THAT(message("newton"), HasSubstr("; did you mean restitution.newton?"));
+  EXPECT_EQ(NearestName("mass_kg", {"links[0].mass_kg", "links[1].mass_kg"}), "");
+  EXPECT_EQ(NearestName("", {"a.", "b"}), "");
+}
+
 TEST(FieldTest, UnknownPathsAreRefusedAndLeaveTheSceneAsItWas) {
   for (const char* path : {"", "pendulum", "pendulum.c_m", "a_m", "pendulum.a_m ", "friction.mu", "restitution",
                            "restitution.coefficient", "surface_velocity.x_m_s", "surface_velocity.tangential_m_s[1]"}) {
