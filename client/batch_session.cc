@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "client/connection_failure.h"
+#include "client/final_failure.h"
 #include "core/batch/check_rows.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/engine.h"
@@ -51,7 +51,7 @@ absl::StatusOr<BatchSummary> RemoteBatches::Solve(const BatchRows& rows) {
     const int most = std::max(policy_.max_attempts, static_cast<int>(servers_.count())) - 1;
     const auto wait = MayResume(status) ? attempts.AfterFailure(status, most) : std::nullopt;
     if (!wait.has_value() || !Pause(*wait, options_)) {
-      return IsStopped(options_) ? StoppedByCaller() : ExplainConnection(status);
+      return IsStopped(options_) ? StoppedByCaller() : ExplainFailure(status);
     }
   }
 }

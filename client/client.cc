@@ -11,7 +11,7 @@
 #include "client/batch_session.h"
 #include "client/call_context.h"
 #include "client/channel.h"
-#include "client/connection_failure.h"
+#include "client/final_failure.h"
 #include "client/cost_reader.h"
 #include "client/sweep_fan_out.h"
 #include "client/sweep_reader.h"
@@ -25,6 +25,7 @@
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
 #include "proto/wire/sweep.h"
+#include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 
 namespace ricochet {
@@ -35,16 +36,6 @@ using Stub = v1::ImpactService::StubInterface;
 // A unary method of the service.
 template <typename WireRequest, typename WireResponse>
 using Method = grpc::Status (Stub::*)(grpc::ClientContext*, const WireRequest&, WireResponse*);
-
-// Makes a stream of what `reader` reads. It keeps the reader, and what else it needs.
-template <typename Stream, typename Reader>
-Stream StreamOf(std::shared_ptr<Reader> reader, std::shared_ptr<const void> needed = nullptr) {
-  return Stream([needed = std::move(needed), reader = std::move(reader)] {
-    auto next = reader->Next();
-    if (next.has_value() && !next->ok()) *next = ExplainConnection(next->status());
-    return next;
-  });
-}
 
 // Returns the sweep with its end, or nothing if it has no points to divide or is one that a server refuses.
 std::optional<SweepRequest> Divisible(const SweepRequest& request) {
@@ -81,10 +72,10 @@ struct Client::Connection {
       const grpc::Status ended = ((*stubs[attempts.server()]).*method)(&context.get(), wire, &response);
       if (ended.ok()) return response;
       if (IsStopped(call)) return StoppedByCaller();
-      const absl::Status status = WithNameOfLimit(FromGrpcStatus(ended));
+      const absl::Status status = FromGrpcStatus(ended);
       const auto wait = attempts.AfterFailure(status, MostRetries(status));
       if (!wait.has_value() || !Pause(*wait, call)) {
-        return IsStopped(call) ? StoppedByCaller() : ExplainConnection(status);
+        return IsStopped(call) ? StoppedByCaller() : Explain(status);
       }
     }
   }
@@ -98,12 +89,25 @@ struct Client::Connection {
     return FromProto(*response);
   }
 
-  // Returns the error; one by which gRPC says that an answer is too large says, too, which option decides.
-  absl::Status WithNameOfLimit(const absl::Status& error) const {
+  // Returns the final failure of a call. One by which gRPC says that an answer is too large says, too, which option decides.
+  absl::Status Explain(const absl::Status& error) const {
     const std::string by_this_client = absl::StrCat(" vs. ", options.max_receive_bytes, ")");
-    if (!absl::IsResourceExhausted(error) || !absl::EndsWith(error.message(), by_this_client)) return error;
-    return absl::ResourceExhaustedError(absl::StrCat(
-        error.message(), ": the answer has more bytes than ClientOptions::max_receive_bytes (--max-receive) allows"));
+    if (!absl::IsResourceExhausted(error) || !absl::EndsWith(error.message(), by_this_client)) {
+      return ExplainFailure(error);
+    }
+    return MakeError(error.code(), ErrorReason::kLimitExceeded,
+                     absl::StrCat(error.message(), ": the answer has more bytes than ClientOptions::max_receive_bytes "
+                                                   "(--max-receive) allows"));
+  }
+
+  // Makes a stream of what `reader` reads, which keeps both, so that it may outlive the Client.
+  template <typename Stream, typename Reader>
+  static Stream StreamOf(std::shared_ptr<const Connection> connection, std::shared_ptr<Reader> reader) {
+    return Stream([connection = std::move(connection), reader = std::move(reader)] {
+      auto next = reader->Next();
+      if (next.has_value() && !next->ok()) *next = connection->Explain(next->status());
+      return next;
+    });
   }
 
   // gRPC has already repeated a call that ends with UNAVAILABLE or CANCELLED, so that only the other servers are left.
@@ -181,7 +185,6 @@ absl::StatusOr<BatchResponse> Client::SolveInPieces(const BatchSetup& setup, con
 }
 
 SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& options) const {
-  // The stream keeps the connection, so it may outlive the Client that made it.
   auto start = [connection = connection_](size_t server, grpc::ClientContext* context, const v1::SweepRequest& part) {
     return connection->stubs[server]->Sweep(context, part);
   };
@@ -194,11 +197,11 @@ SweepStream Client::DoSweep(const SweepRequest& request, const CallOptions& opti
         SweepFanOut::Servers{
             .start = std::move(start), .count = servers, .retry = given.retry, .fan_out = *given.fan_out},
         WithDeadline(options, given.sweep_deadline));
-    return StreamOf<SweepStream>(std::move(reader));
+    return Connection::StreamOf<SweepStream>(connection_, std::move(reader));
   }
   auto reader = std::make_shared<SweepReader>(request, std::move(start), connection_->preferred, given.retry,
                                               given.sweep_deadline, options);
-  return StreamOf<SweepStream>(std::move(reader));
+  return Connection::StreamOf<SweepStream>(connection_, std::move(reader));
 }
 
 CostStream Client::DoCost(const CostRequest& request, const CallOptions& options) const {
@@ -207,7 +210,7 @@ CostStream Client::DoCost(const CostRequest& request, const CallOptions& options
         return connection_->stubs[connection_->preferred.get()]->Cost(context, ToProto(request));
       },
       CostChecker(), connection_->options.sweep_deadline, options);
-  return StreamOf<CostStream>(std::move(reader), connection_);
+  return Connection::StreamOf<CostStream>(connection_, std::move(reader));
 }
 
 absl::StatusOr<InfoResponse> Client::DoInfo(const InfoRequest& request, const CallOptions& options) const {

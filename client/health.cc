@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "client/channel.h"
-#include "client/connection_failure.h"
+#include "client/final_failure.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "proto/wire/status.h"
 
@@ -39,7 +39,7 @@ absl::StatusOr<Health> CheckHealth(const ClientOptions& options, const std::stri
     health = AskHealth(channel, options.deadline, service);
     if (!absl::IsUnavailable(health.status())) break;
   }
-  if (!health.ok()) return ExplainConnection(health.status());
+  if (!health.ok()) return ExplainFailure(health.status());
   return health;
 }
 

@@ -374,9 +374,16 @@ std::string RowsOf(const Messages& messages) {
 
 }  // namespace
 
+static std::string NotesText(const std::vector<Note>& notes) {
+  std::string text;
+  for (const Note& note : notes) absl::StrAppend(&text, "Note: ", note.text, "\n");
+  return text;
+}
+
 std::string SolveText(const Outcome& outcome) {
   std::string text =
-      absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination), Verdict(outcome), "\n",
+      absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination), Verdict(outcome),
+                   NotesText(outcome.notes), "\n",
                    CoefficientsText(outcome), "\n", MotionText(outcome), BodiesText(outcome.bodies_after), "\n",
                    ImpulseText(outcome.impulse), "\n", WorkText(outcome));
   if (outcome.contact.has_value()) text += ContactText(*outcome.contact);

@@ -10,6 +10,7 @@
 #include "client/cli/label.h"
 #include "client/cli/number_input.h"
 #include "client/cli/progress.h"
+#include "client/cli/solve_report.h"
 #include "client/cli/table.h"
 
 namespace ricochet::cli {
@@ -125,6 +126,13 @@ TEST(Table, AlignsByCharactersNotBytes) {
 TEST(Rounded, ShowsSixDigitsAndNoNegativeZero) {
   EXPECT_EQ(Rounded(1.0 / 3.0), "0.333333");
   EXPECT_EQ(Rounded(-0.0), "0");
+}
+
+TEST(SolveText, ShowsTheNotesOfAnOutcomeBelowItsVerdict) {
+  Outcome outcome = {.admissible = true};
+  outcome.notes = {{.text = "The duration was left out."}, {.text = "An angle lies beyond a full turn."}};
+  EXPECT_THAT(SolveText(outcome),
+              HasSubstr("Admissible.\nNote: The duration was left out.\nNote: An angle lies beyond a full turn.\n\n"));
 }
 
 TEST(LabelOf, KnowsSymbolsAndUnits) {

@@ -164,6 +164,7 @@ TEST_F(ExitCodes, TryAgainIsSaidOnlyOfWhatARetryCanMend) {
       {mutual.address(), trusting, 42, "the server refuses this client: tlsv13 alert certificate required"},
       {mutual.address(), showing("stranger.pem", "stranger.key"), 42, "the server refuses this client: tlsv1 alert"},
       // The server may be there soon, or have room soon.
+      {plain.address(), {"--max-receive", "100"}, 42, "(--max-receive) allows"},
       {"127.0.0.1:1", {}, 75, "UNAVAILABLE"},
       {"127.0.0.1:1", trusting, 75, "UNAVAILABLE"},
       {"unix:/nonexistent", {}, 75, "UNAVAILABLE"},
@@ -198,6 +199,17 @@ TEST_F(ExitCodes, EveryKindOfCallIsToldTheSame) {
     const CliResult result = RunShell("\"$R\" " + command + flags, "mu\n0.1\n");
     EXPECT_EQ(result.exit_code, 42) << command << result.err;
     EXPECT_THAT(result.err, HasSubstr("the server's certificate is not trusted")) << command;
+  }
+}
+
+TEST_F(ExitCodes, AnAnswerThatIsTooLargeIsNotToBeTriedAgain) {
+  const ServerProcess server;
+  const std::string flags = " --server " + server.address() + " --max-receive 100";
+  const std::string scene = " --a 0.3 --b 1 --mu 0.1 --energetic 1";
+  for (const std::string& command : {"cost" + scene, "sweep --axis mu=lin:0:0.4:300" + scene}) {
+    const CliResult result = RunShell("\"$R\" " + command + flags);
+    EXPECT_EQ(result.exit_code, 42) << command;
+    EXPECT_THAT(result.err, HasSubstr("(--max-receive) allows"));
   }
 }
 

@@ -177,6 +177,8 @@ class PlotFileTest(RicochetCase):
         self.assertIn("-o refused.gif: must end in .svg, .png or .pdf",
                       self.refused("plot", "whole.csv", "-o", "refused.gif"))
         self.assertIn("did you mean coefficients.newton", self.refused("plot", "whole.csv", "--column", "coefficients.nevton"))
+        self.assertEqual(self.made("plot", "whole.csv", "--column", "newton", "-o", "short.svg"), "short.svg\n")
+        self.assertIn("named once", self.refused("plot", "whole.csv", "--column", f"newton,{NEWTON}"))
         self.assertIn("named once", self.refused("plot", "whole.csv", "--column", f"{NEWTON},{NEWTON}"))
         self.assertIn("needs a grid of two axes", self.refused("plot", "whole.csv", "--kind", "map", code=42))
         self.assertFalse(list(WORK.glob("refused*")))

@@ -63,10 +63,10 @@ TEST_P(SolverContract, ASurfaceThatOnlyRisesNeedsNoTangentialVelocity) {
     const auto found = solver().Solve({.scene = left_out, .certified_digits = digits});
     ASSERT_TRUE(wanted.ok() && found.ok()) << found.status();
     EXPECT_EQ(found->outcome, wanted->outcome);
-    const SweepGrid grid = {.scene = left_out, .axes = {{"surface_velocity.tangential_m_s[0]", ListValues{{0.0}}}}};
+    const Grid grid = {.scene = left_out, .axes = {{"surface_velocity.tangential_m_s[0]", ListValues{{0.0}}}}};
     for (const auto& chunk : solver().Sweep({.grid = grid, .columns = {"coefficients.newton"}})) {
       ASSERT_TRUE(chunk.ok()) << chunk.status();
-      EXPECT_THAT(chunk->columns, ElementsAre(ElementsAre(wanted->outcome.coefficients.newton)));
+      EXPECT_THAT(chunk->values, ElementsAre(wanted->outcome.coefficients.newton));
     }
     if (directions > 1) continue;
     const std::vector<FieldRange> ranges = {{"friction.kinetic_coefficient", 0.4, 0.5}};

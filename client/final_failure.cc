@@ -1,9 +1,12 @@
-#include "client/connection_failure.h"
+#include "client/final_failure.h"
 
 #include <array>
+#include <string>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+#include "ricochet/error.h"
 
 namespace ricochet {
 namespace {
@@ -33,16 +36,24 @@ constexpr std::array kCauses = {
           false},
 };
 
-}  // namespace
-
 absl::Status ExplainConnection(const absl::Status& status) {
-  if (!absl::IsUnavailable(status) || !absl::StartsWith(status.message(), "failed to connect to all addresses")) {
-    return status;
-  }
   for (const Cause& cause : kCauses) {
     if (!absl::StrContains(status.message(), cause.sign)) continue;
     const absl::StatusCode code = cause.is_lasting ? absl::StatusCode::kFailedPrecondition : status.code();
     return {code, absl::StrCat(cause.words, " (", status.message(), ")")};
+  }
+  return status;
+}
+
+}  // namespace
+
+absl::Status ExplainFailure(const absl::Status& status) {
+  const absl::string_view message = status.message();
+  if (absl::IsUnavailable(status) && absl::StartsWith(message, "failed to connect to all addresses")) {
+    return ExplainConnection(status);
+  }
+  if (absl::IsResourceExhausted(status) && absl::StrContains(message, "essage larger than max")) {
+    return MakeError(status.code(), ErrorReason::kLimitExceeded, std::string(message));
   }
   return status;
 }
