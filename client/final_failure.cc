@@ -17,6 +17,10 @@ struct Cause {
   bool is_lasting;
 };
 
+constexpr char kClosed[] =
+    "the server closed the connection: it has no room, or it wants TLS (security.tls, --tls) or another certificate of "
+    "this client (security.tls_cert, --tls-cert)";
+
 // The first whose sign is found counts, so that a special one stands before the kind that it belongs to.
 constexpr std::array kCauses = {
     Cause{"certificate verify failed",
@@ -29,11 +33,8 @@ constexpr std::array kCauses = {
     Cause{"wrong version number", "the server does not speak TLS", true},
     Cause{"Ssl handshake failed: SSL_ERROR_SSL", "the server and this client cannot agree on TLS", true},
     Cause{"Trying to connect an http1.x server", "the server speaks HTTP/1, so that it is no ricochetd", true},
-    Cause{"Socket closed", "the server closed the connection: it has no room, or it wants TLS (security.tls, --tls)", false},
-    Cause{"Endpoint read failed",
-          "the server closed the connection after the TLS handshake: it has no room, or it wants another certificate of "
-          "this client (security.tls_cert, --tls-cert)",
-          false},
+    Cause{"Socket closed", kClosed, false},
+    Cause{"Endpoint read failed", kClosed, false},
 };
 
 absl::Status ExplainConnection(const absl::Status& status) {

@@ -41,7 +41,7 @@ void QuietGrpc() {
 }
 
 absl::Status WithTlsAlert(const absl::Status& status) {
-  if (!absl::IsUnavailable(status) || !absl::StrContains(status.message(), "closed the connection after the TLS")) {
+  if (!absl::IsUnavailable(status) || !absl::StrContains(status.message(), "the server closed the connection")) {
     return status;
   }
   Alert& alert = LastAlert();

@@ -46,7 +46,9 @@ int main(int argc, char** argv) {
   try {
     app->parse(std::move(words));
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app->exit(error);
+    // Help about a subcommand that does not exist is an error.
+    const bool is_answer = !app->get_subcommands().empty() || app->remaining().empty();
+    if (error.get_exit_code() == 0 && is_answer) return app->exit(error);
     std::cerr << (argc == 1 ? app->help() : absl::StrCat("ricochet: ", ricochet::cli::UsageError(*app, error), "\n"));
     return ricochet::cli::kUsage;
   }

@@ -100,8 +100,10 @@ TEST_F(CliSolveData, ShortNamesMeanTheFieldsOfTheScene) {
       Solve("friction.kinetic_coefficient,planar_contact.normal_m_s\n0.1,-1\n0.4,-2\n",
             {"--column", "impulse.normal_total_n_s,coefficients.newton", "--format", "csv"});
   EXPECT_EQ(full.exit_code, 0) << full.err;
-  EXPECT_EQ(Solve("mu,normal_m_s\n0.1,-1\n0.4,-2\n", columns).out, full.out);
+  EXPECT_EQ(Solve("mu,planar_contact.normal_m_s\n0.1,-1\n0.4,-2\n", columns).out, full.out);
   EXPECT_EQ(Solve("kinetic_coefficient,planar_contact.normal\n0.1,-1\n0.4,-2\n", columns).out, full.out);
+  EXPECT_THAT(Solve("normal_m_s\n-1\n").err,
+              HasSubstr("must name one of\n  planar_contact.normal_m_s\n  surface_velocity.normal_m_s"));
   EXPECT_THAT(Solve("kinetc_coefficient\n0.1\n").err, HasSubstr("did you mean friction.kinetic_coefficient?"));
   EXPECT_THAT(Solve("friction.kinetc_coefficient\n0.1\n").err,
               HasSubstr("did you mean friction.kinetic_coefficient?"));

@@ -168,7 +168,7 @@ TEST_F(ExitCodes, TryAgainIsSaidOnlyOfWhatARetryCanMend) {
       {"127.0.0.1:1", {}, 75, "UNAVAILABLE"},
       {"127.0.0.1:1", trusting, 75, "UNAVAILABLE"},
       {"unix:/nonexistent", {}, 75, "UNAVAILABLE"},
-      {tls.address(), {}, 75, "it has no room, or it wants TLS"},
+      {tls.address(), {}, 75, "it has no room, or it wants TLS (security.tls, --tls)"},
       // And what is right is right.
       {tls.address(), trusting, 0, ""},
       {mutual.address(), showing("client.pem", "client.key"), 0, ""},

@@ -165,7 +165,7 @@ class ZshCompletion(unittest.TestCase):
 
     def test_values_have_functions(self):
         text = (MANUAL / "zsh/_ricochet").read_text()
-        for name in set(re.findall(r":value:(_\w+)", text)):
+        for name in set(re.findall(r":value:(_ricochet_\w+)", text)):
             self.assertIn(f"{name}() {{", text)
         self.assertRegex(text, r"'\*--exclude\[.*:value:_ricochet_effect_word'")
         self.assertRegex(text, r"'\*--axis\[.*:value:_ricochet_path_word'")
