@@ -9,6 +9,7 @@
 #include "ricochet/client.h"
 #include "ricochet/error.h"
 #include "tests/client/cli_run.h"
+#include "tests/support/eventually.h"
 #include "tests/support/server_process.h"
 #include "tests/support/test_certificates.h"
 
@@ -161,14 +162,15 @@ TEST_F(ExitCodes, TryAgainIsSaidOnlyOfWhatARetryCanMend) {
       {tls.address(), {"--tls-ca", ca, "--server-name", "other.test"}, 42, "is for another name"},
       {tls.address(), {"--tls-ca", ca}, 42, "is for another name"},
       {plain.address(), trusting, 42, "the server does not speak TLS"},
-      {mutual.address(), trusting, 42, "the server refuses this client: tlsv13 alert certificate required"},
-      {mutual.address(), showing("stranger.pem", "stranger.key"), 42, "the server refuses this client: tlsv1 alert"},
       // The server may be there soon, or have room soon.
       {plain.address(), {"--max-receive", "100"}, 42, "(--max-receive) allows"},
       {"127.0.0.1:1", {}, 75, "UNAVAILABLE"},
       {"127.0.0.1:1", trusting, 75, "UNAVAILABLE"},
       {"unix:/nonexistent", {}, 75, "UNAVAILABLE"},
       {tls.address(), {}, 75, "it has no room, or it wants TLS (security.tls, --tls)"},
+      // A server of gRPC does not say why it closes a connection.
+      {mutual.address(), trusting, 75, "or another certificate of this client (security.tls_cert, --tls-cert)"},
+      {mutual.address(), showing("stranger.pem", "stranger.key"), 75, "or another certificate of this client"},
       // And what is right is right.
       {tls.address(), trusting, 0, ""},
       {mutual.address(), showing("client.pem", "client.key"), 0, ""},
@@ -187,6 +189,26 @@ TEST_F(ExitCodes, ACertificateOfTheServerThatHasEndedIsNotToBeTriedAgain) {
   const CliResult result = Solve(server.address(), {"--tls-ca", files_ / "ca.pem", "--server-name", "ricochet.test"});
   EXPECT_EQ(result.exit_code, 42);
   EXPECT_THAT(result.err, HasSubstr("is not trusted"));
+}
+
+// Proxies say by an alert that they refuse a certificate, as the server of openssl does.
+TEST_F(ExitCodes, ARefusalInWordsIsNotToBeTriedAgain) {
+  const ChildProcess proxy({"/usr/bin/openssl", "s_server", "-accept", "127.0.0.1:0", "-alpn", "h2", "-cert",
+                            files_ / "server.pem", "-key", files_ / "server.key", "-CAfile", files_ / "ca.pem",
+                            "-Verify", "1", "-verify_return_error", "-www"});
+  const std::string accept = "ACCEPT ";
+  ASSERT_TRUE(Eventually([&] { return proxy.output().find(accept) != std::string::npos; })) << proxy.output();
+  const std::string output = proxy.output();
+  const size_t start = output.find(accept) + accept.size();
+  const std::string address = output.substr(start, output.find('\n', start) - start);
+  const Arguments trusting = {"--tls-ca", files_ / "ca.pem", "--server-name", "ricochet.test"};
+  const CliResult without = Solve(address, trusting);
+  EXPECT_EQ(without.exit_code, 42);
+  EXPECT_THAT(without.err, HasSubstr("the server refuses this client: tlsv13 alert certificate required"));
+  Arguments stranger = trusting;
+  stranger.insert(stranger.end(), {"--tls-cert", files_ / "stranger.pem", "--tls-key", files_ / "stranger.key"});
+  EXPECT_EQ(Solve(address, stranger).exit_code, 42);
+  EXPECT_THAT(Solve(address, stranger).err, HasSubstr("the server refuses this client: tlsv1 alert unknown ca"));
 }
 
 TEST_F(ExitCodes, EveryKindOfCallIsToldTheSame) {
