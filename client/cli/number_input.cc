@@ -31,9 +31,10 @@ std::string ReadDecimal(absl::string_view text, double& value) {
   return "be a number such as 0.1 or 1e-3, or a fraction such as 1/3";
 }
 
-// Rounds once, so that 180 degrees are the double nearest to pi.
-double Radians(double degrees) {
-  return static_cast<double>(static_cast<long double>(degrees) * std::numbers::pi_v<long double> / 180.0L);
+// Converts a fraction of degrees. It rounds to a double once, so that 180 degrees are the one nearest to pi.
+double Radians(double numerator, double denominator) {
+  constexpr long double kDegree = std::numbers::pi_v<long double> / 180.0L;
+  return static_cast<double>(static_cast<long double>(numerator) / denominator * kDegree);
 }
 
 }  // namespace
@@ -52,8 +53,7 @@ std::string ReadNumber(const std::string& text, Spelling spelling, double& value
   if (rule.empty() && slash != absl::string_view::npos) rule = ReadDecimal(number.substr(slash + 1), denominator);
   if (!rule.empty()) return rule;
   if (denominator == 0.0) return "have a denominator other than 0";
-  value /= denominator;
-  if (in_degrees) value = Radians(value);
+  value = in_degrees ? Radians(value, denominator) : value / denominator;
   return "";
 }
 

@@ -63,6 +63,17 @@ TEST_F(CliScene, FlagsBecomeAFileOfTheSameScene) {
   EXPECT_THAT(Read("scene"), HasSubstr("\"kinetic_coefficient\": 0.3333333333333333"));
 }
 
+TEST_F(CliScene, AByteOrderMarkBeforeAFileIsSkipped) {
+  for (const Arguments& format : {Arguments{}, Arguments{"--json"}}) {
+    Arguments print = {"scene", "print", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1"};
+    print.insert(print.end(), format.begin(), format.end());
+    const std::string text = Run(print).out;
+    const CliResult marked = Run({"solve", "--scene", "-"}, "\xEF\xBB\xBF" + text);
+    EXPECT_EQ(marked.exit_code, 0) << marked.err;
+    EXPECT_EQ(marked.out, Run({"solve", "--scene", "-"}, text).out);
+  }
+}
+
 TEST_F(CliScene, PrintRefusesWhatNoSolverWouldTake) {
   const CliResult result = Run({"scene", "print", "--a", "-1", "--energetic", "1"});
   EXPECT_EQ(result.exit_code, 2);

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <string>
 
+#include "core/scene/nearest.h"
+
 namespace ricochet {
 namespace {
 
