@@ -11,8 +11,8 @@
 #include "client/batch_session.h"
 #include "client/call_context.h"
 #include "client/channel.h"
-#include "client/final_failure.h"
 #include "client/cost_reader.h"
+#include "client/final_failure.h"
 #include "client/sweep_fan_out.h"
 #include "client/sweep_reader.h"
 #include "core/batch/check_rows.h"
@@ -89,15 +89,17 @@ struct Client::Connection {
     return FromProto(*response);
   }
 
-  // Returns the final failure of a call. One by which gRPC says that an answer is too large says, too, which option decides.
+  // Returns the final failure of a call. One by which gRPC says that an answer is too large says, too, which option
+  // decides.
   absl::Status Explain(const absl::Status& error) const {
     const std::string by_this_client = absl::StrCat(" vs. ", options.max_receive_bytes, ")");
     if (!absl::IsResourceExhausted(error) || !absl::EndsWith(error.message(), by_this_client)) {
       return ExplainFailure(error);
     }
     return MakeError(error.code(), ErrorReason::kLimitExceeded,
-                     absl::StrCat(error.message(), ": the answer has more bytes than ClientOptions::max_receive_bytes "
-                                                   "(--max-receive) allows"));
+                     absl::StrCat(error.message(),
+                                  ": the answer has more bytes than ClientOptions::max_receive_bytes "
+                                  "(--max-receive) allows"));
   }
 
   // Makes a stream of what `reader` reads, which keeps both, so that it may outlive the Client.

@@ -27,9 +27,10 @@ constexpr std::array kCauses = {
           "the server's certificate is not trusted: no authority of security.tls_ca (--tls-ca; default: those of the "
           "system) has issued it, or its time has ended",
           true},
-    Cause{"is not in peer certificate",
-          "the server's certificate is for another name: security.server_name (--server-name) says which one is expected",
-          true},
+    Cause{
+        "is not in peer certificate",
+        "the server's certificate is for another name: security.server_name (--server-name) says which one is expected",
+        true},
     Cause{"wrong version number", "the server does not speak TLS", true},
     Cause{"Ssl handshake failed: SSL_ERROR_SSL", "the server and this client cannot agree on TLS", true},
     Cause{"Trying to connect an http1.x server", "the server speaks HTTP/1, so that it is no ricochetd", true},

@@ -1,8 +1,8 @@
 // FinalFailure: what the failure of a call means once it has been tried on every server: whether a retry can mend it.
 //
-// gRPC calls every failed connection UNAVAILABLE and every message that is too large RESOURCE_EXHAUSTED, which both ask to
-// be tried again. Some of them no retry can mend: a server whose certificate is not trusted, or that does not speak TLS, and
-// a limit on a message.
+// gRPC calls every failed connection UNAVAILABLE and every message that is too large RESOURCE_EXHAUSTED, which both ask
+// to be tried again. Some of them no retry can mend: a server whose certificate is not trusted, or that does not speak
+// TLS, and a limit on a message.
 
 #ifndef RICOCHET_CLIENT_FINAL_FAILURE_H_
 #define RICOCHET_CLIENT_FINAL_FAILURE_H_

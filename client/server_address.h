@@ -9,10 +9,10 @@
 
 namespace ricochet {
 
-// Returns the rule that one server of a target breaks, as "must have a port, as host:50051"; empty if it breaks none. Right
-// are HOST:PORT, with the schemes dns:, ipv4: and ipv6: of gRPC or none, unix:PATH and unix-abstract:NAME. HOST is a name,
-// an IPv4 address or an IPv6 address in brackets, PORT a number from 1 to 65535: gRPC itself would take a larger one
-// modulo 65536. Whether a name has an address is not asked.
+// Returns the rule that one server of a target breaks, as "must have a port, as host:50051"; empty if it breaks none.
+// Right are HOST:PORT, with the schemes dns:, ipv4: and ipv6: of gRPC or none, unix:PATH and unix-abstract:NAME. HOST
+// is a name, an IPv4 address or an IPv6 address in brackets, PORT a number from 1 to 65535: gRPC itself would take a
+// larger one modulo 65536. Whether a name has an address is not asked.
 std::string WhyNoAddress(const std::string& server);
 
 // True for a Unix socket.

@@ -23,8 +23,8 @@ struct TlsFiles {
 // Errors: INVALID_ARGUMENT that names the option, if the file cannot be read or is empty.
 absl::StatusOr<std::string> ReadSecurityFile(const std::string& path, const char* option);
 
-// Reads the files and checks that they hold certificates and the key of the client's certificate, and that this certificate
-// has not ended. Errors: INVALID_ARGUMENT with a violation for each option whose file is wrong.
+// Reads the files and checks that they hold certificates and the key of the client's certificate, and that this
+// certificate has not ended. Errors: INVALID_ARGUMENT with a violation for each option whose file is wrong.
 absl::StatusOr<TlsFiles> ReadTlsFiles(const SecurityOptions& options);
 
 }  // namespace ricochet

@@ -14,10 +14,10 @@
 
 namespace ricochet::cli {
 
-// Reads "PATH=0.1,1/3,0.5", "PATH=lin:START:STOP:COUNT" or "PATH=log:START:STOP:COUNT" for an axis of the scene. PATH may
-// be short (client/cli/short_name.h), and values of an angle may be in degrees, "10deg".
-// Errors: INVALID_ARGUMENT for another form, and those of FullName. The solver checks that the path exists and the values
-// are valid.
+// Reads "PATH=0.1,1/3,0.5", "PATH=lin:START:STOP:COUNT" or "PATH=log:START:STOP:COUNT" for an axis of the scene. PATH
+// may be short (client/cli/short_name.h), and values of an angle may be in degrees, "10deg".
+// Errors: INVALID_ARGUMENT for another form, and those of FullName. The solver checks that the path exists and the
+// values are valid.
 absl::StatusOr<Axis> ParseAxis(const std::string& text, const Scene& scene);
 
 struct IndexRange {

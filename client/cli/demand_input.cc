@@ -23,7 +23,8 @@ absl::StatusOr<std::vector<Effect>> ReadEffects(const std::vector<std::string>& 
   for (const std::string& word : words) {
     size_t i = 0;
     while (i < known.size() && known[i] != word) ++i;
-    if (i == known.size()) return InputError(flag, word, absl::StrCat("be one of ", absl::StrJoin(known, ", "), DidYouMean(word, known)));
+    if (i == known.size())
+      return InputError(flag, word, absl::StrCat("be one of ", absl::StrJoin(known, ", "), DidYouMean(word, known)));
     effects.push_back(static_cast<Effect>(i + 1));
   }
   return effects;

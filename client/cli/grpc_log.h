@@ -7,13 +7,13 @@
 
 namespace ricochet::cli {
 
-// Keeps gRPC from writing to standard error, unless GRPC_VERBOSITY in the environment asks for its log. Call it before any
-// call.
+// Keeps gRPC from writing to standard error, unless GRPC_VERBOSITY in the environment asks for its log. Call it before
+// any call.
 void QuietGrpc();
 
-// Returns the status of a run. A proxy may refuse this client's certificate after the handshake, and gRPC then says why in
-// its log alone: an UNAVAILABLE of that kind becomes FAILED_PRECONDITION with the alert, because no retry mends it. A server
-// of gRPC closes the connection without an alert, as one without room does, which remains UNAVAILABLE.
+// Returns the status of a run. A proxy may refuse this client's certificate after the handshake, and gRPC then says why
+// in its log alone: an UNAVAILABLE of that kind becomes FAILED_PRECONDITION with the alert, because no retry mends it.
+// A server of gRPC closes the connection without an alert, as one without room does, which remains UNAVAILABLE.
 absl::Status WithTlsAlert(const absl::Status& status);
 
 }  // namespace ricochet::cli

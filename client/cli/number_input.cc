@@ -16,8 +16,8 @@ namespace {
 constexpr double kMostCount = 9007199254740992.0;  // 2^53: every whole number up to here is a double.
 constexpr double kYearMs = 365.0 * 24 * 3600 * 1000;
 
-// Puts the double nearest to `text` into `value`, and returns the rule that the text breaks. The option parser itself would
-// use strtold, which rounds twice.
+// Puts the double nearest to `text` into `value`, and returns the rule that the text breaks. The option parser itself
+// would use strtold, which rounds twice.
 std::string ReadDecimal(absl::string_view text, double& value) {
   const char* first = text.data();
   const char* const last = first + text.size();

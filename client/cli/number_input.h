@@ -15,8 +15,8 @@ namespace ricochet::cli {
 // degrees, "45deg" or "180/7deg", which become the radians nearest to them.
 enum class Spelling { kNumber, kAngle };
 
-// Reads a number into `value`. Returns the rule that the text breaks, such as "be a number such as 0.1"; empty if it breaks
-// none.
+// Reads a number into `value`. Returns the rule that the text breaks, such as "be a number such as 0.1"; empty if it
+// breaks none.
 std::string ReadNumber(const std::string& text, Spelling spelling, double& value);
 
 // Reads a number. `what` names the input in the error. Errors: INVALID_ARGUMENT, here and below.

@@ -37,7 +37,8 @@ constexpr double kDefaultOmega = -1.0;
 // The parser says: Message type "ricochet.v1.Pendulum" has no field named "am".
 std::string WithNearestField(const std::vector<std::string>& quoted) {
   const auto* const type = google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(quoted[1]);
-  return absl::StrCat(quoted[1], " has no field \"", quoted[3], "\"", type == nullptr ? "" : FieldHint(*type, quoted[3]));
+  return absl::StrCat(quoted[1], " has no field \"", quoted[3], "\"",
+                      type == nullptr ? "" : FieldHint(*type, quoted[3]));
 }
 
 // The parser says: Field "b" is specified along with field "a", another member of oneof "system".

@@ -18,9 +18,12 @@ namespace {
 
 // Letters and flags whose field is called otherwise.
 constexpr std::pair<const char*, const char*> kLetters[] = {
-    {"mu", "friction.kinetic_coefficient"},  {"mu_static", "friction.static_coefficient"},
-    {"omega", "pendulum.omega_minus_rad_s"}, {"mu-static", "friction.static_coefficient"},
-    {"inertia", "pendulum.inertia_kg_m2"},   {"phi", "pendulum.phi_rad"},
+    {"mu", "friction.kinetic_coefficient"},
+    {"mu_static", "friction.static_coefficient"},
+    {"omega", "pendulum.omega_minus_rad_s"},
+    {"mu-static", "friction.static_coefficient"},
+    {"inertia", "pendulum.inertia_kg_m2"},
+    {"phi", "pendulum.phi_rad"},
     {"mu", "friction"},
 };
 

@@ -177,8 +177,7 @@ void AddSolve(CLI::App& app, Command& command) {
   AddCertifiedOption(*sub, options->certified);
   sub->add_flag("--strict", options->strict,
                 "Fail if the outcome is inadmissible; with --data, if one is or has no numbers, after writing all");
-  AddPictureOptions(*sub, "velocities and forces over impulse or time, and in space also the slip,",
-                    options->picture);
+  AddPictureOptions(*sub, "velocities and forces over impulse or time, and in space also the slip,", options->picture);
   AddAxisOptions(*sub, options->picture);
   sub->add_option("--data", options->data.file,
                   "Many impacts, one on each line; the header names fields of the scene; - for standard input")

@@ -105,8 +105,8 @@ std::string SummaryText(const Solved& solved) {
   std::string text = absl::StrCat(summary.counts.points, summary.counts.points == 1 ? " row, " : " rows, ", invalid,
                                   " without numbers, ", summary.counts.inadmissible.count, " inadmissible\n");
   for (const BadRow& bad : summary.bad_rows) {
-    absl::StrAppend(&text, "  row ", bad.row, " (line ", solved.lines[static_cast<size_t>(bad.row)],
-                    "): ", bad.field, bad.field.empty() ? "" : " ", bad.description, "\n");
+    absl::StrAppend(&text, "  row ", bad.row, " (line ", solved.lines[static_cast<size_t>(bad.row)], "): ", bad.field,
+                    bad.field.empty() ? "" : " ", bad.description, "\n");
   }
   if (invalid > static_cast<int64_t>(summary.bad_rows.size())) {
     absl::StrAppend(&text, "  and ", invalid - static_cast<int64_t>(summary.bad_rows.size()), " more\n");

@@ -22,7 +22,8 @@ struct DataOptions {
 };
 
 // Solves the rows and writes them as the options ask. The header may have short names (client/cli/short_name.h).
-// Errors: those of reading, of the solver and of Output; FAILED_PRECONDITION under `strict`, after everything was written.
+// Errors: those of reading, of the solver and of Output; FAILED_PRECONDITION under `strict`, after everything was
+// written.
 absl::Status SolveData(const DataOptions& data, const CommonOptions& options, const Solver& solver, const Scene& scene,
                        const DemandFields& demand);
 

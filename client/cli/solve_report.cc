@@ -383,9 +383,8 @@ static std::string NotesText(const std::vector<Note>& notes) {
 std::string SolveText(const Outcome& outcome) {
   std::string text =
       absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination), Verdict(outcome),
-                   NotesText(outcome.notes), "\n",
-                   CoefficientsText(outcome), "\n", MotionText(outcome), BodiesText(outcome.bodies_after), "\n",
-                   ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+                   NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n", MotionText(outcome),
+                   BodiesText(outcome.bodies_after), "\n", ImpulseText(outcome.impulse), "\n", WorkText(outcome));
   if (outcome.contact.has_value()) text += ContactText(*outcome.contact);
   text += AlternativesText(outcome.alternatives);
   if (!outcome.timeline.empty()) {

@@ -289,9 +289,10 @@ absl::Status RunSweep(const SweepOptions& options) {
 }
 
 void AddGridOptions(CLI::App& sub, SweepOptions& options) {
-  sub.add_option("--axis", options.axes,
-                 "A field that varies: a list 0.1,1/3,0.5 or lin:START:STOP:COUNT or log:START:STOP:COUNT; an angle may "
-                 "be in degrees, 45deg; may be repeated")
+  sub.add_option(
+         "--axis", options.axes,
+         "A field that varies: a list 0.1,1/3,0.5 or lin:START:STOP:COUNT or log:START:STOP:COUNT; an angle may "
+         "be in degrees, 45deg; may be repeated")
       ->type_name("PATH=VALUES")
       ->allow_extra_args(false)
       ->group("Grid");

@@ -22,7 +22,8 @@ void Switch(Scene& scene) {
   if (!std::holds_alternative<T>(scene.restitution)) scene.restitution = T{};
 }
 
-// Gives the scene a surface with every velocity that it does not state, which is 0. A pair has no surface but its body 2.
+// Gives the scene a surface with every velocity that it does not state, which is 0. A pair has no surface but its body
+// 2.
 void MakeSurface(Scene& scene) {
   if (std::holds_alternative<BodyPair>(scene.system)) return;
   if (!scene.surface_velocity.has_value()) scene.surface_velocity.emplace();

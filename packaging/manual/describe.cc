@@ -33,7 +33,9 @@ void Set(Struct& object, const std::string& name, const std::string& text) {
   (*object.mutable_fields())[name].set_string_value(text);
 }
 
-ListValue& List(Struct& object, const std::string& name) { return *(*object.mutable_fields())[name].mutable_list_value(); }
+ListValue& List(Struct& object, const std::string& name) {
+  return *(*object.mutable_fields())[name].mutable_list_value();
+}
 
 void Describe(const CLI::Option& option, Struct& object) {
   ListValue& names = List(object, "names");
@@ -101,7 +103,8 @@ int main() {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   Struct programs;
   ricochet::cli::Command command;
-  Describe(*ricochet::cli::MakeProgram({"ricochet"}, command), *List(programs, "programs").add_values()->mutable_struct_value());
+  Describe(*ricochet::cli::MakeProgram({"ricochet"}, command),
+           *List(programs, "programs").add_values()->mutable_struct_value());
   Describe(*ricochet::server::MakeCommandLine(), *List(programs, "programs").add_values()->mutable_struct_value());
   if (!DescribeValues(*(*programs.mutable_fields())["values"].mutable_struct_value()).ok()) return 1;
   std::string text;

@@ -28,12 +28,16 @@ constexpr char kHeader[] = "tangential_after_m_s,normal_after_m_s,friction\n";
 TEST_F(CliAuditData, AnInvalidRowHasItsReasonInEveryFormat) {
   const std::string table = std::string(kHeader) + "0,0.0386,0.7\n0,none,0.7\n\n0,0.03,-1\n0,,0.7\n";
   const CliResult text = Audit(table);
-  EXPECT_THAT(text.out, HasSubstr("  row 1 (line 3): invalid: normal_after_m_s = \"none\": must be a number such as 0.1 or 1e-3, or a fraction such as 1/3\n"));
+  EXPECT_THAT(text.out, HasSubstr("  row 1 (line 3): invalid: normal_after_m_s = \"none\": must be a number such as "
+                                  "0.1 or 1e-3, or a fraction such as 1/3\n"));
   EXPECT_THAT(text.out, HasSubstr("  row 2 (line 5): invalid: friction = -1: must be >= 0\n"));
   EXPECT_THAT(text.out, HasSubstr("  row 3 (line 6): invalid: normal_after_m_s is missing\n"));
   const CliResult csv = Audit(table, {"--format", "csv"});
   EXPECT_THAT(csv.out, HasSubstr(",invalid_reason\n"));
-  EXPECT_THAT(csv.out, HasSubstr(",\"normal_after_m_s = \"\"none\"\": must be a number such as 0.1 or 1e-3, or a fraction such as 1/3\"\n"));
+  EXPECT_THAT(
+      csv.out,
+      HasSubstr(
+          ",\"normal_after_m_s = \"\"none\"\": must be a number such as 0.1 or 1e-3, or a fraction such as 1/3\"\n"));
   const CliResult json = Audit(table, {"--format", "json"});
   EXPECT_THAT(json.out, HasSubstr(R"("invalid_reason":"friction = -1: must be >= 0")"));
 }

@@ -56,8 +56,10 @@ TEST_F(CliSolveData, SaysOfEveryCellWhatAuditSays) {
     const CliResult solved = Solve("planar_contact.tangential_m_s,planar_contact.normal_m_s\n" + rows);
     const CliResult audited = Audit("tangential_after_m_s,normal_after_m_s\n" + rows);
     if (is_first) {
-      EXPECT_THAT(solved.out, HasSubstr("row 1 (line 5): planar_contact.tangential_m_s = \"0.1;0.3\": must be a number"));
-      EXPECT_THAT(audited.out, HasSubstr("row 1 (line 5): invalid: tangential_after_m_s = \"0.1;0.3\": must be a number"));
+      EXPECT_THAT(solved.out,
+                  HasSubstr("row 1 (line 5): planar_contact.tangential_m_s = \"0.1;0.3\": must be a number"));
+      EXPECT_THAT(audited.out,
+                  HasSubstr("row 1 (line 5): invalid: tangential_after_m_s = \"0.1;0.3\": must be a number"));
       continue;
     }
     EXPECT_THAT(solved.out, HasSubstr(std::string("  row 1 (line 5): planar_contact.normal_m_s") + cell.reason));
@@ -96,17 +98,15 @@ TEST_F(CliSolveData, TheSummaryInJsonHasTheSameReasons) {
 
 TEST_F(CliSolveData, ShortNamesMeanTheFieldsOfTheScene) {
   const Arguments columns = {"--column", "normal_total_n_s,newton", "--format", "csv"};
-  const CliResult full =
-      Solve("friction.kinetic_coefficient,planar_contact.normal_m_s\n0.1,-1\n0.4,-2\n",
-            {"--column", "impulse.normal_total_n_s,coefficients.newton", "--format", "csv"});
+  const CliResult full = Solve("friction.kinetic_coefficient,planar_contact.normal_m_s\n0.1,-1\n0.4,-2\n",
+                               {"--column", "impulse.normal_total_n_s,coefficients.newton", "--format", "csv"});
   EXPECT_EQ(full.exit_code, 0) << full.err;
   EXPECT_EQ(Solve("mu,planar_contact.normal_m_s\n0.1,-1\n0.4,-2\n", columns).out, full.out);
   EXPECT_EQ(Solve("kinetic_coefficient,planar_contact.normal\n0.1,-1\n0.4,-2\n", columns).out, full.out);
   EXPECT_THAT(Solve("normal_m_s\n-1\n").err,
               HasSubstr("must name one of\n  planar_contact.normal_m_s\n  surface_velocity.normal_m_s"));
   EXPECT_THAT(Solve("kinetc_coefficient\n0.1\n").err, HasSubstr("did you mean friction.kinetic_coefficient?"));
-  EXPECT_THAT(Solve("friction.kinetc_coefficient\n0.1\n").err,
-              HasSubstr("did you mean friction.kinetic_coefficient?"));
+  EXPECT_THAT(Solve("friction.kinetc_coefficient\n0.1\n").err, HasSubstr("did you mean friction.kinetic_coefficient?"));
   EXPECT_THAT(Solve("mu\n0.1\n", {"--column", "nweton"}).err, HasSubstr("did you mean coefficients.newton?"));
 }
 

@@ -96,8 +96,8 @@ TEST_F(Connection, FlagThatNeedsAServerIsRefusedWithoutOne) {
   EXPECT_EQ(RunShell("RICOCHET_TLS_CA=x \"$R\" solve --a 0.3 --b 1 --energetic 1 -o /dev/null").exit_code, 0);
 }
 
-// A real server with TLS that wants certificates of its clients, one with TLS alone, and one without, with the files that
-// clients may show them.
+// A real server with TLS that wants certificates of its clients, one with TLS alone, and one without, with the files
+// that clients may show them.
 class ExitCodes : public CliTest {
  protected:
   ExitCodes() {
@@ -132,14 +132,14 @@ struct Failure {
 
 TEST_F(ExitCodes, TryAgainIsSaidOnlyOfWhatARetryCanMend) {
   const ServerProcess tls({"--tls-cert", files_ / "server.pem", "--tls-key", files_ / "server.key"});
-  const ServerProcess mutual({"--tls-cert", files_ / "server.pem", "--tls-key", files_ / "server.key",
-                              "--tls-client-ca", files_ / "ca.pem"});
+  const ServerProcess mutual(
+      {"--tls-cert", files_ / "server.pem", "--tls-key", files_ / "server.key", "--tls-client-ca", files_ / "ca.pem"});
   const ServerProcess plain;
   const std::string ca = files_ / "ca.pem";
   const Arguments trusting = {"--tls-ca", ca, "--server-name", "ricochet.test"};
   const auto showing = [&](const std::string& certificate, const std::string& key) {
-    return Arguments{"--tls-ca", ca, "--server-name", "ricochet.test", "--tls-cert", files_ / certificate,
-                     "--tls-key", files_ / key};
+    return Arguments{"--tls-ca",           ca,          "--server-name", "ricochet.test", "--tls-cert",
+                     files_ / certificate, "--tls-key", files_ / key};
   };
   const Failure failures[] = {
       // The request is wrong: its files, its address.

@@ -8,11 +8,10 @@ namespace ricochet {
 namespace {
 
 TEST(ServerAddress, TakesWhatCanBeReached) {
-  for (const char* address :
-       {"host:1", "ricochet.example:50051", "my_host-2:65535", "127.0.0.1:1", "10.0.0.255:50051", "[::1]:50051",
-        "[fe80::1%eth0]:50051", "dns:///host:1", "dns:host:1", "dns://8.8.8.8/host:1", "ipv4:127.0.0.1:1",
-        "ipv6:[::1]:1", "unix:/run/ricochet.sock", "unix:relative", "unix:///run/ricochet.sock",
-        "unix-abstract:ricochet"}) {
+  for (const char* address : {"host:1", "ricochet.example:50051", "my_host-2:65535", "127.0.0.1:1", "10.0.0.255:50051",
+                              "[::1]:50051", "[fe80::1%eth0]:50051", "dns:///host:1", "dns:host:1",
+                              "dns://8.8.8.8/host:1", "ipv4:127.0.0.1:1", "ipv6:[::1]:1", "unix:/run/ricochet.sock",
+                              "unix:relative", "unix:///run/ricochet.sock", "unix-abstract:ricochet"}) {
     EXPECT_EQ(WhyNoAddress(address), "") << address;
   }
 }

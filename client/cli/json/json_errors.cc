@@ -105,7 +105,8 @@ class Checker : public nlohmann::json_sax<nlohmann::json> {
     }
     const auto [before, is_first] = level.given.emplace(level.field == nullptr ? name : level.field->name(), name);
     if (is_first) return true;
-    return Fail(absl::StrCat(Path(), ": is given twice", before->second == name ? "" : ", before as " + before->second));
+    return Fail(
+        absl::StrCat(Path(), ": is given twice", before->second == name ? "" : ", before as " + before->second));
   }
 
   bool parse_error(size_t /*position*/, const std::string& /*token*/,
