@@ -36,8 +36,8 @@ namespace ricochet {
 // of it, and of a stop, and ends its work too.
 //
 // Errors: a Client returns the errors of Solver with the same reason and violations, UNAVAILABLE and DEADLINE_EXCEEDED
-// of the network, and DATA_LOSS if the chunks of a stream do not fit together (a gap, a repetition, a wrong size, an
-// early end).
+// of the network, FAILED_PRECONDITION for a server that is not trusted or does not speak TLS, and DATA_LOSS if the chunks
+// of a stream do not fit together (a gap, a repetition, a wrong size, an early end).
 class Client final : public Solver {
  public:
   // Returns without waiting for a connection: only the first call finds out that no server is there.
