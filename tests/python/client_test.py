@@ -93,6 +93,25 @@ class OwnServer(unittest.TestCase):
         self.assertEqual(output.strip(), "REBOUND", errors)
         self.expect_nothing_left()
 
+    def test_a_client_works_after_a_fork_as_well(self):
+        child = "print(client.solve(scene).regime, flush=True); client.close(); os._exit(0)"
+        code = (f"import os, ricochet; scene = {PENDULUM!r}; client = ricochet.Client(); client.solve(scene)\n"
+                f"if os.fork() == 0:\n  {child}\nos.wait(); print(client.solve(scene).regime)")
+        output, errors = self.start(code).communicate()
+        self.assertEqual(output.split(), ["REBOUND", "REBOUND"], errors)
+        self.expect_nothing_left()
+
+    def test_threads_that_ask_first_share_one_server(self):
+        code = f"""
+            import concurrent.futures, pathlib, ricochet, tempfile
+            with concurrent.futures.ThreadPoolExecutor(8) as pool:
+                list(pool.map(lambda _: ricochet.solve({PENDULUM!r}), range(8)))
+            print(len(list(pathlib.Path(tempfile.gettempdir()).glob("ricochet-*"))))
+        """
+        output, errors = self.start(code).communicate()
+        self.assertEqual(output.strip(), "1", errors)
+        self.expect_nothing_left()
+
     def test_a_missing_program_is_named(self):
         with mock.patch.dict(os.environ, RICOCHETD="/nowhere/ricochetd"):
             with self.assertRaisesRegex(ricochet.Unavailable, "ricochetd was not found"):
@@ -176,6 +195,10 @@ class Options(unittest.TestCase):
         with self.assertRaises(ricochet.InvalidRequest) as raised:
             ricochet.Client(**options)
         self.assertEqual([violation.field for violation in raised.exception.violations], [field])
+
+    def test_numbers_and_truths_are_taken_as_such(self):
+        options = ricochet.Client(deadline=2.5, max_receive=1000, tls=True)._options
+        self.assertEqual((options.deadline_s(), options.max_receive_bytes(), options.is_tls), (2.5, 1000, True))
 
     def test_wrong_ones_are_refused(self):
         self.refuse("deadline", deadline="soon")
