@@ -24,6 +24,11 @@ _LETTERS = {
     "mu_static": "friction.static_coefficient",
     "omega": "pendulum.omega_minus_rad_s",
 }
+# The parts of an outcome whose numbers are columns; there are others with numbers of the same names.
+_COLUMNS = (
+    "coefficients rates_after_rad_s contact_velocity_after impulse work energy_change_j bodies_after effective accuracy "
+    "contact"
+).split()
 
 
 def fields_of(scene: Message) -> list[str]:
@@ -44,7 +49,8 @@ def columns_of(scene: Message) -> list[str]:
         lengths[path] = tangential
     for i in range(bodies):
         lengths.update({f"bodies_after[{i}].linear_m_s": tangential + 1, f"bodies_after[{i}].angular_rad_s": angular})
-    return _paths(outcome_pb2.Outcome(), "", lengths)
+    paths = _paths(outcome_pb2.Outcome(), "", lengths)
+    return [path for path in paths if path.replace("[", ".").split(".")[0] in _COLUMNS]
 
 
 def _tangential_directions(scene: Message) -> int:

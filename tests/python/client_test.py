@@ -62,6 +62,15 @@ class OwnServer(unittest.TestCase):
         self.assertEqual(output.strip(), "0.7071067811865475", errors)
         self.expect_nothing_left()
 
+    def test_nobody_else_can_open_its_socket(self):
+        process = self.start(f"import os; os.umask(0)\n{ASK}\nprint(newton, flush=True)\ninput()")
+        self.addCleanup(process.communicate)
+        self.assertTrue(process.stdout.readline())
+        [directory] = Path(self.directory).iterdir()
+        self.assertEqual(directory.stat().st_mode & 0o777, 0o700)
+        self.assertEqual((directory / "socket").stat().st_mode & 0o777, 0o600)
+        process.communicate("\n")
+
     def test_it_ends_with_an_exception(self):
         process = self.start(f"{ASK}\nraise SystemExit(3)")
         process.communicate()

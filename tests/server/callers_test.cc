@@ -32,6 +32,22 @@ TEST(Callers, AreKnownByTheHashOfTheirToken) {
   EXPECT_FALSE(callers->WithCertificate("lab").has_value());
 }
 
+TEST(Callers, EveryByteOfTheHashCounts) {
+  for (size_t i = 0; i < 64; ++i) {
+    std::string hash = kHashOfAbc;
+    hash[i] = hash[i] == '0' ? '1' : '0';
+    const auto callers = Callers::Parse("lab sha256:" + hash + " all");
+    ASSERT_TRUE(callers.ok()) << callers.status();
+    EXPECT_FALSE(callers->WithToken("abc").has_value()) << i;
+  }
+}
+
+TEST(Callers, EveryScopeOfALineMustBeKnown) {
+  for (const std::string scopes : {"solve,speed", "speed,solve", "all,", ",all", "Solve"}) {
+    EXPECT_FALSE(Callers::Parse("lab certificate " + scopes).ok()) << scopes;
+  }
+}
+
 TEST(Callers, AreKnownByTheNameOfTheirCertificate) {
   const auto callers = Callers::Parse("lab.example certificate all");
   ASSERT_TRUE(callers.ok()) << callers.status();
