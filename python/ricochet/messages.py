@@ -246,13 +246,13 @@ def fill(request: Message, scene: Any, **arguments: Any) -> None:
     _fill(getattr(request, "scene"), scene, "", violations)
     for name, value in arguments.items():
         field = request.DESCRIPTOR.fields_by_name[_FIELDS.get(name, name)]
+        if field.type != _Field.TYPE_ENUM:
+            if value is not None:
+                _fill_field(request, field, value, name, violations)
+            continue
         try:
-            given = names(value, name) if field.label == _Field.LABEL_REPEATED else value
-            if field.type == _Field.TYPE_ENUM:
-                numbers_of = [enum_number(field.enum_type, text, name) for text in given]
-                getattr(request, field.name).extend(numbers_of)
-            elif value is not None:
-                _fill_field(request, field, given, name, violations)
+            effects = [enum_number(field.enum_type, text, name) for text in names(value, name)]
+            getattr(request, field.name).extend(effects)
         except InvalidRequest as error:
             violations += error.violations
     if violations:

@@ -390,11 +390,12 @@ std::map<std::string, std::pair<std::string, std::string>> Ranges() {
 TEST(Options, EveryNumberIsTakenFromItsLeastToItsMostAndNotBeyond) {
   const std::string help = std::get<Notice>(Parse("", {.flags = {"--help"}}).value()).text;
   const std::regex line(R"(--([a-z-]+) (N|MIB|SECONDS)\b)");
+  const auto ranges = Ranges();
   int found = 0;
   for (std::sregex_iterator match(help.begin(), help.end(), line), end; match != end; ++match, ++found) {
     const std::string name = (*match)[1];
-    ASSERT_TRUE(Ranges().contains(name)) << name;
-    const auto& [least, most] = Ranges().at(name);
+    ASSERT_TRUE(ranges.contains(name)) << name;
+    const auto& [least, most] = ranges.at(name);
     const bool is_time = (*match)[2] == "SECONDS";
     const std::string below = is_time ? (least == "0" ? "-0.001" : "0.0004") : std::to_string(std::stoll(least) - 1);
     const std::string above = is_time ? "3600.001" : std::to_string(std::stoll(most) + 1);
@@ -404,7 +405,7 @@ TEST(Options, EveryNumberIsTakenFromItsLeastToItsMostAndNotBeyond) {
     for (const std::string& value : {least, most}) EXPECT_TRUE(is_taken(value)) << name << " " << value;
     for (const std::string& value : {below, above}) EXPECT_FALSE(is_taken(value)) << name << " " << value;
   }
-  EXPECT_EQ(found, static_cast<int>(Ranges().size()));
+  EXPECT_EQ(found, static_cast<int>(ranges.size()));
 }
 
 TEST(Options, PermissionsAreThoseOfNineBits) {
