@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/escaping.h"
@@ -20,10 +21,6 @@ namespace {
 constexpr char kService[] = "/ricochet.v1.ImpactService/";
 constexpr char kAll[] = "all";
 constexpr char kCertificate[] = "certificate";
-constexpr char kLineRule[] =
-    "must be NAME sha256:<64 hex digits>|certificate SCOPE[,SCOPE...], with scopes from solve, sweep, audit, cost, "
-    "info "
-    "and all";
 
 // The scope of each method of the service.
 const std::map<std::string, std::string>& MethodScopes() {
@@ -35,11 +32,25 @@ const std::map<std::string, std::string>& MethodScopes() {
   return scopes;
 }
 
+bool IsScope(const std::string& text) {
+  const std::vector<std::string> scopes = Scopes();
+  return std::find(scopes.begin(), scopes.end(), text) != scopes.end();
+}
+
+absl::Status BrokenLine() {
+  return absl::InvalidArgumentError(
+      absl::StrCat("must be NAME sha256:<64 hex digits>|certificate SCOPE[,SCOPE...], with scopes from ",
+                   absl::StrJoin(Scopes(), ", ")));
+}
+
 }  // namespace
 
-bool IsScope(const std::string& text) {
-  return text == kAll || std::any_of(MethodScopes().begin(), MethodScopes().end(),
-                                     [&text](const auto& entry) { return entry.second == text; });
+std::vector<std::string> Scopes() {
+  std::set<std::string> scopes;
+  for (const auto& [method, scope] : MethodScopes()) scopes.insert(scope);
+  std::vector<std::string> all(scopes.begin(), scopes.end());
+  all.emplace_back(kAll);
+  return all;
 }
 
 std::optional<std::string> ScopeOf(const std::string& method) {
@@ -52,14 +63,14 @@ std::optional<std::string> ScopeOf(const std::string& method) {
 
 absl::StatusOr<Callers::Line> Callers::ParseLine(const std::string& text) {
   const std::vector<std::string> words = absl::StrSplit(text, absl::ByAnyChar(" \t\r"), absl::SkipEmpty());
-  if (words.size() != 3) return absl::InvalidArgumentError(kLineRule);
+  if (words.size() != 3) return BrokenLine();
   Line line = {.name = words[0], .scopes = absl::StrSplit(words[2], ',')};
-  if (!std::all_of(line.scopes.begin(), line.scopes.end(), IsScope)) return absl::InvalidArgumentError(kLineRule);
+  if (!std::all_of(line.scopes.begin(), line.scopes.end(), IsScope)) return BrokenLine();
   if (words[1] == kCertificate) return line;
   const std::string digits(absl::StripPrefix(words[1], "sha256:"));
   const bool hexadecimal = std::all_of(digits.begin(), digits.end(), [](char c) { return absl::ascii_isxdigit(c); });
   if (digits == words[1] || digits.size() != 2 * sizeof(Hash) || !hexadecimal) {
-    return absl::InvalidArgumentError(kLineRule);
+    return BrokenLine();
   }
   const std::string bytes = absl::HexStringToBytes(digits);
   std::copy(bytes.begin(), bytes.end(), line.token.emplace().begin());

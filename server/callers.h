@@ -23,7 +23,7 @@ class Callers {
  public:
   struct Caller {
     std::string name;                 // "token:lab" or "certificate:monitor".
-    std::vector<std::string> scopes;  // Of those that IsScope knows; "all" means every one.
+    std::vector<std::string> scopes;  // Among Scopes().
   };
 
   // Reads the lines of a file.
@@ -48,8 +48,8 @@ class Callers {
   std::vector<Line> lines_;
 };
 
-// Returns true for "solve", "sweep", "audit", "cost", "info" and "all".
-bool IsScope(const std::string& text);
+// Returns every scope that a caller can have: "audit", "cost", "info", "solve", "sweep" and, for all of them, "all".
+std::vector<std::string> Scopes();
 
 // Returns the scope that a call needs, by the path of its method ("/ricochet.v1.ImpactService/Solve"): an empty text if
 // everybody may call it, as health; nothing if nobody may.

@@ -14,9 +14,10 @@
 
 namespace ricochet::server {
 
-// Returns credentials with TLS if `paths` name a certificate, and without encryption otherwise. With client authorities a
-// client without a certificate of theirs is cut off before it can send anything. With `auth`, which may be null, every call
-// is checked before its message is read.
+// Returns the credentials of one port: gRPC asks for the certificates of each port once, so that two ports need two. They
+// encrypt by TLS if `paths` name a certificate, and not otherwise. With client authorities a client without a certificate
+// of theirs is cut off before it can send anything. With `auth`, which may be null, every call is checked before its
+// message is read.
 //
 // The files are looked at before each handshake. Changed ones are used from then on; if they cannot be read or do not fit
 // together, the server goes on with the old ones and an error stands in the log. `log` must outlive the credentials.

@@ -3,7 +3,10 @@
 #include <chrono>
 #include <utility>
 
+#include "server/credentials.h"
+#include "server/handshakes.h"
 #include "server/listener.h"
+#include "server/peer.h"
 
 namespace ricochet::server {
 namespace {
@@ -23,17 +26,20 @@ absl::StatusOr<std::vector<Listener>> OpenAll(const Endpoint::Settings& settings
 absl::StatusOr<std::unique_ptr<Endpoint>> Endpoint::Open(const Settings& settings, grpc::ServerBuilder& builder,
                                                          const Log& log) {
   using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
+  const auto credentials = MakeCredentials(settings.tls, settings.auth, log);
+  if (!credentials.ok()) return credentials.status();
   absl::StatusOr<std::vector<Listener>> listeners = OpenAll(settings);
   if (!listeners.ok()) return listeners.status();
   std::unique_ptr<Endpoint> endpoint(new Endpoint());
   for (const Listener& listener : *listeners) endpoint->addresses_.push_back(listener.address());
-  endpoint->hand_over_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, settings.credentials);
+  endpoint->hand_over_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, *credentials);
   endpoint->server_ = builder.BuildAndStart();
   if (endpoint->server_ == nullptr) return absl::UnavailableError("gRPC cannot start a server");
   endpoint->acceptor_ = std::make_unique<Acceptor>(*std::move(listeners), settings.connections, log);
   const absl::Status started = endpoint->acceptor_->Start([to = endpoint->hand_over_.get()](int descriptor) {
     grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters connection;
     connection.fd = descriptor;
+    const HandshakesOf peer(AddressOfSocket(descriptor));
     to->HandleNewConnection(&connection);
   });
   if (!started.ok()) return started;

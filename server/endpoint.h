@@ -3,7 +3,6 @@
 #ifndef RICOCHET_SERVER_ENDPOINT_H_
 #define RICOCHET_SERVER_ENDPOINT_H_
 
-#include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 #include <sys/types.h>
@@ -14,9 +13,11 @@
 
 #include "absl/status/statusor.h"
 #include "server/acceptor.h"
+#include "server/auth.h"
 #include "server/connection_counts.h"
 #include "server/listen_address.h"
 #include "server/log.h"
+#include "server/tls_files.h"
 
 namespace ricochet::server {
 
@@ -26,11 +27,12 @@ class Endpoint {
     std::vector<ListenAddress> addresses;
     mode_t socket_mode = 0600;
     ConnectionLimits connections;
-    std::shared_ptr<grpc::ServerCredentials> credentials;
+    TlsPaths tls;                // Empty paths: no TLS.
+    std::shared_ptr<Auth> auth;  // Null: whoever can connect may call everything.
   };
 
   // Starts the server that `builder` describes, and takes connections. `log` must outlive the endpoint.
-  // Errors: UNAVAILABLE if it cannot listen.
+  // Errors: UNAVAILABLE if it cannot listen, and those of MakeCredentials.
   static absl::StatusOr<std::unique_ptr<Endpoint>> Open(const Settings& settings, grpc::ServerBuilder& builder,
                                                         const Log& log);
 

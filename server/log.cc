@@ -12,6 +12,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "absl/strings/match.h"
+
 namespace ricochet::server {
 namespace {
 
@@ -97,13 +99,17 @@ std::string ToText(const LogField& field, LogFormat format) {
 // The log that receives gRPC's own messages.
 std::atomic<const Log*> grpc_log = nullptr;
 
+// A failed handshake is no error of the server; server/handshakes.h says whose it was.
+constexpr char kHandshakeFailed[] = "Handshake failed with fatal error";
+
+LogLevel LevelOf(const gpr_log_func_args& message) {
+  if (message.severity == GPR_LOG_SEVERITY_INFO) return LogLevel::kInfo;
+  if (message.severity != GPR_LOG_SEVERITY_ERROR) return LogLevel::kDebug;
+  return absl::StartsWith(message.message, kHandshakeFailed) ? LogLevel::kInfo : LogLevel::kError;
+}
+
 void WriteGrpcMessage(gpr_log_func_args* message) {
-  const Log* const log = grpc_log;
-  if (log == nullptr) return;
-  const LogLevel level = message->severity == GPR_LOG_SEVERITY_ERROR  ? LogLevel::kError
-                         : message->severity == GPR_LOG_SEVERITY_INFO ? LogLevel::kInfo
-                                                                      : LogLevel::kDebug;
-  log->Write(level, "grpc", {{"message", message->message}});
+  Log::WriteForGrpc(LevelOf(*message), "grpc", {{"message", message->message}});
 }
 
 }  // namespace
@@ -152,6 +158,11 @@ std::string Log::Line(LogLevel level, const std::string& event, const std::vecto
 
 void Log::Write(LogLevel level, const std::string& event, const std::vector<LogField>& fields) const {
   if (level >= level_) put_(Line(level, event, fields));
+}
+
+void Log::WriteForGrpc(LogLevel level, const std::string& event, const std::vector<LogField>& fields) {
+  const Log* const log = grpc_log;
+  if (log != nullptr) log->Write(level, event, fields);
 }
 
 bool Log::Flush(std::chrono::milliseconds time) const { return writer_ == nullptr || writer_->Flush(time); }

@@ -51,6 +51,9 @@ class Log {
 
   void Write(LogLevel level, const std::string& event, const std::vector<LogField>& fields) const;
 
+  // Writes to the log that gRPC's own messages go to; does nothing if there is none.
+  static void WriteForGrpc(LogLevel level, const std::string& event, const std::vector<LogField>& fields);
+
   // These three are those of the writer. A log without one has nothing to wait for, to reopen or to drop.
   bool Flush(std::chrono::milliseconds time) const;
   // Also reports an error in the log.

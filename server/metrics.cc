@@ -1,6 +1,5 @@
 #include "server/metrics.h"
 
-#include <prometheus/collectable.h>
 #include <prometheus/counter.h>
 #include <prometheus/family.h>
 #include <prometheus/gauge.h>
@@ -66,9 +65,7 @@ std::string ReasonLabel(const std::string& reason) {
 }  // namespace
 
 // The metrics that calls count.
-struct Metrics::Counted : prometheus::Collectable {
-  std::vector<prometheus::MetricFamily> Collect() const override { return registry.Collect(); }
-
+struct Metrics::Counted {
   Family<Counter>& AddCounters(const char* name, const char* help) {
     return BuildCounter().Name(name).Help(help).Register(registry);
   }
@@ -97,7 +94,7 @@ struct Metrics::Counted : prometheus::Collectable {
 };
 
 // The metrics that are asked for.
-class Metrics::Asked : public prometheus::Collectable {
+class Metrics::Asked {
  public:
   void Add(const std::string& name, const std::string& help, prometheus::MetricType type,
            std::function<double()> value) {
@@ -105,7 +102,7 @@ class Metrics::Asked : public prometheus::Collectable {
     sources_.push_back({name, help, type, std::move(value)});
   }
 
-  std::vector<prometheus::MetricFamily> Collect() const override {
+  std::vector<prometheus::MetricFamily> Collect() const {
     const std::lock_guard lock(mutex_);
     std::vector<prometheus::MetricFamily> families;
     for (const Source& source : sources_) {
@@ -127,7 +124,7 @@ class Metrics::Asked : public prometheus::Collectable {
   std::vector<Source> sources_;
 };
 
-Metrics::Metrics() : counted_(std::make_shared<Counted>()), asked_(std::make_shared<Asked>()) {
+Metrics::Metrics() : counted_(std::make_unique<Counted>()), asked_(std::make_unique<Asked>()) {
   BuildGauge()
       .Name("ricochet_info")
       .Help("Always 1; the labels name the version and the engine's fingerprint.")
@@ -169,11 +166,8 @@ void Metrics::AddCounter(const std::string& name, const std::string& help, std::
   asked_->Add(name, help, prometheus::MetricType::Counter, std::move(value));
 }
 
-std::weak_ptr<prometheus::Collectable> Metrics::counted() const { return counted_; }
-std::weak_ptr<prometheus::Collectable> Metrics::asked() const { return asked_; }
-
 std::string Metrics::Text() const {
-  std::vector<prometheus::MetricFamily> families = counted_->Collect();
+  std::vector<prometheus::MetricFamily> families = counted_->registry.Collect();
   for (prometheus::MetricFamily& family : asked_->Collect()) families.push_back(std::move(family));
   return prometheus::TextSerializer().Serialize(families);
 }

@@ -15,10 +15,6 @@
 
 #include "server/call_record.h"
 
-namespace prometheus {
-class Collectable;
-}
-
 namespace ricochet::server {
 
 // Thread safety: every method may be called from several threads at once.
@@ -40,18 +36,14 @@ class Metrics {
   void AddGauge(const std::string& name, const std::string& help, std::function<double()> value);
   void AddCounter(const std::string& name, const std::string& help, std::function<double()> value);
 
-  // Returns what a page of metrics shows. They are empty once this object is gone.
-  std::weak_ptr<prometheus::Collectable> counted() const;
-  std::weak_ptr<prometheus::Collectable> asked() const;
-
   // Returns all metrics as Prometheus reads them.
   std::string Text() const;
 
  private:
   struct Counted;
   class Asked;
-  const std::shared_ptr<Counted> counted_;
-  const std::shared_ptr<Asked> asked_;
+  const std::unique_ptr<Counted> counted_;
+  const std::unique_ptr<Asked> asked_;
 };
 
 }  // namespace ricochet::server

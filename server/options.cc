@@ -26,6 +26,7 @@
 #include "absl/strings/strip.h"
 #include "core/engine/engine.h"
 #include "core/scene/nearest.h"
+#include "server/callers.h"
 
 namespace ricochet::server {
 namespace {
@@ -129,7 +130,8 @@ std::vector<Setting> NetworkSettings() {
       {"reflection", "HOST:PORT|unix:PATH,...",
        "Where clients can read the proto files by gRPC reflection, away from the calls [nowhere]",
        [](const std::string& text, Options& to) { return ReadAddresses(text, to.reflection); }},
-      {"metrics", "HOST:PORT", "Where Prometheus can read the metrics, at the path /metrics [nowhere]",
+      {"metrics", "HOST:PORT",
+       "Where HTTP clients can read the metrics, at /metrics, and the health, at /healthz [nowhere]",
        [](const std::string& text, Options& to) -> BrokenRule {
          to.metrics = ParseListenAddress(text);
          if (!to.metrics.has_value() || to.metrics->is_unix()) return kMetricsRule;
@@ -170,8 +172,9 @@ std::vector<Setting> SecuritySettings() {
       {"tls-client-ca", "FILE", "Let in only clients with a certificate of these authorities",
        [](const std::string& text, Options& to) { return ReadPath(text, to.tls.client_ca); }},
       {"tokens", "FILE",
-       "Answer only callers of this file, a line each: NAME sha256:HEX|certificate SCOPES, with scopes from solve, "
-       "sweep, audit, cost, info and all; read again when it changes",
+       absl::StrCat(
+           "Answer only callers of this file, a line each: NAME sha256:HEX|certificate SCOPES, with scopes from ",
+           absl::StrJoin(Scopes(), ", "), "; read again when it changes"),
        [](const std::string& text, Options& to) { return ReadPath(text, to.tokens); }},
   };
 }

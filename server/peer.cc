@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <grpc/grpc_security_constants.h>
+#include <netdb.h>
 #include <netinet/in.h>
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "server/auth.h"
 
 namespace ricochet::server {
@@ -87,6 +90,25 @@ std::string AddressKeyOfSocket(int socket) {
   size = sizeof(user);
   if (getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &user, &size) != 0) return "unknown";
   return absl::StrCat("unix:", user.uid);
+}
+
+std::string AddressOfSocket(int socket) {
+  sockaddr_storage address = {};
+  socklen_t size = sizeof(address);
+  std::array<char, NI_MAXHOST> host = {};
+  std::array<char, NI_MAXSERV> port = {};
+  const bool is_known = getpeername(socket, reinterpret_cast<sockaddr*>(&address), &size) == 0 &&
+                        (address.ss_family == AF_INET || address.ss_family == AF_INET6) &&
+                        getnameinfo(reinterpret_cast<const sockaddr*>(&address), size, host.data(), host.size(),
+                                    port.data(), port.size(), NI_NUMERICHOST | NI_NUMERICSERV) == 0;
+  if (!is_known) return AddressKeyOfSocket(socket);
+  const absl::string_view name = host.data();
+  if (address.ss_family == AF_INET) return absl::StrCat("ipv4:", name, ":", port.data());
+  constexpr absl::string_view kMapped = "::ffff:";
+  if (IN6_IS_ADDR_V4MAPPED(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr)) {
+    return absl::StrCat("ipv4:", absl::StripPrefix(name, kMapped), ":", port.data());
+  }
+  return absl::StrCat("ipv6:[", name, "]:", port.data());
 }
 
 }  // namespace ricochet::server

@@ -31,6 +31,10 @@ std::string AddressKey(const std::string& grpc_peer);
 // the user who connected. A socket without a peer gives "unknown".
 std::string AddressKeyOfSocket(int socket);
 
+// Returns the whole address of the peer of a connected socket, as gRPC spells it: "ipv4:192.0.2.1:40000",
+// "ipv6:[2001:db8::1]:40000"; for a Unix socket its key.
+std::string AddressOfSocket(int socket);
+
 }  // namespace ricochet::server
 
 #endif  // RICOCHET_SERVER_PEER_H_

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "server/call_watch.h"
-#include "server/credentials.h"
 #include "server/descriptor_limit.h"
 #include "server/port_file.h"
 #include "server/self_test.h"
@@ -103,12 +102,11 @@ absl::Status Server::Listen() {
                builder);
   WatchCalls(observer_, builder);
   builder.RegisterService(&bounded_);
-  const auto credentials = MakeCredentials(options_.tls, auth_, log_);
-  if (!credentials.ok()) return credentials.status();
   Endpoint::Settings settings = {.addresses = options_.listen,
                                  .socket_mode = options_.socket_mode,
                                  .connections = options_.connections,
-                                 .credentials = *credentials};
+                                 .tls = options_.tls,
+                                 .auth = auth_};
   absl::StatusOr<std::unique_ptr<Endpoint>> endpoint = Endpoint::Open(settings, builder, log_);
   if (!endpoint.ok()) return endpoint.status();
   endpoint_ = *std::move(endpoint);
@@ -159,7 +157,8 @@ absl::Status Server::OpenMetrics() {
   metrics.AddCounter("ricochet_log_lines_dropped_total", "Lines that the log could not take.",
                      [this] { return static_cast<double>(log_.dropped()); });
   if (!options_.metrics.has_value()) return absl::OkStatus();
-  absl::StatusOr<std::unique_ptr<MetricsPage>> page = MetricsPage::Open(*options_.metrics, metrics);
+  absl::StatusOr<std::unique_ptr<MetricsPage>> page =
+      MetricsPage::Open(*options_.metrics, metrics, [this] { return serving_.load(); });
   if (!page.ok()) return page.status();
   metrics_page_ = *std::move(page);
   log_.Write(LogLevel::kInfo, "metrics", {{"address", ToString(metrics_page_->address())}});

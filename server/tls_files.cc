@@ -3,6 +3,7 @@
 #include <openssl/bio.h>
 #include <openssl/err.h>
 #include <openssl/pem.h>
+#include <openssl/ssl.h>
 #include <openssl/x509.h>
 
 #include <memory>
@@ -21,6 +22,7 @@ struct Free {
 };
 using Bio = std::unique_ptr<BIO, Free<BIO_free_all>>;
 using Certificate = std::unique_ptr<X509, Free<X509_free>>;
+using Context = std::unique_ptr<SSL_CTX, Free<SSL_CTX_free>>;
 using Key = std::unique_ptr<EVP_PKEY, Free<EVP_PKEY_free>>;
 
 Bio BioOf(const std::string& text) { return Bio(BIO_new_mem_buf(text.data(), static_cast<int>(text.size()))); }
@@ -42,6 +44,15 @@ Key ParseKey(const std::string& pem) {
 
 absl::Status HoldsNo(const std::string& what, const WatchedFile& file) {
   return absl::InvalidArgumentError(absl::StrCat(file.path(), " holds no ", what, " in PEM form"));
+}
+
+// Returns why TLS refuses the certificate, such as a key that is too short for the system's policy, or an empty text.
+std::string WhyUnusable(X509* certificate) {
+  const Context context(SSL_CTX_new(TLS_server_method()));
+  if (context != nullptr && SSL_CTX_use_certificate(context.get(), certificate) == 1) return "";
+  const char* const reason = ERR_reason_error_string(ERR_peek_last_error());
+  ERR_clear_error();
+  return reason == nullptr ? "unknown reason" : reason;
 }
 
 std::string Printed(const Bio& bio) {
@@ -77,6 +88,10 @@ absl::StatusOr<TlsContents> TlsFiles::Read() {
     ERR_clear_error();
     return absl::InvalidArgumentError(
         absl::StrCat("the key in ", key_.path(), " is not that of the certificate in ", certificate_.path()));
+  }
+  if (const std::string reason = WhyUnusable(parsed.get()); !reason.empty()) {
+    return absl::InvalidArgumentError(
+        absl::StrCat("the certificate in ", certificate_.path(), " cannot be used for TLS: ", reason));
   }
   return TlsContents{.certificate = *certificate, .key = *key, .client_ca = *client_ca};
 }

@@ -17,14 +17,10 @@ their own; a ``Client`` does so with options of its own.
 from __future__ import annotations
 
 import atexit
-import os
-import threading
 from typing import TYPE_CHECKING, Any, Iterable, Literal, Mapping, Sequence, overload
 
-from numpy.typing import ArrayLike
-
 from ricochet.axes import Axis, Linspace, Logspace
-from ricochet.client import Client, Progress, Scene
+from ricochet.client import Client, InvalidRows, ModuleClient, Progress, Scene
 from ricochet.errors import (
     Inadmissible,
     InvalidRequest,
@@ -38,6 +34,7 @@ from ricochet.errors import (
 from ricochet.messages import Record, read_scene
 from ricochet.table import Codes, Table
 from ricochet.units import unit_of
+from ricochet.version import __version__
 
 if TYPE_CHECKING:
     import pandas
@@ -49,6 +46,7 @@ __all__ = [
     "Codes",
     "Inadmissible",
     "InvalidRequest",
+    "InvalidRows",
     "LimitReached",
     "Linspace",
     "Logspace",
@@ -60,6 +58,7 @@ __all__ = [
     "TimedOut",
     "Unavailable",
     "Violation",
+    "__version__",
     "audit",
     "audit_batch",
     "bounds",
@@ -72,116 +71,63 @@ __all__ = [
     "unit_of",
 ]
 
-_lock = threading.Lock()
-_client: tuple[int, Client] | None = None
+_client = ModuleClient()
 
-
-def _default_client() -> Client:
-    global _client
-    with _lock:
-        # A process that was forked must not use the connection of its parent.
-        if _client is None or _client[0] != os.getpid():
-            _client = (os.getpid(), Client())
-        return _client[1]
-
-
-def close() -> None:
-    """Closes the connection of this module's functions, and stops their server; the next call opens another."""
-    global _client
-    with _lock:
-        if _client is not None and _client[0] == os.getpid():
-            _client[1].close()
-        _client = None
-
+solve = _client.solve
+solve_batch = _client.solve_batch
+bounds = _client.bounds
+audit = _client.audit
+audit_batch = _client.audit_batch
+info = _client.info
+close = _client.close
 
 atexit.register(close)
-
-
-def solve(
-    scene: Scene,
-    *,
-    tolerance: float | None = None,
-    require: Iterable[str] = (),
-    exclude: Iterable[str] = (),
-    strict: bool = False,
-    history: int = 0,
-    force_history: int = 0,
-    certified: int = 0,
-) -> Record:
-    """Computes one impact. See ``Client.solve``."""
-    return _default_client().solve(
-        scene,
-        tolerance=tolerance,
-        require=require,
-        exclude=exclude,
-        strict=strict,
-        history=history,
-        force_history=force_history,
-        certified=certified,
-    )
-
-
-def bounds(scene: Scene, *, ranges: Mapping[str, tuple[float, float]] | None = None, certified: int = 0) -> Record:
-    """Computes the values that the coefficients of an impact can take. See ``Client.bounds``."""
-    return _default_client().bounds(scene, ranges=ranges, certified=certified)
-
-
-def audit(
-    scene: Scene,
-    *,
-    contact_velocity: Mapping[str, Any] | None = None,
-    rates_rad_s: ArrayLike | None = None,
-    velocity_uncertainty_m_s: float = 0.0,
-) -> Record:
-    """Computes what an observed impact implies, and which limits it breaks. See ``Client.audit``."""
-    return _default_client().audit(
-        scene,
-        contact_velocity=contact_velocity,
-        rates_rad_s=rates_rad_s,
-        velocity_uncertainty_m_s=velocity_uncertainty_m_s,
-    )
-
-
-def audit_batch(scene: Scene, columns: Mapping[str, Any]) -> Table:
-    """Audits many observed impacts at one contact. See ``Client.audit_batch``."""
-    return _default_client().audit_batch(scene, columns)
-
-
-def solve_batch(
-    scene: Scene,
-    inputs: Mapping[str, ArrayLike],
-    columns: Sequence[str],
-    *,
-    tolerance: float | None = None,
-    require: Iterable[str] = (),
-    exclude: Iterable[str] = (),
-) -> Table:
-    """Computes many different impacts of one system. See ``Client.solve_batch``."""
-    return _default_client().solve_batch(scene, inputs, columns, tolerance=tolerance, require=require, exclude=exclude)
 
 
 @overload
 def sweep(
     scene: Scene,
     axes: Mapping[str, Axis],
-    columns: Sequence[str],
+    columns: str | Sequence[str],
     *,
     form: Literal["xarray"] = "xarray",
-    **options: Any,
+    zip_axes: bool = False,
+    tolerance: float | None = None,
+    require: str | Iterable[str] = (),
+    exclude: str | Iterable[str] = (),
+    progress: Progress | None = None,
 ) -> "xarray.Dataset":
     ...
 
 
 @overload
 def sweep(
-    scene: Scene, axes: Mapping[str, Axis], columns: Sequence[str], *, form: Literal["pandas"], **options: Any
+    scene: Scene,
+    axes: Mapping[str, Axis],
+    columns: str | Sequence[str],
+    *,
+    form: Literal["pandas"],
+    zip_axes: bool = False,
+    tolerance: float | None = None,
+    require: str | Iterable[str] = (),
+    exclude: str | Iterable[str] = (),
+    progress: Progress | None = None,
 ) -> "pandas.DataFrame":
     ...
 
 
 @overload
 def sweep(
-    scene: Scene, axes: Mapping[str, Axis], columns: Sequence[str], *, form: Literal["table"], **options: Any
+    scene: Scene,
+    axes: Mapping[str, Axis],
+    columns: str | Sequence[str],
+    *,
+    form: Literal["table"],
+    zip_axes: bool = False,
+    tolerance: float | None = None,
+    require: str | Iterable[str] = (),
+    exclude: str | Iterable[str] = (),
+    progress: Progress | None = None,
 ) -> Table:
     ...
 
@@ -189,25 +135,54 @@ def sweep(
 def sweep(
     scene: Scene,
     axes: Mapping[str, Axis],
-    columns: Sequence[str],
+    columns: str | Sequence[str],
     *,
     form: Literal["xarray", "pandas", "table"] = "xarray",
-    **options: Any,
+    zip_axes: bool = False,
+    tolerance: float | None = None,
+    require: str | Iterable[str] = (),
+    exclude: str | Iterable[str] = (),
+    progress: Progress | None = None,
 ) -> Any:
-    """Computes impacts over a grid. See ``Client.sweep`` for the other options.
+    """Computes impacts over a grid.
+
+    A connection that breaks, or a server that stops, does not end the sweep: it goes on from the first point that
+    has not arrived, if another call reaches the same engine.
 
     Args:
-        form: ``"xarray"``: a dataset with a dimension for each axis; ``"pandas"``: a frame with a row for each point;
-            ``"table"``: a ``Table`` of numpy arrays. The first two need the package of that name.
+        scene: gives every field that no axis drives.
+        axes: the values of each field that varies, by the field's path, ``"friction.kinetic_coefficient"``, or a
+            short name, ``"mu"``. An array, or ``ricochet.Linspace`` or ``ricochet.Logspace`` for more than 65,536
+            values.
+        columns: the numbers of the outcome to compute: ``"coefficients.newton"``, or short names, ``["newton"]``.
+            The answer has their full names.
+        form: what is returned. ``"xarray"``: a dataset with a dimension for each axis; ``"pandas"``: a frame with a row
+            for each point; ``"table"``: a ``Table`` of numpy arrays. The first two need the package of that name.
+        zip_axes: the axes advance together; otherwise the points are all combinations of their values.
+        tolerance, require, exclude: as in ``solve``, for every point.
+        progress: is called with the points done and the points in all, after each part of the answer.
+
+    Returns:
+        The numbers of each column, ``regime``, and ``status``, which says whether a point is ``"OK"`` or
+        ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN, and a warning ``InvalidRows`` says so.
+        ``attrs`` has the request and the engine, under the names that the files of the command line have.
+
+    Raises:
+        InvalidRequest: the scene, an axis or a column is wrong.
+        RicochetError: the call failed otherwise.
     """
     if form not in ("xarray", "pandas", "table"):
         raise InvalidRequest.of([Violation("form", f"= {form!r}: must be 'xarray', 'pandas' or 'table'")])
-    table = _default_client().sweep(scene, axes, columns, **options)
+    table = _client.sweep(
+        scene,
+        axes,
+        columns,
+        zip_axes=zip_axes,
+        tolerance=tolerance,
+        require=require,
+        exclude=exclude,
+        progress=progress,
+    )
     if form == "table":
         return table
     return table.to_xarray() if form == "xarray" else table.to_pandas()
-
-
-def info() -> Record:
-    """Returns which engine answers, what it can compute, and its limits. See ``Client.info``."""
-    return _default_client().info()

@@ -8,7 +8,10 @@ from typing import Any, Union
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ricochet.errors import InvalidRequest, Violation
+from ricochet.messages import to_message as fill_message
 from ricochet.v1 import sweep_pb2
+from ricochet.values import column, shown
 
 
 @dataclass(frozen=True)
@@ -49,20 +52,21 @@ Axis = Union[Linspace, Logspace, ArrayLike]
 """The values of an axis: a Linspace or a Logspace of any size, or an array of at most 65,536 numbers."""
 
 
-def coordinates(axis: Axis) -> NDArray[np.float64]:
-    """Returns the values of an axis."""
+def coordinates(path: str, axis: Axis) -> NDArray[np.float64]:
+    """Returns the values of an axis. Raises InvalidRequest, which names `path`, for what is no number."""
     if isinstance(axis, (Linspace, Logspace)):
         return axis.values()
-    return np.atleast_1d(np.asarray(axis, dtype=np.float64))
+    values = np.atleast_1d(column(axis, path))
+    if values.ndim != 1:
+        raise InvalidRequest.of([Violation(path, f"= {shown(axis)}: must be one number or a list of numbers")])
+    return values
 
 
 def to_message(path: str, axis: Axis) -> Any:
     """Returns the axis as ricochet.v1.Axis."""
     message = sweep_pb2.Axis(path=path)
-    if isinstance(axis, Linspace):
-        message.linspace.start, message.linspace.stop, message.linspace.count = axis.start, axis.stop, axis.count
-    elif isinstance(axis, Logspace):
-        message.logspace.start, message.logspace.stop, message.logspace.count = axis.start, axis.stop, axis.count
+    if isinstance(axis, (Linspace, Logspace)):
+        fill_message(message.linspace if isinstance(axis, Linspace) else message.logspace, vars(axis), path)
     else:
-        message.list.values.extend(coordinates(axis))
+        message.list.values.extend(coordinates(path, axis))
     return message

@@ -3,18 +3,25 @@
 from __future__ import annotations
 
 import os
+import sys
+import threading
+import warnings
+import weakref
+from functools import cached_property
 from types import TracebackType
 from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
 
 import grpc
 import numpy as np
+from google.protobuf import json_format
 from numpy.typing import ArrayLike, NDArray
 
 from ricochet import axes as sweep_axes
+from ricochet import names, values
 from ricochet.connection import DEFAULT_DEADLINE_S, Connection, metadata, open_channel, resolve
 from ricochet.embedded import EmbeddedServer
 from ricochet.errors import InvalidRequest, RicochetError, Unavailable, Violation, from_rpc
-from ricochet.messages import Record, enum_names, enum_number, to_message, to_record
+from ricochet.messages import Record, enum_names, fill, to_message, to_record
 from ricochet.table import Codes, Table
 from ricochet.v1 import (
     audit_pb2,
@@ -23,7 +30,6 @@ from ricochet.v1 import (
     impact_service_pb2_grpc,
     info_pb2,
     outcome_pb2,
-    plan_pb2,
     sweep_pb2,
 )
 
@@ -32,32 +38,84 @@ Progress = Callable[[int, int], object]
 _Answer = TypeVar("_Answer")
 
 _MOST_RESUMES = 10
+_TITLE = "Sweep of impacts with friction"
 _REGIMES = enum_names(outcome_pb2.Regime.DESCRIPTOR)
 _STATUSES = enum_names(sweep_pb2.RowStatus.DESCRIPTOR)
-_EFFECT = plan_pb2.Effect.DESCRIPTOR
+_clients: "weakref.WeakSet[Client]" = weakref.WeakSet()
+
+
+class InvalidRows(UserWarning):
+    """Rows of an answer have no numbers, because they break a rule; the text says how many, and the first of them."""
 
 
 class Client:
     """Asks the server that is named, or starts a ``ricochetd`` of its own at the first call and stops it at the end.
 
     Use it as a context manager, or call ``close``; an own server ends with the process in any case. The options are
-    those of the command line; see ``ricochet.connection.Connection``. Several threads may use one client.
+    those of the command line; one that is not given is taken from the environment (``RICOCHET_TLS_CA`` for ``tls_ca``),
+    then from the TOML file that ``config`` or ``RICOCHET_CONFIG`` names, as a line ``tls-ca = "FILE"``. Several threads
+    may use one client; after a fork it opens a connection of its own in the new process.
 
     Args:
         server: ``"HOST:PORT"`` or ``"unix:PATH"``; several with commas between them stand in for each other.
-        options: the other fields of ``Connection``, such as ``tls_ca``, ``token_file`` or ``deadline``.
+        deadline: the time that one call may take, s, or ``"250ms"``, ``"5m"``; by default 10 s, for a sweep any.
+        max_receive: bytes of one message of an answer, in [1, 2147483647]; by default 67108864.
+        tls: encrypt, and make sure of the server; the next four imply it.
+        tls_ca: PEM file with the authorities that the server's certificate must come from; by default the system's.
+        tls_cert: PEM file with this client's certificate.
+        tls_key: PEM file with the private key of ``tls_cert``.
+        server_name: the name that the server's certificate must have, if it is not that of ``server``.
+        token_file: the file that holds the token to send; it may be renewed.
+        token: the token to send.
+        config: a TOML file with these options.
 
     Raises:
         InvalidRequest: an option is wrong.
     """
 
-    def __init__(self, server: str = "", **options: str) -> None:
-        self._options = resolve(Connection(server=server, **options))
-        self._deadline_s = self._options.deadline_s()
+    def __init__(
+        self,
+        server: str = "",
+        *,
+        deadline: str | float = "",
+        max_receive: str | int = "",
+        tls: str | bool = "",
+        tls_ca: str = "",
+        tls_cert: str = "",
+        tls_key: str = "",
+        server_name: str = "",
+        token_file: str = "",
+        token: str = "",
+        config: str = "",
+    ) -> None:
+        self._given = Connection(
+            server=server,
+            deadline=str(deadline),
+            max_receive=str(max_receive),
+            tls=str(tls).lower(),
+            tls_ca=tls_ca,
+            tls_cert=tls_cert,
+            tls_key=tls_key,
+            server_name=server_name,
+            token_file=token_file,
+            token=token,
+            config=config,
+        )
+        self._disconnect()
+        _clients.add(self)
+        # Wrong options are an error here, and not at the first call.
+        self._options.deadline_s()
+        self._options.max_receive_bytes()
+
+    def _disconnect(self) -> None:
+        self._lock = threading.Lock()
         self._embedded: EmbeddedServer | None = None
         self._channels: list[grpc.Channel] = []
         self._limits: Record | None = None
-        self._pid = os.getpid()
+
+    @cached_property
+    def _options(self) -> Connection:
+        return resolve(self._given)
 
     def __enter__(self) -> "Client":
         return self
@@ -69,23 +127,23 @@ class Client:
 
     def close(self) -> None:
         """Closes the connection, and stops the server if it is an own one. The next call opens another."""
-        for channel in self._channels:
-            channel.close()
-        self._channels = []
-        if self._embedded is not None:
-            self._embedded.stop()
-            self._embedded = None
+        with self._lock:
+            for channel in self._channels:
+                channel.close()
+            self._channels = []
+            if self._embedded is not None:
+                self._embedded.stop()
+                self._embedded = None
 
     def _open(self) -> list[grpc.Channel]:
-        if self._pid != os.getpid():
-            raise RuntimeError("a Client cannot be used after os.fork(); make one in the new process")
-        if not self._channels:
-            targets = self._options.targets
-            if not targets:
-                self._embedded = EmbeddedServer()
-                targets = [self._embedded.target]
-            self._channels = [open_channel(target, self._options) for target in targets]
-        return self._channels
+        with self._lock:
+            if not self._channels:
+                targets = self._options.targets
+                if not targets:
+                    self._embedded = EmbeddedServer()
+                    targets = [self._embedded.target]
+                self._channels = [open_channel(target, self._options) for target in targets]
+            return self._channels
 
     def _ask(self, call: Callable[[Any], _Answer]) -> _Answer:
         """Returns what `call` makes of the stub of the first server that is available."""
@@ -102,7 +160,7 @@ class Client:
         raise error
 
     def _unary(self, method: str, request: Any) -> Any:
-        deadline_s = self._deadline_s or DEFAULT_DEADLINE_S
+        deadline_s = self._options.deadline_s() or DEFAULT_DEADLINE_S
         headers = metadata(self._options)
 
         def call(stub: Any) -> Any:
@@ -115,8 +173,8 @@ class Client:
         scene: Scene,
         *,
         tolerance: float | None = None,
-        require: Iterable[str] = (),
-        exclude: Iterable[str] = (),
+        require: str | Iterable[str] = (),
+        exclude: str | Iterable[str] = (),
         strict: bool = False,
         history: int = 0,
         force_history: int = 0,
@@ -142,14 +200,18 @@ class Client:
             InvalidRequest: the scene breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        request = impact_service_pb2.SolveRequest(
-            inadmissible_is_error=strict,
-            history_intervals=history,
-            force_intervals=force_history,
-            certified_digits=certified,
+        request = impact_service_pb2.SolveRequest()
+        fill(
+            request,
+            scene,
+            tolerance=tolerance,
+            require=require,
+            exclude=exclude,
+            strict=strict,
+            history=history,
+            force_history=force_history,
+            certified=certified,
         )
-        to_message(request.scene, scene, "")
-        _set_demand(request, tolerance, require, exclude)
         return to_record(self._unary("Solve", request).outcome)
 
     def bounds(
@@ -159,7 +221,8 @@ class Client:
 
         Args:
             scene: as in ``solve``; its restitution may be left out.
-            ranges: fields that are uncertain, and the least and the largest value of each, in the field's unit.
+            ranges: fields that are uncertain, and the least and the largest value of each, in the field's unit:
+                ``{"friction.kinetic_coefficient": (0.1, 0.3)}`` or, in short, ``{"mu": (0.1, 0.3)}``.
             certified: also give numbers with this many proved significant digits, at most 1000.
 
         Returns:
@@ -169,10 +232,13 @@ class Client:
             InvalidRequest: the scene or a range breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        request = impact_service_pb2.BoundsRequest(certified_digits=certified)
-        to_message(request.scene, scene, "")
-        for path, (low, high) in (ranges or {}).items():
-            request.ranges.add(path=path, low=low, high=high)
+        request = impact_service_pb2.BoundsRequest()
+        fill(request, scene, certified=certified)
+        for path, ends in names.by_full_name(ranges or {}, names.fields_of(request.scene), "ranges").items():
+            pair = values.column(ends, path)
+            if pair.shape != (2,):
+                raise InvalidRequest.of([Violation(path, f"= {values.shown(ends)}: must be two numbers, the least first")])
+            request.ranges.add(path=path, low=pair[0], high=pair[1])
         return to_record(self._unary("Bounds", request))
 
     def audit(
@@ -199,12 +265,12 @@ class Client:
             InvalidRequest: the scene or the observation breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        request = impact_service_pb2.AuditRequest(velocity_uncertainty_m_s=velocity_uncertainty_m_s)
-        to_message(request.scene, scene, "")
+        request = impact_service_pb2.AuditRequest()
+        fill(request, scene, velocity_uncertainty_m_s=velocity_uncertainty_m_s)
         if contact_velocity is not None:
             to_message(request.contact_velocity, contact_velocity, "contact_velocity")
         if rates_rad_s is not None:
-            request.rates.rates_rad_s.extend(np.atleast_1d(np.asarray(rates_rad_s, dtype=np.float64)))
+            request.rates.rates_rad_s.extend(np.atleast_1d(values.column(rates_rad_s, "rates_rad_s")))
         return to_record(self._unary("Audit", request))
 
     def audit_batch(self, scene: Scene, columns: Mapping[str, Any]) -> Table:
@@ -223,15 +289,18 @@ class Client:
             InvalidRequest: the scene or a column breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        values = {name: _columns_of(name, columns[name]) for name in columns.keys()}
-        rows = max((column.shape[-1] for column in values.values()), default=0)
+        known = [field.name for field in audit_pb2.AuditColumns.DESCRIPTOR.fields]
+        given = names.by_full_name(columns, known, "columns")
+        arrays = {name: _columns_of(name, column) for name, column in given.items()}
+        rows = max((column.shape[-1] for column in arrays.values()), default=0)
+        index = _index_of(columns, given, rows)
         most = self._limit("max_audit_rows")
         reports: list[Record] = []
         summaries = []
         for start in range(0, rows, most):
             request = impact_service_pb2.AuditBatchRequest()
             to_message(request.scene, scene, "")
-            part: dict[str, Any] = {name: _part(column, start, start + most) for name, column in values.items()}
+            part: dict[str, Any] = {name: _part(column, start, start + most) for name, column in arrays.items()}
             if "rates_after" in part:
                 part["rates_after"] = [{"rates_rad_s": link} for link in np.atleast_2d(part["rates_after"])]
             to_message(request.columns, part, "columns")
@@ -239,118 +308,108 @@ class Client:
             reports += map(to_record, response.reports)
             summaries.append(to_record(response.summary))
         flat = [_flat(report) for report in reports]
-        return _audit_table(flat, summaries)
+        return _audit_table(flat, summaries, index)
 
     def solve_batch(
         self,
         scene: Scene,
         inputs: Mapping[str, ArrayLike],
-        columns: Sequence[str],
+        columns: str | Sequence[str],
         *,
         tolerance: float | None = None,
-        require: Iterable[str] = (),
-        exclude: Iterable[str] = (),
+        require: str | Iterable[str] = (),
+        exclude: str | Iterable[str] = (),
     ) -> Table:
         """Computes many different impacts of one system.
 
         Args:
             scene: gives every field that no column states.
-            inputs: an array for each field that varies, by the field's path: ``"planar_contact.normal_m_s"``. They are
-                equally long, or single numbers for all rows. A pandas frame will do.
-            columns: the numbers of the outcome to compute: ``"contact_velocity_after.normal_m_s"``.
+            inputs: an array for each field that varies, by the field's path, ``"planar_contact.normal_m_s"``, or a
+                short name, ``"mu"``. They are equally long, or single numbers for all rows. A pandas frame will do; its index
+                is kept. What is missing (None, pandas.NA) is NaN, which makes the row invalid.
+            columns: the numbers of the outcome to compute: ``"contact_velocity_after.normal_m_s"``, or short names,
+                ``["newton", "poisson"]``. The table has their full names.
             tolerance, require, exclude: as in ``solve``, for every row.
 
         Returns:
-            A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``;
-            ``table.summary.bad_rows`` has the reasons of the first ones.
+            A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``; a warning
+            ``InvalidRows`` says so, and ``table.summary.bad_rows`` has the reasons of the first ones.
 
         Raises:
-            InvalidRequest: the scene, a path or the length of an array is wrong.
+            InvalidRequest: the scene, a path, an entry or the length of an array is wrong.
             RicochetError: the call failed otherwise.
         """
-        names = list(inputs.keys())
-        if not names:
+        setup = batch_pb2.BatchSetup()
+        fill(setup, scene, tolerance=tolerance, require=require, exclude=exclude)
+        given = names.by_full_name(inputs, names.fields_of(setup.scene), "inputs")
+        if not given:
             raise InvalidRequest.of([Violation("inputs", "is empty: must have at least one column")])
-        arrays = _equally_long({name: np.atleast_1d(np.asarray(inputs[name], dtype="<f8")) for name in names})
-        rows = len(arrays[names[0]])
-        setup = batch_pb2.BatchSetup(fields=names, columns=columns)
-        to_message(setup.scene, scene, "")
-        _set_demand(setup, tolerance, require, exclude)
-        outputs = {column: np.empty(rows) for column in columns}
+        arrays = _equally_long({name: np.atleast_1d(values.column(given[name], name)) for name in given})
+        rows = len(next(iter(arrays.values())))
+        index = _index_of(inputs, given, rows)
+        wanted = names.full_names(values.names(columns, "columns"), names.columns_of(setup.scene), "columns")
+        setup.fields.extend(arrays)
+        setup.columns.extend(wanted)
+        outputs = {column: np.empty(rows) for column in wanted}
         regimes, statuses = np.empty(rows, np.uint8), np.empty(rows, np.uint8)
         parts = []
-        most = self._most_batch_rows(max(len(names), len(outputs), 1))
+        most = self._most_batch_rows(max(len(arrays), len(outputs), 1))
         for start in range(0, max(rows, 1), most):
             part = slice(start, start + most)
-            request = batch_pb2.SolveBatchRequest(setup=setup, inputs=[arrays[name][part].tobytes() for name in names])
+            data = [array[part].astype("<f8").tobytes() for array in arrays.values()]
+            request = batch_pb2.SolveBatchRequest(setup=setup, inputs=data)
             response = self._unary("SolveBatch", request)
-            for column, data in zip(outputs.values(), response.outputs):
-                column[part] = np.frombuffer(data, "<f8")
+            for column, numbers in zip(outputs.values(), response.outputs):
+                column[part] = np.frombuffer(numbers, "<f8")
             regimes[part] = np.frombuffer(response.regimes, np.uint8)
             statuses[part] = np.frombuffer(response.statuses, np.uint8)
             parts.append((start, response.summary))
-        return Table(
+        table = Table(
             outputs,
             {"regime": Codes(regimes, _REGIMES), "status": Codes(statuses, _STATUSES)},
             axes=arrays,
             summary=_batch_summary(parts),
+            index=index,
         )
+        _warn_of_invalid(table)
+        return table
 
     def sweep(
         self,
         scene: Scene,
         axes: Mapping[str, sweep_axes.Axis],
-        columns: Sequence[str],
+        columns: str | Sequence[str],
         *,
         zip_axes: bool = False,
         tolerance: float | None = None,
-        require: Iterable[str] = (),
-        exclude: Iterable[str] = (),
+        require: str | Iterable[str] = (),
+        exclude: str | Iterable[str] = (),
         progress: Progress | None = None,
     ) -> Table:
-        """Computes impacts over a grid.
-
-        A connection that breaks, or a server that stops, does not end the sweep: it goes on from the first point that
-        has not arrived, if another call reaches the same engine.
-
-        Args:
-            scene: gives every field that no axis drives.
-            axes: the values of each field that varies, by the field's path: ``"friction.kinetic_coefficient"``. An
-                array, or ``ricochet.Linspace`` or ``ricochet.Logspace`` for more than 65,536 values.
-            columns: the numbers of the outcome to compute: ``"coefficients.newton"``.
-            zip_axes: the axes advance together; otherwise the points are all combinations of their values.
-            tolerance, require, exclude: as in ``solve``, for every point.
-            progress: is called with the points done and the points in all, after each part of the answer.
-
-        Returns:
-            A table with a row for each point; ``to_xarray`` gives it a dimension for each axis. ``status`` says
-            whether a point is ``"OK"`` or ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN.
-
-        Raises:
-            InvalidRequest: the scene, an axis or a column is wrong.
-            RicochetError: the call failed otherwise.
-        """
+        """Computes impacts over a grid: what ``ricochet.sweep``, which describes the arguments, gives as a table."""
         product = sweep_pb2.SweepRequest.COMBINATION_ZIP if zip_axes else sweep_pb2.SweepRequest.COMBINATION_PRODUCT
-        request = sweep_pb2.SweepRequest(
-            combination=product,
-            columns=columns,
-            with_regime=True,
-            axes=[sweep_axes.to_message(path, axis) for path, axis in axes.items()],
-        )
-        to_message(request.scene, scene, "")
-        _set_demand(request, tolerance, require, exclude)
-        received = _Received(len(columns))
+        request = sweep_pb2.SweepRequest(combination=product, with_regime=True)
+        fill(request, scene, tolerance=tolerance, require=require, exclude=exclude)
+        given = names.by_full_name(axes, names.fields_of(request.scene), "axes")
+        request.axes.extend(sweep_axes.to_message(path, axis) for path, axis in given.items())
+        wanted = names.full_names(values.names(columns, "columns"), names.columns_of(request.scene), "columns")
+        request.columns.extend(wanted)
+        text = json_format.MessageToJson(request, indent=None)
+        received = _Received(len(wanted))
         for chunk in self._chunks(request, received):
             received.take(chunk)
             if progress is not None:
                 progress(received.points, received.total)
-        return Table(
-            dict(zip(columns, received.values)),
+        table = Table(
+            dict(zip(wanted, received.values)),
             {"regime": Codes(received.regimes, _REGIMES), "status": Codes(received.statuses, _STATUSES)},
-            axes={path: sweep_axes.coordinates(axis) for path, axis in axes.items()},
-            is_grid=not zip_axes and bool(axes),
+            axes={path: sweep_axes.coordinates(path, axis) for path, axis in given.items()},
+            is_grid=not zip_axes and bool(given),
             summary=received.summary,
+            attrs={"Conventions": "CF-1.8", "title": _TITLE, "ricochet_request": text, **received.provenance},
         )
+        _warn_of_invalid(table)
+        return table
 
     def _chunks(self, request: Any, received: "_Received") -> Iterator[Any]:
         """Yields the chunks of a sweep. A call that breaks off is followed by one for the rest."""
@@ -370,7 +429,7 @@ class Client:
 
     def _stream(self, request: Any) -> Iterator[Any]:
         """Yields the chunks of one call, from the first server that is available."""
-        timeout, headers = self._deadline_s, metadata(self._options)
+        timeout, headers = self._options.deadline_s(), metadata(self._options)
 
         def start(stub: Any) -> tuple[Any, Any]:
             stream = stub.Sweep(request, timeout=timeout, metadata=headers)
@@ -405,6 +464,29 @@ class Client:
         return max(numbers // columns, 1)
 
 
+class ModuleClient(Client):
+    """The client of the package's own functions: it reads its options from the environment at the first call."""
+
+    def __init__(self) -> None:
+        self._given = Connection()
+        self._disconnect()
+        _clients.add(self)
+
+    def close(self) -> None:
+        """Closes the connection, and stops the server if it is an own one. The next call opens another."""
+        super().close()
+        self.__dict__.pop("_options", None)
+
+
+def _disconnect_all() -> None:
+    """In a forked process: leaves the connections and servers to the parent, whose they are."""
+    for client in _clients:
+        client._disconnect()
+
+
+os.register_at_fork(after_in_child=_disconnect_all)
+
+
 class _Received:
     """What has arrived of a sweep."""
 
@@ -416,12 +498,18 @@ class _Received:
         self.total = 0
         self.complete = False
         self.summary = Record()
+        self.provenance: dict[str, str] = {}
         self._origin: tuple[str, str] | None = None
 
     def take(self, chunk: Any) -> None:
         origin = (chunk.engine.fingerprint, chunk.grid_fingerprint)
         if self._origin is None:
             self._origin = origin
+            self.provenance = {
+                "ricochet_grid_fingerprint": chunk.grid_fingerprint,
+                "source": f"ricochet {chunk.engine.version}",
+                "ricochet_engine_fingerprint": chunk.engine.fingerprint,
+            }
             self.total = chunk.points_total
             self.values = np.empty((len(self.values), self.total))
             self.regimes = np.empty(self.total, np.uint8)
@@ -448,11 +536,30 @@ class _Received:
             raise RicochetError(f"the sweep ended after {self.points} of {self.total} points", code="DATA_LOSS")
 
 
-def _set_demand(message: Any, tolerance: float | None, require: Iterable[str], exclude: Iterable[str]) -> None:
-    if tolerance is not None:
-        message.relative_tolerance = tolerance
-    message.required.extend(enum_number(_EFFECT, name, "require") for name in require)
-    message.excluded.extend(enum_number(_EFFECT, name, "exclude") for name in exclude)
+def _index_of(given: Any, columns: Mapping[str, Any], rows: int) -> Any:
+    """Returns the index of a pandas frame, or the one that all series with so many rows have; None if there is none."""
+    indices = [one.index for one in (given, *columns.values()) if hasattr(one, "iloc") and len(one) == rows]
+    if not all(index.equals(indices[0]) for index in indices):
+        raise InvalidRequest.of([Violation("inputs", "has series of different indices: must have one index for all")])
+    return indices[0] if indices else None
+
+
+def _warn_of_invalid(table: Table) -> None:
+    """Warns of rows without numbers, at the line that has asked for them."""
+    bad = np.flatnonzero(table.codes["status"].numbers > sweep_pb2.ROW_STATUS_INADMISSIBLE)
+    if not len(bad):
+        return
+    first = int(bad[0])
+    reasons = table.summary.get("bad_rows")
+    if reasons:
+        why = f"{reasons[0].field} {reasons[0].description}"
+    else:
+        why = ", ".join(f"{name} = {value:.6g}" for name, value in table.inputs_of(first).items())
+    depth = 1
+    while sys._getframe(depth).f_globals.get("__name__", "").split(".")[0] == "ricochet":
+        depth += 1
+    text = f"rows that break a rule and have NaN: {len(bad)} of {len(table)}; the first is row {first}: {why}"
+    warnings.warn(text, InvalidRows, stacklevel=depth + 1)
 
 
 def _equally_long(arrays: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[np.float64]]:
@@ -478,7 +585,7 @@ def _batch_summary(parts: list[tuple[int, Any]]) -> Record:
 
 
 def _columns_of(name: str, value: Any) -> NDArray[Any]:
-    array = np.asarray(value, dtype=np.float64)
+    array = values.column(value, name)
     return np.atleast_2d(array) if name == "rates_after" else np.atleast_1d(array)
 
 
@@ -500,7 +607,7 @@ def _flat(record: Record, path: str = "") -> dict[str, Any]:
     return flat
 
 
-def _audit_table(rows: list[dict[str, Any]], summaries: list[Record]) -> Table:
+def _audit_table(rows: list[dict[str, Any]], summaries: list[Record], index: Any) -> Table:
     # Lists of invalid rows are empty, so that the names are those of the fullest row.
     fullest: dict[str, Any] = max(rows, key=len, default={})
     names = list(fullest)
@@ -522,4 +629,5 @@ def _audit_table(rows: list[dict[str, Any]], summaries: list[Record]) -> Table:
         invalid=sum(each.invalid.count for each in summaries),
         parts=summaries,
     )
-    return Table(columns, codes or {"regime": Codes(np.empty(0, np.uint8), _REGIMES)}, summary=summary)
+    regimes = {"regime": Codes(np.empty(0, np.uint8), _REGIMES)}
+    return Table(columns, codes or regimes, summary=summary, index=index)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ricochet.messages import Record
+from ricochet.names import meanings
 from ricochet.units import unit_of
 
 if TYPE_CHECKING:
@@ -58,12 +59,21 @@ class Table:
     """True if the rows are all combinations of the axes, the last of which runs fastest."""
     summary: Record = field(default_factory=Record)
     """Counts of the rows: ``inadmissible`` and by regime for a sweep; ``bad_rows`` with the reasons for a batch."""
+    attrs: dict[str, str] = field(default_factory=dict)
+    """Of a sweep: the request and the engine, by the names that the NetCDF files of the command line have."""
+    index: Any = None
+    """The index of the pandas frame or series that the rows are from; None if they are from others."""
 
     def __len__(self) -> int:
         return len(next(iter(self.codes.values())))
 
     def __getitem__(self, name: str) -> Numbers:
-        return self.columns[name]
+        meant = meanings(name, self.columns)
+        return self.columns[meant[0] if len(meant) == 1 else name]
+
+    def __repr__(self) -> str:
+        counts = ", ".join(f"{name} {count}" for codes in self.codes.values() for name, count in codes.counts().items())
+        return f"Table({len(self)} rows: {', '.join([*self.axes, *self.columns, *self.codes])}; {counts})"
 
     def inputs(self) -> dict[str, Numbers]:
         """Returns the values of the axes in each row."""
@@ -72,18 +82,24 @@ class Table:
         grid = np.meshgrid(*self.axes.values(), indexing="ij")
         return {name: values.reshape(-1) for name, values in zip(self.axes, grid)}
 
+    def inputs_of(self, row: int) -> dict[str, float]:
+        """Returns the values of the axes in one row."""
+        shape = [len(values) for values in self.axes.values()]
+        places = list(map(int, np.unravel_index(row, shape))) if self.is_grid else [row] * len(shape)
+        return {name: float(values[place]) for (name, values), place in zip(self.axes.items(), places)}
+
     def to_xarray(self) -> "xarray.Dataset":
         """Returns a dataset whose variables have the attribute ``units``.
 
         A grid has a dimension for each axis, other rows have the dimension ``row`` with the inputs as coordinates.
         ``regime`` and ``status`` hold numbers, which the attributes ``flag_values`` and ``flag_meanings`` explain (the
-        CF conventions).
+        CF conventions). The rows of a pandas frame have its index as the coordinate ``row``.
         """
         import xarray
 
         shape = [len(values) for values in self.axes.values()] if self.is_grid else [len(self)]
         dimensions = list(self.axes) if self.is_grid else ["row"]
-        coordinates = {
+        coordinates: dict[str, Any] = {
             name: ([name] if self.is_grid else dimensions, values, {"units": unit_of(name)})
             for name, values in self.axes.items()
         }
@@ -93,12 +109,14 @@ class Table:
         for name, codes in self.codes.items():
             flags = {"flag_values": np.arange(len(codes.names), dtype=np.uint8), "flag_meanings": " ".join(codes.names)}
             variables[name] = (dimensions, codes.numbers.reshape(shape), flags)
-        return xarray.Dataset(variables, coordinates)
+        if self.index is not None:
+            coordinates["row"] = self.index
+        return xarray.Dataset(variables, coordinates, self.attrs)
 
     def to_pandas(self) -> "pandas.DataFrame":
         """Returns a frame with a row for each row: the inputs, the numbers, and the codes as categories.
 
-        ``frame.attrs["units"]`` maps each name to its unit.
+        It has the index of the frame that the inputs came in. ``frame.attrs["units"]`` maps each name to its unit.
         """
         import pandas
 
@@ -106,6 +124,6 @@ class Table:
         units = {name: unit_of(name) for name in columns}
         for name, codes in self.codes.items():
             columns[name] = pandas.Categorical.from_codes(codes.numbers.astype(np.int8), categories=codes.names)
-        frame = pandas.DataFrame(columns)
-        frame.attrs["units"] = units
+        frame = pandas.DataFrame(columns, index=self.index)
+        frame.attrs.update(self.attrs, units=units)
         return frame

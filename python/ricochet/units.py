@@ -36,3 +36,16 @@ def unit_of(path: str) -> str:
         if name.endswith(ending):
             return unit
     return "1"
+
+
+def without_unit(path: str) -> str:
+    """Returns a path without the unit in its name.
+
+    >>> without_unit("pendulum.omega_minus_rad_s"), without_unit("rates_after_rad_s[0]"), without_unit("a.newton")
+    ('pendulum.omega_minus', 'rates_after[0]', 'a.newton')
+    """
+    unit = unit_of(path)
+    if unit == "1":
+        return path
+    ending = re.sub(r"[/ .]", "_", unit.lower().replace("1/", "per_")).replace("^", "")
+    return re.sub(rf"_{ending}(\[\d+\])?$", r"\1", path)

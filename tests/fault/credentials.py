@@ -3,6 +3,7 @@
 import contextlib
 import hashlib
 import os
+import re
 import secrets
 import socket
 import ssl
@@ -10,7 +11,7 @@ import time
 
 import grpc
 
-from calls import cheap, code_of, long_sweep, stub
+from calls import cheap, code_of, long_sweep, pb, stub
 from certificates import Authority
 from framework import Server, Skipped, check, main, require, tools, wait_until
 
@@ -59,13 +60,14 @@ class Secured:
         replace(self.cert, cert)
         return serial
 
-    def channel(self, client=None, authority=None, token=None):
+    def channel(self, client=None, authority=None, token=None, address=None):
         """client: certificate and key in PEM form."""
         credentials = grpc.ssl_channel_credentials(
             (authority or self.authority).pem, client[1] if client else None, client[0] if client else None)
         if token is not None:
             credentials = grpc.composite_channel_credentials(credentials, grpc.access_token_call_credentials(token))
-        return grpc.secure_channel(self.server.address, credentials, options=[("grpc.use_local_subchannel_pool", 1)])
+        options = [("grpc.use_local_subchannel_pool", 1), ("grpc.ssl_target_name_override", "localhost")]
+        return grpc.secure_channel(address or self.server.address, credentials, options=options)
 
     def ask(self, seconds=10, **how):
         with self.channel(**how) as line:
@@ -208,6 +210,70 @@ def tokens():
         time.sleep(2)  # The server looks at its files once a second.
         require(secured.ask(token=new) == "OK", "a bad file ended the service")
         return answers
+
+
+# What each scope lets its caller do, as deploy/README.md states it under "Tokens".
+SCOPES = {
+    "solve": {"Solve", "SolveBatch", "SolveBatches", "Plan", "Bounds"},
+    "sweep": {"Sweep"},
+    "audit": {"Audit", "AuditBatch"},
+    "cost": {"Cost"},
+    "info": {"Info", "ServerReflectionInfo"},
+}
+OPEN = {"Check", "Watch"}  # Health, which probes without a token ask.
+REFLECTION = "/grpc.reflection.v1.ServerReflection/ServerReflectionInfo"
+REFUSED = {"PERMISSION_DENIED", "UNAUTHENTICATED"}
+
+
+def methods():
+    """The path of every method that a server has, by its name."""
+    service = pb().DESCRIPTOR.services_by_name["ImpactService"]
+    found = {method.name: f"/{service.full_name}/{method.name}" for method in service.methods}
+    return {**found, "Check": "/grpc.health.v1.Health/Check", "ServerReflectionInfo": REFLECTION}
+
+
+def scopes_of_server():
+    """The scopes that the server takes, by its own words."""
+    words = re.sub(r"\s+", " ", tools().help)
+    return re.search(r"with scopes from ([a-z, ]+);", words).group(1).split(", ")
+
+
+def ask_method(channel, path):
+    """The status of a call with one empty message, which suits every method on the wire."""
+    def call():
+        for _ in channel.stream_stream(path)(iter([b""]), timeout=20):
+            break  # The first answer has been let through.
+    return code_of(call).name
+
+
+@check("every scope and every method", "by token and by certificate a caller may call what its scopes name, no more")
+def permissions():
+    scopes = scopes_of_server()
+    require(set(scopes) == {*SCOPES, "all"}, f"the scopes of the server are {scopes}")
+    everything = {name for names in SCOPES.values() for name in names}
+    require(everything | OPEN == {*methods(), "Watch"}, "the methods of this test are not the server's")
+    callers = {scope: [scope] for scope in scopes} | {"two": ["info", "audit"], "nobody": None}
+    granted = {name: everything if given == ["all"] else set().union(*(SCOPES[scope] for scope in given or ()))
+               for name, given in callers.items()}
+    secret = {name: secrets.token_urlsafe(24) for name in callers}
+    lines = [f"{name} sha256:{hashlib.sha256(secret[name].encode()).hexdigest()} {','.join(given)}\n"
+             f"{name}.test certificate {','.join(given)}\n" for name, given in callers.items() if given]
+    calls = 0
+    with Secured("permissions", mutual=True, tokens="".join(lines), reflection="127.0.0.1:0") as secured:
+        reflection = re.search(r" reflection address=(\S+)", secured.server.log_text()).group(1)
+        stranger = secured.authority.issue("stranger.test")
+        for name in callers:
+            own = secured.authority.issue(f"{name}.test")
+            for how in ({"client": stranger, "token": secret[name]}, {"client": own}):
+                with secured.channel(**how) as service, secured.channel(address=reflection, **how) as described:
+                    for method, path in methods().items():
+                        code = ask_method(described if path == REFLECTION else service, path)
+                        may = method in granted[name] | OPEN
+                        expected = "UNAUTHENTICATED" if callers[name] is None else "PERMISSION_DENIED"
+                        require(code not in REFUSED if may else code == expected,
+                                f"{name} by {'token' if 'token' in how else 'certificate'} on {method}: {code}")
+                        calls += 1
+    return {"calls": calls}
 
 
 if __name__ == "__main__":

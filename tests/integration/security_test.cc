@@ -10,6 +10,8 @@
 #include <array>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -37,6 +39,41 @@ Scene AnyScene() {
   scene.restitution = EnergeticCoefficient{1.0};
   return scene;
 }
+
+// A connection of TCP.
+class Connection {
+ public:
+  explicit Connection(int port) : socket_(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address = {.sin_family = AF_INET,
+                           .sin_port = htons(static_cast<uint16_t>(port)),
+                           .sin_addr = {htonl(INADDR_LOOPBACK)},
+                           .sin_zero = {}};
+    EXPECT_EQ(connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)), 0);
+    socklen_t size = sizeof(address);
+    getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size);
+    port_ = ntohs(address.sin_port);
+  }
+  ~Connection() { close(socket_); }
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  // The address of this end, as the log of the other end names it.
+  std::string peer() const { return "ipv4:127.0.0.1:" + std::to_string(port_); }
+  void Send(const std::string& bytes) const {
+    EXPECT_EQ(write(socket_, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  }
+  // Sends no more, and reads all that the other end still sends.
+  void ReadToTheEnd() const {
+    shutdown(socket_, SHUT_WR);
+    std::array<char, 256> some = {};
+    while (read(socket_, some.data(), some.size()) > 0) {
+    }
+  }
+
+ private:
+  int socket_;
+  int port_ = 0;
+};
 
 // Solves by a client, and so by a connection, of its own.
 absl::Status Solve(const std::string& target, const SecurityOptions& security) {
@@ -184,21 +221,60 @@ TEST_F(Tls, StartNamesTheFileThatIsWrong) {
               HasSubstr(files_ / "empty" + ": no line names a caller"));
 }
 
+TEST_F(Tls, GoodCertificatesGiveNoErrorAndServeEveryAddress) {
+  const ServerProcess server(Flags({"--reflection", "127.0.0.1:0"}));
+  EXPECT_THAT(server.log(), Not(HasSubstr("Z error ")));
+  for (const std::string& address : {server.address(), server.LoggedAddress("reflection")}) {
+    const auto health = CheckHealth({.target = address, .security = Trusting()}, "");
+    ASSERT_TRUE(health.ok()) << address << ": " << health.status();
+    EXPECT_EQ(*health, Health::kServing);
+  }
+}
+
+TEST_F(Tls, CertificateThatTlsRefusesIsAnErrorAtTheStartAndLeavesTheOldOneInUse) {
+  files_.Make("weak", kHost, "ca", 1, "rsa:1024");
+  const std::string reason = "weak.pem cannot be used for TLS: ee key too small";
+  const Ending ending =
+      RunServerToEnd({"--listen", "127.0.0.1:0", "--tls-cert", files_ / "weak.pem", "--tls-key", files_ / "weak.key"});
+  EXPECT_EQ(ending.exit_status, 1);
+  EXPECT_THAT(ending.output, HasSubstr(reason));
+  const ServerProcess server(Flags());
+  files_.Replace("server", "weak");
+  EXPECT_EQ(SolveCode(server, Trusting()), StatusCode::kOk);
+  EXPECT_THAT(server.WaitForLog("cannot be used for TLS"), HasSubstr("error certificate not read"));
+  EXPECT_EQ(SolveCode(server, Trusting()), StatusCode::kOk);
+}
+
+// A connection without TLS from a port of its own, which it returns as a log names it.
+std::string Speak(int port, const std::string& bytes) {
+  const Connection connection(port);
+  connection.Send(bytes);
+  connection.ReadToTheEnd();
+  return connection.peer();
+}
+
+TEST_F(Tls, FailedHandshakeNamesItsPeer) {
+  const ServerProcess server(Flags({"--log-level", "debug"}));
+  const std::string prober = Speak(server.port(), "");
+  const std::string talker = Speak(server.port(), "GET / HTTP/1.0\r\n\r\n");
+  EXPECT_THAT(server.WaitForLog("warning handshake failed peer=" + talker + " "),
+              HasSubstr("warning handshake failed peer=" + talker + " reason="));
+  // One who says nothing only looks whether the port is open, as the server's own watchdog does.
+  EXPECT_THAT(server.WaitForLog("failed peer=" + prober + " "),
+              HasSubstr("debug handshake failed peer=" + prober + " "));
+  ASSERT_EQ(SolveCode(server, Trusting()), StatusCode::kOk);
+  EXPECT_THAT(server.log(), Not(HasSubstr("Z error ")));
+}
+
 TEST_F(Tls, HalfOpenHandshakesLeaveRoomForOthers) {
   const ServerProcess server(Flags({"--max-connections", "20"}));
-  std::vector<int> silent;
+  std::vector<std::unique_ptr<Connection>> silent;
   for (int i = 0; i < 10; ++i) {
-    silent.push_back(socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-    const sockaddr_in to = {.sin_family = AF_INET,
-                            .sin_port = htons(static_cast<uint16_t>(server.port())),
-                            .sin_addr = {htonl(INADDR_LOOPBACK)},
-                            .sin_zero = {}};
-    ASSERT_EQ(connect(silent.back(), reinterpret_cast<const sockaddr*>(&to), sizeof(to)), 0);
+    silent.push_back(std::make_unique<Connection>(server.port()));
     // The start of a TLS record that never goes on.
-    ASSERT_EQ(write(silent.back(), "\x16\x03\x01\x02", 4), 4);
+    silent.back()->Send("\x16\x03\x01\x02");
   }
   EXPECT_EQ(SolveCode(server, Trusting()), StatusCode::kOk);
-  for (const int one : silent) close(one);
 }
 
 class MutualTls : public Tls {
@@ -219,6 +295,9 @@ TEST_F(MutualTls, ServesClientsWithACertificate) {
 TEST_F(MutualTls, RefusesClientsWithoutACertificate) {
   const ServerProcess server(Flags());
   EXPECT_EQ(SolveCode(server, Trusting()), StatusCode::kUnavailable);
+  const std::string log = server.WaitForLog("certificate required");
+  EXPECT_THAT(log, HasSubstr("warning handshake failed peer=ipv4:127.0.0.1:"));
+  EXPECT_THAT(log, HasSubstr(" reason=\"alert to the client: certificate required\""));
 }
 
 TEST_F(MutualTls, RefusesCertificatesOfAnotherAuthorityAndExpiredOnes) {
@@ -227,8 +306,14 @@ TEST_F(MutualTls, RefusesCertificatesOfAnotherAuthorityAndExpiredOnes) {
   files_.Make("old", "lab.test", "ca", -1);
   const ServerProcess server(Flags());
   EXPECT_EQ(SolveCode(server, WithCertificate("stranger")), StatusCode::kUnavailable);
-  // Its client knows that it has ended, and does not show it.
+  // Our client knows that this one has ended, and does not show it.
   EXPECT_EQ(SolveCode(server, WithCertificate("old")), StatusCode::kInvalidArgument);
+  // Openssl's does.
+  const std::string shown = "openssl s_client -tls1_2 -connect 127.0.0.1:" + std::to_string(server.port()) + " -cert " +
+                            (files_ / "old.pem") + " -key " + (files_ / "old.key") + " </dev/null >/dev/null 2>&1";
+  EXPECT_NE(std::system(shown.c_str()), 0);
+  EXPECT_THAT(server.WaitForLog("has expired"),
+              HasSubstr("reason=\"certificate of the client: certificate has expired\""));
 }
 
 TEST_F(MutualTls, CertificateCountsByItsNameWhereThereAreTokens) {

@@ -62,6 +62,15 @@ class OwnServer(unittest.TestCase):
         self.assertEqual(output.strip(), "0.7071067811865475", errors)
         self.expect_nothing_left()
 
+    def test_nobody_else_can_open_its_socket(self):
+        process = self.start(f"import os; os.umask(0)\n{ASK}\nprint(newton, flush=True)\ninput()")
+        self.addCleanup(process.communicate)
+        self.assertTrue(process.stdout.readline())
+        [directory] = Path(self.directory).iterdir()
+        self.assertEqual(directory.stat().st_mode & 0o777, 0o700)
+        self.assertEqual((directory / "socket").stat().st_mode & 0o777, 0o600)
+        process.communicate("\n")
+
     def test_it_ends_with_an_exception(self):
         process = self.start(f"{ASK}\nraise SystemExit(3)")
         process.communicate()
@@ -91,6 +100,25 @@ class OwnServer(unittest.TestCase):
         code = f"{ASK}\nimport os\nif os.fork() == 0:\n  {child}\nos.wait()"
         output, errors = self.start(code).communicate()
         self.assertEqual(output.strip(), "REBOUND", errors)
+        self.expect_nothing_left()
+
+    def test_a_client_works_after_a_fork_as_well(self):
+        child = "print(client.solve(scene).regime, flush=True); client.close(); os._exit(0)"
+        code = (f"import os, ricochet; scene = {PENDULUM!r}; client = ricochet.Client(); client.solve(scene)\n"
+                f"if os.fork() == 0:\n  {child}\nos.wait(); print(client.solve(scene).regime)")
+        output, errors = self.start(code).communicate()
+        self.assertEqual(output.split(), ["REBOUND", "REBOUND"], errors)
+        self.expect_nothing_left()
+
+    def test_threads_that_ask_first_share_one_server(self):
+        code = f"""
+            import concurrent.futures, pathlib, ricochet, tempfile
+            with concurrent.futures.ThreadPoolExecutor(8) as pool:
+                list(pool.map(lambda _: ricochet.solve({PENDULUM!r}), range(8)))
+            print(len(list(pathlib.Path(tempfile.gettempdir()).glob("ricochet-*"))))
+        """
+        output, errors = self.start(code).communicate()
+        self.assertEqual(output.strip(), "1", errors)
         self.expect_nothing_left()
 
     def test_a_missing_program_is_named(self):
@@ -176,6 +204,10 @@ class Options(unittest.TestCase):
         with self.assertRaises(ricochet.InvalidRequest) as raised:
             ricochet.Client(**options)
         self.assertEqual([violation.field for violation in raised.exception.violations], [field])
+
+    def test_numbers_and_truths_are_taken_as_such(self):
+        options = ricochet.Client(deadline=2.5, max_receive=1000, tls=True)._options
+        self.assertEqual((options.deadline_s(), options.max_receive_bytes(), options.is_tls), (2.5, 1000, True))
 
     def test_wrong_ones_are_refused(self):
         self.refuse("deadline", deadline="soon")

@@ -4,6 +4,7 @@
 #include <google/protobuf/descriptor.h>
 #include <gtest/gtest.h>
 
+#include <map>
 #include <string>
 
 #include "ricochet/v1/impact_service.pb.h"
@@ -29,6 +30,22 @@ TEST(Callers, AreKnownByTheHashOfTheirToken) {
   EXPECT_FALSE(callers->WithToken("").has_value());
   EXPECT_FALSE(callers->WithToken(kHashOfAbc).has_value());
   EXPECT_FALSE(callers->WithCertificate("lab").has_value());
+}
+
+TEST(Callers, EveryByteOfTheHashCounts) {
+  for (size_t i = 0; i < 64; ++i) {
+    std::string hash = kHashOfAbc;
+    hash[i] = hash[i] == '0' ? '1' : '0';
+    const auto callers = Callers::Parse("lab sha256:" + hash + " all");
+    ASSERT_TRUE(callers.ok()) << callers.status();
+    EXPECT_FALSE(callers->WithToken("abc").has_value()) << i;
+  }
+}
+
+TEST(Callers, EveryScopeOfALineMustBeKnown) {
+  for (const std::string scopes : {"solve,speed", "speed,solve", "all,", ",all", "Solve"}) {
+    EXPECT_FALSE(Callers::Parse("lab certificate " + scopes).ok()) << scopes;
+  }
 }
 
 TEST(Callers, AreKnownByTheNameOfTheirCertificate) {
@@ -57,15 +74,22 @@ TEST(Callers, FileWithoutCallersIsRefused) {
   EXPECT_EQ(Callers::Parse("# nobody\n").status().message(), "no line names a caller");
 }
 
-TEST(Scopes, EveryMethodOfTheServiceHasOne) {
+TEST(Scopes, EveryMethodOfTheServiceHasTheOneThatTheReadmeStates) {
+  // The table under "Tokens" in deploy/README.md.
+  const std::map<std::string, std::string> stated = {
+      {"Solve", "solve"},      {"SolveBatch", "solve"}, {"SolveBatches", "solve"}, {"Plan", "solve"},
+      {"Bounds", "solve"},     {"Sweep", "sweep"},      {"Cost", "cost"},          {"Audit", "audit"},
+      {"AuditBatch", "audit"}, {"Info", "info"}};
   const auto* const file = v1::SolveRequest::descriptor()->file();
   ASSERT_EQ(file->service_count(), 1);
   const auto& service = *file->service(0);
   for (int i = 0; i < service.method_count(); ++i) {
-    const auto scope = ScopeOf("/" + service.full_name() + "/" + service.method(i)->name());
-    ASSERT_TRUE(scope.has_value()) << service.method(i)->name();
-    EXPECT_TRUE(IsScope(*scope)) << *scope;
+    const std::string name(service.method(i)->name());
+    ASSERT_TRUE(stated.contains(name)) << name;
+    EXPECT_EQ(ScopeOf("/" + std::string(service.full_name()) + "/" + name), stated.at(name)) << name;
   }
+  EXPECT_EQ(ScopeOf("/grpc.reflection.v1.ServerReflection/ServerReflectionInfo"), "info");
+  EXPECT_THAT(Scopes(), ElementsAre("audit", "cost", "info", "solve", "sweep", "all"));
 }
 
 TEST(Scopes, UnknownMethodsHaveNone) {

@@ -7,12 +7,14 @@
 #include <sys/stat.h>
 #include <sys/un.h>
 
+#include <atomic>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
 #include <set>
 #include <string>
+#include <thread>
 
 #include "tests/support/temporary_directory.h"
 
@@ -87,6 +89,26 @@ TEST(Listener, UnixSocketHasTheModeAskedForAndIsRemoved) {
     }
     EXPECT_FALSE(std::filesystem::exists(at.path()));
   }
+}
+
+// Between the making of the file and a change of its mode, others could connect.
+TEST(Listener, SocketFileIsNeverOpenToMoreThanAskedFor) {
+  const SocketPath at;
+  // A directory in which every new file keeps the mode with which it was made.
+  const mode_t before = umask(0);
+  std::atomic<bool> is_done = false;
+  std::atomic<unsigned> seen = 0;
+  std::thread watcher([&] {
+    struct stat file = {};
+    while (!is_done) {
+      if (lstat(at.path().c_str(), &file) == 0) seen |= file.st_mode & 0777U;
+    }
+  });
+  for (int i = 0; i < 2000; ++i) ASSERT_TRUE(Listener::Open(at.address(), 0600).ok());
+  is_done = true;
+  watcher.join();
+  umask(before);
+  EXPECT_EQ(seen & 0077U, 0U);
 }
 
 TEST(Listener, StaleSocketIsReplaced) {

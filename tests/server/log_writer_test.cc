@@ -57,6 +57,15 @@ TEST_F(LogWriterTest, LinesAreAppendedInOrder) {
   EXPECT_EQ(Contents(Path("log")), "old\none\ntwo\n");
 }
 
+TEST_F(LogWriterTest, AFileOfItsOwnIsForTheOwnerAndTheGroup) {
+  const mode_t before = umask(0);
+  const auto writer = LogWriter::Open(Path("log"));
+  umask(before);
+  struct stat file = {};
+  ASSERT_EQ(stat(Path("log").c_str(), &file), 0);
+  EXPECT_EQ(file.st_mode & 07777U, 0640U);
+}
+
 TEST_F(LogWriterTest, WhatWaitsIsWrittenBeforeTheEnd) {
   { LogWriter::Open(Path("log")).value()->Push("last\n"); }
   EXPECT_EQ(Contents(Path("log")), "last\n");

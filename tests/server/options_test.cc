@@ -8,12 +8,16 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
+#include <map>
+#include <regex>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
+#include "absl/strings/str_replace.h"
 #include "core/engine/engine.h"
+#include "ricochet/limits.h"
 #include "tests/support/paths.h"
 
 namespace ricochet::server {
@@ -358,6 +362,58 @@ TEST(Options, TakesNoVariableOfKubernetesForAnOption) {
                                                  {"RICOCHETD_PORT", "tcp://10.0.0.1:50051"},
                                                  {"RICOCHETD_PORT_50051_TCP_ADDR", "10.0.0.1"}}});
   EXPECT_TRUE(parsed.ok()) << parsed.status();
+}
+
+// The range of every option that is a number, as server/options.h and ricochet/limits.h state it; the default of the other
+// options allows all of them.
+std::map<std::string, std::pair<std::string, std::string>> Ranges() {
+  std::map<std::string, std::pair<std::string, std::string>> ranges;
+  for (const char* const name :
+       {"max-live-calls", "max-live-calls-per-peer", "max-streams", "max-streams-per-peer", "max-waiting-calls"}) {
+    ranges[name] = {"1", "65536"};
+  }
+  for (const char* const name : {"max-connections", "max-connections-per-peer"}) ranges[name] = {"1", "1000000"};
+  for (const char* const name :
+       {"handshake-timeout", "idle-timeout", "max-unary-time", "max-stream-age", "write-stall-timeout"}) {
+    ranges[name] = {"0.001", "3600"};
+  }
+  for (const char* const name : {"drain-grace", "drain-timeout"}) ranges[name] = {"0", "3600"};
+  ranges["max-threads"] = {"1152", "1048576"};
+  ranges["compute-threads"] = {"1", "1024"};
+  ranges["transport-memory"] = {"1", "1048576"};
+  for (const NamedLimit& limit : kLimits) {
+    ranges[absl::StrReplaceAll(limit.name, {{"_", "-"}})] = {"1", std::to_string(limit.most)};
+  }
+  return ranges;
+}
+
+TEST(Options, EveryNumberIsTakenFromItsLeastToItsMostAndNotBeyond) {
+  const std::string help = std::get<Notice>(Parse("", {.flags = {"--help"}}).value()).text;
+  const std::regex line(R"(--([a-z-]+) (N|MIB|SECONDS)\b)");
+  const auto ranges = Ranges();
+  int found = 0;
+  for (std::sregex_iterator match(help.begin(), help.end(), line), end; match != end; ++match, ++found) {
+    const std::string name = (*match)[1];
+    ASSERT_TRUE(ranges.contains(name)) << name;
+    const auto& [least, most] = ranges.at(name);
+    const bool is_time = (*match)[2] == "SECONDS";
+    const std::string below = is_time ? (least == "0" ? "-0.001" : "0.0004") : std::to_string(std::stoll(least) - 1);
+    const std::string above = is_time ? "3600.001" : std::to_string(std::stoll(most) + 1);
+    const auto is_taken = [&name](const std::string& value) {
+      return Parse("", {.flags = {"--" + name + "=" + value}}).ok();
+    };
+    for (const std::string& value : {least, most}) EXPECT_TRUE(is_taken(value)) << name << " " << value;
+    for (const std::string& value : {below, above}) EXPECT_FALSE(is_taken(value)) << name << " " << value;
+  }
+  EXPECT_EQ(found, static_cast<int>(ranges.size()));
+}
+
+TEST(Options, PermissionsAreThoseOfNineBits) {
+  for (const char* const mode : {"0", "600", "0777"}) EXPECT_TRUE(Parse("", {.flags = {"--socket-mode", mode}}).ok());
+  for (const char* const mode : {"1000", "4755", "-1", "", "0o600"}) {
+    EXPECT_FALSE(Parse("", {.flags = {std::string("--socket-mode=") + mode}}).ok()) << mode;
+  }
+  EXPECT_EQ(Options().socket_mode, 0600U);
 }
 
 TEST(Options, HelpNamesEveryOption) {

@@ -5,8 +5,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <string>
+#include <utility>
 
 #include "server/descriptor.h"
+#include "server/listener.h"
 
 namespace ricochet::server {
 namespace {
@@ -32,6 +35,21 @@ TEST(Peer, KeyOfAUnixSocketIsTheUser) {
   const Descriptor one(pair[0]);
   const Descriptor other(pair[1]);
   EXPECT_EQ(AddressKeyOfSocket(one.number()), "unix:" + std::to_string(getuid()));
+}
+
+TEST(Peer, AddressOfASocketHasItsPort) {
+  for (const auto& [family, start] : {std::pair{AF_INET, "ipv4:127.0.0.1:"}, {AF_INET6, "ipv6:[::1]:"}}) {
+    const auto listeners =
+        Listener::Open({.host = family == AF_INET ? "127.0.0.1" : "::1", .port = 0, .path = ""}, 0600);
+    if (!listeners.ok()) continue;  // A host without IPv6.
+    sockaddr_storage address = {};
+    socklen_t size = sizeof(address);
+    ASSERT_EQ(getsockname(listeners->front().socket(), reinterpret_cast<sockaddr*>(&address), &size), 0);
+    const Descriptor client(socket(family, SOCK_STREAM, 0));
+    ASSERT_EQ(connect(client.number(), reinterpret_cast<const sockaddr*>(&address), size), 0);
+    EXPECT_EQ(AddressOfSocket(client.number()), start + std::to_string(listeners->front().address().port));
+  }
+  EXPECT_EQ(AddressOfSocket(-1), "unknown");
 }
 
 TEST(Peer, KeyOfNoConnectionIsUnknown) { EXPECT_EQ(AddressKeyOfSocket(-1), "unknown"); }

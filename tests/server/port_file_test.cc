@@ -23,6 +23,20 @@ TEST(PortFile, ReplacesTheOldOneAndLeavesNothingElse) {
   std::filesystem::remove_all(directory);
 }
 
+// Who has the old file open goes on to read it whole: the new one is another, which takes its name when it is complete.
+TEST(PortFile, IsNeverSeenHalfWritten) {
+  const std::filesystem::path directory = testing::TempDir() + "ricochetd_port_whole";
+  std::filesystem::remove_all(directory);
+  std::filesystem::create_directory(directory);
+  ASSERT_TRUE(WritePortFile(directory / "port", 50051).ok());
+  std::filesystem::create_hard_link(directory / "port", directory / "old");
+  ASSERT_TRUE(WritePortFile(directory / "port", 1).ok());
+  int old = 0;
+  std::ifstream(directory / "old") >> old;
+  EXPECT_EQ(old, 50051);
+  std::filesystem::remove_all(directory);
+}
+
 TEST(PortFile, DevicesLinksAndDirectoriesAreNotReplaced) {
   const std::filesystem::path directory = testing::TempDir() + "ricochetd_port_link";
   std::filesystem::create_directory(directory);

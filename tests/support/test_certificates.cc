@@ -23,8 +23,9 @@ void TestCertificates::MakeAuthority(const std::string& name) {
       ".pem");
 }
 
-void TestCertificates::Make(const std::string& name, const std::string& host, const std::string& authority, int days) {
-  Run(std::string("req -new ") + kNewKey + " -subj /CN=" + host + " -addext subjectAltName=DNS:" + host + " -keyout " +
+void TestCertificates::Make(const std::string& name, const std::string& host, const std::string& authority, int days,
+                            const std::string& key) {
+  Run("req -new -newkey " + key + " -nodes -subj /CN=" + host + " -addext subjectAltName=DNS:" + host + " -keyout " +
       name + ".key -out " + name + ".csr");
   Run("x509 -req -in " + name + ".csr -CA " + authority + ".pem -CAkey " + authority +
       ".key -CAcreateserial -copy_extensions copy -days " + std::to_string(days) + " -out " + name + ".pem");

@@ -20,8 +20,9 @@ class TestCertificates {
   void MakeAuthority(const std::string& name);
 
   // Makes NAME.pem and NAME.key: a certificate for the DNS name `host`, issued by an authority for `days` from now on. A
-  // negative number means that it has ended.
-  void Make(const std::string& name, const std::string& host, const std::string& authority = "ca", int days = 1);
+  // negative number means that it has ended. `key` is an algorithm as `openssl req -newkey` takes it.
+  void Make(const std::string& name, const std::string& host, const std::string& authority = "ca", int days = 1,
+            const std::string& key = "ec -pkeyopt ec_paramgen_curve:prime256v1");
 
   // Makes the files of `name` those of `other`, each in one step.
   void Replace(const std::string& name, const std::string& other) const;

@@ -1,0 +1,52 @@
+"""Contact matrix: W = J M^-1 J^T as an array, which is how a robot's model gives it, in place of its single entries."""
+
+from __future__ import annotations
+
+import math
+from typing import Any, Mapping
+
+import numpy as np
+
+from ricochet.errors import Violation
+from ricochet.values import Numbers, column, is_list
+
+# What a matrix may differ from its transpose by rounding, as a part of sqrt(W_ii W_jj), which bounds its entries.
+_ROUNDING = 1e-9
+
+_NAME = "w_per_kg"
+_PLANAR = ("w_tt_per_kg", "w_tn_per_kg", "w_nn_per_kg")
+
+
+def unpacked(contact: str, values: Mapping[str, Any], path: str, violations: list[Violation]) -> Mapping[str, Any]:
+    """Returns the dictionary of a contact with the entries of its message in place of a matrix ``w_per_kg``.
+
+    The rows of W are those of the contact velocity: t, n in the plane and t1, t2, n in space. Each entry that its
+    mirror image contradicts is a violation. What `contact`, a message of ricochet.v1, does not take stays as it is.
+    """
+    size = {"PlanarContact": 2, "SpatialContact": 3}.get(contact)
+    if size is None or values.get(_NAME) is None:
+        return values
+    where = f"{path}.{_NAME}"
+    w = column(values[_NAME], where) if is_list(values[_NAME]) else np.empty(())
+    if size == 3 and w.shape == (6,):
+        return values
+    if w.shape != (size, size):
+        order = ", or its entries 11, 12, 13, 22, 23, 33 in this order" if size == 3 else ""
+        violations.append(Violation(where, f"has shape {w.shape}: must be a symmetric {size} x {size} matrix{order}"))
+        return {name: value for name, value in values.items() if name != _NAME}
+    violations += _asymmetries(w, where)
+    entries = [float(w[i, j]) for i in range(size) for j in range(i, size)]
+    if size == 3:
+        return {**values, _NAME: entries}
+    twice = [name for name in _PLANAR if values.get(name) is not None]
+    violations += [Violation(f"{path}.{name}", f"is set together with {_NAME}: must not be") for name in twice]
+    return {**{name: value for name, value in values.items() if name != _NAME}, **dict(zip(_PLANAR, entries))}
+
+
+def _asymmetries(w: Numbers, path: str) -> list[Violation]:
+    return [
+        Violation(f"{path}[{i}][{j}]", f"= {float(w[i, j])!r}: must equal [{j}][{i}] = {float(w[j, i])!r}: W is symmetric")
+        for i in range(len(w))
+        for j in range(i + 1, len(w))
+        if abs(w[i, j] - w[j, i]) > _ROUNDING * math.sqrt(abs(w[i, i] * w[j, j]))
+    ]

@@ -1,0 +1,320 @@
+"""What Python takes for numbers, names and matrices, and what it says of everything else."""
+
+import decimal
+import fractions
+import inspect
+import json
+import os
+import pydoc
+import re
+import subprocess
+import tempfile
+import unittest
+import warnings
+from pathlib import Path
+
+import numpy as np
+import pandas
+import ricochet
+import xarray
+from ricochet import names
+from ricochet.messages import to_message
+from ricochet.units import without_unit
+from ricochet.v1 import scene_pb2
+from support import PENDULUM, SOURCE
+
+NEWTON = "coefficients.newton"
+MU = "friction.kinetic_coefficient"
+
+
+def scene_message(scene):
+    message = scene_pb2.Scene()
+    to_message(message, scene, "")
+    return message
+
+
+def command_line(*arguments):
+    return subprocess.run([os.environ["RICOCHET"], *map(str, arguments)], capture_output=True, text=True, check=False)
+
+
+class Case(unittest.TestCase):
+    def refused(self, call, field, words=""):
+        """The call raises the package's own error, which names the field."""
+        with self.assertRaises(ricochet.InvalidRequest) as raised:
+            call()
+        found = {violation.field: violation.description for violation in raised.exception.violations}
+        self.assertIn(field, found, raised.exception)
+        self.assertIn(words, found[field])
+
+
+class Numbers(Case):
+    WRONG = {
+        "complex": (1j, "must be a real number"),
+        "complex of numpy": (np.complex128(1), "must be a real number"),
+        "too large": (10**400, "must be a number of at most 1.798e+308"),
+        "larger than Python prints": (10**5000, "an integer of 16610 bits"),
+        "text": ("0.1", "= '0.1': must be a number"),
+        "truth": (True, "= True: must be a number"),
+        "truth of numpy": (np.bool_(True), "must be a number"),
+        "missing": (pandas.NA, "must be a number"),
+        "two": (np.array([1.0, 2.0]), "must be a number"),
+        "dictionary": ({"a": 1}, "must be a number"),
+    }
+    RIGHT = (0.25, fractions.Fraction(1, 4), np.float32(0.25), np.float64(0.25), np.longdouble(0.25), np.array(0.25),
+             np.array([0.25]))
+
+    def test_each_wrong_one_is_named_wherever_a_number_is_meant(self):
+        for what, (value, words) in self.WRONG.items():
+            places = {
+                "pendulum.b_m": lambda v: ricochet.solve({**PENDULUM, "pendulum": {**PENDULUM["pendulum"], "b_m": v}}),
+                "tolerance": lambda v: ricochet.solve(PENDULUM, tolerance=v),
+                "velocity_uncertainty_m_s": lambda v: ricochet.audit(
+                    PENDULUM, rates_rad_s=1, velocity_uncertainty_m_s=v),
+                f"{MU}.start": lambda v: ricochet.sweep(PENDULUM, {MU: ricochet.Linspace(v, 1, 2)}, NEWTON),
+                "history": lambda v: ricochet.solve(PENDULUM, history=v),
+            }
+            for field, call in places.items():
+                with self.subTest(what, field=field):
+                    self.refused(lambda: call(value), field, words if field != "history" else "must be a whole number")
+
+    def test_each_wrong_entry_of_an_array_is_named(self):
+        for what, (value, words) in self.WRONG.items():
+            if what in ("two", "missing"):
+                continue
+            places = {
+                f"{MU}[1]": [
+                    lambda v: ricochet.sweep(PENDULUM, {MU: [0.1, v]}, NEWTON),
+                    lambda v: ricochet.solve_batch(PENDULUM, {MU: [0.1, v]}, NEWTON),
+                    lambda v: ricochet.solve_batch(PENDULUM, {MU: pandas.Series([0.1, v], dtype=object)}, NEWTON),
+                    lambda v: ricochet.bounds(PENDULUM, ranges={MU: (0.1, v)}),
+                ],
+                "normal_after_m_s[1]": [lambda v: ricochet.audit_batch(PENDULUM, {"normal_after_m_s": [0.1, v]})],
+                "rates_rad_s[1]": [lambda v: ricochet.audit(PENDULUM, rates_rad_s=[0.1, v])],
+                "pendulum.a_m[1]": [lambda v: ricochet.solve_batch(PENDULUM, {"a": (0.1, v)}, NEWTON)],
+            }
+            for field, calls in places.items():
+                for call in calls:
+                    with self.subTest(what, field=field):
+                        self.refused(lambda: call(value), field, words)
+
+    def test_every_holder_of_one_number_is_taken_for_it(self):
+        expected = ricochet.solve({**PENDULUM, "friction": {"kinetic_coefficient": 0.25}})
+        for value in self.RIGHT:
+            with self.subTest(type(value).__name__):
+                self.assertEqual(ricochet.solve({**PENDULUM, "friction": {"kinetic_coefficient": value}}), expected)
+                self.assertEqual(ricochet.sweep(PENDULUM, {"mu": value}, "newton", form="table")[NEWTON][0],
+                                 expected.coefficients.newton)
+        self.assertEqual(len(ricochet.solve(PENDULUM, history=np.int64(3)).history), 4)
+        scene = {**PENDULUM, "friction": {"kinetic_coefficient": decimal.Decimal("nan")}}
+        self.refused(lambda: ricochet.solve(scene), MU)
+
+    def test_what_is_missing_is_nan_and_makes_the_row_invalid(self):
+        for column in ([0.1, None], pandas.Series([0.1, pandas.NA]), pandas.array([0.1, None], dtype="Float64"),
+                       np.ma.masked_array([0.1, 0.2], [False, True]), pandas.Series([0.1, np.nan])):
+            with self.subTest(type(column).__name__), warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                table = ricochet.solve_batch(PENDULUM, {MU: column}, [NEWTON])
+                self.assertEqual([table.codes["status"][row] for row in (0, 1)], ["OK", "INVALID"])
+                self.assertTrue(np.isnan(table[NEWTON][1]))
+                self.assertEqual([warning.category for warning in caught], [ricochet.InvalidRows])
+
+    def test_a_scene_that_is_no_dictionary_is_called_by_its_name(self):
+        for call in (ricochet.solve, ricochet.bounds, lambda scene: ricochet.sweep(scene, {"mu": 0}, "newton")):
+            self.refused(lambda: call("hello"), "scene", "= 'hello': must be a dictionary")
+
+
+class Matrices(Case):
+    W = np.array([[1.96, 0.24, 0.6], [0.24, 2.96, -0.8], [0.6, -0.8, 1.85]])
+
+    def contact(self, w):
+        return {
+            "spatial_contact": {"w_per_kg": w, "tangential_m_s": [1, 0.6], "normal_m_s": -1},
+            "friction": {"kinetic_coefficient": 0.3},
+            "restitution": {"energetic": 0.8},
+        }
+
+    def test_a_matrix_means_its_upper_triangle_row_by_row(self):
+        entries = [1.96, 0.24, 0.6, 2.96, -0.8, 1.85]
+        for w in (self.W, self.W.tolist(), np.asfortranarray(self.W), self.W.astype(object)):
+            self.assertEqual(list(scene_message(self.contact(w)).spatial_contact.w_per_kg), entries)
+        self.assertEqual(ricochet.solve(self.contact(self.W)), ricochet.solve(self.contact(entries)))
+
+    def test_a_matrix_of_the_plane_means_its_three_entries(self):
+        contact = scene_message({"planar_contact": {"w_per_kg": [[2.5, 1.5], [1.5, 3.0]]}}).planar_contact
+        self.assertEqual((contact.w_tt_per_kg, contact.w_tn_per_kg, contact.w_nn_per_kg), (2.5, 1.5, 3.0))
+
+    def test_an_entry_that_differs_from_its_mirror_image_is_named(self):
+        for i, j in ((0, 1), (0, 2), (1, 2)):
+            w = self.W.copy()
+            w[i, j] += 1e-6
+            self.refused(lambda: scene_message(self.contact(w)), f"spatial_contact.w_per_kg[{i}][{j}]",
+                         f"must equal [{j}][{i}] = {self.W[j, i]!r}")
+            w[i, j] = self.W[i, j] * (1 + 1e-14)
+            scene_message(self.contact(w))
+        self.refused(lambda: scene_message({"planar_contact": {"w_per_kg": [[2, 1], [0, 2]]}}),
+                     "planar_contact.w_per_kg[0][1]")
+
+    def test_another_shape_is_told_the_order(self):
+        for w in ([1, 2, 3, 4, 5], np.eye(2), np.eye(4), np.ones((3, 2)), 3, np.zeros(0)):
+            self.refused(lambda: scene_message(self.contact(w)), "spatial_contact.w_per_kg", "11, 12, 13, 22, 23, 33")
+        self.refused(lambda: scene_message({"planar_contact": {"w_per_kg": np.eye(3)}}), "planar_contact.w_per_kg",
+                     "2 x 2")
+        self.refused(lambda: scene_message({"planar_contact": {"w_per_kg": np.eye(2), "w_tn_per_kg": 0}}),
+                     "planar_contact.w_tn_per_kg", "set together")
+        self.refused(lambda: scene_message(self.contact([[1, 0, "x"], [0, 1, 0], [0, 0, 1]])),
+                     "spatial_contact.w_per_kg[0][2]", "= 'x': must be a number")
+
+
+class Frames(Case):
+    def test_an_index_is_kept(self):
+        frame = pandas.DataFrame({MU: [0.0, 0.1]}, index=[7, 9])
+        table = ricochet.solve_batch(PENDULUM, frame, NEWTON)
+        self.assertEqual(list(table.to_pandas().index), [7, 9])
+        self.assertEqual(list(table.to_xarray()["row"].values), [7, 9])
+        self.assertEqual(frame.join(table.to_pandas()[[NEWTON]]).loc[7, NEWTON], 1)
+        audited = ricochet.audit_batch(PENDULUM, pandas.DataFrame({"rates_after": [0.1, 0.2]}, index=list("xy")))
+        self.assertEqual(list(audited.to_pandas().index), ["x", "y"])
+        series = ricochet.solve_batch(PENDULUM, {MU: frame[MU], "pendulum.a_m": 0.3}, NEWTON)
+        self.assertEqual(list(series.to_pandas().index), [7, 9])
+
+    def test_series_of_different_indices_are_refused(self):
+        columns = {MU: pandas.Series([0.0, 0.1], [1, 2]), "pendulum.a_m": pandas.Series([0.3, 0.4], [2, 1])}
+        self.refused(lambda: ricochet.solve_batch(PENDULUM, columns, NEWTON), "inputs", "different indices")
+
+    def test_a_column_of_texts_is_named(self):
+        frame = pandas.DataFrame({MU: [0.0, 0.1], "pendulum.a_m": ["a", "b"]})
+        self.refused(lambda: ricochet.solve_batch(PENDULUM, frame, NEWTON), "pendulum.a_m[0]", "= 'a': must be")
+
+
+class ShortNames(Case):
+    def test_a_text_is_one_name(self):
+        for columns in ("newton", ["newton"], NEWTON, ("newton",), pandas.Index([NEWTON])):
+            self.assertEqual(list(ricochet.sweep(PENDULUM, {"mu": [0, 0.1]}, columns, form="table").columns), [NEWTON])
+            self.assertEqual(list(ricochet.solve_batch(PENDULUM, {"mu": [0, 0.1]}, columns).columns), [NEWTON])
+        self.assertEqual(ricochet.solve(PENDULUM, exclude="friction").regime, "FRICTIONLESS")
+        for columns in (3, [3], None, b"newton"):
+            self.refused(lambda: ricochet.sweep(PENDULUM, {"mu": 0}, columns), "columns", "must be a name or a list")
+
+    def test_they_mean_the_same_wherever_a_path_is_taken(self):
+        short, full = (ricochet.bounds(PENDULUM, ranges={name: (0.1, 0.2)}) for name in ("mu", MU))
+        self.assertEqual(short, full)
+        table = ricochet.solve_batch(PENDULUM, {"mu": [0.0], "omega": -1, "a": 0.3}, ["newton", "rates_after[0]"])
+        self.assertEqual(list(table.axes), [MU, "pendulum.omega_minus_rad_s", "pendulum.a_m"])
+        self.assertEqual(list(table.columns), [NEWTON, "rates_after_rad_s[0]"])
+        self.assertEqual(table["newton"][0], 1)
+        with self.assertRaises(KeyError):
+            _ = table["poisson"]
+
+    def test_what_they_do_not_mean_is_said(self):
+        self.refused(lambda: ricochet.sweep(PENDULUM, {"mu": 0}, "newtn"), "columns", f"did you mean {NEWTON}?")
+        self.refused(lambda: ricochet.sweep(PENDULUM, {"kinetic_coeficient": 0}, NEWTON), "axes", f"did you mean {MU}?")
+        self.refused(lambda: ricochet.sweep(PENDULUM, {"mu": 0, MU: 1}, "newton"), "axes", "a second time")
+        links = [{"length_m": 1, "mass_kg": 1, "com_m": 0.5, "inertia_com_kg_m2": 0.1, "theta_rad": 0.1}] * 2
+        self.refused(lambda: ricochet.sweep({"linkage": {"links": links}}, {"theta": 0}, "newton"), "axes",
+                     "must name one of linkage.links[0].theta_rad, linkage.links[1].theta_rad")
+        for axes in ([("mu", 1)], "mu", {3: 1}):
+            self.refused(lambda: ricochet.sweep(PENDULUM, axes, "newton"), "axes")
+
+    def test_they_are_those_of_the_command_line(self):
+        for path in sorted((SOURCE / "tests/data/scenes").iterdir()):
+            if path.suffix not in (".json", ".textproto"):
+                continue
+            message = scene_message(ricochet.read_scene(path))
+            text = command_line("sweep", "--scene", path, "--axis", "?").stdout
+            listed = re.findall(r"^ *([a-z]\S*\.\S+)", text, re.M)
+            self.assertGreater(len(listed), 3, path)
+            self.check_names(path, names.fields_of(message), listed, "axis")
+            text = command_line("sweep", "--scene", path, "--column", "?").stdout
+            listed = re.findall(r"^ *([a-z]\S*(?:\.\S+|\]))", text, re.M)
+            self.check_names(path, names.columns_of(message), listed, "column")
+
+    def check_names(self, path, known, listed, what):
+        """Every end of a listed path means that path here exactly if the command line takes it for that path."""
+        for full in listed:
+            parts = without_unit(full).split(".")
+            for short in {".".join(parts[i:]) for i in range(len(parts))} | {full}:
+                ends = [one for one in listed if one.endswith("." + short) or without_unit(one) == short
+                        or without_unit(one).endswith("." + short) or one == short]
+                meant = names.meanings(short, known)
+                with self.subTest(path.name, what=what, short=short):
+                    self.assertEqual(meant == [full], ends == [full], f"{meant} here, {ends} there")
+
+    def test_letters_are_those_of_the_command_line(self):
+        source = (SOURCE / "client/cli/short_name.cc").read_text()
+        letters = dict(re.findall(r'\{"(\w+)",\s+"(\S+?)"\}', source))
+        self.assertGreater(len(letters), 3)
+        known = names.fields_of(scene_message({**PENDULUM}))
+        for letter, path in letters.items():
+            self.assertEqual(names.meanings(letter, known), [path])
+
+
+class Answers(Case):
+    def test_a_record_is_one_line_and_a_table_in_a_notebook(self):
+        outcome = ricochet.solve(PENDULUM, history=1000)
+        text = repr(outcome)
+        self.assertRegex(text, r"^Record\(regime='REBOUND', admissible=True, .*coefficients\.newton=0\.707107, .* more\)$"
+        )
+        self.assertLess(len(text), 130)
+        page = outcome._repr_html_()
+        self.assertIn("<td style='text-align: left'>work.residual_j</td>", page)
+        self.assertIn("<td style='text-align: left'>J</td>", page)
+        self.assertLess(len(page), 100_000)
+        self.assertNotIn("None", page)
+        self.assertEqual(json.loads(json.dumps(outcome))["coefficients"]["newton"], outcome.coefficients.newton)
+        table = repr(ricochet.sweep(PENDULUM, {"mu": np.linspace(0, 0.1, 500)}, "newton", form="table"))
+        self.assertRegex(table, rf"^Table\(500 rows: {MU}, {NEWTON}, regime, status; .*OK 500\)$")
+
+    def test_the_version_is_that_of_the_engine(self):
+        self.assertEqual(ricochet.__version__, ricochet.info().engine.version)
+
+    def test_a_sweep_carries_its_request_and_its_engine(self):
+        axes = {MU: [0.0, 0.1]}
+        data = ricochet.sweep(PENDULUM, axes, NEWTON)
+        with tempfile.TemporaryDirectory() as directory:
+            scene = Path(directory) / "scene.json"
+            scene.write_text(json.dumps(PENDULUM))
+            made = command_line("sweep", "--scene", scene, "--axis", f"{MU}=0,0.1", "--column", NEWTON, "--regime",
+                                "-o", Path(directory) / "x.nc")
+            self.assertEqual(made.returncode, 0, made.stderr)
+            with xarray.open_dataset(Path(directory) / "x.nc") as file:
+                self.assertEqual(set(data.attrs), set(file.attrs))
+                for name, value in file.attrs.items():
+                    if name == "ricochet_request":
+                        self.assertEqual(json.loads(data.attrs[name]), json.loads(value))
+                    else:
+                        self.assertEqual(data.attrs[name], value)
+        frame = ricochet.sweep(PENDULUM, axes, NEWTON, form="pandas")
+        self.assertEqual(frame.attrs, {**data.attrs, "units": frame.attrs["units"]})
+
+    def test_invalid_points_are_a_warning_where_they_were_asked_for(self):
+        calls = [lambda: ricochet.sweep(PENDULUM, {"mu": [0, -1, -2]}, NEWTON),
+                 lambda: ricochet.solve_batch(PENDULUM, {"mu": [0, -1, -2]}, NEWTON)]
+        for call in calls:
+            with self.assertWarnsRegex(ricochet.InvalidRows, rf"2 of 3; the first is row 1: {MU} = -1") as caught:
+                call()
+            self.assertEqual(caught.filename, __file__)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            ricochet.sweep(PENDULUM, {"mu": [0, 0.1]}, NEWTON)
+
+
+class Help(unittest.TestCase):
+    def test_every_function_says_its_parameters(self):
+        for name in ricochet.__all__:
+            function = getattr(ricochet, name)
+            if not inspect.isroutine(function):
+                continue
+            with self.subTest(name):
+                parameters = inspect.signature(function).parameters.values()
+                self.assertFalse([one for one in parameters if one.kind in (one.VAR_KEYWORD, one.VAR_POSITIONAL)])
+                text = pydoc.plain(pydoc.render_doc(function))
+                for one in parameters:
+                    self.assertRegex(text, rf"(?m)^ +(\w+, )*{one.name}(, \w+)*: \S|^unit_of|^read_scene")
+
+    def test_every_option_of_a_client_is_in_its_help(self):
+        for name in list(inspect.signature(ricochet.Client).parameters):
+            self.assertRegex(ricochet.Client.__doc__, rf"(?m)^ +{name}: ")
+
+
+if __name__ == "__main__":
+    unittest.main()
