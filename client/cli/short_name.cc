@@ -24,9 +24,10 @@ constexpr std::pair<const char*, const char*> kLetters[] = {
     {"inertia", "pendulum.inertia_kg_m2"},   {"phi", "pendulum.phi_rad"},
 };
 
-// True if `path` is `name`, or ends in it after a dot.
+// True if `path` is `name`, or ends in it after a dot. An error has the name of its number, which is what the name alone
+// means.
 bool EndsIn(const std::string& path, const std::string& name) {
-  return path == name || absl::EndsWith(path, absl::StrCat(".", name));
+  return path == name || (absl::EndsWith(path, absl::StrCat(".", name)) && !absl::StartsWith(path, "errors."));
 }
 
 bool Contains(const std::vector<std::string>& known, const std::string& name) {
@@ -75,6 +76,7 @@ absl::Status ExpandField(const Scene& scene, const std::string& what, std::strin
 
 absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names) {
   const std::vector<std::string> known = Columns(scene);
+  const std::vector<std::string> places = ColumnPlaces(scene);
   std::vector<std::string> columns;
   for (const std::string& text : names) {
     const std::string name(absl::StripAsciiWhitespace(text));
@@ -85,7 +87,7 @@ absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const s
                    [start](const std::string& column) { return absl::StartsWith(column, start); });
       if (columns.size() > before) continue;
     }
-    absl::StatusOr<std::string> full = FullName(name, known, "--column");
+    absl::StatusOr<std::string> full = FullName(name, places, "--column");
     if (!full.ok()) return full.status();
     columns.push_back(*std::move(full));
   }
