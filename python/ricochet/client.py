@@ -261,7 +261,8 @@ class Client:
             tolerance, require, exclude: as in ``solve``, for every row.
 
         Returns:
-            A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``;
+            A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``; a number that
+            the outcome of a row leaves unset is NaN, and the status is ``"INCOMPLETE"``;
             ``table.summary.bad_rows`` has the reasons of the first ones.
 
         Raises:
@@ -324,7 +325,8 @@ class Client:
 
         Returns:
             A table with a row for each point; ``to_xarray`` gives it a dimension for each axis. ``status`` says
-            whether a point is ``"OK"`` or ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN.
+            whether a point is ``"OK"`` or ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN, one whose
+            outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there.
 
         Raises:
             InvalidRequest: the scene, an axis or a column is wrong.
