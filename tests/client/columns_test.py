@@ -102,14 +102,14 @@ def kinds():
 
 
 def flat(value, path=""):
-    """The numbers and names of a JSON value by their paths."""
+    """The numbers and names of a JSON value by their paths, without those that are unset."""
     if isinstance(value, dict):
         for name, member in value.items():
             yield from flat(member, f"{path}.{name}" if path else name)
     elif isinstance(value, list):
         for i, entry in enumerate(value):
             yield from flat(entry, f"{path}[{i}]")
-    else:
+    elif value is not None:
         yield path, value
 
 
