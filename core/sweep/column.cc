@@ -151,7 +151,7 @@ ColumnReader::Reading ColumnReader::Read(const Outcome& outcome, std::vector<dou
     if (column == kNone) return;
     is_complete &= number != nullptr;
     numbers[column] = number == nullptr ? std::numeric_limits<double>::quiet_NaN() : *number;
-    if (number == nullptr || MayBeInfinite(path) || std::isfinite(*number)) return;
+    if (number == nullptr || std::isfinite(*number) || MayBeInfinite(path)) return;
     reading.too_large = std::min(column, reading.too_large.value_or(column));
   });
   if (reading.too_large.has_value()) {
