@@ -24,16 +24,15 @@ bool AllFinite(const Components& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-// A finite sum of the numbers proves at little cost that each is finite. Finite numbers may have an infinite sum.
+// A finite sum of the numbers proves at little cost that each is finite. Finite numbers may have an infinite sum, and
+// errors may be infinite.
 double Sum(const State& state) {
   return Sum(state.contact_velocity.tangential_m_s) + Sum(state.tangential_impulse_n_s) + Sum(state.rates_rad_s) +
          state.normal_impulse_n_s + state.contact_velocity.normal_m_s;
 }
 double Sum(const Outcome& outcome) {
   double sum = 0.0;
-  VisitOutcomeNumbers(outcome, [&sum](const NumberPath& path, double number) {
-    if (!MayBeInfinite(path)) sum += number;
-  });
+  VisitOutcomeNumbers(outcome, [&sum](const NumberPath& /*path*/, double number) { sum += number; });
   for (const Event& event : outcome.timeline) sum += Sum(event.state);
   return sum;
 }

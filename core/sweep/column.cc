@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <utility>
 #include <variant>
 
@@ -106,7 +108,7 @@ std::vector<Violation> CheckColumns(const Scene& scene, const std::vector<std::s
   std::vector<Violation> violations;
   if (columns.empty()) violations.push_back({"columns", "is empty: must name at least one"});
   const std::vector<std::string> known = Columns(scene);
-  const std::set<std::string> are_known(known.begin(), known.end());
+  const std::unordered_set<std::string_view> are_known(known.begin(), known.end());
   std::set<std::string> seen;
   for (size_t i = 0; i < columns.size() && !IsFull(violations); ++i) {
     const auto refuse = [&](const std::string& rule) {
@@ -135,24 +137,25 @@ std::vector<Violation> CheckEffectsBehind(const Scene& scene, std::optional<Scen
 ColumnReader::ColumnReader(const Scene& scene, const std::vector<std::string>& columns) : columns_(columns.size()) {
   std::unordered_map<std::string, size_t> position_of;
   for (size_t c = 0; c < columns.size(); ++c) position_of.emplace(columns[c], c);
-  for (const std::string& path : ColumnPlaces(scene)) {
-    const auto found = position_of.find(path);
-    column_at_.push_back(found == position_of.end() ? kNone : found->second);
-  }
+  VisitOutcomeFields(WithEveryNumber(scene), [&](const NumberPath& path, const double* /*number*/) {
+    Place& place = places_.emplace_back();
+    place.may_be_infinite = MayBeInfinite(path);
+    if (const auto found = position_of.find(path.Text()); found != position_of.end()) place.column = found->second;
+  });
 }
 
 ColumnReader::Reading ColumnReader::Read(const Outcome& outcome, std::vector<double>& numbers) const {
   numbers.resize(columns_);
   Reading reading;
   bool is_complete = true;
-  size_t place = 0;
-  VisitOutcomeFields(outcome, [&](const NumberPath& path, const double* number) {
-    const size_t column = column_at_[place++];
-    if (column == kNone) return;
+  auto place = places_.begin();
+  VisitOutcomeFields(outcome, [&](const NumberPath& /*path*/, const double* number) {
+    const auto& [column, may_be_infinite] = *place++;
+    if (!column.has_value()) return;
     is_complete &= number != nullptr;
-    numbers[column] = number == nullptr ? std::numeric_limits<double>::quiet_NaN() : *number;
-    if (number == nullptr || std::isfinite(*number) || MayBeInfinite(path)) return;
-    reading.too_large = std::min(column, reading.too_large.value_or(column));
+    numbers[*column] = number == nullptr ? std::numeric_limits<double>::quiet_NaN() : *number;
+    if (number == nullptr || may_be_infinite || std::isfinite(*number)) return;
+    reading.too_large = std::min(*column, reading.too_large.value_or(*column));
   });
   if (reading.too_large.has_value()) {
     reading.status = RowStatus::kNotRepresentable;

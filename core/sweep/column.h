@@ -55,10 +55,14 @@ class ColumnReader {
   Reading Read(const Outcome& outcome, std::vector<double>& numbers) const;
 
  private:
-  static constexpr size_t kNone = static_cast<size_t>(-1);
+  // A place of an outcome.
+  struct Place {
+    std::optional<size_t> column;  // The one that it is, if it is one.
+    bool may_be_infinite = false;
+  };
 
   size_t columns_;
-  std::vector<size_t> column_at_;  // The column that each place of an outcome is, or kNone.
+  std::vector<Place> places_;
 };
 
 }  // namespace ricochet
