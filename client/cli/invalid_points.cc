@@ -10,6 +10,7 @@
 #include "core/scene/check.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
+#include "core/sweep/column.h"
 #include "core/sweep/grid.h"
 
 namespace ricochet::cli {
@@ -22,7 +23,7 @@ constexpr NumberPath kPhi = {.prefix = "pendulum", .name = "phi_rad"};
 
 InvalidPoints::InvalidPoints(const Grid& grid) : grid_(grid) {}
 
-Violation InvalidPoints::First(int64_t index) {
+std::optional<Violation> InvalidPoints::First(int64_t index) {
   std::vector<int64_t> positions(grid_.axes.size());
   AxisPositions(grid_, index, absl::MakeSpan(positions));
   for (size_t i = 0; i < positions.size(); ++i) {
@@ -33,27 +34,44 @@ Violation InvalidPoints::First(int64_t index) {
   }
   if (driven_ == nullptr) driven_ = std::make_shared<DrivenScene>(grid_);
   driven_->GoTo(index);
-  const std::vector<Violation> violations = Validate(driven_->scene());
-  // A scene that keeps every rule has no numbers only for this reason.
-  return violations.empty() ? Violation{"a column", ": must not exceed the largest double"} : violations.front();
+  std::vector<Violation> violations = Validate(driven_->scene());
+  if (violations.empty()) return std::nullopt;
+  return std::move(violations.front());
+}
+
+bool InvalidPoints::KeepsRules(int64_t index) { return !First(index).has_value(); }
+
+Violation InvalidPoints::WhyInvalid(int64_t index) {
+  return First(index).value_or(Violation{"a column", ": must not exceed the largest double"});
 }
 
 std::string InvalidPoints::Reason(int64_t index) {
-  const Violation first = First(index);
+  const Violation first = WhyInvalid(index);
   return absl::StrCat(first.field, first.description[0] == ':' ? "" : " ", first.description);
 }
 
 std::string InvalidPoints::Rule(int64_t index) {
-  const Violation first = First(index);
+  const Violation first = WhyInvalid(index);
   const size_t rule = first.description.find(": must ");
   return absl::StrCat(first.field,
                       rule == std::string::npos ? " " + first.description : first.description.substr(rule));
 }
 
+InvalidCounts::InvalidCounts(const SweepRequest& request)
+    : points_(request.grid),
+      may_lack_numbers_(std::all_of(request.columns.begin(), request.columns.end(), MayBeUnset)) {}
+
+// True if the point has no numbers because it is invalid.
+bool InvalidCounts::IsInvalid(const SweepChunk& chunk, int64_t i) {
+  for (size_t at = static_cast<size_t>(i); at < chunk.values.size(); at += static_cast<size_t>(chunk.count)) {
+    if (!std::isnan(chunk.values[at])) return false;
+  }
+  return !may_lack_numbers_ || !points_.KeepsRules(chunk.first_index + i);
+}
+
 void InvalidCounts::Add(const SweepChunk& chunk) {
-  // A sweep has at least one column, and a valid point has a number in each.
   for (int64_t i = 0; i < chunk.count; ++i) {
-    if (!std::isnan(chunk.values[static_cast<size_t>(i)]) || ++count_ > kMostReasons) continue;
+    if (count_ > kMostReasons || !IsInvalid(chunk, i) || ++count_ > kMostReasons) continue;
     const int64_t index = chunk.first_index + i;
     Tally& tally = by_rule_[points_.Rule(index)];
     if (tally.count++ == 0) tally.first_index = index;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "core/sweep/driven_scene.h"
@@ -19,6 +20,9 @@ class InvalidPoints {
  public:
   explicit InvalidPoints(const Grid& grid);
 
+  // True if the scene of a point keeps every rule: if the point has no numbers, one of them is too large.
+  bool KeepsRules(int64_t index);
+
   // Returns the first reason of an invalid point of a grid that a solver has taken:
   // "friction.kinetic_coefficient = -0.1: must be >= 0".
   std::string Reason(int64_t index);
@@ -28,7 +32,9 @@ class InvalidPoints {
   std::string Rule(int64_t index);
 
  private:
-  Violation First(int64_t index);
+  // The first rule that the scene of a point breaks, if it breaks one.
+  std::optional<Violation> First(int64_t index);
+  Violation WhyInvalid(int64_t index);
 
   Grid grid_;
   std::shared_ptr<DrivenScene> driven_;  // Made for the first invalid point.
@@ -37,7 +43,7 @@ class InvalidPoints {
 // Counts the invalid points of a sweep by their reason.
 class InvalidCounts {
  public:
-  explicit InvalidCounts(const SweepRequest& request) : points_(request.grid) {}
+  explicit InvalidCounts(const SweepRequest& request);
 
   void Add(const SweepChunk& chunk);
 
@@ -49,9 +55,12 @@ class InvalidCounts {
   // Finding a reason takes microseconds, so that the reasons of these points stand for all.
   static constexpr int64_t kMostReasons = 100'000;
 
+  bool IsInvalid(const SweepChunk& chunk, int64_t i);
+
   InvalidPoints points_;
-  int64_t count_ = 0;  // Those that were added.
-  int64_t total_ = 0;  // Those of the whole sweep.
+  bool may_lack_numbers_;  // A valid point may have NaN in every column.
+  int64_t count_ = 0;      // Those that were added.
+  int64_t total_ = 0;      // Those of the whole sweep.
   std::map<std::string, Tally> by_rule_;
 };
 

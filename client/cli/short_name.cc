@@ -27,9 +27,10 @@ constexpr std::pair<const char*, const char*> kLetters[] = {
     {"mu", "friction"},
 };
 
-// True if `path` is `name`, or ends in it after a dot.
+// True if `path` is `name`, or ends in it after a dot. An error has the name of its number, which is what the name alone
+// means.
 bool EndsIn(const std::string& path, const std::string& name) {
-  return path == name || absl::EndsWith(path, absl::StrCat(".", name));
+  return path == name || (absl::EndsWith(path, absl::StrCat(".", name)) && !absl::StartsWith(path, "errors."));
 }
 
 bool Contains(const std::vector<std::string>& known, const std::string& name) {
@@ -78,7 +79,12 @@ Spelling SpellingOf(const std::string& path) {
   return info != nullptr && info->unit == "rad" ? Spelling::kAngle : Spelling::kNumber;
 }
 
+absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names) {
+  return FullColumns(Columns(scene), ColumnPlaces(scene), names);
+}
+
 absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::string>& known,
+                                                     const std::vector<std::string>& places,
                                                      const std::vector<std::string>& names) {
   std::vector<std::string> columns;
   for (const std::string& text : names) {
@@ -90,7 +96,7 @@ absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::stri
                    [start](const std::string& column) { return absl::StartsWith(column, start); });
       if (columns.size() > before) continue;
     }
-    absl::StatusOr<std::string> full = FullName(name, known, "--column");
+    absl::StatusOr<std::string> full = FullName(name, places, "--column");
     if (!full.ok()) return full.status();
     columns.push_back(*std::move(full));
   }

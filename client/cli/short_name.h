@@ -26,9 +26,13 @@ absl::StatusOr<std::string> FullField(const Scene& scene, const std::string& nam
 // How the number at the path of a field may be written.
 Spelling SpellingOf(const std::string& path);
 
-// Returns the columns that `names`, the values of --column, mean among all that are known; "coefficients.*" means all
-// that start with "coefficients.", and spaces around a name do not count. Errors: those of FullName.
+// Returns the columns of the scene that `names`, the values of --column, mean; "coefficients.*" means all that start with
+// "coefficients.", and spaces around a name do not count. Errors: those of FullName.
+absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names);
+
+// The same among the columns of a file: "*" stands for those that are `known`, a name for one of `places`.
 absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::string>& known,
+                                                     const std::vector<std::string>& places,
                                                      const std::vector<std::string>& names);
 
 }  // namespace ricochet::cli

@@ -205,7 +205,7 @@ absl::Status SolveData(const DataOptions& data, const CommonOptions& options, co
   std::istringstream stream(*text);
   absl::StatusOr<CsvReader> reader = OpenTable(stream, data, scene);
   if (!reader.ok()) return reader.status();
-  const absl::StatusOr<std::vector<std::string>> columns = FullColumns(Columns(scene), data.columns);
+  const absl::StatusOr<std::vector<std::string>> columns = FullColumns(scene, data.columns);
   if (!columns.ok()) return columns.status();
   Solved solved = {.setup = {.scene = scene,
                              .fields = {},

@@ -130,9 +130,12 @@ std::string CoefficientsText(const Outcome& outcome) {
   table.Add({"Poisson     (normal impulses)", IfKnown(coefficients.poisson)});
   table.Add({"energetic   (normal works)", IfKnown(coefficients.energetic)});
   table.Add({"tangential  (Brach, f/tau)", Rounded(coefficients.tangential)});
+  const std::string restitution = effective.restitution.has_value()
+                                      ? absl::StrCat("restitution ", Rounded(*effective.restitution))
+                                      : "the damping of the spring";
   return absl::StrCat("Coefficients\n", table.Render(2), "  computed with friction ",
-                      Rounded(effective.kinetic_friction), " (static ", Rounded(effective.static_friction),
-                      "), restitution ", Rounded(effective.restitution), "\n");
+                      Rounded(effective.kinetic_friction), " (static ", Rounded(effective.static_friction), "), ",
+                      restitution, "\n");
 }
 
 // Appends the numbers of a list as cells, one for each tangential direction or angular velocity.
@@ -296,15 +299,23 @@ Table StateTable(const State& state) {
   return table;
 }
 
+// Says what no number of the outcome does.
+std::string NotesText(const std::vector<Note>& notes) {
+  std::string text;
+  for (const Note& note : notes) absl::StrAppend(&text, "Note: ", note.text, "\n");
+  return text;
+}
+
 // --- CSV: reflection visits the fields of the outcome's proto, so that a new field gets its column automatically. ---
 
 struct Row {
   std::vector<std::string> names;
   std::vector<std::string> values;
+  bool is_unset = false;  // The fields to come are those of a message that is unset, and have empty cells.
 
   void Add(std::string name, std::string value) {
     names.push_back(std::move(name));
-    values.push_back(std::move(value));
+    values.push_back(is_unset ? "" : std::move(value));
   }
   std::string Header() const { return absl::StrCat(absl::StrJoin(names, ","), "\n"); }
   std::string Values() const { return absl::StrCat(absl::StrJoin(values, ","), "\n"); }
@@ -323,9 +334,13 @@ void AppendSingle(const Message& message, const FieldDescriptor* field, const st
   // A number that is unset has an empty cell.
   if (field->has_optional_keyword() && !reflection.HasField(message, field)) return row.Add(path, "");
   switch (field->cpp_type()) {
-    case FieldDescriptor::CPPTYPE_MESSAGE:
+    case FieldDescriptor::CPPTYPE_MESSAGE: {
       if (field->message_type() == v1::Certificate::descriptor()) return;
-      return AppendFields(reflection.GetMessage(message, field), absl::StrCat(path, "."), row);
+      const bool was_unset = std::exchange(row.is_unset, row.is_unset || !reflection.HasField(message, field));
+      AppendFields(reflection.GetMessage(message, field), absl::StrCat(path, "."), row);
+      row.is_unset = was_unset;
+      return;
+    }
     case FieldDescriptor::CPPTYPE_DOUBLE:
       return row.Add(path, ShortestDecimal(reflection.GetDouble(message, field)));
     case FieldDescriptor::CPPTYPE_BOOL:

@@ -80,7 +80,10 @@ absl::StatusOr<SweepRequest> RequestFromFile(const SweepOptions& options) {
 // Returns the three coefficients and the first velocity of the system, or that of the contact if the system has none.
 std::vector<std::string> DefaultColumns(const Scene& scene) {
   const std::vector<std::string> known = Columns(scene);
-  std::vector<std::string> columns = {"coefficients.newton", "coefficients.poisson", "coefficients.energetic"};
+  std::vector<std::string> columns = {"coefficients.newton"};
+  for (const char* phase : {"coefficients.poisson", "coefficients.energetic"}) {
+    if (std::find(known.begin(), known.end(), phase) != known.end()) columns.emplace_back(phase);
+  }
   for (const char* motion :
        {"rates_after_rad_s[0]", "bodies_after[0].linear_m_s[0]", "contact_velocity_after.normal_m_s"}) {
     if (std::find(known.begin(), known.end(), motion) == known.end()) continue;
@@ -101,7 +104,7 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
     request.grid.axes.push_back(*std::move(axis));
   }
   request.grid.combination = options.zip ? Combination::kZip : Combination::kProduct;
-  absl::StatusOr<std::vector<std::string>> columns = FullColumns(Columns(request.grid.scene), options.columns);
+  absl::StatusOr<std::vector<std::string>> columns = FullColumns(request.grid.scene, options.columns);
   if (!columns.ok()) return columns.status();
   request.columns = columns->empty() ? DefaultColumns(request.grid.scene) : *std::move(columns);
   request.with_regime = options.regime;

@@ -50,7 +50,7 @@ absl::Status TooManyPoints() {
 
 absl::StatusOr<std::vector<std::string>> ChooseColumns(const std::vector<std::string>& columns,
                                                        const std::vector<std::string>& wanted) {
-  absl::StatusOr<std::vector<std::string>> chosen = FullColumns(columns, wanted);
+  absl::StatusOr<std::vector<std::string>> chosen = FullColumns(columns, columns, wanted);
   if (!chosen.ok()) return chosen.status();
   std::set<std::string> seen;
   for (const std::string& name : *chosen) {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <string_view>
 
 #include "absl/strings/str_cat.h"
 #include "core/numerics/decimal.h"
@@ -25,7 +24,8 @@ bool AllFinite(const Components& values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); });
 }
 
-// A finite sum of the numbers proves at little cost that each is finite. Finite numbers may have an infinite sum.
+// A finite sum of the numbers proves at little cost that each is finite. Finite numbers may have an infinite sum, and
+// errors may be infinite.
 double Sum(const State& state) {
   return Sum(state.contact_velocity.tangential_m_s) + Sum(state.tangential_impulse_n_s) + Sum(state.rates_rad_s) +
          state.normal_impulse_n_s + state.contact_velocity.normal_m_s;
@@ -37,12 +37,11 @@ double Sum(const Outcome& outcome) {
   return sum;
 }
 
-// The path of the first number that is not finite, other than the error estimate.
+// The path of the first number that is not finite but must be.
 std::optional<std::string> OverflowIn(const Outcome& outcome) {
   std::optional<NumberPath> wrong;
   VisitOutcomeNumbers(outcome, [&wrong](const NumberPath& path, double number) {
-    const bool may_be_infinite = std::string_view(path.name) == "relative_error";
-    if (!wrong.has_value() && !may_be_infinite && !std::isfinite(number)) wrong = path;
+    if (!wrong.has_value() && !MayBeInfinite(path) && !std::isfinite(number)) wrong = path;
   });
   if (!wrong.has_value()) return std::nullopt;
   return wrong->Text();
@@ -118,6 +117,10 @@ void UnsetPhases(Outcome& outcome) {
   outcome.impulse.normal_compression_n_s = std::nullopt;
   outcome.work.normal_compression_j = outcome.work.normal_restitution_j = std::nullopt;
   outcome.work.tangential_compression_j = outcome.work.tangential_restitution_j = std::nullopt;
+  NumberErrors& errors = outcome.errors;
+  errors.poisson = errors.energetic = errors.normal_compression_n_s = std::nullopt;
+  errors.normal_compression_j = errors.normal_restitution_j = std::nullopt;
+  errors.tangential_compression_j = errors.tangential_restitution_j = std::nullopt;
 }
 
 absl::Status CheckFinite(const Outcome& outcome) {

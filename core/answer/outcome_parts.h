@@ -49,7 +49,7 @@ void SetLimits(const LimitFindings& findings, Outcome& outcome);
 WorkLedger MakeLedger(double normal_compression, double normal_restitution, double tangential_compression,
                       double tangential_restitution, double energy_change);
 
-// Unsets the numbers of the two phases, of which an impact law knows nothing.
+// Unsets the numbers of the two phases and their errors, of which an impact law knows nothing.
 void UnsetPhases(Outcome& outcome);
 
 // Converts `error`, which is relative to the largest of all velocities, to one relative to the velocity before the impact.
@@ -65,8 +65,8 @@ double RelativeToBefore(double error, const Reduction<kTangential>& reduction,
   return error * std::max(1.0, after / before);
 }
 
-// Gives OUT_OF_RANGE that names the first number of the outcome, or of a state of its timeline, that is not finite. The
-// error estimate is not checked: it is infinite if an integration did not converge.
+// Gives OUT_OF_RANGE that names the first number of the outcome, or of a state of its timeline, that is not finite. An
+// error is not checked: it is infinite where nothing is known (MayBeInfinite).
 absl::Status CheckFinite(const Outcome& outcome);
 
 // Gives INVALID_ARGUMENT for each impulse of a history that is not in [0, tau1], else adds the history.

@@ -3,6 +3,7 @@
 #include <variant>
 
 #include "core/answer/model_outcomes.h"
+#include "core/answer/notes.h"
 #include "core/numerics/invariant.h"
 #include "core/plan/arithmetic.h"
 #include "core/plan/planned_scene.h"
@@ -139,6 +140,7 @@ absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>&
   outcome.accuracy.relative_error += planned.choice.negligible;
   if (options.extent.detail == Detail::kAll) {
     Explain(planned, options.demand, outcome.plan);
+    AddNotes(scene, planned, outcome);
   } else {
     outcome.plan.model = planned.choice.model;
   }

@@ -13,10 +13,10 @@
 #include "core/batch/check_rows.h"
 #include "core/contact/scene_contact.h"
 #include "core/plan/demand_fields.h"
+#include "core/plan/number_demand.h"
 #include "core/plan/planned_scene.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
-#include "core/sweep/column.h"
 
 namespace ricochet {
 namespace {
@@ -35,7 +35,9 @@ void Count(int64_t row, Tally& tally) {
   ++tally.count;
 }
 
-bool HasNumbers(RowStatus status) { return status == RowStatus::kOk || status == RowStatus::kInadmissible; }
+bool HasNumbers(RowStatus status) {
+  return status == RowStatus::kOk || status == RowStatus::kInadmissible || status == RowStatus::kIncomplete;
+}
 
 }  // namespace
 
@@ -43,7 +45,7 @@ BatchRun::BatchRun(const BatchSetup& setup)
     : scene_(setup.scene),
       fields_(
           PathsOf(setup), [](size_t i) { return absl::StrCat("fields[", i, "]"); }, "", scene_),
-      demand_(ToDemand(setup.demand)),
+      demand_(WithNumbers(ToDemand(setup.demand), setup.columns)),
       has_relations_(HasRelations(scene_)) {}
 
 absl::StatusOr<std::unique_ptr<BatchRun>> BatchRun::Make(const BatchSetup& setup) {
@@ -62,14 +64,12 @@ absl::Status BatchRun::Prepare(const BatchSetup& setup) {
   }
   if (setup.fields.empty()) violations.push_back({"fields", "is empty: must name at least one"});
   Append(fields_.violations(), violations);
-  const std::vector<std::string> all = Columns(scene_);
-  const ColumnPositions known = PositionsOf(all);
-  Append(CheckColumns(setup.columns, all, known), violations);
+  Append(CheckColumns(scene_, setup.columns), violations);
+  if (violations.empty()) violations = CheckEffectsBehind(scene_, contact, ToDemand(setup.demand), setup.columns);
   if (!violations.empty()) return InvalidRequest(violations);
   names_ = setup.fields;
   columns_ = setup.columns;
-  for (const std::string& column : columns_) positions_of_.push_back(known.at(column));
-  numbers_.reserve(all.size());
+  reader_.emplace(scene_, columns_);
   lanes_ = LaneRows::Make(scene_, setup, demand_);
   return absl::OkStatus();
 }
@@ -109,16 +109,15 @@ std::optional<BatchRun::Begun> BatchRun::BeginRow(const BatchRows& rows, size_t 
 
 // Writes the numbers of a row.
 BatchRun::Row BatchRun::RowOf(const BatchRows& rows, size_t i, const Outcome& outcome) {
-  Row row = {.status = outcome.admissible ? RowStatus::kOk : RowStatus::kInadmissible,
-             .regime = outcome.regime,
-             .model = outcome.plan.model,
-             .too_large = std::nullopt};
-  ReadColumns(outcome, numbers_);
-  for (size_t c = 0; c < columns_.size(); ++c) rows.outputs[c][i] = numbers_[positions_of_[c]];
-  CheckNumbers(rows, i, row);
-  return row;
+  const auto [status, too_large] = reader_->Read(outcome, numbers_);
+  for (size_t c = 0; c < columns_.size(); ++c) rows.outputs[c][i] = numbers_[c];
+  return {.status = status,
+          .regime = HasNumbers(status) ? outcome.regime : Regime::kInvalid,
+          .model = outcome.plan.model,
+          .too_large = too_large};
 }
 
+// Checks the numbers of a row that the lanes have solved.
 void BatchRun::CheckNumbers(const BatchRows& rows, size_t i, Row& row) const {
   for (size_t c = 0; c < columns_.size(); ++c) {
     if (std::isfinite(rows.outputs[c][i])) continue;

@@ -18,6 +18,7 @@
 #include "core/batch/lane_rows.h"
 #include "core/plan/demand.h"
 #include "core/scene/driven_fields.h"
+#include "core/sweep/column.h"
 #include "ricochet/batch.h"
 #include "ricochet/error.h"
 #include "ricochet/outcome.h"
@@ -74,15 +75,15 @@ class BatchRun {
 
   Scene scene_;  // The scene of the current row, in which every row sets the same fields.
   DrivenFields fields_;
-  Demand demand_;
+  Demand demand_;                     // With the effects that make the columns.
   bool has_relations_ = false;        // True if the scene has rules beyond those of single numbers.
   std::vector<std::string> names_;    // The names of the input columns.
   std::vector<std::string> columns_;  // The names of the output columns.
-  std::vector<size_t> positions_of_;  // Their positions among all columns of the scene.
-  std::vector<double> numbers_;       // All columns of one row.
-  std::unique_ptr<LaneRows> lanes_;   // Null if the rows need a scene each.
-  SpatialLanes spatial_;              // The rows of the current block that are solved together in space.
-  std::vector<Begun> begun_;          // All rows of the current block that need a scene each.
+  std::optional<ColumnReader> reader_;
+  std::vector<double> numbers_;      // The columns of one row.
+  std::unique_ptr<LaneRows> lanes_;  // Null if the rows need a scene each.
+  SpatialLanes spatial_;             // The rows of the current block that are solved together in space.
+  std::vector<Begun> begun_;         // All rows of the current block that need a scene each.
 };
 
 }  // namespace ricochet

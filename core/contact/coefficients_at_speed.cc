@@ -67,17 +67,15 @@ SlopeForm Factor(const SpeedTable& table, const SlopeForm& speed) {
   return speed.Through(Factor(pieces, speed.centre()), Factor(pieces, speed.range()), slope);
 }
 
-double Value(std::monostate /*unset*/) { return 0.0; }
+std::optional<double> Value(std::monostate /*unset*/) { return std::nullopt; }
 template <typename Coefficient>
-double Value(const Coefficient& coefficient) {
+std::optional<double> Value(const Coefficient& coefficient) {
   return coefficient.value;
 }
-
-double NewtonOf(std::monostate /*unset*/) { return 0.0; }
-template <typename Law>
-double NewtonOf(const Law& law) {
-  return law.e;
-}
+std::optional<double> Value(const WhittakerLaw& law) { return law.e; }
+std::optional<double> Value(const KaneLevinsonLaw& law) { return law.e; }
+std::optional<double> Value(const BrachLaw& law) { return law.e; }
+std::optional<double> Value(const ChatterjeeRuinaLaw& law) { return law.e; }
 
 }  // namespace
 
@@ -95,11 +93,13 @@ EffectiveCoefficients CoefficientsAtSpeed(const Scene& scene, double speed) {
   const double friction = FactorAt(scene.friction.by_speed, speed);
   const double kinetic = scene.friction.kinetic_coefficient;
   const bool has_law = !std::holds_alternative<std::monostate>(scene.impact_law);
-  const double restitution = has_law ? std::visit([](const auto& law) { return NewtonOf(law); }, scene.impact_law)
-                                     : std::visit([](const auto& given) { return Value(given); }, scene.restitution);
+  const auto value = [](const auto& given) { return Value(given); };
+  std::optional<double> restitution =
+      has_law ? std::visit(value, scene.impact_law) : std::visit(value, scene.restitution);
+  if (restitution.has_value()) *restitution *= FactorAt(scene.restitution_by_speed, speed);
   return {.kinetic_friction = kinetic * friction,
           .static_friction = scene.friction.static_coefficient.value_or(kinetic) * friction,
-          .restitution = restitution * FactorAt(scene.restitution_by_speed, speed)};
+          .restitution = restitution};
 }
 
 }  // namespace ricochet

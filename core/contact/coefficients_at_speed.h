@@ -22,7 +22,7 @@ inline bool DependsOnSpeed(const Scene& scene) {
   return scene.friction.by_speed.has_value() || scene.restitution_by_speed.has_value();
 }
 
-// The scene's coefficients, each multiplied by its factor. A restitution that is left open counts as 0.
+// The scene's coefficients, each multiplied by its factor. A restitution that is left open is unset.
 EffectiveCoefficients CoefficientsAtSpeed(const Scene& scene, double speed);
 
 }  // namespace ricochet

@@ -23,7 +23,7 @@ struct SceneContact {
       : reduction(std::move(known)), coefficients(CoefficientsAtSpeed(scene, ApproachSpeed(reduction))) {}
 
   AnyReduction reduction;
-  EffectiveCoefficients coefficients;  // A restitution that is left open counts as 0.
+  EffectiveCoefficients coefficients;  // A restitution that is left open is unset.
 };
 
 }  // namespace ricochet

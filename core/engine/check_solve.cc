@@ -8,9 +8,13 @@
 #include "core/certified/certified.h"
 #include "core/contact/reduction.h"
 #include "core/plan/demand_fields.h"
+#include "core/plan/number_demand.h"
 
 namespace ricochet {
 namespace {
+
+// The number of an outcome that force_intervals asks for.
+constexpr char kForces[] = "contact.history";
 
 void CheckIntervals(const char* field, int64_t intervals, std::vector<Violation>& violations) {
   if (intervals >= 0 && intervals <= kMostIntervals) return;
@@ -22,16 +26,8 @@ void CheckForceIntervals(const SolveRequest& request, std::optional<SceneContact
   const int64_t intervals = request.force_intervals;
   CheckIntervals("force_intervals", intervals, violations);
   if (intervals == 0 || !violations.empty()) return;
-  const std::optional<Compliance>& compliance = request.scene.compliance;
-  if (!compliance.has_value() || std::holds_alternative<std::monostate>(compliance->normal)) {
-    const char* const rule =
-        ": must be 0 without a normal spring in compliance, such as linear, whose force it samples";
-    violations.push_back({"force_intervals", absl::StrCat("= ", intervals, rule)});
-    return;
-  }
-  for (const Violation& violation : CheckDemand(request.scene, contact, DemandOf(request))) {
-    const std::string rule = violation.description.substr(violation.description.find("must "));
-    violations.push_back({"force_intervals", absl::StrCat("= ", intervals, ": needs finite_duration, which ", rule)});
+  for (const std::string& reason : WhyNoNumber(request.scene, contact, ToDemand(request.demand), kForces)) {
+    violations.push_back({"force_intervals", absl::StrCat("= ", intervals, ": ", reason)});
   }
 }
 
@@ -74,9 +70,8 @@ void CheckCertified(const SolveRequest& request, std::vector<Violation>& violati
 }  // namespace
 
 Demand DemandOf(const SolveRequest& request) {
-  Demand demand = ToDemand(request.demand);
-  if (request.force_intervals > 0) demand.required.Add(Effect::kFiniteDuration);
-  return demand;
+  const Demand demand = ToDemand(request.demand);
+  return request.force_intervals > 0 ? WithNumbers(demand, {kForces}) : demand;
 }
 
 std::vector<Violation> CheckSolve(const SolveRequest& request, std::optional<SceneContact>& contact) {

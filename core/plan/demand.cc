@@ -25,42 +25,14 @@ bool HasFriction(const Scene& scene) {
 
 bool IsInSpace(const Scene& scene) { return TangentialDirections(scene.system) == 2; }
 
-// The part that the scene lacks for the effect; empty if it lacks nothing.
-std::string Lacking(const Scene& scene, Effect effect) {
-  const auto unless = [](bool holds, const char* lacking) { return std::string(holds ? "" : lacking); };
-  const bool rubs = HasFriction(scene);
-  switch (effect) {
-    case Effect::kUnspecified:
-      return "an effect that is named";
-    case Effect::kFriction:
-    case Effect::kSlipStop:
-      return unless(rubs, "friction.kinetic_coefficient > 0");
-    case Effect::kSlipTurn:
-      return !IsInSpace(scene) ? "a system in space" : unless(rubs, "friction.kinetic_coefficient > 0");
-    case Effect::kStaticFriction:
-      return unless(scene.friction.static_coefficient.value_or(0.0) > scene.friction.kinetic_coefficient,
-                    "friction.static_coefficient > friction.kinetic_coefficient");
-    case Effect::kTangentialCompliance:
-      return unless(scene.compliance.has_value() && scene.compliance->tangential_ratio_squared.has_value(),
-                    "compliance.tangential_ratio_squared");
-    case Effect::kFiniteForces:
-      if (std::holds_alternative<std::monostate>(scene.finite_forces)) return "finite forces";
-      [[fallthrough]];
-    case Effect::kFiniteDuration:
-      return unless(scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.compliance->normal),
-                    "a normal spring in compliance");
-    case Effect::kHigherOrder:
-      return unless(HasClosedForm(scene), "a pendulum over a surface at rest");
-  }
-  return "";
-}
-
 // True if the scene has finite forces and a spring, so that the forces have time to act.
 bool HasFiniteForces(const Scene& scene) { return Lacking(scene, Effect::kFiniteForces).empty(); }
 
 // The reason why the effect cannot be left out; empty if it can, or if that depends on the numbers of the contact.
-std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded) {
+std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded, EffectSet required) {
   const bool rubs = !excluded.Has(Effect::kFriction);
+  const bool takes_time = HasDamping(scene) || required.Has(Effect::kFiniteDuration) ||
+                          (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces));
   switch (effect) {
     case Effect::kUnspecified:
       return "be an effect that is named";
@@ -69,19 +41,13 @@ std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded
       if (effect == Effect::kSlipTurn && !IsInSpace(scene)) return "be left in: in a plane slip cannot turn";
       if (!rubs) return "";
       if (HasClosedForm(scene)) return "be left in: a pendulum's slip stops where compression ends; exclude friction";
-      if (HasDamping(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {
-        return "be left in: the model of finite duration has slip that stops; exclude friction";
-      }
-      return "";
+      return takes_time ? "be left in: the model of finite duration has slip that stops; exclude friction" : "";
     case Effect::kFiniteDuration:
       return HasDamping(scene) ? "be left in: the spring's damping is the restitution" : "";
     case Effect::kHigherOrder:
       if (!HasClosedForm(scene)) return "be left in: only a pendulum over a surface at rest has a first-order form";
       if (!rubs) return "";
-      if (HasDamping(scene) || (HasFiniteForces(scene) && !excluded.Has(Effect::kFiniteForces))) {
-        return "be left in: the first-order form has no duration; exclude finite_forces";
-      }
-      return "";
+      return takes_time ? "be left in: the first-order form has no duration; exclude finite_forces" : "";
     case Effect::kFriction:
     case Effect::kStaticFriction:
     case Effect::kTangentialCompliance:
@@ -138,7 +104,7 @@ bool CheckExcluded(const Scene& scene, const Demand& demand, std::vector<Violati
   const EffectSet excluded = WithImplied(demand.excluded, IsInSpace(scene));
   const size_t before = violations.size();
   ForEach(demand.excluded, "excluded", [&](Effect effect, std::string path) {
-    const std::string reason = WhyNotExcluded(scene, effect, excluded);
+    const std::string reason = WhyNotExcluded(scene, effect, excluded, demand.required);
     if (!reason.empty()) violations.push_back(Refuse(std::move(path), effect, reason));
   });
   return violations.size() == before;
@@ -168,6 +134,35 @@ void CheckForms(const Scene& scene, std::optional<SceneContact>& contact, const 
 }
 
 }  // namespace
+
+std::string Lacking(const Scene& scene, Effect effect) {
+  const auto unless = [](bool holds, const char* lacking) { return std::string(holds ? "" : lacking); };
+  const bool rubs = HasFriction(scene);
+  switch (effect) {
+    case Effect::kUnspecified:
+      return "an effect that is named";
+    case Effect::kFriction:
+    case Effect::kSlipStop:
+      return unless(rubs, "friction.kinetic_coefficient > 0");
+    case Effect::kSlipTurn:
+      return !IsInSpace(scene) ? "a system in space" : unless(rubs, "friction.kinetic_coefficient > 0");
+    case Effect::kStaticFriction:
+      return unless(scene.friction.static_coefficient.value_or(0.0) > scene.friction.kinetic_coefficient,
+                    "friction.static_coefficient > friction.kinetic_coefficient");
+    case Effect::kTangentialCompliance:
+      return unless(scene.compliance.has_value() && scene.compliance->tangential_ratio_squared.has_value(),
+                    "compliance.tangential_ratio_squared");
+    case Effect::kFiniteForces:
+      if (std::holds_alternative<std::monostate>(scene.finite_forces)) return "finite forces";
+      [[fallthrough]];
+    case Effect::kFiniteDuration:
+      return unless(scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.compliance->normal),
+                    "a normal spring in compliance");
+    case Effect::kHigherOrder:
+      return unless(HasClosedForm(scene), "a pendulum over a surface at rest");
+  }
+  return "";
+}
 
 EffectSet WithImplied(EffectSet excluded, bool in_space) {
   EffectSet all = excluded;

@@ -4,6 +4,7 @@
 #define RICOCHET_CORE_PLAN_DEMAND_H_
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "core/contact/scene_contact.h"
@@ -41,6 +42,9 @@ EffectSet WithImplied(EffectSet excluded, bool in_space);
 // Lists every reason why the demand cannot be met for a valid scene; the list is empty if it can. Paths are
 // "relative_tolerance", "required[i]" and "excluded[i]", where i counts the effects of a set in order of their numbers.
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
+
+// The part that the scene lacks for the effect: "a normal spring in compliance"; empty if it lacks nothing.
+std::string Lacking(const Scene& scene, Effect effect);
 
 // The name of the effect in the proto, in small letters and without its prefix: "slip_stop".
 const char* NameOf(Effect effect);

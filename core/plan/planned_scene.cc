@@ -28,8 +28,8 @@ bool IsAnsweredInTime(Model model) { return model == Model::kCompliant || model 
 void PlanPendulum(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
                   PlannedScene& planned) {
   const pendulum::Problem problem = ClosedFormProblem(scene);
-  planned.effective = {
-      .kinetic_friction = problem.mu, .static_friction = problem.mu_static, .restitution = problem.coefficient};
+  planned.effective = {.kinetic_friction = problem.mu, .static_friction = problem.mu_static};
+  if (!std::holds_alternative<std::monostate>(scene.restitution)) planned.effective.restitution = problem.coefficient;
   // Finite forces have time to act only if the contact is compliant.
   if (scene.compliance.has_value()) {
     if (!contact.has_value()) contact.emplace(scene);

@@ -24,7 +24,7 @@ pendulum::Problem ClosedFormProblem(const Scene& scene) {
   const EffectiveCoefficients effective = CoefficientsAtSpeed(scene, PendulumSpeed(std::get<Pendulum>(scene.system)));
   problem.mu = effective.kinetic_friction;
   problem.mu_static = effective.static_friction;
-  problem.coefficient = effective.restitution;
+  problem.coefficient = effective.restitution.value_or(0.0);
   return problem;
 }
 
@@ -55,7 +55,7 @@ Problem MakeProblem(const PlanarReduction& reduction, const Restitution& restitu
           .mu = effective.kinetic_friction,
           .mu_static = effective.static_friction,
           .law = StatedBy(restitution).law,
-          .coefficient = effective.restitution};
+          .coefficient = effective.restitution.value_or(0.0)};
 }
 
 }  // namespace planar
@@ -76,7 +76,7 @@ Problem MakeProblem(const SpatialReduction& reduction, const Restitution& restit
           .mu = effective.kinetic_friction,
           .mu_static = effective.static_friction,
           .law = StatedBy(restitution).law,
-          .coefficient = effective.restitution,
+          .coefficient = effective.restitution.value_or(0.0),
           .tolerance = tolerance};
 }
 

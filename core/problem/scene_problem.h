@@ -52,7 +52,7 @@ Problem<kTangential> MakeProblem(const Reduction<kTangential>& reduction, const 
           .u0 = reduction.u0,
           .v0 = reduction.v0,
           .mu = effective.kinetic_friction,
-          .coefficient = effective.restitution};
+          .coefficient = effective.restitution.value_or(0.0)};
 }
 
 }  // namespace sliding

@@ -67,6 +67,7 @@ class Check {
   static const char* Text(NumberRule rule) {
     switch (rule) {
       case NumberRule::kFinite:
+      case NumberRule::kAngle:
         return "be finite";
       case NumberRule::kPositive:
         return "be > 0";

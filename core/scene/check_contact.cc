@@ -61,7 +61,8 @@ void CheckEffective(const Scene& scene, const EffectiveCoefficients& effective, 
   }
   if (scene.restitution_by_speed.has_value()) {
     const bool energetic = std::holds_alternative<EnergeticCoefficient>(scene.restitution);
-    CheckProduct("restitution.by_speed", effective.restitution, speed, energetic ? 1.0 : kInfinity, check);
+    CheckProduct("restitution.by_speed", effective.restitution.value_or(0.0), speed, energetic ? 1.0 : kInfinity,
+                 check);
   }
 }
 
@@ -78,11 +79,12 @@ void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const Eff
     check.Require(tn == 0.0, [&] {
       return violation("is not energetic: must be, with compliance, unless W_tn is 0 and all three are the same");
     });
-    check.Require(effective.restitution <= 1.0,
+    check.Require(effective.restitution.value_or(0.0) <= 1.0,
                   [&] { return violation("is above 1: must be in [0, 1], with compliance"); });
   }
-  const bool chatters = scene.compliance->tangential_ratio_squared.has_value() && effective.restitution == 0.0 &&
-                        effective.kinetic_friction * tn >= nn && reduction.v0 < 0.0;
+  const bool chatters = scene.compliance->tangential_ratio_squared.has_value() &&
+                        effective.restitution.value_or(0.0) == 0.0 && effective.kinetic_friction * tn >= nn &&
+                        reduction.v0 < 0.0;
   check.Require(!chatters, [&] {
     return violation("is 0: must be > 0, with a tangential compliance and friction that reaches W_nn/|W_tn|");
   });

@@ -32,6 +32,7 @@ enum class NumberRule {
   kPlusMinusOne,
   kOneToFour,
   kRatioSquared,
+  kAngle,     // Any angle in radians; one beyond a full turn may be meant in degrees.
   kHalfTurn,  // An angle above 0 and below pi.
 };
 
@@ -40,6 +41,7 @@ inline bool Holds(double value, NumberRule rule) {
   constexpr double kMost = std::numeric_limits<double>::max();
   switch (rule) {
     case NumberRule::kFinite:
+    case NumberRule::kAngle:
       return std::abs(value) <= kMost;
     case NumberRule::kPositive:
       return value > 0.0 && value <= kMost;
@@ -147,7 +149,7 @@ void Visit(SomeLinkage& linkage, Visitor& visit) {
     part.One("mass_kg", link.mass_kg, NumberRule::kPositive);
     part.One("com_m", link.com_m);
     part.One("inertia_com_kg_m2", link.inertia_com_kg_m2, NumberRule::kPositive);
-    part.One("theta_rad", link.theta_rad);
+    part.One("theta_rad", link.theta_rad, NumberRule::kAngle);
     part.One("rate_rad_s", link.rate_rad_s);
   }
 }

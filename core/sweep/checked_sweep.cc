@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "core/answer/scene_lanes.h"
 #include "core/plan/demand_fields.h"
+#include "core/plan/number_demand.h"
 #include "core/scene/validate.h"
 #include "core/sweep/column.h"
 #include "core/sweep/driven_scene.h"
@@ -52,19 +53,18 @@ absl::StatusOr<CheckedSweep> CheckSweep(const SweepRequest& request) {
   Append(driven.violations(), violations);
   const std::vector<Violation> axes = ValidateAxes(request.grid);
   Append(axes, violations);
-  const std::vector<std::string> all = Columns(scene);
-  const ColumnPositions known = PositionsOf(all);
-  Append(CheckColumns(request.columns, all, known), violations);
+  Append(CheckColumns(scene, request.columns), violations);
   if (axes.empty()) Append(CheckRange(request), violations);
+  const Demand demand = ToDemand(request.demand);
+  if (violations.empty()) violations = CheckEffectsBehind(scene, contact, demand, request.columns);
   if (!violations.empty()) return InvalidRequest(violations);
 
   CheckedSweep sweep = {.grid = request.grid,
-                        .demand = ToDemand(request.demand),
+                        .demand = WithNumbers(demand, request.columns),
                         .with_regime = request.with_regime,
                         .first = request.first_index,
                         .end = request.end_index.value_or(PointCount(request.grid)),
                         .columns = request.columns};
-  for (const std::string& column : request.columns) sweep.positions.push_back(known.at(column));
   sweep.in_lanes = SceneLanes::Make(scene, request.columns, sweep.demand) != nullptr;
   return sweep;
 }

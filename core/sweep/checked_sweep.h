@@ -17,12 +17,11 @@ namespace ricochet {
 
 struct CheckedSweep {
   Grid grid;
-  Demand demand;
+  Demand demand;  // With the effects that make the columns.
   bool with_regime = false;
   int64_t first = 0;  // The points are those with first <= index < end.
   int64_t end = 0;
   std::vector<std::string> columns;  // At least one.
-  std::vector<size_t> positions;     // Those of the columns in Columns(scene).
   bool in_lanes = false;  // True if SIMD lanes give the columns, so that a point takes well below a microsecond.
 };
 

@@ -16,6 +16,10 @@ namespace {
 
 absl::Status Stopped() { return absl::CancelledError("the sweep was stopped by its caller"); }
 
+bool HasNumbers(RowStatus status) { return status != RowStatus::kInvalid && status != RowStatus::kNotRepresentable; }
+
+RowStatus StatusOf(bool inadmissible) { return inadmissible ? RowStatus::kInadmissible : RowStatus::kOk; }
+
 }  // namespace
 
 struct SweepPoints::SceneColumns {
@@ -28,10 +32,10 @@ SweepPoints::~SweepPoints() = default;
 SweepPoints::SweepPoints(const CheckedSweep& sweep)
     : sweep_(sweep),
       driven_(sweep.grid),
+      reader_(driven_.scene(), sweep.columns),
       regimes_(kMostPoints),
       models_(kMostPoints),
       statuses_(kMostPoints),
-      inadmissible_(std::make_unique<bool[]>(kMostPoints)),
       columns_(sweep.columns.size()) {
   if (!sweep.in_lanes) return;
   lanes_ = SceneLanes::Make(driven_.scene(), sweep.columns, sweep.demand);
@@ -138,9 +142,8 @@ bool SweepPoints::SolvePlannedPoint(size_t i, const std::optional<SceneContact>&
 void SweepPoints::SetPoint(size_t i, const Outcome& outcome) {
   regimes_[i] = outcome.regime;
   models_[i] = outcome.plan.model;
-  inadmissible_[i] = !outcome.admissible;
-  ReadColumns(outcome, numbers_);
-  for (size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = numbers_[sweep_.positions[c]];
+  statuses_[i] = reader_.Read(outcome, numbers_).status;
+  for (size_t c = 0; c < columns_.size(); ++c) columns_[c][i] = numbers_[c];
 }
 
 absl::Status SweepPoints::SolveInLanes(int64_t first, int64_t count, SweepSummary& tallies,
@@ -169,12 +172,16 @@ absl::Status SweepPoints::SolveBlock(int64_t first, size_t from, size_t count, a
   const auto to = static_cast<ptrdiff_t>(from);
   std::copy_n(block_->models.begin(), count, models_.begin() + to);
   std::copy_n(block_->regimes.begin(), count, regimes_.begin() + to);
-  std::copy_n(block_->inadmissible.begin(), count, inadmissible_.get() + to);
-  std::fill_n(statuses_.begin() + to, count, RowStatus::kOk);
-  for (size_t i = 0; i < count; ++i) {
-    if (block_->models[i] != Model::kUnspecified) continue;
+  std::transform(block_->inadmissible.begin(), block_->inadmissible.begin() + count, statuses_.begin() + to, StatusOf);
+  if (block_->is_complete) return absl::OkStatus();
+  for (size_t i = from; i < from + count; ++i) {
+    const auto is_finite = [i](const double* column) { return std::isfinite(column[i]); };
+    if (models_[i] != Model::kUnspecified) {
+      if (!std::all_of(columns_.begin(), columns_.end(), is_finite)) statuses_[i] = RowStatus::kNotRepresentable;
+      continue;
+    }
     if (stopped()) return Stopped();
-    if (!SolveTogether(first, from + i, 1, stopped)) return Stopped();
+    if (!SolveTogether(first, i, 1, stopped)) return Stopped();
   }
   return absl::OkStatus();
 }
@@ -199,32 +206,19 @@ const SceneLanes::Columns& SweepPoints::ColumnsOfScenes(int64_t first, size_t co
 void SweepPoints::FinishAlike(int64_t first, size_t from, size_t count, SweepSummary& tallies) {
   const auto at = static_cast<ptrdiff_t>(from);
   std::fill_n(regimes_.begin() + at, count, block_->regimes[0]);
-  std::fill_n(statuses_.begin() + at, count, block_->inadmissible[0] ? RowStatus::kInadmissible : RowStatus::kOk);
+  std::fill_n(statuses_.begin() + at, count, StatusOf(block_->inadmissible[0]));
   models_[from] = block_->models[0];
   Add(first, from, from + count, tallies);
 }
 
-// Overwrites a bad point, of which nothing but whether it has numbers is known yet.
-void SweepPoints::FinishPoint(size_t i) {
-  const auto is_finite = [i](const double* column) { return std::isfinite(column[i]); };
-  RowStatus& status = statuses_[i];
-  if (status == RowStatus::kOk && !std::all_of(columns_.begin(), columns_.end(), is_finite)) {
-    status = RowStatus::kNotRepresentable;
-  }
-  if (status == RowStatus::kOk && inadmissible_[i]) status = RowStatus::kInadmissible;
-  if (status == RowStatus::kOk || status == RowStatus::kInadmissible) return;
-  regimes_[i] = Regime::kInvalid;
-  for (double* column : columns_) column[i] = std::numeric_limits<double>::quiet_NaN();
-}
-
-// Finishes the points [from, from + count) of those that begin at `first`, and tallies each run of equal ones at once.
+// Finishes the points [from, from + count) of those that begin at `first`: overwrites those that have no numbers, and
+// tallies each run of equal ones at once.
 void SweepPoints::Finish(int64_t first, size_t from, size_t count, SweepSummary& tallies) {
-  if (lanes_ != nullptr && block_->is_complete) {
-    std::transform(inadmissible_.get() + from, inadmissible_.get() + from + count,
-                   statuses_.begin() + static_cast<ptrdiff_t>(from),
-                   [](bool is_out) { return is_out ? RowStatus::kInadmissible : RowStatus::kOk; });
-  } else {
-    for (size_t i = from; i < from + count; ++i) FinishPoint(i);
+  const bool all_have_numbers = lanes_ != nullptr && block_->is_complete;
+  for (size_t i = from; i < from + count && !all_have_numbers; ++i) {
+    if (HasNumbers(statuses_[i])) continue;
+    regimes_[i] = Regime::kInvalid;
+    for (double* column : columns_) column[i] = std::numeric_limits<double>::quiet_NaN();
   }
   for (size_t i = from, end = from; i < from + count; i = end) {
     while (end < from + count && regimes_[end] == regimes_[i] && statuses_[end] == statuses_[i] &&

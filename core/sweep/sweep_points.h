@@ -18,6 +18,7 @@
 #include "core/answer/scene_lanes.h"
 #include "core/answer/spatial_lanes.h"
 #include "core/sweep/checked_sweep.h"
+#include "core/sweep/column.h"
 #include "core/sweep/driven_scene.h"
 #include "core/sweep/point_columns.h"
 #include "ricochet/outcome.h"
@@ -66,14 +67,14 @@ class SweepPoints {
   absl::Status SolveBlock(int64_t first, size_t from, size_t count, absl::FunctionRef<bool()> stopped);
   const SceneLanes::Columns& ColumnsOfScenes(int64_t first, size_t count);
   void FinishAlike(int64_t first, size_t from, size_t count, SweepSummary& tallies);
-  void FinishPoint(size_t i);
   void Finish(int64_t first, size_t from, size_t count, SweepSummary& tallies);
   void Add(int64_t first, size_t from, size_t end, SweepSummary& tallies) const;
 
   const CheckedSweep& sweep_;
   DrivenScene driven_;
-  int64_t at_ = -1;              // The index of the scene that is driven now.
-  std::vector<double> numbers_;  // All columns of one point.
+  int64_t at_ = -1;  // The index of the scene that is driven now.
+  const ColumnReader reader_;
+  std::vector<double> numbers_;  // The columns of one point.
 
   // Null if the points need a scene each.
   std::unique_ptr<SceneLanes> lanes_;
@@ -87,8 +88,7 @@ class SweepPoints {
   // The points of one call.
   std::vector<Regime> regimes_;
   std::vector<Model> models_;
-  std::vector<RowStatus> statuses_;  // Until a point is finished: whether it has numbers.
-  std::unique_ptr<bool[]> inadmissible_;
+  std::vector<RowStatus> statuses_;
   std::vector<double*> columns_;  // The place of the first point's value in each column,
   std::vector<double*> places_;   // and that of the current block.
 };

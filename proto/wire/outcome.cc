@@ -161,12 +161,14 @@ static v1::EffectiveCoefficients ToProto(const EffectiveCoefficients& effective)
   v1::EffectiveCoefficients proto;
   proto.set_kinetic(effective.kinetic_friction);
   proto.set_static_(effective.static_friction);
-  proto.set_restitution(effective.restitution);
+  if (effective.restitution.has_value()) proto.set_restitution(*effective.restitution);
   return proto;
 }
 
 static EffectiveCoefficients FromProto(const v1::EffectiveCoefficients& proto) {
-  return {.kinetic_friction = proto.kinetic(), .static_friction = proto.static_(), .restitution = proto.restitution()};
+  EffectiveCoefficients effective = {.kinetic_friction = proto.kinetic(), .static_friction = proto.static_()};
+  if (proto.has_restitution()) effective.restitution = proto.restitution();
+  return effective;
 }
 
 static v1::Accuracy ToProto(const Accuracy& accuracy) {

@@ -332,8 +332,9 @@ class Client:
             tolerance, require, exclude: as in ``solve``, for every row.
 
         Returns:
-            A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``; a warning
-            ``InvalidRows`` says so, and ``table.summary.bad_rows`` has the reasons of the first ones.
+            A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``; a number that
+            the outcome of a row leaves unset is NaN, and the status is ``"INCOMPLETE"``. A warning ``InvalidRows`` counts
+            rows that break a rule, and ``table.summary.bad_rows`` has the reasons of the first ones.
 
         Raises:
             InvalidRequest: the scene, a path, an entry or the length of an array is wrong.

@@ -50,7 +50,8 @@ class Table:
     """Rows of numbers: the points of a sweep, the impacts of a batch or the observations of an audit."""
 
     columns: dict[str, Numbers]
-    """The numbers by name; NaN in a row without numbers. ``ricochet.unit_of`` tells the unit of a name."""
+    """The numbers by name; NaN in a row without numbers, and where an outcome leaves the number unset.
+    ``ricochet.unit_of`` tells the unit of a name."""
     codes: dict[str, Codes]
     """``regime`` and ``status``: names instead of numbers."""
     axes: dict[str, Numbers] = field(default_factory=dict)

@@ -71,7 +71,7 @@ bool HasForces(const Scene& scene) { return !std::holds_alternative<std::monosta
 
 void CheckNumbers(const Outcome& outcome) {
   VisitOutcomeNumbers(outcome, [](const NumberPath& path, double number) {
-    if (!std::isfinite(number) && std::string(path.name) != "relative_error") {
+    if (!std::isfinite(number) && !MayBeInfinite(path)) {
       Fail(absl::StrCat(path.prefix, ".", path.name, " = ", number));
     }
   });

@@ -51,7 +51,7 @@ struct RowCounts {
 
 // Solves every row of a table that has been solved by its scene once more, and expects the same bits.
 inline RowCounts ExpectBitsOfSolve(const BatchTable& table, absl::FunctionRef<Scene(size_t row)> scene_of) {
-  const ColumnPositions positions = PositionsOf(Columns(table.setup.scene));
+  const ColumnReader reader(table.setup.scene, table.setup.columns);
   std::vector<double> numbers;
   RowCounts counts;
   for (size_t i = 0; i < table.size(); ++i) {
@@ -64,11 +64,10 @@ inline RowCounts ExpectBitsOfSolve(const BatchTable& table, absl::FunctionRef<Sc
     }
     if (!solved.ok()) continue;  // A number that is not among the columns may exceed the largest double.
     ++counts.models[solved->outcome.plan.model];
-    EXPECT_EQ(table.statuses[i], solved->outcome.admissible ? RowStatus::kOk : RowStatus::kInadmissible) << i;
+    EXPECT_EQ(table.statuses[i], reader.Read(solved->outcome, numbers).status) << i;
     EXPECT_EQ(table.regimes[i], solved->outcome.regime) << i;
-    ReadColumns(solved->outcome, numbers);
     for (size_t c = 0; c < table.out.size(); ++c) {
-      const double number = numbers[positions.at(table.setup.columns[c])];
+      const double number = numbers[c];
       EXPECT_EQ(std::bit_cast<uint64_t>(table.out[c][i]), std::bit_cast<uint64_t>(number))
           << table.setup.columns[c] << " of row " << i << ": " << table.out[c][i] << " and " << number;
     }

@@ -41,9 +41,10 @@ struct BatchSetup {
 // Rows in memory of the caller. The number of rows is the length of every column.
 struct BatchRows {
   std::vector<absl::Span<const double>> inputs;  // One for each field of the setup.
-  std::vector<absl::Span<double>> outputs;       // One for each column; receives quiet NaN in a row without numbers.
-  absl::Span<Regime> regimes;                    // Empty, or receives the regime of each row; kInvalid without numbers.
-  absl::Span<RowStatus> statuses;                // Empty, or receives the status of each row.
+  // One for each column; receives quiet NaN in a row without numbers, and where the outcome leaves the number unset.
+  std::vector<absl::Span<double>> outputs;
+  absl::Span<Regime> regimes;      // Empty, or receives the regime of each row; kInvalid without numbers.
+  absl::Span<RowStatus> statuses;  // Empty, or receives the status of each row.
 };
 
 // A row without numbers, and the first reason why it has none.

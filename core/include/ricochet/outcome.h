@@ -132,7 +132,8 @@ enum class Termination {
 struct EffectiveCoefficients {
   double kinetic_friction = 0.0;
   double static_friction = 0.0;
-  double restitution = 0.0;  // In the scene's definition; e for an impact law.
+  // In the scene's definition; e for an impact law. Unset if the scene states none: a spring's damping stands for it.
+  std::optional<double> restitution;
   friend bool operator==(const EffectiveCoefficients&, const EffectiveCoefficients&) = default;
 };
 

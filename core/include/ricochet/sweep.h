@@ -21,17 +21,20 @@ namespace ricochet {
 // The result of one point of a sweep, or of one row of a batch. The numbers are those of ricochet.v1.RowStatus.
 enum class RowStatus : uint8_t {
   kUnspecified = 0,
-  kOk = 1,
-  kInadmissible = 2,      // The row has its numbers, but its outcome breaks a limit.
+  kOk = 1,                // The row has all its numbers.
+  kInadmissible = 2,      // The row has its numbers, but its outcome breaks a limit. One that is unset is quiet NaN.
   kInvalid = 3,           // The row breaks a rule of its scene.
   kNotRepresentable = 4,  // A number asked for exceeds the largest double.
+  kIncomplete = 5,        // The row has its numbers, but for those that its outcome leaves unset: they are quiet NaN.
 };
-inline constexpr int kRowStatusCount = 5;
+inline constexpr int kRowStatusCount = 6;
 
 struct SweepRequest {
   Grid grid;
-  std::vector<std::string> columns;  // Paths into the outcome, at least one, no two equal (core/sweep/column.h).
-  bool with_regime = false;          // If true, every chunk has the regimes and the statuses of its points.
+  // Paths into the outcome, at least one, no two equal (core/sweep/column.h). Asking for a number is asking for the
+  // effects that make it: "contact.duration_s" requires Effect::kFiniteDuration at every point.
+  std::vector<std::string> columns;
+  bool with_regime = false;  // If true, every chunk has the regimes and the statuses of its points.
   // The request covers the points [first_index, end_index) of the grid; an absent end means all to the end. A point has
   // the same bits in every range.
   int64_t first_index = 0;

@@ -262,7 +262,7 @@ TEST(SceneOutcomeTest, CoefficientsAreThoseAtTheApproachSpeed) {
   const Outcome outcome = Solved(scene);
   EXPECT_DOUBLE_EQ(outcome.effective.kinetic_friction, 0.15);
   EXPECT_DOUBLE_EQ(outcome.effective.static_friction, 0.225);
-  EXPECT_DOUBLE_EQ(outcome.effective.restitution, 0.4);
+  EXPECT_DOUBLE_EQ(outcome.effective.restitution.value(), 0.4);
   EXPECT_DOUBLE_EQ(outcome.coefficients.newton, 0.4);
   EXPECT_DOUBLE_EQ(outcome.coefficients.tangential, -0.15);
 }

@@ -16,6 +16,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -157,14 +158,16 @@ struct Answer {
   friend bool operator==(const Answer&, const Answer&) = default;
 };
 
-// An unknown number of a phase, which an impact law leaves unset, has the bits of 0.
-Outcome WithPhases(Outcome outcome) {
+// A number that is unset has the bits of 0: one of a phase under an impact law, and one of a contact that takes no time.
+Outcome WithEveryNumber(Outcome outcome) {
   for (auto* number :
        {&outcome.coefficients.poisson, &outcome.coefficients.energetic, &outcome.impulse.normal_compression_n_s,
         &outcome.work.normal_compression_j, &outcome.work.normal_restitution_j, &outcome.work.tangential_compression_j,
         &outcome.work.tangential_restitution_j}) {
     *number = number->value_or(0.0);
   }
+  if (!outcome.contact.has_value()) outcome.contact.emplace();
+  outcome.effective.restitution = outcome.effective.restitution.value_or(0.0);
   return outcome;
 }
 
@@ -175,10 +178,12 @@ Answer AnswerTo(const Question& question) {
     hash.Add(static_cast<uint64_t>(response.status().code()));
     return {hash.value(), Model::kUnspecified};
   }
-  const Outcome outcome = WithPhases(response->outcome);
+  const Outcome outcome = WithEveryNumber(response->outcome);
   hash.Add(static_cast<uint64_t>(outcome.regime));
   hash.Add(static_cast<uint64_t>(outcome.w_rank));
-  VisitOutcomeNumbers(outcome, [&hash](const NumberPath&, double number) { hash.Add(number); });
+  VisitOutcomeNumbers(outcome, [&hash](const NumberPath& path, double number) {
+    if (std::string_view(path.prefix) != "errors") hash.Add(number);
+  });
   hash.Add(outcome.work.residual_j);
   hash.Add(static_cast<uint64_t>(outcome.accuracy.right_hand_sides));
   for (const BrokenLimit& limit : outcome.broken_limits) hash.Add(limit.excess);

@@ -66,8 +66,7 @@ TEST(PlannedSolveTest, ForcesAreSampledAtEqualStepsOfTimeUntilTheLastTouch) {
 TEST(PlannedSolveTest, ForcesNeedASpring) {
   EXPECT_THAT(Refused({.scene = With(Contact()), .force_intervals = 8}),
               ElementsAre(Violation{"force_intervals",
-                                    "= 8: must be 0 without a normal spring in compliance, such as linear, whose force "
-                                    "it samples"}));
+                                    "= 8: must not be asked of a scene without a normal spring in compliance"}));
   EXPECT_THAT(Refused({.scene = OnASpring(Contact(), {}), .force_intervals = -1}),
               ElementsAre(Violation{"force_intervals", "= -1: must be in [0, 65535]"}));
 }

@@ -83,8 +83,7 @@ TEST(PlanarSweepTest, HasTheBitsOfSolveAtEveryPoint) {
     const SweepRequest request = Request(tolerance);
     const Sweep sweep = Collected(request);
     ASSERT_EQ(sweep.points.size(), 5U * 2U * 4U * 41U);
-    const std::vector<std::string> all = Columns(request.grid.scene);
-    const ColumnPositions positions = PositionsOf(all);
+    const ColumnReader reader(request.grid.scene, LaneColumns());
     std::vector<double> numbers;
     std::map<Model, int64_t> models;
     int64_t invalid = 0;
@@ -98,10 +97,9 @@ TEST(PlanarSweepTest, HasTheBitsOfSolveAtEveryPoint) {
       }
       ++models[solved->outcome.plan.model];
       EXPECT_EQ(sweep.regimes[i], solved->outcome.regime) << i;
-      ReadColumns(solved->outcome, numbers);
+      reader.Read(solved->outcome, numbers);
       for (size_t c = 0; c < LaneColumns().size(); ++c) {
-        EXPECT_EQ(std::bit_cast<uint64_t>(sweep.points[i][c]),
-                  std::bit_cast<uint64_t>(numbers[positions.at(LaneColumns()[c])]))
+        EXPECT_EQ(std::bit_cast<uint64_t>(sweep.points[i][c]), std::bit_cast<uint64_t>(numbers[c]))
             << LaneColumns()[c] << " of point " << i;
       }
     }

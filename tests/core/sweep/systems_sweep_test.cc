@@ -66,13 +66,11 @@ TEST(SystemsSweepTest, EveryColumnOfEverySystemHasTheBitsOfSolve) {
       const absl::StatusOr<SolveResponse> response = LocalSolver().Solve({.scene = scene});
       ASSERT_TRUE(response.ok()) << response.status();
       EXPECT_EQ(points.regimes[i], response->outcome.regime);
-      size_t c = 0;
-      VisitOutcomeNumbers(response->outcome, [&](const NumberPath& path, double number) {
-        ASSERT_EQ(path.Text(), columns[c]);
-        EXPECT_EQ(std::bit_cast<uint64_t>(points.values[i][c]), std::bit_cast<uint64_t>(number)) << columns[c];
-        ++c;
-      });
-      EXPECT_EQ(c, columns.size());
+      std::vector<double> numbers;
+      ColumnReader(scene, columns).Read(response->outcome, numbers);
+      for (size_t c = 0; c < columns.size(); ++c) {
+        EXPECT_EQ(std::bit_cast<uint64_t>(points.values[i][c]), std::bit_cast<uint64_t>(numbers[c])) << columns[c];
+      }
     }
   }
 }

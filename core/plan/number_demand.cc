@@ -1,0 +1,60 @@
+#include "core/plan/number_demand.h"
+
+#include <variant>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "ricochet/error.h"
+
+namespace ricochet {
+namespace {
+
+// Says what stands against an effect that a number needs.
+std::string Against(Effect effect, const Violation& violation) {
+  const std::string needs = absl::StrCat("needs ", NameOf(effect), ", ");
+  if (!absl::StartsWith(violation.field, "required")) {
+    return absl::StrCat(needs, "and ", violation.field, " ", violation.description);
+  }
+  return absl::StrCat(needs, "which ", violation.description.substr(violation.description.find("must ")));
+}
+
+}  // namespace
+
+EffectSet EffectsBehind(absl::string_view path) {
+  if (absl::StartsWith(path, "contact.")) return {Effect::kFiniteDuration};
+  return {};
+}
+
+Demand WithNumbers(Demand demand, absl::Span<const std::string> paths) {
+  for (const std::string& path : paths) demand.required = demand.required | EffectsBehind(path);
+  return demand;
+}
+
+std::string LackingForNumber(const Scene& scene, absl::string_view path) {
+  const EffectSet behind = EffectsBehind(path);
+  for (const Effect effect : kEffects) {
+    if (!behind.Has(effect)) continue;
+    const std::string lacking = Lacking(scene, effect);
+    if (!lacking.empty()) return lacking;
+  }
+  return "";
+}
+
+std::vector<std::string> WhyNoNumber(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
+                                     absl::string_view path) {
+  const EffectSet behind = EffectsBehind(path);
+  if (demand.required.Contains(behind)) return {};
+  const std::string lacking = LackingForNumber(scene, path);
+  if (!lacking.empty()) return {absl::StrCat("must not be asked of a scene without ", lacking)};
+  Demand asked = demand;
+  asked.required = asked.required | behind;
+  std::vector<std::string> reasons;
+  for (const Violation& violation : CheckDemand(scene, contact, asked)) {
+    for (const Effect effect : kEffects) {
+      if (behind.Has(effect)) reasons.push_back(Against(effect, violation));
+    }
+  }
+  return reasons;
+}
+
+}  // namespace ricochet
