@@ -322,7 +322,7 @@ OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactI
           coefficient(impact.poisson, exact.poisson),
           coefficient(impact.energetic, exact.energetic),
           coefficient(impact.energetic_excess, exact.energetic - 1.0),
-          tangential(impact.tangential, exact.end().f / exact.end().tau),
+          tangential(impact.tangential, SignOf(exact.end().tau) == 0 ? Ball(0.0) : exact.end().f / exact.end().tau),
           tau,
           f,
           u,

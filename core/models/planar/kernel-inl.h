@@ -463,6 +463,7 @@ HWY_INLINE void Halt(const MaskOf<N>& halts, const Inputs<N>& in, const Path<N>&
   Begin(path.first, path.v_stop / path.first.v, zero, path.v_stop, at, work);
   x.restitution = SelectWork(halts, work, x.restitution);
   x.restitution = SelectWork(in_compression, {zero, zero}, x.restitution);
+  x.rebound.after = Select(halts, zero, x.rebound.after);
   x.stops_in_compression = Either(x.stops_in_compression, in_compression);
   x.stops_in_restitution = Both(x.stops_in_restitution, Not(in_compression));
 }
@@ -489,7 +490,10 @@ HWY_INLINE void EndStuck(const MaskOf<N>& stuck, Course<N>& course) {
   halts = Both(stuck, Both(halts, Not(locked)));
   course.jammed = Both(halts, jams);
   course.held = Either(locked, course.jammed);
-  if (!InNoLane(halts)) Halt(halts, course.in, course.path, course.x);
+  if (InNoLane(halts)) return;
+  Halt(halts, course.in, course.path, course.x);
+  // No impulse follows that this slope would move, and bounds on errors divide by it.
+  course.path.second.v = Select(halts, course.in.wnn, course.path.second.v);
 }
 
 // Follows problems of one law, none of which may be separating.

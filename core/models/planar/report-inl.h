@@ -217,7 +217,7 @@ HWY_INLINE Impact Report(const Problem& problem, const Course<N>& course, const 
   impact.newton = numbers.newton;
   impact.poisson = numbers.poisson;
   impact.energetic = numbers.energetic;
-  impact.tangential = course.jammed && !(numbers.tau1 > 0.0) ? 0.0 : numbers.tangential;
+  impact.tangential = course.jammed && !IsPositive(course.x.end.tau) ? 0.0 : numbers.tangential;
   impact.energetic_excess = numbers.energetic_excess;
   impact.u1 = numbers.u1;
   impact.v1 = numbers.v1;

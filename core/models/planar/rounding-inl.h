@@ -150,7 +150,8 @@ HWY_INLINE EndErrors<M> StraightErrors(const Course<N>& course) {
                      Times(in_step + 2.0, Abs(u1 - u_c)) + Abs(u1);
   errors.u = Select(course.in.u_follows_v, Zero<M>(), u_errors);
   // At rank one u' has two roundings more.
-  if (!InNoLane(course.in.rank_one)) errors.u = errors.u + Times(2.0, Abs(u1 - u_c));
+  const MaskOf<N> has_more = Both(course.in.rank_one, Not(course.in.u_follows_v));
+  if (!InNoLane(has_more)) errors.u = errors.u + Select(has_more, Times(2.0, Abs(u1 - u_c)), Zero<M>());
   errors.works = Times(36.0, TwiceMoved(x));
   errors.decisive = errors.decisive_error = Zero<M>();
   const MaskOf<M> may_stop = Both(course.path.stops, Not(course.in.u_follows_v));

@@ -17,6 +17,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/contact/reduction.h"
 #include "core/models/restitution_law.h"
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/spatial.h"
@@ -88,7 +89,10 @@ struct ScaledProblem : Contact<T> {
   // The direction near that of `frame` in which slip does not turn and which attracts its neighbours, if there is one.
   std::optional<Direction<T>> AttractingDirectionNear(const Frame<T>& frame) const;
 
-  bool HasNoFriction() const { return mu == T{0} || w.HasNoTangentialMobility(); }
+  bool HasNoFriction() const { return mu == T{0} || (w.HasNoTangentialMobility() && u1 == T{0} && u2 == T{0}); }
+  // Where friction and the joints lock the body, u and v vanish together. Beside the range of W they do not: a contact that
+  // sticks keeps its v.
+  bool Locks(const Sticking<T>& sticking) const { return sticking.v_slope == T{0} && velocity_in_range; }
 
   // Conversions to the units of the caller; adding 0.0 turns -0 into 0.
   double Velocity(T value) const { return static_cast<double>(velocity_unit * value) + 0.0; }
@@ -100,7 +104,8 @@ struct ScaledProblem : Contact<T> {
   T mu_static;
   RestitutionLaw law;
   T coefficient;
-  bool may_jam;  // dv/dtau < 0 is possible.
+  bool may_jam;            // dv/dtau < 0 is possible.
+  bool velocity_in_range;  // (u0, v0) lies in the range of W.
 };
 
 template <typename T>
@@ -130,6 +135,8 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
   normal_root = std::sqrt(w.w33);
   steepest = w.w33 + mu * coupling;
   may_jam = mu * coupling >= w.w33;
+  velocity_in_range =
+      rank == 3 || VelocityIsInRange(SpatialReduction{.w = problem.Delassus().w, .u0 = problem.u0, .v0 = problem.v0});
 }
 
 template <typename T>
