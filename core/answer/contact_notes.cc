@@ -59,10 +59,11 @@ void AddContactNotes(const SpatialReduction& reduction, const EffectiveCoefficie
   if (!(effective.static_friction > 0.0) || !IsAtRest(outcome.contact_velocity_after.tangential_m_s)) return;
   if (w[0] == 0.0 && w[3] == 0.0) return AddIdleFrictionNote(outcome);
   if (PlanarDelassus{.tt = w[0], .tn = w[1], .nn = w[3]}.Rank() == 2) return;
-  AddUndetermined("impulse.tangential_n_s",
-                  "Wtt is singular: part of the impulse of friction on the contact that sticks changes no velocity. The "
-                  "smallest impulse is answered.",
-                  outcome);
+  AddUndetermined(
+      "impulse.tangential_n_s",
+      "Wtt is singular: part of the impulse of friction on the contact that sticks changes no velocity. The "
+      "smallest impulse is answered.",
+      outcome);
 }
 
 }  // namespace ricochet

@@ -79,11 +79,12 @@ void AddAlternatives(const laws::ImpactLawResult& result, Outcome& outcome) {
   outcome.notes.push_back(
       {.kind = NoteKind::kManySolutions,
        .path = "impulse",
-       .text = absl::StrCat("A range of impulses solves the law with the same velocities and the same energy, from f = ",
-                            ShortestDecimal(result.ends.front().f), " N s ",
-                            is_bounded ? absl::StrCat("to ", ShortestDecimal(result.ends.back().f), " N s")
-                                       : std::string("on without limit"),
-                            "; the answer is the one whose friction does the least work.")});
+       .text =
+           absl::StrCat("A range of impulses solves the law with the same velocities and the same energy, from f = ",
+                        ShortestDecimal(result.ends.front().f), " N s ",
+                        is_bounded ? absl::StrCat("to ", ShortestDecimal(result.ends.back().f), " N s")
+                                   : std::string("on without limit"),
+                        "; the answer is the one whose friction does the least work.")});
 }
 
 std::vector<Event> TimelineOf(const PlanarReduction& reduction, Regime regime, const laws::ImpactSolution& solution) {

@@ -137,9 +137,9 @@ CoefficientBounds EnergyOnlyBounds(const Problem& problem, const Impact& plastic
 
 CriticalFriction Critical(const Problem& problem) {
   const auto is_positive = [](double x) { return x > 0.0; };
-  auto critical = FindCriticalFriction<CriticalFriction>(problem.w.tt, problem.w.tn, problem.w.nn, problem.u0,
-                                                         problem.v0, !problem.w.UFollowsV(problem.u0, problem.v0),
-                                                         is_positive);
+  auto critical =
+      FindCriticalFriction<CriticalFriction>(problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0,
+                                             !problem.w.UFollowsV(problem.u0, problem.v0), is_positive);
   for (auto* const one :
        {&critical.stick, &critical.stop_compression, &critical.stop, &critical.reversal, &critical.jam}) {
     // No friction is infinite.

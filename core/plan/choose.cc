@@ -258,9 +258,7 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   const Sizes of_all = PlanarSizes(problem, physics);
   StraightErrors errors(kept, kept.u0 != 0.0);
   const auto frictionless_error = [&errors] { return errors.Frictionless(); };
-  const auto sliding_error = [&] {
-    return SlidesTooFar(kept, of_all, excluded) ? kUnbounded : errors.Sliding();
-  };
+  const auto sliding_error = [&] { return SlidesTooFar(kept, of_all, excluded) ? kUnbounded : errors.Sliding(); };
   const Candidate candidates[] = {
       {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
       {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},

@@ -88,9 +88,7 @@ class Simulation {
   }
 
   // Whether restitution can end although v stands still, as it does where W has rank one and the contact sticks.
-  bool EndsAtRest() const {
-    return problem_.law != RestitutionLaw::kNewton || Compare(-coefficient_ * v0_, v_) <= 0;
-  }
+  bool EndsAtRest() const { return problem_.law != RestitutionLaw::kNewton || Compare(-coefficient_ * v0_, v_) <= 0; }
 
   // The normal impulse up to the end of restitution if v goes on with slope `rise`.
   Ball WaitForEnd(const Ball& rise) const {

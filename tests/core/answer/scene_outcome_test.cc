@@ -5,8 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/contact/reduction.h"
@@ -387,6 +390,34 @@ TEST(SceneOutcomeTest, KaneAndLevinsonTakeTheImpulseThatBrakesAndGiveTheEndsOfTh
   EXPECT_THAT(outcome.notes[0].text, HasSubstr("from f = -0.75"));
 }
 
+// A plan that leaves out the stop of slip may let slip reverse, but not so far that friction gives energy.
+TEST(SceneOutcomeTest, NoPlanLetsFrictionPushUnlessTheCallerExcludesThatSlipStops) {
+  std::mt19937_64 random(26);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  int sliding = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double t = uniform(0.1, 2.0);
+    const double n = uniform(0.1, 2.0);
+    const PlanarContact contact = {t * t, t * n * uniform(-0.5, 0.5), n * n, uniform(-0.2, 0.2), -uniform(0.5, 2.0)};
+    SolveRequest request = {.scene = With(contact, uniform(0.0, 0.3), EnergeticCoefficient{uniform(0.0, 1.0)}),
+                            .demand = {.relative_tolerance = std::pow(10.0, uniform(-3.0, -0.3))}};
+    const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(request);
+    ASSERT_TRUE(response.ok()) << response.status();
+    ASSERT_TRUE(response->outcome.admissible);
+    ASSERT_GE(response->outcome.work.friction_dissipation_j, -1e-15);
+    sliding += response->outcome.plan.model == Model::kSliding ? 1 : 0;
+    if (i % 10 != 0) continue;
+    request.demand.excluded = {Effect::kSlipStop};
+    const absl::StatusOr<SolveResponse> forced = LocalSolver().Solve(request);
+    ASSERT_TRUE(forced.ok()) << forced.status();
+    const auto& limits = forced->outcome.broken_limits;
+    const bool is_flagged =
+        std::any_of(limits.begin(), limits.end(), [](const auto& one) { return one.kind == LimitKind::kFriction; });
+    ASSERT_EQ(is_flagged, forced->outcome.work.tangential_total_j > 1e-14) << forced->outcome.work.tangential_total_j;
+  }
+  EXPECT_GT(sliding, 100);
+}
+
 // ---- Surfaces in motion that a mechanism with one joint cannot follow ----
 
 Scene OnConveyor(double mu, double normal_m_s, const Restitution& restitution) {
@@ -444,11 +475,50 @@ TEST(SceneOutcomeTest, APendulumThatFrictionHoldsOnAFallingSurfacePartsAtTheSpee
   const Outcome energetic = Solved(OnConveyor(0.31, -0.1, EnergeticCoefficient{0.8}));
   EXPECT_NEAR(energetic.contact_velocity_after.normal_m_s, 0.1, kTight);
   const double stop = 1.0 / 0.61;
-  EXPECT_NEAR(energetic.impulse.normal_total_n_s, stop + (0.64 * 0.1 * tau_c - 0.05 * (stop - tau_c)) / 0.1, 4 * kTight);
+  EXPECT_NEAR(energetic.impulse.normal_total_n_s, stop + (0.64 * 0.1 * tau_c - 0.05 * (stop - tau_c)) / 0.1,
+              4 * kTight);
   // Newton's coefficient asks for v = .16, which no impulse gives.
   const Outcome newton = Solved(OnConveyor(0.31, -0.1, NewtonCoefficient{0.8}));
   EXPECT_EQ(newton.termination, Termination::kRefused);
   EXPECT_THAT(newton.notes[0].text, HasSubstr("while it parts at"));
+}
+
+// Without finite forces and rigid along t, an impact that takes time ends as one that takes none, for any spring. A tangential
+// compliance of 1e-6 of the normal one changes velocities by a small multiple of its root.
+TEST(SceneOutcomeTest, SpringsAgreeWithRigidContactBesideTheRange) {
+  int jams = 0;
+  for (const double mu : {0.0, 0.1, 0.2, 0.31, 0.6}) {
+    for (const double normal : {0.3, 0.05, -0.1}) {
+      for (const double tangential : {-2.0, -0.5, 0.5}) {
+        Scene scene = OnConveyor(mu, normal, EnergeticCoefficient{0.8});
+        scene.surface_velocity->tangential_m_s = {tangential};
+        const Outcome rigid = Solved(scene);
+        const std::string what = testing::PrintToString(std::vector<double>{mu, normal, tangential});
+        scene.compliance = Compliance{.normal = LinearSpring{1e4}};
+        const absl::StatusOr<SolveResponse> timed =
+            LocalSolver().Solve({.scene = scene, .demand = {.required = {Effect::kFiniteDuration}}});
+        ASSERT_TRUE(timed.ok()) << timed.status();
+        scene.compliance = Compliance{.tangential_ratio_squared = 1e-6};
+        const Outcome compliant = Solved(scene);
+        if (rigid.termination != Termination::kConverged) {
+          ++jams;
+          EXPECT_NE(timed->outcome.termination, Termination::kConverged) << what;
+          EXPECT_NE(compliant.termination, Termination::kConverged) << what;
+          continue;
+        }
+        for (const auto& [outcome, tolerance] : {std::pair(timed->outcome, 1e-9), std::pair(compliant, 0.05)}) {
+          EXPECT_EQ(outcome.termination, Termination::kConverged) << what;
+          EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, rigid.contact_velocity_after.normal_m_s, tolerance)
+              << what;
+          EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[0], rigid.contact_velocity_after.tangential_m_s[0],
+                      tolerance)
+              << what;
+          EXPECT_NEAR(outcome.work.residual_j, 0.0, 1e-9) << what;
+        }
+      }
+    }
+  }
+  EXPECT_GT(jams, 3);
 }
 
 // A slider on a guide along n: the surface passes below it, and friction rubs without moving it.
@@ -491,8 +561,8 @@ TEST(SceneOutcomeTest, APlanarMechanismBesideItsRangeIsTheSameInSpace) {
   for (const double mu : {0.0, 0.1, 0.31}) {
     for (const double v0 : {-0.6, -0.2}) {
       const Outcome plane = Solved(With(PlanarContact{1.0, 0.3, 0.09, -1.0, v0}, mu, EnergeticCoefficient{0.8}));
-      const Outcome space = Solved(With(
-          SpatialContact{{c * c, c * s, 0.3 * c, s * s, 0.3 * s, 0.09}, {-c, -s}, v0}, mu, EnergeticCoefficient{0.8}));
+      const Outcome space = Solved(With(SpatialContact{{c * c, c * s, 0.3 * c, s * s, 0.3 * s, 0.09}, {-c, -s}, v0}, mu,
+                                        EnergeticCoefficient{0.8}));
       EXPECT_EQ(space.regime, plane.regime) << mu << " " << v0;
       EXPECT_EQ(space.termination, plane.termination) << mu << " " << v0;
       const double u = plane.contact_velocity_after.tangential_m_s[0];

@@ -127,8 +127,7 @@ std::vector<BadScene> BadSystems() {
        [] {
          return With(PlanarContact{1.0, 0.0, 0.0, 1.0, -1.0});
        },
-       "planar_contact.normal_m_s",
-       "makes v0 = -1 where W_nn = 0: must be >= 0, no impulse along n ends the approach"},
+       "planar_contact.normal_m_s", "makes v0 = -1 where W_nn = 0: must be >= 0, no impulse along n ends the approach"},
       {"NothingThatCouldStopItInSpace",
        [] {
          return With(SpatialContact{{1, 0, 0, 1, 0, 0}, {1.0, 0.5}, -1.0});

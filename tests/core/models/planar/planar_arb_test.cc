@@ -29,9 +29,9 @@ class Comparison {
     for (size_t i = 0; i < exact.events.size(); ++i) ASSERT_EQ(impact.events[i].kind, exact.events[i].kind);
     const OutputErrors errors = ErrorsOf(problem, impact, exact);
     const double worst = *std::max_element(errors.begin(), errors.end());
-    ASSERT_LE(worst, kPromisedUlps) << ToString(problem) << " in "
-                                    << kOutputNames[static_cast<size_t>(
-                                           std::max_element(errors.begin(), errors.end()) - errors.begin())];
+    ASSERT_LE(worst, kPromisedUlps)
+        << ToString(problem) << " in "
+        << kOutputNames[static_cast<size_t>(std::max_element(errors.begin(), errors.end()) - errors.begin())];
     CheckLimits(problem, impact, exact);
     worst_ = std::max(worst_, worst);
     ++regimes_[static_cast<size_t>(exact.regime)];
