@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 #include <string>
@@ -593,6 +594,74 @@ TEST(SceneOutcomeTest, SlipThatStandsStillHoldsItsVelocityInSpace) {
     EXPECT_NEAR(parts.contact_velocity_after.normal_m_s, -0.2 + 0.5 * (u1 + 1.0), 1e-10) << across;
     EXPECT_NEAR(parts.contact_velocity_after.tangential_m_s[1], across, 1e-10) << across;
   }
+}
+
+// Follows slip by Runge and Kutta's method of fourth order, which shares nothing with the model.
+struct RungeKutta {
+  std::array<double, 6> w;  // 11, 12, 13, 22, 23, 33
+  double mu;
+  std::array<double, 3> y;  // u1, u2, v
+  double least_slip = INFINITY;
+
+  std::array<double, 3> Rates(const std::array<double, 3>& at) const {
+    const double slip = std::hypot(at[0], at[1]);
+    const double f1 = -mu * at[0] / slip;
+    const double f2 = -mu * at[1] / slip;
+    return {w[0] * f1 + w[1] * f2 + w[2], w[1] * f1 + w[3] * f2 + w[4], w[2] * f1 + w[4] * f2 + w[5]};
+  }
+  void Step(double h) {
+    const auto moved = [&](const std::array<double, 3>& rate, double by) {
+      return std::array<double, 3>{y[0] + by * rate[0], y[1] + by * rate[1], y[2] + by * rate[2]};
+    };
+    const auto a = Rates(y), b = Rates(moved(a, h / 2)), c = Rates(moved(b, h / 2)), d = Rates(moved(c, h));
+    for (size_t i = 0; i < 3; ++i) y[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
+    least_slip = std::min(least_slip, std::hypot(y[0], y[1]));
+  }
+  void Advance(double tau, int steps) {
+    for (int i = 0; i < steps; ++i) Step(tau / steps);
+  }
+};
+
+// W has rank one, or rank two with or without a singular Wtt, and the velocity is any.
+TEST(SceneOutcomeTest, SlipBesideTheRangeOfWAgreesWithRungeAndKutta) {
+  std::mt19937_64 random(1901);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  int compared = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::array<double, 6> w = {};
+    const auto add = [&](double x, double y, double z) {
+      w = {w[0] + x * x, w[1] + x * y, w[2] + x * z, w[3] + y * y, w[4] + y * z, w[5] + z * z};
+    };
+    add(uniform(-1, 1), uniform(-1, 1), uniform(0.3, 1));
+    if (i % 3 == 1) add(0.0, 0.0, uniform(0.3, 1));
+    if (i % 3 == 2) add(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    const std::array<double, 2> u0 = {uniform(-2, 2), uniform(-2, 2)};
+    const double v0 = -uniform(0.2, 2);
+    const double mu = uniform(0.05, 0.8);
+    const double kappa = uniform(0.0, 1.0);
+    RungeKutta path = {.w = w, .mu = mu, .y = {u0[0], u0[1], v0}};
+    double tau = 0.0;
+    constexpr double kStep = 1e-3;
+    while (path.y[2] < 0.0 && tau < 50.0) path.Step(kStep), tau += kStep;
+    if (path.y[2] < 0.0) continue;
+    for (int newton = 0; newton < 3; ++newton) {
+      const double back = -path.y[2] / path.Rates(path.y)[2];
+      path.Step(back), tau += back;
+    }
+    path.Advance(kappa * tau, 4000);
+    if (path.least_slip < 0.1 || path.y[2] < 0.0) continue;
+    ++compared;
+    const SpatialContact contact = {{w.begin(), w.end()}, {u0.begin(), u0.end()}, v0};
+    const Outcome outcome = Solved(With(contact, mu, PoissonCoefficient{kappa}));
+    EXPECT_LT(outcome.w_rank, 3);
+    EXPECT_EQ(outcome.termination, Termination::kConverged) << i;
+    EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[0], path.y[0], 1e-9) << i;
+    EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[1], path.y[1], 1e-9) << i;
+    EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, path.y[2], 1e-9) << i;
+    EXPECT_NEAR(*outcome.impulse.normal_compression_n_s, tau, 1e-9 * tau) << i;
+    EXPECT_NEAR(outcome.work.residual_j, 0.0, 1e-11) << i;
+  }
+  EXPECT_GT(compared, 150);
 }
 
 }  // namespace
