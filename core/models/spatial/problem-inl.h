@@ -131,7 +131,9 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
   velocity = std::max(std::sqrt(u1 * u1 + u2 * u2), std::fabs(v));
   rate = mu * largest + coupling;
   largest_root = std::sqrt(largest);
-  smallest_root = std::sqrt(std::max(w.TangentDeterminant() / largest, kEpsilon<T> * largest));
+  // Where Wtt = 0 friction moves nothing, and any number serves.
+  smallest_root =
+      largest > T{0} ? std::sqrt(std::max(w.TangentDeterminant() / largest, kEpsilon<T> * largest)) : T{1};
   normal_root = std::sqrt(w.w33);
   steepest = w.w33 + mu * coupling;
   may_jam = mu * coupling >= w.w33;

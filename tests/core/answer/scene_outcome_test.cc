@@ -558,6 +558,19 @@ TEST(SceneOutcomeTest, SlipThatNoImpulseReachesGoesOnInSpace) {
   EXPECT_EQ(outcome.w_rank, 2);
 }
 
+TEST(SceneOutcomeTest, FrictionRubsOnASliderInSpace) {
+  for (const double u2 : {0.0, 1.5}) {
+    const Outcome outcome =
+        Solved(With(SpatialContact{{0, 0, 0, 0, 0, 1}, {2.0, u2}, -1.0}, 0.3, EnergeticCoefficient{0.5}));
+    const double slip = std::hypot(2.0, u2);
+    EXPECT_EQ(outcome.regime, Regime::kSliding);
+    EXPECT_LE(outcome.accuracy.relative_error, 1e-12);
+    EXPECT_NEAR(outcome.impulse.tangential_n_s[0], -0.45 * 2.0 / slip, kTight);
+    EXPECT_NEAR(outcome.impulse.tangential_n_s[1], -0.45 * u2 / slip, kTight);
+    EXPECT_NEAR(outcome.work.friction_dissipation_j, 0.45 * slip, kTight);
+  }
+}
+
 // The pendulum of the plane above, seen in space along a slanted t.
 TEST(SceneOutcomeTest, APlanarMechanismBesideItsRangeIsTheSameInSpace) {
   const double c = 0.6, s = 0.8;
