@@ -201,7 +201,8 @@ std::string BodiesText(absl::Span<const BodyVelocity> bodies) {
 }
 
 // Lists every solution of an impact law that can have several.
-std::string AlternativesText(const std::vector<ImpactSolution>& alternatives) {
+std::string AlternativesText(const Outcome& outcome) {
+  const std::vector<ImpactSolution>& alternatives = outcome.alternatives;
   if (alternatives.empty()) return "";
   Table table;
   table.Add({"", "u [m/s]", "v [m/s]", "f [N s]", "tau [N s]"});
@@ -213,7 +214,8 @@ std::string AlternativesText(const std::vector<ImpactSolution>& alternatives) {
     cells.push_back(Rounded(alternatives[i].impulse.normal_total_n_s));
     table.Add(cells);
   }
-  return absl::StrCat("\nAll solutions of the law\n", table.Render(2));
+  const char* title = outcome.alternatives_are_ends ? "Ends of the range of solutions" : "All solutions of the law";
+  return absl::StrCat("\n", title, "\n", table.Render(2));
 }
 
 std::string ImpulseText(const Impulse& impulse) {
@@ -401,7 +403,7 @@ std::string SolveText(const Outcome& outcome) {
                    NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n", MotionText(outcome),
                    BodiesText(outcome.bodies_after), "\n", ImpulseText(outcome.impulse), "\n", WorkText(outcome));
   if (outcome.contact.has_value()) text += ContactText(*outcome.contact);
-  text += AlternativesText(outcome.alternatives);
+  text += AlternativesText(outcome);
   if (!outcome.timeline.empty()) {
     const State& start = outcome.timeline.front().state;
     Table table = StateTable(start);

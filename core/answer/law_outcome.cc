@@ -1,11 +1,14 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <string>
 #include <variant>
 
+#include "absl/strings/str_cat.h"
 #include "core/answer/model_outcomes.h"
 #include "core/contact/delassus.h"
 #include "core/models/laws/impact_laws.h"
+#include "core/numerics/decimal.h"
 
 namespace ricochet {
 namespace {
@@ -50,11 +53,38 @@ WorkLedger LedgerOf(const PlanarReduction& reduction, const laws::ImpactSolution
   return work;
 }
 
-// Whether energy is gained beyond what rounding can make.
-bool CreatesEnergy(const PlanarReduction& reduction, const laws::ImpactSolution& solution) {
+// The energy that rounding can make.
+double EnergyOfRounding(const PlanarReduction& reduction, const laws::ImpactSolution& solution) {
   const double moved = std::abs(solution.tau1) * (std::abs(reduction.v0) + std::abs(solution.v1)) +
                        std::abs(solution.f) * (std::abs(reduction.u0[0]) + std::abs(solution.u1));
-  return solution.energy_change > 16.0 * kEpsilon * moved;
+  return 16.0 * kEpsilon * moved;
+}
+
+void SetBrokenLimits(const PlanarReduction& reduction, const laws::ImpactSolution& solution, Outcome& outcome) {
+  const double rounding = EnergyOfRounding(reduction, solution);
+  const double friction_work = outcome.work.tangential_total_j;
+  SetLimits({.energy_broken = solution.energy_change > rounding,
+             .energy_change = solution.energy_change,
+             .friction_broken = friction_work > rounding,
+             .friction_work = friction_work},
+            outcome);
+}
+
+// Adds the solutions that the answer is not, if there are any.
+void AddAlternatives(const laws::ImpactLawResult& result, Outcome& outcome) {
+  if (result.ends.empty()) return;
+  for (const laws::ImpactSolution& each : result.ends) outcome.alternatives.push_back(ToOutcome(each));
+  outcome.alternatives_are_ends = true;
+  const bool is_bounded = result.ends.size() > 1;
+  outcome.notes.push_back(
+      {.kind = NoteKind::kManySolutions,
+       .path = "impulse",
+       .text =
+           absl::StrCat("A range of impulses solves the law with the same velocities and the same energy, from f = ",
+                        ShortestDecimal(result.ends.front().f), " N s ",
+                        is_bounded ? absl::StrCat("to ", ShortestDecimal(result.ends.back().f), " N s")
+                                   : std::string("on without limit"),
+                        "; the answer is the one whose friction does the least work.")});
 }
 
 std::vector<Event> TimelineOf(const PlanarReduction& reduction, Regime regime, const laws::ImpactSolution& solution) {
@@ -89,10 +119,8 @@ absl::Status MakeLawOutcome(const ImpactLaw& law, double mu, const PlanarReducti
   outcome.work = LedgerOf(reduction, solution);
   UnsetPhases(outcome);
   outcome.energy_change_j = solution.energy_change;
-  SetLimits({.energy_broken = CreatesEnergy(reduction, solution), .energy_change = solution.energy_change}, outcome);
-  if (extent.detail == Detail::kAll && result.solutions.size() > 1) {
-    for (const laws::ImpactSolution& each : result.solutions) outcome.alternatives.push_back(ToOutcome(each));
-  }
+  SetBrokenLimits(reduction, solution, outcome);
+  if (extent.detail == Detail::kAll) AddAlternatives(result, outcome);
   return Complete(
       extent, [&] { return TimelineOf(reduction, outcome.regime, solution); }, NoPath, outcome);
 }

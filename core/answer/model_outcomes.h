@@ -87,9 +87,9 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
 }  // namespace finite_duration
 
 // An impact law gives the end of the impact but not its course: the regime is kByLaw, the numbers of the phases are
-// unset, and the timeline has the start and the end. The first solution is the outcome; if there are several, all of
-// them are its alternatives. If there is none, the regime is kNoSolution, and nothing changes. A gain of energy beyond
-// 16 eps of the energies that the impulse moves breaks the energy limit.
+// unset, and the timeline has the start and the end. If a range of impulses solves the law, its ends are the alternatives,
+// and a note says so. If there is no solution, the regime is kNoSolution, and nothing changes. A gain of energy, or a work
+// of friction, beyond 16 eps of the energies that the impulse moves breaks its limit.
 // `law` must be set; `mu` is the coefficient of kinetic friction.
 absl::Status MakeLawOutcome(const ImpactLaw& law, double mu, const PlanarReduction& reduction, const Extent& extent,
                             Outcome& outcome);

@@ -96,6 +96,12 @@ void SetLimits(const LimitFindings& findings, Outcome& outcome) {
     outcome.broken_limits.push_back(
         {.kind = LimitKind::kEnergy, .value = findings.energy_change, .limit = 0.0, .excess = findings.energy_change});
   }
+  if (findings.friction_broken) {
+    outcome.broken_limits.push_back({.kind = LimitKind::kFriction,
+                                     .value = findings.friction_work,
+                                     .limit = 0.0,
+                                     .excess = findings.friction_work});
+  }
   outcome.admissible = outcome.broken_limits.empty();
 }
 

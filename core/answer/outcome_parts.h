@@ -41,6 +41,8 @@ struct LimitFindings {
   double energetic_excess = 0.0;
   bool energy_broken = false;
   double energy_change = 0.0;
+  bool friction_broken = false;
+  double friction_work = 0.0;
 };
 // Sets the broken limits, and with them whether the outcome is admissible.
 void SetLimits(const LimitFindings& findings, Outcome& outcome);
@@ -147,7 +149,9 @@ void SetEnd(const ImpactEnd<Along>& impact, const Reduction<kTangential>& reduct
              .energetic = impact.energetic,
              .energetic_excess = impact.energetic_excess,
              .energy_broken = impact.energy_limit_broken,
-             .energy_change = impact.energy_change},
+             .energy_change = impact.energy_change,
+             .friction_broken = impact.friction_limit_broken,
+             .friction_work = impact.work_tangential_compression + impact.work_tangential_restitution},
             outcome);
   outcome.w_rank = impact.w_rank;
   outcome.coefficients = {.newton = impact.newton,

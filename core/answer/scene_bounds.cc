@@ -38,7 +38,7 @@ void Include(int i, double value, Range& range) {
 
 absl::Status NotEnded() {
   return MakeError(absl::StatusCode::kOutOfRange, ErrorReason::kNotEnded,
-                   "bounds.sharp: an impact of its sample has not ended within the steps that the model has");
+                   "bounds.sharp: an elastic or a plastic impact has no end, or none within the steps of the model");
 }
 
 absl::StatusOr<Bounds> SampledBounds(const SpatialReduction& reduction, const EffectiveCoefficients& effective,
@@ -67,7 +67,9 @@ absl::StatusOr<Bounds> ReducedBounds(const SceneContact& contact, absl::Function
   const auto& [any, effective] = contact;
   if (!FitsDoubles(any)) return ContactOverflow();
   if (const auto* spatial = std::get_if<SpatialReduction>(&any)) return SampledBounds(*spatial, effective, stopped);
-  return planar::SolveBounds(planar::MakeProblem(std::get<PlanarReduction>(any), {}, effective));
+  const Bounds bounds = planar::SolveBounds(planar::MakeProblem(std::get<PlanarReduction>(any), {}, effective));
+  if (bounds.regime == Regime::kWedged) return NotEnded();
+  return bounds;
 }
 
 absl::Status CheckFinite(const CoefficientBounds& bounds, const std::string& path) {

@@ -49,7 +49,8 @@ const char* WhyNoRange(const Scene& scene, const std::string& path) {
     if (absl::StartsWith(path, fields.prefix)) return fields.why;
   }
   if (absl::StartsWith(path, "surface_velocity.") && IsOfRankOne(scene.system)) {
-    return "with the surface in motion next to no velocity would be in the range of W, whose rank is one";
+    return "an enclosure covers velocities in the range of a W of rank one, and the surface's motion takes them out of "
+           "it";
   }
   return nullptr;
 }
@@ -266,7 +267,9 @@ std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRan
                      "planar_contact, with ranges"};
   });
   check.Require(!scene.surface_velocity.has_value() || !IsOfRankOne(scene.system), [] {
-    return Violation{"surface_velocity", "is set: must not be, with ranges, for a system whose W has rank one"};
+    return Violation{"surface_velocity",
+                     "is set: must not be, with ranges, for a system whose W has rank one: an enclosure "
+                     "covers velocities in the range of W"};
   });
   if (check.failed()) return std::move(check).violations();
   RangeCheck range_check(scene, ranges, check);

@@ -6,7 +6,7 @@
 // Any field that an axis of a sweep can drive (core/scene/field.h) may have a range, with three exceptions. Bounds hold
 // for every coefficient of restitution. The numbers of friction.by_speed count as they stand; friction's factor is
 // enclosed over the approach speeds of the box. If W has rank one by construction (a pendulum, a linkage of one link),
-// the surface must be at rest, because next to no other surface velocity is in the range of W.
+// the surface must be at rest, because the enclosure covers velocities in the range of W.
 // Units are those of the fields. Bad input: see CheckRanges and EncloseScene.
 
 #ifndef RICOCHET_CORE_ANSWER_SCENE_ENCLOSURE_H_
@@ -32,7 +32,7 @@ std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRan
 // nothing. At most `most_boxes` boxes are evaluated, and never more than 200,000: an answer that would take more is wider
 // than it could be, and its excess says by how much. `stopped` is asked before each box of scenes.
 // Errors: INVALID_ARGUMENT naming `ranges` if no scene of the box is valid; INVALID_ARGUMENT naming the system if the W
-// of all its scenes has rank one though others of its kind have rank two, because then next to no velocity of the box is
+// of all its scenes has rank one though others of its kind have rank two, because the enclosure covers velocities
 // in the range of W; CANCELLED once `stopped` says true.
 absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const FieldRange> ranges, int64_t most_boxes,
                                        absl::FunctionRef<bool()> stopped);

@@ -2,6 +2,7 @@
 
 #include <variant>
 
+#include "core/answer/contact_notes.h"
 #include "core/answer/model_outcomes.h"
 #include "core/answer/notes.h"
 #include "core/numerics/invariant.h"
@@ -107,6 +108,19 @@ absl::Status SolvePendulum(const Job& job, const pendulum::Problem& stated) {
              : pendulum::MakeOutcome(problem, job.Tolerance(), job.options.extent, job.outcome);
 }
 
+// Adds what the outcome cannot know.
+void AddNotes(const Job& job, const std::optional<SceneContact>& contact) {
+  const EffectiveCoefficients effective = job.Effective();
+  if (job.planned.choice.model == Model::kImpactLaw) return;
+  if (job.planned.closed_form.has_value()) {
+    const pendulum::Problem& problem = *job.planned.closed_form;
+    const bool is_idle = problem.b == 0.0 && problem.omega_minus < 0.0 && effective.static_friction > 0.0;
+    if (is_idle) AddIdleFrictionNote(job.outcome);
+    return;
+  }
+  std::visit([&](const auto& reduction) { AddContactNotes(reduction, effective, job.outcome); }, contact->reduction);
+}
+
 }  // namespace
 
 absl::Status ContactOverflow() {
@@ -141,6 +155,7 @@ absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>&
   if (options.extent.detail == Detail::kAll) {
     Explain(planned, options.demand, outcome.plan);
     AddNotes(scene, planned, outcome);
+    AddNotes(job, contact);
   } else {
     outcome.plan.model = planned.choice.model;
   }

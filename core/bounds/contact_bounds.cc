@@ -17,7 +17,11 @@ Impact SolveAt(Problem problem, RestitutionLaw law, double coefficient) {
 
 // Returns the largest double, or one a few doubles below it, that is <= `bound` and that Solve accepts as admissible.
 double LargestAdmissible(const Problem& problem, RestitutionLaw law, double bound) {
-  for (double step = 0x1p-53; SolveAt(problem, law, bound).sharp_limit_broken; step *= 2.0) {
+  const auto is_refused = [&] {
+    const Impact impact = SolveAt(problem, law, bound);
+    return impact.sharp_limit_broken || !impact.Converged();
+  };
+  for (double step = 0x1p-53; is_refused(); step *= 2.0) {
     bound = std::nextafter(bound - step * bound, 0.0);
   }
   return bound;
@@ -53,7 +57,10 @@ Slopes SlopesAt(const Problem& problem, int w_rank, double f) {
 
 // The slopes after slip has stopped.
 Slopes SlopesAfterStop(const Problem& problem, int w_rank) {
-  const bool sticks = w_rank == 2 && std::fabs(problem.w.tn) <= problem.mu_static * problem.w.tt;
+  const double coupling = std::fabs(problem.w.tn);
+  const bool sticks =
+      w_rank == 2 ? coupling <= problem.mu_static * problem.w.tt : problem.w.nn <= problem.mu_static * coupling;
+  if (sticks && w_rank == 1) return {.u = 0.0, .v = 0.0, .f = -problem.w.nn / problem.w.tn, .power = 0.0};
   if (!sticks) return SlopesAt(problem, w_rank, -std::copysign(problem.mu, problem.w.tn));
   Slopes slopes = SlopesAt(problem, w_rank, -problem.w.tn / problem.w.tt);
   slopes.u = 0.0;
@@ -100,7 +107,7 @@ EnergyWalk WhereEnergyIsBack(const Problem& problem, const Impact& elastic) {
                    .work = elastic.work_normal_restitution};
   Slopes slopes;
   if (problem.w.tt == 0.0) {
-    slopes = SlopesAt(problem, elastic.w_rank, 0.0);
+    slopes = SlopesAt(problem, elastic.w_rank, problem.u0 == 0.0 ? 0.0 : -std::copysign(problem.mu, problem.u0));
   } else if (HasStopped(elastic) || problem.u0 == 0.0) {
     slopes = SlopesAfterStop(problem, elastic.w_rank);
   } else {
@@ -128,10 +135,11 @@ CoefficientBounds EnergyOnlyBounds(const Problem& problem, const Impact& plastic
   return bounds;
 }
 
-CriticalFriction Critical(const Problem& problem, int w_rank) {
+CriticalFriction Critical(const Problem& problem) {
   const auto is_positive = [](double x) { return x > 0.0; };
-  auto critical = FindCriticalFriction<CriticalFriction>(problem.w.tt, problem.w.tn, problem.w.nn, problem.u0,
-                                                         problem.v0, w_rank == 2, is_positive);
+  auto critical =
+      FindCriticalFriction<CriticalFriction>(problem.w.tt, problem.w.tn, problem.w.nn, problem.u0, problem.v0,
+                                             !problem.w.UFollowsV(problem.u0, problem.v0), is_positive);
   for (auto* const one :
        {&critical.stick, &critical.stop_compression, &critical.stop, &critical.reversal, &critical.jam}) {
     // No friction is infinite.
@@ -148,8 +156,8 @@ Bounds SolveBounds(const Problem& problem) {
   Bounds bounds;
   bounds.regime = elastic.regime;
   bounds.energy_only = CoefficientBounds();
-  if (bounds.regime == Regime::kSeparating) return bounds;
-  bounds.critical = Critical(problem, elastic.w_rank);
+  if (bounds.regime == Regime::kSeparating || bounds.regime == Regime::kWedged) return bounds;
+  bounds.critical = Critical(problem);
   bounds.sharp = SharpBounds(problem, plastic, elastic);
   bounds.energy_only = bounds.regime == Regime::kLocked ? bounds.sharp : EnergyOnlyBounds(problem, plastic, elastic);
   return bounds;

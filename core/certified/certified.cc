@@ -51,7 +51,7 @@ std::optional<Violation> CheckExactContact(const Scene& scene, const Contact<Sur
   if (contact.det.Sign() > 0 || in_range) return std::nullopt;
   return Violation{scene.surface_velocity.has_value() ? "surface_velocity" : "planar_contact.tangential_m_s",
                    "makes (u0, v0) lie beside the range of W, whose rank is one: must lie in it exactly, not to "
-                   "rounding, with certified_digits"};
+                   "rounding, for a certified answer, which knows no impact of this kind"};
 }
 
 Certificate CertifyExact(Question question, const SystemContact<Surd>& system, int digits) {

@@ -27,10 +27,11 @@ std::optional<N> Least(const N& n, const N& d, IsPositive is_positive) {
 
 }  // namespace critical_friction
 
-// `Critical` has the members of CriticalFriction (ricochet/bounds.h), each a std::optional<N>. `full_rank` says whether W
-// counts as one of rank two; otherwise slip stops exactly where compression ends, and stop_compression is unset.
+// `Critical` has the members of CriticalFriction (ricochet/bounds.h), each a std::optional<N>. `stops_anywhere`
+// is false where W has rank one and the velocity lies in its range: slip then stops exactly where compression ends, and
+// stop_compression is unset.
 template <typename Critical, typename N, typename IsPositive>
-Critical FindCriticalFriction(const N& wtt, const N& wtn, const N& wnn, const N& u0, const N& v0, bool full_rank,
+Critical FindCriticalFriction(const N& wtt, const N& wtn, const N& wnn, const N& u0, const N& v0, bool stops_anywhere,
                               IsPositive is_positive) {
   using critical_friction::Abs;
   using critical_friction::Least;
@@ -43,7 +44,7 @@ Critical FindCriticalFriction(const N& wtt, const N& wtn, const N& wnn, const N&
   const N w = -v0;
   const N q = backwards ? N(-wtn) : wtn;
   const N wnn_p = wnn * p;
-  if (full_rank) critical.stop_compression = Least<N>(wnn_p + w * q, w * wtt + q * p, is_positive);
+  if (stops_anywhere) critical.stop_compression = Least<N>(wnn_p + w * q, w * wtt + q * p, is_positive);
   critical.stop = Least<N>(wnn_p + N(2.0) * w * q, N(2.0) * w * wtt + q * p, is_positive);
   const bool reverses = critical.stop.has_value() && is_positive(-q) && is_positive(*critical.stick - *critical.stop);
   if (reverses) critical.reversal = critical.stop;

@@ -14,11 +14,16 @@
 #include <limits>
 
 #include "core/numerics/determinant.h"
+#include "core/numerics/products.h"
 
 namespace ricochet {
 
 // A determinant of at most this many times the product of the diagonal counts as rounding alone.
 inline constexpr double kRankTolerance = 4.0 * std::numeric_limits<double>::epsilon();
+
+// A velocity lies in the range of a W of rank one if |u Wnn - v Wtn| is at most this many times the sum of both terms: the
+// rounding of u and v takes it that far.
+inline constexpr double kRangeTolerance = 8.0 * std::numeric_limits<double>::epsilon();
 
 struct PlanarDelassus {
   double tt = 0.0, tn = 0.0, nn = 0.0;
@@ -30,6 +35,12 @@ struct PlanarDelassus {
   int Rank() const {
     if (tt == 0.0 && nn == 0.0) return 0;
     return std::abs(RelativeDeterminant()) <= kRankTolerance ? 1 : 2;
+  }
+  // True if W has rank one and (u, v) lies in its range, so that impulses keep u = v Wtn/Wnn, and u and v vanish together.
+  // Where Wtt = 0 no impulse changes u, and it is false.
+  bool UFollowsV(double u, double v) const {
+    if (!(tt > 0.0) || !(nn > 0.0) || Rank() != 1) return false;
+    return std::abs(DifferenceOfProducts(u, nn, v, tn)) <= kRangeTolerance * (std::abs(u) * nn + std::abs(v * tn));
   }
 };
 

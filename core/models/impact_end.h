@@ -15,6 +15,9 @@ struct ImpactEnd {
   int w_rank = 0;
   bool sharp_limit_broken = false;   // The implied energetic coefficient is above 1.
   bool energy_limit_broken = false;  // E+ > E-.
+  // Friction does positive work. Coulomb's law at every instant never does; a model that lets slip reverse without
+  // reversing friction may.
+  bool friction_limit_broken = false;
   double newton = 0.0, poisson = 0.0, energetic = 0.0;
   double tangential = 0.0;        // |f1|/tau1, signed in a plane.
   double energetic_excess = 0.0;  // energetic - 1

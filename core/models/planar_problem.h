@@ -1,7 +1,7 @@
 // PlanarProblem: a rigid impact at one point of a plane, as every planar model, impact law and audit takes it.
 //
 // W is the Delassus matrix, (u0, v0) the contact velocity before along t and n, relative to the surface.
-// Bad input: none gets here (core/scene/validate.h): W is semidefinite and (u0, v0) lies in its range.
+// Bad input: none gets here (core/scene/validate.h): W is semidefinite. (u0, v0) may lie beside the range of W.
 
 #ifndef RICOCHET_CORE_MODELS_PLANAR_PROBLEM_H_
 #define RICOCHET_CORE_MODELS_PLANAR_PROBLEM_H_

@@ -195,6 +195,13 @@ class StraightErrors {
   RelativeErrors sliding_;
 };
 
+// True if slip goes on beyond its stop, which the caller does not exclude, until friction does positive work.
+template <typename Problem>
+bool SlidesTooFar(const Problem& problem, const Sizes& sizes, EffectSet excluded) {
+  if (sizes[Effect::kSlipStop].value == 0.0 || excluded.Has(Effect::kSlipStop)) return false;
+  return sliding::FrictionPushes(SlidingProblemOf(problem));
+}
+
 Candidate Compliant(const ContactPhysics& physics) {
   return {.model = Model::kCompliant, .simulates = kCompliantEffects, .applies = physics.ratio_squared > 0.0};
 }
@@ -251,7 +258,7 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   const Sizes of_all = PlanarSizes(problem, physics);
   StraightErrors errors(kept, kept.u0 != 0.0);
   const auto frictionless_error = [&errors] { return errors.Frictionless(); };
-  const auto sliding_error = [&errors] { return errors.Sliding(); };
+  const auto sliding_error = [&] { return SlidesTooFar(kept, of_all, excluded) ? kUnbounded : errors.Sliding(); };
   const Candidate candidates[] = {
       {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
       {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},
@@ -306,7 +313,7 @@ Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
   const Sizes sizes = excluded.IsEmpty() ? of_all : SpatialSizes(kept);
   StraightErrors errors(kept, kept.u0[0] != 0.0 || kept.u0[1] != 0.0);
   const auto frictionless_error = [&errors] { return errors.Frictionless(); };
-  const auto sliding_error = [&errors] { return errors.Sliding(); };
+  const auto sliding_error = [&] { return SlidesTooFar(kept, of_all, excluded) ? kUnbounded : errors.Sliding(); };
   const Candidate candidates[] = {
       {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
       {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},

@@ -330,6 +330,10 @@ Sizes PlanarSizes(const planar::Problem& problem, const ContactPhysics& physics,
     for (const Effect effect : {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction}) {
       sizes[effect] = {.ground = Ground::kImmobile};
     }
+    // Where the contact slips all the same, friction has an impulse and does work, which no velocity shows.
+    if (problem.u0 != 0.0 && problem.mu > 0.0) {
+      sizes[Effect::kFriction] = {.value = kUnbounded, .ground = Ground::kNoInequality};
+    }
     if (physics.ratio_squared > 0.0) sizes[Effect::kTangentialCompliance] = {.ground = Ground::kImmobile};
   }
   sizes[Effect::kFiniteDuration] = DurationSize(physics);

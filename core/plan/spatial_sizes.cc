@@ -222,6 +222,11 @@ Sizes SpatialSizes(const spatial::Problem& problem) {
   Sizes sizes;
   const Scaled contact = Scale(problem);
   sizes[Effect::kFriction] = FrictionSize(contact);
+  const bool is_immobile = problem.w11 == 0.0 && problem.w22 == 0.0;
+  // Where the contact slips all the same, friction has an impulse and does work, which no velocity shows.
+  if (is_immobile && contact.slip > 0.0 && problem.mu > 0.0) {
+    sizes[Effect::kFriction] = {.value = kUnbounded, .ground = Ground::kNoInequality};
+  }
   SetSlip(contact, -problem.v0, sizes);
   sizes[Effect::kStaticFriction] = StaticSize(contact, -problem.v0, sizes[Effect::kSlipStop]);
   sizes[Effect::kHigherOrder].ground = Ground::kNotOfSystem;

@@ -103,7 +103,7 @@ bool HasDamping(const Scene& scene);
 // Checks what compliance and finite forces may be combined with.
 void CheckEffects(const Scene& scene, Check& check);
 
-// Checks the rules that depend on the contact: the velocity lies in the range of W, and the coefficients keep their
+// Checks the rules that depend on the contact: impulses move it along n, and the coefficients keep their
 // rules at the approach speed. All other rules must hold already. If that takes reducing the scene, `contact` is what it
 // was reduced to; `known` is that if the caller has it, else null.
 void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, std::optional<SceneContact>& contact);

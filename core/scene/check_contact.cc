@@ -11,29 +11,23 @@
 namespace ricochet {
 namespace {
 
-// The field of the velocity, which is restricted if W has less than full rank.
+// The field of the normal velocity.
 std::string VelocityField(const Scene& scene) {
   if (scene.surface_velocity.has_value()) return "surface_velocity";
-  if (std::holds_alternative<PlanarContact>(scene.system)) return "planar_contact.tangential_m_s";
-  if (std::holds_alternative<SpatialContact>(scene.system)) return "spatial_contact.tangential_m_s";
+  if (std::holds_alternative<PlanarContact>(scene.system)) return "planar_contact.normal_m_s";
+  if (std::holds_alternative<SpatialContact>(scene.system)) return "spatial_contact.normal_m_s";
   return "system";
 }
 
-std::string TangentialText(const PlanarReduction& reduction) { return ShortestDecimal(reduction.u0[0]); }
-std::string TangentialText(const SpatialReduction& reduction) {
-  return absl::StrCat("(", ShortestDecimal(reduction.u0[0]), ", ", ShortestDecimal(reduction.u0[1]), ")");
-}
-
-// A contact that does not approach may have any velocity.
-void CheckRange(const Scene& scene, const AnyReduction& any, Check& check) {
+// No impulse along n moves a contact with W_nn = 0: it may not approach.
+void CheckMobility(const Scene& scene, const AnyReduction& any, Check& check) {
   std::visit(
       [&](const auto& reduction) {
-        check.Require(reduction.v0 >= 0.0 || VelocityIsInRange(reduction), [&] {
-          return Violation{
-              VelocityField(scene),
-              absl::StrCat("makes u0 = ", TangentialText(reduction), ", v0 = ", ShortestDecimal(reduction.v0),
-                           ": must lie in the range of W, whose rank is not full"),
-              ViolationKind::kContact};
+        check.Require(reduction.v0 >= 0.0 || reduction.w.back() > 0.0, [&] {
+          return Violation{VelocityField(scene),
+                           absl::StrCat("makes v0 = ", ShortestDecimal(reduction.v0),
+                                        " where W_nn = 0: must be >= 0, no impulse along n ends the approach"),
+                           ViolationKind::kContact};
         });
       },
       any);
@@ -90,8 +84,8 @@ void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const Eff
   });
 }
 
-// True if the velocity lies in the range of W whatever the numbers of the system are.
-bool RangeIsSure(const Scene& scene) {
+// True if impulses along n move the contact, or it does not approach, whatever the numbers of the system are.
+bool MobilityIsSure(const Scene& scene) {
   if (scene.surface_velocity.has_value()) return false;
   const auto* linkage = std::get_if<Linkage>(&scene.system);
   return std::holds_alternative<Pendulum>(scene.system) || (linkage != nullptr && linkage->links.size() == 1);
@@ -101,7 +95,7 @@ bool RangeIsSure(const Scene& scene) {
 
 void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, std::optional<SceneContact>& contact) {
   const bool with_spring = scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.restitution);
-  if (RangeIsSure(scene) && !DependsOnSpeed(scene) && !with_spring) return;
+  if (MobilityIsSure(scene) && !DependsOnSpeed(scene) && !with_spring) return;
   if (known == nullptr) {
     contact.emplace(scene);
   } else {
@@ -109,7 +103,7 @@ void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, s
   }
   const AnyReduction& reduction = contact->reduction;
   if (!IsFinite(reduction)) return;  // The caller reports the overflow, because no single field causes it.
-  if (!RangeIsSure(scene)) CheckRange(scene, reduction, check);
+  if (!MobilityIsSure(scene)) CheckMobility(scene, reduction, check);
   if (DependsOnSpeed(scene)) CheckEffective(scene, contact->coefficients, ApproachSpeed(reduction), check);
   if (with_spring) CheckSpring(scene, std::get<PlanarReduction>(reduction), contact->coefficients, check);
 }

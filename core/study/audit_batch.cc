@@ -94,8 +94,8 @@ std::vector<Violation> CheckColumns(const std::vector<ColumnRule>& rules, size_t
 
 double ValueAt(const std::vector<double>& column, size_t row) { return column.size() == 1 ? column[0] : column[row]; }
 
-// Decide whether a row's velocity before the impact is one that its contact can have: the rule of the door
-// (core/scene/check_contact.cc).
+// Decide whether a row's velocity before the impact is one that its contact can have: the rule of
+// audit::CheckScene.
 bool HasValidVelocity(const pendulum::Problem& /*problem*/) { return true; }
 bool HasValidVelocity(const planar::Problem& in) {
   if (!std::isfinite(in.u0) || !std::isfinite(in.v0)) return false;

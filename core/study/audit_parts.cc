@@ -17,6 +17,16 @@ std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact
   if (std::visit([](const auto& reduction) { return reduction.w.back() == 0.0; }, contact->reduction)) {
     violations.push_back({"system", "makes Wnn = 0: must be > 0 for an audit, no normal impulse moves the contact",
                           ViolationKind::kContact});
+    return violations;
+  }
+  const bool is_covered = std::visit(
+      [](const auto& reduction) { return reduction.v0 >= 0.0 || VelocityIsInRange(reduction); }, contact->reduction);
+  if (!is_covered) {
+    violations.push_back(
+        {scene.surface_velocity.has_value() ? "surface_velocity" : "system",
+         "makes a contact velocity beside the range of W, whose rank is not full: must lie in it for an "
+         "audit, which knows no impact of this kind",
+         ViolationKind::kContact});
   }
   return violations;
 }

@@ -547,7 +547,8 @@ def _index_of(given: Any, columns: Mapping[str, Any], rows: int) -> Any:
 
 def _warn_of_invalid(table: Table) -> None:
     """Warns of rows without numbers, at the line that has asked for them."""
-    bad = np.flatnonzero(table.codes["status"].numbers > sweep_pb2.ROW_STATUS_INADMISSIBLE)
+    without_numbers = (sweep_pb2.ROW_STATUS_INVALID, sweep_pb2.ROW_STATUS_NOT_REPRESENTABLE)
+    bad = np.flatnonzero(np.isin(table.codes["status"].numbers, without_numbers))
     if not len(bad):
         return
     first = int(bad[0])

@@ -47,7 +47,9 @@ class Simulation {
     rank_one_ = Compare(Abs(square - wtn_ * wtn_), Ball(0x1p-50) * square) <= 0;
     if (rank_one_ && problem.w.tt != 0.0) {
       wtt_ = wtn_ * wtn_ / wnn_;
-      u0_ = v0_ * wtn_ / wnn_;
+      const Ball beside = u0_ * wnn_ - v0_ * wtn_;
+      in_range_ = Compare(Abs(beside), Ball(0x1p-49) * (Abs(u0_) * wnn_ + Abs(v0_ * wtn_))) <= 0;
+      if (in_range_) u0_ = v0_ * wtn_ / wnn_;
     }
     u_ = u0_;
     v_ = v0_;
@@ -73,8 +75,8 @@ class Simulation {
   // The current df/dtau.
   Ball FrictionNow() {
     sticks_ = false;
-    if (SignOf(wtt_) == 0) return Ball(0.0);
     int direction = SignOf(u_);
+    if (SignOf(wtt_) == 0) return Ball(-direction) * mu_;
     if (direction == 0) {
       if (Compare(Abs(wtn_), mu_static_ * wtt_) <= 0) {
         sticks_ = true;
@@ -85,8 +87,15 @@ class Simulation {
     return Ball(-direction) * mu_;
   }
 
+  // Whether restitution can end although v stands still, as it does where W has rank one and the contact sticks.
+  bool EndsAtRest() const { return problem_.law != RestitutionLaw::kNewton || Compare(-coefficient_ * v0_, v_) <= 0; }
+
   // The normal impulse up to the end of restitution if v goes on with slope `rise`.
   Ball WaitForEnd(const Ball& rise) const {
+    if (SignOf(rise) == 0 && problem_.law == RestitutionLaw::kNewton) return Ball(0.0);
+    if (SignOf(rise) == 0 && problem_.law == RestitutionLaw::kEnergetic) {
+      return (-coefficient_ * coefficient_ * impact_.work_normal_compression - normal_work_) / v_;
+    }
     switch (problem_.law) {
       case RestitutionLaw::kNewton:
         return (-coefficient_ * v0_ - v_) / rise;
@@ -105,8 +114,14 @@ class Simulation {
     const Ball friction = FrictionNow();
     const Ball u_rise = wtn_ + wtt_ * friction;
     const Ball v_rise = wnn_ + wtn_ * friction;
-    if (sticks_ && rank_one_) {
+    if (sticks_ && in_range_) {
       locked_ = true;
+      return false;
+    }
+    const bool stands = rank_one_ && (sticks_ || SignOf(v_rise) == 0);
+    if (stands && (!restoring_ || !EndsAtRest())) {
+      jammed_ = true;
+      NoteMode();
       return false;
     }
     NoteMode();
@@ -114,7 +129,7 @@ class Simulation {
     std::vector<Candidate> candidates;
     if (!sticks_ && SignOf(u_) * SignOf(u_rise) < 0) candidates.push_back({EventKind::kSlipStops, -u_ / u_rise});
     if (restoring_) {
-      candidates.push_back({EventKind::kRestitutionEnds, WaitForEnd(v_rise)});
+      candidates.push_back({EventKind::kRestitutionEnds, WaitForEnd(stands ? Ball(0.0) : v_rise)});
     } else if (SignOf(v_rise) > 0) {
       candidates.push_back({EventKind::kCompressionEnds, -v_ / v_rise});
     }
@@ -123,7 +138,7 @@ class Simulation {
     for (const Candidate& candidate : candidates) {
       if (Compare(candidate.wait, wait) < 0) wait = candidate.wait;
     }
-    Advance(friction, sticks_ ? Ball(0.0) : u_rise, v_rise, wait);
+    Advance(friction, sticks_ ? Ball(0.0) : u_rise, stands ? Ball(0.0) : v_rise, wait);
     std::vector<EventKind> due;
     for (const Candidate& candidate : candidates) {
       if (Compare(candidate.wait, wait) == 0) due.push_back(candidate.kind);
@@ -180,9 +195,10 @@ class Simulation {
 
   Regime RegimeReached() const {
     if (locked_) return Regime::kLocked;
+    if (jammed_) return Regime::kWedged;
     const bool started_stuck = problem_.u0 == 0.0 && !rank_one_ && Compare(Abs(wtn_), mu_static_ * wtt_) <= 0;
     const bool ever_stuck = started_stuck || (stopped_ && stuck_);
-    if (problem_.w.tt == 0.0 || problem_.mu_static == 0.0) return Regime::kFrictionless;
+    if ((problem_.w.tt == 0.0 && problem_.u0 == 0.0) || problem_.mu_static == 0.0) return Regime::kFrictionless;
     if (problem_.mu == 0.0 && !ever_stuck) return Regime::kFrictionless;
     if (started_stuck) return Regime::kStickInCompression;
     if (!stopped_) return Regime::kSliding;
@@ -192,6 +208,7 @@ class Simulation {
 
   void Conclude() {
     impact_.regime = RegimeReached();
+    if (jammed_) return ConcludeJam();
     impact_.work_normal_restitution = normal_work_;
     impact_.work_tangential_restitution = tangential_work_;
     impact_.newton = -v_ / v0_;
@@ -206,10 +223,27 @@ class Simulation {
                             impact_.work_tangential_compression + impact_.work_tangential_restitution;
   }
 
+  // A contact that jams has the state it has reached, and no coefficients.
+  void ConcludeJam() {
+    impact_.conditioning = Ball(1.0);
+    if (restoring_) {
+      impact_.work_normal_restitution = normal_work_;
+      impact_.work_tangential_restitution = tangential_work_;
+    } else {
+      impact_.tau_compression = tau_;
+      impact_.f_compression = f_;
+      impact_.work_normal_compression = normal_work_;
+      impact_.work_tangential_compression = tangential_work_;
+    }
+    impact_.energy_change = impact_.work_normal_compression + impact_.work_normal_restitution +
+                            impact_.work_tangential_compression + impact_.work_tangential_restitution;
+  }
+
   Problem problem_;
   slong bits_;
   Ball wtt_, wtn_, wnn_, u0_, v0_, mu_, mu_static_, coefficient_;
   bool rank_one_ = false;
+  bool in_range_ = false;  // At rank one with Wtt > 0, (u0, v0) lies in the range of W.
 
   Ball tau_, f_, u_, v_;
   Ball normal_work_, tangential_work_;  // Works of the current phase.
@@ -218,6 +252,7 @@ class Simulation {
   bool stop_pending_ = false;
   bool stopped_ = false, stopped_in_compression_ = false, stuck_ = false;
   bool locked_ = false;
+  bool jammed_ = false;
   ExactImpact impact_;
 };
 
@@ -285,7 +320,7 @@ OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactI
           coefficient(impact.poisson, exact.poisson),
           coefficient(impact.energetic, exact.energetic),
           coefficient(impact.energetic_excess, exact.energetic - 1.0),
-          tangential(impact.tangential, exact.end().f / exact.end().tau),
+          tangential(impact.tangential, SignOf(exact.end().tau) == 0 ? Ball(0.0) : exact.end().f / exact.end().tau),
           tau,
           f,
           u,

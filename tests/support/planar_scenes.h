@@ -75,6 +75,40 @@ class SceneSource {
     return Admitted(problem);
   }
 
+  // The W of a pendulum, or one of a slider, that strikes a surface in motion: (u0, v0) is any velocity, now and then near
+  // the range of W, or with slip that stops near an end of a phase.
+  Problem OffRange() {
+    Problem problem = RankOne();
+    const double follows = problem.v0 * problem.w.tn / problem.w.nn;
+    problem.u0 = Uniform(-3.0, 3.0);
+    if (Below(4) == 0) problem.mu = problem.w.nn / std::fabs(problem.w.tn) * Uniform(0.5, 1.5);
+    switch (Below(8)) {
+      case 0:
+        problem.u0 = 0.0;
+        break;
+      case 1:
+        problem.u0 = follows * (1.0 + Sign() * std::exp2(-Uniform(1.0, 54.0)));
+        break;
+      case 2:
+        problem.w.tt = problem.w.tn = 0.0;
+        break;
+      case 3:
+        problem.u0 = follows * (1.0 + problem.coefficient * NearlyOne());
+        break;
+      case 4:
+        problem.w = {4.0, Sign() * 2.0, 1.0};
+        problem.u0 = Integer(-4, 4);
+        problem.v0 = -Integer(1, 4);
+        problem.mu = Integer(0, 4) / 4.0;
+        problem.coefficient = Integer(0, 4) / 4.0;
+        break;
+      default:
+        break;
+    }
+    problem.mu_static = problem.mu * (Below(3) == 0 ? Uniform(1.0, 2.0) : 1.0);
+    return problem;
+  }
+
   // mu Wtt lies within a few ulp of |Wtn|.
   Problem NearStick() {
     Problem problem = Below(3) == 0 ? NearRankOne() : Everyday();
@@ -161,7 +195,8 @@ class SceneSource {
     problem.mu_static = std::max(problem.mu, problem.mu_static);
     SetCoefficient(problem);
     problem = Admitted(problem);
-    return std::isfinite(problem.u0) ? problem : OverAllDoubles();
+    const bool is_rounded_well = std::isnormal(problem.u0) || !IsRankOne(problem) || problem.w.tn == 0.0;
+    return std::isfinite(problem.u0) && is_rounded_well ? problem : OverAllDoubles();
   }
 
   // The coefficient is one that every law allows, now and then an end of its range.

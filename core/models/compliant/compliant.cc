@@ -37,8 +37,9 @@ Regime RegimeOf(const SpringContact& contact, const PathResult& path) {
   if (contact.mu == 0.0) return Regime::kFrictionless;
   if (path.first_stick == FirstStick::kNever) return Regime::kSliding;
   // At rank one Wtt = Wtn^2/Wnn, which must not be rounded on the way.
-  const bool stays = contact.u_follows_v ? std::fma(contact.mu, std::fabs(contact.wtn), -contact.wnn) >= 0.0
-                                         : std::fma(contact.mu, contact.wtt, -std::fabs(contact.wtn)) >= 0.0;
+  const bool stays = contact.rank == 1 && contact.wtt > 0.0
+                         ? std::fma(contact.mu, std::fabs(contact.wtn), -contact.wnn) >= 0.0
+                         : std::fma(contact.mu, contact.wtt, -std::fabs(contact.wtn)) >= 0.0;
   if (path.first_stick == FirstStick::kInCompression) {
     return stays ? Regime::kStickInCompression : Regime::kReversalInCompression;
   }

@@ -20,7 +20,7 @@ SpringContact MakeSpringContact(const PlanarProblem& problem, double ratio_squar
   if (contact.rank == 2) {
     contact.determinant = DifferenceOfProducts(wtt, wnn, wtn, wtn);
   } else if (wtt > 0.0) {
-    contact.u_follows_v = true;
+    contact.u_follows_v = problem.w.UFollowsV(problem.u0, problem.v0);
     contact.wtt = wtn / wnn * wtn;
   }
   return contact;

@@ -30,7 +30,7 @@ struct SpringContact {
   double wtt = 0.0, wtn = 0.0, wnn = 0.0;
   double determinant = 0.0;  // det W, exactly 0 where the rank is one.
   int rank = 2;
-  bool u_follows_v = false;  // The rank is one and Wtt > 0, so that u = v Wtn/Wnn throughout.
+  bool u_follows_v = false;  // PlanarDelassus::UFollowsV of (u0, v0), so that u = v Wtn/Wnn throughout.
   double mu = 0.0;
   double ratio_squared = 0.0;
   double eta = 0.0;  // 0 below kLeastEnergetic.

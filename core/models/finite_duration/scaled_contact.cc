@@ -70,6 +70,7 @@ void SetInertia(const PlanarProblem& problem, ScaledContact& contact) {
   contact.wtt = Square(contact.wtn);
   contact.stick_slope = 0.0;
   if (problem.w.tn == 0.0) return;
+  if (!problem.w.UFollowsV(problem.u0, problem.v0)) return;
   // u is then v Wtn/Wnn, unless a force of its own drives it off.
   const double in_range = contact.an * contact.wtn;
   contact.coupled = std::fabs(contact.at - in_range) <= kInRange * (std::fabs(contact.at) + std::fabs(in_range));
@@ -95,7 +96,7 @@ ScaledContact MakeScaledContact(const Problem& problem) {
   contact.compliant = problem.ratio_squared.has_value();
   contact.ratio_squared = problem.ratio_squared.value_or(0.0);
   SetInertia(problem.contact, contact);
-  contact.smooth = problem.contact.mu_static == 0.0 || contact.wtt == 0.0;
+  contact.smooth = problem.contact.mu_static == 0.0 || (contact.wtt == 0.0 && contact.u0 == 0.0);
   contact.holds_freely = HoldsFreely(problem.contact, contact.rank);
   return contact;
 }

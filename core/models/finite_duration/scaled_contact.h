@@ -34,9 +34,9 @@ struct ScaledContact {
   double eta = 1.0;        // 1 for Hunt and Crossley, whose loading and unloading are one curve.
   bool compliant = false;
   double ratio_squared = 0.0;
-  bool smooth = false;                         // There is no friction force: mu_s = 0 or Wtt = 0.
-  bool coupled = false;                        // W has rank one with the forces in its range: u = wtn v throughout.
-  bool holds_freely = false;                   // mu_s Wtt >= |Wtn|: it sticks where no finite force pulls.
+  bool smooth = false;        // There is no friction force: mu_s = 0, or Wtt = 0 without slip.
+  bool coupled = false;       // W has rank one with the velocity and the forces in its range: u = wtn v throughout.
+  bool holds_freely = false;  // mu_s Wtt >= |Wtn|: it sticks where no finite force pulls.
   double speed = 0.0, time = 0.0, mass = 0.0;  // The units.
 
   double Length() const { return speed * time; }

@@ -1,6 +1,7 @@
 #include "core/models/laws/chatterjee_ruina.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "core/models/laws/impact_law_parts.h"
@@ -8,8 +9,11 @@
 namespace ricochet::laws {
 namespace {
 
-// The tangential part of P_II - P_I. The normal part is -wtn/wnn times the tangential one.
+// The tangential part of P_II - P_I. The normal part is -wtn/wnn times the tangential one. At rank one and beside the range
+// of W no impulse ends approach and slip: the part is without limit as det W vanishes.
 double StickingImpulse(const PlanarProblem& in, const NewtonImpact& impact) {
+  const double slip = impact.frictionless_slip();
+  if (impact.rank_one() && slip != 0.0) return std::copysign(std::numeric_limits<double>::infinity(), -slip);
   if (impact.rank_one()) return -in.v0 * (in.w.tn / in.w.nn) / (in.w.tt + in.w.nn);
   return -impact.frictionless_slip() / impact.det();
 }
@@ -20,9 +24,9 @@ ImpactLawResult SolveChatterjeeRuina(const PlanarProblem& input, double e, doubl
   const NewtonImpact impact(input, e);
   if (auto trivial = impact.Trivial()) return *std::move(trivial);
 
-  const double f = (1.0 + e_t) * StickingImpulse(input, impact);
+  const double f = e_t == -1.0 ? 0.0 : (1.0 + e_t) * StickingImpulse(input, impact);
   const double on_cone = input.mu * Sign(f);
-  if (std::abs(f) * impact.NormalSlope(on_cone) > input.mu * impact.normal_change()) {
+  if (std::isinf(f) || std::abs(f) * impact.NormalSlope(on_cone) > input.mu * impact.normal_change()) {
     return AtMostOne(impact.AtRatio(on_cone));
   }
   const double tau1 = std::fma(-f, input.w.tn, impact.normal_change()) / input.w.nn;

@@ -1,5 +1,6 @@
 #include "core/models/laws/kane_levinson.h"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -17,12 +18,17 @@ ImpactLawResult SolveRankOne(const PlanarProblem& input, const NewtonImpact& imp
   const double final_slip = impact.tangential_numerator();
   if (final_slip != 0.0) {
     AppendAtRatio(impact, -input.mu * Sign(final_slip), result);
-  } else if (input.w.tn == 0.0 || input.mu == 0.0) {
-    AppendAtRatio(impact, 0.0, result);
-  } else {
-    AppendAtRatio(impact, -input.mu, result);
-    AppendAtRatio(impact, input.mu, result);
+    return result;
   }
+  // The contact comes to rest along t whatever the impulse is, so that every impulse of the cone solves the law.
+  AppendAtRatio(impact, -input.mu, result);
+  if (input.mu == 0.0) return result;
+  AppendAtRatio(impact, input.mu, result);
+  result.ends = std::move(result.solutions);
+  const auto work = [&](const ImpactSolution& end) { return end.f * input.u0; };
+  result.solutions = {*std::min_element(result.ends.begin(), result.ends.end(),
+                                        [&](const auto& x, const auto& y) { return work(x) < work(y); })};
+  if (input.u0 == 0.0) result.solutions = {*impact.AtRatio(0.0)};  // No friction does any work.
   return result;
 }
 

@@ -8,7 +8,8 @@
 //
 // The law ignores the slip on the way, so that it can create energy: in Kane's paradox a double pendulum rebounds with
 // several times the energy it had. A positive definite W has exactly one solution. At rank one there may be none, because
-// friction locks a contact that e > 0 asks to rebound, or two, if e = 0. docs/theory/laws.md has the proof.
+// friction locks a contact that e > 0 asks to rebound, or a range of impulses, where u1 = 0 whatever they are.
+// docs/theory/laws.md has the proof.
 
 #ifndef RICOCHET_CORE_MODELS_LAWS_KANE_LEVINSON_H_
 #define RICOCHET_CORE_MODELS_LAWS_KANE_LEVINSON_H_
@@ -17,7 +18,7 @@
 
 namespace ricochet::laws {
 
-// e must be >= 0. All solutions are given: stick first, then slip towards +t, then slip towards -t.
+// e must be >= 0. Of a range, the solution is the end whose friction does the least work: it opposes the slip.
 // core/models/laws/impact_law.h states units, degenerate inputs and accuracy.
 ImpactLawResult SolveKaneLevinson(const PlanarProblem& input, double e);
 

@@ -133,7 +133,7 @@ HWY_INLINE void SolveAll(const Job& job, size_t first, size_t count, double tole
     const Inputs<N> in = LoadInputs<N>(job, i);
     const Course<N> course = Follow(job.law, in);
     const Answer<N> answer = Judge(job.parts, course);
-    const Mask is_regular = Both(IsNegative(in.v0), IsModerate(in));
+    const Mask is_regular = Both(Both(IsNegative(in.v0), Not(course.jammed)), IsModerate(in));
     const Mask serves = Both(is_regular, Both(answer.proved, answer.relative_error <= VLanes::Fill(tolerance)));
     const Mask breaks_limit = Either(answer.numbers.sharp_limit_broken, answer.numbers.energy_limit_broken);
     const V verdict = RegimeOf(course) + Select(breaks_limit, VLanes::Fill(kInadmissible), zero);

@@ -46,6 +46,7 @@ struct Inputs {
   N stated_u0;  // u0 before RankOnePath replaces it.
   N det;
   MaskOf<N> rank_one;
+  MaskOf<N> u_follows_v;  // W has rank one and (u0, v0) lies in its range, so that u and v vanish together.
 };
 
 // d(u, v, f)/dtau.
@@ -103,7 +104,8 @@ struct Course {
   Inputs<N> in;
   Path<N> path;
   Solution<N> x;
-  MaskOf<N> locked;
+  MaskOf<N> held;    // No further impulse moves the contact where slip has stopped: it is locked, or it has jammed.
+  MaskOf<N> jammed;  // It is held with a v that does not end the impact.
 };
 
 template <typename N>
@@ -164,6 +166,7 @@ HWY_INLINE void CompleteInputs(Inputs<N>& in) {
   const N square = in.wtt * in.wnn;
   in.det = DifferenceOfProducts(in.wtt, in.wnn, in.wtn, in.wtn);
   in.rank_one = Not(IsPositive(Abs(in.det) - N::Constant(kRankTolerance) * square));
+  in.u_follows_v = in.rank_one;
 }
 
 template <typename N>
@@ -220,24 +223,44 @@ HWY_INLINE Path<N> FullRankPath(const Inputs<N>& in) {
   return path;
 }
 
-// The path for a W of rank one, where u = v Wtn/Wnn throughout; u0 is replaced accordingly. If Wtt = 0, friction has no
-// effect on u and the path has one piece.
+// The slopes of slip for a W of rank one, which moves u by Wtn/Wnn of what it moves v by.
+template <typename N>
+HWY_INLINE Slopes<N> RankOneSlopes(const Inputs<N>& in, const MaskOf<N>& backwards, const N& ratio) {
+  Slopes<N> slopes = SlipSlopes(in, backwards);
+  slopes.u = slopes.v * ratio;
+  return slopes;
+}
+
+// The path for a W of rank one, which moves the contact in one direction only. A velocity in the range of W lies along it:
+// u = v Wtn/Wnn throughout, and u0 is replaced accordingly. Any other velocity keeps its part beside that direction, and v
+// stands still where the contact sticks. If Wtt = 0, u stands still.
 template <typename N>
 HWY_INLINE Path<N> RankOnePath(Inputs<N>& in) {
+  // Plain arithmetic takes a velocity into the range only if the exact difference lies within the tolerance, too. One that
+  // it takes out wrongly has a v_stop whose sign it cannot prove.
+  constexpr double kTolerance = N::kCompensated ? kRangeTolerance : (1.0 - 0x1p-40) * kRangeTolerance;
   Path<N> path;
-  path.stops = IsPositive(in.wtt);
-  path.slips_first = Either(path.stops, Not(path.stops));
-  path.v_stop = Zero<N>();
   const N ratio = in.wtn / in.wnn;
-  const MaskOf<N> backwards = IsPositive(in.wtn);
-  Slopes<N> slip = SlipSlopes(in, backwards);
-  slip.u = slip.v * ratio;
-  path.first = SelectSlopes(path.stops, slip, {.u = Zero<N>(), .v = in.wnn, .f = Zero<N>()});
-  path.u_compression_end = Select(path.stops, Zero<N>(), in.u0);
-  in.u0 = Select(path.stops, in.v0 * ratio, in.u0);
+  const N beside = DifferenceOfProducts(in.u0, in.wnn, in.v0, in.wtn);
+  const N size = Abs(in.u0) * in.wnn + Abs(in.v0 * in.wtn);
+  const MaskOf<N> moves = IsPositive(in.wtt);
+  const MaskOf<N> follows = Both(moves, Not(IsPositive(Abs(beside) - N::Constant(kTolerance) * size)));
+  in.u_follows_v = follows;
+  in.u0 = Select(follows, in.v0 * ratio, in.u0);
+  const MaskOf<N> backwards = SelectMask(follows, IsPositive(in.wtn), IsNegative(in.u0));
+  const MaskOf<N> slips = Either(IsPositive(in.u0), IsNegative(in.u0));
+  path.first = RankOneSlopes(in, backwards, ratio);
+  path.first.f = Select(Either(moves, slips), path.first.f, Zero<N>());
+  path.slips_first = Either(follows, Either(slips, Not(moves)));
+  // Where v' <= 0, slip stops or stands still, and v stays below 0.
+  const MaskOf<N> stops = Either(IsNegative(Signed(path.first.u, backwards)), Not(IsPositive(path.first.v)));
+  path.stops = Both(moves, Either(follows, Either(stops, Not(path.slips_first))));
+  path.v_stop = Select(Both(path.slips_first, moves), Select(follows, Zero<N>(), -beside / in.wtn), in.v0);
+  path.u_compression_end = Select(moves, Select(follows, Zero<N>(), beside / in.wnn), in.u0);
   path.sticks = Not(IsNegative(AddProduct(-in.wnn, in.mu_static, Abs(in.wtn))));
-  path.second = SlipSlopes(in, Not(backwards));
-  path.second.u = path.second.v * ratio;
+  path.second = RankOneSlopes(in, IsNegative(in.wtn), ratio);
+  const Slopes<N> stick = {.u = Zero<N>(), .v = Zero<N>(), .f = -in.wnn / in.wtn};
+  path.second = SelectSlopes(path.sticks, stick, path.second);
   return path;
 }
 
@@ -259,6 +282,7 @@ HWY_INLINE Path<N> MakePath(Inputs<N>& in) {
   if (InNoLane(in.rank_one)) return FullRankPath(in);
   Inputs<N> moved = in;
   const Path<N> path = RankOnePath(moved);
+  in.u_follows_v = Both(in.rank_one, moved.u_follows_v);
   if (InAllLanes(in.rank_one)) {
     in.u0 = moved.u0;
     return path;
@@ -421,6 +445,57 @@ HWY_INLINE void Lock(const MaskOf<N>& locked, Solution<N>& x) {
   x.end = SelectState(locked, x.compression_end, x.end);
 }
 
+// A contact that halts stays where slip has stopped. With v' = 0 slip never stops, and it stays where it was.
+template <typename N>
+HWY_INLINE void Halt(const MaskOf<N>& halts, const Inputs<N>& in, const Path<N>& path, Solution<N>& x) {
+  const N zero = Zero<N>();
+  const MaskOf<N> in_compression = Both(halts, IsNegative(path.v_stop));
+  const MaskOf<N> reaches_stop = Both(path.slips_first, Either(IsPositive(path.first.v), IsNegative(path.first.v)));
+  State<N> at = {zero, zero, in.u0, in.v0};
+  TwiceWork<N> work;
+  Begin(path.first, Select(reaches_stop, -in.u0 / path.first.u, zero), Select(reaches_stop, zero, in.u0),
+        Select(reaches_stop, path.v_stop, in.v0), at, work);
+  x.compression_end = SelectState(in_compression, at, x.compression_end);
+  x.compression = SelectWork(in_compression, work, x.compression);
+  x.stop = SelectState(in_compression, at, x.stop);
+  x.end = SelectState(halts, x.stop, x.end);
+  at = x.compression_end;
+  Begin(path.first, path.v_stop / path.first.v, zero, path.v_stop, at, work);
+  x.restitution = SelectWork(halts, work, x.restitution);
+  x.restitution = SelectWork(in_compression, {zero, zero}, x.restitution);
+  x.rebound.after = Select(halts, zero, x.rebound.after);
+  x.stops_in_compression = Either(x.stops_in_compression, in_compression);
+  x.stops_in_restitution = Both(x.stops_in_restitution, Not(in_compression));
+}
+
+// Ends a course on which W has rank one and some contacts stick. Those whose velocity does not lie in the range of W stick
+// with a v that no impulse changes: they jam if it is below 0, or below what Newton's law asks for.
+template <typename N>
+HWY_INLINE void EndStuck(const MaskOf<N>& stuck, Course<N>& course) {
+  const MaskOf<N> locked = Both(stuck, course.in.u_follows_v);
+  if (InAllLanes(locked)) {
+    course.x.stops_in_restitution = Not(locked);
+  } else {
+    Restore(course.law, course.in, course.path, course.x);
+  }
+  if (!InNoLane(locked)) Lock(locked, course.x);
+  const N& v_stop = course.path.v_stop;
+  MaskOf<N> halts = IsNegative(v_stop);
+  MaskOf<N> jams = halts;
+  if (course.law == RestitutionLaw::kNewton) {
+    const N missing = -course.in.coefficient * course.in.v0 - v_stop;
+    halts = Either(halts, Not(IsNegative(missing)));
+    jams = Either(jams, IsPositive(missing));
+  }
+  halts = Both(stuck, Both(halts, Not(locked)));
+  course.jammed = Both(halts, jams);
+  course.held = Either(locked, course.jammed);
+  if (InNoLane(halts)) return;
+  Halt(halts, course.in, course.path, course.x);
+  // No impulse follows that this slope would move, and bounds on errors divide by it.
+  course.path.second.v = Select(halts, course.in.wnn, course.path.second.v);
+}
+
 // Follows problems of one law, none of which may be separating.
 template <typename N>
 HWY_INLINE Course<N> Follow(RestitutionLaw law, const Inputs<N>& in) {
@@ -428,14 +503,13 @@ HWY_INLINE Course<N> Follow(RestitutionLaw law, const Inputs<N>& in) {
   course.law = law;
   course.in = in;
   course.path = MakePath(course.in);
-  course.locked = Both(in.rank_one, Both(course.path.stops, course.path.sticks));
   Compress(course.in, course.path, course.x);
-  if (InAllLanes(course.locked)) {
-    course.x.stops_in_restitution = Not(course.locked);
-  } else {
+  course.held = course.jammed = Both(in.rank_one, Both(course.path.stops, course.path.sticks));
+  if (InNoLane(course.held)) {
     Restore(law, course.in, course.path, course.x);
+  } else {
+    EndStuck(course.held, course);
   }
-  if (!InNoLane(course.locked)) Lock(course.locked, course.x);
   return course;
 }
 

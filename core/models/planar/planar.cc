@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 
 // Highway prescribes the order of these includes.
 // clang-format off
@@ -18,6 +19,10 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::planar::HWY_NAMESPACE {
 
+// Of an impact that has no end, nothing is known.
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+inline constexpr RoundingErrors kNoErrors = {.velocity = kInfinity, .impulse = kInfinity, .work = kInfinity};
+
 template <typename N>
 HWY_INLINE Impact SolveOne(const Problem& problem) {
   const Course<N> course = Follow<N>(problem.law, MakeInputs<N>(problem));
@@ -27,7 +32,7 @@ HWY_INLINE Impact SolveOne(const Problem& problem) {
 template <typename N>
 HWY_INLINE Impact SolveOne(const Problem& problem, RoundingErrors& errors) {
   const Course<N> course = Follow<N>(problem.law, MakeInputs<N>(problem));
-  errors = ToErrors(CompensatedBounds(course));
+  errors = course.jammed ? kNoErrors : ToErrors(CompensatedBounds(course));
   return Report(problem, course, MakeNumbers(kAllParts, course));
 }
 
@@ -72,7 +77,7 @@ PlainImpact SolvePlainApproaching(const Problem& problem) {
   KeepLimits(keeps_limits, course, numbers);
   return {.impact = Report(problem, course, numbers),
           .errors = ToErrors(PlainBounds(course, errors)),
-          .proved = IsModerateAlone(problem) && PathIsSure(course, errors) &&
+          .proved = IsModerateAlone(problem) && !course.jammed && PathIsSure(course, errors) &&
                     (keeps_limits || LimitsAreSure(course, errors))};
 }
 
@@ -120,7 +125,7 @@ Impact Solve(const Problem& problem) {
 }
 
 Instant At(const Problem& problem, const Impact& impact, double tau) {
-  if (impact.event_count == 0) return {.tau = tau, .u = problem.u0, .v = problem.v0};
+  if (impact.event_count < 2) return {.tau = tau, .u = problem.u0, .v = problem.v0};
   const Instant* end = impact.events.data() + 1;
   while (end < impact.events.data() + impact.event_count - 1 && tau > end->tau) ++end;
   const Instant& begin = end[-1];

@@ -10,7 +10,9 @@
 // regimes. Each output is within 1 ulp of its exact value over the whole range of doubles, except outputs that cancel
 // (docs/theory/planar_numerics.md). The sign of every slope is exact. An exact value above the largest double comes out
 // infinite.
-// The problem must be valid (core/scene/validate.h); in particular, if W has rank one, (u0, v0) lies in its range.
+// If W has rank one and (u0, v0) lies beside its range, a contact that sticks keeps its v. It jams where that does not end
+// the impact: the regime is wedged, the termination refused, and the result is the state reached.
+// The problem must be valid (core/scene/validate.h).
 
 #ifndef RICOCHET_CORE_MODELS_PLANAR_PLANAR_H_
 #define RICOCHET_CORE_MODELS_PLANAR_PLANAR_H_

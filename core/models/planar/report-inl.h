@@ -68,17 +68,21 @@ HWY_INLINE void WriteEvents(const Problem& problem, const Course<N>& course, Imp
   const Solution<N>& x = course.x;
   Instant* next = impact.events.data();
   *next++ = {.kind = EventKind::kStart, .tau = 0.0, .f = 0.0, .u = problem.u0, .v = problem.v0};
+  const bool locked = course.held && !course.jammed;
   const bool stops_at_compression_end = x.stops_in_restitution && !IsPositive(x.stop.v);
-  const bool stops_before =
-      (x.stops_in_compression && course.path.slips_first) || stops_at_compression_end || course.locked;
+  const bool stops_before = (x.stops_in_compression && course.path.slips_first && IsPositive(x.stop.tau)) ||
+                            stops_at_compression_end || locked;
   if (stops_before) *next++ = MakeInstant(EventKind::kSlipStops, x.stop);
-  *next++ = {.kind = EventKind::kCompressionEnds,
-             .tau = impact.tau_compression,
-             .f = impact.f_compression,
-             .u = Out(x.compression_end.u),
-             .v = 0.0};
-  if (!course.locked) {
-    if (x.stops_in_restitution && !stops_at_compression_end) *next++ = MakeInstant(EventKind::kSlipStops, x.stop);
+  if (!(course.jammed && x.stops_in_compression)) {
+    *next++ = {.kind = EventKind::kCompressionEnds,
+               .tau = impact.tau_compression,
+               .f = impact.f_compression,
+               .u = Out(x.compression_end.u),
+               .v = 0.0};
+  }
+  const bool stops_after = x.stops_in_restitution && !stops_at_compression_end;
+  if (stops_after && !locked) *next++ = MakeInstant(EventKind::kSlipStops, x.stop);
+  if (!course.held) {
     *next++ = {.kind = EventKind::kRestitutionEnds, .tau = impact.tau1, .f = impact.f1, .u = impact.u1, .v = impact.v1};
   }
   impact.event_count = static_cast<int>(next - impact.events.data());
@@ -105,7 +109,11 @@ HWY_INLINE RoundedOf<N> RegimeOf(const Course<N>& course) {
   RoundedOf<N> regime = Select(early, in_compression, in_restitution);
   regime = Select(slides, Fill<N>(static_cast<double>(Regime::kSliding)), regime);
   regime = Select(Either(smooth, without_friction), Fill<N>(static_cast<double>(Regime::kFrictionless)), regime);
-  return Select(course.locked, Fill<N>(static_cast<double>(Regime::kLocked)), regime);
+  if (InNoLane(in.rank_one)) return regime;
+  // Friction that moves nothing has an impulse all the same where the surface slips by.
+  const MaskOf<N> rubs = Both(Not(IsPositive(in.wtt)), Either(IsPositive(path.first.f), IsNegative(path.first.f)));
+  regime = Select(Both(in.rank_one, rubs), Fill<N>(static_cast<double>(Regime::kSliding)), regime);
+  return Select(course.held, EitherRegime<N>(course.jammed, Regime::kWedged, Regime::kLocked), regime);
 }
 
 // eta, eta - 1, and whether the latter is positive.
@@ -140,7 +148,7 @@ HWY_INLINE void FindCoefficients(unsigned parts, const Course<N>& course, Number
   }
   numbers.energetic = numbers.energetic_excess = stated;
   FindEnergeticCoefficient(parts, course, numbers);
-  const MaskOf<N> restores = Both(Not(course.locked), IsPositive(course.in.coefficient));
+  const MaskOf<N> restores = Both(Not(course.held), IsPositive(course.in.coefficient));
   if (InAllLanes(restores)) return;
   const RoundedOf<N> zero = Fill<N>(0.0);
   numbers.newton = Select(restores, numbers.newton, zero);
@@ -202,13 +210,14 @@ template <typename N>
 HWY_INLINE Impact Report(const Problem& problem, const Course<N>& course, const Numbers<N>& numbers) {
   Impact impact;
   impact.regime = static_cast<Regime>(static_cast<int>(RegimeOf(course)));
+  if (course.jammed) impact.termination = Termination::kRefused;
   impact.w_rank = course.in.rank_one ? 1 : 2;
   impact.sharp_limit_broken = numbers.sharp_limit_broken;
   impact.energy_limit_broken = numbers.energy_limit_broken;
   impact.newton = numbers.newton;
   impact.poisson = numbers.poisson;
   impact.energetic = numbers.energetic;
-  impact.tangential = numbers.tangential;
+  impact.tangential = course.jammed && !IsPositive(course.x.end.tau) ? 0.0 : numbers.tangential;
   impact.energetic_excess = numbers.energetic_excess;
   impact.u1 = numbers.u1;
   impact.v1 = numbers.v1;

@@ -108,7 +108,7 @@ HWY_INLINE M TwiceMoved(const Solution<N>& x) {
 // The error of v where slip stops. It is exact where no difference is computed.
 template <typename N, typename M = CoarseOf<N>>
 HWY_INLINE M StopError(const Course<N>& course) {
-  const MaskOf<M> is_computed = Both(Not(course.in.rank_one), course.path.slips_first);
+  const MaskOf<M> is_computed = Both(Not(course.in.u_follows_v), course.path.slips_first);
   if (InNoLane(is_computed)) return Zero<M>();
   const M v_stop = Coarse(course.path.v_stop);
   const M error = Times(2.0, Abs(v_stop - Coarse(course.in.v0))) + Times(3.0, Abs(v_stop));
@@ -123,7 +123,7 @@ HWY_INLINE M WithEnergyChange(const Course<N>& course, const EndErrors<M>& end, 
   const M tau = Coarse(at.tau);
   const M u_sum = Abs(u0 + Coarse(at.u));
   const M v_sum = Abs(Coarse(course.in.v0) + Coarse(at.v));
-  const M u_errors = Select(course.in.rank_one, end.u + Times(2.0, Abs(u0)), end.u);
+  const M u_errors = Select(course.in.u_follows_v, end.u + Times(2.0, Abs(u0)), end.u);
   const M change =
       u_sum * (end.f + Times(3.0, f_path)) + f_path * u_errors + v_sum * (end.tau + Times(3.0, tau)) + tau * end.v;
   return Larger(works, change);
@@ -148,10 +148,13 @@ HWY_INLINE EndErrors<M> StraightErrors(const Course<N>& course) {
   errors.v = Times(in_v1, v1);
   const M u_errors = Times(2.0, Abs(u_c - Coarse(course.in.u0))) + Times(3.0, Abs(u_c)) +
                      Times(in_step + 2.0, Abs(u1 - u_c)) + Abs(u1);
-  errors.u = Select(course.in.rank_one, Zero<M>(), u_errors);
+  errors.u = Select(course.in.u_follows_v, Zero<M>(), u_errors);
+  // At rank one u' has two roundings more.
+  const MaskOf<N> has_more = Both(course.in.rank_one, Not(course.in.u_follows_v));
+  if (!InNoLane(has_more)) errors.u = errors.u + Select(has_more, Times(2.0, Abs(u1 - u_c)), Zero<M>());
   errors.works = Times(36.0, TwiceMoved(x));
   errors.decisive = errors.decisive_error = Zero<M>();
-  const MaskOf<M> may_stop = Both(course.path.stops, Not(course.in.rank_one));
+  const MaskOf<M> may_stop = Both(course.path.stops, Not(course.in.u_follows_v));
   if (!InNoLane(may_stop)) {
     errors.decisive = Select(may_stop, Coarse(course.path.v_stop) - v1, errors.decisive);
     errors.decisive_error = Select(may_stop, StopError(course) + errors.v, errors.decisive_error);

@@ -180,7 +180,15 @@ Impact<kTangential> Solve(const Problem<kTangential>& problem) {
   impact.energy_change += 0.5 * Dot(last.f, Sum(start.u, last.u));
   const double friction_gives = impact.work_tangential_compression + impact.work_tangential_restitution;
   impact.energy_limit_broken = friction_gives > 0.0 && impact.energy_change > 0.0;
+  const double moved = impact.work_normal_restitution - impact.work_normal_compression;
+  impact.friction_limit_broken = friction_gives > 16.0 * std::numeric_limits<double>::epsilon() * moved;
   return impact;
+}
+
+template <size_t kTangential>
+bool FrictionPushes(const Problem<kTangential>& problem) {
+  const Slopes<kTangential> slopes = SlidingSlopes(problem);
+  return Dot(problem.u0, Sum(problem.u0, EndOf(problem, slopes.u, slopes.v).u1)) < 0.0;
 }
 
 template <size_t kTangential>
@@ -219,6 +227,8 @@ template RelativeErrors FrictionlessErrorsOf(const Problem<1>&);
 template RelativeErrors FrictionlessErrorsOf(const Problem<2>&);
 template Impact<1> Solve(const Problem<1>&);
 template Impact<2> Solve(const Problem<2>&);
+template bool FrictionPushes(const Problem<1>&);
+template bool FrictionPushes(const Problem<2>&);
 template Impact<1> SolveFrictionless(const Problem<1>&);
 template Impact<2> SolveFrictionless(const Problem<2>&);
 template Instant<1> At(const Impact<1>&, double);

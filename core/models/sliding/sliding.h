@@ -70,8 +70,8 @@ RelativeErrors FrictionlessErrorsOf(const Problem<kTangential>& problem);
 template <size_t kTangential>
 using Instant = ImpactInstant<Vector<kTangential>>;
 
-// The sharp limit is never broken, because c <= 1. The limit of energy is broken only where the caller excludes that
-// slip stops: friction then drives slip backwards, and may give more energy than restitution takes.
+// The sharp limit is never broken, because c <= 1. The limits of friction and of energy are broken only where the caller
+// excludes that slip stops: friction then drives slip backwards, and may give more energy than restitution takes.
 template <size_t kTangential>
 struct Impact : ImpactEnd<Vector<kTangential>> {
   std::array<Instant<kTangential>, 3> events = {};  // the start, the ends of compression and of restitution
@@ -80,6 +80,9 @@ struct Impact : ImpactEnd<Vector<kTangential>> {
 
 template <size_t kTangential>
 Impact<kTangential> Solve(const Problem<kTangential>& problem);
+// True if slip would reverse so far that friction along the first slip does positive work.
+template <size_t kTangential>
+bool FrictionPushes(const Problem<kTangential>& problem);
 template <size_t kTangential>
 Impact<kTangential> SolveFrictionless(const Problem<kTangential>& problem);
 

@@ -155,7 +155,7 @@ void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
   settles_ = sum_.friction == T{0} ? T{0}
              : margin > T{0}       ? sum_.friction / (problem_.smallest_root * margin)
                                    : kInfinity<T>;
-  locks_ = sticking.v_slope == T{0};
+  locks_ = problem_.Locks(sticking);
   if (locks_) sum_.friction = T{0};
   if (locks_) return;
   // A stop at the wrong impulse leaves in v the difference of the two slopes times the error of that impulse.

@@ -73,7 +73,7 @@ struct Slopes {
 template <typename T>
 struct Sticking {
   T f1, f2;
-  T v_slope;   // dv/dtau; 0 where friction and the joints lock the body.
+  T v_slope;   // dv/dtau; 0 where W has the same rank as Wtt.
   bool holds;  // The friction impulse lies within the cone of static friction.
 };
 
@@ -97,6 +97,8 @@ struct Matrix {
   }
   bool HasNoTangentialMobility() const { return w11 == T{0} && w22 == T{0}; }
   Sticking<T> Stick(T mu_static) const;
+  // The direction d of a singular Wtt = trace d d^T.
+  Direction<T> TangentDirection() const { return w11 >= w22 ? Normalized(w11, w12) : Normalized(w12, w22); }
   // The one direction e in which slip grows from a stop: -mu Wtt e + wtn = h e with h > 0. It exists if the contact
   // cannot stick, |Wtt^-1 wtn| > mu.
   Direction<T> Restart(T mu) const;

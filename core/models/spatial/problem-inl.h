@@ -17,6 +17,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/contact/reduction.h"
 #include "core/models/restitution_law.h"
 #include "core/models/spatial/matrix-inl.h"
 #include "core/models/spatial/spatial.h"
@@ -88,7 +89,10 @@ struct ScaledProblem : Contact<T> {
   // The direction near that of `frame` in which slip does not turn and which attracts its neighbours, if there is one.
   std::optional<Direction<T>> AttractingDirectionNear(const Frame<T>& frame) const;
 
-  bool HasNoFriction() const { return mu == T{0} || w.HasNoTangentialMobility(); }
+  bool HasNoFriction() const { return mu == T{0} || (w.HasNoTangentialMobility() && u1 == T{0} && u2 == T{0}); }
+  // Where friction and the joints lock the body, u and v vanish together. Beside the range of W they do not: a contact that
+  // sticks keeps its v.
+  bool Locks(const Sticking<T>& sticking) const { return sticking.v_slope == T{0} && velocity_in_range; }
 
   // Conversions to the units of the caller; adding 0.0 turns -0 into 0.
   double Velocity(T value) const { return static_cast<double>(velocity_unit * value) + 0.0; }
@@ -100,7 +104,8 @@ struct ScaledProblem : Contact<T> {
   T mu_static;
   RestitutionLaw law;
   T coefficient;
-  bool may_jam;  // dv/dtau < 0 is possible.
+  bool may_jam;            // dv/dtau < 0 is possible.
+  bool velocity_in_range;  // (u0, v0) lies in the range of W.
 };
 
 template <typename T>
@@ -126,10 +131,14 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
   velocity = std::max(std::sqrt(u1 * u1 + u2 * u2), std::fabs(v));
   rate = mu * largest + coupling;
   largest_root = std::sqrt(largest);
-  smallest_root = std::sqrt(std::max(w.TangentDeterminant() / largest, kEpsilon<T> * largest));
+  // Where Wtt = 0 friction moves nothing, and any number serves.
+  smallest_root =
+      largest > T{0} ? std::sqrt(std::max(w.TangentDeterminant() / largest, kEpsilon<T> * largest)) : T{1};
   normal_root = std::sqrt(w.w33);
   steepest = w.w33 + mu * coupling;
   may_jam = mu * coupling >= w.w33;
+  velocity_in_range =
+      rank == 3 || VelocityIsInRange(SpatialReduction{.w = problem.Delassus().w, .u0 = problem.u0, .v0 = problem.v0});
 }
 
 template <typename T>

@@ -31,7 +31,7 @@ double Share(T value, T whole) {
 // The coefficient that the caller stated is in the report to the last bit.
 template <typename T>
 void StateCoefficient(const ScaledProblem<T>& problem, const Path<T>& path, Impact& impact) {
-  if (impact.regime == Regime::kLocked) return;
+  if (impact.regime == Regime::kLocked || !path.ended) return;
   const auto coefficient = static_cast<double>(problem.coefficient);
   switch (problem.law) {
     case RestitutionLaw::kNewton:
@@ -82,6 +82,8 @@ Impact MakeImpact(const ScaledProblem<T>& problem, const Path<T>& path, T estima
   impact.energetic = std::sqrt(std::max(0.0, internal::Share(-restitution_work, path.compression_work)));
   impact.energetic_excess =
       internal::Share(-(restitution_work + path.compression_work), path.compression_work) / (1.0 + impact.energetic);
+  // A path without an end has no coefficients of restitution.
+  if (!path.ended) impact.newton = impact.poisson = impact.energetic = 0.0, impact.energetic_excess = -1.0;
   impact.tangential = internal::Share(std::sqrt(f1 * f1 + f2 * f2), tau);
   const T work_error = estimate * problem.velocity * (tau + std::fabs(f1) + std::fabs(f2));
   impact.energy_limit_broken = energy_change > work_error;

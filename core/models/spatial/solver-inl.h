@@ -74,6 +74,8 @@ class Solver {
 
   bool SlipKeepsItsDirection() const;
   bool SwitchToStraight(const Heading<T>& heading);
+  bool StandsAlong(const Direction<T>& e) const;
+  void StandSlipAlong(const Direction<T>& e);
   void TurnSlipTo(const Direction<T>& e);
 
   const T tolerance_;
@@ -129,7 +131,7 @@ Impact Solver<T>::Report() const {
 template <typename T>
 bool Solver<T>::SlipKeepsItsDirection() const {
   constexpr T kInvariant = T{8} * kEpsilon<T>;
-  return problem_.w.tangent_is_singular ||
+  return (problem_.w.tangent_is_singular && problem_.velocity_in_range) ||
          std::fabs(problem_.FrameAt(Normalized(state_.u1, state_.u2)).Turn()) <= kInvariant;
 }
 
@@ -164,9 +166,42 @@ template <typename T>
 bool Solver<T>::SwitchToStraight(const Heading<T>& heading) {
   const auto attracting = problem_.AttractingDirectionNear(heading.frame);
   if (!attracting.has_value()) return false;
-  TurnSlipTo(*attracting);
+  if (!problem_.w.tangent_is_singular) {
+    TurnSlipTo(*attracting);
+  } else if (StandsAlong(*attracting)) {
+    StandSlipAlong(*attracting);
+    SlideStanding(impact_, *attracting);
+    return true;
+  }
   SlideStraight(impact_, *attracting);
   return true;
+}
+
+// True if slip along e, which does not turn, does not change its size either. That is so where Wtt is singular and e is not
+// its direction.
+template <typename T>
+bool Solver<T>::StandsAlong(const Direction<T>& e) const {
+  const Frame<T> frame = problem_.FrameAt(e);
+  return std::fabs(frame.a11 + frame.w1) <= T{1e-10};
+}
+
+// Turns slip to the direction e, along which it stands, by an impulse along the direction d of Wtt. The part of slip across d
+// is beyond the reach of any impulse.
+template <typename T>
+void Solver<T>::StandSlipAlong(const Direction<T>& e) {
+  const Matrix<T>& w = problem_.w;
+  const Direction<T> d = w.TangentDirection();
+  const T across = d.c * state_.u2 - d.s * state_.u1;
+  const T along = d.c * state_.u1 + d.s * state_.u2;
+  const T change = across * (d.c * e.c + d.s * e.s) / (d.c * e.s - d.s * e.c) - along;
+  const T df = change / (w.w11 + w.w22);
+  impact_.errors.AddTurn(df * d.c, df * d.s);
+  state_.friction_work += df * (along + T{0.5} * change);
+  state_.f1 += df * d.c;
+  state_.f2 += df * d.s;
+  state_.u1 += change * d.c;
+  state_.u2 += change * d.s;
+  state_.v += (w.w13 * d.c + w.w23 * d.s) * df;
 }
 
 // Turns slip to the direction e by a friction impulse, so that the state remains one to which impulses lead.

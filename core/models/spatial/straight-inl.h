@@ -52,6 +52,7 @@ void Advance(Progress<T>& impact, const StraightPiece<T>& piece, T length) {
     case Motion::kSticks:
       return impact.errors.AddStick(length, state.v);
     case Motion::kIsFree:
+      state.friction_work += length * (piece.f1 * state.u1 + piece.f2 * state.u2);
       return impact.errors.AddFree(length, state.v);
   }
 }
@@ -90,7 +91,7 @@ void FollowSlip(Progress<T>& impact, const Direction<T>& e) {
   // Where friction and the joints will lock the body, v vanishes with u, and rounding must not let it come first.
   if (!impact.path.in_restitution && growth < T{0} && problem.w.rank < 3) {
     const Sticking<T> sticking = problem.w.Stick(problem.mu_static);
-    piece.ends_locked = sticking.holds && sticking.v_slope == T{0};
+    piece.ends_locked = sticking.holds && problem.Locks(sticking);
   }
   impact.errors.SetSlopesOfSlip(piece.slopes);
   Follow(impact, piece);
@@ -109,7 +110,7 @@ void EndLocked(Progress<T>& impact) {
 template <typename T>
 void FollowStick(Progress<T>& impact, const Sticking<T>& sticking) {
   impact.errors.Stick(sticking);
-  if (sticking.v_slope == T{0}) return EndLocked(impact);
+  if (impact.problem.Locks(sticking)) return EndLocked(impact);
   impact.path.SetRegime(Regime::kStickInCompression, Regime::kStickInRestitution);
   Follow<T>(impact, {.motion = Motion::kSticks,
                      .slopes = {T{0}, T{0}, sticking.v_slope},
@@ -144,7 +145,24 @@ void SlideStraight(Progress<T>& impact, const Direction<T>& e) {
   if (!impact.path.ended) ContinueFromStop(impact);
 }
 
-// Follows a contact without a friction impulse. It may stick if its slip happens to vanish.
+// Follows slip along e that stands still, as it does where Wtt is singular and part of the slip is beyond the reach of any
+// impulse: friction along the direction of Wtt balances wtn, as in a contact that sticks. Where v' = 0, too, and v < 0, the
+// contact has jammed, and the path does not end.
+template <typename T>
+void SlideStanding(Progress<T>& impact, const Direction<T>& e) {
+  const ScaledProblem<T>& problem = impact.problem;
+  const Slopes<T> slopes = {T{0}, T{0}, problem.w.Stick(problem.mu_static).v_slope};
+  impact.errors.AddSlipRounding(impact.path.state.Slip());
+  impact.errors.SetSlopesOfSlip(slopes);
+  internal::Follow<T>(impact, {.motion = Motion::kSlips,
+                               .slopes = slopes,
+                               .e = e,
+                               .f1 = -problem.mu * e.c,
+                               .f2 = -problem.mu * e.s,
+                               .length = kInfinity<T>});
+}
+
+// Follows a contact whose slip no friction changes. It may stick if its slip happens to vanish.
 template <typename T>
 void SlideFreely(Progress<T>& impact) {
   const Matrix<T>& w = impact.problem.w;
@@ -152,11 +170,13 @@ void SlideFreely(Progress<T>& impact) {
   const T cross = state.u1 * w.w23 - state.u2 * w.w13;
   const T along = state.u1 * w.w13 + state.u2 * w.w23;
   if (cross == T{0} && along < T{0}) return SlideStraight(impact, Normalized(state.u1, state.u2));
+  const T slip = state.Slip();
+  const T friction = slip > T{0} ? impact.problem.mu / slip : T{0};
   internal::Follow<T>(impact, {.motion = Motion::kIsFree,
                                .slopes = {w.w13, w.w23, w.w33},
                                .e = {T{0}, T{0}},
-                               .f1 = T{0},
-                               .f2 = T{0},
+                               .f1 = -friction * state.u1,
+                               .f2 = -friction * state.u2,
                                .length = kInfinity<T>});
 }
 

@@ -493,7 +493,8 @@ TEST(SceneEnclosureTest, SaysWhyAFieldHasNoRange) {
       {"restitution.by_speed.power_law.alpha", "bounds hold for every coefficient of restitution"},
       {"friction.by_speed.power_law.alpha", "an enclosure takes friction.by_speed as it stands"},
       {"surface_velocity.normal_m_s",
-       "with the surface in motion next to no velocity would be in the range of W, whose rank is one"}};
+       "an enclosure covers velocities in the range of a W of rank one, and the surface's motion takes them out of "
+       "it"}};
   for (const auto& [path, reason] : refusals) {
     EXPECT_THAT(
         Refused(scene, {{path, 0.5, 0.6}}),

@@ -5,8 +5,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/contact/reduction.h"
@@ -321,8 +325,31 @@ TEST(SceneOutcomeTest, BrachThatPushesCreatesEnergyAndIsFlagged) {
   const Outcome outcome = Solved(LawScene(BrachLaw{1.0, 2.0}));
   EXPECT_GT(outcome.energy_change_j, 0.0);
   EXPECT_FALSE(outcome.admissible);
-  ASSERT_THAT(outcome.broken_limits, SizeIs(1));
+  ASSERT_THAT(outcome.broken_limits, SizeIs(2));
   EXPECT_EQ(outcome.broken_limits[0].kind, LimitKind::kEnergy);
+  EXPECT_EQ(outcome.broken_limits[1].kind, LimitKind::kFriction);
+  EXPECT_EQ(outcome.broken_limits[1].value, outcome.work.tangential_total_j);
+  EXPECT_GT(outcome.work.tangential_total_j, 0.0);
+}
+
+// f = tau1/2 = 1/7 along a slip that goes from -1 to 1/2 on average: (1/7) (-1/2)/2 < 0; mu_hat = -1/2 gives the opposite sign.
+TEST(SceneOutcomeTest, FrictionThatPushesIsFlaggedByEveryLawAndFrictionThatBrakesByNone) {
+  const PlanarContact pendulum = {1.0, 4.0, 16.0, -1.0, -4.0};
+  const auto limits = [&](const ImpactLaw& law) {
+    Scene scene = With(pendulum, 0.5, std::monostate());
+    scene.impact_law = law;
+    std::vector<LimitKind> kinds;
+    for (const BrokenLimit& limit : Solved(scene).broken_limits) kinds.push_back(limit.kind);
+    return kinds;
+  };
+  EXPECT_THAT(limits(BrachLaw{0.5, 0.5}), IsEmpty());
+  EXPECT_THAT(limits(BrachLaw{0.5, -0.5}), ElementsAre(LimitKind::kFriction));
+  EXPECT_THAT(limits(WhittakerLaw{0.5}), IsEmpty());
+  // The law's friction opposes the slip after the impact, which has reversed: it pushes along the slip before.
+  EXPECT_THAT(limits(KaneLevinsonLaw{0.5}), ElementsAre(LimitKind::kFriction));
+  // At e = 1 the mean slip is 0, but for rounding.
+  EXPECT_THAT(limits(KaneLevinsonLaw{1.0}), IsEmpty());
+  EXPECT_THAT(limits(WhittakerLaw{2.0}), ElementsAre(LimitKind::kEnergy, LimitKind::kFriction));
 }
 
 TEST(SceneOutcomeTest, EachLawHoldsItsNewtonCoefficient) {
@@ -346,13 +373,310 @@ TEST(SceneOutcomeTest, ALawWithoutASolutionSaysSoAndChangesNothing) {
   EXPECT_EQ(outcome.contact_velocity_after.normal_m_s, -1.0);
 }
 
-TEST(SceneOutcomeTest, KaneAndLevinsonListEverySolutionWhereThereAreSeveral) {
+TEST(SceneOutcomeTest, KaneAndLevinsonTakeTheImpulseThatBrakesAndGiveTheEndsOfTheRange) {
   Scene scene = With(PlanarContact{4.0, 2.0, 1.0, -2.0, -1.0}, 0.3, std::monostate());
   scene.impact_law = KaneLevinsonLaw{0.0};  // W has rank one, so that any impulse of the cone ends the approach.
   const Outcome outcome = Solved(scene);
+  // tau1 = 1/(1 + .6) and f = .3 tau1 against u0 = -2; the other end is tau1 = 1/(1 - .6), f = -.3 tau1.
+  EXPECT_NEAR(outcome.impulse.tangential_n_s[0], 0.1875, kTight);
+  EXPECT_NEAR(outcome.work.tangential_total_j, -0.1875, kTight);
+  EXPECT_TRUE(outcome.admissible);
   ASSERT_THAT(outcome.alternatives, SizeIs(2));
+  EXPECT_TRUE(outcome.alternatives_are_ends);
+  EXPECT_NEAR(outcome.alternatives[0].impulse.tangential_n_s[0], -0.75, kTight);
+  EXPECT_NEAR(outcome.alternatives[1].impulse.tangential_n_s[0], 0.1875, kTight);
   EXPECT_EQ(outcome.alternatives[0].contact_velocity_after, outcome.contact_velocity_after);
-  EXPECT_NE(outcome.alternatives[0].impulse, outcome.alternatives[1].impulse);
+  ASSERT_THAT(outcome.notes, SizeIs(1));
+  EXPECT_EQ(outcome.notes[0].kind, NoteKind::kManySolutions);
+  EXPECT_THAT(outcome.notes[0].text, HasSubstr("from f = -0.75"));
+}
+
+// A plan that leaves out the stop of slip may let slip reverse, but not so far that friction gives energy.
+TEST(SceneOutcomeTest, NoPlanLetsFrictionPushUnlessTheCallerExcludesThatSlipStops) {
+  std::mt19937_64 random(26);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  int sliding = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    const double t = uniform(0.1, 2.0);
+    const double n = uniform(0.1, 2.0);
+    const PlanarContact contact = {t * t, t * n * uniform(-0.5, 0.5), n * n, uniform(-0.2, 0.2), -uniform(0.5, 2.0)};
+    SolveRequest request = {.scene = With(contact, uniform(0.0, 0.3), EnergeticCoefficient{uniform(0.0, 1.0)}),
+                            .demand = {.relative_tolerance = std::pow(10.0, uniform(-3.0, -1.0))}};
+    const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(request);
+    ASSERT_TRUE(response.ok()) << response.status();
+    ASSERT_TRUE(response->outcome.admissible);
+    ASSERT_GE(response->outcome.work.friction_dissipation_j, -1e-15);
+    sliding += response->outcome.plan.model == Model::kSliding ? 1 : 0;
+    const bool slides_straight =
+        request.scene.friction.kinetic_coefficient * std::fabs(contact.w_tn_per_kg) < 0.5 * n * n;
+    if (i % 10 != 0 || !slides_straight) continue;
+    request.demand.excluded = {Effect::kSlipStop};
+    const absl::StatusOr<SolveResponse> forced = LocalSolver().Solve(request);
+    ASSERT_TRUE(forced.ok()) << forced.status();
+    const auto& limits = forced->outcome.broken_limits;
+    const bool is_flagged =
+        std::any_of(limits.begin(), limits.end(), [](const auto& one) { return one.kind == LimitKind::kFriction; });
+    ASSERT_EQ(is_flagged, forced->outcome.work.tangential_total_j > 1e-14) << forced->outcome.work.tangential_total_j;
+  }
+  EXPECT_GT(sliding, 100);
+}
+
+// ---- Surfaces in motion that a mechanism with one joint cannot follow ----
+
+Scene OnConveyor(double mu, double normal_m_s, const Restitution& restitution) {
+  Scene scene = With(Pendulum{1.0, 0.3, 1.0, -1.0}, mu, restitution);
+  scene.surface_velocity = SurfaceVelocity{{0.0}, normal_m_s};
+  return scene;
+}
+
+// u0 = -1, v0 = -.6, Wnn = .09: tau1 = 1.8 (.6/.09) = 12, v+ = .48, w+ = -1 + .3 12 = 2.6.
+TEST(SceneOutcomeTest, APendulumStrikesASurfaceThatRises) {
+  const Outcome outcome = Solved(OnConveyor(0.0, 0.3, EnergeticCoefficient{0.8}));
+  EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, 0.48, kTight);
+  EXPECT_NEAR(outcome.rates_after_rad_s[0], 2.6, 4 * kTight);
+  EXPECT_EQ(outcome.w_rank, 1);
+  EXPECT_EQ(outcome.termination, Termination::kConverged);
+}
+
+// Slip stops at tau = 2.5, v = -.3, and reverses: v' = .06, u' = .2. Compression ends at 7.5 with u = 1, Wc = -(2.25 + 1.5)/2.
+// Restitution: v+ = sqrt(.06 2 .64 1.5), tau1 = 7.5 + v+/.06.
+TEST(SceneOutcomeTest, SlipReversesBeneathAPendulumOnARisingSurface) {
+  const Outcome outcome = Solved(OnConveyor(0.1, 0.3, EnergeticCoefficient{0.8}));
+  EXPECT_EQ(outcome.regime, Regime::kReversalInCompression);
+  EXPECT_NEAR(*outcome.work.normal_compression_j, -1.875, kTight);
+  const double v = std::sqrt(0.06 * 2.0 * 0.64 * 1.875);
+  EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, v, kTight);
+  EXPECT_NEAR(outcome.impulse.normal_total_n_s, 7.5 + v / 0.06, 16 * kTight);
+  EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[0], 1.0 + v / 0.3, 4 * kTight);
+}
+
+// mu Wtn = Wnn: slip stops at tau = 1/.6 with v = -.3, and the surface goes on rising at that speed.
+TEST(SceneOutcomeTest, APendulumThatFrictionHoldsAgainstARisingSurfaceJams) {
+  const Outcome outcome = Solved(OnConveyor(0.31, 0.3, EnergeticCoefficient{0.8}));
+  EXPECT_EQ(outcome.regime, Regime::kWedged);
+  EXPECT_EQ(outcome.termination, Termination::kRefused);
+  EXPECT_EQ(outcome.accuracy.relative_error, INFINITY);
+  EXPECT_EQ(outcome.contact_velocity_after.tangential_m_s[0], 0.0);
+  EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, -0.3, kTight);
+  EXPECT_NEAR(outcome.impulse.normal_total_n_s, 1.0 / 0.61, kTight);
+  EXPECT_NEAR(outcome.rates_after_rad_s[0], 0.0, kTight);
+  EXPECT_EQ(outcome.coefficients.newton, 0.0);
+  ASSERT_THAT(outcome.notes, SizeIs(1));
+  EXPECT_EQ(outcome.notes[0].kind, NoteKind::kUndetermined);
+  EXPECT_THAT(outcome.notes[0].text, HasSubstr("while it approaches at 0.3"));
+  EXPECT_THAT(LocalSolver().Bounds({.scene = OnConveyor(0.31, 0.3, std::monostate())}).status().message(),
+              HasSubstr("has no end"));
+}
+
+// v0 = -.2: v' = .183, u' = .61. Compression ends at .2/.183; slip stops at 1/.61 with v = .1, which friction then keeps.
+TEST(SceneOutcomeTest, APendulumThatFrictionHoldsOnAFallingSurfacePartsAtTheSpeedOfTheSurface) {
+  const double tau_c = 0.2 / 0.183;
+  const Outcome poisson = Solved(OnConveyor(0.31, -0.1, PoissonCoefficient{0.8}));
+  EXPECT_EQ(poisson.regime, Regime::kStickInRestitution);
+  EXPECT_NEAR(poisson.contact_velocity_after.normal_m_s, 0.1, kTight);
+  EXPECT_NEAR(poisson.impulse.normal_total_n_s, 1.8 * tau_c, kTight);
+  const Outcome energetic = Solved(OnConveyor(0.31, -0.1, EnergeticCoefficient{0.8}));
+  EXPECT_NEAR(energetic.contact_velocity_after.normal_m_s, 0.1, kTight);
+  const double stop = 1.0 / 0.61;
+  EXPECT_NEAR(energetic.impulse.normal_total_n_s, stop + (0.64 * 0.1 * tau_c - 0.05 * (stop - tau_c)) / 0.1,
+              4 * kTight);
+  // Newton's coefficient asks for v = .16, which no impulse gives.
+  const Outcome newton = Solved(OnConveyor(0.31, -0.1, NewtonCoefficient{0.8}));
+  EXPECT_EQ(newton.termination, Termination::kRefused);
+  EXPECT_THAT(newton.notes[0].text, HasSubstr("while it parts at"));
+}
+
+// Without finite forces and rigid along t, an impact that takes time ends as one that takes none, for any spring. A tangential
+// compliance of 1e-6 of the normal one changes velocities by a small multiple of its root.
+TEST(SceneOutcomeTest, SpringsAgreeWithRigidContactBesideTheRange) {
+  int jams = 0;
+  for (const double mu : {0.0, 0.1, 0.2, 0.31, 0.6}) {
+    for (const double normal : {0.3, 0.05, -0.1}) {
+      for (const double tangential : {-2.0, -0.5, 0.5}) {
+        Scene scene = OnConveyor(mu, normal, EnergeticCoefficient{0.8});
+        scene.surface_velocity->tangential_m_s = {tangential};
+        const Outcome rigid = Solved(scene);
+        const std::string what = testing::PrintToString(std::vector<double>{mu, normal, tangential});
+        scene.compliance = Compliance{.normal = LinearSpring{1e4}};
+        const absl::StatusOr<SolveResponse> timed =
+            LocalSolver().Solve({.scene = scene, .demand = {.required = {Effect::kFiniteDuration}}});
+        ASSERT_TRUE(timed.ok()) << timed.status();
+        scene.compliance = Compliance{.tangential_ratio_squared = 1e-6};
+        const Outcome compliant = Solved(scene);
+        if (rigid.termination != Termination::kConverged) {
+          ++jams;
+          EXPECT_NE(timed->outcome.termination, Termination::kConverged) << what;
+          EXPECT_NE(compliant.termination, Termination::kConverged) << what;
+          continue;
+        }
+        for (const auto& [outcome, tolerance] : {std::pair(timed->outcome, 1e-9), std::pair(compliant, 0.05)}) {
+          EXPECT_EQ(outcome.termination, Termination::kConverged) << what;
+          EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, rigid.contact_velocity_after.normal_m_s, tolerance)
+              << what;
+          EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[0], rigid.contact_velocity_after.tangential_m_s[0],
+                      tolerance)
+              << what;
+          EXPECT_NEAR(outcome.work.residual_j, 0.0, 1e-9) << what;
+        }
+      }
+    }
+  }
+  EXPECT_GT(jams, 3);
+}
+
+// A slider on a guide along n: the surface passes below it, and friction rubs without moving it.
+TEST(SceneOutcomeTest, FrictionRubsOnASliderThatItCannotMove) {
+  const Outcome outcome = Solved(With(PlanarContact{0.0, 0.0, 1.0, 2.0, -1.0}, 0.3, EnergeticCoefficient{0.5}));
+  EXPECT_EQ(outcome.regime, Regime::kSliding);
+  EXPECT_EQ(outcome.contact_velocity_after.tangential_m_s[0], 2.0);
+  EXPECT_NEAR(outcome.impulse.tangential_n_s[0], -0.45, kTight);
+  EXPECT_NEAR(outcome.work.friction_dissipation_j, 0.9, kTight);
+  EXPECT_NEAR(outcome.energy_change_j, -0.9 - 0.375, kTight);
+  EXPECT_THAT(outcome.notes, IsEmpty());
+}
+
+TEST(SceneOutcomeTest, FrictionThatCouldBeAnyIsNamed) {
+  const Outcome contact = Solved(With(PlanarContact{0.0, 0.0, 1.0, 0.0, -1.0}, 0.3, EnergeticCoefficient{0.5}));
+  ASSERT_THAT(contact.notes, SizeIs(1));
+  EXPECT_EQ(contact.notes[0].path, "impulse.tangential_n_s");
+  EXPECT_THAT(Solved(With(Pendulum{1.0, 1.0, 0.0, -1.0}, 0.3, EnergeticCoefficient{0.5})).notes, SizeIs(1));
+  EXPECT_THAT(Solved(With(Pendulum{1.0, 1.0, 0.0, -1.0}, 0.0, EnergeticCoefficient{0.5})).notes, IsEmpty());
+}
+
+// ---- In space ----
+
+// W = diag(1, 0, 1): u2 = .5 stays, v' = 1, and u1' = -mu u1/|u|, so that F(u) = sqrt(u^2 + .25) - .5 asinh(.5/u) falls by mu
+// tau1 = .45.
+TEST(SceneOutcomeTest, SlipThatNoImpulseReachesGoesOnInSpace) {
+  const Outcome outcome =
+      Solved(With(SpatialContact{{1, 0, 0, 0, 0, 1}, {1.0, 0.5}, -1.0}, 0.3, EnergeticCoefficient{0.5}));
+  const auto f = [](double u) { return std::sqrt(u * u + 0.25) - 0.5 * std::asinh(0.5 / u); };
+  EXPECT_EQ(outcome.termination, Termination::kConverged);
+  EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, 0.5, 1e-11);
+  EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[1], 0.5, 1e-11);
+  EXPECT_NEAR(f(outcome.contact_velocity_after.tangential_m_s[0]), f(1.0) - 0.45, 1e-10);
+  EXPECT_EQ(outcome.w_rank, 2);
+}
+
+TEST(SceneOutcomeTest, FrictionRubsOnASliderInSpace) {
+  for (const double u2 : {0.0, 1.5}) {
+    const Outcome outcome =
+        Solved(With(SpatialContact{{0, 0, 0, 0, 0, 1}, {2.0, u2}, -1.0}, 0.3, EnergeticCoefficient{0.5}));
+    const double slip = std::hypot(2.0, u2);
+    EXPECT_EQ(outcome.regime, Regime::kSliding);
+    EXPECT_LE(outcome.accuracy.relative_error, 1e-12);
+    EXPECT_NEAR(outcome.impulse.tangential_n_s[0], -0.45 * 2.0 / slip, kTight);
+    EXPECT_NEAR(outcome.impulse.tangential_n_s[1], -0.45 * u2 / slip, kTight);
+    EXPECT_NEAR(outcome.work.friction_dissipation_j, 0.45 * slip, kTight);
+  }
+}
+
+// The pendulum of the plane above, seen in space along a slanted t.
+TEST(SceneOutcomeTest, APlanarMechanismBesideItsRangeIsTheSameInSpace) {
+  const double c = 0.6, s = 0.8;
+  for (const double mu : {0.0, 0.1, 0.31}) {
+    for (const double v0 : {-0.6, -0.2}) {
+      const Outcome plane = Solved(With(PlanarContact{1.0, 0.3, 0.09, -1.0, v0}, mu, EnergeticCoefficient{0.8}));
+      const Outcome space = Solved(With(SpatialContact{{c * c, c * s, 0.3 * c, s * s, 0.3 * s, 0.09}, {-c, -s}, v0}, mu,
+                                        EnergeticCoefficient{0.8}));
+      EXPECT_EQ(space.regime, plane.regime) << mu << " " << v0;
+      EXPECT_EQ(space.termination, plane.termination) << mu << " " << v0;
+      const double u = plane.contact_velocity_after.tangential_m_s[0];
+      EXPECT_NEAR(space.contact_velocity_after.tangential_m_s[0], c * u, 1e-11) << mu << " " << v0;
+      EXPECT_NEAR(space.contact_velocity_after.tangential_m_s[1], s * u, 1e-11) << mu << " " << v0;
+      EXPECT_NEAR(space.contact_velocity_after.normal_m_s, plane.contact_velocity_after.normal_m_s, 1e-11);
+      EXPECT_NEAR(space.impulse.normal_total_n_s, plane.impulse.normal_total_n_s, 1e-9) << mu << " " << v0;
+    }
+  }
+}
+
+// The joint moves along (.6, .3) in (t1, n), and the surface passes along t2 at c: slip turns until friction along t1 balances
+// the joint, mu .6 cos(phi) = .3. If v < 0 there, nothing ends the impact.
+TEST(SceneOutcomeTest, SlipThatStandsStillHoldsItsVelocityInSpace) {
+  const auto scene = [](double v0, double across) {
+    return With(SpatialContact{{0.36, 0, 0.18, 0, 0, 0.09}, {-1.0, across}, v0}, 1.0, EnergeticCoefficient{0.8});
+  };
+  for (const double across : {0.3, 1e-3, 1e-9}) {
+    // cos(phi) = .5: u1 = across/sqrt(3) where slip stands, and v = v0 + .5 (u1 + 1).
+    const Outcome jams = Solved(scene(-0.9, across));
+    EXPECT_EQ(jams.termination, Termination::kRefused) << across;
+    EXPECT_EQ(jams.regime, Regime::kWedged) << across;
+    EXPECT_NEAR(jams.contact_velocity_after.tangential_m_s[0], across / std::sqrt(3.0), 1e-8) << across;
+    EXPECT_THAT(jams.notes, SizeIs(1)) << across;
+    const Outcome parts = Solved(scene(-0.2, across));
+    EXPECT_EQ(parts.termination, Termination::kConverged) << across;
+    const double u1 = parts.contact_velocity_after.tangential_m_s[0];
+    EXPECT_NEAR(parts.contact_velocity_after.normal_m_s, -0.2 + 0.5 * (u1 + 1.0), 1e-10) << across;
+    EXPECT_NEAR(parts.contact_velocity_after.tangential_m_s[1], across, 1e-10) << across;
+  }
+}
+
+// Follows slip by Runge and Kutta's method of fourth order, which shares nothing with the model.
+struct RungeKutta {
+  std::array<double, 6> w;  // 11, 12, 13, 22, 23, 33
+  double mu;
+  std::array<double, 3> y;  // u1, u2, v
+  double least_slip = INFINITY;
+
+  std::array<double, 3> Rates(const std::array<double, 3>& at) const {
+    const double slip = std::hypot(at[0], at[1]);
+    const double f1 = -mu * at[0] / slip;
+    const double f2 = -mu * at[1] / slip;
+    return {w[0] * f1 + w[1] * f2 + w[2], w[1] * f1 + w[3] * f2 + w[4], w[2] * f1 + w[4] * f2 + w[5]};
+  }
+  void Step(double h) {
+    const auto moved = [&](const std::array<double, 3>& rate, double by) {
+      return std::array<double, 3>{y[0] + by * rate[0], y[1] + by * rate[1], y[2] + by * rate[2]};
+    };
+    const auto a = Rates(y), b = Rates(moved(a, h / 2)), c = Rates(moved(b, h / 2)), d = Rates(moved(c, h));
+    for (size_t i = 0; i < 3; ++i) y[i] += h / 6 * (a[i] + 2 * b[i] + 2 * c[i] + d[i]);
+    least_slip = std::min(least_slip, std::hypot(y[0], y[1]));
+  }
+  void Advance(double tau, int steps) {
+    for (int i = 0; i < steps; ++i) Step(tau / steps);
+  }
+};
+
+// W has rank one, or rank two with or without a singular Wtt, and the velocity is any.
+TEST(SceneOutcomeTest, SlipBesideTheRangeOfWAgreesWithRungeAndKutta) {
+  std::mt19937_64 random(1901);
+  const auto uniform = [&](double low, double high) { return std::uniform_real_distribution(low, high)(random); };
+  int compared = 0;
+  for (int i = 0; i < 300; ++i) {
+    std::array<double, 6> w = {};
+    const auto add = [&](double x, double y, double z) {
+      w = {w[0] + x * x, w[1] + x * y, w[2] + x * z, w[3] + y * y, w[4] + y * z, w[5] + z * z};
+    };
+    add(uniform(-1, 1), uniform(-1, 1), uniform(0.3, 1));
+    if (i % 3 == 1) add(0.0, 0.0, uniform(0.3, 1));
+    if (i % 3 == 2) add(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1));
+    const std::array<double, 2> u0 = {uniform(-2, 2), uniform(-2, 2)};
+    const double v0 = -uniform(0.2, 2);
+    const double mu = uniform(0.05, 0.8);
+    const double kappa = uniform(0.0, 1.0);
+    RungeKutta path = {.w = w, .mu = mu, .y = {u0[0], u0[1], v0}};
+    double tau = 0.0;
+    constexpr double kStep = 1e-3;
+    while (path.y[2] < 0.0 && tau < 50.0) path.Step(kStep), tau += kStep;
+    if (path.y[2] < 0.0) continue;
+    for (int newton = 0; newton < 3; ++newton) {
+      const double back = -path.y[2] / path.Rates(path.y)[2];
+      path.Step(back), tau += back;
+    }
+    path.Advance(kappa * tau, 4000);
+    if (path.least_slip < 0.1 || path.y[2] < 0.0) continue;
+    ++compared;
+    const SpatialContact contact = {{w.begin(), w.end()}, {u0.begin(), u0.end()}, v0};
+    const Outcome outcome = Solved(With(contact, mu, PoissonCoefficient{kappa}));
+    EXPECT_LT(outcome.w_rank, 3);
+    EXPECT_EQ(outcome.termination, Termination::kConverged) << i;
+    EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[0], path.y[0], 1e-9) << i;
+    EXPECT_NEAR(outcome.contact_velocity_after.tangential_m_s[1], path.y[1], 1e-9) << i;
+    EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, path.y[2], 1e-9) << i;
+    EXPECT_NEAR(*outcome.impulse.normal_compression_n_s, tau, 1e-9 * tau) << i;
+    EXPECT_NEAR(outcome.work.residual_j, 0.0, 1e-11) << i;
+  }
+  EXPECT_GT(compared, 150);
 }
 
 }  // namespace

@@ -360,7 +360,7 @@ TEST(CertifiedTiesTest, ARankOfOneIsThatOfTheDoublesThemselves) {
   problem.u0 = std::nextafter(-1.0, 0.0);
   EXPECT_EQ(CertifySolve(SceneOf(problem), {5}, Never).status().message(),
             "planar_contact.tangential_m_s makes (u0, v0) lie beside the range of W, whose rank is one: must lie in it "
-            "exactly, not to rounding, with certified_digits");
+            "exactly, not to rounding, for a certified answer, which knows no impact of this kind");
 }
 
 // --- Digits ---

@@ -236,13 +236,35 @@ TEST(KaneLevinsonTest, PendulumReboundsUntilFrictionLocksIt) {
 }
 
 // f = -tau1/2: tau1 = 4/14 = 2/7. f = tau1/2: tau1 = 4/18 = 2/9. Both stop the pendulum: dE = -1/2.
-TEST(KaneLevinsonTest, PlasticPendulumHasAnImpulseForEachSideOfTheCone) {
+// The slip is -1, so that f > 0 opposes it.
+TEST(KaneLevinsonTest, PlasticPendulumHasARangeOfImpulsesAndTakesTheOneThatOpposesSlip) {
   const ImpactLawResult result = SolveKaneLevinson(Pendulum(0.5), 0.0);
-  ASSERT_EQ(result.solutions.size(), 2u);
-  ExpectSolution(result.solutions[0], {.f = -1.0 / 7, .tau1 = 2.0 / 7, .energy_change = -0.5});
-  ExpectSolution(result.solutions[1], {.f = 1.0 / 9, .tau1 = 2.0 / 9, .energy_change = -0.5});
-  // One side of the cone locks (16 - 4 4 = 0), and only the other one is left: tau1 = 4/32.
-  ExpectOnly(SolveKaneLevinson(Pendulum(4.0), 0.0), {.f = 0.5, .tau1 = 0.125, .energy_change = -0.5});
+  ExpectOnly(result, {.f = 1.0 / 9, .tau1 = 2.0 / 9, .energy_change = -0.5});
+  ASSERT_EQ(result.ends.size(), 2u);
+  ExpectSolution(result.ends[0], {.f = -1.0 / 7, .tau1 = 2.0 / 7, .energy_change = -0.5});
+  ExpectSolution(result.ends[1], {.f = 1.0 / 9, .tau1 = 2.0 / 9, .energy_change = -0.5});
+  // One side of the cone locks (16 - 4 4 = 0), so that the range has no end there: tau1 = 4/32 at the other.
+  const ImpactLawResult endless = SolveKaneLevinson(Pendulum(4.0), 0.0);
+  ExpectOnly(endless, {.f = 0.5, .tau1 = 0.125, .energy_change = -0.5});
+  EXPECT_EQ(endless.ends.size(), 1u);
+}
+
+// The pendulum's surface moves: u0 = -3, v0 = -4, H = -48 + 16 = -32. v1 = 2, u1 = -3 + (4/16) 6 = -3/2 whatever friction is.
+TEST(ImpactLawsTest, AVelocityBesideTheRangeKeepsItsPartThatNoImpulseMoves) {
+  PlanarProblem input = Pendulum(0.5);
+  input.u0 = -3.0;
+  for (const ImpactLawResult& result : AllLaws(input, 0.5)) {
+    ASSERT_EQ(result.solutions.size(), 1u);
+    EXPECT_EQ(result.solutions.front().u1, -1.5);
+    EXPECT_EQ(result.solutions.front().v1, 2.0);
+    EXPECT_TRUE(result.ends.empty());
+  }
+  // Slip ends as -3/2 < 0: f = tau1/2, tau1 = 6/18.
+  EXPECT_NEAR(SolveKaneLevinson(input, 0.5).solutions.front().f, 1.0 / 6, 4.0 * kEpsilon);
+  EXPECT_NEAR(SolveWhittaker(input, 0.5).solutions.front().f, 1.0 / 6, 4.0 * kEpsilon);
+  // No impulse ends approach and slip together: as det W vanishes, P_II - P_I grows without limit against the slip.
+  EXPECT_NEAR(SolveChatterjeeRuina(input, 0.5, 0.5).solutions.front().f, 1.0 / 6, 4.0 * kEpsilon);
+  EXPECT_EQ(SolveChatterjeeRuina(input, 0.5, -1.0).solutions.front().f, 0.0);
 }
 
 // P_II = 4/17 (1/4, 1), P_II - P_I = (1/17, -1/68): P = (3/34, 3/8 - 3/136) = (3/34, 6/17).

@@ -123,6 +123,17 @@ TEST(PlanarRoundingTest, ClaimsHoldNearThresholdsAndWhereWIsSingular) {
   EXPECT_LE(both.compensated.MedianOfVelocity(), 10.0);
 }
 
+TEST(PlanarRoundingTest, ClaimsHoldWhereTheVelocityLiesBesideTheRangeOfW) {
+  Both both;
+  SceneSource source(20);
+  for (int i = 0; i < kScenes && !testing::Test::HasFailure(); ++i) {
+    const Problem problem = source.OffRange();
+    if (Solve(problem).regime != Regime::kWedged) both.Add(problem);
+  }
+  both.Print();
+  EXPECT_GT(both.plain.count(), kScenes / 4);
+}
+
 // The inputs lie within a factor of 1 +- 2^-20 ... 2^-52 of each threshold.
 TEST(PlanarRoundingTest, ClaimsHoldNearEverySignChange) {
   Both both;
