@@ -11,6 +11,7 @@
 #include "absl/synchronization/mutex.h"
 #include "client/cli/common.h"
 #include "client/cli/exit_code.h"
+#include "client/cli/file_option.h"
 #include "client/cli/flag_names.h"
 #include "client/cli/program.h"
 #include "client/cli/usage_error.h"
@@ -42,7 +43,8 @@ int main(int argc, char** argv) {
     std::cerr << (argc == 1 ? app->help() : absl::StrCat("ricochet: ", ricochet::cli::UsageError(*app, error), "\n"));
     return ricochet::cli::kUsage;
   }
-  const absl::Status status = command();
+  absl::Status status = ricochet::cli::UseFilesOf(*app);
+  if (status.ok()) status = command();
   ricochet::cli::PrintError(ricochet::cli::NameFlags(*app, status));
   return ricochet::cli::ExitCodeOf(status);
 }

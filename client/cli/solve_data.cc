@@ -24,8 +24,6 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr size_t kTextRows = 40;
-
 // A batch and its answer.
 struct Solved {
   BatchSetup setup;
@@ -78,10 +76,10 @@ std::vector<std::string> Names(const Solved& solved) {
   return names;
 }
 
-std::string Text(const Solved& solved) {
+std::string Text(const Solved& solved, size_t rows) {
   Table table;
   table.Add(Names(solved));
-  for (size_t i = 0; i < std::min(solved.regimes.size(), kTextRows); ++i) {
+  for (size_t i = 0; i < rows; ++i) {
     std::vector<std::string> cells = {absl::StrCat(i)};
     for (const std::vector<double>& column : solved.outputs) cells.push_back(Rounded(column[i]));
     cells.push_back(RegimeText(solved.regimes[i]));
@@ -89,8 +87,8 @@ std::string Text(const Solved& solved) {
     table.Add(cells);
   }
   std::string text = table.Render(0);
-  if (solved.regimes.size() > kTextRows) {
-    absl::StrAppend(&text, "... and ", solved.regimes.size() - kTextRows, " more rows; --format csv has them all\n");
+  if (solved.regimes.size() > rows) {
+    absl::StrAppend(&text, "... and ", solved.regimes.size() - rows, " more rows; --format csv has them all\n");
   }
   return absl::StrCat(text, "\n", SummaryText(solved.response.summary));
 }
@@ -138,16 +136,9 @@ std::string JsonLines(const Solved& solved) {
   return text;
 }
 
-absl::Status Write(const Solved& solved, const CommonOptions& options) {
-  switch (options.format) {
-    case Format::kText:
-      return WriteOutput(options, Text(solved));
-    case Format::kJson:
-      return WriteOutput(options, JsonDocument(solved));
-    case Format::kJsonLines:
-    case Format::kCsv:
-      break;
-  }
+absl::Status Write(const Solved& solved, const CommonOptions& options, size_t rows) {
+  if (options.format == Format::kText) return WriteOutput(options, Text(solved, rows));
+  if (options.format == Format::kJson) return WriteOutput(options, JsonDocument(solved));
   absl::Status written = WriteOutput(options, options.format == Format::kCsv ? Csv(solved) : JsonLines(solved));
   if (written.ok()) std::cerr << SummaryText(solved.response.summary);
   return written;
@@ -161,6 +152,9 @@ absl::Status SolveData(const DataOptions& data, const CommonOptions& options, co
   if (!text.ok()) return text.status();
   const absl::StatusOr<CsvTable> table = ParseCsvTable(*text, data.file == "-" ? "standard input" : data.file);
   if (!table.ok()) return table.status();
+  absl::StatusOr<int64_t> rows = static_cast<int64_t>(table->columns.front().size());
+  if (options.format == Format::kText) rows = RowsOfTable(options, *rows);
+  if (!rows.ok()) return rows.status();
   const absl::StatusOr<std::vector<std::string>> columns = FullColumns(scene, data.columns);
   if (!columns.ok()) return columns.status();
   Solved solved = {.setup = {.scene = scene,
@@ -168,7 +162,7 @@ absl::Status SolveData(const DataOptions& data, const CommonOptions& options, co
                              .columns = columns->empty() ? DefaultColumns(scene) : *columns,
                              .demand = demand}};
   if (absl::Status status = Solve(*table, solver, solved); !status.ok()) return status;
-  return Write(solved, options);
+  return Write(solved, options, static_cast<size_t>(*rows));
 }
 
 }  // namespace ricochet::cli

@@ -7,10 +7,12 @@
 #include <CLI/App.hpp>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "absl/strings/ascii.h"
 #include "absl/synchronization/mutex.h"
+#include "client/cli/file_option.h"
 #include "client/cli/program.h"
 #include "server/command_line.h"
 
@@ -23,9 +25,18 @@ void Set(Struct& object, const std::string& name, const std::string& text) {
   (*object.mutable_fields())[name].set_string_value(text);
 }
 
-ListValue& List(Struct& object, const std::string& name) { return *(*object.mutable_fields())[name].mutable_list_value(); }
+ListValue& List(Struct& object, const std::string& name) {
+  return *(*object.mutable_fields())[name].mutable_list_value();
+}
 
-void Describe(const CLI::Option& option, Struct& object) {
+// Whether the value is the name of a file that is read or written.
+std::string FileText(CLI::Option& option) {
+  const std::optional<ricochet::cli::FileUse> use = ricochet::cli::FileUseOf(option);
+  if (!use.has_value()) return "";
+  return *use == ricochet::cli::FileUse::kRead ? "read" : "written";
+}
+
+void Describe(CLI::Option& option, Struct& object) {
   ListValue& names = List(object, "names");
   for (const std::string& name : option.get_snames()) names.add_values()->set_string_value("-" + name);
   for (const std::string& name : option.get_lnames()) names.add_values()->set_string_value("--" + name);
@@ -35,17 +46,18 @@ void Describe(const CLI::Option& option, Struct& object) {
   Set(object, "positional", option.get_positional() ? option.get_name(true) : "");
   Set(object, "description", option.get_description());
   Set(object, "group", option.get_group());
+  Set(object, "file", FileText(option));
 }
 
-void Describe(const CLI::App& app, Struct& object) {
+void Describe(CLI::App& app, Struct& object) {
   Set(object, "name", app.get_name());
   Set(object, "description", app.get_description());
   Set(object, "footer", app.get_footer());
-  for (const CLI::Option* option : app.get_options()) {
+  for (CLI::Option* option : app.get_options()) {
     Describe(*option, *List(object, "options").add_values()->mutable_struct_value());
   }
   // A command without a name groups options and is no command.
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App* any) { return !any->get_name().empty(); })) {
+  for (CLI::App* sub : app.get_subcommands([](const CLI::App* any) { return !any->get_name().empty(); })) {
     Describe(*sub, *List(object, "commands").add_values()->mutable_struct_value());
   }
 }
@@ -56,7 +68,8 @@ int main() {
   absl::SetMutexDeadlockDetectionMode(absl::OnDeadlockCycle::kIgnore);
   Struct programs;
   ricochet::cli::Command command;
-  Describe(*ricochet::cli::MakeProgram({"ricochet"}, command), *List(programs, "programs").add_values()->mutable_struct_value());
+  Describe(*ricochet::cli::MakeProgram({"ricochet"}, command),
+           *List(programs, "programs").add_values()->mutable_struct_value());
   Describe(*ricochet::server::MakeCommandLine(), *List(programs, "programs").add_values()->mutable_struct_value());
   std::string text;
   if (!google::protobuf::util::MessageToJsonString(programs, &text).ok()) return 1;
