@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "absl/strings/match.h"
+#include "core/numerics/utf8.h"
 
 namespace ricochet::server {
 namespace {
@@ -32,23 +33,6 @@ spdlog::level::level_enum ToSpdlog(LogLevel level) {
       break;
   }
   return spdlog::level::err;
-}
-
-bool IsContinuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
-
-// Returns the number of bytes of the UTF-8 character that starts at `i`, or 0 if none does.
-size_t Utf8Length(const std::string& text, size_t i) {
-  const auto byte = [&text](size_t at) { return static_cast<unsigned char>(text[at]); };
-  const unsigned char lead = byte(i);
-  const size_t length = lead < 0x80 ? 1 : lead < 0xC2 ? 0 : lead < 0xE0 ? 2 : lead < 0xF0 ? 3 : lead < 0xF5 ? 4 : 0;
-  if (length == 0 || i + length > text.size()) return 0;
-  for (size_t k = 1; k < length; ++k) {
-    if (!IsContinuation(text[i + k])) return 0;
-  }
-  // The second byte excludes overlong encodings, surrogates and code points above U+10FFFF.
-  const bool barred = (lead == 0xE0 && byte(i + 1) < 0xA0) || (lead == 0xED && byte(i + 1) >= 0xA0) ||
-                      (lead == 0xF0 && byte(i + 1) < 0x90) || (lead == 0xF4 && byte(i + 1) >= 0x90);
-  return barred ? 0 : length;
 }
 
 // Returns `text` as a JSON string. Bytes that are not UTF-8 become U+FFFD.

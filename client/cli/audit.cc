@@ -11,6 +11,7 @@
 #include "client/cli/audit_plot.h"
 #include "client/cli/audit_report.h"
 #include "client/cli/audit_rows.h"
+#include "client/cli/file_option.h"
 #include "client/cli/number_input.h"
 #include "client/cli/picture_input.h"
 #include "client/cli/scene_input.h"
@@ -72,19 +73,6 @@ absl::StatusOr<double> ReadUncertainty(const AuditOptions& options) {
   return options.uncertainty.has_value() ? ParseNumber(*options.uncertainty, "--uncertainty") : 0.0;
 }
 
-std::string Render(const AuditResponse& response, size_t directions, Format format) {
-  switch (format) {
-    case Format::kText:
-      return AuditText(response, directions);
-    case Format::kJson:
-    case Format::kJsonLines:
-      return Json(ToProto(response));
-    case Format::kCsv:
-      break;
-  }
-  return absl::StrCat(AuditCsvHeader(directions), "\n", AuditCsvRow(response.report, directions), "\n");
-}
-
 absl::Status AuditOne(const AuditOptions& options, const Solver& solver, const Scene& scene) {
   const absl::StatusOr<Observed> observed = ReadObserved(options);
   if (!observed.ok()) return observed.status();
@@ -93,8 +81,12 @@ absl::Status AuditOne(const AuditOptions& options, const Solver& solver, const S
   const absl::StatusOr<AuditResponse> response =
       solver.Audit({.scene = scene, .observed = *observed, .velocity_uncertainty_m_s = *uncertainty});
   if (!response.ok()) return response.status();
-  const std::string text = Render(*response, TangentialDirections(scene.system), options.common.format);
-  if (absl::Status status = WriteOutput(options.common, text); !status.ok()) return status;
+  const size_t directions = TangentialDirections(scene.system);
+  const absl::StatusOr<std::string> text = Render(
+      options.common.format, [&] { return AuditText(*response, directions); }, [&] { return Json(ToProto(*response)); },
+      [&] { return absl::StrCat(AuditCsvHeader(directions), "\n", AuditCsvRow(response->report, directions), "\n"); });
+  if (!text.ok()) return text.status();
+  if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
   if (!options.data.picture.file.empty()) {
     AuditPlot plot;
     plot.Add(response->report);
@@ -146,8 +138,9 @@ void AddAudit(CLI::App& app, Command& command) {
   sub->add_option("--uncertainty", options->uncertainty,
                   "Uncertainty of each component of the contact velocity, m/s [0]")
       ->type_name("X");
-  sub->add_option("--data", options->data.file,
-                  "Many impacts, one on each line; the header names the columns; - for standard input")
+  MarkFile(FileUse::kRead,
+           sub->add_option("--data", options->data.file,
+                           "Many impacts, one on each line; the header names the columns; - for standard input"))
       ->type_name("FILE.csv");
   sub->add_option("--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
       ->type_name("NAME")
@@ -157,7 +150,7 @@ void AddAudit(CLI::App& app, Command& command) {
   sub->add_flag("--strict", options->data.strict, "Fail if an impact is not admissible, after writing the answer");
   AddPictureOptions(*sub, "the impulses in the friction cone, and each row beside its limits,", options->data.picture);
   AddServerOptions(*sub, options->common);
-  AddOutputOptions(*sub, options->common, /*has_lines=*/true);
+  AddOutputOptions(*sub, options->common, kRowFormats);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunAudit(*options); }; });
 }

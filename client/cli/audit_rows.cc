@@ -132,17 +132,10 @@ class JsonLinesWriter : public Writer {
 };
 
 std::unique_ptr<Writer> MakeWriter(Format format, const Scene& scene, bool list) {
-  switch (format) {
-    case Format::kText:
-      break;
-    case Format::kJson:
-      return std::make_unique<JsonWriter>();
-    case Format::kJsonLines:
-      return std::make_unique<JsonLinesWriter>();
-    case Format::kCsv:
-      return std::make_unique<CsvWriter>(TangentialDirections(scene.system));
-  }
-  return std::make_unique<TextWriter>(list);
+  if (format == Format::kText) return std::make_unique<TextWriter>(list);
+  if (format == Format::kJson) return std::make_unique<JsonWriter>();
+  if (format == Format::kJsonLines) return std::make_unique<JsonLinesWriter>();
+  return std::make_unique<CsvWriter>(TangentialDirections(scene.system));
 }
 
 // Audits one part of the table after the other.
@@ -199,9 +192,10 @@ class Auditor {
   size_t named_ = 0;
 };
 
-absl::Status AuditAll(AuditTable& table, int64_t size, const AuditDataOptions& data, Auditor& auditor) {
+absl::Status AuditAll(AuditTable& table, int64_t size, const AuditDataOptions& data, bool rows_to_terminal,
+                      Auditor& auditor) {
   const Interrupt interrupt;
-  Progress progress("rows");
+  Progress progress(rows_to_terminal, "rows");
   bool is_first = true;
   while (true) {
     AuditRows rows = table.Next(static_cast<size_t>(kMostAuditRows));
@@ -218,6 +212,7 @@ absl::Status AuditAll(AuditTable& table, int64_t size, const AuditDataOptions& d
     progress.Update(auditor.rows(),
                     std::max(auditor.rows(), static_cast<int64_t>(static_cast<double>(auditor.rows()) / part)));
   }
+  Progress::Erase();
   return auditor.Finish();
 }
 
@@ -248,7 +243,8 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
   if (!output.ok()) return output.status();
   const std::unique_ptr<Writer> writer = MakeWriter(options.format, scene, data.list);
   Auditor auditor(solver, scene, data, *writer, *output);
-  return AuditAll(*table, size, data, auditor);
+  const bool has_rows = data.list || options.format != Format::kText;
+  return AuditAll(*table, size, data, has_rows && options.output.empty(), auditor);
 }
 
 }  // namespace ricochet::cli

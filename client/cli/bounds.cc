@@ -191,19 +191,6 @@ std::string BoundsCsv(const BoundsResponse& response) {
   return text;
 }
 
-absl::StatusOr<std::string> Render(const BoundsRequest& request, const BoundsResponse& response, Format format) {
-  switch (format) {
-    case Format::kText:
-      return BoundsText(request, response);
-    case Format::kJson:
-    case Format::kJsonLines:
-      return Json(ToProto(response));
-    case Format::kCsv:
-      break;
-  }
-  return response.certificate.has_value() ? CertificateCsv(*response.certificate) : BoundsCsv(response);
-}
-
 absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
   const absl::StatusOr<Scene> scene = ReadScene(options.scene);
   if (!scene.ok()) return scene.status();
@@ -228,7 +215,11 @@ absl::Status RunBounds(const BoundsOptions& options) {
   const absl::StatusOr<BoundsResponse> response = (*solver)->Bounds(*request);
   if (!response.ok()) return response.status();
   if (absl::Status still = RequireVelocity(request->scene); !still.ok()) return still;
-  const absl::StatusOr<std::string> text = Render(*request, *response, options.common.format);
+  const absl::StatusOr<std::string> text = Render(
+      options.common.format, [&] { return BoundsText(*request, *response); }, [&] { return Json(ToProto(*response)); },
+      [&] {
+        return response->certificate.has_value() ? CertificateCsv(*response->certificate) : BoundsCsv(*response);
+      });
   if (!text.ok()) return text.status();
   if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
   return options.picture.file.empty() ? absl::OkStatus() : DrawPicture(BoundsPlot(*response), options.picture);
@@ -247,7 +238,7 @@ void AddBounds(CLI::App& app, Command& command) {
   AddCertifiedOption(*sub, options->certified);
   AddPictureOptions(*sub, "the ranges as bars", options->picture);
   AddServerOptions(*sub, options->common);
-  AddOutputOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common, kMessageFormats);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunBounds(*options); }; });
 }

@@ -1,18 +1,22 @@
 #include "client/cli/common.h"
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <array>
-#include <map>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
+#include "client/cli/file_option.h"
 #include "client/cli/json/json_text.h"
 #include "client/cli/number_input.h"
 #include "client/cli/output.h"
+#include "client/cli/shard_input.h"
+#include "client/cli/table.h"
 #include "core/engine/engine.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/sweep.h"
@@ -23,51 +27,51 @@ namespace ricochet::cli {
 
 void AddServerOptions(CLI::App& app, CommonOptions& options) { AddConnectionOptions(app, options.connection); }
 
-void AddOutputOptions(CLI::App& app, CommonOptions& options, bool has_lines) {
-  std::map<std::string, Format> formats;
-  for (const Format format : {Format::kText, Format::kJson, Format::kCsv}) formats[FormatName(format)] = format;
-  if (has_lines) formats[FormatName(Format::kJsonLines)] = Format::kJsonLines;
-  app.add_option_function<std::string>(
-         "--format", [&options, formats](const std::string& name) { options.format = formats.at(name); },
-         has_lines ? "text: tables; json: one document; jsonl: an object on each line; csv: rows at full precision"
-                   : "text: tables; json: the response message; csv: rows at full precision")
-      ->check(CLI::IsMember(formats))
-      ->option_text(has_lines ? "text|json|jsonl|csv" : "text|json|csv");
-  app.add_option("-o,--output", options.output,
-                 "Write to this file, which is replaced only when the output is complete")
-      ->type_name("FILE");
-}
-
-void AddSweepOutputOptions(CLI::App& app, CommonOptions& options) {
-  struct Choice {
-    Format format;
-    ArrayFormat array;
+void AddOutputOptions(CLI::App& app, CommonOptions& options, absl::Span<const Format> formats) {
+  options.format = formats.front();
+  if (formats.size() > 1) {
+    const auto append_meaning = [](std::string* text, Format format) {
+      absl::StrAppend(text, FormatName(format), ": ", FormatMeaning(format));
+    };
+    std::vector<std::string> names;
+    for (const Format format : formats) names.push_back(FormatName(format));
+    app.add_option_function<std::string>(
+           "--format",
+           [&options, formats](const std::string& name) {
+             options.named_format = name;
+             options.format = *ChooseFormat(formats, name, "");
+           },
+           absl::StrCat(absl::StrJoin(formats, "; ", append_meaning), " [what FILE ends in, else ", names.front(), "]"))
+        ->check(CLI::IsMember(names))
+        ->option_text(absl::StrJoin(names, "|"));
+  }
+  const auto take = [&app, &options, formats](const std::string& path) {
+    if (!IsStandardOutput(path)) options.output = path;
+    if (WritesShard(app)) return;
+    const absl::StatusOr<Format> format = ChooseFormat(formats, options.named_format, options.output);
+    const std::string flag = FlagForFile(path);
+    if (!format.ok()) {
+      const bool has_flag = !flag.empty() && app.get_option_no_throw(flag) != nullptr;
+      throw CLI::ValidationError(absl::StrCat(format.status().message(),
+                                              has_flag ? absl::StrCat("; did you mean ", flag, " ", path, "?") : ""));
+    }
+    options.format = *format;
+    if (!options.output.empty() && !IsDevice(path)) ForgetTerminalWidth();
   };
-  const std::map<std::string, Choice> formats = {
-      {"text", {Format::kText, ArrayFormat::kNone}},       {"json", {Format::kJson, ArrayFormat::kNone}},
-      {"jsonl", {Format::kJsonLines, ArrayFormat::kNone}}, {"csv", {Format::kCsv, ArrayFormat::kNone}},
-      {"npy", {Format::kText, ArrayFormat::kNpy}},         {"netcdf", {Format::kText, ArrayFormat::kNetcdf}}};
-  app.add_option_function<std::string>(
-         "--format",
-         [&options, formats](const std::string& name) {
-           options.format = formats.at(name).format;
-           options.array = formats.at(name).array;
-           options.has_format = true;
-         },
-         "text: tables; json: one document; jsonl: an object on each line; csv: rows at full precision; npy: records "
-         "for "
-         "NumPy; netcdf: a NetCDF-4 file. Default: npy or netcdf if FILE ends in .npy or .nc, else text")
-      ->check(CLI::IsMember(formats))
-      ->option_text("text|json|jsonl|csv|npy|netcdf");
-  app.add_option("-o,--output", options.output,
-                 "Write to this file, which is replaced only when the output is complete")
+  MarkFile(FileUse::kWritten,
+           app.add_option_function<std::string>("-o,--output", take,
+                                                "Write to this file, which is replaced only when the output is "
+                                                "complete; - for standard output"))
       ->type_name("FILE");
 }
 
-ArrayFormat ArrayFormatOf(const CommonOptions& options) {
-  if (options.has_format) return options.array;
-  if (absl::EndsWith(options.output, ".npy")) return ArrayFormat::kNpy;
-  return absl::EndsWith(options.output, ".nc") ? ArrayFormat::kNetcdf : ArrayFormat::kNone;
+absl::StatusOr<int64_t> RowsOfTable(const CommonOptions& options, int64_t rows) {
+  constexpr int64_t kShown = 40;
+  constexpr int64_t kMost = 100'000;
+  if (options.output.empty() || IsDevice(options.output)) return std::min(rows, kShown);
+  if (rows <= kMost) return rows;
+  return absl::InvalidArgumentError(absl::StrCat("-o ", options.output, ": a table for people of ", rows,
+                                                 " rows: must have at most ", kMost, ", or be csv"));
 }
 
 namespace {
@@ -121,27 +125,10 @@ absl::StatusOr<std::unique_ptr<Solver>> MakeFanOut(const CommonOptions& options,
 }
 
 absl::Status WriteOutput(const CommonOptions& options, const std::string& text) {
-  absl::StatusOr<Output> output = Output::Open(options.output);
-  if (!output.ok()) return output.status();
-  if (absl::Status status = output->Write(text); !status.ok()) return status;
-  return output->Commit();
+  return WriteFile(options.output, text);
 }
 
 std::string Json(const google::protobuf::Message& message) { return JsonOf(message) + "\n"; }
-
-std::string FormatName(Format format) {
-  switch (format) {
-    case Format::kText:
-      return "text";
-    case Format::kJson:
-      return "json";
-    case Format::kJsonLines:
-      return "jsonl";
-    case Format::kCsv:
-      break;
-  }
-  return "csv";
-}
 
 namespace {
 

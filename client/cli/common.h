@@ -3,13 +3,17 @@
 #ifndef RICOCHET_CLIENT_CLI_COMMON_H_
 #define RICOCHET_CLIENT_CLI_COMMON_H_
 
+#include <array>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include "absl/status/statusor.h"
+#include "absl/types/span.h"
 #include "client/cli/connection_input.h"
+#include "client/cli/output_format.h"
 #include "ricochet/client_options.h"
 #include "ricochet/solver.h"
 
@@ -26,27 +30,36 @@ namespace ricochet::cli {
 // The work of a subcommand. Parsing the command line sets it, and main then runs it.
 using Command = std::function<absl::Status()>;
 
-enum class Format { kText, kJson, kJsonLines, kCsv };
-
-// Formats that programs for arrays open, which sweeps alone have.
-enum class ArrayFormat { kNone, kNpy, kNetcdf };
-
 struct CommonOptions {
   ConnectionInput connection;
-  Format format = Format::kText;
-  ArrayFormat array = ArrayFormat::kNone;  // kNone: `format` holds, or the ending of `output`.
-  bool has_format = false;                 // True if --format was given to a sweep.
-  std::string output;                      // Empty: standard output.
+  Format format = Format::kText;  // That of --format or of the ending of `output`.
+  std::string named_format;       // --format as it was typed; empty if it was not given.
+  std::string output;             // Empty: standard output.
 };
 
 void AddServerOptions(CLI::App& app, CommonOptions& options);
-// Adds --format, with jsonl for a subcommand that answers with many points or rows, and --output.
-void AddOutputOptions(CLI::App& app, CommonOptions& options, bool has_lines = false);
-// The options of sweeps, which also have the formats of arrays.
-void AddSweepOutputOptions(CLI::App& app, CommonOptions& options);
 
-// Returns the format of --format, or that of a file that ends in .npy or .nc if --format was not given.
-ArrayFormat ArrayFormatOf(const CommonOptions& options);
+// The formats of an answer that is one message, of one that may have many rows, and of a sweep.
+inline constexpr std::array kMessageFormats = {Format::kText, Format::kJson, Format::kCsv};
+inline constexpr std::array kRowFormats = {Format::kText, Format::kJson, Format::kJsonLines, Format::kCsv};
+inline constexpr std::array kSweepFormats = {Format::kText, Format::kJson, Format::kJsonLines,
+                                             Format::kCsv,  Format::kNpy,  Format::kNetcdf};
+
+// Adds --output, and --format if there is a choice. A parse that succeeds leaves the format chosen (ChooseFormat).
+// `formats` must outlive the app.
+void AddOutputOptions(CLI::App& app, CommonOptions& options, absl::Span<const Format> formats);
+
+// Calls the function that makes the text of an answer: `text`, `json` or `csv`. An answer of one message is one line of
+// jsonl.
+template <typename Text, typename AsJson, typename Csv>
+absl::StatusOr<std::string> Render(Format format, Text text, AsJson json, Csv csv) {
+  if (format == Format::kText) return text();
+  return format == Format::kCsv ? csv() : json();
+}
+
+// Returns how many of `rows` rows a table for people has: the first 40 on standard output, all in a file.
+// Errors: INVALID_ARGUMENT for a file of more than 100,000, which would not fit into the memory of every machine.
+absl::StatusOr<int64_t> RowsOfTable(const CommonOptions& options, int64_t rows);
 
 // Returns the options of a client of the server that is named. Errors: INVALID_ARGUMENT, also if none is named.
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options);
@@ -64,9 +77,6 @@ absl::Status WriteOutput(const CommonOptions& options, const std::string& text);
 
 // Returns the message as JSON on one line with a line feed (client/cli/json/json_text.h).
 std::string Json(const google::protobuf::Message& message);
-
-// Returns the name of a format as a user types it: "csv".
-std::string FormatName(Format format);
 
 // Returns the regime as words: "rebound", "stick in compression".
 std::string RegimeText(Regime regime);

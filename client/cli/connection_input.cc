@@ -15,6 +15,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
+#include "client/cli/file_option.h"
 #include "client/cli/number_input.h"
 #include "core/engine/engine.h"
 #include "core/scene/nearest.h"
@@ -85,6 +86,15 @@ absl::StatusOr<ConnectionInput> ReadConfig(const std::string& path) {
   return input;
 }
 
+// Notes the files, whoever named them.
+absl::Status UseFiles(const ConnectionInput& input) {
+  for (const std::string* path : {&input.config, &input.tls_ca, &input.tls_cert, &input.tls_key, &input.token_file}) {
+    if (path->empty()) continue;
+    if (absl::Status status = UseFile(FileUse::kRead, "", *path); !status.ok()) return status;
+  }
+  return absl::OkStatus();
+}
+
 // Returns the error for a flag that means nothing without a server.
 absl::Status CheckFlagsWithoutServer(const ConnectionInput& flags) {
   for (const Setting& setting : kSettings) {
@@ -110,18 +120,18 @@ void AddConnectionOptions(CLI::App& app, ConnectionInput& input) {
       "--tls", [&input] { input.tls = "true"; },
       "Encrypt, and make sure of the server by the system's authorities; --tls-ca, --tls-cert and --server-name imply "
       "it");
-  app.add_option("--tls-ca", input.tls_ca, "Make sure of the server by the authorities in this PEM file instead")
-      ->type_name("FILE");
-  app.add_option("--tls-cert", input.tls_cert, "This client's certificate, a PEM file")->type_name("FILE");
-  app.add_option("--tls-key", input.tls_key, "The private key of --tls-cert, a PEM file")->type_name("FILE");
+  const auto add_file = [&app](const char* name, std::string& path, const char* help) {
+    MarkFile(FileUse::kRead, app.add_option(name, path, help))->type_name("FILE");
+  };
+  add_file("--tls-ca", input.tls_ca, "Make sure of the server by the authorities in this PEM file instead");
+  add_file("--tls-cert", input.tls_cert, "This client's certificate, a PEM file");
+  add_file("--tls-key", input.tls_key, "The private key of --tls-cert, a PEM file");
   app.add_option("--server-name", input.server_name,
                  "The name that the server's certificate must have, if it is not that of --server")
       ->type_name("NAME");
-  app.add_option("--token-file", input.token_file, "Send the token in this file; RICOCHET_TOKEN may hold it instead")
-      ->type_name("FILE");
-  app.add_option("--config", input.config,
-                 "Read these options from a file; each can also be set in the environment, as RICOCHET_TLS_CA=FILE")
-      ->type_name("FILE");
+  add_file("--token-file", input.token_file, "Send the token in this file; RICOCHET_TOKEN may hold it instead");
+  add_file("--config", input.config,
+           "Read these options from a file; each can also be set in the environment, as RICOCHET_TLS_CA=FILE");
 }
 
 absl::StatusOr<ConnectionInput> Resolve(ConnectionInput input) {
@@ -139,6 +149,7 @@ absl::StatusOr<ConnectionInput> Resolve(ConnectionInput input) {
     if (value.empty()) value = FromEnvironment(setting.name);
     if (value.empty()) value = file.*(setting.value);
   }
+  if (absl::Status used = UseFiles(input); !used.ok()) return used;
   if (input.server.empty()) {
     if (absl::Status unused = CheckFlagsWithoutServer(flags); !unused.ok()) return unused;
   }

@@ -12,6 +12,7 @@
 #include "client/cli/cost_page.h"
 #include "client/cli/cost_picture.h"
 #include "client/cli/cost_report.h"
+#include "client/cli/file_option.h"
 #include "client/cli/interrupt.h"
 #include "client/cli/number_input.h"
 #include "client/cli/output.h"
@@ -64,7 +65,7 @@ absl::StatusOr<CostRequest> MakeRequest(const CostOptions& options) {
 // Returns all parts of the study as one.
 absl::StatusOr<CostChunk> Study(const Solver& solver, const CostRequest& request, std::stop_token stop) {
   CostChunk whole;
-  Progress progress("methods");
+  Progress progress(/*rows_to_terminal=*/false, "methods");
   for (absl::StatusOr<CostChunk>& chunk : solver.Cost(request, {.stop = std::move(stop)})) {
     if (!chunk.ok()) return chunk.status();
     progress.Update(chunk->rows_done, chunk->rows_total);
@@ -78,23 +79,10 @@ absl::StatusOr<CostChunk> Study(const Solver& solver, const CostRequest& request
   return whole;
 }
 
-absl::StatusOr<std::string> Render(const CostChunk& study, Format format) {
-  switch (format) {
-    case Format::kText:
-      return CostText(study);
-    case Format::kJson:
-    case Format::kJsonLines:
-      return Json(ToProto(study));
-    case Format::kCsv:
-      break;
-  }
-  return CostCsv(study);
-}
-
 absl::Status WritePage(const Scene& scene, const CostChunk& study, const std::string& path) {
   const std::string date = absl::FormatTime("%Y-%m-%d %H:%M UTC", absl::Now(), absl::UTCTimeZone());
   const absl::StatusOr<std::string> page = CostPage(scene, study, date);
-  return page.ok() ? WriteOutput({.output = path}, *page) : page.status();
+  return page.ok() ? WriteFile(path, *page) : page.status();
 }
 
 absl::Status RunCost(const CostOptions& options) {
@@ -107,7 +95,9 @@ absl::Status RunCost(const CostOptions& options) {
   if (!request.ok()) return request.status();
   const absl::StatusOr<CostChunk> study = Study(**solver, *request, interrupt.token());
   if (!study.ok()) return study.status();
-  const absl::StatusOr<std::string> text = Render(*study, options.common.format);
+  const absl::StatusOr<std::string> text = Render(
+      options.common.format, [&] { return CostText(*study); }, [&] { return Json(ToProto(*study)); },
+      [&] { return CostCsv(*study); });
   if (!text.ok()) return text.status();
   if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
   if (!options.html.empty()) {
@@ -130,10 +120,13 @@ void AddCost(CLI::App& app, Command& command) {
       ->type_name("TIME");
   sub->add_option("--samples", options->samples, "Samples taken of each time [21]")->type_name("N");
   AddPictureOptions(*sub, "time over error, and error made over error claimed,", options->picture);
-  sub->add_option("--html", options->html, "Write tables and pictures as one page that needs nothing beside it")
-      ->type_name("FILE");
+  MarkFile(FileUse::kWritten,
+           sub->add_option("--html", options->html,
+                           "Write tables and pictures as one page that needs nothing beside it; - for standard output"),
+           {"html", "htm"})
+      ->type_name("FILE.html");
   AddServerOptions(*sub, options->common);
-  AddOutputOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common, kMessageFormats);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunCost(*options); }; });
 }

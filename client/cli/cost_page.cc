@@ -179,7 +179,7 @@ absl::StatusOr<std::string> Figure(const CostChunk& study, Plot (*plot)(const Co
   std::string text = "<figure>\n";
   for (const auto& [width, name] :
        {std::pair(PictureWidth::kWide, "wide"), std::pair(PictureWidth::kNarrow, "narrow")}) {
-    const absl::StatusOr<std::string> file = DrawSvg(plot(study, width));
+    const absl::StatusOr<std::string> file = DrawAs(plot(study, width), "svg");
     if (!file.ok()) return file.status();
     absl::StrAppend(&text, "<div class=\"", name, "\">", InlineSvg(*file, absl::StrCat(id, "-", name, "-"), title),
                     "</div>\n");

@@ -15,7 +15,7 @@ namespace ricochet::cli {
 std::string SystemText(const Scene& scene);
 
 // Returns the page of a whole study of `scene`: all rows in one CostChunk, with its summary. `date` stands on the page.
-// Errors: those of DrawSvg.
+// Errors: those of DrawAs.
 absl::StatusOr<std::string> CostPage(const Scene& scene, const CostChunk& study, const std::string& date);
 
 }  // namespace ricochet::cli

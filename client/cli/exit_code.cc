@@ -6,6 +6,7 @@
 
 #include "client/cli/interrupt.h"
 #include "client/cli/output.h"
+#include "client/cli/progress.h"
 #include "ricochet/error.h"
 
 namespace ricochet::cli {
@@ -39,6 +40,7 @@ ExitCode ExitCodeOf(const absl::Status& status) {
 
 void PrintError(const absl::Status& status) {
   if (status.ok() || IsReaderGone(status)) return;
+  Progress::Erase();
   if (ExitCodeOf(status) == kInterrupted) {
     std::fputs("ricochet: interrupted\n", stderr);
     return;

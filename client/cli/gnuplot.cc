@@ -2,26 +2,45 @@
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <vector>
 
+#include "client/cli/output.h"
+
 namespace ricochet::cli {
 namespace {
 
-// Writes all of `text` to the pipe and closes it. Returns false if the reader went away.
-bool Feed(int pipe, const std::string& text) {
-  size_t done = 0;
-  while (done < text.size()) {
-    const ssize_t count = write(pipe, text.data() + done, text.size() - done);
-    if (count < 0 && errno != EINTR) break;
-    if (count > 0) done += static_cast<size_t>(count);
+absl::Status SystemError() { return absl::ErrnoToStatus(errno, "cannot start gnuplot"); }
+
+// A descriptor that is closed at the end.
+class Descriptor {
+ public:
+  explicit Descriptor(int descriptor) : descriptor_(descriptor) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() { close(descriptor_); }
+  int get() const { return descriptor_; }
+
+ private:
+  int descriptor_;
+};
+
+// Reads from a pipe until its writers have closed it.
+absl::StatusOr<std::string> ReadAll(int pipe) {
+  std::string text;
+  std::array<char, 1 << 16> buffer;
+  while (true) {
+    const ssize_t count = read(pipe, buffer.data(), buffer.size());
+    if (count > 0) text.append(buffer.data(), static_cast<size_t>(count));
+    if (count == 0) return text;
+    if (count < 0 && errno != EINTR) return SystemError();
   }
-  close(pipe);
-  return done == text.size();
 }
 
 // The environment of this process with a UTF-8 locale: in others gnuplot warns of characters that it cannot write.
@@ -43,12 +62,12 @@ class Utf8Environment {
   std::vector<char*> pointers_;
 };
 
-// Starts gnuplot with `input` as its standard input and with no signal blocked or ignored. Returns 0 or an errno.
-int SpawnGnuplot(int input, pid_t& child) {
+// Starts gnuplot with these as its standard input and output, and with no signal blocked or ignored. Returns 0 or an errno.
+int SpawnGnuplot(int input, int output, pid_t& child) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-  posix_spawn_file_actions_adddup2(&actions, STDERR_FILENO, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   sigset_t none;
@@ -69,22 +88,27 @@ int SpawnGnuplot(int input, pid_t& child) {
 
 }  // namespace
 
-absl::Status RunGnuplot(const std::string& script) {
+absl::StatusOr<std::string> RunGnuplot(const std::string& script) {
+  // A script in memory can be read while gnuplot draws, which a pipe would need a thread for.
+  const Descriptor input(memfd_create("gnuplot script", MFD_CLOEXEC));
+  if (input.get() < 0) return SystemError();
+  if (absl::Status status = WriteAll(input.get(), script); !status.ok()) return status;
+  if (lseek(input.get(), 0, SEEK_SET) != 0) return SystemError();
   int ends[2];
-  if (pipe2(ends, O_CLOEXEC) != 0) return absl::ErrnoToStatus(errno, "cannot start gnuplot");
+  if (pipe2(ends, O_CLOEXEC) != 0) return SystemError();
+  const Descriptor output(ends[0]);
   pid_t child = -1;
-  const int error = SpawnGnuplot(ends[0], child);
-  close(ends[0]);
-  if (error != 0) {
-    close(ends[1]);
-    if (error != ENOENT) return absl::ErrnoToStatus(error, "cannot start gnuplot");
+  const int error = SpawnGnuplot(input.get(), ends[1], child);
+  close(ends[1]);
+  if (error == ENOENT) {
     return absl::FailedPreconditionError("pictures need gnuplot, which is not installed (Debian: gnuplot-nox)");
   }
-  const bool fed = Feed(ends[1], script);
+  if (error != 0) return absl::ErrnoToStatus(error, "cannot start gnuplot");
+  absl::StatusOr<std::string> picture = ReadAll(output.get());
   int result = 0;
   while (waitpid(child, &result, 0) < 0 && errno == EINTR) {
   }
-  if (fed && WIFEXITED(result) && WEXITSTATUS(result) == 0) return absl::OkStatus();
+  if (WIFEXITED(result) && WEXITSTATUS(result) == 0) return picture;
   return absl::InternalError("gnuplot failed");
 }
 

@@ -5,13 +5,14 @@
 
 #include <string>
 
-#include "absl/status/status.h"
+#include "absl/status/statusor.h"
 
 namespace ricochet::cli {
 
-// Runs the commands of `script`. What gnuplot prints goes to standard error.
-// Errors: FAILED_PRECONDITION if gnuplot is not installed, INTERNAL if it fails.
-absl::Status RunGnuplot(const std::string& script);
+// Runs the commands of `script` and returns what it draws to its standard output, so that no file of gnuplot's is left if
+// the disk is full. What gnuplot says goes to standard error.
+// Errors: FAILED_PRECONDITION if gnuplot is not installed, INTERNAL if it fails; those of the system.
+absl::StatusOr<std::string> RunGnuplot(const std::string& script);
 
 }  // namespace ricochet::cli
 

@@ -109,25 +109,14 @@ std::string InfoCsv(const InfoResponse& info) {
   return text;
 }
 
-absl::StatusOr<std::string> Render(const InfoResponse& info, Format format) {
-  switch (format) {
-    case Format::kText:
-      return InfoText(info);
-    case Format::kJson:
-    case Format::kJsonLines:
-      return Json(ToProto(info));
-    case Format::kCsv:
-      break;
-  }
-  return InfoCsv(info);
-}
-
 absl::Status RunInfo(const InfoOptions& options) {
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<InfoResponse> info = (*solver)->Info();
   if (!info.ok()) return info.status();
-  const absl::StatusOr<std::string> text = Render(*info, options.common.format);
+  const absl::StatusOr<std::string> text = Render(
+      options.common.format, [&] { return InfoText(*info); }, [&] { return Json(ToProto(*info)); },
+      [&] { return InfoCsv(*info); });
   return text.ok() ? WriteOutput(options.common, *text) : text.status();
 }
 
@@ -137,7 +126,7 @@ void AddInfo(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("info", "The engine, what it can compute, and its limits");
   const auto options = std::make_shared<InfoOptions>();
   AddServerOptions(*sub, options->common);
-  AddOutputOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common, kMessageFormats);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunInfo(*options); }; });
 }

@@ -8,6 +8,7 @@
 #include <ctime>
 
 #include "client/cli/exit_code.h"
+#include "client/cli/progress.h"
 
 namespace ricochet::cli {
 namespace {
@@ -38,7 +39,10 @@ Interrupt::Interrupt() {
     while (!done.stop_requested()) {
       if (sigtimedwait(&signals, nullptr, &kLook) <= 0) continue;
       const auto now = std::chrono::steady_clock::now();
-      if (happened && now - first > kRepeated) _exit(kInterrupted);
+      if (happened && now - first > kRepeated) {
+        Progress::Erase();
+        _exit(kInterrupted);
+      }
       if (!happened.exchange(true)) first = now;
       source.request_stop();
     }

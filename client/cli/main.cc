@@ -15,6 +15,7 @@
 #include "absl/synchronization/mutex.h"
 #include "client/cli/common.h"
 #include "client/cli/exit_code.h"
+#include "client/cli/file_option.h"
 #include "client/cli/flag_names.h"
 #include "client/cli/grpc_log.h"
 #include "client/cli/program.h"
@@ -52,7 +53,8 @@ int main(int argc, char** argv) {
     std::cerr << (argc == 1 ? app->help() : absl::StrCat("ricochet: ", ricochet::cli::UsageError(*app, error), "\n"));
     return ricochet::cli::kUsage;
   }
-  const absl::Status status = ricochet::cli::WithTlsAlert(command());
+  absl::Status status = ricochet::cli::UseFilesOf(*app);
+  if (status.ok()) status = ricochet::cli::WithTlsAlert(command());
   ricochet::cli::PrintError(ricochet::cli::NameFlags(*app, status));
   return ricochet::cli::ExitCodeOf(status);
 }

@@ -16,6 +16,7 @@
 #include "client/cli/shard.h"
 #include "client/cli/shard_coverage.h"
 #include "client/cli/sweep_output.h"
+#include "client/cli/used_files.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet::cli {
@@ -28,8 +29,8 @@ constexpr char kExample[] =
   >     --axis friction.kinetic_coefficient=lin:0:0.4:1000 \
   >     --column coefficients.newton --shard-index $i --shard-count 3
   > done
-  $ ricochet merge --verify friction --format csv -o friction.csv
-The file has the bytes of one run with the same --format.
+  $ ricochet merge --verify friction -o friction.csv
+The file has the bytes of one run into a file of that name.
 Exit codes: 0 done, 2 wrong input or shards of different sweeps, 42 a shard is missing, there twice or damaged,
 130 interrupted.)";
 
@@ -42,8 +43,12 @@ struct MergeOptions {
 // Puts the messages of all shards together as if they were calls of one sweep, each of which broke off.
 class Merger {
  public:
-  Merger(const SweepRequest& sweep, SweepOutput output)
-      : end_index_(*sweep.end_index), checker_(sweep), output_(std::move(output)), invalid_(sweep) {}
+  Merger(const SweepRequest& sweep, SweepOutput output, bool rows_to_terminal)
+      : end_index_(*sweep.end_index),
+        checker_(sweep),
+        output_(std::move(output)),
+        invalid_(sweep),
+        progress_(rows_to_terminal) {}
 
   // Errors: DATA_LOSS for a shard that is not what its manifest says; CANCELLED; those of the system.
   absl::Status Add(const ShardFile& shard) {
@@ -110,6 +115,11 @@ absl::Status RunMerge(const MergeOptions& options) {
   const Interrupt interrupt;
   absl::StatusOr<std::vector<ShardFile>> shards = FindShardFiles(options.file);
   if (!shards.ok()) return shards.status();
+  for (const ShardFile& shard : *shards) {
+    for (const std::string& path : {shard.path, shard.manifest_path()}) {
+      if (absl::Status status = UseFile(FileUse::kRead, "", path); !status.ok()) return status;
+    }
+  }
   if (absl::Status status = CheckCoverage(*shards); !status.ok()) return status;
   if (options.verify) {
     if (absl::Status status = Verify(*shards); !status.ok()) return status;
@@ -117,7 +127,7 @@ absl::Status RunMerge(const MergeOptions& options) {
   const SweepRequest sweep = FromProto(shards->front().manifest.sweep());
   absl::StatusOr<SweepOutput> output = SweepOutput::Open(sweep, options.common, /*summary_only=*/false);
   if (!output.ok()) return output.status();
-  Merger merger(sweep, *std::move(output));
+  Merger merger(sweep, *std::move(output), StreamsRows(options.common));
   const bool is_empty = sweep.first_index == *sweep.end_index;
   for (const ShardFile& shard : *shards) {
     if (shard.manifest.rows() == 0 && !is_empty) continue;
@@ -139,7 +149,7 @@ void AddMerge(CLI::App& app, Command& command) {
       "--verify", options->verify,
       "Before anything is written, read every shard and compare it with the checksum of its manifest, and say "
       "what was found");
-  AddSweepOutputOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common, kSweepFormats);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunMerge(*options); }; });
 }

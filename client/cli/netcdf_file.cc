@@ -1,9 +1,11 @@
 #include "client/cli/netcdf_file.h"
 
+#include <dlfcn.h>
 #include <google/protobuf/util/json_util.h>
 #include <netcdf.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
 #include <string_view>
@@ -24,11 +26,32 @@
 namespace ricochet::cli {
 namespace {
 
-absl::Status StatusOf(int error, const std::string& what) {
-  if (error == NC_NOERR) return absl::OkStatus();
+// An error of NetCDF, and that of the system behind it or 0.
+struct Failure {
+  int error = NC_NOERR;
+  int cause = 0;
+};
+
+// Call it right after the function that returned `error`. HDF5 says only that it has failed, and leaves errno as the disk
+// set it; other values of errno are left by successes, too.
+Failure FailureOf(int error) {
+  const bool is_disk = errno == ENOSPC || errno == EDQUOT || errno == EFBIG || errno == EIO;
   // A positive number is one of the system.
-  if (error > 0) return absl::ErrnoToStatus(error, what);
-  return absl::InternalError(absl::StrCat(what, ": ", nc_strerror(error)));
+  return {.error = error, .cause = is_disk ? errno : std::max(error, 0)};
+}
+
+absl::Status StatusOf(const Failure& failure) {
+  constexpr char kWhat[] = "cannot write the NetCDF file";
+  if (failure.error == NC_NOERR) return absl::OkStatus();
+  if (failure.cause != 0) return absl::ErrnoToStatus(failure.cause, kWhat);
+  return absl::InternalError(absl::StrCat(kWhat, ": ", nc_strerror(failure.error)));
+}
+
+// HDF5 would close its files once more when the process ends, and crashes there if one could not be written. Call it before
+// anything else of NetCDF, which brings HDF5 along.
+void LeaveHdf5AloneAtExit() {
+  using Function = int (*)();
+  if (const auto function = reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, "H5dont_atexit"))) function();
 }
 
 // Powers of units are written as UDUNITS reads them: "kg m2".
@@ -74,19 +97,21 @@ class NetcdfFile::Impl {
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
   ~Impl() {
-    if (id_ >= 0) nc_abort(id_);
+    // To abort a file that could not be written crashes in NetCDF 4.9; it is removed all the same.
+    if (id_ >= 0 && !has_failed()) nc_abort(id_);
   }
 
   absl::Status Open(int64_t points) {
-    if (absl::Status status = Check(nc_create(file_.temporary_path().c_str(), NC_CLOBBER | NC_NETCDF4, &id_));
-        !status.ok()) {
+    LeaveHdf5AloneAtExit();
+    Take(nc_create(file_.temporary_path().c_str(), NC_CLOBBER | NC_NETCDF4, &id_));
+    if (has_failed()) {
       id_ = -1;
-      return status;
+      return StatusOf(failure_);
     }
     Define(points);
-    if (error_ == NC_NOERR) Take(nc_enddef(id_));
-    if (!is_flat_ && error_ == NC_NOERR) PutAxes();
-    return Check(error_);
+    if (!has_failed()) Take(nc_enddef(id_));
+    if (!is_flat_ && !has_failed()) PutAxes();
+    return StatusOf(failure_);
   }
 
   absl::Status Write(const SweepChunk& chunk) {
@@ -106,20 +131,20 @@ class NetcdfFile::Impl {
       PutCodes(status_, chunk.statuses, first);
     }
     if (is_flat_) PutPoints(chunk, first);
-    return Check(error_);
+    return StatusOf(failure_);
   }
 
   absl::Status Commit() {
-    if (absl::Status status = Check(nc_close(std::exchange(id_, -1))); !status.ok()) return status;
-    return file_.Commit();
+    Take(nc_close(std::exchange(id_, -1)));
+    return has_failed() ? StatusOf(failure_) : file_.Commit();
   }
 
  private:
+  bool has_failed() const { return failure_.error != NC_NOERR; }
   // Keeps the first error.
   void Take(int error) {
-    if (error_ == NC_NOERR) error_ = error;
+    if (!has_failed() && error != NC_NOERR) failure_ = FailureOf(error);
   }
-  absl::Status Check(int error) const { return StatusOf(error, "cannot write the NetCDF file"); }
 
   void PutText(int variable, const char* name, const std::string& text) {
     Take(nc_put_att_text(id_, variable, name, text.size(), text.data()));
@@ -264,7 +289,7 @@ class NetcdfFile::Impl {
   AtomicFile file_;
   AxisCursor cursor_;
   int id_ = -1;
-  int error_ = NC_NOERR;
+  Failure failure_;
   bool is_flat_ = false;
   bool has_engine_ = false;
   std::vector<size_t> counts_;  // The lengths of the dimensions.

@@ -7,7 +7,6 @@
 #include <cerrno>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <system_error>
 #include <utility>
 
@@ -30,9 +29,32 @@ mode_t DefaultMode() {
 
 }  // namespace
 
+bool IsStandardOutput(const std::string& path) { return path.empty() || path == "-" || path == "/dev/stdout"; }
+
+absl::Status WriteAll(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(descriptor, text.data(), text.size());
+    if (count >= 0) {
+      text.remove_prefix(static_cast<size_t>(count));
+    } else if (errno == EPIPE) {
+      absl::Status status = absl::CancelledError("the reader of the output has gone");
+      status.SetPayload(kReaderGoneUrl, absl::Cord());
+      return status;
+    } else if (errno != EINTR) {
+      return SystemError("cannot write the output");
+    }
+  }
+  return absl::OkStatus();
+}
+
 absl::StatusOr<std::string> FileToWrite(const std::string& path) {
+  constexpr int kMostLinks = 40;  // Linux follows as many.
   std::error_code failure;
-  const std::filesystem::path target = std::filesystem::weakly_canonical(std::filesystem::absolute(path), failure);
+  std::filesystem::path target = path;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, failure); ++i) {
+    target = target.parent_path() / std::filesystem::read_symlink(target, failure);
+  }
+  target = std::filesystem::weakly_canonical(std::filesystem::absolute(target), failure);
   if (failure || !target.has_filename() || std::filesystem::is_directory(target, failure)) {
     return absl::FailedPreconditionError(absl::StrCat("cannot write ", path, ": not a file"));
   }
@@ -86,7 +108,7 @@ absl::Status AtomicFile::Commit() {
 
 absl::StatusOr<Output> Output::Open(const std::string& path) {
   const absl::Status none = absl::NotFoundError("no file");
-  if (path.empty()) return Output(none, STDOUT_FILENO, false);
+  if (IsStandardOutput(path)) return Output(none, STDOUT_FILENO, false);
   if (IsDevice(path)) {
     const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor < 0) return SystemError(absl::StrCat("cannot write ", path));
@@ -105,23 +127,14 @@ Output::~Output() {
   if (owned_) close(descriptor_);
 }
 
-absl::Status Output::Write(const std::string& text) {
-  for (size_t done = 0; done < text.size();) {
-    const ssize_t count = write(descriptor_, text.data() + done, text.size() - done);
-    if (count >= 0) {
-      done += static_cast<size_t>(count);
-    } else if (errno == EPIPE) {
-      absl::Status status = absl::CancelledError("the reader of the output has gone");
-      status.SetPayload(kReaderGoneUrl, absl::Cord());
-      return status;
-    } else if (errno != EINTR) {
-      return SystemError("cannot write the output");
-    }
-  }
-  return absl::OkStatus();
-}
-
 absl::Status Output::Commit() { return file_.ok() ? file_->Commit() : absl::OkStatus(); }
+
+absl::Status WriteFile(const std::string& path, std::string_view text) {
+  absl::StatusOr<Output> output = Output::Open(path);
+  if (!output.ok()) return output.status();
+  if (absl::Status status = output->Write(text); !status.ok()) return status;
+  return output->Commit();
+}
 
 bool IsReaderGone(const absl::Status& status) { return status.GetPayload(kReaderGoneUrl).has_value(); }
 

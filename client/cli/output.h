@@ -4,12 +4,22 @@
 #define RICOCHET_CLIENT_CLI_OUTPUT_H_
 
 #include <string>
+#include <string_view>
+#include <utility>
 
+#include "absl/status/status.h"
 #include "absl/status/statusor.h"
 
 namespace ricochet::cli {
 
-// Returns the file that writing to `path` replaces: the target of a symbolic link, so that the link is kept.
+// True for "-", for nothing, and for the name that Linux gives standard output.
+bool IsStandardOutput(const std::string& path);
+
+// Writes all of `text`. Errors: one for which IsReaderGone holds if the reader has closed a pipe; else those of the system.
+absl::Status WriteAll(int descriptor, std::string_view text);
+
+// Returns the file that writing to `path` replaces: the target of a symbolic link, which need not be there yet, so that
+// the link is kept.
 // Errors: FAILED_PRECONDITION if it cannot be a file.
 absl::StatusOr<std::string> FileToWrite(const std::string& path);
 
@@ -41,7 +51,7 @@ class AtomicFile {
   int descriptor_ = -1;
 };
 
-// Standard output for an empty path; a device or pipe at `path`, which is written to directly; else an AtomicFile.
+// Standard output for an empty path or "-"; a device or pipe at `path`, which is written to directly; else an AtomicFile.
 class Output {
  public:
   static absl::StatusOr<Output> Open(const std::string& path);
@@ -50,8 +60,8 @@ class Output {
   Output& operator=(Output&&) = delete;
   ~Output();
 
-  // Errors: one for which IsReaderGone holds if the reader of standard output has closed it; else those of the system.
-  absl::Status Write(const std::string& text);
+  // Errors: those of WriteAll.
+  absl::Status Write(std::string_view text) { return WriteAll(descriptor_, text); }
   // Makes a file appear under its name. Call it once, after the last Write. Errors: those of the system.
   absl::Status Commit();
 
@@ -62,6 +72,9 @@ class Output {
   int descriptor_;
   bool owned_;  // True if the destructor closes `descriptor_`.
 };
+
+// Writes all of `text` to what Output::Open opens. Errors: those of Output.
+absl::Status WriteFile(const std::string& path, std::string_view text);
 
 // Returns true if the error means that the reader of standard output has gone, as with `| head`. Such a run stops
 // without a complaint.

@@ -16,24 +16,13 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/output.h"
+#include "client/cli/used_files.h"
 #include "proto/wire/crc32c.h"
 
 namespace ricochet::cli {
 namespace {
 
 absl::Status SystemError(const std::string& what) { return absl::ErrnoToStatus(errno, what); }
-
-absl::Status WriteAll(int descriptor, std::string_view text) {
-  while (!text.empty()) {
-    const ssize_t count = write(descriptor, text.data(), text.size());
-    if (count >= 0) {
-      text.remove_prefix(static_cast<size_t>(count));
-    } else if (errno != EINTR) {
-      return SystemError("cannot write the output");
-    }
-  }
-  return absl::OkStatus();
-}
 
 std::string ToJson(const Partial& manifest) {
   google::protobuf::util::JsonPrintOptions options;
@@ -93,6 +82,9 @@ PartialFile::~PartialFile() {
 absl::StatusOr<PartialFile> PartialFile::Open(const std::string& path, const Partial& wanted, bool resume) {
   absl::StatusOr<std::string> target = FileToWrite(path);
   if (!target.ok()) return target.status();
+  for (const char* ending : {".part", ".part.json", ".part.json.new"}) {
+    if (absl::Status status = UseFile(FileUse::kWritten, "", *target + ending); !status.ok()) return status;
+  }
   const absl::StatusOr<int> descriptor = OpenLocked(*target + ".part");
   if (!descriptor.ok()) return descriptor.status();
   PartialFile file(*std::move(target), *descriptor);

@@ -8,7 +8,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
+#include "client/cli/file_option.h"
 #include "client/cli/number_input.h"
+#include "core/numerics/utf8.h"
 
 namespace ricochet::cli {
 namespace {
@@ -20,7 +22,8 @@ constexpr int64_t kMostSide = 10'000;
 }  // namespace
 
 void AddPictureOptions(CLI::App& app, const std::string& what, PictureOptions& options) {
-  app.add_option("--plot", options.file, absl::StrCat("Draw ", what, " with gnuplot"))
+  MarkFile(FileUse::kWritten, app.add_option("--plot", options.file, absl::StrCat("Draw ", what, " with gnuplot")),
+           PictureFormats())
       ->type_name("FILE.svg|.png|.pdf")
       ->group("Picture");
   AddLookOptions(app, options);
@@ -74,7 +77,9 @@ absl::Status CheckPicture(const PictureOptions& options) {
     }
     return absl::InvalidArgumentError("--title, --size, --logx, --logy and --kind need --plot FILE");
   }
-  if (absl::Status status = CheckPlotPath(options.option, options.file); !status.ok()) return status;
+  if (Printable(options.title) != options.title) {
+    return InputError("--title", Printable(options.title), "be UTF-8 without control characters");
+  }
   return SizeOf(options).status();
 }
 

@@ -19,8 +19,7 @@ namespace ricochet::cli {
 enum class PlotKind { kAuto, kCurves, kMap };
 
 struct PictureOptions {
-  std::string option = "--plot";  // The option that names the file.
-  std::string file;               // Empty: no picture is drawn, and all others must be unset.
+  std::string file;  // Empty: no picture is drawn, and all others must be unset.
   std::string title;
   std::string size;
   bool log_x = false;

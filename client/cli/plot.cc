@@ -4,17 +4,16 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
 
 #include "absl/status/status.h"
+#include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/gnuplot.h"
 #include "client/cli/output.h"
+#include "client/cli/output_format.h"
 #include "client/cli/plot_curves.h"
 #include "client/cli/plot_layout.h"
 #include "client/cli/plot_scale.h"
@@ -253,16 +252,8 @@ void AppendPanel(size_t number, const Drawing& drawing, const Layout& layout, st
   absl::StrAppend(&script, "plot ", absl::StrJoin(parts, ", "), "\n");
 }
 
-}  // namespace
-
-absl::Status CheckPlotPath(const std::string& option, const std::string& path) {
-  for (const char* ending : {".svg", ".png", ".pdf"}) {
-    if (absl::EndsWith(path, ending)) return absl::OkStatus();
-  }
-  return absl::InvalidArgumentError(absl::StrCat(option, " ", path, ": must end in .svg, .png or .pdf"));
-}
-
-std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path) {
+// Returns the commands for gnuplot; `terminal` is "svg", "png" or "pdf".
+std::string PlotScript(const Plot& plot, const std::string& terminal) {
   Layout layout = LayoutOf(plot);
   std::vector<Drawing> drawings;
   for (const Panel& panel : plot.panels) {
@@ -276,32 +267,26 @@ std::string PlotScript(const Plot& plot, const std::string& terminal, const std:
   });
   if (has_legends) title += '\n';
   std::string script =
-      absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, layout),
-                   "\nset termoption noenhanced\nset output ", Quoted(path), "\n", kGrid, "set multiplot layout ",
-                   layout.rows, ",", layout.columns, " title ", Quoted(title), "\n");
+      absl::StrCat("set encoding utf8\nset terminal ", Terminal(terminal, layout), "\nset termoption noenhanced\n",
+                   kGrid, "set multiplot layout ", layout.rows, ",", layout.columns, " title ", Quoted(title), "\n");
   for (size_t i = 0; i < drawings.size(); ++i) AppendPanel(i, drawings[i], layout, script);
-  absl::StrAppend(&script, "unset multiplot\nunset output\n");
+  absl::StrAppend(&script, "unset multiplot\n");
   return script;
 }
 
-absl::StatusOr<std::string> DrawSvg(const Plot& plot) {
-  // The file is never committed, so that it is removed again.
-  const absl::StatusOr<AtomicFile> file =
-      AtomicFile::Create((std::filesystem::temp_directory_path() / "ricochet.svg").string());
-  if (!file.ok()) return file.status();
-  if (absl::Status status = RunGnuplot(PlotScript(plot, "svg", file->temporary_path())); !status.ok()) return status;
-  std::ifstream stream(file->temporary_path(), std::ios::binary);
-  return std::string(std::istreambuf_iterator<char>(stream), {});
+}  // namespace
+
+absl::StatusOr<std::string> DrawAs(const Plot& plot, const std::string& format) {
+  absl::StatusOr<std::string> picture = RunGnuplot(PlotScript(plot, format));
+  if (!picture.ok()) return picture.status();
+  const char* const end = format == "svg" ? "</svg>" : format == "png" ? "IEND\xAE\x42\x60\x82" : "%%EOF";
+  if (absl::EndsWith(absl::StripTrailingAsciiWhitespace(*picture), end)) return picture;
+  return absl::InternalError(absl::StrCat("gnuplot broke off after ", picture->size(), " bytes of the picture"));
 }
 
 absl::Status Draw(const Plot& plot, const std::string& path) {
-  absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
-  if (!file.ok()) return file.status();
-  const std::string terminal = path.substr(path.size() - 3);
-  if (absl::Status status = RunGnuplot(PlotScript(plot, terminal, file->temporary_path())); !status.ok()) {
-    return status;
-  }
-  return file->Commit();
+  const absl::StatusOr<std::string> picture = DrawAs(plot, IsStandardOutput(path) ? "svg" : EndingOf(path));
+  return picture.ok() ? WriteFile(path, *picture) : picture.status();
 }
 
 }  // namespace ricochet::cli

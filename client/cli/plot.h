@@ -62,17 +62,16 @@ struct Plot {
 double LetterHeight(double cell_width, double cell_height);
 inline constexpr double kLetterWidth = 0.62;
 
-// Errors: INVALID_ARGUMENT, which names the option, unless the path ends in .svg, .png or .pdf.
-absl::Status CheckPlotPath(const std::string& option, const std::string& path);
+// The formats of pictures, which are the endings of their files.
+inline std::vector<std::string> PictureFormats() { return {"svg", "png", "pdf"}; }
 
-// Returns the commands for gnuplot; `terminal` is "svg", "png" or "pdf".
-std::string PlotScript(const Plot& plot, const std::string& terminal, const std::string& path);
-
-// Returns the text of an SVG file. Errors: those of Draw.
-absl::StatusOr<std::string> DrawSvg(const Plot& plot);
-
-// Draws to the file `path`, which appears complete or not at all.
+// Returns the bytes of a whole picture in one of PictureFormats.
 // Errors: FAILED_PRECONDITION if gnuplot is not installed, INTERNAL if it fails.
+absl::StatusOr<std::string> DrawAs(const Plot& plot, const std::string& format);
+
+// Draws to the file `path`, which appears complete or not at all. Its ending says the format; standard output
+// gets an SVG.
+// Errors: those of DrawAs, and those of the system.
 absl::Status Draw(const Plot& plot, const std::string& path);
 
 }  // namespace ricochet::cli

@@ -12,6 +12,7 @@
 #include "absl/strings/str_split.h"
 #include "client/cli/plot_map.h"
 #include "core/numerics/decimal.h"
+#include "core/numerics/utf8.h"
 
 namespace ricochet::cli {
 namespace {
@@ -142,7 +143,7 @@ Points Beyond(const Points& points, const Axes& axes, Mark mark) {
 }  // namespace
 
 std::string Quoted(const std::string& text) {
-  std::vector<std::string> lines = absl::StrSplit(text, '\n');
+  std::vector<std::string> lines = absl::StrSplit(Printable(text), '\n');
   for (std::string& line : lines) line = absl::StrCat("'", absl::StrReplaceAll(line, {{"'", "''"}}), "'");
   return absl::StrJoin(lines, ".\"\\n\".");
 }

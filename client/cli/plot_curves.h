@@ -37,7 +37,7 @@ struct Axes {
   }
 };
 
-// Returns a gnuplot string, in which only the quote is a special character.
+// Returns a gnuplot string, in which only the quote is a special character. What is not UTF-8 becomes U+FFFD.
 std::string Quoted(const std::string& text);
 
 // Appends the data of the curves as blocks that begin with `prefix`. Returns the parts of the command that plots them:

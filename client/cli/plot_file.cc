@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "client/cli/file_option.h"
+#include "client/cli/output.h"
 #include "client/cli/picture_input.h"
 #include "client/cli/sweep_file.h"
 #include "client/cli/sweep_plot.h"
@@ -38,8 +40,10 @@ std::string DefaultPicture(const std::string& file) {
 }
 
 absl::Status RunPlotFile(PlotFileOptions options) {
-  options.picture.option = "-o";
-  if (options.picture.file.empty()) options.picture.file = DefaultPicture(options.file);
+  if (options.picture.file.empty()) {
+    options.picture.file = DefaultPicture(options.file);
+    if (absl::Status status = UseFile(FileUse::kWritten, "", options.picture.file); !status.ok()) return status;
+  }
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   const absl::StatusOr<SweepTable> table = ReadSweepFile(options.file, options.columns);
   if (!table.ok()) return table.status();
@@ -51,7 +55,7 @@ absl::Status RunPlotFile(PlotFileOptions options) {
     std::fprintf(stderr, "%s has no regimes, so that %s: ricochet sweep --regime writes them\n", options.file.c_str(),
                  is_map ? "jammed points look like others" : "lines go on where the regime changes");
   }
-  return WriteOutput({}, options.picture.file + "\n");
+  return IsStandardOutput(options.picture.file) ? absl::OkStatus() : WriteOutput({}, options.picture.file + "\n");
 }
 
 }  // namespace
@@ -59,10 +63,14 @@ absl::Status RunPlotFile(PlotFileOptions options) {
 void AddPlotFile(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("plot", "Draw a file that sweep or merge wrote");
   const auto options = std::make_shared<PlotFileOptions>();
-  sub->add_option("file", options->file, "A sweep as csv, json, jsonl, npy or netcdf; the content says which")
+  MarkFile(FileUse::kRead,
+           sub->add_option("file", options->file, "A sweep as csv, json, jsonl, npy or netcdf; the content says which"))
       ->type_name("FILE")
       ->required();
-  sub->add_option("-o,--output", options->picture.file, "The picture [FILE with the ending .svg]")
+  MarkFile(FileUse::kWritten,
+           sub->add_option("-o,--output", options->picture.file,
+                           "The picture; - for SVG on standard output [FILE with the ending .svg]"),
+           PictureFormats())
       ->type_name("FILE.svg|.png|.pdf");
   sub->add_option("--column", options->columns, "Columns of the file to draw, in this order [all]")
       ->type_name("COLUMN,...")

@@ -4,7 +4,7 @@
 #include <google/protobuf/text_format.h>
 
 #include <CLI/App.hpp>
-#include <map>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,14 +31,15 @@ namespace {
 constexpr char kExample[] = R"(Example: a scene of your own, from a template.
   $ ricochet scene template planar_contact | grep friction
   friction { kinetic_coefficient: 0.7 }
-Then: ricochet scene template planar_contact > my.textproto, edit it, and ricochet solve --scene my.textproto.
+Then: ricochet scene template planar_contact -o my.textproto, edit it, and ricochet solve --scene my.textproto.
 Exit codes: 0 done, 2 wrong input.)";
 
 struct SceneCommand {
   CommonOptions common;
   SceneOptions scene;
   std::string system;
-  bool json = false;
+
+  bool json() const { return common.format == Format::kJson; }
 };
 
 absl::Status Write(const SceneCommand& options, const std::string& text) { return WriteOutput(options.common, text); }
@@ -62,7 +63,7 @@ absl::Status RunList(const SceneCommand& options) {
     AppendJson(comment, json);
     json += "}";
   }
-  return Write(options, options.json ? json + "]\n" : table.Render(0));
+  return Write(options, options.json() ? json + "]\n" : table.Render(0));
 }
 
 // Returns the scene as JSON or textproto.
@@ -78,7 +79,7 @@ absl::Status RunTemplate(const SceneCommand& options) {
   for (const SceneTemplate& one : SceneTemplates()) {
     systems.push_back(one.system);
     if (one.system != options.system) continue;
-    if (!options.json) return Write(options, one.text);
+    if (!options.json()) return Write(options, one.text);
     v1::Scene scene;
     if (absl::Status parsed = ParseMessage("template.textproto", one.text, scene); !parsed.ok()) return parsed;
     return Write(options, SceneText(scene, /*json=*/true));
@@ -93,7 +94,7 @@ absl::Status RunPrint(const SceneCommand& options) {
   if (!scene.ok()) return scene.status();
   const std::vector<Violation> violations = Validate(*scene, RestitutionIs::kOptional);
   if (!violations.empty()) return InvalidRequest(violations);
-  return Write(options, SceneText(ToProto(*scene), options.json));
+  return Write(options, SceneText(ToProto(*scene), options.json()));
 }
 
 // --- fields and columns ---
@@ -123,7 +124,7 @@ absl::Status ListPaths(const SceneCommand& options, const std::vector<std::strin
     absl::StrAppend(&text, path, info->unit.empty() ? "" : absl::StrCat("  [", info->unit, "]"), "\n",
                     Wrapped(info->comment, 4));
   }
-  return Write(options, options.json ? json + "\n]\n" : text);
+  return Write(options, options.json() ? json + "\n]\n" : text);
 }
 
 std::vector<std::string> PathsOf(const std::vector<FieldInfo>& table) {
@@ -144,16 +145,35 @@ absl::Status RunColumns(const SceneCommand& options) {
   return scene.ok() ? ListPaths(options, Columns(*scene)) : scene.status();
 }
 
+constexpr std::array kListFormats = {Format::kText, Format::kJson};
+constexpr std::array kSceneFormats = {Format::kTextproto, Format::kJson};
+constexpr std::array kSchemaFormats = {Format::kJson};
+
 using Run = absl::Status (*)(const SceneCommand&);
 
+// A subcommand and its options, which live as long as it does.
+struct Added {
+  CLI::App* app;
+  SceneCommand* options;
+};
+
 // Adds `ricochet scene NAME`, which sets the command to `run`.
-CLI::App* AddOne(CLI::App& scene, const char* name, const char* help, Run run,
-                 const std::shared_ptr<SceneCommand>& options, Command& command) {
+Added AddOne(CLI::App& scene, const char* name, const char* help, Run run, absl::Span<const Format> formats,
+             Command& command) {
   CLI::App* sub = scene.add_subcommand(name, help);
-  sub->add_option("-o,--output", options->common.output, "Write to this file instead of standard output")
-      ->type_name("FILE");
+  const auto options = std::make_shared<SceneCommand>();
+  CommonOptions& common = options->common;
+  if (formats.size() > 1) {
+    const auto choose_json = [&common] {
+      common.format = Format::kJson;
+      common.named_format = FormatName(common.format);
+    };
+    sub->add_flag_callback("--json", choose_json, "The same as --format json");
+  }
+  AddOutputOptions(*sub, common, formats);
+  if (formats.size() > 1) sub->get_option("--json")->excludes(sub->get_option("--format"));
   sub->callback([options, run, &command] { command = [options, run] { return run(*options); }; });
-  return sub;
+  return {sub, options.get()};
 }
 
 }  // namespace
@@ -162,29 +182,25 @@ void AddScene(CLI::App& app, Command& command) {
   CLI::App* scene = app.add_subcommand("scene", "Show what scenes look like: templates, schema, fields, columns");
   scene->require_subcommand(1);
   scene->footer(kExample);
-  const auto options = std::make_shared<SceneCommand>();
-  const auto add = [&](const char* name, const char* help, Run run) {
-    return AddOne(*scene, name, help, run, options, command);
+  const auto add = [&](const char* name, const char* help, Run run, absl::Span<const Format> formats) {
+    return AddOne(*scene, name, help, run, formats, command);
   };
-  const auto add_json = [&](CLI::App* sub) { sub->add_flag("--json", options->json, "Print JSON"); };
-  add_json(add("list", "List the systems that can strike", RunList));
-  CLI::App* one = add("template", "Print a commented scene to start from", RunTemplate);
-  one->add_option("SYSTEM", options->system, "A system of `ricochet scene list`")->required();
-  add_json(one);
-  CLI::App* print = add("print", "Print the scene of a file or of flags as textproto", RunPrint);
-  AddSceneOptions(*print, options->scene);
-  add_json(print);
-  add("schema", "Print the JSON Schema of a scene, draft 2020-12",
-      [](const SceneCommand& all) { return Write(all, SceneSchema()); });
-  CLI::App* fields = add("fields", "List the numbers of a scene with units, ranges and meanings", RunFields);
-  AddSceneOptions(*fields, options->scene);
-  add_json(fields);
-  CLI::App* columns = add(
+  add("list", "List the systems that can strike", RunList, kListFormats);
+  const Added one = add("template", "Print a commented scene to start from", RunTemplate, kSceneFormats);
+  one.app->add_option("SYSTEM", one.options->system, "A system of `ricochet scene list`")->required();
+  const Added print = add("print", "Print the scene of a file or of flags", RunPrint, kSceneFormats);
+  AddSceneOptions(*print.app, print.options->scene);
+  add(
+      "schema", "Print the JSON Schema of a scene, draft 2020-12",
+      [](const SceneCommand& all) { return Write(all, SceneSchema()); }, kSchemaFormats);
+  const Added fields =
+      add("fields", "List the numbers of a scene with units, ranges and meanings", RunFields, kListFormats);
+  AddSceneOptions(*fields.app, fields.options->scene);
+  const Added columns = add(
       "columns",
       "List the numbers of an answer, with the equations of the paper in brackets; without a scene those of a pendulum",
-      RunColumns);
-  AddSceneOptions(*columns, options->scene);
-  add_json(columns);
+      RunColumns, kListFormats);
+  AddSceneOptions(*columns.app, columns.options->scene);
 }
 
 }  // namespace ricochet::cli

@@ -22,8 +22,10 @@
 #include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
 #include "client/cli/csv_table.h"
+#include "client/cli/file_option.h"
 #include "client/cli/json/json_errors.h"
 #include "client/cli/number_input.h"
+#include "client/cli/output_format.h"
 #include "core/scene/numbers.h"
 #include "proto/wire/scene.h"
 #include "ricochet/error.h"
@@ -60,9 +62,10 @@ class FirstError final : public google::protobuf::io::ErrorCollector {
 };
 
 bool IsJson(const std::string& path, const std::string& text) {
-  if (absl::EndsWith(path, ".json")) return true;
-  for (const char* ending : {".textproto", ".txtpb", ".pbtxt"}) {
-    if (absl::EndsWith(path, ending)) return false;
+  const std::string file_ending = EndingOf(path);
+  if (file_ending == "json") return true;
+  for (const char* ending : {"textproto", "txtpb", "pbtxt"}) {
+    if (file_ending == ending) return false;
   }
   const size_t start = text.find_first_not_of(" \t\r\n");
   return start != std::string::npos && text[start] == '{';
@@ -123,7 +126,8 @@ bool AnyFlag(const SceneOptions& options) {
 bool SceneOptions::any() const { return !file.empty() || AnyFlag(*this); }
 
 void AddSceneOptions(CLI::App& app, SceneOptions& options) {
-  app.add_option("--scene", options.file, "A ricochet.v1.Scene as JSON or textproto; - for standard input")
+  MarkFile(FileUse::kRead,
+           app.add_option("--scene", options.file, "A ricochet.v1.Scene as JSON or textproto; - for standard input"))
       ->type_name("FILE")
       ->group("Scene");
   const auto add = [&app](const char* name, std::optional<std::string>& value, const char* text) {

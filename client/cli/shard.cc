@@ -13,7 +13,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_format.h"
-#include "client/cli/common.h"
+#include "client/cli/output.h"
 #include "core/sweep/checked_sweep.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/crc32c.h"
@@ -93,7 +93,7 @@ absl::Status WriteShardManifest(const SweepShard& shard, const Partial& progress
   std::string text;
   const auto status = google::protobuf::util::MessageToJsonString(manifest, &text, options);
   if (!status.ok()) return absl::InternalError(status.ToString());
-  return WriteOutput({.connection = {}, .output = shard.path + kManifestEnding}, text);
+  return WriteFile(shard.manifest_path(), text);
 }
 
 absl::StatusOr<std::string> ShardWriter::operator()(const SweepChunk& chunk) {
@@ -107,6 +107,10 @@ absl::StatusOr<std::string> ShardWriter::operator()(const SweepChunk& chunk) {
   }
   return bytes;
 }
+
+std::string SweepShard::manifest_path() const { return path + kManifestEnding; }
+
+std::string ShardFile::manifest_path() const { return path + kManifestEnding; }
 
 std::string ShardFile::Name() const {
   return absl::StrCat("shard ", manifest.shard_index(), " of ", manifest.shard_count(), " (", path, ")");

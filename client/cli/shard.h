@@ -30,6 +30,8 @@ struct SweepShard {
   SweepRequest whole;  // The whole sweep; its end is set.
   SweepRequest part;   // The points of this shard.
   std::string path;    // The file of this shard.
+
+  std::string manifest_path() const;
 };
 
 // Divides the sweep into ranges whose lengths differ by at most one point. `file` is the FILE of their names.
@@ -59,6 +61,7 @@ struct ShardFile {
   std::string path;
   Shard manifest;
 
+  std::string manifest_path() const;
   // "shard 2 of 4 (sweep.shard-2-of-4)".
   std::string Name() const;
 };

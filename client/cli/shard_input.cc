@@ -1,13 +1,17 @@
 #include "client/cli/shard_input.h"
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <cstdlib>
+#include <iterator>
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/number_input.h"
 
 namespace ricochet::cli {
 namespace {
+
+constexpr const char* kFlags[] = {"--shard", "--shard-index", "--shard-count"};
 
 constexpr char kSlurmStep[] = "SLURM_ARRAY_TASK_STEP";
 
@@ -94,6 +98,13 @@ void AddShardOptions(CLI::App& app, ShardInput& input) {
   add(app.add_option("--shard-index", input.index, "Compute part I of N, counted from 0")->type_name("I"));
   add(app.add_option("--shard-count", input.count, "The number of parts; needed where the environment does not say it")
           ->type_name("N"));
+}
+
+bool WritesShard(const CLI::App& app) {
+  return std::any_of(std::begin(kFlags), std::end(kFlags), [&app](const char* flag) {
+    const CLI::Option* option = app.get_option_no_throw(flag);
+    return option != nullptr && option->count() > 0;
+  });
 }
 
 absl::StatusOr<ShardNumber> FindShard(const ShardInput& input) {

@@ -26,6 +26,9 @@ struct ShardInput {
 
 void AddShardOptions(CLI::App& app, ShardInput& input);
 
+// True if an option of shards was given, so that -o names files which have a format of their own.
+bool WritesShard(const CLI::App& app);
+
 // Shard `index` of `count`; 0 <= index < count.
 struct ShardNumber {
   int64_t index = 0;

@@ -9,6 +9,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/certificate_report.h"
 #include "client/cli/demand_input.h"
+#include "client/cli/file_option.h"
 #include "client/cli/number_input.h"
 #include "client/cli/picture_input.h"
 #include "client/cli/plan_report.h"
@@ -67,33 +68,11 @@ std::string Text(const Outcome& outcome, const SolveOptions& options) {
   return text;
 }
 
-absl::StatusOr<std::string> Render(const SolveResponse& response, const SolveOptions& options) {
-  switch (options.common.format) {
-    case Format::kText:
-      return Text(response.outcome, options);
-    case Format::kJson:
-    case Format::kJsonLines:
-      return Json(ToProto(response));
-    case Format::kCsv:
-      break;
-  }
-  if (response.outcome.certificate.has_value()) return CertificateCsv(*response.outcome.certificate);
-  if (options.explain) return PlanCsv(response.outcome.plan);
-  if (!options.force_history.empty()) return ForceHistoryCsv(response.outcome);
-  return options.history.empty() ? SolveCsv(response.outcome) : HistoryCsv(response.outcome);
-}
-
-absl::StatusOr<std::string> Render(const PlanResponse& response, Format format) {
-  switch (format) {
-    case Format::kText:
-      return PlanText(response.plan);
-    case Format::kJson:
-    case Format::kJsonLines:
-      return Json(ToProto(response));
-    case Format::kCsv:
-      break;
-  }
-  return PlanCsv(response.plan);
+std::string Csv(const Outcome& outcome, const SolveOptions& options) {
+  if (outcome.certificate.has_value()) return CertificateCsv(*outcome.certificate);
+  if (options.explain) return PlanCsv(outcome.plan);
+  if (!options.force_history.empty()) return ForceHistoryCsv(outcome);
+  return options.history.empty() ? SolveCsv(outcome) : HistoryCsv(outcome);
 }
 
 // Prints only the plan.
@@ -106,7 +85,9 @@ absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Sc
   }
   const absl::StatusOr<PlanResponse> response = solver.Plan({.scene = scene, .demand = demand});
   if (!response.ok()) return response.status();
-  const absl::StatusOr<std::string> text = Render(*response, options.common.format);
+  const absl::StatusOr<std::string> text = Render(
+      options.common.format, [&] { return PlanText(response->plan); }, [&] { return Json(ToProto(*response)); },
+      [&] { return PlanCsv(response->plan); });
   return text.ok() ? WriteOutput(options.common, *text) : text.status();
 }
 
@@ -153,7 +134,9 @@ absl::Status RunSolve(const SolveOptions& options) {
   const absl::StatusOr<SolveResponse> response = (*solver)->Solve(request);
   if (!response.ok()) return response.status();
   if (absl::Status still = RequireVelocity(*scene); !still.ok()) return still;
-  const absl::StatusOr<std::string> text = Render(*response, options);
+  const absl::StatusOr<std::string> text = Render(
+      options.common.format, [&] { return Text(response->outcome, options); }, [&] { return Json(ToProto(*response)); },
+      [&] { return Csv(response->outcome, options); });
   if (!text.ok()) return text.status();
   if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
   if (options.picture.file.empty()) return absl::OkStatus();
@@ -179,8 +162,10 @@ void AddSolve(CLI::App& app, Command& command) {
                 "Fail if the outcome is inadmissible; with --data, if one is or has no numbers, after writing all");
   AddPictureOptions(*sub, "velocities and forces over impulse or time, and in space also the slip,", options->picture);
   AddAxisOptions(*sub, options->picture);
-  sub->add_option("--data", options->data.file,
-                  "Many impacts, one on each line; the header names fields of the scene; - for standard input")
+  MarkFile(
+      FileUse::kRead,
+      sub->add_option("--data", options->data.file,
+                      "Many impacts, one on each line; the header names fields of the scene; - for standard input"))
       ->type_name("FILE.csv");
   sub->add_option("--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
       ->type_name("NAME")
@@ -191,7 +176,7 @@ void AddSolve(CLI::App& app, Command& command) {
       ->delimiter(',')
       ->allow_extra_args(false);
   AddServerOptions(*sub, options->common);
-  AddOutputOptions(*sub, options->common, /*has_lines=*/true);
+  AddOutputOptions(*sub, options->common, kRowFormats);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunSolve(*options); }; });
 }

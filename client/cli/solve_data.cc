@@ -27,8 +27,6 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr size_t kTextRows = 40;
-
 // A batch and its answer.
 struct Solved {
   BatchSetup setup;
@@ -121,10 +119,10 @@ std::vector<std::string> Names(const Solved& solved) {
   return names;
 }
 
-std::string Text(const Solved& solved) {
+std::string Text(const Solved& solved, size_t rows) {
   Table table;
   table.Add(Names(solved));
-  for (size_t i = 0; i < std::min(solved.regimes.size(), kTextRows); ++i) {
+  for (size_t i = 0; i < rows; ++i) {
     std::vector<std::string> cells = {absl::StrCat(i)};
     for (const std::vector<double>& column : solved.outputs) cells.push_back(Rounded(column[i]));
     cells.push_back(RegimeText(solved.regimes[i]));
@@ -132,8 +130,8 @@ std::string Text(const Solved& solved) {
     table.Add(cells);
   }
   std::string text = table.Render(0);
-  if (solved.regimes.size() > kTextRows) {
-    absl::StrAppend(&text, "... and ", solved.regimes.size() - kTextRows, " more rows; --format csv has them all\n");
+  if (solved.regimes.size() > rows) {
+    absl::StrAppend(&text, "... and ", solved.regimes.size() - rows, " more rows; --format csv has them all\n");
   }
   return absl::StrCat(text, "\n", SummaryText(solved));
 }
@@ -181,16 +179,9 @@ std::string JsonLines(const Solved& solved) {
   return text;
 }
 
-absl::Status Write(const Solved& solved, const CommonOptions& options) {
-  switch (options.format) {
-    case Format::kText:
-      return WriteOutput(options, Text(solved));
-    case Format::kJson:
-      return WriteOutput(options, JsonDocument(solved));
-    case Format::kJsonLines:
-    case Format::kCsv:
-      break;
-  }
+absl::Status Write(const Solved& solved, const CommonOptions& options, size_t rows) {
+  if (options.format == Format::kText) return WriteOutput(options, Text(solved, rows));
+  if (options.format == Format::kJson) return WriteOutput(options, JsonDocument(solved));
   absl::Status written = WriteOutput(options, options.format == Format::kCsv ? Csv(solved) : JsonLines(solved));
   if (written.ok()) std::cerr << SummaryText(solved);
   return written;
@@ -212,7 +203,10 @@ absl::Status SolveData(const DataOptions& data, const CommonOptions& options, co
                              .columns = columns->empty() ? DefaultColumns(scene) : *columns,
                              .demand = demand}};
   if (absl::Status status = Solve(*reader, solver, solved); !status.ok()) return status;
-  if (absl::Status status = Write(solved, options); !status.ok()) return status;
+  absl::StatusOr<int64_t> rows = static_cast<int64_t>(solved.lines.size());
+  if (options.format == Format::kText) rows = RowsOfTable(options, *rows);
+  if (!rows.ok()) return rows.status();
+  if (absl::Status status = Write(solved, options, static_cast<size_t>(*rows)); !status.ok()) return status;
   const BatchSummary& summary = solved.response.summary;
   const int64_t bad = InvalidRows(summary) + summary.counts.inadmissible.count;
   if (!data.strict || bad == 0) return absl::OkStatus();

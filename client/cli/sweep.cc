@@ -11,6 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/axis_input.h"
 #include "client/cli/demand_input.h"
+#include "client/cli/file_option.h"
 #include "client/cli/interrupt.h"
 #include "client/cli/invalid_points.h"
 #include "client/cli/name_list.h"
@@ -25,6 +26,7 @@
 #include "client/cli/short_name.h"
 #include "client/cli/sweep_output.h"
 #include "client/cli/sweep_plot.h"
+#include "client/cli/used_files.h"
 #include "core/scene/field.h"
 #include "core/sweep/column.h"
 #include "proto/wire/sweep.h"
@@ -123,7 +125,7 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
 // summary none, so that they are written when they are complete.
 bool IsResumable(const SweepOptions& options) {
   const CommonOptions& common = options.common;
-  const bool has_rows = common.format != Format::kText || ArrayFormatOf(common) == ArrayFormat::kNpy;
+  const bool has_rows = common.format != Format::kText && common.format != Format::kNetcdf;
   return !common.output.empty() && has_rows && !options.summary_only && !IsDevice(common.output);
 }
 
@@ -131,15 +133,19 @@ absl::Status CheckResume(const SweepOptions& options) {
   // A shard is always gone on with.
   if (!options.resume || options.shard.any() || IsResumable(options)) return absl::OkStatus();
   return absl::InvalidArgumentError(
-      "--resume needs -o FILE and --format csv, json, jsonl or npy, without --summary-only: only rows in a file can be "
-      "gone on with");
+      "--resume needs -o FILE as csv, json, jsonl or npy, without --summary-only: only rows in a file can be gone on "
+      "with");
 }
 
 // Passes the chunks of one sweep on to the output, the picture and the progress bar.
 class Receiver {
  public:
   Receiver(const SweepRequest& request, const SweepOptions& options, SweepOutput output)
-      : options_(&options), with_regime_(request.with_regime), output_(std::move(output)), invalid_(request) {
+      : options_(&options),
+        with_regime_(request.with_regime),
+        output_(std::move(output)),
+        invalid_(request),
+        progress_(StreamsRows(options.common)) {
     if (!options.picture.file.empty()) plot_.emplace(request, options.picture.kind);
   }
 
@@ -244,6 +250,9 @@ absl::Status ReceiveShard(const Solver& solver, const SweepRequest& request, con
   if (!number.ok()) return number.status();
   const absl::StatusOr<SweepShard> shard = MakeShard(request, *number, options.common.output);
   if (!shard.ok()) return shard.status();
+  for (const std::string& path : {shard->path, shard->manifest_path()}) {
+    if (absl::Status status = UseFile(FileUse::kWritten, "", path); !status.ok()) return status;
+  }
   const absl::StatusOr<bool> complete = IsComplete(*shard);
   if (!complete.ok()) return complete.status();
   if (*complete) {
@@ -269,7 +278,8 @@ absl::StatusOr<std::optional<int>> ReadThreads(const std::string& text) {
 absl::Status RunSweep(const SweepOptions& options) {
   if (AsksForNames(options.axes)) return ListNames(options.scene, FieldPaths);
   if (AsksForNames(options.columns)) return ListNames(options.scene, Columns);
-  if (options.summary_only && ArrayFormatOf(options.common) != ArrayFormat::kNone) {
+  const Format format = options.common.format;
+  if (options.summary_only && (format == Format::kNpy || format == Format::kNetcdf)) {
     return absl::InvalidArgumentError("--summary-only needs --format text, json, jsonl or csv: a summary is no array");
   }
   if (absl::Status status = CheckResume(options); !status.ok()) return status;
@@ -312,8 +322,9 @@ void AddGridOptions(CLI::App& sub, SweepOptions& options) {
   sub.add_option("--range", options.range, "Only the points FIRST <= index < END")
       ->type_name("FIRST:END")
       ->group("Grid");
-  sub.add_option("--request", options.request,
-                 "A whole ricochet.v1.SweepRequest as JSON or textproto; - for standard input")
+  MarkFile(FileUse::kRead,
+           sub.add_option("--request", options.request,
+                          "A whole ricochet.v1.SweepRequest as JSON or textproto; - for standard input"))
       ->type_name("FILE")
       ->group("Grid");
 }
@@ -337,10 +348,9 @@ void AddSweep(CLI::App& app, std::vector<std::string> arguments, Command& comman
   AddServerOptions(*sub, options->common);
   sub->add_flag("--fan-out", options->fan_out,
                 "Let all servers of --server A,B,... compute the sweep together, a range of points each at a time");
-  AddSweepOutputOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common, kSweepFormats);
   sub->add_flag("--resume", options->resume,
-                "Go on with FILE.part, which a run with -o FILE and --format csv, json, jsonl or npy left when it was "
-                "ended");
+                "Go on with FILE.part, which a run with -o FILE as csv, json, jsonl or npy left when it was ended");
   AddShardOptions(*sub, options->shard);
   sub->footer(kExample);
   sub->callback([options, &command] { command = [options] { return RunSweep(*options); }; });

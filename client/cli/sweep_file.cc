@@ -50,7 +50,7 @@ absl::StatusOr<SweepTable> ReadCsv(std::istream& stream, const std::vector<std::
   if (!reader.ok()) return reader.status();
   const std::vector<std::string>& names = reader->header();
   if (absl::StartsWith(names.front(), "index ")) {
-    return absl::InvalidArgumentError("is a table for people, which leaves points out: write it with --format csv");
+    return absl::InvalidArgumentError("is a table for people, which is rounded: write it with --format csv");
   }
   if (names.front() == "kind") return absl::InvalidArgumentError("is a summary, which has no points");
   absl::StatusOr<SweepRows> rows = SweepRows::Create(names, columns);

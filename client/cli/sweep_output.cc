@@ -4,6 +4,8 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "client/cli/progress.h"
+#include "core/sweep/checked_sweep.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/sweep.h"
@@ -23,28 +25,23 @@ Partial IdentityOf(const SweepRequest& request, const std::string& format) {
   return identity;
 }
 
-SweepWriter MakeWriter(const SweepRequest& request, const CommonOptions& options, bool summary_only) {
-  if (ArrayFormatOf(options) == ArrayFormat::kNpy) return NpyWriter(request);
-  return MakeSweepWriter(request, options.format, summary_only);
-}
-
-std::string NameOf(const CommonOptions& options) {
-  if (ArrayFormatOf(options) == ArrayFormat::kNpy) return "npy";
-  return FormatName(options.format);
+// Returns how many points a table has, if the sweep is written as one.
+absl::StatusOr<int64_t> PointsOfTable(const SweepRequest& request, const CommonOptions& options, bool summary_only) {
+  if (options.format != Format::kText || summary_only) return 0;
+  const absl::StatusOr<CheckedSweep> checked = CheckSweep(request);
+  if (!checked.ok()) return checked.status();
+  return RowsOfTable(options, checked->end - checked->first);
 }
 
 }  // namespace
 
-SweepText::SweepText(const SweepRequest& request, const CommonOptions& options, bool summary_only)
-    : writer_(MakeWriter(request, options, summary_only)) {}
-
-absl::StatusOr<std::string> SweepText::Add(const SweepChunk& chunk) { return writer_(chunk); }
-
 absl::StatusOr<SweepOutput> SweepOutput::Open(const SweepRequest& request, const CommonOptions& options,
                                               bool summary_only) {
-  SweepOutput output(SweepText(request, options, summary_only));
+  const absl::StatusOr<int64_t> points = PointsOfTable(request, options, summary_only);
+  if (!points.ok()) return points.status();
+  SweepOutput output(MakeSweepWriter(request, options.format, summary_only, *points));
   output.progress_.set_next_index(request.first_index);
-  if (ArrayFormatOf(options) == ArrayFormat::kNetcdf) {
+  if (options.format == Format::kNetcdf) {
     absl::StatusOr<NetcdfFile> file = NetcdfFile::Create(request, options.output);
     if (!file.ok()) return file.status();
     output.netcdf_.emplace(*std::move(file));
@@ -58,22 +55,22 @@ absl::StatusOr<SweepOutput> SweepOutput::Open(const SweepRequest& request, const
 
 absl::StatusOr<SweepOutput> SweepOutput::OpenPartial(const SweepRequest& request, const CommonOptions& options,
                                                      bool resume) {
-  return OpenFile(request, options.output, NameOf(options), SweepText(request, options, /*summary_only=*/false),
+  return OpenFile(request, options.output, FormatName(options.format), MakeSweepWriter(request, options.format),
                   resume);
 }
 
 absl::StatusOr<SweepOutput> SweepOutput::OpenShard(const SweepShard& shard) {
   absl::StatusOr<SweepOutput> output =
-      OpenFile(shard.part, shard.path, "shard", SweepText::OfShard(shard.whole), /*resume=*/true);
+      OpenFile(shard.part, shard.path, "shard", ShardWriter(shard.whole), /*resume=*/true);
   if (output.ok()) output->shard_ = shard;
   return output;
 }
 
 absl::StatusOr<SweepOutput> SweepOutput::OpenFile(const SweepRequest& request, const std::string& path,
-                                                  const std::string& format, SweepText text, bool resume) {
+                                                  const std::string& format, SweepWriter writer, bool resume) {
   absl::StatusOr<PartialFile> file = PartialFile::Open(path, IdentityOf(request, format), resume);
   if (!file.ok()) return file.status();
-  SweepOutput output(std::move(text));
+  SweepOutput output(std::move(writer));
   output.file_.emplace(*std::move(file));
   output.progress_ = output.file_->manifest();
   if (output.next_index() > request.first_index) {
@@ -98,8 +95,10 @@ absl::Status SweepOutput::Join(SweepChunk& chunk) {
 }
 
 absl::Status SweepOutput::Write(const SweepChunk& chunk) {
+  // What follows may come to the terminal: a table, or the counts of invalid points.
+  if (chunk.summary.has_value()) Progress::Erase();
   if (netcdf_.has_value()) return netcdf_->Write(chunk);
-  const absl::StatusOr<std::string> text = text_.Add(chunk);
+  const absl::StatusOr<std::string> text = writer_(chunk);
   if (!text.ok()) return text.status();
   if (!file_.has_value()) return output_->Write(*text);
   if (absl::Status status = file_->Write(*text); !status.ok()) return status;
@@ -119,6 +118,8 @@ absl::Status SweepOutput::Commit() {
   if (netcdf_.has_value()) return netcdf_->Commit();
   if (!file_.has_value()) return output_->Commit();
   if (shard_.has_value()) {
+    // The shard's manifest counts only bytes that are on the disk.
+    if (absl::Status status = file_->Checkpoint(progress_); !status.ok()) return status;
     progress_.set_bytes(file_->bytes());
     progress_.set_crc32c(file_->crc32c());
     if (absl::Status status = WriteShardManifest(*shard_, progress_); !status.ok()) return status;
@@ -127,6 +128,7 @@ absl::Status SweepOutput::Commit() {
 }
 
 void SweepOutput::Break(const std::string& command) {
+  Progress::Erase();
   if (!file_.has_value()) return;
   if (!progress_.has_engine()) return file_->Discard();
   // If this fails, the manifest before stands, and the command below goes on from there.

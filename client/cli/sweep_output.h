@@ -11,7 +11,6 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/cli/netcdf_file.h"
-#include "client/cli/npy_writer.h"
 #include "client/cli/output.h"
 #include "client/cli/partial_file.h"
 #include "client/cli/shard.h"
@@ -20,24 +19,14 @@
 
 namespace ricochet::cli {
 
-// The text of a sweep, chunk by chunk.
-class SweepText {
- public:
-  SweepText(const SweepRequest& request, const CommonOptions& options, bool summary_only);
-  // The text is the bytes of a shard's file.
-  static SweepText OfShard(const SweepRequest& request) { return SweepText(ShardWriter(request)); }
-
-  absl::StatusOr<std::string> Add(const SweepChunk& chunk);
-
- private:
-  explicit SweepText(SweepWriter writer) : writer_(std::move(writer)) {}
-
-  SweepWriter writer_;
-};
+// True if the rows of a sweep come to standard output one after the other.
+inline bool StreamsRows(const CommonOptions& options) {
+  return options.output.empty() && options.format != Format::kText;
+}
 
 class SweepOutput {
  public:
-  // Errors: those of Output::Open, NetcdfFile::Create and PartialFile::Open.
+  // Errors: those of RowsOfTable, Output::Open, NetcdfFile::Create and PartialFile::Open.
   static absl::StatusOr<SweepOutput> Open(const SweepRequest& request, const CommonOptions& options, bool summary_only);
   static absl::StatusOr<SweepOutput> OpenPartial(const SweepRequest& request, const CommonOptions& options,
                                                  bool resume);
@@ -62,13 +51,13 @@ class SweepOutput {
 
  private:
   using Clock = std::chrono::steady_clock;
-  explicit SweepOutput(SweepText text) : text_(std::move(text)) {}
+  explicit SweepOutput(SweepWriter writer) : writer_(std::move(writer)) {}
 
   // `format` is that of the manifest.
   static absl::StatusOr<SweepOutput> OpenFile(const SweepRequest& request, const std::string& path,
-                                              const std::string& format, SweepText text, bool resume);
+                                              const std::string& format, SweepWriter writer, bool resume);
 
-  SweepText text_;
+  SweepWriter writer_;  // None for NetCDF, which is no text.
   std::optional<SweepShard> shard_;
   std::optional<Output> output_;
   std::optional<NetcdfFile> netcdf_;

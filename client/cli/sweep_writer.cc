@@ -10,6 +10,7 @@
 #include "client/cli/csv_table.h"
 #include "client/cli/invalid_points.h"
 #include "client/cli/json/json_text.h"
+#include "client/cli/npy_writer.h"
 #include "client/cli/plan_report.h"
 #include "client/cli/sweep_head.h"
 #include "client/cli/table.h"
@@ -18,8 +19,6 @@
 
 namespace ricochet::cli {
 namespace {
-
-constexpr int64_t kTextPoints = 40;
 
 // Appends a text, in quotes if it has a comma or a quote.
 void AppendCsv(const std::string& words, std::string& text) {
@@ -189,10 +188,10 @@ struct ObjectCells {
 
 class TextWriter {
  public:
-  explicit TextWriter(const SweepRequest& request) : points_(request) { table_.Add(points_.Names()); }
+  TextWriter(const SweepRequest& request, int64_t most) : points_(request), most_(most) { table_.Add(points_.Names()); }
 
   absl::StatusOr<std::string> operator()(const SweepChunk& chunk) {
-    for (int64_t i = 0; i < chunk.count && shown_ < kTextPoints; ++i, ++shown_) {
+    for (int64_t i = 0; i < chunk.count && shown_ < most_; ++i, ++shown_) {
       TextCells cells;
       points_.Visit(chunk, i, cells);
       table_.Add(std::move(cells.row));
@@ -209,6 +208,7 @@ class TextWriter {
  private:
   Points points_;
   Table table_;
+  int64_t most_;
   int64_t shown_ = 0;
 };
 
@@ -286,19 +286,24 @@ class DocumentWriter {
 
 }  // namespace
 
-SweepWriter MakeSweepWriter(const SweepRequest& request, Format format, bool summary_only) {
+SweepWriter MakeSweepWriter(const SweepRequest& request, Format format, bool summary_only, int64_t table_points) {
   if (summary_only) return SummaryWriter(format);
   switch (format) {
     case Format::kText:
-      return TextWriter(request);
+      return TextWriter(request, table_points);
     case Format::kJson:
       return DocumentWriter(request);
     case Format::kJsonLines:
       return LinesWriter(request);
     case Format::kCsv:
+      return CsvWriter(request);
+    case Format::kNpy:
+      return NpyWriter(request);
+    case Format::kTextproto:
+    case Format::kNetcdf:
       break;
   }
-  return CsvWriter(request);
+  return nullptr;
 }
 
 }  // namespace ricochet::cli

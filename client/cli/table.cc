@@ -21,9 +21,14 @@ size_t Width(const std::string& text) {
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U; }));
 }
 
+bool terminal_counts = true;
+
 }  // namespace
 
+void ForgetTerminalWidth() { terminal_counts = false; }
+
 size_t TerminalWidth(size_t unknown) {
+  if (!terminal_counts) return unknown;
   const char* columns = std::getenv("COLUMNS");
   int width = 0;
   if (columns != nullptr && absl::SimpleAtoi(columns, &width) && width > 0) return static_cast<size_t>(width);

@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/status/status.h"
 #include "absl/strings/ascii.h"
 #include "absl/synchronization/mutex.h"
+#include "client/cli/file_option.h"
 #include "client/cli/plan_report.h"
 #include "client/cli/program.h"
 #include "client/cli/scene_input.h"
@@ -37,7 +39,14 @@ ListValue& List(Struct& object, const std::string& name) {
   return *(*object.mutable_fields())[name].mutable_list_value();
 }
 
-void Describe(const CLI::Option& option, Struct& object) {
+// Whether the value is the name of a file that is read or written.
+std::string FileText(CLI::Option& option) {
+  const std::optional<ricochet::cli::FileUse> use = ricochet::cli::FileUseOf(option);
+  if (!use.has_value()) return "";
+  return *use == ricochet::cli::FileUse::kRead ? "read" : "written";
+}
+
+void Describe(CLI::Option& option, Struct& object) {
   ListValue& names = List(object, "names");
   for (const std::string& name : option.get_snames()) names.add_values()->set_string_value("-" + name);
   for (const std::string& name : option.get_lnames()) names.add_values()->set_string_value("--" + name);
@@ -47,17 +56,18 @@ void Describe(const CLI::Option& option, Struct& object) {
   Set(object, "positional", option.get_positional() ? option.get_name(true) : "");
   Set(object, "description", option.get_description());
   Set(object, "group", option.get_group());
+  Set(object, "file", FileText(option));
 }
 
-void Describe(const CLI::App& app, Struct& object) {
+void Describe(CLI::App& app, Struct& object) {
   Set(object, "name", app.get_name());
   Set(object, "description", app.get_description());
   Set(object, "footer", app.get_footer());
-  for (const CLI::Option* option : app.get_options()) {
+  for (CLI::Option* option : app.get_options()) {
     Describe(*option, *List(object, "options").add_values()->mutable_struct_value());
   }
   // A command without a name groups options and is no command.
-  for (const CLI::App* sub : app.get_subcommands([](const CLI::App* any) { return !any->get_name().empty(); })) {
+  for (CLI::App* sub : app.get_subcommands([](const CLI::App* any) { return !any->get_name().empty(); })) {
     Describe(*sub, *List(object, "commands").add_values()->mutable_struct_value());
   }
 }

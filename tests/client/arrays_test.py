@@ -113,7 +113,7 @@ class ArraysTest(RicochetCase):
     def test_what_cannot_be_is_refused_in_words(self):
         for arguments, words in {
                 ("--format", "netcdf"): "NetCDF needs -o FILE",
-                ("-o", "x.nc", "--resume"): "--resume needs -o FILE and --format csv, json, jsonl or npy",
+                ("-o", "x.nc", "--resume"): "--resume needs -o FILE as csv, json, jsonl or npy",
                 ("-o", "x.nc", "--summary-only"): "a summary is no array",
                 ("-o", "no/such/directory/x.nc"): "no/such/directory/x.nc"}.items():
             code, _, error = ricochet(*GRID, *arguments)

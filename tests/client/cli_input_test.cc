@@ -114,6 +114,15 @@ TEST(ParseFieldRange, TakesAPathAndTwoNumbers) {
 TEST(ProgressLine, TellsPartRateAndTimeLeft) {
   EXPECT_EQ(ProgressLine(500, 1000, 2.0), "[####################                    ]  50 %   250 points/s   2 s left");
   EXPECT_EQ(ProgressLine(0, 0, 0.0), "[########################################] 100 %   0 points/s   0 s left");
+  EXPECT_EQ(ProgressLine(500, 1000, 2.0, 45), "[#####      ]  50 %   250 points/s   2 s left");
+}
+
+TEST(ProgressLine, FitsEveryWidth) {
+  for (size_t width = 0; width < 200; ++width) {
+    for (const int64_t total : {1L, 1000L, 1'000'000'000'000L}) {
+      EXPECT_LE(ProgressLine(total / 3, total, 7.0, width).size(), width);
+    }
+  }
 }
 
 TEST(Table, AlignsByCharactersNotBytes) {

@@ -51,16 +51,16 @@ TEST_F(CliScene, ATemplateOfNoSystemNamesTheNearest) {
 
 TEST_F(CliScene, FlagsBecomeAFileOfTheSameScene) {
   const Arguments flags = {"--a", "0.3", "--b", "1", "--mu", "1/3", "--mu-static", "0.5", "--poisson", "0.7"};
-  for (const char* format : {"", "--json"}) {
-    Arguments print = {"scene", "print", "-o", "scene"};
+  Arguments solve = {"solve"};
+  solve.insert(solve.end(), flags.begin(), flags.end());
+  for (const std::string file : {"scene.textproto", "scene.txt", "scene.JSON"}) {
+    Arguments print = {"scene", "print", "-o", file};
     print.insert(print.end(), flags.begin(), flags.end());
-    if (*format != '\0') print.emplace_back(format);
     ASSERT_EQ(Run(print).exit_code, 0);
-    Arguments solve = {"solve"};
-    solve.insert(solve.end(), flags.begin(), flags.end());
-    EXPECT_EQ(Run({"solve", "--scene", "scene"}).out, Run(solve).out);
+    EXPECT_EQ(Run({"solve", "--scene", file}).out, Run(solve).out);
   }
-  EXPECT_THAT(Read("scene"), HasSubstr("\"kinetic_coefficient\": 0.3333333333333333"));
+  EXPECT_THAT(Read("scene.textproto"), HasSubstr("kinetic_coefficient: 0.3333333333333333"));
+  EXPECT_THAT(Read("scene.JSON"), HasSubstr("\"kinetic_coefficient\": 0.3333333333333333"));
 }
 
 TEST_F(CliScene, AByteOrderMarkBeforeAFileIsSkipped) {

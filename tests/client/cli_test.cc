@@ -300,9 +300,9 @@ TEST_F(Cli, WritesAFileWholeAndNothingBesideIt) {
 }
 
 TEST_F(Cli, AFileHasTheUsualModeAndALinkStaysOne) {
-  const CliResult result =
-      RunShell("umask 027; echo old > target; ln -s target link\n" + Solve("-o link") + "\nstat -c '%A' target; ls");
-  EXPECT_EQ(result.out, "-rw-r-----\nlink\ntarget\n");
+  const CliResult result = RunShell("umask 027; echo old > target; ln -s target link.txt\n" + Solve("-o link.txt") +
+                                    "\nstat -c '%A' target; ls");
+  EXPECT_EQ(result.out, "-rw-r-----\nlink.txt\ntarget\n");
   EXPECT_THAT(Read("target"), HasSubstr("Rebound"));
 }
 
@@ -327,11 +327,26 @@ TEST_F(Cli, ABadRequestLeavesTheOldFileAndNothingElse) {
   EXPECT_THAT(Files(), ElementsAre("result.csv"));
 }
 
+TEST_F(Cli, ATableForPeopleIsWholeInAFileOrRefused) {
+  EXPECT_EQ(RunShell(Sweep("100000", "-o t.txt")).exit_code, 0);
+  EXPECT_THAT(Read("t.txt"), HasSubstr("\n99999 "));
+  EXPECT_THAT(RunShell(Sweep("100000", "")).out, HasSubstr("... and 99960 more points; --format csv has them all\n"));
+  const CliResult longer = RunShell(Sweep("100001", "-o longer.txt"));
+  EXPECT_EQ(longer.exit_code, 2);
+  EXPECT_THAT(longer.err, HasSubstr("a table for people of 100001 rows: must have at most 100000, or be csv"));
+  EXPECT_THAT(Files(), ElementsAre("t.txt"));
+}
+
+TEST_F(Cli, AFileDoesNotDependOnTheWidthOfTheTerminal) {
+  EXPECT_EQ(RunShell("COLUMNS=30 " + Solve("-o narrow.txt") + " && " + Solve("-o wide.txt")).exit_code, 0);
+  EXPECT_EQ(Read("narrow.txt"), Read("wide.txt"));
+}
+
 TEST_F(Cli, AnUnwritableFileIsAnError) {
   const CliResult result = RunShell(Solve("-o no/such/directory/result.txt"));
   EXPECT_EQ(result.exit_code, 42);
   EXPECT_THAT(result.err, HasSubstr("cannot write no/such/directory/result.txt"));
-  EXPECT_EQ(RunShell(Solve("-o .")).exit_code, 42);
+  EXPECT_EQ(RunShell("mkdir folder.txt\n" + Solve("-o folder.txt")).exit_code, 42);
 }
 
 TEST_F(Cli, EndsQuietlyWhenItsReaderHasEnough) {
@@ -384,7 +399,7 @@ TEST_F(Cli, SaysThatGnuplotIsMissing) {
 }
 
 TEST_F(Cli, ARefusedPictureLeavesTheNumbers) {
-  const CliResult long_sweep = RunShell(Sweep("1000001", "--plot p.svg -o r.txt"));
+  const CliResult long_sweep = RunShell(Sweep("1000001", "--plot p.svg --summary-only -o r.txt"));
   EXPECT_EQ(long_sweep.exit_code, 42);
   EXPECT_THAT(long_sweep.err, HasSubstr("more than a picture can show"));
   EXPECT_THAT(Read("r.txt"), HasSubstr("1000001 points"));

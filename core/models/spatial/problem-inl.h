@@ -132,8 +132,7 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
   rate = mu * largest + coupling;
   largest_root = std::sqrt(largest);
   // Where Wtt = 0 friction moves nothing, and any number serves.
-  smallest_root =
-      largest > T{0} ? std::sqrt(std::max(w.TangentDeterminant() / largest, kEpsilon<T> * largest)) : T{1};
+  smallest_root = largest > T{0} ? std::sqrt(std::max(w.TangentDeterminant() / largest, kEpsilon<T> * largest)) : T{1};
   normal_root = std::sqrt(w.w33);
   steepest = w.w33 + mu * coupling;
   may_jam = mu * coupling >= w.w33;
