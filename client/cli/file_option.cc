@@ -31,11 +31,14 @@ std::string FlagOf(const CLI::Option& option) {
 
 CLI::Option* MarkFile(FileUse use, CLI::Option* option, const std::vector<std::string>& endings) {
   const auto check = [option, endings](const std::string& path) {
-    if (path.empty()) throw CLI::ValidationError(FlagOf(*option), "must name a file");
+    // CLI11 would put its own name of the option before a ValidationError.
+    const auto refuse = [&](const std::string& rule) {
+      throw CLI::ParseError(absl::StrCat(FlagOf(*option), path.empty() ? "" : " ", path, ": must ", rule),
+                            CLI::ExitCodes::ValidationError);
+    };
+    if (path.empty()) refuse("name a file");
     const bool fits = std::find(endings.begin(), endings.end(), EndingOf(path)) != endings.end();
-    if (!fits && !endings.empty() && !IsStandardOutput(path)) {
-      throw CLI::ValidationError(absl::StrCat(FlagOf(*option), " ", path, ": must end in ", JoinedEndings(endings)));
-    }
+    if (!fits && !endings.empty() && !IsStandardOutput(path)) refuse("end in " + JoinedEndings(endings));
     return std::string();
   };
   return option->check(CLI::Validator(check, "", MarkOf(use)));

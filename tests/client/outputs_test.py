@@ -251,7 +251,7 @@ class Outputs(unittest.TestCase):
             path = self.place / f"out.{ending}" if ending else self.place / "out"
             if ending in flag.kinds:
                 continue
-            error = self.assert_refused(flag.words, *base, *self.beside(flag), flag.name, path, says="must end in ")
+            error = self.assert_refused(flag.words, *base, *self.beside(flag), flag.name, path, says=f"ricochet: {flag.name} {path}: must end in ")
             meant = "--plot" if ending in ("svg", "png", "pdf", "gif") else "--html" if ending == "html" else None
             has_meant = any(meant in option["names"] for option in DESCRIBED[flag.words])
             self.assertEqual(f"did you mean {meant} {path}?" in error, flag.is_answer and has_meant, error)
@@ -266,7 +266,7 @@ class Outputs(unittest.TestCase):
 
     @each_case
     def test_an_empty_name_is_refused(self, flag, base):
-        self.assert_refused(flag.words, *base, *self.beside(flag), flag.name, "", says="must name a file")
+        self.assert_refused(flag.words, *base, *self.beside(flag), flag.name, "", says=f"ricochet: {flag.name}: must name a file")
 
     @each_case
     def test_minus_is_standard_output_where_text_can_go_there(self, flag, base):
