@@ -39,7 +39,7 @@ struct Family {
   Model model;
   Arithmetic arithmetic;
   double stiffness;
-  friend auto operator<=>(const Family&, const Family&) = default;
+  bool operator==(const Family&) const = default;
 };
 
 struct Line {
