@@ -148,7 +148,7 @@ grpc::Status ImpactService::SolveBatch(grpc::ServerContext* context, const v1::S
   return call.Finish(turn.ok() ? status : turn);
 }
 
-grpc::Status ImpactService::SolveBatches(grpc::ServerContext& context, BoundedBatches& batches) const {
+grpc::Status ImpactService::AnswerBatches(grpc::ServerContext& context, BoundedBatches& batches) const {
   Call call("SolveBatches", Call::Kind::kStream, context, frame_);
   if (absl::Status refused = call.admitted(); !refused.ok()) return call.Finish(refused);
   return call.Finish(Answer(batches, call));

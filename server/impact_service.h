@@ -38,7 +38,7 @@ class ImpactService final : public v1::ImpactService::Service {
                           v1::SolveBatchResponse* response) override;
 
   // Handles a stream of batches, whose requests are bounded one by one (server/bounded_service.h).
-  grpc::Status SolveBatches(grpc::ServerContext& context, BoundedBatches& batches) const;
+  grpc::Status AnswerBatches(grpc::ServerContext& context, BoundedBatches& batches) const;
   grpc::Status Info(grpc::ServerContext* context, const v1::InfoRequest* request, v1::InfoResponse* response) override;
 
  private:

@@ -68,7 +68,7 @@ Server::Server(const Options& options, std::shared_ptr<Auth> auth, const Log& lo
       bounded_(
           service_,
           [this](grpc::ServerContext& context, BoundedBatches& batches) {
-            return service_.SolveBatches(context, batches);
+            return service_.AnswerBatches(context, batches);
           },
           options.limits, unread_) {}
 

@@ -39,7 +39,7 @@ struct Family {
   Model model;
   Arithmetic arithmetic;
   double stiffness;
-  friend auto operator<=>(const Family&, const Family&) = default;
+  bool operator==(const Family&) const = default;
 };
 
 struct Line {
@@ -279,7 +279,9 @@ Plot Alone(Panel panel, PictureWidth width) {
                     " left top\nset rmargin at screen 0.96\nset bmargin at screen ", Rounded(1.0 - 330.0 / height),
                     "\nset tmargin at screen 0.99\n");
   }
-  return {.title = "", .panels = {std::move(panel)}, .width = wide ? 1040 : 420, .height = height};
+  // A telephone shows a narrow picture 372 pixels wide, and the least letters of plots must be 10 pixels high there.
+  constexpr int kNarrow = 330;
+  return {.title = "", .panels = {std::move(panel)}, .width = wide ? 1040 : kNarrow, .height = height};
 }
 
 // Where two panels beside each other and their legend stand, as fractions of the picture.

@@ -84,8 +84,11 @@ class File {
     return static_cast<int64_t>(length);
   }
 
-  std::vector<double> Numbers(int variable, int64_t count) {
-    std::vector<double> numbers(static_cast<size_t>(count));
+  // Returns the numbers of a variable over these dimensions, the last of which runs fastest.
+  std::vector<double> Numbers(int variable, const std::vector<int>& dimensions) {
+    size_t count = 1;
+    for (const int dimension : dimensions) count *= static_cast<size_t>(Length(dimension));
+    std::vector<double> numbers(count);
     if (error_ == NC_NOERR) Take(nc_get_var_double(id_, variable, numbers.data()));
     return numbers;
   }
@@ -150,20 +153,28 @@ absl::StatusOr<Contents> ContentsOf(File& file, const std::vector<Variable>& var
   return contents;
 }
 
-// Returns the value of an axis at each point.
-std::vector<double> AtPoints(File& file, const std::vector<Variable>& variables, const Contents& contents,
-                             size_t axis) {
-  const Variable& variable = variables[axis];
-  if (variable.dimensions == contents.dimensions) return file.Numbers(static_cast<int>(axis), contents.points);
+// Returns the numbers of a variable that has one for each point.
+// Errors: INVALID_ARGUMENT for any other.
+absl::StatusOr<std::vector<double>> NumbersAtPoints(File& file, const std::vector<Variable>& variables,
+                                                    const Contents& contents, size_t place) {
+  const Variable& variable = variables[place];
+  if (variable.dimensions == contents.dimensions) return file.Numbers(static_cast<int>(place), variable.dimensions);
+  return absl::InvalidArgumentError(absl::StrCat("the variable ", variable.name, " must have a value for every point"));
+}
+
+// Returns the value of an axis at each point: that of one of the dimensions, or one for each point.
+absl::StatusOr<std::vector<double>> AtPoints(File& file, const std::vector<Variable>& variables,
+                                             const Contents& contents, size_t axis) {
+  const std::vector<int>& own = variables[axis].dimensions;
+  const auto found = own.size() == 1 ? std::find(contents.dimensions.begin(), contents.dimensions.end(), own[0])
+                                     : contents.dimensions.end();
+  if (found == contents.dimensions.end()) return NumbersAtPoints(file, variables, contents, axis);
+  const auto place = static_cast<size_t>(found - contents.dimensions.begin());
+  const int64_t count = contents.counts[place];
   // The points for which the axes after this one take all their values lie side by side.
-  int64_t repeats = contents.points;
-  int64_t count = 1;
-  for (size_t i = 0; i < contents.dimensions.size(); ++i) {
-    count = contents.counts[i];
-    repeats /= std::max<int64_t>(count, 1);
-    if (variable.dimensions.size() == 1 && variable.dimensions[0] == contents.dimensions[i]) break;
-  }
-  const std::vector<double> values = file.Numbers(static_cast<int>(axis), count);
+  int64_t repeats = 1;
+  for (size_t i = place + 1; i < contents.counts.size(); ++i) repeats *= contents.counts[i];
+  const std::vector<double> values = file.Numbers(static_cast<int>(axis), own);
   std::vector<double> at;
   for (int64_t point = 0; point < contents.points; ++point) {
     at.push_back(values[static_cast<size_t>(point / repeats % count)]);
@@ -177,8 +188,11 @@ absl::Status ReadCodes(File& file, const std::vector<Variable>& variables, const
                        const std::string& name, int count, std::vector<Code>& codes) {
   const size_t variable = PlaceOf(name, variables);
   if (variable == variables.size()) return absl::OkStatus();
-  for (const double number : file.Numbers(static_cast<int>(variable), contents.points)) {
-    if (number >= count) return absl::InvalidArgumentError(absl::StrCat(name, " has a number that is no ", name));
+  const absl::StatusOr<std::vector<double>> numbers = NumbersAtPoints(file, variables, contents, variable);
+  if (!numbers.ok()) return numbers.status();
+  for (const double number : *numbers) {
+    if (!(number >= 0.0 && number < count))
+      return absl::InvalidArgumentError(absl::StrCat(name, " has a number that is no ", name));
     codes.push_back(static_cast<Code>(static_cast<int>(number)));
   }
   return absl::OkStatus();
@@ -204,15 +218,16 @@ absl::StatusOr<SweepTable> ReadSweepNetcdf(const std::string& path, const std::v
   table.columns = *std::move(chosen);
   for (const size_t axis : contents->axes) {
     table.axes.push_back(variables[axis].name);
-    table.at.push_back(AtPoints(file, variables, *contents, axis));
+    absl::StatusOr<std::vector<double>> at = AtPoints(file, variables, *contents, axis);
+    if (!at.ok()) return at.status();
+    table.at.push_back(*std::move(at));
     AddUnit(file, axis, variables[axis].name, table);
   }
   for (const std::string& name : table.columns) {
     const size_t column = PlaceOf(name, variables);
-    if (variables[column].dimensions != contents->dimensions) {
-      return absl::InvalidArgumentError(absl::StrCat("the variable ", name, " must have a value for every point"));
-    }
-    table.values.push_back(file.Numbers(static_cast<int>(column), contents->points));
+    absl::StatusOr<std::vector<double>> values = NumbersAtPoints(file, variables, *contents, column);
+    if (!values.ok()) return values.status();
+    table.values.push_back(*std::move(values));
     AddUnit(file, column, name, table);
   }
   absl::Status status = ReadCodes(file, variables, *contents, "regime", kRegimeCount, table.regimes);

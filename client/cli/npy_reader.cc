@@ -5,12 +5,13 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
-#include <regex>
 #include <utility>
 
 #include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
 #include "client/cli/sweep_file.h"
 #include "client/cli/sweep_rows.h"
 
@@ -50,24 +51,45 @@ absl::StatusOr<std::string> HeaderText(std::istream& stream) {
   return text;
 }
 
+// Removes the text up to and with the first `mark`. Returns false if there is none.
+bool SkipPast(absl::string_view mark, absl::string_view& text) {
+  const size_t place = text.find(mark);
+  if (place == absl::string_view::npos) return false;
+  text.remove_prefix(place + mark.size());
+  return true;
+}
+
+// Removes the text up to `end`, and returns it.
+absl::string_view TakeUntil(char end, absl::string_view& text) {
+  const absl::string_view part = text.substr(0, text.find(end));
+  text.remove_prefix(part.size());
+  return part;
+}
+
+// Returns the fields of a list such as [('index', '<i8'), ('pendulum.a_m', '<f8')].
+std::vector<Field> FieldsIn(absl::string_view text) {
+  std::vector<Field> fields;
+  while (SkipPast("('", text)) {
+    const absl::string_view name = TakeUntil('\'', text);
+    if (!absl::ConsumePrefix(&text, "', '")) continue;
+    const absl::string_view type = TakeUntil('\'', text);
+    if (absl::ConsumePrefix(&text, "')")) fields.push_back({std::string(name), std::string(type)});
+  }
+  return fields;
+}
+
 absl::StatusOr<NpyHeader> ReadHeader(std::istream& stream) {
   const absl::StatusOr<std::string> text = HeaderText(stream);
   if (!text.ok()) return text.status();
-  NpyHeader header;
-  static const std::regex kRecord(R"(\('([^']*)', '([^']*)'\))");
-  for (std::sregex_iterator record(text->begin(), text->end(), kRecord); record != std::sregex_iterator(); ++record) {
-    header.fields.push_back({(*record)[1], (*record)[2]});
-    const std::string& type = header.fields.back().type;
-    if (type != "<f8" && type != "<i8" && type != "|u1") {
-      return NotRecords(absl::StrCat(header.fields.back().name, " has the type ", type));
-    }
+  NpyHeader header = {.fields = FieldsIn(*text)};
+  for (const auto& [name, type] : header.fields) {
+    if (type != "<f8" && type != "<i8" && type != "|u1") return NotRecords(absl::StrCat(name, " has the type ", type));
   }
   if (header.fields.empty()) return NotRecords("its numbers have no names");
-  std::smatch shape;
-  static const std::regex kShape(R"('shape': \((\d+),\))");
-  if (!std::regex_search(*text, shape, kShape) || !absl::SimpleAtoi(shape[1].str(), &header.records)) {
-    return NotRecords("it has more than one dimension");
-  }
+  absl::string_view shape = *text;
+  const bool is_list = SkipPast("'shape': (", shape) && absl::SimpleAtoi(TakeUntil(',', shape), &header.records) &&
+                       absl::StartsWith(shape, ",)") && header.records >= 0;
+  if (!is_list) return NotRecords("it has more than one dimension");
   return header;
 }
 

@@ -79,7 +79,7 @@ absl::StatusOr<SweepTable> Read(std::ifstream& stream, const std::string& path,
   if (absl::StartsWith(start, "\x93NUMPY")) return ReadSweepNpy(stream, columns);
   if (absl::StartsWith(start, "\x89HDF") || absl::StartsWith(start, "CDF")) return ReadSweepNetcdf(path, columns);
   if (std::any_of(start.begin(), start.end(),
-                  [](char c) { return absl::ascii_iscntrl(c) && !absl::ascii_isspace(c); })) {
+                  [](unsigned char c) { return absl::ascii_iscntrl(c) && !absl::ascii_isspace(c); })) {
     return absl::InvalidArgumentError("is neither CSV nor JSON nor NPY nor NetCDF-4 of a sweep");
   }
   return start.front() == '{' ? ReadSweepJson(stream, columns) : ReadCsv(stream, columns);

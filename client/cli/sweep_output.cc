@@ -5,6 +5,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/progress.h"
+#include "client/tally_checker.h"
 #include "core/sweep/checked_sweep.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/engine.h"
@@ -73,8 +74,14 @@ absl::StatusOr<SweepOutput> SweepOutput::OpenFile(const SweepRequest& request, c
   SweepOutput output(std::move(writer));
   output.file_.emplace(*std::move(file));
   output.progress_ = output.file_->manifest();
-  if (output.next_index() > request.first_index) {
-    output.earlier_ = FromProto(output.progress_.tallies());
+  output.earlier_ = FromProto(output.progress_.tallies());
+  // The points that the manifest claims are in the file as if they had come in one chunk.
+  const SweepChunk claimed = {.first_index = request.first_index,
+                              .count = output.next_index() - request.first_index,
+                              .tallies = output.earlier_};
+  if (!TallyChecker().Check(claimed).ok()) {
+    return absl::DataLossError(
+        absl::StrCat("the manifest of ", output.file_->part_path(), " contradicts itself: remove both to start anew"));
   }
   return output;
 }

@@ -28,7 +28,11 @@ absl::Status Sort(const std::vector<std::string>& names, std::vector<std::string
   if (names.empty() || names.front() != "index") {
     return absl::InvalidArgumentError("the first column must be index, as in every table that ricochet sweep writes");
   }
+  std::set<std::string> seen;
   for (size_t i = 1; i < names.size(); ++i) {
+    if (!seen.insert(names[i]).second) {
+      return absl::InvalidArgumentError(absl::StrCat("the column ", names[i], " is there twice"));
+    }
     if (names[i] == "regime" || names[i] == "status") continue;
     const FieldInfo* const info = FindFieldInfo(names[i]);
     if (info == nullptr) {

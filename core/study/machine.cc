@@ -22,7 +22,7 @@ std::string CpuName() {
   constexpr uint32_t kFirst = 0x80000002;
   constexpr uint32_t kLast = 0x80000004;
   std::array<uint32_t, 4> part = {};
-  if (__get_cpuid_max(0x80000000, nullptr) >= kLast) {
+  if (static_cast<uint32_t>(__get_cpuid_max(0x80000000, nullptr)) >= kLast) {
     std::string name;
     for (uint32_t leaf = kFirst; leaf <= kLast; ++leaf) {
       __get_cpuid(leaf, &part[0], &part[1], &part[2], &part[3]);

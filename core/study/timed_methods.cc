@@ -1,5 +1,6 @@
 // The model of finite duration, at three stiffnesses and four tolerances.
 
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -39,22 +40,30 @@ struct Stiffened {
 };
 
 // A linear spring with which an elastic impact without friction lasts one to three times as long: k is the power of ten
-// below (pi/T)^2/Wnn.
+// below (pi/T)^2/Wnn, and infinite where that exceeds the largest double.
 NormalSpring SpringOfDuration(double seconds, double wnn) {
   const double rate = std::numbers::pi / seconds;
   const double most = rate * rate / wnn;
+  if (std::isinf(most)) return LinearSpring{most};
   double stiffness = 1.0;
   while (stiffness * 10.0 <= most) stiffness *= 10.0;
   while (stiffness > most) stiffness *= 0.1;
   return LinearSpring{stiffness};
 }
 
-// The springs to be tried; the scene's own comes second.
+// The springs to be tried, the scene's own among them: those whose stiffness is a double.
 std::vector<NormalSpring> SpringsFor(const NormalSpring& own, double wnn) {
+  std::vector<NormalSpring> springs;
   if (std::holds_alternative<std::monostate>(own)) {
-    return {SpringOfDuration(1e-2, wnn), SpringOfDuration(1e-3, wnn), SpringOfDuration(1e-4, wnn)};
+    springs = {SpringOfDuration(1e-2, wnn), SpringOfDuration(1e-3, wnn), SpringOfDuration(1e-4, wnn)};
+  } else {
+    springs = {std::visit(Stiffened{0.01}, own), own, std::visit(Stiffened{100.0}, own)};
   }
-  return {std::visit(Stiffened{0.01}, own), own, std::visit(Stiffened{100.0}, own)};
+  std::erase_if(springs, [](const NormalSpring& spring) {
+    const double stiffness = std::visit(StiffnessOf(), spring);
+    return stiffness == 0.0 || std::isinf(stiffness);
+  });
+  return springs;
 }
 
 Problem Scaled(Problem problem, double factor) {
@@ -105,19 +114,19 @@ ReferencePointer AddFiniteDuration(const planar::Problem& contact, const Contact
   const double own_size = stated ? SizeOfTime(contact, physics, physics.spring) : 0.0;
   const std::vector<NormalSpring> springs = SpringsFor(physics.spring, contact.w.nn);
   ReferencePointer own_exact;
-  for (size_t i = 0; i < springs.size(); ++i) {
-    const bool own = stated && i == 1;
+  for (const NormalSpring& spring : springs) {
+    const bool own = stated && spring == physics.spring;
     Problem problem = {.contact = contact,
                        .tangential_acceleration = physics.tangential_acceleration,
                        .normal_acceleration = physics.normal_acceleration,
-                       .spring = springs[i]};
+                       .spring = spring};
     if (physics.ratio_squared > 0.0) problem.ratio_squared = physics.ratio_squared;
     ReferencePointer exact = impulses;
     if (exact == nullptr) {
       exact = MakeReference([problem](Stopped stopped) { return AtLeastTolerance(problem, stopped); });
     }
     if (own) own_exact = exact;
-    const double stiffness = std::visit(StiffnessOf(), springs[i]);
+    const double stiffness = std::visit(StiffnessOf(), spring);
     for (const double tolerance : kTolerances) {
       problem.tolerance = tolerance;
       StudiedMethod method = {.name = absl::StrCat("duration k=", stiffness, " ", tolerance),
@@ -125,7 +134,7 @@ ReferencePointer AddFiniteDuration(const planar::Problem& contact, const Contact
                                          .arithmetic = Arithmetic::kPlain,
                                          .tolerance = tolerance,
                                          .stiffness = stiffness},
-                              .claimed_modelling = own ? 0.0 : SizeOfTime(contact, physics, springs[i]) + own_size,
+                              .claimed_modelling = own ? 0.0 : SizeOfTime(contact, physics, spring) + own_size,
                               .exact = exact};
       if (finite_duration::IsAvailable()) {
         method.kernel = TimedKernel(problem);

@@ -62,6 +62,11 @@ def coordinates(path: str, axis: Axis) -> NDArray[np.float64]:
     return values
 
 
+def length(axis: Axis) -> int:
+    """Returns the number of values of an axis."""
+    return axis.count if isinstance(axis, (Linspace, Logspace)) else len(coordinates(axis))
+
+
 def to_message(path: str, axis: Axis) -> Any:
     """Returns the axis as ricochet.v1.Axis."""
     message = sweep_pb2.Axis(path=path)

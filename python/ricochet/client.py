@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import sys
 import threading
@@ -16,6 +17,7 @@ import numpy as np
 from google.protobuf import json_format
 from numpy.typing import ArrayLike, NDArray
 
+from ricochet import answers
 from ricochet import axes as sweep_axes
 from ricochet import names, values
 from ricochet.connection import DEFAULT_DEADLINE_S, Connection, metadata, open_channel, resolve
@@ -305,7 +307,7 @@ class Client:
                 part["rates_after"] = [{"rates_rad_s": link} for link in np.atleast_2d(part["rates_after"])]
             to_message(request.columns, part, "columns")
             response = self._unary("AuditBatch", request)
-            reports += map(to_record, response.reports)
+            reports += map(to_record, answers.entries(response.reports, min(most, rows - start), "reports"))
             summaries.append(to_record(response.summary))
         flat = [_flat(report) for report in reports]
         return _audit_table(flat, summaries, index)
@@ -360,10 +362,11 @@ class Client:
             data = [array[part].astype("<f8").tobytes() for array in arrays.values()]
             request = batch_pb2.SolveBatchRequest(setup=setup, inputs=data)
             response = self._unary("SolveBatch", request)
-            for column, numbers in zip(outputs.values(), response.outputs):
-                column[part] = np.frombuffer(numbers, "<f8")
-            regimes[part] = np.frombuffer(response.regimes, np.uint8)
-            statuses[part] = np.frombuffer(response.statuses, np.uint8)
+            count = len(regimes[part])
+            for column, numbers in zip(outputs.values(), answers.entries(response.outputs, len(outputs), "columns")):
+                column[part] = answers.numbers(numbers, count, "a column")
+            regimes[part] = answers.codes(response.regimes, count, "regimes")
+            statuses[part] = answers.codes(response.statuses, count, "statuses")
             parts.append((start, response.summary))
         table = Table(
             outputs,
@@ -396,7 +399,8 @@ class Client:
         wanted = names.full_names(values.names(columns, "columns"), names.columns_of(request.scene), "columns")
         request.columns.extend(wanted)
         text = json_format.MessageToJson(request, indent=None)
-        received = _Received(len(wanted))
+        lengths = [sweep_axes.length(axis) for axis in given.values()]
+        received = _Received(len(wanted), lengths[0] if zip_axes and lengths else math.prod(lengths))
         for chunk in self._chunks(request, received):
             received.take(chunk)
             if progress is not None:
@@ -454,7 +458,7 @@ class Client:
         if self._limits is None:
             self._limits = self.info().limits
         limit = self._limits[name]
-        return 1 << 31 if limit is None else int(limit)
+        return 1 << 31 if limit is None else answers.at_least_one(int(limit), name)
 
     def _most_batch_rows(self, columns: int) -> int:
         numbers = min(
@@ -489,14 +493,14 @@ os.register_at_fork(after_in_child=_disconnect_all)
 
 
 class _Received:
-    """What has arrived of a sweep."""
+    """What has arrived of a sweep of so many points."""
 
-    def __init__(self, columns: int) -> None:
+    def __init__(self, columns: int, total: int) -> None:
         self.values = np.empty((columns, 0))
         self.regimes = np.empty(0, np.uint8)
         self.statuses = np.empty(0, np.uint8)
         self.points = 0
-        self.total = 0
+        self.total = total
         self.complete = False
         self.summary = Record()
         self.provenance: dict[str, str] = {}
@@ -511,18 +515,24 @@ class _Received:
                 "source": f"ricochet {chunk.engine.version}",
                 "ricochet_engine_fingerprint": chunk.engine.fingerprint,
             }
-            self.total = chunk.points_total
+            if chunk.points_total != self.total:
+                raise RicochetError(
+                    f"the server answers {chunk.points_total} points of {self.total}", code="DATA_LOSS"
+                )
             self.values = np.empty((len(self.values), self.total))
             self.regimes = np.empty(self.total, np.uint8)
             self.statuses = np.empty(self.total, np.uint8)
-        if origin != self._origin or chunk.first_index != self.points or self.points + chunk.count > self.total:
+        fits = chunk.first_index == self.points and 0 <= chunk.count <= self.total - self.points
+        if origin != self._origin or not fits:
             raise RicochetError(
                 "the server that goes on with the sweep is another engine, or points are missing", code="DATA_LOSS"
             )
         part = slice(self.points, self.points + chunk.count)
-        self.values[:, part] = np.frombuffer(chunk.values, "<f8").reshape(-1, chunk.count)
-        self.regimes[part] = np.frombuffer(chunk.regimes, np.uint8)
-        self.statuses[part] = np.frombuffer(chunk.statuses, np.uint8)
+        columns = len(self.values)
+        values = answers.numbers(chunk.values, columns * chunk.count, "values")
+        self.values[:, part] = values.reshape(columns, chunk.count)
+        self.regimes[part] = answers.codes(chunk.regimes, chunk.count, "regimes")
+        self.statuses[part] = answers.codes(chunk.statuses, chunk.count, "statuses")
         self.points += chunk.count
         self.complete = self.points == self.total and chunk.HasField("summary")
         if self.complete:

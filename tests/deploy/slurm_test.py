@@ -1,6 +1,6 @@
 """Runs a sweep as an array on a Slurm cluster of three nodes, kills one of them, and compares the merged file with one run.
 
-usage: slurm_test.py SOURCE_DIRECTORY RICOCHET WORK_DIRECTORY
+usage: slurm_test.py SOURCE_DIRECTORY RICOCHET WORK_DIRECTORY [POINTS]
 
 The cluster is real: munged, slurmctld and three slurmd, all on this machine and by root. Then Open MPI starts the shards
 of a second sweep.
@@ -20,7 +20,7 @@ SOURCE, RICOCHET, WORK = (pathlib.Path(argument).resolve() for argument in sys.a
 NODES = 3
 SHARDS = 6
 # An impact that takes time costs a millisecond, so that a task lasts for seconds and can be killed in the middle.
-POINTS = 30_000
+POINTS = int(sys.argv[4]) if len(sys.argv) > 4 else 30_000
 SCENE = SOURCE / "tests/data/scenes/dropped_rod.textproto"
 SWEEP = ["--scene", str(SCENE), "--axis", f"friction.kinetic_coefficient=lin:0.01:1.5:{POINTS}", "--column",
          "coefficients.newton,contact_velocity_after.normal_m_s", "--regime"]

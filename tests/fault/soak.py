@@ -1,10 +1,11 @@
 """Runs every check long, and writes the tables of deploy/README.md from what it measured.
 
-usage: soak.py RICOCHETD RICOCHET WORK_DIRECTORY [MINUTES [TOPIC...]]
+usage: soak.py RICOCHETD RICOCHET WORK_DIRECTORY [MINUTES [--page PAGE] [TOPIC...]]
 
 MINUTES are those of the mixed load, 30 by default. Fewer minutes try as much less of the bad requests and the kills;
 0 runs every check short. If topics are named, only these are run, and the results of the others are taken from
-WORK_DIRECTORY, where an earlier run left them.
+WORK_DIRECTORY, where an earlier run left them. --page names a copy of deploy/README.md that is written in its place, with
+the results of the topics that are named alone.
 """
 
 import json
@@ -44,19 +45,19 @@ def commit_file(work, topic):
     return work / f"{topic}.commit"
 
 
-def commits_in(work):
+def commits_in(work, topics):
     """Says at which commit the topics were run, or which of them at which."""
     topics_of = {}
-    for topic in TOPICS:
+    for topic in topics:
         topics_of.setdefault(commit_file(work, topic).read_text(encoding="ascii"), []).append(topic)
     if len(topics_of) == 1:
         return f"commit {next(iter(topics_of))}"
     return "commits " + ", ".join(f"{name} ({', '.join(topics)})" for name, topics in topics_of.items())
 
 
-def results_in(work):
+def results_in(work, topics):
     results = []
-    for topic in TOPICS:
+    for topic in topics:
         found = work / f"{topic}.json"
         if not found.exists():
             sys.exit(f"there are no results of {topic}: run it")
@@ -141,19 +142,24 @@ def run_of(minutes):
     return f" This was a run of {minutes:g} minutes instead of 30." if minutes else " This was the short run."
 
 
-def write(results, commits, minutes):
-    text = PAGE.read_text(encoding="utf-8")
+def write(page, results, commits, minutes):
+    text = page.read_text(encoding="utf-8")
     if BEGIN not in text or END not in text:
-        sys.exit(f"{PAGE} lacks the lines {BEGIN} and {END}")
+        sys.exit(f"{page} lacks the lines {BEGIN} and {END}")
     head = (f"Measured at {commits} on {machine()}, shared with the clients. Only the ratios carry over to other "
             f"machines.{run_of(minutes)}")
     made = f"{BEGIN}\n{head}\n\n{summary(results)}\n\n{rows_of(results)}\n{END}"
     start, rest = text.split(BEGIN, 1)
-    PAGE.write_text(start + made + rest.split(END, 1)[1], encoding="utf-8")
+    page.write_text(start + made + rest.split(END, 1)[1], encoding="utf-8")
 
 
 def main():
-    topics = sys.argv[5:] or TOPICS
+    arguments = sys.argv[5:]
+    page, written = PAGE, TOPICS
+    if arguments[:1] == ["--page"]:
+        page, arguments = Path(arguments[1]), arguments[2:]
+        written = arguments or TOPICS
+    topics = arguments or TOPICS
     if len(sys.argv) < 4 or not set(topics) <= set(TOPICS):
         sys.exit(__doc__)
     ricochetd, ricochet, work = [Path(argument).resolve() for argument in sys.argv[1:4]]
@@ -161,9 +167,9 @@ def main():
     minutes = float(sys.argv[4]) if len(sys.argv) > 4 else 30
     for topic in topics:
         run(ricochetd, ricochet, work, minutes, topic)
-    results = results_in(work)
+    results = results_in(work, written)
     (work / "results.json").write_text(json.dumps(results, indent=1), encoding="utf-8")
-    write(results, commits_in(work), minutes)
+    write(page, results, commits_in(work, written), minutes)
     bad = [one["name"] for one in results if one["result"] == "not level" and not one["mitigation"]]
     print(f"\n{len(results)} checks, {len(bad)} not level{': ' if bad else ''}{', '.join(bad)}")
     sys.exit(1 if bad else 0)

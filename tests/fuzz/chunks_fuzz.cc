@@ -24,34 +24,11 @@
 #include "core/sweep/grid.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/sweep.h"
+#include "tests/fuzz/bytes.h"
 #include "tests/fuzz/fail.h"
 
 namespace ricochet {
 namespace {
-
-class Bytes {
- public:
-  Bytes(const uint8_t* data, size_t size) : data_(data), size_(size) {}
-
-  bool empty() const { return size_ == 0; }
-  // Returns 0 if no byte is left.
-  uint8_t Byte() {
-    if (empty()) return 0;
-    --size_;
-    return *data_++;
-  }
-  // Returns numbers of all magnitudes: one byte says by how much eight others are shifted.
-  int64_t Number() {
-    const int shift = Byte() % 64;
-    uint64_t bits = 0;
-    for (int i = 0; i < 8; ++i) bits = bits << 8U | Byte();
-    return static_cast<int64_t>(bits) >> shift;
-  }
-
- private:
-  const uint8_t* data_;
-  size_t size_;
-};
 
 // The script of a whole call.
 struct Script {

@@ -11,6 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "proto/wire/requests.h"
@@ -40,6 +42,7 @@ void Run(const v1::SolveRequest& proto) {
 }  // namespace
 
 std::unique_ptr<google::protobuf::Message> NewInput() { return std::make_unique<v1::SolveRequest>(); }
+std::vector<std::string> InputTexts() { return {}; }
 
 }  // namespace ricochet
 

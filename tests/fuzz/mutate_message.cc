@@ -13,6 +13,7 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <string>
 #include <vector>
 
 extern "C" size_t LLVMFuzzerMutate(uint8_t* data, size_t size, size_t max_size);
@@ -157,9 +158,18 @@ class Mutator {
         return reflection.SetBool(&message, field, true);
       case FieldDescriptor::CPPTYPE_INT64:
         return reflection.SetInt64(&message, field, static_cast<int64_t>(Below(20)) - 1);
+      case FieldDescriptor::CPPTYPE_ENUM:
+        return reflection.SetEnumValue(&message, field, static_cast<int>(Below(10)));
+      case FieldDescriptor::CPPTYPE_STRING:
+        return reflection.SetString(&message, field, SomeText());
       default:
         return;
     }
+  }
+
+  std::string SomeText() {
+    static const std::vector<std::string>& texts = *new std::vector<std::string>(InputTexts());
+    return texts.empty() ? "" : texts[Below(texts.size())];
   }
 
   void ChangeLength(Message& message, const FieldDescriptor* field) {
@@ -173,6 +183,8 @@ class Mutator {
         return reflection.AddDouble(&message, field, Changed(0.5, 1.0, 3.0));
       case FieldDescriptor::CPPTYPE_ENUM:
         return reflection.AddEnumValue(&message, field, static_cast<int>(Below(10)));
+      case FieldDescriptor::CPPTYPE_STRING:
+        return reflection.AddString(&message, field, SomeText());
       default:
         return;
     }

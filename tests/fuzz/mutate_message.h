@@ -7,11 +7,16 @@
 #include <google/protobuf/message.h>
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace ricochet {
 
 // An empty message of the target's type.
 std::unique_ptr<google::protobuf::Message> NewInput();
+
+// The texts that a field of that message may take, such as paths of numbers. Empty if it has no texts.
+std::vector<std::string> InputTexts();
 
 }  // namespace ricochet
 

@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "absl/status/statusor.h"
@@ -25,6 +26,7 @@
 #include "tests/fuzz/fail.h"
 #include "tests/fuzz/mutate_message.h"
 #include "tests/fuzz/outcome_claims.h"
+#include "tests/fuzz/path_texts.h"
 
 namespace ricochet {
 namespace {
@@ -95,6 +97,7 @@ void Run(const v1::BoundsRequest& proto) {
 }  // namespace
 
 std::unique_ptr<google::protobuf::Message> NewInput() { return std::make_unique<v1::BoundsRequest>(); }
+std::vector<std::string> InputTexts() { return FieldTexts(); }
 
 }  // namespace ricochet
 

@@ -1,7 +1,10 @@
 #!/usr/bin/env bash
-# ./dev explains all of its commands and refuses everything else. usage: dev_script_test.sh DEV
+# ./dev explains all of its commands and refuses everything else, and CI runs of them what CONTRIBUTING.md says.
+# usage: dev_script_test.sh DEV
 set -euo pipefail
 readonly dev=$1
+root=$(dirname "$dev")
+readonly root
 
 fail() {
   printf '%s\n' "$*" >&2
@@ -30,3 +33,37 @@ expect_code 2 nonsense
 expect_code 2 clean everything
 expect_code 2 format --nonsense
 expect_code 2 lint --nonsense
+expect_code 2 clean --short
+
+# The row of a command in the table, and what it says about CI.
+table=$(grep '^| `./dev ' "$root/CONTRIBUTING.md")
+for command in $commands; do
+  row=$(grep "^| \`./dev $command\` " <<<"$table") || fail "the table of CONTRIBUTING.md lacks $command"
+  ci=$(sed 's/ *|$//; s/.*| //' <<<"$row")
+  runs=$(grep -E "^step ./dev $command( |$)" "$root/.ci/run") || runs=
+  case $ci in
+    whole*)
+      [[ -n $runs ]] || fail "CI does not run $command, which is to run whole"
+      [[ $runs != *--short* ]] || fail "CI runs $command short, which is to run whole"
+      ;;
+    short:*)
+      # lint has two short forms of its own.
+      [[ $runs == *--short* || $command == lint && $runs == *--scripts* && $runs == *--changed* ]] ||
+        fail "CI does not run $command short"
+      ;;
+    no:*) [[ -z $runs ]] || fail "CI runs $command, which the table denies" ;;
+    *) fail "the table says neither whole, short: nor no: of $command, but '$ci'" ;;
+  esac
+done
+# Commands that the table or CI names, one a line.
+# shellcheck disable=SC2016  # The backquotes are those of Markdown.
+named=$(sed -n 's/^| `\.\/dev \([a-z]*\)` .*/\1/p' <<<"$table"; sed -n 's/^step \.\/dev \([a-z]*\).*/\1/p' "$root/.ci/run")
+while read -r command; do
+  grep -qx "$command" <<<"$commands" || fail "there is no command ./dev $command"
+done <<<"$named"
+# A short form that no machine runs would rot.
+read -ra short_commands < <(sed -n "s/^readonly short_commands='\(.*\)'/\1/p" "$dev")
+((${#short_commands[@]})) || fail "$dev names no short_commands"
+for command in "${short_commands[@]}"; do
+  grep -q "^step ./dev $command --short\$" "$root/.ci/run" || fail "CI does not run ./dev $command --short"
+done
