@@ -40,13 +40,14 @@ std::string DefaultPicture(const std::string& file) {
 }
 
 absl::Status RunPlotFile(PlotFileOptions options) {
-  if (options.picture.file.empty()) {
-    options.picture.file = DefaultPicture(options.file);
-    if (absl::Status status = UseFile(FileUse::kWritten, "", options.picture.file); !status.ok()) return status;
-  }
+  const bool is_default = options.picture.file.empty();
+  if (is_default) options.picture.file = DefaultPicture(options.file);
   if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
   const absl::StatusOr<SweepTable> table = ReadSweepFile(options.file, options.columns);
   if (!table.ok()) return table.status();
+  if (is_default) {
+    if (absl::Status status = UseFile(FileUse::kWritten, "", options.picture.file); !status.ok()) return status;
+  }
   absl::StatusOr<Plot> plot = PlotOf(*table, options.picture.kind);
   if (!plot.ok()) return {plot.status().code(), absl::StrCat(options.file, ": ", plot.status().message())};
   const bool is_map = !plot->panels.front().map.empty();
