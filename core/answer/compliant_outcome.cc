@@ -47,6 +47,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
   outcome.work.friction_dissipation_j = impact.friction_dissipation;
   outcome.work.tangential_spring_j = impact.spring_energy;
   outcome.accuracy = {.relative_error = impact.error_estimate, .kind = AccuracyKind::kEstimate};
+  SetErrors(impact.errors, outcome);
   // If the path overflows, not even the regime is known, so that the outcome is checked in every case.
   if (!std::isfinite(impact.u1)) return CheckFinite(outcome);
   return Complete(

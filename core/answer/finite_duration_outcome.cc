@@ -13,6 +13,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
                       .kind = AccuracyKind::kEstimate,
                       .steps = impact.steps,
                       .right_hand_sides = impact.right_hand_sides};
+  SetErrors(impact.errors, outcome);
   outcome.contact = impact.contact;
   return Complete(
       extent, [&] { return impact.events; }, NoPath, outcome);

@@ -54,8 +54,9 @@ namespace sliding {
 
 // The outcome of slip that neither stops nor turns, or of an impact without friction. `errors` are those of that model.
 template <size_t kTangential>
-absl::Status MakeOutcome(const Impact<kTangential>& impact, const RelativeErrors& errors,
-                         const Reduction<kTangential>& reduction, const Extent& extent, Outcome& outcome);
+absl::Status MakeOutcome(const Problem<kTangential>& problem, const Impact<kTangential>& impact,
+                         const RelativeErrors& errors, const Reduction<kTangential>& reduction, const Extent& extent,
+                         Outcome& outcome);
 
 }  // namespace sliding
 

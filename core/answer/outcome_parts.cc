@@ -118,6 +118,46 @@ WorkLedger MakeLedger(double normal_compression, double normal_restitution, doub
                         energy_change};
 }
 
+void SetErrors(const ImpactErrors& errors, Outcome& outcome) {
+  const auto set = [](double error, std::optional<double>& place) {
+    if (std::isfinite(error)) place = error;
+  };
+  NumberErrors& out = outcome.errors;
+  set(errors.newton, out.newton);
+  set(errors.poisson, out.poisson);
+  set(errors.energetic, out.energetic);
+  set(errors.tangential, out.tangential);
+  set(errors.u, out.tangential_m_s);
+  set(errors.v, out.normal_m_s);
+  set(errors.tau_compression, out.normal_compression_n_s);
+  set(errors.tau, out.normal_total_n_s);
+  set(errors.f, out.tangential_n_s);
+  set(errors.work_normal_compression, out.normal_compression_j);
+  set(errors.work_normal_restitution, out.normal_restitution_j);
+  set(errors.work_tangential_compression, out.tangential_compression_j);
+  set(errors.work_tangential_restitution, out.tangential_restitution_j);
+  set(errors.energy_change, out.energy_change_j);
+}
+
+void AddNeglected(double neglected, double speed, double v0, Outcome& outcome) {
+  if (!(neglected > 0.0)) return;
+  const NumberErrors without = outcome.errors;
+  const double change = neglected * speed;
+  NumberErrors& errors = outcome.errors;
+  errors = {};
+  const auto add = [](const std::optional<double>& error, double more, std::optional<double>& place) {
+    if (error.has_value() && std::isfinite(more)) place = *error + more;
+  };
+  add(without.tangential_m_s, change, errors.tangential_m_s);
+  add(without.normal_m_s, change, errors.normal_m_s);
+  add(without.newton, change / std::fabs(v0), errors.newton);
+}
+
+void CompareWithTolerance(double tolerance, Outcome& outcome) {
+  const bool exceeds = tolerance > 0.0 && outcome.accuracy.relative_error > tolerance;
+  if (exceeds && outcome.termination == Termination::kConverged) outcome.termination = Termination::kLessAccurate;
+}
+
 void UnsetPhases(Outcome& outcome) {
   outcome.coefficients.poisson = outcome.coefficients.energetic = std::nullopt;
   outcome.impulse.normal_compression_n_s = std::nullopt;

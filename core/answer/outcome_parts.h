@@ -16,6 +16,7 @@
 #include "absl/types/span.h"
 #include "core/contact/reduction.h"
 #include "core/models/impact_end.h"
+#include "core/models/impact_errors.h"
 #include "ricochet/outcome.h"
 
 namespace ricochet {
@@ -50,6 +51,16 @@ void SetLimits(const LimitFindings& findings, Outcome& outcome);
 // The four works with their sums and the residual against `energy_change`.
 WorkLedger MakeLedger(double normal_compression, double normal_restitution, double tangential_compression,
                       double tangential_restitution, double energy_change);
+
+// Sets the errors that are known.
+void SetErrors(const ImpactErrors& errors, Outcome& outcome);
+
+// Adds to the errors what effects change that the plan leaves out: `neglected`, over max(|u0|, |v0|) = `speed`, in each
+// velocity. Of the other numbers no bound is known then; a coefficient that the law states stays exact.
+void AddNeglected(double neglected, double speed, double v0, Outcome& outcome);
+
+// Says so if the outcome was followed to its end but its error exceeds `tolerance`, which a tolerance of 0 allows.
+void CompareWithTolerance(double tolerance, Outcome& outcome);
 
 // Unsets the numbers of the two phases and their errors, of which an impact law knows nothing.
 void UnsetPhases(Outcome& outcome);

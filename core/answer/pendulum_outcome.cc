@@ -65,11 +65,12 @@ void SetEnd(const Impact& impact, Outcome& outcome) {
 }
 
 // `error` is the proved bound for the contact velocity over max(|u0|, |v0|); `at` gives the state at tau.
-absl::Status MakeOutcomeOf(const Problem& problem, const Impact& impact, double error,
+absl::Status MakeOutcomeOf(const Problem& problem, const Impact& impact, double error, const ImpactErrors& errors,
                            Instant (*at)(const Problem& problem, double tau), const Extent& extent, Outcome& outcome) {
   const bool separates = impact.regime == Regime::kSeparating;
   SetEnd(impact, outcome);
   outcome.accuracy = {.relative_error = separates ? 0.0 : error, .kind = AccuracyKind::kBound};
+  SetErrors(errors, outcome);
   const auto state_at = [&](double tau) {
     if (separates) return MakeState(problem, tau, problem.omega_minus, 0.0);
     const Instant instant = at(problem, tau);
@@ -84,7 +85,7 @@ absl::Status MakeOutcomeOf(const Problem& problem, const Impact& impact, double 
 absl::Status MakeOutcome(const Problem& problem, double tolerance, const Extent& extent, Outcome& outcome) {
   const SolvedImpact<Impact> solved = SolveWithin(problem, tolerance);
   outcome.plan.arithmetic = solved.arithmetic;
-  return MakeOutcomeOf(problem, solved.impact, solved.relative_error(), At, extent, outcome);
+  return MakeOutcomeOf(problem, solved.impact, solved.relative_error(), solved.errors, At, extent, outcome);
 }
 
 std::string OutputPath(Output output) {
@@ -135,8 +136,9 @@ std::string OutputPath(Output output) {
 namespace ricochet::first_order {
 
 absl::Status MakeOutcome(const Problem& problem, const Extent& extent, Outcome& outcome) {
-  return pendulum::MakeOutcomeOf(problem, first_order::Solve(problem), ErrorsOf(problem).velocity, first_order::At,
-                                 extent, outcome);
+  const Impact impact = first_order::Solve(problem);
+  return pendulum::MakeOutcomeOf(problem, impact, ErrorsOf(problem).velocity, NumberErrorsOf(problem, impact),
+                                 first_order::At, extent, outcome);
 }
 
 }  // namespace ricochet::first_order

@@ -10,6 +10,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
   SetEnd(impact, reduction, 0.0, outcome);
   outcome.accuracy = {.relative_error = solved.relative_error(), .kind = AccuracyKind::kBound};
   outcome.plan.arithmetic = solved.arithmetic;
+  SetErrors(solved.errors, outcome);
   const auto state_at = [&](double tau) { return MakeState(reduction, At(problem, impact, tau)); };
   return Complete(
       extent, [&] { return MakeTimeline(impact, reduction); }, state_at, outcome);

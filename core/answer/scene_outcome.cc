@@ -1,5 +1,6 @@
 #include "core/answer/scene_outcome.h"
 
+#include <cmath>
 #include <variant>
 
 #include "core/answer/contact_notes.h"
@@ -54,9 +55,11 @@ absl::Status SolveFiniteDuration(const Job& job, const PlanarReduction& reductio
 }
 
 template <size_t kTangential>
-absl::Status SolveStraight(const Job& job, const sliding::Impact<kTangential>& impact,
-                           const Reduction<kTangential>& reduction) {
-  return sliding::MakeOutcome(impact, job.planned.choice.straight_errors, reduction, job.options.extent, job.outcome);
+absl::Status SolveStraight(const Job& job, const Reduction<kTangential>& reduction) {
+  const sliding::Problem<kTangential> problem = sliding::MakeProblem(reduction, job.Effective());
+  const bool slides = job.planned.choice.model == Model::kSliding;
+  return sliding::MakeOutcome(problem, slides ? sliding::Solve(problem) : sliding::SolveFrictionless(problem),
+                              job.planned.choice.straight_errors, reduction, job.options.extent, job.outcome);
 }
 
 absl::Status SolveContact(const Job& job, const PlanarReduction& reduction) {
@@ -66,9 +69,8 @@ absl::Status SolveContact(const Job& job, const PlanarReduction& reduction) {
     case Model::kImpactLaw:
       return MakeLawOutcome(job.scene.impact_law, effective.kinetic_friction, reduction, extent, job.outcome);
     case Model::kFrictionless:
-      return SolveStraight(job, sliding::SolveFrictionless(sliding::MakeProblem(reduction, effective)), reduction);
     case Model::kSliding:
-      return SolveStraight(job, sliding::Solve(sliding::MakeProblem(reduction, effective)), reduction);
+      return SolveStraight(job, reduction);
     case Model::kNone:
     case Model::kPlanar:
       return planar::MakeOutcome(planar::MakeProblem(reduction, job.scene.restitution, effective), reduction,
@@ -89,12 +91,8 @@ absl::Status SolveContact(const Job& job, const PlanarReduction& reduction) {
 
 absl::Status SolveContact(const Job& job, const SpatialReduction& reduction) {
   const Extent& extent = job.options.extent;
-  const EffectiveCoefficients effective = job.Effective();
-  if (job.planned.choice.model == Model::kFrictionless) {
-    return SolveStraight(job, sliding::SolveFrictionless(sliding::MakeProblem(reduction, effective)), reduction);
-  }
-  if (job.planned.choice.model == Model::kSliding) {
-    return SolveStraight(job, sliding::Solve(sliding::MakeProblem(reduction, effective)), reduction);
+  if (job.planned.choice.model == Model::kFrictionless || job.planned.choice.model == Model::kSliding) {
+    return SolveStraight(job, reduction);
   }
   return spatial::MakeOutcome(spatial::Solve(SpatialProblemOf(job.scene, reduction, job.planned)), reduction, extent,
                               job.outcome);
@@ -119,6 +117,25 @@ void AddNotes(const Job& job, const std::optional<SceneContact>& contact) {
     return;
   }
   std::visit([&](const auto& reduction) { AddContactNotes(reduction, effective, job.outcome); }, contact->reduction);
+}
+
+// The size of the contact velocity before the impact, and its normal component.
+struct Approach {
+  double speed, v0;
+};
+
+Approach ApproachOf(const PlannedScene& planned, const std::optional<SceneContact>& contact) {
+  if (planned.closed_form.has_value()) {
+    const pendulum::Problem& problem = *planned.closed_form;
+    return {std::fmax(problem.a, std::fabs(problem.b)) * std::fabs(problem.omega_minus),
+            problem.a * problem.omega_minus};
+  }
+  const auto of = [](const auto& reduction) {
+    double speed = std::fabs(reduction.v0);
+    for (const double u : reduction.u0) speed = std::fmax(speed, std::fabs(u));
+    return Approach{speed, reduction.v0};
+  };
+  return std::visit(of, contact->reduction);
 }
 
 }  // namespace
@@ -152,6 +169,9 @@ absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>&
   if (!status.ok()) return status;
   outcome.effective = planned.effective;
   outcome.accuracy.relative_error += planned.choice.negligible;
+  const Approach approach = ApproachOf(planned, contact);
+  AddNeglected(planned.choice.negligible, approach.speed, approach.v0, outcome);
+  CompareWithTolerance(options.demand.relative_tolerance, outcome);
   if (options.extent.detail == Detail::kAll) {
     Explain(planned, options.demand, outcome.plan);
     AddNotes(scene, planned, outcome);

@@ -1,6 +1,7 @@
 #include "core/answer/spatial_lanes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <variant>
 
@@ -54,6 +55,9 @@ void SpatialLanes::SetOutcome(size_t place, Outcome& outcome) const {
   spatial::MakeOutcome(impacts_[place], added.reduction, {.detail = Detail::kNumbers}, outcome).IgnoreError();
   outcome.effective = added.effective;
   outcome.accuracy.relative_error += added.negligible;
+  const spatial::Problem& problem = problems_[place];
+  const double speed = std::max(std::max(std::fabs(problem.u0[0]), std::fabs(problem.u0[1])), std::fabs(problem.v0));
+  AddNeglected(added.negligible, speed, problem.v0, outcome);
   outcome.plan.model = Model::kSpatial;
 }
 

@@ -9,6 +9,7 @@ absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction
                       .kind = AccuracyKind::kEstimate,
                       .steps = impact.steps,
                       .right_hand_sides = impact.right_hand_sides};
+  SetErrors(impact.errors, outcome);
   return Complete(
       extent, [&] { return MakeTimeline(impact, reduction); }, NoPath, outcome);
 }

@@ -13,14 +13,16 @@ double CompensatedError(const pendulum::Impact& impact) {
 }
 
 template <typename Impact>
-SolvedImpact<Impact> Compensated(const Impact& impact, double error, ArithmeticReason reason) {
-  return {impact, {.arithmetic = Arithmetic::kCompensated, .reason = reason, .rounding_error = error}};
+SolvedImpact<Impact> Compensated(const Impact& impact, double error, ArithmeticReason reason,
+                                 const ImpactErrors& errors) {
+  return {impact, {.arithmetic = Arithmetic::kCompensated, .reason = reason, .rounding_error = error}, errors};
 }
 
 template <typename Impact>
-SolvedImpact<Impact> WithinTolerance(const Impact& impact, double error) {
+SolvedImpact<Impact> WithinTolerance(const Impact& impact, double error, const ImpactErrors& errors) {
   return {impact,
-          {.arithmetic = Arithmetic::kPlain, .reason = ArithmeticReason::kWithinTolerance, .rounding_error = error}};
+          {.arithmetic = Arithmetic::kPlain, .reason = ArithmeticReason::kWithinTolerance, .rounding_error = error},
+          errors};
 }
 
 ArithmeticReason WhyNotPlain(bool proved) {
@@ -33,24 +35,27 @@ SolvedImpact<pendulum::Impact> SolveWithin(const pendulum::Problem& problem, dou
   ArithmeticReason reason = ArithmeticReason::kZeroTolerance;
   if (tolerance > 0.0) {
     const pendulum::PlainImpact plain = pendulum::SolvePlain(problem);
-    if (plain.proved && plain.relative_error <= tolerance) return WithinTolerance(plain.impact, plain.relative_error);
+    if (plain.proved && plain.relative_error <= tolerance) {
+      return WithinTolerance(plain.impact, plain.relative_error, pendulum::PlainErrorsOf(problem, plain));
+    }
     reason = WhyNotPlain(plain.proved);
   }
   const pendulum::Impact impact = pendulum::Solve(problem);
-  return Compensated(impact, CompensatedError(impact), reason);
+  return Compensated(impact, CompensatedError(impact), reason, pendulum::ErrorsOf(problem, impact));
 }
 
 SolvedImpact<planar::Impact> SolveWithin(const planar::Problem& problem, double tolerance) {
   ArithmeticReason reason = ArithmeticReason::kZeroTolerance;
+  ImpactErrors numbers;
   if (tolerance > 0.0) {
-    const planar::PlainImpact plain = planar::SolvePlain(problem);
+    const planar::PlainImpact plain = planar::SolvePlain(problem, &numbers);
     const double error = plain.errors.Largest();
-    if (plain.proved && error <= tolerance) return WithinTolerance(plain.impact, error);
+    if (plain.proved && error <= tolerance) return WithinTolerance(plain.impact, error, numbers);
     reason = WhyNotPlain(plain.proved);
   }
   planar::RoundingErrors errors;
-  const planar::Impact impact = planar::Solve(problem, errors);
-  return Compensated(impact, errors.Largest(), reason);
+  const planar::Impact impact = planar::Solve(problem, errors, &numbers);
+  return Compensated(impact, errors.Largest(), reason, numbers);
 }
 
 double ToleranceLeft(double relative_tolerance, double neglected) {

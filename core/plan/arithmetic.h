@@ -16,6 +16,7 @@
 #ifndef RICOCHET_CORE_PLAN_ARITHMETIC_H_
 #define RICOCHET_CORE_PLAN_ARITHMETIC_H_
 
+#include "core/models/impact_errors.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/planar/planar.h"
 #include "ricochet/plan.h"
@@ -27,6 +28,7 @@ struct SolvedImpact {
   Impact impact;
   // Its bound, which is always there, exceeds the tolerance only in compensated arithmetic.
   PlannedArithmetic arithmetic;
+  ImpactErrors errors;  // of each number
 
   double relative_error() const { return arithmetic.rounding_error.value_or(0.0); }
 };

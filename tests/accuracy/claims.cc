@@ -1,6 +1,7 @@
 // Prints the table of claims: for each method, tolerance and kind of scenes, how the errors claimed compare with the
 // errors achieved. It takes the number of scenes of each row as its argument and fails if a claim deceived.
 //
+// Rows of coefficients, impulses and works hold each number of an outcome against its own error, on its own scale.
 // docs/accuracy.md explains the columns. "unknown" counts infinite claims, "least" and "median" are of claimed over
 // achieved, "worst" is the largest error achieved, and the last two columns count claims and errors above the tolerance.
 
@@ -24,6 +25,7 @@
 #include "tests/support/planar_claims.h"
 #include "tests/support/sliding_claims.h"
 #include "tests/support/spatial_claims.h"
+#include "tests/support/spatial_number_claims.h"
 
 namespace ricochet {
 namespace {
@@ -41,11 +43,83 @@ struct Row {
 using Job = std::function<std::vector<Row>()>;
 using Jobs = std::vector<Job>;
 
+std::string TextOf(double tolerance) {
+  char text[16];
+  std::snprintf(text, sizeof(text), "%.0e", tolerance);
+  return text;
+}
+
 // Calls `add` for typical and for hard scenes.
 template <typename Add>
 void ForBothKinds(const Add& add) {
   add("typical", false);
   add("hard", true);
+}
+
+// The rows of the numbers of one method: each number is judged on its own scale.
+template <typename Claims>
+void AddNumbers(const std::string& method, const std::string& scenes, Jobs& jobs, const Claims& claims_of) {
+  jobs.push_back([=] {
+    const NumberClaims claims = claims_of();
+    return std::vector<Row>{{method + ", u and v", scenes, claims.velocity},
+                            {method + ", coefficients", scenes, claims.coefficient},
+                            {method + ", impulses", scenes, claims.impulse},
+                            {method + ", works", scenes, claims.work}};
+  });
+}
+
+void AddNumbersOfClosedForms(int count, Jobs& jobs) {
+  ForBothKinds([&](const char* scenes, bool hard) {
+    AddNumbers("pendulum plain", scenes, jobs, [=] { return pendulum::NumberClaimsOf(true, hard, count, kSeed); });
+    AddNumbers("pendulum comp.", scenes, jobs, [=] { return pendulum::NumberClaimsOf(false, hard, count, kSeed); });
+    AddNumbers("first order", scenes, jobs, [=] { return first_order::NumberClaimsOf(true, hard, count, kSeed); });
+    AddNumbers("smooth pendulum", scenes, jobs, [=] { return first_order::NumberClaimsOf(false, hard, count, kSeed); });
+    for (const bool grazing : {false, true}) {
+      const std::string kind = grazing ? std::string("grazing") : scenes;
+      if (grazing && hard) continue;
+      AddNumbers("planar plain", kind, jobs,
+                 [=] { return planar::NumberClaimsOf(planar::SolvePlain, hard, grazing, count, kSeed); });
+      AddNumbers("planar comp.", kind, jobs,
+                 [=] { return planar::NumberClaimsOf(planar::InDoubleDouble, hard, grazing, count, kSeed); });
+      for (const bool friction : {true, false}) {
+        const std::string method = friction ? "sliding" : "smooth";
+        AddNumbers(method + " (2D)", kind, jobs,
+                   [=] { return sliding::NumberClaimsOf<1>(friction, hard, grazing, count, kSeed); });
+        AddNumbers(method + " (3D)", kind, jobs,
+                   [=] { return sliding::NumberClaimsOf<2>(friction, hard, grazing, count, kSeed); });
+      }
+    }
+  });
+}
+
+void AddNumbersOfSpace(int count, Jobs& jobs) {
+  for (const double tolerance : spatial::kClaimTolerances) {
+    ForBothKinds([&](const char* scenes, bool hard) {
+      AddNumbers("space " + TextOf(tolerance), scenes, jobs,
+                 [=] { return spatial::NumberClaimsOf(hard, tolerance, count, kSeed); });
+    });
+  }
+  for (const double tolerance : {1e-6, 1e-12}) {
+    ForBothKinds([&](const char* scenes, bool hard) {
+      AddNumbers("grazing " + TextOf(tolerance), scenes, jobs,
+                 [=] { return spatial::GrazingClaimsOf(hard, tolerance, count, kSeed); });
+    });
+  }
+}
+
+void AddNumbersOfSprings(int count, Jobs& jobs) {
+  using finite_duration::ClaimKind;
+  ForBothKinds([&](const char* scenes, bool hard) {
+    AddNumbers("compliant", scenes, jobs, [=] { return compliant::NumberClaimsOf(hard, count, kSeed); });
+    for (const double tolerance : {1e-4, 1e-8, 1e-12}) {
+      AddNumbers("linear " + TextOf(tolerance), scenes, jobs,
+                 [=] { return finite_duration::NumberClaimsOf(ClaimKind::kLinear, hard, tolerance, count, kSeed); });
+      AddNumbers("Hertz " + TextOf(tolerance), scenes, jobs,
+                 [=] { return finite_duration::NumberClaimsOf(ClaimKind::kHertz, hard, tolerance, count, kSeed); });
+      AddNumbers("springs " + TextOf(tolerance), scenes, jobs,
+                 [=] { return finite_duration::NumberClaimsOf(ClaimKind::kCompliant, hard, tolerance, count, kSeed); });
+    }
+  });
 }
 
 void AddPendulum(int count, Jobs& jobs) {
@@ -64,7 +138,8 @@ void AddPendulum(int count, Jobs& jobs) {
 
 void AddPlanar(int count, Jobs& jobs) {
   ForBothKinds([&](const char* scenes, bool hard) {
-    const auto add = [&](const std::string& method, planar::PlainImpact (*solve)(const planar::Problem&)) {
+    const auto add = [&](const std::string& method,
+                         planar::PlainImpact (*solve)(const planar::Problem&, ImpactErrors*)) {
       jobs.push_back([=] {
         const planar::Claims claims = planar::ClaimsOf(solve, hard, count, kSeed);
         return std::vector<Row>{{method + ", velocity", scenes, claims.velocity},
@@ -156,6 +231,9 @@ int Run(int count) {
   AddSpatial(count, jobs);
   AddCompliant(count, jobs);
   AddFiniteDuration(count, jobs);
+  AddNumbersOfClosedForms(count, jobs);
+  AddNumbersOfSpace(count, jobs);
+  AddNumbersOfSprings(count, jobs);
   const int deceived = PrintTable(jobs);
   std::printf("%d claims deceived\n", deceived);
   return deceived == 0 ? EXIT_SUCCESS : EXIT_FAILURE;

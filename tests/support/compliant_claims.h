@@ -15,6 +15,7 @@
 #include "tests/support/compliant_hard_scenes.h"
 #include "tests/support/compliant_oracle.h"
 #include "tests/support/compliant_scenes.h"
+#include "tests/support/number_claims.h"
 
 namespace ricochet::compliant {
 
@@ -87,6 +88,46 @@ inline ClaimTally ClaimsOf(bool hard, int count, uint64_t seed) {
     tally.Add(impact.error_estimate, achieved, ToString(problem));
   }
   return tally;
+}
+
+// Number by number. The oracle knows the tangential work as a whole.
+inline NumberClaims NumberClaimsOf(bool hard, int count, uint64_t seed) {
+  SceneSource source(seed);
+  NumberClaims claims;
+  while (claims.velocity.count() < 2 * count) {
+    const Problem problem = hard ? HardScene(source) : source.Everyday(0.02, 50.0);
+    const Impact impact = Solve(problem);
+    if (impact.sections.size() > kMostSections) continue;
+    if (!impact.Converged()) {
+      claims.Add({}, {}, {});
+      continue;
+    }
+    const ExactImpact exact = SolveExactly(problem);
+    if (!exact.ends) continue;
+    const Ball work_t = exact.energy_change - exact.work_normal;
+    const Ball zero(0.0);
+    const bool returns = problem.contact.coefficient > 0.0;
+    const ComparedNumbers found = {
+        .newton = {impact.newton, returns ? -(exact.v1 / Ball(problem.contact.v0, 192)) : zero},
+        .poisson = {impact.poisson, returns ? (exact.tau1 - exact.tau_compression) / exact.tau_compression : zero},
+        .energetic = {impact.energetic, Ball(problem.contact.coefficient)},
+        .tangential = {impact.tangential, exact.f1 / exact.tau1},
+        .u = {impact.u1, exact.u1},
+        .v = {impact.v1, exact.v1},
+        .tau_compression = {impact.tau_compression, exact.tau_compression},
+        .tau = {impact.tau1, exact.tau1},
+        .f = {impact.f1, exact.f1},
+        .work_normal_compression = {impact.work_normal_compression, exact.work_normal_compression},
+        .work_normal_restitution = {impact.work_normal_restitution, exact.work_normal_restitution},
+        .work_tangential_compression = {},
+        .work_tangential_restitution = {impact.work_tangential_compression + impact.work_tangential_restitution,
+                                        work_t},
+        .energy_change = {impact.energy_change, exact.energy_change}};
+    ImpactErrors errors = impact.errors;
+    errors.work_tangential_restitution += errors.work_tangential_compression;
+    claims.Add(errors, found, ToString(problem));
+  }
+  return claims;
 }
 
 }  // namespace ricochet::compliant

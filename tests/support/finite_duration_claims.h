@@ -20,6 +20,7 @@
 #include "tests/support/claims.h"
 #include "tests/support/compliant_hard_scenes.h"
 #include "tests/support/compliant_scenes.h"
+#include "tests/support/number_claims.h"
 #include "tests/support/planar_scenes.h"
 
 namespace ricochet::finite_duration {
@@ -107,6 +108,67 @@ inline ClaimTally ClaimsOf(ClaimKind kind, bool hard, double tolerance, int coun
     tally.Add(impact.error_estimate, ErrorOf(problem, impact, *exact), "scene " + std::to_string(i));
   }
   return tally;
+}
+
+// The impact by the model in closed form, which has the members of ImpactEnd.
+inline std::optional<ImpactEnd<double>> ClosedFormOf(const Problem& problem) {
+  if (!problem.ratio_squared.has_value()) return planar::Solve(problem.contact);
+  const compliant::Impact exact =
+      compliant::Solve({.contact = problem.contact, .ratio_squared = *problem.ratio_squared});
+  constexpr size_t kMostSections = 50;
+  if (!exact.Converged() || exact.sections.size() > kMostSections) return std::nullopt;
+  return exact;
+}
+
+// Number by number, and the works against the change of energy.
+inline NumberClaims NumberClaimsOf(ClaimKind kind, bool hard, double tolerance, int count, uint64_t seed) {
+  ClaimScenes scenes(kind, hard, seed);
+  NumberClaims claims;
+  for (int i = 0; claims.velocity.count() < 2 * count; ++i) {
+    Problem problem = scenes.Next();
+    problem.tolerance = tolerance;
+    const std::optional<ImpactEnd<double>> closed = ClosedFormOf(problem);
+    if (!closed.has_value()) continue;
+    const Impact impact = Solve(problem);
+    const auto compare = [](double computed, double exact) {
+      return ComparedNumber(std::fabs(computed - exact), std::fabs(exact));
+    };
+    ComparedNumbers found;
+    found.newton = compare(impact.newton, closed->newton);
+    found.poisson = compare(impact.poisson, closed->poisson);
+    found.energetic = compare(impact.energetic, closed->energetic);
+    found.tangential = compare(impact.tangential, closed->tangential);
+    found.u = compare(impact.u1, closed->u1);
+    found.v = compare(impact.v1, closed->v1);
+    found.tau_compression = compare(impact.tau_compression, closed->tau_compression);
+    found.tau = compare(impact.tau1, closed->tau1);
+    found.f = compare(impact.f1, closed->f1);
+    found.work_normal_compression = compare(impact.work_normal_compression, closed->work_normal_compression);
+    found.work_normal_restitution = compare(impact.work_normal_restitution, closed->work_normal_restitution);
+    found.work_tangential_compression =
+        compare(impact.work_tangential_compression, closed->work_tangential_compression);
+    found.work_tangential_restitution =
+        compare(impact.work_tangential_restitution, closed->work_tangential_restitution);
+    found.energy_change = compare(impact.energy_change, closed->energy_change);
+    ImpactErrors judged = impact.errors;
+    if (kind == ClaimKind::kCompliant) {
+      // Where v turns several times, the two models divide the tangential work in different ways.
+      found.work_tangential_compression = {};
+      found.work_tangential_restitution =
+          compare(impact.work_tangential_compression + impact.work_tangential_restitution,
+                  closed->work_tangential_compression + closed->work_tangential_restitution);
+      judged.work_tangential_restitution += judged.work_tangential_compression;
+    }
+    const std::string scene = "scene " + std::to_string(i);
+    claims.Add(judged, found, scene);
+    const double open = impact.work_normal_compression + impact.work_normal_restitution +
+                        impact.work_tangential_compression + impact.work_tangential_restitution - impact.energy_change;
+    const ImpactErrors& errors = impact.errors;
+    const double claimed = errors.work_normal_compression + errors.work_normal_restitution +
+                           errors.work_tangential_compression + errors.work_tangential_restitution;
+    claims.work.Add(std::isfinite(claimed) ? 1.0 : claimed, std::fabs(open) / claimed, "the ledger of " + scene);
+  }
+  return claims;
 }
 
 }  // namespace ricochet::finite_duration

@@ -15,6 +15,7 @@
 #include "core/models/pendulum/pendulum.h"
 #include "tests/support/arb.h"
 #include "tests/support/claims.h"
+#include "tests/support/number_claims.h"
 #include "tests/support/pendulum_oracle.h"
 #include "tests/support/pendulum_scenes.h"
 
@@ -134,6 +135,41 @@ inline ClaimTally CompensatedClaims(bool hard, int count, uint64_t seed) {
   return tally;
 }
 
+inline ComparedNumbers CompareNumbers(const Impact& impact, const ExactImpact& exact) {
+  const auto of = [&](Output output) { return ComparedNumber(impact[output], exact[output]); };
+  return {.newton = of(Output::kNewton),
+          .poisson = of(Output::kPoisson),
+          .energetic = of(Output::kEnergetic),
+          .tangential = of(Output::kTangentialCoefficient),
+          .u = of(Output::kTangentialVelocityAfter),
+          .v = of(Output::kNormalVelocityAfter),
+          .tau_compression = of(Output::kNormalImpulseCompression),
+          .tau = of(Output::kNormalImpulse),
+          .f = of(Output::kTangentialImpulse),
+          .work_normal_compression = of(Output::kWorkNormalCompression),
+          .work_normal_restitution = of(Output::kWorkNormalRestitution),
+          .work_tangential_compression = of(Output::kWorkTangentialCompression),
+          .work_tangential_restitution = of(Output::kWorkTangentialRestitution),
+          .energy_change = of(Output::kEnergyChange)};
+}
+
+// Number by number, in plain or in double-double arithmetic.
+inline NumberClaims NumberClaimsOf(bool is_plain, bool hard, int count, uint64_t seed) {
+  SceneSource source(seed);
+  NumberClaims claims;
+  for (int i = 0; i < count; ++i) {
+    const Problem problem = hard ? HardScene(source, i) : source.Everyday();
+    const PlainImpact plain = is_plain ? SolvePlain(problem) : PlainImpact{.impact = Solve(problem), .proved = true};
+    if (!plain.proved) {
+      claims.Add({}, {}, {});
+      continue;
+    }
+    const ImpactErrors errors = is_plain ? PlainErrorsOf(problem, plain) : ErrorsOf(problem, plain.impact);
+    claims.Add(errors, CompareNumbers(plain.impact, SolveExactly(problem)), ToString(problem));
+  }
+  return claims;
+}
+
 }  // namespace ricochet::pendulum
 
 namespace ricochet::first_order {
@@ -196,6 +232,20 @@ inline Claims ClaimsOf(bool hard, int count, uint64_t seed) {
     const RelativeErrors reached = ErrorsReached(problem, first_order::Solve(problem), pendulum::SolveExactly(problem));
     claims.velocity.Add(claimed.velocity, reached.velocity, pendulum::ToString(problem));
     claims.impulse.Add(claimed.impulse, reached.impulse, pendulum::ToString(problem));
+  }
+  return claims;
+}
+
+// Number by number; `friction` false asks for the impact without any.
+inline NumberClaims NumberClaimsOf(bool friction, bool hard, int count, uint64_t seed) {
+  pendulum::SceneSource source(seed);
+  NumberClaims claims;
+  for (int i = 0; i < count; ++i) {
+    Problem problem = ServedScene(source, hard);
+    if (!friction) problem.mu = problem.mu_static = 0.0;
+    const Impact impact = first_order::Solve(problem);
+    claims.Add(NumberErrorsOf(problem, impact), pendulum::CompareNumbers(impact, pendulum::SolveExactly(problem)),
+               pendulum::ToString(problem));
   }
   return claims;
 }

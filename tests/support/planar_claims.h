@@ -13,6 +13,7 @@
 #include "core/models/planar/planar.h"
 #include "tests/support/arb.h"
 #include "tests/support/claims.h"
+#include "tests/support/number_claims.h"
 #include "tests/support/planar_oracle.h"
 #include "tests/support/planar_scenes.h"
 
@@ -72,6 +73,24 @@ inline Problem HardScene(SceneSource& source, int i) {
   return problem;
 }
 
+inline ComparedNumbers CompareNumbers(const Impact& impact, const ExactImpact& exact) {
+  const ExactInstant& end = exact.end();
+  return {.newton = {impact.newton, exact.newton},
+          .poisson = {impact.poisson, exact.poisson},
+          .energetic = {impact.energetic, exact.energetic},
+          .tangential = {impact.tangential, end.f / end.tau},
+          .u = {impact.u1, end.u},
+          .v = {impact.v1, end.v},
+          .tau_compression = {impact.tau_compression, exact.tau_compression},
+          .tau = {impact.tau1, end.tau},
+          .f = {impact.f1, end.f},
+          .work_normal_compression = {impact.work_normal_compression, exact.work_normal_compression},
+          .work_normal_restitution = {impact.work_normal_restitution, exact.work_normal_restitution},
+          .work_tangential_compression = {impact.work_tangential_compression, exact.work_tangential_compression},
+          .work_tangential_restitution = {impact.work_tangential_restitution, exact.work_tangential_restitution},
+          .energy_change = {impact.energy_change, exact.energy_change}};
+}
+
 struct Claims {
   ClaimTally velocity, impulse, work;
 
@@ -82,22 +101,23 @@ struct Claims {
   }
 };
 
-inline PlainImpact InDoubleDouble(const Problem& problem) {
+inline PlainImpact InDoubleDouble(const Problem& problem, ImpactErrors* numbers = nullptr) {
   PlainImpact found = {.proved = true};
-  found.impact = Solve(problem, found.errors);
+  found.impact = Solve(problem, found.errors, numbers);
   return found;
 }
 
 // `solve` is SolvePlain or InDoubleDouble. Nothing is known of an impact that plain arithmetic cannot prove or that
 // overflows.
-inline Claims ClaimsOf(PlainImpact (*solve)(const Problem& problem), bool hard, int count, uint64_t seed) {
+inline Claims ClaimsOf(PlainImpact (*solve)(const Problem& problem, ImpactErrors* numbers), bool hard, int count,
+                       uint64_t seed) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   constexpr RoundingErrors kUnknown = {kInfinity, kInfinity, kInfinity};
   SceneSource source(seed);
   Claims claims;
   for (int i = 0; i < count; ++i) {
     const Problem problem = hard ? HardScene(source, i) : source.Everyday();
-    const PlainImpact found = solve(problem);
+    const PlainImpact found = solve(problem, nullptr);
     if (!found.proved || !AreFinite(found.impact)) {
       claims.Add(kUnknown, {}, {});
       continue;
@@ -105,6 +125,28 @@ inline Claims ClaimsOf(PlainImpact (*solve)(const Problem& problem), bool hard, 
     const ExactImpact exact = SolveExactly(problem);
     const bool same = found.impact.regime == exact.regime;
     claims.Add(found.errors, same ? ErrorsReached(problem, found.impact, exact) : kUnknown, ToString(problem));
+  }
+  return claims;
+}
+
+// The same scenes, or some whose |v0| is down to 1e-300 of |u0|, number by number. A regime that is not the exact one deceives.
+inline NumberClaims NumberClaimsOf(PlainImpact (*solve)(const Problem& problem, ImpactErrors* numbers), bool hard,
+                                   bool grazing, int count, uint64_t seed) {
+  SceneSource source(seed);
+  NumberClaims claims;
+  for (int i = 0; i < count; ++i) {
+    Problem problem = hard ? HardScene(source, i) : source.Everyday();
+    if (grazing) problem.v0 *= std::pow(10.0, -source.Uniform(0.0, 300.0));
+    if (problem.v0 == 0.0 || (grazing && problem.w.Rank() == 1)) continue;
+    ImpactErrors errors;
+    const PlainImpact found = solve(problem, &errors);
+    if (!found.proved || !AreFinite(found.impact)) {
+      claims.Add({}, {}, {});
+      continue;
+    }
+    const ExactImpact exact = SolveExactly(problem);
+    if (found.impact.regime != exact.regime) errors = NoErrors();
+    claims.Add(errors, CompareNumbers(found.impact, exact), ToString(problem));
   }
   return claims;
 }

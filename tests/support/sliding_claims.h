@@ -17,6 +17,7 @@
 #include "core/plan/straight_problem.h"
 #include "tests/support/arb.h"
 #include "tests/support/claims.h"
+#include "tests/support/number_claims.h"
 #include "tests/support/planar_scenes.h"
 #include "tests/support/spatial_scenes.h"
 
@@ -107,6 +108,71 @@ RelativeErrors ErrorsReached(const Problem<kTangential>& p, const Impact<kTangen
     reached.impulse = std::max(reached.impulse, (trace * distance / ball(scale)).UpperBound());
   }
   return reached;
+}
+
+// The impact by the formulas of the header.
+template <size_t kTangential>
+ComparedNumbers CompareNumbers(const Problem<kTangential>& p, const Impact<kTangential>& impact, bool friction) {
+  const auto ball = [](double x) { return Ball(x, kReferenceBits); };
+  const auto wtt = [&](size_t i, size_t j) { return ball(kTangential == 1 ? p.w[0] : p.w[i + j == 2 ? 3 : i + j]); };
+  const Vector<kTangential> wtn = p.Wtn();
+  const Ball c = ball(p.coefficient);
+  Ball square = ball(0.0);
+  for (const double u : p.u0) square = square + ball(u) * ball(u);
+  std::array<Ball, kTangential> f_slope;
+  Ball v_slope = ball(p.Wnn());
+  for (size_t i = 0; i < kTangential; ++i) {
+    f_slope[i] = friction ? -(ball(p.mu) * ball(p.u0[i]) / Sqrt(square)) : ball(0.0);
+    v_slope = v_slope + ball(wtn[i]) * f_slope[i];
+  }
+  const Ball tau_c = -(ball(p.v0) / v_slope);
+  const Ball tau = tau_c * (1.0 + c);
+  const Ball normal = 0.5 * tau_c * ball(p.v0);
+  Ball tangential_c = ball(0.0);
+  Ball tangential = ball(0.0);
+  ComparedNumber u;
+  ComparedNumber f;
+  for (size_t i = 0; i < kTangential; ++i) {
+    Ball slope = ball(wtn[i]);
+    for (size_t j = 0; j < kTangential; ++j) slope = slope + wtt(i, j) * f_slope[j];
+    const Ball u1 = ball(p.u0[i]) + slope * tau;
+    tangential_c = tangential_c + 0.5 * f_slope[i] * tau_c * (2.0 * ball(p.u0[i]) + slope * tau_c);
+    tangential = tangential + 0.5 * f_slope[i] * tau * (ball(p.u0[i]) + u1);
+    const ComparedNumber u_here(impact.u1[i], u1);
+    const ComparedNumber f_here(impact.f1[i], f_slope[i] * tau);
+    u = {std::max(u.reached, u_here.reached), std::max(u.size, u_here.size)};
+    f = {std::max(f.reached, f_here.reached), std::max(f.size, f_here.size)};
+  }
+  const Ball mu_hat = !friction ? ball(0.0) : kTangential == 1 ? f_slope[0] : ball(p.mu);
+  return {.newton = {impact.newton, c},
+          .poisson = {impact.poisson, c},
+          .energetic = {impact.energetic, c},
+          .tangential = {impact.tangential, mu_hat},
+          .u = u,
+          .v = {impact.v1, -(c * ball(p.v0))},
+          .tau_compression = {impact.tau_compression, tau_c},
+          .tau = {impact.tau1, tau},
+          .f = f,
+          .work_normal_compression = {impact.work_normal_compression, normal},
+          .work_normal_restitution = {impact.work_normal_restitution, -(c * c * normal)},
+          .work_tangential_compression = {impact.work_tangential_compression, tangential_c},
+          .work_tangential_restitution = {impact.work_tangential_restitution, tangential - tangential_c},
+          .energy_change = {impact.energy_change, normal * (1.0 - c * c) + tangential}};
+}
+
+// Number by number; |v0| of a grazing scene is down to 1e-300 of |u0|.
+template <size_t kTangential>
+NumberClaims NumberClaimsOf(bool friction, bool hard, bool grazing, int count, uint64_t seed) {
+  ClaimScenes<kTangential> scenes(seed);
+  NumberClaims claims;
+  for (int i = 0; i < count; ++i) {
+    Problem<kTangential> problem = ServedScene(scenes, friction, hard);
+    if (grazing) problem.v0 *= std::pow(10.0, -scenes.Uniform(0.0, 300.0));
+    const Impact<kTangential> impact = friction ? Solve(problem) : SolveFrictionless(problem);
+    claims.Add(NumberErrorsOf(problem, impact), CompareNumbers(problem, impact, friction),
+               "scene " + std::to_string(i));
+  }
+  return claims;
 }
 
 struct Claims {

@@ -50,7 +50,70 @@ double ErrorEstimate(const PlanarProblem& problem, const Units& units, const Pat
   const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
   // In units of speed the least double is 2^-1074/2^units.speed, and rounding to it takes up to half of it.
   const double rounding = std::scalbn(1.0, -1075 - units.speed);
-  return (path.velocity_error + rounding) / speed;
+  return (std::max(path.u_error, path.v_error) + rounding) / speed;
+}
+
+// The rounding of sums over the sections of a path, relative to their terms.
+double SumRounding(const PathResult& path) { return 4.0 * kEps * (2.0 + path.sections); }
+
+// The errors of the impulses that have led to `state`, from those of its velocities, and that of the change of energy: T is
+// a function of the velocities, and changes by (u, v).d(f, tau).
+struct MomentumErrors {
+  ImpulseErrors impulses;
+  double energy;
+};
+MomentumErrors ErrorsOfMomentum(const PlanarProblem& problem, const SpringContact& contact, const PathResult& path,
+                                const ContactState& state, double u_error, double v_error) {
+  const double w_path = (contact.wtt + std::fabs(contact.wtn)) * contact.mu * state.tau +
+                        (std::fabs(contact.wtn) + contact.wnn) * state.tau;
+  const double unseen = SumRounding(path) * (std::fabs(problem.u0) + std::fabs(problem.v0) + std::fabs(state.u) +
+                                             std::fabs(state.v) + w_path);
+  const double u_all = u_error + unseen;
+  const double v_all = v_error + unseen;
+  ImpulseErrors impulses = ErrorsOfImpulses(contact.wtt, contact.wtn, contact.wnn, contact.determinant, u_all, v_all);
+  if (contact.mu == 0.0) impulses = {.tau = v_all / contact.wnn, .f = 0.0};
+  const double energy = (std::fabs(state.u) + u_all) * impulses.f + (std::fabs(state.v) + v_all) * impulses.tau;
+  return {impulses, energy};
+}
+
+ImpactErrors NumberErrorsOf(const PlanarProblem& problem, const Units& units, const SpringContact& contact,
+                            const PathResult& path, const Impact& impact) {
+  ImpactErrors errors;
+  if (!path.Ends()) return errors;
+  const MomentumErrors first =
+      ErrorsOfMomentum(problem, contact, path, path.compression_end, path.compression_u_error, 0.0);
+  const MomentumErrors last = ErrorsOfMomentum(problem, contact, path, path.end, path.u_error, path.v_error);
+  const double rounding = SumRounding(path);
+  const double eta2 = problem.coefficient * problem.coefficient;
+  const double force = path.largest_normal_force;
+  const double stored = 0.5 * force * force;
+  const double terms = rounding * (stored + std::fabs(path.end.friction_loss) +
+                                   contact.mu * path.end.tau * (std::fabs(problem.u0) + std::fabs(path.end.u)) +
+                                   path.end.tau * (std::fabs(problem.v0) + path.end.v));
+  const double normal = path.compression_force_error * (force + path.compression_force_error) + rounding * stored;
+  const bool all = path.end.normal_force == 0.0 || problem.coefficient < kLeastEnergetic;
+  const double returned = all ? eta2 * (normal + rounding * stored) : ImpactErrors::kUnknown;
+  ImpactEnd<double> scaled = impact;
+  scaled.tau_compression = path.compression_end.tau;
+  scaled.tau1 = path.end.tau;
+  scaled.work_normal_compression = -stored;
+  errors.v = path.v_error + kEps * std::fabs(path.end.v);
+  errors.tau_compression = first.impulses.tau;
+  errors.tau = last.impulses.tau;
+  errors.f = last.impulses.f;
+  SetCoefficientErrors(scaled, problem.v0, RestitutionLaw::kEnergetic, problem.coefficient, errors);
+  constexpr double kSmallest = 0x1p-1073;
+  errors.u = units.Speed(path.u_error + kEps * std::fabs(path.end.u)) + kSmallest;
+  errors.v = units.Speed(errors.v) + kSmallest;
+  errors.tau_compression = units.Impulse(first.impulses.tau) + kSmallest;
+  errors.tau = units.Impulse(last.impulses.tau) + kSmallest;
+  errors.f = units.Impulse(last.impulses.f) + kSmallest;
+  errors.work_normal_compression = units.Work(normal) + kSmallest;
+  errors.work_normal_restitution = units.Work(returned) + kSmallest;
+  errors.work_tangential_compression = units.Work(first.energy + normal + terms) + kSmallest;
+  errors.work_tangential_restitution = units.Work(first.energy + last.energy + returned + terms) + kSmallest;
+  errors.energy_change = units.Work(last.energy + terms) + kSmallest;
+  return errors;
 }
 
 void WriteMotion(const PlanarProblem& problem, const Units& units, const PathResult& path, Impact& impact) {
@@ -117,7 +180,11 @@ void ScaleSections(const Units& units, std::vector<Section>& sections) {
 
 Impact Solve(const Problem& problem) {
   const auto& [stated, ratio_squared] = problem;
-  if (stated.v0 >= 0.0) return Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
+  if (stated.v0 >= 0.0) {
+    Impact separating = Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
+    separating.errors = NoErrors();
+    return separating;
+  }
   const Units units = UnitsOf(stated);
   const PlanarProblem scaled = InUnits(stated, units);
   const SpringContact contact = MakeSpringContact(scaled, ratio_squared);
@@ -131,6 +198,7 @@ Impact Solve(const Problem& problem) {
   WriteTangentialWorks(units, contact, path, impact);
   impact.energy_change = EnergyChange(scaled, units, path.end);
   impact.error_estimate = ErrorEstimate(scaled, units, path);
+  impact.errors = NumberErrorsOf(scaled, units, contact, path, impact);
   ScaleSections(units, impact.sections);
   return impact;
 }

@@ -28,7 +28,12 @@ class PathFollower {
     PathResult result;
     result.termination = FollowToEnd();
     result.end = state_;
-    result.velocity_error = result.Ends() ? error_.OfVelocity() : std::numeric_limits<double>::infinity();
+    constexpr double kUnknown = std::numeric_limits<double>::infinity();
+    result.u_error = result.Ends() ? error_.OfU() : kUnknown;
+    result.v_error = result.Ends() ? error_.OfV() : kUnknown;
+    result.compression_force_error = compressions_ > 0 ? compression_force_error_ : kUnknown;
+    result.compression_u_error = compressions_ > 0 ? compression_u_error_ : kUnknown;
+    result.sections = error_.sections();
     result.compression_end = mode_.IsFirstLoading() ? state_ : compression_end_;
     result.largest_normal_force = mode_.IsFirstLoading() ? state_.normal_force : mode_.largest_normal_force;
     if (!compressions_before_stick_.has_value()) return result;
@@ -103,6 +108,11 @@ class PathFollower {
     mode_.branch = LoadingBranch::kUnloading;
     ++compressions_;
     compression_end_ = state_;
+    // v vanishes where it does so in truth, which shifts u by the ratio of their rates.
+    const double u_rate = contact_.wtn * state_.normal_force - contact_.wtt * state_.spring_force;
+    const double v_rate = contact_.wnn * state_.normal_force - contact_.wtn * state_.spring_force;
+    compression_force_error_ = error_.OfNormalForce();
+    compression_u_error_ = error_.OfU() + std::fabs(u_rate / v_rate) * error_.OfV();
     return contact_.eta > 0.0;
   }
 
@@ -131,6 +141,7 @@ class PathFollower {
   std::vector<Section>* sections_;
   ContactState state_;
   ContactState compression_end_;
+  double compression_force_error_ = 0.0, compression_u_error_ = 0.0;
   SectionMode mode_;
   int compressions_ = 0;  // How often v has changed its sign on first loading.
   std::optional<int> compressions_before_stick_;

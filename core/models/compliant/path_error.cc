@@ -225,10 +225,10 @@ void PathError::EndAtRest(const SectionMode& mode, const ContactState& state) {
   });
 }
 
-double PathError::OfVelocity() const {
+double PathError::SafeSize(size_t i) const {
   if (in_doubt_) return std::numeric_limits<double>::infinity();
   const double safety = kSafety + kSafetyOfSection * sections_;
-  const double size = kUnit * safety * std::max(Size(kU), Size(kV));
+  const double size = kUnit * safety * Size(i);
   return std::isfinite(size) ? size : std::numeric_limits<double>::infinity();
 }
 

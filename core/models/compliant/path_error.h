@@ -43,8 +43,13 @@ class PathError {
   // The impact ends in `state` because v = 0 there, wherever that is.
   void EndAtRest(const SectionMode& mode, const ContactState& state);
 
-  // The size that the error of a velocity does not exceed; infinite if nothing is known of it.
-  double OfVelocity() const;
+  // The sizes that the errors of u, v and N do not exceed; infinite if nothing is known of them.
+  double OfU() const { return SafeSize(2); }
+  double OfV() const { return SafeSize(3); }
+  double OfNormalForce() const { return SafeSize(0); }
+  double OfVelocity() const { return OfU() < OfV() ? OfV() : OfU(); }
+  // Sections so far.
+  int sections() const { return sections_; }
 
  private:
   using Covariance = std::array<std::array<double, 4>, 4>;
@@ -64,6 +69,7 @@ class PathError {
                   const ContactState& after, const SectionEnd& end);
   void LeaveSection(const SectionMode& mode, const ContactState& after, const SectionEnd& end);
   double Size(size_t i) const;
+  double SafeSize(size_t i) const;
 
   const SpringContact& contact_;
   Covariance covariance_ = {};

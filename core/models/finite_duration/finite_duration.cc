@@ -41,7 +41,7 @@ double ErrorOfStraightPath(const ScaledContact& contact, const Path& path) {
   const double terms = std::fabs(contact.u0) + 1.0 + std::fabs(end[kU]) + end[kV];
   double error = path.cut_off[kU] + path.cut_off[kV] + kRounding * terms;
   if (end[kV] > 0.0) {
-    const double lacking = std::fabs(path.straight_other_work + Square(contact.eta) * path.straight_loading_work);
+    const double lacking = std::fabs(path.straight_other.normal + Square(contact.eta) * path.straight_loading.normal);
     error += kSafety * ChangeOfVelocity(contact, path, lacking / end[kV]);
   }
   return error / std::max(1.0, std::fabs(contact.u0));
@@ -77,8 +77,75 @@ double ErrorOfAnyPath(const ScaledContact& contact, const Path& path) {
 
 // Returns how far the velocities at the end of a path may be from the truth, over max(|u0|, |v0|).
 double ErrorOf(const ScaledContact& contact, const Path& path) {
-  const bool straight = contact.at == 0.0 && contact.an == 0.0 && !contact.damped && !contact.compliant;
-  return straight ? ErrorOfStraightPath(contact, path) : ErrorOfAnyPath(contact, path);
+  return contact.IsStraight() ? ErrorOfStraightPath(contact, path) : ErrorOfAnyPath(contact, path);
+}
+
+// The errors of all numbers, from the error of the velocities over max(|u0|, |v0|). Impulses follow from velocities by
+// W (f, tau) = d(u, v), unless finite forces add to them; works of friction from the change of energy and the normal work.
+ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact, const Path& path, double error,
+                            const Impact& impact) {
+  ImpactErrors errors;
+  if (!path.HasEnd() || path.how == PathEnd::kHeld) return errors;
+  const bool forces = contact.at != 0.0 || contact.an != 0.0;
+  const Motion& end = path.end;
+  const Motion& middle = path.compression;
+  const double eta2 = Square(contact.eta);
+  const double terms = std::fabs(contact.u0) + 1.0 + std::fabs(end[kU]) + std::fabs(end[kV]) +
+                       (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu_static) * end[kNormal];
+  const double velocity = error * std::max(1.0, std::fabs(contact.u0)) + kRounding * terms;
+  const double determinant = contact.rank == 2 ? contact.stick_slope * contact.wtt : 0.0;
+  ImpulseErrors impulses = ErrorsOfImpulses(contact.wtt, contact.wtn, 1.0, determinant, velocity, velocity);
+  if (contact.smooth) impulses = {.tau = velocity, .f = 0.0};
+  if (forces) impulses = {};
+  // The impulses err as the estimate of the velocities does, which is no bound.
+  constexpr double kOfEnergy = 2.0;
+  const double energy =
+      kOfEnergy * ((std::fabs(end[kU]) + velocity) * impulses.f + (std::fabs(end[kV]) + velocity) * impulses.tau);
+  const double middle_energy = (std::fabs(middle[kU]) + velocity) * impulses.f + velocity * impulses.tau;
+  const double sums = kRounding * (end[kNormal] * (1.0 + end[kV]) +
+                                   contact.mu_static * end[kNormal] * (std::fabs(contact.u0) + path.peaks.slip));
+  double normal = 0.0, returned = 0.0, tangential = 0.0, tangential_returned = 0.0;
+  if (contact.IsStraight()) {
+    normal = impulses.tau + velocity * middle[kNormal] + sums;
+    returned = eta2 * normal + std::fabs(path.straight_other.normal + eta2 * path.straight_loading.normal) + sums;
+    tangential = middle_energy + normal + sums;
+    tangential_returned = energy + middle_energy + returned + sums;
+  } else {
+    // The works are integrated, with local errors of their own, along forces and velocities that err.
+    constexpr double kSafety = 4.0;
+    const double open =
+        std::fabs(impact.work_normal_compression + impact.work_normal_restitution + impact.work_tangential_compression +
+                  impact.work_tangential_restitution - impact.energy_change) /
+        contact.Energy();
+    const double swing = velocity * end[kNormal] * (1.0 + std::fabs(contact.u0));
+    normal = returned = kSafety * path.local_errors[kNormalWork] + 2.0 * swing + open + sums;
+    tangential = tangential_returned =
+        kSafety * path.local_errors[kTangentWork] + 2.0 * (1.0 + contact.mu_static) * swing + open + sums;
+  }
+  ImpactEnd<double> scaled = impact;
+  scaled.tau_compression = middle[kNormal];
+  scaled.tau1 = end[kNormal];
+  scaled.work_normal_compression = path.compression_works.normal;
+  errors.v = velocity;
+  errors.tau_compression = errors.tau = impulses.tau;
+  errors.f = impulses.f;
+  errors.work_normal_compression = normal;
+  errors.work_normal_restitution = returned;
+  const RestitutionLaw law = RestitutionLaw::kEnergetic;
+  SetCoefficientErrors(scaled, -1.0, law, contact.damped ? -1.0 : problem.contact.coefficient, errors);
+  constexpr double kSmallest = 0x1p-1073;
+  const double energy_unit = contact.Energy();
+  errors.u = contact.speed * velocity + kSmallest;
+  errors.v = contact.speed * velocity + kSmallest;
+  errors.tau_compression = errors.tau = contact.Impulse() * impulses.tau + kSmallest;
+  errors.f = contact.Impulse() * impulses.f + kSmallest;
+  errors.work_normal_compression = energy_unit * normal + kSmallest;
+  errors.work_normal_restitution = energy_unit * returned + kSmallest;
+  errors.work_tangential_compression = energy_unit * tangential + kSmallest;
+  errors.work_tangential_restitution = energy_unit * tangential_returned + kSmallest;
+  const double all = normal + returned + tangential + tangential_returned;
+  errors.energy_change = energy_unit * (contact.IsStraight() ? energy + sums : all) + kSmallest;
+  return errors;
 }
 
 struct EstimatedPath {
@@ -126,7 +193,11 @@ bool IsAvailable() { return true; }
 
 Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped) {
   const PlanarProblem& stated = problem.contact;
-  if (stated.v0 >= 0.0) return Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
+  if (stated.v0 >= 0.0) {
+    Impact separating = Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
+    separating.errors = NoErrors();
+    return separating;
+  }
   const ScaledContact contact = MakeScaledContact(problem);
   Integrator integrator(contact);
   StopCheck stop(stopped);
@@ -140,6 +211,7 @@ Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped) {
     impact.contact.history = InUnitsOfScene(contact, history.samples());
   }
   impact.error_estimate = found.error;
+  impact.errors = NumberErrorsOf(problem, contact, found.path, found.error, impact);
   impact.steps = found.steps;
   impact.right_hand_sides = found.right_hand_sides;
   return impact;

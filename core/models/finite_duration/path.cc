@@ -61,7 +61,9 @@ class PathFollower {
 
   void AddStraightPiece(const Motion& before, bool loads) {
     const double impulse = y_[kNormal] - before[kNormal];
-    (loads ? path_.straight_loading_work : path_.straight_other_work) += 0.5 * (before[kV] + y_[kV]) * impulse;
+    Works& works = loads ? path_.straight_loading : path_.straight_other;
+    works.normal += 0.5 * (before[kV] + y_[kV]) * impulse;
+    works.tangential += 0.5 * (before[kU] + y_[kU]) * (y_[kTangential] - before[kTangential]);
     path_.straight_length = impulse;
     if (impulse > 0.0) path_.straight_slopes = {(y_[kU] - before[kU]) / impulse, (y_[kV] - before[kV]) / impulse};
   }

@@ -61,9 +61,10 @@ struct Path {
   double spring_force = 0.0;  // F of the tangential spring at the end.
   Motion local_errors = {};   // The sum of the sizes of the local errors, with what was cut off.
   Motion cut_off = {};        // The sum of the sizes of what was set to 0 at events.
-  // The normal work on first loading and all other; of the last mode, the slopes of the velocities over the normal
+  // The works on first loading and all others; of the last mode, the slopes of the velocities over the normal
   // impulse and the length in it. They follow from u, v and tau at the changes of mode, if these are linear in between.
-  double straight_loading_work = 0.0, straight_other_work = 0.0, straight_length = 0.0;
+  Works straight_loading, straight_other;
+  double straight_length = 0.0;
   Acceleration straight_slopes;
   int64_t steps = 0, right_hand_sides = 0;
 

@@ -50,17 +50,25 @@ void WriteCoefficients(double coefficient, const ScaledContact& contact, const P
 void WriteWorks(const ScaledContact& contact, const Path& path, Impact& impact) {
   const Motion& end = path.end;
   const double unit = contact.Energy();
-  const Works& compression = path.compression_works;
+  // Where velocities are linear in tau, the works follow from those at the changes of mode, and not from an integral that
+  // has errors of its own.
+  Works compression = path.straight_loading;
+  Works restitution = path.straight_other;
+  if (!contact.IsStraight()) {
+    compression = path.compression_works;
+    restitution = {end[kNormalWork] - compression.normal, end[kTangentWork] - compression.tangential};
+  }
   impact.work_normal_compression = unit * compression.normal;
-  impact.work_normal_restitution = unit * (end[kNormalWork] - compression.normal);
+  impact.work_normal_restitution = unit * restitution.normal;
   impact.work_tangential_compression = unit * compression.tangential;
-  impact.work_tangential_restitution = unit * (end[kTangentWork] - compression.tangential);
+  impact.work_tangential_restitution = unit * restitution.tangential;
   const double half_time = 0.5 * end[kTime];
   const double by_velocity = 0.5 * (end[kTangential] * (contact.u0 + end[kU]) + end[kNormal] * (end[kV] - 1.0));
   const double by_force = contact.at * (half_time * end[kTangential] - end[kTangentMoment]) +
                           contact.an * (half_time * end[kNormal] - end[kNormalMoment]);
   impact.energy_change = unit * (by_velocity + by_force);
-  impact.friction_dissipation = unit * end[kFrictionLoss];
+  impact.friction_dissipation =
+      unit * (contact.IsStraight() ? 0.0 - (compression.tangential + restitution.tangential) : end[kFrictionLoss]);
   impact.spring_energy = unit * 0.5 * (contact.ratio_squared / contact.stiffness) * Square(path.spring_force);
 }
 

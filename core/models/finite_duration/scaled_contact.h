@@ -39,6 +39,9 @@ struct ScaledContact {
   bool holds_freely = false;  // mu_s Wtt >= |Wtn|: it sticks where no finite force pulls.
   double speed = 0.0, time = 0.0, mass = 0.0;  // The units.
 
+  // Without forces, damping and a spring along t, u and v are linear in tau while a mode lasts.
+  bool IsStraight() const { return at == 0.0 && an == 0.0 && !damped && !compliant; }
+
   double Length() const { return speed * time; }
   double Force() const { return mass * speed / time; }
   double Impulse() const { return mass * speed; }

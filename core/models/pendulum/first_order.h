@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/models/impact_errors.h"
 #include "core/models/pendulum/nearly_vertical_forms.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/relative_errors.h"
@@ -146,6 +147,9 @@ inline RelativeErrors ErrorsOf(const Problem& problem) { return Approximate(prob
 
 // Computes all outputs of one impact. It breaks no limit.
 Impact Solve(const Problem& problem);
+
+// The errors of all numbers of that impact, each on its own scale: those of the forms, and rounding.
+ImpactErrors NumberErrorsOf(const Problem& problem, const Impact& impact);
 
 // The regime is kRebound, or kFrictionless if mu = 0 or b = 0.
 inline Regime RegimeOf(const Problem& problem) {

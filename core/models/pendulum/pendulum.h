@@ -27,6 +27,7 @@
 #include <array>
 #include <cstdint>
 
+#include "core/models/impact_errors.h"
 #include "core/models/restitution_law.h"
 #include "ricochet/outcome.h"
 #include "ricochet/scene.h"
@@ -95,6 +96,11 @@ struct PlainImpact {
 // of Solve. Not proved are only impacts within 2^-50 of a limit, with mu |b| = a or with a bound of 1 or more, and numbers
 // beyond the range: J, a and |omega-| in [2^-100, 2^100], |b| and mu at most 2^100.
 PlainImpact SolvePlain(const Problem& problem);
+
+// The errors of all numbers, each on its own scale: of what Solve gives, and of what SolvePlain has proved.
+// docs/theory/rounding.md derives them.
+ImpactErrors ErrorsOf(const Problem& problem, const Impact& impact);
+ImpactErrors PlainErrorsOf(const Problem& problem, const PlainImpact& plain);
 
 // The state of the pendulum at normal impulse tau in [0, tau1]: Fig. 3 and Fig. 5 of the paper.
 struct Instant {

@@ -109,7 +109,7 @@ HWY_INLINE Answer<Plain<V>> Judge(unsigned parts, const Course<Plain<V>>& course
 
 HWY_INLINE Answer<DoubleDouble<V>> Judge(unsigned parts, const Course<DoubleDouble<V>>& course) {
   const Mask all = VLanes::Fill(0.0) == VLanes::Fill(0.0);
-  return {MakeNumbers(parts, course), CompensatedBounds(course).Largest(), all};
+  return {MakeNumbers(parts, course), CompensatedBounds(course, ErrorsOf(course)).Largest(), all};
 }
 
 template <typename N>

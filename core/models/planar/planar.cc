@@ -30,18 +30,22 @@ HWY_INLINE Impact SolveOne(const Problem& problem) {
 }
 
 template <typename N>
-HWY_INLINE Impact SolveOne(const Problem& problem, RoundingErrors& errors) {
+HWY_INLINE Impact SolveOne(const Problem& problem, RoundingErrors& errors, ImpactErrors* numbers) {
   const Course<N> course = Follow<N>(problem.law, MakeInputs<N>(problem));
-  errors = course.jammed ? kNoErrors : ToErrors(CompensatedBounds(course));
-  return Report(problem, course, MakeNumbers(kAllParts, course));
+  const EndErrors<CoarseOf<N>> end_errors = ErrorsOf(course);
+  errors = course.jammed ? kNoErrors : ToErrors(CompensatedBounds(course, end_errors));
+  const Impact impact = Report(problem, course, MakeNumbers(kAllParts, course));
+  if (numbers != nullptr)
+    *numbers = course.jammed ? ImpactErrors() : NumberErrorsOf(problem, course, end_errors, impact);
+  return impact;
 }
 
 using Moderate = ricochet::HWY_NAMESPACE::DoubleDouble<double>;
 
 Impact SolveModerate(const Problem& problem) { return SolveOne<Moderate>(problem); }
 
-Impact SolveModerateWithErrors(const Problem& problem, RoundingErrors& errors) {
-  return SolveOne<Moderate>(problem, errors);
+Impact SolveModerateWithErrors(const Problem& problem, RoundingErrors& errors, ImpactErrors* numbers) {
+  return SolveOne<Moderate>(problem, errors, numbers);
 }
 
 // The seven numbers from wtt to mu_static lie one after another.
@@ -68,17 +72,19 @@ HWY_INLINE bool IsModerateAlone(const Problem& problem) {
   return all;
 }
 
-PlainImpact SolvePlainApproaching(const Problem& problem) {
+PlainImpact SolvePlainApproaching(const Problem& problem, ImpactErrors* number_errors) {
   using N = Plain<double>;
   const Course<N> course = Follow<N>(problem.law, MakeInputs<N>(problem));
   const EndErrors<N> errors = ErrorsOf(course);
   Numbers<N> numbers = MakeNumbers(kAllParts, course);
   const bool keeps_limits = KeepsLimits(course);
   KeepLimits(keeps_limits, course, numbers);
-  return {.impact = Report(problem, course, numbers),
-          .errors = ToErrors(PlainBounds(course, errors)),
-          .proved = IsModerateAlone(problem) && !course.jammed && PathIsSure(course, errors) &&
-                    (keeps_limits || LimitsAreSure(course, errors))};
+  PlainImpact plain = {.impact = Report(problem, course, numbers),
+                       .errors = ToErrors(PlainBounds(course, errors)),
+                       .proved = IsModerateAlone(problem) && !course.jammed && PathIsSure(course, errors) &&
+                                 (keeps_limits || LimitsAreSure(course, errors))};
+  if (number_errors != nullptr) *number_errors = NumberErrorsOf(problem, course, errors, plain.impact);
+  return plain;
 }
 
 }  // namespace ricochet::planar::HWY_NAMESPACE
@@ -106,16 +112,20 @@ Impact SolveSeparating(const Problem& problem) {
 
 }  // namespace
 
-PlainImpact SolvePlain(const Problem& problem) {
-  if (problem.v0 >= 0.0) return {.impact = SolveSeparating(problem), .proved = true};
-  return HWY_DYNAMIC_DISPATCH(SolvePlainApproaching)(problem);
+PlainImpact SolvePlain(const Problem& problem, ImpactErrors* numbers) {
+  if (problem.v0 < 0.0) return HWY_DYNAMIC_DISPATCH(SolvePlainApproaching)(problem, numbers);
+  if (numbers != nullptr) *numbers = NoErrors();
+  return {.impact = SolveSeparating(problem), .proved = true};
 }
 
-Impact Solve(const Problem& problem, RoundingErrors& errors) {
+Impact Solve(const Problem& problem, RoundingErrors& errors, ImpactErrors* numbers) {
+  if (problem.v0 < 0.0) {
+    if (!FitsDoubleDouble(problem)) return HWY_NAMESPACE::SolveOne<Wide>(problem, errors, numbers);
+    return HWY_DYNAMIC_DISPATCH(SolveModerateWithErrors)(problem, errors, numbers);
+  }
   errors = {};
-  if (problem.v0 >= 0.0) return SolveSeparating(problem);
-  if (!FitsDoubleDouble(problem)) return HWY_NAMESPACE::SolveOne<Wide>(problem, errors);
-  return HWY_DYNAMIC_DISPATCH(SolveModerateWithErrors)(problem, errors);
+  if (numbers != nullptr) *numbers = NoErrors();
+  return SolveSeparating(problem);
 }
 
 Impact Solve(const Problem& problem) {

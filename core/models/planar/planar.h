@@ -22,6 +22,7 @@
 #include <cstdint>
 
 #include "core/models/impact_end.h"
+#include "core/models/impact_errors.h"
 #include "core/models/planar_problem.h"
 #include "ricochet/outcome.h"
 
@@ -50,9 +51,9 @@ struct RoundingErrors {
   double Largest() const { return std::max({velocity, impulse, work}); }
 };
 
-// In double-double arithmetic.
+// In double-double arithmetic. `numbers` receives the error of each number on its own scale, unless it is null.
 Impact Solve(const Problem& problem);
-Impact Solve(const Problem& problem, RoundingErrors& errors);
+Impact Solve(const Problem& problem, RoundingErrors& errors, ImpactErrors* numbers = nullptr);
 
 // An impact in plain double arithmetic.
 struct PlainImpact {
@@ -66,7 +67,7 @@ struct PlainImpact {
 
 // SolvePlain computes the impact at a fifth of the cost of Solve. Regime, events and broken limits are those of Solve if they are
 // proved. docs/theory/rounding_planar.md derives the bounds, and those on the coefficients that follow from them.
-PlainImpact SolvePlain(const Problem& problem);
+PlainImpact SolvePlain(const Problem& problem, ImpactErrors* numbers = nullptr);
 
 // The state of the contact at normal impulse tau in [0, tau1]. `impact` must be the solution of `problem`; the kind of the
 // instant is unspecified. If the contact separates, the state is that before the impact.

@@ -16,6 +16,7 @@
 
 #include <cmath>
 
+#include "core/models/impact_errors.h"
 #include "core/models/planar/kernel-inl.h"
 #include "core/models/planar/planar.h"
 #include "core/models/planar/report-inl.h"
@@ -85,6 +86,9 @@ struct EndErrors {
   M works;  // Twice the error of each work and of the change of energy.
   // The difference that decides whether slip stops during restitution, and its error; 0 and 0 if nothing does.
   M decisive, decisive_error;
+  // Of the normal impulses of compression, from the stop of slip to its end, and of restitution up to the stop and after
+  // it; of u where v = 0.
+  M tau_compression, stuck, before, after, u_compression;
 };
 
 template <typename M>
@@ -95,7 +99,12 @@ HWY_INLINE EndErrors<M> SelectErrors(const MaskOf<M>& condition, const EndErrors
           .v = Select(condition, yes.v, no.v),
           .works = Select(condition, yes.works, no.works),
           .decisive = Select(condition, yes.decisive, no.decisive),
-          .decisive_error = Select(condition, yes.decisive_error, no.decisive_error)};
+          .decisive_error = Select(condition, yes.decisive_error, no.decisive_error),
+          .tau_compression = Select(condition, yes.tau_compression, no.tau_compression),
+          .stuck = Select(condition, yes.stuck, no.stuck),
+          .before = Select(condition, yes.before, no.before),
+          .after = Select(condition, yes.after, no.after),
+          .u_compression = Select(condition, yes.u_compression, no.u_compression)};
 }
 
 // Twice the sum of the magnitudes of the four works.
@@ -113,6 +122,14 @@ HWY_INLINE M StopError(const Course<N>& course) {
   const M v_stop = Coarse(course.path.v_stop);
   const M error = Times(2.0, Abs(v_stop - Coarse(course.in.v0))) + Times(3.0, Abs(v_stop));
   return Select(is_computed, error, Zero<M>());
+}
+
+// The error of u where v = 0 on the first piece. At rank one u is 0 there, or u0.
+template <typename N, typename M = CoarseOf<N>>
+HWY_INLINE M UCompressionError(const Course<N>& course) {
+  const M u_c = Coarse(course.x.compression_end.u);
+  const M error = Times(2.0, Abs(u_c - Coarse(course.in.u0))) + Times(3.0, Abs(u_c));
+  return Select(course.in.u_follows_v, Zero<M>(), error);
 }
 
 // The errors of the works, from those of the end and `works`, the sum of those of the works one by one.
@@ -153,6 +170,10 @@ HWY_INLINE EndErrors<M> StraightErrors(const Course<N>& course) {
   const MaskOf<N> has_more = Both(course.in.rank_one, Not(course.in.u_follows_v));
   if (!InNoLane(has_more)) errors.u = errors.u + Select(has_more, Times(2.0, Abs(u1 - u_c)), Zero<M>());
   errors.works = Times(36.0, TwiceMoved(x));
+  errors.tau_compression = Times(2.0, tau_c);
+  errors.before = Times(in_step, tau - tau_c);
+  errors.stuck = errors.after = Zero<M>();
+  errors.u_compression = UCompressionError(course);
   errors.decisive = errors.decisive_error = Zero<M>();
   const MaskOf<M> may_stop = Both(course.path.stops, Not(course.in.u_follows_v));
   if (!InNoLane(may_stop)) {
@@ -198,6 +219,11 @@ HWY_INLINE EndErrors<M> StopInCompressionErrors(const Course<N>& course) {
   errors.tau = tau_c_error + step_error + tau;
   errors.f = f_slope * steps_error + Times(5.0, f_path);
   errors.u = Abs(Coarse(second.u)) * steps_error + Times(5.0, u1);
+  errors.tau_compression = tau_c_error;
+  errors.stuck = stuck_error;
+  errors.before = step_error;
+  errors.after = Zero<M>();
+  errors.u_compression = Abs(Coarse(second.u)) * stuck_error + Times(5.0, Abs(Coarse(x.compression_end.u)));
   const M works = normal_error + step * errors.v + v1 * step_error +
                   Times(2.0, f_slope * (steps * errors.u + u1 * steps_error)) + Times(8.0, TwiceMoved(x));
   errors.works = WithEnergyChange(course, errors, f_path, works);
@@ -242,6 +268,11 @@ HWY_INLINE EndErrors<M> StopInRestitutionErrors(const Course<N>& course) {
   errors.f = f_first * before_error + f_slope * after_error + Times(5.0, f_path);
   errors.u = Abs(Coarse(second.u)) * after_error + Times(4.0, u1);
   const M u_c = Abs(Coarse(x.compression_end.u));
+  errors.tau_compression = Times(2.0, Coarse(x.compression_end.tau));
+  errors.stuck = Zero<M>();
+  errors.before = before_error;
+  errors.after = after_error;
+  errors.u_compression = UCompressionError(course);
   const M works = before * v_stop_error + before_error * (v_stop + f_first * u_c) + after * (v_stop_error + errors.v) +
                   (v_stop + v1) * after_error + f_slope * (after * errors.u + u1 * after_error) +
                   Times(10.0, TwiceMoved(x));
@@ -344,11 +375,10 @@ HWY_INLINE RoundedOf<M> OutBound(const M& bound) {
 // The errors of a compensated path after its numbers have been rounded to doubles. A change of energy below 2^-96 of its
 // terms has been replaced by 0.
 template <typename N, typename M = CoarseOf<N>>
-HWY_INLINE Bounds<RoundedOf<M>> CompensatedBounds(const Course<N>& course) {
+HWY_INLINE Bounds<RoundedOf<M>> CompensatedBounds(const Course<N>& course, const EndErrors<M>& errors) {
   const Inputs<N>& in = course.in;
   const Solution<N>& x = course.x;
   const M rounding = M::Constant(0x1p-102 * kHigherOrders);
-  const EndErrors<M> errors = ErrorsOf(course);
   const M wtt = Coarse(in.wtt);
   const M wnn = Coarse(in.wnn);
   const M tau = Coarse(x.end.tau);
@@ -366,6 +396,119 @@ HWY_INLINE Bounds<RoundedOf<M>> CompensatedBounds(const Course<N>& course) {
   return {.velocity = OutBound(velocity * per_speed),
           .impulse = OutBound(impulse * per_speed),
           .work = OutBound(work / moved)};
+}
+
+// Twice the errors of the works of one phase, piece by piece.
+template <typename M>
+struct TwiceWorkErrors {
+  M normal, tangential;
+
+  // Adds a piece with the slope `f` of the friction impulse over `step`, the sums of u and of v at its ends, and the sums of
+  // their errors.
+  void Add(const M& f, const M& step, const M& step_error, const M& u_sum, const M& u_error, const M& v_sum,
+           const M& v_error) {
+    const M size = Abs(f);
+    const M u_size = Abs(u_sum);
+    const M v_size = Abs(v_sum);
+    normal = normal + step_error * v_size + step * (v_error + Times(4.0, v_size));
+    tangential = tangential + size * (step_error * u_size + step * (u_error + Times(7.0, u_size)));
+  }
+};
+
+template <typename N, typename M = CoarseOf<N>>
+TwiceWorkErrors<M> CompressionWorkErrors(const Course<N>& course, const EndErrors<M>& errors) {
+  const Solution<N>& x = course.x;
+  const Path<N>& path = course.path;
+  const M u0 = Coarse(course.in.u0);
+  const M v0 = Coarse(course.in.v0);
+  const M u_c = Coarse(x.compression_end.u);
+  const M u0_error = Select(course.in.u_follows_v, Times(2.0, Abs(u0)), Zero<M>());
+  const M first = Coarse(path.first.f);
+  TwiceWorkErrors<M> works = {Zero<M>(), Zero<M>()};
+  if (x.stops_in_compression) {
+    const M stop = Coarse(x.stop.tau);
+    const M v_stop = Coarse(path.v_stop);
+    const M v_stop_error = StopError(course);
+    works.Add(first, stop, Times(2.0, stop), u0, u0_error, v0 + v_stop, v_stop_error);
+    works.Add(Coarse(path.second.f), Coarse(x.stuck_compression), errors.stuck, u_c, errors.u_compression, v_stop,
+              v_stop_error);
+  } else {
+    const M tau = Coarse(x.compression_end.tau);
+    works.Add(first, tau, Times(2.0, tau), u0 + u_c, u0_error + errors.u_compression, v0, Zero<M>());
+  }
+  return works;
+}
+
+template <typename N, typename M = CoarseOf<N>>
+TwiceWorkErrors<M> RestitutionWorkErrors(const Course<N>& course, const EndErrors<M>& errors) {
+  const Solution<N>& x = course.x;
+  const Path<N>& path = course.path;
+  TwiceWorkErrors<M> works = {Zero<M>(), Zero<M>()};
+  if (course.held) return works;
+  const M u_c = Coarse(x.compression_end.u);
+  const M u1 = Coarse(x.end.u);
+  const M v1 = Coarse(x.end.v);
+  const M before = Coarse(x.rebound.before);
+  if (x.stops_in_restitution) {
+    const M v_stop = Coarse(path.v_stop);
+    const M v_stop_error = StopError(course);
+    works.Add(Coarse(path.first.f), before, errors.before, u_c, errors.u_compression, v_stop, v_stop_error);
+    works.Add(Coarse(path.second.f), Coarse(x.rebound.after), errors.after, u1, errors.u, v_stop + v1,
+              v_stop_error + errors.v);
+  } else {
+    const M f = Coarse(x.stops_in_compression ? path.second.f : path.first.f);
+    works.Add(f, before, errors.before, u_c + u1, errors.u_compression + errors.u, v1, errors.v);
+  }
+  return works;
+}
+
+// The errors of all numbers of one impact, each on its own scale. A compensated path errs by 2^-102 for every rounding, and its
+// numbers are then rounded to doubles.
+template <typename N, typename M = CoarseOf<N>>
+ImpactErrors NumberErrorsOf(const Problem& problem, const Course<N>& course, const EndErrors<M>& errors,
+                            const Impact& impact) {
+  const Solution<N>& x = course.x;
+  const M unit = M::Constant((N::kCompensated ? 0x1p-102 : 0x1p-53) * kHigherOrders);
+  const M half_unit = Times(0.5, unit);
+  const auto out = [](const M& error, double number) {
+    const M final = N::kCompensated ? FinalRounding(Abs(M::Constant(number))) : Zero<M>();
+    return OutBound(error + final);
+  };
+  const TwiceWorkErrors<M> compression = CompressionWorkErrors(course, errors);
+  const TwiceWorkErrors<M> restitution = RestitutionWorkErrors(course, errors);
+  const M tau_c = Coarse(x.compression_end.tau);
+  const M tau = Coarse(x.end.tau);
+  const M work_c = Times(-0.5, Coarse(x.compression.normal));
+  const M f = Abs(Coarse(x.end.f));
+  const M terms = f * (Times(2.0, Abs(Coarse(course.in.u0))) + Abs(Coarse(x.end.u))) +
+                  tau * (Coarse(x.end.v) - Times(2.0, Coarse(course.in.v0)));
+  // Coefficients are quotients of the numbers of the path, and not of doubles.
+  const M per_tau = Inverse(tau_c);
+  const M per_work = Inverse(work_c);
+  ImpactEnd<double> scaled = impact;
+  scaled.tau_compression = 1.0;
+  scaled.tau1 = Rounded(tau * per_tau);
+  scaled.work_normal_compression = -1.0;
+  ImpactErrors numbers;
+  numbers.v = OutBound(unit * errors.v / -Coarse(course.in.v0));
+  numbers.tau_compression = OutBound(unit * errors.tau_compression * per_tau);
+  numbers.tau = OutBound(unit * errors.tau * per_tau);
+  numbers.f = OutBound(unit * errors.f * per_tau);
+  numbers.work_normal_compression = OutBound(half_unit * compression.normal * per_work);
+  numbers.work_normal_restitution = OutBound(half_unit * restitution.normal * per_work);
+  SetCoefficientErrors(scaled, -1.0, problem.law, problem.coefficient, numbers);
+  numbers.u = out(unit * errors.u, impact.u1);
+  numbers.v = out(unit * errors.v, impact.v1);
+  numbers.tau_compression = out(unit * errors.tau_compression, impact.tau_compression);
+  numbers.tau = out(unit * errors.tau, impact.tau1);
+  numbers.f = out(unit * errors.f, impact.f1);
+  numbers.work_normal_compression = out(half_unit * compression.normal, impact.work_normal_compression);
+  numbers.work_normal_restitution = out(half_unit * restitution.normal, impact.work_normal_restitution);
+  numbers.work_tangential_compression = out(half_unit * compression.tangential, impact.work_tangential_compression);
+  numbers.work_tangential_restitution = out(half_unit * restitution.tangential, impact.work_tangential_restitution);
+  const M cut = N::kCompensated ? Times(0x1p-96, terms) : Zero<M>();
+  numbers.energy_change = out(half_unit * errors.works + cut, impact.energy_change);
+  return numbers;
 }
 
 }  // namespace ricochet::planar::HWY_NAMESPACE

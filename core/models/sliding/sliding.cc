@@ -25,14 +25,11 @@ int RankOf(const Problem<kTangential>& problem) {
   }
 }
 
-constexpr double kLimit = 0x1p100;  // The sizes for which products stay within the range of doubles.
-
-// Whether all numbers that the frictionless impact reads are moderate.
-template <size_t kTangential>
-bool IsModerateWithoutFriction(const Problem<kTangential>& problem) {
-  return AreModerate(problem.Wtn(), kLimit) && AreModerate(problem.u0, kLimit) &&
-         AreModerate({problem.Wnn(), problem.v0, problem.coefficient}, kLimit);
-}
+// The sizes for which products stay within the range of doubles. Velocities may be smaller: what their products lose by
+// underflow is at most Unseen of the largest one.
+constexpr double kLimit = 0x1p100;
+constexpr double kLeastVelocity = 0x1p-900;
+constexpr double kSmallest = 0x1p-1074;
 
 template <size_t kTangential>
 double Largest(const Vector<kTangential>& vector) {
@@ -44,6 +41,20 @@ double Largest(const Vector<kTangential>& vector) {
 template <size_t kTangential>
 double ScaleOf(const Problem<kTangential>& problem) {
   return std::max(Largest(problem.u0), std::fabs(problem.v0));
+}
+
+bool IsVelocity(double size) { return size >= kLeastVelocity && size <= kLimit; }
+
+// Whether all numbers that the frictionless impact reads are moderate.
+template <size_t kTangential>
+bool IsModerateWithoutFriction(const Problem<kTangential>& problem) {
+  return AreModerate(problem.Wtn(), kLimit) && AreModerate({problem.Wnn(), problem.coefficient}, kLimit) &&
+         IsVelocity(ScaleOf(problem));
+}
+template <size_t kTangential>
+bool IsModerate(const Problem<kTangential>& problem) {
+  return IsModerateWithoutFriction(problem) && AreModerate(problem.w, kLimit) && AreModerate({problem.mu}, kLimit) &&
+         IsVelocity(Largest(problem.u0));
 }
 
 template <size_t kTangential>
@@ -98,7 +109,7 @@ Impact<kTangential> MakeImpact(const Problem<kTangential>& problem, const Vector
   impact.v1 = end.v1;
   impact.tau_compression = end.tau_compression;
   impact.tau1 = end.tau1;
-  impact.work_normal_compression = 0.5 * end.tau_compression * problem.v0;
+  impact.work_normal_compression = 0.5 * end.tau_compression * problem.v0 + 0.0;
   impact.work_normal_restitution = 0.0 - c * c * impact.work_normal_compression;
   // v0 + v1 = (1 - c) v0
   impact.energy_change = 0.5 * end.tau1 * ((1.0 - c) * problem.v0) + 0.0;
@@ -108,6 +119,24 @@ Impact<kTangential> MakeImpact(const Problem<kTangential>& problem, const Vector
                      .u = Moved(problem.u0, u_slope, end.tau_compression)},
                     {.kind = EventKind::kRestitutionEnds, .tau = end.tau1, .u = end.u1, .v = end.v1}}};
   return impact;
+}
+
+// Roundings of the direction of slip, in a component of W along it. The direction is exact in a plane.
+template <size_t kTangential>
+constexpr double kDirectionErrors = kTangential == 1 ? 0.0 : 6.0;
+
+// What they are, relative to v'; infinite if v' is not positive.
+template <size_t kTangential>
+double ConditioningOf(const Problem<kTangential>& problem, const Slopes<kTangential>& slopes) {
+  if (!(slopes.v > 0.0)) return std::numeric_limits<double>::infinity();
+  return kDirectionErrors<kTangential> * (std::fabs(slopes.v - problem.Wnn()) / slopes.v);
+}
+
+// What underflow takes from velocities, and from impulses times mobilities below 2^100, over the largest velocity.
+template <size_t kTangential>
+double Unseen(const Problem<kTangential>& problem) {
+  const bool nothing = AreModerate(problem.u0, kLimit) && AreModerate({problem.v0}, kLimit);
+  return nothing ? 0.0 : kSmallest * kLimit * 64.0 / ScaleOf(problem);
 }
 
 }  // namespace
@@ -131,13 +160,10 @@ Slopes<kTangential> SlidingSlopes(const Problem<kTangential>& problem) {
 
 template <size_t kTangential>
 RelativeErrors ErrorsOf(const Problem<kTangential>& problem) {
-  constexpr double kDirectional = kTangential == 1 ? 0.0 : 6.0;
-  if (!IsModerateWithoutFriction(problem) || !AreModerate(problem.w, kLimit) || !AreModerate({problem.mu}, kLimit)) {
-    return kNoBound;
-  }
+  constexpr double kDirectional = kDirectionErrors<kTangential>;
+  if (!IsModerate(problem)) return kNoBound;
   const Slopes<kTangential> slopes = SlidingSlopes(problem);
-  if (!(slopes.v > 0.0)) return kNoBound;
-  const double conditioning = kDirectional * (std::fabs(slopes.v - problem.Wnn()) / slopes.v);
+  const double conditioning = ConditioningOf(problem, slopes);
   if (!(conditioning * 0x1p-53 <= 0x1p-4)) return kNoBound;
   const End<kTangential> end = EndOf(problem, slopes.u, slopes.v);
   const Vector<kTangential> wtn = problem.Wtn();
@@ -149,8 +175,10 @@ RelativeErrors ErrorsOf(const Problem<kTangential>& problem) {
   }
   const double normal = (3.0 + conditioning) * problem.Wnn();
   const double tangential = (kDirectional + 4.0 + conditioning) * problem.Wtt() * problem.mu;
-  const double unit = kRounding / ScaleOf(problem);
-  return {.velocity = unit * velocity, .impulse = unit * end.tau1 * std::max(normal, tangential)};
+  const double scale = ScaleOf(problem);
+  const double unit = kRounding / scale;
+  const double unseen = Unseen(problem);
+  return {.velocity = unit * velocity + unseen, .impulse = unit * end.tau1 * std::max(normal, tangential) + unseen};
 }
 
 template <size_t kTangential>
@@ -158,9 +186,11 @@ RelativeErrors FrictionlessErrorsOf(const Problem<kTangential>& problem) {
   if (!IsModerateWithoutFriction(problem)) return kNoBound;
   const End<kTangential> end = EndOf(problem, problem.Wtn(), problem.Wnn());
   const double drift = Largest(problem.Wtn()) * end.tau1;
-  const double unit = kRounding / ScaleOf(problem);
-  return {.velocity = unit * std::max(end.v1, Largest(end.u1) + 2.0 * drift),
-          .impulse = unit * 2.0 * problem.Wnn() * end.tau1};
+  const double scale = ScaleOf(problem);
+  const double unit = kRounding / scale;
+  const double unseen = Unseen(problem);
+  return {.velocity = unit * std::max(end.v1, Largest(end.u1) + 2.0 * drift) + unseen,
+          .impulse = unit * 2.0 * problem.Wnn() * end.tau1 + unseen};
 }
 
 template <size_t kTangential>
@@ -199,6 +229,48 @@ Impact<kTangential> SolveFrictionless(const Problem<kTangential>& problem) {
 }
 
 template <size_t kTangential>
+ImpactErrors NumberErrorsOf(const Problem<kTangential>& problem, const Impact<kTangential>& impact) {
+  const bool friction = impact.regime == Regime::kSliding;
+  if (friction ? !IsModerate(problem) : !IsModerateWithoutFriction(problem)) return {};
+  Slopes<kTangential> slopes = {.u = problem.Wtn(), .v = problem.Wnn(), .f = {}};
+  if (friction) slopes = SlidingSlopes(problem);
+  const double conditioning = friction ? ConditioningOf(problem, slopes) : 0.0;
+  if (!(conditioning * 0x1p-53 <= 0x1p-4)) return {};
+  const double directional = friction ? kDirectionErrors<kTangential> : 0.0;
+  const auto& [start, middle, last] = impact.events;
+  const Vector<kTangential> wtn = problem.Wtn();
+  const auto of = [](double count, double number) { return kRounding * count * std::fabs(number) + kSmallest; };
+  ImpactErrors errors;
+  errors.newton = errors.poisson = errors.energetic = errors.tangential = 0.0;
+  errors.v = of(1.0, impact.v1);
+  errors.tau_compression = of(2.0 + conditioning, impact.tau_compression);
+  errors.tau = of(3.0 + conditioning, impact.tau1);
+  errors.work_normal_compression = of(3.0 + conditioning, impact.work_normal_compression);
+  errors.work_normal_restitution = of(6.0 + conditioning, impact.work_normal_restitution);
+  errors.u = errors.f = 0.0;
+  errors.work_tangential_compression = errors.work_tangential_restitution = kSmallest;
+  errors.energy_change = of(7.0 + conditioning, impact.work_normal_compression + impact.work_normal_restitution) +
+                         of(1.0, impact.energy_change);
+  for (size_t i = 0; i < kTangential; ++i) {
+    const double of_slope =
+        (4.0 + conditioning) * std::fabs(slopes.u[i]) + directional * std::fabs(slopes.u[i] - wtn[i]);
+    const double of_middle = std::fabs(middle.u[i]) + of_slope * impact.tau_compression;
+    const double of_last = std::fabs(last.u[i]) + of_slope * impact.tau1;
+    errors.u = std::max(errors.u, of(1.0, of_last));
+    errors.f = std::max(errors.f, of(directional + 4.0 + conditioning, impact.f1[i]));
+    const auto work = [&](double f, double u_sum, double u_error) {
+      return 0.5 * std::fabs(f) * ((directional + 9.0 + conditioning) * std::fabs(u_sum) + u_error);
+    };
+    const double f_restitution = problem.coefficient * middle.f[i];
+    errors.work_tangential_compression += of(1.0, work(middle.f[i], start.u[i] + middle.u[i], of_middle));
+    errors.work_tangential_restitution += of(1.0, work(f_restitution, middle.u[i] + last.u[i], of_middle + of_last));
+    errors.energy_change += of(1.0, work(impact.f1[i], start.u[i] + last.u[i], of_last));
+  }
+  if (!friction) errors.f = errors.work_tangential_compression = errors.work_tangential_restitution = 0.0;
+  return errors;
+}
+
+template <size_t kTangential>
 Instant<kTangential> At(const Impact<kTangential>& impact, double tau) {
   const auto& [start, middle, last] = impact.events;
   const bool compressing = tau < middle.tau;
@@ -231,6 +303,8 @@ template bool FrictionPushes(const Problem<1>&);
 template bool FrictionPushes(const Problem<2>&);
 template Impact<1> SolveFrictionless(const Problem<1>&);
 template Impact<2> SolveFrictionless(const Problem<2>&);
+template ImpactErrors NumberErrorsOf(const Problem<1>&, const Impact<1>&);
+template ImpactErrors NumberErrorsOf(const Problem<2>&, const Impact<2>&);
 template Instant<1> At(const Impact<1>&, double);
 template Instant<2> At(const Impact<2>&, double);
 

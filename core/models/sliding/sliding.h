@@ -17,6 +17,7 @@
 #include <cstddef>
 
 #include "core/models/impact_end.h"
+#include "core/models/impact_errors.h"
 #include "core/models/relative_errors.h"
 #include "ricochet/outcome.h"
 
@@ -60,8 +61,9 @@ struct Slopes {
 template <size_t kTangential>
 Slopes<kTangential> SlidingSlopes(const Problem<kTangential>& problem);
 
-// Bounds on the errors of Solve and of SolveFrictionless; infinite where a number other than 0 lies outside
-// [2^-100, 2^100], or where v' is mostly rounding.
+// Bounds on the errors of Solve and of SolveFrictionless; infinite where v' is mostly rounding, or beyond a range: an entry
+// of W, mu or the coefficient is 0 or lies in [2^-100, 2^100], the largest velocity, and the largest slip if there is
+// friction, in [2^-900, 2^100].
 template <size_t kTangential>
 RelativeErrors ErrorsOf(const Problem<kTangential>& problem);
 template <size_t kTangential>
@@ -85,6 +87,10 @@ template <size_t kTangential>
 bool FrictionPushes(const Problem<kTangential>& problem);
 template <size_t kTangential>
 Impact<kTangential> SolveFrictionless(const Problem<kTangential>& problem);
+
+// Bounds on the errors of the numbers of either impact, each on its own scale, in the same range.
+template <size_t kTangential>
+ImpactErrors NumberErrorsOf(const Problem<kTangential>& problem, const Impact<kTangential>& impact);
 
 // The contact at normal impulse tau in [0, tau1] of either impact, with an unspecified kind.
 // Accuracy: 4 ulp of the largest value at the events.

@@ -57,6 +57,7 @@ class Attempts {
 inline Impact SeparatingImpact(const Problem& problem) {
   auto impact = Separating<Impact>(problem.Delassus().Rank(), problem.u0, problem.v0);
   impact.closed_form = true;
+  impact.errors = NoErrors();
   return impact;
 }
 

@@ -26,6 +26,16 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
+// Errors of an impact, in the units of the scaled problem: works of friction and the change of energy in that of friction.
+template <typename T>
+struct EndErrors {
+  T relative{0};  // the larger of the errors of u and v, over max(|u0|, |v0|)
+  T u{0}, v{0};
+  T tau_compression{0}, tau{0}, f{0};
+  T normal_compression{0}, normal_restitution{0};
+  T tangential_compression{0}, tangential_restitution{0}, energy{0};
+};
+
 template <typename T>
 class ErrorLedger {
  public:
@@ -33,9 +43,12 @@ class ErrorLedger {
 
   // The errors before a step of slip that turns, and those after it.
   const StepErrors<T>& BeforeStep() const { return sum_; }
-  void SetAfterStep(const StepErrors<T>& errors) { sum_ = errors; }
+  void SetAfterStep(const StepErrors<T>& errors) {
+    is_straight_ = false;
+    sum_ = errors;
+  }
   // Adds the rounding of the direction of slip.
-  void AddSlipRounding(T slip) { sum_.friction += StepErrors<T>::SlipRounding(problem_, slip); }
+  void AddSlipRounding(T slip) { sum_.slip_rounding += StepErrors<T>::SlipRounding(problem_, slip); }
   // Slip is turned by the friction impulse (f1, f2).
   void AddTurn(T f1, T f2) { sum_.AddKnown(problem_.w, {.known = {.f1 = -f1, .f2 = -f2}, .rest = {}}); }
   // Adds a straight piece over `length`, with `slip` along e at its start and v at its end.
@@ -43,14 +56,18 @@ class ErrorLedger {
   // Adds a piece without slip.
   void AddStick(T length, T v);
   // Adds a piece without friction.
-  void AddFree(T length, T v) { sum_.AddRounding(problem_, problem_.w.w33 * length, v, length); }
+  void AddFree(T length, T v) {
+    is_straight_ = true;
+    u_rounding_ += kEpsilon<T> * (problem_.rate * length * problem_.graze + T{0.5} * problem_.velocity);
+    sum_.AddRounding(problem_, problem_.w.w33 * length, v, length);
+  }
   // Sets the distance from an event, in normal impulse, at which root finding stopped.
   void SetEventOffset(T offset) { event_offset_ = offset; }
   // Says that the path came so near to a goal, or so little beyond it, that the true path may not agree: `gap` is the
   // distance, in the goal's quantity, at the end of a step. Where the contact is nearly at rest, the paths on both sides of
   // the goal stay as near to each other as they are to rest.
   void NoteGap(const Path<T>& path, T gap) {
-    if (!(gap <= GoalError(path))) return;
+    if (!(gap <= GoalError(path, path.goal.quantity))) return;
     const T velocity = path.state.Slip() + std::fabs(path.state.v);
     in_doubt_ = in_doubt_ || velocity > T{kNearRest} * problem_.velocity;
     doubtful_velocity_ = std::max(doubtful_velocity_, velocity);
@@ -62,16 +79,20 @@ class ErrorLedger {
   void StopSlip(T tau) {
     stop_tau_ = tau;
     sum_.CountByNorm(problem_.w, true);
+    const T slowing = Size(slip_slopes_.u1, slip_slopes_.u2);
+    if (slowing > T{0}) f_rounding_ += T{2} * problem_.mu_static * (u_rounding_ / slowing);
   }
   void Stick(const Sticking<T>& sticking);
   // Closes the account of compression, which ends at the state of `path` with these slopes.
   void EndCompression(const Path<T>& path, const Slopes<T>& slopes);
-  // The error of each velocity at the end of the impact, relative to max(|u0|, |v0|).
-  T EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) const;
+  // The errors at the end of the impact; infinite if nothing is known of them.
+  EndErrors<T> AtEnd(const Path<T>& path, const Slopes<T>& slopes) const;
 
  private:
   // The known error is a linear estimate of an error that is not: it counts so often.
   static constexpr T kSafety{2};
+  // The part of the known errors that counts for a velocity by itself, in addition.
+  static constexpr T kOfParts{0.5};
   // A contact is nearly at rest below this part of its velocity before.
   static constexpr double kNearRest = 1e-6;
 
@@ -81,10 +102,13 @@ class ErrorLedger {
   };
 
   T VelocityError() const { return sum_.VelocityError(problem_); }
+  // A contact that sticks does not depend on the path of u.
+  void ForgetSlip() { sum_.friction = sum_.slip_rounding = sum_.strayed = T{0}; }
   // A bound on the error, in normal impulse, of the event at which v reaches its target. For a slope near 0 it is the
-  // bound of a double root.
+  // bound of a double root, which a straight path does not have.
   T ImpulseErrorOfVelocityEvent(T error, const Slopes<T>& slopes) const {
-    return error == T{0} ? T{0} : error / std::max(slopes.v, std::sqrt(std::fabs(error)));
+    if (error == T{0}) return T{0};
+    return error / (is_straight_ && slopes.v > T{0} ? slopes.v : std::max(slopes.v, std::sqrt(std::fabs(error))));
   }
   // The error of the impulse at the end, from that of the state there and that of compression.
   T ImpulseErrorOfEnd(const Path<T>& path, const Slopes<T>& slopes, T velocity_error, T work_error,
@@ -93,12 +117,35 @@ class ErrorLedger {
                             const Compression& compression) const {
     return -ImpulseErrorOfEnd(path, slopes, error.NormalVelocity(problem_.w), error.work, compression);
   }
-  // The error of the goal's quantity at the state of `path`.
-  T GoalError(const Path<T>& path) const;
-  // The rounding of the normal work, whose terms may cancel.
+  // The error of a quantity at the state of `path`.
+  T GoalError(const Path<T>& path, Quantity quantity) const;
+  // The rounding of the normal work, which is the mean of v times tau less what u lacks of its mean: over an impulse tau both
+  // change by at most their slopes times tau.
   T WorkRounding(const State<T>& at) const {
-    const T f = std::fabs(at.f1) + std::fabs(at.f2);
-    return T{2} * kEpsilon<T> * (f + at.tau) * problem_.velocity;
+    return T{4} * kEpsilon<T> * at.tau *
+           (std::max(problem_.approach, std::fabs(at.v)) +
+            (problem_.steepest + problem_.graze * problem_.mu * problem_.rate) * at.tau);
+  }
+  // The errors of u, v and the friction impulse at equal tau.
+  T ErrorOfU() const {
+    const Matrix<T>& w = problem_.w;
+    return kSafety * Size(sum_.known.Velocity1(w), sum_.known.Velocity2(w)) + RestOfU();
+  }
+  T RestOfU() const {
+    const Matrix<T>& w = problem_.w;
+    return Size(sum_.doubtful.Velocity1(w), sum_.doubtful.Velocity2(w)) +
+           problem_.largest_root * (sum_.friction + sum_.slip_rounding) + u_rounding_ + DoubtOfU();
+  }
+  T ErrorOfF(const State<T>& at) const {
+    if (problem_.HasNoFriction()) return T{0};
+    const T strayed = std::min(problem_.mu * sum_.strayed, T{2} * sum_.slip_rounding / problem_.smallest_root);
+    return kSafety * Size(sum_.known.f1, sum_.known.f2) + Size(sum_.doubtful.f1, sum_.doubtful.f2) +
+           sum_.friction / problem_.smallest_root + strayed + f_rounding_ +
+           T{4} * kEpsilon<T> * problem_.mu_static * (compression_end_tau_ + at.tau);
+  }
+  // The error of the change of energy in compression or of the whole impact that errors of the impulses at its end make.
+  T ErrorOfEnergy(const State<T>& at, T f, T tau, T u_error, T v_error) const {
+    return (at.Slip() + u_error) * f + problem_.graze * (std::fabs(at.v) + v_error) * tau;
   }
   static T Size(T x, T y) { return std::sqrt(x * x + y * y); }
   // The difference of the paths on both sides of a goal at which the contact is nearly at rest, in v and in u: the norm of
@@ -120,8 +167,12 @@ class ErrorLedger {
   const ScaledProblem<T>& problem_;
   // The scaled errors so far.
   StepErrors<T> sum_;
-  Compression known_compression_, doubtful_compression_, compression_;
+  Compression known_compression_, compression_;
   T u_rounding_{0};
+  T f_rounding_{0};  // of the friction impulse, where slip stops
+  EndErrors<T> at_compression_end_;
+  T compression_end_tau_{0};
+  bool is_straight_ = false;  // The path has come here on a straight piece.
   T event_offset_{0};
   T compression_end_v_{0};      // the v found in place of 0
   T stop_tau_ = -kInfinity<T>;  // where slip stopped, from the start of the phase
@@ -131,19 +182,23 @@ class ErrorLedger {
   bool locks_ = false;
   Slopes<T> slip_slopes_ = {T{0}, T{0}, T{0}};
 };
+
 template <typename T>
 void ErrorLedger<T>::AddStraightSlip(const Direction<T>& e, T length, T slip, T next_slip, T v) {
+  is_straight_ = true;
   sum_.Carry(problem_, {.length = length, .m = e, .slip = {slip, next_slip}});
-  u_rounding_ += kEpsilon<T> * (problem_.rate * length + T{0.5} * slip);
+  u_rounding_ += kEpsilon<T> * (problem_.rate * length * problem_.graze + T{0.5} * slip);
+  sum_.Stray(problem_, length, std::min(slip, next_slip));
   sum_.AddRounding(problem_, T{2} * problem_.steepest * length, v, length);
 }
 
 // The true path sticks a little later, and is off by no more than before until then.
 template <typename T>
 void ErrorLedger<T>::AddStick(T length, T v) {
+  is_straight_ = true;
   const T unsettled = std::min(length, settles_);
-  sum_.work += problem_.normal_root * sum_.friction * unsettled;
-  if (!(settles_ > length)) sum_.friction = T{0};
+  sum_.work += problem_.normal_root * (sum_.friction + sum_.slip_rounding) * unsettled;
+  if (!(settles_ > length)) ForgetSlip();
   settles_ -= unsettled;
   sum_.v_rounding += kEpsilon<T> * (T{2} * problem_.w.w33 * length + T{0.5} * std::fabs(v));
   sum_.work += sum_.v_rounding * length;
@@ -152,11 +207,13 @@ void ErrorLedger<T>::AddStick(T length, T v) {
 template <typename T>
 void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
   const T margin = problem_.mu - Size(sticking.f1, sticking.f2);
-  settles_ = sum_.friction == T{0} ? T{0}
-             : margin > T{0}       ? sum_.friction / (problem_.smallest_root * margin)
-                                   : kInfinity<T>;
+  const T error = sum_.friction + sum_.slip_rounding;
+  settles_ = error == T{0} ? T{0} : margin > T{0} ? error / (problem_.smallest_root * margin) : kInfinity<T>;
   locks_ = problem_.Locks(sticking);
-  if (locks_) sum_.friction = T{0};
+  // What holds the contact is what u has lost, so that the friction impulse has the rounding of u.
+  const T root = problem_.smallest_root;
+  if (error > T{0}) f_rounding_ += (sum_.slip_rounding + u_rounding_ / root) / root;
+  if (locks_) ForgetSlip();
   if (locks_) return;
   // A stop at the wrong impulse leaves in v the difference of the two slopes times the error of that impulse.
   const Slopes<T>& before = slip_slopes_;
@@ -172,6 +229,19 @@ void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes
                   .work = sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state)};
   known_compression_ = {.impulse = ImpulseErrorOfVelocityEvent(sum_.known.NormalVelocity(problem_.w), slopes),
                         .work = sum_.known.work};
+  const T v_error =
+      VelocityError() + kSafety * std::fabs(sum_.known.NormalVelocity(problem_.w)) + doubtful + std::fabs(path.state.v);
+  EndErrors<T>& at = at_compression_end_;
+  at.tau_compression = compression_.impulse + kSafety * std::fabs(known_compression_.impulse);
+  at.f = ErrorOfF(path.state) + problem_.mu_static * at.tau_compression;
+  at.normal_compression =
+      compression_.work + kSafety * std::fabs(known_compression_.work) + v_error * at.tau_compression;
+  at.energy = ErrorOfEnergy(path.state, at.f, at.tau_compression,
+                            ErrorOfU() + problem_.graze * Size(slopes.u1, slopes.u2) * at.tau_compression, v_error);
+  at.tangential_compression =
+      at.energy + problem_.graze * at.normal_compression + T{4} * kEpsilon<T> * std::fabs(path.state.friction_work);
+  if (path.IsRounding(path.state.v)) sum_.v_rounding += std::fabs(path.state.v);  // v is set to 0.
+  compression_end_tau_ = path.state.tau;
   compression_end_v_ = path.state.v;
   event_offset_ = sum_.work = sum_.known.work = sum_.doubtful.work = T{0};
   stop_tau_ -= path.state.tau;
@@ -195,9 +265,9 @@ T ErrorLedger<T>::ImpulseErrorOfEnd(const Path<T>& path, const Slopes<T>& slopes
 }
 
 template <typename T>
-T ErrorLedger<T>::GoalError(const Path<T>& path) const {
+T ErrorLedger<T>::GoalError(const Path<T>& path, Quantity quantity) const {
   const Matrix<T>& w = problem_.w;
-  switch (path.goal.quantity) {
+  switch (quantity) {
     case Quantity::kVelocity:
       return VelocityError() + kSafety * std::fabs(sum_.known.NormalVelocity(w)) +
              std::fabs(sum_.doubtful.NormalVelocity(w));
@@ -210,15 +280,29 @@ T ErrorLedger<T>::GoalError(const Path<T>& path) const {
 }
 
 template <typename T>
-T ErrorLedger<T>::EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) const {
+EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes) const {
   constexpr T kOutput = T{1.5} * kEpsilon<T>;
-  if (locks_ && !in_doubt_ && path.regime != Regime::kLocked) return EstimateOfLock() / problem_.velocity + kOutput;
+  EndErrors<T> unknown = at_compression_end_;
+  for (T* error : {&unknown.relative, &unknown.u, &unknown.v, &unknown.tau, &unknown.f, &unknown.normal_restitution,
+                   &unknown.tangential_restitution, &unknown.energy}) {
+    *error = kInfinity<T>;
+  }
+  if (locks_) {
+    for (T* error : {&unknown.tau_compression, &unknown.normal_compression, &unknown.tangential_compression}) {
+      *error = kInfinity<T>;
+    }
+  }
+  if (locks_ && !in_doubt_ && path.regime != Regime::kLocked) {
+    unknown.u = unknown.v = EstimateOfLock();
+    unknown.relative = unknown.u / problem_.velocity + kOutput;
+    return unknown;
+  }
   // Restitution that has to give back work ends with v > 0, if the work of compression is known at all.
   const bool lost_work =
       problem_.coefficient > T{0} && path.goal.quantity == Quantity::kWork && !path.Sticks() && !(path.state.v > T{0});
   // Where friction locks the contact, slip and v vanish together, so that every path to it comes near to its goal.
   const bool in_doubt = in_doubt_ && path.regime != Regime::kLocked;
-  if (in_doubt || lost_work) return kInfinity<T>;
+  if (in_doubt || lost_work) return unknown;
   const Matrix<T>& w = problem_.w;
   // Poisson's impulse may have been spent at a v whose sign is in doubt.
   const bool v_is_turned = problem_.law == RestitutionLaw::kPoisson && path.goal.quantity == Quantity::kVelocity;
@@ -243,12 +327,42 @@ T ErrorLedger<T>::EstimateAtEnd(const Path<T>& path, const Slopes<T>& slopes) co
   const T known_u =
       Size(sum_.known.Velocity1(w) + slopes.u1 * known_impulse, sum_.known.Velocity2(w) + slopes.u2 * known_impulse);
   const T known_v = std::fabs(sum_.known.NormalVelocity(w) + slopes.v * known_impulse);
-  const T u_error = kSafety * known_u + Size(sum_.doubtful.Velocity1(w), sum_.doubtful.Velocity2(w)) +
-                    problem_.largest_root * sum_.friction + u_rounding_ + DoubtOfU() + impulse * u_slope;
+  EndErrors<T> errors = at_compression_end_;
+  errors.u = kSafety * known_u + RestOfU() + problem_.graze * impulse * u_slope;
   // A v that ends the impact has its error from root finding alone.
   const bool v_is_goal = problem_.coefficient == T{0} || (path.goal.quantity == Quantity::kVelocity && !v_is_turned);
-  const T v_error = v_is_goal ? event_offset_ * v_slope : kSafety * known_v + v_error_of_state + impulse * v_slope;
-  return std::max(u_error, v_error) / problem_.velocity + kOutput;
+  errors.v = v_is_goal ? event_offset_ * v_slope : kSafety * known_v + v_error_of_state + impulse * v_slope;
+  errors.relative = std::max(errors.u, problem_.graze * errors.v) / problem_.velocity + kOutput;
+  // Each velocity by itself has no other one whose error is larger: what cancels in the known errors counts in part.
+  errors.u += kOfParts * (Size(sum_.known.Velocity1(w), sum_.known.Velocity2(w)) +
+                          problem_.graze * u_slope * std::fabs(known_impulse));
+  if (!v_is_goal) {
+    errors.v += kOfParts * (std::fabs(sum_.known.NormalVelocity(w)) + v_slope * std::fabs(known_impulse));
+  }
+  if (locks_) {
+    unknown.u = errors.u;
+    unknown.v = errors.v;
+    unknown.relative = errors.relative;
+    return unknown;
+  }
+  if (problem_.coefficient == T{0}) {
+    errors.tau = errors.tau_compression;
+    errors.normal_restitution = errors.tangential_restitution = T{0};
+    return errors;
+  }
+  errors.tau = all;
+  errors.f = ErrorOfF(path.state) + problem_.mu_static * all;
+  // Restitution that ends with a certain work errs by what that work does, and by root finding.
+  const T stated = problem_.coefficient * problem_.coefficient * errors.normal_compression +
+                   std::fabs(path.state.v) * event_offset_ + WorkRounding(path.state);
+  const T followed = GoalError(path, Quantity::kWork) + v_error_of_state * (path.state.tau + all) +
+                     (std::fabs(path.state.v) + v_slope * all) * (all + errors.tau_compression);
+  errors.normal_restitution = path.goal.quantity == Quantity::kWork ? stated + jump : followed + jump;
+  const T energy = ErrorOfEnergy(path.state, errors.f, all, errors.u, errors.v + v_slope * all);
+  errors.tangential_restitution = energy + errors.energy + problem_.graze * errors.normal_restitution +
+                                  T{4} * kEpsilon<T> * std::fabs(path.state.friction_work);
+  errors.energy = energy;
+  return errors;
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

@@ -27,12 +27,13 @@ struct Rates {
   T value, slope;
 };
 
-// Impulses and work count from the start of the phase, so that a short restitution keeps its digits.
+// Impulses and works count from the start of the phase, so that a short restitution keeps its digits. The normal work is
+// the integral of v, and not the change of energy less the work of friction, beside which it may be nothing.
 template <typename T>
 struct State {
   T tau{0}, f1{0}, f2{0};
   T u1{0}, u2{0}, v{0};
-  T friction_work{0};
+  T friction_work{0}, normal_work{0};
 
   HWY_INLINE T Slip() const { return SquareRoot(u1 * u1 + u2 * u2); }
 };
@@ -50,7 +51,7 @@ template <typename T>
 struct Way {
   // The value of the goal's quantity.
   HWY_INLINE T Value(const State<T>& at) const {
-    return Select(to_velocity, at.v, Select(to_impulse, at.tau, NormalWork(at)));
+    return Select(to_velocity, at.v, Select(to_impulse, at.tau, at.normal_work));
   }
   // The goal's quantity less its target, with its slope over xi.
   HWY_INLINE Rates<T> GoalRates(const Contact<T>& contact, const State<T>& at) const {
@@ -63,16 +64,10 @@ struct Way {
     const Matrix<T>& w = contact.w;
     return (w.w33 * at.Slip() - contact.mu * (w.w13 * at.u1 + w.w23 * at.u2)) / contact.rate;
   }
-  // The normal work of this phase, which is the change of energy that friction did not make.
-  HWY_INLINE T NormalWork(const State<T>& at) const {
-    return T{0.5} * (at.f1 * (at.u1 + start.u1) + at.f2 * (at.u2 + start.u2) + at.tau * (at.v + start.v)) -
-           at.friction_work;
-  }
   // The normal impulse left until the goal if the slopes stay as they are; infinity if the goal is never reached.
   HWY_INLINE T ImpulseToGoal(const Slopes<T>& slopes) const;
 
   State<T> from;
-  Slopes<T> start;  // the contact velocity with which the phase has started
   T target;
   MaskOf<T> to_velocity, to_impulse;  // The goal is one of v or of tau, and else one of work.
   MaskOf<T> may_turn;                 // The goal's quantity need not grow all the way.
@@ -85,20 +80,22 @@ struct Path {
 
   Way<T> WayAhead() const {
     return {.from = state,
-            .start = {phase_start.u1, phase_start.u2, phase_start.v},
             .target = goal.target,
             .to_velocity = goal.quantity == Quantity::kVelocity,
             .to_impulse = goal.quantity == Quantity::kImpulse,
             .may_turn = problem.may_jam,
             .in_restitution = in_restitution};
   }
-  T NormalWork(const State<T>& at) const { return WayAhead().NormalWork(at); }
 
   bool IsAtStart() const { return event_count == 1 && state.tau == T{0}; }
   bool Sticks() const {
     return regime == Regime::kStickInCompression || regime == Regime::kStickInRestitution || regime == Regime::kLocked;
   }
   void Record(EventKind kind);
+  // True if a difference of v is what rounding leaves of the changes of v so far.
+  bool IsRounding(T difference) const {
+    return std::fabs(difference) <= T{2} * kEpsilon<T> * problem.steepest * (compression_end.tau + state.tau);
+  }
   void SetRegime(Regime of_compression, Regime of_restitution) {
     regime = in_restitution ? of_restitution : of_compression;
   }
@@ -113,10 +110,8 @@ struct Path {
 
   const ScaledProblem<T>& problem;
   State<T> state;
-  State<T> phase_start;
   State<T> compression_end;  // 0 until then
   Goal<T> goal = {Quantity::kVelocity, T{0}};
-  T compression_work{0};
   bool in_restitution = false;
   bool ended = false;
   Regime regime = Regime::kUnspecified;
@@ -126,7 +121,7 @@ struct Path {
 
 template <typename T>
 Path<T>::Path(const ScaledProblem<T>& its_problem)
-    : problem(its_problem), state{.u1 = its_problem.u1, .u2 = its_problem.u2, .v = its_problem.v}, phase_start(state) {
+    : problem(its_problem), state{.u1 = its_problem.u1, .u2 = its_problem.u2, .v = its_problem.v} {
   Record(EventKind::kStart);
 }
 
@@ -151,13 +146,12 @@ void Path<T>::Record(EventKind kind) {
       .tau = problem.Impulse(compression_end.tau + state.tau),
       .f = {problem.Impulse(compression_end.f1 + state.f1), problem.Impulse(compression_end.f2 + state.f2)},
       .u = {problem.Velocity(state.u1), problem.Velocity(state.u2)},
-      .v = problem.Velocity(state.v)};
+      .v = problem.NormalVelocity(state.v)};
 }
 
 template <typename T>
 void Path<T>::StartRestitution() {
   const T v_found = state.v;
-  compression_work = NormalWork(state);
   state.v = T{0};
   Record(EventKind::kCompressionEnds);
   in_restitution = true;
@@ -172,13 +166,12 @@ void Path<T>::StartRestitution() {
       goal = {Quantity::kImpulse, coefficient * compression_end.tau};
       break;
     case RestitutionLaw::kEnergetic:
-      goal = {Quantity::kWork, -coefficient * coefficient * compression_work};
+      goal = {Quantity::kWork, -coefficient * coefficient * compression_end.normal_work};
       break;
   }
   if (coefficient == T{0}) return;
   // Restitution continues from the v at which root finding stopped, which is not exactly 0, so that v does not jump.
-  state.v = v_found;
-  phase_start = state;
+  if (!IsRounding(v_found)) state.v = v_found;
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

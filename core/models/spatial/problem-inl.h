@@ -1,6 +1,8 @@
 // The problem of the spatial solver, scaled by powers of two so that no product overflows.
 //
-// The largest of |u0| and |v0|, and the largest diagonal entry of W, come to lie in [1/2, 1). Scaling is exact.
+// The largest of |u0| and |v0|, and the largest diagonal entry of W, come to lie in [1/2, 1). Scaling is exact. A contact
+// that grazes is over before friction has changed its slip by what a double holds: v and the normal impulse then have a unit
+// of their own, in which |v0| lies in [1/2, 1), and slip keeps its direction.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_SPATIAL_PROBLEM_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -30,6 +32,8 @@ template <typename T>
 inline constexpr T kEpsilon = std::numeric_limits<double>::epsilon();
 template <typename T>
 inline constexpr T kInfinity = std::numeric_limits<T>::infinity();
+// A contact may graze if |v0| is so many powers of two below slip.
+inline constexpr int kGrazingBits = 60;
 
 namespace internal {
 
@@ -44,7 +48,7 @@ struct PowerOfTwo {
     const int second_part = std::clamp(exponent - first_part, -kMost, kMost);
     first = factor(first_part);
     second = factor(second_part);
-    third = factor(exponent - first_part - second_part);
+    third = factor(std::clamp(exponent - first_part - second_part, -kMost, kMost));
   }
 
   template <typename T>
@@ -70,7 +74,8 @@ struct Contact {
 
   Matrix<T> w;
   T mu;
-  T velocity;      // max(|u0|, |v0|), to which errors are relative
+  T velocity;      // max(|u0|, |v0|), to which errors of u are relative
+  T approach;      // |v0|
   T rate;          // mu |Wtt| + |wtn|, the unit of 1/xi
   T largest_root;  // square roots of the eigenvalues of Wtt, the smaller one not below rounding
   T smallest_root;
@@ -80,8 +85,9 @@ struct Contact {
 
 template <typename T>
 struct ScaledProblem : Contact<T> {
-  using Contact<T>::w, Contact<T>::mu, Contact<T>::velocity, Contact<T>::rate, Contact<T>::largest_root,
-      Contact<T>::smallest_root, Contact<T>::normal_root, Contact<T>::steepest, Contact<T>::FrameAt;
+  using Contact<T>::w, Contact<T>::mu, Contact<T>::velocity, Contact<T>::approach, Contact<T>::rate,
+      Contact<T>::largest_root, Contact<T>::smallest_root, Contact<T>::normal_root, Contact<T>::steepest,
+      Contact<T>::FrameAt, Contact<T>::SlopesAlong;
 
   // `rank` is the rank of the problem's W.
   ScaledProblem(const Problem& problem, int rank);
@@ -96,16 +102,24 @@ struct ScaledProblem : Contact<T> {
 
   // Conversions to the units of the caller; adding 0.0 turns -0 into 0.
   double Velocity(T value) const { return static_cast<double>(velocity_unit * value) + 0.0; }
+  double NormalVelocity(T value) const { return static_cast<double>(normal_velocity_unit * value) + 0.0; }
   double Impulse(T value) const { return static_cast<double>(impulse_unit * value) + 0.0; }
-  double Work(T value) const { return static_cast<double>(work_unit * value) + 0.0; }
+  double FrictionWork(T value) const { return static_cast<double>(friction_work_unit * value) + 0.0; }
+  double NormalWork(T value) const { return static_cast<double>(normal_work_unit * value) + 0.0; }
 
-  internal::PowerOfTwo velocity_unit, impulse_unit, work_unit;
+  internal::PowerOfTwo velocity_unit, normal_velocity_unit, impulse_unit, friction_work_unit, normal_work_unit;
   T u1, u2, v;  // before the impact
+  bool grazes;
+  T graze;  // the unit of v over that of u; 1 if the contact does not graze
   T mu_static;
   RestitutionLaw law;
   T coefficient;
   bool may_jam;            // dv/dtau < 0 is possible.
   bool velocity_in_range;  // (u0, v0) lies in the range of W.
+
+ private:
+  // True if slip changes by less than 2^-58 of itself until the impact ends, and v' with it.
+  bool EndsBeforeSlipChanges() const;
 };
 
 template <typename T>
@@ -115,29 +129,55 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
   const double largest_velocity =
       std::max(std::max(std::fabs(problem.u0[0]), std::fabs(problem.u0[1])), std::fabs(problem.v0));
   const int velocity_exponent = internal::Exponent(largest_velocity);
+  const int normal_exponent = internal::Exponent(problem.v0);
   const int matrix_exponent = internal::Exponent(std::max(std::max(problem.w11, problem.w22), problem.w33));
   velocity_unit = internal::PowerOfTwo(velocity_exponent);
-  impulse_unit = internal::PowerOfTwo(velocity_exponent - matrix_exponent);
-  work_unit = internal::PowerOfTwo(2 * velocity_exponent - matrix_exponent);
   const internal::PowerOfTwo to_matrix(-matrix_exponent);
   const internal::PowerOfTwo to_velocity(-velocity_exponent);
   w = Matrix<T>(to_matrix * problem.w11, to_matrix * problem.w12, to_matrix * problem.w13, to_matrix * problem.w22,
                 to_matrix * problem.w23, to_matrix * problem.w33, rank);
   u1 = static_cast<T>(to_velocity * problem.u0[0]);
   u2 = static_cast<T>(to_velocity * problem.u0[1]);
-  v = static_cast<T>(to_velocity * problem.v0);
   const T coupling = std::sqrt(w.w13 * w.w13 + w.w23 * w.w23);
   const T largest = w.LargestTangentEigenvalue();
-  velocity = std::max(std::sqrt(u1 * u1 + u2 * u2), std::fabs(v));
   rate = mu * largest + coupling;
   largest_root = std::sqrt(largest);
-  // Where Wtt = 0 friction moves nothing, and any number serves.
-  smallest_root = largest > T{0} ? std::sqrt(std::max(w.TangentDeterminant() / largest, kEpsilon<T> * largest)) : T{1};
+  velocity_in_range =
+      rank == 3 || VelocityIsInRange(SpatialReduction{.w = problem.Delassus().w, .u0 = problem.u0, .v0 = problem.v0});
+  // Where Wtt is singular and slip lies in its range, slip knows one direction only. Where Wtt = 0 friction moves nothing, and
+  // any number serves.
+  const bool has_one_direction = w.tangent_is_singular && velocity_in_range;
+  const T smallest = has_one_direction ? largest : w.TangentDeterminant() / largest;
+  smallest_root = largest > T{0} ? std::sqrt(std::max(smallest, kEpsilon<T> * largest)) : T{1};
   normal_root = std::sqrt(w.w33);
   steepest = w.w33 + mu * coupling;
   may_jam = mu * coupling >= w.w33;
-  velocity_in_range =
-      rank == 3 || VelocityIsInRange(SpatialReduction{.w = problem.Delassus().w, .u0 = problem.u0, .v0 = problem.v0});
+  graze = internal::PowerOfTwo(normal_exponent - velocity_exponent) * T{1};
+  v = static_cast<T>(internal::PowerOfTwo(-normal_exponent) * problem.v0);
+  grazes = normal_exponent < velocity_exponent - kGrazingBits && EndsBeforeSlipChanges();
+  if (grazes) {
+    constexpr T kMost{1e300};
+    normal_root = std::min(normal_root / graze, kMost);
+  } else {
+    graze = T{1};
+    v = static_cast<T>(to_velocity * problem.v0);
+  }
+  const int unit_exponent = grazes ? normal_exponent : velocity_exponent;
+  normal_velocity_unit = internal::PowerOfTwo(unit_exponent);
+  impulse_unit = internal::PowerOfTwo(unit_exponent - matrix_exponent);
+  friction_work_unit = internal::PowerOfTwo(velocity_exponent + unit_exponent - matrix_exponent);
+  normal_work_unit = internal::PowerOfTwo(2 * unit_exponent - matrix_exponent);
+  approach = std::fabs(v);
+  velocity = std::max(std::sqrt(u1 * u1 + u2 * u2), std::fabs(v) * graze);
+}
+
+template <typename T>
+bool ScaledProblem<T>::EndsBeforeSlipChanges() const {
+  if (HasNoFriction()) return true;
+  const T slip = std::sqrt(u1 * u1 + u2 * u2);
+  const T v_slope = SlopesAlong({u1 / slip, u2 / slip}).v;
+  const T length = graze * (T{1} + coefficient) * std::fabs(v) / v_slope;
+  return v_slope > T{0} && rate * length * steepest <= T{0x1p-58} * (v_slope * slip);
 }
 
 template <typename T>

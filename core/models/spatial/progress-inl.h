@@ -32,7 +32,7 @@ struct Progress {
   const ScaledProblem<T> problem;
   Path<T> path;
   ErrorLedger<T> errors;
-  T estimate{0};  // the relative error of the velocities after the impact
+  EndErrors<T> end_errors;
 };
 
 template <typename T>
@@ -57,7 +57,7 @@ void Progress<T>::EndCompression(const Slopes<T>& slopes) {
 template <typename T>
 void Progress<T>::EndImpact(const Slopes<T>& slopes) {
   path.End();
-  estimate = errors.EstimateAtEnd(path, slopes);
+  end_errors = errors.AtEnd(path, slopes);
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

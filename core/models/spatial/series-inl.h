@@ -88,6 +88,7 @@ struct SeriesValues {
   T s_integral;              // int s
   T square_integral;         // int s^2
   T x, y;                    // u
+  T trapezoid_excess;        // (u(0) + u)/2 . int u - int s^2, without the terms of first order, which cancel
 };
 
 // One term of the integrals over xi.
@@ -215,21 +216,30 @@ RICOCHET_UNROLLED SeriesValues<T> SlipSeries<T>::At(T xi) const {
   T y{0};
   T s{0};
   T square{0};
-  for (size_t k = Index(order_ - 1); k >= 1; --k) {
+  for (size_t k = Index(order_ - 1); k >= 2; --k) {
     x = x * xi + x_integral_[k];
     y = y * xi + y_integral_[k];
     s = s * xi + s_integral_[k];
     square = square * xi + square_integral_[k];
   }
-  x *= xi;
-  y *= xi;
-  s *= xi;
+  // The first terms of the integrals are xi, 0, xi and xi.
+  const T one{1};
+  const T x_rest = x * xi;
+  const T y_mean = y * xi;
+  const T square_rest = square * xi;
+  x = (x_rest + one) * xi;
+  y = y_mean * xi;
+  s = (s * xi + one) * xi;
+  const T x_change = frame_.a11 * x + frame_.a12 * y + frame_.w1 * s;
+  const T y_slip = frame_.a12 * x + frame_.a22 * y + frame_.w2 * s;
+  const T mean_change = T{0.5} * (x_change + (x_rest * x_change + y_mean * y_slip));
   return {.x_integral = x,
           .y_integral = y,
           .s_integral = s,
-          .square_integral = square * xi,
-          .x = T{1} + (frame_.a11 * x + frame_.a12 * y + frame_.w1 * s),
-          .y = frame_.a12 * x + frame_.a22 * y + frame_.w2 * s};
+          .square_integral = (square_rest + one) * xi,
+          .x = one + x_change,
+          .y = y_slip,
+          .trapezoid_excess = xi * (mean_change + (x_rest - square_rest))};
 }
 
 template <typename T>

@@ -53,8 +53,8 @@ class Solver {
   static int OrderFor(T tolerance);
   // True where GoOn would do more than return the heading of a path that is under way.
   template <typename N>
-  static HWY_INLINE MaskOf<N> Pauses(const Contact<N>& contact, const Heading<N>& heading, N stopped, N tolerance) {
-    return Either(heading.slip < stopped, heading.IsNearlyStraight(contact, N{kSwitchShare} * tolerance));
+  static HWY_INLINE MaskOf<N> Pauses(const Heading<N>& heading, N stopped, N tolerance) {
+    return Either(heading.slip < stopped, heading.IsNearlyStraight(N{kSwitchShare} * tolerance));
   }
   bool IsUnderWay() const { return !impact_.path.ended && StepsLeft() > 0; }
   // The budget lies far above the number of steps of every impact that tests have found.
@@ -120,7 +120,7 @@ std::optional<Heading<T>> Solver<T>::Start() {
 
 template <typename T>
 Impact Solver<T>::Report() const {
-  Impact impact = MakeImpact(problem_, impact_.path, impact_.estimate);
+  Impact impact = MakeImpact(problem_, impact_.path, impact_.end_errors);
   if (!impact_.path.ended && steps_ >= kStepBudget) impact.termination = Termination::kBudgetUsedUp;
   impact.closed_form = closed_form_;
   impact.steps = steps_;
@@ -131,7 +131,7 @@ Impact Solver<T>::Report() const {
 template <typename T>
 bool Solver<T>::SlipKeepsItsDirection() const {
   constexpr T kInvariant = T{8} * kEpsilon<T>;
-  return (problem_.w.tangent_is_singular && problem_.velocity_in_range) ||
+  return (problem_.w.tangent_is_singular && problem_.velocity_in_range) || problem_.grazes ||
          std::fabs(problem_.FrameAt(Normalized(state_.u1, state_.u2)).Turn()) <= kInvariant;
 }
 
@@ -139,7 +139,7 @@ template <typename T>
 std::optional<Heading<T>> Solver<T>::GoOn() {
   if (!IsUnderWay()) return std::nullopt;
   const Heading<T> heading(problem_, state_);
-  if (!Pauses(problem_, heading, StoppedSlip(), tolerance_)) return heading;
+  if (!Pauses(heading, StoppedSlip(), tolerance_)) return heading;
   if (heading.slip < StoppedSlip()) {
     if (heading.slip > T{0}) impact_.errors.SetSlopesOfSlip(problem_.SlopesAlong(Normalized(state_.u1, state_.u2)));
     ContinueFromStop(impact_);

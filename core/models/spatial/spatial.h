@@ -18,6 +18,7 @@
 
 #include "core/contact/delassus.h"
 #include "core/models/impact_end.h"
+#include "core/models/impact_errors.h"
 #include "core/models/restitution_law.h"
 #include "ricochet/outcome.h"
 
@@ -51,6 +52,7 @@ struct Impact : ImpactEnd<std::array<double, 2>> {
   bool closed_form = false;      // Slip never turns, so that no integration was needed.
   int64_t steps = 0;             // series expanded, in all attempts
   int64_t right_hand_sides = 0;  // terms of all series: a Runge-Kutta method would call them right-hand sides
+  ImpactErrors errors;           // not below the true errors; infinite if the path has not ended
   std::array<Instant, 4> events;
   int event_count = 0;
 };

@@ -50,20 +50,22 @@ HWY_INLINE T FindRoot(const Function& function, MaskOf<T> is_sought, T guess, T 
 template <typename T>
 struct Heading {
   HWY_INLINE Heading(const Contact<T>& contact, const State<T>& state)
-      : slip(state.Slip()), frame(contact.FrameAt({state.u1 / slip, state.u2 / slip})) {}
+      : slip(state.Slip()),
+        frame(contact.FrameAt({state.u1 / slip, state.u2 / slip})),
+        scale(Min(contact.velocity, Max(contact.approach, Absolute(state.v)))) {}
 
-  // True where slip is so near to a direction that attracts it that what it still turns by stays below `share` of the
-  // tolerance.
-  HWY_INLINE MaskOf<T> IsNearlyStraight(const Contact<T>& contact, T share) const {
+  // True where slip is so near to a direction that attracts it that what it still turns by stays below `allowed`, a
+  // part of the scale of v.
+  HWY_INLINE MaskOf<T> IsNearlyStraight(T allowed) const {
     const T near{0.1};
     const T turn = Absolute(frame.Turn());
     const T slope = frame.TurnSlope();
-    return Both(Both(slope < T{0}, turn <= -near * slope),
-                slip * Absolute(frame.Turn() / slope) <= share * contact.velocity);
+    return Both(Both(slope < T{0}, turn <= -near * slope), slip * Absolute(frame.Turn() / slope) <= allowed * scale);
   }
 
   T slip;
   Frame<T> frame;
+  T scale;  // of v, to which its errors are relative
 };
 
 // A step from the present state of a path, in the direction in which it slips. T is a floating type or a LaneNumber.
@@ -74,7 +76,7 @@ class Step {
   HWY_INLINE Step(const Contact<T>& contact, const Way<T>& way, const Heading<T>& heading, int order);
 
   HWY_INLINE State<T> At(T xi) const;
-  // The largest xi at which the errors of the velocities stay below `allowed`.
+  // The largest xi at which the errors of the velocities, over their scales, stay below `allowed`.
   HWY_INLINE T AccurateEnd(T allowed) const;
   // `end`, or an earlier xi up to which the quantity that ends the phase grows monotonically.
   HWY_INLINE T MonotonicEnd(T end) const {
@@ -122,6 +124,7 @@ class Step {
   const Way<T>& way_;
   const Frame<T>& frame_;
   const T slip_;
+  const T scale_;  // of v
   const int order_;
   const T friction_unit_, work_unit_;
   SlipSeries<T> series_;
@@ -133,6 +136,7 @@ HWY_INLINE Step<T>::Step(const Contact<T>& contact, const Way<T>& way, const Hea
       way_(way),
       frame_(heading.frame),
       slip_(heading.slip),
+      scale_(heading.scale),
       order_(order),
       friction_unit_(contact.largest_root * contact.mu * slip_ / contact.rate),
       work_unit_(contact.mu * slip_ * slip_ / contact.rate) {
@@ -149,13 +153,15 @@ HWY_INLINE State<T> Step<T>::At(T xi) const {
   const T tau = unit * values.s_integral;
   const T f1 = -mu * unit * (frame_.c * values.x_integral - frame_.s * values.y_integral);
   const T f2 = -mu * unit * (frame_.s * values.x_integral + frame_.c * values.y_integral);
+  const T v = from.v + (w.w33 * tau + w.w13 * f1 + w.w23 * f2);
   return {.tau = from.tau + tau,
           .f1 = from.f1 + f1,
           .f2 = from.f2 + f2,
           .u1 = slip_ * (frame_.c * values.x - frame_.s * values.y),
           .u2 = slip_ * (frame_.s * values.x + frame_.c * values.y),
-          .v = from.v + (w.w33 * tau + w.w13 * f1 + w.w23 * f2),
-          .friction_work = from.friction_work - mu * slip_ * unit * values.square_integral};
+          .v = v,
+          .friction_work = from.friction_work - mu * slip_ * unit * values.square_integral,
+          .normal_work = from.normal_work + (T{0.5} * tau * (from.v + v) - work_unit_ * values.trapezoid_excess)};
 }
 
 // The terms beyond the last one are taken for a geometric series that starts at the larger of the values to which the
@@ -196,9 +202,10 @@ HWY_INLINE T Step<T>::AccurateEnd(T allowed) const {
   const T off = Absolute(frame_.Turn() / frame_.TurnSlope());
   const T nearer = Select(frame_.TurnSlope() < T{0}, Max(T{0.1} * off, T{kEpsilon<Constant<T>>}), T{1});
   const T relative = Min(internal::Power(T{0.5}, 4 * order_ / 5), nearer);
-  const T velocity_per_friction = Max(contact_.largest_root, contact_.normal_root);
-  return series_.LongestStep(Min(allowed / (velocity_per_friction * friction_unit_), relative),
-                             Min(allowed * contact_.velocity / (contact_.steepest * work_unit_), relative));
+  const T of_velocity = Min(allowed * contact_.velocity / (contact_.largest_root * friction_unit_),
+                            allowed * scale_ / (contact_.normal_root * friction_unit_));
+  const T of_work = allowed * scale_ * scale_ / (contact_.steepest * work_unit_);
+  return series_.LongestStep(Min(of_velocity, relative), Min(of_work, relative));
 }
 
 template <typename T>
@@ -257,7 +264,7 @@ HWY_INLINE StepEnd<T> TakeStep(const Contact<T>& contact, const Way<T>& way, con
                                const Heading<T>& heading, T tolerance, int order) {
   const T step_share{0.175};
   const Step<T> step(contact, way, heading, order);
-  T xi = step.AccurateEnd(step_share * tolerance * contact.velocity);
+  T xi = step.AccurateEnd(step_share * tolerance);
   if (!InNoLane(way.may_turn)) xi = step.MonotonicEnd(xi);
   State<T> state = step.At(xi);
   const T beyond = way.Value(state) - way.target;

@@ -66,15 +66,14 @@ class StepColumns {
 
   // The impact and its phase.
   Column w11_, w12_, w13_, w22_, w23_, w33_;
-  Column mu_, velocity_, rate_, largest_root_, smallest_root_, normal_root_, steepest_;
+  Column mu_, velocity_, approach_, rate_, largest_root_, smallest_root_, normal_root_, steepest_;
   Column tolerance_, stopped_;
-  Slopes<Column> start_;
   Column target_, to_velocity_, to_impulse_, may_turn_, in_restitution_;
 
   // The path at the end of the last step, and its errors.
   State<Column> state_;
   PathError<Column> known_, doubtful_;
-  Column friction_, v_rounding_, work_;
+  Column friction_, slip_rounding_, strayed_, v_rounding_, work_;
 
   // What else is known of that step.
   Direction<Column> e_;
@@ -92,6 +91,7 @@ inline void StepColumns::Set(size_t lane, const Solver<double>& solver) {
   w33_.of[lane] = w.w33;
   mu_.of[lane] = problem.mu;
   velocity_.of[lane] = problem.velocity;
+  approach_.of[lane] = problem.approach;
   rate_.of[lane] = problem.rate;
   largest_root_.of[lane] = problem.largest_root;
   smallest_root_.of[lane] = problem.smallest_root;
@@ -112,9 +112,7 @@ inline void StepColumns::SetPath(size_t lane, const Solver<double>& solver) {
   state_.u2.of[lane] = way.from.u2;
   state_.v.of[lane] = way.from.v;
   state_.friction_work.of[lane] = way.from.friction_work;
-  start_.u1.of[lane] = way.start.u1;
-  start_.u2.of[lane] = way.start.u2;
-  start_.v.of[lane] = way.start.v;
+  state_.normal_work.of[lane] = way.from.normal_work;
   target_.of[lane] = way.target;
   to_velocity_.of[lane] = way.to_velocity ? 1.0 : 0.0;
   to_impulse_.of[lane] = way.to_impulse ? 1.0 : 0.0;
@@ -127,6 +125,8 @@ inline void StepColumns::SetPath(size_t lane, const Solver<double>& solver) {
   doubtful_.f2.of[lane] = errors.doubtful.f2;
   doubtful_.work.of[lane] = errors.doubtful.work;
   friction_.of[lane] = errors.friction;
+  slip_rounding_.of[lane] = errors.slip_rounding;
+  strayed_.of[lane] = errors.strayed;
   v_rounding_.of[lane] = errors.v_rounding;
   work_.of[lane] = errors.work;
 }
@@ -147,6 +147,7 @@ HWY_INLINE Contact<LaneNumber> StepColumns::LoadContact() const {
   contact.w.w33 = w33_.Load();
   contact.mu = mu_.Load();
   contact.velocity = velocity_.Load();
+  contact.approach = approach_.Load();
   contact.rate = rate_.Load();
   contact.largest_root = largest_root_.Load();
   contact.smallest_root = smallest_root_.Load();
@@ -162,8 +163,8 @@ HWY_INLINE Way<LaneNumber> StepColumns::LoadWay() const {
                    .u1 = state_.u1.Load(),
                    .u2 = state_.u2.Load(),
                    .v = state_.v.Load(),
-                   .friction_work = state_.friction_work.Load()},
-          .start = {start_.u1.Load(), start_.u2.Load(), start_.v.Load()},
+                   .friction_work = state_.friction_work.Load(),
+                   .normal_work = state_.normal_work.Load()},
           .target = target_.Load(),
           .to_velocity = to_velocity_.LoadMask(),
           .to_impulse = to_impulse_.LoadMask(),
@@ -175,6 +176,8 @@ HWY_INLINE StepErrors<LaneNumber> StepColumns::LoadErrors() const {
   return {.known = {.f1 = known_.f1.Load(), .f2 = known_.f2.Load(), .work = known_.work.Load()},
           .doubtful = {.f1 = doubtful_.f1.Load(), .f2 = doubtful_.f2.Load(), .work = doubtful_.work.Load()},
           .friction = friction_.Load(),
+          .slip_rounding = slip_rounding_.Load(),
+          .strayed = strayed_.Load(),
           .v_rounding = v_rounding_.Load(),
           .work = work_.Load()};
 }
@@ -187,6 +190,7 @@ HWY_INLINE void StepColumns::Store(const StepEnd<LaneNumber>& end) {
   state_.u2.Store(end.state.u2);
   state_.v.Store(end.state.v);
   state_.friction_work.Store(end.state.friction_work);
+  state_.normal_work.Store(end.state.normal_work);
   known_.f1.Store(end.errors.known.f1);
   known_.f2.Store(end.errors.known.f2);
   known_.work.Store(end.errors.known.work);
@@ -194,6 +198,8 @@ HWY_INLINE void StepColumns::Store(const StepEnd<LaneNumber>& end) {
   doubtful_.f2.Store(end.errors.doubtful.f2);
   doubtful_.work.Store(end.errors.doubtful.work);
   friction_.Store(end.errors.friction);
+  slip_rounding_.Store(end.errors.slip_rounding);
+  strayed_.Store(end.errors.strayed);
   v_rounding_.Store(end.errors.v_rounding);
   work_.Store(end.errors.work);
   e_.c.Store(end.e.c);
@@ -211,7 +217,7 @@ inline void StepColumns::Take(int order) {
   const StepEnd<LaneNumber> end = TakeStep(contact, way, LoadErrors(), heading, tolerance, order);
   Store(end);
   const Heading<LaneNumber> next(contact, end.state);
-  pauses_.Store(Solver<double>::Pauses(contact, next, stopped_.Load(), tolerance));
+  pauses_.Store(Solver<double>::Pauses(next, stopped_.Load(), tolerance));
 }
 
 inline StepEnd<double> StepColumns::EndOf(size_t lane) const {
@@ -221,13 +227,16 @@ inline StepEnd<double> StepColumns::EndOf(size_t lane) const {
                     .u1 = state_.u1.of[lane],
                     .u2 = state_.u2.of[lane],
                     .v = state_.v.of[lane],
-                    .friction_work = state_.friction_work.of[lane]},
+                    .friction_work = state_.friction_work.of[lane],
+                    .normal_work = state_.normal_work.of[lane]},
           .e = {e_.c.of[lane], e_.s.of[lane]},
           .errors = {.known = {.f1 = known_.f1.of[lane], .f2 = known_.f2.of[lane], .work = known_.work.of[lane]},
                      .doubtful = {.f1 = doubtful_.f1.of[lane],
                                   .f2 = doubtful_.f2.of[lane],
                                   .work = doubtful_.work.of[lane]},
                      .friction = friction_.of[lane],
+                     .slip_rounding = slip_rounding_.of[lane],
+                     .strayed = strayed_.of[lane],
                      .v_rounding = v_rounding_.of[lane],
                      .work = work_.of[lane]},
           .beyond = beyond_.of[lane],

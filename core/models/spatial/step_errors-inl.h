@@ -40,8 +40,9 @@ struct StepErrors {
     Carry(contact, stretch);
     AddKnown(contact.w, error);
     CountByNorm(contact.w, stretch.slip.last < T{4} * KnownSlipError(contact.w));
-    friction += SlipRounding(contact, stretch.slip.first);
-    AddRounding(contact, contact.w.w33 * stretch.length, v, stretch.length);
+    slip_rounding += SlipRounding(contact, stretch.slip.first);
+    Stray(contact, stretch.length, Min(stretch.slip.first, stretch.slip.last));
+    AddRounding(contact, contact.steepest * stretch.length, v, stretch.length);
   }
 
   // Carries the known error over slip.
@@ -92,8 +93,17 @@ struct StepErrors {
     const T u2 = known.Velocity2(w);
     return SquareRoot(u1 * u1 + u2 * u2);
   }
-  HWY_INLINE T VelocityError(const Contact<T>& contact) const { return contact.normal_root * friction + v_rounding; }
-  // The rounding of the direction of slip, in the norm of `friction`.
+  HWY_INLINE T VelocityError(const Contact<T>& contact) const {
+    const T coupled = contact.steepest - contact.w.w33;  // mu |wtn|
+    return contact.normal_root * friction + Min(contact.normal_root * slip_rounding, coupled * strayed) + v_rounding;
+  }
+  // Adds a stretch over which friction has a direction that is off by the rounding of slip over slip.
+  HWY_INLINE void Stray(const Contact<T>& contact, T length, T slip) {
+    const T opposite{2};
+    const T error = contact.largest_root * slip_rounding;
+    strayed += length * Select(error < opposite * slip, error / slip, opposite);
+  }
+  // The rounding of slip, in the norm of `friction`.
   HWY_INLINE static T SlipRounding(const Contact<T>& contact, T slip) {
     return T{kEpsilon<Constant<T>>} * slip / contact.smallest_root;
   }
@@ -104,9 +114,11 @@ struct StepErrors {
   static constexpr double kAnyDirection = 0.13;
 
   PathError<T> known, doubtful;
-  T friction{0};    // of the friction impulse, in the norm sqrt(df^T Wtt df)
-  T v_rounding{0};  // of v
-  T work{0};        // of the normal work in this phase
+  T friction{0};       // of the friction impulse, in the norm sqrt(df^T Wtt df)
+  T slip_rounding{0};  // of slip, in the same norm: it comes without an impulse that would change v, too
+  T strayed{0};        // the normal impulse during which friction had the wrong direction, by how much it was wrong
+  T v_rounding{0};     // of v
+  T work{0};           // of the normal work in this phase
 };
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

@@ -37,12 +37,14 @@ template <typename T>
 void Advance(Progress<T>& impact, const StraightPiece<T>& piece, T length) {
   State<T>& state = impact.path.state;
   const T slip = state.Slip();
+  const T v = state.v;
   state.tau += length;
   state.f1 += piece.f1 * length;
   state.f2 += piece.f2 * length;
   state.u1 += piece.slopes.u1 * length;
   state.u2 += piece.slopes.u2 * length;
   state.v += piece.slopes.v * length;
+  state.normal_work += T{0.5} * length * (v + state.v);
   switch (piece.motion) {
     case Motion::kSlips: {
       const T next_slip = state.Slip();
@@ -83,13 +85,13 @@ void FollowSlip(Progress<T>& impact, const Direction<T>& e) {
   if (slip == T{0}) growth = std::max(growth, T{0});
   impact.errors.AddSlipRounding(slip);
   StraightPiece<T> piece = {.motion = problem.mu > T{0} ? Motion::kSlips : Motion::kIsFree,
-                            .slopes = {growth * e.c, growth * e.s, slopes.v},
+                            .slopes = {problem.graze * growth * e.c, problem.graze * growth * e.s, slopes.v},
                             .e = e,
                             .f1 = -problem.mu * e.c,
                             .f2 = -problem.mu * e.s,
-                            .length = growth < T{0} ? -slip / growth : kInfinity<T>};
+                            .length = growth < T{0} && !problem.grazes ? -slip / growth : kInfinity<T>};
   // Where friction and the joints will lock the body, v vanishes with u, and rounding must not let it come first.
-  if (!impact.path.in_restitution && growth < T{0} && problem.w.rank < 3) {
+  if (!impact.path.in_restitution && piece.length < kInfinity<T> && problem.w.rank < 3) {
     const Sticking<T> sticking = problem.w.Stick(problem.mu_static);
     piece.ends_locked = sticking.holds && problem.Locks(sticking);
   }
@@ -167,13 +169,14 @@ template <typename T>
 void SlideFreely(Progress<T>& impact) {
   const Matrix<T>& w = impact.problem.w;
   const State<T>& state = impact.path.state;
+  const T graze = impact.problem.graze;
   const T cross = state.u1 * w.w23 - state.u2 * w.w13;
   const T along = state.u1 * w.w13 + state.u2 * w.w23;
   if (cross == T{0} && along < T{0}) return SlideStraight(impact, Normalized(state.u1, state.u2));
   const T slip = state.Slip();
   const T friction = slip > T{0} ? impact.problem.mu / slip : T{0};
   internal::Follow<T>(impact, {.motion = Motion::kIsFree,
-                               .slopes = {w.w13, w.w23, w.w33},
+                               .slopes = {graze * w.w13, graze * w.w23, w.w33},
                                .e = {T{0}, T{0}},
                                .f1 = -friction * state.u1,
                                .f2 = -friction * state.u2,

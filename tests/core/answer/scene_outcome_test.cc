@@ -305,6 +305,57 @@ Scene LawScene(const ImpactLaw& law) {
 }
 
 // Whittaker on the rod: u0 < 0, f = 0.7 tau, tau1 = (1 + e)/(2.5 + 0.7 * 1.5), dE = (f (u0 + u1) + tau1 (v0 + v1))/2.
+Outcome SolvedTo(const Scene& scene, const DemandFields& demand) {
+  const absl::StatusOr<SolveResponse> response = LocalSolver().Solve({.scene = scene, .demand = demand});
+  EXPECT_TRUE(response.ok()) << response.status();
+  return response.ok() ? response->outcome : Outcome();
+}
+
+Scene GrazingInSpace(double v0) {
+  return With(SpatialContact{{1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, {1.0, 0.6}, v0}, 0.3, EnergeticCoefficient{0.8});
+}
+
+TEST(NumberErrorsTest, AGrazingImpactInSpaceKeepsItsDigitsAtToleranceZero) {
+  for (const double v0 : {-1e-12, -1e-20, -1e-100, -1e-300}) {
+    const Outcome outcome = SolvedTo(GrazingInSpace(v0), {.relative_tolerance = 0.0});
+    // To first order in v0 slip keeps its direction, and the three definitions agree.
+    EXPECT_NEAR(outcome.coefficients.newton, 0.8, 1e-11) << v0;
+    EXPECT_NEAR(outcome.contact_velocity_after.normal_m_s, -0.8 * v0, 1e-11 * -v0) << v0;
+    ASSERT_TRUE(outcome.errors.newton.has_value()) << v0;
+    EXPECT_LE(*outcome.errors.newton, 1e-13) << v0;
+  }
+}
+
+TEST(NumberErrorsTest, FrictionThatChangesNothingIsLeftOutHoweverSmallTheApproachIs) {
+  for (const double v0 : {-1e-20, -1e-30, -1e-100, -1e-300}) {
+    const Outcome outcome = SolvedTo(GrazingInSpace(v0), {});
+    EXPECT_EQ(outcome.plan.model, Model::kFrictionless) << v0;
+    // What was left out may be all of v, and of impulses and works nothing is known.
+    ASSERT_TRUE(outcome.errors.normal_m_s.has_value());
+    EXPECT_GE(*outcome.errors.normal_m_s, -v0);
+    EXPECT_EQ(outcome.errors.normal_total_n_s, std::nullopt);
+    EXPECT_EQ(outcome.errors.normal_compression_j, std::nullopt);
+  }
+}
+
+TEST(NumberErrorsTest, AnErrorAboveTheToleranceIsNotConverged) {
+  // The works are below the smallest double, so that their errors are above the energy moved.
+  const Scene scene = With(PlanarContact{2.0, 1.0, 1.0, -1e-200, -1e-200}, 0.3, EnergeticCoefficient{0.8});
+  const Outcome outcome = SolvedTo(scene, {});
+  EXPECT_GT(outcome.accuracy.relative_error, 1e-12);
+  EXPECT_EQ(outcome.termination, Termination::kLessAccurate);
+  EXPECT_EQ(SolvedTo(scene, {.relative_tolerance = 0.0}).termination, Termination::kConverged);
+  EXPECT_LE(*outcome.errors.normal_m_s, 1e-215);
+}
+
+TEST(NumberErrorsTest, TheLedgerOfAStraightImpactInTimeCloses) {
+  Scene scene = With(Pendulum{1.0, 0.3, 1.0, -1.0}, 1.0, EnergeticCoefficient{0.8});
+  scene.friction.by_speed = SpeedDependence(SpeedTable{{0.0, 1.0, 2.0}, {1.0, 0.5, 0.4}});
+  scene.compliance = Compliance{.normal = HertzSpring{1e5}};
+  const Outcome outcome = SolvedTo(scene, {.required = {Effect::kFiniteDuration}});
+  EXPECT_NEAR(outcome.work.residual_j, 0.0, 1e-15);
+}
+
 TEST(SceneOutcomeTest, WhittakerOnTheRodByHand) {
   const Outcome outcome = Solved(LawScene(WhittakerLaw{1.0}));
   const double tau1 = 2.0 / 3.55;

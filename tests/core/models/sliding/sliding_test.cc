@@ -269,12 +269,15 @@ TEST(FrictionlessTest, ReadsNoFrictionAndNoTangentialMobility) {
 TEST(SlidingTest, PromisesNothingWhereProductsMayLeaveTheRangeOfDoublesOrVHardlyGrows) {
   const Problem<1> fine = {.w = {2.5, 0.5, 2.5}, .u0 = {9.0}, .v0 = -1.0, .mu = 0.3, .coefficient = 0.5};
   EXPECT_LT(ErrorsOf(fine).Largest(), 1e-14);
-  for (double Problem<1>::*const number : {&Problem<1>::v0, &Problem<1>::mu, &Problem<1>::coefficient}) {
+  for (double Problem<1>::*const number : {&Problem<1>::mu, &Problem<1>::coefficient}) {
     Problem<1> far = fine;
     far.*number *= 0x1p-101;
     EXPECT_EQ(ErrorsOf(far).velocity, kInfinity);
     EXPECT_EQ(ErrorsOf(far).impulse, kInfinity);
   }
+  Problem<1> slow = fine;
+  slow.u0[0] = slow.v0 = -0x1p-901;
+  EXPECT_EQ(ErrorsOf(slow).velocity, kInfinity);
   Problem<1> jams = fine;
   jams.mu = 5.0;
   EXPECT_EQ(ErrorsOf(jams).velocity, kInfinity);
@@ -283,6 +286,15 @@ TEST(SlidingTest, PromisesNothingWhereProductsMayLeaveTheRangeOfDoublesOrVHardly
   EXPECT_EQ(ErrorsOf(hardly).velocity, kInfinity);
   hardly.mu = 0.5;
   EXPECT_LT(ErrorsOf(hardly).velocity, 1e-13);
+}
+
+TEST(SlidingTest, PromisesTheSameForAnApproachOfAnySize) {
+  for (const double v0 : {-1.0, -1e-30, -1e-100, -1e-300, -0x1p-1074}) {
+    const Problem<2> grazes = {
+        .w = {1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, .u0 = {1.0, 0.6}, .v0 = v0, .mu = 0.3, .coefficient = 0.8};
+    EXPECT_LT(ErrorsOf(grazes).Largest(), 1e-14) << v0;
+    EXPECT_LT(FrictionlessErrorsOf(grazes).Largest(), 1e-15) << v0;
+  }
 }
 
 template <size_t kTangential>
@@ -386,7 +398,7 @@ template <size_t kTangential>
 Outcome FrictionlessOutcome(const Reduction<kTangential>& reduction, const EffectiveCoefficients& effective) {
   const Problem<kTangential> problem = MakeProblem(reduction, effective);
   return Made([&](Outcome& made) {
-           return MakeOutcome(SolveFrictionless(problem), FrictionlessErrorsOf(problem), reduction, {}, made);
+           return MakeOutcome(problem, SolveFrictionless(problem), FrictionlessErrorsOf(problem), reduction, {}, made);
          })
       .value();
 }
@@ -396,7 +408,7 @@ absl::StatusOr<Outcome> SlidingOutcome(const Reduction<kTangential>& reduction, 
                                        const std::vector<double>& taus = {}) {
   const Problem<kTangential> problem = MakeProblem(reduction, effective);
   return Made([&](Outcome& made) {
-    return MakeOutcome(Solve(problem), ErrorsOf(problem), reduction, {.history_at_n_s = taus}, made);
+    return MakeOutcome(problem, Solve(problem), ErrorsOf(problem), reduction, {.history_at_n_s = taus}, made);
   });
 }
 
