@@ -68,4 +68,6 @@ absl::Status UseFile(FileUse use, const std::string& flag, const std::string& pa
                                                  is_written ? other.name : name, ": must name another file"));
 }
 
+void ForgetUsedFiles() { AllUsed().clear(); }
+
 }  // namespace ricochet::cli

@@ -18,6 +18,9 @@ enum class FileUse { kRead, kWritten };
 // nothing can be written into the folder.
 absl::Status UseFile(FileUse use, const std::string& flag, const std::string& path);
 
+// Begins another run, for a program that has several.
+void ForgetUsedFiles();
+
 }  // namespace ricochet::cli
 
 #endif  // RICOCHET_CLIENT_CLI_USED_FILES_H_

@@ -147,9 +147,20 @@ std::map<std::string, double> NumbersOf(const Outcome& outcome) {
   return numbers;
 }
 
-void CheckRow(const SolveRequest& request, const Rows& rows, size_t row, const std::vector<std::string>& names) {
-  const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(request);
+// A point as Solve is asked for it.
+struct Point {
+  SolveRequest request;
+  // False if an axis has a value that its number cannot have. The scene may hide that: an angle becomes two lengths.
+  bool keeps_rules = true;
+};
+
+void CheckRow(const Point& point, const Rows& rows, size_t row, const std::vector<std::string>& names) {
   const RowStatus status = rows.statuses[row];
+  if (!point.keeps_rules) {
+    if (status != RowStatus::kInvalid) Fail(absl::StrCat("a row that breaks a rule has status ", status));
+    return;
+  }
+  const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(point.request);
   const bool has_numbers = status != RowStatus::kInvalid && status != RowStatus::kNotRepresentable;
   for (size_t column = 0; column < names.size() && !has_numbers; ++column) {
     if (!std::isnan(rows.columns[column][row])) Fail(names[column] + " is a number in a row without numbers");
@@ -180,20 +191,20 @@ void CheckRow(const SolveRequest& request, const Rows& rows, size_t row, const s
   }
 }
 
-// The requests that Solve gets for the points; none if one of them takes time.
-std::vector<SolveRequest> RequestsOf(const SweepRequest& request, const std::vector<std::vector<double>>& inputs) {
-  std::vector<SolveRequest> requests;
+// What Solve is asked for the points; nothing if one of them takes time.
+std::vector<Point> PointsOf(const SweepRequest& request, const std::vector<std::vector<double>>& inputs) {
+  std::vector<Point> points;
   for (size_t row = 0; row < static_cast<size_t>(PointCount(request.grid)); ++row) {
-    SolveRequest& point = requests.emplace_back();
+    auto& [point, keeps_rules] = points.emplace_back();
     point.scene = request.grid.scene;
     point.demand = request.demand;
     for (size_t axis = 0; axis < inputs.size(); ++axis) {
       absl::StatusOr<Field> field = ResolveField(request.grid.axes[axis].path, point.scene);
-      if (field.ok()) static_cast<void>(field->Set(inputs[axis][row]));
+      if (field.ok() && !field->Set(inputs[axis][row])) keeps_rules = false;
     }
     if (TakesTime(point)) return {};
   }
-  return requests;
+  return points;
 }
 
 void Run(const v1::SweepRequest& proto) {
@@ -205,18 +216,18 @@ void Run(const v1::SweepRequest& proto) {
   if (!ValidateAxes(request.grid).empty()) return CheckStatus(Sweep(request).status(), false);
   if (PointCount(request.grid) > kMostPoints) return;
   const std::vector<std::vector<double>> inputs = InputsOf(request.grid);
-  const std::vector<SolveRequest> requests = RequestsOf(request, inputs);
-  if (requests.empty() || AsksForDuration(request.columns)) return;
+  const std::vector<Point> points = PointsOf(request, inputs);
+  if (points.empty() || AsksForDuration(request.columns)) return;
   const absl::StatusOr<Rows> sweep = Sweep(request);
   if (!sweep.ok()) return CheckStatus(sweep.status(), false);
-  if (sweep->regimes.size() != requests.size()) Fail("a sweep has another number of points than its grid");
+  if (sweep->regimes.size() != points.size()) Fail("a sweep has another number of points than its grid");
   CheckPart(request, *sweep);
   if (!inputs.empty()) {
     const Rows batch = Batch(request, inputs);
     CheckSameRows(batch, *sweep, 0, request.columns, "a batch");
     if (batch.counts != sweep->counts) Fail("a batch has other counts than the sweep");
   }
-  for (size_t row = 0; row < requests.size(); ++row) CheckRow(requests[row], *sweep, row, request.columns);
+  for (size_t row = 0; row < points.size(); ++row) CheckRow(points[row], *sweep, row, request.columns);
 }
 
 }  // namespace

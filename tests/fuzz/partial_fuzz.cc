@@ -30,6 +30,7 @@
 #include "client/cli/program.h"
 #include "client/cli/shard.h"
 #include "client/cli/sweep_output.h"
+#include "client/cli/used_files.h"
 #include "ricochet/solver.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/fail.h"
@@ -122,13 +123,14 @@ void CheckRefusal(const absl::Status& status) {
   if (!is_promised || status.message().empty()) Fail(status.ToString());
 }
 
+constexpr Format kFormats[] = {Format::kCsv, Format::kJson, Format::kJsonLines, Format::kNpy};
+
+// Options of a run of its own, which has used no file yet.
 CommonOptions OptionsFor(const std::string& path, uint8_t format) {
-  static constexpr Format kFormats[] = {Format::kCsv, Format::kJson, Format::kJsonLines};
+  ForgetUsedFiles();
   CommonOptions options;
   options.output = path;
-  options.has_format = true;
-  options.format = kFormats[format % std::size(kFormats)];
-  if (format == 3) options.array = ArrayFormat::kNpy;
+  options.format = kFormats[format];
   return options;
 }
 
@@ -164,7 +166,7 @@ const std::string& WholeText(uint8_t format) {
 
 void CheckResume(Bytes bytes) {
   const TemporaryDirectory directory;
-  const uint8_t format = bytes.Byte() % 4;
+  const auto format = static_cast<uint8_t>(bytes.Byte() % std::size(kFormats));
   const std::string path = directory / "sweep";
   const CommonOptions options = OptionsFor(path, format);
   {
@@ -183,6 +185,7 @@ void CheckResume(Bytes bytes) {
     if (is_manifest && options.format == Format::kJson) continue;
     Damage(is_manifest ? part + ".json" : part, is_manifest ? part : part + ".json", bytes);
   }
+  ForgetUsedFiles();
   absl::StatusOr<SweepOutput> output = SweepOutput::OpenPartial(Request(), options, /*resume=*/true);
   if (!output.ok()) return CheckRefusal(output.status());
   const absl::StatusOr<bool> written = Write(*output, kPoints);
@@ -194,6 +197,7 @@ void CheckResume(Bytes bytes) {
 std::vector<std::string> WriteShards(const std::string& file, int64_t count) {
   std::vector<std::string> paths;
   for (int64_t i = 0; i < count; ++i) {
+    ForgetUsedFiles();
     const absl::StatusOr<SweepShard> shard = MakeShard(Request(), {.index = i, .count = count}, file);
     if (!shard.ok()) Fail(shard.status().ToString());
     absl::StatusOr<SweepOutput> output = SweepOutput::OpenShard(*shard);
@@ -208,6 +212,7 @@ std::vector<std::string> WriteShards(const std::string& file, int64_t count) {
 }
 
 absl::Status RunProgram(const std::vector<std::string>& arguments) {
+  ForgetUsedFiles();
   Command command;
   const std::unique_ptr<CLI::App> app = MakeProgram(arguments, command);
   std::vector<std::string> reversed(arguments.rbegin(), arguments.rend() - 1);
