@@ -12,6 +12,7 @@
 #include "client/cli/field_table.h"
 #include "core/scene/field.h"
 #include "core/scene/nearest.h"
+#include "core/sweep/column.h"
 
 namespace ricochet::cli {
 namespace {

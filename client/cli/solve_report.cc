@@ -391,12 +391,6 @@ std::string RowsOf(const Messages& messages) {
 
 }  // namespace
 
-static std::string NotesText(const std::vector<Note>& notes) {
-  std::string text;
-  for (const Note& note : notes) absl::StrAppend(&text, "Note: ", note.text, "\n");
-  return text;
-}
-
 std::string SolveText(const Outcome& outcome) {
   std::string text =
       absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination), Verdict(outcome),
