@@ -121,6 +121,8 @@ const char* RangeText(NumberRule rule) {
   switch (rule) {
     case NumberRule::kFinite:
       return "";
+    case NumberRule::kAngle:
+      return "";
     case NumberRule::kPositive:
       return "> 0";
     case NumberRule::kNotNegative:
