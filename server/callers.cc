@@ -68,7 +68,8 @@ absl::StatusOr<Callers::Line> Callers::ParseLine(const std::string& text) {
   if (!std::all_of(line.scopes.begin(), line.scopes.end(), IsScope)) return BrokenLine();
   if (words[1] == kCertificate) return line;
   const std::string digits(absl::StripPrefix(words[1], "sha256:"));
-  const bool hexadecimal = std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return absl::ascii_isxdigit(c); });
+  const bool hexadecimal =
+      std::all_of(digits.begin(), digits.end(), [](unsigned char c) { return absl::ascii_isxdigit(c); });
   if (digits == words[1] || digits.size() != 2 * sizeof(Hash) || !hexadecimal) {
     return BrokenLine();
   }

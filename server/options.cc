@@ -389,7 +389,8 @@ std::string InWords(const CLI::App& app, const CLI::ParseError& error) {
 // Kubernetes tells a pod of a Service that is called ricochetd by RICOCHETD_SERVICE_HOST, RICOCHETD_PORT_50051_TCP and so on.
 bool IsOfKubernetes(absl::string_view rest) {
   if (absl::StartsWith(rest, "SERVICE_") || rest == "PORT") return true;
-  return absl::ConsumePrefix(&rest, "PORT_") && !rest.empty() && absl::ascii_isdigit(static_cast<unsigned char>(rest.front()));
+  return absl::ConsumePrefix(&rest, "PORT_") && !rest.empty() &&
+         absl::ascii_isdigit(static_cast<unsigned char>(rest.front()));
 }
 
 // Finds variables that look like options and are none.
