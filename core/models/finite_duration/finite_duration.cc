@@ -96,13 +96,19 @@ ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact
                        (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu_static) * end[kNormal];
   const double velocity = error * std::max(1.0, std::fabs(contact.u0)) + rounding * terms;
   const double determinant = contact.rank == 2 ? contact.stick_slope * contact.wtt : 0.0;
-  ImpulseErrors impulses = ErrorsOfImpulses(contact.wtt, contact.wtn, 1.0, determinant, velocity, velocity);
-  if (contact.smooth) impulses = {.tau = velocity, .f = 0.0};
-  if (forces) impulses = {};
+  const auto impulses_of = [&](double velocities) -> ImpulseErrors {
+    if (forces) return {};
+    if (contact.smooth) return {.tau = velocities, .f = 0.0};
+    return ErrorsOfImpulses(contact.wtt, contact.wtn, 1.0, determinant, velocities, velocities);
+  };
+  const ImpulseErrors impulses = impulses_of(velocity);
   // The impulses err as the estimate of the velocities does, which is no bound.
   constexpr double kOfEnergy = 2.0;
+  // What is cut off of a velocity stays in the impulses, which then act on the velocities before as well.
+  const ImpulseErrors kept = impulses_of(path.cut_off[kU] + path.cut_off[kV]);
   const double energy =
-      kOfEnergy * ((std::fabs(end[kU]) + velocity) * impulses.f + (std::fabs(end[kV]) + velocity) * impulses.tau);
+      kOfEnergy * ((std::fabs(end[kU]) + velocity) * impulses.f + (std::fabs(end[kV]) + velocity) * impulses.tau) +
+      (std::fabs(contact.u0) + std::fabs(end[kU]) + velocity) * kept.f + (1.0 + std::fabs(end[kV])) * kept.tau;
   const double middle_energy = (std::fabs(middle[kU]) + velocity) * impulses.f + velocity * impulses.tau;
   const double sums = rounding * (end[kNormal] * (1.0 + end[kV]) +
                                    contact.mu_static * end[kNormal] * (std::fabs(contact.u0) + path.peaks.slip));
