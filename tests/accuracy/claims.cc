@@ -182,7 +182,9 @@ void AddSpatial(int count, Jobs& jobs) {
 
 void AddCompliant(int count, Jobs& jobs) {
   ForBothKinds([&](const char* scenes, bool hard) {
-    jobs.all.push_back([=] { return std::vector<Row>{{"compliant", scenes, compliant::ClaimsOf(hard, count, kSeed)}}; });
+    jobs.all.push_back([=] {
+      return std::vector<Row>{{"compliant", scenes, compliant::ClaimsOf(hard, count, kSeed)}};
+    });
   });
 }
 

@@ -111,7 +111,7 @@ ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact
       (std::fabs(contact.u0) + std::fabs(end[kU]) + velocity) * kept.f + (1.0 + std::fabs(end[kV])) * kept.tau;
   const double middle_energy = (std::fabs(middle[kU]) + velocity) * impulses.f + velocity * impulses.tau;
   const double sums = rounding * (end[kNormal] * (1.0 + end[kV]) +
-                                   contact.mu_static * end[kNormal] * (std::fabs(contact.u0) + path.peaks.slip));
+                                  contact.mu_static * end[kNormal] * (std::fabs(contact.u0) + path.peaks.slip));
   double normal = 0.0, returned = 0.0, tangential = 0.0, tangential_returned = 0.0;
   if (contact.IsStraight()) {
     normal = impulses.tau + velocity * middle[kNormal] + sums;
