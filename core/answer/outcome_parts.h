@@ -56,7 +56,7 @@ WorkLedger MakeLedger(double normal_compression, double normal_restitution, doub
 void SetErrors(const ImpactErrors& errors, Outcome& outcome);
 
 // Adds to the errors what effects change that the plan leaves out: `neglected`, over max(|u0|, |v0|) = `speed`, in each
-// velocity. Of the other numbers no bound is known then; a coefficient that the law states stays exact.
+// velocity and so in Newton's coefficient. The errors of all other numbers become unset: no bound is known of them.
 void AddNeglected(double neglected, double speed, double v0, Outcome& outcome);
 
 // Says so if the outcome was followed to its end but its error exceeds `tolerance`, which a tolerance of 0 allows.

@@ -41,7 +41,10 @@ struct Row {
 
 // The rows whose scenes are solved together. They do not depend on any other rows.
 using Job = std::function<std::vector<Row>()>;
-using Jobs = std::vector<Job>;
+struct Jobs {
+  std::string only;  // what the name of a method must contain, of those whose numbers are compared
+  std::vector<Job> all;
+};
 
 std::string TextOf(double tolerance) {
   char text[16];
@@ -59,7 +62,8 @@ void ForBothKinds(const Add& add) {
 // The rows of the numbers of one method: each number is judged on its own scale.
 template <typename Claims>
 void AddNumbers(const std::string& method, const std::string& scenes, Jobs& jobs, const Claims& claims_of) {
-  jobs.push_back([=] {
+  if (method.find(jobs.only) == std::string::npos) return;
+  jobs.all.push_back([=] {
     const NumberClaims claims = claims_of();
     return std::vector<Row>{{method + ", u and v", scenes, claims.velocity},
                             {method + ", coefficients", scenes, claims.coefficient},
@@ -124,11 +128,11 @@ void AddNumbersOfSprings(int count, Jobs& jobs) {
 
 void AddPendulum(int count, Jobs& jobs) {
   ForBothKinds([&](const char* scenes, bool hard) {
-    jobs.push_back([=] {
+    jobs.all.push_back([=] {
       return std::vector<Row>{{"pendulum, plain", scenes, pendulum::PlainClaims(hard, count, kSeed)},
                               {"pendulum, compensated", scenes, pendulum::CompensatedClaims(hard, count, kSeed)}};
     });
-    jobs.push_back([=] {
+    jobs.all.push_back([=] {
       const first_order::Claims claims = first_order::ClaimsOf(hard, count, kSeed);
       return std::vector<Row>{{"first order, velocity", scenes, claims.velocity},
                               {"first order, impulse", scenes, claims.impulse}};
@@ -140,7 +144,7 @@ void AddPlanar(int count, Jobs& jobs) {
   ForBothKinds([&](const char* scenes, bool hard) {
     const auto add = [&](const std::string& method,
                          planar::PlainImpact (*solve)(const planar::Problem&, ImpactErrors*)) {
-      jobs.push_back([=] {
+      jobs.all.push_back([=] {
         const planar::Claims claims = planar::ClaimsOf(solve, hard, count, kSeed);
         return std::vector<Row>{{method + ", velocity", scenes, claims.velocity},
                                 {method + ", impulse", scenes, claims.impulse},
@@ -157,7 +161,7 @@ void AddSliding(const std::string& where, int count, Jobs& jobs) {
   ForBothKinds([&](const char* scenes, bool hard) {
     for (const bool friction : {true, false}) {
       const std::string method = friction ? "sliding" : "smooth";
-      jobs.push_back([=] {
+      jobs.all.push_back([=] {
         const sliding::Claims claims = sliding::ClaimsOf<kTangential>(friction, hard, count, kSeed);
         return std::vector<Row>{{method + ", velocity" + where, scenes, claims.velocity},
                                 {method + ", impulse" + where, scenes, claims.impulse}};
@@ -169,7 +173,7 @@ void AddSliding(const std::string& where, int count, Jobs& jobs) {
 void AddSpatial(int count, Jobs& jobs) {
   for (const double tolerance : spatial::kClaimTolerances) {
     ForBothKinds([&](const char* scenes, bool hard) {
-      jobs.push_back([=] {
+      jobs.all.push_back([=] {
         return std::vector<Row>{{"space", scenes, spatial::SpatialClaims(hard, tolerance, count, kSeed)}};
       });
     });
@@ -178,7 +182,9 @@ void AddSpatial(int count, Jobs& jobs) {
 
 void AddCompliant(int count, Jobs& jobs) {
   ForBothKinds([&](const char* scenes, bool hard) {
-    jobs.push_back([=] { return std::vector<Row>{{"compliant", scenes, compliant::ClaimsOf(hard, count, kSeed)}}; });
+    jobs.all.push_back([=] {
+      return std::vector<Row>{{"compliant", scenes, compliant::ClaimsOf(hard, count, kSeed)}};
+    });
   });
 }
 
@@ -190,7 +196,7 @@ void AddFiniteDuration(int count, Jobs& jobs) {
     const std::string method = std::string("duration, ") + name;
     for (const double tolerance : finite_duration::kClaimTolerances) {
       ForBothKinds([&, kind = kind](const char* scenes, bool hard) {
-        jobs.push_back([=] {
+        jobs.all.push_back([=] {
           return std::vector<Row>{{method, scenes, finite_duration::ClaimsOf(kind, hard, tolerance, count, kSeed)}};
         });
       });
@@ -201,7 +207,7 @@ void AddFiniteDuration(int count, Jobs& jobs) {
 // Does the jobs on all cores and prints their rows in order, each as soon as those before it are known. Returns how many
 // claims deceived. Each job draws its own scenes, so that no number depends on the cores.
 int PrintTable(const Jobs& jobs) {
-  std::vector<std::packaged_task<std::vector<Row>()>> tasks(jobs.begin(), jobs.end());
+  std::vector<std::packaged_task<std::vector<Row>()>> tasks(jobs.all.begin(), jobs.all.end());
   std::atomic<size_t> next = 0;
   const auto work = [&] {
     for (size_t i = next++; i < tasks.size(); i = next++) tasks[i]();
@@ -222,8 +228,7 @@ int PrintTable(const Jobs& jobs) {
   return deceived;
 }
 
-int Run(int count) {
-  Jobs jobs;
+void AddVelocities(int count, Jobs& jobs) {
   AddPendulum(count, jobs);
   AddPlanar(count, jobs);
   AddSliding<1>(" (2D)", count, jobs);
@@ -231,6 +236,11 @@ int Run(int count) {
   AddSpatial(count, jobs);
   AddCompliant(count, jobs);
   AddFiniteDuration(count, jobs);
+}
+
+int Run(int count, const std::string& only) {
+  Jobs jobs = {.only = only, .all = {}};
+  if (only.empty()) AddVelocities(count, jobs);
   AddNumbersOfClosedForms(count, jobs);
   AddNumbersOfSpace(count, jobs);
   AddNumbersOfSprings(count, jobs);
@@ -244,5 +254,5 @@ int Run(int count) {
 
 int main(int argc, char** argv) {
   constexpr int kCount = 10'000;
-  return ricochet::Run(argc > 1 ? std::atoi(argv[1]) : kCount);
+  return ricochet::Run(argc > 1 ? std::atoi(argv[1]) : kCount, argc > 2 ? argv[2] : "");
 }

@@ -170,7 +170,9 @@ std::optional<ExactImpact> SolveExactly(const Problem& problem) {
   const State& end = path.state_;
   ExactImpact exact;
   exact.u1 = {end[kU1], end[kU2]};
-  exact.v1 = problem.coefficient > 0.0 ? end[kV] : Of(0.0);
+  // Where friction jams the contact, v grows so far beyond |v0| that the path ends below its own digits of v.
+  const bool newton = problem.law == RestitutionLaw::kNewton;
+  exact.v1 = newton ? -(coefficient * problem.v0) : problem.coefficient > 0.0 ? end[kV] : Of(0.0);
   exact.tau_compression = compression[kTau];
   exact.tau1 = compression[kTau] + end[kTau];
   exact.f1 = {compression[kF1] + end[kF1], compression[kF2] + end[kF2]};

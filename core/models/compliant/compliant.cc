@@ -97,13 +97,13 @@ ImpactErrors NumberErrorsOf(const PlanarProblem& problem, const Units& units, co
   scaled.tau_compression = path.compression_end.tau;
   scaled.tau1 = path.end.tau;
   scaled.work_normal_compression = -stored;
-  errors.v = path.v_error + kEps * std::fabs(path.end.v);
+  errors.v = path.v_error + rounding * std::fabs(path.end.v);
   errors.tau_compression = first.impulses.tau;
   errors.tau = last.impulses.tau;
   errors.f = last.impulses.f;
   SetCoefficientErrors(scaled, problem.v0, RestitutionLaw::kEnergetic, problem.coefficient, errors);
   constexpr double kSmallest = 0x1p-1073;
-  errors.u = units.Speed(path.u_error + kEps * std::fabs(path.end.u)) + kSmallest;
+  errors.u = units.Speed(path.u_error + rounding * std::fabs(path.end.u)) + kSmallest;
   errors.v = units.Speed(errors.v) + kSmallest;
   errors.tau_compression = units.Impulse(first.impulses.tau) + kSmallest;
   errors.tau = units.Impulse(last.impulses.tau) + kSmallest;

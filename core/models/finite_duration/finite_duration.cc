@@ -86,28 +86,38 @@ ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact
                             const Impact& impact) {
   ImpactErrors errors;
   if (!path.HasEnd() || path.how == PathEnd::kHeld) return errors;
+  // Every step rounds the velocities and the impulses, each by itself.
+  const double rounding = kRounding + std::numeric_limits<double>::epsilon() * static_cast<double>(path.steps);
   const bool forces = contact.at != 0.0 || contact.an != 0.0;
   const Motion& end = path.end;
   const Motion& middle = path.compression;
   const double eta2 = Square(contact.eta);
   const double terms = std::fabs(contact.u0) + 1.0 + std::fabs(end[kU]) + std::fabs(end[kV]) +
                        (1.0 + (contact.wtt + std::fabs(contact.wtn)) * contact.mu_static) * end[kNormal];
-  const double velocity = error * std::max(1.0, std::fabs(contact.u0)) + kRounding * terms;
+  const double velocity = error * std::max(1.0, std::fabs(contact.u0)) + rounding * terms;
   const double determinant = contact.rank == 2 ? contact.stick_slope * contact.wtt : 0.0;
-  ImpulseErrors impulses = ErrorsOfImpulses(contact.wtt, contact.wtn, 1.0, determinant, velocity, velocity);
-  if (contact.smooth) impulses = {.tau = velocity, .f = 0.0};
-  if (forces) impulses = {};
+  const auto impulses_of = [&](double velocities) -> ImpulseErrors {
+    if (forces) return {};
+    if (contact.smooth) return {.tau = velocities, .f = 0.0};
+    return ErrorsOfImpulses(contact.wtt, contact.wtn, 1.0, determinant, velocities, velocities);
+  };
+  const ImpulseErrors impulses = impulses_of(velocity);
   // The impulses err as the estimate of the velocities does, which is no bound.
   constexpr double kOfEnergy = 2.0;
+  // What is cut off of a velocity stays in the impulses, which then act on the velocities before as well.
+  const ImpulseErrors kept = impulses_of(path.cut_off[kU] + path.cut_off[kV]);
   const double energy =
-      kOfEnergy * ((std::fabs(end[kU]) + velocity) * impulses.f + (std::fabs(end[kV]) + velocity) * impulses.tau);
+      kOfEnergy * ((std::fabs(end[kU]) + velocity) * impulses.f + (std::fabs(end[kV]) + velocity) * impulses.tau) +
+      (std::fabs(contact.u0) + std::fabs(end[kU]) + velocity) * kept.f + (1.0 + std::fabs(end[kV])) * kept.tau;
   const double middle_energy = (std::fabs(middle[kU]) + velocity) * impulses.f + velocity * impulses.tau;
-  const double sums = kRounding * (end[kNormal] * (1.0 + end[kV]) +
-                                   contact.mu_static * end[kNormal] * (std::fabs(contact.u0) + path.peaks.slip));
+  const double sums = rounding * (end[kNormal] * (1.0 + end[kV]) +
+                                  contact.mu_static * end[kNormal] * (std::fabs(contact.u0) + path.peaks.slip));
   double normal = 0.0, returned = 0.0, tangential = 0.0, tangential_returned = 0.0;
   if (contact.IsStraight()) {
     normal = impulses.tau + velocity * middle[kNormal] + sums;
-    returned = eta2 * normal + std::fabs(path.straight_other.normal + eta2 * path.straight_loading.normal) + sums;
+    // Without restitution nothing is returned, whatever is known of compression.
+    const double lacking = std::fabs(path.straight_other.normal + eta2 * path.straight_loading.normal);
+    returned = (eta2 > 0.0 ? eta2 * normal : 0.0) + lacking + sums;
     tangential = middle_energy + normal + sums;
     tangential_returned = energy + middle_energy + returned + sums;
   } else {

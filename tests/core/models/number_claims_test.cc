@@ -93,6 +93,17 @@ TEST_P(NumberClaimsTest, OfFiniteDurationAreKeptAndCoverWhatItsLedgerLacks) {
 INSTANTIATE_TEST_SUITE_P(Scenes, NumberClaimsTest, testing::Bool(),
                          [](const auto& test) { return test.param ? "Hard" : "Typical"; });
 
+// The impulses have no known errors at rank one, which no restitution multiplies by 0.
+TEST(FiniteDurationNumberClaimsTest, NoErrorAtRankOneWithoutRestitutionIsNaN) {
+  const finite_duration::Problem problem = {
+      .contact = {.w = {0.25, -0.5, 1.0}, .u0 = 0.5, .v0 = -1.0, .mu = 0.1, .mu_static = 0.1, .coefficient = 0.0},
+      .spring = LinearSpring{1e6}};
+  const ImpactErrors errors = finite_duration::Solve(problem).errors;
+  EXPECT_EQ(errors.tau, ImpactErrors::kUnknown);
+  EXPECT_LE(errors.work_normal_restitution, 1e-9);
+  EXPECT_EQ(errors.work_tangential_restitution, ImpactErrors::kUnknown);
+}
+
 // Coefficients, v and the normal impulse at the tightest tolerance, for |v0|/|u0| from 1 down to 1e-300. Where friction can jam
 // the contact, v becomes as large as slip, and what restitution asks for is below the digits of any oracle.
 TEST(GrazingTest, TheNormalPartIsRightToTwelveDigitsHoweverSmallItIs) {
@@ -112,6 +123,30 @@ TEST(GrazingTest, TheNormalPartIsRightToTwelveDigitsHoweverSmallItIs) {
     }
     ASSERT_LE(impact.errors.newton, 1e-10 * impact.newton) << spatial::ToString(problem);
   }
+}
+
+// Friction takes v from 1e-154 to the size of slip and back, and Newton's law ends it at e |v0|.
+TEST(GrazingTest, NewtonsLawEndsAJamAtItsOwnScale) {
+  const spatial::Problem problem = {.w11 = 0x1.e9aa9a3b278d4p-4,
+                                    .w12 = 0x1.31f6e85e77883p-5,
+                                    .w13 = -0x1.f35ac2238437p-9,
+                                    .w22 = 0x1.dd431497368c9p-1,
+                                    .w23 = -0x1.50f43cff782bp+0,
+                                    .w33 = 0x1.2e2d020ab2cd8p+1,
+                                    .u0 = {-0x1.fef8e47a43334p-2, -0x1.3335db5cd45e8p-3},
+                                    .v0 = -0x1.427bf4fa1a29ep-511,
+                                    .mu = 0x1.a3ccbdd961befp+4,
+                                    .mu_static = 0x1.a3ccbdd961befp+4,
+                                    .law = RestitutionLaw::kNewton,
+                                    .coefficient = 0x1.cddce1855495cp-1,
+                                    .tolerance = 1e-12};
+  const std::optional<spatial::ExactImpact> exact = spatial::SolveExactly(problem);
+  ASSERT_TRUE(exact.has_value());
+  const spatial::Impact impact = spatial::Solve(problem);
+  EXPECT_DOUBLE_EQ(impact.v1, -problem.coefficient * problem.v0);
+  NumberClaims claims;
+  claims.Add(impact.errors, Compare(impact, *exact), spatial::ToString(problem));
+  EXPECT_EQ(claims.deceived(), 0);
 }
 
 TEST(GrazingTest, StraightSlipOfRankOneInSpaceHasAnErrorOfSomeRoundings) {
