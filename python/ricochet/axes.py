@@ -62,9 +62,9 @@ def coordinates(path: str, axis: Axis) -> NDArray[np.float64]:
     return values
 
 
-def length(axis: Axis) -> int:
-    """Returns the number of values of an axis."""
-    return axis.count if isinstance(axis, (Linspace, Logspace)) else len(coordinates(axis))
+def length(path: str, axis: Axis) -> int:
+    """Returns the number of values of an axis. Raises InvalidRequest as `coordinates` does."""
+    return axis.count if isinstance(axis, (Linspace, Logspace)) else len(coordinates(path, axis))
 
 
 def to_message(path: str, axis: Axis) -> Any:

@@ -399,7 +399,7 @@ class Client:
         wanted = names.full_names(values.names(columns, "columns"), names.columns_of(request.scene), "columns")
         request.columns.extend(wanted)
         text = json_format.MessageToJson(request, indent=None)
-        lengths = [sweep_axes.length(axis) for axis in given.values()]
+        lengths = [sweep_axes.length(path, axis) for path, axis in given.items()]
         received = _Received(len(wanted), lengths[0] if zip_axes and lengths else math.prod(lengths))
         for chunk in self._chunks(request, received):
             received.take(chunk)

@@ -85,7 +85,7 @@ class Terminal(RicochetCase):
 
     def test_the_end_of_a_run_erases_the_bar_before_it_says_anything(self):
         for stdout in (subprocess.DEVNULL, None):  # None: the table comes to the terminal, too.
-            code, screen = self.run_on(100, [*SWEEP, "--axis", AXIS + "4e6"], stdout=stdout)
+            code, screen = self.run_on(100, [*SWEEP, "--axis", AXIS + "1e8"], stdout=stdout)
             self.assertEqual(code, 0)
             self.assertGreaterEqual(screen.bars, 1)
             self.assertEqual([line for line in screen.lines if "points/s" in line or "#" in line], [])
