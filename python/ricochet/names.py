@@ -27,7 +27,7 @@ _LETTERS = {
 # The parts of an outcome whose numbers are columns; there are others with numbers of the same names.
 _COLUMNS = (
     "coefficients rates_after_rad_s contact_velocity_after impulse work energy_change_j bodies_after effective accuracy "
-    "contact"
+    "contact errors"
 ).split()
 
 
@@ -89,8 +89,12 @@ def meanings(name: str, known: Collection[str]) -> list[str]:
     for whole in (name, _LETTERS.get(name, name)):
         if whole in known:
             return [whole]
-    ends = [(path, f".{path}", f".{without_unit(path)}") for path in known]
-    return [path for path, full, short in ends if full.endswith(f".{name}") or short.endswith(f".{name}")]
+    return [path for path in known if _ends_in(path, name) or _ends_in(without_unit(path), name)]
+
+
+def _ends_in(path: str, name: str) -> bool:
+    # An error has the name of its number, which is what the name alone means.
+    return path == name or (path.endswith(f".{name}") and not path.startswith("errors."))
 
 
 def full_names(given: Iterable[str], known: list[str], what: str) -> list[str]:
