@@ -51,7 +51,7 @@ std::string WhyNoHost(absl::string_view host) {
     return is_ipv6 ? "" : "must have an IPv6 address between its brackets";
   }
   if (absl::StrContains(host, ':')) return "must have brackets around an IPv6 address, as [::1]:50051";
-  const auto is_of_name = [](char c) { return absl::ascii_isalnum(c) || c == '.' || c == '-' || c == '_'; };
+  const auto is_of_name = [](unsigned char c) { return absl::ascii_isalnum(c) || c == '.' || c == '-' || c == '_'; };
   if (!std::all_of(host.begin(), host.end(), is_of_name))
     return "must have a host of letters, digits, dots and hyphens";
   const bool is_name = host.find_first_not_of("0123456789.") != absl::string_view::npos;
