@@ -59,8 +59,14 @@ template <typename T>
 T EnergyError(const ScaledProblem<T>& problem, const Path<T>& path, const EndErrors<T>& errors) {
   const State<T>& end = path.state;
   const T tau = path.compression_end.tau + end.tau;
-  const T terms = problem.mu_static * tau * (problem.velocity + end.Slip()) +
-                  problem.graze * tau * (problem.approach + std::fabs(end.v));
+  const State<T>& compression = path.compression_end;
+  // Friction turns with slip, so that its impulse may be smaller than the parts it was summed from. It stays in its cone,
+  // which is no bound where the contact sticks by a large coefficient.
+  const T phases = std::sqrt(compression.f1 * compression.f1 + compression.f2 * compression.f2) +
+                   std::sqrt(end.f1 * end.f1 + end.f2 * end.f2);
+  const T friction = std::min(problem.mu_static * tau, T{16} * phases + problem.graze * tau);
+  const T terms =
+      friction * (problem.velocity + end.Slip()) + problem.graze * tau * (problem.approach + std::fabs(end.v));
   return errors.energy + T{4} * kEpsilon<T> * terms;
 }
 
@@ -78,7 +84,7 @@ ImpactErrors ErrorsOfCoefficients(const ScaledProblem<T>& problem, const Path<T>
   out.v = rounded(errors.v, path.state.v);
   out.tau_compression = rounded(errors.tau_compression, compression.tau);
   out.tau = rounded(errors.tau, compression.tau + path.state.tau);
-  out.f = rounded(errors.f, problem.mu_static * scaled.tau1);
+  out.f = rounded(errors.f, static_cast<T>(impact.tangential * scaled.tau1));
   out.work_normal_compression = rounded(errors.normal_compression, compression.normal_work);
   out.work_normal_restitution = rounded(errors.normal_restitution, path.state.normal_work);
   SetCoefficientErrors(scaled, static_cast<double>(problem.v), problem.law, static_cast<double>(problem.coefficient),
@@ -150,8 +156,10 @@ Impact MakeImpact(const ScaledProblem<T>& problem, const Path<T>& path, const En
   impact.tangential = internal::Share(std::sqrt(f1 * f1 + f2 * f2), tau);
   const T energy_error = internal::EnergyError(problem, path, errors);
   impact.energy_limit_broken = friction_change + problem.graze * normal_change > energy_error;
-  impact.sharp_limit_broken =
-      restitution_work + compression_work > errors.normal_compression + errors.normal_restitution;
+  // The works have no known error where a large coefficient only holds the contact; that of the velocities serves then.
+  const T work_error = std::min(errors.normal_compression + errors.normal_restitution,
+                                errors.relative * problem.velocity * (tau + std::fabs(f1) + std::fabs(f2)));
+  impact.sharp_limit_broken = restitution_work + compression_work > work_error;
   impact.events = path.events;
   impact.event_count = path.event_count;
   internal::StateCoefficient(problem, path, impact);
