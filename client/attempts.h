@@ -63,8 +63,8 @@ class Attempts {
 // True if the server refused a call for now, and said when to repeat it.
 bool IsWorthRepeating(const absl::Status& status);
 
-// True if another call may get further than a stream that ended with `status`. Proxies report a dead server as UNKNOWN or
-// INTERNAL, and a server that drains may cancel a call that it has not read yet.
+// True if another call may get further than a stream that ended with `status`. Proxies report a dead server as UNKNOWN
+// or INTERNAL, and a server that drains may cancel a call that it has not read yet.
 bool MayResume(const absl::Status& status);
 
 // Gives all attempts of a call one deadline, at most `most` from now; absent: that of the options, if any.

@@ -6,7 +6,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/final_failure.h"
-#include "core/batch/check_rows.h"
+#include "core/types/check_rows.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/status.h"

@@ -1,7 +1,7 @@
 // RemoteBatches: the batches of one session, asked of a server over one call that stays open.
 //
-// A batch that is longer than a piece is sent piece by piece, while the answers to the pieces before are read. A call that
-// breaks off is replaced by another, which goes on at the first piece without an answer.
+// A batch that is longer than a piece is sent piece by piece, while the answers to the pieces before are read. A call
+// that breaks off is replaced by another, which goes on at the first piece without an answer.
 
 #ifndef RICOCHET_CLIENT_BATCH_SESSION_H_
 #define RICOCHET_CLIENT_BATCH_SESSION_H_

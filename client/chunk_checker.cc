@@ -5,7 +5,7 @@
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
-#include "core/sweep/grid.h"
+#include "core/types/grid.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet {

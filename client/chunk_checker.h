@@ -23,8 +23,8 @@ class ChunkChecker {
  public:
   explicit ChunkChecker(const SweepRequest& request);
 
-  // Returns the next chunk, with the points done and the tallies of all calls. Errors: DATA_LOSS if `message` cannot be it;
-  // FAILED_PRECONDITION if the engine of a new call is not that of the call before.
+  // Returns the next chunk, with the points done and the tallies of all calls. Errors: DATA_LOSS if `message` cannot be
+  // it; FAILED_PRECONDITION if the engine of a new call is not that of the call before.
   absl::StatusOr<SweepChunk> Take(const v1::SweepResponse& message);
 
   // True once a chunk was received.
@@ -56,7 +56,8 @@ class ChunkChecker {
   bool summarised_ = false;
 };
 
-// Returns the error FAILED_PRECONDITION for a sweep whose points from `index` on come from another engine than those before.
+// Returns the error FAILED_PRECONDITION for a sweep whose points from `index` on come from another engine than those
+// before.
 absl::Status OtherEngine(int64_t index, const std::string& fingerprint, const std::string& before);
 
 }  // namespace ricochet

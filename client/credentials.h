@@ -15,8 +15,8 @@
 
 namespace ricochet {
 
-// Returns the rules that the options break, with the names of ClientOptions ("security.tls_key"). A token without TLS is
-// refused unless `target` is a Unix socket or a loopback address.
+// Returns the rules that the options break, with the names of ClientOptions ("security.tls_key"). A token without TLS
+// is refused unless `target` is a Unix socket or a loopback address.
 std::vector<Violation> SecurityViolations(const SecurityOptions& options, const std::string& target);
 
 // Makes the credentials. The options must be valid.

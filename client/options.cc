@@ -7,7 +7,7 @@
 #include "absl/strings/string_view.h"
 #include "client/credentials.h"
 #include "client/server_address.h"
-#include "core/numerics/decimal.h"
+#include "core/base/decimal.h"
 #include "ricochet/client_options.h"
 #include "ricochet/error.h"
 

@@ -1,5 +1,5 @@
-// RangeBoard: the points of one sweep that several servers compute, range by range: which server has which range, and the
-// chunks that wait until the points before them have left.
+// RangeBoard: the points of one sweep that several servers compute, range by range: which server has which range, and
+// the chunks that wait until the points before them have left.
 
 #ifndef RICOCHET_CLIENT_RANGE_BOARD_H_
 #define RICOCHET_CLIENT_RANGE_BOARD_H_
@@ -38,12 +38,12 @@ class RangeBoard {
   // them are out or wait, but at least one point.
   RangeBoard(int64_t first_index, int64_t end_index, int64_t point_bytes, int64_t buffer_bytes, int64_t servers);
 
-  // Gives out the first range that nobody computes; else the one that the reader waits for, if AskAnother was called; else
-  // a new one of at most `points` >= 1 points. Nothing if there is no point left, or no room.
+  // Gives out the first range that nobody computes; else the one that the reader waits for, if AskAnother was called;
+  // else a new one of at most `points` >= 1 points. Nothing if there is no point left, or no room.
   std::optional<Task> Take(int64_t points);
 
-  // Takes the next chunk of a task, and triggers the stop of any other task for its range. Returns false if that happened
-  // to this task.
+  // Takes the next chunk of a task, and triggers the stop of any other task for its range. Returns false if that
+  // happened to this task.
   bool Put(const Task& task, SweepChunk chunk);
 
   // Says that a task has ended. Nobody computes the rest of its range unless there is another task for it.

@@ -24,8 +24,8 @@ class StreamCall {
  public:
   using Reader = grpc::ClientReaderInterface<Message>;
 
-  // Starts the call by `start`, which receives the context and returns the stream. The call ends when `options` say so, or
-  // `deadline` from now.
+  // Starts the call by `start`, which receives the context and returns the stream. The call ends when `options` say so,
+  // or `deadline` from now.
   StreamCall(absl::FunctionRef<std::unique_ptr<Reader>(grpc::ClientContext*)> start,
              std::optional<std::chrono::milliseconds> deadline, const CallOptions& options)
       : context_(options, deadline), reader_(start(&context_.get())) {}

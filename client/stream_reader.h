@@ -16,8 +16,8 @@
 
 namespace ricochet {
 
-// Reads one stream of `Wire` messages; the last one, and no other, has a summary. `Checker` has Take(message), which makes
-// each message in order a `Chunk`, and CheckEnd(); both give DATA_LOSS if a chunk is missing or wrong.
+// Reads one stream of `Wire` messages; the last one, and no other, has a summary. `Checker` has Take(message), which
+// makes each message in order a `Chunk`, and CheckEnd(); both give DATA_LOSS if a chunk is missing or wrong.
 //
 // Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
 template <typename Wire, typename Chunk, typename Checker>
@@ -25,8 +25,8 @@ class StreamReader {
  public:
   using Call = typename StreamCall<Wire>::Reader;
 
-  // Starts the call by `start`, which receives the context and returns the stream. The call ends when `options` say so, or
-  // `deadline` from now.
+  // Starts the call by `start`, which receives the context and returns the stream. The call ends when `options` say so,
+  // or `deadline` from now.
   StreamReader(absl::FunctionRef<std::unique_ptr<Call>(grpc::ClientContext*)> start, Checker checker,
                std::optional<std::chrono::milliseconds> deadline, const CallOptions& options)
       : checker_(std::move(checker)), options_(options), call_(start, deadline, options) {}

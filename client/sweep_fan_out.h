@@ -30,8 +30,8 @@
 namespace ricochet {
 
 // The chunks, joined, and the summary are those of a call that nothing disturbed. It fails like a SweepReader; a server
-// that cannot be reached is a failure only once all servers have failed as often as the retry policy allows. Until then it
-// is asked again and again, in case that it comes back.
+// that cannot be reached is a failure only once all servers have failed as often as the retry policy allows. Until then
+// it is asked again and again, in case that it comes back.
 //
 // Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
 class SweepFanOut {
@@ -44,7 +44,8 @@ class SweepFanOut {
     FanOut fan_out;
   };
 
-  // `request` is for at least one point of a valid grid and has an end_index. All calls together end when `options` say so.
+  // `request` is for at least one point of a valid grid and has an end_index. All calls together end when `options` say
+  // so.
   SweepFanOut(const SweepRequest& request, Servers servers, const CallOptions& options);
 
   // Ends all calls and waits for their threads.

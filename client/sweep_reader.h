@@ -1,5 +1,5 @@
-// SweepReader: the receiving end of a sweep. It reads the server's stream, checks that no point is missing or damaged, and
-// goes on with another call where one breaks off.
+// SweepReader: the receiving end of a sweep. It reads the server's stream, checks that no point is missing or damaged,
+// and goes on with another call where one breaks off.
 
 #ifndef RICOCHET_CLIENT_SWEEP_READER_H_
 #define RICOCHET_CLIENT_SWEEP_READER_H_

@@ -15,11 +15,11 @@
 #include <variant>
 
 #include "absl/synchronization/mutex.h"
-#include "server/log.h"
-#include "server/log_writer.h"
+#include "server/base/log.h"
+#include "server/base/log_writer.h"
+#include "server/base/signals.h"
 #include "server/options.h"
 #include "server/server.h"
-#include "server/signals.h"
 #include "server/start_fields.h"
 
 namespace {
@@ -27,7 +27,8 @@ namespace {
 // The time at the end for lines of the log that are not yet written; a log that nobody reads keeps some for ever.
 constexpr std::chrono::seconds kTimeForLog(1);
 
-// Opens what is closed of standard input, output and error, so that no socket gets their numbers and what is written there.
+// Opens what is closed of standard input, output and error, so that no socket gets their numbers and what is written
+// there.
 void OpenStandardDescriptors() {
   int descriptor = 0;
   do {
@@ -36,8 +37,8 @@ void OpenStandardDescriptors() {
   if (descriptor > STDERR_FILENO) close(descriptor);
 }
 
-// Makes glibc return the memory of large requests. It would share the memory out to eight arenas a core, and serve ever larger
-// blocks from them, which stay once requests of all sizes have been mixed in them.
+// Makes glibc return the memory of large requests. It would share the memory out to eight arenas a core, and serve ever
+// larger blocks from them, which stay once requests of all sizes have been mixed in them.
 void BoundKeptMemory() {
   constexpr int kLargeBlock = 1 << 20;
   constexpr int kMostKeptInAnArena = 8 << 20;

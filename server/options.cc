@@ -24,9 +24,9 @@
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
-#include "core/engine/engine.h"
-#include "core/scene/nearest.h"
-#include "server/callers.h"
+#include "core/base/nearest.h"
+#include "ricochet/engine_info.h"
+#include "server/security/callers.h"
 
 namespace ricochet::server {
 namespace {
@@ -386,7 +386,8 @@ std::string InWords(const CLI::App& app, const CLI::ParseError& error) {
   return error.what();
 }
 
-// Kubernetes tells a pod of a Service that is called ricochetd by RICOCHETD_SERVICE_HOST, RICOCHETD_PORT_50051_TCP and so on.
+// Kubernetes tells a pod of a Service that is called ricochetd by RICOCHETD_SERVICE_HOST, RICOCHETD_PORT_50051_TCP and
+// so on.
 bool IsOfKubernetes(absl::string_view rest) {
   if (absl::StartsWith(rest, "SERVICE_") || rest == "PORT") return true;
   return absl::ConsumePrefix(&rest, "PORT_") && !rest.empty() &&

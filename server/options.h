@@ -18,14 +18,14 @@
 
 #include "absl/status/statusor.h"
 #include "ricochet/limits.h"
-#include "server/call.h"
-#include "server/call_rule.h"
-#include "server/connection_counts.h"
-#include "server/listen_address.h"
-#include "server/log.h"
-#include "server/places.h"
-#include "server/tls_files.h"
-#include "server/transport.h"
+#include "server/admission/places.h"
+#include "server/base/listen_address.h"
+#include "server/base/log.h"
+#include "server/calls/call.h"
+#include "server/security/tls_files.h"
+#include "server/telemetry/call_rule.h"
+#include "server/transport/connection_counts.h"
+#include "server/transport/transport.h"
 
 namespace ricochet::server {
 

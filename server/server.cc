@@ -9,13 +9,13 @@
 #include <string>
 #include <utility>
 
-#include "server/call_watch.h"
-#include "server/descriptor_limit.h"
-#include "server/port_file.h"
-#include "server/self_test.h"
+#include "server/base/descriptor_limit.h"
+#include "server/base/port_file.h"
+#include "server/health/self_test.h"
+#include "server/health/serving_check.h"
 #include "server/server_limits.h"
-#include "server/serving_check.h"
-#include "server/transport.h"
+#include "server/telemetry/call_watch.h"
+#include "server/transport/transport.h"
 
 namespace ricochet::server {
 namespace {

@@ -1,4 +1,4 @@
-// Server: the impact service with health checks and limits; server/drain.h says how it stops.
+// Server: the impact service with health checks and limits; server/base/drain.h says how it stops.
 
 #ifndef RICOCHET_SERVER_SERVER_H_
 #define RICOCHET_SERVER_SERVER_H_
@@ -12,29 +12,29 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/solver.h"
-#include "server/auth.h"
-#include "server/bounded_service.h"
-#include "server/drain.h"
-#include "server/endpoint.h"
-#include "server/gate.h"
-#include "server/impact_service.h"
-#include "server/log.h"
-#include "server/metrics_page.h"
-#include "server/observer.h"
+#include "server/admission/gate.h"
+#include "server/admission/places.h"
+#include "server/admission/unread_watch.h"
+#include "server/admission/watchdog.h"
+#include "server/base/drain.h"
+#include "server/base/log.h"
+#include "server/base/signals.h"
+#include "server/calls/bounded_service.h"
+#include "server/calls/impact_service.h"
+#include "server/health/reflection.h"
 #include "server/options.h"
-#include "server/places.h"
-#include "server/reflection.h"
-#include "server/signals.h"
-#include "server/unread_watch.h"
-#include "server/watchdog.h"
+#include "server/security/auth.h"
+#include "server/telemetry/metrics_page.h"
+#include "server/telemetry/observer.h"
+#include "server/transport/endpoint.h"
 
 namespace ricochet::server {
 
 class Server {
  public:
   // Starts a server that takes calls. `log` must outlive it.
-  // Errors: INTERNAL if it does not compute right (server/self_test.h), UNAVAILABLE if it cannot listen, those of
-  // WritePortFile.
+  // Errors: INTERNAL if it does not compute right (server/health/self_test.h), UNAVAILABLE if it cannot listen, those
+  // of WritePortFile.
   static absl::StatusOr<std::unique_ptr<Server>> Start(const Options& options, const Log& log);
 
   // Cancels the calls that still run.
@@ -49,8 +49,8 @@ class Server {
   void AtHangUp(std::function<void()> reopen) { reopen_.push_back(std::move(reopen)); }
 
   // Serves until a signal stops it, then drains. Call it once; afterwards the process must exit without destroying the
-  // server: a client that has stopped reading can block a write for ever, so that a thread may still use this object and
-  // its destruction may never end. The exit closes all connections.
+  // server: a client that has stopped reading can block a write for ever, so that a thread may still use this object
+  // and its destruction may never end. The exit closes all connections.
   void ServeUntil(const Signals& signals);
 
  private:

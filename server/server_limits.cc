@@ -1,7 +1,7 @@
 #include "server/server_limits.h"
 
-#include "server/bounded_service.h"
-#include "server/transport.h"
+#include "server/calls/bounded_service.h"
+#include "server/transport/transport.h"
 
 namespace ricochet::server {
 

@@ -1,4 +1,5 @@
-// ServerLimitsOf: the limits of a server beyond those of a request's size, as clients ask for them and the log states them.
+// ServerLimitsOf: the limits of a server beyond those of a request's size, as clients ask for them and the log states
+// them.
 
 #ifndef RICOCHET_SERVER_SERVER_LIMITS_H_
 #define RICOCHET_SERVER_SERVER_LIMITS_H_

@@ -6,9 +6,9 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "core/engine/engine.h"
+#include "ricochet/engine_info.h"
 #include "ricochet/limits.h"
-#include "server/listen_address.h"
+#include "server/base/listen_address.h"
 #include "server/server_limits.h"
 
 namespace ricochet::server {

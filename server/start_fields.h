@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "server/log.h"
+#include "server/base/log.h"
 #include "server/options.h"
 
 namespace ricochet::server {

@@ -1,4 +1,4 @@
-#include "client/cli/audit.h"
+#include "proto/wire/audit.h"
 
 #include <CLI/App.hpp>
 #include <memory>
@@ -8,15 +8,16 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
-#include "client/cli/audit_plot.h"
-#include "client/cli/audit_report.h"
 #include "client/cli/audit_rows.h"
-#include "client/cli/file_option.h"
-#include "client/cli/number_input.h"
-#include "client/cli/picture_input.h"
-#include "client/cli/scene_input.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/make_solver.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/plot/picture_input.h"
+#include "client/cli/report/audit_plot.h"
+#include "client/cli/report/audit_report.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/text/number_input.h"
 #include "core/contact/reduction.h"
-#include "proto/wire/audit.h"
 
 namespace ricochet::cli {
 namespace {
@@ -82,11 +83,10 @@ absl::Status AuditOne(const AuditOptions& options, const Solver& solver, const S
       solver.Audit({.scene = scene, .observed = *observed, .velocity_uncertainty_m_s = *uncertainty});
   if (!response.ok()) return response.status();
   const size_t directions = TangentialDirections(scene.system);
-  const absl::StatusOr<std::string> text = Render(
-      options.common.format, [&] { return AuditText(*response, directions); }, [&] { return Json(ToProto(*response)); },
-      [&] { return absl::StrCat(AuditCsvHeader(directions), "\n", AuditCsvRow(response->report, directions), "\n"); });
-  if (!text.ok()) return text.status();
-  if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
+  absl::Status written = WriteAnswer(
+      options.common, *response, [&] { return AuditText(*response, directions); },
+      [&] { return CsvOf({AuditCsvRow(response->report, directions)}); });
+  if (!written.ok()) return written;
   if (!options.data.picture.file.empty()) {
     AuditPlot plot;
     plot.Add(response->report);

@@ -5,22 +5,20 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <functional>
 #include <iostream>
-#include <memory>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "client/cli/audit_data.h"
-#include "client/cli/audit_plot.h"
-#include "client/cli/audit_report.h"
-#include "client/cli/csv_table.h"
-#include "client/cli/interrupt.h"
-#include "client/cli/json/json_text.h"
-#include "client/cli/output.h"
-#include "client/cli/progress.h"
+#include "client/cli/input/audit_data.h"
+#include "client/cli/io/csv_row.h"
+#include "client/cli/io/output.h"
+#include "client/cli/report/audit_plot.h"
+#include "client/cli/report/audit_report.h"
+#include "client/cli/terminal/interrupt.h"
+#include "client/cli/terminal/progress.h"
+#include "client/cli/text/json_text.h"
+#include "core/audit/audit_scene.h"
 #include "core/contact/reduction.h"
-#include "core/study/audit_scene.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
 
@@ -44,14 +42,6 @@ struct Ending {
   std::string first_invalid;  // The first invalid rows in words.
 };
 
-class Writer {
- public:
-  virtual ~Writer() = default;
-  virtual std::string Begin() { return ""; }
-  virtual std::string RowText(const Row& row) = 0;
-  virtual std::string End(const Ending& ending) = 0;
-};
-
 std::string Complaint(const Row& row) {
   return absl::StrCat("  row ", row.index, " (line ", row.line, "): ", AuditComplaint(row.report, row.reason), "\n");
 }
@@ -59,39 +49,6 @@ std::string Complaint(const Row& row) {
 std::string SummaryText(const Ending& ending) {
   return absl::StrCat(AuditSummaryText(ending.summary), ending.first_invalid);
 }
-
-class TextWriter : public Writer {
- public:
-  explicit TextWriter(bool list) : list_(list) {}
-  std::string Begin() override { return list_ ? "Rows that are not admissible\n" : ""; }
-  std::string RowText(const Row& row) override {
-    return list_ && !row.report.admissible ? Complaint(row) : std::string();
-  }
-  std::string End(const Ending& ending) override {
-    return list_ ? absl::StrCat("\n", AuditSummaryText(ending.summary)) : SummaryText(ending);
-  }
-
- private:
-  bool list_;
-};
-
-// The last cell of a row is its reason, in quotes because it may have commas. The summary goes to standard error.
-class CsvWriter : public Writer {
- public:
-  explicit CsvWriter(size_t directions) : directions_(directions) {}
-  std::string Begin() override { return absl::StrCat("index,", AuditCsvHeader(directions_), ",invalid_reason\n"); }
-  std::string RowText(const Row& row) override {
-    const std::string reason = row.reason.empty() ? "" : CsvQuoted(row.reason);
-    return absl::StrCat(row.index, ",", AuditCsvRow(row.report, directions_), ",", reason, "\n");
-  }
-  std::string End(const Ending& ending) override {
-    std::cerr << SummaryText(ending);
-    return std::string();
-  }
-
- private:
-  size_t directions_;
-};
 
 // Returns the report as the members of an object of JSON. An invalid row has no numbers, but a reason.
 std::string Members(const Row& row) {
@@ -104,44 +61,53 @@ std::string Members(const Row& row) {
   return json;
 }
 
-// Writes the members of an AuditBatchResponse one after the other, as if one call had answered all rows.
-class JsonWriter : public Writer {
+// Makes the text of the audit in one of its formats. The summary is at the end of text and JSON, and on standard error
+// for the others. JSON has the members of an AuditBatchResponse one after the other, as if one call had answered all
+// rows.
+class Writer {
  public:
-  std::string Begin() override { return "{\"reports\":["; }
-  std::string RowText(const Row& row) override {
-    return absl::StrCat(row.index == 0 ? "\n{" : ",\n{", Members(row), "}");
-  }
-  std::string End(const Ending& ending) override {
-    AuditBatchResponse rest;
-    rest.summary = ending.summary;
-    return absl::StrCat("\n],\"summary\":", JsonOf(ToProto(rest).summary()),
-                        ",\"engine\":", JsonOf(ToProto(ending.engine)), "}\n");
-  }
-};
+  Writer(Format format, const Scene& scene, bool list)
+      : format_(format), directions_(TangentialDirections(scene.system)), list_(list) {}
 
-// Writes an object on a line for each row. The summary goes to standard error.
-class JsonLinesWriter : public Writer {
- public:
-  std::string RowText(const Row& row) override {
-    return absl::StrCat("{\"index\":", row.index, ",", Members(row), "}\n");
+  std::string Begin() const {
+    if (format_ == Format::kText) return list_ ? "Rows that are not admissible\n" : "";
+    if (format_ == Format::kJson) return "{\"reports\":[";
+    if (format_ == Format::kJsonLines) return "";
+    return absl::StrCat("index,", AuditCsvRow(AuditReport(), directions_).Names(), ",invalid_reason\n");
   }
-  std::string End(const Ending& ending) override {
+
+  std::string RowText(const Row& row) const {
+    if (format_ == Format::kText) return list_ && !row.report.admissible ? Complaint(row) : "";
+    if (format_ == Format::kJson) return absl::StrCat(row.index == 0 ? "\n{" : ",\n{", Members(row), "}");
+    if (format_ == Format::kJsonLines) return absl::StrCat("{\"index\":", row.index, ",", Members(row), "}\n");
+    // A reason may have commas.
+    return absl::StrCat(row.index, ",", AuditCsvRow(row.report, directions_).Values(), ",",
+                        row.reason.empty() ? "" : CsvQuoted(row.reason), "\n");
+  }
+
+  std::string End(const Ending& ending) const {
+    if (format_ == Format::kText && list_) return absl::StrCat("\n", AuditSummaryText(ending.summary));
+    if (format_ == Format::kText) return SummaryText(ending);
+    if (format_ == Format::kJson) {
+      AuditBatchResponse rest;
+      rest.summary = ending.summary;
+      return absl::StrCat("\n],\"summary\":", JsonOf(ToProto(rest).summary()),
+                          ",\"engine\":", JsonOf(ToProto(ending.engine)), "}\n");
+    }
     std::cerr << SummaryText(ending);
     return "";
   }
-};
 
-std::unique_ptr<Writer> MakeWriter(Format format, const Scene& scene, bool list) {
-  if (format == Format::kText) return std::make_unique<TextWriter>(list);
-  if (format == Format::kJson) return std::make_unique<JsonWriter>();
-  if (format == Format::kJsonLines) return std::make_unique<JsonLinesWriter>();
-  return std::make_unique<CsvWriter>(TangentialDirections(scene.system));
-}
+ private:
+  Format format_;
+  size_t directions_;
+  bool list_;
+};
 
 // Audits one part of the table after the other.
 class Auditor {
  public:
-  Auditor(const Solver& solver, const Scene& scene, const AuditDataOptions& data, Writer& writer, Output& output)
+  Auditor(const Solver& solver, const Scene& scene, const AuditDataOptions& data, const Writer& writer, Output& output)
       : solver_(solver), scene_(scene), data_(data), writer_(writer), output_(output) {}
 
   absl::Status Audit(const AuditRows& rows) {
@@ -185,7 +151,7 @@ class Auditor {
   const Solver& solver_;
   const Scene& scene_;
   const AuditDataOptions& data_;
-  Writer& writer_;
+  const Writer& writer_;
   Output& output_;
   AuditPlot plot_;
   Ending ending_;
@@ -241,8 +207,8 @@ absl::Status AuditData(const AuditDataOptions& data, const CommonOptions& option
   }
   absl::StatusOr<Output> output = Output::Open(options.output);
   if (!output.ok()) return output.status();
-  const std::unique_ptr<Writer> writer = MakeWriter(options.format, scene, data.list);
-  Auditor auditor(solver, scene, data, *writer, *output);
+  const Writer writer(options.format, scene, data.list);
+  Auditor auditor(solver, scene, data, writer, *output);
   const bool has_rows = data.list || options.format != Format::kText;
   return AuditAll(*table, size, data, has_rows && options.output.empty(), auditor);
 }

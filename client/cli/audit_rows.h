@@ -8,8 +8,9 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "client/cli/common.h"
-#include "client/cli/picture_input.h"
+#include "client/cli/input/command_options.h"
+#include "client/cli/plot/picture_input.h"
+#include "ricochet/solver.h"
 
 namespace ricochet::cli {
 

@@ -1,5 +1,3 @@
-#include "client/cli/bounds.h"
-
 #include <CLI/App.hpp>
 #include <array>
 #include <cmath>
@@ -9,15 +7,17 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
-#include "client/cli/axis_input.h"
-#include "client/cli/bounds_plot.h"
-#include "client/cli/certificate_report.h"
-#include "client/cli/name_list.h"
-#include "client/cli/picture_input.h"
-#include "client/cli/scene_input.h"
-#include "client/cli/table.h"
-#include "core/numerics/decimal.h"
+#include "client/cli/input/axis_input.h"
+#include "client/cli/input/certificate_report.h"
+#include "client/cli/input/make_solver.h"
+#include "client/cli/input/name_list.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/io/csv_row.h"
+#include "client/cli/plot/picture_input.h"
+#include "client/cli/report/bounds_plot.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/text/enum_names.h"
+#include "client/cli/text/table.h"
 #include "core/scene/field.h"
 #include "proto/wire/requests.h"
 
@@ -159,36 +159,37 @@ std::string BoundsText(const BoundsRequest& request, const BoundsResponse& respo
   return text;
 }
 
-// Appends the two cells of `range`, empty ones if there is none.
-void AddCells(const std::optional<Range>& range, std::vector<std::string>& row) {
-  row.push_back(range.has_value() ? ShortestDecimal(range->lower) : "");
-  row.push_back(range.has_value() ? ShortestDecimal(range->upper) : "");
+// Adds the range of a quantity within bounds that may be unset.
+void AddRange(const std::string& name, const Quantity& quantity, const std::optional<CoefficientBounds>& bounds,
+              CsvRow& row) {
+  const std::optional<Range> range = bounds.has_value() ? std::optional((*bounds).*quantity.range) : std::nullopt;
+  row.Number(name + ".lower", range.has_value() ? std::optional(range->lower) : std::nullopt);
+  row.Number(name + ".upper", range.has_value() ? std::optional(range->upper) : std::nullopt);
 }
 
 std::string BoundsCsv(const BoundsResponse& response) {
   const Bounds& bounds = response.bounds;
-  const auto range_of = [](const auto& limits, const Quantity& quantity) {
-    return limits.has_value() ? std::optional((*limits).*quantity.range) : std::nullopt;
-  };
-  const std::optional<Enclosure>& enclosure = response.enclosure;
-  std::string text =
-      "quantity,regime,friction_ratio,slope_ratio,sharp.lower,sharp.upper,energy_only.lower,energy_only.upper,"
-      "nearly_vertical.lower,nearly_vertical.upper,nearly_vertical.error,"
-      "enclosure.outer.lower,enclosure.outer.upper,enclosure.attained.lower,enclosure.attained.upper\n";
+  std::optional<CoefficientBounds> vertical, outer, attained;
+  if (bounds.nearly_vertical.has_value()) vertical = bounds.nearly_vertical->bounds;
+  if (response.enclosure.has_value()) outer = response.enclosure->outer;
+  if (response.enclosure.has_value()) attained = response.enclosure->attained;
+  std::vector<CsvRow> rows;
   for (const Quantity& quantity : kQuantities) {
-    std::vector<std::string> row = {quantity.name, RegimeName(bounds.regime), ShortestDecimal(bounds.friction_ratio),
-                                    ShortestDecimal(bounds.slope_ratio)};
-    AddCells(bounds.sharp.*quantity.range, row);
-    AddCells(range_of(bounds.energy_only, quantity), row);
-    const bool vertical = bounds.nearly_vertical.has_value();
-    AddCells(vertical ? std::optional(bounds.nearly_vertical->bounds.*quantity.range) : std::nullopt, row);
-    const double error = vertical && quantity.error != nullptr ? (*bounds.nearly_vertical).*quantity.error : 0.0;
-    row.push_back(vertical ? ShortestDecimal(error) : "");
-    AddCells(range_of(enclosure.has_value() ? std::optional(enclosure->outer) : std::nullopt, quantity), row);
-    AddCells(range_of(enclosure.has_value() ? std::optional(enclosure->attained) : std::nullopt, quantity), row);
-    absl::StrAppend(&text, absl::StrJoin(row, ","), "\n");
+    CsvRow& row = rows.emplace_back();
+    row.Words("quantity", quantity.name);
+    row.Words("regime", RegimeName(bounds.regime));
+    row.Number("friction_ratio", bounds.friction_ratio);
+    row.Number("slope_ratio", bounds.slope_ratio);
+    AddRange("sharp", quantity, bounds.sharp, row);
+    AddRange("energy_only", quantity, bounds.energy_only, row);
+    AddRange("nearly_vertical", quantity, vertical, row);
+    std::optional<double> error;
+    if (vertical.has_value()) error = quantity.error == nullptr ? 0.0 : (*bounds.nearly_vertical).*quantity.error;
+    row.Number("nearly_vertical.error", error);
+    AddRange("enclosure.outer", quantity, outer, row);
+    AddRange("enclosure.attained", quantity, attained, row);
   }
-  return text;
+  return CsvOf(rows);
 }
 
 absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
@@ -215,14 +216,13 @@ absl::Status RunBounds(const BoundsOptions& options) {
   const absl::StatusOr<BoundsResponse> response = (*solver)->Bounds(*request);
   if (!response.ok()) return response.status();
   if (absl::Status still = RequireVelocity(request->scene); !still.ok()) return still;
-  const absl::StatusOr<std::string> text = Render(
-      options.common.format, [&] { return BoundsText(*request, *response); }, [&] { return Json(ToProto(*response)); },
+  absl::Status written = WriteAnswer(
+      options.common, *response, [&] { return BoundsText(*request, *response); },
       [&] {
         return response->certificate.has_value() ? CertificateCsv(*response->certificate) : BoundsCsv(*response);
       });
-  if (!text.ok()) return text.status();
-  if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
-  return options.picture.file.empty() ? absl::OkStatus() : DrawPicture(BoundsPlot(*response), options.picture);
+  if (!written.ok() || options.picture.file.empty()) return written;
+  return DrawPicture(BoundsPlot(*response), options.picture);
 }
 
 }  // namespace

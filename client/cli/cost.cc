@@ -1,4 +1,4 @@
-#include "client/cli/cost.h"
+#include "proto/wire/cost.h"
 
 #include <CLI/App.hpp>
 #include <chrono>
@@ -9,17 +9,18 @@
 #include "absl/strings/str_cat.h"
 #include "absl/time/clock.h"
 #include "absl/time/time.h"
-#include "client/cli/cost_page.h"
-#include "client/cli/cost_picture.h"
-#include "client/cli/cost_report.h"
-#include "client/cli/file_option.h"
-#include "client/cli/interrupt.h"
-#include "client/cli/number_input.h"
-#include "client/cli/output.h"
-#include "client/cli/picture_input.h"
-#include "client/cli/progress.h"
-#include "client/cli/scene_input.h"
-#include "proto/wire/cost.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/make_solver.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/io/output.h"
+#include "client/cli/plot/picture_input.h"
+#include "client/cli/report/cost_page.h"
+#include "client/cli/report/cost_picture.h"
+#include "client/cli/report/cost_report.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/terminal/interrupt.h"
+#include "client/cli/terminal/progress.h"
+#include "client/cli/text/number_input.h"
 
 namespace ricochet::cli {
 namespace {
@@ -52,11 +53,8 @@ absl::StatusOr<CostRequest> MakeRequest(const CostOptions& options) {
     request.time_limit_s = std::chrono::duration<double>(*limit).count();
   }
   if (!options.samples.empty()) {
-    const absl::StatusOr<int64_t> samples = ParseCount(options.samples, "--samples");
+    const absl::StatusOr<int64_t> samples = ParseCount(options.samples, "--samples", kMostCostSamples);
     if (!samples.ok()) return samples.status();
-    if (*samples < 1 || *samples > kMostCostSamples) {
-      return InputError("--samples", options.samples, absl::StrCat("be in [1, ", kMostCostSamples, "]"));
-    }
     request.samples = static_cast<int32_t>(*samples);
   }
   return request;
@@ -95,11 +93,9 @@ absl::Status RunCost(const CostOptions& options) {
   if (!request.ok()) return request.status();
   const absl::StatusOr<CostChunk> study = Study(**solver, *request, interrupt.token());
   if (!study.ok()) return study.status();
-  const absl::StatusOr<std::string> text = Render(
-      options.common.format, [&] { return CostText(*study); }, [&] { return Json(ToProto(*study)); },
-      [&] { return CostCsv(*study); });
-  if (!text.ok()) return text.status();
-  if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
+  absl::Status written = WriteAnswer(
+      options.common, *study, [&] { return CostText(*study); }, [&] { return CostCsv(*study); });
+  if (!written.ok()) return written;
   if (!options.html.empty()) {
     if (absl::Status status = WritePage(request->scene, *study, options.html); !status.ok()) return status;
   }

@@ -1,11 +1,12 @@
-#include "client/cli/health.h"
+#include "ricochet/health.h"
 
 #include <CLI/App.hpp>
 #include <cstdio>
 #include <memory>
 
 #include "absl/strings/str_cat.h"
-#include "ricochet/health.h"
+#include "client/cli/input/make_solver.h"
+#include "client/cli/subcommands.h"
 
 namespace ricochet::cli {
 namespace {

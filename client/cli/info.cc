@@ -1,4 +1,4 @@
-#include "client/cli/info.h"
+#include "proto/wire/info.h"
 
 #include <CLI/App.hpp>
 #include <algorithm>
@@ -11,8 +11,10 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "client/cli/plan_report.h"
-#include "proto/wire/info.h"
+#include "client/cli/input/make_solver.h"
+#include "client/cli/report/plan_report.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/text/enum_names.h"
 
 namespace ricochet::cli {
 namespace {
@@ -114,10 +116,8 @@ absl::Status RunInfo(const InfoOptions& options) {
   if (!solver.ok()) return solver.status();
   const absl::StatusOr<InfoResponse> info = (*solver)->Info();
   if (!info.ok()) return info.status();
-  const absl::StatusOr<std::string> text = Render(
-      options.common.format, [&] { return InfoText(*info); }, [&] { return Json(ToProto(*info)); },
-      [&] { return InfoCsv(*info); });
-  return text.ok() ? WriteOutput(options.common, *text) : text.status();
+  return WriteAnswer(
+      options.common, *info, [&] { return InfoText(*info); }, [&] { return InfoCsv(*info); });
 }
 
 }  // namespace

@@ -13,18 +13,18 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/synchronization/mutex.h"
-#include "client/cli/common.h"
-#include "client/cli/exit_code.h"
-#include "client/cli/file_option.h"
-#include "client/cli/flag_names.h"
-#include "client/cli/grpc_log.h"
+#include "client/cli/input/command_options.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/flag_names.h"
 #include "client/cli/program.h"
-#include "client/cli/usage_error.h"
+#include "client/cli/terminal/exit_code.h"
+#include "client/cli/terminal/grpc_log.h"
+#include "client/cli/text/usage_error.h"
 
 namespace {
 
-// Makes glibc keep the memory of the chunks of a sweep for the next ones. It would return each to the system, whose pages
-// cost as much as the points in them.
+// Makes glibc keep the memory of the chunks of a sweep for the next ones. It would return each to the system, whose
+// pages cost as much as the points in them.
 void KeepMemoryOfChunks() {
   constexpr int kAboveAnyChunk = 32 << 20;
   mallopt(M_MMAP_THRESHOLD, kAboveAnyChunk);

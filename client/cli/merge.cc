@@ -1,5 +1,3 @@
-#include "client/cli/merge.h"
-
 #include <CLI/App.hpp>
 #include <cstdio>
 #include <memory>
@@ -10,13 +8,14 @@
 
 #include "absl/strings/str_cat.h"
 #include "client/chunk_checker.h"
-#include "client/cli/interrupt.h"
-#include "client/cli/invalid_points.h"
-#include "client/cli/progress.h"
-#include "client/cli/shard.h"
-#include "client/cli/shard_coverage.h"
-#include "client/cli/sweep_output.h"
-#include "client/cli/used_files.h"
+#include "client/cli/io/used_files.h"
+#include "client/cli/report/invalid_points.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/sweep/shard.h"
+#include "client/cli/sweep/shard_coverage.h"
+#include "client/cli/sweep/sweep_output.h"
+#include "client/cli/terminal/interrupt.h"
+#include "client/cli/terminal/progress.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet::cli {

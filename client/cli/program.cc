@@ -5,18 +5,9 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
-#include "client/cli/audit.h"
-#include "client/cli/bounds.h"
-#include "client/cli/cost.h"
-#include "client/cli/health.h"
-#include "client/cli/help_format.h"
-#include "client/cli/info.h"
-#include "client/cli/merge.h"
-#include "client/cli/plot_file.h"
-#include "client/cli/scene.h"
-#include "client/cli/solve.h"
-#include "client/cli/sweep.h"
-#include "core/engine/engine.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/text/help_format.h"
+#include "ricochet/engine_info.h"
 
 namespace ricochet::cli {
 
@@ -33,7 +24,7 @@ std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Comman
   AddBounds(*app, command);
   AddSweep(*app, std::move(arguments), command);
   AddMerge(*app, command);
-  AddPlotFile(*app, command);
+  AddPlot(*app, command);
   AddAudit(*app, command);
   AddScene(*app, command);
   AddCost(*app, command);

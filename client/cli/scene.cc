@@ -1,4 +1,4 @@
-#include "client/cli/scene.h"
+#include "proto/wire/scene.h"
 
 #include <google/protobuf/descriptor.h>
 #include <google/protobuf/text_format.h>
@@ -11,18 +11,18 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
-#include "client/cli/field_table.h"
-#include "client/cli/json/json_text.h"
-#include "client/cli/json/scene_schema.h"
-#include "client/cli/scene_input.h"
-#include "client/cli/scene_templates.h"
-#include "client/cli/table.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/input/scene_templates.h"
+#include "client/cli/report/scene_schema.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/text/field_table.h"
+#include "client/cli/text/json_text.h"
+#include "client/cli/text/table.h"
+#include "core/base/nearest.h"
+#include "core/rows/column.h"
 #include "core/scene/field.h"
-#include "core/scene/nearest.h"
 #include "core/scene/validate.h"
-#include "core/sweep/column.h"
 #include "proto/comments/commented_protos.h"
-#include "proto/wire/scene.h"
 #include "ricochet/error.h"
 
 namespace ricochet::cli {

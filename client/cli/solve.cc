@@ -1,5 +1,3 @@
-#include "client/cli/solve.h"
-
 #include <CLI/App.hpp>
 #include <memory>
 #include <string>
@@ -7,16 +5,18 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "client/cli/certificate_report.h"
-#include "client/cli/demand_input.h"
-#include "client/cli/file_option.h"
-#include "client/cli/number_input.h"
-#include "client/cli/picture_input.h"
-#include "client/cli/plan_report.h"
-#include "client/cli/scene_input.h"
+#include "client/cli/input/certificate_report.h"
+#include "client/cli/input/demand_input.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/make_solver.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/plot/picture_input.h"
+#include "client/cli/report/plan_report.h"
+#include "client/cli/report/solve_plot.h"
+#include "client/cli/report/solve_report.h"
 #include "client/cli/solve_data.h"
-#include "client/cli/solve_plot.h"
-#include "client/cli/solve_report.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/text/number_input.h"
 #include "proto/wire/requests.h"
 
 namespace ricochet::cli {
@@ -33,9 +33,9 @@ constexpr char kExample[] = R"(Example: the elastic pendulum of Lubarda (2009), 
   ...
 --data FILE.csv solves many impacts, one on each line. Its header names fields of the scene, by path or shorter, as the
 axes of a sweep do; `ricochet sweep --axis ?` lists them. Cells are separated by commas and may stand in double quotes;
-numbers have a decimal point, and angles may be in degrees, 45deg. Text prints a summary and the first rows; csv and json
-have all rows, and csv prints the summary on standard error. A row that lacks a number, or breaks a rule, is INVALID and
-the first have their reasons; the others are still solved.
+numbers have a decimal point, and angles may be in degrees, 45deg. Text prints a summary and the first rows; csv and
+json have all rows, and csv prints the summary on standard error. A row that lacks a number, or breaks a rule, is
+INVALID and the first have their reasons; the others are still solved.
 CSV has one row with every number of the outcome, named by its path. Instead it has one row for each state with
 --history, for each sample with --force-history, for each effect with --explain, and for each number with --certified.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
@@ -53,13 +53,6 @@ struct SolveOptions {
   PictureOptions picture;
   DataOptions data;
 };
-
-absl::StatusOr<int64_t> ParseIntervals(const std::string& text, const char* flag) {
-  absl::StatusOr<int64_t> count = ParseCount(text, flag);
-  if (count.ok() && (*count < 1 || *count > kMostIntervals))
-    return InputError(flag, text, absl::StrCat("be in [1, ", kMostIntervals, "]"));
-  return count;
-}
 
 std::string Text(const Outcome& outcome, const SolveOptions& options) {
   std::string text = SolveText(outcome);
@@ -85,10 +78,8 @@ absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Sc
   }
   const absl::StatusOr<PlanResponse> response = solver.Plan({.scene = scene, .demand = demand});
   if (!response.ok()) return response.status();
-  const absl::StatusOr<std::string> text = Render(
-      options.common.format, [&] { return PlanText(response->plan); }, [&] { return Json(ToProto(*response)); },
-      [&] { return PlanCsv(response->plan); });
-  return text.ok() ? WriteOutput(options.common, *text) : text.status();
+  return WriteAnswer(
+      options.common, *response, [&] { return PlanText(response->plan); }, [&] { return PlanCsv(response->plan); });
 }
 
 // Solves the rows of a table.
@@ -122,24 +113,22 @@ absl::Status RunSolve(const SolveOptions& options) {
   if (!digits.ok()) return digits.status();
   request.certified_digits = *digits;
   if (!options.force_history.empty()) {
-    const absl::StatusOr<int64_t> intervals = ParseIntervals(options.force_history, "--force-history");
+    const absl::StatusOr<int64_t> intervals = ParseCount(options.force_history, "--force-history", kMostIntervals);
     if (!intervals.ok()) return intervals.status();
     request.force_intervals = *intervals;
   }
   if (!options.history.empty()) {
-    const absl::StatusOr<int64_t> intervals = ParseIntervals(options.history, "--history");
+    const absl::StatusOr<int64_t> intervals = ParseCount(options.history, "--history", kMostIntervals);
     if (!intervals.ok()) return intervals.status();
     request.history_intervals = *intervals;
   }
   const absl::StatusOr<SolveResponse> response = (*solver)->Solve(request);
   if (!response.ok()) return response.status();
   if (absl::Status still = RequireVelocity(*scene); !still.ok()) return still;
-  const absl::StatusOr<std::string> text = Render(
-      options.common.format, [&] { return Text(response->outcome, options); }, [&] { return Json(ToProto(*response)); },
+  absl::Status written = WriteAnswer(
+      options.common, *response, [&] { return Text(response->outcome, options); },
       [&] { return Csv(response->outcome, options); });
-  if (!text.ok()) return text.status();
-  if (absl::Status status = WriteOutput(options.common, *text); !status.ok()) return status;
-  if (options.picture.file.empty()) return absl::OkStatus();
+  if (!written.ok() || options.picture.file.empty()) return written;
   return DrawPicture(SolvePlot(**solver, request, *response), options.picture);
 }
 

@@ -1,7 +1,5 @@
 #include "client/cli/solve_data.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <iostream>
 #include <limits>
@@ -10,17 +8,15 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "absl/strings/str_join.h"
-#include "client/cli/csv_table.h"
-#include "client/cli/json/json_text.h"
-#include "client/cli/number_input.h"
-#include "client/cli/output.h"
-#include "client/cli/scene_input.h"
-#include "client/cli/short_name.h"
-#include "client/cli/sweep_head.h"
-#include "client/cli/table.h"
-#include "core/numerics/decimal.h"
-#include "core/sweep/column.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/input/short_name.h"
+#include "client/cli/io/csv_table.h"
+#include "client/cli/io/row_writer.h"
+#include "client/cli/sweep/sweep_head.h"
+#include "client/cli/text/enum_names.h"
+#include "client/cli/text/json_text.h"
+#include "client/cli/text/number_input.h"
+#include "core/rows/column.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/engine.h"
 
@@ -119,71 +115,40 @@ std::vector<std::string> Names(const Solved& solved) {
   return names;
 }
 
-std::string Text(const Solved& solved, size_t rows) {
-  Table table;
-  table.Add(Names(solved));
-  for (size_t i = 0; i < rows; ++i) {
-    std::vector<std::string> cells = {absl::StrCat(i)};
-    for (const std::vector<double>& column : solved.outputs) cells.push_back(Rounded(column[i]));
-    cells.push_back(RegimeText(solved.regimes[i]));
-    cells.push_back(StatusName(solved.statuses[i]));
-    table.Add(cells);
-  }
-  std::string text = table.Render(0);
-  if (solved.regimes.size() > rows) {
-    absl::StrAppend(&text, "... and ", solved.regimes.size() - rows, " more rows; --format csv has them all\n");
-  }
-  return absl::StrCat(text, "\n", SummaryText(solved));
+void Visit(const Solved& solved, size_t place, RowWriter& row) {
+  row.Integer(static_cast<int64_t>(place));
+  for (const std::vector<double>& column : solved.outputs) row.Number(column[place]);
+  row.Kind(solved.regimes[place]);
+  row.Words(StatusName(solved.statuses[place]));
 }
 
-std::string Csv(const Solved& solved) {
-  std::string text = absl::StrJoin(Names(solved), ",") + "\n";
-  for (size_t i = 0; i < solved.regimes.size(); ++i) {
-    absl::StrAppend(&text, i);
-    for (const std::vector<double>& column : solved.outputs) absl::StrAppend(&text, ",", ShortestDecimal(column[i]));
-    absl::StrAppend(&text, ",", RegimeName(solved.regimes[i]), ",", StatusName(solved.statuses[i]), "\n");
-  }
-  return text;
-}
-
-// Returns the cells of a row as JSON, in the order of Names().
-std::vector<std::string> JsonCells(const Solved& solved, size_t row) {
-  std::vector<std::string> cells(1);
-  AppendJson(static_cast<int64_t>(row), cells.back());
-  for (const std::vector<double>& column : solved.outputs) AppendJson(column[row], cells.emplace_back());
-  AppendJson(RegimeName(solved.regimes[row]), cells.emplace_back());
-  AppendJson(StatusName(solved.statuses[row]), cells.emplace_back());
-  return cells;
-}
-
-// Returns one document: the columns with their units, a list for each row, and the summary.
-std::string JsonDocument(const Solved& solved) {
-  std::string text = absl::StrCat("{\"engine\":", JsonOf(ToProto(solved.response.engine)),
-                                  ",\"columns\":", ColumnsJson(Names(solved)), ",\"values\":[");
-  for (size_t i = 0; i < solved.regimes.size(); ++i) {
-    absl::StrAppend(&text, i == 0 ? "\n[" : ",\n[", absl::StrJoin(JsonCells(solved, i), ","), "]");
-  }
-  return absl::StrCat(text, "\n],\"summary\":", JsonOf(ToProto(solved.response.summary)), "}\n");
-}
-
-// Returns an object on a line for each row.
-std::string JsonLines(const Solved& solved) {
-  std::vector<std::string> keys;
-  for (const std::string& name : Names(solved)) AppendJson(name, keys.emplace_back());
+// Returns the first `count` rows. A table and a document, which has the columns with their units, end with the summary.
+std::string Text(const Solved& solved, Format format, size_t count) {
   std::string text;
-  for (size_t i = 0; i < solved.regimes.size(); ++i) {
-    const std::vector<std::string> cells = JsonCells(solved, i);
-    for (size_t c = 0; c < cells.size(); ++c) absl::StrAppend(&text, c == 0 ? "{" : ",", keys[c], ":", cells[c]);
-    text += "}\n";
+  if (format == Format::kJson) {
+    text = absl::StrCat("{\"engine\":", JsonOf(ToProto(solved.response.engine)),
+                        ",\"columns\":", ColumnsJson(Names(solved)), ",\"values\":");
+  }
+  RowWriter rows(format, Names(solved));
+  rows.Begin(text);
+  for (size_t i = 0; i < count; ++i) {
+    rows.Add(text, [&](RowWriter& row) { Visit(solved, i, row); });
+  }
+  rows.End(text);
+  if (format == Format::kJson) {
+    absl::StrAppend(&text, ",\"summary\":", JsonOf(ToProto(solved.response.summary)), "}\n");
+  } else if (format == Format::kText) {
+    const size_t left_out = solved.regimes.size() - count;
+    if (left_out > 0) absl::StrAppend(&text, "... and ", left_out, " more rows; --format csv has them all\n");
+    absl::StrAppend(&text, "\n", SummaryText(solved));
   }
   return text;
 }
 
 absl::Status Write(const Solved& solved, const CommonOptions& options, size_t rows) {
-  if (options.format == Format::kText) return WriteOutput(options, Text(solved, rows));
-  if (options.format == Format::kJson) return WriteOutput(options, JsonDocument(solved));
-  absl::Status written = WriteOutput(options, options.format == Format::kCsv ? Csv(solved) : JsonLines(solved));
-  if (written.ok()) std::cerr << SummaryText(solved);
+  absl::Status written = WriteOutput(options, Text(solved, options.format, rows));
+  const bool has_summary = options.format == Format::kText || options.format == Format::kJson;
+  if (written.ok() && !has_summary) std::cerr << SummaryText(solved);
   return written;
 }
 

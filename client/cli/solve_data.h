@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "client/cli/common.h"
+#include "client/cli/input/command_options.h"
 #include "ricochet/demand.h"
 #include "ricochet/scene.h"
 #include "ricochet/solver.h"
@@ -21,7 +21,7 @@ struct DataOptions {
   bool strict = false;                       // A row that has no numbers, or is inadmissible, is an error.
 };
 
-// Solves the rows and writes them as the options ask. The header may have short names (client/cli/short_name.h).
+// Solves the rows and writes them as the options ask. The header may have short names (client/cli/input/short_name.h).
 // Errors: those of reading, of the solver and of Output; FAILED_PRECONDITION under `strict`, after everything was
 // written.
 absl::Status SolveData(const DataOptions& data, const CommonOptions& options, const Solver& solver, const Scene& scene,

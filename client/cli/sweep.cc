@@ -1,4 +1,4 @@
-#include "client/cli/sweep.h"
+#include "proto/wire/sweep.h"
 
 #include <CLI/App.hpp>
 #include <algorithm>
@@ -9,27 +9,28 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "client/cli/axis_input.h"
-#include "client/cli/demand_input.h"
-#include "client/cli/file_option.h"
-#include "client/cli/interrupt.h"
-#include "client/cli/invalid_points.h"
-#include "client/cli/name_list.h"
-#include "client/cli/number_input.h"
-#include "client/cli/output.h"
-#include "client/cli/picture_input.h"
-#include "client/cli/progress.h"
-#include "client/cli/resume_command.h"
-#include "client/cli/scene_input.h"
-#include "client/cli/shard.h"
-#include "client/cli/shard_input.h"
-#include "client/cli/short_name.h"
-#include "client/cli/sweep_output.h"
-#include "client/cli/sweep_plot.h"
-#include "client/cli/used_files.h"
+#include "client/cli/input/axis_input.h"
+#include "client/cli/input/demand_input.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/make_solver.h"
+#include "client/cli/input/name_list.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/input/shard_input.h"
+#include "client/cli/input/short_name.h"
+#include "client/cli/io/output.h"
+#include "client/cli/io/used_files.h"
+#include "client/cli/plot/picture_input.h"
+#include "client/cli/report/invalid_points.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/sweep/resume_command.h"
+#include "client/cli/sweep/shard.h"
+#include "client/cli/sweep/sweep_output.h"
+#include "client/cli/sweep/sweep_plot.h"
+#include "client/cli/terminal/interrupt.h"
+#include "client/cli/terminal/progress.h"
+#include "client/cli/text/number_input.h"
+#include "core/rows/column.h"
 #include "core/scene/field.h"
-#include "core/sweep/column.h"
-#include "proto/wire/sweep.h"
 
 namespace ricochet::cli {
 namespace {
@@ -121,8 +122,8 @@ absl::StatusOr<SweepRequest> RequestFromFlags(const SweepOptions& options) {
   return request;
 }
 
-// True if what the sweep has written can be gone on with: rows or lines in a file. A table shows only some points, and a
-// summary none, so that they are written when they are complete.
+// True if what the sweep has written can be gone on with: rows or lines in a file. A table shows only some points, and
+// a summary none, so that they are written when they are complete.
 bool IsResumable(const SweepOptions& options) {
   const CommonOptions& common = options.common;
   const bool has_rows = common.format != Format::kText && common.format != Format::kNetcdf;
@@ -150,7 +151,7 @@ class Receiver {
   }
 
   // The points that the output does not have yet.
-  SweepRequest Rest(SweepRequest request) const {
+  SweepRequest Remaining(SweepRequest request) const {
     request.first_index = output_.next_index();
     return plot_.has_value() ? SweepPlot::Wanted(std::move(request)) : request;
   }
@@ -230,9 +231,9 @@ absl::Status ReceiveInto(SweepOutput output, const Solver& solver, const SweepRe
       if (!receiver.Draw(*chunk)) break;
     }
   }
-  absl::Status status = ReceiveAll(solver.Sweep(receiver.Rest(request), {.stop = std::move(stop)}), receiver);
+  absl::Status status = ReceiveAll(solver.Sweep(receiver.Remaining(request), {.stop = std::move(stop)}), receiver);
   if (status.ok()) return receiver.Picture();
-  receiver.output().Break(ResumeCommand(options.arguments));
+  receiver.output().LeaveForResume(ResumeCommand(options.arguments));
   return status;
 }
 

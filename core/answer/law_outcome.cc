@@ -2,13 +2,11 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/answer/model_outcomes.h"
-#include "core/contact/delassus.h"
+#include "core/base/decimal.h"
 #include "core/models/laws/impact_laws.h"
-#include "core/numerics/decimal.h"
 
 namespace ricochet {
 namespace {
@@ -17,20 +15,6 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
 // The laws' headers promise a few rounding errors.
 constexpr double kError = 16.0 * kEpsilon;
-
-laws::ImpactLawResult SolveLaw(const ImpactLaw& law, const PlanarProblem& input) {
-  struct Solver {
-    const PlanarProblem& input;
-    laws::ImpactLawResult operator()(std::monostate) const { return {}; }
-    laws::ImpactLawResult operator()(WhittakerLaw law) const { return laws::SolveWhittaker(input, law.e); }
-    laws::ImpactLawResult operator()(KaneLevinsonLaw law) const { return laws::SolveKaneLevinson(input, law.e); }
-    laws::ImpactLawResult operator()(BrachLaw law) const { return laws::SolveBrach(input, law.e, law.mu_hat); }
-    laws::ImpactLawResult operator()(ChatterjeeRuinaLaw law) const {
-      return laws::SolveChatterjeeRuina(input, law.e, law.e_t);
-    }
-  };
-  return std::visit(Solver{input}, law);
-}
 
 Regime RegimeOf(const PlanarReduction& reduction, const laws::ImpactLawResult& result) {
   if (reduction.v0 >= 0.0) return Regime::kSeparating;
@@ -96,11 +80,9 @@ std::vector<Event> TimelineOf(const PlanarReduction& reduction, Regime regime, c
 
 }  // namespace
 
-absl::Status MakeLawOutcome(const ImpactLaw& law, double mu, const PlanarReduction& reduction, const Extent& extent,
-                            Outcome& outcome) {
-  const laws::ImpactLawResult result = SolveLaw(
-      law,
-      {.w = {reduction.w[0], reduction.w[1], reduction.w[2]}, .u0 = reduction.u0[0], .v0 = reduction.v0, .mu = mu});
+absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, const PlanarReduction& reduction,
+                            const Extent& extent, Outcome& outcome) {
+  const laws::ImpactLawResult result = laws::SolveLaw(law, problem);
   outcome.regime = RegimeOf(reduction, result);
   if (outcome.regime == Regime::kNoSolution) outcome.termination = Termination::kRefused;
   laws::ImpactSolution solution = {.u1 = reduction.u0[0], .v1 = reduction.v0};
@@ -111,7 +93,7 @@ absl::Status MakeLawOutcome(const ImpactLaw& law, double mu, const PlanarReducti
     outcome.accuracy.relative_error = RelativeToBefore<1>(kError, reduction, {solution.u1}, solution.v1);
   }
   outcome.accuracy.kind = AccuracyKind::kEstimate;
-  outcome.w_rank = PlanarDelassus{reduction.w[0], reduction.w[1], reduction.w[2]}.Rank();
+  outcome.w_rank = problem.w.Rank();
   SetVelocities<1>(reduction, {solution.f}, solution.tau1, 0.0, outcome);
   const ImpactSolution first = ToOutcome(solution);
   outcome.contact_velocity_after = first.contact_velocity_after;

@@ -1,9 +1,9 @@
 // MakeOutcome: the answer of each impact model as an Outcome, but for its effective coefficients and its plan.
 //
-// Each writes into an outcome that is empty. The two models that have a choice of arithmetic write it into the plan. The reduction must be that of the problem. `tolerance` is what rounding may
-// change (ToleranceLeft in core/plan/arithmetic.h).
-// Errors are those of Complete (core/answer/outcome_parts.h): OUT_OF_RANGE names the first output that exceeds the
-// largest double, INVALID_ARGUMENT each impulse of the history that is not in [0, tau1].
+// Each writes into an outcome that is empty. The two models that have a choice of arithmetic write it into the plan.
+// The reduction must be that of the problem. `tolerance` is what rounding may change (ToleranceLeft in
+// core/plan/arithmetic.h). Errors are those of Complete (core/answer/outcome_parts.h): OUT_OF_RANGE names the first
+// output that exceeds the largest double, INVALID_ARGUMENT each impulse of the history that is not in [0, tau1].
 
 #ifndef RICOCHET_CORE_ANSWER_MODEL_OUTCOMES_H_
 #define RICOCHET_CORE_ANSWER_MODEL_OUTCOMES_H_
@@ -88,12 +88,12 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
 }  // namespace finite_duration
 
 // An impact law gives the end of the impact but not its course: the regime is kByLaw, the numbers of the phases are
-// unset, and the timeline has the start and the end. If a range of impulses solves the law, its ends are the alternatives,
-// and a note says so. If there is no solution, the regime is kNoSolution, and nothing changes. A gain of energy, or a work
-// of friction, beyond 16 eps of the energies that the impulse moves breaks its limit.
-// `law` must be set; `mu` is the coefficient of kinetic friction.
-absl::Status MakeLawOutcome(const ImpactLaw& law, double mu, const PlanarReduction& reduction, const Extent& extent,
-                            Outcome& outcome);
+// unset, and the timeline has the start and the end. If a range of impulses solves the law, its ends are the
+// alternatives, and a note says so. If there is no solution, the regime is kNoSolution, and nothing changes. A gain of
+// energy, or a work of friction, beyond 16 eps of the energies that the impulse moves breaks its limit. `law` must be
+// set.
+absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, const PlanarReduction& reduction,
+                            const Extent& extent, Outcome& outcome);
 
 }  // namespace ricochet
 

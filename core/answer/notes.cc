@@ -6,9 +6,12 @@
 #include <cstddef>
 #include <numbers>
 #include <string>
+#include <utility>
+#include <variant>
 
 #include "absl/strings/str_cat.h"
-#include "core/numerics/decimal.h"
+#include "core/base/decimal.h"
+#include "core/contact/delassus.h"
 #include "core/scene/numbers.h"
 #include "ricochet/number_path.h"
 #include "ricochet/plan.h"
@@ -43,6 +46,67 @@ std::string InRadians(double degrees) {
                                InRadians(value), " if it is meant in degrees.")};
 }
 
+void AddUndetermined(const char* path, std::string text, Outcome& outcome) {
+  outcome.notes.push_back({.kind = NoteKind::kUndetermined, .path = path, .text = std::move(text)});
+}
+
+// `full_rank` is the rank that no joint takes anything from.
+void AddJamNote(int full_rank, Outcome& outcome) {
+  const bool is_rigid = outcome.plan.model == Model::kPlanar || outcome.plan.model == Model::kSpatial;
+  if (!is_rigid || outcome.termination != Termination::kRefused || outcome.w_rank >= full_rank) return;
+  const double v = outcome.contact_velocity_after.normal_m_s;
+  const std::string speed = ShortestDecimal(std::fabs(v));
+  AddUndetermined("contact_velocity_after.normal_m_s",
+                  v < 0.0 ? absl::StrCat("Friction and the joints hold the contact while it approaches at ", speed,
+                                         " m/s: no impulse ends the impact. It has an end with less friction.")
+                          : absl::StrCat("Friction and the joints hold the contact while it parts at ", speed,
+                                         " m/s: no impulse gives it the speed that Newton's coefficient asks for. "
+                                         "State a smaller one, or Poisson's or the energetic coefficient."),
+                  outcome);
+}
+
+bool IsAtRest(const Components& tangential) {
+  for (const double u : tangential) {
+    if (u != 0.0) return false;
+  }
+  return true;
+}
+
+// The note for a contact that friction does not move, and that does not slip.
+void AddIdleFrictionNote(Outcome& outcome) {
+  AddUndetermined("impulse.tangential_n_s",
+                  "No tangential impulse moves the contact, and it does not slip: any impulse of friction up to the "
+                  "static coefficient times the normal impulse is possible, and 0 is answered.",
+                  outcome);
+}
+
+// What the outcome cannot know of an impact. The problems have the coefficients that the model has used.
+struct AddUndeterminedOf {
+  Outcome& outcome;
+
+  void operator()(std::monostate) const {}
+  void operator()(const pendulum::Problem& problem) const {
+    if (problem.b == 0.0 && problem.omega_minus < 0.0 && problem.mu_static > 0.0) AddIdleFrictionNote(outcome);
+  }
+  void operator()(const planar::Problem& problem) const {
+    if (problem.v0 >= 0.0) return;
+    AddJamNote(2, outcome);
+    if (problem.w.tt == 0.0 && problem.u0 == 0.0 && problem.mu_static > 0.0) AddIdleFrictionNote(outcome);
+  }
+  void operator()(const spatial::Problem& problem) const {
+    if (problem.v0 >= 0.0) return;
+    AddJamNote(3, outcome);
+    if (!(problem.mu_static > 0.0) || !IsAtRest(outcome.contact_velocity_after.tangential_m_s)) return;
+    if (problem.w11 == 0.0 && problem.w22 == 0.0) return AddIdleFrictionNote(outcome);
+    if (PlanarDelassus{.tt = problem.w11, .tn = problem.w12, .nn = problem.w22}.Rank() == 2) return;
+    AddUndetermined(
+        "impulse.tangential_n_s",
+        "Wtt is singular: part of the impulse of friction on the contact that sticks changes no velocity. The "
+        "smallest impulse is answered.",
+        outcome);
+  }
+};
+
 }  // namespace
 
 void AddNotes(const Scene& scene, const PlannedScene& planned, Outcome& outcome) {
@@ -51,6 +115,7 @@ void AddNotes(const Scene& scene, const PlannedScene& planned, Outcome& outcome)
   VisitNumbers(scene, [&outcome](const NumberPath& path, double value, NumberRule rule) {
     if (rule == NumberRule::kAngle && std::abs(value) > kFullTurn) outcome.notes.push_back(LargeAngle(path, value));
   });
+  if (planned.choice.model != Model::kImpactLaw) std::visit(AddUndeterminedOf{outcome}, planned.problem);
 }
 
 }  // namespace ricochet

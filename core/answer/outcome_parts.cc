@@ -6,8 +6,8 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
-#include "core/numerics/decimal.h"
-#include "core/numerics/invariant.h"
+#include "core/base/decimal.h"
+#include "core/base/invariant.h"
 #include "ricochet/error.h"
 #include "ricochet/outcome_numbers.h"
 

@@ -27,12 +27,13 @@ enum class Detail {
   kAll,
 };
 
-// The parts of an outcome that a caller wants beyond its numbers. The rules of histories hold already, but for the range
-// of the impulses.
+// The parts of an outcome that a caller wants beyond its numbers. The rules of histories hold already, but for the
+// range of the impulses.
 struct Extent {
   Detail detail = Detail::kAll;
   absl::Span<const double> history_at_n_s;
   int64_t history_intervals = 0;
+  int64_t force_intervals = 0;  // Of a history in time (finite_duration::Problem::intervals).
 };
 
 // The limits that an impact breaks, with their values.
@@ -65,7 +66,8 @@ void CompareWithTolerance(double tolerance, Outcome& outcome);
 // Unsets the numbers of the two phases and their errors, of which an impact law knows nothing.
 void UnsetPhases(Outcome& outcome);
 
-// Converts `error`, which is relative to the largest of all velocities, to one relative to the velocity before the impact.
+// Converts `error`, which is relative to the largest of all velocities, to one relative to the velocity before the
+// impact.
 template <size_t kTangential>
 double RelativeToBefore(double error, const Reduction<kTangential>& reduction,
                         const std::array<double, kTangential>& u1, double v1) {

@@ -15,7 +15,7 @@
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
 #include "core/plan/planned_scene.h"
-#include "core/problem/scene_problem.h"
+#include "core/plan/scene_problem.h"
 
 namespace ricochet {
 namespace {

@@ -11,12 +11,12 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "core/base/decimal.h"
 #include "core/bounds/enclosure.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/delassus.h"
 #include "core/contact/interval_reduction.h"
 #include "core/contact/reduction.h"
-#include "core/numerics/decimal.h"
 #include "core/scene/check.h"
 #include "core/scene/field.h"
 
@@ -76,7 +76,7 @@ class RangeCheck {
   void CheckPath(int index, const std::string& path, const absl::Status& resolved) {
     const char* const why_none = resolved.ok() ? WhyNoRange(scene_, path) : nullptr;
     check_.Require(why_none == nullptr, [&] {
-      return Violation{PathOf(index), absl::StrCat(Found(path), ": must not have a range: ", why_none)};
+      return MakeViolation(PathOf(index), Found(path), absl::StrCat("not have a range: ", why_none));
     });
     check_.Require(resolved.ok(), [&] { return Violation{PathOf(index), std::string(resolved.message())}; });
   }
@@ -87,10 +87,10 @@ class RangeCheck {
     for (const std::string& field : drives) first = std::min(first, driven_by_.emplace(field, index).first->second);
     check_.Require(first == index, [&] {
       const std::string& other_path = ranges_[static_cast<size_t>(first)].path;
-      return Violation{PathOf(index), path == other_path
-                                          ? absl::StrCat(Found(path), ": must not be that of ranges[", first, "] too")
-                                          : absl::StrCat(Found(path), ": must not drive what ranges[", first,
-                                                         "] drives, ", other_path)};
+      return MakeViolation(PathOf(index), Found(path),
+                           path == other_path
+                               ? absl::StrCat("not be that of ranges[", first, "] too")
+                               : absl::StrCat("not drive what ranges[", first, "] drives, ", other_path));
     });
   }
 
@@ -252,8 +252,8 @@ bool HasRankOneThroughout(const Scene& scene, const SceneBox& box) {
 
 absl::Status RankOneThroughout(const System& system) {
   const bool is_linkage = std::holds_alternative<Linkage>(system);
-  return InvalidRequest({{is_linkage ? "linkage" : "planar_contact",
-                          "has a W of rank one: must have rank two, with ranges, or be stated as a pendulum"}});
+  return InvalidRequest({MakeViolation(is_linkage ? "linkage" : "planar_contact", "has a W of rank one",
+                                       "have rank two, with ranges, or be stated as a pendulum")});
 }
 
 }  // namespace
@@ -262,14 +262,14 @@ std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRan
   if (ranges.empty()) return {};
   Check check(Check::Mode::kListing);
   check.Require(IsPlanar(scene.system), [] {
-    return Violation{"system",
-                     "has no enclosure: must be one of pendulum, planar_body, body_pair.planar, linkage, "
-                     "planar_contact, with ranges"};
+    return MakeViolation("system", "has no enclosure",
+                         "be one of pendulum, planar_body, body_pair.planar, linkage, "
+                         "planar_contact, with ranges");
   });
   check.Require(!scene.surface_velocity.has_value() || !IsOfRankOne(scene.system), [] {
-    return Violation{"surface_velocity",
-                     "is set: must not be, with ranges, for a system whose W has rank one: an enclosure "
-                     "covers velocities in the range of W"};
+    return MakeViolation("surface_velocity", "is set",
+                         "not be, with ranges, for a system whose W has rank one: an enclosure "
+                         "covers velocities in the range of W");
   });
   if (check.failed()) return std::move(check).violations();
   RangeCheck range_check(scene, ranges, check);
@@ -294,9 +294,9 @@ absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const Fiel
   // A box that was being reduced when the stop came is of no meaning, and so is an enclosure with it.
   if (stopped()) return absl::CancelledError("the enclosure was stopped by its caller");
   if (enclosure.attained.newton.lower > enclosure.attained.newton.upper) {
-    return InvalidRequest({{"ranges",
-                            "hold no valid scene: must hold one with det W >= 0, static friction >= kinetic and both "
-                            ">= 0 at the approach speed"}});
+    return InvalidRequest({MakeViolation("ranges", "hold no valid scene",
+                                         "hold one with det W >= 0, static friction >= kinetic and both >= 0 at the "
+                                         "approach speed")});
   }
   return enclosure;
 }

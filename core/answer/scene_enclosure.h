@@ -29,11 +29,11 @@ namespace ricochet {
 std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRange> ranges);
 
 // Encloses all scenes that differ from `scene` only in fields within the ranges. `scene` is valid and CheckRanges finds
-// nothing. At most `most_boxes` boxes are evaluated, and never more than 200,000: an answer that would take more is wider
-// than it could be, and its excess says by how much. `stopped` is asked before each box of scenes.
-// Errors: INVALID_ARGUMENT naming `ranges` if no scene of the box is valid; INVALID_ARGUMENT naming the system if the W
-// of all its scenes has rank one though others of its kind have rank two, because the enclosure covers velocities
-// in the range of W; CANCELLED once `stopped` says true.
+// nothing. At most `most_boxes` boxes are evaluated, and never more than 200,000: an answer that would take more is
+// wider than it could be, and its excess says by how much. `stopped` is asked before each box of scenes. Errors:
+// INVALID_ARGUMENT naming `ranges` if no scene of the box is valid; INVALID_ARGUMENT naming the system if the W of all
+// its scenes has rank one though others of its kind have rank two, because the enclosure covers velocities in the range
+// of W; CANCELLED once `stopped` says true.
 absl::StatusOr<Enclosure> EncloseScene(const Scene& scene, absl::Span<const FieldRange> ranges, int64_t most_boxes,
                                        absl::FunctionRef<bool()> stopped);
 

@@ -3,82 +3,59 @@
 #include <cmath>
 #include <variant>
 
-#include "core/answer/contact_notes.h"
 #include "core/answer/model_outcomes.h"
 #include "core/answer/notes.h"
-#include "core/numerics/invariant.h"
-#include "core/plan/arithmetic.h"
+#include "core/base/invariant.h"
 #include "core/plan/planned_scene.h"
-#include "core/problem/scene_problem.h"
+#include "core/plan/straight_problem.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
 namespace {
 
-// The coefficients that the model is to use.
-EffectiveCoefficients EffectiveOf(const PlannedScene& planned) {
-  EffectiveCoefficients effective = planned.effective;
-  LeaveOut(planned.choice.left_out, effective.kinetic_friction, effective.static_friction);
-  return effective;
-}
-
-// One scene on its way through the model that was chosen.
-struct Job {
-  const Scene& scene;
-  const SolveOptions& options;
-  const PlannedScene& planned;
-  absl::FunctionRef<bool()> stopped;
-  Outcome& outcome;
-
-  EffectiveCoefficients Effective() const { return EffectiveOf(planned); }
-
-  // The part of the tolerance that the effects left out do not use.
-  double Tolerance() const { return ToleranceLeft(options.demand.relative_tolerance, planned.choice.negligible); }
-};
-
-absl::Status SolveCompliant(const Job& job, const PlanarReduction& reduction) {
-  const compliant::Problem problem = {.contact = planar::MakeProblem(reduction, job.scene.restitution, job.Effective()),
-                                      .ratio_squared = job.planned.physics.ratio_squared};
-  return compliant::MakeOutcome(problem, reduction, job.options.extent, job.outcome);
-}
-
-absl::Status SolveFiniteDuration(const Job& job, const PlanarReduction& reduction) {
-  const ContactPhysics physics = Without(job.planned.choice, job.planned.physics);
-  finite_duration::Problem problem = {.contact = planar::MakeProblem(reduction, job.scene.restitution, job.Effective()),
-                                      .tangential_acceleration = physics.tangential_acceleration,
-                                      .normal_acceleration = physics.normal_acceleration,
-                                      .spring = physics.spring,
-                                      .tolerance = job.planned.choice.model_tolerance,
-                                      .intervals = job.options.force_intervals};
-  if (physics.ratio_squared > 0.0) problem.ratio_squared = physics.ratio_squared;
-  return finite_duration::MakeOutcome(problem, reduction, job.options.extent, job.stopped, job.outcome);
+bool IsStraight(const PlannedScene& planned) {
+  return planned.choice.model == Model::kFrictionless || planned.choice.model == Model::kSliding;
 }
 
 template <size_t kTangential>
-absl::Status SolveStraight(const Job& job, const Reduction<kTangential>& reduction) {
-  const sliding::Problem<kTangential> problem = sliding::MakeProblem(reduction, job.Effective());
-  const bool slides = job.planned.choice.model == Model::kSliding;
+absl::Status SolveStraight(const PlannedScene& planned, const sliding::Problem<kTangential>& problem,
+                           const Reduction<kTangential>& reduction, const Extent& extent, Outcome& outcome) {
+  const bool slides = planned.choice.model == Model::kSliding;
   return sliding::MakeOutcome(problem, slides ? sliding::Solve(problem) : sliding::SolveFrictionless(problem),
-                              job.planned.choice.straight_errors, reduction, job.options.extent, job.outcome);
+                              planned.choice.straight_errors, reduction, extent, outcome);
 }
 
-absl::Status SolveContact(const Job& job, const PlanarReduction& reduction) {
-  const Extent& extent = job.options.extent;
-  const EffectiveCoefficients effective = job.Effective();
-  switch (job.planned.choice.model) {
+absl::Status SolveFiniteDuration(const PlannedScene& planned, const planar::Problem& contact,
+                                 const PlanarReduction& reduction, const Extent& extent,
+                                 absl::FunctionRef<bool()> stopped, Outcome& outcome) {
+  const ContactPhysics& physics = planned.physics;
+  finite_duration::Problem problem = {.contact = contact,
+                                      .tangential_acceleration = physics.tangential_acceleration,
+                                      .normal_acceleration = physics.normal_acceleration,
+                                      .spring = physics.spring,
+                                      .tolerance = planned.choice.model_tolerance,
+                                      .intervals = extent.force_intervals};
+  if (physics.ratio_squared > 0.0) problem.ratio_squared = physics.ratio_squared;
+  return finite_duration::MakeOutcome(problem, reduction, extent, stopped, outcome);
+}
+
+absl::Status SolveContact(const Scene& scene, const PlannedScene& planned, const planar::Problem& problem,
+                          const PlanarReduction& reduction, const Extent& extent, absl::FunctionRef<bool()> stopped,
+                          Outcome& outcome) {
+  switch (planned.choice.model) {
     case Model::kImpactLaw:
-      return MakeLawOutcome(job.scene.impact_law, effective.kinetic_friction, reduction, extent, job.outcome);
+      return MakeLawOutcome(scene.impact_law, problem, reduction, extent, outcome);
     case Model::kFrictionless:
     case Model::kSliding:
-      return SolveStraight(job, reduction);
+      return SolveStraight(planned, SlidingProblemOf(problem), reduction, extent, outcome);
     case Model::kNone:
     case Model::kPlanar:
-      return planar::MakeOutcome(planar::MakeProblem(reduction, job.scene.restitution, effective), reduction,
-                                 job.Tolerance(), extent, job.outcome);
+      return planar::MakeOutcome(problem, reduction, planned.ToleranceLeft(), extent, outcome);
     case Model::kCompliant:
-      return SolveCompliant(job, reduction);
+      return compliant::MakeOutcome({.contact = problem, .ratio_squared = planned.physics.ratio_squared}, reduction,
+                                    extent, outcome);
     case Model::kFiniteDuration:
-      return SolveFiniteDuration(job, reduction);
+      return SolveFiniteDuration(planned, problem, reduction, extent, stopped, outcome);
     case Model::kFirstOrder:
     case Model::kPendulum:
     case Model::kSpatial:
@@ -89,53 +66,54 @@ absl::Status SolveContact(const Job& job, const PlanarReduction& reduction) {
   return absl::OkStatus();
 }
 
-absl::Status SolveContact(const Job& job, const SpatialReduction& reduction) {
-  const Extent& extent = job.options.extent;
-  if (job.planned.choice.model == Model::kFrictionless || job.planned.choice.model == Model::kSliding) {
-    return SolveStraight(job, reduction);
-  }
-  return spatial::MakeOutcome(spatial::Solve(SpatialProblemOf(job.scene, reduction, job.planned)), reduction, extent,
-                              job.outcome);
+absl::Status SolveContact(const PlannedScene& planned, const spatial::Problem& problem,
+                          const SpatialReduction& reduction, const Extent& extent, Outcome& outcome) {
+  if (IsStraight(planned)) return SolveStraight(planned, SlidingProblemOf(problem), reduction, extent, outcome);
+  return spatial::MakeOutcome(spatial::Solve(problem), reduction, extent, outcome);
 }
 
-absl::Status SolvePendulum(const Job& job, const pendulum::Problem& stated) {
-  const pendulum::Problem problem = Without(job.planned.choice, stated);
-  const Model model = job.planned.choice.model;
+absl::Status SolvePendulum(const PlannedScene& planned, const pendulum::Problem& problem, const Extent& extent,
+                           Outcome& outcome) {
+  const Model model = planned.choice.model;
   return model == Model::kFrictionless || model == Model::kFirstOrder
-             ? first_order::MakeOutcome(problem, job.options.extent, job.outcome)
-             : pendulum::MakeOutcome(problem, job.Tolerance(), job.options.extent, job.outcome);
+             ? first_order::MakeOutcome(problem, extent, outcome)
+             : pendulum::MakeOutcome(problem, planned.ToleranceLeft(), extent, outcome);
 }
 
-// Adds what the outcome cannot know.
-void AddNotes(const Job& job, const std::optional<SceneContact>& contact) {
-  const EffectiveCoefficients effective = job.Effective();
-  if (job.planned.choice.model == Model::kImpactLaw) return;
-  if (job.planned.closed_form.has_value()) {
-    const pendulum::Problem& problem = *job.planned.closed_form;
-    const bool is_idle = problem.b == 0.0 && problem.omega_minus < 0.0 && effective.static_friction > 0.0;
-    if (is_idle) AddIdleFrictionNote(job.outcome);
-    return;
+absl::Status SolveProblem(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
+                          const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
+  if (const auto* pendulum = std::get_if<pendulum::Problem>(&planned.problem)) {
+    return SolvePendulum(planned, *pendulum, extent, outcome);
   }
-  std::visit([&](const auto& reduction) { AddContactNotes(reduction, effective, job.outcome); }, contact->reduction);
+  if (const auto* planar = std::get_if<planar::Problem>(&planned.problem)) {
+    const auto& reduction = std::get<PlanarReduction>(contact->reduction);
+    return SolveContact(scene, planned, *planar, reduction, extent, stopped, outcome);
+  }
+  return SolveContact(planned, std::get<spatial::Problem>(planned.problem),
+                      std::get<SpatialReduction>(contact->reduction), extent, outcome);
 }
 
 // The size of the contact velocity before the impact, and its normal component.
 struct Approach {
-  double speed, v0;
+  double speed = 0.0, v0 = 0.0;
 };
 
-Approach ApproachOf(const PlannedScene& planned, const std::optional<SceneContact>& contact) {
-  if (planned.closed_form.has_value()) {
-    const pendulum::Problem& problem = *planned.closed_form;
-    return {std::fmax(problem.a, std::fabs(problem.b)) * std::fabs(problem.omega_minus),
-            problem.a * problem.omega_minus};
-  }
-  const auto of = [](const auto& reduction) {
-    double speed = std::fabs(reduction.v0);
-    for (const double u : reduction.u0) speed = std::fmax(speed, std::fabs(u));
-    return Approach{speed, reduction.v0};
+Approach ApproachOf(const PlannedScene& planned) {
+  struct Approaches {
+    Approach operator()(std::monostate) const { return {}; }
+    Approach operator()(const pendulum::Problem& problem) const {
+      return {std::fmax(problem.a, std::fabs(problem.b)) * std::fabs(problem.omega_minus),
+              problem.a * problem.omega_minus};
+    }
+    Approach operator()(const planar::Problem& problem) const {
+      return {std::fmax(std::fabs(problem.v0), std::fabs(problem.u0)), problem.v0};
+    }
+    Approach operator()(const spatial::Problem& problem) const {
+      const auto& [u1, u2] = problem.u0;
+      return {std::fmax(std::fmax(std::fabs(problem.v0), std::fabs(u1)), std::fabs(u2)), problem.v0};
+    }
   };
-  return std::visit(of, contact->reduction);
+  return std::visit(Approaches(), planned.problem);
 }
 
 }  // namespace
@@ -147,35 +125,24 @@ absl::Status ContactOverflow() {
       "smallest");
 }
 
-spatial::Problem SpatialProblemOf(const Scene& scene, const SpatialReduction& reduction, const PlannedScene& planned) {
-  const double tolerance =
-      planned.choice.model == Model::kNone ? spatial::kMostTolerance : planned.choice.model_tolerance;
-  return spatial::MakeProblem(reduction, scene.restitution, EffectiveOf(planned), tolerance);
-}
-
-absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const SolveOptions& options,
-                        absl::FunctionRef<bool()> stopped, Outcome& outcome) {
-  return SolvePlanned(scene, contact, PlanScene(scene, contact, options.demand), options, stopped, outcome);
+absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
+                        const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
+  return SolvePlanned(scene, contact, PlanScene(scene, contact, demand), extent, stopped, outcome);
 }
 
 absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
-                          const SolveOptions& options, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
+                          const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
-  const Job job = {.scene = scene, .options = options, .planned = planned, .stopped = stopped, .outcome = outcome};
-  absl::Status status =
-      planned.closed_form.has_value()
-          ? SolvePendulum(job, *planned.closed_form)
-          : std::visit([&job](const auto& reduction) { return SolveContact(job, reduction); }, contact->reduction);
+  absl::Status status = SolveProblem(scene, contact, planned, extent, stopped, outcome);
   if (!status.ok()) return status;
   outcome.effective = planned.effective;
   outcome.accuracy.relative_error += planned.choice.negligible;
-  const Approach approach = ApproachOf(planned, contact);
+  const Approach approach = ApproachOf(planned);
   AddNeglected(planned.choice.negligible, approach.speed, approach.v0, outcome);
-  CompareWithTolerance(options.demand.relative_tolerance, outcome);
-  if (options.extent.detail == Detail::kAll) {
-    Explain(planned, options.demand, outcome.plan);
+  CompareWithTolerance(planned.demand.relative_tolerance, outcome);
+  if (extent.detail == Detail::kAll) {
+    Explain(planned, outcome.plan);
     AddNotes(scene, planned, outcome);
-    AddNotes(job, contact);
   } else {
     outcome.plan.model = planned.choice.model;
   }
@@ -186,8 +153,8 @@ absl::StatusOr<Plan> PlanOf(const Scene& scene, std::optional<SceneContact>& con
   const PlannedScene planned = PlanScene(scene, contact, demand);
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
   Plan plan;
-  Explain(planned, demand, plan);
-  plan.arithmetic = ArithmeticOf(scene, contact, planned, demand);
+  Explain(planned, plan);
+  plan.arithmetic = ArithmeticOf(planned);
   return plan;
 }
 

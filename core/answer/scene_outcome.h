@@ -3,7 +3,6 @@
 #ifndef RICOCHET_CORE_ANSWER_SCENE_OUTCOME_H_
 #define RICOCHET_CORE_ANSWER_SCENE_OUTCOME_H_
 
-#include <cstdint>
 #include <optional>
 
 #include "absl/functional/function_ref.h"
@@ -11,7 +10,6 @@
 #include "absl/status/statusor.h"
 #include "core/answer/outcome_parts.h"
 #include "core/contact/scene_contact.h"
-#include "core/models/spatial/spatial.h"
 #include "core/plan/demand.h"
 #include "core/plan/planned_scene.h"
 #include "ricochet/outcome.h"
@@ -20,26 +18,17 @@
 
 namespace ricochet {
 
-struct SolveOptions {
-  Extent extent;
-  int64_t force_intervals = 0;
-  Demand demand;
-};
-
-// Solves a valid scene in which CheckDemand finds nothing, into an outcome that is empty. `contact` is set if it was not
-// yet and the scene needs it. With Detail::kNumbers the outcome's plan has the model alone.
-// Errors are those of the models' MakeOutcome, and ContactOverflow.
+// Solves a valid scene in which CheckDemand finds nothing, into an outcome that is empty. `contact` is set if it was
+// not yet and the scene needs it. With Detail::kNumbers the outcome's plan has the model alone. Errors are those of the
+// models' MakeOutcome, and ContactOverflow.
 //
 // An impact that takes time asks `stopped` every few steps and ends soon after it says true, with CANCELLED.
-absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const SolveOptions& options,
-                        absl::FunctionRef<bool()> stopped, Outcome& outcome);
+absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
+                        const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome);
 
 // The second half of SolveScene, for a scene that PlanScene has planned.
 absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
-                          const SolveOptions& options, absl::FunctionRef<bool()> stopped, Outcome& outcome);
-
-// The problem of a scene that is planned for the spatial model, or that separates.
-spatial::Problem SpatialProblemOf(const Scene& scene, const SpatialReduction& reduction, const PlannedScene& planned);
+                          const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome);
 
 // Plans such a scene without computing it.
 // Errors: ContactOverflow.

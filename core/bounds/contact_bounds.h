@@ -6,8 +6,8 @@
 // docs/theory/bounds.md has the derivation. Units are those of core/models/planar/planar.h.
 //
 // Accuracy: `sharp` has the accuracy of planar::Solve, but an upper bound that rounding would push past what Solve
-// accepts as admissible is a few doubles lower. `energy_only` and `critical` lose what their formulas cancel, some 8 ulp
-// of the largest term. Bad input: none gets here (core/scene/validate.h).
+// accepts as admissible is a few doubles lower. `energy_only` and `critical` lose what their formulas cancel, some 8
+// ulp of the largest term. Bad input: none gets here (core/scene/validate.h).
 
 #ifndef RICOCHET_CORE_BOUNDS_CONTACT_BOUNDS_H_
 #define RICOCHET_CORE_BOUNDS_CONTACT_BOUNDS_H_
@@ -17,8 +17,8 @@
 
 namespace ricochet::planar {
 
-// `problem.law` and `problem.coefficient` are not used. The regime is that of the elastic impact, which passes every event
-// of the others. If the contact separates, all ranges are 0.
+// `problem.law` and `problem.coefficient` are not used. The regime is that of the elastic impact, which passes every
+// event of the others. If the contact separates, all ranges are 0.
 Bounds SolveBounds(const Problem& problem);
 
 }  // namespace ricochet::planar

@@ -1,13 +1,13 @@
 // Enclose: the range of each coefficient over all scenes of a box of parameters, proved to contain it.
 //
-// For every scene of the box the bounds of its coefficients (core/bounds/contact_bounds.h, core/bounds/pendulum_bounds.h)
-// lie within `outer`, in spite of rounding: every operation is rounded outward (core/numerics/interval.h). `attained`
-// lies within what scenes of the box reach, also in spite of rounding. The true range lies between the two, and `excess`
-// bounds by how much `outer` is too wide.
-// Scenes that validation would refuse (det W < 0, mu_s < mu, (u0, v0) outside the range of a W of rank one) count for
-// nothing; scenes that separate count only for tau1 = 0. Where a box reaches into locking, or near det W = 0, the true
-// suprema of Poisson's coefficient and of tau1 may be infinite.
-// A pendulum's box is solved at its corners, any other by branch and bound. docs/theory/bounds.md has the derivation.
+// For every scene of the box the bounds of its coefficients (core/bounds/contact_bounds.h,
+// core/bounds/pendulum_bounds.h) lie within `outer`, in spite of rounding: every operation is rounded outward
+// (core/numerics/interval.h). `attained` lies within what scenes of the box reach, also in spite of rounding. The true
+// range lies between the two, and `excess` bounds by how much `outer` is too wide. Scenes that validation would refuse
+// (det W < 0, mu_s < mu, (u0, v0) outside the range of a W of rank one) count for nothing; scenes that separate count
+// only for tau1 = 0. Where a box reaches into locking, or near det W = 0, the true suprema of Poisson's coefficient and
+// of tau1 may be infinite. A pendulum's box is solved at its corners, any other by branch and bound.
+// docs/theory/bounds.md has the derivation.
 
 #ifndef RICOCHET_CORE_BOUNDS_ENCLOSURE_H_
 #define RICOCHET_CORE_BOUNDS_ENCLOSURE_H_
@@ -61,12 +61,12 @@ struct EnclosureOptions {
 
 Enclosure Enclose(const PendulumBox& box);
 
-// Gives the contact, or the pendulum (a of either sign), of all scenes whose parameters lie in `ranges`: the answer must
-// contain each of theirs, and must shrink with the ranges. If no scene is valid, mu may be empty.
+// Gives the contact, or the pendulum (a of either sign), of all scenes whose parameters lie in `ranges`: the answer
+// must contain each of theirs, and must shrink with the ranges. If no scene is valid, mu may be empty.
 using ToBox = absl::FunctionRef<std::variant<PlanarForm, PendulumBox>(absl::Span<const Interval> ranges)>;
 
-// Encloses the scenes whose parameters lie in `ranges`, by branch and bound. `stopped` is asked before each box; once it
-// says true the answer is what the boxes until then prove.
+// Encloses the scenes whose parameters lie in `ranges`, by branch and bound. `stopped` is asked before each box; once
+// it says true the answer is what the boxes until then prove.
 Enclosure Enclose(absl::Span<const Interval> ranges, ToBox to_box, const EnclosureOptions& options, Stopped stopped);
 
 }  // namespace ricochet

@@ -17,8 +17,8 @@
 namespace ricochet::pendulum {
 
 // Gives first-order bounds and their errors, and if `with_coefficients` also the coefficients at the problem's
-// coefficient. The problem must have x < 1. Values carry a few ulp of rounding. The errors are rounded up by 8 ulp of the
-// value they belong to, or by 2 units of 2^-1074 if that value is subnormal, so they enclose that rounding too.
+// coefficient. The problem must have x < 1. Values carry a few ulp of rounding. The errors are rounded up by 8 ulp of
+// the value they belong to, or by 2 units of 2^-1074 if that value is subnormal, so they enclose that rounding too.
 NearlyVertical SolveNearlyVertical(const Problem& problem, bool with_coefficients);
 
 }  // namespace ricochet::pendulum

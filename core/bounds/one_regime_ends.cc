@@ -12,8 +12,8 @@ Interval Tighter(const Interval& x, const SlopeForm& form) {
   return IsEmpty(both) ? x : both;
 }
 
-// A contact whose slip starts in one direction. Tangential numbers are stated along that direction; docs/theory/bounds.md
-// has the slopes.
+// A contact whose slip starts in one direction. Tangential numbers are stated along that direction;
+// docs/theory/bounds.md has the slopes.
 struct Slipping {
   SlopeForm wtt, q, wnn, slip, speed, mu;
   SlopeForm first;    // A1

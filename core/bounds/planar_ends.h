@@ -1,4 +1,5 @@
-// EncloseEnds: both ends of the bounds of a planar impact, the plastic and the elastic impact, over a box of parameters.
+// EncloseEnds: both ends of the bounds of a planar impact, the plastic and the elastic impact, over a box of
+// parameters.
 //
 // core/bounds/enclosure.h searches with them; docs/theory/bounds.md has the formulas. A pendulum's `a` may be of either
 // sign. Every result is rounded outward. If no scene of the box is valid the ends are kNothing.

@@ -224,8 +224,8 @@ BothRanges<N> RangesOf(const Contact<N>& contact, Branches& branches) {
   return ranges;
 }
 
-// Gives the ranges for a contact that separates: all are 0. The coefficients of a pendulum do not depend on its speed, so
-// they are answered for one that leaves, too.
+// Gives the ranges for a contact that separates: all are 0. The coefficients of a pendulum do not depend on its speed,
+// so they are answered for one that leaves, too.
 template <typename N>
 BothRanges<N> RangesWhereSeparating(Contact<N> contact, bool is_pendulum, Branches& branches) {
   BothRanges<N> ranges = {.sharp = NoRanges<N>(), .energy_only = NoRanges<N>()};

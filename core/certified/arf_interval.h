@@ -1,9 +1,9 @@
 // ArfInterval: a closed interval with ends of any precision and exponent, by Arb.
 //
 // Every operation encloses the exact results for all points of its operands: it rounds each end outward, to the larger
-// of the operands' two precisions. An interval keeps two ends rather than a centre and a radius, because so it keeps the
-// sign and the root of a wide interval. A quotient is the whole line if the divisor holds 0 inside, and a half-line if
-// the divisor ends at 0.
+// of the operands' two precisions. An interval keeps two ends rather than a centre and a radius, because so it keeps
+// the sign and the root of a wide interval. A quotient is the whole line if the divisor holds 0 inside, and a half-line
+// if the divisor ends at 0.
 
 #ifndef RICOCHET_CORE_CERTIFIED_ARF_INTERVAL_H_
 #define RICOCHET_CORE_CERTIFIED_ARF_INTERVAL_H_

@@ -1,8 +1,8 @@
 // Branches: decides which way a computation goes by proof, or takes both ways in turn.
 //
-// The sign of a Surd is always known. The sign of an ArfInterval that holds 0 is not, and the branch is then open. While
-// more precision may help, the caller throws such a run away. At the highest precision it repeats the computation once
-// for each combination of open branches, and the answers together enclose the right one.
+// The sign of a Surd is always known. The sign of an ArfInterval that holds 0 is not, and the branch is then open.
+// While more precision may help, the caller throws such a run away. At the highest precision it repeats the computation
+// once for each combination of open branches, and the answers together enclose the right one.
 
 #ifndef RICOCHET_CORE_CERTIFIED_BRANCHES_H_
 #define RICOCHET_CORE_CERTIFIED_BRANCHES_H_

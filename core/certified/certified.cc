@@ -15,7 +15,7 @@
 #include "core/certified/system.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
-#include "core/problem/scene_problem.h"
+#include "core/plan/scene_problem.h"
 
 namespace ricochet {
 namespace certified {
@@ -44,14 +44,15 @@ void FreeTablesWithThread() {
 std::optional<Violation> CheckExactContact(const Scene& scene, const Contact<Surd>& contact) {
   if (contact.v0.Sign() >= 0) return std::nullopt;
   if (contact.det.Sign() < 0) {
-    return Violation{"planar_contact.w_tn_per_kg",
-                     "makes det W < 0: must leave it >= 0 exactly, not to rounding, with certified_digits"};
+    return MakeViolation("planar_contact.w_tn_per_kg", "makes det W < 0",
+                         "leave it >= 0 exactly, not to rounding, with certified_digits");
   }
   const bool in_range = contact.wnn.Sign() > 0 && (contact.u0 * contact.wnn - contact.v0 * contact.wtn).Sign() == 0;
   if (contact.det.Sign() > 0 || in_range) return std::nullopt;
-  return Violation{scene.surface_velocity.has_value() ? "surface_velocity" : "planar_contact.tangential_m_s",
-                   "makes (u0, v0) lie beside the range of W, whose rank is one: must lie in it exactly, not to "
-                   "rounding, for a certified answer, which knows no impact of this kind"};
+  return MakeViolation(scene.surface_velocity.has_value() ? "surface_velocity" : "planar_contact.tangential_m_s",
+                       "makes (u0, v0) lie beside the range of W, whose rank is one",
+                       "lie in it exactly, not to "
+                       "rounding, for a certified answer, which knows no impact of this kind");
 }
 
 Certificate CertifyExact(Question question, const SystemContact<Surd>& system, int digits) {
@@ -132,9 +133,9 @@ Certificate CertifyEveryBranch(Question question, const SystemContact<ArfInterva
 }
 
 absl::Status SingularLinkage() {
-  return InvalidRequest({{"linkage.links",
-                          "have a mass matrix that is singular to the most bits of certified answers: must be less "
-                          "unlike in mass and length"}});
+  return InvalidRequest(
+      {MakeViolation("linkage.links", "have a mass matrix that is singular to the most bits of certified answers",
+                     "be less unlike in mass and length")});
 }
 
 absl::StatusOr<Certificate> CertifyLinkage(Question question, const Scene& scene,
@@ -190,23 +191,23 @@ bool IsAvailable() { return true; }
 
 std::vector<Violation> CheckCertifiable(const Scene& scene, int digits) {
   std::vector<Violation> violations;
-  const auto refuse = [&violations](bool is_wrong, const char* field, const char* description) {
-    if (is_wrong) violations.push_back({field, description});
+  const auto refuse = [&violations](bool is_wrong, const char* field, const char* found, const char* rule) {
+    if (is_wrong) violations.push_back(MakeViolation(field, found, rule));
   };
   if (digits < 1 || digits > kMostCertifiedDigits) {
     violations.push_back(
         MakeViolation("certified_digits", digits, absl::StrCat("be in [1, ", kMostCertifiedDigits, "]")));
   }
-  refuse(TangentialDirections(scene.system) > 1, "system",
-         "lies in space: must be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
-  refuse(!std::holds_alternative<std::monostate>(scene.impact_law), "impact_law",
-         "is set: must not be for a certified answer, which needs Coulomb friction and a coefficient of restitution");
-  refuse(scene.compliance.has_value(), "compliance",
-         "is set: must not be for a certified answer, which needs rigid contact");
-  refuse(!std::holds_alternative<std::monostate>(scene.finite_forces), "finite_forces",
-         "are set: must not be for a certified answer, whose impact takes no time");
-  refuse(scene.surface_velocity.has_value() && certified::HasParallelLinks(scene), "surface_velocity",
-         "is set: must not be for a certified answer about links that are all parallel");
+  refuse(TangentialDirections(scene.system) > 1, "system", "lies in space",
+         "be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
+  refuse(!std::holds_alternative<std::monostate>(scene.impact_law), "impact_law", "is set",
+         "not be for a certified answer, which needs Coulomb friction and a coefficient of restitution");
+  refuse(scene.compliance.has_value(), "compliance", "is set",
+         "not be for a certified answer, which needs rigid contact");
+  refuse(!std::holds_alternative<std::monostate>(scene.finite_forces), "finite_forces", "are set",
+         "not be for a certified answer, whose impact takes no time");
+  refuse(scene.surface_velocity.has_value() && certified::HasParallelLinks(scene), "surface_velocity", "is set",
+         "not be for a certified answer about links that are all parallel");
   return violations;
 }
 

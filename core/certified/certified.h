@@ -1,14 +1,13 @@
-// CertifySolve and CertifyBounds: the numbers of a rigid planar impact, and of its bounds, proved to as many significant
-// decimal digits as asked (Lubarda 2009, [10]-[31]; the planar path of core/models/planar/planar.h).
+// CertifySolve and CertifyBounds: the numbers of a rigid planar impact, and of its bounds, proved to as many
+// significant decimal digits as asked (Lubarda 2009, [10]-[31]; the planar path of core/models/planar/planar.h).
 //
-// Inputs are the exact numbers that the scene's doubles are. A pendulum, planar bodies and a planar_contact are computed
-// in exact arithmetic (rationals and one square root), so every event, tie and regime is decided by proof. A linkage is
-// computed in intervals, because of its sines and cosines; the precision doubles until all digits are proved or
-// `most_bits` is reached. A tie that is open even then is answered as a set: the hull of both ways to go on.
-// Coefficients that depend on speed count as the doubles that they come to.
-// W has rank one only if its determinant is exactly 0, unlike in core/contact/delassus.h, which allows for rounding.
-// Cost: microseconds to a millisecond for 50 digits; for a linkage it grows with the cube of the number of links.
-// docs/theory/certified.md has the derivation.
+// Inputs are the exact numbers that the scene's doubles are. A pendulum, planar bodies and a planar_contact are
+// computed in exact arithmetic (rationals and one square root), so every event, tie and regime is decided by proof. A
+// linkage is computed in intervals, because of its sines and cosines; the precision doubles until all digits are proved
+// or `most_bits` is reached. A tie that is open even then is answered as a set: the hull of both ways to go on.
+// Coefficients that depend on speed count as the doubles that they come to. W has rank one only if its determinant is
+// exactly 0, unlike in core/contact/delassus.h, which allows for rounding. Cost: microseconds to a millisecond for 50
+// digits; for a linkage it grows with the cube of the number of links. docs/theory/certified.md has the derivation.
 
 #ifndef RICOCHET_CORE_CERTIFIED_CERTIFIED_H_
 #define RICOCHET_CORE_CERTIFIED_CERTIFIED_H_

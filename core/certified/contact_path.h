@@ -1,9 +1,9 @@
-// ContactPath: the path of a planar impact over a number type N that proves its branches. N is Surd, which decides every
-// branch, or ArfInterval.
+// ContactPath: the path of a planar impact over a number type N that proves its branches. N is Surd, which decides
+// every branch, or ArfInterval.
 //
 // core/models/planar/planar.h has the equations and regimes, and docs/theory/certified.md says why this path stands
-// apart from the kernel of that model. A path has at most two pieces, on which u, v and f are linear in tau: the slip at
-// the start, and what follows where slip stops. On a piece with slopes (f', u', v') the sums are
+// apart from the kernel of that model. A path has at most two pieces, on which u, v and f are linear in tau: the slip
+// at the start, and what follows where slip stops. On a piece with slopes (f', u', v') the sums are
 //   twice the work      step (v + v_new) for the normal and f' step (u + u_new) for the tangential impulse
 //   v_new^2 - v^2       2 v' times the normal work, so energetic restitution ends at a square root
 //   E_new - E           p step + P step^2/2 with p = f' u + v and P = f' u' + v'

@@ -161,8 +161,8 @@ Decimal ToDecimal(Number<Surd> number, int digits, Rounding rounding) {
   }
 }
 
-// Finds the nearest double with balls that shrink until both ends round to the same one. The first ball does, unless the
-// number lies close to the middle of two doubles; if it lies exactly there the ball is exact.
+// Finds the nearest double with balls that shrink until both ends round to the same one. The first ball does, unless
+// the number lies close to the middle of two doubles; if it lies exactly there the ball is exact.
 double NearestDouble(const Number<Surd>& number) {
   constexpr slong kLeastBits = 128;
   constexpr slong kEnoughBits = 1 << 14;
@@ -199,7 +199,8 @@ std::string OutwardDecimal(const Arf& end, int digits, bool is_upper) {
   return ToDecimal(AsNumber(end), digits, away_from_zero ? Rounding::kUp : Rounding::kDown).text;
 }
 
-// Tells whether the interval is narrower than a millionth of a unit in the last digit, and in a double's last digit too.
+// Tells whether the interval is narrower than a millionth of a unit in the last digit, and in a double's last digit
+// too.
 bool IsNarrow(const ArfInterval& interval, int digits) {
   constexpr int kDigitsOfDouble = 17;
   if (interval.lower().Sign() * interval.upper().Sign() <= 0) return false;

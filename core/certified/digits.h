@@ -2,9 +2,9 @@
 //
 //   x = n 10^(e - digits + 1), where n is an integer of `digits` digits
 //
-// For a surd, or the root of one, n is read off a ball a few bits finer than the digits. If the ball holds the point that
-// decides between n and n + 1, the surd is compared with that point exactly. So the digits are always the ones nearest
-// to the number (half to even) or, where they are rounded outward, the next ones below or above it.
+// For a surd, or the root of one, n is read off a ball a few bits finer than the digits. If the ball holds the point
+// that decides between n and n + 1, the surd is compared with that point exactly. So the digits are always the ones
+// nearest to the number (half to even) or, where they are rounded outward, the next ones below or above it.
 
 #ifndef RICOCHET_CORE_CERTIFIED_DIGITS_H_
 #define RICOCHET_CORE_CERTIFIED_DIGITS_H_

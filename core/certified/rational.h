@@ -7,8 +7,8 @@
 
 #include <cmath>
 
+#include "core/base/invariant.h"
 #include "core/certified/flint.h"
-#include "core/numerics/invariant.h"
 
 namespace ricochet::certified {
 

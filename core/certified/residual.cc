@@ -1,9 +1,9 @@
 #include "core/certified/residual.h"
 
+#include "core/base/invariant.h"
 #include "core/certified/ball.h"
 #include "core/certified/digits.h"
 #include "core/certified/flint.h"
-#include "core/numerics/invariant.h"
 #include "ricochet/certificate.h"
 
 namespace ricochet::certified {

@@ -1,6 +1,6 @@
 #include "core/certified/surd.h"
 
-#include "core/numerics/invariant.h"
+#include "core/base/invariant.h"
 
 namespace ricochet::certified {
 

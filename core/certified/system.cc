@@ -197,7 +197,7 @@ bool Factorize(size_t size, slong bits, Matrix& mass, Stopped stopped) {
   return true;
 }
 
-// The rows of J^T: how the tip inverse_mass with each link's rate.
+// The rows of J^T: how the tip moves with each link's rate.
 std::vector<std::array<ArfInterval, 2>> TransposedJacobian(const std::vector<Link>& links, slong bits) {
   std::vector<std::array<ArfInterval, 2>> rows;
   for (const Link& link : links) {

@@ -3,10 +3,10 @@
 //
 //   W = J M^-1 J^T (1/kg),   (u0, v0) = J q' - surface velocity,   q'+ = q' + M^-1 J^T (f, tau)
 //
-// For a pendulum, bodies and a planar_contact these are rational in the inputs, so they are exact. A linkage needs sines
-// and cosines, so its contact is made of intervals.
-// W has rank one by construction for a pendulum and for a linkage whose links are all parallel. Two angles that are
-// doubles are parallel only if they are equal, because no multiple of pi other than 0 is rational.
+// For a pendulum, bodies and a planar_contact these are rational in the inputs, so they are exact. A linkage needs
+// sines and cosines, so its contact is made of intervals. W has rank one by construction for a pendulum and for a
+// linkage whose links are all parallel. Two angles that are doubles are parallel only if they are equal, because no
+// multiple of pi other than 0 is rational.
 
 #ifndef RICOCHET_CORE_CERTIFIED_SYSTEM_H_
 #define RICOCHET_CORE_CERTIFIED_SYSTEM_H_

@@ -2,9 +2,9 @@
 
 #include <vector>
 
+#include "core/base/invariant.h"
 #include "core/certified/certified.h"
 #include "core/certified/residual.h"
-#include "core/numerics/invariant.h"
 
 namespace ricochet {
 namespace {

@@ -1,9 +1,9 @@
 // FindCriticalFriction: the coefficients of friction at which the impact of a planar contact changes its course.
 //
-// They follow from W (1/kg) and the approach velocity (u0, v0) alone, v0 < 0; docs/theory/bounds.md has the formulas and
-// their meaning (Wang and Mason 1992). A coefficient is unset if no friction is critical in its way. The number type N is
-// double or a number with proved signs, for which `is_positive` decides; differences are rounded as N rounds them, some
-// 8 ulp of the largest term for doubles. Bad input: none gets here (core/scene/validate.h).
+// They follow from W (1/kg) and the approach velocity (u0, v0) alone, v0 < 0; docs/theory/bounds.md has the formulas
+// and their meaning (Wang and Mason 1992). A coefficient is unset if no friction is critical in its way. The number
+// type N is double or a number with proved signs, for which `is_positive` decides; differences are rounded as N rounds
+// them, some 8 ulp of the largest term for doubles. Bad input: none gets here (core/scene/validate.h).
 
 #ifndef RICOCHET_CORE_CONTACT_CRITICAL_FRICTION_H_
 #define RICOCHET_CORE_CONTACT_CRITICAL_FRICTION_H_

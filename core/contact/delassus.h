@@ -1,4 +1,5 @@
-// The Delassus matrix W = J M^-1 J^T of a contact (its inverse inertia, 1/kg), and the only place that decides its rank.
+// The Delassus matrix W = J M^-1 J^T of a contact (its inverse inertia, 1/kg), and the only place that decides its
+// rank.
 //
 // W is symmetric and positive semidefinite up to the rounding of its entries. Its determinant counts as zero if the
 // rounding of the entries could have produced it: |det W| <= 4 eps Wtt Wnn in the plane, with eps = 2^-52. In space the
@@ -21,8 +22,8 @@ namespace ricochet {
 // A determinant of at most this many times the product of the diagonal counts as rounding alone.
 inline constexpr double kRankTolerance = 4.0 * std::numeric_limits<double>::epsilon();
 
-// A velocity lies in the range of a W of rank one if |u Wnn - v Wtn| is at most this many times the sum of both terms: the
-// rounding of u and v takes it that far.
+// A velocity lies in the range of a W of rank one if |u Wnn - v Wtn| is at most this many times the sum of both terms:
+// the rounding of u and v takes it that far.
 inline constexpr double kRangeTolerance = 8.0 * std::numeric_limits<double>::epsilon();
 
 struct PlanarDelassus {
@@ -36,8 +37,8 @@ struct PlanarDelassus {
     if (tt == 0.0 && nn == 0.0) return 0;
     return std::abs(RelativeDeterminant()) <= kRankTolerance ? 1 : 2;
   }
-  // True if W has rank one and (u, v) lies in its range, so that impulses keep u = v Wtn/Wnn, and u and v vanish together.
-  // Where Wtt = 0 no impulse changes u, and it is false.
+  // True if W has rank one and (u, v) lies in its range, so that impulses keep u = v Wtn/Wnn, and u and v vanish
+  // together. Where Wtt = 0 no impulse changes u, and it is false.
   bool UFollowsV(double u, double v) const {
     if (!(tt > 0.0) || !(nn > 0.0) || Rank() != 1) return false;
     return std::abs(DifferenceOfProducts(u, nn, v, tn)) <= kRangeTolerance * (std::abs(u) * nn + std::abs(v * tn));

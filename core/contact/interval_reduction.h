@@ -1,9 +1,9 @@
 // Reduce: the contact (core/contact/reduction.h) of every scene of a box, enclosed in intervals.
 //
-// Entries are forms to first order in the parameters of the box (core/numerics/slope_form.h). Every operation is rounded
-// outward, so they contain the exact contact of every scene. They are too wide by at most the square of the box's size;
-// those of a pendulum are no wider than they must be. `stick_slope` is C = Wnn - Wtn^2/Wtt = det W/Wtt in a form without
-// that difference, because the entries of W alone cannot tell a W of full rank from others.
+// Entries are forms to first order in the parameters of the box (core/numerics/slope_form.h). Every operation is
+// rounded outward, so they contain the exact contact of every scene. They are too wide by at most the square of the
+// box's size; those of a pendulum are no wider than they must be. `stick_slope` is C = Wnn - Wtn^2/Wtt = det W/Wtt in a
+// form without that difference, because the entries of W alone cannot tell a W of full rank from others.
 // docs/theory/bounds.md has the formulas. Bad input: none gets here (core/answer/scene_enclosure.h).
 
 #ifndef RICOCHET_CORE_CONTACT_INTERVAL_REDUCTION_H_
@@ -44,8 +44,8 @@ using IntervalReduction = std::variant<IntervalPendulum, ContactForm>;
 bool IsOfRankOne(const System& system);
 
 // The scenes must state a planar system, and a surface at rest if IsOfRankOne. The numbers that differ become
-// `parameters`. `stopped` is asked before each row of a linkage's elimination, which for 64 links takes some 20 ms; once it
-// returns true the answer means nothing.
+// `parameters`. `stopped` is asked before each row of a linkage's elimination, which for 64 links takes some 20 ms;
+// once it returns true the answer means nothing.
 IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters, absl::FunctionRef<bool()> stopped);
 
 }  // namespace ricochet

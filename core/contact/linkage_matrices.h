@@ -10,8 +10,8 @@
 
 namespace ricochet {
 
-// M_ij = cos(theta_i - theta_j) sum over links k of m_k a_ki a_kj, where a_ki is length_i for links i before k, com_k for
-// k itself and 0 for links after k. The links' moments of inertia are added on the diagonal. Units are kg m^2.
+// M_ij = cos(theta_i - theta_j) sum over links k of m_k a_ki a_kj, where a_ki is length_i for links i before k, com_k
+// for k itself and 0 for links after k. The links' moments of inertia are added on the diagonal. Units are kg m^2.
 Eigen::MatrixXd MassMatrix(const Linkage& linkage);
 
 // d(tip)/d(theta) in m: one row for each link, columns t and n.

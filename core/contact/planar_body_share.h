@@ -1,4 +1,5 @@
-// PlanarBodyShare: what one body of a plane adds to W and to the contact velocity, and how impulses change its velocity.
+// PlanarBodyShare: what one body of a plane adds to W and to the contact velocity, and how impulses change its
+// velocity.
 //
 // The rows of J are (1, 0, -s_n) and (0, 1, s_t) for a contact at (s_t, s_n) from the centre of mass.
 // docs/theory/contact.md derives this.
@@ -30,8 +31,8 @@ inline PlanarBodyShare ShareOf(const PlanarBody& body) {
           .v0 = body.velocity_n_m_s + body.rate_rad_s * body.offset_t_m};
 }
 
-// M^-1 J^T, row by row: the change of (velocity along t, along n, rate) by a unit impulse along t and along n. `side` is 1
-// for the body on which the impulses act, -1 for the one on which their opposites act.
+// M^-1 J^T, row by row: the change of (velocity along t, along n, rate) by a unit impulse along t and along n. `side`
+// is 1 for the body on which the impulses act, -1 for the one on which their opposites act.
 inline std::array<double, 6> ResponseOf(const PlanarBody& body, double side) {
   const double per_mass = side / body.mass_kg;
   return {per_mass,

@@ -1,14 +1,14 @@
-// Reduction: all quantities that determine the impact of a system at one point, and the map from its impulse back to the
-// velocities of the system.
+// Reduction: all quantities that determine the impact of a system at one point, and the map from its impulse back to
+// the velocities of the system.
 //
 //   W = J M^-1 J^T,   (u0, v0) = J q' - surface velocity,   q'+ = q' + M^-1 J^T (f, tau)
 //
 // M is the mass matrix, J the Jacobian of the contact point, and q' the n generalised velocities: the rates of a
-// pendulum or linkage, or the velocity and angular velocity of a body. W is computed as the Gram matrix of L^-1 J^T with
-// L L^T = M, so that it is positive semidefinite up to rounding. A planar W whose determinant may be rounding alone
-// (below 8 n eps Wtt Wnn) is given rank one by wtn = +-sqrt(Wtt Wnn). docs/theory/contact.md derives this.
-// Accuracy: a few n ulp times the condition of M after scaling to a unit diagonal. Units are SI units.
-// The scene must be valid (core/scene/validate.h). If a product overflows, W or a velocity is not finite.
+// pendulum or linkage, or the velocity and angular velocity of a body. W is computed as the Gram matrix of L^-1 J^T
+// with L L^T = M, so that it is positive semidefinite up to rounding. A planar W whose determinant may be rounding
+// alone (below 8 n eps Wtt Wnn) is given rank one by wtn = +-sqrt(Wtt Wnn). docs/theory/contact.md derives this.
+// Accuracy: a few n ulp times the condition of M after scaling to a unit diagonal. Units are SI units. The scene must
+// be valid (core/scene/validate.h). If a product overflows, W or a velocity is not finite.
 
 #ifndef RICOCHET_CORE_CONTACT_REDUCTION_H_
 #define RICOCHET_CORE_CONTACT_REDUCTION_H_
@@ -92,8 +92,8 @@ bool IsSurelyDefinite(absl::Span<const double> upper);
 // below 16 eps.
 double ShareOutsideRange(const SpatialReduction& reduction);
 
-// True if the velocity lies in the range of W up to rounding, as every velocity does if the rank of W is full. Only W, u0
-// and v0 are read.
+// True if the velocity lies in the range of W up to rounding, as every velocity does if the rank of W is full. Only W,
+// u0 and v0 are read.
 bool VelocityIsInRange(const PlanarReduction& reduction);
 bool VelocityIsInRange(const SpatialReduction& reduction);
 

@@ -1,7 +1,7 @@
 // CallWatch: looks at the clock and at the options of a call while it is computed.
 //
-// Computations ask IsStopped as often as they like, down to every microsecond. It reads the clock each time, which takes
-// some 25 ns, and looks at the options themselves at most once a millisecond, because that may take a lock.
+// Computations ask IsStopped as often as they like, down to every microsecond. It reads the clock each time, which
+// takes some 25 ns, and looks at the options themselves at most once a millisecond, because that may take a lock.
 
 #ifndef RICOCHET_CORE_ENGINE_CALL_WATCH_H_
 #define RICOCHET_CORE_ENGINE_CALL_WATCH_H_

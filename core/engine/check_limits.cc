@@ -10,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
 #include "core/scene/numbers.h"
+#include "ricochet/audit_columns.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
@@ -105,14 +106,7 @@ void CheckColumns(const AuditColumns& columns, SizeCheck& check) {
   const auto rows = [&](const std::string& field, const std::vector<double>& values) {
     check.Entries("columns." + field, values.size(), &Limits::max_audit_rows);
   };
-  rows("tangential_m_s", columns.tangential_m_s);
-  rows("tangential_2_m_s", columns.tangential_2_m_s);
-  rows("normal_m_s", columns.normal_m_s);
-  rows("tangential_after_m_s", columns.tangential_after_m_s);
-  rows("tangential_2_after_m_s", columns.tangential_2_after_m_s);
-  rows("normal_after_m_s", columns.normal_after_m_s);
-  rows("friction", columns.friction);
-  rows("velocity_uncertainty_m_s", columns.velocity_uncertainty_m_s);
+  for (const NamedAuditColumn& column : kAuditColumns) rows(column.name, columns.*column.values);
   check.Entries("columns.rates_after", columns.rates_after_rad_s.size(), &Limits::max_links);
   for (size_t i = 0; i < columns.rates_after_rad_s.size(); ++i) {
     rows(absl::StrCat("rates_after[", i, "].rates_rad_s"), columns.rates_after_rad_s[i]);

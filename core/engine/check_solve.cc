@@ -18,7 +18,8 @@ constexpr char kForces[] = "contact.history";
 
 void CheckIntervals(const char* field, int64_t intervals, std::vector<Violation>& violations) {
   if (intervals >= 0 && intervals <= kMostIntervals) return;
-  violations.push_back({field, absl::StrCat("= ", intervals, ": must be in [0, ", kMostIntervals, "]")});
+  violations.push_back(
+      MakeViolation(field, absl::StrCat("= ", intervals), absl::StrCat("be in [0, ", kMostIntervals, "]")));
 }
 
 void CheckForceIntervals(const SolveRequest& request, std::optional<SceneContact>& contact,
@@ -50,21 +51,23 @@ void CheckHistory(const SolveRequest& request, std::vector<Violation>& violation
   const char* const why_none = WhyNoHistory(request.scene);
   const std::string entries = absl::StrCat("has ", count, count == 1 ? " entry" : " entries");
   if (count > 0 && why_none != nullptr) {
-    violations.push_back({"history_at_n_s", absl::StrCat(entries, ": must be empty ", why_none)});
+    violations.push_back(MakeViolation("history_at_n_s", entries, absl::StrCat("be empty ", why_none)));
   } else if (count > 0 && intervals != 0) {
-    violations.push_back({"history_at_n_s", absl::StrCat(entries, ": must be empty, with history_intervals")});
+    violations.push_back(MakeViolation("history_at_n_s", entries, "be empty, with history_intervals"));
   } else if (count > static_cast<size_t>(kMostIntervals) + 1) {
-    violations.push_back({"history_at_n_s", absl::StrCat(entries, ": must have at most ", kMostIntervals + 1)});
+    violations.push_back(MakeViolation("history_at_n_s", entries, absl::StrCat("have at most ", kMostIntervals + 1)));
   }
   if (intervals > 0 && why_none != nullptr) {
-    violations.push_back({"history_intervals", absl::StrCat("= ", intervals, ": must be 0 ", why_none)});
+    violations.push_back(
+        MakeViolation("history_intervals", absl::StrCat("= ", intervals), absl::StrCat("be 0 ", why_none)));
   }
 }
 
 void CheckCertified(const SolveRequest& request, std::vector<Violation>& violations) {
   CheckDigits(request.scene, request.certified_digits, violations);
   if (request.certified_digits == 0 || request.demand.excluded.empty()) return;
-  violations.push_back({"excluded", "is set: must not be, with certified_digits: certificates leave nothing out"});
+  violations.push_back(
+      MakeViolation("excluded", "is set", "not be, with certified_digits: certificates leave nothing out"));
 }
 
 }  // namespace

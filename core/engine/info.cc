@@ -4,8 +4,8 @@
 #include <variant>
 
 #include "core/certified/certified.h"
-#include "core/engine/engine.h"
 #include "core/models/finite_duration/finite_duration.h"
+#include "ricochet/engine_info.h"
 #include "ricochet/system.h"
 
 namespace ricochet {

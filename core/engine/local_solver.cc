@@ -10,23 +10,24 @@
 #include "core/answer/scene_bounds.h"
 #include "core/answer/scene_enclosure.h"
 #include "core/answer/scene_outcome.h"
-#include "core/batch/check_rows.h"
+#include "core/audit/audit_scene.h"
+#include "core/base/decimal.h"
+#include "core/base/invariant.h"
 #include "core/certified/certified.h"
+#include "core/cost/cost.h"
+#include "core/engine/audit_run.h"
 #include "core/engine/call_watch.h"
 #include "core/engine/check_limits.h"
 #include "core/engine/check_solve.h"
 #include "core/engine/chunk_size.h"
-#include "core/engine/engine.h"
 #include "core/engine/helper_threads.h"
 #include "core/engine/info.h"
 #include "core/engine/parallel_batch.h"
 #include "core/engine/sweep_run.h"
-#include "core/numerics/decimal.h"
-#include "core/numerics/invariant.h"
 #include "core/plan/demand_fields.h"
 #include "core/scene/validate.h"
-#include "core/study/audit_scene.h"
-#include "core/study/cost.h"
+#include "core/types/check_rows.h"
+#include "ricochet/engine_info.h"
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
 
@@ -85,11 +86,10 @@ absl::Status Answer(const SolveRequest& request, CallWatch& watch, SolveResponse
   if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
   const auto stopped = [&watch] { return watch.IsStopped(); };
   Outcome& outcome = response.outcome;
-  const SolveOptions solve = {
-      .extent = {.history_at_n_s = request.history_at_n_s, .history_intervals = request.history_intervals},
-      .force_intervals = request.force_intervals,
-      .demand = DemandOf(request)};
-  const absl::Status solved = SolveScene(request.scene, contact, solve, stopped, outcome);
+  const Extent extent = {.history_at_n_s = request.history_at_n_s,
+                         .history_intervals = request.history_intervals,
+                         .force_intervals = request.force_intervals};
+  const absl::Status solved = SolveScene(request.scene, contact, DemandOf(request), extent, stopped, outcome);
   if (!solved.ok()) return watch.OrWhyEnded(solved);
   if (request.inadmissible_is_error && !outcome.admissible) return Inadmissible(outcome);
   const absl::Status certified = Certify(request, stopped, outcome.certificate);
@@ -133,7 +133,7 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
   std::optional<SceneContact> contact;
   auto violations = Validate(request.scene, RestitutionIs::kOptional, contact);
   if (!std::holds_alternative<std::monostate>(request.scene.impact_law)) {
-    violations.push_back({"impact_law", "is set: must not be, for bounds"});
+    violations.push_back(MakeViolation("impact_law", "is set", "not be, for bounds"));
   }
   for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
   CheckDigits(request.scene, request.certified_digits, violations);
@@ -166,7 +166,8 @@ absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchReq
   CallWatch watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
-  absl::StatusOr<AuditBatchResponse> response = AuditScene(request, [&watch] { return watch.IsStopped(); });
+  absl::StatusOr<AuditBatchResponse> response =
+      RunAudits(request, HelpersOf(options), [&watch] { return watch.IsStopped(); });
   if (!response.ok()) return watch.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;

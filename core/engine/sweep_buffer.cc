@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "absl/types/span.h"
+
 namespace ricochet {
 
 SweepBuffer::SweepBuffer(int64_t first, int64_t room, size_t columns, bool with_regimes)
@@ -23,17 +25,18 @@ std::optional<SweepBuffer::Block> SweepBuffer::Take(int64_t most) {
   return Block{.first = first_ + start, .count = count};
 }
 
-SweepBuffer::Places SweepBuffer::PlacesOf(const Block& block) {
+RowSink SweepBuffer::SinkOf(const Block& block, SweepSummary& counts) {
   const int64_t start = block.first - first_;
-  Places places;
-  places.columns.resize(columns_);
-  for (size_t c = 0; c < columns_; ++c) places.columns[c] = values_.data() + static_cast<int64_t>(c) * room_ + start;
+  RowSink sink = {.columns = {}, .regimes = {}, .statuses = {}, .counts = counts};
+  for (size_t c = 0; c < columns_; ++c) {
+    sink.columns.push_back(values_.data() + static_cast<int64_t>(c) * room_ + start);
+  }
   if (!regimes_.empty()) {
     const auto count = static_cast<size_t>(block.count);
-    places.regimes = absl::MakeSpan(regimes_).subspan(static_cast<size_t>(start), count);
-    places.statuses = absl::MakeSpan(statuses_).subspan(static_cast<size_t>(start), count);
+    sink.regimes = absl::MakeSpan(regimes_).subspan(static_cast<size_t>(start), count);
+    sink.statuses = absl::MakeSpan(statuses_).subspan(static_cast<size_t>(start), count);
   }
-  return places;
+  return sink;
 }
 
 void SweepBuffer::Finish(const Block& block, int64_t count, const SweepSummary& tallies) {

@@ -10,14 +10,14 @@
 #include <optional>
 #include <vector>
 
-#include "absl/types/span.h"
+#include "core/rows/row_solver.h"
 #include "ricochet/outcome.h"
 #include "ricochet/sweep.h"
 
 namespace ricochet {
 
-// Thread safety: one thread at a time; but several threads may ask for the places of different blocks that they have taken,
-// and write to them.
+// Thread safety: one thread at a time; but several threads may ask for the sinks of different blocks that they have
+// taken, and write to them.
 class SweepBuffer {
  public:
   // Points [first, first + count) of the grid.
@@ -35,13 +35,8 @@ class SweepBuffer {
   bool has_untaken() const { return !untaken_.empty(); }
   bool Contains(const Block& block) const { return block.first >= first_ && block.first < first_ + room_; }
 
-  // The places of the points of a block.
-  struct Places {
-    std::vector<double*> columns;    // That of the first point's value in each column.
-    absl::Span<Regime> regimes;      // Empty without regimes.
-    absl::Span<RowStatus> statuses;  // Empty without regimes.
-  };
-  Places PlacesOf(const Block& block);
+  // Where the results of the points of a block go; without regimes, neither they nor the statuses.
+  RowSink SinkOf(const Block& block, SweepSummary& counts);
 
   // Says that the first `count` points of a block that was taken are computed. The rest may be taken again.
   void Finish(const Block& block, int64_t count, const SweepSummary& tallies);
@@ -50,7 +45,8 @@ class SweepBuffer {
   // True if the next point to leave is computed.
   bool has_ready() const { return ready_ > left_; }
 
-  // Moves all points that can leave now into a chunk: its index, count, values, regimes and statuses. Adds them to `tallies`.
+  // Moves all points that can leave now into a chunk: its index, count, values, regimes and statuses. Adds them to
+  // `tallies`.
   SweepChunk Leave(SweepSummary& tallies);
 
  private:

@@ -1,20 +1,20 @@
 #include "core/engine/sweep_run.h"
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
-#include <exception>
 #include <list>
 #include <mutex>
 #include <optional>
 #include <utility>
-#include <vector>
 
+#include "core/base/invariant.h"
+#include "core/engine/helped_run.h"
+#include "core/engine/pool.h"
 #include "core/engine/sweep_buffer.h"
-#include "core/numerics/invariant.h"
-#include "core/sweep/checked_sweep.h"
+#include "core/rows/checked_rows.h"
+#include "core/rows/row_source.h"
+#include "core/types/grid.h"
 
 namespace ricochet {
 namespace {
@@ -24,22 +24,19 @@ using Block = SweepBuffer::Block;
 
 constexpr int64_t kFirstChunkPoints = 1024;
 
-// Waking a thread costs some 50 us, so that a sweep that ends sooner than this is computed by its caller alone.
-constexpr std::chrono::milliseconds kAloneTime(1);
-
 // Blocks grow until they take this long, in which a lock is nothing, and shrink beyond twice of that, so that no thread
 // waits long for the last block of a chunk.
 constexpr std::chrono::microseconds kBlockTime(500);
 
-// Threads that share a sweep in SIMD lanes take so many points at once, which is some 10 us, so that they seldom meet at the
-// lock.
-constexpr int64_t kSharedLanePoints = 2 * SweepPoints::kMostPoints;
+// Threads that share a sweep in SIMD lanes take so many points at once, which is some 10 us, so that they seldom meet
+// at the lock.
+constexpr int64_t kSharedLanePoints = 2 * RowSolver::kRowsBetweenStops;
+
+// The most points that a thread takes at once, where it is alone or points take long.
+constexpr int64_t kMostPoints = 1024;
 
 // A helper gives back the rest of a block that takes longer than this, because its points have become dear.
 constexpr std::chrono::milliseconds kMostBlockTime(10);
-
-// The time between two looks of a caller who waits for helpers.
-constexpr std::chrono::milliseconds kBetweenLooks(1);
 
 absl::Status Stopped() { return absl::CancelledError("the sweep was stopped by its caller"); }
 
@@ -47,19 +44,13 @@ absl::Status Stopped() { return absl::CancelledError("the sweep was stopped by i
 
 class SweepRun::Impl {
  public:
-  Impl(CheckedSweep sweep, std::shared_ptr<Helpers> helpers)
-      : sweep_(std::move(sweep)),
-        helpers_(std::move(helpers)),
-        most_helpers_(helpers_ == nullptr ? 0 : helpers_->most()),
-        block_(FirstBlock()),
-        next_(sweep_.first) {}
-  ~Impl();
+  Impl(CheckedSweep sweep, std::shared_ptr<Helpers> helpers);
   Impl(const Impl&) = delete;
   Impl& operator=(const Impl&) = delete;
 
   int64_t points_total() const { return sweep_.end - sweep_.first; }
   int64_t points_done() const {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(helped_.mutex());
     return points_done_;
   }
   bool ended() const { return ended_; }
@@ -67,7 +58,13 @@ class SweepRun::Impl {
                                        int64_t most_bytes);
 
  private:
-  absl::Status ComputeChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough, SweepChunk& chunk);
+  // What a thread computes points with.
+  struct Points {
+    explicit Points(const CheckedSweep& sweep)
+        : source(sweep.grid), solver(sweep.grid.scene, AxisPaths(sweep.grid), sweep.columns, sweep.demand) {}
+    GridRows source;
+    RowSolver solver;
+  };
 
   // A block that a thread computes, with the buffer that it is of.
   struct Task {
@@ -75,73 +72,64 @@ class SweepRun::Impl {
     Block block;
   };
 
-  // Computes a block with the mutex unlocked, and makes its points known. Returns how many they are.
-  // Errors: CANCELLED if it was stopped.
-  absl::StatusOr<int64_t> Compute(const Task& task, SweepPoints& points, std::unique_lock<std::mutex>& lock,
-                                  absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough);
-  // Computes the points of a block one group of SIMD lanes after the other. Several threads may call it at once.
-  absl::StatusOr<int64_t> ComputePoints(const Task& task, SweepPoints& points, SweepSummary& tallies,
-                                        absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough) const;
+  absl::Status ComputeChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough, SweepChunk& chunk);
+  // Computes a block with the mutex unlocked, and makes its points known. Returns how many they are, or nothing if it
+  // was stopped.
+  std::optional<int64_t> Compute(const Task& task, Points& points, std::unique_lock<std::mutex>& lock,
+                                 absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough);
   // Helps until nothing is to be done, or another needs the thread.
   void Help(absl::FunctionRef<bool()> gives_way);
-  void HelpInTurn(SweepPoints& points, absl::FunctionRef<bool()> gives_way, std::unique_lock<std::mutex>& lock);
 
   // Lanes are fast enough for large blocks, and a caller who is alone leaves none for others to wait for.
-  bool adapts_blocks() const { return !sweep_.in_lanes && most_helpers_ > 0; }
+  bool adapts_blocks() const { return !sweep_.in_lanes && helped_.most_helpers() > 0; }
   int64_t FirstBlock() const {
     if (adapts_blocks()) return 1;
-    return most_helpers_ > 0 ? kSharedLanePoints : SweepPoints::kMostPoints;
+    return helped_.most_helpers() > 0 ? kSharedLanePoints : kMostPoints;
   }
 
   // The functions below are called with the mutex locked.
   // Takes a block, in a new buffer if need be. Nothing if all points are taken or the buffers that may be open are.
   std::optional<Task> Take();
-  size_t MostBuffers() const { return caller_is_here_ ? 2 + static_cast<size_t>(most_helpers_) / 4 : 1; }
+  size_t MostBuffers() const { return caller_is_here_ ? 2 + static_cast<size_t>(helped_.most_helpers()) / 4 : 1; }
   bool CanTake() const;
   int64_t RoomOfNextBuffer() const;
-  // Asks for as many helpers as could find something to do.
-  void AskForHelp(std::unique_lock<std::mutex>& lock);
   void LearnBlockTime(int64_t count, Clock::duration time);
   // True if the first buffer can leave, or has to although it is not full.
   bool CanLeave(bool is_cut) const {
     return !buffers_.empty() && (buffers_.front().is_complete() || (is_cut && buffers_.front().has_ready()));
   }
   SweepChunk Leave();
-  std::unique_ptr<SweepPoints> TakeSparePoints();
 
   const CheckedSweep sweep_;
-  const std::shared_ptr<Helpers> helpers_;
-  const int most_helpers_;
-  std::unique_ptr<SweepPoints> own_points_;  // Of the caller's thread.
-  std::optional<Clock::time_point> help_from_;
+  Pool<Points> points_;
+  Pool<Points>::Taken own_points_;  // Of the caller's thread.
   bool ended_ = false;
 
-  mutable std::mutex mutex_;
-  std::condition_variable changed_;
   std::list<SweepBuffer> buffers_;    // In the order of their points.
-  int64_t block_;                     // The points that a thread takes at once.
+  int64_t block_ = 1;                 // The points that a thread takes at once.
   int64_t next_;                      // The first point that has no buffer yet.
   int64_t most_bytes_ = kChunkBytes;  // The most bytes of values in a buffer that is opened now.
   int64_t points_done_ = 0;
   SweepSummary summary_;  // Of the points that have left.
   bool caller_is_here_ = false;
-  std::atomic<bool> stopping_ = false;
-  int helping_ = 0;
-  std::vector<std::unique_ptr<SweepPoints>> spare_points_;  // Those of helpers that have gone.
-  std::exception_ptr failure_;                              // What a helper has met.
+  HelpedRun helped_;  // Its mutex guards what is above, but for the points and whether the run has ended.
 };
 
-SweepRun::Impl::~Impl() {
-  stopping_ = true;
-  std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return helping_ == 0; });
+SweepRun::Impl::Impl(CheckedSweep sweep, std::shared_ptr<Helpers> helpers)
+    : sweep_(std::move(sweep)),
+      points_([this] { return std::make_unique<Points>(sweep_); }),
+      next_(sweep_.first),
+      helped_(
+          std::move(helpers), [this] { return CanTake(); },
+          [this](absl::FunctionRef<bool()> gives_way) { Help(gives_way); }) {
+  block_ = FirstBlock();
 }
 
 absl::StatusOr<SweepChunk> SweepRun::Impl::NextChunk(absl::FunctionRef<bool()> stopped,
                                                      absl::FunctionRef<bool()> is_enough, int64_t most_bytes) {
-  CheckInvariant(!ended_ && !stopping_, "a sweep has no chunk after its last one or a stop");
+  CheckInvariant(!ended_ && !helped_.is_stopping(), "a sweep has no chunk after its last one or a stop");
   {
-    const std::lock_guard lock(mutex_);
+    const std::lock_guard lock(helped_.mutex());
     most_bytes_ = most_bytes;
   }
   SweepChunk chunk;
@@ -149,32 +137,32 @@ absl::StatusOr<SweepChunk> SweepRun::Impl::NextChunk(absl::FunctionRef<bool()> s
   try {
     computed = ComputeChunk(stopped, is_enough, chunk);
   } catch (...) {
-    stopping_ = true;
+    helped_.Stop();
     throw;
   }
   if (computed.ok()) return chunk;
-  stopping_ = true;
+  helped_.Stop();
   return computed;
 }
 
 absl::Status SweepRun::Impl::ComputeChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough,
                                           SweepChunk& chunk) {
-  if (own_points_ == nullptr) own_points_ = std::make_unique<SweepPoints>(sweep_);
-  if (!help_from_.has_value()) help_from_ = Clock::now() + kAloneTime;
+  if (own_points_ == nullptr) own_points_ = points_.Take();
+  helped_.Begin();
   bool has_looked = false;
   bool is_cut = false;
-  std::unique_lock lock(mutex_);
+  std::unique_lock lock(helped_.mutex());
   caller_is_here_ = true;
   while (points_total() > 0 && !CanLeave(is_cut)) {
-    if (failure_ != nullptr) std::rethrow_exception(failure_);
+    helped_.ThrowWhatAHelperMet();
     const std::optional<Task> task = Take();
-    AskForHelp(lock);
+    helped_.AskForHelp(lock);
     if (task.has_value()) {
-      const absl::StatusOr<int64_t> count = Compute(*task, *own_points_, lock, stopped, is_enough);
-      if (!count.ok()) return count.status();
+      const std::optional<int64_t> count = Compute(*task, *own_points_, lock, stopped, is_enough);
+      if (!count.has_value()) return Stopped();
       is_cut = *count < task->block.count;
     } else {
-      changed_.wait_for(lock, kBetweenLooks);
+      helped_.Wait(lock);
     }
     lock.unlock();
     if (!task.has_value() && stopped()) return Stopped();
@@ -184,76 +172,39 @@ absl::Status SweepRun::Impl::ComputeChunk(absl::FunctionRef<bool()> stopped, abs
   }
   chunk = Leave();
   caller_is_here_ = false;
-  AskForHelp(lock);
+  helped_.AskForHelp(lock);
   lock.unlock();
   return !has_looked && stopped() ? Stopped() : absl::OkStatus();
 }
 
-absl::StatusOr<int64_t> SweepRun::Impl::Compute(const Task& task, SweepPoints& points,
-                                                std::unique_lock<std::mutex>& lock, absl::FunctionRef<bool()> stopped,
-                                                absl::FunctionRef<bool()> is_enough) {
+std::optional<int64_t> SweepRun::Impl::Compute(const Task& task, Points& points, std::unique_lock<std::mutex>& lock,
+                                               absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough) {
   lock.unlock();
   SweepSummary tallies;
   const Clock::time_point start = Clock::now();
-  const absl::StatusOr<int64_t> count = ComputePoints(task, points, tallies, stopped, is_enough);
+  const std::optional<int64_t> count = points.solver.Solve(
+      points.source, task.block.first, task.block.count, task.buffer->SinkOf(task.block, tallies), stopped, is_enough);
   const Clock::duration time = Clock::now() - start;
   lock.lock();
-  if (!count.ok()) return count;
+  if (!count.has_value()) return count;
   task.buffer->Finish(task.block, *count, tallies);
   points_done_ += *count;
   if (adapts_blocks()) LearnBlockTime(*count, time);
   return count;
 }
 
-absl::StatusOr<int64_t> SweepRun::Impl::ComputePoints(const Task& task, SweepPoints& points, SweepSummary& tallies,
-                                                      absl::FunctionRef<bool()> stopped,
-                                                      absl::FunctionRef<bool()> is_enough) const {
-  int64_t done = 0;
-  while (done < task.block.count && (done == 0 || !is_enough())) {
-    const Block part = {.first = task.block.first + done,
-                        .count = std::min(task.block.count - done, SweepPoints::kMostPoints)};
-    const SweepBuffer::Places places = task.buffer->PlacesOf(part);
-    const absl::StatusOr<int64_t> count = points.Compute(part.first, part.count, places.columns, places.regimes,
-                                                         places.statuses, tallies, stopped, is_enough);
-    if (!count.ok()) return count;
-    done += *count;
-    if (*count < part.count) break;
-  }
-  return done;
-}
-
 void SweepRun::Impl::Help(absl::FunctionRef<bool()> gives_way) {
-  std::unique_lock lock(mutex_);
-  try {
-    std::unique_ptr<SweepPoints> points = TakeSparePoints();
-    if (points == nullptr) {
-      lock.unlock();
-      points = std::make_unique<SweepPoints>(sweep_);
-      lock.lock();
-    }
-    HelpInTurn(*points, gives_way, lock);
-    spare_points_.push_back(std::move(points));
-  } catch (...) {
-    if (!lock.owns_lock()) lock.lock();
-    failure_ = std::current_exception();
-  }
-  --helping_;
-  // The run may be gone as soon as the mutex is unlocked.
-  changed_.notify_all();
-}
-
-void SweepRun::Impl::HelpInTurn(SweepPoints& points, absl::FunctionRef<bool()> gives_way,
-                                std::unique_lock<std::mutex>& lock) {
+  const Pool<Points>::Taken points = points_.Take();
+  std::unique_lock lock(helped_.mutex());
   while (const std::optional<Task> task = Take()) {
     const Clock::time_point end = Clock::now() + kMostBlockTime;
-    const absl::StatusOr<int64_t> count = Compute(
-        *task, points, lock, [this] { return stopping_.load(); }, [end] { return Clock::now() >= end; });
-    if (!count.ok()) return;
-    if (task->buffer == &buffers_.front()) changed_.notify_all();
+    const auto stopped = [this] { return helped_.is_stopping(); };
+    const auto is_enough = [end] { return Clock::now() >= end; };
+    if (!Compute(*task, *points, lock, stopped, is_enough).has_value()) return;
+    if (task->buffer == &buffers_.front()) helped_.Tell();
     lock.unlock();
-    const bool is_wanted = gives_way();
+    if (gives_way()) return;
     lock.lock();
-    if (is_wanted) return;
   }
 }
 
@@ -269,7 +220,7 @@ std::optional<SweepRun::Impl::Task> SweepRun::Impl::Take() {
 }
 
 bool SweepRun::Impl::CanTake() const {
-  if (stopping_) return false;
+  if (helped_.is_stopping()) return false;
   if (next_ < sweep_.end && buffers_.size() < MostBuffers()) return true;
   return std::any_of(buffers_.begin(), buffers_.end(), [](const SweepBuffer& b) { return b.has_untaken(); });
 }
@@ -281,21 +232,8 @@ int64_t SweepRun::Impl::RoomOfNextBuffer() const {
   return std::min({next_ == sweep_.first ? kFirstChunkPoints : fitting, fitting, sweep_.end - next_});
 }
 
-void SweepRun::Impl::AskForHelp(std::unique_lock<std::mutex>& lock) {
-  if (most_helpers_ == 0 || Clock::now() < *help_from_) return;
-  while (helping_ < most_helpers_ && CanTake()) {
-    ++helping_;
-    lock.unlock();
-    const bool has_started = helpers_->Start([this](absl::FunctionRef<bool()> gives_way) { Help(gives_way); });
-    lock.lock();
-    if (has_started) continue;
-    --helping_;
-    return;
-  }
-}
-
 void SweepRun::Impl::LearnBlockTime(int64_t count, Clock::duration time) {
-  if (count == block_ && time < kBlockTime) block_ = std::min(2 * block_, SweepPoints::kMostPoints);
+  if (count == block_ && time < kBlockTime) block_ = std::min(2 * block_, kMostPoints);
   if (time > 2 * kBlockTime) block_ = std::max(block_ / 2, int64_t{1});
 }
 
@@ -311,13 +249,6 @@ SweepChunk SweepRun::Impl::Leave() {
   ended_ = summary_.points == points_total();
   if (ended_) chunk.summary = summary_;
   return chunk;
-}
-
-std::unique_ptr<SweepPoints> SweepRun::Impl::TakeSparePoints() {
-  if (spare_points_.empty()) return nullptr;
-  std::unique_ptr<SweepPoints> points = std::move(spare_points_.back());
-  spare_points_.pop_back();
-  return points;
 }
 
 absl::StatusOr<SweepRun> SweepRun::Make(const SweepRequest& request, std::shared_ptr<Helpers> helpers) {

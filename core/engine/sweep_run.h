@@ -9,8 +9,8 @@
 //
 // All threads fill the same buffers, of one chunk each, with blocks of points that take a millisecond at most where a
 // point takes less. The first buffer becomes the next chunk once it is full. Between two chunks helpers fill one buffer
-// and then stop, so that a caller who is slow holds little. Neither the range asked for nor the chunks or threads change
-// the bits of a point. Memory does not depend on the number of points.
+// and then stop, so that a caller who is slow holds little. Neither the range asked for nor the chunks or threads
+// change the bits of a point. Memory does not depend on the number of points.
 
 #ifndef RICOCHET_CORE_ENGINE_SWEEP_RUN_H_
 #define RICOCHET_CORE_ENGINE_SWEEP_RUN_H_
@@ -20,20 +20,20 @@
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/statusor.h"
-#include "core/sweep/sweep_points.h"
+#include "core/rows/row_solver.h"
 #include "ricochet/helpers.h"
 #include "ricochet/sweep.h"
 
 namespace ricochet {
 
-// Thread safety: one thread at a time. Destroying a run waits until nobody helps it any more, which takes as long as one
-// block does, or a step of a dear point.
+// Thread safety: one thread at a time. Destroying a run waits until nobody helps it any more, which takes as long as
+// one block does, or a step of a dear point.
 class SweepRun {
  public:
   // The most bytes of values in a chunk, unless one point has more.
   static constexpr int64_t kChunkBytes = int64_t{512} << 10;
-  // The most points between two looks at `stopped`.
-  static constexpr int64_t kPointsBetweenStops = SweepPoints::kMostPoints;
+  // The most points in SIMD lanes between two looks at `stopped`.
+  static constexpr int64_t kPointsBetweenStops = RowSolver::kRowsBetweenStops;
 
   // Helpers are asked once a run has lasted for a millisecond; null stands for none.
   // Errors: those of CheckSweep.
@@ -51,10 +51,9 @@ class SweepRun {
   // one point. It ends early, but not before its first point, once `is_enough` says that it took long enough; no point
   // depends on that. The last chunk has the summary; a range without points has that one chunk. The engine is left to
   // the caller. Not to be called once the run has ended. Both functions are asked on this thread alone: once a chunk at
-  // least, before every kPointsBetweenStops points of SIMD lanes that it computes, before each other point, and every
-  // millisecond in which it waits for helpers.
-  // Errors: CANCELLED once `stopped` returns true; the run must not be used any more. An exception that a helper meets
-  // is thrown here.
+  // least, as RowSolver::Solve says for the points that it computes, and every millisecond in which it waits for
+  // helpers. Errors: CANCELLED once `stopped` returns true; the run must not be used any more. An exception that a
+  // helper meets is thrown here.
   absl::StatusOr<SweepChunk> NextChunk(absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough,
                                        int64_t most_bytes = kChunkBytes);
 

@@ -1,8 +1,9 @@
 // ImpactErrors: the errors of the numbers of an impact (ImpactEnd), each in the unit of its number and on its scale.
 //
-// A model bounds or estimates the errors of its velocities, impulses and works. Those of the coefficients follow: each is a
-// quotient of two such numbers. An error that is not known is infinite. Errors are those of the model for the numbers of its
-// problem as they are stated; what its plan leaves out comes on top. docs/theory/rounding.md derives the coefficients'.
+// A model bounds or estimates the errors of its velocities, impulses and works. Those of the coefficients follow: each
+// is a quotient of two such numbers. An error that is not known is infinite. Errors are those of the model for the
+// numbers of its problem as they are stated; what its plan leaves out comes on top. docs/theory/rounding.md derives the
+// coefficients'.
 
 #ifndef RICOCHET_CORE_MODELS_IMPACT_ERRORS_H_
 #define RICOCHET_CORE_MODELS_IMPACT_ERRORS_H_
@@ -54,8 +55,8 @@ inline ImpulseErrors ErrorsOfImpulses(double wtt, double wtn, double wnn, double
           .f = (wnn * u_error + coupling * v_error) / determinant};
 }
 
-// Sets the errors of the coefficients of an impact that starts with v0. A coefficient that the law states is exact, and all
-// three are where there is no restitution.
+// Sets the errors of the coefficients of an impact that starts with v0. A coefficient that the law states is exact, and
+// all three are where there is no restitution.
 template <typename Tangential>
 void SetCoefficientErrors(const ImpactEnd<Tangential>& impact, double v0, RestitutionLaw law, double coefficient,
                           ImpactErrors& errors) {

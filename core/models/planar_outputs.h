@@ -57,9 +57,9 @@ struct PlanarProblemColumns {
   }
 };
 
-// The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]` of
-// the i-th problem, `regimes[i]` its regime, and `inadmissible[i]` whether it breaks a limit. `regimes` and `inadmissible`
-// may be empty if they are not wanted. No place may overlap with another or with the problems.
+// The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]`
+// of the i-th problem, `regimes[i]` its regime, and `inadmissible[i]` whether it breaks a limit. `regimes` and
+// `inadmissible` may be empty if they are not wanted. No place may overlap with another or with the problems.
 struct PlanarSolvedColumns {
   absl::Span<const PlanarOutput> outputs;
   absl::Span<double* const> columns;

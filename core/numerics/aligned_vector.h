@@ -1,5 +1,5 @@
-// AlignedVector: a std::vector whose first element begins a cache line, because a SIMD load that crosses two lines takes
-// twice as long.
+// AlignedVector: a std::vector whose first element begins a cache line, because a SIMD load that crosses two lines
+// takes twice as long.
 
 #ifndef RICOCHET_CORE_NUMERICS_ALIGNED_VECTOR_H_
 #define RICOCHET_CORE_NUMERICS_ALIGNED_VECTOR_H_

@@ -14,7 +14,8 @@ double Exp(double x) { return Sleef_cinz_expd1_u10purec(x); }
 double Log(double x) { return Sleef_cinz_logd1_u10purec(x); }
 double Pow(double base, double exponent) { return Sleef_cinz_powd1_u10purec(base, exponent); }
 
-// Scales the arguments by a power of two, and corrects the root for the rounding errors of both squares and of their sum.
+// Scales the arguments by a power of two, and corrects the root for the rounding errors of both squares and of their
+// sum.
 double Hypot(double x, double y) {
   const double large = std::max(std::fabs(x), std::fabs(y));
   if (std::isinf(x) || std::isinf(y)) return std::numeric_limits<double>::infinity();

@@ -1,10 +1,10 @@
 // Interval: the reals between two doubles, and operations whose result contains every result of the operands' members.
 //
-// Each end is the one that rounding down or up would give. It is the nearest double, or its neighbour if the sign of the
-// rounding error says that the nearest lies on the wrong side; that error is itself exact (TwoSum, fma). An exact result
-// does not widen, so an interval of one member stays one as long as arithmetic is exact. In the range of underflow, where
-// the error is not known, the neighbour is always taken. The rounding mode is never touched; Boost.Interval, which does
-// touch it, needs -frounding-math.
+// Each end is the one that rounding down or up would give. It is the nearest double, or its neighbour if the sign of
+// the rounding error says that the nearest lies on the wrong side; that error is itself exact (TwoSum, fma). An exact
+// result does not widen, so an interval of one member stays one as long as arithmetic is exact. In the range of
+// underflow, where the error is not known, the neighbour is always taken. The rounding mode is never touched;
+// Boost.Interval, which does touch it, needs -frounding-math.
 //
 // Members are finite; an infinite end says that there is no bound. IsEmpty and Intersect alone are defined for an empty
 // interval (lower > upper).

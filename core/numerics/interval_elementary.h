@@ -1,9 +1,9 @@
 // Sin, Cos and Pow of intervals: they contain the value at every member.
 //
 // At each end they take the function of core/numerics/elementary.h and move two doubles outward: one for its
-// kElementaryUlps = 1, and one in case the exact value lies in the binade above. Between the ends Sin and Cos reach 1 or
-// -1 if an enclosure of x/(pi/2) holds an integer at which they do. Above kMostQuarters any interval other than a point
-// gives [-1, 1].
+// kElementaryUlps = 1, and one in case the exact value lies in the binade above. Between the ends Sin and Cos reach 1
+// or -1 if an enclosure of x/(pi/2) holds an integer at which they do. Above kMostQuarters any interval other than a
+// point gives [-1, 1].
 
 #ifndef RICOCHET_CORE_NUMERICS_INTERVAL_ELEMENTARY_H_
 #define RICOCHET_CORE_NUMERICS_INTERVAL_ELEMENTARY_H_

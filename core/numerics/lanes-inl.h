@@ -1,7 +1,7 @@
 // Lanes: one vocabulary for a double and for a SIMD vector of doubles, so that an algorithm is written once.
 //
-// V is `double` or a Highway vector; its masks are `bool` or the vector's masks. Like Highway's own headers, this one is
-// included once for each target, and everything here lives in HWY_NAMESPACE. Vectors exist only on targets with a
+// V is `double` or a Highway vector; its masks are `bool` or the vector's masks. Like Highway's own headers, this one
+// is included once for each target, and everything here lives in HWY_NAMESPACE. Vectors exist only on targets with a
 // hardware fma (RICOCHET_SIMD); elsewhere V is `double` and std::fma gives the same bits.
 
 // Per-target include guard.

@@ -1,9 +1,9 @@
 // Plain: a double or a vector of doubles (core/numerics/lanes-inl.h) as a number type, so that a kernel written over
 // DoubleDouble also runs at the cost of plain arithmetic.
 //
-// Each operation is rounded once, with a relative error of at most u = 2^-53 unless the result underflows. AddProduct and
-// SubtractProduct round once as a whole, so that the sign of a + x y is exact. A kernel has to prove what its results are
-// worth; docs/theory/rounding.md does.
+// Each operation is rounded once, with a relative error of at most u = 2^-53 unless the result underflows. AddProduct
+// and SubtractProduct round once as a whole, so that the sign of a + x y is exact. A kernel has to prove what its
+// results are worth; docs/theory/rounding.md does.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_NUMERICS_PLAIN_INL_H_) == defined(HWY_TARGET_TOGGLE)

@@ -1,10 +1,10 @@
 // SlopeForm: a function of the parameters of a box, enclosed to first order.
 //
-// For every point x of a box with the centre c, f(x) lies in f(c) + sum_i s_i (x_i - c_i), where the s_i are the slopes.
-// Sums, products and quotients carry the slopes on exactly (Krawczyk and Neumaier 1985); the derivative bounds those of
-// another function. The range is the intersection of what the slopes allow with what interval arithmetic allows. If
-// parameters enter a formula several times, it is too wide by the square of the box's size rather than by the size. All
-// operations are rounded outward (core/numerics/interval.h).
+// For every point x of a box with the centre c, f(x) lies in f(c) + sum_i s_i (x_i - c_i), where the s_i are the
+// slopes. Sums, products and quotients carry the slopes on exactly (Krawczyk and Neumaier 1985); the derivative bounds
+// those of another function. The range is the intersection of what the slopes allow with what interval arithmetic
+// allows. If parameters enter a formula several times, it is too wide by the square of the box's size rather than by
+// the size. All operations are rounded outward (core/numerics/interval.h).
 //
 // Parameters beyond the first kMostSlopes have no slopes; they are intervals at the centre, too.
 

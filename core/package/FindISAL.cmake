@@ -1,5 +1,5 @@
-# Finds Intel's ISA-L, which computes checksums, and defines ISAL::isal. Installed beside ricochetConfig.cmake, which asks
-# for it as well.
+# Finds Intel's ISA-L, which computes checksums, and defines ISAL::isal. Installed beside ricochetConfig.cmake, which
+# asks for it as well.
 find_path(ISAL_INCLUDE_DIR isa-l/crc.h)
 find_library(ISAL_LIBRARY isal)
 

@@ -6,8 +6,8 @@
 namespace ricochet {
 namespace {
 
-// Every output is within 1 ulp, 2^-52 of its value. Over its scale a velocity is at most kappa_hat <= kappa, tau1 at most
-// 1 + kappa, f1 and mu_hat at most max(1, kappa), any other output at most 1.
+// Every output is within 1 ulp, 2^-52 of its value. Over its scale a velocity is at most kappa_hat <= kappa, tau1 at
+// most 1 + kappa, f1 and mu_hat at most max(1, kappa), any other output at most 1.
 double CompensatedError(const pendulum::Impact& impact) {
   return 0x1p-51 * std::max(1.0, impact[pendulum::Output::kPoisson]);
 }

@@ -12,31 +12,22 @@
 #include "core/models/pendulum/first_order.h"
 #include "core/models/restitution_law.h"
 #include "core/models/sliding/sliding.h"
+#include "core/plan/candidates.h"
 #include "core/plan/perturbed_path.h"
 #include "core/plan/straight_problem.h"
 
 namespace ricochet {
 namespace {
 
-constexpr EffectSet kPlanarEffects = {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction,
-                                      Effect::kHigherOrder};
-constexpr EffectSet kSpatialEffects = {Effect::kFriction, Effect::kSlipStop, Effect::kSlipTurn,
-                                       Effect::kStaticFriction};
-constexpr EffectSet kCompliantEffects = kPlanarEffects | EffectSet{Effect::kTangentialCompliance};
-constexpr EffectSet kDurationEffects = kCompliantEffects | EffectSet{Effect::kFiniteDuration, Effect::kFiniteForces};
 // Any model leaves these effects out if the corresponding input is 0.
 constexpr EffectSet kSwitched = {Effect::kFriction, Effect::kStaticFriction, Effect::kTangentialCompliance,
                                  Effect::kFiniteForces};
 
-double ExactError() { return 0.0; }
-
-struct Candidate {
-  Model model = Model::kUnspecified;
-  EffectSet simulates;
-  bool applies = true;  // False if the scene has no spring for the model.
-  // Gives the model's own error over V; infinite if the model does not serve the contact. It is not asked for a model
-  // that leaves out too much.
-  absl::FunctionRef<double()> error = ExactError;
+// The models of a contact in order of cost, and each one's own error over V: infinite if the model does not serve the
+// contact. It is not asked for a model that leaves out too much.
+struct Candidates {
+  absl::Span<const Candidate> models;
+  absl::FunctionRef<double(Model)> error;
 };
 
 struct Context {
@@ -74,13 +65,13 @@ struct Context {
 
 // The first candidate within the tolerance. There may be none if the caller excludes an effect that every exact model
 // has; then the last candidate is taken that leaves out nothing else.
-const Candidate* Cheapest(const Context& context, absl::Span<const Candidate> candidates) {
+const Candidate* Cheapest(const Context& context, const Candidates& candidates) {
   const Candidate* fallback = nullptr;
-  for (const Candidate& candidate : candidates) {
-    if (!candidate.applies || !context.Allows(candidate.simulates)) continue;
+  for (const Candidate& candidate : candidates.models) {
+    if (!context.Allows(candidate.simulates)) continue;
     const double neglected = context.Neglected(candidate.simulates);
     if (!(neglected <= context.demand.relative_tolerance) && neglected != 0.0) continue;
-    const double error = candidate.error();
+    const double error = candidates.error(candidate.model);
     if (!(error < kUnbounded)) continue;
     if (neglected + error <= context.demand.relative_tolerance) return &candidate;
     if (neglected == 0.0) fallback = &candidate;
@@ -122,7 +113,7 @@ void Decide(const Context& context, const Candidate& candidate, const Sizes& of_
 }
 
 Choice ChooseAmong(const Sizes& sizes, const Sizes& of_all, const Demand& demand, EffectSet excluded,
-                   absl::Span<const Candidate> candidates) {
+                   const Candidates& candidates) {
   Choice choice = {.sizes = sizes};
   const Context context = {.sizes = sizes, .demand = demand, .excluded = excluded};
   const Candidate* candidate = Cheapest(context, candidates);
@@ -202,18 +193,15 @@ bool SlidesTooFar(const Problem& problem, const Sizes& sizes, EffectSet excluded
   return sliding::FrictionPushes(SlidingProblemOf(problem));
 }
 
-Candidate Compliant(const ContactPhysics& physics) {
-  return {.model = Model::kCompliant, .simulates = kCompliantEffects, .applies = physics.ratio_squared > 0.0};
-}
-
-Candidate FiniteDuration(const ContactPhysics& physics) {
-  return {.model = Model::kFiniteDuration,
-          .simulates = kDurationEffects,
-          .applies = !std::holds_alternative<std::monostate>(physics.spring)};
+// The error of a model beyond the rigid impact: none that the plan has to count, if the contact has the springs for it.
+double ErrorBeyondRigid(Model model, const ContactPhysics& physics) {
+  const bool applies = model == Model::kCompliant ? physics.ratio_squared > 0.0
+                                                  : !std::holds_alternative<std::monostate>(physics.spring);
+  return applies ? 0.0 : kUnbounded;
 }
 
 Choice ChoosePlanarModel(const Sizes& sizes, const Sizes& of_all, const Demand& demand, EffectSet excluded,
-                         absl::Span<const Candidate> candidates) {
+                         const Candidates& candidates) {
   Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);
   if (choice.model == Model::kFiniteDuration) {
     choice.model_tolerance = RemainingTolerance(choice, demand, 1e-12, 1e-1);
@@ -234,8 +222,8 @@ Choice ForcedContact() {
   return choice;
 }
 
-// The error of the frictionless model for a pendulum as a planar contact, whose W and velocities are rounded products of
-// the pendulum's numbers.
+// The error of the frictionless model for a pendulum as a planar contact, whose W and velocities are rounded products
+// of the pendulum's numbers.
 double PendulumFrictionlessError(const pendulum::Problem& problem) {
   constexpr double kReduction = 0x1p-49;
   if (problem.coefficient > 1.0) return kUnbounded;
@@ -257,17 +245,14 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   const planar::Problem kept = Without(excluded, problem);
   const Sizes of_all = PlanarSizes(problem, physics);
   StraightErrors errors(kept, kept.u0 != 0.0);
-  const auto frictionless_error = [&errors] { return errors.Frictionless(); };
-  const auto sliding_error = [&] { return SlidesTooFar(kept, of_all, excluded) ? kUnbounded : errors.Sliding(); };
-  const Candidate candidates[] = {
-      {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
-      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},
-      {.model = Model::kPlanar, .simulates = kPlanarEffects},
-      Compliant(physics),
-      FiniteDuration(physics),
+  const auto error = [&](Model model) {
+    if (model == Model::kPlanar) return 0.0;
+    if (model == Model::kFrictionless) return errors.Frictionless();
+    if (model == Model::kSliding) return SlidesTooFar(kept, of_all, excluded) ? kUnbounded : errors.Sliding();
+    return ErrorBeyondRigid(model, physics);
   };
   const auto choose = [&](const Sizes& sizes) {
-    return ChoosePlanarModel(sizes, of_all, demand, excluded, candidates);
+    return ChoosePlanarModel(sizes, of_all, demand, excluded, {kPlanarCandidates, error});
   };
   Choice choice =
       excluded.IsEmpty() ? choose(of_all) : choose(PlanarSizes(kept, kept_physics, excluded.Has(Effect::kSlipStop)));
@@ -275,13 +260,10 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   return choice;
 }
 
-// For a rigid pendulum all other effects have size 0, so that the candidates are those of ChoosePendulum.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance) {
   if (problem.omega_minus >= 0.0) return Model::kNone;
-  const double friction = PendulumFrictionSize(problem).value;
-  if (friction <= tolerance && friction + PendulumFrictionlessError(problem) <= tolerance) return Model::kFrictionless;
-  const bool serves = first_order::Serves(problem);
-  return serves && PendulumHigherOrderSize(problem).value <= tolerance ? Model::kFirstOrder : Model::kPendulum;
+  if (PendulumFrictionSize(problem).value != 0.0) return Model::kPendulum;
+  return PendulumFrictionlessError(problem) <= tolerance ? Model::kFrictionless : Model::kPendulum;
 }
 
 Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& physics, const Demand& demand) {
@@ -290,17 +272,17 @@ Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& ph
   if (problem.omega_minus >= 0.0) return HasForces(kept_physics) ? ForcedContact() : Separating();
   const pendulum::Problem kept = Without(excluded, problem);
   const Sizes of_all = PendulumSizes(problem, physics);
-  const auto frictionless_error = [&kept] { return PendulumFrictionlessError(kept); };
-  const auto first_order_error = [&kept] { return first_order::Serves(kept) ? 0.0 : kUnbounded; };
-  const Candidate candidates[] = {
-      {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
-      {.model = Model::kFirstOrder, .simulates = {Effect::kFriction, Effect::kSlipStop}, .error = first_order_error},
-      {.model = Model::kPendulum, .simulates = kPlanarEffects},
-      Compliant(physics),
-      FiniteDuration(physics),
+  const auto error = [&](Model model) {
+    if (model == Model::kPendulum) return 0.0;
+    if (model == Model::kFrictionless) return PendulumFrictionlessError(kept);
+    if (model == Model::kFirstOrder) return first_order::Serves(kept) ? 0.0 : kUnbounded;
+    return ErrorBeyondRigid(model, physics);
   };
   const auto choose = [&](const Sizes& sizes) {
-    return ChoosePlanarModel(sizes, of_all, demand, excluded, candidates);
+    const bool is_smooth = sizes[Effect::kFriction].value == 0.0;
+    const absl::Span<const Candidate> models =
+        is_smooth ? absl::MakeConstSpan(kSmoothPendulumCandidates) : absl::MakeConstSpan(kPendulumCandidates);
+    return ChoosePlanarModel(sizes, of_all, demand, excluded, {models, error});
   };
   return excluded.IsEmpty() ? choose(of_all) : choose(PendulumSizes(kept, kept_physics));
 }
@@ -312,14 +294,12 @@ Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
   const Sizes of_all = SpatialSizes(problem);
   const Sizes sizes = excluded.IsEmpty() ? of_all : SpatialSizes(kept);
   StraightErrors errors(kept, kept.u0[0] != 0.0 || kept.u0[1] != 0.0);
-  const auto frictionless_error = [&errors] { return errors.Frictionless(); };
-  const auto sliding_error = [&] { return SlidesTooFar(kept, of_all, excluded) ? kUnbounded : errors.Sliding(); };
-  const Candidate candidates[] = {
-      {.model = Model::kFrictionless, .simulates = {}, .error = frictionless_error},
-      {.model = Model::kSliding, .simulates = {Effect::kFriction}, .error = sliding_error},
-      {.model = Model::kSpatial, .simulates = kSpatialEffects},
+  const auto error = [&](Model model) {
+    if (model == Model::kFrictionless) return errors.Frictionless();
+    if (model == Model::kSliding) return SlidesTooFar(kept, of_all, excluded) ? kUnbounded : errors.Sliding();
+    return 0.0;
   };
-  Choice choice = ChooseAmong(sizes, of_all, demand, excluded, candidates);
+  Choice choice = ChooseAmong(sizes, of_all, demand, excluded, {kSpatialCandidates, error});
   errors.KeepThoseOf(choice);
   if (choice.model == Model::kSpatial)
     choice.model_tolerance = RemainingTolerance(choice, demand, spatial::kLeastTolerance, spatial::kMostTolerance);

@@ -1,15 +1,14 @@
 // Choose: the cheapest model that is proved to answer a contact within a demand.
 //
-// In order of cost the models are frictionless, first order (pendulum), sliding, closed form (pendulum), planar, spatial,
-// compliant, finite duration. The first one is taken for which
+// core/plan/candidates.h has the models in order of cost. The first one is taken for which
 //
 //   every required effect is simulated, every excluded one is not, and
 //   sum of the sizes (core/plan/sizes.h) of the effects left out + the model's own numerical error <= the tolerance.
 //
 // docs/theory/plan.md, section 2, says how excluded effects count and which contacts a closed form does not serve.
 // A choice allocates nothing and costs a few dozen multiplications, because a sweep makes one at every point.
-// The problem must be valid. If no model meets the demand, the choice is kUnspecified; this happens exactly if CheckDemand
-// (core/plan/demand.h) finds a violation.
+// The problem must be valid. If no model meets the demand, the choice is kUnspecified; this happens exactly if
+// CheckDemand (core/plan/demand.h) finds a violation.
 
 #ifndef RICOCHET_CORE_PLAN_CHOOSE_H_
 #define RICOCHET_CORE_PLAN_CHOOSE_H_
@@ -39,11 +38,12 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
 Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand);
 Choice ChoosePendulum(const pendulum::Problem& problem, const ContactPhysics& physics, const Demand& demand);
 
-// Gives the model that ChoosePendulum chooses for a rigid pendulum and a demand that is a tolerance alone, at a fraction
-// of the cost.
+// Gives the model that ChoosePendulum chooses for a rigid pendulum and a demand that is a tolerance alone, at a
+// fraction of the cost.
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance);
 
-// Leaves effects out of both coefficients of friction: without friction mu = mu_s = 0, without static friction mu_s = mu.
+// Leaves effects out of both coefficients of friction: without friction mu = mu_s = 0, without static friction mu_s =
+// mu.
 inline void LeaveOut(EffectSet effects, double& mu, double& mu_static) {
   if (effects.Has(Effect::kFriction)) mu = mu_static = 0.0;
   if (effects.Has(Effect::kStaticFriction)) mu_static = mu;

@@ -10,7 +10,7 @@
 #include "core/contact/scene_contact.h"
 #include "core/models/finite_duration/finite_duration.h"
 #include "core/plan/planned_scene.h"
-#include "core/problem/scene_problem.h"
+#include "core/plan/scene_problem.h"
 #include "core/scene/check.h"
 
 namespace ricochet {
@@ -65,8 +65,8 @@ void ForEach(EffectSet effects, const char* field, const Visit& visit) {
   }
 }
 
-Violation Refuse(std::string path, Effect effect, const std::string& rule) {
-  return {std::move(path), absl::StrCat("= ", NameOf(effect), ": must ", rule)};
+Violation Refuse(std::string path, Effect effect, std::string rule) {
+  return MakeViolation(std::move(path), absl::StrCat("= ", NameOf(effect)), std::move(rule));
 }
 
 // The excluded effect that leaves out `effect`.
@@ -80,8 +80,8 @@ Effect CauseOf(Effect effect, EffectSet excluded, bool in_space) {
 // Refuses a normal spring, whatever the tolerance leaves of it, if the build cannot follow an impact in time.
 void CheckComponents(const Scene& scene, std::vector<Violation>& violations) {
   if (finite_duration::IsAvailable() || !Lacking(scene, Effect::kFiniteDuration).empty()) return;
-  violations.push_back({"compliance.normal",
-                        "is set: must not be, this build has no impacts that take time (component finite_duration)"});
+  violations.push_back(MakeViolation("compliance.normal", "is set",
+                                     "not be, this build has no impacts that take time (component finite_duration)"));
 }
 
 void CheckRequired(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {

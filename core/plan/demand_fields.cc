@@ -20,9 +20,9 @@ void CheckList(const std::vector<Effect>& effects, const char* field, std::vecto
   for (size_t i = 0; i < effects.size() && !IsFull(violations); ++i) {
     const auto path = [&] { return absl::StrCat(field, "[", i, "]"); };
     if (effects[i] == Effect::kUnspecified) {
-      violations.push_back({path(), "= unspecified: must be an effect that is named"});
+      violations.push_back(MakeViolation(path(), "= unspecified", "be an effect that is named"));
     } else if (seen.Has(effects[i])) {
-      violations.push_back({path(), absl::StrCat("= ", NameOf(effects[i]), ": must be named once")});
+      violations.push_back(MakeViolation(path(), absl::StrCat("= ", NameOf(effects[i])), "be named once"));
     }
     seen.Add(effects[i]);
   }

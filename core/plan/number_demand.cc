@@ -15,7 +15,7 @@ std::string Against(Effect effect, const Violation& violation) {
   if (!absl::StartsWith(violation.field, "required")) {
     return absl::StrCat(needs, "and ", violation.field, " ", violation.description);
   }
-  return absl::StrCat(needs, "which ", violation.description.substr(violation.description.find("must ")));
+  return absl::StrCat(needs, "which must ", violation.rule);
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
-// ModelsOfPendulum: which of many rigid pendulums surely call for the closed form with friction, in SIMD lanes.
-//
-// A demand that is a tolerance alone leaves four answers (ModelOfPendulum in core/plan/choose.h). Cheap lower bounds on the
-// sizes of friction and of higher orders decide nearly every problem of a sweep.
+// ModelsOfPendulum: which of many rigid pendulums are surely valid, approach and have friction, in SIMD lanes. Where
+// the demand is a tolerance alone, the closed form answers them (ModelOfPendulum in core/plan/choose.h).
 
 #ifndef RICOCHET_CORE_PLAN_PENDULUM_MODELS_H_
 #define RICOCHET_CORE_PLAN_PENDULUM_MODELS_H_
@@ -14,10 +12,10 @@
 
 namespace ricochet {
 
-// Looks at the problems [0, models.size()), whose numbers may be anything. A model is kPendulum if the problem is valid, its
-// numbers lie in [2^-100, 2^100], and ModelOfPendulum gives kPendulum; else it is kUnspecified, and the problem has to be
-// checked and asked for alone. Returns true if all are kPendulum.
-bool ModelsOfPendulum(const pendulum::ProblemColumns& problems, double tolerance, absl::Span<Model> models);
+// Looks at the problems [0, models.size()), whose numbers may be anything. A model is kPendulum if the problem is
+// valid, its numbers lie in [2^-100, 2^100], and ModelOfPendulum gives kPendulum; else it is kUnspecified, and the
+// problem has to be checked and asked for alone. Returns true if all are kPendulum.
+bool ModelsOfPendulum(const pendulum::ProblemColumns& problems, absl::Span<Model> models);
 
 }  // namespace ricochet
 

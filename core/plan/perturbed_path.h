@@ -8,8 +8,9 @@
 //   B  |f_B - f_A| <= e_f(tau) = j + m (tau - from)+, |v_B - v_A| <= e_v = w e_f + q, |u_B - u_A| <= e_u = W e_f + p
 //      and, if it is known, bl <= v_B' <= bh with bl > 0
 //
-// docs/theory/plan.md, section 5, proves the bound. The answer is infinite if a slope is below kLeastSlope or nothing is
-// known. The inputs must be right to 2^-30, and `from` must not exceed its true value; the answer then covers rounding.
+// docs/theory/plan.md, section 5, proves the bound. The answer is infinite if a slope is below kLeastSlope or nothing
+// is known. The inputs must be right to 2^-30, and `from` must not exceed its true value; the answer then covers
+// rounding.
 
 #ifndef RICOCHET_CORE_PLAN_PERTURBED_PATH_H_
 #define RICOCHET_CORE_PLAN_PERTURBED_PATH_H_

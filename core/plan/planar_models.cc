@@ -1,4 +1,5 @@
-// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run time.
+// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run
+// time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/plan/planar_models.cc"
 #include "core/plan/planar_models.h"
@@ -48,8 +49,8 @@ HWY_INLINE V Fill(double value) {
   return Lanes<V>::Fill(value);
 }
 
-// True where every rule of a scene holds for sure, but for that on v0, of which NaN alone breaks one. A comparison with NaN
-// is false.
+// True where every rule of a scene holds for sure, but for that on v0, of which NaN alone breaks one. A comparison with
+// NaN is false.
 template <typename V>
 HWY_INLINE auto IsSurelyValid(RestitutionLaw law, const Contact<V>& in) {
   const V zero = Fill<V>(0.0);

@@ -6,10 +6,64 @@
 #include "core/contact/scene_contact.h"
 #include "core/plan/arithmetic.h"
 #include "core/plan/explain.h"
-#include "core/problem/scene_problem.h"
+#include "core/plan/scene_problem.h"
 
 namespace ricochet {
 namespace {
+
+constexpr PlannedArithmetic kOnlyArithmetic = {.arithmetic = Arithmetic::kPlain, .reason = ArithmeticReason::kOnlyOne};
+
+bool IsAnsweredInTime(Model model) { return model == Model::kCompliant || model == Model::kFiniteDuration; }
+
+void PlanPendulum(const Scene& scene, std::optional<SceneContact>& contact, PlannedScene& planned) {
+  auto& problem = planned.problem.emplace<pendulum::Problem>(ClosedFormProblem(scene));
+  planned.effective = {.kinetic_friction = problem.mu, .static_friction = problem.mu_static};
+  if (!std::holds_alternative<std::monostate>(scene.restitution)) planned.effective.restitution = problem.coefficient;
+  // Finite forces have time to act only if the contact is compliant.
+  if (scene.compliance.has_value()) {
+    if (!contact.has_value()) contact.emplace(scene);
+    if (!FitsDoubles(contact->reduction)) return;
+    planned.physics = PhysicsOf(scene, std::get<PlanarReduction>(contact->reduction));
+  }
+  planned.choice = ChoosePendulum(problem, planned.physics, planned.demand);
+  if (IsAnsweredInTime(planned.choice.model)) {
+    const auto& reduction = std::get<PlanarReduction>(contact->reduction);
+    planned.problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
+  }
+}
+
+void PlanReduced(const Scene& scene, const PlanarReduction& reduction, PlannedScene& planned) {
+  const auto& problem =
+      planned.problem.emplace<planar::Problem>(planar::MakeProblem(reduction, scene.restitution, planned.effective));
+  planned.physics = PhysicsOf(scene, reduction);
+  if (std::holds_alternative<std::monostate>(scene.impact_law)) {
+    planned.choice = ChoosePlanar(problem, planned.physics, planned.demand);
+  } else {
+    planned.choice.model = Model::kImpactLaw;
+  }
+}
+
+void PlanReduced(const Scene& scene, const SpatialReduction& reduction, PlannedScene& planned) {
+  auto& problem = planned.problem.emplace<spatial::Problem>(
+      spatial::MakeProblem(reduction, scene.restitution, planned.effective, spatial::kLeastTolerance));
+  planned.choice = ChooseSpatial(problem, planned.demand);
+  problem.tolerance = planned.choice.model == Model::kNone ? spatial::kMostTolerance : planned.choice.model_tolerance;
+}
+
+void LeaveOut(EffectSet effects, PlannedScene& planned) {
+  if (effects.IsEmpty()) return;
+  const auto leave_out = [effects](auto& problem) {
+    if constexpr (requires { problem.mu; }) LeaveOut(effects, problem.mu, problem.mu_static);
+  };
+  std::visit(leave_out, planned.problem);
+  planned.physics = Without(effects, planned.physics);
+}
+
+}  // namespace
+
+double PlannedScene::ToleranceLeft() const {
+  return ricochet::ToleranceLeft(demand.relative_tolerance, choice.negligible);
+}
 
 ContactPhysics PhysicsOf(const Scene& scene, const PlanarReduction& reduction) {
   ContactPhysics physics;
@@ -21,73 +75,33 @@ ContactPhysics PhysicsOf(const Scene& scene, const PlanarReduction& reduction) {
   return physics;
 }
 
-constexpr PlannedArithmetic kOnlyArithmetic = {.arithmetic = Arithmetic::kPlain, .reason = ArithmeticReason::kOnlyOne};
-
-bool IsAnsweredInTime(Model model) { return model == Model::kCompliant || model == Model::kFiniteDuration; }
-
-void PlanPendulum(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
-                  PlannedScene& planned) {
-  const pendulum::Problem problem = ClosedFormProblem(scene);
-  planned.effective = {.kinetic_friction = problem.mu, .static_friction = problem.mu_static};
-  if (!std::holds_alternative<std::monostate>(scene.restitution)) planned.effective.restitution = problem.coefficient;
-  // Finite forces have time to act only if the contact is compliant.
-  if (scene.compliance.has_value()) {
-    if (!contact.has_value()) contact.emplace(scene);
-    if (!FitsDoubles(contact->reduction)) return;
-    planned.physics = PhysicsOf(scene, std::get<PlanarReduction>(contact->reduction));
-  }
-  planned.choice = ChoosePendulum(problem, planned.physics, demand);
-  if (!IsAnsweredInTime(planned.choice.model)) planned.closed_form = problem;
-}
-
-void PlanReduced(const Scene& scene, const Demand& demand, const PlanarReduction& reduction, PlannedScene& planned) {
-  planned.physics = PhysicsOf(scene, reduction);
-  if (!std::holds_alternative<std::monostate>(scene.impact_law)) {
-    planned.choice.model = Model::kImpactLaw;
-    return;
-  }
-  const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
-  planned.choice = ChoosePlanar(problem, planned.physics, demand);
-}
-
-void PlanReduced(const Scene& scene, const Demand& demand, const SpatialReduction& reduction, PlannedScene& planned) {
-  planned.choice = ChooseSpatial(
-      spatial::MakeProblem(reduction, scene.restitution, planned.effective, spatial::kLeastTolerance), demand);
-}
-
-}  // namespace
-
 PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
-  PlannedScene planned;
+  PlannedScene planned = {.demand = demand};
   if (HasClosedForm(scene)) {
-    PlanPendulum(scene, contact, demand, planned);
-    return planned;
+    PlanPendulum(scene, contact, planned);
+  } else {
+    if (!contact.has_value()) contact.emplace(scene);
+    if (!FitsDoubles(contact->reduction)) return planned;
+    planned.effective = contact->coefficients;
+    std::visit([&](const auto& reduction) { PlanReduced(scene, reduction, planned); }, contact->reduction);
   }
-  if (!contact.has_value()) contact.emplace(scene);
-  if (!FitsDoubles(contact->reduction)) return planned;
-  planned.effective = contact->coefficients;
-  std::visit([&](const auto& reduction) { PlanReduced(scene, demand, reduction, planned); }, contact->reduction);
+  LeaveOut(planned.choice.left_out, planned);
   return planned;
 }
 
-PlannedArithmetic ArithmeticOf(const Scene& scene, const std::optional<SceneContact>& contact,
-                               const PlannedScene& planned, const Demand& demand) {
-  const Choice& choice = planned.choice;
-  if (!HasChoiceOfArithmetic(choice.model)) return kOnlyArithmetic;
-  const double tolerance = ToleranceLeft(demand.relative_tolerance, choice.negligible);
-  if (planned.closed_form.has_value()) {
-    return SolveWithin(Without(choice, *planned.closed_form), tolerance).arithmetic;
+PlannedArithmetic ArithmeticOf(const PlannedScene& planned) {
+  if (!HasChoiceOfArithmetic(planned.choice.model)) return kOnlyArithmetic;
+  if (const auto* pendulum = std::get_if<pendulum::Problem>(&planned.problem)) {
+    return SolveWithin(*pendulum, planned.ToleranceLeft()).arithmetic;
   }
-  const auto& reduction = std::get<PlanarReduction>(contact->reduction);
-  const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
-  return SolveWithin(Without(choice, problem), tolerance).arithmetic;
+  return SolveWithin(std::get<planar::Problem>(planned.problem), planned.ToleranceLeft()).arithmetic;
 }
 
-void Explain(const PlannedScene& planned, const Demand& demand, Plan& plan) {
+void Explain(const PlannedScene& planned, Plan& plan) {
   if (!HasChoiceOfArithmetic(planned.choice.model)) plan.arithmetic = kOnlyArithmetic;
-  if (planned.choice.model != Model::kImpactLaw) return Explain(planned.choice, demand, plan);
+  if (planned.choice.model != Model::kImpactLaw) return Explain(planned.choice, planned.demand, plan);
   plan.model = Model::kImpactLaw;
-  plan.relative_tolerance = demand.relative_tolerance;
+  plan.relative_tolerance = planned.demand.relative_tolerance;
 }
 
 }  // namespace ricochet

@@ -152,8 +152,8 @@ Size StopSize(const Scaled& contact, const planar::Problem& problem) {
   return AfterStop(contact, Sliding(contact), change, low, high);
 }
 
-// True if the contact sticks by the static coefficient and slides by the kinetic one. core/models/planar/planar.h states
-// the criterion for a W of rank one.
+// True if the contact sticks by the static coefficient and slides by the kinetic one. core/models/planar/planar.h
+// states the criterion for a W of rank one.
 bool CoefficientsDisagree(const planar::Problem& problem) {
   const bool rank_one = problem.w.Rank() == 1;
   const double normal = std::fabs(problem.w.tn);

@@ -7,9 +7,9 @@
 //
 // each from the impact that the ones before have left, so that sizes add up. A size is infinite if no bound is known,
 // and 0 only if the effect changes nothing at all. Rounding is covered as core/plan/perturbed_path.h says.
-// The problem must be valid. docs/theory/plan.md, sections 1, 3 and 4, derives every size; its symbols are used here and in
-// sizes.cc: w = |Wtn|/Wnn, W = Wtt/Wnn, s = sgn u0, m the largest |f'| and c = m w. A is the impact without an effect, B
-// the one with it.
+// The problem must be valid. docs/theory/plan.md, sections 1, 3 and 4, derives every size; its symbols are used here
+// and in sizes.cc: w = |Wtn|/Wnn, W = Wtt/Wnn, s = sgn u0, m the largest |f'| and c = m w. A is the impact without an
+// effect, B the one with it.
 
 #ifndef RICOCHET_CORE_PLAN_SIZES_H_
 #define RICOCHET_CORE_PLAN_SIZES_H_
@@ -52,9 +52,9 @@ enum class Ground {
   kDamped,                 // The damping of the spring is the restitution.
 };
 
-// For kInequality, `number` is c for friction (x for a pendulum), the least share of the normal impulse before slip stops
-// for slip that stops and static friction, the angle in rad for slip that turns, T in s for finite forces, and x for
-// higher order.
+// For kInequality, `number` is c for friction (x for a pendulum), the least share of the normal impulse before slip
+// stops for slip that stops and static friction, the angle in rad for slip that turns, T in s for finite forces, and x
+// for higher order.
 struct Size {
   double value = 0.0;
   Ground ground = Ground::kNotInScene;

@@ -149,7 +149,8 @@ ReferencePath Sliding(const Scaled& contact) {
           .f_slope = contact.mu};
 }
 
-// Sets the sizes of slip for an isotropic contact such as a sphere's: slip keeps its direction until it stops and sticks.
+// Sets the sizes of slip for an isotropic contact such as a sphere's: slip keeps its direction until it stops and
+// sticks.
 void SetStraight(const Scaled& contact, double speed, Sizes& sizes) {
   sizes[Effect::kSlipTurn] = {.ground = Ground::kStraight};
   Size& stop = sizes[Effect::kSlipStop];

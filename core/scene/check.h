@@ -44,13 +44,14 @@ class Check {
   }
 
   void RequireSet(bool is_set, const char* field, const char* rule) {
-    Require(is_set, [&] { return Violation{field, absl::StrCat("is not set: must ", rule)}; });
+    Require(is_set, [&] { return MakeViolation(field, "is not set", rule); });
   }
 
   // Requires that the list has `wanted` entries, and returns whether it has.
   bool Length(const std::string& field, size_t found, size_t wanted) {
     Require(found == wanted, [&] {
-      return Violation{field, absl::StrCat("has ", found, found == 1 ? " entry" : " entries", ": must have ", wanted)};
+      return MakeViolation(field, absl::StrCat("has ", found, found == 1 ? " entry" : " entries"),
+                           absl::StrCat("have ", wanted));
     });
     return found == wanted;
   }
@@ -104,8 +105,8 @@ bool HasDamping(const Scene& scene);
 void CheckEffects(const Scene& scene, Check& check);
 
 // Checks the rules that depend on the contact: impulses move it along n, and the coefficients keep their
-// rules at the approach speed. All other rules must hold already. If that takes reducing the scene, `contact` is what it
-// was reduced to; `known` is that if the caller has it, else null.
+// rules at the approach speed. All other rules must hold already. If that takes reducing the scene, `contact` is what
+// it was reduced to; `known` is that if the caller has it, else null.
 void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, std::optional<SceneContact>& contact);
 
 }  // namespace ricochet

@@ -3,9 +3,9 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/decimal.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
-#include "core/numerics/decimal.h"
 #include "core/scene/check.h"
 
 namespace ricochet {
@@ -24,10 +24,9 @@ void CheckMobility(const Scene& scene, const AnyReduction& any, Check& check) {
   std::visit(
       [&](const auto& reduction) {
         check.Require(reduction.v0 >= 0.0 || reduction.w.back() > 0.0, [&] {
-          return Violation{VelocityField(scene),
-                           absl::StrCat("makes v0 = ", ShortestDecimal(reduction.v0),
-                                        " where W_nn = 0: must be >= 0, no impulse along n ends the approach"),
-                           ViolationKind::kContact};
+          return MakeViolation(VelocityField(scene),
+                               absl::StrCat("makes v0 = ", ShortestDecimal(reduction.v0), " where W_nn = 0"),
+                               "be >= 0, no impulse along n ends the approach", ViolationKind::kContact);
         });
       },
       any);
@@ -36,11 +35,10 @@ void CheckMobility(const Scene& scene, const AnyReduction& any, Check& check) {
 // `product` is the coefficient times its factor at `speed`.
 void CheckProduct(const char* field, double product, double speed, double most, Check& check) {
   check.Require(product >= 0.0 && product <= most && std::isfinite(product), [&] {
-    const std::string rule = std::isfinite(most) ? "be in [0, 1]" : "be finite and >= 0";
-    return Violation{field,
-                     absl::StrCat("makes the coefficient ", ShortestDecimal(product), " at the approach speed ",
-                                  ShortestDecimal(speed), " m/s: must ", rule),
-                     ViolationKind::kContact};
+    return MakeViolation(field,
+                         absl::StrCat("makes the coefficient ", ShortestDecimal(product), " at the approach speed ",
+                                      ShortestDecimal(speed), " m/s"),
+                         std::isfinite(most) ? "be in [0, 1]" : "be finite and >= 0", ViolationKind::kContact);
   });
 }
 
@@ -60,27 +58,27 @@ void CheckEffective(const Scene& scene, const EffectiveCoefficients& effective, 
   }
 }
 
-// The energetic coefficient measures the energy that a spring returns. If W_tn = 0, all three coefficients are equal, and
-// any of them will do.
+// The energetic coefficient measures the energy that a spring returns. If W_tn = 0, all three coefficients are equal,
+// and any of them will do.
 void CheckSpring(const Scene& scene, const PlanarReduction& reduction, const EffectiveCoefficients& effective,
                  Check& check) {
   const double tn = std::abs(reduction.w[1]);
   const double nn = reduction.w[2];
-  const auto violation = [](const char* description) {
-    return Violation{"restitution.coefficient", description, ViolationKind::kContact};
+  const auto violation = [](const char* found, const char* rule) {
+    return MakeViolation("restitution.coefficient", found, rule, ViolationKind::kContact);
   };
   if (!std::holds_alternative<EnergeticCoefficient>(scene.restitution)) {
     check.Require(tn == 0.0, [&] {
-      return violation("is not energetic: must be, with compliance, unless W_tn is 0 and all three are the same");
+      return violation("is not energetic", "be, with compliance, unless W_tn is 0 and all three are the same");
     });
     check.Require(effective.restitution.value_or(0.0) <= 1.0,
-                  [&] { return violation("is above 1: must be in [0, 1], with compliance"); });
+                  [&] { return violation("is above 1", "be in [0, 1], with compliance"); });
   }
   const bool chatters = scene.compliance->tangential_ratio_squared.has_value() &&
                         effective.restitution.value_or(0.0) == 0.0 && effective.kinetic_friction * tn >= nn &&
                         reduction.v0 < 0.0;
   check.Require(!chatters, [&] {
-    return violation("is 0: must be > 0, with a tangential compliance and friction that reaches W_nn/|W_tn|");
+    return violation("is 0", "be > 0, with a tangential compliance and friction that reaches W_nn/|W_tn|");
   });
 }
 

@@ -25,23 +25,22 @@ bool GoesWith(const Gravity& /*gravity*/, const System& system) {
 }
 
 ForcesText TextOf(std::monostate /*none*/) { return {"", ""}; }
-ForcesText TextOf(const PinMoment& /*moment*/) { return {"pin_moment", "is set: must only be for pendulum"}; }
+ForcesText TextOf(const PinMoment& /*moment*/) { return {"pin_moment", "only be for pendulum"}; }
 ForcesText TextOf(const ContactAcceleration& /*acceleration*/) {
-  return {"contact_acceleration", "is set: must only be for planar_contact"};
+  return {"contact_acceleration", "only be for planar_contact"};
 }
 ForcesText TextOf(const Gravity& /*gravity*/) {
-  return {"gravity", "is set: must only be for planar_body, body_pair.planar and linkage"};
+  return {"gravity", "only be for planar_body, body_pair.planar and linkage"};
 }
 
 void CheckForces(const Scene& scene, bool has_law, Check& check) {
   if (std::holds_alternative<std::monostate>(scene.finite_forces)) return;
   const ForcesText text = std::visit([](const auto& forces) { return TextOf(forces); }, scene.finite_forces);
   const bool goes = std::visit([&](const auto& forces) { return GoesWith(forces, scene.system); }, scene.finite_forces);
-  check.Require(goes || std::holds_alternative<std::monostate>(scene.system), [&] {
-    return Violation{text.field, text.rule};
-  });
+  check.Require(goes || std::holds_alternative<std::monostate>(scene.system),
+                [&] { return MakeViolation(text.field, "is set", text.rule); });
   check.Require(!has_law, [&] {
-    return Violation{text.field, "is set beside an impact law: must not be, an impact law has no duration"};
+    return MakeViolation(text.field, "is set beside an impact law", "not be, an impact law has no duration");
   });
 }
 
@@ -49,15 +48,14 @@ void CheckTangential(const Scene& scene, const Compliance& compliance, Check& ch
   const bool linear_or_none = std::holds_alternative<std::monostate>(compliance.normal) ||
                               std::holds_alternative<LinearSpring>(compliance.normal);
   check.Require(linear_or_none, [] {
-    return Violation{"compliance.tangential_ratio_squared",
-                     "is set beside hertz or hunt_crossley: must not be, the ratio is one of constant stiffnesses"};
+    return MakeViolation("compliance.tangential_ratio_squared", "is set beside hertz or hunt_crossley",
+                         "not be, the ratio is one of constant stiffnesses");
   });
   const double kinetic = scene.friction.kinetic_coefficient;
   check.Require(scene.friction.static_coefficient.value_or(kinetic) == kinetic, [] {
-    return Violation{"friction.static_coefficient",
-                     "is set beside compliance.tangential_ratio_squared: must be friction.kinetic_coefficient or unset",
-                     ViolationKind::kValue,
-                     {"friction.kinetic_coefficient"}};
+    return MakeViolation("friction.static_coefficient", "is set beside compliance.tangential_ratio_squared",
+                         "be friction.kinetic_coefficient or unset", ViolationKind::kValue,
+                         {"friction.kinetic_coefficient"});
   });
 }
 
@@ -73,16 +71,15 @@ void CheckEffects(const Scene& scene, Check& check) {
   if (!scene.compliance.has_value()) return;
   const Compliance& compliance = *scene.compliance;
   check.Require(!has_law, [] {
-    return Violation{"compliance", "is set beside an impact law: must not be, an impact law has no springs"};
+    return MakeViolation("compliance", "is set beside an impact law", "not be, an impact law has no springs");
   });
-  check.Require(std::holds_alternative<std::monostate>(scene.system) || TangentialDirections(scene.system) == 1, [] {
-    return Violation{"compliance", "is set: must not be for a system in space"};
-  });
+  check.Require(std::holds_alternative<std::monostate>(scene.system) || TangentialDirections(scene.system) == 1,
+                [] { return MakeViolation("compliance", "is set", "not be for a system in space"); });
   const bool has_spring = !std::holds_alternative<std::monostate>(compliance.normal);
   check.Require(has_spring || compliance.tangential_ratio_squared.has_value(), [] {
-    return Violation{"compliance",
-                     "is empty: must state tangential_ratio_squared or one of linear, hertz, "
-                     "hunt_crossley"};
+    return MakeViolation("compliance", "is empty",
+                         "state tangential_ratio_squared or one of linear, hertz, "
+                         "hunt_crossley");
   });
   if (compliance.tangential_ratio_squared.has_value()) CheckTangential(scene, compliance, check);
 }

@@ -8,10 +8,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "core/base/decimal.h"
 #include "core/contact/delassus.h"
 #include "core/contact/inertia.h"
 #include "core/contact/reduction.h"
-#include "core/numerics/decimal.h"
 #include "core/scene/check.h"
 
 namespace ricochet {
@@ -39,8 +39,8 @@ std::vector<std::string> EntriesOf(const std::string& field, size_t count) {
 }
 
 Violation MatrixViolation(const std::string& field, const std::vector<double>& upper, const char* rule) {
-  return {field, absl::StrCat("= ", ListText(upper), ": must be ", rule), ViolationKind::kValue,
-          EntriesOf(field, upper.size())};
+  return MakeViolation(field, absl::StrCat("= ", ListText(upper)), absl::StrCat("be ", rule), ViolationKind::kValue,
+                       EntriesOf(field, upper.size()));
 }
 
 // The smallest eigenvalue of the matrix, scaled to a unit diagonal, must exceed `least`. Returns whether it does.
@@ -89,9 +89,8 @@ void CheckOne(const BodyPair& pair, Check& check) {
 }
 
 void CheckOne(const Linkage& linkage, Check& check) {
-  check.Require(!linkage.links.empty(), [] {
-    return Violation{"linkage.links", "has 0 entries: must have at least one"};
-  });
+  check.Require(!linkage.links.empty(),
+                [] { return MakeViolation("linkage.links", "has 0 entries", "have at least one"); });
 }
 
 void CheckOne(const PlanarContact& contact, Check& check) {

@@ -7,9 +7,9 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
+#include "core/base/nearest.h"
 #include "core/contact/reduction.h"
 #include "core/numerics/elementary.h"
-#include "core/scene/nearest.h"
 
 namespace ricochet {
 namespace {

@@ -1,5 +1,5 @@
-// Field: a number of a scene that an axis can drive, by its path. A field is resolved once for a scene, then set once for
-// each point.
+// Field: a number of a scene that an axis can drive, by its path. A field is resolved once for a scene, then set once
+// for each point.
 //
 // Paths are spelled as in the proto: "friction.kinetic_coefficient", "linkage.links[1].theta_rad",
 // "spatial_contact.w_per_kg[3]"; core/scene/numbers.h lists them. A scene has the fields of its own system and lists.
@@ -21,8 +21,8 @@
 
 namespace ricochet {
 
-// A Field sets one number of the scene for which it was resolved. That scene must outlive the field and keep its system,
-// law and lists.
+// A Field sets one number of the scene for which it was resolved. That scene must outlive the field and keep its
+// system, law and lists.
 class Field {
  public:
   // Sets the field and returns whether each number that it has set keeps its own rule.
@@ -60,8 +60,8 @@ class Field {
 // Resolves the field at `path`. A restitution path switches the scene to that definition; a static_coefficient or
 // surface_velocity path adds it to the scene.
 // It takes time proportional to the numbers of the scene.
-// Errors: an unknown path, or one of another system, gets INVALID_ARGUMENT with a message that says how to list the right
-// ones and names the nearest of them. The scene is then as it was.
+// Errors: an unknown path, or one of another system, gets INVALID_ARGUMENT with a message that says how to list the
+// right ones and names the nearest of them. The scene is then as it was.
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
 
 // Begins the description of a violation by a text of the caller: "= \"TEXT\"". It is escaped, and cut if it is long.

@@ -1,6 +1,7 @@
-// VisitNumbers: every number of a scene with its path, a reference to it and the rule that it keeps by itself.
+// kSceneNumbers: every number of a scene with its name, its member and the rule that it keeps by itself.
 //
-// Validate, the axes of sweeps and the ranges of bounds all use this list, so that a new field is added here only.
+// VisitNumbers gives them their paths. Validate, the axes of sweeps, the ranges of bounds and the limits on the sizes
+// of lists all read this table, so that a new number is added here only.
 
 #ifndef RICOCHET_CORE_SCENE_NUMBERS_H_
 #define RICOCHET_CORE_SCENE_NUMBERS_H_
@@ -10,8 +11,12 @@
 #include <cstddef>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <tuple>
 #include <type_traits>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "ricochet/number_path.h"
 #include "ricochet/scene.h"
@@ -62,234 +67,184 @@ inline bool Holds(double value, NumberRule rule) {
   return false;
 }
 
-// This namespace implements VisitNumbers.
-namespace numbers {
+// A number of a part of the scene, an optional number of it, or a list of numbers that keep one rule.
+template <typename Part, typename Value>
+struct SceneNumber {
+  using Owner = Part;
 
-// A Part visits the fields of a part of the scene, which share a prefix.
-template <typename Visitor>
-struct Part {
-  const char* prefix;
-  int entry;
-  Visitor& visit;
+  constexpr SceneNumber(const char* its_name, Value Part::*its_member, NumberRule its_rule = NumberRule::kFinite)
+      : name(its_name), member(its_member), rule(its_rule) {}
 
-  template <typename Number>
-  void One(const char* name, Number& number, NumberRule rule = NumberRule::kFinite) const {
-    visit(NumberPath{prefix, entry, name}, number, rule);
-  }
-  template <typename List>
-  void Each(const char* name, List& list, NumberRule rule = NumberRule::kFinite) const {
-    for (size_t i = 0; i < list.size(); ++i) {
-      visit(NumberPath{prefix, entry, name, static_cast<int>(i)}, list[i], rule);
-    }
-  }
+  const char* name;
+  Value Part::*member;
+  NumberRule rule;
 };
 
-// T is U or const U. Each alternative of a variant has its own overload of Visit, so that a new alternative does not
-// compile until it has one too.
+// Every number of every part of a scene, part by part in the order of the proto's fields. Validate checks in addition
+// the rules between numbers.
+inline constexpr auto kSceneNumbers = std::tuple{
+    SceneNumber("inertia_kg_m2", &Pendulum::inertia_kg_m2, NumberRule::kPositive),
+    SceneNumber("a_m", &Pendulum::a_m, NumberRule::kPositive),
+    SceneNumber("b_m", &Pendulum::b_m),
+    SceneNumber("omega_minus_rad_s", &Pendulum::omega_minus_rad_s),
+    SceneNumber("mass_kg", &PlanarBody::mass_kg, NumberRule::kPositive),
+    SceneNumber("inertia_com_kg_m2", &PlanarBody::inertia_com_kg_m2, NumberRule::kPositive),
+    SceneNumber("offset_t_m", &PlanarBody::offset_t_m),
+    SceneNumber("offset_n_m", &PlanarBody::offset_n_m),
+    SceneNumber("velocity_t_m_s", &PlanarBody::velocity_t_m_s),
+    SceneNumber("velocity_n_m_s", &PlanarBody::velocity_n_m_s),
+    SceneNumber("rate_rad_s", &PlanarBody::rate_rad_s),
+    SceneNumber("mass_kg", &SpatialBody::mass_kg, NumberRule::kPositive),
+    SceneNumber("inertia_com_kg_m2", &SpatialBody::inertia_com_kg_m2),
+    SceneNumber("offset_m", &SpatialBody::offset_m),
+    SceneNumber("linear_m_s", &SpatialBody::linear_m_s),
+    SceneNumber("angular_rad_s", &SpatialBody::angular_rad_s),
+    SceneNumber("length_m", &Link::length_m, NumberRule::kPositive),
+    SceneNumber("mass_kg", &Link::mass_kg, NumberRule::kPositive),
+    SceneNumber("com_m", &Link::com_m),
+    SceneNumber("inertia_com_kg_m2", &Link::inertia_com_kg_m2, NumberRule::kPositive),
+    SceneNumber("theta_rad", &Link::theta_rad, NumberRule::kAngle),
+    SceneNumber("rate_rad_s", &Link::rate_rad_s),
+    SceneNumber("w_tt_per_kg", &PlanarContact::w_tt_per_kg, NumberRule::kNotNegative),
+    SceneNumber("w_tn_per_kg", &PlanarContact::w_tn_per_kg),
+    SceneNumber("w_nn_per_kg", &PlanarContact::w_nn_per_kg, NumberRule::kNotNegative),
+    SceneNumber("tangential_m_s", &PlanarContact::tangential_m_s),
+    SceneNumber("normal_m_s", &PlanarContact::normal_m_s),
+    SceneNumber("w_per_kg", &SpatialContact::w_per_kg),
+    SceneNumber("tangential_m_s", &SpatialContact::tangential_m_s),
+    SceneNumber("normal_m_s", &SpatialContact::normal_m_s),
+    SceneNumber("kinetic_coefficient", &Friction::kinetic_coefficient, NumberRule::kNotNegative),
+    SceneNumber("static_coefficient", &Friction::static_coefficient, NumberRule::kNotNegative),
+    SceneNumber("alpha", &PowerLaw::alpha),
+    SceneNumber("exponent", &PowerLaw::exponent, NumberRule::kNotNegative),
+    SceneNumber("speed_m_s", &SpeedTable::speed_m_s, NumberRule::kNotNegative),
+    SceneNumber("factor", &SpeedTable::factor),
+    SceneNumber("newton", &NewtonCoefficient::value, NumberRule::kNotNegative),
+    SceneNumber("poisson", &PoissonCoefficient::value, NumberRule::kNotNegative),
+    SceneNumber("energetic", &EnergeticCoefficient::value, NumberRule::kUnitInterval),
+    SceneNumber("tangential_m_s", &SurfaceVelocity::tangential_m_s),
+    SceneNumber("normal_m_s", &SurfaceVelocity::normal_m_s),
+    SceneNumber("e", &WhittakerLaw::e, NumberRule::kNotNegative),
+    SceneNumber("e", &KaneLevinsonLaw::e, NumberRule::kNotNegative),
+    SceneNumber("e", &BrachLaw::e, NumberRule::kNotNegative),
+    SceneNumber("mu_hat", &BrachLaw::mu_hat),
+    SceneNumber("e", &ChatterjeeRuinaLaw::e, NumberRule::kNotNegative),
+    SceneNumber("e_t", &ChatterjeeRuinaLaw::e_t, NumberRule::kPlusMinusOne),
+    SceneNumber("tangential_ratio_squared", &Compliance::tangential_ratio_squared, NumberRule::kRatioSquared),
+    SceneNumber("stiffness_n_m", &LinearSpring::stiffness_n_m, NumberRule::kPositive),
+    SceneNumber("stiffness_n_m1_5", &HertzSpring::stiffness_n_m1_5, NumberRule::kPositive),
+    SceneNumber("stiffness_n_m_p", &HuntCrossleySpring::stiffness_n_m_p, NumberRule::kPositive),
+    SceneNumber("exponent", &HuntCrossleySpring::exponent, NumberRule::kOneToFour),
+    SceneNumber("damping_s_m", &HuntCrossleySpring::damping_s_m, NumberRule::kNotNegative),
+    SceneNumber("tangential_m_s2", &Gravity::tangential_m_s2),
+    SceneNumber("normal_m_s2", &Gravity::normal_m_s2),
+    SceneNumber("moment_n_m", &PinMoment::moment_n_m),
+    SceneNumber("tangential_m_s2", &ContactAcceleration::tangential_m_s2),
+    SceneNumber("normal_m_s2", &ContactAcceleration::normal_m_s2)};
+
+// The prefix of the numbers of a part that stands in one place of a scene only.
+constexpr const char* PrefixOf(const Pendulum& /*part*/) { return "pendulum"; }
+constexpr const char* PrefixOf(const PlanarBody& /*part*/) { return "planar_body"; }
+constexpr const char* PrefixOf(const SpatialBody& /*part*/) { return "spatial_body"; }
+constexpr const char* PrefixOf(const PlanarContact& /*part*/) { return "planar_contact"; }
+constexpr const char* PrefixOf(const SpatialContact& /*part*/) { return "spatial_contact"; }
+constexpr const char* PrefixOf(const Friction& /*part*/) { return "friction"; }
+constexpr const char* PrefixOf(const NewtonCoefficient& /*part*/) { return "restitution"; }
+constexpr const char* PrefixOf(const PoissonCoefficient& /*part*/) { return "restitution"; }
+constexpr const char* PrefixOf(const EnergeticCoefficient& /*part*/) { return "restitution"; }
+constexpr const char* PrefixOf(const SurfaceVelocity& /*part*/) { return "surface_velocity"; }
+constexpr const char* PrefixOf(const WhittakerLaw& /*part*/) { return "whittaker"; }
+constexpr const char* PrefixOf(const KaneLevinsonLaw& /*part*/) { return "kane_levinson"; }
+constexpr const char* PrefixOf(const BrachLaw& /*part*/) { return "brach"; }
+constexpr const char* PrefixOf(const ChatterjeeRuinaLaw& /*part*/) { return "chatterjee_ruina"; }
+constexpr const char* PrefixOf(const Compliance& /*part*/) { return "compliance"; }
+constexpr const char* PrefixOf(const LinearSpring& /*part*/) { return "compliance.linear"; }
+constexpr const char* PrefixOf(const HertzSpring& /*part*/) { return "compliance.hertz"; }
+constexpr const char* PrefixOf(const HuntCrossleySpring& /*part*/) { return "compliance.hunt_crossley"; }
+constexpr const char* PrefixOf(const Gravity& /*part*/) { return "gravity"; }
+constexpr const char* PrefixOf(const PinMoment& /*part*/) { return "pin_moment"; }
+constexpr const char* PrefixOf(const ContactAcceleration& /*part*/) { return "contact_acceleration"; }
+
+// This namespace implements VisitNumbers. T is U or const U.
+namespace numbers {
+
 template <typename T, typename U>
 concept Is = std::same_as<std::remove_const_t<T>, U>;
+
+template <typename Visitor>
+void VisitOne(const NumberPath& path, Is<double> auto& number, NumberRule rule, Visitor& visit) {
+  visit(path, number, rule);
+}
+
+template <typename Visitor>
+void VisitOne(const NumberPath& path, Is<std::optional<double>> auto& number, NumberRule rule, Visitor& visit) {
+  if (number.has_value()) visit(path, *number, rule);
+}
+
+template <typename Visitor>
+void VisitOne(NumberPath path, Is<std::vector<double>> auto& list, NumberRule rule, Visitor& visit) {
+  for (size_t i = 0; i < list.size(); ++i) {
+    path.index = static_cast<int>(i);
+    visit(path, list[i], rule);
+  }
+}
+
+// Visits the number at a place of the table if it is one of `part`. Its rule is a constant for the visitor.
+template <size_t kPlace, typename Part, typename Visitor>
+void VisitOwn(Part& part, const char* prefix, int entry, Visitor& visit) {
+  constexpr auto kNumber = std::get<kPlace>(kSceneNumbers);
+  if constexpr (Is<Part, typename decltype(kNumber)::Owner>) {
+    VisitOne(NumberPath{prefix, entry, kNumber.name}, part.*kNumber.member, kNumber.rule, visit);
+  }
+}
+
+// Visits the numbers of a part. Each part has some, so that a new one does not compile until it has them in the table.
+template <typename Part, typename Visitor>
+void VisitPart(Part& part, const char* prefix, Visitor& visit, int entry = -1) {
+  const auto visit_all = [&]<size_t... kPlace>(std::index_sequence<kPlace...> /*places*/) {
+    static_assert((Is<Part, typename std::tuple_element_t<kPlace, decltype(kSceneNumbers)>::Owner> || ...));
+    (VisitOwn<kPlace>(part, prefix, entry, visit), ...);
+  };
+  visit_all(std::make_index_sequence<std::tuple_size_v<decltype(kSceneNumbers)>>());
+}
+
+template <typename Part, typename Visitor>
+void Visit(Part& part, Visitor& visit) {
+  VisitPart(part, PrefixOf(part), visit);
+}
 
 template <Is<std::monostate> Unset, typename Visitor>
 void Visit(Unset& /*unset*/, Visitor& /*visit*/) {}
 
-template <Is<PlanarBody> Body, typename Visitor>
-void Visit(Body& body, Visitor& visit, const char* prefix = "planar_body") {
-  const Part<Visitor> part{prefix, -1, visit};
-  part.One("mass_kg", body.mass_kg, NumberRule::kPositive);
-  part.One("inertia_com_kg_m2", body.inertia_com_kg_m2, NumberRule::kPositive);
-  part.One("offset_t_m", body.offset_t_m);
-  part.One("offset_n_m", body.offset_n_m);
-  part.One("velocity_t_m_s", body.velocity_t_m_s);
-  part.One("velocity_n_m_s", body.velocity_n_m_s);
-  part.One("rate_rad_s", body.rate_rad_s);
-}
-
-template <Is<SpatialBody> Body, typename Visitor>
-void Visit(Body& body, Visitor& visit, const char* prefix = "spatial_body") {
-  const Part<Visitor> part{prefix, -1, visit};
-  part.One("mass_kg", body.mass_kg, NumberRule::kPositive);
-  part.Each("inertia_com_kg_m2", body.inertia_com_kg_m2);
-  part.Each("offset_m", body.offset_m);
-  part.Each("linear_m_s", body.linear_m_s);
-  part.Each("angular_rad_s", body.angular_rad_s);
-}
-
-template <Is<PlanarPair> Pair, typename Visitor>
-void Visit(Pair& pair, Visitor& visit) {
-  Visit(pair.body_1, visit, "body_pair.planar.body_1");
-  Visit(pair.body_2, visit, "body_pair.planar.body_2");
-}
-
-template <Is<SpatialPair> Pair, typename Visitor>
-void Visit(Pair& pair, Visitor& visit) {
-  Visit(pair.body_1, visit, "body_pair.spatial.body_1");
-  Visit(pair.body_2, visit, "body_pair.spatial.body_2");
-}
-
 template <Is<BodyPair> Pair, typename Visitor>
 void Visit(Pair& pair, Visitor& visit) {
-  std::visit([&visit](auto& bodies) { Visit(bodies, visit); }, pair.bodies);
-}
-
-template <Is<Pendulum> SomePendulum, typename Visitor>
-void Visit(SomePendulum& pendulum, Visitor& visit) {
-  const Part<Visitor> part{"pendulum", -1, visit};
-  part.One("inertia_kg_m2", pendulum.inertia_kg_m2, NumberRule::kPositive);
-  part.One("a_m", pendulum.a_m, NumberRule::kPositive);
-  part.One("b_m", pendulum.b_m);
-  part.One("omega_minus_rad_s", pendulum.omega_minus_rad_s);
+  const auto visit_bodies = [&visit](auto& bodies, const char* body_1, const char* body_2) {
+    VisitPart(bodies.body_1, body_1, visit);
+    VisitPart(bodies.body_2, body_2, visit);
+  };
+  if (auto* const planar = std::get_if<PlanarPair>(&pair.bodies)) {
+    visit_bodies(*planar, "body_pair.planar.body_1", "body_pair.planar.body_2");
+  } else if (auto* const spatial = std::get_if<SpatialPair>(&pair.bodies)) {
+    visit_bodies(*spatial, "body_pair.spatial.body_1", "body_pair.spatial.body_2");
+  }
 }
 
 template <Is<Linkage> SomeLinkage, typename Visitor>
 void Visit(SomeLinkage& linkage, Visitor& visit) {
   int entry = 0;
-  for (auto& link : linkage.links) {
-    const Part<Visitor> part{"linkage.links", entry++, visit};
-    part.One("length_m", link.length_m, NumberRule::kPositive);
-    part.One("mass_kg", link.mass_kg, NumberRule::kPositive);
-    part.One("com_m", link.com_m);
-    part.One("inertia_com_kg_m2", link.inertia_com_kg_m2, NumberRule::kPositive);
-    part.One("theta_rad", link.theta_rad, NumberRule::kAngle);
-    part.One("rate_rad_s", link.rate_rad_s);
-  }
+  for (auto& link : linkage.links) VisitPart(link, "linkage.links", visit, entry++);
 }
 
-template <Is<PlanarContact> Contact, typename Visitor>
-void Visit(Contact& contact, Visitor& visit) {
-  const Part<Visitor> part{"planar_contact", -1, visit};
-  part.One("w_tt_per_kg", contact.w_tt_per_kg, NumberRule::kNotNegative);
-  part.One("w_tn_per_kg", contact.w_tn_per_kg);
-  part.One("w_nn_per_kg", contact.w_nn_per_kg, NumberRule::kNotNegative);
-  part.One("tangential_m_s", contact.tangential_m_s);
-  part.One("normal_m_s", contact.normal_m_s);
+template <typename Visitor>
+void VisitAlternative(auto& variant, Visitor& visit) {
+  std::visit([&visit](auto& alternative) { Visit(alternative, visit); }, variant);
 }
 
-template <Is<SpatialContact> Contact, typename Visitor>
-void Visit(Contact& contact, Visitor& visit) {
-  const Part<Visitor> part{"spatial_contact", -1, visit};
-  part.Each("w_per_kg", contact.w_per_kg);
-  part.Each("tangential_m_s", contact.tangential_m_s);
-  part.One("normal_m_s", contact.normal_m_s);
-}
-
-// `dependence` is that of "friction" or of "restitution".
-template <Is<PowerLaw> Law, typename Visitor>
-void VisitBySpeed(Law& law, bool friction, Visitor& visit) {
-  const Part<Visitor> part{friction ? "friction.by_speed.power_law" : "restitution.by_speed.power_law", -1, visit};
-  part.One("alpha", law.alpha);
-  part.One("exponent", law.exponent, NumberRule::kNotNegative);
-}
-
-template <Is<SpeedTable> Table, typename Visitor>
-void VisitBySpeed(Table& table, bool friction, Visitor& visit) {
-  const Part<Visitor> part{friction ? "friction.by_speed.table" : "restitution.by_speed.table", -1, visit};
-  part.Each("speed_m_s", table.speed_m_s, NumberRule::kNotNegative);
-  part.Each("factor", table.factor);
-}
-
-template <Is<std::monostate> Unset, typename Visitor>
-void VisitBySpeed(Unset& /*unset*/, bool /*friction*/, Visitor& /*visit*/) {}
-
-// Validate checks in addition that the static coefficient is not below the kinetic one.
-template <Is<Friction> SomeFriction, typename Visitor>
-void Visit(SomeFriction& friction, Visitor& visit) {
-  const Part<Visitor> part{"friction", -1, visit};
-  part.One("kinetic_coefficient", friction.kinetic_coefficient, NumberRule::kNotNegative);
-  if (friction.static_coefficient.has_value()) {
-    part.One("static_coefficient", *friction.static_coefficient, NumberRule::kNotNegative);
-  }
-}
-
-template <Is<NewtonCoefficient> Newton, typename Visitor>
-void Visit(Newton& newton, Visitor& visit) {
-  Part<Visitor>{"restitution", -1, visit}.One("newton", newton.value, NumberRule::kNotNegative);
-}
-
-template <Is<PoissonCoefficient> Poisson, typename Visitor>
-void Visit(Poisson& poisson, Visitor& visit) {
-  Part<Visitor>{"restitution", -1, visit}.One("poisson", poisson.value, NumberRule::kNotNegative);
-}
-
-template <Is<EnergeticCoefficient> Energetic, typename Visitor>
-void Visit(Energetic& energetic, Visitor& visit) {
-  Part<Visitor>{"restitution", -1, visit}.One("energetic", energetic.value, NumberRule::kUnitInterval);
-}
-
-template <Is<SurfaceVelocity> Velocity, typename Visitor>
-void Visit(Velocity& velocity, Visitor& visit) {
-  const Part<Visitor> part{"surface_velocity", -1, visit};
-  part.Each("tangential_m_s", velocity.tangential_m_s);
-  part.One("normal_m_s", velocity.normal_m_s);
-}
-
-template <Is<WhittakerLaw> Law, typename Visitor>
-void Visit(Law& law, Visitor& visit) {
-  Part<Visitor>{"whittaker", -1, visit}.One("e", law.e, NumberRule::kNotNegative);
-}
-
-template <Is<KaneLevinsonLaw> Law, typename Visitor>
-void Visit(Law& law, Visitor& visit) {
-  Part<Visitor>{"kane_levinson", -1, visit}.One("e", law.e, NumberRule::kNotNegative);
-}
-
-template <Is<BrachLaw> Law, typename Visitor>
-void Visit(Law& law, Visitor& visit) {
-  const Part<Visitor> part{"brach", -1, visit};
-  part.One("e", law.e, NumberRule::kNotNegative);
-  part.One("mu_hat", law.mu_hat);
-}
-
-template <Is<ChatterjeeRuinaLaw> Law, typename Visitor>
-void Visit(Law& law, Visitor& visit) {
-  const Part<Visitor> part{"chatterjee_ruina", -1, visit};
-  part.One("e", law.e, NumberRule::kNotNegative);
-  part.One("e_t", law.e_t, NumberRule::kPlusMinusOne);
-}
-
-template <Is<LinearSpring> Spring, typename Visitor>
-void Visit(Spring& spring, Visitor& visit) {
-  Part<Visitor>{"compliance.linear", -1, visit}.One("stiffness_n_m", spring.stiffness_n_m, NumberRule::kPositive);
-}
-
-template <Is<HertzSpring> Spring, typename Visitor>
-void Visit(Spring& spring, Visitor& visit) {
-  Part<Visitor>{"compliance.hertz", -1, visit}.One("stiffness_n_m1_5", spring.stiffness_n_m1_5, NumberRule::kPositive);
-}
-
-template <Is<HuntCrossleySpring> Spring, typename Visitor>
-void Visit(Spring& spring, Visitor& visit) {
-  const Part<Visitor> part{"compliance.hunt_crossley", -1, visit};
-  part.One("stiffness_n_m_p", spring.stiffness_n_m_p, NumberRule::kPositive);
-  part.One("exponent", spring.exponent, NumberRule::kOneToFour);
-  part.One("damping_s_m", spring.damping_s_m, NumberRule::kNotNegative);
-}
-
-template <Is<Compliance> SomeCompliance, typename Visitor>
-void Visit(SomeCompliance& compliance, Visitor& visit) {
-  if (compliance.tangential_ratio_squared.has_value()) {
-    const Part<Visitor> part{"compliance", -1, visit};
-    part.One("tangential_ratio_squared", *compliance.tangential_ratio_squared, NumberRule::kRatioSquared);
-  }
-  std::visit([&visit](auto& spring) { Visit(spring, visit); }, compliance.normal);
-}
-
-template <Is<Gravity> SomeGravity, typename Visitor>
-void Visit(SomeGravity& gravity, Visitor& visit) {
-  const Part<Visitor> part{"gravity", -1, visit};
-  part.One("tangential_m_s2", gravity.tangential_m_s2);
-  part.One("normal_m_s2", gravity.normal_m_s2);
-}
-
-template <Is<PinMoment> Moment, typename Visitor>
-void Visit(Moment& moment, Visitor& visit) {
-  Part<Visitor>{"pin_moment", -1, visit}.One("moment_n_m", moment.moment_n_m);
-}
-
-template <Is<ContactAcceleration> Acceleration, typename Visitor>
-void Visit(Acceleration& acceleration, Visitor& visit) {
-  const Part<Visitor> part{"contact_acceleration", -1, visit};
-  part.One("tangential_m_s2", acceleration.tangential_m_s2);
-  part.One("normal_m_s2", acceleration.normal_m_s2);
+template <typename Visitor>
+void VisitBySpeed(auto& dependence, const char* power_law, const char* table, Visitor& visit) {
+  if (!dependence.has_value()) return;
+  if (auto* const law = std::get_if<PowerLaw>(&*dependence)) VisitPart(*law, power_law, visit);
+  if (auto* const list = std::get_if<SpeedTable>(&*dependence)) VisitPart(*list, table, visit);
 }
 
 }  // namespace numbers
@@ -298,22 +253,19 @@ void Visit(Acceleration& acceleration, Visitor& visit) {
 // reference to const if the scene is const. A oneof that is not set has no numbers.
 template <typename SomeScene, typename Visitor>
 void VisitNumbers(SomeScene& scene, Visitor visit) {
-  const auto visit_one_of = [&visit](auto& variant) {
-    std::visit([&visit](auto& alternative) { numbers::Visit(alternative, visit); }, variant);
-  };
-  const auto visit_by_speed = [&visit](auto& dependence, bool friction) {
-    if (!dependence.has_value()) return;
-    std::visit([&](auto& form) { numbers::VisitBySpeed(form, friction, visit); }, *dependence);
-  };
-  visit_one_of(scene.system);
+  numbers::VisitAlternative(scene.system, visit);
   numbers::Visit(scene.friction, visit);
-  visit_by_speed(scene.friction.by_speed, true);
-  visit_one_of(scene.restitution);
-  visit_by_speed(scene.restitution_by_speed, false);
+  numbers::VisitBySpeed(scene.friction.by_speed, "friction.by_speed.power_law", "friction.by_speed.table", visit);
+  numbers::VisitAlternative(scene.restitution, visit);
+  numbers::VisitBySpeed(scene.restitution_by_speed, "restitution.by_speed.power_law", "restitution.by_speed.table",
+                        visit);
   if (scene.surface_velocity.has_value()) numbers::Visit(*scene.surface_velocity, visit);
-  visit_one_of(scene.impact_law);
-  if (scene.compliance.has_value()) numbers::Visit(*scene.compliance, visit);
-  visit_one_of(scene.finite_forces);
+  numbers::VisitAlternative(scene.impact_law, visit);
+  if (scene.compliance.has_value()) {
+    numbers::Visit(*scene.compliance, visit);
+    numbers::VisitAlternative(scene.compliance->normal, visit);
+  }
+  numbers::VisitAlternative(scene.finite_forces, visit);
 }
 
 }  // namespace ricochet

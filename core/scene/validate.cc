@@ -7,9 +7,9 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/base/decimal.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
-#include "core/numerics/decimal.h"
 #include "core/scene/check.h"
 #include "core/scene/numbers.h"
 
@@ -35,9 +35,8 @@ void CheckForm(const std::string& field, const SpeedDependence& dependence, Chec
   const auto* table = std::get_if<SpeedTable>(&dependence);
   if (table == nullptr) return;
   const std::vector<double>& speeds = table->speed_m_s;
-  check.Require(!speeds.empty(), [&] {
-    return Violation{field + ".table.speed_m_s", "has 0 entries: must have at least one"};
-  });
+  check.Require(!speeds.empty(),
+                [&] { return MakeViolation(field + ".table.speed_m_s", "has 0 entries", "have at least one"); });
   check.Length(field + ".table.factor", table->factor.size(), speeds.size());
   for (size_t i = 1; i < speeds.size(); ++i) {
     check.Require(speeds[i] > speeds[i - 1], [&] {
@@ -53,11 +52,12 @@ void CheckRestitution(const Scene& scene, RestitutionIs restitution, Check& chec
   const bool is_set = !std::holds_alternative<std::monostate>(scene.restitution);
   if (HasDamping(scene)) {
     check.Require(!is_set && !scene.restitution_by_speed.has_value(), [] {
-      return Violation{"restitution", "is set beside compliance.hunt_crossley: must not be, the damping stands for it"};
+      return MakeViolation("restitution", "is set beside compliance.hunt_crossley",
+                           "not be, the damping stands for it");
     });
   } else if (has_law) {
     check.Require(!is_set && !scene.restitution_by_speed.has_value(), [] {
-      return Violation{"restitution", "is set beside an impact law: must not be, the law states its own coefficient"};
+      return MakeViolation("restitution", "is set beside an impact law", "not be, the law states its own coefficient");
     });
   } else if (restitution == RestitutionIs::kRequired) {
     check.RequireSet(is_set, "restitution.coefficient", "be one of newton, poisson, energetic");
@@ -81,14 +81,13 @@ void CheckTogether(const Scene& scene, Check& check) {
   const size_t directions = TangentialDirections(scene.system);
   if (scene.surface_velocity.has_value()) {
     check.Require(!std::holds_alternative<BodyPair>(scene.system), [] {
-      return Violation{"surface_velocity", "is set: must not be for body_pair, whose body 2 is the surface"};
+      return MakeViolation("surface_velocity", "is set", "not be for body_pair, whose body 2 is the surface");
     });
     const size_t entries = scene.surface_velocity->tangential_m_s.size();
     if (entries > 0) check.Length("surface_velocity.tangential_m_s", entries, directions);
   }
-  check.Require(std::holds_alternative<std::monostate>(scene.impact_law) || directions == 1, [&] {
-    return Violation{NameOf(scene.impact_law), "is set: must not be for a system in space"};
-  });
+  check.Require(std::holds_alternative<std::monostate>(scene.impact_law) || directions == 1,
+                [&] { return MakeViolation(NameOf(scene.impact_law), "is set", "not be for a system in space"); });
 }
 
 enum class Scope {

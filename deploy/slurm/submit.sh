@@ -2,9 +2,10 @@
 # Submits one sweep to Slurm: an array with a task for each shard, and a merge that starts once all of them are done.
 #
 # usage: submit.sh FILE SHARDS SWEEP-ARGUMENT...
-#   FILE, in a directory that all nodes share, is what the merge writes. Its ending .csv, .json, .jsonl, .npy or .nc is the
-#   format.
-#   RICOCHET names the program if it is not in the PATH of the nodes. SBATCH_* variables go to sbatch: SBATCH_PARTITION=...
+#   FILE, in a directory that all nodes share, is what the merge writes. Its ending .csv, .json, .jsonl, .npy or .nc is
+#   the format.
+#   RICOCHET names the program if it is not in the PATH of the nodes. SBATCH_* variables go to sbatch:
+#   SBATCH_PARTITION=...
 #
 # Slurm starts the tasks of a node that has died again on another one, and each goes on from its last half second.
 # Whatever else ends a task, submit the same line again: shards that are complete are not computed anew.

@@ -87,6 +87,8 @@ def bash(program, kinds):
         table.append(f"    '{' '.join(path)}') flags='{' '.join(flags(command))}' "
                      f"commands='{' '.join(subs)}' rest={rest} ;;")
     functions = "".join(bash_values(name, value, kinds[value]) for value in used(program, kinds))
+    cases = [f"      ' {' '.join(path)}' | '{' '.join(path[:-1])} {path[-1]}') path='{' '.join(path)}' ;;"
+             for path, _ in walk(program) if path]
     return f"""# Completion of {name} for bash; made from the options that the program declares.
 {functions}{function}() {{
   local cur prev words cword flags commands rest path='' word
@@ -94,7 +96,7 @@ def bash(program, kinds):
   for word in "${{words[@]:1:cword-1}}"; do
     [[ $word == -* ]] && continue
     case "$path $word" in
-{chr(10).join(f"      ' {' '.join(path)}' | '{' '.join(path[:-1])} {path[-1]}') path='{' '.join(path)}' ;;" for path, _ in walk(program) if path)}
+{chr(10).join(cases)}
     esac
   done
   case "${{path:+$path }}$prev" in

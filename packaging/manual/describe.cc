@@ -1,5 +1,5 @@
-// ricochet_describe: prints the options of both programs as JSON, from which the manual pages and the completions are made.
-// It also prints the words that complete values: systems, effects, paths and columns. It is not installed.
+// ricochet_describe: prints the options of both programs as JSON, from which the manual pages and the completions are
+// made. It also prints the words that complete values: systems, effects, paths and columns. It is not installed.
 
 #include <google/protobuf/struct.pb.h>
 #include <google/protobuf/util/json_util.h>
@@ -15,16 +15,17 @@
 #include "absl/status/status.h"
 #include "absl/strings/ascii.h"
 #include "absl/synchronization/mutex.h"
-#include "client/cli/file_option.h"
-#include "client/cli/plan_report.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/input/scene_templates.h"
 #include "client/cli/program.h"
-#include "client/cli/scene_input.h"
-#include "client/cli/scene_templates.h"
+#include "client/cli/report/plan_report.h"
+#include "client/cli/text/enum_names.h"
+#include "core/rows/column.h"
 #include "core/scene/field.h"
-#include "core/sweep/column.h"
 #include "proto/wire/scene.h"
 #include "ricochet/plan.h"
-#include "server/command_line.h"
+#include "server/base/command_line.h"
 
 namespace {
 

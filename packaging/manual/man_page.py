@@ -69,8 +69,10 @@ def environment(program):
     if program["name"] == "ricochetd":
         return ["Each option is also read from the environment: \\fBRICOCHETD_MAX_LIVE_CALLS\\fR=\\fI10\\fR stands for",
                 "\\fB\\-\\-max\\-live\\-calls\\fR \\fI10\\fR."]
-    return ["The options of the connection are also read from the environment: \\fBRICOCHET_SERVER\\fR,",
-            "\\fBRICOCHET_TLS_CA\\fR, \\fBRICOCHET_TOKEN_FILE\\fR and so on. \\fBRICOCHET_TOKEN\\fR holds a token itself."]
+    return [
+        "The options of the connection are also read from the environment: \\fBRICOCHET_SERVER\\fR,",
+        "\\fBRICOCHET_TLS_CA\\fR, \\fBRICOCHET_TOKEN_FILE\\fR and so on. \\fBRICOCHET_TOKEN\\fR holds a token itself."
+    ]
 
 
 def synopsis(name, command):

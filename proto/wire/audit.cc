@@ -1,288 +1,202 @@
 #include "proto/wire/audit.h"
 
-#include <algorithm>
 #include <array>
-#include <utility>
+#include <cstddef>
 #include <vector>
 
 #include "proto/wire/engine.h"
-#include "proto/wire/enums.h"
+#include "proto/wire/map.h"
 #include "proto/wire/outcome.h"
-#include "proto/wire/overloaded.h"
-#include "proto/wire/repeated.h"
 #include "proto/wire/scene.h"
 #include "proto/wire/sweep.h"
 
 namespace ricochet {
-namespace {
 
-using google::protobuf::RepeatedField;
+template <>
+struct Map<LimitCheck> : Between<LimitCheck, v1::LimitCheck> {
+  using Fields =
+      Entries<Entry(&T::value, &P::value, &P::set_value), Entry(&T::limit, &P::limit, &P::set_limit),
+              Entry(&T::excess, &P::excess, &P::set_excess), Entry(&T::allowance, &P::allowance, &P::set_allowance),
+              Entry(&T::verdict, &P::verdict, &P::set_verdict)>;
+};
 
-void Assign(const std::array<double, 2>& values, RepeatedField<double>& field) {
-  field.Assign(values.begin(), values.end());
+// A check stands in an array under the number of its limit, and in a message under its name.
+template <AuditLimit kLimit>
+struct CheckField {
+  const v1::LimitCheck& (v1::AuditLimits::*get)() const;
+  v1::LimitCheck* (v1::AuditLimits::*edit)();
+
+  void Write(const AuditReport& report, v1::AuditLimits& proto) const { ToProto(report[kLimit], *(proto.*edit)()); }
+  void Read(const v1::AuditLimits& proto, AuditReport& report) const {
+    FromProto((proto.*get)(), report.limits[static_cast<size_t>(kLimit)]);
+  }
+};
+
+template <AuditLimit kLimit>
+static constexpr CheckField<kLimit> CheckEntry(const v1::LimitCheck& (v1::AuditLimits::*get)() const,
+                                               v1::LimitCheck* (v1::AuditLimits::*edit)()) {
+  return {get, edit};
 }
 
-// Reads a list of tangential entries; missing ones are 0, further ones are ignored.
-std::array<double, 2> ToArray(const RepeatedField<double>& field) {
-  std::array<double, 2> values = {};
-  std::copy_n(field.data(), std::min<size_t>(2, static_cast<size_t>(field.size())), values.begin());
-  return values;
-}
+using LimitEntries =
+    Entries<CheckEntry<AuditLimit::kSharp>(&v1::AuditLimits::sharp, &v1::AuditLimits::mutable_sharp),
+            CheckEntry<AuditLimit::kEnergy>(&v1::AuditLimits::energy, &v1::AuditLimits::mutable_energy),
+            CheckEntry<AuditLimit::kNormalImpulse>(&v1::AuditLimits::normal_impulse,
+                                                   &v1::AuditLimits::mutable_normal_impulse),
+            CheckEntry<AuditLimit::kPenetration>(&v1::AuditLimits::penetration, &v1::AuditLimits::mutable_penetration),
+            CheckEntry<AuditLimit::kCone>(&v1::AuditLimits::cone, &v1::AuditLimits::mutable_cone)>;
 
-v1::LimitCheck ToProto(const LimitCheck& check) {
-  v1::LimitCheck proto;
-  proto.set_value(check.value);
-  proto.set_limit(check.limit);
-  proto.set_excess(check.excess);
-  proto.set_allowance(check.allowance);
-  proto.set_verdict(ricochet::ToProto(check.verdict));
-  return proto;
-}
+template <>
+struct Map<AuditReport> : Between<AuditReport, v1::AuditReport> {
+  using Fields = Entries<
+      Entry(&T::regime, &P::regime, &P::set_regime), Entry(&T::w_rank, &P::w_rank, &P::set_w_rank),
+      Entry(&T::admissible, &P::admissible, &P::set_admissible),
+      Entry(&T::unexplained, &P::unexplained, &P::set_unexplained),
+      Entry(&T::distance, &P::distance_m_s, &P::set_distance_m_s),
+      Entry(&T::compression_ended, &P::compression_ended, &P::set_compression_ended),
+      Nested<&P::coefficients, &P::mutable_coefficients,
+             Entries<Entry(&T::newton, &v1::Coefficients::newton, &v1::Coefficients::set_newton),
+                     Entry(&T::poisson, &v1::Coefficients::poisson, &v1::Coefficients::set_poisson),
+                     Entry(&T::energetic, &v1::Coefficients::energetic, &v1::Coefficients::set_energetic),
+                     Entry(&T::tangential, &v1::Coefficients::tangential, &v1::Coefficients::set_tangential)>>{},
+      Entry(&T::normal_impulse, &P::normal_impulse_n_s, &P::set_normal_impulse_n_s),
+      Entry(&T::normal_impulse_compression, &P::normal_compression_n_s, &P::set_normal_compression_n_s),
+      Entry(&T::tangential_impulse, &P::tangential_impulse_n_s, &P::mutable_tangential_impulse_n_s),
+      Entry(&T::friction_mismatch, &P::friction_mismatch_n_s, &P::mutable_friction_mismatch_n_s),
+      Entry(&T::normal_impulse_uncertainty, &P::normal_impulse_uncertainty_n_s, &P::set_normal_impulse_uncertainty_n_s),
+      Entry(&T::tangential_impulse_uncertainty, &P::tangential_impulse_uncertainty_n_s,
+            &P::mutable_tangential_impulse_uncertainty_n_s),
+      Entry(&T::work_normal_compression, &P::work_normal_compression_j, &P::set_work_normal_compression_j),
+      Entry(&T::work_normal_restitution, &P::work_normal_restitution_j, &P::set_work_normal_restitution_j),
+      Entry(&T::work_tangential_compression, &P::work_tangential_compression_j, &P::set_work_tangential_compression_j),
+      Entry(&T::work_tangential_restitution, &P::work_tangential_restitution_j, &P::set_work_tangential_restitution_j),
+      Entry(&T::energy_change, &P::energy_change_j, &P::set_energy_change_j),
+      Entry(&T::residual, &P::residual_j, &P::set_residual_j),
+      Nested<&P::path_velocity, &P::mutable_path_velocity,
+             Entries<Entry(&T::path_tangential_velocity, &v1::ContactVelocity::tangential_m_s,
+                           &v1::ContactVelocity::mutable_tangential_m_s),
+                     Entry(&T::path_normal_velocity, &v1::ContactVelocity::normal_m_s,
+                           &v1::ContactVelocity::set_normal_m_s)>>{},
+      Nested<&P::limits, &P::mutable_limits, LimitEntries>{}>;
+};
 
-LimitCheck FromProto(const v1::LimitCheck& proto) {
-  return {.value = proto.value(),
-          .limit = proto.limit(),
-          .excess = proto.excess(),
-          .allowance = proto.allowance(),
-          .verdict = ricochet::FromProto(proto.verdict())};
-}
+// The same for the tallies of a limit.
+template <AuditLimit kLimit>
+struct TallyField {
+  const v1::LimitTally& (v1::AuditSummary::*get)() const;
+  v1::LimitTally* (v1::AuditSummary::*edit)();
 
-v1::AuditLimits ToProto(const std::array<LimitCheck, kAuditLimitCount>& limits) {
-  const auto of = [&limits](AuditLimit limit) { return ToProto(limits[static_cast<size_t>(limit)]); };
-  v1::AuditLimits proto;
-  *proto.mutable_sharp() = of(AuditLimit::kSharp);
-  *proto.mutable_energy() = of(AuditLimit::kEnergy);
-  *proto.mutable_normal_impulse() = of(AuditLimit::kNormalImpulse);
-  *proto.mutable_penetration() = of(AuditLimit::kPenetration);
-  *proto.mutable_cone() = of(AuditLimit::kCone);
-  return proto;
-}
+  static constexpr auto kIndex = static_cast<size_t>(kLimit);
 
-std::array<LimitCheck, kAuditLimitCount> FromProto(const v1::AuditLimits& proto) {
-  return {LimitCheck(),
-          FromProto(proto.sharp()),
-          FromProto(proto.energy()),
-          FromProto(proto.normal_impulse()),
-          FromProto(proto.penetration()),
-          FromProto(proto.cone())};
-}
+  void Write(const AuditSummary& summary, v1::AuditSummary& proto) const {
+    v1::LimitTally& tally = *(proto.*edit)();
+    ToProto(summary.broken[kIndex], *tally.mutable_broken());
+    ToProto(summary.within_uncertainty[kIndex], *tally.mutable_within_uncertainty());
+    tally.set_largest_excess(summary.largest_excess[kIndex]);
+  }
+  void Read(const v1::AuditSummary& proto, AuditSummary& summary) const {
+    const v1::LimitTally& tally = (proto.*get)();
+    if (tally.has_broken()) FromProto(tally.broken(), summary.broken[kIndex]);
+    if (tally.has_within_uncertainty()) FromProto(tally.within_uncertainty(), summary.within_uncertainty[kIndex]);
+    summary.largest_excess[kIndex] = tally.largest_excess();
+  }
+};
 
-v1::LimitTally ToProto(const AuditSummary& summary, AuditLimit limit) {
-  const auto i = static_cast<size_t>(limit);
-  v1::LimitTally proto;
-  *proto.mutable_broken() = ricochet::ToProto(summary.broken[i]);
-  *proto.mutable_within_uncertainty() = ricochet::ToProto(summary.within_uncertainty[i]);
-  proto.set_largest_excess(summary.largest_excess[i]);
-  return proto;
+template <AuditLimit kLimit>
+static constexpr TallyField<kLimit> TallyEntry(const v1::LimitTally& (v1::AuditSummary::*get)() const,
+                                               v1::LimitTally* (v1::AuditSummary::*edit)()) {
+  return {get, edit};
 }
 
 // An absent tally has no rows, and its first index is then -1 and not 0.
-Tally TallyOf(bool present, const v1::Tally& proto) { return present ? ricochet::FromProto(proto) : Tally(); }
+template <>
+struct Map<AuditSummary> : Between<AuditSummary, v1::AuditSummary> {
+  using Fields =
+      Entries<Entry(&T::rows, &P::rows, &P::set_rows), Entry(&T::admissible, &P::admissible, &P::set_admissible),
+              Defaulted(&T::invalid, &P::has_invalid, &P::invalid, &P::mutable_invalid),
+              Defaulted(&T::unexplained, &P::has_unexplained, &P::unexplained, &P::mutable_unexplained),
+              TallyEntry<AuditLimit::kSharp>(&P::sharp, &P::mutable_sharp),
+              TallyEntry<AuditLimit::kEnergy>(&P::energy, &P::mutable_energy),
+              TallyEntry<AuditLimit::kNormalImpulse>(&P::normal_impulse, &P::mutable_normal_impulse),
+              TallyEntry<AuditLimit::kPenetration>(&P::penetration, &P::mutable_penetration),
+              TallyEntry<AuditLimit::kCone>(&P::cone, &P::mutable_cone)>;
+};
 
-void FromProto(const v1::LimitTally& proto, AuditLimit limit, AuditSummary& summary) {
-  const auto i = static_cast<size_t>(limit);
-  summary.broken[i] = TallyOf(proto.has_broken(), proto.broken());
-  summary.within_uncertainty[i] = TallyOf(proto.has_within_uncertainty(), proto.within_uncertainty());
-  summary.largest_excess[i] = proto.largest_excess();
-}
-
-v1::AuditSummary ToProto(const AuditSummary& summary) {
-  v1::AuditSummary proto;
-  proto.set_rows(summary.rows);
-  proto.set_admissible(summary.admissible);
-  *proto.mutable_invalid() = ricochet::ToProto(summary.invalid);
-  *proto.mutable_unexplained() = ricochet::ToProto(summary.unexplained);
-  *proto.mutable_sharp() = ToProto(summary, AuditLimit::kSharp);
-  *proto.mutable_energy() = ToProto(summary, AuditLimit::kEnergy);
-  *proto.mutable_normal_impulse() = ToProto(summary, AuditLimit::kNormalImpulse);
-  *proto.mutable_penetration() = ToProto(summary, AuditLimit::kPenetration);
-  *proto.mutable_cone() = ToProto(summary, AuditLimit::kCone);
-  return proto;
-}
-
-AuditSummary FromProto(const v1::AuditSummary& proto) {
-  AuditSummary summary;
-  summary.rows = proto.rows();
-  summary.admissible = proto.admissible();
-  summary.invalid = TallyOf(proto.has_invalid(), proto.invalid());
-  summary.unexplained = TallyOf(proto.has_unexplained(), proto.unexplained());
-  FromProto(proto.sharp(), AuditLimit::kSharp, summary);
-  FromProto(proto.energy(), AuditLimit::kEnergy, summary);
-  FromProto(proto.normal_impulse(), AuditLimit::kNormalImpulse, summary);
-  FromProto(proto.penetration(), AuditLimit::kPenetration, summary);
-  FromProto(proto.cone(), AuditLimit::kCone, summary);
-  return summary;
-}
-
-v1::AuditColumns ToProto(const AuditColumns& columns) {
-  v1::AuditColumns proto;
-  AssignDoubles(columns.tangential_m_s, *proto.mutable_tangential_m_s());
-  AssignDoubles(columns.tangential_2_m_s, *proto.mutable_tangential_2_m_s());
-  AssignDoubles(columns.normal_m_s, *proto.mutable_normal_m_s());
-  AssignDoubles(columns.tangential_after_m_s, *proto.mutable_tangential_after_m_s());
-  AssignDoubles(columns.tangential_2_after_m_s, *proto.mutable_tangential_2_after_m_s());
-  AssignDoubles(columns.normal_after_m_s, *proto.mutable_normal_after_m_s());
-  AssignDoubles(columns.friction, *proto.mutable_friction());
-  AssignDoubles(columns.velocity_uncertainty_m_s, *proto.mutable_velocity_uncertainty_m_s());
-  for (const std::vector<double>& rates : columns.rates_after_rad_s) {
-    AssignDoubles(rates, *proto.add_rates_after()->mutable_rates_rad_s());
+// A column of rates is a message of its own, as a list of lists needs one.
+struct RatesEntry {
+  static void Write(const AuditColumns& columns, v1::AuditColumns& proto) {
+    for (const std::vector<double>& rates : columns.rates_after_rad_s) {
+      ToProto(rates, *proto.add_rates_after()->mutable_rates_rad_s());
+    }
   }
-  return proto;
-}
-
-AuditColumns FromProto(const v1::AuditColumns& proto) {
-  std::vector<std::vector<double>> rates_after_rad_s;
-  for (const v1::RateColumn& column : proto.rates_after()) rates_after_rad_s.push_back(ToVector(column.rates_rad_s()));
-  return {.tangential_m_s = ToVector(proto.tangential_m_s()),
-          .tangential_2_m_s = ToVector(proto.tangential_2_m_s()),
-          .normal_m_s = ToVector(proto.normal_m_s()),
-          .tangential_after_m_s = ToVector(proto.tangential_after_m_s()),
-          .tangential_2_after_m_s = ToVector(proto.tangential_2_after_m_s()),
-          .normal_after_m_s = ToVector(proto.normal_after_m_s()),
-          .friction = ToVector(proto.friction()),
-          .velocity_uncertainty_m_s = ToVector(proto.velocity_uncertainty_m_s()),
-          .rates_after_rad_s = std::move(rates_after_rad_s)};
-}
-
-void ImpulsesToProto(const AuditReport& report, v1::AuditReport& proto) {
-  proto.set_normal_impulse_n_s(report.normal_impulse);
-  proto.set_normal_compression_n_s(report.normal_impulse_compression);
-  Assign(report.tangential_impulse, *proto.mutable_tangential_impulse_n_s());
-  Assign(report.friction_mismatch, *proto.mutable_friction_mismatch_n_s());
-  proto.set_normal_impulse_uncertainty_n_s(report.normal_impulse_uncertainty);
-  Assign(report.tangential_impulse_uncertainty, *proto.mutable_tangential_impulse_uncertainty_n_s());
-}
-
-void WorksToProto(const AuditReport& report, v1::AuditReport& proto) {
-  proto.set_work_normal_compression_j(report.work_normal_compression);
-  proto.set_work_normal_restitution_j(report.work_normal_restitution);
-  proto.set_work_tangential_compression_j(report.work_tangential_compression);
-  proto.set_work_tangential_restitution_j(report.work_tangential_restitution);
-  proto.set_energy_change_j(report.energy_change);
-  proto.set_residual_j(report.residual);
-}
-
-}  // namespace
-
-v1::LimitCheck::Verdict ToProto(Verdict verdict) {
-  return SameNumber<v1::LimitCheck::Verdict>(verdict, v1::LimitCheck::Verdict_IsValid);
-}
-
-Verdict FromProto(v1::LimitCheck::Verdict proto) { return SameNumber<Verdict>(proto, v1::LimitCheck::Verdict_IsValid); }
-
-v1::AuditReport ToProto(const AuditReport& report) {
-  v1::AuditReport proto;
-  proto.set_regime(ToProto(report.regime));
-  proto.set_w_rank(report.w_rank);
-  proto.set_admissible(report.admissible);
-  proto.set_unexplained(report.unexplained);
-  proto.set_distance_m_s(report.distance);
-  proto.set_compression_ended(report.compression_ended);
-  *proto.mutable_coefficients() =
-      ToProto(Coefficients{report.newton, report.poisson, report.energetic, report.tangential});
-  ImpulsesToProto(report, proto);
-  WorksToProto(report, proto);
-  Assign(report.path_tangential_velocity, *proto.mutable_path_velocity()->mutable_tangential_m_s());
-  proto.mutable_path_velocity()->set_normal_m_s(report.path_normal_velocity);
-  *proto.mutable_limits() = ToProto(report.limits);
-  return proto;
-}
-
-AuditReport FromProto(const v1::AuditReport& proto) {
-  return {.regime = FromProto(proto.regime()),
-          .w_rank = proto.w_rank(),
-          .admissible = proto.admissible(),
-          .unexplained = proto.unexplained(),
-          .distance = proto.distance_m_s(),
-          .compression_ended = proto.compression_ended(),
-          .newton = proto.coefficients().newton(),
-          .poisson = proto.coefficients().poisson(),
-          .energetic = proto.coefficients().energetic(),
-          .tangential = proto.coefficients().tangential(),
-          .normal_impulse = proto.normal_impulse_n_s(),
-          .normal_impulse_compression = proto.normal_compression_n_s(),
-          .tangential_impulse = ToArray(proto.tangential_impulse_n_s()),
-          .friction_mismatch = ToArray(proto.friction_mismatch_n_s()),
-          .normal_impulse_uncertainty = proto.normal_impulse_uncertainty_n_s(),
-          .tangential_impulse_uncertainty = ToArray(proto.tangential_impulse_uncertainty_n_s()),
-          .work_normal_compression = proto.work_normal_compression_j(),
-          .work_normal_restitution = proto.work_normal_restitution_j(),
-          .work_tangential_compression = proto.work_tangential_compression_j(),
-          .work_tangential_restitution = proto.work_tangential_restitution_j(),
-          .energy_change = proto.energy_change_j(),
-          .residual = proto.residual_j(),
-          .path_tangential_velocity = ToArray(proto.path_velocity().tangential_m_s()),
-          .path_normal_velocity = proto.path_velocity().normal_m_s(),
-          .limits = FromProto(proto.limits())};
-}
-
-v1::AuditRequest ToProto(const AuditRequest& request) {
-  v1::AuditRequest proto;
-  *proto.mutable_scene() = ToProto(request.scene);
-  std::visit(Overloaded{[](std::monostate) {},
-                        [&proto](const ContactVelocity& velocity) {
-                          v1::ContactVelocity& out = *proto.mutable_contact_velocity();
-                          AssignDoubles(velocity.tangential_m_s, *out.mutable_tangential_m_s());
-                          out.set_normal_m_s(velocity.normal_m_s);
-                        },
-                        [&proto](const ObservedRates& rates) {
-                          AssignDoubles(rates.rates_rad_s, *proto.mutable_rates()->mutable_rates_rad_s());
-                        }},
-             request.observed);
-  proto.set_velocity_uncertainty_m_s(request.velocity_uncertainty_m_s);
-  return proto;
-}
-
-AuditRequest FromProto(const v1::AuditRequest& proto) {
-  AuditRequest request{
-      .scene = FromProto(proto.scene()), .observed = {}, .velocity_uncertainty_m_s = proto.velocity_uncertainty_m_s()};
-  if (proto.has_contact_velocity()) {
-    request.observed = ContactVelocity{.tangential_m_s = ToComponents(proto.contact_velocity().tangential_m_s()),
-                                       .normal_m_s = proto.contact_velocity().normal_m_s()};
+  static void Read(const v1::AuditColumns& proto, AuditColumns& columns) {
+    for (const v1::RateColumn& column : proto.rates_after()) {
+      FromProto(column.rates_rad_s(), columns.rates_after_rad_s.emplace_back());
+    }
   }
-  if (proto.has_rates()) request.observed = ObservedRates{ToComponents(proto.rates().rates_rad_s())};
-  return request;
-}
+};
 
-v1::AuditResponse ToProto(const AuditResponse& response) {
-  v1::AuditResponse proto;
-  *proto.mutable_report() = ToProto(response.report);
-  proto.set_contact_energy_j(response.contact_energy_j);
-  *proto.mutable_engine() = ToProto(response.engine);
-  return proto;
-}
+template <>
+struct Map<AuditColumns> : Between<AuditColumns, v1::AuditColumns> {
+  using Fields =
+      Entries<Entry(&T::tangential_m_s, &P::tangential_m_s, &P::mutable_tangential_m_s),
+              Entry(&T::tangential_2_m_s, &P::tangential_2_m_s, &P::mutable_tangential_2_m_s),
+              Entry(&T::normal_m_s, &P::normal_m_s, &P::mutable_normal_m_s),
+              Entry(&T::tangential_after_m_s, &P::tangential_after_m_s, &P::mutable_tangential_after_m_s),
+              Entry(&T::tangential_2_after_m_s, &P::tangential_2_after_m_s, &P::mutable_tangential_2_after_m_s),
+              Entry(&T::normal_after_m_s, &P::normal_after_m_s, &P::mutable_normal_after_m_s),
+              Entry(&T::friction, &P::friction, &P::mutable_friction),
+              Entry(&T::velocity_uncertainty_m_s, &P::velocity_uncertainty_m_s, &P::mutable_velocity_uncertainty_m_s),
+              RatesEntry{}>;
+};
 
-AuditResponse FromProto(const v1::AuditResponse& proto) {
-  return {.report = FromProto(proto.report()),
-          .contact_energy_j = proto.contact_energy_j(),
-          .engine = FromProto(proto.engine())};
-}
+template <>
+struct Map<ObservedRates> : Between<ObservedRates, v1::ObservedRates> {
+  using Fields = Entries<Entry(&T::rates_rad_s, &P::rates_rad_s, &P::mutable_rates_rad_s)>;
+};
 
-v1::AuditBatchRequest ToProto(const AuditBatchRequest& request) {
-  v1::AuditBatchRequest proto;
-  *proto.mutable_scene() = ToProto(request.scene);
-  *proto.mutable_columns() = ToProto(request.columns);
-  return proto;
-}
+template <>
+struct Map<AuditRequest> : Between<AuditRequest, v1::AuditRequest> {
+  using Fields = Entries<
+      Entry(&T::scene, &P::scene, &P::mutable_scene),
+      Flat<&T::observed, OneOf<Case(&P::has_contact_velocity, &P::contact_velocity, &P::mutable_contact_velocity),
+                               Case(&P::has_rates, &P::rates, &P::mutable_rates)>>{},
+      Entry(&T::velocity_uncertainty_m_s, &P::velocity_uncertainty_m_s, &P::set_velocity_uncertainty_m_s)>;
+};
 
-AuditBatchRequest FromProto(const v1::AuditBatchRequest& proto) {
-  return {.scene = FromProto(proto.scene()), .columns = FromProto(proto.columns())};
-}
+template <>
+struct Map<AuditResponse> : Between<AuditResponse, v1::AuditResponse> {
+  using Fields = Entries<Entry(&T::report, &P::report, &P::mutable_report),
+                         Entry(&T::contact_energy_j, &P::contact_energy_j, &P::set_contact_energy_j),
+                         Entry(&T::engine, &P::engine, &P::mutable_engine)>;
+};
 
-v1::AuditBatchResponse ToProto(const AuditBatchResponse& response) {
-  v1::AuditBatchResponse proto;
-  for (const AuditReport& report : response.reports) *proto.add_reports() = ToProto(report);
-  *proto.mutable_summary() = ToProto(response.summary);
-  *proto.mutable_engine() = ToProto(response.engine);
-  return proto;
-}
+template <>
+struct Map<AuditBatchRequest> : Between<AuditBatchRequest, v1::AuditBatchRequest> {
+  using Fields =
+      Entries<Entry(&T::scene, &P::scene, &P::mutable_scene), Entry(&T::columns, &P::columns, &P::mutable_columns)>;
+};
 
-AuditBatchResponse FromProto(const v1::AuditBatchResponse& proto) {
-  AuditBatchResponse response{
-      .reports = {}, .summary = FromProto(proto.summary()), .engine = FromProto(proto.engine())};
-  response.reports.reserve(static_cast<size_t>(proto.reports_size()));
-  for (const v1::AuditReport& report : proto.reports()) response.reports.push_back(FromProto(report));
-  return response;
-}
+template <>
+struct Map<AuditBatchResponse> : Between<AuditBatchResponse, v1::AuditBatchResponse> {
+  using Fields =
+      Entries<Entry(&T::reports, &P::reports, &P::mutable_reports),
+              Entry(&T::summary, &P::summary, &P::mutable_summary), Entry(&T::engine, &P::engine, &P::mutable_engine)>;
+};
+
+v1::AuditReport ToProto(const AuditReport& report) { return Sent(report); }
+AuditReport FromProto(const v1::AuditReport& proto) { return Received<AuditReport>(proto); }
+
+v1::AuditRequest ToProto(const AuditRequest& request) { return Sent(request); }
+AuditRequest FromProto(const v1::AuditRequest& proto) { return Received<AuditRequest>(proto); }
+
+v1::AuditResponse ToProto(const AuditResponse& response) { return Sent(response); }
+AuditResponse FromProto(const v1::AuditResponse& proto) { return Received<AuditResponse>(proto); }
+
+v1::AuditBatchRequest ToProto(const AuditBatchRequest& request) { return Sent(request); }
+AuditBatchRequest FromProto(const v1::AuditBatchRequest& proto) { return Received<AuditBatchRequest>(proto); }
+
+v1::AuditBatchResponse ToProto(const AuditBatchResponse& response) { return Sent(response); }
+AuditBatchResponse FromProto(const v1::AuditBatchResponse& proto) { return Received<AuditBatchResponse>(proto); }
 
 }  // namespace ricochet

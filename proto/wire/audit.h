@@ -4,6 +4,7 @@
 #ifndef RICOCHET_PROTO_WIRE_AUDIT_H_
 #define RICOCHET_PROTO_WIRE_AUDIT_H_
 
+#include "proto/wire/enums.h"
 #include "ricochet/solver.h"
 #include "ricochet/v1/impact_service.pb.h"
 
@@ -22,8 +23,10 @@ AuditBatchResponse FromProto(const v1::AuditBatchResponse& proto);
 v1::AuditReport ToProto(const AuditReport& report);
 AuditReport FromProto(const v1::AuditReport& proto);
 
-v1::LimitCheck::Verdict ToProto(Verdict verdict);
-Verdict FromProto(v1::LimitCheck::Verdict proto);
+template <>
+struct EnumPair<Verdict> : SameNumbers<v1::LimitCheck::Verdict, v1::LimitCheck::Verdict_IsValid> {};
+template <>
+struct EnumPair<v1::LimitCheck::Verdict> : SameNumbers<Verdict, v1::LimitCheck::Verdict_IsValid> {};
 
 }  // namespace ricochet
 

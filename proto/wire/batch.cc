@@ -6,11 +6,12 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "proto/wire/column_bytes.h"
+#include "proto/wire/demand.h"
 #include "proto/wire/engine.h"
-#include "proto/wire/enums.h"
+#include "proto/wire/map.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
-#include "proto/wire/repeated.h"
 #include "proto/wire/scene.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/error.h"
@@ -42,45 +43,31 @@ absl::Status Misfit(const std::string& what, size_t found, size_t wanted) {
 
 }  // namespace
 
-v1::BatchSetup ToProto(const BatchSetup& setup) {
-  v1::BatchSetup proto;
-  *proto.mutable_scene() = ToProto(setup.scene);
-  proto.mutable_fields()->Assign(setup.fields.begin(), setup.fields.end());
-  proto.mutable_columns()->Assign(setup.columns.begin(), setup.columns.end());
-  SetDemand(setup.demand, proto);
-  return proto;
-}
+template <>
+struct Map<BatchSetup> : Between<BatchSetup, v1::BatchSetup> {
+  using Fields =
+      Entries<Entry(&T::scene, &P::scene, &P::mutable_scene), Entry(&T::fields, &P::fields, &P::mutable_fields),
+              Entry(&T::columns, &P::columns, &P::mutable_columns), Flat<&T::demand, DemandEntries<P>>{}>;
+};
 
-BatchSetup FromProto(const v1::BatchSetup& proto) {
-  return {.scene = FromProto(proto.scene()),
-          .fields = {proto.fields().begin(), proto.fields().end()},
-          .columns = {proto.columns().begin(), proto.columns().end()},
-          .demand = DemandOf(proto)};
-}
+template <>
+struct Map<BadRow> : Between<BadRow, v1::BadRow> {
+  using Fields = Entries<Entry(&T::row, &P::row, &P::set_row), Entry(&T::status, &P::status, &P::set_status),
+                         Entry(&T::field, &P::field, &P::mutable_field),
+                         Entry(&T::description, &P::description, &P::mutable_description)>;
+};
 
-v1::BatchSummary ToProto(const BatchSummary& summary) {
-  v1::BatchSummary proto;
-  *proto.mutable_counts() = ToProto(summary.counts);
-  for (const BadRow& bad : summary.bad_rows) {
-    v1::BadRow& entry = *proto.add_bad_rows();
-    entry.set_row(bad.row);
-    entry.set_status(ToProto(bad.status));
-    entry.set_field(bad.field);
-    entry.set_description(bad.description);
-  }
-  return proto;
-}
+template <>
+struct Map<BatchSummary> : Between<BatchSummary, v1::BatchSummary> {
+  using Fields = Entries<Entry(&T::counts, &P::counts, &P::mutable_counts),
+                         Entry(&T::bad_rows, &P::bad_rows, &P::mutable_bad_rows)>;
+};
 
-BatchSummary FromProto(const v1::BatchSummary& proto) {
-  BatchSummary summary = {.counts = FromProto(proto.counts())};
-  for (const v1::BadRow& entry : proto.bad_rows()) {
-    summary.bad_rows.push_back({.row = entry.row(),
-                                .status = FromProto(entry.status()),
-                                .field = entry.field(),
-                                .description = entry.description()});
-  }
-  return summary;
-}
+v1::BatchSetup ToProto(const BatchSetup& setup) { return Sent(setup); }
+BatchSetup FromProto(const v1::BatchSetup& proto) { return Received<BatchSetup>(proto); }
+
+v1::BatchSummary ToProto(const BatchSummary& summary) { return Sent(summary); }
+BatchSummary FromProto(const v1::BatchSummary& proto) { return Received<BatchSummary>(proto); }
 
 void SetInputs(const BatchRows& rows, size_t first, size_t count, v1::SolveBatchRequest& request) {
   request.clear_inputs();
@@ -157,7 +144,7 @@ void BatchExchange::Close(const BatchSummary& summary, const EngineInfo& engine,
   std::transform(statuses_.begin(), statuses_.end(), statuses.begin(),
                  [](RowStatus status) { return static_cast<char>(status); });
   *response.mutable_summary() = ToProto(summary);
-  *response.mutable_engine() = ToProto(engine);
+  ToProto(engine, *response.mutable_engine());
 }
 
 }  // namespace ricochet

@@ -8,11 +8,11 @@
 
 namespace ricochet {
 
-v1::Bounds ToProto(const Bounds& bounds);
-Bounds FromProto(const v1::Bounds& proto);
+void ToProto(const Bounds& bounds, v1::Bounds& proto);
+void FromProto(const v1::Bounds& proto, Bounds& bounds);
 
-v1::Enclosure ToProto(const Enclosure& enclosure);
-Enclosure FromProto(const v1::Enclosure& proto);
+void ToProto(const Enclosure& enclosure, v1::Enclosure& proto);
+void FromProto(const v1::Enclosure& proto, Enclosure& enclosure);
 
 }  // namespace ricochet
 

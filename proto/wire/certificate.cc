@@ -1,45 +1,32 @@
 #include "proto/wire/certificate.h"
 
+#include "proto/wire/map.h"
 #include "proto/wire/outcome.h"
 
 namespace ricochet {
 
-static v1::CertifiedNumber ToProto(const CertifiedNumber& number) {
-  v1::CertifiedNumber proto;
-  proto.set_path(number.path);
-  proto.set_decimal(number.decimal);
-  proto.set_lower(number.lower);
-  proto.set_upper(number.upper);
-  proto.set_value(number.value);
-  proto.set_exact(number.exact);
-  return proto;
-}
+template <>
+struct Map<CertifiedNumber> : Between<CertifiedNumber, v1::CertifiedNumber> {
+  using Fields =
+      Entries<Entry(&T::path, &P::path, &P::mutable_path), Entry(&T::decimal, &P::decimal, &P::mutable_decimal),
+              Entry(&T::lower, &P::lower, &P::mutable_lower), Entry(&T::upper, &P::upper, &P::mutable_upper),
+              Entry(&T::value, &P::value, &P::set_value), Entry(&T::exact, &P::exact, &P::set_exact)>;
+};
 
-static CertifiedNumber FromProto(const v1::CertifiedNumber& proto) {
-  return {.path = proto.path(),
-          .decimal = proto.decimal(),
-          .lower = proto.lower(),
-          .upper = proto.upper(),
-          .value = proto.value(),
-          .exact = proto.exact()};
-}
+template <>
+struct Map<Certificate> : Between<Certificate, v1::Certificate> {
+  using Fields =
+      Entries<Entry(&T::digits, &P::digits, &P::set_digits),
+              Entry(&T::precision_bits, &P::precision_bits, &P::set_precision_bits),
+              Entry(&T::regimes, &P::regimes, &P::mutable_regimes), Entry(&T::is_set, &P::is_set, &P::set_is_set),
+              Entry(&T::numbers, &P::numbers, &P::mutable_numbers)>;
+};
 
-v1::Certificate ToProto(const Certificate& certificate) {
-  v1::Certificate proto;
-  proto.set_digits(certificate.digits);
-  proto.set_precision_bits(certificate.precision_bits);
-  for (const Regime regime : certificate.regimes) proto.add_regimes(ToProto(regime));
-  proto.set_is_set(certificate.is_set);
-  for (const CertifiedNumber& number : certificate.numbers) *proto.add_numbers() = ToProto(number);
-  return proto;
+void ToProto(const Certificate& certificate, v1::Certificate& proto) {
+  Map<Certificate>::Fields::Write(certificate, proto);
 }
-
-Certificate FromProto(const v1::Certificate& proto) {
-  Certificate certificate = {.digits = proto.digits(), .precision_bits = proto.precision_bits()};
-  for (const int regime : proto.regimes()) certificate.regimes.push_back(FromProto(static_cast<v1::Regime>(regime)));
-  certificate.is_set = proto.is_set();
-  for (const v1::CertifiedNumber& number : proto.numbers()) certificate.numbers.push_back(FromProto(number));
-  return certificate;
+void FromProto(const v1::Certificate& proto, Certificate& certificate) {
+  Map<Certificate>::Fields::Read(proto, certificate);
 }
 
 }  // namespace ricochet

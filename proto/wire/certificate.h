@@ -8,8 +8,8 @@
 
 namespace ricochet {
 
-v1::Certificate ToProto(const Certificate& certificate);
-Certificate FromProto(const v1::Certificate& proto);
+void ToProto(const Certificate& certificate, v1::Certificate& proto);
+void FromProto(const v1::Certificate& proto, Certificate& certificate);
 
 }  // namespace ricochet
 

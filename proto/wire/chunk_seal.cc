@@ -5,7 +5,7 @@
 
 #include "absl/strings/escaping.h"
 #include "absl/strings/str_cat.h"
-#include "core/numerics/stable_hash.h"
+#include "core/base/stable_hash.h"
 #include "proto/wire/crc32c.h"
 #include "proto/wire/sweep.h"
 

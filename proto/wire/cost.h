@@ -3,6 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_COST_H_
 #define RICOCHET_PROTO_WIRE_COST_H_
 
+#include "proto/wire/enums.h"
 #include "ricochet/cost.h"
 #include "ricochet/v1/cost.pb.h"
 
@@ -12,8 +13,10 @@ v1::CostRequest ToProto(const CostRequest& request);
 CostRequest FromProto(const v1::CostRequest& proto);
 
 // A number that this build does not know becomes kUnspecified.
-v1::CostRow::Status ToProto(CostStatus status);
-CostStatus FromProto(v1::CostRow::Status proto);
+template <>
+struct EnumPair<CostStatus> : SameNumbers<v1::CostRow::Status, v1::CostRow::Status_IsValid> {};
+template <>
+struct EnumPair<v1::CostRow::Status> : SameNumbers<CostStatus, v1::CostRow::Status_IsValid> {};
 
 v1::CostResponse ToProto(const CostChunk& chunk);
 CostChunk FromProto(const v1::CostResponse& proto);

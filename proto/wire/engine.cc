@@ -1,14 +1,19 @@
 #include "proto/wire/engine.h"
 
+#include "proto/wire/map.h"
+
 namespace ricochet {
 
-v1::Engine ToProto(const EngineInfo& engine) {
-  v1::Engine proto;
-  proto.set_version(engine.version);
-  proto.set_fingerprint(engine.fingerprint);
-  return proto;
-}
+template <>
+struct Map<EngineInfo> : Between<EngineInfo, v1::Engine> {
+  using Fields = Entries<Entry(&T::version, &P::version, &P::mutable_version),
+                         Entry(&T::fingerprint, &P::fingerprint, &P::mutable_fingerprint)>;
+};
 
-EngineInfo FromProto(const v1::Engine& proto) { return {proto.version(), proto.fingerprint()}; }
+void ToProto(const EngineInfo& engine, v1::Engine& proto) { Map<EngineInfo>::Fields::Write(engine, proto); }
+void FromProto(const v1::Engine& proto, EngineInfo& engine) { Map<EngineInfo>::Fields::Read(proto, engine); }
+
+v1::Engine ToProto(const EngineInfo& engine) { return Sent(engine); }
+EngineInfo FromProto(const v1::Engine& proto) { return Received<EngineInfo>(proto); }
 
 }  // namespace ricochet

@@ -1,16 +1,34 @@
-// SameNumber: converts an enum of the vocabulary to its proto and back. Both have the same numbers, as
-// tests/proto/enums_test.cc holds them to.
+// ToProto and FromProto for enums: each enum of the core has a proto with the same numbers, which
+// tests/proto/enums_test.cc compares. A number that the proto does not know becomes 0: "unspecified" on both sides.
 
 #ifndef RICOCHET_PROTO_WIRE_ENUMS_H_
 #define RICOCHET_PROTO_WIRE_ENUMS_H_
 
 namespace ricochet {
 
-// `is_valid` tells the numbers of the proto. Any other becomes 0, which is "unspecified" on both sides.
-template <typename To, typename From>
-To SameNumber(From from, bool (*is_valid)(int)) {
-  const int number = static_cast<int>(from);
-  return static_cast<To>(is_valid(number) ? number : 0);
+// The enum on the other side of the wire. Each header of this folder states the pairs of its proto.
+template <typename Enum>
+struct EnumPair;
+
+template <typename OtherEnum, bool (*kIsValid)(int)>
+struct SameNumbers {
+  using Other = OtherEnum;
+
+  template <typename Enum>
+  static Other Of(Enum value) {
+    const int number = static_cast<int>(value);
+    return static_cast<Other>(kIsValid(number) ? number : 0);
+  }
+};
+
+template <typename Enum>
+typename EnumPair<Enum>::Other ToProto(Enum value) {
+  return EnumPair<Enum>::Of(value);
+}
+
+template <typename Enum>
+typename EnumPair<Enum>::Other FromProto(Enum proto) {
+  return EnumPair<Enum>::Of(proto);
 }
 
 }  // namespace ricochet

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "proto/wire/engine.h"
+#include "proto/wire/map.h"
 #include "proto/wire/plan.h"
 
 namespace ricochet {
@@ -30,59 +31,49 @@ int64_t GetLimit(const Message& message, const char* name) {
   return message.GetReflection()->GetInt64(message, &FieldOf(message, name));
 }
 
-void ToProto(const Limits& limits, v1::Limits& proto) {
+}  // namespace
+
+static void ToProto(const Limits& limits, v1::Limits& proto) {
   for (const NamedLimit& limit : kLimits) {
     if (limits.*limit.value != kUnlimited) SetLimit(limit.name, limits.*limit.value, proto);
   }
 }
 
-Limits FromProto(const v1::Limits& proto) {
-  Limits limits = Limits::None();
+static void FromProto(const v1::Limits& proto, Limits& limits) {
   for (const NamedLimit& limit : kLimits) {
     const bool is_set = proto.GetReflection()->HasField(proto, &FieldOf(proto, limit.name));
-    if (is_set) limits.*limit.value = GetLimit(proto, limit.name);
+    limits.*limit.value = is_set ? GetLimit(proto, limit.name) : kUnlimited;
   }
-  return limits;
 }
 
-ServerLimits FromProto(const v1::ServerLimits& proto) {
-  ServerLimits limits;
+static void FromProto(const v1::ServerLimits& proto, ServerLimits& limits) {
   for (const NamedServerLimit& limit : kServerLimits) limits.*limit.value = GetLimit(proto, limit.name);
-  return limits;
 }
 
-}  // namespace
+static void ToProto(const ServerLimits& limits, v1::ServerLimits& proto) {
+  for (const NamedServerLimit& limit : kServerLimits) SetLimit(limit.name, limits.*limit.value, proto);
+}
+
+template <>
+struct Map<InfoResponse> : Between<InfoResponse, v1::InfoResponse> {
+  using Fields =
+      Entries<Entry(&T::engine, &P::engine, &P::mutable_engine), Entry(&T::limits, &P::limits, &P::mutable_limits),
+              Entry(&T::server_limits, &P::has_server_limits, &P::server_limits, &P::mutable_server_limits),
+              Entry(&T::certified, &P::certified, &P::set_certified),
+              Entry(&T::finite_duration, &P::finite_duration, &P::set_finite_duration),
+              Entry(&T::systems, &P::systems, &P::mutable_systems), Entry(&T::models, &P::models, &P::mutable_models)>;
+};
 
 v1::InfoRequest ToProto(const InfoRequest& /*request*/) { return {}; }
 InfoRequest FromProto(const v1::InfoRequest& /*proto*/) { return {}; }
 
 v1::ServerLimits ToProto(const ServerLimits& limits) {
   v1::ServerLimits proto;
-  for (const NamedServerLimit& limit : kServerLimits) SetLimit(limit.name, limits.*limit.value, proto);
+  ToProto(limits, proto);
   return proto;
 }
 
-v1::InfoResponse ToProto(const InfoResponse& response) {
-  v1::InfoResponse proto;
-  *proto.mutable_engine() = ToProto(response.engine);
-  ToProto(response.limits, *proto.mutable_limits());
-  if (response.server_limits.has_value()) *proto.mutable_server_limits() = ToProto(*response.server_limits);
-  proto.set_certified(response.certified);
-  proto.set_finite_duration(response.finite_duration);
-  proto.mutable_systems()->Assign(response.systems.begin(), response.systems.end());
-  for (const Model model : response.models) proto.add_models(ToProto(model));
-  return proto;
-}
-
-InfoResponse FromProto(const v1::InfoResponse& proto) {
-  InfoResponse response = {.engine = FromProto(proto.engine()),
-                           .limits = FromProto(proto.limits()),
-                           .certified = proto.certified(),
-                           .finite_duration = proto.finite_duration(),
-                           .systems = {proto.systems().begin(), proto.systems().end()}};
-  if (proto.has_server_limits()) response.server_limits = FromProto(proto.server_limits());
-  for (const int model : proto.models()) response.models.push_back(FromProto(static_cast<v1::Model>(model)));
-  return response;
-}
+v1::InfoResponse ToProto(const InfoResponse& response) { return Sent(response); }
+InfoResponse FromProto(const v1::InfoResponse& proto) { return Received<InfoResponse>(proto); }
 
 }  // namespace ricochet

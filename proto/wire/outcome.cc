@@ -1,352 +1,188 @@
 #include "proto/wire/outcome.h"
 
-#include <optional>
-
 #include "proto/wire/certificate.h"
-#include "proto/wire/enums.h"
+#include "proto/wire/map.h"
 #include "proto/wire/plan.h"
-#include "proto/wire/repeated.h"
 
 namespace ricochet {
 
-v1::Regime ToProto(Regime regime) { return SameNumber<v1::Regime>(regime, v1::Regime_IsValid); }
+template <>
+struct Map<Coefficients> : Between<Coefficients, v1::Coefficients> {
+  using Fields = Entries<Entry(&T::newton, &P::newton, &P::set_newton),
+                         Entry(&T::poisson, &P::has_poisson, &P::poisson, &P::set_poisson),
+                         Entry(&T::energetic, &P::has_energetic, &P::energetic, &P::set_energetic),
+                         Entry(&T::tangential, &P::tangential, &P::set_tangential)>;
+};
 
-Regime FromProto(v1::Regime proto) { return SameNumber<Regime>(proto, v1::Regime_IsValid); }
-
-v1::Event::Kind ToProto(EventKind kind) { return SameNumber<v1::Event::Kind>(kind, v1::Event::Kind_IsValid); }
-
-EventKind FromProto(v1::Event::Kind proto) { return SameNumber<EventKind>(proto, v1::Event::Kind_IsValid); }
-
-v1::Accuracy::Kind ToProto(AccuracyKind kind) {
-  return SameNumber<v1::Accuracy::Kind>(kind, v1::Accuracy::Kind_IsValid);
+void ToProto(const Coefficients& coefficients, v1::Coefficients& proto) {
+  Map<Coefficients>::Fields::Write(coefficients, proto);
+}
+void FromProto(const v1::Coefficients& proto, Coefficients& coefficients) {
+  Map<Coefficients>::Fields::Read(proto, coefficients);
 }
 
-AccuracyKind FromProto(v1::Accuracy::Kind proto) { return SameNumber<AccuracyKind>(proto, v1::Accuracy::Kind_IsValid); }
+template <>
+struct Map<ContactVelocity> : Between<ContactVelocity, v1::ContactVelocity> {
+  using Fields = Entries<Entry(&T::tangential_m_s, &P::tangential_m_s, &P::mutable_tangential_m_s),
+                         Entry(&T::normal_m_s, &P::normal_m_s, &P::set_normal_m_s)>;
+};
 
-v1::BrokenLimit::Kind ToProto(LimitKind kind) {
-  return SameNumber<v1::BrokenLimit::Kind>(kind, v1::BrokenLimit::Kind_IsValid);
+void ToProto(const ContactVelocity& velocity, v1::ContactVelocity& proto) {
+  Map<ContactVelocity>::Fields::Write(velocity, proto);
+}
+void FromProto(const v1::ContactVelocity& proto, ContactVelocity& velocity) {
+  Map<ContactVelocity>::Fields::Read(proto, velocity);
 }
 
-LimitKind FromProto(v1::BrokenLimit::Kind proto) { return SameNumber<LimitKind>(proto, v1::BrokenLimit::Kind_IsValid); }
+template <>
+struct Map<Impulse> : Between<Impulse, v1::Impulse> {
+  using Fields = Entries<Entry(&T::normal_compression_n_s, &P::has_normal_compression_n_s, &P::normal_compression_n_s,
+                               &P::set_normal_compression_n_s),
+                         Entry(&T::normal_total_n_s, &P::normal_total_n_s, &P::set_normal_total_n_s),
+                         Entry(&T::tangential_n_s, &P::tangential_n_s, &P::mutable_tangential_n_s)>;
+};
 
-v1::Termination ToProto(Termination termination) {
-  return SameNumber<v1::Termination>(termination, v1::Termination_IsValid);
-}
+template <>
+struct Map<WorkLedger> : Between<WorkLedger, v1::WorkLedger> {
+  using Fields = Entries<Entry(&T::normal_compression_j, &P::has_normal_compression_j, &P::normal_compression_j,
+                               &P::set_normal_compression_j),
+                         Entry(&T::normal_restitution_j, &P::has_normal_restitution_j, &P::normal_restitution_j,
+                               &P::set_normal_restitution_j),
+                         Entry(&T::tangential_compression_j, &P::has_tangential_compression_j,
+                               &P::tangential_compression_j, &P::set_tangential_compression_j),
+                         Entry(&T::tangential_restitution_j, &P::has_tangential_restitution_j,
+                               &P::tangential_restitution_j, &P::set_tangential_restitution_j),
+                         Entry(&T::normal_total_j, &P::normal_total_j, &P::set_normal_total_j),
+                         Entry(&T::tangential_total_j, &P::tangential_total_j, &P::set_tangential_total_j),
+                         Entry(&T::friction_dissipation_j, &P::friction_dissipation_j, &P::set_friction_dissipation_j),
+                         Entry(&T::tangential_spring_j, &P::tangential_spring_j, &P::set_tangential_spring_j),
+                         Entry(&T::residual_j, &P::residual_j, &P::set_residual_j)>;
+};
 
-Termination FromProto(v1::Termination proto) { return SameNumber<Termination>(proto, v1::Termination_IsValid); }
+template <>
+struct Map<State> : Between<State, v1::State> {
+  using Fields =
+      Entries<Entry(&T::normal_impulse_n_s, &P::normal_impulse_n_s, &P::set_normal_impulse_n_s),
+              Entry(&T::tangential_impulse_n_s, &P::tangential_impulse_n_s, &P::mutable_tangential_impulse_n_s),
+              Entry(&T::contact_velocity, &P::contact_velocity, &P::mutable_contact_velocity),
+              Entry(&T::rates_rad_s, &P::rates_rad_s, &P::mutable_rates_rad_s)>;
+};
 
-static std::optional<double> IfSet(bool is_set, double value) {
-  return is_set ? std::optional<double>(value) : std::nullopt;
-}
+template <>
+struct Map<Event> : Between<Event, v1::Event> {
+  using Fields = Entries<Entry(&T::kind, &P::kind, &P::set_kind), Entry(&T::state, &P::state, &P::mutable_state)>;
+};
 
-v1::Coefficients ToProto(const Coefficients& coefficients) {
-  v1::Coefficients proto;
-  proto.set_newton(coefficients.newton);
-  if (coefficients.poisson.has_value()) proto.set_poisson(*coefficients.poisson);
-  if (coefficients.energetic.has_value()) proto.set_energetic(*coefficients.energetic);
-  proto.set_tangential(coefficients.tangential);
-  return proto;
-}
+template <>
+struct Map<BrokenLimit> : Between<BrokenLimit, v1::BrokenLimit> {
+  using Fields = Entries<Entry(&T::kind, &P::kind, &P::set_kind), Entry(&T::value, &P::value, &P::set_value),
+                         Entry(&T::limit, &P::limit, &P::set_limit), Entry(&T::excess, &P::excess, &P::set_excess)>;
+};
 
-Coefficients FromProto(const v1::Coefficients& proto) {
-  return {.newton = proto.newton(),
-          .poisson = IfSet(proto.has_poisson(), proto.poisson()),
-          .energetic = IfSet(proto.has_energetic(), proto.energetic()),
-          .tangential = proto.tangential()};
-}
+template <>
+struct Map<BodyVelocity> : Between<BodyVelocity, v1::BodyVelocity> {
+  using Fields = Entries<Entry(&T::linear_m_s, &P::linear_m_s, &P::mutable_linear_m_s),
+                         Entry(&T::angular_rad_s, &P::angular_rad_s, &P::mutable_angular_rad_s)>;
+};
 
-v1::ContactVelocity ToProto(const ContactVelocity& velocity) {
-  v1::ContactVelocity proto;
-  AssignDoubles(velocity.tangential_m_s, *proto.mutable_tangential_m_s());
-  proto.set_normal_m_s(velocity.normal_m_s);
-  return proto;
-}
+template <>
+struct Map<EffectiveCoefficients> : Between<EffectiveCoefficients, v1::EffectiveCoefficients> {
+  using Fields = Entries<Entry(&T::kinetic_friction, &P::kinetic, &P::set_kinetic),
+                         Entry(&T::static_friction, &P::static_, &P::set_static_),
+                         Entry(&T::restitution, &P::has_restitution, &P::restitution, &P::set_restitution)>;
+};
 
-ContactVelocity FromProto(const v1::ContactVelocity& proto) {
-  return {.tangential_m_s = ToComponents(proto.tangential_m_s()), .normal_m_s = proto.normal_m_s()};
-}
+template <>
+struct Map<Accuracy> : Between<Accuracy, v1::Accuracy> {
+  using Fields = Entries<Entry(&T::relative_error, &P::relative_error, &P::set_relative_error),
+                         Entry(&T::kind, &P::kind, &P::set_kind), Entry(&T::steps, &P::steps, &P::set_steps),
+                         Entry(&T::right_hand_sides, &P::right_hand_sides, &P::set_right_hand_sides)>;
+};
 
-static v1::Impulse ToProto(const Impulse& impulse) {
-  v1::Impulse proto;
-  if (impulse.normal_compression_n_s.has_value()) proto.set_normal_compression_n_s(*impulse.normal_compression_n_s);
-  proto.set_normal_total_n_s(impulse.normal_total_n_s);
-  AssignDoubles(impulse.tangential_n_s, *proto.mutable_tangential_n_s());
-  return proto;
-}
+template <>
+struct Map<NumberErrors> : Between<NumberErrors, v1::Errors> {
+  using Fields =
+      Entries<Entry(&T::newton, &P::has_newton, &P::newton, &P::set_newton),
+              Entry(&T::poisson, &P::has_poisson, &P::poisson, &P::set_poisson),
+              Entry(&T::energetic, &P::has_energetic, &P::energetic, &P::set_energetic),
+              Entry(&T::tangential, &P::has_tangential, &P::tangential, &P::set_tangential),
+              Entry(&T::tangential_m_s, &P::has_tangential_m_s, &P::tangential_m_s, &P::set_tangential_m_s),
+              Entry(&T::normal_m_s, &P::has_normal_m_s, &P::normal_m_s, &P::set_normal_m_s),
+              Entry(&T::normal_compression_n_s, &P::has_normal_compression_n_s, &P::normal_compression_n_s,
+                    &P::set_normal_compression_n_s),
+              Entry(&T::normal_total_n_s, &P::has_normal_total_n_s, &P::normal_total_n_s, &P::set_normal_total_n_s),
+              Entry(&T::tangential_n_s, &P::has_tangential_n_s, &P::tangential_n_s, &P::set_tangential_n_s),
+              Entry(&T::normal_compression_j, &P::has_normal_compression_j, &P::normal_compression_j,
+                    &P::set_normal_compression_j),
+              Entry(&T::normal_restitution_j, &P::has_normal_restitution_j, &P::normal_restitution_j,
+                    &P::set_normal_restitution_j),
+              Entry(&T::tangential_compression_j, &P::has_tangential_compression_j, &P::tangential_compression_j,
+                    &P::set_tangential_compression_j),
+              Entry(&T::tangential_restitution_j, &P::has_tangential_restitution_j, &P::tangential_restitution_j,
+                    &P::set_tangential_restitution_j),
+              Entry(&T::energy_change_j, &P::has_energy_change_j, &P::energy_change_j, &P::set_energy_change_j)>;
+};
 
-static Impulse FromProto(const v1::Impulse& proto) {
-  return {.normal_compression_n_s = IfSet(proto.has_normal_compression_n_s(), proto.normal_compression_n_s()),
-          .normal_total_n_s = proto.normal_total_n_s(),
-          .tangential_n_s = ToComponents(proto.tangential_n_s())};
-}
+template <>
+struct Map<Note> : Between<Note, v1::Note> {
+  using Fields = Entries<Entry(&T::kind, &P::kind, &P::set_kind), Entry(&T::path, &P::path, &P::mutable_path),
+                         Entry(&T::text, &P::text, &P::mutable_text)>;
+};
 
-static v1::WorkLedger ToProto(const WorkLedger& work) {
-  v1::WorkLedger proto;
-  if (work.normal_compression_j.has_value()) proto.set_normal_compression_j(*work.normal_compression_j);
-  if (work.normal_restitution_j.has_value()) proto.set_normal_restitution_j(*work.normal_restitution_j);
-  if (work.tangential_compression_j.has_value()) proto.set_tangential_compression_j(*work.tangential_compression_j);
-  if (work.tangential_restitution_j.has_value()) proto.set_tangential_restitution_j(*work.tangential_restitution_j);
-  proto.set_normal_total_j(work.normal_total_j);
-  proto.set_tangential_total_j(work.tangential_total_j);
-  proto.set_friction_dissipation_j(work.friction_dissipation_j);
-  proto.set_tangential_spring_j(work.tangential_spring_j);
-  proto.set_residual_j(work.residual_j);
-  return proto;
-}
+template <>
+struct Map<ImpactSolution> : Between<ImpactSolution, v1::ImpactSolution> {
+  using Fields =
+      Entries<Entry(&T::contact_velocity_after, &P::contact_velocity_after, &P::mutable_contact_velocity_after),
+              Entry(&T::impulse, &P::impulse, &P::mutable_impulse)>;
+};
 
-static WorkLedger FromProto(const v1::WorkLedger& proto) {
-  return {.normal_compression_j = IfSet(proto.has_normal_compression_j(), proto.normal_compression_j()),
-          .normal_restitution_j = IfSet(proto.has_normal_restitution_j(), proto.normal_restitution_j()),
-          .tangential_compression_j = IfSet(proto.has_tangential_compression_j(), proto.tangential_compression_j()),
-          .tangential_restitution_j = IfSet(proto.has_tangential_restitution_j(), proto.tangential_restitution_j()),
-          .normal_total_j = proto.normal_total_j(),
-          .tangential_total_j = proto.tangential_total_j(),
-          .friction_dissipation_j = proto.friction_dissipation_j(),
-          .tangential_spring_j = proto.tangential_spring_j(),
-          .residual_j = proto.residual_j()};
-}
+template <>
+struct Map<ForceSample> : Between<ForceSample, v1::ForceSample> {
+  using Fields = Entries<Entry(&T::time_s, &P::time_s, &P::set_time_s),
+                         Entry(&T::tangential_n, &P::tangential_n, &P::set_tangential_n),
+                         Entry(&T::normal_n, &P::normal_n, &P::set_normal_n),
+                         Entry(&T::indentation_m, &P::indentation_m, &P::set_indentation_m),
+                         Entry(&T::tangential_m_s, &P::tangential_m_s, &P::set_tangential_m_s),
+                         Entry(&T::normal_m_s, &P::normal_m_s, &P::set_normal_m_s)>;
+};
 
-static v1::State ToProto(const State& state) {
-  v1::State proto;
-  proto.set_normal_impulse_n_s(state.normal_impulse_n_s);
-  AssignDoubles(state.tangential_impulse_n_s, *proto.mutable_tangential_impulse_n_s());
-  *proto.mutable_contact_velocity() = ToProto(state.contact_velocity);
-  AssignDoubles(state.rates_rad_s, *proto.mutable_rates_rad_s());
-  return proto;
-}
+template <>
+struct Map<ContactDuration> : Between<ContactDuration, v1::ContactDuration> {
+  using Fields = Entries<Entry(&T::duration_s, &P::duration_s, &P::set_duration_s),
+                         Entry(&T::peak_normal_n, &P::peak_normal_n, &P::set_peak_normal_n),
+                         Entry(&T::peak_tangential_n, &P::peak_tangential_n, &P::set_peak_tangential_n),
+                         Entry(&T::indentation_m, &P::indentation_m, &P::set_indentation_m),
+                         Entry(&T::history, &P::history, &P::mutable_history)>;
+};
 
-static State FromProto(const v1::State& proto) {
-  return {.normal_impulse_n_s = proto.normal_impulse_n_s(),
-          .tangential_impulse_n_s = ToComponents(proto.tangential_impulse_n_s()),
-          .contact_velocity = FromProto(proto.contact_velocity()),
-          .rates_rad_s = ToComponents(proto.rates_rad_s())};
-}
+template <>
+struct Map<Outcome> : Between<Outcome, v1::Outcome> {
+  using Fields = Entries<
+      Entry(&T::regime, &P::regime, &P::set_regime), Entry(&T::termination, &P::termination, &P::set_termination),
+      Entry(&T::admissible, &P::admissible, &P::set_admissible),
+      Entry(&T::broken_limits, &P::broken_limits, &P::mutable_broken_limits),
+      Entry(&T::w_rank, &P::w_rank, &P::set_w_rank),
+      Entry(&T::coefficients, &P::coefficients, &P::mutable_coefficients),
+      Entry(&T::rates_after_rad_s, &P::rates_after_rad_s, &P::mutable_rates_after_rad_s),
+      Entry(&T::contact_velocity_after, &P::contact_velocity_after, &P::mutable_contact_velocity_after),
+      Entry(&T::impulse, &P::impulse, &P::mutable_impulse), Entry(&T::work, &P::work, &P::mutable_work),
+      Entry(&T::energy_change_j, &P::energy_change_j, &P::set_energy_change_j),
+      Entry(&T::timeline, &P::timeline, &P::mutable_timeline), Entry(&T::history, &P::history, &P::mutable_history),
+      Entry(&T::bodies_after, &P::bodies_after, &P::mutable_bodies_after),
+      Entry(&T::effective, &P::effective, &P::mutable_effective),
+      Entry(&T::accuracy, &P::accuracy, &P::mutable_accuracy), Entry(&T::errors, &P::errors, &P::mutable_errors),
+      Entry(&T::notes, &P::notes, &P::mutable_notes),
+      Entry(&T::alternatives, &P::alternatives, &P::mutable_alternatives),
+      Entry(&T::alternatives_are_ends, &P::alternatives_are_ends, &P::set_alternatives_are_ends),
+      Entry(&T::plan, &P::plan, &P::mutable_plan),
+      Entry(&T::contact, &P::has_contact, &P::contact, &P::mutable_contact),
+      Entry(&T::certificate, &P::has_certificate, &P::certificate, &P::mutable_certificate)>;
+};
 
-static v1::Event ToProto(const Event& event) {
-  v1::Event proto;
-  proto.set_kind(ToProto(event.kind));
-  *proto.mutable_state() = ToProto(event.state);
-  return proto;
-}
+void ToProto(const Outcome& outcome, v1::Outcome& proto) { Map<Outcome>::Fields::Write(outcome, proto); }
+void FromProto(const v1::Outcome& proto, Outcome& outcome) { Map<Outcome>::Fields::Read(proto, outcome); }
 
-static Event FromProto(const v1::Event& proto) {
-  return {.kind = FromProto(proto.kind()), .state = FromProto(proto.state())};
-}
-
-static v1::BrokenLimit ToProto(const BrokenLimit& broken) {
-  v1::BrokenLimit proto;
-  proto.set_kind(ToProto(broken.kind));
-  proto.set_value(broken.value);
-  proto.set_limit(broken.limit);
-  proto.set_excess(broken.excess);
-  return proto;
-}
-
-static BrokenLimit FromProto(const v1::BrokenLimit& proto) {
-  return {.kind = FromProto(proto.kind()), .value = proto.value(), .limit = proto.limit(), .excess = proto.excess()};
-}
-
-static v1::BodyVelocity ToProto(const BodyVelocity& body) {
-  v1::BodyVelocity proto;
-  AssignDoubles(body.linear_m_s, *proto.mutable_linear_m_s());
-  AssignDoubles(body.angular_rad_s, *proto.mutable_angular_rad_s());
-  return proto;
-}
-
-static BodyVelocity FromProto(const v1::BodyVelocity& proto) {
-  return {.linear_m_s = ToComponents(proto.linear_m_s()), .angular_rad_s = ToComponents(proto.angular_rad_s())};
-}
-
-static v1::EffectiveCoefficients ToProto(const EffectiveCoefficients& effective) {
-  v1::EffectiveCoefficients proto;
-  proto.set_kinetic(effective.kinetic_friction);
-  proto.set_static_(effective.static_friction);
-  if (effective.restitution.has_value()) proto.set_restitution(*effective.restitution);
-  return proto;
-}
-
-static EffectiveCoefficients FromProto(const v1::EffectiveCoefficients& proto) {
-  EffectiveCoefficients effective = {.kinetic_friction = proto.kinetic(), .static_friction = proto.static_()};
-  if (proto.has_restitution()) effective.restitution = proto.restitution();
-  return effective;
-}
-
-static v1::Accuracy ToProto(const Accuracy& accuracy) {
-  v1::Accuracy proto;
-  proto.set_relative_error(accuracy.relative_error);
-  proto.set_kind(ToProto(accuracy.kind));
-  proto.set_steps(accuracy.steps);
-  proto.set_right_hand_sides(accuracy.right_hand_sides);
-  return proto;
-}
-
-static Accuracy FromProto(const v1::Accuracy& proto) {
-  return {.relative_error = proto.relative_error(),
-          .kind = FromProto(proto.kind()),
-          .steps = proto.steps(),
-          .right_hand_sides = proto.right_hand_sides()};
-}
-
-static v1::Errors ToProto(const NumberErrors& errors) {
-  v1::Errors proto;
-  if (errors.newton.has_value()) proto.set_newton(*errors.newton);
-  if (errors.poisson.has_value()) proto.set_poisson(*errors.poisson);
-  if (errors.energetic.has_value()) proto.set_energetic(*errors.energetic);
-  if (errors.tangential.has_value()) proto.set_tangential(*errors.tangential);
-  if (errors.tangential_m_s.has_value()) proto.set_tangential_m_s(*errors.tangential_m_s);
-  if (errors.normal_m_s.has_value()) proto.set_normal_m_s(*errors.normal_m_s);
-  if (errors.normal_compression_n_s.has_value()) proto.set_normal_compression_n_s(*errors.normal_compression_n_s);
-  if (errors.normal_total_n_s.has_value()) proto.set_normal_total_n_s(*errors.normal_total_n_s);
-  if (errors.tangential_n_s.has_value()) proto.set_tangential_n_s(*errors.tangential_n_s);
-  if (errors.normal_compression_j.has_value()) proto.set_normal_compression_j(*errors.normal_compression_j);
-  if (errors.normal_restitution_j.has_value()) proto.set_normal_restitution_j(*errors.normal_restitution_j);
-  if (errors.tangential_compression_j.has_value()) proto.set_tangential_compression_j(*errors.tangential_compression_j);
-  if (errors.tangential_restitution_j.has_value()) proto.set_tangential_restitution_j(*errors.tangential_restitution_j);
-  if (errors.energy_change_j.has_value()) proto.set_energy_change_j(*errors.energy_change_j);
-  return proto;
-}
-
-static NumberErrors FromProto(const v1::Errors& proto) {
-  return {.newton = IfSet(proto.has_newton(), proto.newton()),
-          .poisson = IfSet(proto.has_poisson(), proto.poisson()),
-          .energetic = IfSet(proto.has_energetic(), proto.energetic()),
-          .tangential = IfSet(proto.has_tangential(), proto.tangential()),
-          .tangential_m_s = IfSet(proto.has_tangential_m_s(), proto.tangential_m_s()),
-          .normal_m_s = IfSet(proto.has_normal_m_s(), proto.normal_m_s()),
-          .normal_compression_n_s = IfSet(proto.has_normal_compression_n_s(), proto.normal_compression_n_s()),
-          .normal_total_n_s = IfSet(proto.has_normal_total_n_s(), proto.normal_total_n_s()),
-          .tangential_n_s = IfSet(proto.has_tangential_n_s(), proto.tangential_n_s()),
-          .normal_compression_j = IfSet(proto.has_normal_compression_j(), proto.normal_compression_j()),
-          .normal_restitution_j = IfSet(proto.has_normal_restitution_j(), proto.normal_restitution_j()),
-          .tangential_compression_j = IfSet(proto.has_tangential_compression_j(), proto.tangential_compression_j()),
-          .tangential_restitution_j = IfSet(proto.has_tangential_restitution_j(), proto.tangential_restitution_j()),
-          .energy_change_j = IfSet(proto.has_energy_change_j(), proto.energy_change_j())};
-}
-
-static v1::Note ToProto(const Note& note) {
-  v1::Note proto;
-  proto.set_kind(SameNumber<v1::Note::Kind>(note.kind, v1::Note::Kind_IsValid));
-  proto.set_path(note.path);
-  proto.set_text(note.text);
-  return proto;
-}
-
-static Note FromProto(const v1::Note& proto) {
-  return {
-      .kind = SameNumber<NoteKind>(proto.kind(), v1::Note::Kind_IsValid), .path = proto.path(), .text = proto.text()};
-}
-
-static v1::ImpactSolution ToProto(const ImpactSolution& solution) {
-  v1::ImpactSolution proto;
-  *proto.mutable_contact_velocity_after() = ToProto(solution.contact_velocity_after);
-  *proto.mutable_impulse() = ToProto(solution.impulse);
-  return proto;
-}
-
-static ImpactSolution FromProto(const v1::ImpactSolution& proto) {
-  return {.contact_velocity_after = FromProto(proto.contact_velocity_after()), .impulse = FromProto(proto.impulse())};
-}
-
-static v1::ForceSample ToProto(const ForceSample& sample) {
-  v1::ForceSample proto;
-  proto.set_time_s(sample.time_s);
-  proto.set_tangential_n(sample.tangential_n);
-  proto.set_normal_n(sample.normal_n);
-  proto.set_indentation_m(sample.indentation_m);
-  proto.set_tangential_m_s(sample.tangential_m_s);
-  proto.set_normal_m_s(sample.normal_m_s);
-  return proto;
-}
-
-static ForceSample FromProto(const v1::ForceSample& proto) {
-  return {.time_s = proto.time_s(),
-          .tangential_n = proto.tangential_n(),
-          .normal_n = proto.normal_n(),
-          .indentation_m = proto.indentation_m(),
-          .tangential_m_s = proto.tangential_m_s(),
-          .normal_m_s = proto.normal_m_s()};
-}
-
-static v1::ContactDuration ToProto(const ContactDuration& contact) {
-  v1::ContactDuration proto;
-  proto.set_duration_s(contact.duration_s);
-  proto.set_peak_normal_n(contact.peak_normal_n);
-  proto.set_peak_tangential_n(contact.peak_tangential_n);
-  proto.set_indentation_m(contact.indentation_m);
-  for (const ForceSample& sample : contact.history) *proto.add_history() = ToProto(sample);
-  return proto;
-}
-
-static ContactDuration FromProto(const v1::ContactDuration& proto) {
-  ContactDuration contact{.duration_s = proto.duration_s(),
-                          .peak_normal_n = proto.peak_normal_n(),
-                          .peak_tangential_n = proto.peak_tangential_n(),
-                          .indentation_m = proto.indentation_m(),
-                          .history = {}};
-  for (const v1::ForceSample& sample : proto.history()) contact.history.push_back(FromProto(sample));
-  return contact;
-}
-
-v1::Outcome ToProto(const Outcome& outcome) {
-  v1::Outcome proto;
-  proto.set_regime(ToProto(outcome.regime));
-  proto.set_termination(ToProto(outcome.termination));
-  proto.set_admissible(outcome.admissible);
-  for (const BrokenLimit& broken : outcome.broken_limits) {
-    *proto.add_broken_limits() = ToProto(broken);
-  }
-  proto.set_w_rank(outcome.w_rank);
-  *proto.mutable_coefficients() = ToProto(outcome.coefficients);
-  AssignDoubles(outcome.rates_after_rad_s, *proto.mutable_rates_after_rad_s());
-  *proto.mutable_contact_velocity_after() = ToProto(outcome.contact_velocity_after);
-  *proto.mutable_impulse() = ToProto(outcome.impulse);
-  *proto.mutable_work() = ToProto(outcome.work);
-  proto.set_energy_change_j(outcome.energy_change_j);
-  for (const Event& event : outcome.timeline) *proto.add_timeline() = ToProto(event);
-  for (const State& state : outcome.history) *proto.add_history() = ToProto(state);
-  for (const BodyVelocity& body : outcome.bodies_after) *proto.add_bodies_after() = ToProto(body);
-  *proto.mutable_effective() = ToProto(outcome.effective);
-  *proto.mutable_accuracy() = ToProto(outcome.accuracy);
-  *proto.mutable_errors() = ToProto(outcome.errors);
-  for (const Note& note : outcome.notes) *proto.add_notes() = ToProto(note);
-  for (const ImpactSolution& solution : outcome.alternatives) *proto.add_alternatives() = ToProto(solution);
-  proto.set_alternatives_are_ends(outcome.alternatives_are_ends);
-  *proto.mutable_plan() = ToProto(outcome.plan);
-  if (outcome.contact.has_value()) *proto.mutable_contact() = ToProto(*outcome.contact);
-  if (outcome.certificate.has_value()) *proto.mutable_certificate() = ToProto(*outcome.certificate);
-  return proto;
-}
-
-Outcome FromProto(const v1::Outcome& proto) {
-  Outcome outcome;
-  outcome.regime = FromProto(proto.regime());
-  outcome.termination = FromProto(proto.termination());
-  outcome.admissible = proto.admissible();
-  for (const v1::BrokenLimit& broken : proto.broken_limits()) {
-    outcome.broken_limits.push_back(FromProto(broken));
-  }
-  outcome.w_rank = proto.w_rank();
-  outcome.coefficients = FromProto(proto.coefficients());
-  outcome.rates_after_rad_s = ToComponents(proto.rates_after_rad_s());
-  outcome.contact_velocity_after = FromProto(proto.contact_velocity_after());
-  outcome.impulse = FromProto(proto.impulse());
-  outcome.work = FromProto(proto.work());
-  outcome.energy_change_j = proto.energy_change_j();
-  for (const v1::Event& event : proto.timeline()) outcome.timeline.push_back(FromProto(event));
-  for (const v1::State& state : proto.history()) outcome.history.push_back(FromProto(state));
-  for (const v1::BodyVelocity& body : proto.bodies_after()) outcome.bodies_after.push_back(FromProto(body));
-  outcome.effective = FromProto(proto.effective());
-  outcome.accuracy = FromProto(proto.accuracy());
-  outcome.errors = FromProto(proto.errors());
-  for (const v1::Note& note : proto.notes()) outcome.notes.push_back(FromProto(note));
-  for (const v1::ImpactSolution& solution : proto.alternatives()) {
-    outcome.alternatives.push_back(FromProto(solution));
-  }
-  outcome.alternatives_are_ends = proto.alternatives_are_ends();
-  outcome.plan = FromProto(proto.plan());
-  if (proto.has_contact()) outcome.contact = FromProto(proto.contact());
-  if (proto.has_certificate()) outcome.certificate = FromProto(proto.certificate());
-  return outcome;
-}
+v1::Outcome ToProto(const Outcome& outcome) { return Sent(outcome); }
+Outcome FromProto(const v1::Outcome& proto) { return Received<Outcome>(proto); }
 
 }  // namespace ricochet

@@ -3,6 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_OUTCOME_H_
 #define RICOCHET_PROTO_WIRE_OUTCOME_H_
 
+#include "proto/wire/enums.h"
 #include "ricochet/outcome.h"
 #include "ricochet/v1/outcome.pb.h"
 
@@ -10,27 +11,44 @@ namespace ricochet {
 
 v1::Outcome ToProto(const Outcome& outcome);
 Outcome FromProto(const v1::Outcome& proto);
+void ToProto(const Outcome& outcome, v1::Outcome& proto);
+void FromProto(const v1::Outcome& proto, Outcome& outcome);
 
-v1::Coefficients ToProto(const Coefficients& coefficients);
-Coefficients FromProto(const v1::Coefficients& proto);
+void ToProto(const Coefficients& coefficients, v1::Coefficients& proto);
+void FromProto(const v1::Coefficients& proto, Coefficients& coefficients);
 
-v1::ContactVelocity ToProto(const ContactVelocity& velocity);
-ContactVelocity FromProto(const v1::ContactVelocity& proto);
+void ToProto(const ContactVelocity& velocity, v1::ContactVelocity& proto);
+void FromProto(const v1::ContactVelocity& proto, ContactVelocity& velocity);
 
-v1::Regime ToProto(Regime regime);
-Regime FromProto(v1::Regime proto);
+template <>
+struct EnumPair<Regime> : SameNumbers<v1::Regime, v1::Regime_IsValid> {};
+template <>
+struct EnumPair<v1::Regime> : SameNumbers<Regime, v1::Regime_IsValid> {};
 
-v1::Termination ToProto(Termination termination);
-Termination FromProto(v1::Termination proto);
+template <>
+struct EnumPair<Termination> : SameNumbers<v1::Termination, v1::Termination_IsValid> {};
+template <>
+struct EnumPair<v1::Termination> : SameNumbers<Termination, v1::Termination_IsValid> {};
 
-v1::Event::Kind ToProto(EventKind kind);
-EventKind FromProto(v1::Event::Kind proto);
+template <>
+struct EnumPair<EventKind> : SameNumbers<v1::Event::Kind, v1::Event::Kind_IsValid> {};
+template <>
+struct EnumPair<v1::Event::Kind> : SameNumbers<EventKind, v1::Event::Kind_IsValid> {};
 
-v1::Accuracy::Kind ToProto(AccuracyKind kind);
-AccuracyKind FromProto(v1::Accuracy::Kind proto);
+template <>
+struct EnumPair<AccuracyKind> : SameNumbers<v1::Accuracy::Kind, v1::Accuracy::Kind_IsValid> {};
+template <>
+struct EnumPair<v1::Accuracy::Kind> : SameNumbers<AccuracyKind, v1::Accuracy::Kind_IsValid> {};
 
-v1::BrokenLimit::Kind ToProto(LimitKind kind);
-LimitKind FromProto(v1::BrokenLimit::Kind proto);
+template <>
+struct EnumPair<LimitKind> : SameNumbers<v1::BrokenLimit::Kind, v1::BrokenLimit::Kind_IsValid> {};
+template <>
+struct EnumPair<v1::BrokenLimit::Kind> : SameNumbers<LimitKind, v1::BrokenLimit::Kind_IsValid> {};
+
+template <>
+struct EnumPair<NoteKind> : SameNumbers<v1::Note::Kind, v1::Note::Kind_IsValid> {};
+template <>
+struct EnumPair<v1::Note::Kind> : SameNumbers<NoteKind, v1::Note::Kind_IsValid> {};
 
 }  // namespace ricochet
 

@@ -1,48 +1,43 @@
-// Converts Plan and DemandFields to proto and back.
+// Converts a Plan to its proto and back. An enum number that this build does not know becomes kUnspecified.
 
 #ifndef RICOCHET_PROTO_WIRE_PLAN_H_
 #define RICOCHET_PROTO_WIRE_PLAN_H_
 
-#include "core/plan/demand_fields.h"
+#include "proto/wire/enums.h"
 #include "ricochet/plan.h"
 #include "ricochet/v1/plan.pb.h"
 
 namespace ricochet {
 
-v1::Effect ToProto(Effect value);
-// A number that this build does not know becomes kUnspecified, here and below.
-Effect FromProto(v1::Effect proto);
+void ToProto(const Plan& plan, v1::Plan& proto);
+void FromProto(const v1::Plan& proto, Plan& plan);
 
-v1::Model ToProto(Model value);
-Model FromProto(v1::Model proto);
+template <>
+struct EnumPair<Effect> : SameNumbers<v1::Effect, v1::Effect_IsValid> {};
+template <>
+struct EnumPair<v1::Effect> : SameNumbers<Effect, v1::Effect_IsValid> {};
 
-v1::Arithmetic ToProto(Arithmetic value);
-Arithmetic FromProto(v1::Arithmetic proto);
-v1::PlannedArithmetic::Reason ToProto(ArithmeticReason value);
-ArithmeticReason FromProto(v1::PlannedArithmetic::Reason proto);
+template <>
+struct EnumPair<Model> : SameNumbers<v1::Model, v1::Model_IsValid> {};
+template <>
+struct EnumPair<v1::Model> : SameNumbers<Model, v1::Model_IsValid> {};
 
-v1::PlannedEffect::Decision ToProto(Decision value);
-Decision FromProto(v1::PlannedEffect::Decision proto);
+template <>
+struct EnumPair<Arithmetic> : SameNumbers<v1::Arithmetic, v1::Arithmetic_IsValid> {};
+template <>
+struct EnumPair<v1::Arithmetic> : SameNumbers<Arithmetic, v1::Arithmetic_IsValid> {};
 
-v1::Plan ToProto(const Plan& plan);
-Plan FromProto(const v1::Plan& proto);
+template <>
+struct EnumPair<ArithmeticReason> : SameNumbers<v1::PlannedArithmetic::Reason, v1::PlannedArithmetic::Reason_IsValid> {
+};
+template <>
+struct EnumPair<v1::PlannedArithmetic::Reason> : SameNumbers<ArithmeticReason, v1::PlannedArithmetic::Reason_IsValid> {
+};
 
-// A request has the fields of a demand among its own.
-template <typename Request>
-void SetDemand(const DemandFields& demand, Request& proto) {
-  if (demand.relative_tolerance.has_value()) proto.set_relative_tolerance(*demand.relative_tolerance);
-  for (const Effect effect : demand.required) proto.add_required(ToProto(effect));
-  for (const Effect effect : demand.excluded) proto.add_excluded(ToProto(effect));
-}
-
-template <typename Request>
-DemandFields DemandOf(const Request& proto) {
-  DemandFields demand;
-  if (proto.has_relative_tolerance()) demand.relative_tolerance = proto.relative_tolerance();
-  for (const int number : proto.required()) demand.required.push_back(FromProto(static_cast<v1::Effect>(number)));
-  for (const int number : proto.excluded()) demand.excluded.push_back(FromProto(static_cast<v1::Effect>(number)));
-  return demand;
-}
+template <>
+struct EnumPair<Decision> : SameNumbers<v1::PlannedEffect::Decision, v1::PlannedEffect::Decision_IsValid> {};
+template <>
+struct EnumPair<v1::PlannedEffect::Decision> : SameNumbers<Decision, v1::PlannedEffect::Decision_IsValid> {};
 
 }  // namespace ricochet
 

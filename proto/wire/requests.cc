@@ -2,104 +2,80 @@
 
 #include "proto/wire/bounds.h"
 #include "proto/wire/certificate.h"
+#include "proto/wire/demand.h"
 #include "proto/wire/engine.h"
+#include "proto/wire/map.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
-#include "proto/wire/repeated.h"
 #include "proto/wire/scene.h"
 
 namespace ricochet {
 
-v1::SolveRequest ToProto(const SolveRequest& request) {
-  v1::SolveRequest proto;
-  *proto.mutable_scene() = ToProto(request.scene);
-  AssignDoubles(request.history_at_n_s, *proto.mutable_history_at_n_s());
-  proto.set_inadmissible_is_error(request.inadmissible_is_error);
-  SetDemand(request.demand, proto);
-  proto.set_history_intervals(request.history_intervals);
-  proto.set_force_intervals(request.force_intervals);
-  proto.set_certified_digits(request.certified_digits);
-  return proto;
-}
+template <>
+struct Map<SolveRequest> : Between<SolveRequest, v1::SolveRequest> {
+  using Fields = Entries<Entry(&T::scene, &P::scene, &P::mutable_scene),
+                         Entry(&T::history_at_n_s, &P::history_at_n_s, &P::mutable_history_at_n_s),
+                         Entry(&T::inadmissible_is_error, &P::inadmissible_is_error, &P::set_inadmissible_is_error),
+                         Entry(&T::history_intervals, &P::history_intervals, &P::set_history_intervals),
+                         Entry(&T::force_intervals, &P::force_intervals, &P::set_force_intervals),
+                         Entry(&T::certified_digits, &P::certified_digits, &P::set_certified_digits),
+                         Flat<&T::demand, DemandEntries<P>>{}>;
+};
 
-SolveRequest FromProto(const v1::SolveRequest& proto) {
-  return {.scene = FromProto(proto.scene()),
-          .history_at_n_s = ToVector(proto.history_at_n_s()),
-          .history_intervals = proto.history_intervals(),
-          .inadmissible_is_error = proto.inadmissible_is_error(),
-          .demand = DemandOf(proto),
-          .force_intervals = proto.force_intervals(),
-          .certified_digits = proto.certified_digits()};
-}
+template <>
+struct Map<SolveResponse> : Between<SolveResponse, v1::SolveResponse> {
+  using Fields =
+      Entries<Entry(&T::outcome, &P::outcome, &P::mutable_outcome), Entry(&T::engine, &P::engine, &P::mutable_engine)>;
+};
 
-v1::SolveResponse ToProto(const SolveResponse& response) {
-  v1::SolveResponse proto;
-  *proto.mutable_outcome() = ToProto(response.outcome);
-  *proto.mutable_engine() = ToProto(response.engine);
-  return proto;
-}
+template <>
+struct Map<PlanRequest> : Between<PlanRequest, v1::PlanRequest> {
+  using Fields = Entries<Entry(&T::scene, &P::scene, &P::mutable_scene), Flat<&T::demand, DemandEntries<P>>{}>;
+};
 
-SolveResponse FromProto(const v1::SolveResponse& proto) {
-  return {.outcome = FromProto(proto.outcome()), .engine = FromProto(proto.engine())};
-}
+template <>
+struct Map<PlanResponse> : Between<PlanResponse, v1::PlanResponse> {
+  using Fields =
+      Entries<Entry(&T::plan, &P::plan, &P::mutable_plan), Entry(&T::engine, &P::engine, &P::mutable_engine)>;
+};
 
-v1::PlanRequest ToProto(const PlanRequest& request) {
-  v1::PlanRequest proto;
-  *proto.mutable_scene() = ToProto(request.scene);
-  SetDemand(request.demand, proto);
-  return proto;
-}
+template <>
+struct Map<FieldRange> : Between<FieldRange, v1::FieldRange> {
+  using Fields = Entries<Entry(&T::path, &P::path, &P::mutable_path), Entry(&T::low, &P::low, &P::set_low),
+                         Entry(&T::high, &P::high, &P::set_high)>;
+};
 
-PlanRequest FromProto(const v1::PlanRequest& proto) {
-  return {.scene = FromProto(proto.scene()), .demand = DemandOf(proto)};
-}
+template <>
+struct Map<BoundsRequest> : Between<BoundsRequest, v1::BoundsRequest> {
+  using Fields =
+      Entries<Entry(&T::scene, &P::scene, &P::mutable_scene), Entry(&T::ranges, &P::ranges, &P::mutable_ranges),
+              Entry(&T::certified_digits, &P::certified_digits, &P::set_certified_digits)>;
+};
 
-v1::PlanResponse ToProto(const PlanResponse& response) {
-  v1::PlanResponse proto;
-  *proto.mutable_plan() = ToProto(response.plan);
-  *proto.mutable_engine() = ToProto(response.engine);
-  return proto;
-}
+template <>
+struct Map<BoundsResponse> : Between<BoundsResponse, v1::BoundsResponse> {
+  using Fields =
+      Entries<Entry(&T::bounds, &P::bounds, &P::mutable_bounds), Entry(&T::engine, &P::engine, &P::mutable_engine),
+              Entry(&T::enclosure, &P::has_enclosure, &P::enclosure, &P::mutable_enclosure),
+              Entry(&T::certificate, &P::has_certificate, &P::certificate, &P::mutable_certificate)>;
+};
 
-PlanResponse FromProto(const v1::PlanResponse& proto) {
-  return {.plan = FromProto(proto.plan()), .engine = FromProto(proto.engine())};
-}
+v1::SolveRequest ToProto(const SolveRequest& request) { return Sent(request); }
+SolveRequest FromProto(const v1::SolveRequest& proto) { return Received<SolveRequest>(proto); }
 
-v1::BoundsRequest ToProto(const BoundsRequest& request) {
-  v1::BoundsRequest proto;
-  *proto.mutable_scene() = ToProto(request.scene);
-  for (const FieldRange& range : request.ranges) {
-    v1::FieldRange& added = *proto.add_ranges();
-    added.set_path(range.path);
-    added.set_low(range.low);
-    added.set_high(range.high);
-  }
-  proto.set_certified_digits(request.certified_digits);
-  return proto;
-}
+v1::SolveResponse ToProto(const SolveResponse& response) { return Sent(response); }
+SolveResponse FromProto(const v1::SolveResponse& proto) { return Received<SolveResponse>(proto); }
 
-BoundsRequest FromProto(const v1::BoundsRequest& proto) {
-  BoundsRequest request{.scene = FromProto(proto.scene()), .ranges = {}, .certified_digits = proto.certified_digits()};
-  for (const v1::FieldRange& range : proto.ranges()) {
-    request.ranges.push_back({.path = range.path(), .low = range.low(), .high = range.high()});
-  }
-  return request;
-}
+v1::PlanRequest ToProto(const PlanRequest& request) { return Sent(request); }
+PlanRequest FromProto(const v1::PlanRequest& proto) { return Received<PlanRequest>(proto); }
 
-v1::BoundsResponse ToProto(const BoundsResponse& response) {
-  v1::BoundsResponse proto;
-  *proto.mutable_bounds() = ToProto(response.bounds);
-  *proto.mutable_engine() = ToProto(response.engine);
-  if (response.enclosure.has_value()) *proto.mutable_enclosure() = ToProto(*response.enclosure);
-  if (response.certificate.has_value()) *proto.mutable_certificate() = ToProto(*response.certificate);
-  return proto;
-}
+v1::PlanResponse ToProto(const PlanResponse& response) { return Sent(response); }
+PlanResponse FromProto(const v1::PlanResponse& proto) { return Received<PlanResponse>(proto); }
 
-BoundsResponse FromProto(const v1::BoundsResponse& proto) {
-  BoundsResponse response{.bounds = FromProto(proto.bounds()), .engine = FromProto(proto.engine())};
-  if (proto.has_enclosure()) response.enclosure = FromProto(proto.enclosure());
-  if (proto.has_certificate()) response.certificate = FromProto(proto.certificate());
-  return response;
-}
+v1::BoundsRequest ToProto(const BoundsRequest& request) { return Sent(request); }
+BoundsRequest FromProto(const v1::BoundsRequest& proto) { return Received<BoundsRequest>(proto); }
+
+v1::BoundsResponse ToProto(const BoundsResponse& response) { return Sent(response); }
+BoundsResponse FromProto(const v1::BoundsResponse& proto) { return Received<BoundsResponse>(proto); }
 
 }  // namespace ricochet

@@ -11,6 +11,8 @@ namespace ricochet {
 
 v1::Scene ToProto(const Scene& scene);
 Scene FromProto(const v1::Scene& proto);
+void ToProto(const Scene& scene, v1::Scene& proto);
+void FromProto(const v1::Scene& proto, Scene& scene);
 
 }  // namespace ricochet
 

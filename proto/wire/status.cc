@@ -45,9 +45,11 @@ struct Error {
   std::optional<std::chrono::milliseconds> retry_delay;
 };
 
-v1::ErrorReason ToProto(ErrorReason reason) { return SameNumber<v1::ErrorReason>(reason, v1::ErrorReason_IsValid); }
+v1::ErrorReason ToProto(ErrorReason reason) {
+  return SameNumbers<v1::ErrorReason, v1::ErrorReason_IsValid>::Of(reason);
+}
 
-ErrorReason FromProto(v1::ErrorReason proto) { return SameNumber<ErrorReason>(proto, v1::ErrorReason_IsValid); }
+ErrorReason FromProto(v1::ErrorReason proto) { return SameNumbers<ErrorReason, v1::ErrorReason_IsValid>::Of(proto); }
 
 google::rpc::ErrorInfo ErrorInfoOf(ErrorReason reason) {
   google::rpc::ErrorInfo info;

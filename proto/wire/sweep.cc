@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <bit>
 #include <cstddef>
-#include <variant>
 
+#include "proto/wire/column_bytes.h"
+#include "proto/wire/demand.h"
 #include "proto/wire/engine.h"
-#include "proto/wire/enums.h"
+#include "proto/wire/map.h"
 #include "proto/wire/outcome.h"
-#include "proto/wire/overloaded.h"
 #include "proto/wire/plan.h"
-#include "proto/wire/repeated.h"
 #include "proto/wire/scene.h"
 
 namespace ricochet {
@@ -22,131 +21,109 @@ static_assert(kEffectCount == v1::Effect_ARRAYSIZE);
 static_assert(std::endian::native == std::endian::little, "a chunk has the bytes of its doubles from the lowest on");
 static_assert(v1::Regime_MAX <= 255, "a chunk has one byte for each regime");
 
-// Linspace and Logspace have the same fields.
-template <typename Space, typename SpaceProto>
-static void SetSpace(const Space& space, SpaceProto& proto) {
-  proto.set_start(space.start);
-  proto.set_stop(space.stop);
-  proto.set_count(space.count);
-}
+template <>
+struct Map<ListValues> : Between<ListValues, v1::ListValues> {
+  using Fields = Entries<Entry(&T::values, &P::values, &P::mutable_values)>;
+};
 
-template <typename Space, typename SpaceProto>
-static Space SpaceOf(const SpaceProto& proto) {
-  return {.start = proto.start(), .stop = proto.stop(), .count = proto.count()};
-}
+template <>
+struct Map<Linspace> : Between<Linspace, v1::Linspace> {
+  using Fields = Entries<Entry(&T::start, &P::start, &P::set_start), Entry(&T::stop, &P::stop, &P::set_stop),
+                         Entry(&T::count, &P::count, &P::set_count)>;
+};
 
-static v1::Axis ToProto(const Axis& axis) {
-  v1::Axis proto;
-  proto.set_path(axis.path);
-  std::visit(Overloaded{
-                 [](std::monostate) {},
-                 [&](const ListValues& list) { AssignDoubles(list.values, *proto.mutable_list()->mutable_values()); },
-                 [&](const Linspace& linspace) { SetSpace(linspace, *proto.mutable_linspace()); },
-                 [&](const Logspace& logspace) { SetSpace(logspace, *proto.mutable_logspace()); },
-             },
-             axis.values);
-  return proto;
-}
+template <>
+struct Map<Logspace> : Between<Logspace, v1::Logspace> {
+  using Fields = Entries<Entry(&T::start, &P::start, &P::set_start), Entry(&T::stop, &P::stop, &P::set_stop),
+                         Entry(&T::count, &P::count, &P::set_count)>;
+};
 
-static decltype(Axis::values) ValuesOf(const v1::Axis& proto) {
-  switch (proto.values_case()) {
-    case v1::Axis::kList:
-      return ListValues{ToVector(proto.list().values())};
-    case v1::Axis::kLinspace:
-      return SpaceOf<Linspace>(proto.linspace());
-    case v1::Axis::kLogspace:
-      return SpaceOf<Logspace>(proto.logspace());
-    case v1::Axis::VALUES_NOT_SET:
-      break;
+template <>
+struct Map<Axis> : Between<Axis, v1::Axis> {
+  using Fields = Entries<Entry(&T::path, &P::path, &P::mutable_path),
+                         Flat<&T::values, OneOf<Case(&P::has_list, &P::list, &P::mutable_list),
+                                                Case(&P::has_linspace, &P::linspace, &P::mutable_linspace),
+                                                Case(&P::has_logspace, &P::logspace, &P::mutable_logspace)>>{}>;
+};
+
+template <>
+struct Map<SweepRequest> : Between<SweepRequest, v1::SweepRequest> {
+  using Fields = Entries<
+      Flat<&T::grid,
+           Entries<Entry(&Grid::scene, &P::scene, &P::mutable_scene), Entry(&Grid::axes, &P::axes, &P::mutable_axes),
+                   Entry(&Grid::combination, &P::combination, &P::set_combination)>>{},
+      Entry(&T::columns, &P::columns, &P::mutable_columns),
+      Entry(&T::with_regime, &P::with_regime, &P::set_with_regime),
+      Entry(&T::first_index, &P::first_index, &P::set_first_index),
+      Entry(&T::end_index, &P::has_end_index, &P::end_index, &P::set_end_index), Flat<&T::demand, DemandEntries<P>>{}>;
+};
+
+template <>
+struct Map<Tally> : Between<Tally, v1::Tally> {
+  using Fields =
+      Entries<Entry(&T::count, &P::count, &P::set_count), Entry(&T::first_index, &P::first_index, &P::set_first_index)>;
+};
+
+void ToProto(const Tally& tally, v1::Tally& proto) { Map<Tally>::Fields::Write(tally, proto); }
+void FromProto(const v1::Tally& proto, Tally& tally) { Map<Tally>::Fields::Read(proto, tally); }
+
+// The tallies that are not empty, each with the number that it has in its array. Tallies of numbers that this build
+// does not know are joined.
+template <typename Tallies, typename Message, typename Number>
+struct TalliesField {
+  Tallies SweepSummary::*member;
+  const google::protobuf::RepeatedPtrField<Message>& (v1::SweepSummary::*get)() const;
+  google::protobuf::RepeatedPtrField<Message>* (v1::SweepSummary::*edit)();
+  Number (Message::*number)() const;
+  void (Message::*set_number)(Number);
+
+  void Write(const SweepSummary& summary, v1::SweepSummary& proto) const {
+    const Tallies& tallies = summary.*member;
+    for (size_t i = 0; i < tallies.size(); ++i) {
+      if (tallies[i].count == 0) continue;
+      Message& entry = *(proto.*edit)()->Add();
+      (entry.*set_number)(static_cast<Number>(i));
+      ToProto(tallies[i], *entry.mutable_tally());
+    }
   }
-  return std::monostate();
-}
-
-static Axis FromProto(const v1::Axis& proto) { return {.path = proto.path(), .values = ValuesOf(proto)}; }
-
-// A number that this build does not know is kept, so that the request is refused.
-v1::SweepRequest::Combination ToProto(Combination combination) {
-  return static_cast<v1::SweepRequest::Combination>(combination);
-}
-Combination FromProto(v1::SweepRequest::Combination proto) { return static_cast<Combination>(proto); }
-
-v1::SweepRequest ToProto(const SweepRequest& request) {
-  v1::SweepRequest proto;
-  *proto.mutable_scene() = ToProto(request.grid.scene);
-  for (const Axis& axis : request.grid.axes) *proto.add_axes() = ToProto(axis);
-  proto.set_combination(ToProto(request.grid.combination));
-  proto.mutable_columns()->Assign(request.columns.begin(), request.columns.end());
-  proto.set_with_regime(request.with_regime);
-  proto.set_first_index(request.first_index);
-  if (request.end_index.has_value()) proto.set_end_index(*request.end_index);
-  SetDemand(request.demand, proto);
-  return proto;
-}
-
-SweepRequest FromProto(const v1::SweepRequest& proto) {
-  SweepRequest request;
-  request.grid.scene = FromProto(proto.scene());
-  for (const v1::Axis& axis : proto.axes()) request.grid.axes.push_back(FromProto(axis));
-  request.grid.combination = FromProto(proto.combination());
-  request.columns.assign(proto.columns().begin(), proto.columns().end());
-  request.with_regime = proto.with_regime();
-  request.first_index = proto.first_index();
-  if (proto.has_end_index()) request.end_index = proto.end_index();
-  request.demand = DemandOf(proto);
-  return request;
-}
-
-v1::Tally ToProto(const Tally& tally) {
-  v1::Tally proto;
-  proto.set_count(tally.count);
-  proto.set_first_index(tally.first_index);
-  return proto;
-}
-
-Tally FromProto(const v1::Tally& proto) { return {proto.count(), proto.first_index()}; }
-
-v1::RowStatus ToProto(RowStatus status) { return SameNumber<v1::RowStatus>(status, &v1::RowStatus_IsValid); }
-RowStatus FromProto(v1::RowStatus proto) { return SameNumber<RowStatus>(proto, &v1::RowStatus_IsValid); }
-
-v1::SweepSummary ToProto(const SweepSummary& summary) {
-  v1::SweepSummary proto;
-  proto.set_points(summary.points);
-  for (size_t number = 0; number < summary.by_regime.size(); ++number) {
-    const Tally& tally = summary.by_regime[number];
-    if (tally.count == 0) continue;
-    v1::RegimeTally& entry = *proto.add_by_regime();
-    entry.set_regime(ToProto(static_cast<Regime>(number)));
-    *entry.mutable_tally() = ToProto(tally);
+  void Read(const v1::SweepSummary& proto, SweepSummary& summary) const {
+    for (const Message& entry : (proto.*get)()) {
+      if (!entry.has_tally()) continue;
+      Tally& tally = (summary.*member)[static_cast<size_t>(FromProto((entry.*number)()))];
+      tally = Joined(tally, Received<Tally>(entry.tally()));
+    }
   }
-  for (size_t number = 0; number < summary.by_model.size(); ++number) {
-    const Tally& tally = summary.by_model[number];
-    if (tally.count == 0) continue;
-    v1::ModelTally& entry = *proto.add_by_model();
-    entry.set_model(ToProto(static_cast<Model>(number)));
-    *entry.mutable_tally() = ToProto(tally);
-  }
-  *proto.mutable_inadmissible() = ToProto(summary.inadmissible);
-  if (summary.elapsed_s.has_value()) proto.set_elapsed_s(*summary.elapsed_s);
-  return proto;
+};
+
+template <typename Tallies, typename Message, typename Number>
+static constexpr TalliesField<Tallies, Message, Number> TalliesEntry(
+    Tallies SweepSummary::*member, const google::protobuf::RepeatedPtrField<Message>& (v1::SweepSummary::*get)() const,
+    google::protobuf::RepeatedPtrField<Message>* (v1::SweepSummary::*edit)(), Number (Message::*number)() const,
+    void (Message::*set_number)(Number)) {
+  return {member, get, edit, number, set_number};
 }
 
-SweepSummary FromProto(const v1::SweepSummary& proto) {
-  SweepSummary summary;
-  summary.points = proto.points();
-  for (const v1::RegimeTally& entry : proto.by_regime()) {
-    if (!entry.has_tally()) continue;
-    Tally& tally = summary.by_regime[static_cast<size_t>(FromProto(entry.regime()))];
-    tally = Joined(tally, FromProto(entry.tally()));
-  }
-  for (const v1::ModelTally& entry : proto.by_model()) {
-    if (!entry.has_tally()) continue;
-    Tally& tally = summary.by_model[static_cast<size_t>(FromProto(entry.model()))];
-    tally = Joined(tally, FromProto(entry.tally()));
-  }
-  if (proto.has_inadmissible()) summary.inadmissible = FromProto(proto.inadmissible());
-  if (proto.has_elapsed_s()) summary.elapsed_s = proto.elapsed_s();
-  return summary;
+template <>
+struct Map<SweepSummary> : Between<SweepSummary, v1::SweepSummary> {
+  using Fields = Entries<Entry(&T::points, &P::points, &P::set_points),
+                         TalliesEntry(&T::by_regime, &P::by_regime, &P::mutable_by_regime, &v1::RegimeTally::regime,
+                                      &v1::RegimeTally::set_regime),
+                         TalliesEntry(&T::by_model, &P::by_model, &P::mutable_by_model, &v1::ModelTally::model,
+                                      &v1::ModelTally::set_model),
+                         Defaulted(&T::inadmissible, &P::has_inadmissible, &P::inadmissible, &P::mutable_inadmissible),
+                         Entry(&T::elapsed_s, &P::has_elapsed_s, &P::elapsed_s, &P::set_elapsed_s)>;
+};
+
+void ToProto(const SweepSummary& summary, v1::SweepSummary& proto) { Map<SweepSummary>::Fields::Write(summary, proto); }
+void FromProto(const v1::SweepSummary& proto, SweepSummary& summary) {
+  Map<SweepSummary>::Fields::Read(proto, summary);
 }
+
+v1::SweepRequest ToProto(const SweepRequest& request) { return Sent(request); }
+SweepRequest FromProto(const v1::SweepRequest& proto) { return Received<SweepRequest>(proto); }
+
+v1::SweepSummary ToProto(const SweepSummary& summary) { return Sent(summary); }
+SweepSummary FromProto(const v1::SweepSummary& proto) { return Received<SweepSummary>(proto); }
 
 void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto) {
   proto.set_first_index(chunk.first_index);
@@ -161,10 +138,11 @@ void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto) {
                  [](RowStatus status) { return static_cast<char>(ToProto(status)); });
   proto.set_points_done(chunk.points_done);
   proto.set_points_total(chunk.points_total);
-  *proto.mutable_tallies() = ToProto(chunk.tallies);
+  proto.mutable_tallies()->Clear();
+  ToProto(chunk.tallies, *proto.mutable_tallies());
   proto.clear_summary();
-  if (chunk.summary.has_value()) *proto.mutable_summary() = ToProto(*chunk.summary);
-  *proto.mutable_engine() = ToProto(chunk.engine);
+  if (chunk.summary.has_value()) ToProto(*chunk.summary, *proto.mutable_summary());
+  ToProto(chunk.engine, *proto.mutable_engine());
   proto.clear_crc32c();
   proto.clear_grid_fingerprint();
 }

@@ -3,6 +3,7 @@
 #ifndef RICOCHET_PROTO_WIRE_SWEEP_H_
 #define RICOCHET_PROTO_WIRE_SWEEP_H_
 
+#include "proto/wire/enums.h"
 #include "ricochet/sweep.h"
 #include "ricochet/v1/sweep.pb.h"
 
@@ -11,22 +12,29 @@ namespace ricochet {
 v1::SweepRequest ToProto(const SweepRequest& request);
 SweepRequest FromProto(const v1::SweepRequest& proto);
 
+void ToProto(const Tally& tally, v1::Tally& proto);
+void FromProto(const v1::Tally& proto, Tally& tally);
+
 // An unknown Combination keeps its number both ways, for ValidateAxes to report.
-v1::SweepRequest::Combination ToProto(Combination combination);
-Combination FromProto(v1::SweepRequest::Combination proto);
+inline bool IsCombination(int /*number*/) { return true; }
+template <>
+struct EnumPair<Combination> : SameNumbers<v1::SweepRequest::Combination, IsCombination> {};
+template <>
+struct EnumPair<v1::SweepRequest::Combination> : SameNumbers<Combination, IsCombination> {};
 
-v1::Tally ToProto(const Tally& tally);
-Tally FromProto(const v1::Tally& proto);
-
-// A number that this build does not know becomes kUnspecified.
-v1::RowStatus ToProto(RowStatus status);
-RowStatus FromProto(v1::RowStatus proto);
+template <>
+struct EnumPair<RowStatus> : SameNumbers<v1::RowStatus, v1::RowStatus_IsValid> {};
+template <>
+struct EnumPair<v1::RowStatus> : SameNumbers<RowStatus, v1::RowStatus_IsValid> {};
 
 // Points with regimes that this build does not know are counted together as kUnspecified.
 v1::SweepSummary ToProto(const SweepSummary& summary);
 SweepSummary FromProto(const v1::SweepSummary& proto);
+void ToProto(const SweepSummary& summary, v1::SweepSummary& proto);
+void FromProto(const v1::SweepSummary& proto, SweepSummary& summary);
 
-// Sets or clears every field of `proto`, whose capacity is reused. The seal is cleared: proto/wire/chunk_seal.h puts it on.
+// Sets or clears every field of `proto`, whose capacity is reused. The seal is cleared: proto/wire/chunk_seal.h puts it
+// on.
 void ToProto(const SweepChunk& chunk, v1::SweepResponse& proto);
 // Values that end in the middle of a double lose its part.
 SweepChunk FromProto(const v1::SweepResponse& proto);

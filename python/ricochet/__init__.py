@@ -165,7 +165,8 @@ def sweep(
     Returns:
         The numbers of each column, ``regime``, and ``status``, which says whether a point is ``"OK"`` or
         ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN, and a warning ``InvalidRows`` says so;
-        one whose outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there. ``attrs`` has the request and the engine, under the names that the files of the command line have.
+        one whose outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there. ``attrs`` has the request and the
+        engine, under the names that the files of the command line have.
 
     Raises:
         InvalidRequest: the scene, an axis or a column is wrong.

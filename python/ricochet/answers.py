@@ -18,7 +18,7 @@ def _check(found: int, wanted: int, what: str) -> None:
 
 
 def entries(found: Sequence[_Entry], count: int, what: str) -> Sequence[_Entry]:
-    """Returns the list if it has so many entries; an answer that is not whole is never spread over what was asked for."""
+    """Returns the list if it has so many entries: an answer that is not whole is never spread over what was asked."""
     _check(len(found), count, what)
     return found
 

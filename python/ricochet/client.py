@@ -239,7 +239,8 @@ class Client:
         for path, ends in names.by_full_name(ranges or {}, names.fields_of(request.scene), "ranges").items():
             pair = values.column(ends, path)
             if pair.shape != (2,):
-                raise InvalidRequest.of([Violation(path, f"= {values.shown(ends)}: must be two numbers, the least first")])
+                raise InvalidRequest.of(
+                    [Violation(path, f"= {values.shown(ends)}: must be two numbers, the least first")])
             request.ranges.add(path=path, low=pair[0], high=pair[1])
         return to_record(self._unary("Bounds", request))
 
@@ -327,16 +328,16 @@ class Client:
         Args:
             scene: gives every field that no column states.
             inputs: an array for each field that varies, by the field's path, ``"planar_contact.normal_m_s"``, or a
-                short name, ``"mu"``. They are equally long, or single numbers for all rows. A pandas frame will do; its index
-                is kept. What is missing (None, pandas.NA) is NaN, which makes the row invalid.
+                short name, ``"mu"``. They are equally long, or single numbers for all rows. A pandas frame will do; its
+                index is kept. What is missing (None, pandas.NA) is NaN, which makes the row invalid.
             columns: the numbers of the outcome to compute: ``"contact_velocity_after.normal_m_s"``, or short names,
                 ``["newton", "poisson"]``. The table has their full names.
             tolerance, require, exclude: as in ``solve``, for every row.
 
         Returns:
-            A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``; a number that
-            the outcome of a row leaves unset is NaN, and the status is ``"INCOMPLETE"``. A warning ``InvalidRows`` counts
-            rows that break a rule, and ``table.summary.bad_rows`` has the reasons of the first ones.
+            A table with a row for each impact. A row that breaks a rule has NaN and the status ``"INVALID"``; a number
+            that the outcome of a row leaves unset is NaN, and the status is ``"INCOMPLETE"``. A warning ``InvalidRows``
+            counts rows that break a rule, and ``table.summary.bad_rows`` has the reasons of the first ones.
 
         Raises:
             InvalidRequest: the scene, a path, an entry or the length of an array is wrong.

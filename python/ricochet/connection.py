@@ -27,8 +27,8 @@ class Connection:
     """The options of a connection; an empty text is not set.
 
     Each is also read from the environment, ``RICOCHET_TLS_CA`` for ``tls_ca``, and from the TOML file that ``config``
-    or ``RICOCHET_CONFIG`` names, as a line ``tls-ca = "FILE"``. An argument wins over the environment, which wins over the
-    file.
+    or ``RICOCHET_CONFIG`` names, as a line ``tls-ca = "FILE"``. An argument wins over the environment, which wins over
+    the file.
     """
 
     server: str = ""

@@ -45,7 +45,8 @@ def unpacked(contact: str, values: Mapping[str, Any], path: str, violations: lis
 
 def _asymmetries(w: Numbers, path: str) -> list[Violation]:
     return [
-        Violation(f"{path}[{i}][{j}]", f"= {float(w[i, j])!r}: must equal [{j}][{i}] = {float(w[j, i])!r}: W is symmetric")
+        Violation(f"{path}[{i}][{j}]",
+                  f"= {float(w[i, j])!r}: must equal [{j}][{i}] = {float(w[j, i])!r}: W is symmetric")
         for i in range(len(w))
         for j in range(i + 1, len(w))
         if abs(w[i, j] - w[j, i]) > _ROUNDING * math.sqrt(abs(w[i, i] * w[j, j]))

@@ -26,9 +26,8 @@ _LETTERS = {
 }
 # The parts of an outcome whose numbers are columns; there are others with numbers of the same names.
 _COLUMNS = (
-    "coefficients rates_after_rad_s contact_velocity_after impulse work energy_change_j bodies_after effective accuracy "
-    "contact errors"
-).split()
+    "coefficients rates_after_rad_s contact_velocity_after impulse work energy_change_j bodies_after effective "
+    "accuracy contact errors").split()
 
 
 def fields_of(scene: Message) -> list[str]:

@@ -3,9 +3,10 @@
 //
 // Rows of coefficients, impulses and works hold each number of an outcome against its own error, on its own scale.
 // docs/accuracy.md explains the columns. "unknown" counts infinite claims, "least" and "median" are of claimed over
-// achieved, "worst" is the largest error achieved, and the last two columns count claims and errors above the tolerance.
+// achieved, "worst" is the largest error achieved, and the last two columns count claims and errors above the
+// tolerance.
 
-#include "tests/support/claims.h"
+#include "tests/support/claims/claims.h"
 
 #include <algorithm>
 #include <atomic>
@@ -19,13 +20,13 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/compliant_claims.h"
-#include "tests/support/finite_duration_claims.h"
-#include "tests/support/pendulum_claims.h"
-#include "tests/support/planar_claims.h"
-#include "tests/support/sliding_claims.h"
-#include "tests/support/spatial_claims.h"
-#include "tests/support/spatial_number_claims.h"
+#include "tests/support/claims/compliant_claims.h"
+#include "tests/support/claims/finite_duration_claims.h"
+#include "tests/support/claims/pendulum_claims.h"
+#include "tests/support/claims/planar_claims.h"
+#include "tests/support/claims/sliding_claims.h"
+#include "tests/support/claims/spatial_claims.h"
+#include "tests/support/claims/spatial_number_claims.h"
 
 namespace ricochet {
 namespace {
@@ -204,8 +205,8 @@ void AddFiniteDuration(int count, Jobs& jobs) {
   }
 }
 
-// Does the jobs on all cores and prints their rows in order, each as soon as those before it are known. Returns how many
-// claims deceived. Each job draws its own scenes, so that no number depends on the cores.
+// Does the jobs on all cores and prints their rows in order, each as soon as those before it are known. Returns how
+// many claims deceived. Each job draws its own scenes, so that no number depends on the cores.
 int PrintTable(const Jobs& jobs) {
   std::vector<std::packaged_task<std::vector<Row>()>> tasks(jobs.all.begin(), jobs.all.end());
   std::atomic<size_t> next = 0;

@@ -2,8 +2,8 @@
 
 usage: report.py DIRECTORY
 
-The directory holds claims.txt, bench.txt and, for each scene, a study of cost in JSON. In the page, only the text between
-a line "<!-- measured: NAME -->" and the next "<!-- end -->" is replaced.
+The directory holds claims.txt, bench.txt and, for each scene, a study of cost in JSON. In the page, only the text
+between a line "<!-- measured: NAME -->" and the next "<!-- end -->" is replaced.
 """
 
 import json
@@ -11,7 +11,7 @@ import os
 import re
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'support'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'support', 'processes'))
 import provenance  # pylint: disable=wrong-import-position
 
 PAGE = os.path.join(provenance.ROOT, 'docs', 'accuracy.md')
@@ -50,7 +50,8 @@ def picked(study, index):
 
 
 def cost_table(study):
-    lines = ['| method | one solve | of a batch | error claimed | error made | numerical | modelling | picked for tolerances |',
+    lines = ['| method | one solve | of a batch | error claimed | error made | numerical | modelling '
+             '| picked for tolerances |',
              '| --- |' + ' ---: |' * 6 + ' --- |']
     front = {int(row) for row in study['summary']['front']}
     for index, row in enumerate(study['rows']):
@@ -68,9 +69,10 @@ def cost(study):
     summary = study['summary']
     answers = sum('achieved' in row and row['achieved'] is not None for row in study['rows'])
     return cost_table(study) + [
-        '', 'Answers that err by more than they claim: %s of %d. Methods without an answer: %s; without time left: %s. '
-        'Exact answer: %s' % (summary['deceived'], answers, summary['failed'], summary['out_of_time'],
-                              summary['reference_source'])]
+        '', provenance.lines(
+            'Answers that err by more than they claim: %s of %d. Methods without an answer: %s; without time left: %s. '
+            'Exact answer: %s' % (summary['deceived'], answers, summary['failed'], summary['out_of_time'],
+                                  summary['reference_source']))]
 
 
 def block(path):

@@ -16,7 +16,7 @@
 #include "ricochet/client.h"
 #include "ricochet/solver.h"
 #include "tests/benchmark/measure.h"
-#include "tests/support/server_process.h"
+#include "tests/support/processes/server_process.h"
 
 namespace ricochet::bench {
 namespace {

@@ -1,5 +1,5 @@
-// The price of accuracy: the pendulum's closed form is compared with the plain formulas, in time and in ulp. The price of
-// generality: the planar model is compared with the pendulum's closed form.
+// The price of accuracy: the pendulum's closed form is compared with the plain formulas, in time and in ulp. The price
+// of generality: the planar model is compared with the pendulum's closed form.
 
 #include <cmath>
 #include <cstdio>
@@ -11,19 +11,19 @@
 
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
-#include "core/engine/engine.h"
 #include "core/engine/sweep_run.h"
 #include "core/models/pendulum/columns.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "core/plan/arithmetic.h"
+#include "ricochet/engine_info.h"
 #include "ricochet/solver.h"
 #include "tests/benchmark/division_floor.h"
 #include "tests/benchmark/measure.h"
-#include "tests/support/known_contacts.h"
-#include "tests/support/planar_scenes.h"
-#include "tests/support/ulp.h"
+#include "tests/support/oracles/ulp.h"
+#include "tests/support/scenes/known_contacts.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet::bench {
 namespace {
@@ -35,8 +35,8 @@ using pendulum::ProblemColumns;
 
 constexpr int kRounds = 21;
 
-// The paper's formulas for a given energetic coefficient, written plainly. The function is not inlined, because a caller
-// that uses one output must not spare the others.
+// The paper's formulas for a given energetic coefficient, written plainly. The function is not inlined, because a
+// caller that uses one output must not spare the others.
 [[gnu::noinline]] Impact PlainSolve(const Problem& p) {
   Impact impact;
   const auto set = [&](Output output, double value) { impact.values[static_cast<size_t>(output)] = value; };

@@ -1,5 +1,5 @@
-// Planar contacts in columns: the time of one contact among many in SIMD lanes, against the same contacts one by one, and
-// against divisions and square roots alone.
+// Planar contacts in columns: the time of one contact among many in SIMD lanes, against the same contacts one by one,
+// and against divisions and square roots alone.
 
 #include <array>
 #include <cstdio>
@@ -14,8 +14,8 @@
 #include "core/plan/arithmetic.h"
 #include "tests/benchmark/division_floor.h"
 #include "tests/benchmark/measure.h"
-#include "tests/support/planar_in_lanes.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/scenes/planar_in_lanes.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet::bench {
 namespace {

@@ -11,8 +11,8 @@
 #include "core/models/spatial/columns.h"
 #include "core/models/spatial/spatial.h"
 #include "tests/benchmark/measure.h"
-#include "tests/support/known_contacts.h"
-#include "tests/support/spatial_scenes.h"
+#include "tests/support/scenes/known_contacts.h"
+#include "tests/support/scenes/spatial_scenes.h"
 
 namespace ricochet::bench {
 namespace {

@@ -15,7 +15,7 @@
 #include "core/models/spatial/spatial.h"
 #include "tests/benchmark/cvode_peer.h"
 #include "tests/benchmark/measure.h"
-#include "tests/support/spatial_scenes.h"
+#include "tests/support/scenes/spatial_scenes.h"
 
 namespace ricochet::bench {
 namespace {

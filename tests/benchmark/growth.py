@@ -18,7 +18,7 @@ import numpy as np
 
 import processes
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "support", "processes"))
 import provenance  # pylint: disable=wrong-import-position
 
 ROUNDS = 3
@@ -162,8 +162,10 @@ def relative(rows):
 def page(found):
     alone, beside = found["clients"][0], found["clients"][-1]
     start = start_s()
-    points = [(f"{count:,}", f"{took * 1e3:,.0f}", f"{(took - start) / count * 1e9:.1f}" if took > 2 * start else "–", f"{mib:.0f}")
-              for count, took, mib in found["points"]]
+    points = [
+        (f"{count:,}", f"{took * 1e3:,.0f}", f"{(took - start) / count * 1e9:.1f}" if took > 2 * start else "–",
+         f"{mib:.0f}")
+        for count, took, mib in found["points"]]
     threads = [str(count) for count in range(1, len(found["threads"][0]))]
     contacts = [(f"{count:,}", f"{each * 1e6:,.3f}", f"{each * count * 1e6:,.0f}") for count, each in found["contacts"]]
     clients = [(int(row[0]), f"{row[2]:,.0f}", f"{row[3] / alone[3]:.1f}", f"{row[4] / alone[3]:.1f}")
@@ -174,16 +176,18 @@ def page(found):
         provenance.sentence(), "",
         "![Cost against points, columns, axes, links, contacts and clients](images/growth.svg)", "",
         "## Points of a sweep", "",
-        "One column of a pendulum, one thread, in the process of the command line. The time of a sweep of one point, which is that of",
-        "starting the process, is taken off before it is divided by the points; a sweep that takes less than twice as long (–) says",
-        "nothing about its points. Memory does not grow with the points.", "",
+        "One column of a pendulum, one thread, in the process of the command line. The time of a sweep of one point, which is",
+        "that of starting the process, is taken off before it is divided by the points; a sweep that takes less than twice as",
+        "long (–) says nothing about its points. Memory does not grow with the points.", "",
         *table(["points", "ms", "ns a point", "peak MiB"], points),
-        "## Columns, axes and links", "", "The time of a point against that of the first row, without that of starting the process. All columns are outputs of the",
-        "closed form.", "",
+        "## Columns, axes and links", "",
+        "The time of a point against that of the first row, without that of starting the process. All columns are outputs of",
+        "the closed form.", "",
         *table(["columns", "time"], relative(found["columns"])), *table(["axes", "time"], relative(found["axes"])),
         "A chain whose friction varies is reduced to its contact once, so that the number of its links costs nothing a point.", "",
         *table(["links", "time"], relative(found["links"])),
-        "## Threads", "", "The rate of one sweep against that of one thread, by the number of threads. What is delivered in order is taken",
+        "## Threads", "",
+        "The rate of one sweep against that of one thread, by the number of threads. What is delivered in order is taken",
         "by one thread, here the command line, so that the cheapest points gain least.", "",
         *table(["system", *threads], found["threads"]),
         "## Contacts of a batch", "", "Planar contacts by `SolveBatch` on loopback, asked by Python, the call included.", "",

@@ -1,9 +1,9 @@
 // Runs fixed pieces of work under callgrind, so that tests/benchmark/instruction_counts.py can compare what each
 // executes with what it executed before.
 //
-// ricochet_instruction_counts prints the names of the pieces, in the order of their numbers. Each runs once before it is
-// counted, so that choices made at a first call do not count. Kernels run with AVX2 on every processor, because valgrind
-// knows nothing wider; the program ends with 77 on a processor without it.
+// ricochet_instruction_counts prints the names of the pieces, in the order of their numbers. Each runs once before it
+// is counted, so that choices made at a first call do not count. Kernels run with AVX2 on every processor, because
+// valgrind knows nothing wider; the program ends with 77 on a processor without it.
 
 #include <cstdint>
 #include <cstdio>

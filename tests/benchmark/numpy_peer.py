@@ -76,7 +76,8 @@ def main():
     with processes.stubs(), processes.server() as address, processes.echo_server() as echo_address:
         remote, echo = Remote(address), Remote(echo_address)
         for name, ours, theirs in zip(COLUMNS, remote.into_numpy(), by_numpy()):
-            # A sweep promises 1e-12 of the velocities and energies before the impact, all of which are of the size of 1.
+            # A sweep promises 1e-12 of the velocities and energies before the impact, all of which are of the size of
+            # 1.
             if np.max(np.abs(ours - theirs)) > 4e-12:
                 sys.exit(f"{name}: NumPy and the service differ by {np.max(np.abs(ours - theirs))}")
         times, (local, python, raw, cpp) = processes.medians(

@@ -8,10 +8,10 @@
 
 #include "ricochet/client.h"
 #include "ricochet/error.h"
-#include "tests/client/cli_run.h"
-#include "tests/support/eventually.h"
-#include "tests/support/server_process.h"
-#include "tests/support/test_certificates.h"
+#include "tests/client/cli/cli_run.h"
+#include "tests/support/processes/eventually.h"
+#include "tests/support/processes/server_process.h"
+#include "tests/support/processes/test_certificates.h"
 
 namespace ricochet {
 namespace {

@@ -12,7 +12,7 @@
 
 #include "ricochet/client.h"
 #include "tests/client/collected_sweep.h"
-#include "tests/support/server_process.h"
+#include "tests/support/processes/server_process.h"
 
 namespace ricochet {
 namespace {

@@ -18,8 +18,8 @@
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "tests/client/collected_sweep.h"
-#include "tests/support/eventually.h"
-#include "tests/support/server_process.h"
+#include "tests/support/processes/eventually.h"
+#include "tests/support/processes/server_process.h"
 
 namespace ricochet {
 namespace {

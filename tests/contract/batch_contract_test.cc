@@ -13,12 +13,12 @@
 #include <string>
 #include <vector>
 
-#include "core/engine/engine.h"
+#include "core/rows/column.h"
 #include "core/scene/field.h"
 #include "core/scene/numbers.h"
-#include "core/sweep/column.h"
+#include "ricochet/engine_info.h"
 #include "tests/contract/solvers.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

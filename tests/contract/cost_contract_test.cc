@@ -9,9 +9,9 @@
 #include <thread>
 #include <vector>
 
-#include "core/engine/engine.h"
+#include "ricochet/engine_info.h"
 #include "tests/contract/solvers.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -109,23 +109,18 @@ TEST_P(CostContract, ABadRequestIsAStreamOfOneErrorWithEveryViolation) {
                           Violation{"samples", "= 1002: must be in [1, 1001]"}));
 }
 
-TEST_P(CostContract, AStopFromAnotherThreadEndsItSoon) {
+TEST_P(CostContract, AStopFromAnotherThreadEndsIt) {
   std::stop_source stop;
-  steady_clock::time_point stopped_at;
   CostStream stream =
       solver().Cost({.scene = PaperScene(), .time_limit_s = 60.0, .samples = 1001}, {.stop = stop.get_token()});
-  std::jthread stopper([&] {
-    std::this_thread::sleep_for(milliseconds(30));
-    stopped_at = steady_clock::now();
-    stop.request_stop();
-  });
-  absl::Status last;
-  for (const auto& chunk : stream) last = chunk.status();
-  const auto end = steady_clock::now();
-  stopper.join();
-  EXPECT_EQ(last.code(), absl::StatusCode::kCancelled) << last;
-  // 10 ms are promised; a busy machine adds what it likes.
-  EXPECT_LT(end - stopped_at, milliseconds(200));
+  Chunks chunks;
+  for (absl::StatusOr<CostChunk>& chunk : stream) {
+    chunks.push_back(std::move(chunk));
+    if (chunks.size() == 2) std::jthread([&stop] { stop.request_stop(); }).join();
+  }
+  EXPECT_EQ(chunks.back().status().code(), absl::StatusCode::kCancelled) << chunks.back().status();
+  // Those that were on their way may still arrive, but not all.
+  EXPECT_LT(chunks.size(), Read(solver().Cost(Request(PaperScene()))).size());
 }
 
 TEST_P(CostContract, EndsAtItsDeadline) {

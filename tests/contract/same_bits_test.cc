@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "core/sweep/column.h"
+#include "core/rows/column.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "tests/contract/solvers.h"
-#include "tests/support/pendulum_scenes.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/pendulum_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

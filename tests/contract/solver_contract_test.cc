@@ -14,10 +14,10 @@
 #include <thread>
 #include <vector>
 
-#include "core/engine/engine.h"
-#include "core/sweep/grid.h"
+#include "core/rows/axis_values.h"
+#include "ricochet/engine_info.h"
 #include "tests/contract/solvers.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -1,4 +1,5 @@
-// Rooms: which room may include which, read off the #include lines of every source file.
+// Rooms: which room may include which, as the tables of docs/architecture.md say, held against the #include lines of
+// every source file.
 
 #include <gtest/gtest.h>
 
@@ -19,36 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Our own folders and the libraries of others that a room may include. Standard headers are free to all but the core,
-// which the second test looks after.
-struct Room {
-  std::string folder;
-  std::vector<std::string> prefixes;
-};
-
-const std::vector<Room>& Rooms() {
-  static const std::vector<Room> rooms = {
-      {"core",
-       {"core/", "ricochet/", "absl/container/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/",
-        "hwy/", "Eigen/", "cvode/", "nvector/", "sundials/", "sunnonlinsol/"}},
-      {"core/include/ricochet", {"ricochet/", "absl/"}},
-      {"core/certified",
-       {"core/", "ricochet/", "absl/functional/", "absl/status/", "absl/strings/", "absl/types/", "flint/"}},
-      {"proto/wire", {"proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "isa-l/"}},
-      {"proto/comments", {"proto/comments/", "absl/", "google/"}},
-      {"client", {"client/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "openssl/"}},
-      {"client/cli",
-       {"client/", "proto/comments/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/",
-        "CLI/", "spdlog/"}},
-      {"client/cli/json",
-       {"client/cli/", "proto/comments/", "core/numerics/decimal.h", "core/scene/nearest.h", "absl/", "google/",
-        "nlohmann/"}},
-      {"server",
-       {"server/", "proto/wire/", "ricochet/", "core/", "absl/", "google/", "grpc/", "grpcpp/", "CLI/", "spdlog/",
-        "openssl/", "prometheus/"}},
-  };
-  return rooms;
-}
+constexpr const char* kHouses[] = {"core", "proto/wire", "proto/comments", "client", "server"};
 
 // The core must not include these standard headers: it knows no stream, file, environment, process, thread or clock.
 const std::set<std::string>& BarredFromCore() {
@@ -62,7 +34,7 @@ const std::set<std::string>& BarredFromCore() {
 }
 
 // This file writes the reason why the process aborts, and needs a stream for it.
-constexpr char kLastWords[] = "core/numerics/invariant.cc";
+constexpr char kLastWords[] = "core/base/invariant.cc";
 
 // Some files compare the deadline of a call with the clock, some how long a call has lasted before
 // others help it, one how soon the reader of a stream comes back, and two measure the time that a method takes.
@@ -72,17 +44,19 @@ const std::set<std::string>& ReadersOfTheClock() {
                                               "core/engine/call_watch.cc",
                                               "core/engine/chunk_size.h",
                                               "core/engine/local_solver.cc",
-                                              "core/engine/parallel_batch.cc",
+                                              "core/engine/helped_run.h",
+                                              "core/engine/helped_run.cc",
                                               "core/engine/sweep_run.cc",
-                                              "core/study/stopwatch.h",
-                                              "core/study/stopwatch.cc"};
+                                              "core/cost/stopwatch.h",
+                                              "core/cost/stopwatch.cc"};
   return files;
 }
 
 // The files of the threads that help a sweep or a batch, and of what these share.
 const std::set<std::string>& KeepersOfThreads() {
-  static const std::set<std::string> files = {"core/engine/helper_threads.h", "core/engine/helper_threads.cc",
-                                              "core/engine/parallel_batch.h", "core/engine/parallel_batch.cc",
+  static const std::set<std::string> files = {"core/engine/helped_run.h",      "core/engine/helper_threads.h",
+                                              "core/engine/helper_threads.cc", "core/engine/piece_run.h",
+                                              "core/engine/piece_run.cc",      "core/engine/pool.h",
                                               "core/engine/sweep_run.cc"};
   return files;
 }
@@ -135,88 +109,111 @@ bool IsSystemHeader(const std::string& header) {
   return header.find('/') == std::string::npos || StartsWithAny(header, {"arpa/", "netinet/", "sys/"});
 }
 
-// The innermost room that a file lies in.
-const Room& RoomOf(const std::string& file) {
-  const Room* innermost = nullptr;
-  for (const Room& room : Rooms()) {
-    const bool inside = file.rfind(room.folder + "/", 0) == 0;
-    if (inside && (innermost == nullptr || room.folder.size() > innermost->folder.size())) innermost = &room;
+// A room: a folder, its floor, and what it may include beside lower floors of its own table.
+struct Room {
+  std::string table;
+  int floor = 0;
+  std::vector<std::string> allowed;
+};
+
+// All texts in backticks.
+std::vector<std::string> Quoted(const std::string& cell) {
+  static const std::regex pattern("`([^`]+)`");
+  std::vector<std::string> texts;
+  for (std::sregex_iterator match(cell.begin(), cell.end(), pattern), end; match != end; ++match) {
+    texts.push_back((*match)[1]);
   }
-  return *innermost;
+  return texts;
 }
 
-// The core's rooms from the ground up. Rooms on one floor do not see each other.
-const std::vector<std::vector<std::string>>& Floors() {
-  static const std::vector<std::vector<std::string>> floors = {
-      {"core/numerics"},
-      {"core/include/ricochet"},
-      {"core/vocabulary"},  // The functions that the public headers declare.
-      {"core/contact"},
-      {"core/scene"},
-      {"core/models"},
-      {"core/models/pendulum", "core/models/planar", "core/models/sliding", "core/models/spatial",
-       "core/models/compliant", "core/models/finite_duration", "core/models/laws"},
-      {"core/problem"},
-      {"core/bounds", "core/certified"},
-      {"core/plan"},
-      {"core/answer"},
-      {"core/study", "core/sweep"},
-      {"core/batch"},
-      {"core/engine"},
-  };
-  return floors;
+std::string WithoutSlash(std::string folder) { return folder.substr(0, folder.find_last_not_of('/') + 1); }
+
+// The rooms by their folders, read off the tables of docs/architecture.md.
+std::map<std::string, Room> ReadRooms() {
+  static const std::regex row(R"(^\| (\d+) \| ([^|]*) \|[^|]*\|([^|]*)\|$)");
+  std::map<std::string, Room> rooms;
+  std::ifstream file(Root() / "docs/architecture.md");
+  std::string table;
+  std::smatch match;
+  for (std::string line; std::getline(file, line);) {
+    if (line.rfind("###", 0) == 0) table = line;
+    if (!std::regex_match(line, match, row)) continue;
+    for (const std::string& folder : Quoted(match[2])) {
+      rooms[WithoutSlash(folder)] = {.table = table, .floor = std::stoi(match[1]), .allowed = Quoted(match[3])};
+    }
+  }
+  return rooms;
 }
 
-// The floor of a folder; -1 if no floor lists it.
-int FloorOf(const std::string& folder) {
-  for (size_t i = 0; i < Floors().size(); ++i) {
-    if (std::find(Floors()[i].begin(), Floors()[i].end(), folder) != Floors()[i].end()) return static_cast<int>(i);
-  }
-  return -1;
+const std::map<std::string, Room>& Rooms() {
+  static const std::map<std::string, Room> rooms = ReadRooms();
+  return rooms;
 }
 
 std::string FolderOf(const std::string& file) { return file.substr(0, file.rfind('/')); }
 
-// The path of one of our own headers that a source of the core includes.
+// The path of one of our own headers.
 std::string FileOf(const std::string& header) {
-  return header.rfind("ricochet/", 0) == 0 ? "core/include/" + header : header;
+  if (header.rfind("ricochet/", 0) != 0) return header;
+  return (fs::exists(Root() / "client/include" / header) ? "client/include/" : "core/include/") + header;
 }
 
-bool IsOfTheCore(const std::string& header) { return StartsWithAny(header, {"core/", "ricochet/"}); }
+// True if the table of rooms lets `from` include the header.
+bool MayInclude(const Room& from, const Include& include) {
+  if (StartsWithAny(include.header, {"absl/"}) || StartsWithAny(include.header, from.allowed)) return true;
+  const auto to = Rooms().find(FolderOf(FileOf(include.header)));
+  if (to == Rooms().end()) return IsSystemHeader(include.header);
+  if (to->first == FolderOf(include.file)) return true;
+  if (to->second.table == from.table) return to->second.floor < from.floor;
+  const bool is_of_the_client = include.file.rfind("client/", 0) == 0;
+  return to->first == "core/include/ricochet" || (to->first == "client/include/ricochet" && is_of_the_client);
+}
 
-TEST(FloorsTest, AnIncludeInTheCoreStaysInItsRoomOrGoesToALowerFloor) {
-  for (const Include& include : IncludesOf("core")) {
-    const std::string from = FolderOf(include.file);
-    ASSERT_GE(FloorOf(from), 0) << include.file << " lies in a folder that is on no floor";
-    if (!IsOfTheCore(include.header)) continue;
-    const std::string to = FolderOf(FileOf(include.header));
-    EXPECT_TRUE(from == to || FloorOf(to) < FloorOf(from))
-        << include.file << " includes " << include.header << ", which lies on floor " << FloorOf(to)
-        << ", not below its own, " << FloorOf(from);
+TEST(RoomsTest, AnIncludeStaysInItsRoomOrGoesDownOrWhereTheTableSays) {
+  for (const std::string folder : kHouses) {
+    for (const Include& include : IncludesOf(folder)) {
+      const auto room = Rooms().find(FolderOf(include.file));
+      ASSERT_NE(room, Rooms().end()) << include.file << " lies in a folder that docs/architecture.md does not list";
+      EXPECT_TRUE(MayInclude(room->second, include)) << include.file << " includes " << include.header;
+    }
   }
 }
 
-// Floors imply that there is no circle. This test also finds a circle among rooms that share a floor.
-TEST(FloorsTest, NoTwoFoldersOfTheCoreReachEachOther) {
-  std::map<std::string, std::set<std::string>> reach;
-  for (const Include& include : IncludesOf("core")) {
-    const std::string from = FolderOf(include.file);
-    if (IsOfTheCore(include.header)) reach[from].insert(FolderOf(FileOf(include.header)));
+TEST(RoomsTest, EveryRoomOfTheTablesHasSources) {
+  EXPECT_EQ(Rooms().size(), 42U);
+  for (const auto& [folder, room] : Rooms()) EXPECT_FALSE(SourcesOf(folder).empty()) << folder;
+}
+
+// Everything that can be reached along `edges`, by its start.
+std::map<std::string, std::set<std::string>> Closure(std::map<std::string, std::set<std::string>> edges) {
+  for (size_t i = 0; i < edges.size(); ++i) {
+    bool has_grown = false;
+    for (auto& [from, all] : edges) {
+      const size_t before = all.size();
+      for (const std::string& to : std::set<std::string>(all)) {
+        if (const auto next = edges.find(to); next != edges.end()) all.insert(next->second.begin(), next->second.end());
+      }
+      has_grown = has_grown || all.size() > before;
+    }
+    if (!has_grown) break;
   }
-  for (size_t i = 0; i < reach.size(); ++i) {
-    for (auto& [from, all] : reach) {
-      for (const std::string& to : std::set<std::string>(all)) all.insert(reach[to].begin(), reach[to].end());
+  return edges;
+}
+
+TEST(RoomsTest, NoHeadersAndNoFoldersIncludeEachOther) {
+  std::map<std::string, std::set<std::string>> headers;
+  std::map<std::string, std::set<std::string>> folders;
+  for (const std::string folder : kHouses) {
+    for (const Include& include : IncludesOf(folder)) {
+      const std::string to = FileOf(include.header);
+      if (!Rooms().contains(FolderOf(to))) continue;
+      if (fs::path(include.file).extension() == ".h") headers[include.file].insert(to);
+      if (FolderOf(include.file) != FolderOf(to)) folders[FolderOf(include.file)].insert(FolderOf(to));
     }
   }
-  int circles = 0;
-  for (const auto& [from, all] : reach) {
-    for (const std::string& to : all) {
-      if (from >= to || !reach[to].contains(from)) continue;
-      ++circles;
-      ADD_FAILURE() << from << " and " << to << " reach each other";
-    }
+  for (const auto& edges : {headers, folders}) {
+    for (const auto& [from, all] : Closure(edges)) EXPECT_FALSE(all.contains(from)) << from << " reaches itself";
   }
-  std::cout << "folder circles in the core: " << circles << "\n";
 }
 
 // An installed header must not include one that is not installed.
@@ -226,16 +223,6 @@ TEST(FloorsTest, PublicHeadersIncludePublicHeadersAlone) {
       EXPECT_TRUE(IsSystemHeader(include.header) || StartsWithAny(include.header, {"ricochet/", "absl/"}))
           << include.file << " includes " << include.header;
       EXPECT_FALSE(StartsWithAny(include.header, {"ricochet/v1/"})) << include.file << " includes " << include.header;
-    }
-  }
-}
-
-TEST(RoomsTest, NoRoomIncludesWhatItsDoorsDoNotAllow) {
-  for (const std::string folder : {"core", "proto/wire", "client", "server"}) {
-    for (const Include& include : IncludesOf(folder)) {
-      const Room& room = RoomOf(include.file);
-      EXPECT_TRUE(IsSystemHeader(include.header) || StartsWithAny(include.header, room.prefixes))
-          << include.file << " includes " << include.header << ", which " << room.folder << "/ may not";
     }
   }
 }
@@ -274,47 +261,36 @@ TEST(RoomsTest, TheCoreTakesNoElementaryFunctionFromTheCLibrary) {
   }
 }
 
-// Only one room may include each of these libraries.
+// Where a library has one door in its room, only that file includes it.
 TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
-  struct Library {
-    std::string prefix;
-    std::vector<std::string> doors;
-  };
-  const std::vector<Library> libraries = {
-      {"spdlog/", {"server/", "client/cli/"}},
-      {"CLI/", {"server/", "client/cli/"}},
-      {"nlohmann/", {"client/cli/json/"}},
+  const std::map<std::string, std::vector<std::string>> doors = {
       {"hwy/", {"core/models/", "core/numerics/", "core/plan/pendulum_models.", "core/plan/planar_models."}},
-      {"Eigen/", {"core/contact/"}},
       {"cvode/", {"core/models/finite_duration/integrator."}},
       {"nvector/", {"core/models/finite_duration/integrator."}},
       {"sundials/", {"core/models/finite_duration/integrator."}},
       {"sunnonlinsol/", {"core/models/finite_duration/integrator."}},
-      {"netcdf.h", {"client/cli/netcdf_file.cc", "client/cli/netcdf_table.cc"}},
-      {"sleef.h", {"core/numerics/elementary.cc"}},
       {"flint/", {"core/certified/"}},
       {"arb", {"core/certified/"}},
       {"arf", {"core/certified/"}},
-      {"grpcpp/", {"proto/wire/", "server/", "client/"}},
+      {"sleef.h", {"core/numerics/elementary.cc"}},
+      {"netcdf.h", {"client/cli/sweep/netcdf_file.cc", "client/cli/sweep/netcdf_table.cc"}},
       {"isa-l/", {"proto/wire/crc32c.cc"}},
-      {"openssl/", {"client/tls_files.cc", "server/callers.cc", "server/handshakes.cc", "server/tls_files.cc"}},
-      {"prometheus/", {"server/metrics."}},
-      {"civetweb.h", {"server/metrics_page.cc"}},
-      {"ricochet/v1/", {"proto/wire/", "server/", "client/"}},
+      {"nlohmann/",
+       {"client/cli/text/json_text.cc", "client/cli/input/json_errors.cc", "client/cli/report/scene_schema.cc",
+        "client/cli/sweep/sweep_json.cc"}},
+      {"openssl/",
+       {"client/tls_files.cc", "server/security/callers.cc", "server/security/handshakes.cc",
+        "server/security/tls_files.cc"}},
+      {"prometheus/", {"server/telemetry/metrics."}},
+      {"civetweb.h", {"server/telemetry/metrics_page.cc"}},
   };
-  for (const std::string folder : {"core", "proto/wire", "client", "server"}) {
+  for (const std::string folder : kHouses) {
     for (const Include& include : IncludesOf(folder)) {
-      for (const Library& library : libraries) {
-        if (include.header.rfind(library.prefix, 0) != 0) continue;
-        EXPECT_TRUE(StartsWithAny(include.file, library.doors)) << include.file << " includes " << include.header;
+      for (const auto& [library, files] : doors) {
+        if (include.header.rfind(library, 0) != 0) continue;
+        EXPECT_TRUE(StartsWithAny(include.file, files)) << include.file << " includes " << include.header;
       }
     }
-  }
-}
-
-TEST(RoomsTest, TheTestSeesTheRoomsItSpeaksOf) {
-  for (const std::string folder : {"core", "proto/wire", "client", "server"}) {
-    EXPECT_FALSE(IncludesOf(folder).empty()) << folder;
   }
 }
 

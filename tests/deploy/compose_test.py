@@ -18,7 +18,8 @@ SOURCE, RICOCHET, WORK = (pathlib.Path(argument).resolve() for argument in sys.a
 IMAGE = sys.argv[4]
 PROGRAMS = {"HAPROXY_IMAGE": "haproxy", "PROMETHEUS_IMAGE": "prometheus"}
 SERVERS = ["one", "two", "three"]
-# An impact that takes time costs a millisecond, so that Prometheus, which reads every 15 s, sees who computes the sweep.
+# An impact that takes time costs a millisecond, so that Prometheus, which reads every 15 s, sees who computes the
+# sweep.
 SWEEP = ["sweep", "--scene", SOURCE / "tests/data/scenes/dropped_rod.textproto", "--axis",
          "friction.kinetic_coefficient=lin:0.01:1.5:60000", "--column", "coefficients.newton", "--format", "npy"]
 

@@ -100,7 +100,8 @@ class Proxied:
         text = re.sub(r' ca-file "\$RICOCHET_CLIENT_CA" verify required', "", text)
         require("verify required" not in re.sub(r"(?m)^\s*#.*$", "", text), "the recipe's line of client certificates is another")
         (self.place / "haproxy.cfg").write_text(text, encoding="utf-8")
-        # The proxy takes over a socket that is bound, because a port that is only known to be free may be taken meanwhile.
+        # The proxy takes over a socket that is bound, because a port that is only known to be free may be taken
+        # meanwhile.
         with socket.socket() as bound, open(self.place / "log", "wb") as log:
             bound.bind(("127.0.0.1", 0))
             self.port = bound.getsockname()[1]

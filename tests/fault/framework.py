@@ -26,7 +26,8 @@ from pathlib import Path
 
 MIB = 1 << 20
 PROCESSORS = os.cpu_count() or 1
-# Rounds of a check that compares times: a server that breaks the rule does so in each, a machine that stalls spoils one.
+# Rounds of a check that compares times: a server that breaks the rule does so in each, a machine that stalls spoils
+# one.
 TIMED_ROUNDS = 3
 LONG_MINUTES = 30  # A long run of fewer minutes tries as much less of what is counted.
 
@@ -129,7 +130,8 @@ class Process:
     """A child process, with what /proc says about it. `limits` are options of prlimit."""
 
     def __init__(self, command, limits=(), **popen):
-        # Programs set up the child, because a function of Python needs a true fork, in which threads of gRPC abort or hang.
+        # Programs set up the child, because a function of Python needs a true fork, in which threads of gRPC abort or
+        # hang.
         setup = ["setpriv", "--pdeathsig", "KILL", *(["prlimit", *limits] if limits else [])]
         self.child = subprocess.Popen([*setup, *(str(part) for part in command)], **popen)
         self.pid = self.child.pid
@@ -415,8 +417,8 @@ def main():
     arguments = parser.parse_args()
     TOOLS = Tools(arguments)
     TOOLS.prepare()
-    # A topic may take functions from another one, whose checks are not its own. A name that is given is run however long
-    # it takes.
+    # A topic may take functions from another one, whose checks are not its own. A name that is given is run however
+    # long it takes.
     chosen = [
         one for one in CHECKS
         if one.run.__module__ == "__main__" and re.search(arguments.only, one.name) and not (arguments.without and re.search(arguments.without, one.name))

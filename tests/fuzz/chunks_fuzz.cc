@@ -21,7 +21,7 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
 #include "client/sweep_reader.h"
-#include "core/sweep/grid.h"
+#include "core/types/grid.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/sweep.h"
 #include "tests/fuzz/bytes.h"

@@ -1,13 +1,13 @@
-// Fuzzes the study of cost: bytes are a v1::CostRequest, which is answered with one sample of each time and as much time
-// as a study of one contact needs.
+// Fuzzes the study of cost: bytes are a v1::CostRequest, which is answered with one sample of each time and as much
+// time as a study of one contact needs.
 //
-// It checks the status; that the stream begins with a chunk without rows, counts its rows, and ends with a summary; that
-// names are short and different; that a measured method has a time, finite velocities and errors that are no NaN; that
-// the front is one and the picks go through all tolerances; that the counts of the summary are those of the rows; and
-// that no method errs by more than it claims.
+// It checks the status; that the stream begins with a chunk without rows, counts its rows, and ends with a summary;
+// that names are short and different; that a measured method has a time, finite velocities and errors that are no NaN;
+// that the front is one and the picks go through all tolerances; that the counts of the summary are those of the rows;
+// and that no method errs by more than it claims.
 //
-// It covers core/study/*cost*.cc, core/study/*_methods.cc, core/study/exact_velocity.cc, core/study/certified_velocity.cc
-// and core/study/stopwatch.cc.
+// It covers core/study/*cost*.cc, core/study/*_methods.cc, core/cost/exact_velocity.cc, core/cost/certified_velocity.cc
+// and core/cost/stopwatch.cc.
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,8 @@
 // target is separate, because an impact that never parts takes a thousand times as long as others until its budget is
 // used up.
 //
-// The target checks the claims of tests/fuzz/outcome_claims.h, and that the history has its length and a converged impact
-// has no negative duration or peak.
+// The target checks the claims of tests/fuzz/outcome_claims.h, and that the history has its length and a converged
+// impact has no negative duration or peak.
 //
 // Covers: core/models/finite_duration*.cc, core/contact/finite_forces.cc.
 

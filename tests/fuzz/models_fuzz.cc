@@ -2,10 +2,10 @@
 // audited.
 //
 // The target checks the claims of tests/fuzz/outcome_claims.h. In addition, bounds are intervals, and the one of the
-// energetic coefficient is within [0, 1]; an impact under the energetic coefficient breaks no limit in its own audit; any
-// velocity can be audited; a sweep has the bits of Solve; the numbers of a certificate have a decimal or two ends; and
-// Newton's coefficient of a pendulum is that of its certificate to its stated error, or to 2^-45 of it or of 2^-700, below
-// which plain arithmetic claims nothing (core/models/pendulum/pendulum.h).
+// energetic coefficient is within [0, 1]; an impact under the energetic coefficient breaks no limit in its own audit;
+// any velocity can be audited; a sweep has the bits of Solve; the numbers of a certificate have a decimal or two ends;
+// and Newton's coefficient of a pendulum is that of its certificate to its stated error, or to 2^-45 of it or of
+// 2^-700, below which plain arithmetic claims nothing (core/models/pendulum/pendulum.h).
 //
 // Covers: core/scene/*.cc but interval_reduction.cc; core/models/*.cc but finite_duration*.cc and scene_enclosure.cc;
 // core/engine/local_solver.cc; core/study/*.cc but audit_batch.cc.

@@ -14,9 +14,9 @@
 //
 // s = (e + 2^-40) (V + W P) P + e V^2/Wnn and s_f = 2 (e + 2^-40) P + e V/Wnn, where e is the outcome's relative error,
 // which is one of velocities, V the largest contact velocity before or after, P = tau1 + |f1|, and W the sum of the
-// magnitudes of its entries. To s comes the sum of the stated errors of the works; those of the model of finite duration,
-// which integrates them beside the velocities, are taken as 2^-30 of the energy that moves if it states none. An answer with
-// infinite e has not converged; its numbers only have to be finite.
+// magnitudes of its entries. To s comes the sum of the stated errors of the works; those of the model of finite
+// duration, which integrates them beside the velocities, are taken as 2^-30 of the energy that moves if it states none.
+// An answer with infinite e has not converged; its numbers only have to be finite.
 
 #ifndef RICOCHET_TESTS_FUZZ_OUTCOME_CLAIMS_H_
 #define RICOCHET_TESTS_FUZZ_OUTCOME_CLAIMS_H_

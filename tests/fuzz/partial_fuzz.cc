@@ -1,13 +1,13 @@
 // Fuzzes what a sweep leaves on the disk for another run: the first part of its file, its shards, and the manifests of
-// both. A sweep of 20 points is written in pieces; the input says how it is cut and in which format, and then which of the
-// files are damaged where: a byte or a digit is changed, the end is cut off or added to, a file is removed or is that of
-// another shard.
+// both. A sweep of 20 points is written in pieces; the input says how it is cut and in which format, and then which of
+// the files are damaged where: a byte or a digit is changed, the end is cut off or added to, a file is removed or is
+// that of another shard.
 //
 // It checks that a sweep that goes on after any damage, and shards that are merged after any damage, are refused with a
 // message, or give the bytes of the whole sweep.
 //
-// It covers client/cli/partial_file.cc, client/cli/sweep_output.cc, client/cli/shard.cc, client/cli/shard_coverage.cc and
-// client/cli/merge.cc.
+// It covers client/cli/io/partial_file.cc, client/cli/sweep/sweep_output.cc, client/cli/sweep/shard.cc,
+// client/cli/sweep/shard_coverage.cc and client/cli/merge.cc.
 
 #include <CLI/App.hpp>
 #include <algorithm>
@@ -26,16 +26,16 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
-#include "client/cli/common.h"
+#include "client/cli/input/command_options.h"
+#include "client/cli/io/used_files.h"
 #include "client/cli/program.h"
-#include "client/cli/shard.h"
-#include "client/cli/sweep_output.h"
-#include "client/cli/used_files.h"
+#include "client/cli/sweep/shard.h"
+#include "client/cli/sweep/sweep_output.h"
 #include "ricochet/solver.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/fail.h"
-#include "tests/support/system_scenes.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/processes/temporary_directory.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet::cli {
 namespace {
@@ -176,7 +176,7 @@ void CheckResume(Bytes bytes) {
     const absl::StatusOr<bool> written = Write(*output, stop % (kPoints / kPiece));
     if (!written.ok()) Fail(written.status().ToString());
     // Else the run was killed, and its last points are those of its last checkpoint.
-    if ((stop & 128U) != 0) output->Break("ricochet");
+    if ((stop & 128U) != 0) output->LeaveForResume("ricochet");
   }
   const std::string part = path + ".part";
   while (!bytes.empty()) {

@@ -1,5 +1,5 @@
-// The paths that requests name, for the mutator of messages (tests/fuzz/mutate_message.h): those of the fields and of the
-// columns of each system.
+// The paths that requests name, for the mutator of messages (tests/fuzz/mutate_message.h): those of the fields and of
+// the columns of each system.
 
 #ifndef RICOCHET_TESTS_FUZZ_PATH_TEXTS_H_
 #define RICOCHET_TESTS_FUZZ_PATH_TEXTS_H_
@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "core/rows/column.h"
 #include "core/scene/field.h"
-#include "core/sweep/column.h"
 #include "ricochet/scene.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 

@@ -4,7 +4,7 @@
 // It checks that reading gives OK, or INVALID_ARGUMENT with a message; that a scene is the same after it was written in
 // either format and read again; and that Validate and Solve accept any scene without a crash.
 //
-// It covers client/cli/scene_input.cc and client/cli/number_input.cc.
+// It covers client/cli/input/scene_input.cc and client/cli/text/number_input.cc.
 
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>
@@ -22,8 +22,8 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
-#include "client/cli/number_input.h"
-#include "client/cli/scene_input.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/text/number_input.h"
 #include "core/scene/validate.h"
 #include "proto/wire/scene.h"
 #include "tests/fuzz/fail.h"

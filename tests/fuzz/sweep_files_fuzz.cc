@@ -1,12 +1,13 @@
-// Fuzzes the reading of files of sweeps for pictures. The first byte says whether the others are a file as it is, in CSV,
-// JSON or NPY, or build a NetCDF file: its dimensions, variables and attributes, which are whole, because the library that
-// reads their bytes is not ours. The second byte says whether one column is wanted or all.
+// Fuzzes the reading of files of sweeps for pictures. The first byte says whether the others are a file as it is, in
+// CSV, JSON or NPY, or build a NetCDF file: its dimensions, variables and attributes, which are whole, because the
+// library that reads their bytes is not ours. The second byte says whether one column is wanted or all.
 //
-// It checks that a file is read or refused with a reason that names it, and that the table which was read fits together:
-// axes and columns have a number for each point, regimes and statuses are there for all points or none, and are such.
+// It checks that a file is read or refused with a reason that names it, and that the table which was read fits
+// together: axes and columns have a number for each point, regimes and statuses are there for all points or none, and
+// are such.
 //
-// It covers client/cli/sweep_file.cc, client/cli/sweep_rows.cc, client/cli/npy_reader.cc, client/cli/netcdf_table.cc and
-// client/cli/json/sweep_json.cc.
+// It covers client/cli/sweep/sweep_file.cc, client/cli/sweep/sweep_rows.cc, client/cli/sweep/npy_reader.cc,
+// client/cli/sweep/netcdf_table.cc and client/cli/sweep/sweep_json.cc.
 
 #include <netcdf.h>
 
@@ -20,10 +21,10 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "client/cli/sweep_file.h"
+#include "client/cli/sweep/sweep_file.h"
 #include "tests/fuzz/bytes.h"
 #include "tests/fuzz/fail.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/processes/temporary_directory.h"
 
 namespace ricochet::cli {
 namespace {

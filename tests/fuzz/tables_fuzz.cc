@@ -1,11 +1,11 @@
-// Fuzzes the reading of tables of data: bytes are CSV text, after one byte that says whether they are any table or one of
-// observed impacts, and how many rows are read at a time.
+// Fuzzes the reading of tables of data: bytes are CSV text, after one byte that says whether they are any table or one
+// of observed impacts, and how many rows are read at a time.
 //
-// It checks that a table is read or refused with a reason; that its columns are equally long and its lines in order; that
-// each bad row has a reason, and each row that is not bad has as many numbers as it has columns; that it is the same read
-// in parts and as a whole; and that a table of its names and numbers is read as the same numbers.
+// It checks that a table is read or refused with a reason; that its columns are equally long and its lines in order;
+// that each bad row has a reason, and each row that is not bad has as many numbers as it has columns; that it is the
+// same read in parts and as a whole; and that a table of its names and numbers is read as the same numbers.
 //
-// It covers client/cli/csv_table.cc and client/cli/audit_data.cc.
+// It covers client/cli/io/csv_table.cc and client/cli/input/audit_data.cc.
 
 #include <cmath>
 #include <cstddef>
@@ -20,9 +20,10 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"
-#include "client/cli/audit_data.h"
-#include "client/cli/csv_table.h"
-#include "core/numerics/decimal.h"
+#include "client/cli/input/audit_data.h"
+#include "client/cli/io/csv_row.h"
+#include "client/cli/io/csv_table.h"
+#include "core/base/decimal.h"
 #include "tests/fuzz/fail.h"
 
 namespace ricochet::cli {

@@ -15,10 +15,10 @@
 #include "ricochet/outcome.h"
 #include "tests/hard_cases/hard_case_table.h"
 #include "tests/hard_cases/naive_compliant.h"
-#include "tests/support/compliant_hard_scenes.h"
-#include "tests/support/compliant_oracle.h"
-#include "tests/support/compliant_scenes.h"
-#include "tests/support/made_outcome.h"
+#include "tests/support/oracles/compliant_oracle.h"
+#include "tests/support/scenes/compliant_hard_scenes.h"
+#include "tests/support/scenes/compliant_scenes.h"
+#include "tests/support/scenes/made_outcome.h"
 
 namespace ricochet::compliant {
 namespace {

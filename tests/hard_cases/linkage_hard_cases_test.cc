@@ -15,7 +15,7 @@
 
 #include "core/contact/reduction.h"
 #include "tests/hard_cases/hard_case_table.h"
-#include "tests/support/arb.h"
+#include "tests/support/oracles/arb.h"
 
 namespace ricochet {
 namespace {

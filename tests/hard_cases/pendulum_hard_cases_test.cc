@@ -13,8 +13,8 @@
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
 #include "tests/hard_cases/hard_case_table.h"
-#include "tests/support/pendulum_oracle.h"
-#include "tests/support/pendulum_scenes.h"
+#include "tests/support/oracles/pendulum_oracle.h"
+#include "tests/support/scenes/pendulum_scenes.h"
 
 namespace ricochet::pendulum {
 namespace {
@@ -263,8 +263,8 @@ HardCaseResult RunBounds() {
   return result;
 }
 
-// The model's header grants outputs of the order of x an error of 2^-100 of their scale; here they are held to their own
-// last digits.
+// The model's header grants outputs of the order of x an error of 2^-100 of their scale; here they are held to their
+// own last digits.
 HardCaseResult RunOwnDigits() {
   constexpr double kLeastRatio = 1e-55;  // Below this ratio the reference would need more bits than it has.
   HardCaseResult result = {.name = "coefficients of 1, x from 10⁻⁵⁰ to 1: what changes sign there, by its own size",

@@ -11,9 +11,9 @@
 #include "core/models/planar/planar.h"
 #include "tests/hard_cases/hard_case_table.h"
 #include "tests/hard_cases/naive_planar.h"
-#include "tests/support/known_contacts.h"
-#include "tests/support/planar_oracle.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/oracles/planar_oracle.h"
+#include "tests/support/scenes/known_contacts.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet::planar {
 namespace {

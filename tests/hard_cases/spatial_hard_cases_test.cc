@@ -14,9 +14,9 @@
 #include "core/models/spatial/spatial.h"
 #include "ricochet/solver.h"
 #include "tests/hard_cases/hard_case_table.h"
-#include "tests/support/arb.h"
-#include "tests/support/known_contacts.h"
-#include "tests/support/spatial_scenes.h"
+#include "tests/support/oracles/arb.h"
+#include "tests/support/scenes/known_contacts.h"
+#include "tests/support/scenes/spatial_scenes.h"
 
 namespace ricochet::spatial {
 namespace {
@@ -157,8 +157,9 @@ End Reference(const Problem& problem) {
   return {limit(coarse.u1, fine.u1), limit(coarse.u2, fine.u2), limit(coarse.v, fine.v)};
 }
 
-// Solves an impact under Poisson's law with 64-bit mantissas. Slip follows its Taylor series in xi, in steps of an eighth
-// of the time in which it can change, until nothing is left of it. Stick, and slip in one direction, have closed forms.
+// Solves an impact under Poisson's law with 64-bit mantissas. Slip follows its Taylor series in xi, in steps of an
+// eighth of the time in which it can change, until nothing is left of it. Stick, and slip in one direction, have closed
+// forms.
 class SlipSeries {
  public:
   explicit SlipSeries(const Problem& problem) : p_(problem), at_{problem.u0[0], problem.u0[1], problem.v0, 0.0L} {
@@ -344,8 +345,8 @@ HardCaseResult RunStickThreshold() {
   return result;
 }
 
-// Slip along (3, 1), its invariant direction, goes on to the end, with v' = `slow` Wnn. Entries have few bits, so that the
-// direction is exact.
+// Slip along (3, 1), its invariant direction, goes on to the end, with v' = `slow` Wnn. Entries have few bits, so that
+// the direction is exact.
 Problem SlowV(SceneSource& source, double slow, RestitutionLaw law) {
   const auto rounded = [](double x) { return std::ldexp(std::floor(std::ldexp(x, 20)), -20); };
   Problem p = {.w33 = 1.0, .v0 = -1.0, .law = law, .coefficient = source.Uniform(0.1, 1.0), .tolerance = kTolerance};

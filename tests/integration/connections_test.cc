@@ -18,10 +18,10 @@
 #include <utility>
 #include <vector>
 
-#include "tests/support/eventually.h"
-#include "tests/support/server_process.h"
-#include "tests/support/service_calls.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/processes/eventually.h"
+#include "tests/support/processes/server_process.h"
+#include "tests/support/processes/service_calls.h"
+#include "tests/support/processes/temporary_directory.h"
 
 namespace ricochet {
 namespace {

@@ -20,12 +20,21 @@ expect_code() {
 }
 
 help=$("$dev" help)
-commands=$(sed -n 's/^cmd_\([a-z]*\)() .*/\1/p' "$dev")
+# Commands are functions of ./dev, or scripts in its table.
+commands=$(sed -n 's/^cmd_\([a-z]*\)() .*/\1/p; s/^  \[\([a-z]*\)\]=.*/\1/p' "$dev")
 [[ -n $commands ]] || fail "no commands found in $dev"
-known=$(sed -n '/^case .command in/,/^esac/p' "$dev")
 for command in $commands; do
   grep -q "^  $command " <<<"$help" || fail "./dev help says nothing about $command"
-  grep -qw "$command" <<<"$known" || fail "./dev refuses its own command $command"
+done
+while read -r script; do
+  [[ -x $root/$script ]] || fail "./dev names $script, which is no program"
+done < <(sed -n 's/^  \[[a-z]*\]=\([a-z_/.]*\))*$/\1/p' "$dev")
+# The rooms that the short form of asan goes through have tests of these names.
+read -ra rooms < <(sed -n 's/^readonly short_asan_tests=(\(.*\))/\1/p' "$dev")
+((${#rooms[@]})) || fail "$dev names no short_asan_tests"
+for room in "${rooms[@]}"; do
+  grep -Eq "ricochet_core_test\($room( |\$)|add_executable\(ricochet_${room}_test " "$root/tests/core/CMakeLists.txt" ||
+    fail "there is no test ricochet_${room}_test, which asan --short runs"
 done
 expect_code 0 help
 expect_code 0
@@ -34,6 +43,9 @@ expect_code 2 clean everything
 expect_code 2 format --nonsense
 expect_code 2 lint --nonsense
 expect_code 2 clean --short
+expect_code 2 fuzz soon
+expect_code 2 ulp 1 2
+expect_code 2 soak --nonsense
 
 # The row of a command in the table, and what it says about CI.
 table=$(grep '^| `./dev ' "$root/CONTRIBUTING.md")
@@ -57,7 +69,8 @@ for command in $commands; do
 done
 # Commands that the table or CI names, one a line.
 # shellcheck disable=SC2016  # The backquotes are those of Markdown.
-named=$(sed -n 's/^| `\.\/dev \([a-z]*\)` .*/\1/p' <<<"$table"; sed -n 's/^step \.\/dev \([a-z]*\).*/\1/p' "$root/.ci/run")
+named=$(sed -n 's/^| `\.\/dev \([a-z]*\)` .*/\1/p' <<<"$table"
+  sed -n 's/^step \.\/dev \([a-z]*\).*/\1/p' "$root/.ci/run")
 while read -r command; do
   grep -qx "$command" <<<"$commands" || fail "there is no command ./dev $command"
 done <<<"$named"

@@ -15,8 +15,8 @@
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
-#include "tests/support/server_process.h"
-#include "tests/support/service_calls.h"
+#include "tests/support/processes/server_process.h"
+#include "tests/support/processes/service_calls.h"
 
 namespace ricochet {
 namespace {

@@ -11,8 +11,8 @@
 #include <string>
 
 #include "ricochet/health.h"
-#include "tests/support/eventually.h"
-#include "tests/support/server_process.h"
+#include "tests/support/processes/eventually.h"
+#include "tests/support/processes/server_process.h"
 
 namespace ricochet {
 namespace {

@@ -17,13 +17,13 @@
 #include <thread>
 #include <vector>
 
-#include "core/engine/engine.h"
 #include "proto/wire/status.h"
+#include "ricochet/engine_info.h"
 #include "ricochet/error.h"
 #include "ricochet/info.h"
-#include "tests/support/server_process.h"
-#include "tests/support/service_calls.h"
-#include "tests/support/temporary_directory.h"
+#include "tests/support/processes/server_process.h"
+#include "tests/support/processes/service_calls.h"
+#include "tests/support/processes/temporary_directory.h"
 
 namespace ricochet {
 namespace {
@@ -122,8 +122,9 @@ TEST_F(ServerLog, TheRateOfCallsInTheLogIsBounded) {
   const ServerProcess server({"--log-calls", "rate:5"});
   const auto before = steady_clock::now();
   ExpectManyAnswers(server);
-  const auto seconds_taken = std::chrono::ceil<seconds>(steady_clock::now() - before).count();
   const std::string log = server.log();
+  // The server may write a line after the answer, but not after the log was read.
+  const auto seconds_taken = std::chrono::ceil<seconds>(steady_clock::now() - before).count();
   int64_t lines = 0;
   for (size_t at = 0; (at = log.find("/Solve", at)) != std::string::npos; ++at) ++lines;
   EXPECT_GE(lines, 5);

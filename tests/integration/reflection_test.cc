@@ -15,8 +15,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "grpc/reflection/v1/reflection.pb.h"
-#include "tests/support/server_process.h"
-#include "tests/support/service_calls.h"
+#include "tests/support/processes/server_process.h"
+#include "tests/support/processes/service_calls.h"
 
 namespace ricochet {
 namespace {

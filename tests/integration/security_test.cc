@@ -17,9 +17,9 @@
 
 #include "ricochet/client.h"
 #include "ricochet/health.h"
-#include "tests/support/eventually.h"
-#include "tests/support/server_process.h"
-#include "tests/support/test_certificates.h"
+#include "tests/support/processes/eventually.h"
+#include "tests/support/processes/server_process.h"
+#include "tests/support/processes/test_certificates.h"
 
 namespace ricochet {
 namespace {

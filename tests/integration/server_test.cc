@@ -19,15 +19,15 @@
 #include <thread>
 #include <vector>
 
-#include "core/engine/engine.h"
 #include "grpc/health/v1/health.grpc.pb.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/status.h"
+#include "ricochet/engine_info.h"
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
-#include "tests/support/server_process.h"
-#include "tests/support/service_calls.h"
-#include "tests/support/ulp.h"
+#include "tests/support/oracles/ulp.h"
+#include "tests/support/processes/server_process.h"
+#include "tests/support/processes/service_calls.h"
 
 namespace ricochet {
 namespace {

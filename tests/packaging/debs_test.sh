@@ -19,10 +19,30 @@ files() {
     -o -path '/etc/*shadow-' -o -path /etc/passwd- -o -path /etc/group- \) -prune -o -print | sort
 }
 
-say "Installing what the packages depend on, and the packages"
+say "A C++ client, where nothing of the engine and none of its libraries is"
 apt update
+apt install --no-install-recommends "$directory"/libricochet-client-dev_*.deb cmake g++ make
+mkdir /tmp/client && cd /tmp/client
+cat >main.cc <<'CXX'
+#include <iostream>
+#include "ricochet/client.h"
+int main() {
+  const auto client = ricochet::Client::Connect({.target = "127.0.0.1:1", .retry = {.max_attempts = 1}});
+  std::cout << absl::StatusCodeToString(client->Solve({}).status().code()) << '\n';
+}
+CXX
+printf '%s\n' 'cmake_minimum_required(VERSION 3.25)' 'project(client CXX)' 'set(CMAKE_CXX_STANDARD 20)' \
+  'find_package(ricochet REQUIRED COMPONENTS client)' 'add_executable(client main.cc)' \
+  'target_link_libraries(client ricochet::client)' >CMakeLists.txt
+cmake -S . -B build >/dev/null
+cmake --build build >/dev/null
+[[ $(build/client) == UNAVAILABLE ]] || fail "the client says something else"
+cd /
+apt purge libricochet-client-dev
+
+say "Installing what the packages depend on, and the packages"
 dependencies=$(for deb in "$directory"/*.deb; do dpkg-deb --field "$deb" Depends; done |
-  sed 's/([^)]*)//g; s/|[^,]*//g' | tr ',' '\n' | tr -d ' ' | grep -Ev '^(ricochet.*|)$' | sort -u)
+  sed 's/([^)]*)//g; s/|[^,]*//g' | tr ',' '\n' | tr -d ' ' | grep -Ev '^((lib)?ricochet.*|)$' | sort -u)
 # shellcheck disable=SC2086  # A word is a package.
 apt install --no-install-recommends $dependencies adduser cmake g++ make pkg-config gnuplot-nox python3-xarray
 files >/tmp/before
@@ -103,9 +123,9 @@ g++ -std=c++20 main.cc -o by_pkg_config $(pkg-config --cflags --libs --static ri
 
 say "Removing, then purging"
 cd /
-apt remove ricochet libricochet-dev ricochet-server python3-ricochet
+apt remove ricochet libricochet-client-dev libricochet-dev ricochet-server python3-ricochet
 [[ -s /etc/ricochet/ricochetd.toml ]] || fail "removing took the configuration, too"
-dpkg --purge ricochet libricochet-dev ricochet-server python3-ricochet
+dpkg --purge ricochet libricochet-client-dev libricochet-dev ricochet-server python3-ricochet
 files >/tmp/after
 diff /tmp/before /tmp/after || fail "these files are left"
 ! getent passwd ricochet >/dev/null || fail "the user is left"

@@ -1,6 +1,6 @@
 // Bullet in double precision: ball against plane, and a hinge between rigid bodies, or a revolute link in generalized
-// coordinates (Featherstone). A contact bounces by Newton's law; sequential impulses, or a linear complementarity problem
-// solved by pivoting (Dantzig).
+// coordinates (Featherstone). A contact bounces by Newton's law; sequential impulses, or a linear complementarity
+// problem solved by pivoting (Dantzig).
 
 #include <BulletDynamics/Featherstone/btMultiBody.h>
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>

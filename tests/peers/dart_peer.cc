@@ -1,5 +1,5 @@
-// DART: revolute joint in generalized coordinates, ball against box. A contact bounces by Newton's law; the boxed linear
-// complementarity problem is solved by pivoting (Dantzig) or by projected Gauss-Seidel sweeps.
+// DART: revolute joint in generalized coordinates, ball against box. A contact bounces by Newton's law; the boxed
+// linear complementarity problem is solved by pivoting (Dantzig) or by projected Gauss-Seidel sweeps.
 
 // The umbrella header includes files that Debian's package lacks.
 #include <dart/collision/dart/DARTCollisionDetector.hpp>

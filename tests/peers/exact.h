@@ -1,4 +1,5 @@
-// The five cases, and what the pendulum does in each by the three laws of restitution. Lubarda (2009), Eqs. (11), (14), (23).
+// The five cases, and what the pendulum does in each by the three laws of restitution. Lubarda (2009), Eqs. (11), (14),
+// (23).
 
 #ifndef RICOCHET_TESTS_PEERS_EXACT_H_
 #define RICOCHET_TESTS_PEERS_EXACT_H_
@@ -10,8 +11,8 @@
 
 namespace ricochet::peers {
 
-// Case 1 has no friction, so that all laws agree. Cases 2 and 3 are the examples of the paper's sections 8.1 and 9; in case 4
-// friction locks the pendulum; in case 5 friction all but locks it, and the three laws lie furthest apart.
+// Case 1 has no friction, so that all laws agree. Cases 2 and 3 are the examples of the paper's sections 8.1 and 9; in
+// case 4 friction locks the pendulum; in case 5 friction all but locks it, and the three laws lie furthest apart.
 inline constexpr std::array<PendulumCase, 5> kCases = {
     {{.number = 1, .a = 0.3, .b = 1, .friction = 0, .restitution = 0.8},
      {.number = 2, .a = 0.3, .b = 1, .friction = 0.1, .restitution = 1},

@@ -1,5 +1,5 @@
-// ricochet_peers FILE.csv [ENGINE]: lets every engine of this build, or the one named, strike the five cases with all its
-// settings, prints a table and writes all measurements to the file.
+// ricochet_peers FILE.csv [ENGINE]: lets every engine of this build, or the one named, strike the five cases with all
+// its settings, prints a table and writes all measurements to the file.
 
 #include <algorithm>
 #include <cmath>
@@ -41,8 +41,8 @@ double WorkedSeconds() {
   return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-// Runs longer than this, in s, are timed by the thread's clock, as other programs interrupt most of them. For shorter runs
-// that clock is too slow to read.
+// Runs longer than this, in s, are timed by the thread's clock, as other programs interrupt most of them. For shorter
+// runs that clock is too slow to read.
 constexpr double kShortRun = 1e-4;
 
 double SecondsOfRun(Peer& peer) {

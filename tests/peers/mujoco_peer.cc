@@ -1,5 +1,5 @@
-// MuJoCo: hinge joint, ball against plane, elliptic cone. Its contacts are soft: it has no coefficient of restitution, but a
-// stiffness and a damping (solref), which also say how fast friction stops slip.
+// MuJoCo: hinge joint, ball against plane, elliptic cone. Its contacts are soft: it has no coefficient of restitution,
+// but a stiffness and a damping (solref), which also say how fast friction stops slip.
 
 #include <mujoco/mujoco.h>
 
@@ -27,7 +27,8 @@ constexpr double kImpedance = 0.9999;
 std::string ModelText(const PendulumCase& c, double step, double contact_time) {
   const Rod rod(c);
   const SpringContact spring = SpringFor(c, contact_time);
-  // Contacts are stated in their own frame and without friction where there is none, as the engine has a least coefficient.
+  // Contacts are stated in their own frame and without friction where there is none, as the engine has a least
+  // coefficient.
   const std::string contact = absl::StrFormat("condim='%d' friction='%.17g 0 0' solref='%.17g %.17g' solimp='%g %g 1'",
                                               c.friction > 0 ? 3 : 1, c.friction, -spring.stiffness / spring.mass,
                                               -spring.damping / spring.mass, kImpedance, kImpedance);

@@ -1,5 +1,5 @@
-// The Open Dynamics Engine: hinge joint, ball against plane. A rigid contact bounces by Newton's law; a soft one is a spring
-// and a damper that the engine states as ERP and CFM.
+// The Open Dynamics Engine: hinge joint, ball against plane. A rigid contact bounces by Newton's law; a soft one is a
+// spring and a damper that the engine states as ERP and CFM.
 
 #include <ode/ode.h>
 
@@ -32,7 +32,8 @@ class OdePeer final : public Peer {
     case_ = c;
     rod_ = std::make_unique<Rod>(c);
     world_ = dWorldCreate();
-    // The engine softens rigid constraints by CFM/dt, in rad^2/(kg m^2); the hinge and the contact together need a little.
+    // The engine softens rigid constraints by CFM/dt, in rad^2/(kg m^2); the hinge and the contact together need a
+    // little.
     dWorldSetCFM(world_, kSoftening * setup().step_s);
     contacts_ = dJointGroupCreate(0);
     if (stepper_ == Stepper::kQuick) dWorldSetQuickStepNumIterations(world_, setup().iterations);

@@ -1,9 +1,9 @@
 // Peer: a physics engine that lets the paper's pendulum strike a fixed surface, by its own hinge and its own contact.
 //
-// The pendulum is a uniform thin rod from the pin O to its tip at (a, -b), in metres. Its moment of inertia about the pin
-// is 1 kg m^2 and its angular velocity before the impact is -1 rad/s, so that numbers of different engines compare. The
-// tip is a small ball whose lowest point touches the surface y = -b when an impact starts. There is no gravity, as weight
-// gives no impulse.
+// The pendulum is a uniform thin rod from the pin O to its tip at (a, -b), in metres. Its moment of inertia about the
+// pin is 1 kg m^2 and its angular velocity before the impact is -1 rad/s, so that numbers of different engines compare.
+// The tip is a small ball whose lowest point touches the surface y = -b when an impact starts. There is no gravity, as
+// weight gives no impulse.
 //
 // A peer is one engine with fixed settings: Prepare builds its world, Reset puts the pendulum back to where an impact
 // starts, Run is the part that is timed. Two-dimensional engines work in the plane (x, y); the others turn about z.
@@ -88,8 +88,8 @@ class Peer {
 
 using Peers = std::vector<std::unique_ptr<Peer>>;
 
-// Rigid engines take one step for an impact. If their solver has not converged, the contact may still approach after it;
-// they then take more steps, at most this many.
+// Rigid engines take one step for an impact. If their solver has not converged, the contact may still approach after
+// it; they then take more steps, at most this many.
 inline constexpr int kMostSteps = 10;
 // Slower rotation than this towards the surface, in rad/s, is none.
 inline constexpr double kStopped = 1e-6;

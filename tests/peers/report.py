@@ -13,7 +13,7 @@ import statistics
 import subprocess
 import sys
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'support'))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'support', 'processes'))
 import provenance  # pylint: disable=wrong-import-position
 
 ROOT = provenance.ROOT
@@ -85,7 +85,7 @@ def read(path):
 
 
 def header(packages):
-    lines = [provenance.sentence() + ' Packages:', '']
+    lines = [provenance.sentence(' Packages:'), '']
     return lines + ['%s %s%s' % (package, provenance.version(package), '.' if package == packages[-1] else ',')
                     for package in packages]
 

@@ -1,5 +1,5 @@
-// Ricochet itself: the closed form as a kernel, one impact after another and in SIMD lanes, and LocalSolver::Solve with all
-// that an answer holds. Each run solves many impacts, because the clock is coarser than one.
+// Ricochet itself: the closed form as a kernel, one impact after another and in SIMD lanes, and LocalSolver::Solve with
+// all that an answer holds. Each run solves many impacts, because the clock is coarser than one.
 
 #include <cstddef>
 #include <limits>

@@ -89,8 +89,8 @@ double HuntCrossleyDamping(double e, double v) {
   return low / (1.5 * v);
 }
 
-// Plane-strain modulus in Pa with which a Hertz contact of a mass m at the speed v, on a ball of the tip's radius, lasts
-// `time` without damping: the greatest depth is time v/2.9432, and k = 5/4 m v^2/depth^(5/2) = 4/3 sqrt(R) E.
+// Plane-strain modulus in Pa with which a Hertz contact of a mass m at the speed v, on a ball of the tip's radius,
+// lasts `time` without damping: the greatest depth is time v/2.9432, and k = 5/4 m v^2/depth^(5/2) = 4/3 sqrt(R) E.
 double HertzModulus(double m, double v, double time) {
   const double depth = time * v / 2.9432;
   return 1.25 * m * v * v / std::pow(depth, 2.5) / (4.0 / 3.0 * std::sqrt(kTipRadius));

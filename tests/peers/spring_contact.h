@@ -1,13 +1,13 @@
 // SpringContact: the spring and the damper that stand for a coefficient of restitution in engines with soft contacts.
 //
-// A frictionless contact of the pendulum is a mass m = J0/a^2 on a linear spring and damper, m x'' + d x' + k x = 0, and it
-// ends when the force has fallen to zero. Its restitution then depends on the damping ratio zeta alone:
+// A frictionless contact of the pendulum is a mass m = J0/a^2 on a linear spring and damper, m x'' + d x' + k x = 0,
+// and it ends when the force has fallen to zero. Its restitution then depends on the damping ratio zeta alone:
 //
 //   e = exp(-zeta/s (pi - atan2(2 zeta s, s^2 - zeta^2))),   s = sqrt(1 - zeta^2)
 //
-// (Schwager and Poeschel 2007, doi:10.1007/s10035-007-0065-z.) Friction changes the mass that the damper sees, so that under
-// friction an engine with these numbers has no exact coefficient; for e = 1 there is no damper and the question does not
-// arise.
+// (Schwager and Poeschel 2007, doi:10.1007/s10035-007-0065-z.) Friction changes the mass that the damper sees, so that
+// under friction an engine with these numbers has no exact coefficient; for e = 1 there is no damper and the question
+// does not arise.
 
 #ifndef RICOCHET_TESTS_PEERS_SPRING_CONTACT_H_
 #define RICOCHET_TESTS_PEERS_SPRING_CONTACT_H_

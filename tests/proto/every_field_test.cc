@@ -3,16 +3,29 @@
 #include <google/protobuf/util/message_differencer.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <set>
 #include <string>
+#include <type_traits>
+#include <utility>
 
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "absl/strings/string_view.h"
+#include "absl/strings/strip.h"
+#include "core/scene/numbers.h"
 #include "fill.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/info.h"
+#include "proto/wire/outcome.h"
 #include "proto/wire/requests.h"
+#include "proto/wire/scene.h"
 #include "proto/wire/sweep.h"
+#include "ricochet/audit_columns.h"
+#include "ricochet/outcome_numbers.h"
 #include "ricochet/v1/impact_service.pb.h"
 
 namespace ricochet {
@@ -60,6 +73,81 @@ TYPED_TEST(EveryFieldTest, SurvivesTheCoreByteForByte) {
   TypeParam proto;
   Fill(0, proto);
   EXPECT_EQ(ThroughCore(proto).SerializeAsString(), proto.SerializeAsString());
+}
+
+TYPED_TEST(EveryFieldTest, ZeroIsNotAbsent) {
+  for (int choice = 0; choice < kChoices; ++choice) {
+    TypeParam proto;
+    Fill(choice, proto);
+    SetToZero(proto);
+    EXPECT_EQ(ThroughCore(proto).SerializeAsString(), proto.SerializeAsString());
+  }
+}
+
+// An audit knows each coefficient of its report.
+template <typename Message>
+constexpr bool kKnowsAll =
+    std::is_same_v<Message, v1::AuditResponse> || std::is_same_v<Message, v1::AuditBatchResponse>;
+
+TYPED_TEST(EveryFieldTest, WhatIsAbsentStaysAbsent) {
+  if (kKnowsAll<TypeParam>) return;
+  for (int choice = 0; choice < kChoices; ++choice) {
+    TypeParam proto;
+    Fill(choice, proto);
+    MakeAbsent(proto);
+    EXPECT_EQ(ThroughCore(proto).SerializeAsString(), proto.SerializeAsString());
+  }
+}
+
+// Returns the number at a path, which is made of the names of the proto: "linkage.links[1].theta_rad".
+double NumberAt(const std::string& path, const google::protobuf::Message& root) {
+  const google::protobuf::Message* message = &root;
+  for (const absl::string_view step : absl::StrSplit(path, '.')) {
+    const std::pair<std::string, std::string> parts = absl::StrSplit(absl::StripSuffix(step, "]"), '[');
+    const auto& reflection = *message->GetReflection();
+    const auto* const field = message->GetDescriptor()->FindFieldByName(parts.first);
+    int index = -1;
+    if (field == nullptr || (!parts.second.empty() && !absl::SimpleAtoi(parts.second, &index))) break;
+    if (field->cpp_type() == google::protobuf::FieldDescriptor::CPPTYPE_DOUBLE) {
+      return index < 0 ? reflection.GetDouble(*message, field) : reflection.GetRepeatedDouble(*message, field, index);
+    }
+    message =
+        index < 0 ? &reflection.GetMessage(*message, field) : &reflection.GetRepeatedMessage(*message, field, index);
+  }
+  ADD_FAILURE() << path << " names no number of " << root.GetTypeName();
+  return std::nan("");
+}
+
+// A map that pairs two fields with the members of each other gives every message back. The names of the numbers tell.
+TEST(NamesTest, EachNumberOfASceneArrivesInTheMemberOfItsName) {
+  for (int choice = 0; choice < kChoices; ++choice) {
+    v1::Scene proto;
+    Fill(choice, proto);
+    const Scene scene = FromProto(proto);
+    VisitNumbers(scene, [&](const NumberPath& path, double number, NumberRule /*rule*/) {
+      EXPECT_EQ(NumberAt(path.Text(), proto), number) << path.Text();
+    });
+  }
+}
+
+TEST(NamesTest, EachNumberOfAnOutcomeArrivesInTheMemberOfItsName) {
+  v1::Outcome proto;
+  Fill(0, proto);
+  int numbers = 0;
+  VisitOutcomeNumbers(FromProto(proto), [&](const NumberPath& path, double number) {
+    EXPECT_EQ(NumberAt(path.Text(), proto), number) << path.Text();
+    ++numbers;
+  });
+  EXPECT_GT(numbers, 40);
+}
+
+TEST(NamesTest, EachColumnOfAnAuditArrivesInTheMemberOfItsName) {
+  v1::AuditBatchRequest proto;
+  Fill(0, proto);
+  const AuditBatchRequest request = FromProto(proto);
+  for (const NamedAuditColumn& column : kAuditColumns) {
+    EXPECT_EQ(NumberAt(absl::StrCat("columns.", column.name, "[0]"), proto), (request.columns.*column.values)[0]);
+  }
 }
 
 // The messages above are all messages of the service, so that none is left untested.

@@ -4,7 +4,9 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "absl/strings/str_cat.h"
 #include "ricochet/v1/sweep.pb.h"
 
@@ -101,8 +103,45 @@ class Filler {
   std::map<std::string, int> values_;
 };
 
+// Calls visit(field, message) for each number of a message and of its parts that may be absent.
+void VisitOptionalNumbers(Message& message, absl::FunctionRef<void(const FieldDescriptor&, Message&)> visit) {
+  const Reflection& reflection = *message.GetReflection();
+  std::vector<const FieldDescriptor*> fields;
+  reflection.ListFields(message, &fields);
+  for (const FieldDescriptor* field : fields) {
+    const bool is_message = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+    if (!is_message && field->has_presence()) visit(*field, message);
+    if (!is_message) continue;
+    if (!field->is_repeated()) VisitOptionalNumbers(*reflection.MutableMessage(&message, field), visit);
+    for (int i = 0; field->is_repeated() && i < reflection.FieldSize(message, field); ++i) {
+      VisitOptionalNumbers(*reflection.MutableRepeatedMessage(&message, field, i), visit);
+    }
+  }
+}
+
 }  // namespace
 
 void Fill(int choice, google::protobuf::Message& message) { Filler(choice).FillMessage(message); }
+
+void SetToZero(google::protobuf::Message& message) {
+  VisitOptionalNumbers(message, [](const FieldDescriptor& field, Message& owner) {
+    const Reflection& reflection = *owner.GetReflection();
+    switch (field.cpp_type()) {
+      case FieldDescriptor::CPPTYPE_DOUBLE:
+        return reflection.SetDouble(&owner, &field, 0.0);
+      case FieldDescriptor::CPPTYPE_INT32:
+        return reflection.SetInt32(&owner, &field, 0);
+      case FieldDescriptor::CPPTYPE_INT64:
+        return reflection.SetInt64(&owner, &field, 0);
+      default:
+        ADD_FAILURE() << field.full_name() << ": SetToZero does not know this type";
+    }
+  });
+}
+
+void MakeAbsent(google::protobuf::Message& message) {
+  VisitOptionalNumbers(
+      message, [](const FieldDescriptor& field, Message& owner) { owner.GetReflection()->ClearField(&owner, &field); });
+}
 
 }  // namespace ricochet

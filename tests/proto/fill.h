@@ -13,6 +13,10 @@ namespace ricochet {
 // their order, so that the entries of a list differ; none is the value 0.
 void Fill(int choice, google::protobuf::Message& message);
 
+// Sets each number that may be absent from a filled message, or from a part of it, to 0, or makes it absent.
+void SetToZero(google::protobuf::Message& message);
+void MakeAbsent(google::protobuf::Message& message);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_TESTS_PROTO_FILL_H_

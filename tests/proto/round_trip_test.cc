@@ -7,7 +7,6 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -58,39 +57,19 @@ Scene PaperScene() {
           .restitution = EnergeticCoefficient{0.75}};
 }
 
-Outcome SomeOutcome() {
-  const State start = {.normal_impulse_n_s = 0.0,
-                       .tangential_impulse_n_s = {-0.0},
-                       .contact_velocity = {.tangential_m_s = {2.0}, .normal_m_s = -0.6},
-                       .rates_rad_s = {-2.0}};
-  return {.regime = Regime::kRebound,
-          .admissible = false,
-          .broken_limits = {{LimitKind::kSharp, 1.0, 1.0, 1e-17}, {LimitKind::kEnergy, 0.25, 0.0, 0.25}},
-          .w_rank = 1,
-          .coefficients = {0.5, 0.7, 0.6, -0.08},
-          .rates_after_rad_s = {1.5},
-          .contact_velocity_after = {.tangential_m_s = {-1.5}, .normal_m_s = 0.45},
-          .impulse = {.normal_compression_n_s = 6.25, .normal_total_n_s = 10.625, .tangential_n_s = {-0.85}},
-          .work = {-1.0, 0.36, -0.5, -0.25, -0.64, -0.75, kSubnormal},
-          .energy_change_j = -1.39,
-          .timeline = {{EventKind::kStart, start}, {EventKind::kCompressionEnds, start}},
-          .history = {start, start, start},
-          .bodies_after = {{{1.0, 2.0}, {3.0}}, {{4.0, 5.0, 6.0}, {7.0, 8.0, 9.0}}},
-          .effective = {0.1, 0.2, 0.3},
-          .accuracy = {1e-12, AccuracyKind::kEstimate, 7, 8},
-          .errors = {1e-1, 2e-1, 3e-1, 4e-1, 5e-1, 6e-1, 7e-1, 8e-1, 9e-1, 1.0, 1.1, 1.2, 1.3, 1.4},
-          .notes = {{NoteKind::kLargeAngle, "linkage.links[1].theta_rad", "It is in radians."}},
-          .alternatives = {{start.contact_velocity, {0.0, 1.0, {2.0}}}},
-          .alternatives_are_ends = true};
-}
-
-TEST(SceneTest, SurvivesWithEachDefinitionOfRestitution) {
-  Scene scene = PaperScene();
-  for (const Restitution& restitution : {Restitution(NewtonCoefficient{0.5}), Restitution(PoissonCoefficient{0.5}),
-                                         Restitution(EnergeticCoefficient{0.5}), Restitution(std::monostate())}) {
-    scene.restitution = restitution;
-    EXPECT_EQ(ThroughWire(scene), scene) << "definition " << restitution.index();
-  }
+// tests/proto/every_field_test.cc looks after fields that are set. These structs are as their constructors leave them.
+TEST(RoundTripTest, DefaultsSurvive) {
+  EXPECT_EQ(ThroughWire(SolveRequest()), SolveRequest());
+  EXPECT_EQ(ThroughWire(SolveResponse()), SolveResponse());
+  EXPECT_EQ(ThroughWire(PlanRequest()), PlanRequest());
+  EXPECT_EQ(ThroughWire(PlanResponse()), PlanResponse());
+  EXPECT_EQ(ThroughWire(BoundsRequest()), BoundsRequest());
+  EXPECT_EQ(ThroughWire(AuditResponse()), AuditResponse());
+  EXPECT_EQ(ThroughWire(AuditBatchRequest()), AuditBatchRequest());
+  EXPECT_EQ(ThroughWire(AuditBatchResponse()), AuditBatchResponse());
+  EXPECT_EQ(ThroughWire(SweepRequest()), SweepRequest());
+  EXPECT_EQ(ThroughWire(CostRequest()), CostRequest());
+  EXPECT_EQ(ThroughWire(CostChunk()), CostChunk());
 }
 
 TEST(SceneTest, SurvivesWithEachSystem) {
@@ -104,16 +83,6 @@ TEST(SceneTest, SurvivesWithEachSystem) {
         System(SpatialContact{{1, 2, 3, 4, 5, 6}, {7, 8}, -9}), System(SpatialContact{{1.0}, {}, 0.0})}) {
     scene.system = system;
     EXPECT_EQ(ThroughWire(scene), scene) << "system " << system.index();
-  }
-}
-
-TEST(SceneTest, SurvivesWithEachImpactLaw) {
-  Scene scene = PaperScene();
-  scene.restitution = std::monostate();
-  for (const ImpactLaw& law : {ImpactLaw(WhittakerLaw{0.5}), ImpactLaw(KaneLevinsonLaw{0.0}),
-                               ImpactLaw(BrachLaw{0.5, -0.2}), ImpactLaw(ChatterjeeRuinaLaw{0.5, 0.25})}) {
-    scene.impact_law = law;
-    EXPECT_EQ(ThroughWire(scene), scene) << "law " << law.index();
   }
 }
 
@@ -136,21 +105,6 @@ TEST(SceneTest, SurfaceAtRestIsNotUnset) {
   EXPECT_EQ(ThroughWire(scene), scene);
   scene.surface_velocity = SurfaceVelocity{{1.0, 2.0}, 3.0};
   EXPECT_EQ(ThroughWire(scene), scene);
-}
-
-TEST(SceneTest, RestitutionOfZeroIsNotUnset) {
-  Scene scene = PaperScene();
-  scene.restitution = NewtonCoefficient{0.0};
-  EXPECT_EQ(ThroughWire(scene), scene);
-}
-
-TEST(SceneTest, StaticCoefficientOfZeroIsNotUnset) {
-  Scene scene = PaperScene();
-  scene.friction.static_coefficient = 0.0;
-  EXPECT_EQ(ThroughWire(scene), scene);
-  scene.friction.static_coefficient.reset();
-  EXPECT_EQ(ThroughWire(scene), scene);
-  EXPECT_FALSE(ToProto(scene).friction().has_static_coefficient());
 }
 
 TEST(SceneTest, WhatARequestLeftOpenStaysOpen) {
@@ -191,69 +145,6 @@ TEST(SceneTest, JsonIsReadBack) {
   EXPECT_EQ(FromProto(proto), PaperScene());
 }
 
-TEST(SolveTest, RequestSurvives) {
-  const SolveRequest request = {
-      .scene = PaperScene(), .history_at_n_s = {0.0, 1.5, kSubnormal, 1e308}, .inadmissible_is_error = true};
-  EXPECT_EQ(ThroughWire(request), request);
-  EXPECT_EQ(ThroughWire(SolveRequest()), SolveRequest());
-  const SolveRequest exact{.demand = {.relative_tolerance = 0.0}};
-  EXPECT_EQ(ThroughWire(exact), exact);
-}
-
-TEST(SolveTest, ResponseSurvives) {
-  const SolveResponse response = {.outcome = SomeOutcome(), .engine = {"1.2.3", "0123456789abcdef"}};
-  EXPECT_EQ(ThroughWire(response), response);
-  EXPECT_EQ(ThroughWire(SolveResponse()), SolveResponse());
-}
-
-TEST(PlanTest, RequestAndResponseSurvive) {
-  const PlanRequest request = {
-      .scene = PaperScene(),
-      .demand = {.relative_tolerance = 0.0, .required = {Effect::kFriction}, .excluded = {Effect::kSlipStop}}};
-  EXPECT_EQ(ThroughWire(request), request);
-  EXPECT_EQ(ThroughWire(PlanRequest()), PlanRequest());
-  const Plan plan = {.model = Model::kPlanar,
-                     .relative_tolerance = 1e-3,
-                     .neglected = 1e-4,
-                     .effects = PlannedEffects(
-                         {{Effect::kFriction, Decision::kSimulated, 0.5, "friction changes velocities by at most 0.5"},
-                          {Effect::kStaticFriction, Decision::kNegligible, 1e-4, "slip may stop"}}),
-                     .arithmetic = {Arithmetic::kCompensated, ArithmeticReason::kSignNotProved, 1e-16}};
-  EXPECT_NE(plan, Plan());
-  const PlanResponse response = {.plan = plan, .engine = {"1.2.3", "0123456789abcdef"}};
-  EXPECT_EQ(ThroughWire(response), response);
-}
-
-TEST(CostTest, RequestSurvivesWithAndWithoutItsOptions) {
-  EXPECT_EQ(ThroughWire(CostRequest{.scene = PaperScene()}), CostRequest{.scene = PaperScene()});
-  const CostRequest request = {.scene = PaperScene(), .time_limit_s = 0.0, .samples = 0};
-  EXPECT_EQ(ThroughWire(request), request);
-}
-
-TEST(CostTest, RowsSurviveWithAndWithoutTimes) {
-  const CostTime time = {
-      .median_s = 1e-8, .lower_quartile_s = 9e-9, .upper_quartile_s = 2e-8, .samples = 21, .per_sample = 8};
-  const CostRow measured = {.name = "space 1e-06",
-                            .method = {.model = Model::kSpatial, .arithmetic = Arithmetic::kPlain, .tolerance = 1e-6},
-                            .status = CostStatus::kMeasured,
-                            .solve = time,
-                            .batch = time,
-                            .claimed = {.total = std::numeric_limits<double>::infinity(), .numerical = 1e-7},
-                            .achieved = CostError{.total = 1e-8},
-                            .velocity_after = {.tangential_m_s = {1.0, -0.0}, .normal_m_s = 2.0},
-                            .steps = 3,
-                            .right_hand_sides = 60};
-  const CostRow late = {.name = "planar", .status = CostStatus::kOutOfTime, .note = "no time was left"};
-  const CostChunk chunk = {.first_row = 4,
-                           .rows = {measured, late},
-                           .rows_done = 6,
-                           .rows_total = 9,
-                           .summary = CostSummary{.front = {0, 4}, .picks = {{4, 0.0, 1e-3, Model::kSpatial}}},
-                           .engine = {"1.2.3", "0123456789abcdef"}};
-  EXPECT_EQ(ThroughWire(chunk), chunk);
-  EXPECT_EQ(ThroughWire(CostChunk()), CostChunk());
-}
-
 TEST(SolveTest, SignOfZeroSurvives) {
   SolveResponse response;
   response.outcome.energy_change_j = -0.0;
@@ -261,22 +152,6 @@ TEST(SolveTest, SignOfZeroSurvives) {
   const SolveResponse back = ThroughWire(response);
   EXPECT_EQ(Bits({back.outcome.energy_change_j}), Bits({-0.0}));
   EXPECT_EQ(Bits(back.outcome.rates_after_rad_s), Bits({-0.0, 0.0}));
-}
-
-TEST(BoundsTest, RequestSurvives) {
-  EXPECT_EQ(ThroughWire(BoundsRequest{PaperScene(), {}}), (BoundsRequest{PaperScene(), {}}));
-  const BoundsRequest request = {PaperScene(), {{"pendulum.a_m", 0.2, 0.3}, {"", -0.0, kSubnormal}}};
-  EXPECT_EQ(ThroughWire(request), request);
-}
-
-TEST(BoundsTest, CriticalFrictionOfZeroIsNotUnset) {
-  BoundsResponse response;
-  using Critical = std::optional<double> CriticalFriction::*;
-  for (const Critical member : {&CriticalFriction::stick, &CriticalFriction::stop_compression, &CriticalFriction::stop,
-                                &CriticalFriction::reversal, &CriticalFriction::jam}) {
-    response.bounds.critical.*member = 0.0;
-    EXPECT_EQ(ThroughWire(response), response);
-  }
 }
 
 TEST(BoundsTest, BoundsByEnergyAloneThatAreAbsentStayAbsent) {
@@ -339,58 +214,11 @@ TEST(AuditTest, RequestSurvivesWithEachKindOfObservation) {
   EXPECT_EQ(ThroughWire(request), request);
 }
 
-TEST(AuditTest, ResponsesSurvive) {
-  AuditReport report = {.regime = Regime::kSliding, .w_rank = 3, .admissible = true, .distance = kSubnormal};
-  report.tangential_impulse = {1.0, -0.0};
-  report.limits[static_cast<size_t>(AuditLimit::kCone)] = {1.0, 2.0, -1.0, 0.5, Verdict::kKept};
-  const AuditResponse response = {.report = report, .contact_energy_j = 0.5, .engine = {"1.2.3", "0123456789abcdef"}};
-  EXPECT_EQ(ThroughWire(response), response);
-  EXPECT_EQ(ThroughWire(AuditResponse()), AuditResponse());
-  AuditBatchResponse batch = {
-      .reports = {report, AuditReport()}, .summary = {.rows = 2, .admissible = 1}, .engine = {}};
-  batch.summary.broken[static_cast<size_t>(AuditLimit::kEnergy)] = {1, 0};
-  EXPECT_EQ(ThroughWire(batch), batch);
-  EXPECT_EQ(ThroughWire(AuditBatchResponse()), AuditBatchResponse());
-}
-
 TEST(AuditTest, EmptySummaryHasNoFirstIndices) { EXPECT_EQ(FromProto(v1::AuditBatchResponse()), AuditBatchResponse()); }
-
-TEST(AuditTest, ColumnsSurvive) {
-  const AuditBatchRequest request = {
-      .scene = PaperScene(),
-      .columns = {{1.0}, {2.0}, {3.0}, {4.0, 5.0}, {6.0}, {7.0, kSubnormal}, {}, {0.5}, {{8.0, kSubnormal}, {}}}};
-  EXPECT_EQ(ThroughWire(request), request);
-}
-
-SweepRequest SomeSweep() {
-  return {.grid = {.scene = PaperScene(),
-                   .axes = {{"pendulum.b_m", ListValues{{1.0, -0.0, kSubnormal}}},
-                            {"pendulum.phi_rad", Linspace{0.25, 3.0, 1'000'000'000}},
-                            {"friction.kinetic_coefficient", Logspace{1e-300, 1e300, 7}},
-                            {"restitution.newton", std::monostate()}},
-                   .combination = Combination::kZip},
-          .columns = {"coefficients.newton", "rates_after_rad_s[0]"},
-          .with_regime = true,
-          .first_index = 5,
-          .end_index = int64_t{1} << 53};
-}
-
-TEST(SweepTest, RequestSurvivesWithEachKindOfAxis) {
-  EXPECT_EQ(ThroughWire(SomeSweep()), SomeSweep());
-  EXPECT_EQ(ThroughWire(SweepRequest()), SweepRequest());
-}
 
 TEST(SweepTest, EmptyListIsNotAnUnsetAxis) {
   SweepRequest request;
   request.grid.axes = {{"pendulum.b_m", ListValues{}}};
-  EXPECT_EQ(ThroughWire(request), request);
-}
-
-TEST(SweepTest, EndIndexOfZeroIsNotUnset) {
-  SweepRequest request = SomeSweep();
-  request.end_index = 0;
-  EXPECT_EQ(ThroughWire(request), request);
-  request.end_index.reset();
   EXPECT_EQ(ThroughWire(request), request);
 }
 
@@ -442,12 +270,6 @@ TEST(SweepTest, PointsOfUnknownRegimesAreCountedTogether) {
     entry.mutable_tally()->set_first_index(2 * number);
   }
   EXPECT_EQ(FromProto(proto).by_regime[0], (Tally{999 + 998, 2 * 998}));
-}
-
-TEST(SweepTest, ElapsedOfZeroIsNotUnset) {
-  SweepSummary summary;
-  summary.elapsed_s = 0.0;
-  EXPECT_EQ(ThroughWire(summary), summary);
 }
 
 SweepChunk SomeChunk() {

@@ -241,7 +241,7 @@ class ShortNames(Case):
                     self.assertEqual(meant == [full], ends == [full], f"{meant} here, {ends} there")
 
     def test_letters_are_those_of_the_command_line(self):
-        source = (SOURCE / "client/cli/short_name.cc").read_text()
+        source = (SOURCE / "client/cli/input/short_name.cc").read_text()
         known = names.fields_of(scene_message({**PENDULUM}))
         # A letter of the tables of audits names no field of a scene.
         letters = {letter: path for letter, path in re.findall(r'\{"(\w+)",\s+"(\S+?)"\}', source) if path in known}

@@ -5,4 +5,5 @@ set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 readonly here
 cd "$1"
-exec mypy --config-file "$here/mypy.ini" --python-executable /usr/bin/python3 --cache-dir "$2" ricochet "$here/typed_program.py"
+exec mypy --config-file "$here/mypy.ini" --python-executable /usr/bin/python3 \
+  --cache-dir "$2" ricochet "$here/typed_program.py"

@@ -6,7 +6,7 @@
 #include <chrono>
 #include <utility>
 
-#include "server/call.h"
+#include "server/calls/call.h"
 
 namespace ricochet::server {
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "absl/strings/str_replace.h"
-#include "core/engine/engine.h"
+#include "ricochet/engine_info.h"
 #include "ricochet/limits.h"
 #include "tests/support/paths.h"
 
@@ -364,8 +364,8 @@ TEST(Options, TakesNoVariableOfKubernetesForAnOption) {
   EXPECT_TRUE(parsed.ok()) << parsed.status();
 }
 
-// The range of every option that is a number, as server/options.h and ricochet/limits.h state it; the default of the other
-// options allows all of them.
+// The range of every option that is a number, as server/options.h and ricochet/limits.h state it; the default of the
+// other options allows all of them.
 std::map<std::string, std::pair<std::string, std::string>> Ranges() {
   std::map<std::string, std::pair<std::string, std::string>> ranges;
   for (const char* const name :

@@ -1,4 +1,4 @@
-#include "server/self_test.h"
+#include "server/health/self_test.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

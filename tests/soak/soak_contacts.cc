@@ -19,8 +19,8 @@
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "core/models/spatial/spatial.h"
-#include "tests/support/planar_scenes.h"
-#include "tests/support/spatial_scenes.h"
+#include "tests/support/scenes/planar_scenes.h"
+#include "tests/support/scenes/spatial_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -240,7 +240,8 @@ void CheckUnderAllLaws(Problem problem, bool any_exponent, Tally& tally) {
   }
 }
 
-// Every fourth problem is drawn from all doubles; the others are typical, near rank one or near a threshold of the path.
+// Every fourth problem is drawn from all doubles; the others are typical, near rank one or near a threshold of the
+// path.
 Tally PlanarCases(int64_t cases) {
   Tally tally;
   planar::SceneSource source(101);
@@ -267,7 +268,8 @@ spatial::Problem AnySpatial(spatial::SceneSource& source) {
   }
 }
 
-// The problems are typical, nearly singular, without slip at first, or of rank one and two; tolerances are 1e-4 to 1e-12.
+// The problems are typical, nearly singular, without slip at first, or of rank one and two; tolerances are 1e-4 to
+// 1e-12.
 Tally SpatialCases(int64_t cases) {
   Tally tally;
   spatial::SceneSource source(102);

@@ -29,11 +29,11 @@
 #include "absl/synchronization/mutex.h"
 #include "core/answer/model_outcomes.h"
 #include "core/contact/reduction.h"
-#include "tests/support/made_outcome.h"
-#include "tests/support/pendulum_oracle.h"
-#include "tests/support/pendulum_scenes.h"
-#include "tests/support/planar_oracle.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/oracles/pendulum_oracle.h"
+#include "tests/support/oracles/planar_oracle.h"
+#include "tests/support/scenes/made_outcome.h"
+#include "tests/support/scenes/pendulum_scenes.h"
+#include "tests/support/scenes/planar_scenes.h"
 #include "tests/ulp/error_table.h"
 
 namespace ricochet {

@@ -23,21 +23,21 @@ namespace ricochet {
 // Cost: a Client is a shared pointer; its copies share one connection, which is made at the first call. Connect is
 // expensive, so make one Client for each server and copy it. A sweep keeps only one chunk in memory.
 //
-// Retries: ClientOptions::retry says how often a call is repeated, here and on the other servers of the list. Calls have
-// no side effects, so a repeated one does no harm. A sweep that breaks off is taken up again at its next point; its bits
-// and its summary are those of an undisturbed run, but for the time, which is unset. An engine with another fingerprint is
-// refused with FAILED_PRECONDITION. A study of cost measures one machine, so that it is repeated only before its first
-// rows, by the same server.
+// Retries: ClientOptions::retry says how often a call is repeated, here and on the other servers of the list. Calls
+// have no side effects, so a repeated one does no harm. A sweep that breaks off is taken up again at its next point;
+// its bits and its summary are those of an undisturbed run, but for the time, which is unset. An engine with another
+// fingerprint is refused with FAILED_PRECONDITION. A study of cost measures one machine, so that it is repeated only
+// before its first rows, by the same server.
 //
-// Batches: a session keeps one call open, which is replaced by another if it breaks off or if the server ends it after a
-// pause. A step is then answered again from its first row without an answer.
+// Batches: a session keeps one call open, which is replaced by another if it breaks off or if the server ends it after
+// a pause. A step is then answered again from its first row without an answer.
 //
-// Deadlines: a call ends at the deadline of its CallOptions or of ClientOptions, whichever comes first. The server learns
-// of it, and of a stop, and ends its work too.
+// Deadlines: a call ends at the deadline of its CallOptions or of ClientOptions, whichever comes first. The server
+// learns of it, and of a stop, and ends its work too.
 //
 // Errors: a Client returns the errors of Solver with the same reason and violations, UNAVAILABLE and DEADLINE_EXCEEDED
-// of the network, FAILED_PRECONDITION for a server that is not trusted or does not speak TLS, and DATA_LOSS if the chunks
-// of a stream do not fit together (a gap, a repetition, a wrong size, an early end).
+// of the network, FAILED_PRECONDITION for a server that is not trusted or does not speak TLS, and DATA_LOSS if the
+// chunks of a stream do not fit together (a gap, a repetition, a wrong size, an early end).
 class Client final : public Solver {
  public:
   // Returns without waiting for a connection: only the first call finds out that no server is there.

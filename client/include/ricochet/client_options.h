@@ -14,10 +14,10 @@
 
 namespace ricochet {
 
-// How a call is repeated that failed with UNAVAILABLE, with RESOURCE_EXHAUSTED and a time after which to retry, or with a
-// CANCELLED that the caller did not ask for. The wait before attempt n is random between 0 and
-// min(initial_backoff * multiplier^(n-2), max_backoff), and at least the time that the server asked for; if that is more
-// than a minute, the call fails instead.
+// How a call is repeated that failed with UNAVAILABLE, with RESOURCE_EXHAUSTED and a time after which to retry, or with
+// a CANCELLED that the caller did not ask for. The wait before attempt n is random between 0 and min(initial_backoff *
+// multiplier^(n-2), max_backoff), and at least the time that the server asked for; if that is more than a minute, the
+// call fails instead.
 struct RetryPolicy {
   // In [1, 5], including the first attempt, for each server; 1 means no retry.
   int max_attempts = 3;
@@ -29,12 +29,12 @@ struct RetryPolicy {
   double multiplier = 2.0;                         // >= 1.
 };
 
-// How all servers of a list compute one sweep together: each a range of points at a time, the faster ones longer ranges. A
-// server that fails is left alone for a while and its range goes to another one. The sweep fails once every server of the
-// list has failed in a row as often as RetryPolicy allows.
+// How all servers of a list compute one sweep together: each a range of points at a time, the faster ones longer
+// ranges. A server that fails is left alone for a while and its range goes to another one. The sweep fails once every
+// server of the list has failed in a row as often as RetryPolicy allows.
 struct FanOut {
-  // Bytes of values and regimes that may wait in the client until the points before them have arrived, > 0. A server that is
-  // further ahead waits. One message of each server comes on top.
+  // Bytes of values and regimes that may wait in the client until the points before them have arrived, > 0. A server
+  // that is further ahead waits. One message of each server comes on top.
   int64_t buffer_bytes = int64_t{64} << 20;
   // If the caller has waited this long for the next point, a second server is asked for it, too, and the first that
   // answers goes on. > 0. A server sends a chunk at least each second, unless one point takes longer.
@@ -52,8 +52,8 @@ struct ClientOptions {
   std::string target;
   std::chrono::milliseconds deadline{10000};                // For Solve, Bounds and CheckHealth, tries included. > 0.
   std::optional<std::chrono::milliseconds> sweep_deadline;  // For a whole stream; absent means none. > 0.
-  // Bytes of one message of an answer, in [1, kMostReceiveBytes]. A larger one fails with RESOURCE_EXHAUSTED. A server with its
-  // default limits sends no message above 4 MiB; one whose limits are raised may.
+  // Bytes of one message of an answer, in [1, kMostReceiveBytes]. A larger one fails with RESOURCE_EXHAUSTED. A server
+  // with its default limits sends no message above 4 MiB; one whose limits are raised may.
   int64_t max_receive_bytes = int64_t{4} << 20;
   RetryPolicy retry;
   std::optional<FanOut> fan_out;  // Present: the servers of the list compute a sweep together, not one after another.

@@ -1,7 +1,7 @@
 // Audit: what an observed impact implies, and which limits of an admissible impact it breaks.
 //
-// These structs mirror ricochet.v1.AuditReport and AuditSummary. core/study/audit.h says how each number is found and
-// how exact it is. Units are N s, J and m/s; coefficients have none.
+// These structs mirror ricochet.v1.AuditReport and AuditSummary. docs/theory/audit.md says how each number is found
+// and how exact it is. Units are N s, J and m/s; coefficients have none.
 
 #ifndef RICOCHET_AUDIT_H_
 #define RICOCHET_AUDIT_H_

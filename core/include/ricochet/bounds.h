@@ -7,8 +7,8 @@
 //                -(a/|b|)(1 - sqrt(1 - x^2)) <= mu_hat <= mu                               [55]
 //   energy only  Newton <= 1, Poisson <= 1/r, from E+ <= E- alone                          [27], [28]
 //   first order  Newton <= 1 - x, Poisson <= 1 + x, mu_hat >= -mu x/2                      [57], [58], [60]
-// core/bounds/contact_bounds.h has the bounds of any other planar contact, core/answer/scene_bounds.h says which bounds
-// are answered in space. Impulses are in N s.
+// docs/theory/bounds.md has the bounds of any other planar contact, and says which bounds are answered in space.
+// Impulses are in N s.
 
 #ifndef RICOCHET_BOUNDS_H_
 #define RICOCHET_BOUNDS_H_
@@ -37,7 +37,7 @@ struct CoefficientBounds {
 };
 
 // NearlyVertical holds the paper's forms for a nearly vertical impact, which are of first order in x, and how far from
-// the exact value each may lie. The errors hold for every x < 1 and are derived in core/bounds/nearly_vertical.h.
+// the exact value each may lie. The errors hold for every x < 1 and are derived in docs/theory/bounds.md.
 struct NearlyVertical {
   CoefficientBounds bounds;   // [57], [58], [60]
   double newton_error = 0.0;  // |bounds.newton.upper - exact value| is at most this; likewise for the others.
@@ -72,12 +72,12 @@ struct Bounds {
   std::optional<CoefficientBounds> energy_only;  // Weaker bounds, from kinetic energy alone. Absent in space.
   std::optional<NearlyVertical> nearly_vertical;  // Present for a pendulum over a surface at rest that does not lock.
   CriticalFriction critical;
-  bool sampled = false;  // In space `sharp` is what a sample of impacts reaches (core/answer/scene_bounds.h).
+  bool sampled = false;  // In space `sharp` is what a sample of impacts reaches (docs/theory/bounds.md).
   friend bool operator==(const Bounds&, const Bounds&) = default;
 };
 
 // An Enclosure contains the coefficients of every scene whose uncertain fields lie in their ranges.
-// core/bounds/enclosure.h has the proof.
+// docs/theory/bounds.md has the proof.
 struct Enclosure {
   CoefficientBounds outer;  // Ranges that are proved to contain; an end is infinite if no bound exists or was found.
   // Scenes in the ranges reach both ends of each of these; `energetic` alone is a copy of that in `outer`. Both members

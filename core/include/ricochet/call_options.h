@@ -27,7 +27,8 @@ struct CallOptions {
   // LocalSolver asks on the thread of the call; a Client asks before it sends the request and before each chunk of a
   // sweep. Empty: never asked.
   std::function<bool()> is_stopped = {};
-  // The threads that may help a sweep or a batch of a LocalSolver. Null: those of the solver. A Client has no use for them.
+  // The threads that may help a sweep or a batch of a LocalSolver. Null: those of the solver. A Client has no use for
+  // them.
   std::shared_ptr<Helpers> helpers = {};
 };
 

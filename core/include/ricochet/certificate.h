@@ -1,6 +1,6 @@
 // Certificate: numbers proved to as many decimal digits as were asked for, beside the doubles of an answer.
 //
-// The structs mirror ricochet.v1.Certificate field by field. core/certified/certified.h says what is proved, and how.
+// The structs mirror ricochet.v1.Certificate field by field. docs/theory/certified.md says what is proved, and how.
 
 #ifndef RICOCHET_CERTIFICATE_H_
 #define RICOCHET_CERTIFICATE_H_

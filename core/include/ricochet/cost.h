@@ -1,13 +1,13 @@
 // Cost: what accuracy costs in time, for one scene on the machine that answers.
 //
 // The same impact is computed by every method that applies: every model, also those that leave out an effect of the
-// scene, in every arithmetic and at every tolerance that makes a difference. Each method is timed and its error is found
-// against a reference that is certified, or far more exact than the method. These structs mirror
-// ricochet.v1.CostRequest and CostResponse field by field; core/study/cost.h says how each number is found.
+// scene, in every arithmetic and at every tolerance that makes a difference. Each method is timed and its error is
+// found against a reference that is certified, or far more exact than the method. These structs mirror
+// ricochet.v1.CostRequest and CostResponse field by field; docs/accuracy.md says how each number is found.
 //
 // Errors are those of the contact velocity after the impact, divided by V = max(|u0|, |v0|), as in
-// Accuracy::relative_error. Times are in seconds, of one thread with warm caches. Times differ from run to run, and what
-// follows from them; everything else has the same bits in every run that its time limit does not cut short.
+// Accuracy::relative_error. Times are in seconds, of one thread with warm caches. Times differ from run to run, and
+// what follows from them; everything else has the same bits in every run that its time limit does not cut short.
 
 #ifndef RICOCHET_COST_H_
 #define RICOCHET_COST_H_
@@ -40,8 +40,8 @@ struct CostRequest {
   // Time for the whole study, s, in [kLeastCostTimeLimitS, kMostCostTimeLimitS]; absent means kDefaultCostTimeLimitS.
   // Methods that it leaves no time for are answered as CostStatus::kOutOfTime.
   std::optional<double> time_limit_s;
-  // Samples taken of each time, in [1, kMostCostSamples]; absent means kDefaultCostSamples. A slow method gets fewer, so
-  // that every method has its share of the time.
+  // Samples taken of each time, in [1, kMostCostSamples]; absent means kDefaultCostSamples. A slow method gets fewer,
+  // so that every method has its share of the time.
   std::optional<int32_t> samples;
   friend bool operator==(const CostRequest&, const CostRequest&) = default;
 };

@@ -1,4 +1,4 @@
-// EngineInfo: which engine computed a response.
+// EngineInfo: which engine computed a response; ThisEngine: the one that is linked into this program.
 
 #ifndef RICOCHET_ENGINE_INFO_H_
 #define RICOCHET_ENGINE_INFO_H_
@@ -12,6 +12,10 @@ struct EngineInfo {
   std::string fingerprint;  // 16 hex digits that hash a fixed set of answers: equal fingerprints mean equal bits.
   friend bool operator==(const EngineInfo&, const EngineInfo&) = default;
 };
+
+// The first call computes the fingerprint, by solving some hundred impacts in some milliseconds. Thread safety: any
+// number of threads may call it.
+const EngineInfo& ThisEngine();
 
 }  // namespace ricochet
 

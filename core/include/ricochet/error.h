@@ -48,9 +48,10 @@ struct Violation {
   // The value found and the rule it breaks: "= -0.1: must be >= 0". Text that came from the caller is escaped.
   std::string description;
 
-  // The core alone uses these two members: a status does not carry them, and comparisons ignore them.
+  // The core alone uses these members: a status does not carry them, and comparisons ignore them.
   ViolationKind kind = ViolationKind::kShape;
   std::vector<std::string> tied_to = {};  // kValue: the paths of the other numbers that the rule involves.
+  std::string rule = {};                  // What follows "must " in the description: "be >= 0". MakeViolation sets it.
 
   friend bool operator==(const Violation& a, const Violation& b) {
     return a.field == b.field && a.description == b.description;
@@ -63,10 +64,13 @@ inline constexpr size_t kMostViolations = 20;
 // True once there are more violations than a status lists, so that looking for others is of no use.
 inline bool IsFull(const std::vector<Violation>& violations) { return violations.size() > kMostViolations; }
 
+// Makes a violation with the description "FOUND: must RULE".
+Violation MakeViolation(std::string field, const std::string& found, std::string rule,
+                        ViolationKind kind = ViolationKind::kShape, std::vector<std::string> tied_to = {});
+
 // Makes a violation of kind kValue with the description "= VALUE: must RULE". VALUE is the shortest decimal that reads
 // back as the same double.
-Violation MakeViolation(std::string field, double value, const std::string& rule,
-                        std::vector<std::string> tied_to = {});
+Violation MakeViolation(std::string field, double value, std::string rule, std::vector<std::string> tied_to = {});
 
 // Makes a status with a reason. `code` must not be OK.
 absl::Status MakeError(absl::StatusCode code, ErrorReason reason, const std::string& message);

@@ -38,7 +38,7 @@ struct Logspace {
 };
 
 struct Axis {
-  std::string path;  // A field of the scene or a derived angle: core/scene/field.h lists them.
+  std::string path;  // A field of the scene or a derived angle, as `ricochet scene fields` lists them.
   std::variant<std::monostate, ListValues, Linspace, Logspace> values;
   friend bool operator==(const Axis&, const Axis&) = default;
 };

@@ -16,8 +16,8 @@ int AvailableCores();
 // Thread safety: every method may be called from several threads at once.
 class Helpers {
  public:
-  // A Help computes parts of a call until it finds none. Every millisecond or so it asks `gives_way`, and it returns once
-  // that says true.
+  // A Help computes parts of a call until it finds none. Every millisecond or so it asks `gives_way`, and it returns
+  // once that says true.
   using Help = absl::AnyInvocable<void(absl::FunctionRef<bool()> gives_way)>;
 
   virtual ~Helpers() = default;

@@ -20,8 +20,8 @@ struct Limits {
   int64_t max_list_numbers = 1024;
   // Uncertain fields of one request for bounds. A box is cut along each of them in turn.
   int64_t max_ranges = 32;
-  // Boxes that one enclosure evaluates. An enclosure that has used them up still holds every value that is possible, but
-  // is wider than its tolerance: Enclosure::excess says by how much.
+  // Boxes that one enclosure evaluates. An enclosure that has used them up still holds every value that is possible,
+  // but is wider than its tolerance: Enclosure::excess says by how much.
   int64_t max_boxes = 200'000;
   // Axes of a sweep.
   int64_t max_axes = 32;
@@ -41,7 +41,8 @@ struct Limits {
   int64_t max_audit_rows = 8192;
   // Rows of a batch times its columns: those of the request or those of the answer, whichever are more.
   int64_t max_batch_numbers = 2'097'152;
-  // Bytes of the message of a batch. Of the messages of other requests 1 MiB is the most. A LocalSolver has no messages.
+  // Bytes of the message of a batch. Of the messages of other requests 1 MiB is the most. A LocalSolver has no
+  // messages.
   int64_t max_request_bytes = int64_t{16} << 20;
 
   // Limits that no request exceeds.

@@ -1,9 +1,9 @@
 // Outcome: the answer. It holds the velocities, impulses, coefficients, works and events of one impact, and the limits
 // that it breaks.
 //
-// The structs mirror ricochet.v1.Outcome field by field. Units are SI units and radians. Tangential quantities are along
-// t, normal ones along n (ricochet/system.h); impulses act on the striking body; contact velocities are relative to the
-// surface. `energy_change_j` is E+ - E-, negative for a loss.
+// The structs mirror ricochet.v1.Outcome field by field. Units are SI units and radians. Tangential quantities are
+// along t, normal ones along n (ricochet/system.h); impulses act on the striking body; contact velocities are relative
+// to the surface. `energy_change_j` is E+ - E-, negative for a loss.
 
 #ifndef RICOCHET_OUTCOME_H_
 #define RICOCHET_OUTCOME_H_

@@ -1,8 +1,9 @@
-// VisitOutcomeNumbers: every number of an outcome that a sweep can ask for, with its path.
+// kOutcomeNumbers: every number of an outcome that a sweep can ask for, with its name and its member.
+// VisitOutcomeNumbers gives them their paths.
 //
 // A number that was not computed is unset, and is no number: a contact that is not followed in time has no duration, an
-// impact law no phases. VisitOutcomeFields visits the place of such a number, too. The lists of an outcome have the same
-// lengths for every impact of one scene, so that all its outcomes have the same places in the same order.
+// impact law no phases. VisitOutcomeFields visits the place of such a number, too. The lists of an outcome have the
+// same lengths for every impact of one scene, so that all its outcomes have the same places in the same order.
 
 #ifndef RICOCHET_OUTCOME_NUMBERS_H_
 #define RICOCHET_OUTCOME_NUMBERS_H_
@@ -10,6 +11,8 @@
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <tuple>
+#include <type_traits>
 
 #include "ricochet/number_path.h"
 #include "ricochet/outcome.h"
@@ -22,77 +25,105 @@ inline bool MayBeInfinite(const NumberPath& path) {
   return prefix == "accuracy" || prefix == "errors";
 }
 
-// Calls visit(name, error) for every error, set or not.
-template <typename Errors, typename Visitor>
-void VisitErrors(Errors& errors, const Visitor& visit) {
-  visit("newton", errors.newton);
-  visit("poisson", errors.poisson);
-  visit("energetic", errors.energetic);
-  visit("tangential", errors.tangential);
-  visit("tangential_m_s", errors.tangential_m_s);
-  visit("normal_m_s", errors.normal_m_s);
-  visit("normal_compression_n_s", errors.normal_compression_n_s);
-  visit("normal_total_n_s", errors.normal_total_n_s);
-  visit("tangential_n_s", errors.tangential_n_s);
-  visit("normal_compression_j", errors.normal_compression_j);
-  visit("normal_restitution_j", errors.normal_restitution_j);
-  visit("tangential_compression_j", errors.tangential_compression_j);
-  visit("tangential_restitution_j", errors.tangential_restitution_j);
-  visit("energy_change_j", errors.energy_change_j);
+// A number of a part of an outcome, one that may be unset, or a list of numbers.
+template <typename Part, typename Value>
+struct OutcomeNumber {
+  constexpr OutcomeNumber(const char* its_name, Value Part::*its_member) : name(its_name), member(its_member) {}
+
+  const char* name;
+  Value Part::*member;
+};
+
+// Every number of every part of an outcome.
+inline constexpr auto kOutcomeNumbers =
+    std::tuple{OutcomeNumber("newton", &Coefficients::newton),
+               OutcomeNumber("poisson", &Coefficients::poisson),
+               OutcomeNumber("energetic", &Coefficients::energetic),
+               OutcomeNumber("tangential", &Coefficients::tangential),
+               OutcomeNumber("linear_m_s", &BodyVelocity::linear_m_s),
+               OutcomeNumber("angular_rad_s", &BodyVelocity::angular_rad_s),
+               OutcomeNumber("tangential_m_s", &ContactVelocity::tangential_m_s),
+               OutcomeNumber("normal_m_s", &ContactVelocity::normal_m_s),
+               OutcomeNumber("normal_compression_n_s", &Impulse::normal_compression_n_s),
+               OutcomeNumber("normal_total_n_s", &Impulse::normal_total_n_s),
+               OutcomeNumber("tangential_n_s", &Impulse::tangential_n_s),
+               OutcomeNumber("normal_compression_j", &WorkLedger::normal_compression_j),
+               OutcomeNumber("normal_restitution_j", &WorkLedger::normal_restitution_j),
+               OutcomeNumber("tangential_compression_j", &WorkLedger::tangential_compression_j),
+               OutcomeNumber("tangential_restitution_j", &WorkLedger::tangential_restitution_j),
+               OutcomeNumber("normal_total_j", &WorkLedger::normal_total_j),
+               OutcomeNumber("tangential_total_j", &WorkLedger::tangential_total_j),
+               OutcomeNumber("friction_dissipation_j", &WorkLedger::friction_dissipation_j),
+               OutcomeNumber("tangential_spring_j", &WorkLedger::tangential_spring_j),
+               OutcomeNumber("kinetic", &EffectiveCoefficients::kinetic_friction),
+               OutcomeNumber("static", &EffectiveCoefficients::static_friction),
+               OutcomeNumber("restitution", &EffectiveCoefficients::restitution),
+               OutcomeNumber("relative_error", &Accuracy::relative_error),
+               OutcomeNumber("duration_s", &ContactDuration::duration_s),
+               OutcomeNumber("peak_normal_n", &ContactDuration::peak_normal_n),
+               OutcomeNumber("peak_tangential_n", &ContactDuration::peak_tangential_n),
+               OutcomeNumber("indentation_m", &ContactDuration::indentation_m),
+               OutcomeNumber("newton", &NumberErrors::newton),
+               OutcomeNumber("poisson", &NumberErrors::poisson),
+               OutcomeNumber("energetic", &NumberErrors::energetic),
+               OutcomeNumber("tangential", &NumberErrors::tangential),
+               OutcomeNumber("tangential_m_s", &NumberErrors::tangential_m_s),
+               OutcomeNumber("normal_m_s", &NumberErrors::normal_m_s),
+               OutcomeNumber("normal_compression_n_s", &NumberErrors::normal_compression_n_s),
+               OutcomeNumber("normal_total_n_s", &NumberErrors::normal_total_n_s),
+               OutcomeNumber("tangential_n_s", &NumberErrors::tangential_n_s),
+               OutcomeNumber("normal_compression_j", &NumberErrors::normal_compression_j),
+               OutcomeNumber("normal_restitution_j", &NumberErrors::normal_restitution_j),
+               OutcomeNumber("tangential_compression_j", &NumberErrors::tangential_compression_j),
+               OutcomeNumber("tangential_restitution_j", &NumberErrors::tangential_restitution_j),
+               OutcomeNumber("energy_change_j", &NumberErrors::energy_change_j)};
+
+// Calls visit(name, value) for the numbers of `part`, which may be const: each a double, an optional or Components.
+template <typename Part, typename Visitor>
+void VisitOutcomePart(Part& part, const Visitor& visit) {
+  const auto visit_own = [&]<typename Owner, typename Value>(const OutcomeNumber<Owner, Value>& number) {
+    if constexpr (std::is_same_v<Owner, std::remove_const_t<Part>>) visit(number.name, part.*number.member);
+  };
+  std::apply([&](const auto&... number) { (visit_own(number), ...); }, kOutcomeNumbers);
 }
 
-// Calls visit(path, number) for the place of every number; `number` is a const double*, null if it is unset. Paths start
-// at the outcome: "coefficients.newton", "bodies_after[0].linear_m_s[1]".
+// Calls visit(path, number) for the place of every number; `number` is a const double*, null if it is unset. Paths
+// start at the outcome: "coefficients.newton", "bodies_after[0].linear_m_s[1]".
 template <typename Visitor>
 void VisitOutcomeFields(const Outcome& outcome, const Visitor& visit) {
-  const auto one = [&visit](const char* prefix, const char* name, const double& number) {
-    visit(NumberPath{.prefix = prefix, .name = name}, &number);
-  };
-  const auto if_known = [&visit](const char* prefix, const char* name, const std::optional<double>& number) {
-    visit(NumberPath{.prefix = prefix, .name = name}, number.has_value() ? &*number : nullptr);
-  };
-  const auto each = [&visit](const char* prefix, int entry, const char* name, const Components& numbers) {
-    for (size_t i = 0; i < numbers.size(); ++i) {
-      visit(NumberPath{prefix, entry, name, static_cast<int>(i)}, &numbers[i]);
+  const auto visit_value = [&visit]<typename Value>(NumberPath path, const Value& value) {
+    if constexpr (std::is_same_v<Value, double>) {
+      visit(path, &value);
+    } else if constexpr (std::is_same_v<Value, std::optional<double>>) {
+      visit(path, value.has_value() ? &*value : nullptr);
+    } else {
+      for (size_t i = 0; i < value.size(); ++i) {
+        path.index = static_cast<int>(i);
+        visit(path, &value[i]);
+      }
     }
   };
-  one("coefficients", "newton", outcome.coefficients.newton);
-  if_known("coefficients", "poisson", outcome.coefficients.poisson);
-  if_known("coefficients", "energetic", outcome.coefficients.energetic);
-  one("coefficients", "tangential", outcome.coefficients.tangential);
-  each("", -1, "rates_after_rad_s", outcome.rates_after_rad_s);
-  for (size_t i = 0; i < outcome.bodies_after.size(); ++i) {
-    each("bodies_after", static_cast<int>(i), "linear_m_s", outcome.bodies_after[i].linear_m_s);
-    each("bodies_after", static_cast<int>(i), "angular_rad_s", outcome.bodies_after[i].angular_rad_s);
-  }
-  each("contact_velocity_after", -1, "tangential_m_s", outcome.contact_velocity_after.tangential_m_s);
-  one("contact_velocity_after", "normal_m_s", outcome.contact_velocity_after.normal_m_s);
-  if_known("impulse", "normal_compression_n_s", outcome.impulse.normal_compression_n_s);
-  one("impulse", "normal_total_n_s", outcome.impulse.normal_total_n_s);
-  each("impulse", -1, "tangential_n_s", outcome.impulse.tangential_n_s);
-  if_known("work", "normal_compression_j", outcome.work.normal_compression_j);
-  if_known("work", "normal_restitution_j", outcome.work.normal_restitution_j);
-  if_known("work", "tangential_compression_j", outcome.work.tangential_compression_j);
-  if_known("work", "tangential_restitution_j", outcome.work.tangential_restitution_j);
-  one("work", "normal_total_j", outcome.work.normal_total_j);
-  one("work", "tangential_total_j", outcome.work.tangential_total_j);
-  one("work", "friction_dissipation_j", outcome.work.friction_dissipation_j);
-  one("work", "tangential_spring_j", outcome.work.tangential_spring_j);
-  one("", "energy_change_j", outcome.energy_change_j);
-  one("effective", "kinetic", outcome.effective.kinetic_friction);
-  one("effective", "static", outcome.effective.static_friction);
-  if_known("effective", "restitution", outcome.effective.restitution);
-  one("accuracy", "relative_error", outcome.accuracy.relative_error);
-  const ContactDuration* const contact = outcome.contact.has_value() ? &*outcome.contact : nullptr;
-  const auto of_contact = [&visit, contact](const char* name, double ContactDuration::*number) {
-    visit(NumberPath{.prefix = "contact", .name = name}, contact == nullptr ? nullptr : &(contact->*number));
+  const auto visit_part = [&visit_value](const char* prefix, const auto& part, int entry = -1) {
+    VisitOutcomePart(part, [&](const char* name, const auto& value) {
+      visit_value(NumberPath{prefix, entry, name}, value);
+    });
   };
-  of_contact("duration_s", &ContactDuration::duration_s);
-  of_contact("peak_normal_n", &ContactDuration::peak_normal_n);
-  of_contact("peak_tangential_n", &ContactDuration::peak_tangential_n);
-  of_contact("indentation_m", &ContactDuration::indentation_m);
-  VisitErrors(outcome.errors,
-              [&if_known](const char* name, const std::optional<double>& error) { if_known("errors", name, error); });
+  visit_part("coefficients", outcome.coefficients);
+  visit_value({.name = "rates_after_rad_s"}, outcome.rates_after_rad_s);
+  int body = 0;
+  for (const BodyVelocity& velocity : outcome.bodies_after) visit_part("bodies_after", velocity, body++);
+  visit_part("contact_velocity_after", outcome.contact_velocity_after);
+  visit_part("impulse", outcome.impulse);
+  visit_part("work", outcome.work);
+  visit_value({.name = "energy_change_j"}, outcome.energy_change_j);
+  visit_part("effective", outcome.effective);
+  visit_part("accuracy", outcome.accuracy);
+  const bool has_contact = outcome.contact.has_value();
+  const ContactDuration none;
+  VisitOutcomePart(has_contact ? *outcome.contact : none, [&](const char* name, const double& number) {
+    visit(NumberPath{.prefix = "contact", .name = name}, has_contact ? &number : nullptr);
+  });
+  visit_part("errors", outcome.errors);
 }
 
 // Calls visit(path, number) for every number that is set.

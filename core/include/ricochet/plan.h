@@ -1,8 +1,8 @@
 // Plan: which effects an impact was computed with, which were left out, why, and what that can change.
 //
-// core/plan/sizes.h proves the size of each effect, core/plan/choose.h takes the cheapest model within a demand
-// (core/plan/demand.h), core/plan/explain.h says why. Sizes add up: `neglected` is the sum of the sizes left out. The
-// answer differs from the one with all effects of the scene by at most `neglected` plus the model's own error.
+// docs/theory/plan.md proves the size of each effect, and says how the cheapest model within a demand is chosen. Sizes
+// add up: `neglected` is the sum of the sizes left out. The answer differs from the one with all effects of the scene
+// by at most `neglected` plus the model's own error.
 
 #ifndef RICOCHET_PLAN_H_
 #define RICOCHET_PLAN_H_
@@ -88,15 +88,15 @@ class PlannedEffects {
 enum class Model {
   kUnspecified = 0,
   kNone = 1,            // The contact separates: nothing to compute.
-  kFrictionless = 2,    // core/models/sliding/sliding.h without friction
-  kFirstOrder = 3,      // core/models/pendulum/first_order.h
-  kSliding = 4,         // core/models/sliding/sliding.h
-  kPendulum = 5,        // core/models/pendulum/pendulum.h
-  kPlanar = 6,          // core/models/planar/planar.h
-  kSpatial = 7,         // core/models/spatial/spatial.h
-  kCompliant = 8,       // core/models/compliant/compliant.h
-  kFiniteDuration = 9,  // core/models/finite_duration/finite_duration.h
-  kImpactLaw = 10,      // core/models/laws/impact_laws.h
+  kFrictionless = 2,    // docs/theory/sliding.md, without friction
+  kFirstOrder = 3,      // docs/theory/pendulum_numerics.md
+  kSliding = 4,         // docs/theory/sliding.md
+  kPendulum = 5,        // docs/theory/pendulum.md
+  kPlanar = 6,          // docs/theory/planar.md
+  kSpatial = 7,         // docs/theory/spatial.md
+  kCompliant = 8,       // docs/theory/compliant.md
+  kFiniteDuration = 9,  // docs/theory/finite_duration.md
+  kImpactLaw = 10,      // docs/theory/laws.md
 };
 inline constexpr int kModelCount = 11;
 
@@ -113,8 +113,8 @@ enum class ArithmeticReason {
   kUnspecified = 0,
   kWithinTolerance = 1,  // Plain arithmetic: its bound is within the part of the tolerance that effects leave.
   kZeroTolerance = 2,    // Compensated arithmetic: nothing is left of the tolerance.
-  // Compensated arithmetic: plain arithmetic cannot prove a sign that decides on the regime, the order of the events or a
-  // broken limit, or a number is beyond its range.
+  // Compensated arithmetic: plain arithmetic cannot prove a sign that decides on the regime, the order of the events or
+  // a broken limit, or a number is beyond its range.
   kSignNotProved = 3,
   kBoundTooLarge = 4,  // Compensated arithmetic: the bound of plain arithmetic exceeds what is left of the tolerance.
   kOnlyOne = 5,        // The model has no other arithmetic.
@@ -123,7 +123,8 @@ enum class ArithmeticReason {
 struct PlannedArithmetic {
   Arithmetic arithmetic = Arithmetic::kUnspecified;
   ArithmeticReason reason = ArithmeticReason::kUnspecified;
-  // Bounds the rounding error (core/plan/arithmetic.h); absent for kOnlyOne, where Accuracy::relative_error alone knows.
+  // Bounds the rounding error (docs/theory/rounding.md); absent for kOnlyOne, where Accuracy::relative_error alone
+  // knows.
   std::optional<double> rounding_error;
   friend bool operator==(const PlannedArithmetic&, const PlannedArithmetic&) = default;
 };

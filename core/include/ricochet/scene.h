@@ -1,7 +1,8 @@
 // Scene: the question. A system strikes a surface, with friction between the two and one coefficient of restitution.
 //
-// A Scene is plain data that mirrors ricochet.v1.Scene; nothing in it has been checked. Validate (core/scene/validate.h)
-// checks every rule stated here, and all other code of the core relies on them. Units are SI units and radians.
+// A Scene is plain data that mirrors ricochet.v1.Scene; nothing in it has been checked. Every
+// call of a Solver checks every rule stated here first, and all other code relies on them. Units are SI units and
+// radians.
 
 #ifndef RICOCHET_SCENE_H_
 #define RICOCHET_SCENE_H_
@@ -61,8 +62,8 @@ struct SurfaceVelocity {
   friend bool operator==(const SurfaceVelocity&, const SurfaceVelocity&) = default;
 };
 
-// A compliant contact deforms along n, along t or both. Only planar systems with the energetic coefficient, or with Hunt
-// and Crossley's damping, may state one. N is the normal force, d the indentation and d' its rate.
+// A compliant contact deforms along n, along t or both. Only planar systems with the energetic coefficient, or with
+// Hunt and Crossley's damping, may state one. N is the normal force, d the indentation and d' its rate.
 struct LinearSpring {
   double stiffness_n_m = 0.0;  // k of N = k d, > 0
   friend bool operator==(const LinearSpring&, const LinearSpring&) = default;
@@ -71,8 +72,8 @@ struct HertzSpring {
   double stiffness_n_m1_5 = 0.0;  // k of N = k d^(3/2), > 0
   friend bool operator==(const HertzSpring&, const HertzSpring&) = default;
 };
-// The spring of Hunt and Crossley (1975). Its damping takes the place of the coefficient of restitution, which must then
-// be unset.
+// The spring of Hunt and Crossley (1975). Its damping takes the place of the coefficient of restitution, which must
+// then be unset.
 struct HuntCrossleySpring {
   double stiffness_n_m_p = 0.0;  // k of N = k d^p (1 + c d'), N/m^p, > 0
   double exponent = 0.0;         // p, in [1, 4]
@@ -84,15 +85,16 @@ using NormalSpring = std::variant<std::monostate, LinearSpring, HertzSpring, Hun
 
 struct Compliance {
   // Tangential over normal compliance, in [1e-9, 1e9]; (2 - nu)/(2 (1 - nu)) for spheres of Poisson's ratio nu. Absent
-  // means rigid along the surface. It must be absent with a HertzSpring or HuntCrossleySpring, and if static friction is
-  // above kinetic friction.
+  // means rigid along the surface. It must be absent with a HertzSpring or HuntCrossleySpring, and if static friction
+  // is above kinetic friction.
   std::optional<double> tangential_ratio_squared;
   NormalSpring normal;
   friend bool operator==(const Compliance&, const Compliance&) = default;
 };
 
 // Finite forces act before, during and after the impact. They change it only as long as the contact lasts, so that they
-// have no effect in a scene without a normal spring. Terms in the squares of velocities are left out, and W is constant.
+// have no effect in a scene without a normal spring. Terms in the squares of velocities are left out, and W is
+// constant.
 
 // Gravity acts on planar bodies, pairs and linkages.
 struct Gravity {

@@ -54,7 +54,7 @@ struct SolveRequest {
   // requires Effect::kFiniteDuration.
   int64_t force_intervals = 0;
   // If > 0, Outcome::certificate has this many significant digits, at most kMostCertifiedDigits. It must be 0 with
-  // excluded effects. core/certified/certified.h says which scenes can be certified.
+  // excluded effects. docs/theory/certified.md says which scenes can be certified.
   int32_t certified_digits = 0;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };
@@ -79,7 +79,7 @@ struct PlanResponse {
 
 // The range in which a field of an uncertain scene lies.
 struct FieldRange {
-  std::string path;  // Path of the field, spelled as for an axis of a sweep (core/scene/field.h).
+  std::string path;  // Path of the field, spelled as for an axis of a sweep.
   double low = 0.0;
   double high = 0.0;
   friend bool operator==(const FieldRange&, const FieldRange&) = default;
@@ -87,8 +87,8 @@ struct FieldRange {
 
 struct BoundsRequest {
   Scene scene;  // Its restitution may be left unset.
-  // Ranges ask for an enclosure. All fields of a planar system, the coefficients of friction and the velocity of the
-  // surface may have one (core/answer/scene_enclosure.h).
+  // Ranges ask for an enclosure (docs/theory/bounds.md). All fields of a planar system, the coefficients of friction
+  // and the velocity of the surface may have one.
   std::vector<FieldRange> ranges;
   int32_t certified_digits = 0;  // Digits of BoundsResponse::certificate; the rules of SolveRequest hold.
   friend bool operator==(const BoundsRequest&, const BoundsRequest&) = default;
@@ -186,8 +186,8 @@ class Solver {
 
   // Studies what the accuracy of one impact costs in time, on the machine that answers: every method that applies, with
   // its time and its error. The stream starts with a chunk without rows, gives the rows as they are measured, and ends
-  // with a summary. It stops within 10 ms of a stop by its options, which it keeps. An invalid request gives a stream of
-  // that one error.
+  // with a summary. It stops within 10 ms of a stop by its options, which it keeps. An invalid request gives a stream
+  // of that one error.
   CostStream Cost(const CostRequest& request, const CallOptions& options = {}) const {
     return DoCost(request, options);
   }
@@ -214,16 +214,16 @@ class Solver {
 
 // LocalSolver is the Solver that runs in this process: it needs no server and no file. Copying it costs little.
 //
-// A call computes on the thread that makes it. A sweep or a batch that lasts longer than a millisecond is helped by others,
-// which the solver starts when it first needs them, shares with its copies, and ends with the last of them and of their
-// streams. Between two chunks helpers compute one chunk ahead, so that a stream holds a few chunks of 512 KiB at most,
-// and one more for every four helpers. The number of threads changes no bit of an answer.
+// A call computes on the thread that makes it. A sweep or a batch that lasts longer than a millisecond is helped by
+// others, which the solver starts when it first needs them, shares with its copies, and ends with the last of them and
+// of their streams. Between two chunks helpers compute one chunk ahead, so that a stream holds a few chunks of 512 KiB
+// at most, and one more for every four helpers. The number of threads changes no bit of an answer.
 class LocalSolver final : public Solver {
  public:
   // Without limits it takes a request of any size, because the process that asks is the one that pays.
   LocalSolver() : LocalSolver(Limits::None()) {}
-  // At most `threads` threads compute a sweep or a batch, the caller's own among them; with 1, no thread is ever started. The
-  // default is one for each core that this process may use. `threads` must be >= 1.
+  // At most `threads` threads compute a sweep or a batch, the caller's own among them; with 1, no thread is ever
+  // started. The default is one for each core that this process may use. `threads` must be >= 1.
   explicit LocalSolver(const Limits& limits, int threads = AvailableCores());
 
  private:

@@ -31,8 +31,8 @@ inline constexpr int kRowStatusCount = 6;
 
 struct SweepRequest {
   Grid grid;
-  // Paths into the outcome, at least one, no two equal (core/sweep/column.h). Asking for a number is asking for the
-  // effects that make it: "contact.duration_s" requires Effect::kFiniteDuration at every point.
+  // Paths into the outcome, at least one, no two equal, as `ricochet scene columns` lists them. Asking for a number is
+  // asking for the effects that make it: "contact.duration_s" requires Effect::kFiniteDuration at every point.
   std::vector<std::string> columns;
   bool with_regime = false;  // If true, every chunk has the regimes and the statuses of its points.
   // The request covers the points [first_index, end_index) of the grid; an absent end means all to the end. A point has

@@ -10,8 +10,8 @@
 namespace ricochet::compliant {
 namespace {
 
-// Powers of two that bring |v0| and Wnn to everyday size: the path is followed with v0 2^-speed and W 2^(-2 inertia), so
-// that its impulses, with k = 1, are in units of 2^(speed - 2 inertia).
+// Powers of two that bring |v0| and Wnn to everyday size: the path is followed with v0 2^-speed and W 2^(-2 inertia),
+// so that its impulses, with k = 1, are in units of 2^(speed - 2 inertia).
 struct Units {
   int speed = 0;
   int inertia = 0;
@@ -56,8 +56,8 @@ double ErrorEstimate(const PlanarProblem& problem, const Units& units, const Pat
 // The rounding of sums over the sections of a path, relative to their terms.
 double SumRounding(const PathResult& path) { return 4.0 * kEps * (2.0 + path.sections); }
 
-// The errors of the impulses that have led to `state`, from those of its velocities, and that of the change of energy: T is
-// a function of the velocities, and changes by (u, v).d(f, tau).
+// The errors of the impulses that have led to `state`, from those of its velocities, and that of the change of energy:
+// T is a function of the velocities, and changes by (u, v).d(f, tau).
 struct MomentumErrors {
   ImpulseErrors impulses;
   double energy;

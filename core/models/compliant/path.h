@@ -21,8 +21,8 @@ struct PathResult {
   ContactState compression_end;       // The last time that the indentation is the largest so far.
   double largest_normal_force = 0.0;  // N at `compression_end`.
   FirstStick first_stick = FirstStick::kNever;
-  // Errors by rounding, infinite if nothing is known of them: of u and v at the end, and, at `compression_end`, of N and of
-  // u where v = 0.
+  // Errors by rounding, infinite if nothing is known of them: of u and v at the end, and, at `compression_end`, of N
+  // and of u where v = 0.
   double u_error = 0.0, v_error = 0.0;
   double compression_force_error = 0.0, compression_u_error = 0.0;
   int sections = 0;

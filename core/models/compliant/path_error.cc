@@ -10,8 +10,8 @@ namespace {
 // Positions in a covariance.
 constexpr size_t kNormalForce = 0, kSpringForce = 1, kU = 2, kV = 3;
 
-// A velocity errs by no more than so many standard deviations, and by this part of one more for each section: sections that
-// repeat each other do not round independently.
+// A velocity errs by no more than so many standard deviations, and by this part of one more for each section: sections
+// that repeat each other do not round independently.
 constexpr double kSafety = 2.0;
 constexpr double kSafetyOfSection = 0.02;
 constexpr double kUnit = 0x1p-53;

@@ -1,4 +1,5 @@
-// Slide: one section in which the particle slides, as algebra in the normal impulse (docs/theory/compliant.md, "Slide").
+// Slide: one section in which the particle slides, as algebra in the normal impulse (docs/theory/compliant.md,
+// "Slide").
 
 #ifndef RICOCHET_CORE_MODELS_COMPLIANT_SLIDE_H_
 #define RICOCHET_CORE_MODELS_COMPLIANT_SLIDE_H_

@@ -17,8 +17,8 @@ namespace {
 // Rounding, relative to the sizes of the terms of a velocity.
 constexpr double kRounding = 64.0 * std::numeric_limits<double>::epsilon();
 
-// How far the end of a straight path that is misplaced by `shift` in the normal impulse may be off in u and v. Where slip
-// stops or starts so close to the end that it may lie on the other side of it, any slope may be that of the end.
+// How far the end of a straight path that is misplaced by `shift` in the normal impulse may be off in u and v. Where
+// slip stops or starts so close to the end that it may lie on the other side of it, any slope may be that of the end.
 double ChangeOfVelocity(const ScaledContact& contact, const Path& path, double shift) {
   constexpr double kNear = 4.0;
   const auto& [u_slope, v_slope] = path.straight_slopes;
@@ -33,8 +33,8 @@ double ChangeOfVelocity(const ScaledContact& contact, const Path& path, double s
 }
 
 // Without forces, damping and springs along t, u and v are linear in tau while a mode lasts, and the integration keeps
-// that to rounding. Then it can err in one thing alone, the work that restitution returns, and how much is lacking there
-// follows from the velocities themselves.
+// that to rounding. Then it can err in one thing alone, the work that restitution returns, and how much is lacking
+// there follows from the velocities themselves.
 double ErrorOfStraightPath(const ScaledContact& contact, const Path& path) {
   constexpr double kSafety = 1.5;
   const Motion& end = path.end;
@@ -47,16 +47,16 @@ double ErrorOfStraightPath(const ScaledContact& contact, const Path& path) {
   return error / std::max(1.0, std::fabs(contact.u0));
 }
 
-// How far u may be off beyond its own local errors because of the springs along t and n. An error of the tangential force
-// swings into a velocity, and a relative one of the normal force counts as that part of the mean size of u.
+// How far u may be off beyond its own local errors because of the springs along t and n. An error of the tangential
+// force swings into a velocity, and a relative one of the normal force counts as that part of the mean size of u.
 double ErrorOfCompliantSlip(const ScaledContact& contact, const Path& path, double normal) {
   const double swing = std::sqrt(contact.wtt * contact.ratio_squared / contact.stiffness);
   const double mean = 0.5 * (std::fabs(contact.u0) + path.peaks.slip);
   return swing * path.local_errors[kSpringForce] + mean * normal;
 }
 
-// Local errors add up at worst in size. They grow where restitution slows down, because v^2 carries over, and they shift
-// the end, up to which a_t acts. The safety covers all other growth.
+// Local errors add up at worst in size. They grow where restitution slows down, because v^2 carries over, and they
+// shift the end, up to which a_t acts. The safety covers all other growth.
 double ErrorOfAnyPath(const ScaledContact& contact, const Path& path) {
   const double safety = contact.compliant ? 3.5 : 4.0;
   const Motion& end = path.end;
@@ -81,7 +81,8 @@ double ErrorOf(const ScaledContact& contact, const Path& path) {
 }
 
 // The errors of all numbers, from the error of the velocities over max(|u0|, |v0|). Impulses follow from velocities by
-// W (f, tau) = d(u, v), unless finite forces add to them; works of friction from the change of energy and the normal work.
+// W (f, tau) = d(u, v), unless finite forces add to them; works of friction from the change of energy and the normal
+// work.
 ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact, const Path& path, double error,
                             const Impact& impact) {
   ImpactErrors errors;

@@ -1,12 +1,14 @@
 #include "core/models/finite_duration/integrator.h"
 
 #include <cvode/cvode.h>
+#include <sundials/sundials_math.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "core/numerics/invariant.h"
+#include "core/base/invariant.h"
+#include "core/models/finite_duration/finite_duration.h"
 
 namespace ricochet::finite_duration {
 namespace {
@@ -130,5 +132,7 @@ void Integrator::Count() {
   right_hand_sides_ += right_hand_sides - counted_since_begin_.second;
   counted_since_begin_ = {steps, right_hand_sides};
 }
+
+double LibraryPower(double base, double exponent) { return SUNRpowerR(base, exponent); }
 
 }  // namespace ricochet::finite_duration

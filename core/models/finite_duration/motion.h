@@ -1,8 +1,8 @@
 // Motion: the state that is integrated, in natural units, with its forces and rates.
 //
-// A mode is a branch of the normal spring and a state of friction. N = K x^p (1 - c v), where x is the d of the curve of
-// loading, or (d - (1 - eta^2) d_max)/eta^2 on that of unloading: x' = -v or -v/eta^2. Two changes of variables keep the
-// equations smooth and of size 1 (docs/theory/finite_duration.md, "Variables").
+// A mode is a branch of the normal spring and a state of friction. N = K x^p (1 - c v), where x is the d of the curve
+// of loading, or (d - (1 - eta^2) d_max)/eta^2 on that of unloading: x' = -v or -v/eta^2. Two changes of variables keep
+// the equations smooth and of size 1 (docs/theory/finite_duration.md, "Variables").
 
 #ifndef RICOCHET_CORE_MODELS_FINITE_DURATION_MOTION_H_
 #define RICOCHET_CORE_MODELS_FINITE_DURATION_MOTION_H_

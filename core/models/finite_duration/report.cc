@@ -50,8 +50,8 @@ void WriteCoefficients(double coefficient, const ScaledContact& contact, const P
 void WriteWorks(const ScaledContact& contact, const Path& path, Impact& impact) {
   const Motion& end = path.end;
   const double unit = contact.Energy();
-  // Where velocities are linear in tau, the works follow from those at the changes of mode, and not from an integral that
-  // has errors of its own.
+  // Where velocities are linear in tau, the works follow from those at the changes of mode, and not from an integral
+  // that has errors of its own.
   Works compression = path.straight_loading;
   Works restitution = path.straight_other;
   if (!contact.IsStraight()) {

@@ -4,8 +4,8 @@
 #include <limits>
 #include <variant>
 
+#include "core/base/invariant.h"
 #include "core/numerics/elementary.h"
-#include "core/numerics/invariant.h"
 
 namespace ricochet::finite_duration {
 namespace {

@@ -1,7 +1,7 @@
 // Stands for the model of finite duration in a build without SUNDIALS. A request for it is refused before a Solve.
 
+#include "core/base/invariant.h"
 #include "core/models/finite_duration/finite_duration.h"
-#include "core/numerics/invariant.h"
 
 namespace ricochet::finite_duration {
 
@@ -13,6 +13,10 @@ Impact Solve(const Problem& /*problem*/, absl::FunctionRef<bool()> /*stopped*/) 
 
 Impact Solve(const Problem& problem) {
   return Solve(problem, [] { return false; });
+}
+
+double LibraryPower(double /*base*/, double /*exponent*/) {
+  StopOnBrokenInvariant("this build has no model of finite duration", __FILE__, __LINE__);
 }
 
 }  // namespace ricochet::finite_duration

@@ -9,8 +9,8 @@
 namespace ricochet::laws {
 namespace {
 
-// The tangential part of P_II - P_I. The normal part is -wtn/wnn times the tangential one. At rank one and beside the range
-// of W no impulse ends approach and slip: the part is without limit as det W vanishes.
+// The tangential part of P_II - P_I. The normal part is -wtn/wnn times the tangential one. At rank one and beside the
+// range of W no impulse ends approach and slip: the part is without limit as det W vanishes.
 double StickingImpulse(const PlanarProblem& in, const NewtonImpact& impact) {
   const double slip = impact.frictionless_slip();
   if (impact.rank_one() && slip != 0.0) return std::copysign(std::numeric_limits<double>::infinity(), -slip);

@@ -16,9 +16,9 @@
 
 namespace ricochet::laws {
 
-// e must be >= 0, and e_t in [-1, 1]. There is exactly one solution, or none if wnn <= 0 or if, at rank one and beside the
-// range of W, friction drives the contact in. core/models/laws/impact_law.h
-// states units, degenerate inputs and accuracy.
+// e must be >= 0, and e_t in [-1, 1]. There is exactly one solution, or none if wnn <= 0 or if, at rank one and beside
+// the range of W, friction drives the contact in. core/models/laws/impact_law.h states units, degenerate inputs and
+// accuracy.
 ImpactLawResult SolveChatterjeeRuina(const PlanarProblem& input, double e, double e_t);
 
 }  // namespace ricochet::laws

@@ -1,16 +1,16 @@
 // Impact laws: algebraic laws that give the end of an impact from the state before it, for comparison with
 // core/models/planar/planar.h. A law has one solution, several or none.
 //
-// The contact is planar: W = [wtt, wtn; wtn, wnn] in 1/kg, velocities (u, v) along t and n in m/s, impulses (f, tau) on the
-// striking body in N s; (u1, v1) = (u0, v0) + W (f, tau1). All laws take Newton's coefficient e: v1 = -e v0.
+// The contact is planar: W = [wtt, wtn; wtn, wnn] in 1/kg, velocities (u, v) along t and n in m/s, impulses (f, tau) on
+// the striking body in N s; (u1, v1) = (u0, v0) + W (f, tau1). All laws take Newton's coefficient e: v1 = -e v0.
 //
 //   inputs        are valid (core/scene/validate.h): finite, mu >= 0, e >= 0.
 //   v0 >= 0       The contact separates: there is one solution without impulse, (u1, v1) = (u0, v0).
 //   wnn <= 0      No impulse moves the contact along the normal: there is no solution.
 //   rank one      u1 = u0 + (wtn/wnn)(v1 - v0), whatever the tangential impulse is.
 //   no solution   The law contradicts itself: the list is empty.
-//   accuracy      is a few ulp for every output; docs/theory/laws.md says of which scale. Products of three inputs must be
-//                 representable, because nothing guards against overflow.
+//   accuracy      is a few ulp for every output; docs/theory/laws.md says of which scale. Products of three inputs must
+//                 be representable, because nothing guards against overflow.
 
 #ifndef RICOCHET_CORE_MODELS_LAWS_IMPACT_LAW_H_
 #define RICOCHET_CORE_MODELS_LAWS_IMPACT_LAW_H_

@@ -15,8 +15,8 @@
 
 namespace ricochet::laws {
 
-// e must be >= 0. There is one solution, or none if wnn - mu sgn(u0) wtn <= 0, because no tau1 > 0 then ends the approach
-// (self-locking). core/models/laws/impact_law.h states units, degenerate inputs and accuracy.
+// e must be >= 0. There is one solution, or none if wnn - mu sgn(u0) wtn <= 0, because no tau1 > 0 then ends the
+// approach (self-locking). core/models/laws/impact_law.h states units, degenerate inputs and accuracy.
 ImpactLawResult SolveWhittaker(const PlanarProblem& input, double e);
 
 }  // namespace ricochet::laws

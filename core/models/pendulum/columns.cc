@@ -1,4 +1,5 @@
-// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run time.
+// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run
+// time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/models/pendulum/columns.cc"
 #include "core/models/pendulum/columns.h"
@@ -17,6 +18,7 @@
 #include "hwy/foreach_target.h"
 #include "core/models/pendulum/kernel-inl.h"
 #include "core/models/pendulum/rounding-inl.h"
+#include "core/numerics/codes-inl.h"
 #include "core/numerics/lanes-inl.h"
 #include "core/numerics/plain-inl.h"
 #include "core/numerics/sizes-inl.h"
@@ -48,16 +50,16 @@ struct Block {
   }
 };
 
-// A verdict is the number of a regime, plus kInadmissible if a limit is broken, plus kUnproved if plain arithmetic does not
-// prove the problem's results, which then have no meaning.
-inline constexpr int kInadmissible = 64;
-inline constexpr int kUnproved = 128;
+// A verdict is the number of a regime, with the flag kInadmissible if a limit is broken, and kUnproved if plain
+// arithmetic does not prove the problem's results, which then have no meaning.
+inline constexpr uint64_t kInadmissible = 64;
+inline constexpr uint64_t kUnproved = 128;
 
 // Which problems of a block plain arithmetic has proved.
 enum class Proof { kNotAll, kAll, kAllUsual };
 
 // A verdict for each problem of a block, as lanes store it. Whole vectors are stored, which may reach beyond the block.
-using Verdicts = std::array<double, Block::kCapacity + ProblemColumns::kMostLanes>;
+using Verdicts = std::array<uint64_t, Block::kCapacity + ProblemColumns::kMostLanes>;
 
 }  // namespace ricochet::pendulum
 #endif  // RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_CC_
@@ -73,6 +75,7 @@ using ricochet::HWY_NAMESPACE::Sizes;
 // The target's widest lanes.
 using V = ricochet::HWY_NAMESPACE::Vector;
 using VLanes = ricochet::HWY_NAMESPACE::Lanes<V>;
+using VCodes = ricochet::HWY_NAMESPACE::Codes<V>;
 using Mask = decltype(V() < V());
 
 // Loads the problems of a block, as many at a time as a vector has lanes.
@@ -113,29 +116,29 @@ class Loader {
 // These parts take a division or a root each.
 inline constexpr unsigned kDearParts = kPartOneMinusKappa | kPartEta;
 
-HWY_INLINE V Number(Regime regime) { return VLanes::Fill(static_cast<double>(regime)); }
+HWY_INLINE VCodes::Type CodeOfRegime(Regime regime) { return VCodes::Fill(static_cast<uint64_t>(regime)); }
 
 // No problem separates.
 template <typename N>
-HWY_INLINE V VerdictsOf(const Solution<N, Mask>& x) {
-  const V zero = VLanes::Fill(0.0);
-  const V slips = Select(Rounded(x.mu) == zero, Number(Regime::kFrictionless), Number(Regime::kRebound));
-  const V regime = Select(x.locked, Number(Regime::kLocked), slips);
-  return regime + Select(IsNegative(x.one_minus_eta_squared), VLanes::Fill(kInadmissible), zero);
+HWY_INLINE VCodes::Type VerdictsOf(const Solution<N, Mask>& x) {
+  const VCodes::Type slips = VCodes::Select(Rounded(x.mu) == VLanes::Fill(0.0), CodeOfRegime(Regime::kFrictionless),
+                                            CodeOfRegime(Regime::kRebound));
+  const VCodes::Type regime = VCodes::Select(x.locked, CodeOfRegime(Regime::kLocked), slips);
+  return VCodes::FlagWhere(IsNegative(x.one_minus_eta_squared), kInadmissible, regime);
 }
 
 HWY_INLINE void StoreVerdicts(const Block& block, const Verdicts& verdicts) {
   Regime* const regimes = block.solved.regimes.data() + block.place;
   bool* const inadmissible = block.solved.inadmissible.data() + block.place;
   for (size_t i = 0; i < block.size; ++i) {
-    const int verdict = static_cast<int>(verdicts[i]);
+    const uint64_t verdict = verdicts[i];
     regimes[i] = static_cast<Regime>(verdict & (kInadmissible - 1));
     inadmissible[i] = (verdict & kInadmissible) != 0;
   }
 }
 
-// Stores the outputs asked for of whole vectors of problems: those of a block that is smaller than a vector go to a place of
-// their own first.
+// Stores the outputs asked for of whole vectors of problems: those of a block that is smaller than a vector go to a
+// place of their own first.
 class Storer {
  public:
   explicit Storer(const Block& block) : block_(block), size_(block.size) {
@@ -146,8 +149,8 @@ class Storer {
     }
   }
 
-  // The first problem of the last vector. That vector overlaps the one before it, so that it holds no problem beyond the
-  // block.
+  // The first problem of the last vector. That vector overlaps the one before it, so that it holds no problem beyond
+  // the block.
   HWY_INLINE size_t Last() const { return IsSmall() ? 0 : size_ - VLanes::Count(); }
 
   template <typename N>
@@ -173,7 +176,8 @@ class Storer {
   // Outputs whose bits are tested together first.
   static constexpr size_t kGroup = 5;
 
-  // Each output has its bit and its own place in the code: a jump to a place that is looked up costs more than an output.
+  // Each output has its bit and its own place in the code: a jump to a place that is looked up costs more than an
+  // output.
   template <size_t kFirst, typename N, size_t... kInGroup>
   HWY_INLINE void StoreGroup(unsigned wanted, size_t i, const Solution<N, Mask>& x,
                              std::index_sequence<kInGroup...> /*group*/) const {
@@ -197,8 +201,8 @@ class Storer {
 // RelativeError is within the tolerance if kappa is at most this number, which is rounded down.
 double MostKappa(double tolerance) { return (tolerance - kErrorOfOne) / kErrorOfKappa * (1.0 - 0x1p-40); }
 
-// True where a problem rebounds, keeps all limits and is proved with room to spare, as most problems of a sweep are. This takes
-// a third of the operations that tell the other problems apart.
+// True where a problem rebounds, keeps all limits and is proved with room to spare, as most problems of a sweep are.
+// This takes a third of the operations that tell the other problems apart.
 template <typename N>
 HWY_INLINE Mask AreUsual(RestitutionLaw law, const Inputs<N, Mask>& in, const Solution<N, Mask>& x, V most_kappa) {
   const V zero = VLanes::Fill(0.0);
@@ -210,8 +214,8 @@ HWY_INLINE Mask AreUsual(RestitutionLaw law, const Inputs<N, Mask>& in, const So
   return Both(Both(rebounds, keeps_limits), Both(Rounded(x.kappa) <= most_kappa, IsModerate(in)));
 }
 
-// Solves each problem plainly. The law and the parts are constants, because telling them apart takes as long as computing
-// them.
+// Solves each problem plainly. The law and the parts are constants, because telling them apart takes as long as
+// computing them.
 template <RestitutionLaw kLaw, unsigned kParts>
 HWY_INLINE Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
   using N = Plain<V>;
@@ -227,13 +231,12 @@ HWY_INLINE Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdict
     Solution<N, Mask> x;
     SolveUnlocked(kLaw, in, parts, x);
     if (!InAllLanes(AreUsual(kLaw, in, x, most_kappa))) [[unlikely]] {
-      if (all_usual) verdicts.fill(static_cast<double>(Regime::kRebound));
+      if (all_usual) verdicts.fill(static_cast<uint64_t>(Regime::kRebound));
       all_usual = false;
       OverrideLocked(x);
       const Mask is_right = Both(SignsAreProved(kLaw, x), RelativeError(x) <= VLanes::Fill(tolerance));
       const Mask is_proved = Both(IsModerate(in), is_right);
-      const V verdict = VerdictsOf(x);
-      VLanes::Store(Select(is_proved, verdict, verdict + VLanes::Fill(kUnproved)), verdicts.data() + i);
+      VCodes::Store(VCodes::FlagUnless(is_proved, kUnproved, VerdictsOf(x)), verdicts.data() + i);
       all = Both(all, is_proved);
     }
     storer.Store(i, x);
@@ -294,7 +297,7 @@ bool SolveBlock(const Block& block) {
   for (size_t i = 0;; i = std::min(i + VLanes::Count(), last)) {
     Solution<N, Mask> x;
     SolveParts(block.problems.law(), loader.Load<N>(i), block.parts, x);
-    VLanes::Store(VerdictsOf(x), verdicts.data() + i);
+    VCodes::Store(VerdictsOf(x), verdicts.data() + i);
     storer.Store(i, x);
     if (i == last) break;
   }

@@ -2,8 +2,8 @@
 //
 // Each output is that of the first arithmetic whose bound on its rounding error is within the tolerance: plain double
 // arithmetic (SolvePlain), or double-double arithmetic (Solve), with the same bits. At tolerance 0 it is the latter.
-// A block of problems is solved plainly; those whose bound or signs are not proved are solved once more. No result depends
-// on the neighbours of a problem.
+// A block of problems is solved plainly; those whose bound or signs are not proved are solved once more. No result
+// depends on the neighbours of a problem.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_H_
 #define RICOCHET_CORE_MODELS_PENDULUM_COLUMNS_H_
@@ -53,8 +53,8 @@ class ProblemColumns {
   std::array<AlignedVector<double>, kNumbers> numbers_;
 };
 
-// The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]` of
-// the i-th problem solved, `regimes[i]` its regime, and `inadmissible[i]` whether it breaks a limit.
+// The outputs asked for, each at most once, and the places of the results. `columns[c][i]` receives output `outputs[c]`
+// of the i-th problem solved, `regimes[i]` its regime, and `inadmissible[i]` whether it breaks a limit.
 struct SolvedColumns {
   absl::Span<const Output> outputs;
   absl::Span<double* const> columns;
@@ -62,9 +62,9 @@ struct SolvedColumns {
   absl::Span<bool> inadmissible;
 };
 
-// Solves the problems [first, first + count). The tolerance is in [0, 1) and means what PlainImpact::relative_error does.
-// Returns true if plain arithmetic has shown that all of them rebound, keep all limits and have finite outputs, as in most
-// blocks of a sweep. Otherwise nothing is known.
+// Solves the problems [first, first + count). The tolerance is in [0, 1) and means what PlainImpact::relative_error
+// does. Returns true if plain arithmetic has shown that all of them rebound, keep all limits and have finite outputs,
+// as in most blocks of a sweep. Otherwise nothing is known.
 bool SolveColumns(const ProblemColumns& problems, size_t first, size_t count, double tolerance,
                   const SolvedColumns& solved);
 

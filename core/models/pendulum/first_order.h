@@ -2,11 +2,11 @@
 //
 // Lubarda (2009), sec. 8. The coefficients are the forms of core/bounds/nearly_vertical.h. tau0, f0 and the works of
 // compression are exact; tau1, f1, omega+ and all that follows from them have the errors of kappa and kappa_hat, which
-// are of order x^2. Works add up to the change of energy up to rounding. For x <= 1/2 and with c, the coefficient that the
-// law states, velocities are right to 2 c x^2 of max(|u0|, |v0|), and impulses times their mobility to (8/3) c x^2.
-// docs/theory/pendulum_numerics.md lists the formulas, their errors and their rounding.
-// For mu = 0 or b = 0 this is the impact without friction, whose forms are exact up to rounding.
-// The model has no answer for a problem with mu > 0 that `Serves` refuses.
+// are of order x^2. Works add up to the change of energy up to rounding. For x <= 1/2 and with c, the coefficient that
+// the law states, velocities are right to 2 c x^2 of max(|u0|, |v0|), and impulses times their mobility to (8/3) c x^2.
+// docs/theory/pendulum_numerics.md lists the formulas, their errors and their rounding. For mu = 0 or b = 0 this is the
+// impact without friction, whose forms are exact up to rounding. The model has no answer for a problem with mu > 0 that
+// `Serves` refuses.
 
 #ifndef RICOCHET_CORE_MODELS_PENDULUM_FIRST_ORDER_H_
 #define RICOCHET_CORE_MODELS_PENDULUM_FIRST_ORDER_H_

@@ -1,11 +1,11 @@
-// The pendulum's formulas (core/models/pendulum/pendulum.h) over a number type N: DoubleDouble for moderate inputs, Wide for
-// all, and Plain, whose errors core/models/pendulum/rounding-inl.h bounds.
+// The pendulum's formulas (core/models/pendulum/pendulum.h) over a number type N: DoubleDouble for moderate inputs,
+// Wide for all, and Plain, whose errors core/models/pendulum/rounding-inl.h bounds.
 //
 // In the wider types no difference cancels. With s = a + q and d = a - q (q = mu |b| is exact), a difference such as
-// 1 - kappa is a numerator divided by s or d, and each numerator has two forms: d - c s keeps its accuracy if d is small
-// compared with a, and a (1 - c) - q (1 + c) if c is near 1 and q is small compared with a. The rounding error left is at
-// most 25 u^2 of the larger term. Plain arithmetic takes the first form, because its bound does not gain by the second.
-// docs/theory/pendulum_numerics.md lists all numerators.
+// 1 - kappa is a numerator divided by s or d, and each numerator has two forms: d - c s keeps its accuracy if d is
+// small compared with a, and a (1 - c) - q (1 + c) if c is near 1 and q is small compared with a. The rounding error
+// left is at most 25 u^2 of the larger term. Plain arithmetic takes the first form, because its bound does not gain by
+// the second. docs/theory/pendulum_numerics.md lists all numerators.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_PENDULUM_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -56,8 +56,8 @@ HWY_INLINE N SquareOf(const N& x) {
   return x * x;
 }
 
-// A numerator is lead - c trail, where c is the coefficient or its square, and lead and trail are d and s or s and d. The
-// second form is a (1 - c) - q (1 + c) if d leads, and a (1 - c) + q (1 + c) if s leads.
+// A numerator is lead - c trail, where c is the coefficient or its square, and lead and trail are d and s or s and d.
+// The second form is a (1 - c) - q (1 + c) if d leads, and a (1 - c) + q (1 + c) if s leads.
 enum class Power { kOne, kTwo };
 enum class Lead { kD, kS };
 
@@ -185,8 +185,8 @@ HWY_INLINE void ClearParts(Solution<N, Mask>& x) {
   x.half_omega_tau0 = zero;
 }
 
-// Computes all quantities that `parts` names. If a problem locks, they have no meaning until OverrideLocked sets them. The
-// problems must not separate.
+// Computes all quantities that `parts` names. If a problem locks, they have no meaning until OverrideLocked sets them.
+// The problems must not separate.
 template <typename N, typename Mask>
 HWY_INLINE void SolveUnlocked(RestitutionLaw law, const Inputs<N, Mask>& in, unsigned parts, Solution<N, Mask>& x) {
   ClearParts(x);

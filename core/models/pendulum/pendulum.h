@@ -1,21 +1,21 @@
 // Pendulum: the frictional impact of a rigid pendulum in closed form.
 //
-// Lubarda (2009), doi:10.1115/1.3172198. The pendulum has the moment of inertia J about the pin, its contact at (a, -b),
-// the angular velocity omega- < 0 before the impact, kinetic friction mu and static friction mu_s. With q = mu |b|, x = q/a
-// and r = (a - q)/(a + q):
+// Lubarda (2009), doi:10.1115/1.3172198. The pendulum has the moment of inertia J about the pin, its contact at (a,
+// -b), the angular velocity omega- < 0 before the impact, kinetic friction mu and static friction mu_s. With q = mu
+// |b|, x = q/a and r = (a - q)/(a + q):
 //
-//   tau0 = -J omega-/(a + q)                       impulse of compression                                  [8]
-//   kappa_hat = eta sqrt(r) = kappa r              Newton's, energetic, Poisson's coefficient              [15], [23-25]
-//   omega+ = -kappa_hat omega-                     angular velocity after                                  [11]
-//   tau1 = (1 + kappa) tau0                        whole normal impulse                                    [10]
-//   f1 = sgn(b) mu (1 - kappa) tau0                friction impulse                                        [48], [51]
-//   mu_hat = f1/tau1                               Brach's coefficient                                     [49-51]
-//   Wc_n = a tau0 omega-/2,  Wr_n = -eta^2 Wc_n    works of the normal impulse                             [22], [40]
-//   Wc_t = q tau0 omega-/2,  Wr_t = eta^2 Wc_t     works of friction                                       [34], [40]
-//   dE = J omega-^2 (1 - kappa_hat^2)/2            energy lost                                             [16], [52]
+//   tau0 = -J omega-/(a + q)                       impulse of compression                                [8]
+//   kappa_hat = eta sqrt(r) = kappa r              Newton's, energetic, Poisson's coefficient            [15], [23-25]
+//   omega+ = -kappa_hat omega-                     angular velocity after                                [11]
+//   tau1 = (1 + kappa) tau0                        whole normal impulse                                  [10]
+//   f1 = sgn(b) mu (1 - kappa) tau0                friction impulse                                      [48], [51]
+//   mu_hat = f1/tau1                               Brach's coefficient                                   [49-51]
+//   Wc_n = a tau0 omega-/2,  Wr_n = -eta^2 Wc_n    works of the normal impulse                           [22], [40]
+//   Wc_t = q tau0 omega-/2,  Wr_t = eta^2 Wc_t     works of friction                                     [34], [40]
+//   dE = J omega-^2 (1 - kappa_hat^2)/2            energy lost                                           [16], [52]
 //
-// The contact separates if omega- >= 0. It locks if mu_s |b| >= a: there is no restitution, all three coefficients are 0 and
-// tau1 = tau0. It is frictionless if x = 0, and rebounds otherwise. Every threshold is decided exactly.
+// The contact separates if omega- >= 0. It locks if mu_s |b| >= a: there is no restitution, all three coefficients are
+// 0 and tau1 = tau0. It is frictionless if x = 0, and rebounds otherwise. Every threshold is decided exactly.
 //
 // Accuracy: each output is within 1 ulp of its exact value over the whole range of doubles; an output that changes its
 // sign is right to 2^-100 of its scale. docs/theory/pendulum_numerics.md says more. The problem must be valid
@@ -92,9 +92,9 @@ struct PlainImpact {
   bool proved = false;
 };
 
-// Computes all outputs of one impact at a tenth of the cost of Solve. If proved, the regime and the broken limits are those
-// of Solve. Not proved are only impacts within 2^-50 of a limit, with mu |b| = a or with a bound of 1 or more, and numbers
-// beyond the range: J, a and |omega-| in [2^-100, 2^100], |b| and mu at most 2^100.
+// Computes all outputs of one impact at a tenth of the cost of Solve. If proved, the regime and the broken limits are
+// those of Solve. Not proved are only impacts within 2^-50 of a limit, with mu |b| = a or with a bound of 1 or more,
+// and numbers beyond the range: J, a and |omega-| in [2^-100, 2^100], |b| and mu at most 2^100.
 PlainImpact SolvePlain(const Problem& problem);
 
 // The errors of all numbers, each on its own scale: of what Solve gives, and of what SolvePlain has proved.

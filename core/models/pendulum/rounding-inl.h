@@ -67,8 +67,8 @@ HWY_INLINE Mask SignsAreProved(RestitutionLaw law, const Solution<Plain<V>, Mask
   return invertible;
 }
 
-// True where the contact approaches and no product leaves the range of doubles. b, mu and the coefficient may be as small as
-// they like.
+// True where the contact approaches and no product leaves the range of doubles. b, mu and the coefficient may be as
+// small as they like.
 template <typename V, typename Mask>
 HWY_INLINE Mask IsModerate(const Inputs<Plain<V>, Mask>& in) {
   const V omega = Lanes<V>::Fill(0.0) - in.omega.value;

@@ -1,4 +1,5 @@
-// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run time.
+// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run
+// time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/models/planar/columns.cc"
 #include "core/models/planar/columns.h"
@@ -6,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstdint>
 #include <limits>
 
 // Highway prescribes the order of these includes.
@@ -15,6 +17,7 @@
 #include "core/models/planar/report-inl.h"
 #include "core/models/planar/rounding-inl.h"
 #include "core/models/planar_outputs-inl.h"
+#include "core/numerics/codes-inl.h"
 #include "core/numerics/lanes-inl.h"
 // clang-format on
 
@@ -54,11 +57,11 @@ struct Job {
   }
 };
 
-// A verdict is the number of a regime, plus kInadmissible if a limit is broken, plus kUnproved if the arithmetic does not
-// prove the problem's results within the tolerance, which then have no meaning.
-inline constexpr int kInadmissible = 64;
-inline constexpr int kUnproved = 128;
-using Verdicts = std::array<double, kBlock>;
+// A verdict is the number of a regime, with the flag kInadmissible if a limit is broken, and kUnproved if the
+// arithmetic does not prove the problem's results within the tolerance, which then have no meaning.
+inline constexpr uint64_t kInadmissible = 64;
+inline constexpr uint64_t kUnproved = 128;
+using Verdicts = std::array<uint64_t, kBlock>;
 
 }  // namespace ricochet::planar
 #endif  // RICOCHET_CORE_MODELS_PLANAR_COLUMNS_CC_
@@ -69,6 +72,7 @@ namespace ricochet::planar::HWY_NAMESPACE {
 // The target's widest lanes.
 using V = ricochet::HWY_NAMESPACE::Vector;
 using VLanes = ricochet::HWY_NAMESPACE::Lanes<V>;
+using VCodes = ricochet::HWY_NAMESPACE::Codes<V>;
 using Mask = decltype(V() < V());
 
 template <typename N>
@@ -121,12 +125,11 @@ HWY_INLINE void Store(const Job& job, size_t i, const Answer<N>& answer) {
                                        });
 }
 
-// Solves the problems [first, first + count), of which there are at least as many as a vector has lanes. The last vector
-// overlaps the one before it, so that it holds no problem beyond them. A result whose bound exceeds `tolerance` is not
-// proved.
+// Solves the problems [first, first + count), of which there are at least as many as a vector has lanes. The last
+// vector overlaps the one before it, so that it holds no problem beyond them. A result whose bound exceeds `tolerance`
+// is not proved.
 template <typename N>
 HWY_INLINE void SolveAll(const Job& job, size_t first, size_t count, double tolerance, Verdicts& verdicts) {
-  const V zero = VLanes::Fill(0.0);
   const size_t last = count - VLanes::Count();
   for (size_t done = 0;; done = std::min(done + VLanes::Count(), last)) {
     const size_t i = first + done;
@@ -136,8 +139,8 @@ HWY_INLINE void SolveAll(const Job& job, size_t first, size_t count, double tole
     const Mask is_regular = Both(Both(IsNegative(in.v0), Not(course.jammed)), IsModerate(in));
     const Mask serves = Both(is_regular, Both(answer.proved, answer.relative_error <= VLanes::Fill(tolerance)));
     const Mask breaks_limit = Either(answer.numbers.sharp_limit_broken, answer.numbers.energy_limit_broken);
-    const V verdict = RegimeOf(course) + Select(breaks_limit, VLanes::Fill(kInadmissible), zero);
-    VLanes::Store(verdict + Select(serves, zero, VLanes::Fill(kUnproved)), verdicts.data() + done);
+    const VCodes::Type verdict = VCodes::FlagWhere(breaks_limit, kInadmissible, RegimeOf(course));
+    VCodes::Store(VCodes::FlagUnless(serves, kUnproved, verdict), verdicts.data() + done);
     Store(job, i, answer);
     if (done == last) break;
   }
@@ -202,7 +205,7 @@ bool ServesPlainly(const Job& job, size_t i, double tolerance) {
   return serves;
 }
 
-void SetVerdict(const Job& job, size_t i, int verdict) {
+void SetVerdict(const Job& job, size_t i, uint64_t verdict) {
   job.SetEnd(i, static_cast<Regime>(verdict & (kInadmissible - 1)), (verdict & kInadmissible) != 0);
 }
 
@@ -241,7 +244,7 @@ class WaitingRoom {
     Verdicts verdicts;
     HWY_DYNAMIC_DISPATCH(SolveBlock)(own_, count, verdicts);
     for (size_t j = 0; j < size_; ++j) {
-      const int verdict = static_cast<int>(verdicts[j]);
+      const uint64_t verdict = verdicts[j];
       if (verdict >= kUnproved) {
         SolveAlone(job_, indices_[j]);
       } else {
@@ -265,14 +268,14 @@ class WaitingRoom {
   std::array<std::array<double, kBlock>, kOutputCount> results_;
 };
 
-// Solves the problems [first, first + count) as far as plain arithmetic serves. Returns the number of problems for which it
-// does not.
+// Solves the problems [first, first + count) as far as plain arithmetic serves. Returns the number of problems for
+// which it does not.
 size_t SolveSome(const Job& job, size_t first, size_t count, double tolerance, WaitingRoom& waiting) {
   Verdicts verdicts;
   HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(job, first, count, tolerance, verdicts);
   size_t unproved = 0;
   for (size_t i = 0; i < count; ++i) {
-    const int verdict = static_cast<int>(verdicts[i]);
+    const uint64_t verdict = verdicts[i];
     if (verdict < kUnproved) {
       SetVerdict(job, first + i, verdict);
     } else if (job.IsSeparating(first + i)) {

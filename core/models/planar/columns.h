@@ -31,8 +31,8 @@ using SolvedColumns = PlanarSolvedColumns;
 // Every output of an impact, at the number of the output.
 std::array<double, kOutputCount> NumbersOf(const ImpactEnd<double>& impact, double relative_error);
 
-// The tolerance is in [0, 1) and means what RoundingErrors::Largest does, which is the output kRelativeError. Returns the
-// number of problems for which plain arithmetic did not serve.
+// The tolerance is in [0, 1) and means what RoundingErrors::Largest does, which is the output kRelativeError. Returns
+// the number of problems for which plain arithmetic did not serve.
 size_t SolveColumns(const ProblemColumns& problems, double tolerance, const SolvedColumns& solved);
 
 }  // namespace ricochet::planar

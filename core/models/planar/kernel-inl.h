@@ -1,13 +1,13 @@
-// The path of a planar impact (core/models/planar/planar.h) over a number type N: DoubleDouble for moderate inputs, Wide for
-// all, and Plain where a rounding error within the bound of core/models/planar/rounding-inl.h serves.
+// The path of a planar impact (core/models/planar/planar.h) over a number type N: DoubleDouble for moderate inputs,
+// Wide for all, and Plain where a rounding error within the bound of core/models/planar/rounding-inl.h serves.
 //
-// N holds a number, or a SIMD vector with one problem in each lane. Every course is then computed that some lane takes, and
-// masks choose; no lane depends on another, so that an impact has the same bits in a vector and alone.
+// N holds a number, or a SIMD vector with one problem in each lane. Every course is then computed that some lane takes,
+// and masks choose; no lane depends on another, so that an impact has the same bits in a vector and alone.
 //
-// A path has at most two pieces: the first slip, and the piece after slip has stopped. Slopes are sums of a number and an
-// exact product, right to 3 u^2 (u = 2^-53), or to u in plain arithmetic, and their signs are exact. The only difference
-// that may cancel is d = v0 u' - u0 v'; its sign decides whether slip stops or compression ends first. Every work is a sum
-// of terms of one sign. docs/theory/planar_numerics.md says more.
+// A path has at most two pieces: the first slip, and the piece after slip has stopped. Slopes are sums of a number and
+// an exact product, right to 3 u^2 (u = 2^-53), or to u in plain arithmetic, and their signs are exact. The only
+// difference that may cancel is d = v0 u' - u0 v'; its sign decides whether slip stops or compression ends first. Every
+// work is a sum of terms of one sign. docs/theory/planar_numerics.md says more.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_PLANAR_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -231,13 +231,13 @@ HWY_INLINE Slopes<N> RankOneSlopes(const Inputs<N>& in, const MaskOf<N>& backwar
   return slopes;
 }
 
-// The path for a W of rank one, which moves the contact in one direction only. A velocity in the range of W lies along it:
-// u = v Wtn/Wnn throughout, and u0 is replaced accordingly. Any other velocity keeps its part beside that direction, and v
-// stands still where the contact sticks. If Wtt = 0, u stands still.
+// The path for a W of rank one, which moves the contact in one direction only. A velocity in the range of W lies along
+// it: u = v Wtn/Wnn throughout, and u0 is replaced accordingly. Any other velocity keeps its part beside that
+// direction, and v stands still where the contact sticks. If Wtt = 0, u stands still.
 template <typename N>
 HWY_INLINE Path<N> RankOnePath(Inputs<N>& in) {
-  // Plain arithmetic takes a velocity into the range only if the exact difference lies within the tolerance, too. One that
-  // it takes out wrongly has a v_stop whose sign it cannot prove.
+  // Plain arithmetic takes a velocity into the range only if the exact difference lies within the tolerance, too. One
+  // that it takes out wrongly has a v_stop whose sign it cannot prove.
   constexpr double kTolerance = N::kCompensated ? kRangeTolerance : (1.0 - 0x1p-40) * kRangeTolerance;
   Path<N> path;
   const N ratio = in.wtn / in.wnn;
@@ -468,8 +468,8 @@ HWY_INLINE void Halt(const MaskOf<N>& halts, const Inputs<N>& in, const Path<N>&
   x.stops_in_restitution = Both(x.stops_in_restitution, Not(in_compression));
 }
 
-// Ends a course on which W has rank one and some contacts stick. Those whose velocity does not lie in the range of W stick
-// with a v that no impulse changes: they jam if it is below 0, or below what Newton's law asks for.
+// Ends a course on which W has rank one and some contacts stick. Those whose velocity does not lie in the range of W
+// stick with a v that no impulse changes: they jam if it is below 0, or below what Newton's law asks for.
 template <typename N>
 HWY_INLINE void EndStuck(const MaskOf<N>& stuck, Course<N>& course) {
   const MaskOf<N> locked = Both(stuck, course.in.u_follows_v);

@@ -1,5 +1,5 @@
-// This file is compiled once for each SIMD target (foreach_target.h includes it again), so that fma is an instruction on
-// targets that have one. The target is chosen at run time.
+// This file is compiled once for each SIMD target (foreach_target.h includes it again), so that fma is an instruction
+// on targets that have one. The target is chosen at run time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/models/planar/planar.cc"
 #include "core/models/planar/planar.h"

@@ -1,7 +1,7 @@
 // Planar: one frictional impact at one point of any planar system, event by event, exact: there is no step size.
 //
-// The problem is the Delassus matrix W = [Wtt, Wtn; Wtn, Wnn] = J M^-1 J^T and the approach velocity (u0, v0), v0 < 0. With
-// the normal impulse tau as the independent variable (Routh 1905, Keller 1986, Wang and Mason 1992),
+// The problem is the Delassus matrix W = [Wtt, Wtn; Wtn, Wnn] = J M^-1 J^T and the approach velocity (u0, v0), v0 < 0.
+// With the normal impulse tau as the independent variable (Routh 1905, Keller 1986, Wang and Mason 1992),
 //
 //   d(u, v)/dtau = W (f', 1),   f' = -mu sgn(u) while the contact slips, |f'| <= mu_s while it sticks
 //
@@ -10,9 +10,9 @@
 // regimes. Each output is within 1 ulp of its exact value over the whole range of doubles, except outputs that cancel
 // (docs/theory/planar_numerics.md). The sign of every slope is exact. An exact value above the largest double comes out
 // infinite.
-// If W has rank one and (u0, v0) lies beside its range, a contact that sticks keeps its v. It jams where that does not end
-// the impact: the regime is wedged, the termination refused, and the result is the state reached.
-// The problem must be valid (core/scene/validate.h).
+// If W has rank one and (u0, v0) lies beside its range, a contact that sticks keeps its v. It jams where that does not
+// end the impact: the regime is wedged, the termination refused, and the result is the state reached. The problem must
+// be valid (core/scene/validate.h).
 
 #ifndef RICOCHET_CORE_MODELS_PLANAR_PLANAR_H_
 #define RICOCHET_CORE_MODELS_PLANAR_PLANAR_H_
@@ -42,7 +42,8 @@ struct Impact : ImpactEnd<double> {
   int event_count = 0;                     // 0 if the contact separates.
 };
 
-// Bounds on the errors of an impact that rounding makes; W, the velocity before and the coefficients are taken as exact.
+// Bounds on the errors of an impact that rounding makes; W, the velocity before and the coefficients are taken as
+// exact.
 struct RoundingErrors {
   double velocity = 0.0;  // Each component of the velocity after, over V = max(|u0|, |v0|).
   double impulse = 0.0;   // Each impulse times its mobility, Wnn |d tau| and Wtt |d f|, over V.
@@ -60,18 +61,19 @@ struct PlainImpact {
   Impact impact;
   RoundingErrors errors;
   // False if plain arithmetic cannot prove a sign that decides on the regime, on the order of the events or on a broken
-  // limit, or if a number other than 0 lies outside [2^-40, 2^40], u0 or Wtn outside [2^-100, 2^40]. The rest has no meaning
-  // then.
+  // limit, or if a number other than 0 lies outside [2^-40, 2^40], u0 or Wtn outside [2^-100, 2^40]. The rest has no
+  // meaning then.
   bool proved = false;
 };
 
-// SolvePlain computes the impact at a fifth of the cost of Solve. Regime, events and broken limits are those of Solve if they are
-// proved. docs/theory/rounding_planar.md derives the bounds, and those on the coefficients that follow from them.
+// SolvePlain computes the impact at a fifth of the cost of Solve. Regime, events and broken limits are those of Solve
+// if they are proved. docs/theory/rounding_planar.md derives the bounds, and those on the coefficients that follow from
+// them.
 PlainImpact SolvePlain(const Problem& problem, ImpactErrors* numbers = nullptr);
 
-// The state of the contact at normal impulse tau in [0, tau1]. `impact` must be the solution of `problem`; the kind of the
-// instant is unspecified. If the contact separates, the state is that before the impact.
-// Accuracy: 4 ulp of the largest value at the events, plus the effect of an ulp of tau.
+// The state of the contact at normal impulse tau in [0, tau1]. `impact` must be the solution of `problem`; the kind of
+// the instant is unspecified. If the contact separates, the state is that before the impact. Accuracy: 4 ulp of the
+// largest value at the events, plus the effect of an ulp of tau.
 Instant At(const Problem& problem, const Impact& impact, double tau);
 
 }  // namespace ricochet::planar

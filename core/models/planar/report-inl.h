@@ -11,6 +11,7 @@
 #include "core/models/planar/kernel-inl.h"
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
+#include "core/numerics/codes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::planar::HWY_NAMESPACE {
@@ -42,8 +43,8 @@ HWY_INLINE RoundedOf<N> Fill(double value) {
   return ricochet::HWY_NAMESPACE::Lanes<RoundedOf<N>>::Fill(value);
 }
 
-// Replaces a difference of terms of size `scale` by 0 if it may be rounding alone. Plain arithmetic bounds its rounding and
-// needs no threshold.
+// Replaces a difference of terms of size `scale` by 0 if it may be rounding alone. Plain arithmetic bounds its rounding
+// and needs no threshold.
 template <typename N>
 HWY_INLINE N WithoutRounding(const N& difference, const N& scale) {
   if constexpr (!N::kCompensated) return difference;
@@ -88,15 +89,25 @@ HWY_INLINE void WriteEvents(const Problem& problem, const Course<N>& course, Imp
   impact.event_count = static_cast<int>(next - impact.events.data());
 }
 
-// The number of one of two regimes.
+// The numbers of regimes.
 template <typename N>
-HWY_INLINE RoundedOf<N> EitherRegime(const MaskOf<N>& condition, Regime yes, Regime no) {
-  return Select(condition, Fill<N>(static_cast<double>(yes)), Fill<N>(static_cast<double>(no)));
+using RegimeCodes = ricochet::HWY_NAMESPACE::Codes<RoundedOf<N>>;
+template <typename N>
+using RegimeCode = typename RegimeCodes<N>::Type;
+
+template <typename N>
+HWY_INLINE RegimeCode<N> CodeOfRegime(Regime regime) {
+  return RegimeCodes<N>::Fill(static_cast<uint64_t>(regime));
 }
 
-// The number of the regime.
 template <typename N>
-HWY_INLINE RoundedOf<N> RegimeOf(const Course<N>& course) {
+HWY_INLINE RegimeCode<N> EitherRegime(const MaskOf<N>& condition, Regime yes, Regime no) {
+  return RegimeCodes<N>::Select(condition, CodeOfRegime<N>(yes), CodeOfRegime<N>(no));
+}
+
+template <typename N>
+HWY_INLINE RegimeCode<N> RegimeOf(const Course<N>& course) {
+  using Codes = RegimeCodes<N>;
   const Inputs<N>& in = course.in;
   const Path<N>& path = course.path;
   const MaskOf<N>& early = course.x.stops_in_compression;
@@ -106,14 +117,14 @@ HWY_INLINE RoundedOf<N> RegimeOf(const Course<N>& course) {
   const MaskOf<N> slides = Not(Both(stopped, Either(path.slips_first, path.sticks)));
   const auto in_compression = EitherRegime<N>(path.sticks, Regime::kStickInCompression, Regime::kReversalInCompression);
   const auto in_restitution = EitherRegime<N>(path.sticks, Regime::kStickInRestitution, Regime::kReversalInRestitution);
-  RoundedOf<N> regime = Select(early, in_compression, in_restitution);
-  regime = Select(slides, Fill<N>(static_cast<double>(Regime::kSliding)), regime);
-  regime = Select(Either(smooth, without_friction), Fill<N>(static_cast<double>(Regime::kFrictionless)), regime);
+  RegimeCode<N> regime = Codes::Select(early, in_compression, in_restitution);
+  regime = Codes::Select(slides, CodeOfRegime<N>(Regime::kSliding), regime);
+  regime = Codes::Select(Either(smooth, without_friction), CodeOfRegime<N>(Regime::kFrictionless), regime);
   if (InNoLane(in.rank_one)) return regime;
   // Friction that moves nothing has an impulse all the same where the surface slips by.
   const MaskOf<N> rubs = Both(Not(IsPositive(in.wtt)), Either(IsPositive(path.first.f), IsNegative(path.first.f)));
-  regime = Select(Both(in.rank_one, rubs), Fill<N>(static_cast<double>(Regime::kSliding)), regime);
-  return Select(course.held, EitherRegime<N>(course.jammed, Regime::kWedged, Regime::kLocked), regime);
+  regime = Codes::Select(Both(in.rank_one, rubs), CodeOfRegime<N>(Regime::kSliding), regime);
+  return Codes::Select(course.held, EitherRegime<N>(course.jammed, Regime::kWedged, Regime::kLocked), regime);
 }
 
 // eta, eta - 1, and whether the latter is positive.
@@ -209,7 +220,7 @@ HWY_INLINE void KeepLimits(const MaskOf<N>& keeps, const Course<N>& course, Numb
 template <typename N>
 HWY_INLINE Impact Report(const Problem& problem, const Course<N>& course, const Numbers<N>& numbers) {
   Impact impact;
-  impact.regime = static_cast<Regime>(static_cast<int>(RegimeOf(course)));
+  impact.regime = static_cast<Regime>(RegimeOf(course));
   if (course.jammed) impact.termination = Termination::kRefused;
   impact.w_rank = course.in.rank_one ? 1 : 2;
   impact.sharp_limit_broken = numbers.sharp_limit_broken;

@@ -1,9 +1,9 @@
 // Rounding of a planar path: bounds on the errors of the numbers reported, and the signs that plain arithmetic
 // is sure of.
 //
-// Errors are counted in roundings: an error of 3 is three times the largest relative error of one operation, 2^-53 in plain
-// arithmetic and below 2^-102 in double-double. The count follows the path piece by piece; the one difference that may
-// cancel is v where slip stops, and everything after it is as good as that difference over the slope of v.
+// Errors are counted in roundings: an error of 3 is three times the largest relative error of one operation, 2^-53 in
+// plain arithmetic and below 2^-102 in double-double. The count follows the path piece by piece; the one difference
+// that may cancel is v where slip stops, and everything after it is as good as that difference over the slope of v.
 // docs/theory/rounding_planar.md derives every line.
 
 // Per-target include guard.
@@ -29,10 +29,10 @@ namespace ricochet::planar::HWY_NAMESPACE {
 using ricochet::HWY_NAMESPACE::DoubleDouble;
 
 // No number on the path leaves the range in which DoubleDouble is exact if every input is 0 or has a size between
-// kLeastModerate and kMostModerate, u0 and Wtn one between kLeastCoupling and kMostModerate: both are often the rounding
-// error of a number that should be 0. Slopes then lie between 2^-186 (two products of 2^-80 that cancel to their last bit) and
-// 2^81, v where slip stops is below 2^307, impulses are below 2^493, works below 2^800, and v^2 over a slope is above 2^-908.
-// Products with u0 and Wtn are above 2^-286.
+// kLeastModerate and kMostModerate, u0 and Wtn one between kLeastCoupling and kMostModerate: both are often the
+// rounding error of a number that should be 0. Slopes then lie between 2^-186 (two products of 2^-80 that cancel to
+// their last bit) and 2^81, v where slip stops is below 2^307, impulses are below 2^493, works below 2^800, and v^2
+// over a slope is above 2^-908. Products with u0 and Wtn are above 2^-286.
 inline constexpr double kLeastModerate = 0x1p-40;
 inline constexpr double kMostModerate = 0x1p40;
 inline constexpr double kLeastCoupling = 0x1p-100;
@@ -86,8 +86,8 @@ struct EndErrors {
   M works;  // Twice the error of each work and of the change of energy.
   // The difference that decides whether slip stops during restitution, and its error; 0 and 0 if nothing does.
   M decisive, decisive_error;
-  // Of the normal impulses of compression, from the stop of slip to its end, and of restitution up to the stop and after
-  // it; of u where v = 0.
+  // Of the normal impulses of compression, from the stop of slip to its end, and of restitution up to the stop and
+  // after it; of u where v = 0.
   M tau_compression, stuck, before, after, u_compression;
 };
 
@@ -301,8 +301,8 @@ HWY_INLINE MaskOf<Plain<V>> IsSure(const Plain<V>& value, const Plain<V>& error)
   return Fill<Plain<V>>(kSure * 0x1p-53) * error.value <= Absolute(value.value);
 }
 
-// True if every sign that decided on the path is that of the exact number. The sign of a slope, and of mu_s Wtt - |Wtn|, is
-// exact, because one operation gives it.
+// True if every sign that decided on the path is that of the exact number. The sign of a slope, and of mu_s Wtt -
+// |Wtn|, is exact, because one operation gives it.
 template <typename V>
 HWY_INLINE MaskOf<Plain<V>> PathIsSure(const Course<Plain<V>>& course, const EndErrors<Plain<V>>& errors) {
   const Inputs<Plain<V>>& in = course.in;
@@ -312,8 +312,8 @@ HWY_INLINE MaskOf<Plain<V>> PathIsSure(const Course<Plain<V>>& course, const End
   return Both(rank_is_sure, Both(stop_is_sure, IsSure(errors.decisive, errors.decisive_error)));
 }
 
-// True if it is proved that the impact keeps its limits because no law asks for more than was stored: on a path of one piece
-// the three laws agree.
+// True if it is proved that the impact keeps its limits because no law asks for more than was stored: on a path of one
+// piece the three laws agree.
 template <typename V>
 HWY_INLINE MaskOf<Plain<V>> KeepsLimits(const Course<Plain<V>>& course) {
   const auto modest = Rounded(course.in.coefficient) <= Fill<Plain<V>>(1.0);
@@ -359,8 +359,8 @@ HWY_INLINE Bounds<V> PlainBounds(const Course<Plain<V>>& course, const EndErrors
           .work = rounding * (errors.works * Inverse(TwiceMoved(course.x))).value};
 }
 
-// The error of rounding `x` to a double, enlarged by 2^-10 for the rounding of the bound. It is at most half of the smallest
-// double where the result is subnormal.
+// The error of rounding `x` to a double, enlarged by 2^-10 for the rounding of the bound. It is at most half of the
+// smallest double where the result is subnormal.
 template <typename M>
 HWY_INLINE M FinalRounding(const M& x) {
   return Times(0x1p-53 * (1.0 + 0x1p-10), x) + M::Constant(0x1p-1074);
@@ -372,8 +372,8 @@ HWY_INLINE RoundedOf<M> OutBound(const M& bound) {
   return Rounded(bound) + Fill<M>(0x1p-1074);
 }
 
-// The errors of a compensated path after its numbers have been rounded to doubles. A change of energy below 2^-96 of its
-// terms has been replaced by 0.
+// The errors of a compensated path after its numbers have been rounded to doubles. A change of energy below 2^-96 of
+// its terms has been replaced by 0.
 template <typename N, typename M = CoarseOf<N>>
 HWY_INLINE Bounds<RoundedOf<M>> CompensatedBounds(const Course<N>& course, const EndErrors<M>& errors) {
   const Inputs<N>& in = course.in;
@@ -403,8 +403,8 @@ template <typename M>
 struct TwiceWorkErrors {
   M normal, tangential;
 
-  // Adds a piece with the slope `f` of the friction impulse over `step`, the sums of u and of v at its ends, and the sums of
-  // their errors.
+  // Adds a piece with the slope `f` of the friction impulse over `step`, the sums of u and of v at its ends, and the
+  // sums of their errors.
   void Add(const M& f, const M& step, const M& step_error, const M& u_sum, const M& u_error, const M& v_sum,
            const M& v_error) {
     const M size = Abs(f);
@@ -462,8 +462,8 @@ TwiceWorkErrors<M> RestitutionWorkErrors(const Course<N>& course, const EndError
   return works;
 }
 
-// The errors of all numbers of one impact, each on its own scale. A compensated path errs by 2^-102 for every rounding, and its
-// numbers are then rounded to doubles.
+// The errors of all numbers of one impact, each on its own scale. A compensated path errs by 2^-102 for every rounding,
+// and its numbers are then rounded to doubles.
 template <typename N, typename M = CoarseOf<N>>
 ImpactErrors NumberErrorsOf(const Problem& problem, const Course<N>& course, const EndErrors<M>& errors,
                             const Impact& impact) {

@@ -1,8 +1,8 @@
 // Columns: many planar impacts whose path is a straight line at once, in SIMD lanes, and only the outputs asked for.
 //
-// The problems meet the conditions of core/models/sliding/sliding.h, and each output has the bits that sliding::Solve or
-// sliding::SolveFrictionless gives. No result depends on the other problems of the call. Nothing is allocated, and calls
-// may run in parallel.
+// The problems meet the conditions of core/models/sliding/sliding.h, and each output has the bits that sliding::Solve
+// or sliding::SolveFrictionless gives. No result depends on the other problems of the call. Nothing is allocated, and
+// calls may run in parallel.
 
 #ifndef RICOCHET_CORE_MODELS_SLIDING_COLUMNS_H_
 #define RICOCHET_CORE_MODELS_SLIDING_COLUMNS_H_

@@ -61,9 +61,9 @@ struct Slopes {
 template <size_t kTangential>
 Slopes<kTangential> SlidingSlopes(const Problem<kTangential>& problem);
 
-// Bounds on the errors of Solve and of SolveFrictionless; infinite where v' is mostly rounding, or beyond a range: an entry
-// of W, mu or the coefficient is 0 or lies in [2^-100, 2^100], the largest velocity, and the largest slip if there is
-// friction, in [2^-900, 2^100].
+// Bounds on the errors of Solve and of SolveFrictionless; infinite where v' is mostly rounding, or beyond a range: an
+// entry of W, mu or the coefficient is 0 or lies in [2^-100, 2^100], the largest velocity, and the largest slip if
+// there is friction, in [2^-900, 2^100].
 template <size_t kTangential>
 RelativeErrors ErrorsOf(const Problem<kTangential>& problem);
 template <size_t kTangential>
@@ -72,8 +72,9 @@ RelativeErrors FrictionlessErrorsOf(const Problem<kTangential>& problem);
 template <size_t kTangential>
 using Instant = ImpactInstant<Vector<kTangential>>;
 
-// The sharp limit is never broken, because c <= 1. The limits of friction and of energy are broken only where the caller
-// excludes that slip stops: friction then drives slip backwards, and may give more energy than restitution takes.
+// The sharp limit is never broken, because c <= 1. The limits of friction and of energy are broken only where the
+// caller excludes that slip stops: friction then drives slip backwards, and may give more energy than restitution
+// takes.
 template <size_t kTangential>
 struct Impact : ImpactEnd<Vector<kTangential>> {
   std::array<Instant<kTangential>, 3> events = {};  // the start, the ends of compression and of restitution

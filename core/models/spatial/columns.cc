@@ -1,4 +1,5 @@
-// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run time.
+// This file is compiled once for each SIMD target (foreach_target.h includes it again). The target is chosen at run
+// time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/models/spatial/columns.cc"
 #include "core/models/spatial/columns.h"

@@ -26,7 +26,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
-// Errors of an impact, in the units of the scaled problem: works of friction and the change of energy in that of friction.
+// Errors of an impact, in the units of the scaled problem: works of friction and the change of energy in that of
+// friction.
 template <typename T>
 struct EndErrors {
   T relative{0};  // the larger of the errors of u and v, over max(|u0|, |v0|)
@@ -64,8 +65,8 @@ class ErrorLedger {
   // Sets the distance from an event, in normal impulse, at which root finding stopped.
   void SetEventOffset(T offset) { event_offset_ = offset; }
   // Says that the path came so near to a goal, or so little beyond it, that the true path may not agree: `gap` is the
-  // distance, in the goal's quantity, at the end of a step. Where the contact is nearly at rest, the paths on both sides of
-  // the goal stay as near to each other as they are to rest.
+  // distance, in the goal's quantity, at the end of a step. Where the contact is nearly at rest, the paths on both
+  // sides of the goal stay as near to each other as they are to rest.
   void NoteGap(const Path<T>& path, T gap) {
     if (!(gap <= GoalError(path, path.goal.quantity))) return;
     const T velocity = path.state.Slip() + std::fabs(path.state.v);
@@ -119,8 +120,8 @@ class ErrorLedger {
   }
   // The error of a quantity at the state of `path`.
   T GoalError(const Path<T>& path, Quantity quantity) const;
-  // The rounding of the normal work, which is the mean of v times tau less what u lacks of its mean: over an impulse tau both
-  // change by at most their slopes times tau.
+  // The rounding of the normal work, which is the mean of v times tau less what u lacks of its mean: over an impulse
+  // tau both change by at most their slopes times tau.
   T WorkRounding(const State<T>& at) const {
     return T{4} * kEpsilon<T> * at.tau *
            (std::max(problem_.approach, std::fabs(at.v)) +
@@ -143,20 +144,21 @@ class ErrorLedger {
            sum_.friction / problem_.smallest_root + strayed + f_rounding_ +
            T{4} * kEpsilon<T> * problem_.mu_static * (compression_end_tau_ + at.tau);
   }
-  // The error of the change of energy in compression or of the whole impact that errors of the impulses at its end make.
+  // The error of the change of energy in compression or of the whole impact that errors of the impulses at its end
+  // make.
   T ErrorOfEnergy(const State<T>& at, T f, T tau, T u_error, T v_error) const {
     return (at.Slip() + u_error) * f + problem_.graze * (std::fabs(at.v) + v_error) * tau;
   }
   static T Size(T x, T y) { return std::sqrt(x * x + y * y); }
-  // The difference of the paths on both sides of a goal at which the contact is nearly at rest, in v and in u: the norm of
-  // Wtt^-1 never grows. It does not count where the contact is locked, because both paths end at rest.
+  // The difference of the paths on both sides of a goal at which the contact is nearly at rest, in v and in u: the norm
+  // of Wtt^-1 never grows. It does not count where the contact is locked, because both paths end at rest.
   T DoubtOfV() const {
     return locks_ ? T{0} : (T{1} + problem_.normal_root / problem_.smallest_root) * doubtful_velocity_;
   }
   T DoubtOfU() const { return locks_ ? T{0} : problem_.largest_root / problem_.smallest_root * doubtful_velocity_; }
   // The error of a contact that is locked during restitution: that of a true path that ends before the lock. It does so
-  // with the velocities that its energy allows from where it came to be in doubt, or, if Poisson's impulse is spent just
-  // before the lock, with what the slopes of slip give over the error of that impulse.
+  // with the velocities that its energy allows from where it came to be in doubt, or, if Poisson's impulse is spent
+  // just before the lock, with what the slopes of slip give over the error of that impulse.
   T EstimateOfLock() const {
     const T growth = (T{1} + problem_.mu_static) * problem_.largest_root / problem_.smallest_root;
     const T spent =

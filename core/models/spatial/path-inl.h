@@ -27,8 +27,8 @@ struct Rates {
   T value, slope;
 };
 
-// Impulses and works count from the start of the phase, so that a short restitution keeps its digits. The normal work is
-// the integral of v, and not the change of energy less the work of friction, beside which it may be nothing.
+// Impulses and works count from the start of the phase, so that a short restitution keeps its digits. The normal work
+// is the integral of v, and not the change of energy less the work of friction, beside which it may be nothing.
 template <typename T>
 struct State {
   T tau{0}, f1{0}, f2{0};

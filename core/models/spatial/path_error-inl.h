@@ -33,8 +33,8 @@ struct SlipSizes {
   T first, last;
 };
 
-// The decay over a stretch of slip along a direction of any length m = (m1, m2). `error` is that of slip: where it is as
-// large as slip, it decays no faster than it would at a slip of its own size.
+// The decay over a stretch of slip along a direction of any length m = (m1, m2). `error` is that of slip: where it is
+// as large as slip, it decays no faster than it would at a slip of its own size.
 template <typename T>
 HWY_INLINE Decay<T> DecayOver(const Matrix<T>& w, T mu, T m1, T m2, T length, const SlipSizes<T>& slip, T error) {
   const T zero{0};

@@ -1,8 +1,8 @@
 // The problem of the spatial solver, scaled by powers of two so that no product overflows.
 //
-// The largest of |u0| and |v0|, and the largest diagonal entry of W, come to lie in [1/2, 1). Scaling is exact. A contact
-// that grazes is over before friction has changed its slip by what a double holds: v and the normal impulse then have a unit
-// of their own, in which |v0| lies in [1/2, 1), and slip keeps its direction.
+// The largest of |u0| and |v0|, and the largest diagonal entry of W, come to lie in [1/2, 1). Scaling is exact. A
+// contact that grazes is over before friction has changed its slip by what a double holds: v and the normal impulse
+// then have a unit of their own, in which |v0| lies in [1/2, 1), and slip keeps its direction.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_SPATIAL_PROBLEM_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -96,8 +96,8 @@ struct ScaledProblem : Contact<T> {
   std::optional<Direction<T>> AttractingDirectionNear(const Frame<T>& frame) const;
 
   bool HasNoFriction() const { return mu == T{0} || (w.HasNoTangentialMobility() && u1 == T{0} && u2 == T{0}); }
-  // Where friction and the joints lock the body, u and v vanish together. Beside the range of W they do not: a contact that
-  // sticks keeps its v.
+  // Where friction and the joints lock the body, u and v vanish together. Beside the range of W they do not: a contact
+  // that sticks keeps its v.
   bool Locks(const Sticking<T>& sticking) const { return sticking.v_slope == T{0} && velocity_in_range; }
 
   // Conversions to the units of the caller; adding 0.0 turns -0 into 0.
@@ -144,8 +144,8 @@ ScaledProblem<T>::ScaledProblem(const Problem& problem, int rank)
   largest_root = std::sqrt(largest);
   velocity_in_range =
       rank == 3 || VelocityIsInRange(SpatialReduction{.w = problem.Delassus().w, .u0 = problem.u0, .v0 = problem.v0});
-  // Where Wtt is singular and slip lies in its range, slip knows one direction only. Where Wtt = 0 friction moves nothing, and
-  // any number serves.
+  // Where Wtt is singular and slip lies in its range, slip knows one direction only. Where Wtt = 0 friction moves
+  // nothing, and any number serves.
   const bool has_one_direction = w.tangent_is_singular && velocity_in_range;
   const T smallest = has_one_direction ? largest : w.TangentDeterminant() / largest;
   smallest_root = largest > T{0} ? std::sqrt(std::max(smallest, kEpsilon<T> * largest)) : T{1};

@@ -60,8 +60,8 @@ T EnergyError(const ScaledProblem<T>& problem, const Path<T>& path, const EndErr
   const State<T>& end = path.state;
   const T tau = path.compression_end.tau + end.tau;
   const State<T>& compression = path.compression_end;
-  // Friction turns with slip, so that its impulse may be smaller than the parts it was summed from. It stays in its cone,
-  // which is no bound where the contact sticks by a large coefficient.
+  // Friction turns with slip, so that its impulse may be smaller than the parts it was summed from. It stays in its
+  // cone, which is no bound where the contact sticks by a large coefficient.
   const T phases = std::sqrt(compression.f1 * compression.f1 + compression.f2 * compression.f2) +
                    std::sqrt(end.f1 * end.f1 + end.f2 * end.f2);
   const T friction = std::min(problem.mu_static * tau, T{16} * phases + problem.graze * tau);

@@ -121,8 +121,9 @@ class SlipSeries {
   HWY_INLINE T Size(int k) const {
     return Absolute(x_integral_[Index(k)]) + Absolute(y_integral_[Index(k)]) + Absolute(s_integral_[Index(k)]);
   }
-  // The factor by which each further term is smaller than the one before it, judged by the last four or eight terms. Both
-  // are needed, because a complex pair of singularities makes terms oscillate, and some of them are small by chance.
+  // The factor by which each further term is smaller than the one before it, judged by the last four or eight terms.
+  // Both are needed, because a complex pair of singularities makes terms oscillate, and some of them are small by
+  // chance.
   HWY_INLINE T Fall() const {
     const T smallest{1e-290};
     const T roughness{1.1};

@@ -177,16 +177,16 @@ bool Solver<T>::SwitchToStraight(const Heading<T>& heading) {
   return true;
 }
 
-// True if slip along e, which does not turn, does not change its size either. That is so where Wtt is singular and e is not
-// its direction.
+// True if slip along e, which does not turn, does not change its size either. That is so where Wtt is singular and e is
+// not its direction.
 template <typename T>
 bool Solver<T>::StandsAlong(const Direction<T>& e) const {
   const Frame<T> frame = problem_.FrameAt(e);
   return std::fabs(frame.a11 + frame.w1) <= T{1e-10};
 }
 
-// Turns slip to the direction e, along which it stands, by an impulse along the direction d of Wtt. The part of slip across d
-// is beyond the reach of any impulse.
+// Turns slip to the direction e, along which it stands, by an impulse along the direction d of Wtt. The part of slip
+// across d is beyond the reach of any impulse.
 template <typename T>
 void Solver<T>::StandSlipAlong(const Direction<T>& e) {
   const Matrix<T>& w = problem_.w;

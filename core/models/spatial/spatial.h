@@ -5,9 +5,8 @@
 // and otherwise slips again in the one direction in which slip grows. Compression ends at the first v = 0. Regimes are
 // those of core/models/planar/planar.h.
 // Units: SI. Accuracy: `tolerance`, as far as double precision has it; error_estimate says what was reached.
-// Where (u0, v0) lies beside the range of a singular W, a contact that sticks may keep a v < 0: it jams, the path has no end,
-// and the result is the state reached (wedged, refused).
-// Bad input: none gets here (core/scene/validate.h).
+// Where (u0, v0) lies beside the range of a singular W, a contact that sticks may keep a v < 0: it jams, the path has
+// no end, and the result is the state reached (wedged, refused). Bad input: none gets here (core/scene/validate.h).
 // Source: Keller (1986). docs/theory/spatial.md has the equations, the method and the error estimate.
 
 #ifndef RICOCHET_CORE_MODELS_SPATIAL_SPATIAL_H_

@@ -147,9 +147,9 @@ void SlideStraight(Progress<T>& impact, const Direction<T>& e) {
   if (!impact.path.ended) ContinueFromStop(impact);
 }
 
-// Follows slip along e that stands still, as it does where Wtt is singular and part of the slip is beyond the reach of any
-// impulse: friction along the direction of Wtt balances wtn, as in a contact that sticks. Where v' = 0, too, and v < 0, the
-// contact has jammed, and the path does not end.
+// Follows slip along e that stands still, as it does where Wtt is singular and part of the slip is beyond the reach of
+// any impulse: friction along the direction of Wtt balances wtn, as in a contact that sticks. Where v' = 0, too, and v
+// < 0, the contact has jammed, and the path does not end.
 template <typename T>
 void SlideStanding(Progress<T>& impact, const Direction<T>& e) {
   const ScaledProblem<T>& problem = impact.problem;

@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "core/answer/scene_outcome.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace {
 int integrators = 0;
@@ -35,7 +35,7 @@ Cost CostOf(const Scene& scene, const Demand& demand = {}) {
   std::optional<SceneContact> contact;
   Outcome outcome;
   const absl::Status status = SolveScene(
-      scene, contact, {.demand = demand}, [] { return false; }, outcome);
+      scene, contact, demand, {}, [] { return false; }, outcome);
   EXPECT_TRUE(status.ok()) << status;
   EXPECT_EQ(outcome.accuracy.right_hand_sides > 0, outcome.accuracy.steps > 0);
   return {integrators, outcome.accuracy.steps, outcome.plan.model};

@@ -14,7 +14,7 @@
 #include "core/contact/reduction.h"
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -21,7 +21,7 @@
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
 #include "ricochet/solver.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "core/contact/reduction.h"
 #include "ricochet/solver.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -383,7 +383,8 @@ TEST(SceneOutcomeTest, BrachThatPushesCreatesEnergyAndIsFlagged) {
   EXPECT_GT(outcome.work.tangential_total_j, 0.0);
 }
 
-// f = tau1/2 = 1/7 along a slip that goes from -1 to 1/2 on average: (1/7) (-1/2)/2 < 0; mu_hat = -1/2 gives the opposite sign.
+// f = tau1/2 = 1/7 along a slip that goes from -1 to 1/2 on average: (1/7) (-1/2)/2 < 0; mu_hat = -1/2 gives the
+// opposite sign.
 TEST(SceneOutcomeTest, FrictionThatPushesIsFlaggedByEveryLawAndFrictionThatBrakesByNone) {
   const PlanarContact pendulum = {1.0, 4.0, 16.0, -1.0, -4.0};
   const auto limits = [&](const ImpactLaw& law) {
@@ -489,8 +490,8 @@ TEST(SceneOutcomeTest, APendulumStrikesASurfaceThatRises) {
   EXPECT_EQ(outcome.termination, Termination::kConverged);
 }
 
-// Slip stops at tau = 2.5, v = -.3, and reverses: v' = .06, u' = .2. Compression ends at 7.5 with u = 1, Wc = -(2.25 + 1.5)/2.
-// Restitution: v+ = sqrt(.06 2 .64 1.5), tau1 = 7.5 + v+/.06.
+// Slip stops at tau = 2.5, v = -.3, and reverses: v' = .06, u' = .2. Compression ends at 7.5 with u = 1, Wc = -(2.25 +
+// 1.5)/2. Restitution: v+ = sqrt(.06 2 .64 1.5), tau1 = 7.5 + v+/.06.
 TEST(SceneOutcomeTest, SlipReversesBeneathAPendulumOnARisingSurface) {
   const Outcome outcome = Solved(OnConveyor(0.1, 0.3, EnergeticCoefficient{0.8}));
   EXPECT_EQ(outcome.regime, Regime::kReversalInCompression);
@@ -519,7 +520,8 @@ TEST(SceneOutcomeTest, APendulumThatFrictionHoldsAgainstARisingSurfaceJams) {
               HasSubstr("has no end"));
 }
 
-// v0 = -.2: v' = .183, u' = .61. Compression ends at .2/.183; slip stops at 1/.61 with v = .1, which friction then keeps.
+// v0 = -.2: v' = .183, u' = .61. Compression ends at .2/.183; slip stops at 1/.61 with v = .1, which friction then
+// keeps.
 TEST(SceneOutcomeTest, APendulumThatFrictionHoldsOnAFallingSurfacePartsAtTheSpeedOfTheSurface) {
   const double tau_c = 0.2 / 0.183;
   const Outcome poisson = Solved(OnConveyor(0.31, -0.1, PoissonCoefficient{0.8}));
@@ -537,8 +539,8 @@ TEST(SceneOutcomeTest, APendulumThatFrictionHoldsOnAFallingSurfacePartsAtTheSpee
   EXPECT_THAT(newton.notes[0].text, HasSubstr("while it parts at"));
 }
 
-// Without finite forces and rigid along t, an impact that takes time ends as one that takes none, for any spring. A tangential
-// compliance of 1e-6 of the normal one changes velocities by a small multiple of its root.
+// Without finite forces and rigid along t, an impact that takes time ends as one that takes none, for any spring. A
+// tangential compliance of 1e-6 of the normal one changes velocities by a small multiple of its root.
 TEST(SceneOutcomeTest, SpringsAgreeWithRigidContactBesideTheRange) {
   int jams = 0;
   for (const double mu : {0.0, 0.1, 0.2, 0.31, 0.6}) {
@@ -596,14 +598,14 @@ TEST(SceneOutcomeTest, FrictionThatCouldBeAnyIsNamed) {
 
 // ---- In space ----
 
-// True if the impact was followed to its end. Beside the range of a singular W its estimated error, near 2^-25, is above the
-// default tolerance, although these tests find errors below 1e-10.
+// True if the impact was followed to its end. Beside the range of a singular W its estimated error, near 2^-25, is
+// above the default tolerance, although these tests find errors below 1e-10.
 bool Ends(const Outcome& outcome) {
   return outcome.termination == Termination::kConverged || outcome.termination == Termination::kLessAccurate;
 }
 
-// W = diag(1, 0, 1): u2 = .5 stays, v' = 1, and u1' = -mu u1/|u|, so that F(u) = sqrt(u^2 + .25) - .5 asinh(.5/u) falls by mu
-// tau1 = .45.
+// W = diag(1, 0, 1): u2 = .5 stays, v' = 1, and u1' = -mu u1/|u|, so that F(u) = sqrt(u^2 + .25) - .5 asinh(.5/u) falls
+// by mu tau1 = .45.
 TEST(SceneOutcomeTest, SlipThatNoImpulseReachesGoesOnInSpace) {
   const Outcome outcome =
       Solved(With(SpatialContact{{1, 0, 0, 0, 0, 1}, {1.0, 0.5}, -1.0}, 0.3, EnergeticCoefficient{0.5}));
@@ -647,8 +649,8 @@ TEST(SceneOutcomeTest, APlanarMechanismBesideItsRangeIsTheSameInSpace) {
   }
 }
 
-// The joint moves along (.6, .3) in (t1, n), and the surface passes along t2 at c: slip turns until friction along t1 balances
-// the joint, mu .6 cos(phi) = .3. If v < 0 there, nothing ends the impact.
+// The joint moves along (.6, .3) in (t1, n), and the surface passes along t2 at c: slip turns until friction along t1
+// balances the joint, mu .6 cos(phi) = .3. If v < 0 there, nothing ends the impact.
 TEST(SceneOutcomeTest, SlipThatStandsStillHoldsItsVelocityInSpace) {
   const auto scene = [](double v0, double across) {
     return With(SpatialContact{{0.36, 0, 0.18, 0, 0, 0.09}, {-1.0, across}, v0}, 1.0, EnergeticCoefficient{0.8});

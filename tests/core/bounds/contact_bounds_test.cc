@@ -12,9 +12,9 @@
 
 #include "core/bounds/pendulum_bounds.h"
 #include "core/models/restitution_law.h"
-#include "tests/support/known_contacts.h"
-#include "tests/support/pendulum_scenes.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/scenes/known_contacts.h"
+#include "tests/support/scenes/pendulum_scenes.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet::planar {
 namespace {
@@ -105,7 +105,7 @@ void ExpectNear(const CoefficientBounds& got, const CoefficientBounds& want, dou
 TEST(ContactBoundsTest, RankOneIsThePendulum) {
   pendulum::SceneSource source(7);
   int slipping = 0;
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < 20'000 && !HasFailure(); ++i) {
     const pendulum::Problem problem = source.Everyday();
     const Bounds want = pendulum::SolveBounds(problem);
     // Between the thresholds of the two frictions rounding of W decides nothing; near x = 1 it decides much.

@@ -16,8 +16,8 @@
 
 #include "core/bounds/contact_bounds.h"
 #include "core/bounds/pendulum_bounds.h"
-#include "tests/support/pendulum_scenes.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/scenes/pendulum_scenes.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet {
 namespace {

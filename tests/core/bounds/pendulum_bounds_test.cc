@@ -14,8 +14,8 @@
 #include "core/bounds/nearly_vertical.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
-#include "tests/support/pendulum_oracle.h"
-#include "tests/support/pendulum_scenes.h"
+#include "tests/support/oracles/pendulum_oracle.h"
+#include "tests/support/scenes/pendulum_scenes.h"
 
 namespace ricochet::pendulum {
 namespace {

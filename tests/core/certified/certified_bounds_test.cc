@@ -12,13 +12,13 @@
 #include "core/bounds/pendulum_bounds.h"
 #include "core/certified/certified.h"
 #include "core/models/restitution_law.h"
-#include "core/study/contact_scene.h"
+#include "core/plan/contact_scene.h"
 #include "ricochet/solver.h"
-#include "tests/support/certificates.h"
-#include "tests/support/pendulum_scenes.h"
-#include "tests/support/planar_scenes.h"
-#include "tests/support/system_scenes.h"
-#include "tests/support/ulp.h"
+#include "tests/support/oracles/certificates.h"
+#include "tests/support/oracles/ulp.h"
+#include "tests/support/scenes/pendulum_scenes.h"
+#include "tests/support/scenes/planar_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "core/certified/certified.h"
 #include "ricochet/solver.h"
-#include "tests/support/certificates.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/oracles/certificates.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -1,4 +1,5 @@
-// The accelerations of a contact by finite forces alone, compared with values by hand and with the potential of gravity.
+// The accelerations of a contact by finite forces alone, compared with values by hand and with the potential of
+// gravity.
 
 #include "core/contact/finite_forces.h"
 
@@ -10,7 +11,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/contact/reduction.h"
 #include "core/scene/numbers.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

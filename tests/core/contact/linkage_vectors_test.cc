@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "ricochet/solver.h"
-#include "tests/support/vectors.h"
+#include "tests/support/scenes/vectors.h"
 
 namespace ricochet {
 namespace {

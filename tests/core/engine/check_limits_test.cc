@@ -19,7 +19,7 @@
 #include "ricochet/error.h"
 #include "ricochet/limits.h"
 #include "ricochet/solver.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -9,16 +9,16 @@
 #include <string>
 #include <vector>
 
-#include "core/answer/scene_lanes.h"
 #include "core/bounds/pendulum_bounds.h"
-#include "core/engine/engine.h"
 #include "core/engine/sweep_run.h"
 #include "core/models/pendulum/pendulum.h"
-#include "core/problem/scene_problem.h"
-#include "core/sweep/column.h"
+#include "core/plan/scene_problem.h"
+#include "core/rows/column.h"
+#include "core/rows/scene_lanes.h"
+#include "ricochet/engine_info.h"
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
-#include "tests/support/pendulum_columns.h"
+#include "tests/support/scenes/pendulum_columns.h"
 
 namespace ricochet {
 namespace {

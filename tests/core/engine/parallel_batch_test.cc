@@ -12,10 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "core/sweep/column.h"
-#include "tests/support/counted_threads.h"
-#include "tests/support/eventually.h"
-#include "tests/support/system_scenes.h"
+#include "core/rows/column.h"
+#include "tests/support/processes/counted_threads.h"
+#include "tests/support/processes/eventually.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -67,7 +67,7 @@ TEST(ParallelBatchTest, RowsAndSummaryAreTheSameWhateverTheNumberOfThreads) {
   int helped = 0;
   for (const System& system : Systems()) {
     Batch alone(system);
-    const absl::StatusOr<std::unique_ptr<BatchRun>> run = BatchRun::Make(alone.setup);
+    const auto run = ParallelBatch::Make(alone.setup, nullptr);
     ASSERT_TRUE(run.ok()) << run.status();
     const absl::StatusOr<BatchSummary> expected = (*run)->Solve(alone.Rows(), [] { return false; });
     ASSERT_TRUE(expected.ok());

@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "core/contact/reduction.h"
-#include "core/engine/engine.h"
+#include "ricochet/engine_info.h"
 #include "ricochet/solver.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace {
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "ricochet/solver.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -25,7 +25,8 @@ Scene ChainScene(size_t links) {
   return {.system = Chain(links), .friction = {.kinetic_coefficient = 0.2}, .restitution = EnergeticCoefficient{0.5}};
 }
 
-// A contact whose tangential spring is a million times stiffer than the normal one, so that each impact takes milliseconds.
+// A contact whose tangential spring is a million times stiffer than the normal one, so that each impact takes
+// milliseconds.
 Scene StiffContact() {
   Scene scene = {
       .system =

@@ -17,7 +17,8 @@ using Block = SweepBuffer::Block;
 
 // Computes the first `count` points of a block: the value of point i in column c is 100 i + c.
 void Compute(const Block& block, int64_t count, SweepBuffer& buffer) {
-  const SweepBuffer::Places places = buffer.PlacesOf(block);
+  SweepSummary tallies;
+  const RowSink places = buffer.SinkOf(block, tallies);
   for (int64_t i = 0; i < count; ++i) {
     for (size_t c = 0; c < places.columns.size(); ++c) {
       places.columns[c][i] = static_cast<double>(100 * (block.first + i)) + static_cast<double>(c);

@@ -15,10 +15,10 @@
 #include <vector>
 
 #include "core/engine/sweep_run.h"
-#include "core/sweep/column.h"
+#include "core/rows/column.h"
 #include "ricochet/solver.h"
-#include "tests/support/counted_threads.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/processes/counted_threads.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -1,7 +1,7 @@
 // Every model claims at least the error of each of its numbers, on the number's own scale: of velocities, coefficients,
 // impulses and works. `ricochet_claims` takes more scenes.
 
-#include "tests/support/number_claims.h"
+#include "tests/support/claims/number_claims.h"
 
 #include <gtest/gtest.h>
 
@@ -10,12 +10,12 @@
 #include <optional>
 #include <string>
 
-#include "tests/support/compliant_claims.h"
-#include "tests/support/finite_duration_claims.h"
-#include "tests/support/pendulum_claims.h"
-#include "tests/support/planar_claims.h"
-#include "tests/support/sliding_claims.h"
-#include "tests/support/spatial_number_claims.h"
+#include "tests/support/claims/compliant_claims.h"
+#include "tests/support/claims/finite_duration_claims.h"
+#include "tests/support/claims/pendulum_claims.h"
+#include "tests/support/claims/planar_claims.h"
+#include "tests/support/claims/sliding_claims.h"
+#include "tests/support/claims/spatial_number_claims.h"
 
 namespace ricochet {
 namespace {
@@ -104,8 +104,8 @@ TEST(FiniteDurationNumberClaimsTest, NoErrorAtRankOneWithoutRestitutionIsNaN) {
   EXPECT_EQ(errors.work_tangential_restitution, ImpactErrors::kUnknown);
 }
 
-// Coefficients, v and the normal impulse at the tightest tolerance, for |v0|/|u0| from 1 down to 1e-300. Where friction can jam
-// the contact, v becomes as large as slip, and what restitution asks for is below the digits of any oracle.
+// Coefficients, v and the normal impulse at the tightest tolerance, for |v0|/|u0| from 1 down to 1e-300. Where friction
+// can jam the contact, v becomes as large as slip, and what restitution asks for is below the digits of any oracle.
 TEST(GrazingTest, TheNormalPartIsRightToTwelveDigitsHoweverSmallItIs) {
   spatial::SceneSource source(42);
   for (int i = 0; i < 1'000;) {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <random>
 
-#include "tests/support/arb.h"
+#include "tests/support/oracles/arb.h"
 
 namespace ricochet {
 namespace {

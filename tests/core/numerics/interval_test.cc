@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "tests/support/arb.h"
+#include "tests/support/oracles/arb.h"
 
 namespace ricochet {
 namespace {

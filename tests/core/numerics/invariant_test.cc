@@ -1,6 +1,6 @@
 // CheckInvariant stops in every build.
 
-#include "core/numerics/invariant.h"
+#include "core/base/invariant.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <random>
 
-#include "tests/support/arb.h"
+#include "tests/support/oracles/arb.h"
 
 namespace ricochet {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/support/ulp.h"
+#include "tests/support/oracles/ulp.h"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <limits>
 #include <random>
 
-#include "tests/support/pendulum_scenes.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/scenes/pendulum_scenes.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -9,9 +9,9 @@
 #include "core/models/restitution_law.h"
 #include "core/plan/contact_time.h"
 #include "core/plan/sizes.h"
-#include "tests/support/impact_change.h"
-#include "tests/support/impact_tally.h"
-#include "tests/support/plan_scenes.h"
+#include "tests/support/claims/impact_change.h"
+#include "tests/support/claims/impact_tally.h"
+#include "tests/support/scenes/plan_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -10,8 +10,8 @@
 
 #include "core/plan/choose.h"
 #include "core/plan/sizes.h"
-#include "tests/support/plan_scenes.h"
-#include "tests/support/spatial_scenes.h"
+#include "tests/support/scenes/plan_scenes.h"
+#include "tests/support/scenes/spatial_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -42,14 +42,14 @@ void ExpectThatTheChoiceAgrees(const spatial::Problem& problem) {
 
 TEST(NeedsSpatialTest, TheChoiceAgreesAtCriticalTolerances) {
   PlanScenes source(41);
-  for (int i = 0; i < 20'000; ++i) ExpectThatTheChoiceAgrees(source.Spatial());
+  for (int i = 0; i < 20'000 && !HasFailure(); ++i) ExpectThatTheChoiceAgrees(source.Spatial());
 }
 
 // Slip that turns by little, with friction and coupling from nearly none to very much.
 TEST(NeedsSpatialTest, TheChoiceAgreesForContactsOfAllScales) {
   spatial::SceneSource source(42);
   const auto power = [&source](double most) { return std::exp2(source.Uniform(-most, most)); };
-  for (int i = 0; i < 20'000; ++i) {
+  for (int i = 0; i < 20'000 && !HasFailure(); ++i) {
     spatial::Problem problem = source.Typical();
     problem.mu = problem.mu_static = power(30.0);
     for (double& u : problem.u0) u *= power(30.0);

@@ -1,5 +1,5 @@
-// Where lanes say that a pendulum calls for the closed form, ChoosePendulum says the same, also next to the tolerance; and
-// they say so of most pendulums with friction.
+// Where lanes say that a pendulum calls for the closed form, ChoosePendulum says the same, also next to the tolerance;
+// and they say so of most pendulums with friction.
 
 #include "core/plan/pendulum_models.h"
 
@@ -16,7 +16,7 @@
 #include "core/plan/sizes.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
-#include "tests/support/plan_scenes.h"
+#include "tests/support/scenes/plan_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -25,47 +25,32 @@ using pendulum::Problem;
 
 constexpr size_t kCopies = 9;  // More than a vector of any target here has lanes, so that some are left for doubles.
 
-Model ModelInLanes(const Problem& problem, double tolerance) {
+Model ModelInLanes(const Problem& problem) {
   pendulum::ProblemColumns columns(problem.law, kCopies);
   for (size_t i = 0; i < kCopies; ++i) columns.Set(i, problem);
   std::vector<Model> models(kCopies, Model::kNone);
-  const bool all = ModelsOfPendulum(columns, tolerance, absl::MakeSpan(models));
+  const bool all = ModelsOfPendulum(columns, absl::MakeSpan(models));
   for (const Model model : models) EXPECT_EQ(model, models.front());
   EXPECT_EQ(all, models.front() == Model::kPendulum);
   return models.front();
 }
 
-std::vector<double> CriticalTolerances(const Problem& problem) {
-  std::vector<double> tolerances = {0.0, 1e-12, 1e-6, 1e-2};
-  for (const double size : {PendulumFrictionSize(problem).value, PendulumHigherOrderSize(problem).value}) {
-    for (const double factor : {0.1, 0.24, 0.25, 0.26, 0.5, 0.999, 1.001, 2.0}) {
-      if (factor * size <= 0.1) tolerances.push_back(factor * size);
-    }
-  }
-  return tolerances;
-}
-
-TEST(PendulumModelsTest, AreThoseOfTheChoiceAtCriticalTolerances) {
+TEST(PendulumModelsTest, AreThoseOfTheChoice) {
   PlanScenes scenes(1);
-  int asked = 0;
+  constexpr int kProblems = 10'000;
   int found = 0;
-  int wanted = 0;
-  for (int i = 0; i < 10'000; ++i) {
+  for (int i = 0; i < kProblems && !HasFailure(); ++i) {
     const Problem problem = scenes.Pendulum();
-    for (const double tolerance : CriticalTolerances(problem)) {
-      const Model model = ModelInLanes(problem, tolerance);
-      ASSERT_TRUE(model == Model::kPendulum || model == Model::kUnspecified);
-      const Model alone = ChoosePendulum(problem, {}, {.relative_tolerance = tolerance}).model;
-      ++asked;
-      found += model == Model::kPendulum ? 1 : 0;
-      wanted += alone == Model::kPendulum ? 1 : 0;
-      if (model != Model::kPendulum) continue;
-      EXPECT_EQ(alone, Model::kPendulum) << "scene " << i << ", tolerance " << tolerance;
+    const Model model = ModelInLanes(problem);
+    ASSERT_TRUE(model == Model::kPendulum || model == Model::kUnspecified);
+    if (model != Model::kPendulum) continue;
+    ++found;
+    for (const double tolerance : {0.0, 1e-12, 1e-6, 1e-2, 0.1}) {
+      EXPECT_EQ(ChoosePendulum(problem, {}, {.relative_tolerance = tolerance}).model, Model::kPendulum) << i;
     }
   }
-  std::printf("%d of %d closed forms found, of %d\n", found, wanted, asked);
-  EXPECT_GT(found, wanted / 3);
-  EXPECT_LT(wanted, asked);
+  std::printf("%d of %d closed forms found\n", found, kProblems);
+  EXPECT_GT(found, kProblems / 3);
 }
 
 TEST(PendulumModelsTest, AreTheSameOnEverySimdTarget) {
@@ -74,7 +59,7 @@ TEST(PendulumModelsTest, AreTheSameOnEverySimdTarget) {
     const OnlyTarget only(target);
     PlanScenes scenes(2);
     std::vector<Model> models;
-    for (int i = 0; i < 2000; ++i) models.push_back(ModelInLanes(scenes.Pendulum(), 1e-6));
+    for (int i = 0; i < 2000; ++i) models.push_back(ModelInLanes(scenes.Pendulum()));
     if (first.empty()) first = models;
     EXPECT_EQ(models, first) << target;
   }
@@ -83,11 +68,11 @@ TEST(PendulumModelsTest, AreTheSameOnEverySimdTarget) {
 TEST(PendulumModelsTest, LeaveOpenWhatIsNotSurelyValid) {
   const Problem valid = {
       .inertia = 2.0, .a = 0.3, .b = 1.0, .omega_minus = -1.0, .mu = 0.1, .mu_static = 0.1, .coefficient = 0.5};
-  ASSERT_EQ(ModelInLanes(valid, 1e-12), Model::kPendulum);
+  ASSERT_EQ(ModelInLanes(valid), Model::kPendulum);
   const auto expect_open = [&](double Problem::*number, double value) {
     Problem problem = valid;
     problem.*number = value;
-    EXPECT_EQ(ModelInLanes(problem, 1e-12), Model::kUnspecified) << value;
+    EXPECT_EQ(ModelInLanes(problem), Model::kUnspecified) << value;
   };
   constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
   for (const auto number : {&Problem::inertia, &Problem::a, &Problem::b, &Problem::omega_minus, &Problem::mu,

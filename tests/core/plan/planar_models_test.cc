@@ -1,5 +1,5 @@
-// The models that lanes give are those of ChoosePlanar, also where a size or an error lies next to the tolerance, and few
-// contacts are left open.
+// The models that lanes give are those of ChoosePlanar, also where a size or an error lies next to the tolerance, and
+// few contacts are left open.
 
 #include "core/plan/planar_models.h"
 
@@ -16,9 +16,9 @@
 #include "core/plan/straight_problem.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
-#include "tests/support/plan_scenes.h"
-#include "tests/support/planar_in_lanes.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/scenes/plan_scenes.h"
+#include "tests/support/scenes/planar_in_lanes.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet {
 namespace {
@@ -92,7 +92,7 @@ TEST(PlanarModelsTest, AreFoundForNearlyAllEverydayContacts) {
   for (const double tolerance : {0.0, 1e-12, 1e-6}) {
     int open = 0;
     constexpr int kContacts = 20'000;
-    for (int i = 0; i < kContacts; ++i) {
+    for (int i = 0; i < kContacts && !HasFailure(); ++i) {
       const PlanarProblem problem = source.Everyday();
       const Model model = ModelInLanes(problem, tolerance);
       if (model == Model::kUnspecified) {

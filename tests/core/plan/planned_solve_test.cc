@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "ricochet/solver.h"
-#include "tests/support/planar_scenes.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/planar_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -14,9 +14,9 @@
 #include "core/models/pendulum/first_order.h"
 #include "core/models/sliding/sliding.h"
 #include "core/plan/straight_problem.h"
-#include "tests/support/impact_change.h"
-#include "tests/support/impact_tally.h"
-#include "tests/support/plan_scenes.h"
+#include "tests/support/claims/impact_change.h"
+#include "tests/support/claims/impact_tally.h"
+#include "tests/support/scenes/plan_scenes.h"
 
 namespace ricochet {
 namespace {

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <string>
 
-#include "core/scene/nearest.h"
+#include "core/base/nearest.h"
 
 namespace ricochet {
 namespace {

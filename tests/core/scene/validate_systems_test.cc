@@ -10,10 +10,11 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "core/contact/reduction.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
 
@@ -323,7 +324,10 @@ class BadSystemTest : public testing::TestWithParam<BadScene> {};
 
 TEST_P(BadSystemTest, IsReportedWithFieldValueAndRule) {
   const Scene scene = GetParam().make();
-  EXPECT_THAT(Validate(scene), ElementsAre(Violation{GetParam().field, GetParam().description}));
+  const std::vector<Violation> violations = Validate(scene);
+  ASSERT_THAT(violations, ElementsAre(Violation{GetParam().field, GetParam().description}));
+  EXPECT_FALSE(violations.front().rule.empty());
+  EXPECT_TRUE(absl::EndsWith(GetParam().description, ": must " + violations.front().rule));
 }
 
 std::string NameOf(const testing::TestParamInfo<BadScene>& info) { return info.param.name; }

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/match.h"
+
 namespace ricochet {
 
 // The test framework finds this function by its name.
@@ -53,7 +55,10 @@ class BadSceneTest : public testing::TestWithParam<BadScene> {};
 TEST_P(BadSceneTest, IsReportedWithFieldValueAndRule) {
   Scene scene = ValidScene();
   GetParam().spoil(scene);
-  EXPECT_THAT(Validate(scene), ElementsAre(Violation{GetParam().field, GetParam().description}));
+  const std::vector<Violation> violations = Validate(scene);
+  ASSERT_THAT(violations, ElementsAre(Violation{GetParam().field, GetParam().description}));
+  EXPECT_FALSE(violations.front().rule.empty());
+  EXPECT_TRUE(absl::EndsWith(GetParam().description, ": must " + violations.front().rule));
 }
 
 // Lists every number of a scene, so that each is tried with values that are not finite.

@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "core/models/compliant/compliant.h"
-#include "tests/support/arb.h"
-#include "tests/support/compliant_oracle.h"
-#include "tests/support/compliant_scenes.h"
-#include "tests/support/vectors.h"
+#include "tests/support/oracles/arb.h"
+#include "tests/support/oracles/compliant_oracle.h"
+#include "tests/support/scenes/compliant_scenes.h"
+#include "tests/support/scenes/vectors.h"
 
 namespace ricochet::compliant {
 namespace {

@@ -1,12 +1,12 @@
 // The compliant model claims at least the error that it makes, and little more. `ricochet_claims` takes more scenes.
 
-#include "tests/support/compliant_claims.h"
+#include "tests/support/claims/compliant_claims.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "tests/support/claims.h"
+#include "tests/support/claims/claims.h"
 
 namespace ricochet::compliant {
 namespace {

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "core/models/planar/planar.h"
-#include "tests/support/compliant_scenes.h"
+#include "tests/support/scenes/compliant_scenes.h"
 
 namespace ricochet::compliant {
 namespace {

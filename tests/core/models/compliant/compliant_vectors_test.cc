@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/models/compliant/compliant.h"
-#include "tests/support/compliant_scenes.h"
-#include "tests/support/vectors.h"
+#include "tests/support/scenes/compliant_scenes.h"
+#include "tests/support/scenes/vectors.h"
 
 namespace ricochet::compliant {
 namespace {

@@ -1,10 +1,10 @@
 // The model of finite duration claims at least the error that it makes. `ricochet_claims` takes more scenes.
 
-#include "tests/support/finite_duration_claims.h"
+#include "tests/support/claims/finite_duration_claims.h"
 
 #include <gtest/gtest.h>
 
-#include "tests/support/claims.h"
+#include "tests/support/claims/claims.h"
 
 namespace ricochet::finite_duration {
 namespace {
@@ -31,8 +31,8 @@ TEST_P(FiniteDurationClaimsTest, WithASpringAlongTNobodyIsDeceived) {
   EXPECT_LE(tally.MedianRatio(), 50.0);
 }
 
-// Scenes 4725 and 3830 of ricochet_claims, in which the local errors of the velocities alone claim a quarter of the error:
-// the tangential spring carries more of it than they do.
+// Scenes 4725 and 3830 of ricochet_claims, in which the local errors of the velocities alone claim a quarter of the
+// error: the tangential spring carries more of it than they do.
 TEST_P(FiniteDurationClaimsTest, WhereTheSpringCarriesTheErrorNobodyIsDeceived) {
   ClaimScenes scenes(ClaimKind::kCompliant, /*hard=*/false, 77);
   for (int i = 0; i <= 4725; ++i) {

@@ -17,8 +17,8 @@
 
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
-#include "tests/support/planar_scenes.h"
-#include "tests/support/vectors.h"
+#include "tests/support/scenes/planar_scenes.h"
+#include "tests/support/scenes/vectors.h"
 
 namespace ricochet::finite_duration {
 namespace {

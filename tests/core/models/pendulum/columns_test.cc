@@ -14,9 +14,9 @@
 #include "core/models/restitution_law.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
-#include "tests/support/pendulum_oracle.h"
-#include "tests/support/pendulum_scenes.h"
-#include "tests/support/solved_in_lanes.h"
+#include "tests/support/oracles/pendulum_oracle.h"
+#include "tests/support/scenes/pendulum_scenes.h"
+#include "tests/support/scenes/solved_in_lanes.h"
 
 namespace ricochet::pendulum {
 namespace {
@@ -93,8 +93,8 @@ TEST(PendulumColumnsTest, AnyPartOfTheProblemsHasTheBitsOfAll) {
   }
 }
 
-// Hard problems stand at the ends of blocks and vectors, alone and in a row. Their bound is above 1e-12, because they are
-// close to locking; that of all others is below.
+// Hard problems stand at the ends of blocks and vectors, alone and in a row. Their bound is above 1e-12, because they
+// are close to locking; that of all others is below.
 TEST(PendulumColumnsTest, OnlyProblemsWhoseBoundFailsAreSolvedOnceMoreOnEveryTarget) {
   constexpr size_t kCount = 300;
   constexpr double kTolerance = 1e-12;

@@ -15,8 +15,8 @@
 #include "core/answer/model_outcomes.h"
 #include "core/bounds/nearly_vertical.h"
 #include "core/models/restitution_law.h"
-#include "tests/support/made_outcome.h"
-#include "tests/support/pendulum_scenes.h"
+#include "tests/support/scenes/made_outcome.h"
+#include "tests/support/scenes/pendulum_scenes.h"
 
 namespace ricochet::first_order {
 namespace {

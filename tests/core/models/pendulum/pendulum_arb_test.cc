@@ -7,8 +7,8 @@
 #include <cstdio>
 
 #include "core/models/pendulum/pendulum.h"
-#include "tests/support/pendulum_oracle.h"
-#include "tests/support/pendulum_scenes.h"
+#include "tests/support/oracles/pendulum_oracle.h"
+#include "tests/support/scenes/pendulum_scenes.h"
 
 namespace ricochet::pendulum {
 namespace {

@@ -10,8 +10,8 @@
 #include "core/models/pendulum/pendulum.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
-#include "tests/support/pendulum_scenes.h"
-#include "tests/support/solved_in_lanes.h"
+#include "tests/support/scenes/pendulum_scenes.h"
+#include "tests/support/scenes/solved_in_lanes.h"
 
 namespace ricochet::pendulum {
 namespace {

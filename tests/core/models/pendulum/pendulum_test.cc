@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "core/models/restitution_law.h"
-#include "tests/support/pendulum_oracle.h"
-#include "tests/support/pendulum_scenes.h"
-#include "tests/support/ulp.h"
+#include "tests/support/oracles/pendulum_oracle.h"
+#include "tests/support/oracles/ulp.h"
+#include "tests/support/scenes/pendulum_scenes.h"
 
 namespace ricochet::pendulum {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
-#include "tests/support/arb.h"
-#include "tests/support/vectors.h"
+#include "tests/support/oracles/arb.h"
+#include "tests/support/scenes/vectors.h"
 
 namespace ricochet::pendulum {
 namespace {

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "core/models/planar/planar.h"
-#include "tests/support/arb.h"
-#include "tests/support/planar_oracle.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/oracles/arb.h"
+#include "tests/support/oracles/planar_oracle.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet::planar {
 namespace {

@@ -1,5 +1,5 @@
-// Columns have the bits of single impacts on every SIMD target, whatever is asked for and whichever problems stand beside
-// them, and their numbers are those of an event-by-event simulation in ball arithmetic.
+// Columns have the bits of single impacts on every SIMD target, whatever is asked for and whichever problems stand
+// beside them, and their numbers are those of an event-by-event simulation in ball arithmetic.
 
 #include <gtest/gtest.h>
 
@@ -14,11 +14,11 @@
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "hwy/targets.h"
+#include "tests/support/claims/planar_claims.h"
 #include "tests/support/only_target.h"
-#include "tests/support/planar_claims.h"
-#include "tests/support/planar_in_lanes.h"
-#include "tests/support/planar_oracle.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/oracles/planar_oracle.h"
+#include "tests/support/scenes/planar_in_lanes.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet::planar {
 namespace {

@@ -16,11 +16,11 @@
 #include "core/models/pendulum/pendulum.h"
 #include "core/models/restitution_law.h"
 #include "hwy/targets.h"
-#include "tests/support/known_contacts.h"
 #include "tests/support/only_target.h"
-#include "tests/support/planar_oracle.h"
-#include "tests/support/planar_scenes.h"
-#include "tests/support/ulp.h"
+#include "tests/support/oracles/planar_oracle.h"
+#include "tests/support/oracles/ulp.h"
+#include "tests/support/scenes/known_contacts.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet::planar {
 namespace {

@@ -11,7 +11,7 @@
 
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
-#include "tests/support/vectors.h"
+#include "tests/support/scenes/vectors.h"
 
 namespace ricochet::planar {
 namespace {

@@ -15,8 +15,8 @@
 #include "core/models/sliding/sliding.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
-#include "tests/support/planar_in_lanes.h"
-#include "tests/support/planar_scenes.h"
+#include "tests/support/scenes/planar_in_lanes.h"
+#include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet::sliding {
 namespace {
@@ -73,7 +73,8 @@ INSTANTIATE_TEST_SUITE_P(Models, SlidingColumns,
                                          Case{&SolveFrictionless<1>, &SolveFrictionlessColumns,
                                               Regime::kFrictionless}));
 
-// Compares the problems [first, end) in lanes with single impacts, in the outputs asked for. Returns how many break a limit.
+// Compares the problems [first, end) in lanes with single impacts, in the outputs asked for. Returns how many break a
+// limit.
 int Compare(const Case& of, const std::vector<PlanarProblem>& problems, size_t first,
             const std::vector<PlanarOutput>& outputs) {
   PlanarColumnsOfLaw columns = {.law = RestitutionLaw::kEnergetic};

@@ -16,12 +16,12 @@
 #include "core/answer/model_outcomes.h"
 #include "core/models/planar/planar.h"
 #include "core/models/spatial/spatial.h"
+#include "core/plan/scene_problem.h"
 #include "core/plan/straight_problem.h"
-#include "core/problem/scene_problem.h"
-#include "tests/support/made_outcome.h"
-#include "tests/support/planar_scenes.h"
-#include "tests/support/spatial_scenes.h"
-#include "tests/support/system_scenes.h"
+#include "tests/support/scenes/made_outcome.h"
+#include "tests/support/scenes/planar_scenes.h"
+#include "tests/support/scenes/spatial_scenes.h"
+#include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet::sliding {
 namespace {
@@ -394,9 +394,17 @@ Outcome FullOutcome(const SpatialReduction& reduction, const Restitution& restit
       .value();
 }
 
+Problem<1> ProblemOf(const PlanarReduction& reduction, const EffectiveCoefficients& effective) {
+  return SlidingProblemOf(planar::MakeProblem(reduction, EnergeticCoefficient(), effective));
+}
+
+Problem<2> ProblemOf(const SpatialReduction& reduction, const EffectiveCoefficients& effective) {
+  return SlidingProblemOf(spatial::MakeProblem(reduction, EnergeticCoefficient(), effective, 1e-12));
+}
+
 template <size_t kTangential>
 Outcome FrictionlessOutcome(const Reduction<kTangential>& reduction, const EffectiveCoefficients& effective) {
-  const Problem<kTangential> problem = MakeProblem(reduction, effective);
+  const Problem<kTangential> problem = ProblemOf(reduction, effective);
   return Made([&](Outcome& made) {
            return MakeOutcome(problem, SolveFrictionless(problem), FrictionlessErrorsOf(problem), reduction, {}, made);
          })
@@ -406,7 +414,7 @@ Outcome FrictionlessOutcome(const Reduction<kTangential>& reduction, const Effec
 template <size_t kTangential>
 absl::StatusOr<Outcome> SlidingOutcome(const Reduction<kTangential>& reduction, const EffectiveCoefficients& effective,
                                        const std::vector<double>& taus = {}) {
-  const Problem<kTangential> problem = MakeProblem(reduction, effective);
+  const Problem<kTangential> problem = ProblemOf(reduction, effective);
   return Made([&](Outcome& made) {
     return MakeOutcome(problem, Solve(problem), ErrorsOf(problem), reduction, {.history_at_n_s = taus}, made);
   });
@@ -444,7 +452,7 @@ TEST(SlidingOutcomeTest, WithoutFrictionEverySystemIsThatOfTheFullModel) {
 TEST(SlidingOutcomeTest, AnswersAHistoryInSpaceWithAProvedBound) {
   const auto reduction = std::get<SpatialReduction>(Reduce(With(ContactInSpace())));
   const EffectiveCoefficients effective = {.kinetic_friction = 0.01, .restitution = 0.5};
-  const Problem<2> problem = MakeProblem<2>(reduction, effective);
+  const Problem<2> problem = ProblemOf(reduction, effective);
   const Impact<2> impact = Solve(problem);
   const Outcome outcome = SlidingOutcome(reduction, effective, {0.0, 0.5 * impact.tau1, impact.tau1}).value();
   ASSERT_EQ(outcome.history.size(), 3U);

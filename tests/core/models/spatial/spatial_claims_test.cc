@@ -1,12 +1,12 @@
 // The spatial model claims at least the error that it makes, and little more. `ricochet_claims` takes more scenes.
 
-#include "tests/support/spatial_claims.h"
+#include "tests/support/claims/spatial_claims.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-#include "tests/support/claims.h"
+#include "tests/support/claims/claims.h"
 
 namespace ricochet::spatial {
 namespace {

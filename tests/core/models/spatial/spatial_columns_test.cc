@@ -13,7 +13,7 @@
 #include "core/models/spatial/spatial.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
-#include "tests/support/spatial_scenes.h"
+#include "tests/support/scenes/spatial_scenes.h"
 
 namespace ricochet::spatial {
 namespace {

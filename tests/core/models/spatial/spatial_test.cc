@@ -12,9 +12,9 @@
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "core/models/spatial/solver-inl.h"
-#include "tests/support/known_contacts.h"
-#include "tests/support/spatial_claims.h"
-#include "tests/support/spatial_scenes.h"
+#include "tests/support/claims/spatial_claims.h"
+#include "tests/support/scenes/known_contacts.h"
+#include "tests/support/scenes/spatial_scenes.h"
 
 namespace ricochet::spatial {
 namespace {

@@ -1,0 +1,68 @@
+// Tables of observed impacts: CSV text with a header.
+
+#ifndef RICOCHET_CLIENT_CLI_INPUT_AUDIT_DATA_H_
+#define RICOCHET_CLIENT_CLI_INPUT_AUDIT_DATA_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <istream>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "client/cli/io/csv_table.h"
+#include "ricochet/audit.h"
+
+namespace ricochet::cli {
+
+// Some rows of a table.
+struct AuditRows {
+  AuditColumns columns;
+  std::vector<int64_t> lines;          // The line of each row in the text, from 1.
+  std::vector<std::string> bad_cells;  // For each row, why it has a NaN; empty if it has none.
+};
+
+// Reads a table of observed impacts part by part. Columns are named as the fields of AuditColumns (rates_after_rad_s[0]
+// and so on, one for each link) and may come in any order. CsvReader says how cells are read; a bad cell makes its row
+// invalid but no other.
+class AuditTable {
+ public:
+  // `name` names the table in errors. Columns named in `skipped` are left out. The stream must outlive the table.
+  // Errors: INVALID_ARGUMENT for a header that names an unknown column or one twice, leaves out a link, has semicolons
+  // or lacks a column of `skipped`.
+  static absl::StatusOr<AuditTable> Open(std::istream& stream, const std::string& name,
+                                         const std::vector<std::string>& skipped);
+
+  // True if the table states the uncertainty of each row.
+  bool has_uncertainty() const;
+  // Returns the next rows, at most `most`; none at the end.
+  AuditRows Next(size_t most);
+  // The bytes read so far.
+  int64_t bytes() const { return reader_.bytes(); }
+
+ private:
+  // The destination of a column of the file: a named column, or the rates of a link.
+  struct Place {
+    std::vector<double> AuditColumns::*values = nullptr;
+    std::optional<size_t> link;
+    friend bool operator==(const Place&, const Place&) = default;
+  };
+  using Places = std::vector<std::optional<Place>>;  // Absent for a column that is left out.
+
+  AuditTable(CsvReader reader, Places places) : reader_(std::move(reader)), places_(std::move(places)) {}
+  static size_t LinkCount(const Places& places);
+  static std::optional<Place> PlaceOf(const std::string& cell);
+  static absl::StatusOr<Places> PlacesOf(const CsvReader& reader, const std::string& name);
+
+  CsvReader reader_;
+  Places places_;
+};
+
+// Returns why an audit calls a row of `rows` invalid: the cell, or the rule that it breaks.
+std::string WhyInvalid(const AuditRows& rows, size_t row);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_INPUT_AUDIT_DATA_H_

@@ -1,0 +1,109 @@
+#include "client/cli/input/axis_input.h"
+
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/input/short_name.h"
+#include "client/cli/text/number_input.h"
+
+namespace ricochet::cli {
+namespace {
+
+using Values = decltype(Axis::values);
+
+std::vector<std::string> Split(const std::string& text, char separator) { return absl::StrSplit(text, separator); }
+
+// Reads START, STOP and COUNT of a Linspace or a Logspace.
+template <typename Space>
+absl::StatusOr<Values> ParseSpace(const std::vector<std::string>& parts, const std::string& what, Spelling spelling) {
+  if (parts.size() != 4) {
+    return InputError(what, absl::StrCat(parts[0], " with ", parts.size() - 1, " parts"),
+                      absl::StrCat("be ", parts[0], ":START:STOP:COUNT"));
+  }
+  const absl::StatusOr<double> start = ParseNumber(parts[1], absl::StrCat(what, ", START"), spelling);
+  if (!start.ok()) return start.status();
+  const absl::StatusOr<double> stop = ParseNumber(parts[2], absl::StrCat(what, ", STOP"), spelling);
+  if (!stop.ok()) return stop.status();
+  const absl::StatusOr<int64_t> count = ParseCount(parts[3], absl::StrCat(what, ", COUNT"));
+  if (!count.ok()) return count.status();
+  return Values(Space{*start, *stop, *count});
+}
+
+absl::StatusOr<Values> ParseList(const std::string& text, const std::string& what, Spelling spelling) {
+  ListValues list;
+  for (const std::string& part : Split(text, ',')) {
+    const absl::StatusOr<double> value = ParseNumber(part, what, spelling);
+    if (!value.ok()) return value.status();
+    list.values.push_back(*value);
+  }
+  return Values(std::move(list));
+}
+
+absl::StatusOr<Values> ParseValues(const std::string& text, const std::string& what, Spelling spelling) {
+  const std::vector<std::string> parts = Split(text, ':');
+  if (parts[0] == "lin") return ParseSpace<Linspace>(parts, what, spelling);
+  if (parts[0] == "log") return ParseSpace<Logspace>(parts, what, spelling);
+  if (parts.size() > 1) {
+    return InputError(what, text, "be a list such as 0.1,1/3 or lin:START:STOP:COUNT or log:START:STOP:COUNT");
+  }
+  return ParseList(text, what, spelling);
+}
+
+}  // namespace
+
+absl::StatusOr<Axis> ParseAxis(const std::string& text, const Scene& scene) {
+  const size_t equals = text.find('=');
+  if (equals == std::string::npos || equals == 0) {
+    return InputError("--axis", text, "be PATH=VALUES, such as friction.kinetic_coefficient=0.1,1/3");
+  }
+  absl::StatusOr<std::string> path = FullField(scene, text.substr(0, equals), "--axis");
+  if (!path.ok()) return path.status();
+  Axis axis{.path = *std::move(path), .values = {}};
+  absl::StatusOr<Values> values =
+      ParseValues(text.substr(equals + 1), absl::StrCat("--axis ", axis.path), SpellingOf(axis.path));
+  if (!values.ok()) return values.status();
+  axis.values = *std::move(values);
+  return axis;
+}
+
+absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text, const Scene& scene) {
+  const size_t equals = text.find('=');
+  const size_t colon = text.find(':', equals == std::string::npos ? 0 : equals);
+  if (equals == std::string::npos || equals == 0 || colon == std::string::npos) {
+    return InputError("--range", text, "be PATH=LOW:HIGH, such as friction.kinetic_coefficient=0.09:0.11");
+  }
+  absl::StatusOr<std::string> path = FullField(scene, text.substr(0, equals), "--range");
+  if (!path.ok()) return path.status();
+  FieldRange range{.path = *std::move(path)};
+  const auto parse = [&](const std::string& end, const char* name) {
+    return ParseNumber(end, absl::StrCat("--range ", range.path, ", ", name), SpellingOf(range.path));
+  };
+  const absl::StatusOr<double> low = parse(text.substr(equals + 1, colon - equals - 1), "LOW");
+  if (!low.ok()) return low.status();
+  const absl::StatusOr<double> high = parse(text.substr(colon + 1), "HIGH");
+  if (!high.ok()) return high.status();
+  range.low = *low;
+  range.high = *high;
+  return range;
+}
+
+absl::StatusOr<IndexRange> ParseRange(const std::string& text) {
+  const std::vector<std::string> parts = Split(text, ':');
+  if (parts.size() != 2) return InputError("--range", text, "be FIRST:END");
+  IndexRange range;
+  if (!parts[0].empty()) {
+    const absl::StatusOr<int64_t> first = ParseCount(parts[0], "--range, FIRST");
+    if (!first.ok()) return first.status();
+    range.first = *first;
+  }
+  if (!parts[1].empty()) {
+    const absl::StatusOr<int64_t> end = ParseCount(parts[1], "--range, END");
+    if (!end.ok()) return end.status();
+    range.end = *end;
+  }
+  return range;
+}
+
+}  // namespace ricochet::cli

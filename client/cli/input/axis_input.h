@@ -1,0 +1,35 @@
+// Reads axes and ranges of a sweep, and ranges of fields, as a user types them.
+
+#ifndef RICOCHET_CLIENT_CLI_INPUT_AXIS_INPUT_H_
+#define RICOCHET_CLIENT_CLI_INPUT_AXIS_INPUT_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "ricochet/scene.h"
+#include "ricochet/solver.h"
+
+namespace ricochet::cli {
+
+// Reads "PATH=0.1,1/3,0.5", "PATH=lin:START:STOP:COUNT" or "PATH=log:START:STOP:COUNT" for an axis of the scene. PATH
+// may be short (client/cli/input/short_name.h), and values of an angle may be in degrees, "10deg".
+// Errors: INVALID_ARGUMENT for another form, and those of FullName. The solver checks that the path exists and the
+// values are valid.
+absl::StatusOr<Axis> ParseAxis(const std::string& text, const Scene& scene);
+
+struct IndexRange {
+  int64_t first = 0;
+  std::optional<int64_t> end;
+};
+
+// Reads "FIRST:END"; an empty FIRST means 0, an empty END the end of the grid. Errors: INVALID_ARGUMENT.
+absl::StatusOr<IndexRange> ParseRange(const std::string& text);
+
+// Reads "PATH=LOW:HIGH" by the rules of ParseAxis.
+absl::StatusOr<FieldRange> ParseFieldRange(const std::string& text, const Scene& scene);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_INPUT_AXIS_INPUT_H_

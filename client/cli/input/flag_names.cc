@@ -1,0 +1,53 @@
+#include "client/cli/input/flag_names.h"
+
+#include <string>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "client/cli/input/connection_input.h"
+#include "client/cli/input/scene_input.h"
+#include "ricochet/error.h"
+
+namespace ricochet::cli {
+namespace {
+
+bool IsGiven(const CLI::App& command, const char* flag) {
+  const CLI::Option* option = command.get_option_no_throw(flag);
+  return option != nullptr && option->count() > 0;
+}
+
+// True if the flags of a pendulum stand for the scene of the command.
+bool HasFlagsForScene(const CLI::App& command) {
+  return command.get_option_no_throw("--a") != nullptr && !IsGiven(command, "--scene") &&
+         !IsGiven(command, "--request");
+}
+
+void NameFlag(const CLI::App& command, Violation& violation) {
+  const std::string field = violation.field;
+  if (const std::string flag = FlagOfConnection(field); !flag.empty())
+    violation.field = absl::StrCat(flag, ": ", field);
+  for (const SceneFlag& flag : SceneFlags()) {
+    if (field != flag.field || !HasFlagsForScene(command)) continue;
+    const absl::string_view rule = violation.description;
+    if (!IsGiven(command, flag.name) && absl::StartsWith(rule, "= 0: ")) {
+      violation.description = absl::StrCat("is missing: ", rule.substr(5));
+    }
+    violation.field = absl::StrCat(flag.name, ": ", field);
+    return;
+  }
+}
+
+}  // namespace
+
+absl::Status NameFlags(const CLI::App& app, const absl::Status& error) {
+  std::vector<Violation> violations = ViolationsOf(error);
+  if (error.code() != absl::StatusCode::kInvalidArgument || violations.empty()) return error;
+  for (const CLI::App* command : app.get_subcommands()) {
+    for (Violation& violation : violations) NameFlag(*command, violation);
+    return InvalidRequest(violations);
+  }
+  return error;
+}
+
+}  // namespace ricochet::cli

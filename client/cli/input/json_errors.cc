@@ -1,0 +1,222 @@
+#include "client/cli/input/json_errors.h"
+
+#include <google/protobuf/descriptor.h>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/str_replace.h"
+#include "core/base/nearest.h"
+
+namespace ricochet::cli {
+namespace {
+
+using google::protobuf::Descriptor;
+using google::protobuf::FieldDescriptor;
+using google::protobuf::OneofDescriptor;
+
+// Iterates over a text and counts the characters that the parser has read.
+class Counting {
+ public:
+  using iterator_category = std::input_iterator_tag;
+  using value_type = char;
+  using difference_type = std::ptrdiff_t;
+  using pointer = const char*;
+  using reference = const char&;
+
+  Counting(const char* at, size_t* read) : at_(at), read_(read) {}
+  reference operator*() const { return *at_; }
+  Counting& operator++() {
+    ++at_;
+    ++*read_;
+    return *this;
+  }
+  bool operator==(const Counting& other) const { return at_ == other.at_; }
+  bool operator!=(const Counting& other) const { return at_ != other.at_; }
+
+ private:
+  const char* at_;
+  size_t* read_;
+};
+
+// Follows the parser through a text, with the field of the proto at hand. A field that is null is not set.
+class Checker : public nlohmann::json_sax<nlohmann::json> {
+ public:
+  Checker(const std::string& text, const Descriptor& type) : text_(text), root_(&type) {}
+
+  size_t* read() { return &read_; }
+  const std::string& error() const { return error_; }
+
+  bool null() override { return true; }
+  bool boolean(bool) override { return Value(FieldDescriptor::CPPTYPE_BOOL); }
+  bool number_integer(int64_t) override { return Number(); }
+  bool number_unsigned(uint64_t) override { return Number(); }
+  bool number_float(double, const std::string&) override { return Number(); }
+  bool string(std::string& words) override {
+    const FieldDescriptor* field = Field();
+    double number = 0.0;
+    if (field != nullptr && field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE && !absl::SimpleAtod(words, &number)) {
+      return Fail(absl::StrCat(Path(), " = \"", words, "\": must be a number"));
+    }
+    return Value(FieldDescriptor::CPPTYPE_STRING);
+  }
+  bool binary(nlohmann::json::binary_t&) override { return true; }
+
+  bool start_object(size_t) override {
+    if (levels_.empty()) {
+      levels_.push_back({.type = root_});
+      return true;
+    }
+    const FieldDescriptor* field = Field();
+    if (!Value(FieldDescriptor::CPPTYPE_MESSAGE)) return false;
+    // Types of protobuf itself have a JSON of their own.
+    const bool is_known = field != nullptr && !field->is_map() && field->message_type() != nullptr &&
+                          !absl::StartsWith(field->message_type()->full_name(), "google.");
+    levels_.push_back({.type = is_known ? field->message_type() : nullptr});
+    return true;
+  }
+  bool end_object() override { return Leave(); }
+  bool start_array(size_t) override {
+    if (levels_.empty()) return Fail("must be an object: {\"pendulum\": {...}, ...}");
+    const FieldDescriptor* field = Field();
+    if (field != nullptr && !field->is_repeated()) return Fail(absl::StrCat(Path(), ": must not be a list"));
+    levels_.push_back({.list = field, .is_list = true});
+    return true;
+  }
+  bool end_array() override { return Leave(); }
+
+  bool key(std::string& name) override {
+    Level& level = levels_.back();
+    level.name = name;
+    level.field = nullptr;
+    for (int i = 0; level.type != nullptr && i < level.type->field_count(); ++i) {
+      const FieldDescriptor* field = level.type->field(i);
+      if (name == field->name() || name == field->json_name()) level.field = field;
+    }
+    if (level.type != nullptr && level.field == nullptr) {
+      return Fail(absl::StrCat(Path(), ": is no field of ", level.type->name(), FieldHint(*level.type, name)));
+    }
+    const auto [before, is_first] = level.given.emplace(level.field == nullptr ? name : level.field->name(), name);
+    if (is_first) return true;
+    return Fail(
+        absl::StrCat(Path(), ": is given twice", before->second == name ? "" : ", before as " + before->second));
+  }
+
+  bool parse_error(size_t /*position*/, const std::string& /*token*/,
+                   const nlohmann::json::exception& exception) override {
+    const absl::string_view what = exception.what();
+    const size_t place = what.find("line ");
+    error_ = std::string(place == absl::string_view::npos ? what : what.substr(place));
+    return false;
+  }
+
+ private:
+  struct Level {
+    const Descriptor* type = nullptr;       // The message; null if it is not known.
+    const FieldDescriptor* list = nullptr;  // The field of a list.
+    bool is_list = false;
+    size_t entries = 0;  // Those of a list before the one at hand.
+    const FieldDescriptor* field = nullptr;
+    std::string name = {};
+    std::map<std::string, std::string> given = {};  // How each field that was given before is spelled, by its name.
+    std::map<const OneofDescriptor*, std::string> chosen = {};
+  };
+
+  // The field whose value is at hand; null if it is not known.
+  const FieldDescriptor* Field() const {
+    if (levels_.empty()) return nullptr;
+    return levels_.back().is_list ? levels_.back().list : levels_.back().field;
+  }
+
+  std::string Path() const {
+    std::string path;
+    for (const Level& level : levels_) {
+      if (level.is_list) {
+        absl::StrAppend(&path, "[", level.entries, "]");
+      } else {
+        absl::StrAppend(&path, path.empty() ? "" : ".", level.name);
+      }
+    }
+    return path;
+  }
+
+  // Appends the place that the parser has reached.
+  bool Fail(const std::string& message) {
+    const std::string before = text_.substr(0, std::min(read_, text_.size()));
+    const size_t start = before.rfind('\n');
+    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+    const size_t column = start == std::string::npos ? before.size() : before.size() - start - 1;
+    error_ = absl::StrCat("line ", line, ", column ", column, ": ", message);
+    return false;
+  }
+
+  bool Number() {
+    const FieldDescriptor* field = Field();
+    if (field != nullptr && field->cpp_type() == FieldDescriptor::CPPTYPE_BOOL) {
+      return Fail(absl::StrCat(Path(), ": must be true or false"));
+    }
+    return Value(FieldDescriptor::CPPTYPE_DOUBLE);
+  }
+
+  // Takes note of a value of the kind that JSON has. A field that is a choice may be chosen once.
+  bool Value(FieldDescriptor::CppType kind) {
+    if (levels_.empty()) return Fail("must be an object: {\"pendulum\": {...}, ...}");
+    Level& level = levels_.back();
+    const FieldDescriptor* field = Field();
+    if (field == nullptr) return true;
+    const bool is_message = field->cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE;
+    const bool is_own = is_message && absl::StartsWith(field->message_type()->full_name(), "google.");
+    if (is_message && !is_own && kind != FieldDescriptor::CPPTYPE_MESSAGE) {
+      return Fail(absl::StrCat(Path(), ": must be an object {...} with the fields of ", field->message_type()->name()));
+    }
+    const bool is_number = field->cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE;
+    if (is_number && (kind == FieldDescriptor::CPPTYPE_MESSAGE || kind == FieldDescriptor::CPPTYPE_BOOL)) {
+      return Fail(absl::StrCat(Path(), ": must be a number"));
+    }
+    if (level.is_list) return true;
+    if (field->is_repeated() && !field->is_map()) return Fail(absl::StrCat(Path(), ": must be a list [...]"));
+    const OneofDescriptor* choice = field->real_containing_oneof();
+    if (choice == nullptr) return true;
+    const auto [other, is_first] = level.chosen.emplace(choice, field->name());
+    if (is_first) return true;
+    return Fail(absl::StrCat(Path(), ": cannot be given beside ", other->second, ": there is one ",
+                             absl::StrReplaceAll(choice->name(), {{"_", " "}}), " only"));
+  }
+
+  bool Leave() {
+    levels_.pop_back();
+    if (!levels_.empty() && levels_.back().is_list) ++levels_.back().entries;
+    return true;
+  }
+
+  const std::string& text_;
+  const Descriptor* root_;
+  size_t read_ = 0;
+  std::vector<Level> levels_;
+  std::string error_;
+};
+
+}  // namespace
+
+std::string FieldHint(const Descriptor& type, const std::string& name) {
+  std::vector<std::string> known;
+  for (int i = 0; i < type.field_count(); ++i) known.push_back(type.field(i)->name());
+  const std::string nearest = DidYouMean(name, known);
+  return nearest.empty() ? absl::StrCat("; its fields are ", absl::StrJoin(known, ", ")) : nearest;
+}
+
+std::string ExplainJson(const std::string& text, const Descriptor& type) {
+  Checker checker(text, type);
+  const char* const end = text.data() + text.size();
+  nlohmann::json::sax_parse(Counting(text.data(), checker.read()), Counting(end, checker.read()), &checker);
+  return checker.error();
+}
+
+}  // namespace ricochet::cli

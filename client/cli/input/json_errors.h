@@ -1,0 +1,25 @@
+// Explains why a JSON text is not a message: where, which field, and what would be right.
+
+#ifndef RICOCHET_CLIENT_CLI_INPUT_JSON_ERRORS_H_
+#define RICOCHET_CLIENT_CLI_INPUT_JSON_ERRORS_H_
+
+#include <string>
+
+namespace google::protobuf {
+class Descriptor;
+}
+
+namespace ricochet::cli {
+
+// Returns the first error with its line, column and path: "line 2, column 14: pendulum.a: is no field of Pendulum". A
+// field that is given twice is an error, although the parser of the protos would silently take the second. Returns an
+// empty text if there is none; the parser of the protos may still refuse the text for another reason.
+std::string ExplainJson(const std::string& text, const google::protobuf::Descriptor& type);
+
+// Returns what is said after the name of a field that the type lacks: the nearest that it has, "; did you mean a_m?",
+// or all.
+std::string FieldHint(const google::protobuf::Descriptor& type, const std::string& name);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_INPUT_JSON_ERRORS_H_

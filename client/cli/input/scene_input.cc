@@ -1,0 +1,231 @@
+#include "client/cli/input/scene_input.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/io/tokenizer.h>
+#include <google/protobuf/text_format.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <sstream>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/str_replace.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/json_errors.h"
+#include "client/cli/io/csv_table.h"
+#include "client/cli/io/output_format.h"
+#include "client/cli/text/number_input.h"
+#include "core/scene/numbers.h"
+#include "proto/wire/scene.h"
+#include "ricochet/error.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr SceneFlag kSceneFlags[] = {
+    {"--a", &SceneOptions::a, "pendulum.a_m", "Horizontal distance from the pin to the contact, m"},
+    {"--b", &SceneOptions::b, "pendulum.b_m", "Depth of the contact below the pin, m [0]"},
+    {"--inertia", &SceneOptions::inertia, "pendulum.inertia_kg_m2", "Moment of inertia about the pin, kg m² [1]"},
+    {"--omega", &SceneOptions::omega, "pendulum.omega_minus_rad_s",
+     "Angular velocity before, rad/s; < 0 approaches [-1]"},
+    {"--mu", &SceneOptions::mu, "friction.kinetic_coefficient", "Coefficient of kinetic friction [0]"},
+    {"--mu-static", &SceneOptions::mu_static, "friction.static_coefficient",
+     "Coefficient of static friction [the value of --mu]"},
+    {"--newton", &SceneOptions::newton, "restitution.newton", "Coefficient of restitution by Newton: -v+/v-"},
+    {"--poisson", &SceneOptions::poisson, "restitution.poisson",
+     "Coefficient of restitution by Poisson: ratio of normal impulses"},
+    {"--energetic", &SceneOptions::energetic, "restitution.energetic",
+     "Coefficient of restitution by Stronge: root of the ratio of normal works"},
+};
+
+constexpr double kDefaultInertia = 1.0;
+constexpr double kDefaultOmega = -1.0;
+
+// The parser says: Message type "ricochet.v1.Pendulum" has no field named "am".
+std::string WithNearestField(const std::vector<std::string>& quoted) {
+  const auto* const type = google::protobuf::DescriptorPool::generated_pool()->FindMessageTypeByName(quoted[1]);
+  return absl::StrCat(quoted[1], " has no field \"", quoted[3], "\"",
+                      type == nullptr ? "" : FieldHint(*type, quoted[3]));
+}
+
+// The parser says: Field "b" is specified along with field "a", another member of oneof "system".
+std::string InWords(const std::string& message) {
+  const std::vector<std::string> quoted = absl::StrSplit(message, '"');
+  if (quoted.size() == 5 && absl::StrContains(message, "has no field named")) return WithNearestField(quoted);
+  if (quoted.size() != 7 || !absl::StrContains(message, "another member of oneof")) return message;
+  return absl::StrCat("\"", quoted[1], "\" cannot be given beside \"", quoted[3], "\": there is one ",
+                      absl::StrReplaceAll(quoted[5], {{"_", " "}}), " only");
+}
+
+// Keeps the first error of the textproto parser.
+class FirstError final : public google::protobuf::io::ErrorCollector {
+ public:
+  void AddError(int line, google::protobuf::io::ColumnNumber column, const std::string& message) override {
+    if (text.empty()) text = absl::StrCat("line ", line + 1, ", column ", column + 1, ": ", InWords(message));
+  }
+  std::string text;
+};
+
+bool IsJson(const std::string& path, const std::string& text) {
+  const std::string file_ending = EndingOf(path);
+  if (file_ending == "json") return true;
+  for (const char* ending : {"textproto", "txtpb", "pbtxt"}) {
+    if (file_ending == ending) return false;
+  }
+  const size_t start = text.find_first_not_of(" \t\r\n");
+  return start != std::string::npos && text[start] == '{';
+}
+
+// Reads numbers and keeps every violation, so that all of them are reported at once.
+class NumberReader {
+ public:
+  void Read(const std::optional<std::string>& text, const char* flag, double& value) {
+    if (!text.has_value()) return;
+    const absl::StatusOr<double> number = ParseNumber(*text, flag);
+    if (number.ok()) {
+      value = *number;
+    } else {
+      for (Violation& violation : ViolationsOf(number.status())) violations_.push_back(std::move(violation));
+    }
+  }
+  absl::Status status() const { return violations_.empty() ? absl::OkStatus() : InvalidRequest(violations_); }
+
+ private:
+  std::vector<Violation> violations_;
+};
+
+absl::StatusOr<Scene> PendulumFromFlags(const SceneOptions& options) {
+  NumberReader reader;
+  Pendulum pendulum{.inertia_kg_m2 = kDefaultInertia, .omega_minus_rad_s = kDefaultOmega};
+  reader.Read(options.a, "--a", pendulum.a_m);
+  reader.Read(options.b, "--b", pendulum.b_m);
+  reader.Read(options.inertia, "--inertia", pendulum.inertia_kg_m2);
+  reader.Read(options.omega, "--omega", pendulum.omega_minus_rad_s);
+  Scene scene;
+  reader.Read(options.mu, "--mu", scene.friction.kinetic_coefficient);
+  if (options.mu_static.has_value()) {
+    reader.Read(options.mu_static, "--mu-static", scene.friction.static_coefficient.emplace());
+  }
+  double coefficient = 0.0;
+  reader.Read(options.newton, "--newton", coefficient);
+  reader.Read(options.poisson, "--poisson", coefficient);
+  reader.Read(options.energetic, "--energetic", coefficient);
+  if (options.newton.has_value()) scene.restitution = NewtonCoefficient{coefficient};
+  if (options.poisson.has_value()) scene.restitution = PoissonCoefficient{coefficient};
+  if (options.energetic.has_value()) scene.restitution = EnergeticCoefficient{coefficient};
+  scene.system = pendulum;
+  if (absl::Status status = reader.status(); !status.ok()) return status;
+  return scene;
+}
+
+bool AnyFlag(const SceneOptions& options) {
+  return std::any_of(std::begin(kSceneFlags), std::end(kSceneFlags),
+                     [&](const SceneFlag& flag) { return (options.*flag.value).has_value(); });
+}
+
+}  // namespace
+
+absl::Span<const SceneFlag> SceneFlags() { return kSceneFlags; }
+
+bool SceneOptions::any() const { return !file.empty() || AnyFlag(*this); }
+
+void AddSceneOptions(CLI::App& app, SceneOptions& options) {
+  MarkFile(FileUse::kRead,
+           app.add_option("--scene", options.file, "A ricochet.v1.Scene as JSON or textproto; - for standard input"))
+      ->type_name("FILE")
+      ->group("Scene");
+  for (const SceneFlag& flag : kSceneFlags) {
+    app.add_option(flag.name, options.*flag.value, flag.help)->type_name("X")->group("Scene");
+  }
+  app.get_option("--newton")->excludes(app.get_option("--poisson"))->excludes(app.get_option("--energetic"));
+  app.get_option("--poisson")->excludes(app.get_option("--energetic"));
+}
+
+absl::Status RequireVelocity(const Scene& scene) {
+  bool is_moving = false;
+  std::vector<std::string> velocities;
+  VisitNumbers(scene, [&](const NumberPath& path, double value, NumberRule /*rule*/) {
+    const bool is_velocity = absl::EndsWith(path.name, "rad_s") || absl::EndsWith(path.name, "_m_s");
+    if (!is_velocity || absl::StartsWith(path.name, "speed")) return;
+    velocities.push_back(path.Text());
+    is_moving = is_moving || value != 0.0;
+  });
+  if (is_moving || velocities.empty()) return absl::OkStatus();
+  return absl::InvalidArgumentError(
+      absl::StrCat("no velocity of the scene is other than 0, so that nothing strikes: must set ",
+                   velocities.size() == 1 ? "" : "one of ", absl::StrJoin(velocities, ", ")));
+}
+
+absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
+  if (options.file.empty()) {
+    if (AnyFlag(options)) return PendulumFromFlags(options);
+    return absl::InvalidArgumentError("no scene: give --scene FILE, or a pendulum by --a, --b, --mu, --energetic ...");
+  }
+  if (AnyFlag(options)) {
+    return absl::InvalidArgumentError(
+        "--scene cannot be combined with the flags of a pendulum: put the values into the file, or omit --scene");
+  }
+  v1::Scene proto;
+  if (absl::Status status = ReadMessage(options.file, proto); !status.ok()) return status;
+  return FromProto(proto);
+}
+
+static absl::StatusOr<std::string> ReadBytes(const std::string& path) {
+  if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
+  if (std::filesystem::is_directory(path)) {
+    return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": Is a directory"));
+  }
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file) text << file.rdbuf();
+  // An empty file sets the failbit of `text` but not that of `file`.
+  if (!file) {
+    return absl::InvalidArgumentError(absl::StrCat("cannot read ", path, ": ", std::strerror(errno)));
+  }
+  return text.str();
+}
+
+absl::StatusOr<std::string> ReadText(const std::string& path) {
+  absl::StatusOr<std::string> text = ReadBytes(path);
+  if (text.ok() && absl::StartsWith(*text, kByteOrderMark)) text->erase(0, sizeof(kByteOrderMark) - 1);
+  return text;
+}
+
+absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message) {
+  const absl::StatusOr<std::string> text = ReadText(path);
+  if (!text.ok()) return text.status();
+  return ParseMessage(path, *text, message);
+}
+
+absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message) {
+  const std::string name = path == "-" ? "standard input" : path;
+  const std::string type = message.GetTypeName();
+  if (IsJson(path, text)) {
+    std::string wrong = ExplainJson(text, *message.GetDescriptor());
+    if (wrong.empty()) {
+      const auto status = google::protobuf::util::JsonStringToMessage(text, &message);
+      if (status.ok()) return absl::OkStatus();
+      wrong = status.message().ToString();
+    }
+    return absl::InvalidArgumentError(absl::StrCat(name, " is not a ", type, " in JSON: ", wrong));
+  }
+  FirstError error;
+  google::protobuf::TextFormat::Parser parser;
+  parser.RecordErrorsTo(&error);
+  if (parser.ParseFromString(text, &message)) return absl::OkStatus();
+  return absl::InvalidArgumentError(absl::StrCat(name, " is not a ", type, " in textproto: ", error.text));
+}
+
+}  // namespace ricochet::cli

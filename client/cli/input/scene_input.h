@@ -1,0 +1,66 @@
+// Reads scenes from files and from flags.
+
+#ifndef RICOCHET_CLIENT_CLI_INPUT_SCENE_INPUT_H_
+#define RICOCHET_CLIENT_CLI_INPUT_SCENE_INPUT_H_
+
+#include <optional>
+#include <string>
+
+#include "absl/status/statusor.h"
+#include "absl/types/span.h"
+#include "ricochet/scene.h"
+
+namespace CLI {
+class App;
+}
+
+namespace google::protobuf {
+class Message;
+}
+
+namespace ricochet::cli {
+
+// The options of a scene: --scene FILE, or the flags of a pendulum. Values are kept as typed until they are read.
+struct SceneOptions {
+  std::string file;
+  std::optional<std::string> a, b, inertia, omega;
+  std::optional<std::string> mu, mu_static;
+  std::optional<std::string> newton, poisson, energetic;
+
+  bool any() const;
+};
+
+// A flag of a pendulum.
+struct SceneFlag {
+  const char* name;
+  std::optional<std::string> SceneOptions::*value;
+  const char* field;  // The path of the number that it sets.
+  const char* help;
+};
+absl::Span<const SceneFlag> SceneFlags();
+
+void AddSceneOptions(CLI::App& app, SceneOptions& options);
+
+// Returns the scene that the options describe, without validating it. A pendulum's inertia is 1 kg m² and its w- is
+// -1 rad/s unless given.
+// Errors: INVALID_ARGUMENT for neither or both of file and flags, a text that is not a number, an unreadable file.
+absl::StatusOr<Scene> ReadScene(const SceneOptions& options);
+
+// Returns INVALID_ARGUMENT, with the fields that may hold one, for a scene that states no velocity at all. Such a scene
+// is valid and nothing happens in it, so that the user has most likely forgotten something.
+absl::Status RequireVelocity(const Scene& scene);
+
+// Returns the whole text of a file, or of standard input for "-", without a byte order mark in front of it.
+// Errors: INVALID_ARGUMENT that names the file.
+absl::StatusOr<std::string> ReadText(const std::string& path);
+
+// Reads a message of any type from a file, or from standard input for "-". A file *.json is JSON; *.textproto, *.txtpb
+// and *.pbtxt are textproto; any other is JSON if it starts with a brace, else textproto.
+// Errors: INVALID_ARGUMENT that names the file, and the line if the parser tells it.
+absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message);
+// Reads a message from the text of the file `path`, by the rules of ReadMessage.
+absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_INPUT_SCENE_INPUT_H_

@@ -1,0 +1,108 @@
+#include "client/cli/input/short_name.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/strip.h"
+#include "client/cli/text/field_table.h"
+#include "core/base/nearest.h"
+#include "core/rows/column.h"
+#include "core/scene/field.h"
+
+namespace ricochet::cli {
+namespace {
+
+// Letters and flags whose field is called otherwise.
+constexpr std::pair<const char*, const char*> kLetters[] = {
+    {"mu", "friction.kinetic_coefficient"},
+    {"mu_static", "friction.static_coefficient"},
+    {"omega", "pendulum.omega_minus_rad_s"},
+    {"mu-static", "friction.static_coefficient"},
+    {"inertia", "pendulum.inertia_kg_m2"},
+    {"phi", "pendulum.phi_rad"},
+    {"mu", "friction"},
+};
+
+// True if `path` is `name`, or ends in it after a dot. An error has the name of its number, which is what the name
+// alone means.
+bool EndsIn(const std::string& path, const std::string& name) {
+  return path == name || (absl::EndsWith(path, absl::StrCat(".", name)) && !absl::StartsWith(path, "errors."));
+}
+
+bool Contains(const std::vector<std::string>& known, const std::string& name) {
+  return std::find(known.begin(), known.end(), name) != known.end();
+}
+
+// Returns the name itself, which the checks of a request will refuse, unless it is nearly the last part of a known
+// name.
+absl::StatusOr<std::string> NearShortName(const std::string& name, const std::vector<std::string>& known,
+                                          const std::string& what) {
+  // Shorter names are near to too many.
+  constexpr size_t kLeast = 4;
+  if (name.size() < kLeast || absl::StrContains(name, '.') || absl::StrContains(name, '*')) return name;
+  std::vector<std::string> endings;
+  for (const std::string& path : known) endings.push_back(WithoutUnit(path).substr(path.rfind('.') + 1));
+  const std::string nearest = NearestName(name, endings);
+  if (nearest.empty()) return name;
+  const auto found = std::find(endings.begin(), endings.end(), nearest);
+  return absl::InvalidArgumentError(absl::StrCat(what, " ", name, ": names nothing; did you mean ",
+                                                 known[static_cast<size_t>(found - endings.begin())], "?"));
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> FullName(const std::string& name, const std::vector<std::string>& known,
+                                     const std::string& what) {
+  if (name.empty() || Contains(known, name)) return name;
+  for (const auto& [letter, path] : kLetters) {
+    if (name == letter && Contains(known, path)) return path;
+  }
+  std::vector<std::string> meant;
+  for (const std::string& path : known) {
+    if (EndsIn(path, name) || EndsIn(WithoutUnit(path), name)) meant.push_back(path);
+  }
+  if (meant.empty()) return NearShortName(name, known, what);
+  if (meant.size() == 1) return meant.front();
+  return absl::InvalidArgumentError(
+      absl::StrCat(what, " ", name, ": must name one of\n  ", absl::StrJoin(meant, "\n  ")));
+}
+
+absl::StatusOr<std::string> FullField(const Scene& scene, const std::string& name, const std::string& what) {
+  return FullName(name, FieldPaths(scene), what);
+}
+
+Spelling SpellingOf(const std::string& path) {
+  const FieldInfo* const info = FindFieldInfo(path);
+  return info != nullptr && info->unit == "rad" ? Spelling::kAngle : Spelling::kNumber;
+}
+
+absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names) {
+  return FullColumns(Columns(scene), ColumnPlaces(scene), names);
+}
+
+absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::string>& known,
+                                                     const std::vector<std::string>& places,
+                                                     const std::vector<std::string>& names) {
+  std::vector<std::string> columns;
+  for (const std::string& text : names) {
+    const std::string name(absl::StripAsciiWhitespace(text));
+    if (absl::EndsWith(name, "*")) {
+      const size_t before = columns.size();
+      const absl::string_view start = absl::StripSuffix(name, "*");
+      std::copy_if(known.begin(), known.end(), std::back_inserter(columns),
+                   [start](const std::string& column) { return absl::StartsWith(column, start); });
+      if (columns.size() > before) continue;
+    }
+    absl::StatusOr<std::string> full = FullName(name, places, "--column");
+    if (!full.ok()) return full.status();
+    columns.push_back(*std::move(full));
+  }
+  return columns;
+}
+
+}  // namespace ricochet::cli

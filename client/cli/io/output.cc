@@ -1,0 +1,141 @@
+#include "client/cli/io/output.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/strings/cord.h"
+#include "absl/strings/str_cat.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kReaderGoneUrl[] = "ricochet/reader_gone";
+
+absl::Status SystemError(const std::string& what) { return absl::ErrnoToStatus(errno, what); }
+
+mode_t DefaultMode() {
+  const mode_t mask = umask(0);
+  umask(mask);
+  return 0666 & ~mask;
+}
+
+}  // namespace
+
+bool IsStandardOutput(const std::string& path) { return path.empty() || path == "-" || path == "/dev/stdout"; }
+
+absl::Status WriteAll(int descriptor, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t count = write(descriptor, text.data(), text.size());
+    if (count >= 0) {
+      text.remove_prefix(static_cast<size_t>(count));
+    } else if (errno == EPIPE) {
+      absl::Status status = absl::CancelledError("the reader of the output has gone");
+      status.SetPayload(kReaderGoneUrl, absl::Cord());
+      return status;
+    } else if (errno != EINTR) {
+      return SystemError("cannot write the output");
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::string> FileToWrite(const std::string& path) {
+  constexpr int kMostLinks = 40;  // Linux follows as many.
+  std::error_code failure;
+  std::filesystem::path target = path;
+  for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(target, failure); ++i) {
+    target = target.parent_path() / std::filesystem::read_symlink(target, failure);
+  }
+  target = std::filesystem::weakly_canonical(std::filesystem::absolute(target), failure);
+  if (failure || !target.has_filename() || std::filesystem::is_directory(target, failure)) {
+    return absl::FailedPreconditionError(absl::StrCat("cannot write ", path, ": not a file"));
+  }
+  return target.string();
+}
+
+bool IsDevice(const std::string& path) {
+  struct stat info;
+  return stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+absl::StatusOr<AtomicFile> AtomicFile::Create(const std::string& path) {
+  const absl::StatusOr<std::string> written = FileToWrite(path);
+  if (!written.ok()) return written.status();
+  const std::filesystem::path target = *written;
+  std::string name = absl::StrCat(target.parent_path().string(), "/.", target.filename().string(), ".XXXXXX");
+  AtomicFile file;
+  file.descriptor_ = mkostemp(name.data(), O_CLOEXEC);
+  if (file.descriptor_ < 0) return SystemError(absl::StrCat("cannot write ", path));
+  file.path_ = target.string();
+  file.temporary_path_ = std::move(name);
+  if (fchmod(file.descriptor_, DefaultMode()) != 0) return SystemError(absl::StrCat("cannot write ", path));
+  return file;
+}
+
+AtomicFile::AtomicFile(AtomicFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      temporary_path_(std::exchange(other.temporary_path_, "")),
+      descriptor_(std::exchange(other.descriptor_, -1)) {}
+
+AtomicFile& AtomicFile::operator=(AtomicFile&& other) noexcept {
+  std::swap(path_, other.path_);
+  std::swap(temporary_path_, other.temporary_path_);
+  std::swap(descriptor_, other.descriptor_);
+  return *this;
+}
+
+AtomicFile::~AtomicFile() {
+  if (descriptor_ >= 0) close(descriptor_);
+  if (!temporary_path_.empty()) unlink(temporary_path_.c_str());
+}
+
+absl::Status AtomicFile::Commit() {
+  if (fsync(descriptor_) != 0) return SystemError(absl::StrCat("cannot write ", path_));
+  if (std::rename(temporary_path_.c_str(), path_.c_str()) != 0) {
+    return SystemError(absl::StrCat("cannot replace ", path_));
+  }
+  temporary_path_.clear();
+  return absl::OkStatus();
+}
+
+absl::StatusOr<Output> Output::Open(const std::string& path) {
+  const absl::Status none = absl::NotFoundError("no file");
+  if (IsStandardOutput(path)) return Output(none, STDOUT_FILENO, false);
+  if (IsDevice(path)) {
+    const int descriptor = open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) return SystemError(absl::StrCat("cannot write ", path));
+    return Output(none, descriptor, true);
+  }
+  absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
+  if (!file.ok()) return file.status();
+  const int descriptor = file->descriptor();
+  return Output(std::move(file), descriptor, false);
+}
+
+Output::Output(Output&& other) noexcept
+    : file_(std::move(other.file_)), descriptor_(other.descriptor_), owned_(std::exchange(other.owned_, false)) {}
+
+Output::~Output() {
+  if (owned_) close(descriptor_);
+}
+
+absl::Status Output::Commit() { return file_.ok() ? file_->Commit() : absl::OkStatus(); }
+
+absl::Status WriteFile(const std::string& path, std::string_view text) {
+  absl::StatusOr<Output> output = Output::Open(path);
+  if (!output.ok()) return output.status();
+  if (absl::Status status = output->Write(text); !status.ok()) return status;
+  return output->Commit();
+}
+
+bool IsReaderGone(const absl::Status& status) { return status.GetPayload(kReaderGoneUrl).has_value(); }
+
+}  // namespace ricochet::cli

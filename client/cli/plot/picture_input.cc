@@ -1,0 +1,106 @@
+#include "client/cli/plot/picture_input.h"
+
+#include <CLI/App.hpp>
+#include <cstdint>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/text/number_input.h"
+#include "core/base/utf8.h"
+
+namespace ricochet::cli {
+namespace {
+
+// Below this nothing can be read, above it a program that shows pictures fails.
+constexpr int64_t kLeastSide = 200;
+constexpr int64_t kMostSide = 10'000;
+
+}  // namespace
+
+void AddPictureOptions(CLI::App& app, const std::string& what, PictureOptions& options) {
+  MarkFile(FileUse::kWritten, app.add_option("--plot", options.file, absl::StrCat("Draw ", what, " with gnuplot")),
+           PictureFormats())
+      ->type_name("FILE.svg|.png|.pdf")
+      ->group("Picture");
+  AddLookOptions(app, options);
+}
+
+void AddLookOptions(CLI::App& app, PictureOptions& options) {
+  app.add_option("--title", options.title, "Title of the picture, instead of one that says what it shows")
+      ->type_name("TEXT")
+      ->group("Picture");
+  app.add_option("--size", options.size, "Width and height of the picture in pixels, such as 960x620")
+      ->type_name("WxH")
+      ->group("Picture");
+}
+
+void AddAxisOptions(CLI::App& app, PictureOptions& options) {
+  app.add_flag("--logx", options.log_x, "Logarithmic axis to the right")->group("Picture");
+  app.add_flag("--logy", options.log_y, "Logarithmic axis upwards")->group("Picture");
+}
+
+void AddKindOption(CLI::App& app, PictureOptions& options) {
+  app.add_option_function<std::string>(
+         "--kind",
+         [&options](const std::string& name) { options.kind = name == "map" ? PlotKind::kMap : PlotKind::kCurves; },
+         "Curves over the last axis, or a map of two axes in colours [a map if both axes have more than 12 values]")
+      ->check(CLI::IsMember({"curves", "map"}))
+      ->option_text("curves|map")
+      ->group("Picture");
+}
+
+absl::StatusOr<PictureSize> SizeOf(const PictureOptions& options) {
+  const std::string& text = options.size;
+  if (text.empty()) return PictureSize{};
+  const std::vector<std::string> parts = absl::StrSplit(text, 'x');
+  const absl::Status wrong =
+      InputError("--size", text, absl::StrCat("be WIDTHxHEIGHT in pixels, each from ", kLeastSide, " to ", kMostSide));
+  if (parts.size() != 2) return wrong;
+  std::vector<int> sides;
+  for (const std::string& part : parts) {
+    const absl::StatusOr<int64_t> side = ParseCount(part, "--size");
+    if (!side.ok() || *side < kLeastSide || *side > kMostSide) return wrong;
+    sides.push_back(static_cast<int>(*side));
+  }
+  return PictureSize{sides[0], sides[1]};
+}
+
+absl::Status CheckPicture(const PictureOptions& options) {
+  if (options.file.empty()) {
+    if (options.title.empty() && options.size.empty() && !options.log_x && !options.log_y &&
+        options.kind == PlotKind::kAuto) {
+      return absl::OkStatus();
+    }
+    return absl::InvalidArgumentError("--title, --size, --logx, --logy and --kind need --plot FILE");
+  }
+  if (Printable(options.title) != options.title) {
+    return InputError("--title", Printable(options.title), "be UTF-8 without control characters");
+  }
+  return SizeOf(options).status();
+}
+
+absl::Status DrawWith(absl::StatusOr<Plot> plot, const PictureOptions& options) {
+  if (!plot.ok()) return plot.status();
+  const absl::StatusOr<PictureSize> size = SizeOf(options);
+  if (!size.ok()) return size.status();
+  if (!options.title.empty()) plot->title = options.title;
+  if (size->width > 0) std::tie(plot->width, plot->height) = std::pair(size->width, size->height);
+  for (Panel& panel : plot->panels) {
+    panel.log_x = panel.log_x || (options.log_x && panel.y_ticks.empty());
+    panel.log_y = panel.log_y || (options.log_y && panel.y_ticks.empty());
+  }
+  return Draw(*plot, options.file);
+}
+
+absl::Status DrawPicture(absl::StatusOr<Plot> plot, const PictureOptions& options) {
+  const absl::Status drawn = DrawWith(std::move(plot), options);
+  if (drawn.ok()) return drawn;
+  return {drawn.code(),
+          absl::StrCat("the numbers are complete, but ", options.file, " was not drawn: ", drawn.message())};
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,261 @@
+#include "client/cli/report/cost_page.h"
+
+#include <google/protobuf/text_format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/str_replace.h"
+#include "client/cli/plot/inline_svg.h"
+#include "client/cli/report/cost_picture.h"
+#include "client/cli/report/cost_report.h"
+#include "core/base/decimal.h"
+#include "proto/wire/scene.h"
+
+namespace ricochet::cli {
+namespace {
+
+// In the dark the pictures are inverted and their hues turned back, so that the colours of the lines stay.
+constexpr char kStyle[] = R"(
+:root { color-scheme: light dark; --page: #ffffff; --text: #1d1d1f; --quiet: #5f6368; --rule: #d9dce0;
+  --stripe: #f5f6f8; --alarm: #b3261e; --mark: #0b6bcb; }
+@media (prefers-color-scheme: dark) {
+  :root { --page: #15171a; --text: #e6e7e9; --quiet: #a3a8ae; --rule: #363a40; --stripe: #1d2024; --alarm: #ff8a80;
+    --mark: #7ab7ff; }
+  figure svg { filter: invert(0.92) hue-rotate(180deg); }
+}
+* { box-sizing: border-box; }
+body { margin: 0; background: var(--page); color: var(--text); font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; }
+main { max-width: 1120px; margin: 0 auto; padding: 24px 20px 64px; }
+h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 0.3em; }
+h2 { font-size: 1.2rem; margin: 2.2em 0 0.6em; }
+p, dd { max-width: 46em; }
+.quiet { color: var(--quiet); }
+.alarm { color: var(--alarm); font-weight: 600; }
+.facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(220px, 1fr)); gap: 12px; padding: 0;
+  margin: 24px 0; }
+.facts li { list-style: none; border: 1px solid var(--rule); border-radius: 8px; padding: 12px 16px; }
+.facts b { display: block; font-size: 1.25rem; }
+figure { margin: 24px 0; }
+figure svg { display: block; width: 100%; height: auto; }
+figure svg rect[fill="#ffffff"] { fill: none; }
+figure svg text, figure svg tspan { font-family: system-ui, "DejaVu Sans", sans-serif; }
+figcaption { color: var(--quiet); font-size: 0.92rem; max-width: 50em; margin-top: 8px; }
+.narrow { display: none; }
+table { border-collapse: collapse; width: 100%; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
+th, td { padding: 6px 10px; border-bottom: 1px solid var(--rule); text-align: right; vertical-align: top; }
+th { font-weight: 600; vertical-align: bottom; }
+th:first-child, td:first-child, .words th, .words td { text-align: left; }
+tbody tr:nth-child(even) { background: var(--stripe); }
+tr.front td:first-child { font-weight: 600; }
+tr.front td:first-child::after { content: " ●"; color: var(--mark); }
+td.time { white-space: nowrap; }
+dt { font-weight: 600; margin-top: 0.8em; }
+dd { margin: 0; }
+pre { background: var(--stripe); border: 1px solid var(--rule); border-radius: 8px; padding: 12px 16px;
+  overflow-x: auto; font: 0.85rem/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
+@media (max-width: 700px) {
+  main { padding: 16px 14px 48px; }
+  h1 { font-size: 1.35rem; }
+  .wide { display: none !important; }
+  .narrow { display: block; }
+  .cards thead { display: none; }
+  .cards, .cards tbody, .cards tr, .cards td { display: block; width: 100%; }
+  .cards tr { border: 1px solid var(--rule); border-radius: 8px; margin: 0 0 10px; padding: 8px 12px; }
+  .cards td { border: 0; padding: 1px 0; display: flex; justify-content: space-between; gap: 12px; text-align: right; }
+  .cards td:first-child { font-weight: 600; justify-content: flex-start; }
+  .cards td:not(:first-child)::before { content: attr(data-label); color: var(--quiet); text-align: left; }
+  .cards td:empty { display: none; }
+}
+)";
+
+constexpr char kColumns[] = R"(<dl>
+<dt>one solve, spread</dt><dd>The median time of one call for this impact, on one thread with warm caches, and half the
+distance between the quartiles. The time of planning is not in it.</dd>
+<dt>of a batch</dt><dd>The time of one impact among 1,000 whose velocities before differ slightly.</dd>
+<dt>error claimed</dt><dd>The largest error that the method says it may make.</dd>
+<dt>error made</dt><dd>The distance of its answer from the exact one. All errors are those of the contact velocity after
+the impact, as a fraction of the velocity before.</dd>
+<dt>numerical error</dt><dd>The part that rounding and steps cause: the distance from the exact answer of the method's
+own model.</dd>
+<dt>modelling error</dt><dd>The part that an effect which the model leaves out causes, such as friction.</dd>
+<dt>steps</dt><dd>The steps of an integration in time or impulse. A closed form takes none.</dd>
+</dl>
+)";
+
+// Returns one element with a text. `attributes` starts with a space unless it is empty.
+std::string Element(const std::string& name, const std::string& text, const std::string& attributes = "") {
+  return absl::StrCat("<", name, attributes, ">", HtmlText(text), "</", name, ">");
+}
+
+constexpr const char* kHeads[] = {"method",     "one solve",       "spread",          "of a batch", "error claimed",
+                                  "error made", "numerical error", "modelling error", "steps"};
+
+std::string CellsText(const CostRow& row) {
+  const auto error = [&row](double CostError::*part) {
+    return row.achieved.has_value() ? ErrorText((*row.achieved).*part) : "";
+  };
+  const std::vector<std::string> cells = {
+      row.name,
+      row.solve.has_value()                  ? TimeText(row.solve->median_s)
+      : row.status == CostStatus::kOutOfTime ? "no time left"
+                                             : "no answer",
+      row.solve.has_value() ? absl::StrCat(row.solve->samples == 1 ? "" : "± ", SpreadText(*row.solve)) : "",
+      row.batch.has_value() ? TimeText(row.batch->median_s) : "",
+      row.status == CostStatus::kMeasured ? ErrorText(row.claimed.total) : "",
+      error(&CostError::total),
+      error(&CostError::numerical),
+      error(&CostError::modelling),
+      row.steps > 0 ? absl::StrCat(row.steps) : ""};
+  std::string text;
+  for (size_t i = 0; i < cells.size(); ++i) {
+    absl::StrAppend(
+        &text, Element("td", cells[i],
+                       absl::StrCat(i >= 1 && i <= 3 ? " class=\"time\"" : "", " data-label=\"", kHeads[i], "\"")));
+  }
+  return text;
+}
+
+std::string MethodsTable(const CostChunk& study) {
+  std::string text = "<table class=\"cards\">\n<thead><tr>";
+  for (const char* head : kHeads) absl::StrAppend(&text, Element("th", head));
+  absl::StrAppend(&text, "</tr></thead>\n<tbody>\n");
+  const std::vector<bool> front = OnFront(study);
+  for (size_t i = 0; i < study.rows.size(); ++i) {
+    const CostRow& row = study.rows[i];
+    const bool alarm = row.IsDeceived() || row.status == CostStatus::kFailed;
+    const char* kind = alarm ? " class=\"alarm\"" : front[i] ? " class=\"front\"" : "";
+    absl::StrAppend(&text, "<tr", kind, ">", CellsText(row), "</tr>\n");
+  }
+  return text + "</tbody>\n</table>\n";
+}
+
+std::string PicksTable(const CostChunk& study) {
+  std::string text = "<table class=\"words\">\n<thead><tr><th>tolerance</th><th>method</th></tr></thead>\n<tbody>\n";
+  for (const CostPick& pick : study.summary->picks) {
+    absl::StrAppend(&text, "<tr>", Element("td", PickRangeText(pick)), Element("td", PickName(study, pick)), "</tr>\n");
+  }
+  return text + "</tbody>\n</table>\n";
+}
+
+std::string Notes(const CostChunk& study) {
+  std::string text;
+  for (const CostNote& note : NotesOf(study)) {
+    absl::StrAppend(&text, Element("dt", absl::StrJoin(note.methods, "; ")), Element("dd", note.text), "\n");
+  }
+  return text.empty() ? "" : absl::StrCat("<h2>Notes</h2>\n<dl>\n", text, "</dl>\n");
+}
+
+std::string Fact(const std::string& what, const std::string& value, const std::string& more) {
+  return absl::StrCat("<li>", Element("span", what, " class=\"quiet\""), Element("b", value), Element("span", more),
+                      "</li>\n");
+}
+
+std::string Facts(const CostChunk& study) {
+  const CostSummary& summary = *study.summary;
+  std::string text = "<ul class=\"facts\">\n";
+  if (!summary.front.empty()) {
+    const CostRow& fast = study.rows.at(static_cast<size_t>(summary.front.front()));
+    const CostRow& exact = study.rows.at(static_cast<size_t>(summary.front.back()));
+    const auto fact = [&text](const char* what, const CostRow& row) {
+      if (!row.solve.has_value() || !row.achieved.has_value()) return;
+      absl::StrAppend(&text,
+                      Fact(what, row.name,
+                           absl::StrCat(TimeText(row.solve->median_s), ", error ", ErrorText(row.achieved->total))));
+    };
+    fact("fastest", fast);
+    fact("most exact", exact);
+  }
+  return absl::StrCat(text, Fact("claims below the error", absl::StrCat(summary.deceived), TrustText(study)),
+                      "</ul>\n");
+}
+
+// A picture in two widths, one of which the style sheet hides.
+absl::StatusOr<std::string> Figure(const CostChunk& study, Plot (*plot)(const CostChunk&, PictureWidth),
+                                   const std::string& id, const std::string& title, const std::string& caption) {
+  std::string text = "<figure>\n";
+  for (const auto& [width, name] :
+       {std::pair(PictureWidth::kWide, "wide"), std::pair(PictureWidth::kNarrow, "narrow")}) {
+    const absl::StatusOr<std::string> file = DrawAs(plot(study, width), "svg");
+    if (!file.ok()) return file.status();
+    absl::StrAppend(&text, "<div class=\"", name, "\">", InlineSvg(*file, absl::StrCat(id, "-", name, "-"), title),
+                    "</div>\n");
+  }
+  return absl::StrCat(text, Element("figcaption", caption), "\n</figure>\n");
+}
+
+std::string RunTable(const CostChunk& study, const std::string& date) {
+  const CostSummary& summary = *study.summary;
+  const std::pair<const char*, std::string> rows[] = {
+      {"processor", absl::StrCat(summary.machine.cpu, ", ", summary.machine.simd_target)},
+      {"compiler", absl::StrCat(summary.machine.compiler,
+                                summary.machine.optimized ? "" : ", without optimization: these times say little")},
+      {"ricochet", absl::StrCat(study.engine.version, ", engine ", study.engine.fingerprint)},
+      {"date", date},
+      {"time taken", absl::StrFormat("%.2g s", summary.elapsed_s)},
+      {"exact answer",
+       absl::StrCat(summary.reference_source, ". It is known to within ", ErrorText(summary.reference_error), ".")}};
+  std::string text = "<table class=\"words\">\n<tbody>\n";
+  for (const auto& [name, value] : rows) {
+    absl::StrAppend(&text, "<tr>", Element("td", name), Element("td", value), "</tr>\n");
+  }
+  return text + "</tbody>\n</table>\n";
+}
+
+std::string SceneText(const Scene& scene) {
+  std::string text;
+  google::protobuf::TextFormat::PrintToString(ToProto(scene), &text);
+  return text;
+}
+
+constexpr char kTimeCaption[] =
+    "Further left is more exact, further down is faster. The grey stairs are the Pareto front: no other method is as "
+    "fast "
+    "and as exact as the ones on it. Errors below 10⁻¹⁷, less than half an ulp of a double, stand at the left edge. A "
+    "line "
+    "joins the tolerances, or the digits, that one method was asked for.";
+constexpr char kClaimCaption[] =
+    "A method below the dashed diagonal errs by less than it claims. One above it would have deceived its caller, and "
+    "would "
+    "be ringed in red.";
+
+}  // namespace
+
+std::string SystemText(const Scene& scene) {
+  const v1::Scene proto = ToProto(scene);
+  const auto* choice = v1::Scene::descriptor()->FindOneofByName("system");
+  const auto* field = proto.GetReflection()->GetOneofFieldDescriptor(proto, choice);
+  return field == nullptr ? "scene" : absl::StrReplaceAll(field->name(), {{"_", " "}});
+}
+
+absl::StatusOr<std::string> CostPage(const Scene& scene, const CostChunk& study, const std::string& date) {
+  const std::string title = absl::StrCat("What accuracy costs: one impact, ", SystemText(scene));
+  const absl::StatusOr<std::string> time =
+      Figure(study, CostTimePlot, "time", "Time of one solve over its error", kTimeCaption);
+  if (!time.ok()) return time.status();
+  const absl::StatusOr<std::string> claim =
+      Figure(study, CostClaimPlot, "claim", "Error made over error claimed", kClaimCaption);
+  if (!claim.ok()) return claim.status();
+  return absl::StrCat(
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n",
+      Element("title", title), "\n<style>", kStyle, "</style>\n</head>\n<body>\n<main>\n", Element("h1", title), "\n",
+      Element("p",
+              absl::StrCat("Measured on ", date, " by ricochet ", study.engine.version, " on ",
+                           MachineText(study.summary->machine), "."),
+              " class=\"quiet\""),
+      "\n", Facts(study), "<h2>Time and error</h2>\n", *time,
+      Element("h2", absl::StrCat("Errors claimed and made: ", study.summary->deceived, " of ", AnswerCount(study),
+                                 " claim too little")),
+      "\n", *claim, "<h2>Methods</h2>\n", MethodsTable(study),
+      "<p class=\"quiet\">● on the Pareto front: no other method is as fast and as exact.</p>\n",
+      "<h2>The method that the plan picks</h2>\n", PicksTable(study), Notes(study), "<h2>What the columns mean</h2>\n",
+      kColumns, "<h2>The scene</h2>\n", Element("pre", SceneText(scene)), "\n<h2>The run</h2>\n", RunTable(study, date),
+      "</main>\n</body>\n</html>\n");
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,225 @@
+#include "client/cli/report/cost_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/strip.h"
+#include "client/cli/io/csv_row.h"
+#include "client/cli/text/enum_names.h"
+#include "client/cli/text/table.h"
+#include "client/cli/text/wrap.h"
+#include "proto/wire/cost.h"
+#include "proto/wire/plan.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr size_t kWidth = 100;
+constexpr size_t kGap = 2;
+
+std::string StatusName(CostStatus status) {
+  return std::string(absl::StripPrefix(v1::CostRow::Status_Name(ToProto(status)), "STATUS_"));
+}
+
+// Breaks a text into lines of at most kWidth characters. The first line starts with `indent` spaces, the others with
+// two more.
+std::string Wrapped(const std::string& text, size_t indent = 0) {
+  return absl::StrCat(std::string(indent, ' '), WrapWords(text, kWidth, indent, indent + 2), "\n");
+}
+
+std::vector<std::string> Cells(const CostRow& row, bool on_front) {
+  const auto error = [&row](double CostError::*part) {
+    return row.achieved.has_value() ? ErrorText((*row.achieved).*part) : "-";
+  };
+  return {absl::StrCat(on_front ? "* " : "  ", row.name),
+          row.solve.has_value() ? TimeText(row.solve->median_s) : "-",
+          row.solve.has_value() ? SpreadText(*row.solve) : "-",
+          row.batch.has_value() ? TimeText(row.batch->median_s) : "-",
+          row.status == CostStatus::kMeasured ? ErrorText(row.claimed.total) : "-",
+          error(&CostError::total),
+          error(&CostError::numerical),
+          error(&CostError::modelling),
+          row.steps > 0 ? absl::StrCat(row.steps) : ""};
+}
+
+std::string MethodsText(const CostChunk& study) {
+  Table table;
+  table.Add({"", "one", "", "of a", "error", "error", "numer-", "model-", ""});
+  table.Add({"  method", "solve", "±", "batch", "claimed", "made", "ical", "ling", "steps"});
+  const std::vector<bool> front = OnFront(study);
+  for (size_t i = 0; i < study.rows.size(); ++i) table.Add(Cells(study.rows[i], front[i]));
+  return table.Render(0, kGap);
+}
+
+std::string PicksText(const CostChunk& study) {
+  std::string text = "Method that the plan picks\n";
+  for (const CostPick& pick : study.summary->picks) {
+    absl::StrAppendFormat(&text, "  %-16s   %s\n", PickRangeText(pick), PickName(study, pick));
+  }
+  return text;
+}
+
+// A long list is told by its ends, because the same note goes with many rows in a row.
+std::string MethodNames(const std::vector<std::string>& names) {
+  constexpr size_t kMost = 3;
+  if (names.size() <= kMost) return absl::StrJoin(names, "; ");
+  return absl::StrCat(names.size(), " methods from ", names.front(), " to ", names.back());
+}
+
+std::string NotesText(const CostChunk& study) {
+  std::string text;
+  for (const CostNote& note : NotesOf(study)) {
+    absl::StrAppend(&text, Wrapped(absl::StrCat(MethodNames(note.methods), ": ", note.text), 2));
+  }
+  return text.empty() ? "" : absl::StrCat("\nNotes\n", text);
+}
+
+void AddTime(const std::string& name, const std::optional<CostTime>& time, CsvRow& row) {
+  const auto seconds = [&](const char* field, double CostTime::*part) {
+    row.Number(name + field, time.has_value() ? std::optional((*time).*part) : std::nullopt);
+  };
+  seconds(".median_s", &CostTime::median_s);
+  seconds(".lower_quartile_s", &CostTime::lower_quartile_s);
+  seconds(".upper_quartile_s", &CostTime::upper_quartile_s);
+  row.Integer(name + ".samples", time.has_value() ? std::optional(time->samples) : std::nullopt);
+  row.Integer(name + ".per_sample", time.has_value() ? std::optional(time->per_sample) : std::nullopt);
+}
+
+void AddError(const std::string& name, const std::optional<CostError>& error, CsvRow& row) {
+  const auto add = [&](const char* field, double CostError::*part) {
+    row.Number(name + field, error.has_value() ? std::optional((*error).*part) : std::nullopt);
+  };
+  add(".total", &CostError::total);
+  add(".numerical", &CostError::numerical);
+  add(".modelling", &CostError::modelling);
+}
+
+CsvRow CsvRowOf(const CostChunk& study, size_t index, bool on_front) {
+  const CostRow& row = study.rows[index];
+  std::vector<std::string> picked;
+  for (const CostPick& pick : study.summary->picks) {
+    if (pick.row == static_cast<int64_t>(index)) picked.push_back(PickRangeText(pick));
+  }
+  CsvRow csv;
+  csv.Integer("index", index);
+  csv.Quoted("name", row.name);
+  csv.Words("status", StatusName(row.status));
+  csv.Words("method.model", ModelName(row.method.model));
+  csv.Words("method.arithmetic", absl::AsciiStrToUpper(ArithmeticText(row.method.arithmetic)));
+  csv.Number("method.tolerance", row.method.tolerance);
+  csv.Integer("method.digits", row.method.digits);
+  csv.Number("method.stiffness", row.method.stiffness);
+  AddTime("solve", row.solve, csv);
+  AddTime("batch", row.batch, csv);
+  csv.Integer("batch_in_lanes", row.batch_in_lanes);
+  AddError("claimed", row.status == CostStatus::kMeasured ? std::optional(row.claimed) : std::nullopt, csv);
+  AddError("achieved", row.achieved, csv);
+  csv.Number("reference_error", row.reference_error);
+  csv.Integer("deceived", row.IsDeceived());
+  csv.Integer("steps", row.steps);
+  csv.Integer("right_hand_sides", row.right_hand_sides);
+  csv.Integer("on_front", on_front);
+  csv.Quoted("picked_for_tolerances", absl::StrJoin(picked, "; "));
+  csv.Quoted("note", row.note);
+  return csv;
+}
+
+}  // namespace
+
+std::string TimeText(double seconds) {
+  struct Unit {
+    const char* name;
+    double seconds;
+  };
+  constexpr Unit kUnits[] = {{"s", 1.0}, {"ms", 1e-3}, {"µs", 1e-6}, {"ns", 1e-9}};
+  for (const Unit& unit : kUnits) {
+    const double value = seconds / unit.seconds;
+    // 999.6 would be rounded to 1000.
+    if (value < 0.9995 && unit.seconds > 1e-9) continue;
+    const int decimals = value < 9.995 ? 2 : value < 99.95 ? 1 : 0;
+    return absl::StrFormat("%.*f %s", decimals, value, unit.name);
+  }
+  return "";
+}
+
+std::string SpreadText(const CostTime& time) {
+  if (time.samples == 1) return "once";
+  const double half = 0.5 * (time.upper_quartile_s - time.lower_quartile_s);
+  return absl::StrFormat("%.0f %%", time.median_s > 0.0 ? 100.0 * half / time.median_s : 0.0);
+}
+
+std::string ErrorText(double error) {
+  if (std::isinf(error)) return "unknown";
+  return error == 0.0 ? "0" : absl::StrFormat("%.1e", error);
+}
+
+std::string PickRangeText(const CostPick& pick) {
+  if (pick.least_tolerance == pick.most_tolerance) return Rounded(pick.least_tolerance);
+  return absl::StrCat(Rounded(pick.least_tolerance), " to ", Rounded(pick.most_tolerance));
+}
+
+std::string PickName(const CostChunk& study, const CostPick& pick) {
+  if (pick.row < 0 || pick.row >= static_cast<int64_t>(study.rows.size())) return ModelText(pick.model);
+  return study.rows[static_cast<size_t>(pick.row)].name;
+}
+
+int64_t AnswerCount(const CostChunk& study) {
+  return std::count_if(study.rows.begin(), study.rows.end(),
+                       [](const CostRow& row) { return row.achieved.has_value(); });
+}
+
+std::string TrustText(const CostChunk& study) {
+  const CostSummary& summary = *study.summary;
+  return absl::StrCat("Answers that err by more than they claim: ", summary.deceived, " of ", AnswerCount(study),
+                      ". No answer: ", summary.failed, ". No time left: ", summary.out_of_time, ".");
+}
+
+std::vector<CostNote> NotesOf(const CostChunk& study) {
+  std::vector<CostNote> notes;
+  for (const CostRow& row : study.rows) {
+    if (row.note.empty()) continue;
+    auto note =
+        std::find_if(notes.begin(), notes.end(), [&row](const CostNote& known) { return known.text == row.note; });
+    if (note == notes.end()) note = notes.insert(note, CostNote{.text = row.note, .methods = {}});
+    note->methods.push_back(row.name);
+  }
+  return notes;
+}
+
+std::string MachineText(const CostMachine& machine) {
+  return absl::StrCat(machine.cpu, ", ", machine.simd_target, ", ", machine.compiler,
+                      machine.optimized ? "" : " without optimization: these times say little");
+}
+
+std::vector<bool> OnFront(const CostChunk& study) {
+  std::vector<bool> front(study.rows.size(), false);
+  for (const int64_t row : study.summary->front) front.at(static_cast<size_t>(row)) = true;
+  return front;
+}
+
+std::string CostText(const CostChunk& study) {
+  const CostSummary& summary = *study.summary;
+  return absl::StrCat(
+      Wrapped(absl::StrCat(study.rows.size(), " methods for one impact. The exact answer: ", summary.reference_source,
+                           ".")),
+      "\n", MethodsText(study),
+      "\n* on the Pareto front: none is as fast and as exact. Errors are fractions of the velocity before.\n\n",
+      PicksText(study), NotesText(study), "\n", Wrapped(TrustText(study)),
+      Wrapped(absl::StrCat(MachineText(summary.machine), "; ricochet ", study.engine.version, ", engine ",
+                           study.engine.fingerprint)),
+      "Measured in ", absl::StrFormat("%.2g", summary.elapsed_s), " s\n");
+}
+
+std::string CostCsv(const CostChunk& study) {
+  const std::vector<bool> front = OnFront(study);
+  std::vector<CsvRow> rows;
+  for (size_t i = 0; i < study.rows.size(); ++i) rows.push_back(CsvRowOf(study, i, front[i]));
+  return CsvOf(rows);
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,69 @@
+// InvalidPoints: why points of a sweep have no numbers. The answer of a sweep only flags them, so that it stays small;
+// the command line finds the reason by checking the scene of the point again.
+
+#ifndef RICOCHET_CLIENT_CLI_REPORT_INVALID_POINTS_H_
+#define RICOCHET_CLIENT_CLI_REPORT_INVALID_POINTS_H_
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/rows/driven_scene.h"
+#include "ricochet/error.h"
+#include "ricochet/sweep.h"
+
+namespace ricochet::cli {
+
+class InvalidPoints {
+ public:
+  explicit InvalidPoints(const Grid& grid);
+
+  // True if the scene of a point keeps every rule: if the point has no numbers, one of them is too large.
+  bool KeepsRules(int64_t index);
+
+  // Returns the first reason of an invalid point of a grid that a solver has taken:
+  // "friction.kinetic_coefficient = -0.1: must be >= 0".
+  std::string Reason(int64_t index);
+
+  // Returns the reason without the value, so that points can be counted by it:
+  // "friction.kinetic_coefficient: must be >= 0".
+  std::string Rule(int64_t index);
+
+ private:
+  // The first rule that the scene of a point breaks, if it breaks one.
+  std::optional<Violation> First(int64_t index);
+  Violation WhyInvalid(int64_t index);
+
+  Grid grid_;
+  std::shared_ptr<DrivenScene> driven_;  // Made for the first invalid point.
+};
+
+// Counts the invalid points of a sweep by their reason.
+class InvalidCounts {
+ public:
+  explicit InvalidCounts(const SweepRequest& request);
+
+  void Add(const SweepChunk& chunk);
+
+  // Returns a line for each reason, with the number of its points and the first of them; empty without invalid points.
+  // The number of all includes those of an earlier run that was gone on with, whose reasons are not known.
+  std::string Text() const;
+
+ private:
+  // Finding a reason takes microseconds, so that the reasons of these points stand for all.
+  static constexpr int64_t kMostReasons = 100'000;
+
+  bool IsInvalid(const SweepChunk& chunk, int64_t i);
+
+  InvalidPoints points_;
+  bool may_lack_numbers_;  // A valid point may have NaN in every column.
+  int64_t count_ = 0;      // Those that were added.
+  int64_t total_ = 0;      // Those of the whole sweep.
+  std::map<std::string, Tally> by_rule_;
+};
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_REPORT_INVALID_POINTS_H_

@@ -1,0 +1,92 @@
+#include "client/cli/report/plan_report.h"
+
+#include <vector>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "absl/strings/str_split.h"
+#include "absl/strings/strip.h"
+#include "client/cli/text/enum_names.h"
+#include "client/cli/text/table.h"
+#include "core/base/decimal.h"
+#include "proto/wire/plan.h"
+
+namespace ricochet::cli {
+namespace {
+
+std::string DecisionText(Decision decision) {
+  switch (decision) {
+    case Decision::kAbsent:
+      return "absent";
+    case Decision::kSimulated:
+      return "simulated";
+    case Decision::kNegligible:
+      return "negligible";
+    case Decision::kRequired:
+      return "required by the caller";
+    case Decision::kExcluded:
+      return "left out by the caller";
+    case Decision::kUnspecified:
+      break;
+  }
+  return "?";
+}
+
+std::string WhyText(const Plan& plan) {
+  switch (plan.arithmetic.reason) {
+    case ArithmeticReason::kWithinTolerance:
+      return "which is within the tolerance";
+    case ArithmeticReason::kZeroTolerance:
+      return "because nothing is left of the tolerance";
+    case ArithmeticReason::kSignNotProved:
+      return "because plain arithmetic cannot prove what decides on this impact";
+    case ArithmeticReason::kBoundTooLarge:
+      return "because the bound of plain arithmetic exceeds what is left of the tolerance";
+    case ArithmeticReason::kOnlyOne:
+      return "the only one of this model";
+    case ArithmeticReason::kUnspecified:
+      break;
+  }
+  return "?";
+}
+
+std::string ArithmeticLine(const Plan& plan) {
+  const PlannedArithmetic& arithmetic = plan.arithmetic;
+  std::string text = absl::StrCat("  ", ArithmeticText(arithmetic.arithmetic), " arithmetic, ");
+  if (arithmetic.rounding_error.has_value()) {
+    absl::StrAppend(&text, "rounding error <= ", Rounded(*arithmetic.rounding_error), " (proved), ");
+  }
+  return absl::StrCat(text, WhyText(plan), "\n");
+}
+
+}  // namespace
+
+std::string PlanText(const Plan& plan) {
+  std::string text = absl::StrCat(
+      "Plan\n  model ", ModelText(plan.model), ", tolerance ", Rounded(plan.relative_tolerance),
+      "; the effects left out change velocities by at most ", Rounded(plan.neglected), "\n", ArithmeticLine(plan));
+  const std::vector<PlannedEffect> effects = plan.effects.List();
+  if (effects.empty()) return text;
+  Table table;
+  table.Add({"effect", "size"});
+  for (const PlannedEffect& planned : effects) table.Add({EffectWord(planned.effect), Rounded(planned.size)});
+  const std::vector<std::string> lines = absl::StrSplit(table.Render(2), '\n', absl::SkipEmpty());
+  absl::StrAppend(&text, lines[0], "   decision: reason\n");
+  for (size_t i = 0; i < effects.size(); ++i) {
+    const PlannedEffect& planned = effects[i];
+    absl::StrAppend(&text, lines[i + 1], "   ", DecisionText(planned.decision), ": ", planned.reason, "\n");
+  }
+  return text;
+}
+
+std::string PlanCsv(const Plan& plan) {
+  std::string text = "effect,decision,size,reason\n";
+  for (const PlannedEffect& planned : plan.effects.List()) {
+    absl::StrAppend(&text, EffectWord(planned.effect), ",", DecisionText(planned.decision), ",",
+                    ShortestDecimal(planned.size), ",\"", planned.reason, "\"\n");
+  }
+  return text;
+}
+
+}  // namespace ricochet::cli

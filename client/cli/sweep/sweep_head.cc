@@ -1,0 +1,65 @@
+#include "client/cli/sweep/sweep_head.h"
+
+#include "absl/strings/str_cat.h"
+#include "client/cli/text/field_table.h"
+#include "client/cli/text/json_text.h"
+#include "proto/wire/chunk_seal.h"
+#include "proto/wire/engine.h"
+#include "proto/wire/sweep.h"
+#include "ricochet/v1/sweep.pb.h"
+
+namespace ricochet::cli {
+namespace {
+
+// Returns "KEY": and the text as JSON.
+std::string Pair(const char* key, const std::string& text) {
+  std::string pair = absl::StrCat("\"", key, "\":");
+  AppendJson(text, pair);
+  return pair;
+}
+
+std::string UnitOfPath(const std::string& path) {
+  const FieldInfo* info = FindFieldInfo(path);
+  return info == nullptr ? "" : info->unit;
+}
+
+std::string MeaningOfPath(const std::string& path) {
+  if (path == "index") return "number of the point in the grid";
+  if (path == "row") return "number of the row, from 0";
+  if (path == "regime") return "how the contact behaved";
+  if (path == "status") return "OK, INADMISSIBLE, or why there are no numbers";
+  const FieldInfo* info = FindFieldInfo(path);
+  return info == nullptr ? "" : info->meaning;
+}
+
+// The axis as ricochet.v1.Axis has it, and its unit.
+std::string AxisJson(const v1::Axis& axis) {
+  std::string json = JsonOf(axis);
+  json.pop_back();
+  return absl::StrCat(json, ",", Pair("unit", UnitOfPath(axis.path())), "}");
+}
+
+}  // namespace
+
+std::string ColumnsJson(const std::vector<std::string>& names) {
+  std::string json = "[";
+  for (const std::string& name : names) {
+    absl::StrAppend(&json, json.back() == '[' ? "" : ",", "{", Pair("name", name), ",", Pair("unit", UnitOfPath(name)),
+                    ",", Pair("meaning", MeaningOfPath(name)), "}");
+  }
+  return json + "]";
+}
+
+std::string SweepHeadJson(const SweepRequest& request, const std::vector<std::string>& names,
+                          const EngineInfo& engine) {
+  const v1::SweepRequest proto = ToProto(request);
+  std::string json =
+      absl::StrCat("{\"engine\":", JsonOf(ToProto(engine)), ",", Pair("grid_fingerprint", GridFingerprint(request)),
+                   ",", Pair("combination", v1::SweepRequest::Combination_Name(proto.combination())), ",\"axes\":[");
+  for (const v1::Axis& axis : proto.axes()) {
+    absl::StrAppend(&json, json.back() == '[' ? "" : ",", AxisJson(axis));
+  }
+  return absl::StrCat(json, "],\"columns\":", ColumnsJson(names), ",\"values\":");
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,64 @@
+#include "client/cli/text/help_format.h"
+
+#include <CLI/App.hpp>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "absl/strings/string_view.h"
+#include "client/cli/text/wrap.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr size_t kLongLine = 100;
+
+}  // namespace
+
+std::string Wrap(const std::string& text, size_t indent, size_t start) {
+  return WrapWords(text, kHelpWidth, start, indent);
+}
+
+std::string WrapFooter(const std::string& footer) {
+  std::string text;
+  std::string sentences;
+  for (const absl::string_view line : absl::StrSplit(footer, '\n')) {
+    if (sentences.empty() && absl::StartsWith(line, "  ")) {
+      absl::StrAppend(&text, line, "\n");
+      continue;
+    }
+    absl::StrAppend(&sentences, sentences.empty() ? "" : " ", line);
+    if (Characters(line) > kLongLine) continue;
+    absl::StrAppend(&text, Wrap(sentences, 0, 0), "\n");
+    sentences.clear();
+  }
+  if (!sentences.empty()) absl::StrAppend(&text, Wrap(sentences, 0, 0), "\n");
+  return text;
+}
+
+std::string HelpFormat::Entry(const std::string& name, const std::string& description) const {
+  const size_t indent = get_column_width();
+  const std::string head = absl::StrCat("  ", name);
+  if (description.empty()) return absl::StrCat(head, "\n");
+  const size_t width = Characters(head);
+  const std::string gap =
+      width < indent ? std::string(indent - width, ' ') : absl::StrCat("\n", std::string(indent, ' '));
+  return absl::StrCat(head, gap, Wrap(description, indent, indent), "\n");
+}
+
+std::string HelpFormat::make_option(const CLI::Option* option, bool is_positional) const {
+  return Entry(make_option_name(option, is_positional) + make_option_opts(option), make_option_desc(option));
+}
+
+std::string HelpFormat::make_subcommand(const CLI::App* sub) const {
+  return Entry(sub->get_display_name(true), sub->get_description());
+}
+
+std::string HelpFormat::make_description(const CLI::App* app) const {
+  return absl::StrCat(Wrap(app->get_description(), 0, 0), "\n");
+}
+
+std::string HelpFormat::make_footer(const CLI::App* app) const { return WrapFooter(app->get_footer()); }
+
+}  // namespace ricochet::cli

@@ -1,0 +1,125 @@
+#include "client/cli/text/json_text.h"
+
+#include <google/protobuf/descriptor.h>
+#include <google/protobuf/message.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/escaping.h"
+#include "absl/strings/str_cat.h"
+#include "core/base/decimal.h"
+
+namespace ricochet::cli {
+namespace {
+
+using google::protobuf::FieldDescriptor;
+using google::protobuf::Message;
+using google::protobuf::Reflection;
+
+// Appends a value of a field that is a message, or a bool, a text, bytes or an enum.
+void AppendOther(const Message& message, const FieldDescriptor& field, int index, std::string& text);
+void AppendMessage(const Message& message, std::string& text);
+
+// Appends entry `index` of a list, or with index -1 the value of a field that is no list.
+void AppendValue(const Message& message, const FieldDescriptor& field, int index, std::string& text) {
+  const Reflection& in = *message.GetReflection();
+  const bool is_list = index >= 0;
+  switch (field.cpp_type()) {
+    case FieldDescriptor::CPPTYPE_DOUBLE:
+      return AppendJson(is_list ? in.GetRepeatedDouble(message, &field, index) : in.GetDouble(message, &field), text);
+    case FieldDescriptor::CPPTYPE_INT64:
+      return AppendJson(is_list ? in.GetRepeatedInt64(message, &field, index) : in.GetInt64(message, &field), text);
+    case FieldDescriptor::CPPTYPE_INT32:
+      return AppendJson(int64_t{is_list ? in.GetRepeatedInt32(message, &field, index) : in.GetInt32(message, &field)},
+                        text);
+    default:
+      return AppendOther(message, field, index, text);
+  }
+}
+
+void AppendOther(const Message& message, const FieldDescriptor& field, int index, std::string& text) {
+  const Reflection& in = *message.GetReflection();
+  const bool is_list = index >= 0;
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_MESSAGE) {
+    return AppendMessage(is_list ? in.GetRepeatedMessage(message, &field, index) : in.GetMessage(message, &field),
+                         text);
+  }
+  if (field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL) {
+    const bool value = is_list ? in.GetRepeatedBool(message, &field, index) : in.GetBool(message, &field);
+    text += value ? "true" : "false";
+  } else if (field.cpp_type() == FieldDescriptor::CPPTYPE_ENUM) {
+    AppendJson((is_list ? in.GetRepeatedEnum(message, &field, index) : in.GetEnum(message, &field))->name(), text);
+  } else {
+    const std::string value = is_list ? in.GetRepeatedString(message, &field, index) : in.GetString(message, &field);
+    AppendJson(field.type() == FieldDescriptor::TYPE_BYTES ? absl::Base64Escape(value) : value, text);
+  }
+}
+
+void AppendList(const Message& message, const FieldDescriptor& field, std::string& text) {
+  text.push_back('[');
+  for (int i = 0; i < message.GetReflection()->FieldSize(message, &field); ++i) {
+    if (i > 0) text.push_back(',');
+    AppendValue(message, field, i, text);
+  }
+  text.push_back(']');
+}
+
+void AppendMessage(const Message& message, std::string& text) {
+  text.push_back('{');
+  for (int i = 0; i < message.GetDescriptor()->field_count(); ++i) {
+    const FieldDescriptor& field = *message.GetDescriptor()->field(i);
+    const bool is_unset = field.has_presence() && !message.GetReflection()->HasField(message, &field);
+    const bool is_unknown = is_unset && field.has_optional_keyword();
+    if (is_unset && !is_unknown) continue;
+    if (text.back() != '{') text.push_back(',');
+    AppendJson(field.name(), text);
+    text.push_back(':');
+    if (is_unknown) {
+      text += "null";
+    } else if (field.is_repeated()) {
+      AppendList(message, field, text);
+    } else {
+      AppendValue(message, field, -1, text);
+    }
+  }
+  text.push_back('}');
+}
+
+}  // namespace
+
+void AppendJson(double number, std::string& text) {
+  if (std::isnan(number)) {
+    text += "null";
+  } else if (std::isinf(number)) {
+    text += number > 0.0 ? "\"Infinity\"" : "\"-Infinity\"";
+  } else {
+    AppendDecimal(number, text);
+  }
+}
+
+void AppendJson(int64_t number, std::string& text) { AppendDecimal(number, text); }
+
+void AppendJson(absl::string_view words, std::string& text) {
+  text += nlohmann::json(std::string(words)).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
+std::string JsonOf(const Message& message) {
+  std::string text;
+  AppendMessage(message, text);
+  return text;
+}
+
+std::string JsonLineOf(const google::protobuf::Message& message) { return JsonOf(message) + "\n"; }
+
+std::string SparseJsonOf(const Message& message) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.preserve_proto_field_names = true;
+  std::string text;
+  // A message that was parsed has only fields that JSON can tell.
+  static_cast<void>(google::protobuf::util::MessageToJsonString(message, &text, options));
+  return nlohmann::ordered_json::parse(text).dump(2) + "\n";
+}
+
+}  // namespace ricochet::cli

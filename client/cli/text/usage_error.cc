@@ -1,0 +1,72 @@
+#include "client/cli/text/usage_error.h"
+
+#include <CLI/App.hpp>
+#include <vector>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "core/base/nearest.h"
+
+namespace ricochet::cli {
+namespace {
+
+std::vector<std::string> SubcommandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* sub : app.get_subcommands({})) names.push_back(sub->get_name());
+  return names;
+}
+
+std::vector<std::string> FlagNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options()) {
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  }
+  return names;
+}
+
+// The words by which a subcommand is called: "ricochet scene list".
+std::string CallOf(const CLI::App& app) {
+  return app.get_parent() == nullptr ? app.get_name() : absl::StrCat(CallOf(*app.get_parent()), " ", app.get_name());
+}
+
+std::string NoSuchSubcommand(const CLI::App& app, const std::string& word) {
+  const std::vector<std::string> names = SubcommandNames(app);
+  return absl::StrCat(word, " is not a subcommand", app.get_parent() == nullptr ? "" : " of " + CallOf(app),
+                      DidYouMean(word, names), "\nSubcommands: ", absl::StrJoin(names, ", "), ". ", CallOf(app),
+                      " SUBCOMMAND --help says more.");
+}
+
+std::string NoSubcommand(const CLI::App& app) {
+  return absl::StrCat(CallOf(app), " needs a subcommand: ", absl::StrJoin(SubcommandNames(app), ", "));
+}
+
+std::string NoSuchArgument(const CLI::App& app, const std::string& word) {
+  const std::string help = absl::StrCat("\n", CallOf(app), " --help lists the options.");
+  if (!absl::StartsWith(word, "-")) return absl::StrCat(word, " is not expected here: must follow an option", help);
+  const std::string flag = word.substr(0, word.find('='));
+  return absl::StrCat(flag, " is not an option of ", CallOf(app), DidYouMean(flag, FlagNames(app)), help);
+}
+
+// The innermost subcommand that was given.
+const CLI::App& Chosen(const CLI::App& app) {
+  const std::vector<CLI::App*> chosen = app.get_subcommands();
+  return chosen.empty() ? app : Chosen(*chosen.front());
+}
+
+}  // namespace
+
+std::string UsageError(const CLI::App& app, const CLI::ParseError& error) {
+  const CLI::App& chosen = Chosen(app);
+  const std::vector<std::string> extras = app.remaining(/*recurse=*/true);
+  const bool lacks_subcommand = !chosen.get_subcommands({}).empty();
+  const bool is_extra = error.get_exit_code() == static_cast<int>(CLI::ExitCodes::ExtrasError);
+  if (extras.empty() || (!lacks_subcommand && !is_extra)) {
+    return lacks_subcommand && extras.empty() ? NoSubcommand(chosen) : error.what();
+  }
+  const std::string& word = extras.front();
+  return lacks_subcommand && !absl::StartsWith(word, "-") ? NoSuchSubcommand(chosen, word)
+                                                          : NoSuchArgument(chosen, word);
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,246 @@
+#include "core/audit/audit_batch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/answer/scene_outcome.h"
+#include "core/audit/audit_parts.h"
+#include "core/audit/audit_scene.h"
+#include "core/contact/coefficients_at_speed.h"
+#include "core/contact/reduction.h"
+#include "core/scene/numbers.h"
+#include "ricochet/audit_columns.h"
+#include "ricochet/error.h"
+
+namespace ricochet {
+namespace {
+
+// Presence says whether a request must, may or must not have a column.
+enum class Presence { kRequired, kOptional, kRefused };
+
+struct ColumnRule {
+  std::string name;
+  const std::vector<double>& values;
+  Presence presence;
+  const char* refused_for = "";
+};
+
+ColumnRule RuleOf(const NamedAuditColumn& column, const AuditColumns& in, bool has_before, bool is_planar) {
+  ColumnRule rule = {absl::StrCat("columns.", column.name), in.*column.values, Presence::kOptional};
+  if (column.part == AuditColumnPart::kOption) return rule;
+  if (column.is_spatial && is_planar) {
+    rule.presence = Presence::kRefused;
+    rule.refused_for = "for a planar system";
+  } else if (column.part == AuditColumnPart::kBefore) {
+    if (has_before) rule.presence = Presence::kRequired;
+  } else if (in.rates_after_rad_s.empty()) {
+    rule.presence = Presence::kRequired;
+  } else {
+    rule.presence = Presence::kRefused;
+    rule.refused_for = "beside rates_after";
+  }
+  return rule;
+}
+
+std::vector<ColumnRule> Rules(const AuditColumns& in, size_t directions) {
+  const bool has_before = !in.tangential_m_s.empty() || !in.tangential_2_m_s.empty() || !in.normal_m_s.empty();
+  std::vector<ColumnRule> rules;
+  for (const NamedAuditColumn& column : kAuditColumns) rules.push_back(RuleOf(column, in, has_before, directions == 1));
+  for (size_t i = 0; i < in.rates_after_rad_s.size(); ++i) {
+    rules.push_back(
+        {absl::StrCat("columns.rates_after[", i, "].rates_rad_s"), in.rates_after_rad_s[i], Presence::kRequired});
+  }
+  return rules;
+}
+
+void CheckRateColumns(const AuditColumns& columns, const System& system, std::vector<Violation>& violations) {
+  const size_t found = columns.rates_after_rad_s.size();
+  if (found == 0) return;
+  const std::optional<size_t> wanted = audit::RateCount(system);
+  if (!wanted.has_value()) {
+    violations.push_back(MakeViolation("columns.rates_after", "is set",
+                                       "not be but for a pendulum or a linkage, give the contact's velocity"));
+  } else if (found != *wanted) {
+    violations.push_back(audit::CountViolation("columns.rates_after", found, *wanted));
+  }
+}
+
+size_t RowsOf(const std::vector<ColumnRule>& rules) {
+  size_t rows = 0;
+  for (const ColumnRule& rule : rules) rows = std::max(rows, rule.values.size());
+  return rows;
+}
+
+std::vector<Violation> CheckColumns(const std::vector<ColumnRule>& rules, size_t rows) {
+  std::vector<Violation> violations;
+  if (rows > static_cast<size_t>(kMostAuditRows)) {
+    return {MakeViolation("columns", absl::StrCat("has ", rows, " rows"),
+                          absl::StrCat("have at most ", kMostAuditRows, " in one call"))};
+  }
+  for (const ColumnRule& rule : rules) {
+    if (IsFull(violations)) break;
+    const size_t length = rule.values.size();
+    if (rule.presence == Presence::kRefused) {
+      if (length > 0)
+        violations.push_back(MakeViolation(rule.name, "is set", absl::StrCat("not be ", rule.refused_for)));
+    } else if (length == 0) {
+      if (rule.presence == Presence::kRequired) {
+        violations.push_back(MakeViolation(rule.name, "is not set", "have a value a row, or one for all"));
+      }
+    } else if (length != 1 && length != rows) {
+      violations.push_back(
+          MakeViolation(rule.name, absl::StrCat("has ", length, " values"), absl::StrCat("have 1 or ", rows)));
+    }
+  }
+  return violations;
+}
+
+double ValueAt(const std::vector<double>& column, size_t row) { return column.size() == 1 ? column[0] : column[row]; }
+
+// Decide whether a row's velocity before the impact is one that its contact can have: the rule of
+// audit::CheckScene.
+bool HasValidVelocity(const pendulum::Problem& /*problem*/) { return true; }
+bool HasValidVelocity(const planar::Problem& in) {
+  if (!std::isfinite(in.u0) || !std::isfinite(in.v0)) return false;
+  return in.v0 >= 0.0 ||
+         VelocityIsInRange(PlanarReduction{.w = {in.w.tt, in.w.tn, in.w.nn}, .u0 = {in.u0}, .v0 = in.v0});
+}
+bool HasValidVelocity(const spatial::Problem& in) {
+  if (!std::isfinite(in.u0[0]) || !std::isfinite(in.u0[1]) || !std::isfinite(in.v0)) return false;
+  return in.v0 >= 0.0 || VelocityIsInRange(SpatialReduction{.w = in.Delassus().w, .u0 = in.u0, .v0 = in.v0});
+}
+
+// Decides whether a row keeps the rules of its numbers.
+bool IsValid(const audit::AnyProblem& any, const audit::Observation& seen) {
+  return std::isfinite(seen.u1[0]) && std::isfinite(seen.u1[1]) && std::isfinite(seen.v1) &&
+         Holds(seen.uncertainty, NumberRule::kNotNegative) &&
+         std::visit(
+             [](const auto& problem) {
+               return Holds(problem.mu, NumberRule::kNotNegative) &&
+                      Holds(problem.mu_static, NumberRule::kNotNegative) && problem.mu_static >= problem.mu &&
+                      HasValidVelocity(problem);
+             },
+             any);
+}
+
+void Count(int64_t row, Tally& tally) {
+  if (tally.count == 0) tally.first_index = row;
+  ++tally.count;
+}
+
+}  // namespace
+
+absl::StatusOr<AuditRows> AuditRows::Make(const AuditBatchRequest& request) {
+  std::optional<SceneContact> contact;
+  std::vector<Violation> violations = audit::CheckScene(request.scene, contact);
+  if (std::holds_alternative<std::monostate>(request.scene.system)) return InvalidRequest(violations);
+  const std::vector<ColumnRule> rules = Rules(request.columns, TangentialDirections(request.scene.system));
+  const size_t rows = RowsOf(rules);
+  CheckRateColumns(request.columns, request.scene.system, violations);
+  if (rows > 0) {
+    for (Violation& violation : CheckColumns(rules, rows)) violations.push_back(std::move(violation));
+  }
+  if (!violations.empty()) return InvalidRequest(violations);
+  if (!FitsDoubles(contact->reduction)) return ContactOverflow();
+  return AuditRows(request.columns, rows, audit::WithoutRestitution(request.scene), *contact);
+}
+
+AuditRows::AuditRows(const AuditColumns& columns, size_t size, Scene scene, const SceneContact& contact)
+    : columns_(columns),
+      size_(size),
+      scene_(std::move(scene)),
+      scene_problem_(audit::MakeProblem(scene_, contact, /*from_own_velocity=*/columns.normal_m_s.empty())) {}
+
+absl::StatusOr<AuditReport> AuditRows::Audit(size_t row, absl::FunctionRef<bool()> stopped) const {
+  const audit::AnyProblem problem = ProblemAt(row);
+  const audit::Observation seen = ObservationAt(row);
+  if (!IsValid(problem, seen)) return AuditReport{.regime = Regime::kInvalid};
+  absl::StatusOr<AuditReport> report = audit::Audit(problem, seen, stopped);
+  if (report.ok() && audit::OverflowIn(*report) != nullptr) return AuditReport{.regime = Regime::kInvalid};
+  return report;
+}
+
+audit::AnyProblem AuditRows::ProblemAt(size_t row) const {
+  audit::AnyProblem any = scene_problem_;
+  std::visit(
+      [&](auto& problem) {
+        if (!columns_.normal_m_s.empty()) SetVelocity(row, problem);
+        SetFriction(row, problem.mu, problem.mu_static);
+      },
+      any);
+  return any;
+}
+
+// A pendulum's closed form is of the scene's own velocity.
+void AuditRows::SetVelocity(size_t /*row*/, pendulum::Problem& /*problem*/) const {}
+
+void AuditRows::SetVelocity(size_t row, planar::Problem& problem) const {
+  problem.u0 = ValueAt(columns_.tangential_m_s, row);
+  problem.v0 = ValueAt(columns_.normal_m_s, row);
+}
+
+void AuditRows::SetVelocity(size_t row, spatial::Problem& problem) const {
+  problem.u0 = {ValueAt(columns_.tangential_m_s, row), ValueAt(columns_.tangential_2_m_s, row)};
+  problem.v0 = ValueAt(columns_.normal_m_s, row);
+}
+
+void AuditRows::SetFriction(size_t row, double& mu, double& mu_static) const {
+  if (!columns_.friction.empty()) {
+    mu = mu_static = ValueAt(columns_.friction, row);
+  } else if (scene_.friction.by_speed.has_value() && !columns_.normal_m_s.empty()) {
+    const EffectiveCoefficients effective =
+        CoefficientsAtSpeed(scene_, std::max(0.0, -ValueAt(columns_.normal_m_s, row)));
+    mu = effective.kinetic_friction;
+    mu_static = effective.static_friction;
+  }
+}
+
+audit::Observation AuditRows::ObservationAt(size_t row) const {
+  audit::Observation seen;
+  if (!columns_.rates_after_rad_s.empty()) {
+    ObservedRates rates;
+    for (const std::vector<double>& column : columns_.rates_after_rad_s) {
+      rates.rates_rad_s.push_back(ValueAt(column, row));
+    }
+    const ContactVelocity velocity = audit::VelocityOf(rates, scene_);
+    seen.u1[0] = velocity.tangential_m_s[0];
+    seen.v1 = velocity.normal_m_s;
+  } else {
+    seen.u1[0] = ValueAt(columns_.tangential_after_m_s, row);
+    if (!columns_.tangential_2_after_m_s.empty()) seen.u1[1] = ValueAt(columns_.tangential_2_after_m_s, row);
+    seen.v1 = ValueAt(columns_.normal_after_m_s, row);
+  }
+  if (!columns_.velocity_uncertainty_m_s.empty()) seen.uncertainty = ValueAt(columns_.velocity_uncertainty_m_s, row);
+  return seen;
+}
+
+namespace audit {
+
+void Add(int64_t row, const AuditReport& report, AuditSummary& summary) {
+  ++summary.rows;
+  if (report.regime == Regime::kInvalid) return Count(row, summary.invalid);
+  if (report.admissible) ++summary.admissible;
+  if (report.unexplained) Count(row, summary.unexplained);
+  for (size_t i = 0; i < report.limits.size(); ++i) {
+    const LimitCheck& check = report.limits[i];
+    if (check.verdict == Verdict::kWithinUncertainty) Count(row, summary.within_uncertainty[i]);
+    if (check.verdict != Verdict::kBroken) continue;
+    Count(row, summary.broken[i]);
+    summary.largest_excess[i] = std::max(summary.largest_excess[i], check.excess);
+  }
+}
+
+}  // namespace audit
+
+AuditSummary Summarize(const std::vector<AuditReport>& reports) {
+  AuditSummary summary;
+  for (size_t row = 0; row < reports.size(); ++row) audit::Add(static_cast<int64_t>(row), reports[row], summary);
+  return summary;
+}
+
+}  // namespace ricochet

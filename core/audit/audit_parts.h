@@ -1,0 +1,41 @@
+// The parts of an audit of a scene that one impact and a batch share.
+
+#ifndef RICOCHET_CORE_AUDIT_AUDIT_PARTS_H_
+#define RICOCHET_CORE_AUDIT_AUDIT_PARTS_H_
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/audit/audit.h"
+#include "core/contact/scene_contact.h"
+#include "ricochet/audit.h"
+#include "ricochet/error.h"
+#include "ricochet/scene.h"
+
+namespace ricochet::audit {
+
+// Lists what makes the scene no contact to audit. Its restitution and impact law may be left unset.
+// `contact` is that of a scene without violations.
+std::vector<Violation> CheckScene(const Scene& scene, std::optional<SceneContact>& contact);
+
+// Returns the number of rates that a pendulum (1) or a linkage (one a link) has; nothing for other systems.
+std::optional<size_t> RateCount(const System& system);
+
+// "has 2 entries: must have 1"
+Violation CountViolation(const char* field, size_t found, size_t wanted);
+
+// Removes the restitution and the impact law, which an audit does not use.
+Scene WithoutRestitution(Scene scene);
+
+// Returns the contact velocity of the scene with these rates in place of its own.
+ContactVelocity VelocityOf(const ObservedRates& observed, Scene scene);
+
+// Makes the problem whose path an observation is held against: a pendulum's closed form where the scene has one and its
+// own velocity is meant, else the scene's contact.
+AnyProblem MakeProblem(const Scene& scene, const SceneContact& contact, bool from_own_velocity);
+
+}  // namespace ricochet::audit
+
+#endif  // RICOCHET_CORE_AUDIT_AUDIT_PARTS_H_

@@ -1,0 +1,157 @@
+#include "core/cost/cost_methods.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <variant>
+
+#include "core/answer/scene_outcome.h"
+#include "core/cost/cost_families.h"
+#include "core/plan/contact_scene.h"
+#include "core/plan/planned_scene.h"
+#include "core/plan/scene_problem.h"
+#include "core/plan/straight_problem.h"
+
+namespace ricochet {
+namespace {
+
+// The rounding of a pendulum's W as a planar contact, over V: x has a relative error of a few 2^-53, which moves
+// kappa_hat by at most kappa_hat/(1 - x^2) times that. `newton` is at least kappa_hat. A subnormal W may have lost all
+// of its digits.
+double ReductionError(const planar::Problem& problem) {
+  if (std::min(problem.w.tt, problem.w.nn) < std::numeric_limits<double>::min()) {
+    return std::numeric_limits<double>::infinity();
+  }
+  const double x = problem.mu_static * std::fabs(problem.w.tn) / problem.w.nn;
+  const double distance = std::fabs(1.0 - x);
+  if (!(distance > 0x1p-40)) return std::numeric_limits<double>::infinity();
+  const double newton =
+      problem.law == RestitutionLaw::kEnergetic ? std::min(problem.coefficient, 1.0) : problem.coefficient;
+  return 0x1p-50 * (1.0 + newton / distance);
+}
+
+double SpeedOf(double u0, double v0) { return std::max(std::fabs(u0), std::fabs(v0)); }
+
+// A planar scene with all that its methods need.
+class PlanarStudy {
+ public:
+  PlanarStudy(const Scene& scene, const PlanarReduction& reduction, const EffectiveCoefficients& effective)
+      : scene_(scene),
+        closed_form_(HasClosedForm(scene) ? std::optional(ClosedFormProblem(scene)) : std::nullopt),
+        problem_(planar::MakeProblem(reduction, scene.restitution, effective)),
+        physics_(PhysicsOf(scene, reduction)) {}
+
+  StudiedScene Run() && {
+    study_.speed = SpeedOf(problem_.u0, problem_.v0);
+    if (std::holds_alternative<std::monostate>(scene_.impact_law)) {
+      AddCoulomb();
+    } else {
+      AddImpactLaw(scene_.impact_law, problem_, study_.methods);
+    }
+    return std::move(study_);
+  }
+
+ private:
+  bool Approaches() const { return problem_.v0 < 0.0; }
+  bool IsDamped() const { return std::holds_alternative<HuntCrossleySpring>(physics_.spring); }
+
+  // False if the plan proves that tangential compliance changes nothing.
+  bool ComplianceMatters() const {
+    return Approaches() && PlanarSizes(problem_, physics_)[Effect::kTangentialCompliance].value != 0.0;
+  }
+
+  void AddCoulomb() {
+    const ReferencePointer rigid = RigidReference();
+    if (!IsDamped()) AddRigid(rigid);
+    study_.truth = rigid;
+    if (physics_.ratio_squared > 0.0) {
+      const ReferencePointer compliant = AddCompliant(problem_, physics_, study_.methods);
+      if (ComplianceMatters()) study_.truth = compliant;
+    }
+    if (problem_.law == RestitutionLaw::kEnergetic && Approaches()) AddTimed(study_.truth);
+  }
+
+  ReferencePointer RigidReference() const {
+    if (!Approaches()) {
+      return MakeReference([before = Velocity3{problem_.u0, 0.0, problem_.v0}](Stopped) {
+        return ExactlyThis(before, 0.0, "the velocity before, because the contact separates");
+      });
+    }
+    if (closed_form_.has_value()) {
+      return MakeReference([problem = *closed_form_](Stopped stopped) { return ExactRigid(problem, stopped); });
+    }
+    return MakeReference([problem = problem_](Stopped stopped) { return ExactRigid(problem, stopped); });
+  }
+
+  void AddRigid(const ReferencePointer& rigid) {
+    Methods& methods = study_.methods;
+    if (closed_form_.has_value()) AddClosedForms(*closed_form_, physics_, rigid, methods);
+    if (Approaches()) AddStraight();
+    AddPlanar(problem_, physics_, rigid, closed_form_.has_value() && Approaches() ? ReductionError(problem_) : 0.0,
+              methods);
+    if (!Approaches()) return;
+    AddCertified(closed_form_.has_value() ? SceneOf(*closed_form_) : CertifiableScene(problem_), study_.speed,
+                 NeglectedBy(Model::kPlanar, problem_, physics_), rigid, methods);
+  }
+
+  void AddStraight() {
+    const sliding::Problem<1> straight = SlidingProblemOf(problem_);
+    const auto choice = [this](Model model) { return ChoosePlanar(problem_, physics_, DemandFor(model)); };
+    // A pendulum has a frictionless form of its own.
+    if (!closed_form_.has_value()) AddFrictionless(straight, choice(Model::kFrictionless), study_.methods);
+    AddSliding(straight, choice(Model::kSliding), study_.methods);
+  }
+
+  // A scene without a spring has finite forces that do not act; the springs that it is given let them act.
+  void AddTimed(const ReferencePointer& impulses) {
+    const bool same = !IsDamped() && physics_.tangential_acceleration == 0.0 && physics_.normal_acceleration == 0.0;
+    const ReferencePointer own = AddFiniteDuration(problem_, physics_, same ? impulses : nullptr, study_.methods);
+    if (own != nullptr) study_.truth = own;
+  }
+
+  const Scene& scene_;
+  const std::optional<pendulum::Problem> closed_form_;
+  const planar::Problem problem_;
+  const ContactPhysics physics_;
+  StudiedScene study_;
+};
+
+StudiedScene StudySpatial(const Scene& scene, const SpatialReduction& reduction,
+                          const EffectiveCoefficients& effective) {
+  const spatial::Problem problem =
+      spatial::MakeProblem(reduction, scene.restitution, effective, spatial::kLeastTolerance);
+  StudiedScene study = {
+      .truth = MakeReference([problem](Stopped) { return ExactSpatial(problem); }),
+      .speed = SpeedOf(std::sqrt(problem.u0[0] * problem.u0[0] + problem.u0[1] * problem.u0[1]), problem.v0),
+      .directions = 2};
+  if (problem.v0 < 0.0) {
+    const sliding::Problem<2> straight = SlidingProblemOf(problem);
+    const auto choice = [&problem](Model model) { return ChooseSpatial(problem, DemandFor(model)); };
+    AddFrictionless(straight, choice(Model::kFrictionless), study.methods);
+    AddSliding(straight, choice(Model::kSliding), study.methods);
+  }
+  AddSpatial(problem, study.truth, study.methods);
+  return study;
+}
+
+}  // namespace
+
+const ExactVelocity* Reference::Get(Stopped stopped) {
+  if (!known_.has_value()) {
+    ExactVelocity computed = compute_(stopped);
+    if (stopped()) return nullptr;
+    known_ = std::move(computed);
+  }
+  return known_->error < kNotKnown ? &*known_ : nullptr;
+}
+
+absl::StatusOr<StudiedScene> StudyScene(const Scene& scene, std::optional<SceneContact>& contact) {
+  if (!contact.has_value()) contact.emplace(scene);
+  if (!FitsDoubles(contact->reduction)) return ContactOverflow();
+  if (const auto* plane = std::get_if<PlanarReduction>(&contact->reduction)) {
+    return PlanarStudy(scene, *plane, contact->coefficients).Run();
+  }
+  return StudySpatial(scene, std::get<SpatialReduction>(contact->reduction), contact->coefficients);
+}
+
+}  // namespace ricochet

@@ -1,0 +1,32 @@
+// Fingerprint: a hash over what the engine answers to a fixed set of problems, so that two engines can be compared.
+//
+// Every model, impact law and system is asked. Two engines with equal fingerprints give the same bits as far as these
+// problems tell; sweeps are joined on that ground. The model of finite duration, if the build has it, depends on the C
+// library's pow, which differs from one machine to another: it is asked for itself at thousands of arguments.
+
+#ifndef RICOCHET_CORE_ENGINE_FINGERPRINT_H_
+#define RICOCHET_CORE_ENGINE_FINGERPRINT_H_
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "absl/types/span.h"
+
+namespace ricochet {
+
+// The answers to the problems of one kind.
+struct Probe {
+  std::string kind;  // "model 6" by the number of Model, "system 3" by the alternative of System, "coefficients"
+  std::vector<uint64_t> bits;  // Of every number of the answers, in a fixed order.
+};
+
+// Solves the problems, in some milliseconds.
+std::vector<Probe> ProbeEngine();
+
+// Returns 16 hex digits, which depend on every bit of the probes.
+std::string FingerprintOf(absl::Span<const Probe> probes);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_ENGINE_FINGERPRINT_H_

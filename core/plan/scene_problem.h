@@ -1,0 +1,45 @@
+// The Problem of each impact model for a scene that has been reduced to its contact (core/contact/reduction.h).
+
+#ifndef RICOCHET_CORE_PLAN_SCENE_PROBLEM_H_
+#define RICOCHET_CORE_PLAN_SCENE_PROBLEM_H_
+
+#include "core/contact/reduction.h"
+#include "core/models/pendulum/pendulum.h"
+#include "core/models/planar/planar.h"
+#include "core/models/spatial/spatial.h"
+#include "ricochet/outcome.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+// True if the closed form of the pendulum answers the scene: a pendulum over a surface at rest, without an impact law.
+bool HasClosedForm(const Scene& scene);
+
+// The pendulum's problem with the coefficients at the approach speed. `scene` must be valid and HasClosedForm.
+pendulum::Problem ClosedFormProblem(const Scene& scene);
+
+namespace pendulum {
+
+// The problem of a scene that states a pendulum and a coefficient; a scene without one gets kEnergetic, 0.
+Problem MakeProblem(const Scene& scene);
+
+}  // namespace pendulum
+
+namespace planar {
+
+// `effective` holds the coefficients, `restitution` says by which law.
+Problem MakeProblem(const PlanarReduction& reduction, const Restitution& restitution,
+                    const EffectiveCoefficients& effective);
+
+}  // namespace planar
+
+namespace spatial {
+
+// `effective` holds the coefficients, `restitution` says by which law.
+Problem MakeProblem(const SpatialReduction& reduction, const Restitution& restitution,
+                    const EffectiveCoefficients& effective, double tolerance);
+
+}  // namespace spatial
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_PLAN_SCENE_PROBLEM_H_

@@ -1,0 +1,189 @@
+#include "core/rows/pendulum_lanes.h"
+
+#include <algorithm>
+
+#include "absl/container/inlined_vector.h"
+#include "core/answer/model_outcomes.h"
+#include "core/models/pendulum/first_order.h"
+#include "core/numerics/moderate.h"
+#include "core/plan/choose.h"
+#include "core/plan/pendulum_models.h"
+#include "core/plan/scene_problem.h"
+
+namespace ricochet {
+namespace {
+
+using pendulum::Output;
+using pendulum::Problem;
+
+constexpr const char* kPaths[] = {"pendulum.inertia_kg_m2",
+                                  "pendulum.a_m",
+                                  "pendulum.b_m",
+                                  "pendulum.omega_minus_rad_s",
+                                  "friction.kinetic_coefficient",
+                                  "friction.static_coefficient"};
+
+std::optional<Output> OutputAt(const std::string& path) {
+  for (int i = 0; i < pendulum::kOutputCount; ++i) {
+    const auto output = static_cast<Output>(i);
+    if (!path.empty() && pendulum::OutputPath(output) == path) return output;
+  }
+  return std::nullopt;
+}
+
+// True if every rule of a scene holds for sure. Any other problem is left to the checks of a scene.
+bool IsSurelyValid(const Problem& x) {
+  return AreModerate({x.inertia, x.a, x.b, x.omega_minus, x.mu, x.mu_static, x.coefficient}, kMostInLanes) &&
+         x.inertia > 0.0 && x.a > 0.0 && KeepCoefficientRules(x.mu, x.mu_static, x.law, x.coefficient);
+}
+
+enum class Way { kClosedForm, kFirstOrder, kLeft };
+
+// The forms of first order are those without friction, too.
+Way WayOf(Model model) {
+  if (model == Model::kUnspecified) return Way::kLeft;
+  return model == Model::kPendulum || model == Model::kNone ? Way::kClosedForm : Way::kFirstOrder;
+}
+
+}  // namespace
+
+std::unique_ptr<SceneLanes> PendulumLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
+                                                const Demand& demand) {
+  if (!HasClosedForm(scene) || scene.compliance.has_value()) return nullptr;
+  std::unique_ptr<PendulumLanes> lanes(new PendulumLanes(scene, demand));
+  if (!lanes->SetColumns(columns)) return nullptr;
+  return lanes;
+}
+
+PendulumLanes::PendulumLanes(const Scene& scene, const Demand& demand)
+    : SceneLanes(kPaths),
+      demand_(demand),
+      takes_fields_(IsPlain(scene)),
+      problems_(pendulum::MakeProblem(scene).law, kBlock) {}
+
+// Returns false if the closed form does not give every column.
+bool PendulumLanes::SetColumns(absl::Span<const std::string> paths) {
+  for (size_t c = 0; c < paths.size(); ++c) {
+    if (paths[c] == "work.friction_dissipation_j") {
+      dissipation_ = c;
+    } else if (paths[c] == "work.tangential_spring_j") {
+      spring_ = c;
+    } else if (const std::optional<Output> output = OutputAt(paths[c])) {
+      outputs_.push_back(*output);
+      column_of_.emplace_back(c);
+    } else {
+      return false;
+    }
+  }
+  if (dissipation_.has_value()) {
+    const auto found = std::find(outputs_.begin(), outputs_.end(), Output::kWorkTangential);
+    friction_ = static_cast<size_t>(found - outputs_.begin());
+    if (found == outputs_.end()) {
+      outputs_.push_back(Output::kWorkTangential);
+      column_of_.emplace_back();
+    }
+  }
+  places_.resize(outputs_.size());
+  return true;
+}
+
+SceneLanes::Numbers PendulumLanes::NumbersOf(const Scene& scene) const {
+  const Problem problem = ClosedFormProblem(scene);
+  return {problem.inertia, problem.a,         problem.b,          problem.omega_minus,
+          problem.mu,      problem.mu_static, problem.coefficient};
+}
+
+void PendulumLanes::TakeIn(const Columns& columns, size_t count) {
+  for (size_t n = 0; n < kNumberCount; ++n) {
+    double* const to = problems_.numbers(n);
+    if (columns.varies[n]) {
+      std::copy_n(columns.of[n], count, to);
+      held_[n].reset();
+    } else if (held_[n] != columns.of[n][0]) {
+      std::fill_n(to, kBlock, columns.of[n][0]);
+      held_[n] = columns.of[n][0];
+    }
+  }
+}
+
+// Chooses the model of a problem and leaves out what that neglects. A demand that is a tolerance alone, as most are,
+// takes a plan that costs less than the solution.
+Model PendulumLanes::Plan(size_t i) {
+  const Problem problem = problems_[i];
+  if (!IsSurelyValid(problem)) return Model::kUnspecified;
+  if (demand_.IsToleranceAlone()) return ModelOfPendulum(problem, demand_.relative_tolerance);
+  const Choice choice = ChoosePendulum(problem, {}, demand_);
+  problems_.Set(i, Without(choice, problem));
+  held_ = {};
+  return choice.model;
+}
+
+// Returns true if the model, the regime and the admissibility of all problems are the same, and all numbers are finite.
+bool PendulumLanes::SolveByClosedForm(size_t first, size_t count, Block& block) {
+  absl::InlinedVector<double*, pendulum::kOutputCount> places;
+  for (double* const place : places_) places.push_back(place + first);
+  // The closed form neglects nothing, so that the whole tolerance is left for rounding.
+  return pendulum::SolveColumns(problems_, first, count, demand_.relative_tolerance,
+                                {.outputs = outputs_,
+                                 .columns = places,
+                                 .regimes = absl::MakeSpan(block.regimes).subspan(first, count),
+                                 .inadmissible = absl::MakeSpan(block.inadmissible).subspan(first, count)});
+}
+
+void PendulumLanes::SolveToFirstOrder(size_t first, size_t count, Block& block) const {
+  for (size_t i = first; i < first + count; ++i) {
+    const Problem problem = problems_[i];
+    const first_order::Approximation approximation = first_order::Approximate(problem);
+    for (size_t c = 0; c < outputs_.size(); ++c) {
+      places_[c][i] = first_order::Value(problem, approximation, outputs_[c]);
+    }
+    block.regimes[i] = first_order::RegimeOf(problem);
+    block.inadmissible[i] = false;
+  }
+}
+
+// Chooses the models of a block. Returns true if all problems call for the closed form with friction.
+bool PendulumLanes::PlanAll(size_t count, Block& block) {
+  const absl::Span<Model> models = absl::MakeSpan(block.models).first(count);
+  if (!demand_.IsToleranceAlone()) {
+    std::fill(models.begin(), models.end(), Model::kUnspecified);
+  } else if (ModelsOfPendulum(problems_, models)) {
+    return true;
+  }
+  bool all = true;
+  for (size_t i = 0; i < count; ++i) {
+    if (models[i] == Model::kUnspecified) models[i] = Plan(i);
+    all &= models[i] == Model::kPendulum;
+  }
+  return all;
+}
+
+// Solves each run of problems that go the same way. Returns true if none is left and all numbers are finite.
+bool PendulumLanes::SolveRuns(size_t count, Block& block) {
+  bool is_complete = true;
+  for (size_t first = 0, end = 0; first < count; first = end) {
+    const Way way = WayOf(block.models[first]);
+    while (end < count && WayOf(block.models[end]) == way) ++end;
+    const bool has_numbers = way == Way::kClosedForm && SolveByClosedForm(first, end - first, block);
+    if (way == Way::kFirstOrder) SolveToFirstOrder(first, end - first, block);
+    is_complete = is_complete && way != Way::kLeft && (has_numbers || AreFinite(places_, first, end - first));
+  }
+  return is_complete;
+}
+
+void PendulumLanes::Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) {
+  TakeIn(columns, count);
+  for (size_t c = 0; c < outputs_.size(); ++c) {
+    places_[c] = column_of_[c].has_value() ? places[*column_of_[c]] : friction_work_.data();
+  }
+  const bool is_alike = PlanAll(count, block);
+  block.is_uniform = is_alike && SolveByClosedForm(0, count, block);
+  block.is_complete = block.is_uniform || (is_alike ? AreFinite(places_, 0, count) : SolveRuns(count, block));
+  if (dissipation_.has_value()) {
+    const double* const work = places_[friction_];
+    std::transform(work, work + count, places[*dissipation_], [](double lost) { return 0.0 - lost; });
+  }
+  if (spring_.has_value()) std::fill_n(places[*spring_], count, 0.0);
+}
+
+}  // namespace ricochet

@@ -1,0 +1,192 @@
+#include "core/rows/planar_body_lanes.h"
+
+#include <algorithm>
+#include <limits>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+#include "core/contact/planar_body_share.h"
+#include "core/models/restitution_law.h"
+#include "core/rows/planar_lanes.h"
+
+namespace ricochet {
+namespace {
+
+enum BodyNumber { kMass, kInertia, kOffsetT, kOffsetN, kVelocityT, kVelocityN, kRate, kBodyNumbers };
+
+constexpr const char* kBodyPaths[] = {
+    "planar_body.mass_kg",    "planar_body.inertia_com_kg_m2", "planar_body.offset_t_m",
+    "planar_body.offset_n_m", "planar_body.velocity_t_m_s",    "planar_body.velocity_n_m_s",
+    "planar_body.rate_rad_s", "friction.kinetic_coefficient",  "friction.static_coefficient"};
+
+constexpr const char* kPairPaths[] = {"body_pair.planar.body_1.mass_kg",
+                                      "body_pair.planar.body_1.inertia_com_kg_m2",
+                                      "body_pair.planar.body_1.offset_t_m",
+                                      "body_pair.planar.body_1.offset_n_m",
+                                      "body_pair.planar.body_1.velocity_t_m_s",
+                                      "body_pair.planar.body_1.velocity_n_m_s",
+                                      "body_pair.planar.body_1.rate_rad_s",
+                                      "body_pair.planar.body_2.mass_kg",
+                                      "body_pair.planar.body_2.inertia_com_kg_m2",
+                                      "body_pair.planar.body_2.offset_t_m",
+                                      "body_pair.planar.body_2.offset_n_m",
+                                      "body_pair.planar.body_2.velocity_t_m_s",
+                                      "body_pair.planar.body_2.velocity_n_m_s",
+                                      "body_pair.planar.body_2.rate_rad_s",
+                                      "friction.kinetic_coefficient",
+                                      "friction.static_coefficient"};
+
+constexpr const char* kComponents[] = {"linear_m_s[0]", "linear_m_s[1]", "angular_rad_s[0]"};
+
+// The bodies of a scene; none unless they are one body, or two, in a plane.
+std::vector<const PlanarBody*> BodiesOf(const Scene& scene) {
+  if (const auto* body = std::get_if<PlanarBody>(&scene.system)) return {body};
+  const auto* pair = std::get_if<BodyPair>(&scene.system);
+  const auto* planar = pair == nullptr ? nullptr : std::get_if<PlanarPair>(&pair->bodies);
+  if (planar == nullptr) return {};
+  return {&planar->body_1, &planar->body_2};
+}
+
+// The impulses act on the first body, their opposites on the second.
+double SideOf(size_t body) { return body == 0 ? 1.0 : -1.0; }
+
+PlanarBody BodyAt(const SceneLanes::Columns& columns, size_t body, size_t i) {
+  const double* const* const of = columns.of.data() + body * kBodyNumbers;
+  return {.mass_kg = of[kMass][i],
+          .inertia_com_kg_m2 = of[kInertia][i],
+          .offset_t_m = of[kOffsetT][i],
+          .offset_n_m = of[kOffsetN][i],
+          .velocity_t_m_s = of[kVelocityT][i],
+          .velocity_n_m_s = of[kVelocityN][i],
+          .rate_rad_s = of[kRate][i]};
+}
+
+bool IsPositive(double number) { return number > 0.0 && number <= std::numeric_limits<double>::max(); }
+
+}  // namespace
+
+std::unique_ptr<SceneLanes> PlanarBodyLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
+                                                  const Demand& demand) {
+  const size_t bodies = BodiesOf(scene).size();
+  if (bodies == 0 || !IsPlain(scene)) return nullptr;
+  std::unique_ptr<PlanarBodyLanes> lanes(new PlanarBodyLanes(bodies));
+  lanes->SetColumns(columns);
+  Scene contact = scene;
+  contact.system = PlanarContact();
+  lanes->contact_lanes_ = PlanarLanes::Make(contact, lanes->contact_paths_, demand);
+  if (lanes->contact_lanes_ == nullptr) return nullptr;
+  return lanes;
+}
+
+PlanarBodyLanes::PlanarBodyLanes(size_t bodies)
+    : SceneLanes(bodies == 1 ? absl::MakeConstSpan(kBodyPaths) : absl::MakeConstSpan(kPairPaths)), bodies_(bodies) {}
+
+void PlanarBodyLanes::SetColumns(absl::Span<const std::string> columns) {
+  for (size_t c = 0; c < columns.size(); ++c) {
+    const size_t known = after_.size();
+    for (size_t body = 0; body < bodies_; ++body) {
+      for (size_t k = 0; k < std::size(kComponents); ++k) {
+        if (columns[c] == absl::StrCat("bodies_after[", body, "].", kComponents[k])) after_.push_back({c, body, k});
+      }
+    }
+    if (after_.size() > known) continue;
+    contact_paths_.push_back(columns[c]);
+    column_of_.push_back(c);
+  }
+  if (!after_.empty()) {
+    tangential_impulse_ = ContactColumn("impulse.tangential_n_s[0]");
+    normal_impulse_ = ContactColumn("impulse.normal_total_n_s");
+  }
+  contact_places_.resize(contact_paths_.size());
+}
+
+// Returns the number of a column among those of the contact, to which it is added unless it is there.
+size_t PlanarBodyLanes::ContactColumn(const char* path) {
+  const auto found = std::find(contact_paths_.begin(), contact_paths_.end(), path);
+  const auto number = static_cast<size_t>(found - contact_paths_.begin());
+  if (found == contact_paths_.end()) {
+    contact_paths_.emplace_back(path);
+    column_of_.push_back(kOwn);
+  }
+  return number;
+}
+
+SceneLanes::Numbers PlanarBodyLanes::NumbersOf(const Scene& scene) const {
+  Numbers numbers = {};
+  double* next = numbers.data();
+  for (const PlanarBody* body : BodiesOf(scene)) {
+    for (const double number : {body->mass_kg, body->inertia_com_kg_m2, body->offset_t_m, body->offset_n_m,
+                                body->velocity_t_m_s, body->velocity_n_m_s, body->rate_rad_s}) {
+      *next++ = number;
+    }
+  }
+  const double mu = scene.friction.kinetic_coefficient;
+  *next++ = mu;
+  *next++ = scene.friction.static_coefficient.value_or(mu);
+  *next = StatedBy(scene.restitution).coefficient;
+  return numbers;
+}
+
+// Computes W and the contact velocities as core/contact/reduction.cc does, but for a W that may have rank one, which
+// the lanes of the contact leave to its scene. A body that breaks a rule of its own gets a W that is not a number, so
+// that its scene is left, too.
+void PlanarBodyLanes::Reduce(const Columns& columns, size_t count) {
+  contact_ = {};
+  for (size_t body = 0; body < bodies_; ++body) {
+    const double side = SideOf(body);
+    for (size_t i = 0; i < count; ++i) {
+      const PlanarBody one = BodyAt(columns, body, i);
+      const PlanarBodyShare share = ShareOf(one);
+      const bool keeps_rules = IsPositive(one.mass_kg) && IsPositive(one.inertia_com_kg_m2);
+      contact_.wtt[i] += keeps_rules ? share.wtt : std::numeric_limits<double>::quiet_NaN();
+      contact_.wtn[i] += share.wtn;
+      contact_.wnn[i] += share.wnn;
+      contact_.u0[i] += side * share.u0;
+      contact_.v0[i] += side * share.v0;
+    }
+  }
+}
+
+// The columns of the contact's numbers, in the order of PlanarLanes.
+SceneLanes::Columns PlanarBodyLanes::ContactOf(const Columns& columns) const {
+  Columns contact;
+  size_t n = 0;
+  for (const Column* number : {&contact_.wtt, &contact_.wtn, &contact_.wnn, &contact_.u0, &contact_.v0}) {
+    contact.of[n] = number->data();
+    contact.varies[n++] = true;
+  }
+  for (size_t from = bodies_ * kBodyNumbers; n < PlanarLanes::kNumberCount; ++n, ++from) {
+    contact.of[n] = columns.of[from];
+    contact.varies[n] = columns.varies[from];
+  }
+  return contact;
+}
+
+// The sums are those of Reduction::After.
+void PlanarBodyLanes::SetAfter(const AfterColumn& after, const Columns& columns, size_t count, double* to) const {
+  const double* const before = columns.of[after.body * kBodyNumbers + kVelocityT + after.component];
+  const double* const tangential = contact_places_[tangential_impulse_];
+  const double* const normal = contact_places_[normal_impulse_];
+  const double side = SideOf(after.body);
+  for (size_t i = 0; i < count; ++i) {
+    const std::array<double, 6> response = ResponseOf(BodyAt(columns, after.body, i), side);
+    double change = response[2 * after.component + 1] * normal[i];
+    change += response[2 * after.component] * tangential[i];
+    to[i] = before[i] + change;
+  }
+}
+
+void PlanarBodyLanes::Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) {
+  Column* own = own_.data();
+  for (size_t k = 0; k < column_of_.size(); ++k) {
+    contact_places_[k] = column_of_[k] == kOwn ? (own++)->data() : places[column_of_[k]];
+  }
+  Reduce(columns, count);
+  contact_lanes_->Solve(ContactOf(columns), count, contact_places_, block);
+  for (const AfterColumn& after : after_) {
+    SetAfter(after, columns, count, places[after.column]);
+    block.is_complete = block.is_complete && AreFinite(places.subspan(after.column, 1), 0, count);
+  }
+}
+
+}  // namespace ricochet

@@ -1,0 +1,208 @@
+#include "core/rows/planar_lanes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "absl/container/inlined_vector.h"
+#include "core/models/impact_end.h"
+#include "core/models/planar/columns.h"
+#include "core/models/sliding/columns.h"
+#include "core/numerics/moderate.h"
+#include "core/plan/arithmetic.h"
+#include "core/plan/choose.h"
+#include "core/plan/planar_models.h"
+
+namespace ricochet {
+namespace {
+
+constexpr const char* kPaths[] = {"planar_contact.w_tt_per_kg", "planar_contact.w_tn_per_kg",
+                                  "planar_contact.w_nn_per_kg", "planar_contact.tangential_m_s",
+                                  "planar_contact.normal_m_s",  "friction.kinetic_coefficient",
+                                  "friction.static_coefficient"};
+
+constexpr std::pair<const char*, PlanarOutput> kOutputs[] = {
+    {"coefficients.newton", PlanarOutput::kNewton},
+    {"coefficients.poisson", PlanarOutput::kPoisson},
+    {"coefficients.energetic", PlanarOutput::kEnergetic},
+    {"coefficients.tangential", PlanarOutput::kTangentialCoefficient},
+    {"contact_velocity_after.tangential_m_s[0]", PlanarOutput::kTangentialVelocityAfter},
+    {"contact_velocity_after.normal_m_s", PlanarOutput::kNormalVelocityAfter},
+    {"impulse.normal_compression_n_s", PlanarOutput::kNormalImpulseCompression},
+    {"impulse.normal_total_n_s", PlanarOutput::kNormalImpulse},
+    {"impulse.tangential_n_s[0]", PlanarOutput::kTangentialImpulse},
+    {"work.normal_compression_j", PlanarOutput::kWorkNormalCompression},
+    {"work.normal_restitution_j", PlanarOutput::kWorkNormalRestitution},
+    {"work.tangential_compression_j", PlanarOutput::kWorkTangentialCompression},
+    {"work.tangential_restitution_j", PlanarOutput::kWorkTangentialRestitution},
+    {"work.normal_total_j", PlanarOutput::kWorkNormal},
+    {"work.tangential_total_j", PlanarOutput::kWorkTangential},
+    {"work.friction_dissipation_j", PlanarOutput::kFrictionDissipation},
+    {"energy_change_j", PlanarOutput::kEnergyChange},
+};
+
+std::optional<PlanarOutput> OutputAt(const std::string& path) {
+  for (const auto& [name, output] : kOutputs) {
+    if (path == name) return output;
+  }
+  return std::nullopt;
+}
+
+// True if every rule of the scene holds for sure and W has full rank. Any other problem is left to the checks of a
+// scene.
+bool IsSurelyValid(const planar::Problem& problem) {
+  const auto& [tt, tn, nn] = problem.w;
+  return AreModerate({tt, tn, nn, problem.u0, problem.v0, problem.mu, problem.mu_static, problem.coefficient},
+                     kMostInLanes) &&
+         tt > 0.0 && nn > 0.0 && tn * tn < 0.999 * (tt * nn) &&
+         KeepCoefficientRules(problem.mu, problem.mu_static, problem.law, problem.coefficient);
+}
+
+// The numbers of a contact that separates. The rank of W is not an output.
+ImpactEnd<double> Separated(double u0, double v0) { return Separating<ImpactEnd<double>>(2, u0, v0); }
+
+}  // namespace
+
+std::unique_ptr<SceneLanes> PlanarLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
+                                              const Demand& demand) {
+  if (!std::holds_alternative<PlanarContact>(scene.system) || !IsPlain(scene)) return nullptr;
+  if (!demand.IsToleranceAlone()) return nullptr;
+  std::vector<PlanarOutput> outputs;
+  for (const std::string& column : columns) {
+    const std::optional<PlanarOutput> output = OutputAt(column);
+    if (!output.has_value()) return nullptr;
+    outputs.push_back(*output);
+  }
+  return std::unique_ptr<SceneLanes>(new PlanarLanes(scene, std::move(outputs), demand.relative_tolerance));
+}
+
+SceneLanes::Numbers PlanarLanes::NumbersOf(const Scene& scene) const {
+  const auto& contact = std::get<PlanarContact>(scene.system);
+  const double mu = scene.friction.kinetic_coefficient;
+  return {contact.w_tt_per_kg,
+          contact.w_tn_per_kg,
+          contact.w_nn_per_kg,
+          contact.tangential_m_s,
+          contact.normal_m_s,
+          mu,
+          scene.friction.static_coefficient.value_or(mu),
+          StatedBy(scene.restitution).coefficient};
+}
+
+PlanarLanes::PlanarLanes(const Scene& scene, std::vector<PlanarOutput> outputs, double tolerance)
+    : SceneLanes(kPaths),
+      law_(StatedBy(scene.restitution).law),
+      tolerance_(tolerance),
+      outputs_(std::move(outputs)),
+      answers_(outputs_.size()) {}
+
+PlanarProblemColumns PlanarLanes::ProblemsIn(const Columns& columns, size_t count) const {
+  const auto column = [&](Number n) { return absl::MakeConstSpan(columns.of[n], count); };
+  return {.law = law_,
+          .wtt = column(kWtt),
+          .wtn = column(kWtn),
+          .wnn = column(kWnn),
+          .u0 = column(kU0),
+          .v0 = column(kV0),
+          .mu = column(kMu),
+          .mu_static = column(kMuStatic),
+          .coefficient = column(kCoefficient)};
+}
+
+void PlanarLanes::SolveBy(Model model, const Columns& columns, size_t count, const PlanarSolvedColumns& solved) const {
+  const PlanarProblemColumns problems = ProblemsIn(columns, count);
+  if (model == Model::kFrictionless) {
+    sliding::SolveFrictionlessColumns(problems, solved);
+  } else if (model == Model::kSliding) {
+    sliding::SolveColumns(problems, solved);
+  } else {
+    planar::SolveColumns(problems, ToleranceLeft(tolerance_, 0.0), solved);
+  }
+}
+
+// Puts the numbers of some contacts side by side.
+SceneLanes::Columns PlanarLanes::Gather(const Columns& columns, absl::Span<const uint16_t> some) {
+  Columns gathered = columns;
+  for (size_t n = 0; n < kNumberCount; ++n) {
+    const double* const from = columns.of[n];
+    if (!columns.varies[n] || (n == kMuStatic && from == columns.of[kMu])) continue;
+    double* const to = gathered_[n].data();
+    for (size_t k = 0; k < some.size(); ++k) to[k] = from[some[k]];
+    gathered.of[n] = to;
+  }
+  if (columns.of[kMuStatic] == columns.of[kMu]) gathered.of[kMuStatic] = gathered.of[kMu];
+  return gathered;
+}
+
+// Solves some contacts of the block by one model, in columns of their own unless they are the whole block.
+void PlanarLanes::SolveTogether(const Columns& columns, absl::Span<const uint16_t> some, size_t count, Model model,
+                                absl::Span<double* const> places, Block& block) {
+  if (some.size() == count) {
+    return SolveBy(model, columns, count,
+                   {.outputs = outputs_,
+                    .columns = places,
+                    .regimes = absl::MakeSpan(block.regimes).first(count),
+                    .inadmissible = absl::MakeSpan(block.inadmissible).first(count)});
+  }
+  std::array<Regime, kBlock> regimes;
+  std::array<bool, kBlock> inadmissible;
+  absl::InlinedVector<double*, kPlanarOutputCount> answers;
+  for (Column& answer : answers_) answers.push_back(answer.data());
+  SolveBy(model, Gather(columns, some), some.size(),
+          {.outputs = outputs_,
+           .columns = answers,
+           .regimes = absl::MakeSpan(regimes).first(some.size()),
+           .inadmissible = absl::MakeSpan(inadmissible).first(some.size())});
+  for (size_t c = 0; c < outputs_.size(); ++c) {
+    const double* const from = answers_[c].data();
+    double* const to = places[c];
+    for (size_t k = 0; k < some.size(); ++k) to[some[k]] = from[k];
+  }
+  for (size_t k = 0; k < some.size(); ++k) {
+    block.regimes[some[k]] = regimes[k];
+    block.inadmissible[some[k]] = inadmissible[k];
+  }
+}
+
+void PlanarLanes::Separate(const Columns& columns, size_t i, absl::Span<double* const> places, Block& block) const {
+  const auto numbers = planar::NumbersOf(Separated(columns.of[kU0][i], columns.of[kV0][i]), 0.0);
+  for (size_t c = 0; c < outputs_.size(); ++c) places[c][i] = numbers[static_cast<size_t>(outputs_[c])];
+  block.regimes[i] = Regime::kSeparating;
+  block.inadmissible[i] = false;
+}
+
+// The model of a contact that the lanes leave open.
+Model PlanarLanes::ModelAlone(const planar::Problem& problem) const {
+  if (!IsSurelyValid(problem)) return Model::kUnspecified;
+  return ChoosePlanar(problem, {}, {.relative_tolerance = tolerance_}).model;
+}
+
+void PlanarLanes::Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) {
+  block.is_uniform = false;
+  const PlanarProblemColumns problems = ProblemsIn(columns, count);
+  ModelsOfPlanar(problems, tolerance_, absl::MakeSpan(block.models).first(count));
+  // The contacts of each model.
+  std::array<std::array<uint16_t, kBlock>, kModelCount> lists;
+  std::array<size_t, kModelCount> sizes = {};
+  for (size_t i = 0; i < count; ++i) {
+    Model& model = block.models[i];
+    if (model == Model::kUnspecified) model = ModelAlone(problems[i]);
+    const auto number = static_cast<size_t>(model);
+    lists[number][sizes[number]++] = static_cast<uint16_t>(i);
+  }
+  const auto contacts_of = [&](Model model) {
+    const auto number = static_cast<size_t>(model);
+    return absl::MakeConstSpan(lists[number].data(), sizes[number]);
+  };
+  for (const size_t i : contacts_of(Model::kNone)) Separate(columns, i, places, block);
+  for (const Model model : {Model::kFrictionless, Model::kSliding, Model::kPlanar}) {
+    if (!contacts_of(model).empty()) SolveTogether(columns, contacts_of(model), count, model, places, block);
+  }
+  block.is_complete = contacts_of(Model::kUnspecified).empty() && AreFinite(places, 0, count);
+}
+
+}  // namespace ricochet

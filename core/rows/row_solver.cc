@@ -1,0 +1,242 @@
+#include "core/rows/row_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <type_traits>
+
+#include "core/answer/scene_outcome.h"
+#include "core/contact/reduction.h"
+#include "core/scene/numbers.h"
+#include "core/scene/validate.h"
+
+namespace ricochet {
+namespace {
+
+bool HasNumbers(RowStatus status) {
+  return status == RowStatus::kOk || status == RowStatus::kInadmissible || status == RowStatus::kIncomplete;
+}
+
+// True if `count` >= 1 entries are equal. Standard algorithms compare enums one by one, which takes several times as
+// long.
+template <typename T>
+bool AreAlike(const T* of, size_t count) {
+  static_assert(std::has_unique_object_representations_v<T>);
+  return std::memcmp(of, of + 1, (count - 1) * sizeof(T)) == 0;
+}
+
+// Counts rows that come after those of the tally.
+void Count(int64_t first, size_t count, Tally& tally) {
+  if (tally.count == 0) tally.first_index = first;
+  tally.count += static_cast<int64_t>(count);
+}
+
+}  // namespace
+
+RowSolver::RowSolver(const Scene& scene, std::vector<std::string> fields, std::vector<std::string> columns,
+                     const Demand& demand)
+    : field_names_(std::move(fields)),
+      column_names_(std::move(columns)),
+      demand_(demand),
+      driven_(scene, field_names_),
+      in_space_(TangentialDirections(scene.system) == 2),
+      reader_(driven_.scene(), column_names_),
+      lanes_(SceneLanes::Make(driven_.scene(), column_names_, demand_)),
+      places_(column_names_.size()) {
+  if (lanes_ != nullptr) lane_columns_ = std::make_unique<LaneColumns>(*lanes_, driven_);
+}
+
+std::optional<int64_t> RowSolver::Solve(RowSource& source, int64_t first, int64_t count, const RowSink& sink,
+                                        absl::FunctionRef<bool()> stopped, absl::FunctionRef<bool()> is_enough) {
+  for (int64_t done = 0; done < count;) {
+    if (lanes_ == nullptr || done % kRowsBetweenStops == 0) {
+      if (done > 0 && is_enough()) return done;
+      if (stopped()) return std::nullopt;
+    }
+    const size_t size = std::min(kBlock, static_cast<size_t>(count - done));
+    fields_ = source.At(first + done, size);
+    for (size_t c = 0; c < places_.size(); ++c) places_[c] = sink.columns[c] + done;
+    const std::optional<size_t> solved = SolveBlock(size, stopped, is_enough);
+    if (!solved.has_value()) return std::nullopt;
+    Finish(first, static_cast<size_t>(done), *solved, sink);
+    done += static_cast<int64_t>(*solved);
+    if (*solved < size) return done;
+  }
+  return count;
+}
+
+// Returns how many rows are solved, or nothing if it was stopped.
+std::optional<size_t> RowSolver::SolveBlock(size_t count, absl::FunctionRef<bool()> stopped,
+                                            absl::FunctionRef<bool()> is_enough) {
+  if (lanes_ == nullptr) return SolveScenes(count, stopped, is_enough);
+  if (!SolveInLanes(count, stopped)) return std::nullopt;
+  return count;
+}
+
+// Those rows that the lanes leave go by their scenes. Returns false if it was stopped.
+bool RowSolver::SolveInLanes(size_t count, absl::FunctionRef<bool()> stopped) {
+  lanes_->Solve(lane_columns_->Of(fields_, count), count, places_, block_);
+  std::transform(block_.inadmissible.begin(), block_.inadmissible.begin() + count, statuses_.begin(),
+                 [](bool inadmissible) { return inadmissible ? RowStatus::kInadmissible : RowStatus::kOk; });
+  if (block_.is_complete) return true;
+  for (size_t i = 0; i < count; ++i) {
+    if (block_.models[i] != Model::kUnspecified) {
+      CheckNumbers(i);
+      continue;
+    }
+    if (stopped()) return false;
+    driven_.SetRow(fields_, i);
+    if (!Begin(i, stopped)) return false;
+  }
+  return true;
+}
+
+// Returns how many rows are solved, or nothing if it was stopped.
+std::optional<size_t> RowSolver::SolveScenes(size_t count, absl::FunctionRef<bool()> stopped,
+                                             absl::FunctionRef<bool()> is_enough) {
+  block_.is_complete = false;
+  block_.is_uniform = false;
+  spatial_.Clear();
+  in_spatial_.clear();
+  for (size_t i = 0; i < count; ++i) {
+    if (i > 0 && !in_space_ && is_enough()) return i;
+    if (i > 0 && stopped()) return std::nullopt;
+    driven_.SetRow(fields_, i);
+    if (!Begin(i, stopped)) return std::nullopt;
+  }
+  spatial_.Solve();
+  for (const auto& [i, place] : in_spatial_) {
+    Outcome outcome;
+    spatial_.SetOutcome(place, outcome);
+    SetRow(i, outcome);
+  }
+  return count;
+}
+
+// Checks and plans the row that is driven, and solves it unless the spatial lanes do. Returns false if it was stopped.
+bool RowSolver::Begin(size_t i, absl::FunctionRef<bool()> stopped) {
+  std::optional<SceneContact> contact;
+  const Scene& scene = driven_.scene();
+  if (!driven_.IsValid(contact)) {
+    statuses_[i] = RowStatus::kInvalid;
+    return true;
+  }
+  std::optional<size_t> place = spatial_.Add(scene, demand_, contact);
+  if (!place.has_value()) {
+    const PlannedScene planned = PlanScene(scene, contact, demand_);
+    place = spatial_.Add(planned, contact);
+    if (!place.has_value()) return SolvePlannedRow(i, contact, planned, stopped);
+  }
+  in_spatial_.emplace_back(i, *place);
+  return true;
+}
+
+// Returns false if it was stopped.
+bool RowSolver::SolvePlannedRow(size_t i, const std::optional<SceneContact>& contact, const PlannedScene& planned,
+                                absl::FunctionRef<bool()> stopped) {
+  Outcome outcome;
+  const absl::Status solved =
+      SolvePlanned(driven_.scene(), contact, planned, {.detail = Detail::kNumbers}, stopped, outcome);
+  if (absl::IsCancelled(solved)) return false;
+  if (solved.ok()) {
+    SetRow(i, outcome);
+  } else {
+    statuses_[i] = RowStatus::kNotRepresentable;
+    too_large_[i].reset();
+  }
+  return true;
+}
+
+void RowSolver::SetRow(size_t i, const Outcome& outcome) {
+  const auto [status, too_large] = reader_.Read(outcome, numbers_);
+  for (size_t c = 0; c < places_.size(); ++c) places_[c][i] = numbers_[c];
+  block_.regimes[i] = outcome.regime;
+  block_.models[i] = outcome.plan.model;
+  statuses_[i] = status;
+  too_large_[i] = too_large;
+}
+
+// Checks the numbers of a row that the lanes have solved.
+void RowSolver::CheckNumbers(size_t i) {
+  const auto bad =
+      std::find_if(places_.begin(), places_.end(), [i](const double* column) { return !std::isfinite(column[i]); });
+  if (bad == places_.end()) return;
+  statuses_[i] = RowStatus::kNotRepresentable;
+  too_large_[i] = static_cast<size_t>(bad - places_.begin());
+}
+
+// Overwrites the rows that have no numbers, hands the block over and counts it. The block begins `at` rows behind the
+// first of the call.
+void RowSolver::Finish(int64_t first, size_t at, size_t count, const RowSink& sink) {
+  const int64_t row = first + static_cast<int64_t>(at);
+  for (size_t i = 0; i < count && !block_.is_complete; ++i) {
+    if (HasNumbers(statuses_[i])) continue;
+    block_.regimes[i] = Regime::kInvalid;
+    block_.models[i] = Model::kUnspecified;
+    for (double* const column : places_) column[i] = std::numeric_limits<double>::quiet_NaN();
+    if (sink.bad_rows == nullptr || sink.bad_rows->size() == kMostBadRows) continue;
+    sink.bad_rows->push_back(Describe(row + static_cast<int64_t>(i), i));
+  }
+  if (!sink.regimes.empty())
+    std::copy_n(block_.regimes.begin(), count, sink.regimes.begin() + static_cast<ptrdiff_t>(at));
+  if (!sink.statuses.empty()) std::copy_n(statuses_.begin(), count, sink.statuses.begin() + static_cast<ptrdiff_t>(at));
+  AddTo(sink.counts, row, count);
+}
+
+// Counts groups of rows that are alike at once, as most neighbours of a grid are, and other rows one by one.
+void RowSolver::AddTo(SweepSummary& counts, int64_t first, size_t count) const {
+  constexpr size_t kGroup = 32;
+  counts.points += static_cast<int64_t>(count);
+  const auto add = [&](size_t i, size_t rows) {
+    const int64_t row = first + static_cast<int64_t>(i);
+    Count(row, rows, counts.by_regime[static_cast<size_t>(block_.regimes[i])]);
+    if (!HasNumbers(statuses_[i])) return;
+    Count(row, rows, counts.by_model[static_cast<size_t>(block_.models[i])]);
+    if (statuses_[i] == RowStatus::kInadmissible) Count(row, rows, counts.inadmissible);
+  };
+  if (block_.is_uniform) return add(0, count);
+  for (size_t i = 0; i < count; i += kGroup) {
+    const size_t size = std::min(kGroup, count - i);
+    const bool is_alike = AreAlike(block_.regimes.data() + i, size) && AreAlike(block_.models.data() + i, size) &&
+                          AreAlike(statuses_.data() + i, size);
+    if (is_alike) {
+      add(i, size);
+    } else {
+      for (size_t k = i; k < i + size; ++k) add(k, 1);
+    }
+  }
+}
+
+// Says why a row has no numbers.
+BadRow RowSolver::Describe(int64_t row, size_t i) {
+  BadRow bad = {.row = row, .status = statuses_[i]};
+  if (bad.status == RowStatus::kInvalid) {
+    Violation violation = WhyInvalid(i);
+    bad.field = std::move(violation.field);
+    bad.description = std::move(violation.description);
+  } else if (too_large_[i].has_value()) {
+    bad.field = column_names_[*too_large_[i]];
+    bad.description = "exceeds the largest double";
+  } else {
+    bad.field = "contact";
+    bad.description = std::string(ContactOverflow().message());
+  }
+  return bad;
+}
+
+// A derived field can break a rule of its own in a scene that keeps all of its own.
+Violation RowSolver::WhyInvalid(size_t i) {
+  driven_.SetRow(fields_, i);
+  std::vector<Violation> violations = Validate(driven_.scene());
+  if (!violations.empty()) return std::move(violations.front());
+  for (size_t k = 0; k < fields_.size(); ++k) {
+    const double value = fields_[k].values[i];
+    if (!Holds(value, driven_.fields()[k].rule())) {
+      return MakeViolation(field_names_[k], value, "lie in the range of the field");
+    }
+  }
+  return {};
+}
+
+}  // namespace ricochet

@@ -1,0 +1,100 @@
+// SceneLanes: blocks of scenes that differ in their numbers alone, solved in SIMD lanes, as batches and sweeps do.
+//
+// Most scenes of a batch or a sweep are plain: they go from columns of numbers straight to their plan, and those with
+// the same model go through its lanes together. Every other one is left to its scene. Both ways give the same bits.
+
+#ifndef RICOCHET_CORE_ROWS_SCENE_LANES_H_
+#define RICOCHET_CORE_ROWS_SCENE_LANES_H_
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "absl/types/span.h"
+#include "core/models/restitution_law.h"
+#include "core/plan/demand.h"
+#include "ricochet/outcome.h"
+#include "ricochet/plan.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+class SceneLanes {
+ public:
+  // Scenes are solved in blocks of at most this many.
+  static constexpr size_t kBlock = 256;
+  static constexpr size_t kMostNumbers = 17;  // Those of two bodies in a plane.
+
+  // The numbers of a scene. The last three of those that the lanes have are kinetic friction, static friction and the
+  // coefficient of restitution.
+  using Numbers = std::array<double, kMostNumbers>;
+
+  // A column for each number.
+  struct Columns {
+    std::array<const double*, kMostNumbers> of = {};
+    std::array<bool, kMostNumbers> varies = {};  // False only for a column that has one value for all scenes.
+  };
+
+  // The scenes of a block, in their order. One that is left has the model kUnspecified and no results.
+  struct Block {
+    std::array<Model, kBlock> models;
+    std::array<Regime, kBlock> regimes;
+    // That of a scene that is left is the value of an earlier block, or false.
+    std::array<bool, kBlock> inadmissible = {};
+    bool is_complete = false;  // No scene is left, and every number is finite.
+    // It is complete, and the model, the regime and the admissibility of all are those of the first. False if that is
+    // not known.
+    bool is_uniform = false;
+  };
+
+  // Lanes for the columns of an answer (core/rows/column.h) of scenes that differ from `scene` in numbers alone.
+  // Returns null if not every column, or no such scene, can go this way.
+  static std::unique_ptr<SceneLanes> Make(const Scene& scene, absl::Span<const std::string> columns,
+                                          const Demand& demand);
+
+  virtual ~SceneLanes() = default;
+
+  // The number that the field at `path` states by itself, or nothing.
+  std::optional<size_t> NumberAt(const std::string& path) const;
+  // Makes the column of kinetic friction that of static friction, too: so it is for a scene that states no static
+  // friction.
+  void TakeStaticFromKinetic(Columns& columns) const {
+    const size_t coefficient = paths_.size();
+    columns.of[coefficient - 1] = columns.of[coefficient - 2];
+    columns.varies[coefficient - 1] = columns.varies[coefficient - 2];
+  }
+
+  // True if each number is a field of the scene, so that a column of the field is a column of the number.
+  virtual bool TakesFields() const { return true; }
+  virtual Numbers NumbersOf(const Scene& scene) const = 0;
+
+  // Solves the scenes [0, count) of the columns, at most kBlock, as far as they are plain. `places[c]` receives column
+  // c of the answer.
+  virtual void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) = 0;
+
+ protected:
+  // `paths` are those of the numbers but the last, the coefficient of restitution, by whatever path a scene states it.
+  explicit SceneLanes(absl::Span<const char* const> paths) : paths_(paths) {}
+
+ private:
+  absl::Span<const char* const> paths_;
+};
+
+// No product of a few numbers overflows or vanishes that are 0 or have magnitudes between the inverse of this one and
+// it.
+inline constexpr double kMostInLanes = 0x1p200;
+
+// True if coefficients of friction and restitution keep the rules of a scene; a comparison with NaN is false.
+bool KeepCoefficientRules(double mu, double mu_static, RestitutionLaw law, double coefficient);
+
+// True if the numbers [first, first + count) of every column are finite.
+bool AreFinite(absl::Span<double* const> columns, size_t first, size_t count);
+
+// True if the scene has a system, coefficients of friction and restitution, and nothing else.
+bool IsPlain(const Scene& scene);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_ROWS_SCENE_LANES_H_

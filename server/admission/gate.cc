@@ -1,0 +1,123 @@
+#include "server/admission/gate.h"
+
+#include <limits>
+#include <memory>
+#include <utility>
+
+namespace ricochet::server {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// The kernel gives a thread of nice value 0 three times the time of one of 5, and nine times that of one of 10. It is
+// enough that cheap calls go first; more would starve dear ones beside other programs.
+constexpr int kDearIsNicer = 5;
+constexpr int kStreamsAreNicer = 10;
+
+// A cheap call may be shorter than the switch from one thread to the next. With several slots for each core, the others
+// go on while the kernel has set a thread aside that holds one; with one slot the server answers half as many calls.
+constexpr int kCheapSlotsPerCore = 8;
+
+constexpr size_t kUnlimited = std::numeric_limits<size_t>::max();
+
+// Frees a slot however the work ends, and learns how long it took.
+class Leaving {
+ public:
+  Leaving(Lane& lane, Lane::Visitor& visitor, const Turn& turn, ServiceTimes& times)
+      : lane_(lane), visitor_(visitor), turn_(turn), times_(times) {}
+  ~Leaving() {
+    const double computed_s = lane_.Leave(visitor_);
+    if (computed_ && turn_.cost.has_value()) times_.Learn(*turn_.cost, computed_s, Clock::now() >= visitor_.deadline);
+  }
+  Leaving(const Leaving&) = delete;
+  Leaving& operator=(const Leaving&) = delete;
+
+  void Computes() { computed_ = true; }
+
+ private:
+  Lane& lane_;
+  Lane::Visitor& visitor_;
+  const Turn& turn_;
+  ServiceTimes& times_;
+  bool computed_ = false;
+};
+
+}  // namespace
+
+class Gate::SweepHelpers final : public Helpers {
+ public:
+  SweepHelpers(Gate& gate, std::string peer) : gate_(gate), peer_(std::move(peer)) {}
+
+  int most() const override { return static_cast<int>(gate_.threads_) - 1; }
+  bool Start(Help help) override { return gate_.StartHelp(peer_, std::move(help)); }
+
+ private:
+  Gate& gate_;
+  const std::string peer_;
+};
+
+Gate::Gate(int threads, int most_waiting, std::stop_token drain)
+    : threads_(static_cast<size_t>(threads)),
+      cheap_(kCheapSlotsPerCore * threads, kUnlimited),
+      dear_(threads, static_cast<size_t>(most_waiting)),
+      streams_(threads, kUnlimited),
+      dear_threads_(threads, kDearIsNicer),
+      stream_threads_(threads, kStreamsAreNicer),
+      close_(std::move(drain), [this] {
+        cheap_.Close();
+        dear_.Close();
+        streams_.Close();
+      }) {}
+
+absl::Status Gate::Compute(const Turn& turn, absl::FunctionRef<void()> work) {
+  const bool is_stream = !turn.cost.has_value();
+  const bool is_cheap = !is_stream && turn.cost->is_cheap();
+  Lane& lane = is_stream ? streams_ : is_cheap ? cheap_ : dear_;
+  Lane::Visitor visitor;
+  visitor.peer = turn.peer;
+  // Parts of streams take turns: if their deadlines decided, one stream would keep out the others of its peer to its
+  // end.
+  if (!is_stream) visitor.deadline = turn.deadline.value_or(Lane::Time::max());
+  if (!is_stream) visitor.expected_s = times_.Expected(*turn.cost);
+  if (absl::Status turned_away = lane.Enter(visitor, turn.is_gone); !turned_away.ok()) return turned_away;
+  Leaving leaving(lane, visitor, turn, times_);
+  if (turn.deadline.has_value() && Clock::now() >= *turn.deadline) {
+    return absl::DeadlineExceededError("the deadline passed before the call began");
+  }
+  if (turn.is_gone()) return absl::CancelledError("the caller gave up before the call began");
+  leaving.Computes();
+  if (is_cheap) {
+    work();
+  } else {
+    (is_stream ? stream_threads_ : dear_threads_).Run(work);
+  }
+  return absl::OkStatus();
+}
+
+std::shared_ptr<Helpers> Gate::HelpersFor(std::string peer) {
+  return std::make_shared<SweepHelpers>(*this, std::move(peer));
+}
+
+bool Gate::IsFull(size_t helpers) const {
+  if (dear_.waiting() + streams_.waiting() > 0) return true;
+  return dear_.computing() + streams_.computing() + 1 > threads_ + helpers;
+}
+
+bool Gate::StartHelp(const std::string& peer, Helpers::Help help) {
+  if (IsFull(0)) return false;
+  struct Visit {
+    Lane::Visitor visitor;
+    Helpers::Help help;
+  };
+  const auto visit = std::make_shared<Visit>();
+  visit->visitor.peer = peer;
+  visit->help = std::move(help);
+  if (!streams_.TryEnter(visit->visitor)) return false;
+  stream_threads_.Start([this, visit] {
+    visit->help([this] { return IsFull(1); });
+    streams_.Leave(visit->visitor);
+  });
+  return true;
+}
+
+}  // namespace ricochet::server

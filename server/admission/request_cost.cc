@@ -1,0 +1,94 @@
+#include "server/admission/request_cost.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <variant>
+#include <vector>
+
+#include "ricochet/audit_columns.h"
+
+namespace ricochet::server {
+namespace {
+
+// Up to these sizes a call takes less than half a millisecond.
+constexpr int64_t kFewLinks = 32;
+constexpr int64_t kShortHistory = 2048;
+constexpr int64_t kFewRows = 64;
+
+RequestCost Dear(CostCause cause, double size) {
+  return {.cause = cause, .octave = static_cast<int>(std::log2(std::max(size, 1.0)))};
+}
+
+int64_t Links(const Scene& scene) {
+  const auto* const linkage = std::get_if<Linkage>(&scene.system);
+  return linkage == nullptr ? 1 : static_cast<int64_t>(linkage->links.size());
+}
+
+double Cube(int64_t number) { return std::pow(static_cast<double>(number), 3); }
+
+RequestCost CostOf(const Scene& scene) {
+  return Links(scene) > kFewLinks ? Dear(CostCause::kLinks, Cube(Links(scene))) : RequestCost();
+}
+
+RequestCost CertificateCost(const Scene& scene, int32_t digits) {
+  return Dear(CostCause::kCertificate, digits * Cube(Links(scene)));
+}
+
+bool TakesTime(const Scene& scene, const DemandFields& demand) {
+  const auto& compliance = scene.compliance;
+  return (compliance.has_value() && !std::holds_alternative<std::monostate>(compliance->normal)) ||
+         std::find(demand.required.begin(), demand.required.end(), Effect::kFiniteDuration) != demand.required.end();
+}
+
+bool TakesTime(const SolveRequest& request) {
+  return request.force_intervals > 0 || TakesTime(request.scene, request.demand);
+}
+
+size_t Rows(const AuditColumns& columns) {
+  size_t rows = 0;
+  for (const NamedAuditColumn& column : kAuditColumns) rows = std::max(rows, (columns.*column.values).size());
+  for (const std::vector<double>& column : columns.rates_after_rad_s) rows = std::max(rows, column.size());
+  return rows;
+}
+
+}  // namespace
+
+RequestCost CostOf(const SolveRequest& request) {
+  if (request.certified_digits > 0) return CertificateCost(request.scene, request.certified_digits);
+  if (TakesTime(request)) return Dear(CostCause::kDuration, static_cast<double>(request.force_intervals));
+  const int64_t states = std::max(request.history_intervals, static_cast<int64_t>(request.history_at_n_s.size()));
+  if (states > kShortHistory) {
+    return Dear(CostCause::kHistory, static_cast<double>(states) * static_cast<double>(4 + Links(request.scene)));
+  }
+  return CostOf(request.scene);
+}
+
+RequestCost CostOf(const PlanRequest& request) { return CostOf(request.scene); }
+
+RequestCost CostOf(const BoundsRequest& request) {
+  if (!request.ranges.empty()) return Dear(CostCause::kEnclosure, std::exp2(request.ranges.size()));
+  if (request.certified_digits > 0) return CertificateCost(request.scene, request.certified_digits);
+  return CostOf(request.scene);
+}
+
+RequestCost CostOf(const AuditRequest& request) { return CostOf(request.scene); }
+
+RequestCost CostOf(const AuditBatchRequest& request) {
+  const size_t rows = Rows(request.columns);
+  if (rows > kFewRows) {
+    return Dear(CostCause::kRows, static_cast<double>(rows) * static_cast<double>(Links(request.scene)));
+  }
+  return CostOf(request.scene);
+}
+
+RequestCost CostOf(const BatchSetup& setup, size_t rows) {
+  const double size = static_cast<double>(rows) * static_cast<double>(Links(setup.scene));
+  if (TakesTime(setup.scene, setup.demand)) return Dear(CostCause::kDuration, size);
+  return rows > kFewRows ? Dear(CostCause::kRows, size) : CostOf(setup.scene);
+}
+
+RequestCost CostOf(const InfoRequest& /*request*/) { return {}; }
+
+}  // namespace ricochet::server

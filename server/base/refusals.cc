@@ -1,0 +1,75 @@
+#include "server/base/refusals.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "ricochet/error.h"
+
+namespace ricochet::server {
+namespace {
+
+using std::chrono::milliseconds;
+
+absl::Status Refusal(absl::StatusCode code, ErrorReason reason, const std::string& message, milliseconds retry_delay) {
+  absl::Status refusal = MakeError(code, reason, message);
+  SetRetryDelay(retry_delay, refusal);
+  return refusal;
+}
+
+}  // namespace
+
+absl::Status TooManyCalls(const std::string& what, int limit) {
+  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
+                 absl::StrCat("the server is at its limit of ", limit, " ", what, "; try again later"),
+                 milliseconds(1000));
+}
+
+absl::Status TooManyCallsOfPeer(const std::string& what, int limit) {
+  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
+                 absl::StrCat("this client is at its limit of ", limit, " ", what, "; try again later"),
+                 milliseconds(1000));
+}
+
+absl::Status NoThread() {
+  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kTooManyCalls,
+                 "the server has no thread for another call; try again later", milliseconds(1000));
+}
+
+absl::Status Overloaded(std::chrono::duration<double> wait) {
+  const auto delay = std::chrono::duration_cast<milliseconds>(wait);
+  return Refusal(absl::StatusCode::kResourceExhausted, ErrorReason::kOverloaded,
+                 "more work waits to be computed than would let this call end in time; try again later",
+                 std::clamp(delay, milliseconds(100), milliseconds(5000)));
+}
+
+absl::Status TimeLimitReached(milliseconds limit) {
+  return MakeError(absl::StatusCode::kDeadlineExceeded, ErrorReason::kTimeLimit,
+                   absl::StrCat("the call took longer than ", limit.count(), " ms, the server's limit of one call"));
+}
+
+absl::Status AgeLimitReached(milliseconds limit) {
+  return Refusal(absl::StatusCode::kUnavailable, ErrorReason::kAgeLimit,
+                 absl::StrCat("the stream has run for ", limit.count(),
+                              " ms, the server's limit; ask again, a sweep from the first point not received"),
+                 milliseconds(0));
+}
+
+absl::Status UnreadLimitReached(milliseconds limit) {
+  return MakeError(absl::StatusCode::kCancelled, ErrorReason::kUnreadLimit,
+                   absl::StrCat("the caller did not read one message in ", limit.count(), " ms, the server's limit"));
+}
+
+absl::Status PauseLimitReached(milliseconds limit) {
+  return MakeError(absl::StatusCode::kCancelled, ErrorReason::kUnreadLimit,
+                   absl::StrCat("the caller sent no batch in ", limit.count(), " ms, the server's limit"));
+}
+
+absl::Status Draining() {
+  return Refusal(absl::StatusCode::kUnavailable, ErrorReason::kDraining,
+                 "the server is shutting down; ask again, a sweep from the first point not received",
+                 milliseconds(1000));
+}
+
+}  // namespace ricochet::server

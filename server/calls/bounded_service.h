@@ -1,0 +1,110 @@
+// BoundedService: ricochet.v1.ImpactService as gRPC sees it, with a bound on what a request may unfold to in memory.
+//
+// A message of 1 MiB can hold half a million empty messages, each of which takes a hundred bytes once it is parsed. So
+// the bytes of a large request are read first, without keeping anything: one that holds more messages, texts and
+// unknown fields than any request within the limits is refused with RESOURCE_EXHAUSTED and ErrorReason::kLimitExceeded,
+// and is never parsed. Requests that are too small to hold that many are parsed at once. Batches may have as many bytes
+// as Limits::max_request_bytes, all other requests at most 1 MiB.
+
+#ifndef RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_
+#define RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_
+
+#include <google/protobuf/descriptor.h>
+#include <grpcpp/impl/service_type.h>
+#include <grpcpp/server_context.h>
+#include <grpcpp/support/byte_buffer.h>
+#include <grpcpp/support/status.h>
+#include <grpcpp/support/sync_stream.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "absl/status/status.h"
+#include "absl/strings/string_view.h"
+#include "ricochet/limits.h"
+#include "ricochet/v1/impact_service.grpc.pb.h"
+#include "server/admission/unread_watch.h"
+
+namespace ricochet::server {
+
+// The most bytes of a request that is no batch.
+inline constexpr int64_t kMostBytes = int64_t{1} << 20;
+
+// The bounds on one request: its bytes, and the messages, texts and unknown fields in it.
+struct MessageBounds {
+  int64_t bytes = 0;
+  int64_t elements = 0;
+};
+
+// BoundedBatches: a stream of batches. Each request is bounded by itself.
+class BoundedBatches {
+ public:
+  using Stream = grpc::ServerReaderWriter<v1::SolveBatchResponse, grpc::ByteBuffer>;
+
+  // The stream must outlive this object.
+  BoundedBatches(Stream& stream, const MessageBounds& bounds) : stream_(stream), bounds_(bounds) {}
+
+  // Waits for the next request. Returns false if the caller sends no more or the call has ended.
+  bool Receive() { return stream_.Read(&received_); }
+
+  // The bytes of the request received.
+  int64_t received_bytes() const { return static_cast<int64_t>(received_.Length()); }
+
+  // Reads the request received.
+  // Errors: those of CheckMessage, and INVALID_ARGUMENT if the bytes are no such request.
+  absl::Status Parse(v1::SolveBatchRequest& request);
+
+  // Returns false if the call has ended.
+  bool Write(const v1::SolveBatchResponse& response) { return stream_.Write(response); }
+
+ private:
+  Stream& stream_;
+  const MessageBounds bounds_;
+  grpc::ByteBuffer received_;
+};
+
+class BoundedService final : public grpc::Service {
+ public:
+  using Methods = v1::ImpactService::Service;
+  using Batches = std::function<grpc::Status(grpc::ServerContext&, BoundedBatches&)>;
+
+  // Passes every call on to `service`, and every stream of batches to `batches`. `unread` watches the answers. All must
+  // outlive this service.
+  BoundedService(Methods& service, Batches batches, const Limits& limits, UnreadWatch& unread);
+
+ private:
+  // Each `path` is that of a method, "/ricochet.v1.ImpactService/Solve", and is never freed.
+  template <typename Request, typename Response>
+  void AddUnary(const char* path, grpc::Status (Methods::*method)(grpc::ServerContext*, const Request*, Response*));
+  template <typename Request, typename Response>
+  void AddStream(const char* path,
+                 grpc::Status (Methods::*method)(grpc::ServerContext*, const Request*, grpc::ServerWriter<Response>*));
+  void AddBatches(const char* path);
+  void Add(const char* path, grpc::internal::RpcMethod::RpcType type, const google::protobuf::Descriptor& request,
+           std::unique_ptr<grpc::internal::MethodHandler> handler);
+
+  Methods& service_;
+  const Batches batches_;
+  const int64_t most_elements_;
+  const int64_t most_batch_bytes_;
+  UnreadWatch& unread_;
+};
+
+// The most messages, texts and unknown fields that a request may hold: at least 16,384, and more than any request
+// within the limits has.
+int64_t MostElements(const Limits& limits);
+
+// Bounds a message of type `type`.
+// Errors: RESOURCE_EXHAUSTED with ErrorReason::kLimitExceeded.
+absl::Status CheckMessage(const grpc::ByteBuffer& bytes, const google::protobuf::Descriptor& type,
+                          const MessageBounds& bounds);
+
+// Counts the messages, texts and unknown fields that the bytes of a message of type `type` hold.
+// Errors: RESOURCE_EXHAUSTED with ErrorReason::kLimitExceeded as soon as there are more than `most`. Bytes that are no
+// message are left to the parser.
+absl::Status CheckElements(absl::string_view bytes, const google::protobuf::Descriptor& type, int64_t most);
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_SERVER_CALLS_BOUNDED_SERVICE_H_

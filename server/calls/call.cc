@@ -1,0 +1,141 @@
+#include "server/calls/call.h"
+
+#include <algorithm>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <utility>
+
+#include "proto/wire/status.h"
+#include "ricochet/error.h"
+#include "server/base/names.h"
+#include "server/base/refusals.h"
+#include "server/base/request_id.h"
+#include "server/security/peer.h"
+
+namespace ricochet::server {
+namespace {
+
+// Asking gRPC whether a call is cancelled can take 10 us or more, because it polls, so that it is asked only this often
+// while the call goes on.
+constexpr std::chrono::milliseconds kBetweenLooks(1);
+
+// A write that takes longer than this is counted as a stall.
+constexpr std::chrono::seconds kStall(1);
+
+}  // namespace
+
+Call::Call(const char* method, Kind kind, grpc::ServerContext& context, const CallFrame& frame)
+    : kind_(kind),
+      context_(context),
+      frame_(frame),
+      peer_key_(PeerKey(context, frame.auth)),
+      next_look_(start_ + kBetweenLooks),
+      place_(frame.places.Enter(peer_key_, kind == Kind::kStream)),
+      record_(RecordOf(method, context)) {
+  // Trailing metadata, because a client repeats only a call that was refused without initial metadata.
+  context.AddTrailingMetadata(kRequestIdHeader, record_.request_id);
+}
+
+Call::~Call() {
+  frame_.unread.Sends(context_, place_.ok() ? std::make_shared<Places::Place>(*std::move(place_)) : nullptr);
+  record_.duration_s = elapsed_s();
+  frame_.observer.Ended(record_);
+}
+
+absl::Status Call::admitted() const {
+  if (frame_.drain.streams.stop_requested()) return Draining();
+  return place_.status();
+}
+
+double Call::elapsed_s() const {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+}
+
+CallOptions Call::options() const {
+  using std::chrono::system_clock;
+  CallOptions options = {.stop = drain(),
+                         .deadline = start_ + time_limit(),
+                         .is_stopped = [this] { return IsCancelled(); },
+                         .helpers = frame_.gate.HelpersFor(peer_key_)};
+  const system_clock::time_point deadline = context_.deadline();
+  if (deadline != system_clock::time_point::max()) {
+    const auto left = deadline - system_clock::now();
+    options.deadline = std::min(*options.deadline, std::chrono::steady_clock::now() + left);
+  }
+  return options;
+}
+
+absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work) {
+  const CallOptions limits = options();
+  const double asked_s = elapsed_s();
+  const Turn turn = {.peer = peer_key_, .deadline = limits.deadline, .is_gone = limits.is_stopped, .cost = cost};
+  bool is_done = false;
+  const absl::Status turned = frame_.gate.Compute(turn, [&] {
+    record_.queued_s += elapsed_s() - asked_s;
+    is_done = true;
+    work();
+  });
+  if (!is_done) record_.queued_s += elapsed_s() - asked_s;
+  return turned;
+}
+
+absl::StatusOr<bool> Call::Receive(absl::FunctionRef<bool()> read) {
+  const UnreadWatch::Write watched(frame_.unread, context_);
+  // A read cannot be ended but by ending the call.
+  const std::stop_callback drained(drain(), [this] { context_.TryCancel(); });
+  if (read()) return true;
+  if (watched.is_cut()) return PauseLimitReached(frame_.unread.limit());
+  if (context_.IsCancelled()) return absl::CancelledError("the client cancelled the call or went away");
+  return false;
+}
+
+absl::Status Call::Send(absl::FunctionRef<bool()> write) {
+  const UnreadWatch::Write watched(frame_.unread, context_);
+  const bool is_written = write();
+  if (watched.waited() > kStall) {
+    ++record_.stalls;
+    record_.stalled_s += watched.waited().count();
+  }
+  // A write that was already on its way when the watch cancelled the call can still succeed.
+  if (watched.is_cut()) return UnreadLimitReached(frame_.unread.limit());
+  if (is_written) return absl::OkStatus();
+  return absl::CancelledError("the client cancelled the call or went away");
+}
+
+grpc::Status Call::Finish(const absl::Status& status) {
+  const absl::Status explained = Explained(status);
+  record_.status = SeenByCaller(explained.code());
+  record_.reason = ReasonName(ReasonOf(explained));
+  record_.message = std::string(explained.message());
+  return ToGrpcStatus(explained);
+}
+
+std::chrono::milliseconds Call::time_limit() const {
+  return kind_ == Kind::kUnary ? frame_.limits.unary_time : frame_.limits.stream_age;
+}
+
+const std::stop_token& Call::drain() const { return kind_ == Kind::kUnary ? frame_.drain.unary : frame_.drain.streams; }
+
+bool Call::IsCancelled() const {
+  const auto now = std::chrono::steady_clock::now();
+  if (is_cancelled_ || now < next_look_) return is_cancelled_;
+  next_look_ = now + kBetweenLooks;
+  is_cancelled_ = context_.IsCancelled();
+  return is_cancelled_;
+}
+
+absl::StatusCode Call::SeenByCaller(absl::StatusCode code) const {
+  if (context_.deadline() <= std::chrono::system_clock::now()) return absl::StatusCode::kDeadlineExceeded;
+  return context_.IsCancelled() ? absl::StatusCode::kCancelled : code;
+}
+
+absl::Status Call::Explained(const absl::Status& status) const {
+  if (absl::IsCancelled(status) && drain().stop_requested() && !context_.IsCancelled()) return Draining();
+  const bool is_by_client = context_.deadline() <= std::chrono::system_clock::now();
+  const bool is_by_server = elapsed_s() >= std::chrono::duration<double>(time_limit()).count();
+  if (!absl::IsDeadlineExceeded(status) || is_by_client || !is_by_server) return status;
+  return kind_ == Kind::kUnary ? TimeLimitReached(time_limit()) : AgeLimitReached(time_limit());
+}
+
+}  // namespace ricochet::server

@@ -1,0 +1,113 @@
+// Call: the frame around the work of every handler. It takes a place among the live calls, has the work done at the
+// gate, ends the call at the server's limits, gathers what is known of the call and hands it to the observer at the
+// end.
+
+#ifndef RICOCHET_SERVER_CALLS_CALL_H_
+#define RICOCHET_SERVER_CALLS_CALL_H_
+
+#include <grpcpp/server_context.h>
+#include <grpcpp/support/status.h>
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "absl/functional/function_ref.h"
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "ricochet/call_options.h"
+#include "server/admission/gate.h"
+#include "server/admission/places.h"
+#include "server/admission/unread_watch.h"
+#include "server/base/drain.h"
+#include "server/telemetry/call_record.h"
+#include "server/telemetry/observer.h"
+
+namespace ricochet::server {
+
+// How long a call may run, whatever its client allows; both > 0.
+struct TimeLimits {
+  std::chrono::milliseconds unary_time{60'000};
+  std::chrono::milliseconds stream_age{3'600'000};
+  friend bool operator==(const TimeLimits&, const TimeLimits&) = default;
+};
+
+class Auth;
+
+// CallFrame: the objects that all calls of a server share.
+struct CallFrame {
+  Places& places;
+  Gate& gate;
+  UnreadWatch& unread;
+  DrainStops drain;
+  TimeLimits limits;
+  const Observer& observer;
+  Auth* auth = nullptr;  // Knows callers by token or certificate; null if the server has no such list.
+};
+
+class Call {
+ public:
+  enum class Kind { kUnary, kStream };
+
+  // Starts the clock, takes a place and adds the request id to the metadata of the answer. `method` is the method's
+  // name without that of the service. All arguments by reference must outlive the call.
+  Call(const char* method, Kind kind, grpc::ServerContext& context, const CallFrame& frame);
+  // Gives the place back, as soon as the answer is sent, and hands the record to the observer.
+  ~Call();
+  Call(const Call&) = delete;
+  Call& operator=(const Call&) = delete;
+
+  // OK, or the error with which the handler must finish at once.
+  absl::Status admitted() const;
+
+  // Returns the seconds since the start.
+  double elapsed_s() const;
+
+  // Returns the options of the solver's call. It ends at the client's deadline, at the server's limit of time, when the
+  // client cancels or vanishes, and when the drain asks for it. This object must outlive them.
+  CallOptions options() const;
+
+  // Does the work when it is this call's turn, and returns OK; or returns the error for which it was not done. `cost`
+  // is absent for a part of a stream.
+  absl::Status Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work);
+
+  // Waits for the next message of the caller by `read`, which returns false if there is none. Returns what `read` does.
+  // Errors: CANCELLED if the caller has ended the call, if it has sent nothing for as long as it may leave an answer
+  // unread, or if the drain has begun.
+  absl::StatusOr<bool> Receive(absl::FunctionRef<bool()> read);
+
+  // Sends one message of a stream by `write`, which returns false if the call has ended.
+  absl::Status Send(absl::FunctionRef<bool()> write);
+
+  // Handlers add to it what they learn of the call: points, chunks, models.
+  CallRecord& record() { return record_; }
+
+  // Records the status as the caller sees it and returns what the handler must return. Replaces the error of a call
+  // that the drain or a limit of time has ended by one that says so.
+  grpc::Status Finish(const absl::Status& status);
+
+ private:
+  std::chrono::milliseconds time_limit() const;
+  const std::stop_token& drain() const;
+  // True once the caller has cancelled the call or went away, but a millisecond late at most. One thread at a time.
+  bool IsCancelled() const;
+  // Returns the status that the caller sees of a call that ends now with `code`.
+  absl::StatusCode SeenByCaller(absl::StatusCode code) const;
+  absl::Status Explained(const absl::Status& status) const;
+
+  const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  const Kind kind_;
+  grpc::ServerContext& context_;
+  const CallFrame& frame_;
+  const std::string peer_key_;
+  mutable std::chrono::steady_clock::time_point next_look_;
+  mutable bool is_cancelled_ = false;
+  absl::StatusOr<Places::Place> place_;
+  // The status UNKNOWN stays if a handler throws and never finishes; gRPC then answers the same.
+  CallRecord record_;
+};
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_SERVER_CALLS_CALL_H_

@@ -1,0 +1,41 @@
+// ServingCheck: finds out whether this server can serve at all. A server that is full, or that refuses calls for a
+// while, can serve; one whose accept loop has ended, or in which no cheap call gets its turn to compute, cannot.
+
+#ifndef RICOCHET_SERVER_HEALTH_SERVING_CHECK_H_
+#define RICOCHET_SERVER_HEALTH_SERVING_CHECK_H_
+
+#include <chrono>
+#include <stop_token>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "server/admission/gate.h"
+#include "server/base/listen_address.h"
+#include "server/transport/acceptor.h"
+
+namespace ricochet::server {
+
+class ServingCheck {
+ public:
+  // Each step of the check may take `patience`. `acceptor`, which listens on `addresses`, and `gate` must outlive it.
+  ServingCheck(std::vector<ListenAddress> addresses, const Acceptor& acceptor, Gate& gate,
+               std::chrono::milliseconds patience);
+
+  // Connects to every address and waits until the acceptor has noticed, then waits for a turn at the gate. Returns OK
+  // early once `stop` is requested.
+  // Errors: UNAVAILABLE that says what does not work.
+  absl::Status Run(const std::stop_token& stop) const;
+
+ private:
+  absl::Status CheckAddress(const ListenAddress& address, const std::stop_token& stop) const;
+  absl::Status CheckGate(const std::stop_token& stop) const;
+
+  const std::vector<ListenAddress> addresses_;
+  const Acceptor& acceptor_;
+  Gate& gate_;
+  const std::chrono::milliseconds patience_;
+};
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_SERVER_HEALTH_SERVING_CHECK_H_

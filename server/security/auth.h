@@ -1,0 +1,70 @@
+// Auth: decides by token or client certificate who makes a call and whether that caller may make it.
+//
+// A refusal tells the caller nothing but UNAUTHENTICATED or PERMISSION_DENIED; the log says why. Health is open to
+// everybody, because probes have no tokens.
+
+#ifndef RICOCHET_SERVER_SECURITY_AUTH_H_
+#define RICOCHET_SERVER_SECURITY_AUTH_H_
+
+#include <grpcpp/server_context.h>
+
+#include <chrono>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "server/base/log.h"
+#include "server/base/watched_file.h"
+#include "server/security/callers.h"
+
+namespace ricochet::server {
+
+// Evidence: the parts of a call that tell who makes it.
+struct Evidence {
+  std::string method;                          // Its path: "/ricochet.v1.ImpactService/Solve".
+  std::vector<std::string> authorization;      // The values of the header of this name; more than one is refused.
+  std::vector<std::string> certificate_names;  // The names of a client certificate that was verified.
+  std::string user_agent;                      // What the caller says of its program.
+};
+
+// Thread safety: every method may be called from several threads at once.
+class Auth {
+ public:
+  // Reads the file of --tokens. From then on it looks at the file once a second when calls come in; a file that cannot
+  // be read or is wrong leaves the callers as they were, with an error in the log. `log` must outlive the object.
+  // Errors: those of the file system, INVALID_ARGUMENT for wrong lines; the message names the file.
+  static absl::StatusOr<std::shared_ptr<Auth>> Open(const std::string& path, const Log& log);
+
+  // Returns OK if the call may go on. Errors: UNAUTHENTICATED, PERMISSION_DENIED, both with a fixed text.
+  absl::Status Check(const Evidence& evidence);
+
+  // Returns "token:NAME" or "certificate:NAME" of the caller, or an empty text for a call of health without a token.
+  std::string CallerOf(const grpc::ServerContext& context);
+
+ private:
+  // Who calls, or the reason why nobody known does.
+  struct Finding {
+    std::optional<Callers::Caller> caller;
+    std::string reason;
+  };
+
+  Auth(const std::string& path, const Log& log) : log_(log), file_(path) {}
+  absl::Status Load();
+  Finding Find(const Evidence& evidence);
+  std::shared_ptr<const Callers> Current();
+  void LogRefusal(const Evidence& evidence, const std::string& caller, const std::string& reason) const;
+
+  const Log& log_;
+  std::mutex mutex_;  // Guards what follows.
+  WatchedFile file_;
+  std::shared_ptr<const Callers> callers_;
+  std::chrono::steady_clock::time_point next_look_;
+};
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_SERVER_SECURITY_AUTH_H_

@@ -1,0 +1,43 @@
+// ConnectionCounts: how many connections are open, in all and for each peer, and whether one more may be.
+
+#ifndef RICOCHET_SERVER_TRANSPORT_CONNECTION_COUNTS_H_
+#define RICOCHET_SERVER_TRANSPORT_CONNECTION_COUNTS_H_
+
+#include <string>
+#include <unordered_map>
+
+namespace ricochet::server {
+
+// Both limits are at least 1.
+struct ConnectionLimits {
+  int in_all = 4096;
+  int per_peer = 2048;
+
+  friend bool operator==(const ConnectionLimits&, const ConnectionLimits&) = default;
+};
+
+class ConnectionCounts {
+ public:
+  enum class Decision { kAccepted, kTooMany, kTooManyOfPeer };
+
+  explicit ConnectionCounts(const ConnectionLimits& limits) : limits_(limits) {}
+
+  // Counts a connection of `peer` if the limits allow it.
+  Decision Add(const std::string& peer);
+
+  // Forgets a connection that Add has accepted.
+  void Remove(const std::string& peer);
+
+  int in_all() const { return in_all_; }
+  // The peers that have a connection.
+  size_t peers() const { return per_peer_.size(); }
+
+ private:
+  const ConnectionLimits limits_;
+  int in_all_ = 0;
+  std::unordered_map<std::string, int> per_peer_;
+};
+
+}  // namespace ricochet::server
+
+#endif  // RICOCHET_SERVER_TRANSPORT_CONNECTION_COUNTS_H_

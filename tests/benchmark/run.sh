@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# ./dev bench: speed, as ratios to what is measured in the same run.
+set -euo pipefail
+# shellcheck source=tools/dev_lib.sh
+source "$(dirname "${BASH_SOURCE[0]}")/../../tools/dev_lib.sh"
+
+build_benchmarks
+run_benchmarks
+show /usr/bin/python3 tests/benchmark/plan_cost.py build/release/tests/benchmark/ricochet_plan_cost
+show /usr/bin/python3 tests/benchmark/numpy_peer.py
+show /usr/bin/python3 tests/benchmark/growth.py
+echo "-> docs/growth.md, docs/images/growth.svg"
+show /usr/bin/python3 tests/benchmark/fan_out.py

@@ -1,0 +1,239 @@
+// Wrong input: each row ends with exit code 2, prints nothing on standard output and states the rule that it breaks.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "tests/client/cli/cli_run.h"
+
+namespace ricochet::cli {
+namespace {
+
+using testing::HasSubstr;
+
+struct BadInput {
+  Arguments arguments;
+  std::string message;  // A part of the text on standard error.
+  std::string input;    // The text on standard input.
+};
+
+void PrintTo(const BadInput& bad, std::ostream* stream) { *stream << bad.message; }
+
+const Arguments kSolve = {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1"};
+const Arguments kCost = {"cost", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1"};
+const Arguments kSweep = {"sweep", "--a", "0.3", "--b", "1", "--energetic", "1"};
+
+Arguments Plus(Arguments arguments, const Arguments& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+Arguments Axis(const std::string& text) { return Plus(kSweep, {"--axis", text}); }
+
+const Arguments kSolveInput = {"solve", "--scene", "-"};
+const Arguments kSweepInput = {"sweep", "--request", "-"};
+
+std::vector<BadInput> Flags() {
+  return {
+      {{}, "Usage: ricochet [OPTIONS] SUBCOMMAND", ""},
+      {{"solv"}, "solv is not a subcommand; did you mean solve?", ""},
+      {{"--verison"}, "--verison is not an option of ricochet; did you mean --version?", ""},
+      {{"scene", "lst"}, "lst is not a subcommand of ricochet scene; did you mean list?", ""},
+      {{"scene"}, "ricochet scene needs a subcommand: list, template, ", ""},
+      {{"frobnicate"}, "frobnicate is not a subcommand\nSubcommands: solve, bounds", ""},
+      {Plus(kSolve, {"--energetik=1"}), "--energetik is not an option of ricochet solve; did you mean --energetic?",
+       ""},
+      {{"solve", "--energetik", "1"}, "--energetik is not an option of ricochet solve", ""},
+      {Plus(kSolve, {"0.5"}), "0.5 is not expected here: must follow an option", ""},
+      {{"solve"}, "no scene: give --scene FILE, or a pendulum by --a", ""},
+      {{"bounds"}, "no scene", ""},
+      {{"solve", "--depth", "1"}, "--depth", ""},
+      {Plus(kSolve, {"extra"}), "extra", ""},
+      {Plus(kSolve, {"--format", "xml"}), "--format", ""},
+      {Plus(kSolve, {"--newton", "1"}), "--newton excludes --energetic", ""},
+      {Plus(kSolve, {"--scene", "x.json"}), "--scene cannot be combined with the flags of a pendulum", ""},
+      {Plus(kSolve, {"--plot", "picture.gif"}), "--plot picture.gif: must end in .svg, .png or .pdf", ""},
+      {Plus(kSolve, {"--history", "0"}), "--history = 0: must be in [1, 65535]", ""},
+      {Plus(kSolve, {"--history", "65536"}), "--history = 65536: must be in [1, 65535]", ""},
+      {Plus(kSolve, {"--history", "2.5"}), "--history = 2.5: must be a whole number", ""},
+      {Plus(kSolve, {"--deadline", "1s"}), "--deadline needs --server", ""},
+      {Plus(kSolve, {"--server", "localhost:1", "--deadline", "soon"}), "--deadline = soon: must be a time", ""},
+      {Plus(kSolve, {"--server", "localhost:1", "--max-receive", "0"}), "--max-receive = 0: must be in [1, 2147483647]",
+       ""},
+      {Plus(kSolve, {"--server", "localhost:1", "--deadline", "0"}), "--deadline = 0: must be a time", ""},
+      {Plus(kSolve, {"--server", "localhost"}), "target = \"localhost\": must have a port, as localhost:50051", ""},
+      {Plus(kSolve, {"--server", "two words"}), "target = \"two words\": must not contain white space", ""},
+      {{"cost"}, "no scene: give --scene FILE", ""},
+      {{"cost", "--a", "1", "--energetic", "2"}, "restitution.energetic = 2: must be in [0, 1]", ""},
+      {Plus(kCost, {"--time-limit", "soon"}), "--time-limit = soon: must be a time", ""},
+      {Plus(kCost, {"--time-limit", "2m"}), "time_limit_s = 120: must be", ""},
+      {Plus(kCost, {"--samples", "0"}), "--samples = 0: must be in [1, 1001]", ""},
+      {Plus(kCost, {"--plot", "picture.gif"}), "--plot picture.gif: must end in .svg, .png or .pdf", ""},
+      {Plus(kCost, {"--deadline", "1s"}), "--deadline needs --server", ""},
+      {Plus(kSweep, {"--column", "nweton"}), "--column nweton: names nothing; did you mean coefficients.newton?", ""},
+      {Plus(kSweep, {"--axis", "kinetc_coefficient=1"}),
+       "kinetc_coefficient: names nothing; did you mean friction.kinetic_coefficient?", ""},
+      {Plus(kSweep, {"--fan-out"}), "--fan-out needs --server A,B,...", ""},
+      {Plus(kSweep, {"--fan-out", "--server", "localhost:1"}),
+       "--server = localhost:1: must name at least two servers, separated by commas, for --fan-out", ""},
+      {{"health"}, "--server is required", ""},
+      {{"solve", "--a", "long"}, "--a = long: must be a number such as 0.1", ""},
+      {{"solve", "--a", ""}, "--a = : must be a number", ""},
+      {{"solve", "--a", "1e999"}, "--a = 1e999: must be 0, or a number of a size from 4.95e-324 to 1.797", ""},
+      {{"solve", "--a", "0,3"}, "--a = 0,3: must be a number with a decimal point, not a comma", ""},
+      {{"solve", "--a", "3deg"}, "--a = 3deg: must be a number without deg, because it is no angle", ""},
+      {{"solv", "--help"}, "solv is not a subcommand; did you mean solve?", ""},
+      {{"help", "solv"}, "solv is not a subcommand; did you mean solve?", ""},
+      {Plus(kSolve, {"--require", "finite-durration"}), "did you mean finite-duration?", ""},
+      {Plus(kSolve, {"--skip-column", "id"}), "--column and --skip-column need --data FILE.csv", ""},
+      {{"solve", "--a", "1", "--mu", "1/0"}, "--mu = 1/0: must have a denominator other than 0", ""},
+      {{"solve", "--a", "1", "--mu", "1/2/3"}, "--mu = 1/2/3: must be a number", ""},
+  };
+}
+
+std::vector<BadInput> Scenes() {
+  return {
+      {{"solve", "--b", "1", "--energetic", "1"}, "--a: pendulum.a_m is missing: must be > 0\n", ""},
+      {{"solve", "--a", "0", "--energetic", "1"}, "--a: pendulum.a_m = 0: must be > 0\n", ""},
+      {kSolveInput, "ricochet.v1.Pendulum has no field \"inertia_kgm2\"; did you mean inertia_kg_m2?",
+       "pendulum { inertia_kgm2: 1 }"},
+      {kSolveInput, "pendulum.a_m = 0: must be > 0\n",
+       "pendulum { inertia_kg_m2: 0 omega_minus_rad_s: -1 } restitution { energetic: 1 }"},
+      {{"solve", "--a", "1"}, "restitution.coefficient is not set: must be one of newton, poisson, energetic", ""},
+      {{"solve", "--a", "-0.3", "--energetic", "1"}, "pendulum.a_m = -0.3: must be > 0", ""},
+      {{"solve", "--a", "inf", "--energetic", "1"}, "pendulum.a_m = inf: must be finite", ""},
+      {{"solve", "--a", "1", "--b", "nan", "--energetic", "1"}, "pendulum.b_m = nan: must be finite", ""},
+      {{"solve", "--a", "1", "--inertia", "0", "--energetic", "1"}, "pendulum.inertia_kg_m2 = 0: must be > 0", ""},
+      {{"solve", "--a", "1", "--omega", "-inf", "--energetic", "1"}, "pendulum.omega_minus_rad_s = -inf: must be", ""},
+      {{"bounds", "--a", "1", "--mu", "-0.1"}, "friction.kinetic_coefficient = -0.1: must be >= 0", ""},
+      {{"bounds", "--a", "1", "--mu", "0.2", "--mu-static", "0.1"},
+       "friction.static_coefficient = 0.1: must be >= friction.kinetic_coefficient = 0.2",
+       ""},
+      {{"bounds", "--a", "1", "--range", "pendulum.a_m"}, "--range = pendulum.a_m: must be PATH=LOW:HIGH", ""},
+      {{"bounds", "--a", "1", "--range", "pendulum.phi_rad=30:45"}, "ranges[0].low = 30: must be in (0, pi)", ""},
+      {{"bounds", "--a", "1", "--range", "pendulum.a_m=0:1"}, "ranges[0].low = 0: must be > 0", ""},
+      {{"solve", "--a", "1", "--newton", "-0.5"}, "restitution.newton = -0.5: must be >= 0", ""},
+      {{"solve", "--a", "1", "--poisson", "-0.5"}, "restitution.poisson = -0.5: must be >= 0", ""},
+      {{"solve", "--a", "1", "--energetic", "1.5"}, "restitution.energetic = 1.5: must be in [0, 1]", ""},
+      {{"solve", "--scene", "no/such/file"}, "cannot read no/such/file: No such file", ""},
+      {{"solve", "--scene", "."}, "cannot read .", ""},
+      {{"plot", "no/such/file"}, "cannot read no/such/file: No such file", ""},
+      {kSolveInput, "system is not set: must be one of pendulum", ""},
+      {kSolveInput,
+       "no velocity of the scene is other than 0, so that nothing strikes: must set pendulum.omega_minus_rad_s",
+       R"({"pendulum": {"inertia_kg_m2": 1, "a_m": 0.3}, "restitution": {"energetic": 1}})"},
+      {{"bounds", "--scene", "-"},
+       "planar_contact.tangential_m_s, planar_contact.normal_m_s",
+       "planar_contact { w_tt_per_kg: 1 w_nn_per_kg: 1 }"},
+      {kSolveInput, "standard input is not a ricochet.v1.Scene in JSON", "{\"pendulum\": {"},
+      {kSolveInput, "mass", R"({"pendulum": {"mass": 1}})"},
+      {kSolveInput, "a_m", R"({"pendulum": {"a_m": "wide"}})"},
+      {kSolveInput, "in JSON: line 3, column 11: pendulum.inertia: is no field of Pendulum",
+       "{\n \"pendulum\": {\n  \"inertia\": 1}}"},
+      {kSolveInput, "line 2, column 24: pendulum.a_n: is no field of Pendulum; did you mean a_m?",
+       "{\n   \"pendulum\": {   \"a_n\": 1}}"},
+      {kSolveInput, "line 2, column 17: planar_body: cannot be given beside pendulum: there is one system only",
+       "{\"pendulum\": {},\n \"planar_body\": {}}"},
+      {kSolveInput,
+       "pendulum.inertia_kg: is no field of Pendulum; its fields are inertia_kg_m2, a_m, b_m, omega_minus_rad_s",
+       R"({"pendulum": {"inertia_kg": 1}})"},
+      {kSolveInput, "has no field \"mass_kg\"; its fields are inertia_kg_m2, a_m, b_m, omega_minus_rad_s",
+       "pendulum { mass_kg: 1 }"},
+      {kSolveInput, "line 2, column 17: pendulum.a_m: is given twice",
+       "{\"pendulum\": {\"a_m\": 1,\n            \"a_m\": 1}}"},
+      {kSolveInput, "pendulum.aM: is given twice, before as a_m", R"({"pendulum": {"a_m": 0.3, "b_m": 1, "aM": 3}})"},
+      {kSolveInput, "pendulum.a_m: is given twice, before as aM", R"({"pendulum": {"aM": null, "a_m": 3}})"},
+      {kSolveInput, "line 1, column 43: friction: is given twice",
+       R"({"friction": {}, "pendulum": {}, "friction": {}})"},
+      {kSolveInput, "linkage.links[1].mass_kg: is given twice",
+       R"({"linkage": {"links": [{"mass_kg": 1}, {"mass_kg": 1, "mass_kg": 2}]}})"},
+      {kSolveInput, "line 1, column 24: syntax error", R"({"pendulum": {"a_m": 1,,}})"},
+      {kSolveInput, "line 1, column 46: linkage.links[1].mass_kg = \"heavy\": must be a number",
+       R"({"linkage": {"links": [{}, {"mass_kg": "heavy"}]}})"},
+      {kSolveInput, "line 1, column 25: \"planar_body\" cannot be given beside \"pendulum\": there is one system only",
+       "pendulum {} planar_body {}"},
+      {kSolveInput, "is not a ricochet.v1.Scene in textproto: line 2, column 7", "pendulum {\n  mass: 1\n}"},
+      {kSolveInput, "restitution.energetic = 2: must be in [0, 1]",
+       "pendulum { inertia_kg_m2: 1 a_m: 1 } restitution { energetic: 2 }"},
+  };
+}
+
+std::vector<BadInput> Sweeps() {
+  const Arguments request_and_axis = Plus(kSweepInput, {"--axis", "pendulum.a_m=1"});
+  return {
+      {Axis("pendulum.a_m"), "--axis = pendulum.a_m: must be PATH=VALUES", ""},
+      {Axis("=1,2"), "must be PATH=VALUES", ""},
+      {Axis("pendulum.a_m="), "must be a number", ""},
+      {Axis("pendulum.a_m=1,,2"), "must be a number", ""},
+      {Axis("pendulum.a_m=1:2:3"), "must be a list such as 0.1,1/3 or lin:START:STOP:COUNT", ""},
+      {Axis("pendulum.a_m=lin:1:2"), "lin with 2 parts: must be lin:START:STOP:COUNT", ""},
+      {Axis("pendulum.a_m=lin:x:2:3"), "--axis pendulum.a_m, START = x: must be a number", ""},
+      {Axis("pendulum.a_m=lin:1:2:3.5"), "--axis pendulum.a_m, COUNT = 3.5: must be a whole number", ""},
+      {Axis("pendulum.a_m=lin:1:2:0"), "axes[0].linspace.count = 0: must be in [1, 2^53]", ""},
+      {Axis("pendulum.a_m=lin:1:inf:3"), "axes[0].linspace.stop = inf: must be finite", ""},
+      {Axis("pendulum.a_m=log:0:1:3"), "axes[0].logspace.start = 0: must be finite and > 0", ""},
+      {Axis("pendulum.mass_kg=1"),
+       "axes[0].path = \"pendulum.mass_kg\": must be a field of the scene; `ricochet sweep --axis '?'` lists them\n",
+       ""},
+      {Plus(Axis("pendulum.a_m=1"), {"--axis", "pendulum.phi_rad=1"}), "axes[1].path", ""},
+      {Plus(Axis("pendulum.a_m=lin:1:2:1e9"), {"--axis", "pendulum.b_m=lin:1:2:1e9"}), "more than 2^53 points", ""},
+      {Plus(Axis("pendulum.a_m=1,2"), {"--zip", "--axis", "pendulum.b_m=1,2,3"}), "2 and 3 values", ""},
+      {Plus(kSweep, {"--column", "coefficients.elastic"}),
+       "columns[0] = \"coefficients.elastic\": must be a column of the scene", ""},
+      {Plus(kSweep, {"--column", "energy_change_j,energy_change_j"}), "columns[1]", ""},
+      {Plus(kSweep, {"--column", "normal_total"}),
+       "--column normal_total: must name one of\n  impulse.normal_total_n_s\n  work.normal_total_j\n", ""},
+      {Plus(kSweep, {"--threads", "0"}), "--threads = 0: must be a whole number from 1 to 1024", ""},
+      {Plus(kSweep, {"--threads", "-2"}), "--threads = -2: must be a whole number from 1 to 1024", ""},
+      {Plus(kSweep, {"--threads", "2.5"}), "--threads = 2.5: must be a whole number from 1 to 1024", ""},
+      {Plus(kSweep, {"--threads", "2", "--server", "127.0.0.1:1"}),
+       "--threads = 2: must not be given with the server 127.0.0.1:1, which computes with threads of its own", ""},
+      {Plus(kSweep, {"--range", "5"}), "--range = 5: must be FIRST:END", ""},
+      {Plus(kSweep, {"--range", "0:2"}), "end_index = 2: must be in [0, 1]", ""},
+      {Plus(kSweep, {"--range", "-1:1"}), "first_index = -1: must be in [0,", ""},
+      {{"sweep", "--a", "0.3", "--axis", "pendulum.b_m=1"}, "restitution.coefficient is not set", ""},
+      {request_and_axis, "--request cannot be combined with the flags", ""},
+      {kSweepInput, "is not a ricochet.v1.SweepRequest in JSON", R"({"axis": []})"},
+      {kSweepInput, "endIndex: is given twice, before as end_index", R"({"end_index": 1, "endIndex": 2})"},
+      {Axis("mu=1,2deg"), "--axis friction.kinetic_coefficient = 2deg: must be a number without deg", ""},
+      {kSweepInput, "columns is empty: must name at least one",
+       "scene { pendulum { inertia_kg_m2: 1 a_m: 1 } restitution { newton: 1 } }"},
+  };
+}
+
+class CliBadInput : public CliTest, public testing::WithParamInterface<BadInput> {};
+
+INSTANTIATE_TEST_SUITE_P(Flags, CliBadInput, testing::ValuesIn(Flags()));
+INSTANTIATE_TEST_SUITE_P(Scenes, CliBadInput, testing::ValuesIn(Scenes()));
+INSTANTIATE_TEST_SUITE_P(Sweeps, CliBadInput, testing::ValuesIn(Sweeps()));
+
+TEST_P(CliBadInput, IsNamedWithWhatWouldBeRight) {
+  const CliResult result = Run(GetParam().arguments, GetParam().input);
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.out, "");
+  EXPECT_THAT(result.err, HasSubstr(GetParam().message));
+}
+
+class CliBadInputLines : public CliTest {};
+
+TEST_F(CliBadInputLines, ThereIsOneForEachViolation) {
+  const CliResult result = Run({"solve", "--a", "-1", "--mu", "-0.1", "--newton", "-2"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_EQ(result.err,
+            "--a: pendulum.a_m = -1: must be > 0\n"
+            "--mu: friction.kinetic_coefficient = -0.1: must be >= 0\n"
+            "--newton: restitution.newton = -2: must be >= 0\n");
+}
+
+TEST_F(CliBadInputLines, AllUnreadableNumbersAreReportedAtOnce) {
+  const CliResult result = Run({"solve", "--a", "x", "--mu", "y"});
+  EXPECT_EQ(result.exit_code, 2);
+  EXPECT_THAT(result.err, HasSubstr("--a = x"));
+  EXPECT_THAT(result.err, HasSubstr("--mu = y"));
+}
+
+}  // namespace
+}  // namespace ricochet::cli

@@ -1,0 +1,143 @@
+// Tables of impacts for solve --data: they are read as those of audit --data are, with the same words.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/client/cli/cli_run.h"
+#include "tests/support/paths.h"
+
+namespace ricochet::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+class CliSolveData : public CliTest {
+ protected:
+  CliResult Solve(const std::string& table, const Arguments& more = {}) const {
+    Arguments all = {"solve", "--scene", TestDataPath("scenes/rod_contact.textproto"), "--data", "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    return Run(all, table);
+  }
+  CliResult Audit(const std::string& table, const Arguments& more = {}) const {
+    Arguments all = {"audit", "--scene", TestDataPath("scenes/rod_contact.textproto"), "--data", "-"};
+    all.insert(all.end(), more.begin(), more.end());
+    return Run(all, table);
+  }
+};
+
+// What stands in the second of two cells, and what is said of it after the name of its column.
+struct Cell {
+  const char* text;
+  const char* reason;
+};
+
+const Cell kCells[] = {
+    {",", " is missing"},
+    {"", " is missing"},
+    {",none", " = \"none\": must be a number such as 0.1 or 1e-3"},
+    {";0.3", " is missing"},
+    {",0;3", " = \"0;3\": must be a number such as 0.1 or 1e-3"},
+    {",\"0,3\"", " = \"0,3\": must be a number with a decimal point, not a comma"},
+    {",1e400", " = \"1e400\": must be 0, or a number of a size from 4.95e-324 to 1.7976931348623157e+308"},
+    {",1e-400", " = \"1e-400\": must be 0, or a number of a size from"},
+    {",1/0", " = \"1/0\": must have a denominator other than 0"},
+    {",30deg", " = \"30deg\": must be a number without deg"},
+};
+
+TEST_F(CliSolveData, SaysOfEveryCellWhatAuditSays) {
+  for (const Cell& cell : kCells) {
+    // A bad first cell hides what is wrong with the second.
+    const bool is_first = cell.text[0] == ';';
+    const std::string rows = std::string("0.1,0.2\n\n# A comment.\n0.1") + cell.text + "\n";
+    const CliResult solved = Solve("planar_contact.tangential_m_s,planar_contact.normal_m_s\n" + rows);
+    const CliResult audited = Audit("tangential_after_m_s,normal_after_m_s\n" + rows);
+    if (is_first) {
+      EXPECT_THAT(solved.out,
+                  HasSubstr("row 1 (line 5): planar_contact.tangential_m_s = \"0.1;0.3\": must be a number"));
+      EXPECT_THAT(audited.out,
+                  HasSubstr("row 1 (line 5): invalid: tangential_after_m_s = \"0.1;0.3\": must be a number"));
+      continue;
+    }
+    EXPECT_THAT(solved.out, HasSubstr(std::string("  row 1 (line 5): planar_contact.normal_m_s") + cell.reason));
+    EXPECT_THAT(audited.out, HasSubstr(std::string("  row 1 (line 5): invalid: normal_after_m_s") + cell.reason));
+  }
+}
+
+TEST_F(CliSolveData, ARowWithTooManyCellsIsRefusedAsAuditDoes) {
+  const std::string reason = "has 3 cells: must have 2; a number has a decimal point, not a comma\n";
+  EXPECT_THAT(Solve("planar_contact.tangential_m_s,planar_contact.normal_m_s\n1,-1,5\n").out,
+              HasSubstr("  row 0 (line 2): " + reason));
+  EXPECT_THAT(Audit("tangential_after_m_s,normal_after_m_s\n1,-1,5\n").out,
+              HasSubstr("  row 0 (line 2): invalid: " + reason));
+}
+
+TEST_F(CliSolveData, BothRefuseTheSameHeaders) {
+  for (const char* const table : {"", "a;b\n1;2\n"}) {
+    const CliResult solved = Solve(table);
+    EXPECT_EQ(solved.exit_code, 2);
+    EXPECT_EQ(solved.err, Audit(table).err);
+  }
+  EXPECT_EQ(Solve("id\n1\n", {"--skip-column", "id"}).err, Audit("id\n1\n", {"--skip-column", "id"}).err);
+  EXPECT_EQ(Solve("mu\n1\n", {"--skip-column", "mi"}).err, Audit("mu\n1\n", {"--skip-column", "mi"}).err);
+}
+
+TEST_F(CliSolveData, ARowThatBreaksARuleHasItsLine) {
+  EXPECT_THAT(Solve("friction.kinetic_coefficient\n\n-0.1\n").out,
+              HasSubstr("row 0 (line 3): friction.kinetic_coefficient = -0.1: must be >= 0"));
+}
+
+TEST_F(CliSolveData, TheSummaryInJsonHasTheSameReasons) {
+  const CliResult result = Solve("mu,planar_contact.normal_m_s\n0.1,\n0.1,-1,5\n", {"--format", "json"});
+  EXPECT_THAT(result.out, HasSubstr(R"("field":"planar_contact.normal_m_s","description":"is missing")"));
+  EXPECT_THAT(result.out, HasSubstr(R"("field":"","description":"has 3 cells: must have 2)"));
+}
+
+TEST_F(CliSolveData, ShortNamesMeanTheFieldsOfTheScene) {
+  const Arguments columns = {"--column", "normal_total_n_s,newton", "--format", "csv"};
+  const CliResult full = Solve("friction.kinetic_coefficient,planar_contact.normal_m_s\n0.1,-1\n0.4,-2\n",
+                               {"--column", "impulse.normal_total_n_s,coefficients.newton", "--format", "csv"});
+  EXPECT_EQ(full.exit_code, 0) << full.err;
+  EXPECT_EQ(Solve("mu,planar_contact.normal_m_s\n0.1,-1\n0.4,-2\n", columns).out, full.out);
+  EXPECT_EQ(Solve("kinetic_coefficient,planar_contact.normal\n0.1,-1\n0.4,-2\n", columns).out, full.out);
+  EXPECT_THAT(Solve("normal_m_s\n-1\n").err,
+              HasSubstr("must name one of\n  planar_contact.normal_m_s\n  surface_velocity.normal_m_s"));
+  EXPECT_THAT(Solve("kinetc_coefficient\n0.1\n").err, HasSubstr("did you mean friction.kinetic_coefficient?"));
+  EXPECT_THAT(Solve("friction.kinetc_coefficient\n0.1\n").err, HasSubstr("did you mean friction.kinetic_coefficient?"));
+  EXPECT_THAT(Solve("mu\n0.1\n", {"--column", "nweton"}).err, HasSubstr("did you mean coefficients.newton?"));
+}
+
+TEST_F(CliSolveData, AuditTakesTheLetterOfFriction) {
+  EXPECT_EQ(Audit("normal_after_m_s,tangential_after_m_s,mu\n0.5,0,0.4\n").out,
+            Audit("normal_after_m_s,tangential_after_m_s,friction\n0.5,0,0.4\n").out);
+}
+
+// 45 degrees are 0.785398... radians.
+TEST_F(CliSolveData, AnglesMayBeInDegrees) {
+  const std::string scene = TestDataPath("scenes/double_pendulum.textproto");
+  const auto solve = [&](const std::string& angle) {
+    return Run({"solve", "--scene", scene, "--data", "-", "--format", "csv"}, "links[0].theta\n" + angle + "\n").out;
+  };
+  EXPECT_EQ(solve("45deg"), solve("0.78539816339744830962"));
+  EXPECT_NE(solve("45deg"), solve("45"));
+}
+
+TEST_F(CliSolveData, ASkippedColumnMayHoldAnything) {
+  const CliResult all = Solve("id,mu\n\"a, b\",0.1\n7,0.2\n", {"--skip-column", "id", "--format", "csv"});
+  EXPECT_EQ(all.exit_code, 0) << all.err;
+  EXPECT_EQ(all.out, Solve("mu\n0.1\n0.2\n", {"--format", "csv"}).out);
+}
+
+TEST_F(CliSolveData, StrictFailsAfterWritingEverything) {
+  EXPECT_EQ(Solve("mu\n0.1\n", {"--strict"}).exit_code, 0);
+  const CliResult result = Solve("mu\n0.1\n-1\nx\n", {"--strict"});
+  EXPECT_EQ(result.exit_code, 42);
+  EXPECT_THAT(result.err, HasSubstr("2 of 3 rows are not admissible"));
+  EXPECT_EQ(result.out, Solve("mu\n0.1\n-1\nx\n").out);
+}
+
+}  // namespace
+}  // namespace ricochet::cli

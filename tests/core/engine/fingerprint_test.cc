@@ -1,0 +1,47 @@
+// The fingerprint depends on the last bit of every kind of answer, so that no two engines are taken for one that differ
+// in a model, a law or a system.
+
+#include "core/engine/fingerprint.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/models/finite_duration/finite_duration.h"
+#include "ricochet/engine_info.h"
+
+namespace ricochet {
+namespace {
+
+// The kinds that compute nothing: an unset model or system, a contact that separates, and a model that is not built.
+bool ComputesNothing(const std::string& kind) {
+  if (kind == "model 9") return !finite_duration::IsAvailable();
+  return kind == "model 0" || kind == "model 1" || kind == "system 0";
+}
+
+TEST(FingerprintTest, EveryModelAndSystemIsProbed) {
+  for (const Probe& probe : ProbeEngine()) EXPECT_EQ(probe.bits.empty(), ComputesNothing(probe.kind)) << probe.kind;
+}
+
+TEST(FingerprintTest, TheLastBitOfAnyKindOfAnswerChangesIt) {
+  std::vector<Probe> probes = ProbeEngine();
+  const std::string before = FingerprintOf(probes);
+  for (Probe& probe : probes) {
+    const size_t size = probe.bits.size();
+    if (size == 0) continue;
+    for (const size_t at : {size_t{0}, size / 2, size - 1}) {
+      probe.bits[at] ^= 1;
+      EXPECT_NE(FingerprintOf(probes), before) << probe.kind << ", number " << at;
+      probe.bits[at] ^= 1;
+    }
+  }
+  EXPECT_EQ(FingerprintOf(probes), before);
+}
+
+TEST(FingerprintTest, TheEngineHasThatOfItsProbes) {
+  EXPECT_EQ(ThisEngine().fingerprint, FingerprintOf(ProbeEngine()));
+}
+
+}  // namespace
+}  // namespace ricochet

@@ -1,0 +1,58 @@
+// The times in comments were measured with the engine of 2026 on one core.
+
+#include "server/admission/request_cost.h"
+
+#include <gtest/gtest.h>
+
+namespace ricochet::server {
+namespace {
+
+Scene Chain(size_t links) {
+  Scene scene;
+  scene.system = Linkage{.links = std::vector<Link>(links)};
+  return scene;
+}
+
+Scene Sprung() {
+  Scene scene;
+  scene.compliance = Compliance{.tangential_ratio_squared = {}, .normal = HertzSpring{.stiffness_n_m1_5 = 1e9}};
+  return scene;
+}
+
+TEST(RequestCost, EverydayRequestsAreCheap) {
+  EXPECT_TRUE(CostOf(SolveRequest()).is_cheap());
+  EXPECT_TRUE(CostOf(SolveRequest{.scene = Chain(8), .history_intervals = 1000}).is_cheap());  // 0.1 ms
+  EXPECT_TRUE(CostOf(PlanRequest{.scene = Sprung(), .demand = {}}).is_cheap());                // 1 us
+  EXPECT_TRUE(CostOf(BoundsRequest{.scene = Chain(32)}).is_cheap());                           // 0.1 ms
+  EXPECT_TRUE(CostOf(AuditRequest()).is_cheap());
+  EXPECT_TRUE(CostOf(AuditBatchRequest{.scene = {}, .columns = {.normal_m_s = std::vector<double>(64)}}).is_cheap());
+}
+
+TEST(RequestCost, EachCauseMakesACallDear) {
+  EXPECT_EQ(CostOf(SolveRequest{.certified_digits = 1}).cause, CostCause::kCertificate);
+  EXPECT_EQ(CostOf(BoundsRequest{.scene = {}, .ranges = {}, .certified_digits = 20}).cause, CostCause::kCertificate);
+  EXPECT_EQ(CostOf(BoundsRequest{.scene = {}, .ranges = {{"friction.kinetic_coefficient", 0, 1}}}).cause,
+            CostCause::kEnclosure);
+  EXPECT_EQ(CostOf(SolveRequest{.scene = Sprung()}).cause, CostCause::kDuration);  // 2 ms to seconds
+  EXPECT_EQ(CostOf(SolveRequest{.force_intervals = 65535}).cause, CostCause::kDuration);
+  EXPECT_EQ(CostOf(SolveRequest{.demand = {.relative_tolerance = {}, .required = {Effect::kFiniteDuration}}}).cause,
+            CostCause::kDuration);
+  EXPECT_EQ(CostOf(SolveRequest{.history_intervals = 65535}).cause, CostCause::kHistory);  // 40 ms
+  EXPECT_EQ(CostOf(SolveRequest{.history_at_n_s = std::vector<double>(65535)}).cause, CostCause::kHistory);
+  EXPECT_EQ(CostOf(SolveRequest{.scene = Chain(128)}).cause, CostCause::kLinks);  // 1 ms
+  EXPECT_EQ(CostOf(AuditRequest{.scene = Chain(128), .observed = {}}).cause, CostCause::kLinks);
+  EXPECT_EQ(CostOf(AuditBatchRequest{.scene = {}, .columns = {.rates_after_rad_s = {std::vector<double>(8192)}}}).cause,
+            CostCause::kRows);  // 130 ms
+}
+
+TEST(RequestCost, CallsOfOneSizeShareAnOctaveAndLargerOnesAreApart) {
+  const auto certificate = [](size_t links, int digits) {
+    return CostOf(SolveRequest{.scene = Chain(links), .certified_digits = digits});
+  };
+  EXPECT_EQ(certificate(1, 50), certificate(1, 63));
+  EXPECT_NE(certificate(1, 50), certificate(1, 200));
+  EXPECT_EQ(certificate(8, 64).octave - certificate(4, 64).octave, 3) << "a certificate takes the cube of the links";
+}
+
+}  // namespace
+}  // namespace ricochet::server

@@ -1,0 +1,268 @@
+// A request that would unfold to more than any request needs is refused before it is parsed; all others are answered.
+
+#include "server/calls/bounded_service.h"
+
+#include <gmock/gmock.h>
+#include <google/protobuf/descriptor.h>
+#include <grpcpp/generic/generic_stub.h>
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "proto/wire/status.h"
+#include "ricochet/error.h"
+
+namespace ricochet::server {
+namespace {
+
+using testing::HasSubstr;
+
+// Makes the bytes of a message that has `count` entries, each one `entry`.
+std::string Repeated(const std::string& entry, int count) {
+  std::string bytes;
+  for (int i = 0; i < count; ++i) bytes += entry;
+  return bytes;
+}
+
+// The field with this number and these bytes.
+std::string Field(int number, const std::string& bytes) {
+  std::string field(1, static_cast<char>(number << 3 | 2));
+  auto length = static_cast<uint32_t>(bytes.size());
+  for (; length >= 0x80; length >>= 7) field += static_cast<char>(0x80 | (length & 0x7f));
+  return field + static_cast<char>(length) + bytes;
+}
+
+absl::Status Check(const std::string& bytes, int64_t most = 10) {
+  return CheckElements(bytes, *v1::SolveRequest::descriptor(), most);
+}
+
+TEST(CheckElements, CountsMessagesInMessages) {
+  v1::SolveRequest request;
+  for (int i = 0; i < 8; ++i) request.mutable_scene()->mutable_linkage()->add_links();
+  EXPECT_TRUE(Check(request.SerializeAsString()).ok()) << "a scene, a linkage and eight links";
+  request.mutable_scene()->mutable_linkage()->add_links();
+  const absl::Status refused = Check(request.SerializeAsString());
+  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(ReasonOf(refused), ErrorReason::kLimitExceeded);
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("ricochet.v1.Linkage.links"));
+}
+
+TEST(CheckElements, CountsTextsUnknownFieldsAndGroups) {
+  v1::SweepRequest sweep;
+  for (int i = 0; i < 11; ++i) sweep.add_columns();
+  EXPECT_FALSE(CheckElements(sweep.SerializeAsString(), *v1::SweepRequest::descriptor(), 10).ok());
+  EXPECT_TRUE(CheckElements(sweep.SerializeAsString(), *v1::SweepRequest::descriptor(), 11).ok());
+  const std::string unknown_number("\xf8\x07\x00", 3);  // Field 127.
+  EXPECT_TRUE(Check(Repeated(unknown_number, 10)).ok());
+  EXPECT_FALSE(Check(Repeated(unknown_number, 11)).ok());
+  const std::string unknown_text("\xfa\x07\x00", 3);
+  EXPECT_FALSE(Check(Repeated(unknown_text, 11)).ok());
+  const std::string unknown_group("\xfb\x07\xfc\x07", 4);
+  EXPECT_FALSE(Check(Repeated(unknown_group, 11)).ok());
+  EXPECT_FALSE(Check("\xfb\x07" + Repeated(unknown_number, 10) + "\xfc\x07").ok()) << "numbers in a group";
+}
+
+TEST(CheckElements, DoesNotCountPackedNumbers) {
+  v1::SolveRequest request;
+  for (int i = 0; i < 1000; ++i) request.add_history_at_n_s(i);
+  for (int i = 0; i < 1000; ++i) request.add_required(v1::EFFECT_FRICTION);
+  EXPECT_TRUE(Check(request.SerializeAsString()).ok());
+}
+
+TEST(CheckElements, LeavesBytesThatAreNoMessageToTheParser) {
+  EXPECT_TRUE(Check(Field(1, "\xff\xff\xff")).ok());
+  EXPECT_TRUE(Check(std::string("\x0a\x7f\x00", 3)).ok()) << "cut off";
+  std::string deep;
+  for (int i = 0; i < 1000; ++i) deep = Field(1, deep);
+  EXPECT_TRUE(Check(deep).ok());
+}
+
+TEST(MostElements, AreEnoughForTheLargestRequestWithinTheLimits) {
+  EXPECT_EQ(MostElements(Limits()), 16'384);
+  Limits limits;
+  limits.max_columns = 100'000;
+  EXPECT_GE(MostElements(limits), 100'000);
+}
+
+// Every method but two ends with ABORTED.
+class AnsweringService final : public v1::ImpactService::Service {
+ public:
+  grpc::Status Bounds(grpc::ServerContext* /*context*/, const v1::BoundsRequest* /*request*/,
+                      v1::BoundsResponse* /*response*/) override {
+    return {grpc::StatusCode::ABORTED, ""};
+  }
+  grpc::Status Audit(grpc::ServerContext* /*context*/, const v1::AuditRequest* /*request*/,
+                     v1::AuditResponse* /*response*/) override {
+    return {grpc::StatusCode::ABORTED, ""};
+  }
+  grpc::Status AuditBatch(grpc::ServerContext* /*context*/, const v1::AuditBatchRequest* /*request*/,
+                          v1::AuditBatchResponse* /*response*/) override {
+    return {grpc::StatusCode::ABORTED, ""};
+  }
+  grpc::Status Plan(grpc::ServerContext* /*context*/, const v1::PlanRequest* /*request*/,
+                    v1::PlanResponse* /*response*/) override {
+    return {grpc::StatusCode::ABORTED, ""};
+  }
+  grpc::Status Cost(grpc::ServerContext* /*context*/, const v1::CostRequest* /*request*/,
+                    grpc::ServerWriter<v1::CostResponse>* /*writer*/) override {
+    return {grpc::StatusCode::ABORTED, ""};
+  }
+  grpc::Status SolveBatch(grpc::ServerContext* /*context*/, const v1::SolveBatchRequest* request,
+                          v1::SolveBatchResponse* response) override {
+    response->set_regimes(std::to_string(request->inputs_size()));
+    return grpc::Status::OK;
+  }
+  grpc::Status Solve(grpc::ServerContext* /*context*/, const v1::SolveRequest* request,
+                     v1::SolveResponse* response) override {
+    response->mutable_outcome()->set_w_rank(request->scene().linkage().links_size());
+    return grpc::Status::OK;
+  }
+  grpc::Status Sweep(grpc::ServerContext* /*context*/, const v1::SweepRequest* request,
+                     grpc::ServerWriter<v1::SweepResponse>* writer) override {
+    v1::SweepResponse response;
+    response.set_count(request->columns_size());
+    writer->Write(response);
+    return grpc::Status::OK;
+  }
+};
+
+// Answers each batch by the number of its columns.
+grpc::Status AnswerBatches(grpc::ServerContext& /*context*/, BoundedBatches& batches) {
+  while (batches.Receive()) {
+    v1::SolveBatchRequest request;
+    if (absl::Status wrong = batches.Parse(request); !wrong.ok()) return ToGrpcStatus(wrong);
+    v1::SolveBatchResponse response;
+    response.set_regimes(std::to_string(request.inputs_size()));
+    batches.Write(response);
+  }
+  return grpc::Status::OK;
+}
+
+class BoundedServiceTest : public testing::Test {
+ protected:
+  BoundedServiceTest() {
+    grpc::ServerBuilder builder;
+    int port = 0;
+    builder.AddListeningPort("127.0.0.1:0", grpc::InsecureServerCredentials(), &port);
+    builder.SetMaxReceiveMessageSize(64 << 20);
+    builder.RegisterService(&bounded_);
+    server_ = builder.BuildAndStart();
+    channel_ = grpc::CreateChannel("127.0.0.1:" + std::to_string(port), grpc::InsecureChannelCredentials());
+    stub_ = v1::ImpactService::NewStub(channel_);
+  }
+  ~BoundedServiceTest() override { server_->Shutdown(std::chrono::system_clock::now()); }
+
+  AnsweringService service_;
+  UnreadWatch unread_{std::chrono::seconds(30)};
+  BoundedService bounded_{service_, AnswerBatches, Limits(), unread_};
+  std::unique_ptr<grpc::Server> server_;
+  std::shared_ptr<grpc::Channel> channel_;
+  std::unique_ptr<v1::ImpactService::Stub> stub_;
+};
+
+TEST_F(BoundedServiceTest, PassesUnaryCallsAndStreamsOn) {
+  grpc::ClientContext solve;
+  v1::SolveRequest request;
+  for (int i = 0; i < 10'000; ++i) request.mutable_scene()->mutable_linkage()->add_links();
+  v1::SolveResponse response;
+  ASSERT_TRUE(stub_->Solve(&solve, request, &response).ok());
+  EXPECT_EQ(response.outcome().w_rank(), 10'000);
+  grpc::ClientContext sweep;
+  v1::SweepRequest columns;
+  columns.add_columns("x");
+  const auto reader = stub_->Sweep(&sweep, columns);
+  v1::SweepResponse chunk;
+  ASSERT_TRUE(reader->Read(&chunk));
+  EXPECT_EQ(chunk.count(), 1);
+  EXPECT_TRUE(reader->Finish().ok());
+}
+
+TEST_F(BoundedServiceTest, RefusesWhatWouldUnfold) {
+  grpc::ClientContext solve;
+  v1::SolveRequest request;
+  for (int i = 0; i < 200'000; ++i) request.mutable_scene()->mutable_linkage()->add_links();
+  v1::SolveResponse response;
+  const absl::Status refused = FromGrpcStatus(stub_->Solve(&solve, request, &response));
+  EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
+  EXPECT_EQ(ReasonOf(refused), ErrorReason::kLimitExceeded);
+  grpc::ClientContext sweep;
+  v1::SweepRequest columns;
+  for (int i = 0; i < 200'000; ++i) columns.add_columns();
+  const auto reader = stub_->Sweep(&sweep, columns);
+  v1::SweepResponse chunk;
+  EXPECT_FALSE(reader->Read(&chunk));
+  EXPECT_EQ(ReasonOf(FromGrpcStatus(reader->Finish())), ErrorReason::kLimitExceeded);
+}
+
+// A batch with one column of so many bytes.
+v1::SolveBatchRequest BatchOf(size_t bytes) {
+  v1::SolveBatchRequest request;
+  request.add_inputs(std::string(bytes, '\0'));
+  return request;
+}
+
+TEST_F(BoundedServiceTest, TakesABatchOfMoreBytesThanAnyOtherRequestAndNoMoreThanItsLimit) {
+  v1::SolveBatchResponse response;
+  grpc::ClientContext fitting;
+  EXPECT_TRUE(stub_->SolveBatch(&fitting, BatchOf(15 << 20), &response).ok());
+  grpc::ClientContext large;
+  const absl::Status refused = FromGrpcStatus(stub_->SolveBatch(&large, BatchOf(17 << 20), &response));
+  EXPECT_EQ(ReasonOf(refused), ErrorReason::kLimitExceeded);
+  EXPECT_THAT(std::string(refused.message()), HasSubstr("must have at most 16777216, the limit max_request_bytes"));
+  grpc::ClientContext solve;
+  v1::SolveRequest history;
+  for (int i = 0; i < 150'000; ++i) history.add_history_at_n_s(1.0);
+  v1::SolveResponse solved;
+  const absl::Status too_long = FromGrpcStatus(stub_->Solve(&solve, history, &solved));
+  EXPECT_THAT(std::string(too_long.message()), HasSubstr("must have at most 1048576"));
+}
+
+TEST_F(BoundedServiceTest, BoundsEachRequestOfAStreamOfBatches) {
+  grpc::ClientContext context;
+  const auto stream = stub_->SolveBatches(&context);
+  v1::SolveBatchResponse response;
+  for (const size_t bytes : {size_t{8}, size_t{15} << 20}) {
+    ASSERT_TRUE(stream->Write(BatchOf(bytes)));
+    ASSERT_TRUE(stream->Read(&response));
+    EXPECT_EQ(response.regimes(), "1");
+  }
+  v1::SolveBatchRequest many;
+  for (int i = 0; i < 200'000; ++i) many.add_inputs();
+  stream->Write(many);
+  EXPECT_FALSE(stream->Read(&response));
+  EXPECT_EQ(ReasonOf(FromGrpcStatus(stream->Finish())), ErrorReason::kLimitExceeded);
+}
+
+// Calls a method with an empty message.
+grpc::Status Call(const std::shared_ptr<grpc::Channel>& channel, const std::string& path) {
+  grpc::GenericStub stub(channel);
+  grpc::CompletionQueue queue;
+  grpc::ClientContext context;
+  const auto call = stub.PrepareUnaryCall(&context, path, grpc::ByteBuffer(), &queue);
+  call->StartCall();
+  grpc::ByteBuffer response;
+  grpc::Status status;
+  call->Finish(&response, &status, nullptr);
+  void* tag = nullptr;
+  bool ok = false;
+  queue.Next(&tag, &ok);
+  return status;
+}
+
+// A method that is new in the proto needs a line in BoundedService and one in AnsweringService.
+TEST_F(BoundedServiceTest, HasEveryMethodOfTheProto) {
+  const auto* const service =
+      google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(v1::ImpactService::service_full_name());
+  ASSERT_NE(service, nullptr);
+  for (int i = 0; i < service->method_count(); ++i) {
+    const std::string path = "/" + service->full_name() + "/" + service->method(i)->name();
+    EXPECT_NE(Call(channel_, path).error_code(), grpc::StatusCode::UNIMPLEMENTED) << path;
+  }
+}
+
+}  // namespace
+}  // namespace ricochet::server

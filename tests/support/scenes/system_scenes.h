@@ -1,0 +1,45 @@
+// One valid system of each kind, approaching.
+
+#ifndef RICOCHET_TESTS_SUPPORT_SCENES_SYSTEM_SCENES_H_
+#define RICOCHET_TESTS_SUPPORT_SCENES_SYSTEM_SCENES_H_
+
+#include <vector>
+
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+inline PlanarBody Flat() { return {1.0, 0.1, 0.2, -0.3, 1.0, -2.0, 0.5}; }
+inline SpatialBody Body() { return {1.0, {0.3, 0.1, 0.0, 0.2, 0.0, 0.4}, {0.1, 0.2, -0.3}, {1, 2, -3}, {0, 0, 1}}; }
+// Links of the same kind that hang at different angles.
+inline Linkage Chain(size_t links = 2) {
+  Linkage chain;
+  for (size_t i = 0; i < links; ++i) {
+    chain.links.push_back({.length_m = 1.0,
+                           .mass_kg = 1.0,
+                           .com_m = 0.5,
+                           .inertia_com_kg_m2 = 0.1,
+                           .theta_rad = 0.3 + 0.2 * static_cast<double>(i % 9),
+                           .rate_rad_s = -1.0});
+  }
+  return chain;
+}
+inline PlanarContact Contact() { return {2.0, 0.5, 1.0, 1.0, -1.0}; }
+inline SpatialContact ContactInSpace() { return {{1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, {1.0, 0.6}, -1.0}; }
+
+// Every system but the pendulum.
+inline std::vector<System> Systems() {
+  const PlanarBody flat = {2.0, 0.2, 0.1, 0.3, 0.0, 0.5, 0.0};
+  const SpatialBody body = {2.0, {1, 0, 0, 1, 0, 1}, {0, 0, 0.5}, {0, 0, 1}, {1, 1, 0}};
+  return {Flat(),    Body(),          BodyPair{PlanarPair{Flat(), flat}}, BodyPair{SpatialPair{Body(), body}}, Chain(),
+          Contact(), ContactInSpace()};
+}
+
+// A scene of the system with friction 0.5 and the energetic coefficient 0.5.
+inline Scene With(const System& system) {
+  return {.system = system, .friction = {.kinetic_coefficient = 0.5}, .restitution = EnergeticCoefficient{0.5}};
+}
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_TESTS_SUPPORT_SCENES_SYSTEM_SCENES_H_
