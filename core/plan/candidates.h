@@ -1,7 +1,7 @@
 // Candidates: the models that a plan may choose, for each kind of contact from the cheapest to the most expensive.
 //
-// The order is that of the times that `cost` measures and that the models need in SIMD lanes; tests/core/cost/ compares
-// it with `cost`. A plan takes the first candidate that its demand allows, so that a model which an earlier one beats
+// The order is that of the times that `cost` measures and that the models need in SIMD lanes; `./dev bench` compares it
+// with `cost`. A plan takes the first candidate that its demand allows, so that a model which an earlier one beats
 // in error, too, answers only where the earlier one leaves out more.
 
 #ifndef RICOCHET_CORE_PLAN_CANDIDATES_H_
