@@ -15,13 +15,11 @@
 namespace ricochet {
 namespace {
 
+bool IsSubnormal(const PlanarDelassus& w) { return std::min(w.tt, w.nn) < std::numeric_limits<double>::min(); }
+
 // The rounding of a pendulum's W as a planar contact, over V: x has a relative error of a few 2^-53, which moves
-// kappa_hat by at most kappa_hat/(1 - x^2) times that. `newton` is at least kappa_hat. A subnormal W may have lost all
-// of its digits.
+// kappa_hat by at most kappa_hat/(1 - x^2) times that. `newton` is at least kappa_hat.
 double ReductionError(const planar::Problem& problem) {
-  if (std::min(problem.w.tt, problem.w.nn) < std::numeric_limits<double>::min()) {
-    return std::numeric_limits<double>::infinity();
-  }
   const double x = problem.mu_static * std::fabs(problem.w.tn) / problem.w.nn;
   const double distance = std::fabs(1.0 - x);
   if (!(distance > 0x1p-40)) return std::numeric_limits<double>::infinity();
@@ -48,10 +46,21 @@ class PlanarStudy {
     } else {
       AddImpactLaw(scene_.impact_law, problem_, study_.methods);
     }
+    if (closed_form_.has_value() && IsSubnormal(problem_.w)) ClaimNothingFromW();
     return std::move(study_);
   }
 
  private:
+  // A subnormal W may have lost all of its digits, so that what is computed from it may have any error. The closed forms
+  // do not use it.
+  void ClaimNothingFromW() {
+    for (StudiedMethod& method : study_.methods) {
+      const Model model = method.method.model;
+      const bool is_form = model == Model::kPendulum || model == Model::kFrictionless || model == Model::kFirstOrder;
+      if (!is_form) method.claimed_reduction = std::numeric_limits<double>::infinity();
+    }
+  }
+
   bool Approaches() const { return problem_.v0 < 0.0; }
   bool IsDamped() const { return std::holds_alternative<HuntCrossleySpring>(physics_.spring); }
 

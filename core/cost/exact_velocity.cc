@@ -103,9 +103,13 @@ ExactVelocity ExactRigid(const pendulum::Problem& problem, Stopped stopped) {
 
 ExactVelocity ExactRigid(const planar::Problem& problem, Stopped stopped) {
   if (problem.w.UFollowsV(problem.u0, problem.v0)) {
-    // The rounding of u0 and v0 leaves open which of them, to an ulp, lies in the range of W.
     const NewtonCoefficientOf newton = NewtonOf(PendulumOf(problem), stopped);
-    return RankOne(newton.value, Exactly(problem.u0), Exactly(problem.v0), kUlp,
+    // The rounding of u0 and v0 leaves open which of them lies in the range of W: u1 may be -newton u0 or
+    // u0 - (1 + newton) v0 Wtn/Wnn.
+    const double beside = std::fabs(problem.u0 - problem.v0 * (problem.w.tn / problem.w.nn));
+    const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
+    const double open = (1.0 + Rounded(newton.value)) * beside / speed;
+    return RankOne(newton.value, Exactly(problem.u0), Exactly(problem.v0), kUlp + open,
                    newton.certified ? kCertifiedSource : kCompensatedSource);
   }
   // A contact of rank one beside its range has no certificate.

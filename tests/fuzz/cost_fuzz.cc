@@ -6,7 +6,7 @@
 // that the front is one and the picks go through all tolerances; that the counts of the summary are those of the rows;
 // and that no method errs by more than it claims.
 //
-// It covers core/study/*cost*.cc, core/study/*_methods.cc, core/cost/exact_velocity.cc, core/cost/certified_velocity.cc
+// It covers core/cost/*cost*.cc, core/cost/*_methods.cc, core/cost/exact_velocity.cc, core/cost/certified_velocity.cc
 // and core/cost/stopwatch.cc.
 
 #include <algorithm>
