@@ -215,9 +215,12 @@ class OneSlipDirection {
   void AddSliding(const Interval& slope) {
     if (IsEmpty(slope) || slope.upper <= 0.0) return;
     const Interval compression = speed_ / AtLeast(slope, 0.0);
+    // A contact that rests along t and that no impulse moves there needs no friction.
+    const bool may_idle = wtt_.lower == 0.0 && slip_.lower == 0.0;
+    const bool idles = wtt_.upper == 0.0 && slip_.upper == 0.0;
     Interval friction = -mu_;
-    if (wtt_.upper == 0.0) friction = 0.0;
-    if (wtt_.lower == 0.0) friction = Hull(friction, 0.0);
+    if (may_idle) friction = Hull(friction, 0.0);
+    if (idles) friction = 0.0;
     Add(1.0, 1.0, 1.0, friction, friction, compression, Interval(2.0) * compression);
   }
 

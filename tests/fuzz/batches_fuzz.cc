@@ -6,7 +6,7 @@
 // counts are equal; that each number is that of Solve, and NaN where Solve leaves it unset; that the status of a point
 // is INVALID, INADMISSIBLE or NOT_REPRESENTABLE exactly if Solve says so; and that a row without numbers has a reason.
 //
-// It covers core/batch/*.cc, core/sweep/*.cc and core/answer/*_lanes.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <algorithm>
 #include <bit>

@@ -5,7 +5,7 @@
 // range, once and in order; that the stream ends with OK only if the summary came at the end; and that a stream of
 // correct chunks passes as a whole.
 //
-// It covers client/chunk_checker.cc and client/tally_checker.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <grpcpp/client_context.h>
 #include <grpcpp/support/sync_stream.h>

@@ -6,8 +6,7 @@
 // that the front is one and the picks go through all tolerances; that the counts of the summary are those of the rows;
 // and that no method errs by more than it claims.
 //
-// It covers core/cost/*cost*.cc, core/cost/*_methods.cc, core/cost/exact_velocity.cc, core/cost/certified_velocity.cc
-// and core/cost/stopwatch.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <algorithm>
 #include <cmath>

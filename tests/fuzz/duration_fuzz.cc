@@ -5,7 +5,7 @@
 // The target checks the claims of tests/fuzz/outcome_claims.h, and that the history has its length and a converged
 // impact has no negative duration or peak.
 //
-// Covers: core/models/finite_duration*.cc, core/contact/finite_forces.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <cmath>
 #include <cstddef>

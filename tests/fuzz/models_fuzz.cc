@@ -7,8 +7,7 @@
 // and Newton's coefficient of a pendulum is that of its certificate to its stated error, or to 2^-45 of it or of
 // 2^-700, below which plain arithmetic claims nothing (core/models/pendulum/pendulum.h).
 //
-// Covers: core/scene/*.cc but interval_reduction.cc; core/models/*.cc but finite_duration*.cc and scene_enclosure.cc;
-// core/engine/local_solver.cc; core/study/*.cc but audit_batch.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <algorithm>
 #include <cmath>

@@ -6,8 +6,7 @@
 // It checks that a sweep that goes on after any damage, and shards that are merged after any damage, are refused with a
 // message, or give the bytes of the whole sweep.
 //
-// It covers client/cli/io/partial_file.cc, client/cli/sweep/sweep_output.cc, client/cli/sweep/shard.cc,
-// client/cli/sweep/shard_coverage.cc and client/cli/merge.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <CLI/App.hpp>
 #include <algorithm>

@@ -4,8 +4,7 @@
 // 2^-30 of 1 and of their size for what the bounds of that scene are rounded by, a separating one's impulse alone; what
 // is attained lies in the outer ranges too.
 //
-// Covers: core/answer/scene_enclosure.cc, core/contact/interval_reduction.cc, core/bounds/enclosure.cc,
-// core/bounds/one_regime_ends.cc, core/bounds/pendulum_ends.cc, core/bounds/planar_ends.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 // It checks that reading gives OK, or INVALID_ARGUMENT with a message; that a scene is the same after it was written in
 // either format and read again; and that Validate and Solve accept any scene without a crash.
 //
-// It covers client/cli/input/scene_input.cc and client/cli/text/number_input.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <google/protobuf/text_format.h>
 #include <google/protobuf/util/json_util.h>

@@ -6,8 +6,7 @@
 // together: axes and columns have a number for each point, regimes and statuses are there for all points or none, and
 // are such.
 //
-// It covers client/cli/sweep/sweep_file.cc, client/cli/sweep/sweep_rows.cc, client/cli/sweep/npy_reader.cc,
-// client/cli/sweep/netcdf_table.cc and client/cli/sweep/sweep_json.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <netcdf.h>
 

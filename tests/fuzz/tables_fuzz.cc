@@ -5,7 +5,7 @@
 // that each bad row has a reason, and each row that is not bad has as many numbers as it has columns; that it is the
 // same read in parts and as a whole; and that a table of its names and numbers is read as the same numbers.
 //
-// It covers client/cli/io/csv_table.cc and client/cli/input/audit_data.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <cmath>
 #include <cstddef>

@@ -3,7 +3,7 @@
 // It checks that every message can be converted proto -> core -> proto -> core -> proto and that the last two protos
 // have the same bytes; and that an error that was sent once can be sent again unchanged.
 //
-// It covers proto/wire/*.cc.
+// tests/fuzz/run.sh lists the code that it covers.
 
 #include <grpcpp/support/status.h>
 
