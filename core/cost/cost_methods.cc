@@ -30,6 +30,12 @@ double ReductionError(const planar::Problem& problem) {
 
 double SpeedOf(double u0, double v0) { return std::max(std::fabs(u0), std::fabs(v0)); }
 
+ReferencePointer NoImpact(const Velocity3& before) {
+  return MakeReference([before](Stopped) {
+    return ExactlyThis(before, 0.0, "the velocity before, because the contact separates");
+  });
+}
+
 // A planar scene with all that its methods need.
 class PlanarStudy {
  public:
@@ -81,11 +87,7 @@ class PlanarStudy {
   }
 
   ReferencePointer RigidReference() const {
-    if (!Approaches()) {
-      return MakeReference([before = Velocity3{problem_.u0, 0.0, problem_.v0}](Stopped) {
-        return ExactlyThis(before, 0.0, "the velocity before, because the contact separates");
-      });
-    }
+    if (!Approaches()) return NoImpact({problem_.u0, 0.0, problem_.v0});
     if (closed_form_.has_value()) {
       return MakeReference([problem = *closed_form_](Stopped stopped) { return ExactRigid(problem, stopped); });
     }
@@ -130,7 +132,8 @@ StudiedScene StudySpatial(const Scene& scene, const SpatialReduction& reduction,
   const spatial::Problem problem =
       spatial::MakeProblem(reduction, scene.restitution, effective, spatial::kLeastTolerance);
   StudiedScene study = {
-      .truth = MakeReference([problem](Stopped) { return ExactSpatial(problem); }),
+      .truth = problem.v0 < 0.0 ? MakeReference([problem](Stopped) { return ExactSpatial(problem); })
+                                : NoImpact({problem.u0[0], problem.u0[1], problem.v0}),
       .speed = SpeedOf(std::sqrt(problem.u0[0] * problem.u0[0] + problem.u0[1] * problem.u0[1]), problem.v0),
       .directions = 2};
   if (problem.v0 < 0.0) {

@@ -95,6 +95,9 @@ std::vector<Scene> ScenesOfEveryKind() {
   Scene separating = PaperScene();
   std::get<Pendulum>(separating.system).omega_minus_rad_s = 1.0;
   scenes.push_back(separating);
+  Scene separating_in_space = With(ContactInSpace());
+  std::get<SpatialContact>(separating_in_space.system).normal_m_s = 0.4;
+  scenes.push_back(separating_in_space);
   Scene compliant = With(Contact());
   compliant.compliance = Compliance{.tangential_ratio_squared = 1.2, .normal = {}};
   scenes.push_back(compliant);
