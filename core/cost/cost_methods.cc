@@ -31,9 +31,8 @@ double ReductionError(const planar::Problem& problem) {
 double SpeedOf(double u0, double v0) { return std::max(std::fabs(u0), std::fabs(v0)); }
 
 ReferencePointer NoImpact(const Velocity3& before) {
-  return MakeReference([before](Stopped) {
-    return ExactlyThis(before, 0.0, "the velocity before, because the contact separates");
-  });
+  return MakeReference(
+      [before](Stopped) { return ExactlyThis(before, 0.0, "the velocity before, because the contact separates"); });
 }
 
 // A planar scene with all that its methods need.

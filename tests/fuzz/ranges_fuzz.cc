@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <variant>
@@ -66,13 +67,18 @@ Scene SceneAt(const BoundsRequest& request, size_t place) {
 }
 
 // What the bounds of one scene may be wrong by, relative to their size: the rounding of W moves det W/(Wtt Wnn), which
-// the contact divides by where it sticks, by some 2^-48.
+// the contact divides by where it sticks, by some 2^-48. Infinite if rounding alone may have given bodies or a linkage a
+// W of rank one, which a pendulum has and which a contact states.
 double RoundingOf(const Scene& scene) {
   constexpr double kLeast = 0x1p-30;
+  constexpr double kOfDeterminant = 0x1p-48;
   const AnyReduction reduction = Reduce(scene);
   const auto& [tt, tn, nn] = std::get<PlanarReduction>(reduction).w;
   const double determinant = PlanarDelassus{tt, tn, nn}.RelativeDeterminant();
-  return determinant > 0.0 ? std::max(kLeast, 0x1p-48 / determinant) : kLeast;
+  if (determinant > kOfDeterminant) return std::max(kLeast, kOfDeterminant / determinant);
+  const bool is_stated =
+      std::holds_alternative<Pendulum>(scene.system) || std::holds_alternative<PlanarContact>(scene.system);
+  return is_stated ? kLeast : std::numeric_limits<double>::infinity();
 }
 
 void CheckScenes(const BoundsRequest& request, const Enclosure& enclosure) {
@@ -86,6 +92,7 @@ void CheckScenes(const BoundsRequest& request, const Enclosure& enclosure) {
     if (!response.ok()) continue;
     const CoefficientBounds& sharp = response->bounds.sharp;
     const double rounding = RoundingOf(scene);
+    if (std::isinf(rounding)) continue;
     if (response->bounds.regime != Regime::kSeparating) CheckInside(sharp, enclosure.outer, rounding);
     CheckRange(sharp.normal_total_n_s, enclosure.outer.normal_total_n_s, rounding, 0.0, "the normal impulse");
   }
