@@ -56,8 +56,8 @@ class PlanarStudy {
   }
 
  private:
-  // A subnormal W may have lost all of its digits, so that what is computed from it may have any error. The closed forms
-  // do not use it.
+  // A subnormal W may have lost all of its digits, so that what is computed from it may have any error. The closed
+  // forms do not use it.
   void ClaimNothingFromW() {
     for (StudiedMethod& method : study_.methods) {
       const Model model = method.method.model;

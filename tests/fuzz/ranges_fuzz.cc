@@ -67,8 +67,8 @@ Scene SceneAt(const BoundsRequest& request, size_t place) {
 }
 
 // What the bounds of one scene may be wrong by, relative to their size: the rounding of W moves det W/(Wtt Wnn), which
-// the contact divides by where it sticks, by some 2^-48. Infinite if rounding alone may have given bodies or a linkage a
-// W of rank one, which a pendulum has and which a contact states.
+// the contact divides by where it sticks, by some 2^-48. Infinite if rounding alone may have given bodies or a linkage
+// a W of rank one, which a pendulum has and which a contact states.
 double RoundingOf(const Scene& scene) {
   constexpr double kLeast = 0x1p-30;
   constexpr double kOfDeterminant = 0x1p-48;

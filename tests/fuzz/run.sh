@@ -81,10 +81,10 @@ short_inputs() {
 # CI gives the same inputs each time, so that it fails because of a change and not by chance. Comparisons are not
 # traced, because the addresses in that table differ from run to run.
 run_short_fuzz() {
-  local target=$1 corpus=tests/fuzz/corpus/$1 found
+  local target=$1 corpus=tests/fuzz/corpus/$1 found inputs
   found=$(mktemp -d)
-  run_fuzz_target fuzz "$target" -seed=1 -use_cmp=0 -runs=$(($(find "$corpus" -type f | wc -l) + $(short_inputs "$target"))) \
-    "$found" "$corpus"
+  inputs=$(($(find "$corpus" -type f | wc -l) + $(short_inputs "$target")))
+  run_fuzz_target fuzz "$target" -seed=1 -use_cmp=0 "-runs=$inputs" "$found" "$corpus"
 }
 
 run_fuzz() {
