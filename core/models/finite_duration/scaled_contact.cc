@@ -70,6 +70,9 @@ void SetInertia(const PlanarProblem& problem, ScaledContact& contact) {
   contact.wtt = Square(contact.wtn);
   contact.stick_slope = 0.0;
   if (problem.w.tn == 0.0) return;
+  // W counts as Wnn (g, 1)(g, 1)^T, whatever its entries are rounded to.
+  contact.forward_slope.u = contact.wtn * contact.forward_slope.v;
+  contact.backward_slope.u = contact.wtn * contact.backward_slope.v;
   if (!problem.w.UFollowsV(problem.u0, problem.v0)) return;
   // u is then v Wtn/Wnn, unless a force of its own drives it off.
   const double in_range = contact.an * contact.wtn;
