@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "client/cli/input/connection_input.h"
 #include "client/cli/input/scene_input.h"
@@ -29,11 +28,7 @@ void NameFlag(const CLI::App& command, Violation& violation) {
     violation.field = absl::StrCat(flag, ": ", field);
   for (const SceneFlag& flag : SceneFlags()) {
     if (field != flag.field || !HasFlagsForScene(command)) continue;
-    const absl::string_view rule = violation.description;
-    if (!IsGiven(command, flag.name) && absl::StartsWith(rule, "= 0: ")) {
-      violation.description = absl::StrCat("is missing: ", rule.substr(5));
-    }
-    violation.field = absl::StrCat(flag.name, ": ", field);
+    violation.field = absl::StrCat(flag.name, IsGiven(command, flag.name) ? ": " : " (not given): ", field);
     return;
   }
 }

@@ -96,7 +96,7 @@ std::vector<BadInput> Flags() {
 
 std::vector<BadInput> Scenes() {
   return {
-      {{"solve", "--b", "1", "--energetic", "1"}, "--a: pendulum.a_m is missing: must be > 0\n", ""},
+      {{"solve", "--b", "1", "--energetic", "1"}, "--a (not given): pendulum.a_m = 0: must be > 0\n", ""},
       {{"solve", "--a", "0", "--energetic", "1"}, "--a: pendulum.a_m = 0: must be > 0\n", ""},
       {kSolveInput, "ricochet.v1.Pendulum has no field \"inertia_kgm2\"; did you mean inertia_kg_m2?",
        "pendulum { inertia_kgm2: 1 }"},
