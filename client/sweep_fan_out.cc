@@ -32,7 +32,7 @@ int64_t PointBytes(const SweepRequest& request) {
   return columns * static_cast<int64_t>(sizeof(double)) + (request.with_regime ? 2 : 0);
 }
 
-SweepRequest Part(SweepRequest request, const RangeBoard::Task& task) {
+SweepRequest Part(SweepRequest request, const RangeScheduler::Task& task) {
   request.first_index = task.first_index;
   request.end_index = task.end_index;
   return request;
@@ -81,8 +81,8 @@ SweepFanOut::SweepFanOut(const SweepRequest& request, Servers servers, const Cal
     : request_(request),
       servers_(std::move(servers)),
       options_(options),
-      board_(request.first_index, *request.end_index, PointBytes(request), servers_.fan_out.buffer_bytes,
-             static_cast<int64_t>(servers_.count)),
+      scheduler_(request.first_index, *request.end_index, PointBytes(request), servers_.fan_out.buffer_bytes,
+                 static_cast<int64_t>(servers_.count)),
       is_lost_(servers_.count) {
   StartThreads();
   on_stop_.emplace(options_.stop, [this] { End(); });
@@ -112,24 +112,24 @@ void SweepFanOut::StartThreads() {
 void SweepFanOut::End() {
   const std::lock_guard lock(mutex_);
   ended_ = true;
-  board_.StopAll();
+  scheduler_.StopAll();
   arrived_.notify_all();
   work_.notify_all();
 }
 
 int64_t SweepFanOut::most_waiting_bytes() const {
   const std::lock_guard lock(mutex_);
-  return board_.most_waiting_bytes();
+  return scheduler_.most_waiting_bytes();
 }
 
 void SweepFanOut::Serve(size_t number) {
   Server server(number, servers_.retry);
-  while (const std::optional<RangeBoard::Task> task = WaitForTask(server)) {
+  while (const std::optional<RangeScheduler::Task> task = WaitForTask(server)) {
     const Clock::time_point start = Clock::now();
     const absl::Status status = Compute(*task, server);
     {
       const std::lock_guard lock(mutex_);
-      board_.End(*task);
+      scheduler_.End(*task);
       work_.notify_all();
     }
     if (status.ok()) {
@@ -140,17 +140,17 @@ void SweepFanOut::Serve(size_t number) {
   }
 }
 
-std::optional<RangeBoard::Task> SweepFanOut::WaitForTask(const Server& server) {
+std::optional<RangeScheduler::Task> SweepFanOut::WaitForTask(const Server& server) {
   std::unique_lock lock(mutex_);
   for (;;) {
     if (ended_ || failure_.has_value()) return std::nullopt;
-    std::optional<RangeBoard::Task> task = board_.Take(server.NextLength(board_.untaken(), servers_.count));
+    std::optional<RangeScheduler::Task> task = scheduler_.Take(server.NextLength(scheduler_.untaken(), servers_.count));
     if (task.has_value()) return task;
     work_.wait(lock);
   }
 }
 
-absl::Status SweepFanOut::Compute(const RangeBoard::Task& task, Server& server) {
+absl::Status SweepFanOut::Compute(const RangeScheduler::Task& task, Server& server) {
   const SweepRequest part = Part(request_, task);
   const v1::SweepRequest wire = ToProto(part);
   ChunkChecker checker(part);
@@ -163,7 +163,7 @@ absl::Status SweepFanOut::Compute(const RangeBoard::Task& task, Server& server) 
     if (!chunk.ok()) return chunk.status();
     server.attempts().Succeeded();
     const std::lock_guard lock(mutex_);
-    if (!board_.Put(task, *std::move(chunk))) break;
+    if (!scheduler_.Put(task, *std::move(chunk))) break;
     has_begun_ = true;
     is_lost_[server.number()] = false;
     arrived_.notify_one();
@@ -174,7 +174,7 @@ absl::Status SweepFanOut::Compute(const RangeBoard::Task& task, Server& server) 
   return complete.ok() || status.ok() ? complete : status;
 }
 
-void SweepFanOut::Fail(const absl::Status& status, const RangeBoard::Task& task, Server& server) {
+void SweepFanOut::Fail(const absl::Status& status, const RangeScheduler::Task& task, Server& server) {
   if (task.stop.stop_requested()) {
     // Another server was faster. If it was asked after this one, then this one was slow.
     if (!task.is_second) Rest(server.AfterSlow(servers_.fan_out.slow_after));
@@ -190,7 +190,7 @@ void SweepFanOut::Fail(const absl::Status& status, const RangeBoard::Task& task,
     const bool all_lost = std::all_of(is_lost_.begin(), is_lost_.end(), [](bool is_lost) { return is_lost; });
     if (!failure_.has_value() && all_lost) failure_ = NoServerLeft(status);
     if (failure_.has_value()) {
-      board_.StopAll();
+      scheduler_.StopAll();
       arrived_.notify_all();
       work_.notify_all();
     }
@@ -206,7 +206,7 @@ void SweepFanOut::Rest(milliseconds time) {
 absl::Status SweepFanOut::NoServerLeft(const absl::Status& last) const {
   absl::Status status(last.code(),
                       absl::StrCat("none of the ", servers_.count, " servers goes on with the sweep at point ",
-                                   board_.next_index(), "; the last error: ", last.message()));
+                                   scheduler_.next_index(), "; the last error: ", last.message()));
   last.ForEachPayload(
       [&status](absl::string_view type, const absl::Cord& payload) { status.SetPayload(type, payload); });
   return status;
@@ -227,7 +227,7 @@ std::optional<absl::StatusOr<SweepChunk>> SweepFanOut::Next() {
     }
     if (now < slow_at) continue;
     const std::lock_guard lock(mutex_);
-    board_.AskAnother();
+    scheduler_.AskAnother();
     work_.notify_all();
     slow_at = now + slow_after;
   }
@@ -235,9 +235,9 @@ std::optional<absl::StatusOr<SweepChunk>> SweepFanOut::Next() {
 
 std::optional<absl::StatusOr<SweepChunk>> SweepFanOut::WaitUntil(Clock::time_point until) {
   std::unique_lock lock(mutex_);
-  std::optional<RangeBoard::Piece> piece;
+  std::optional<RangeScheduler::Piece> piece;
   arrived_.wait_until(lock, until, [&] {
-    piece = board_.Leave();
+    piece = scheduler_.Leave();
     return piece.has_value() || failure_.has_value() || ended_;
   });
   if (!piece.has_value()) {
@@ -249,7 +249,7 @@ std::optional<absl::StatusOr<SweepChunk>> SweepFanOut::WaitUntil(Clock::time_poi
   return Join(*std::move(piece));
 }
 
-absl::StatusOr<SweepChunk> SweepFanOut::Join(RangeBoard::Piece piece) {
+absl::StatusOr<SweepChunk> SweepFanOut::Join(RangeScheduler::Piece piece) {
   SweepChunk& chunk = piece.chunk;
   if (task_ != 0 && chunk.engine.fingerprint != engine_) {
     return OtherEngine(chunk.first_index, chunk.engine.fingerprint, engine_);

@@ -1,7 +1,7 @@
 // SweepFanOut: the receiving end of a sweep that all servers of a list compute together.
 //
-// Each server has a thread here, which asks it for one range of points after another. A RangeBoard says which range is
-// next, and gives the chunks in the order of the points. A server that is fast gets long ranges, and many.
+// Each server has a thread here, which asks it for one range of points after another. A RangeScheduler says which range
+// is next, and gives the chunks in the order of the points. A server that is fast gets long ranges, and many.
 
 #ifndef RICOCHET_CLIENT_SWEEP_FAN_OUT_H_
 #define RICOCHET_CLIENT_SWEEP_FAN_OUT_H_
@@ -21,7 +21,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "client/attempts.h"
-#include "client/range_board.h"
+#include "client/range_scheduler.h"
 #include "client/sweep_reader.h"
 #include "ricochet/call_options.h"
 #include "ricochet/client_options.h"
@@ -67,17 +67,17 @@ class SweepFanOut {
   // The work of a server's thread.
   void Serve(size_t number);
   // Waits until there is work for the server; returns nothing at the end.
-  std::optional<RangeBoard::Task> WaitForTask(const Server& server);
-  absl::Status Compute(const RangeBoard::Task& task, Server& server);
+  std::optional<RangeScheduler::Task> WaitForTask(const Server& server);
+  absl::Status Compute(const RangeScheduler::Task& task, Server& server);
   // Decides what an error means: how long the server is left alone, or that the sweep fails.
-  void Fail(const absl::Status& status, const RangeBoard::Task& task, Server& server);
+  void Fail(const absl::Status& status, const RangeScheduler::Task& task, Server& server);
   // Waits for this time, or until the end.
   void Rest(std::chrono::milliseconds time);
   void End();
 
   // Returns the next chunk or the failure, or nothing at this time or at the end.
   std::optional<absl::StatusOr<SweepChunk>> WaitUntil(Clock::time_point until);
-  absl::StatusOr<SweepChunk> Join(RangeBoard::Piece piece);
+  absl::StatusOr<SweepChunk> Join(RangeScheduler::Piece piece);
   // Called with the mutex locked.
   absl::Status NoServerLeft(const absl::Status& last) const;
 
@@ -88,7 +88,7 @@ class SweepFanOut {
   mutable std::mutex mutex_;
   std::condition_variable arrived_;  // A chunk that may leave, or a failure.
   std::condition_variable work_;     // A range, room for one, or the end.
-  RangeBoard board_;
+  RangeScheduler scheduler_;
   std::vector<bool> is_lost_;  // True for a server that has failed as often as allowed.
   bool has_begun_ = false;     // True once a chunk has arrived.
   bool ended_ = false;

@@ -50,7 +50,7 @@ struct Options {
   PlaceLimits places = PlacesFor(1024);            // Each limit from 1 to 65,536.
   int max_threads = 1024 + kSpareThreads;          // At least places.calls + kSpareThreads.
   int compute_threads = AvailableCores();          // 1 to 1024.
-  int max_waiting_calls = 256;                     // Dear unary calls that wait to compute; 1 to 65,536.
+  int max_waiting_calls = 256;                     // Expensive unary calls that wait to compute; 1 to 65,536.
   TimeLimits time_limits;                          // 1 ms to 1 h.
   std::chrono::milliseconds unread_limit{30'000};  // 1 ms to 1 h.
 

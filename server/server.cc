@@ -14,7 +14,7 @@
 #include "server/health/self_test.h"
 #include "server/health/serving_check.h"
 #include "server/server_limits.h"
-#include "server/telemetry/call_watch.h"
+#include "server/telemetry/call_interceptor.h"
 #include "server/transport/transport.h"
 
 namespace ricochet::server {
@@ -53,12 +53,12 @@ Server::Server(const Options& options, std::shared_ptr<Auth> auth, const Log& lo
       solver_(options.limits, 1),
       places_(options.places),
       drain_(options.drain_grace, options.drain_timeout),
-      gate_(options.compute_threads, options.max_waiting_calls, drain_.stops().streams),
+      scheduler_(options.compute_threads, options.max_waiting_calls, drain_.stops().streams),
       unread_(options.unread_limit),
       observer_(log, options.log_calls),
       service_(solver_,
                {.places = places_,
-                .gate = gate_,
+                .scheduler = scheduler_,
                 .unread = unread_,
                 .drain = drain_.stops(),
                 .limits = options.time_limits,
@@ -129,7 +129,7 @@ void Server::SetServing(bool serving) {
 
 void Server::StartWatchdog() {
   const auto check =
-      std::make_shared<ServingCheck>(endpoint_->addresses(), endpoint_->acceptor(), gate_, kWatchdogPatience);
+      std::make_shared<ServingCheck>(endpoint_->addresses(), endpoint_->acceptor(), scheduler_, kWatchdogPatience);
   const auto report = [this](const absl::Status& status) {
     SetServing(status.ok());
     if (status.ok()) return log_.Write(LogLevel::kInfo, "serving again", {});
@@ -144,9 +144,9 @@ absl::Status Server::OpenMetrics() {
   Acceptor& acceptor = endpoint_->acceptor();
   metrics.AddGauge("ricochet_live_calls", "Calls that hold a place.", [this] { return places_.live(); });
   metrics.AddGauge("ricochet_queued_calls", "Calls that wait to compute.",
-                   [this] { return static_cast<double>(gate_.waiting()); });
+                   [this] { return static_cast<double>(scheduler_.waiting()); });
   metrics.AddGauge("ricochet_computing_calls", "Calls that compute.",
-                   [this] { return static_cast<double>(gate_.computing()); });
+                   [this] { return static_cast<double>(scheduler_.computing()); });
   metrics.AddGauge("ricochet_serving", "1 while health is SERVING, else 0.", [this] { return serving_ ? 1 : 0; });
   metrics.AddGauge("ricochet_connections", "Connections that are open.",
                    [&acceptor] { return acceptor.counts().open; });

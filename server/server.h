@@ -12,8 +12,8 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/solver.h"
-#include "server/admission/gate.h"
 #include "server/admission/places.h"
+#include "server/admission/scheduler.h"
 #include "server/admission/unread_watch.h"
 #include "server/admission/watchdog.h"
 #include "server/base/drain.h"
@@ -66,10 +66,10 @@ class Server {
   const Options options_;
   const Log& log_;
   const std::shared_ptr<Auth> auth_;  // Null unless there are tokens.
-  LocalSolver solver_;                // It has no threads of its own, so that the gate alone decides who computes.
+  LocalSolver solver_;                // It has no threads of its own, so that the scheduler alone decides who computes.
   Places places_;
   Drain drain_;
-  Gate gate_;
+  Scheduler scheduler_;
   UnreadWatch unread_;
   std::vector<std::function<void()>> reopen_;
   const Observer observer_;

@@ -39,7 +39,7 @@ std::vector<Event> TimelineOf(const Impact& impact, const PlanarReduction& reduc
 
 }  // namespace
 
-absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const Extent& extent,
+absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const OutcomeDetail& detail,
                          Outcome& outcome) {
   const Impact impact = Solve(problem);
   SetEnd(impact, reduction, 0.0, outcome);
@@ -51,7 +51,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
   // If the path overflows, not even the regime is known, so that the outcome is checked in every case.
   if (!std::isfinite(impact.u1)) return CheckFinite(outcome);
   return Complete(
-      extent, [&] { return TimelineOf(impact, reduction); }, NoPath, outcome);
+      detail, [&] { return TimelineOf(impact, reduction); }, NoPath, outcome);
 }
 
 }  // namespace ricochet::compliant

@@ -2,7 +2,7 @@
 
 namespace ricochet::finite_duration {
 
-absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const Extent& extent,
+absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const OutcomeDetail& detail,
                          absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   const Impact impact = Solve(problem, stopped);
   if (impact.stopped) return absl::CancelledError("the impact was stopped by its caller");
@@ -16,7 +16,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
   SetErrors(impact.errors, outcome);
   outcome.contact = impact.contact;
   return Complete(
-      extent, [&] { return impact.events; }, NoPath, outcome);
+      detail, [&] { return impact.events; }, NoPath, outcome);
 }
 
 }  // namespace ricochet::finite_duration

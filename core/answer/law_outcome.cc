@@ -81,7 +81,7 @@ std::vector<Event> TimelineOf(const PlanarReduction& reduction, Regime regime, c
 }  // namespace
 
 absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, const PlanarReduction& reduction,
-                            const Extent& extent, Outcome& outcome) {
+                            const OutcomeDetail& detail, Outcome& outcome) {
   const laws::ImpactLawResult result = laws::SolveLaw(law, problem);
   outcome.regime = RegimeOf(reduction, result);
   if (outcome.regime == Regime::kNoSolution) outcome.termination = Termination::kRefused;
@@ -102,9 +102,9 @@ absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, 
   UnsetPhases(outcome);
   outcome.energy_change_j = solution.energy_change;
   SetBrokenLimits(reduction, solution, outcome);
-  if (extent.detail == Detail::kAll) AddAlternatives(result, outcome);
+  if (detail.detail == Detail::kAll) AddAlternatives(result, outcome);
   return Complete(
-      extent, [&] { return TimelineOf(reduction, outcome.regime, solution); }, NoPath, outcome);
+      detail, [&] { return TimelineOf(reduction, outcome.regime, solution); }, NoPath, outcome);
 }
 
 }  // namespace ricochet

@@ -29,7 +29,7 @@ namespace ricochet {
 
 namespace pendulum {
 
-absl::Status MakeOutcome(const Problem& problem, double tolerance, const Extent& extent, Outcome& outcome);
+absl::Status MakeOutcome(const Problem& problem, double tolerance, const OutcomeDetail& detail, Outcome& outcome);
 
 // The path of an output in ricochet.v1.Outcome, such as "coefficients.newton"; empty if it is not in an outcome.
 std::string OutputPath(Output output);
@@ -39,14 +39,14 @@ std::string OutputPath(Output output);
 namespace first_order {
 
 // The model must serve `problem`.
-absl::Status MakeOutcome(const Problem& problem, const Extent& extent, Outcome& outcome);
+absl::Status MakeOutcome(const Problem& problem, const OutcomeDetail& detail, Outcome& outcome);
 
 }  // namespace first_order
 
 namespace planar {
 
 absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, double tolerance,
-                         const Extent& extent, Outcome& outcome);
+                         const OutcomeDetail& detail, Outcome& outcome);
 
 }  // namespace planar
 
@@ -55,15 +55,15 @@ namespace sliding {
 // The outcome of slip that neither stops nor turns, or of an impact without friction. `errors` are those of that model.
 template <size_t kTangential>
 absl::Status MakeOutcome(const Problem<kTangential>& problem, const Impact<kTangential>& impact,
-                         const RelativeErrors& errors, const Reduction<kTangential>& reduction, const Extent& extent,
-                         Outcome& outcome);
+                         const RelativeErrors& errors, const Reduction<kTangential>& reduction,
+                         const OutcomeDetail& detail, Outcome& outcome);
 
 }  // namespace sliding
 
 namespace spatial {
 
 // The path between events is not kept, so that there is no history.
-absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction, const Extent& extent,
+absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction, const OutcomeDetail& detail,
                          Outcome& outcome);
 
 }  // namespace spatial
@@ -74,7 +74,7 @@ namespace compliant {
 inline constexpr size_t kMostEvents = 8192;
 
 // The path between two events is not linear in the normal impulse, so that there is no history.
-absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const Extent& extent,
+absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const OutcomeDetail& detail,
                          Outcome& outcome);
 
 }  // namespace compliant
@@ -82,7 +82,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
 namespace finite_duration {
 
 // Histories of such an impact are in time (Problem::intervals). CANCELLED: `stopped` said true.
-absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const Extent& extent,
+absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, const OutcomeDetail& detail,
                          absl::FunctionRef<bool()> stopped, Outcome& outcome);
 
 }  // namespace finite_duration
@@ -93,7 +93,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
 // energy, or a work of friction, beyond 16 eps of the energies that the impulse moves breaks its limit. `law` must be
 // set.
 absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, const PlanarReduction& reduction,
-                            const Extent& extent, Outcome& outcome);
+                            const OutcomeDetail& detail, Outcome& outcome);
 
 }  // namespace ricochet
 

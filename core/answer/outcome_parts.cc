@@ -173,13 +173,13 @@ absl::Status CheckFinite(const Outcome& outcome) {
   return std::isfinite(Sum(outcome)) ? absl::OkStatus() : CheckEach(outcome);
 }
 
-absl::Status AddHistory(const Extent& extent, absl::FunctionRef<State(double)> state_at, Outcome& outcome) {
-  if (extent.history_at_n_s.empty() && extent.history_intervals == 0) return absl::OkStatus();
+absl::Status AddHistory(const OutcomeDetail& detail, absl::FunctionRef<State(double)> state_at, Outcome& outcome) {
+  if (detail.history_at_n_s.empty() && detail.history_intervals == 0) return absl::OkStatus();
   const double tau1 = outcome.impulse.normal_total_n_s;
-  const std::vector<Violation> violations = CheckRange(extent.history_at_n_s, tau1);
+  const std::vector<Violation> violations = CheckRange(detail.history_at_n_s, tau1);
   if (!violations.empty()) return InvalidRequest(violations);
-  for (const double tau : extent.history_at_n_s) outcome.history.push_back(state_at(tau));
-  const int64_t intervals = extent.history_intervals;
+  for (const double tau : detail.history_at_n_s) outcome.history.push_back(state_at(tau));
+  const int64_t intervals = detail.history_intervals;
   for (int64_t i = 0; intervals > 0 && i <= intervals; ++i) {
     outcome.history.push_back(state_at(EqualStep(tau1, i, intervals)));
   }

@@ -29,7 +29,7 @@ enum class Detail {
 
 // The parts of an outcome that a caller wants beyond its numbers. The rules of histories hold already, but for the
 // range of the impulses.
-struct Extent {
+struct OutcomeDetail {
   Detail detail = Detail::kAll;
   absl::Span<const double> history_at_n_s;
   int64_t history_intervals = 0;
@@ -85,18 +85,18 @@ double RelativeToBefore(double error, const Reduction<kTangential>& reduction,
 absl::Status CheckFinite(const Outcome& outcome);
 
 // Gives INVALID_ARGUMENT for each impulse of a history that is not in [0, tau1], else adds the history.
-absl::Status AddHistory(const Extent& extent, absl::FunctionRef<State(double)> state_at, Outcome& outcome);
+absl::Status AddHistory(const OutcomeDetail& detail, absl::FunctionRef<State(double)> state_at, Outcome& outcome);
 
 // Completes an outcome whose numbers are set: every model ends so. `timeline()` gives the events, `state_at(tau)` the
 // state at a normal impulse.
 // Errors: OUT_OF_RANGE of CheckFinite, INVALID_ARGUMENT of AddHistory. With Detail::kNumbers there are none.
 template <typename Timeline>
-absl::Status Complete(const Extent& extent, const Timeline& timeline, absl::FunctionRef<State(double)> state_at,
+absl::Status Complete(const OutcomeDetail& detail, const Timeline& timeline, absl::FunctionRef<State(double)> state_at,
                       Outcome& outcome) {
-  if (extent.detail == Detail::kNumbers) return absl::OkStatus();
+  if (detail.detail == Detail::kNumbers) return absl::OkStatus();
   outcome.timeline = timeline();
   absl::Status finite = CheckFinite(outcome);
-  return finite.ok() ? AddHistory(extent, state_at, outcome) : finite;
+  return finite.ok() ? AddHistory(detail, state_at, outcome) : finite;
 }
 
 // The state_at of a model that keeps no path. The door refuses histories of its scenes.

@@ -66,7 +66,8 @@ void SetEnd(const Impact& impact, Outcome& outcome) {
 
 // `error` is the proved bound for the contact velocity over max(|u0|, |v0|); `at` gives the state at tau.
 absl::Status MakeOutcomeOf(const Problem& problem, const Impact& impact, double error, const ImpactErrors& errors,
-                           Instant (*at)(const Problem& problem, double tau), const Extent& extent, Outcome& outcome) {
+                           Instant (*at)(const Problem& problem, double tau), const OutcomeDetail& detail,
+                           Outcome& outcome) {
   const bool separates = impact.regime == Regime::kSeparating;
   SetEnd(impact, outcome);
   outcome.accuracy = {.relative_error = separates ? 0.0 : error, .kind = AccuracyKind::kBound};
@@ -77,15 +78,15 @@ absl::Status MakeOutcomeOf(const Problem& problem, const Impact& impact, double 
     return MakeState(problem, tau, instant.omega, instant.tangential_impulse);
   };
   return Complete(
-      extent, [&] { return TimelineOf(problem, impact); }, state_at, outcome);
+      detail, [&] { return TimelineOf(problem, impact); }, state_at, outcome);
 }
 
 }  // namespace
 
-absl::Status MakeOutcome(const Problem& problem, double tolerance, const Extent& extent, Outcome& outcome) {
+absl::Status MakeOutcome(const Problem& problem, double tolerance, const OutcomeDetail& detail, Outcome& outcome) {
   const SolvedImpact<Impact> solved = SolveWithin(problem, tolerance);
   outcome.plan.arithmetic = solved.arithmetic;
-  return MakeOutcomeOf(problem, solved.impact, solved.relative_error(), solved.errors, At, extent, outcome);
+  return MakeOutcomeOf(problem, solved.impact, solved.relative_error(), solved.errors, At, detail, outcome);
 }
 
 std::string OutputPath(Output output) {
@@ -135,10 +136,10 @@ std::string OutputPath(Output output) {
 
 namespace ricochet::first_order {
 
-absl::Status MakeOutcome(const Problem& problem, const Extent& extent, Outcome& outcome) {
+absl::Status MakeOutcome(const Problem& problem, const OutcomeDetail& detail, Outcome& outcome) {
   const Impact impact = first_order::Solve(problem);
   return pendulum::MakeOutcomeOf(problem, impact, ErrorsOf(problem).velocity, NumberErrorsOf(problem, impact),
-                                 first_order::At, extent, outcome);
+                                 first_order::At, detail, outcome);
 }
 
 }  // namespace ricochet::first_order

@@ -4,7 +4,7 @@
 namespace ricochet::planar {
 
 absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reduction, double tolerance,
-                         const Extent& extent, Outcome& outcome) {
+                         const OutcomeDetail& detail, Outcome& outcome) {
   const SolvedImpact<Impact> solved = SolveWithin(problem, tolerance);
   const Impact& impact = solved.impact;
   SetEnd(impact, reduction, 0.0, outcome);
@@ -13,7 +13,7 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
   SetErrors(solved.errors, outcome);
   const auto state_at = [&](double tau) { return MakeState(reduction, At(problem, impact, tau)); };
   return Complete(
-      extent, [&] { return MakeTimeline(impact, reduction); }, state_at, outcome);
+      detail, [&] { return MakeTimeline(impact, reduction); }, state_at, outcome);
 }
 
 }  // namespace ricochet::planar

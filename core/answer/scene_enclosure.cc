@@ -165,24 +165,24 @@ class UncertainScene {
 
 // The coefficients of friction, with the factor for speed enclosed over all approach speeds of the scenes.
 struct FrictionForm {
-  SlopeForm kinetic;
+  AffineInterval kinetic;
   // Unset if static friction equals kinetic friction, because two forms would not know that they are of one scene.
-  std::optional<SlopeForm> static_of_its_own;
+  std::optional<AffineInterval> static_of_its_own;
 };
 
 // `approach` is -v0. Scenes that separate do not matter.
-FrictionForm FrictionAt(const SceneBox& box, const SlopeForm& approach, SlopeParameters& parameters) {
+FrictionForm FrictionAt(const SceneBox& box, const AffineInterval& approach, SlopeParameters& parameters) {
   const Friction& low = box.low.friction;
   const Friction& high = box.high.friction;
   const bool all_approach = approach.range().lower > 0.0;
-  const SlopeForm speed = all_approach ? approach : SlopeForm(Hull(AtLeast(approach.range(), 0.0), 0.0));
-  const SlopeForm factor = FactorAt(low.by_speed, speed);
+  const AffineInterval speed = all_approach ? approach : AffineInterval(Hull(AtLeast(approach.range(), 0.0), 0.0));
+  const AffineInterval factor = FactorAt(low.by_speed, speed);
   FrictionForm friction = {
-      .kinetic = factor * SlopeForm::Parameter({low.kinetic_coefficient, high.kinetic_coefficient}, parameters),
+      .kinetic = factor * AffineInterval::Parameter({low.kinetic_coefficient, high.kinetic_coefficient}, parameters),
       .static_of_its_own = std::nullopt};
   if (low.static_coefficient.has_value()) {
     friction.static_of_its_own =
-        factor * SlopeForm::Parameter({*low.static_coefficient, *high.static_coefficient}, parameters);
+        factor * AffineInterval::Parameter({*low.static_coefficient, *high.static_coefficient}, parameters);
   }
   return friction;
 }
@@ -203,7 +203,7 @@ ContactBox WithFriction(const SceneBox& box, const IntervalPendulum& pendulum, S
   return contact;
 }
 
-ContactBox WithFriction(const SceneBox& box, const ContactForm& contact, SlopeParameters& parameters) {
+ContactBox WithFriction(const SceneBox& box, const AffineContact& contact, SlopeParameters& parameters) {
   const FrictionForm friction = FrictionAt(box, -contact.v0, parameters);
   return PlanarForm{.wtt = contact.wtt,
                     .wtn = contact.wtn,

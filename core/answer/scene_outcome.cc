@@ -19,14 +19,14 @@ bool IsStraight(const PlannedScene& planned) {
 
 template <size_t kTangential>
 absl::Status SolveStraight(const PlannedScene& planned, const sliding::Problem<kTangential>& problem,
-                           const Reduction<kTangential>& reduction, const Extent& extent, Outcome& outcome) {
+                           const Reduction<kTangential>& reduction, const OutcomeDetail& detail, Outcome& outcome) {
   const bool slides = planned.choice.model == Model::kSliding;
   return sliding::MakeOutcome(problem, slides ? sliding::Solve(problem) : sliding::SolveFrictionless(problem),
-                              planned.choice.straight_errors, reduction, extent, outcome);
+                              planned.choice.straight_errors, reduction, detail, outcome);
 }
 
 absl::Status SolveFiniteDuration(const PlannedScene& planned, const planar::Problem& contact,
-                                 const PlanarReduction& reduction, const Extent& extent,
+                                 const PlanarReduction& reduction, const OutcomeDetail& detail,
                                  absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   const ContactPhysics& physics = planned.physics;
   finite_duration::Problem problem = {.contact = contact,
@@ -34,28 +34,28 @@ absl::Status SolveFiniteDuration(const PlannedScene& planned, const planar::Prob
                                       .normal_acceleration = physics.normal_acceleration,
                                       .spring = physics.spring,
                                       .tolerance = planned.choice.model_tolerance,
-                                      .intervals = extent.force_intervals};
+                                      .intervals = detail.force_intervals};
   if (physics.ratio_squared > 0.0) problem.ratio_squared = physics.ratio_squared;
-  return finite_duration::MakeOutcome(problem, reduction, extent, stopped, outcome);
+  return finite_duration::MakeOutcome(problem, reduction, detail, stopped, outcome);
 }
 
 absl::Status SolveContact(const Scene& scene, const PlannedScene& planned, const planar::Problem& problem,
-                          const PlanarReduction& reduction, const Extent& extent, absl::FunctionRef<bool()> stopped,
-                          Outcome& outcome) {
+                          const PlanarReduction& reduction, const OutcomeDetail& detail,
+                          absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   switch (planned.choice.model) {
     case Model::kImpactLaw:
-      return MakeLawOutcome(scene.impact_law, problem, reduction, extent, outcome);
+      return MakeLawOutcome(scene.impact_law, problem, reduction, detail, outcome);
     case Model::kFrictionless:
     case Model::kSliding:
-      return SolveStraight(planned, SlidingProblemOf(problem), reduction, extent, outcome);
+      return SolveStraight(planned, SlidingProblemOf(problem), reduction, detail, outcome);
     case Model::kNone:
     case Model::kPlanar:
-      return planar::MakeOutcome(problem, reduction, planned.ToleranceLeft(), extent, outcome);
+      return planar::MakeOutcome(problem, reduction, planned.ToleranceLeft(), detail, outcome);
     case Model::kCompliant:
       return compliant::MakeOutcome({.contact = problem, .ratio_squared = planned.physics.ratio_squared}, reduction,
-                                    extent, outcome);
+                                    detail, outcome);
     case Model::kFiniteDuration:
-      return SolveFiniteDuration(planned, problem, reduction, extent, stopped, outcome);
+      return SolveFiniteDuration(planned, problem, reduction, detail, stopped, outcome);
     case Model::kFirstOrder:
     case Model::kPendulum:
     case Model::kSpatial:
@@ -67,30 +67,30 @@ absl::Status SolveContact(const Scene& scene, const PlannedScene& planned, const
 }
 
 absl::Status SolveContact(const PlannedScene& planned, const spatial::Problem& problem,
-                          const SpatialReduction& reduction, const Extent& extent, Outcome& outcome) {
-  if (IsStraight(planned)) return SolveStraight(planned, SlidingProblemOf(problem), reduction, extent, outcome);
-  return spatial::MakeOutcome(spatial::Solve(problem), reduction, extent, outcome);
+                          const SpatialReduction& reduction, const OutcomeDetail& detail, Outcome& outcome) {
+  if (IsStraight(planned)) return SolveStraight(planned, SlidingProblemOf(problem), reduction, detail, outcome);
+  return spatial::MakeOutcome(spatial::Solve(problem), reduction, detail, outcome);
 }
 
-absl::Status SolvePendulum(const PlannedScene& planned, const pendulum::Problem& problem, const Extent& extent,
+absl::Status SolvePendulum(const PlannedScene& planned, const pendulum::Problem& problem, const OutcomeDetail& detail,
                            Outcome& outcome) {
   const Model model = planned.choice.model;
   return model == Model::kFrictionless || model == Model::kFirstOrder
-             ? first_order::MakeOutcome(problem, extent, outcome)
-             : pendulum::MakeOutcome(problem, planned.ToleranceLeft(), extent, outcome);
+             ? first_order::MakeOutcome(problem, detail, outcome)
+             : pendulum::MakeOutcome(problem, planned.ToleranceLeft(), detail, outcome);
 }
 
 absl::Status SolveProblem(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
-                          const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
+                          const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   if (const auto* pendulum = std::get_if<pendulum::Problem>(&planned.problem)) {
-    return SolvePendulum(planned, *pendulum, extent, outcome);
+    return SolvePendulum(planned, *pendulum, detail, outcome);
   }
   if (const auto* planar = std::get_if<planar::Problem>(&planned.problem)) {
     const auto& reduction = std::get<PlanarReduction>(contact->reduction);
-    return SolveContact(scene, planned, *planar, reduction, extent, stopped, outcome);
+    return SolveContact(scene, planned, *planar, reduction, detail, stopped, outcome);
   }
   return SolveContact(planned, std::get<spatial::Problem>(planned.problem),
-                      std::get<SpatialReduction>(contact->reduction), extent, outcome);
+                      std::get<SpatialReduction>(contact->reduction), detail, outcome);
 }
 
 // The size of the contact velocity before the impact, and its normal component.
@@ -126,21 +126,21 @@ absl::Status ContactOverflow() {
 }
 
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
-                        const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
-  return SolvePlanned(scene, contact, PlanScene(scene, contact, demand), extent, stopped, outcome);
+                        const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
+  return SolvePlanned(scene, contact, PlanScene(scene, contact, demand), detail, stopped, outcome);
 }
 
 absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
-                          const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
+                          const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   if (planned.choice.model == Model::kUnspecified) return ContactOverflow();
-  absl::Status status = SolveProblem(scene, contact, planned, extent, stopped, outcome);
+  absl::Status status = SolveProblem(scene, contact, planned, detail, stopped, outcome);
   if (!status.ok()) return status;
   outcome.effective = planned.effective;
   outcome.accuracy.relative_error += planned.choice.negligible;
   const Approach approach = ApproachOf(planned);
   AddNeglected(planned.choice.negligible, approach.speed, approach.v0, outcome);
   CompareWithTolerance(planned.demand.relative_tolerance, outcome);
-  if (extent.detail == Detail::kAll) {
+  if (detail.detail == Detail::kAll) {
     Explain(planned, outcome.plan);
     AddNotes(scene, planned, outcome);
   } else {

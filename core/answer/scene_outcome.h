@@ -24,11 +24,11 @@ namespace ricochet {
 //
 // An impact that takes time asks `stopped` every few steps and ends soon after it says true, with CANCELLED.
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
-                        const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome);
+                        const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome);
 
 // The second half of SolveScene, for a scene that PlanScene has planned.
 absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
-                          const Extent& extent, absl::FunctionRef<bool()> stopped, Outcome& outcome);
+                          const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome);
 
 // Plans such a scene without computing it.
 // Errors: ContactOverflow.

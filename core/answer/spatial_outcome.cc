@@ -2,7 +2,7 @@
 
 namespace ricochet::spatial {
 
-absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction, const Extent& extent,
+absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction, const OutcomeDetail& detail,
                          Outcome& outcome) {
   SetEnd(impact, reduction, 0.0, outcome);
   outcome.accuracy = {.relative_error = impact.error_estimate,
@@ -11,7 +11,7 @@ absl::Status MakeOutcome(const Impact& impact, const SpatialReduction& reduction
                       .right_hand_sides = impact.right_hand_sides};
   SetErrors(impact.errors, outcome);
   return Complete(
-      extent, [&] { return MakeTimeline(impact, reduction); }, NoPath, outcome);
+      detail, [&] { return MakeTimeline(impact, reduction); }, NoPath, outcome);
 }
 
 }  // namespace ricochet::spatial

@@ -18,8 +18,8 @@
 
 #include "absl/functional/function_ref.h"
 #include "absl/types/span.h"
+#include "core/numerics/affine_interval.h"
 #include "core/numerics/interval.h"
-#include "core/numerics/slope_form.h"
 #include "ricochet/bounds.h"
 
 namespace ricochet {
@@ -36,11 +36,11 @@ struct PlanarBox {
 
 // A PlanarBox to first order in its parameters.
 struct PlanarForm {
-  SlopeForm wtt, wtn, wnn;
-  SlopeForm u0, v0;
-  SlopeForm mu;
-  std::optional<SlopeForm> mu_static;
-  std::optional<SlopeForm> stick_slope;
+  AffineInterval wtt, wtn, wnn;
+  AffineInterval u0, v0;
+  AffineInterval mu;
+  std::optional<AffineInterval> mu_static;
+  std::optional<AffineInterval> stick_slope;
 };
 
 // Units as in core/models/pendulum/pendulum.h.

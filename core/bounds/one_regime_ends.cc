@@ -5,9 +5,9 @@
 namespace ricochet {
 namespace {
 
-const SlopeForm kOne = 1.0;
+const AffineInterval kOne = 1.0;
 
-Interval Tighter(const Interval& x, const SlopeForm& form) {
+Interval Tighter(const Interval& x, const AffineInterval& form) {
   const Interval both = Intersect(x, form.range());
   return IsEmpty(both) ? x : both;
 }
@@ -15,15 +15,15 @@ Interval Tighter(const Interval& x, const SlopeForm& form) {
 // A contact whose slip starts in one direction. Tangential numbers are stated along that direction;
 // docs/theory/bounds.md has the slopes.
 struct Slipping {
-  SlopeForm wtt, q, wnn, slip, speed, mu;
-  SlopeForm first;    // A1
-  SlopeForm braking;  // B
+  AffineInterval wtt, q, wnn, slip, speed, mu;
+  AffineInterval first;    // A1
+  AffineInterval braking;  // B
 };
 
 // The path after slip has stopped.
 struct AfterStop {
-  SlopeForm second;  // A2
-  SlopeForm drag;    // -f'
+  AffineInterval second;  // A2
+  AffineInterval drag;    // -f'
 };
 
 std::optional<Slipping> MakeSlipping(const PlanarForm& form) {
@@ -31,7 +31,7 @@ std::optional<Slipping> MakeSlipping(const PlanarForm& form) {
   const bool backwards = form.u0.range().upper < 0.0;
   if ((!forwards && !backwards) || form.v0.range().upper >= 0.0 || form.wtt.range().lower <= 0.0) return std::nullopt;
   if (form.mu.range().lower < 0.0) return std::nullopt;
-  const SlopeForm q = forwards ? form.wtn : -form.wtn;
+  const AffineInterval q = forwards ? form.wtn : -form.wtn;
   return Slipping{.wtt = form.wtt,
                   .q = q,
                   .wnn = form.wnn,
@@ -44,8 +44,8 @@ std::optional<Slipping> MakeSlipping(const PlanarForm& form) {
 
 // Returns nothing if some scenes stick and others do not, or if W comes near to rank one.
 std::optional<AfterStop> FindAfterStop(const PlanarForm& form, const Slipping& slipping) {
-  const SlopeForm hold = form.mu_static.value_or(form.mu) * form.wtt;
-  const SlopeForm stick_slope = form.stick_slope.value_or(form.wnn - Square(form.wtn) / form.wtt);
+  const AffineInterval hold = form.mu_static.value_or(form.mu) * form.wtt;
+  const AffineInterval stick_slope = form.stick_slope.value_or(form.wnn - Square(form.wtn) / form.wtt);
   std::optional<AfterStop> after;
   if ((hold - slipping.q).range().lower >= 0.0 && (hold + slipping.q).range().lower >= 0.0) {
     after = AfterStop{stick_slope, slipping.q / slipping.wtt};
@@ -58,11 +58,11 @@ std::optional<AfterStop> FindAfterStop(const PlanarForm& form, const Slipping& s
 }
 
 struct Forms {
-  SlopeForm newton, poisson, plastic, elastic, drag_plastic, drag_elastic;
+  AffineInterval newton, poisson, plastic, elastic, drag_plastic, drag_elastic;
 };
 
 Forms Sliding(const Slipping& slipping) {
-  const SlopeForm compression = slipping.speed / slipping.first;
+  const AffineInterval compression = slipping.speed / slipping.first;
   return {.newton = kOne,
           .poisson = kOne,
           .plastic = compression,
@@ -72,17 +72,17 @@ Forms Sliding(const Slipping& slipping) {
 }
 
 // Returns the mean of -f' over an impulse of which slip takes the share `share`.
-SlopeForm Blend(const Slipping& slipping, const AfterStop& after, const SlopeForm& share) {
+AffineInterval Blend(const Slipping& slipping, const AfterStop& after, const AffineInterval& share) {
   return after.drag + share * (slipping.mu - after.drag);
 }
 
-Forms StopInRestitution(const Slipping& slipping, const AfterStop& after, const SlopeForm& stop_ratio) {
-  const SlopeForm sigma = Within(stop_ratio - kOne, {0.0, 1.0});
-  const SlopeForm rho = after.second / slipping.first;
-  const SlopeForm square = Square(sigma);
-  const SlopeForm newton = Sqrt(square + rho * (kOne - square));
-  const SlopeForm poisson = (kOne + sigma * newton) / (sigma + newton);
-  const SlopeForm compression = slipping.speed / slipping.first;
+Forms StopInRestitution(const Slipping& slipping, const AfterStop& after, const AffineInterval& stop_ratio) {
+  const AffineInterval sigma = Within(stop_ratio - kOne, {0.0, 1.0});
+  const AffineInterval rho = after.second / slipping.first;
+  const AffineInterval square = Square(sigma);
+  const AffineInterval newton = Sqrt(square + rho * (kOne - square));
+  const AffineInterval poisson = (kOne + sigma * newton) / (sigma + newton);
+  const AffineInterval compression = slipping.speed / slipping.first;
   return {.newton = newton,
           .poisson = poisson,
           .plastic = compression,
@@ -91,14 +91,14 @@ Forms StopInRestitution(const Slipping& slipping, const AfterStop& after, const 
           .drag_elastic = Blend(slipping, after, (sigma + newton) / (kOne + newton))};
 }
 
-Forms StopInCompression(const Slipping& slipping, const AfterStop& after, const SlopeForm& ratio,
-                        const SlopeForm& stop_ratio) {
-  const SlopeForm m = Within(kOne - stop_ratio, {0.0, rounding::kInfinity});
-  const SlopeForm h = after.second * ratio / slipping.braking;
-  const SlopeForm compression_end = h + m;  // A2 tau_c/w
-  const SlopeForm newton = Sqrt(h * (kOne + m) + Square(m));
-  const SlopeForm poisson = newton / compression_end;
-  const SlopeForm scale = slipping.speed / after.second;
+Forms StopInCompression(const Slipping& slipping, const AfterStop& after, const AffineInterval& ratio,
+                        const AffineInterval& stop_ratio) {
+  const AffineInterval m = Within(kOne - stop_ratio, {0.0, rounding::kInfinity});
+  const AffineInterval h = after.second * ratio / slipping.braking;
+  const AffineInterval compression_end = h + m;  // A2 tau_c/w
+  const AffineInterval newton = Sqrt(h * (kOne + m) + Square(m));
+  const AffineInterval poisson = newton / compression_end;
+  const AffineInterval scale = slipping.speed / after.second;
   return {.newton = newton,
           .poisson = poisson,
           .plastic = scale * compression_end,
@@ -112,8 +112,8 @@ std::optional<Forms> FormsOf(const PlanarForm& form, const Slipping& slipping) {
   const bool never_jams = slipping.first.range().lower > 0.0;
   if (slipping.braking.range().upper <= 0.0 && never_jams) return Sliding(slipping);
   if (slipping.braking.range().lower <= 0.0) return std::nullopt;
-  const SlopeForm ratio = slipping.slip / slipping.speed;
-  const SlopeForm stop_ratio = slipping.first / slipping.braking * ratio;  // 1 + sigma
+  const AffineInterval ratio = slipping.slip / slipping.speed;
+  const AffineInterval stop_ratio = slipping.first / slipping.braking * ratio;  // 1 + sigma
   if (stop_ratio.range().lower >= 2.0) return Sliding(slipping);
   const std::optional<AfterStop> after = FindAfterStop(form, slipping);
   if (!after.has_value()) return std::nullopt;
@@ -143,7 +143,7 @@ PlanarEnds EncloseEnds(const PlanarForm& form) {
   const std::optional<Forms> forms = FormsOf(form, *slipping);
   if (!forms.has_value()) return ends;
   const bool backwards = form.u0.range().upper < 0.0;
-  const auto along = [&](const SlopeForm& drag) { return backwards ? drag : -drag; };
+  const auto along = [&](const AffineInterval& drag) { return backwards ? drag : -drag; };
   ends.newton = Tighter(ends.newton, forms->newton);
   ends.poisson = Tighter(ends.poisson, forms->poisson);
   ends.normal_plastic = Tighter(ends.normal_plastic, forms->plastic);

@@ -24,10 +24,10 @@ double Factor(const SpeedTable& table, double speed) {
   return std::lerp(table.factor[above - 1], table.factor[above], share);
 }
 
-SlopeForm Factor(std::monostate /*unset*/, const SlopeForm& /*speed*/) { return 1.0; }
+AffineInterval Factor(std::monostate /*unset*/, const AffineInterval& /*speed*/) { return 1.0; }
 
-SlopeForm Factor(const PowerLaw& law, const SlopeForm& speed) {
-  return SlopeForm(1.0) - SlopeForm(law.alpha) * Pow(speed, law.exponent);
+AffineInterval Factor(const PowerLaw& law, const AffineInterval& speed) {
+  return AffineInterval(1.0) - AffineInterval(law.alpha) * Pow(speed, law.exponent);
 }
 
 // A Piece is a straight line of a table, between two of its speeds or outside them all: factor + slope (speed - from).
@@ -58,7 +58,7 @@ Interval Factor(const std::vector<Piece>& pieces, const Interval& speed) {
   return factor;
 }
 
-SlopeForm Factor(const SpeedTable& table, const SlopeForm& speed) {
+AffineInterval Factor(const SpeedTable& table, const AffineInterval& speed) {
   const std::vector<Piece> pieces = PiecesOf(table);
   Interval slope(rounding::kInfinity, -rounding::kInfinity);
   for (const Piece& piece : pieces) {
@@ -84,7 +84,7 @@ double FactorAt(const std::optional<SpeedDependence>& dependence, double speed) 
   return std::visit([speed](const auto& form) { return Factor(form, speed); }, *dependence);
 }
 
-SlopeForm FactorAt(const std::optional<SpeedDependence>& dependence, const SlopeForm& speed) {
+AffineInterval FactorAt(const std::optional<SpeedDependence>& dependence, const AffineInterval& speed) {
   if (!dependence.has_value()) return 1.0;
   return std::visit([&speed](const auto& form) { return Factor(form, speed); }, *dependence);
 }

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "core/numerics/slope_form.h"
+#include "core/numerics/affine_interval.h"
 #include "ricochet/outcome.h"
 #include "ricochet/scene.h"
 
@@ -15,7 +15,7 @@ namespace ricochet {
 double FactorAt(const std::optional<SpeedDependence>& dependence, double speed);
 
 // Encloses the factor of each speed, all >= 0.
-SlopeForm FactorAt(const std::optional<SpeedDependence>& dependence, const SlopeForm& speed);
+AffineInterval FactorAt(const std::optional<SpeedDependence>& dependence, const AffineInterval& speed);
 
 // True if a coefficient of the scene depends on the speed.
 inline bool DependsOnSpeed(const Scene& scene) {

@@ -3,8 +3,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/numerics/affine_interval.h"
 #include "core/numerics/interval_elementary.h"
-#include "core/numerics/slope_form.h"
 
 namespace ricochet {
 namespace {
@@ -14,13 +14,13 @@ const Interval kNone = {rounding::kInfinity, -rounding::kInfinity};
 // Makes a parameter of each number that lies between those of two structs of one kind.
 template <typename T>
 auto ParametersBetween(const T& low, const T& high, SlopeParameters& parameters) {
-  return [&](double T::*number) { return SlopeForm::Parameter({low.*number, high.*number}, parameters); };
+  return [&](double T::*number) { return AffineInterval::Parameter({low.*number, high.*number}, parameters); };
 }
 
 // --- Free bodies ---
 
 struct BodyForm {
-  SlopeForm mass, inertia, t, n, velocity_t, velocity_n, rate;
+  AffineInterval mass, inertia, t, n, velocity_t, velocity_n, rate;
 };
 
 BodyForm Between(const PlanarBody& low, const PlanarBody& high, SlopeParameters& parameters) {
@@ -34,13 +34,13 @@ BodyForm Between(const PlanarBody& low, const PlanarBody& high, SlopeParameters&
           .rate = between(&PlanarBody::rate_rad_s)};
 }
 
-SlopeForm SlipOf(const BodyForm& body) { return body.velocity_t - body.rate * body.n; }
-SlopeForm SpeedOf(const BodyForm& body) { return body.velocity_n + body.rate * body.t; }
+AffineInterval SlipOf(const BodyForm& body) { return body.velocity_t - body.rate * body.n; }
+AffineInterval SpeedOf(const BodyForm& body) { return body.velocity_n + body.rate * body.t; }
 
-ContactForm Contact(const BodyForm& body) {
-  const SlopeForm inverse_mass = SlopeForm(1.0) / body.mass;
-  const SlopeForm t2 = Square(body.t);
-  const SlopeForm n2 = Square(body.n);
+AffineContact Contact(const BodyForm& body) {
+  const AffineInterval inverse_mass = AffineInterval(1.0) / body.mass;
+  const AffineInterval t2 = Square(body.t);
+  const AffineInterval n2 = Square(body.n);
   return {.wtt = inverse_mass + n2 / body.inertia,
           .wtn = -(body.t * body.n / body.inertia),
           .wnn = inverse_mass + t2 / body.inertia,
@@ -49,15 +49,15 @@ ContactForm Contact(const BodyForm& body) {
           .v0 = SpeedOf(body)};
 }
 
-ContactForm Contact(const BodyForm& one, const BodyForm& two) {
-  const SlopeForm inverse_mass = SlopeForm(1.0) / one.mass + SlopeForm(1.0) / two.mass;
-  const SlopeForm tt = Square(one.n) / one.inertia + Square(two.n) / two.inertia;
-  const SlopeForm nn = Square(one.t) / one.inertia + Square(two.t) / two.inertia;
-  const SlopeForm cross = Square(one.n * two.t - one.t * two.n) / (one.inertia * two.inertia);
+AffineContact Contact(const BodyForm& one, const BodyForm& two) {
+  const AffineInterval inverse_mass = AffineInterval(1.0) / one.mass + AffineInterval(1.0) / two.mass;
+  const AffineInterval tt = Square(one.n) / one.inertia + Square(two.n) / two.inertia;
+  const AffineInterval nn = Square(one.t) / one.inertia + Square(two.t) / two.inertia;
+  const AffineInterval cross = Square(one.n * two.t - one.t * two.n) / (one.inertia * two.inertia);
   return {.wtt = inverse_mass + tt,
           .wtn = -(one.t * one.n / one.inertia + two.t * two.n / two.inertia),
           .wnn = inverse_mass + nn,
-          .stick_slope = inverse_mass + nn / (SlopeForm(1.0) + tt / inverse_mass) + cross / (inverse_mass + tt),
+          .stick_slope = inverse_mass + nn / (AffineInterval(1.0) + tt / inverse_mass) + cross / (inverse_mass + tt),
           .u0 = SlipOf(one) - SlipOf(two),
           .v0 = SpeedOf(one) - SpeedOf(two)};
 }
@@ -65,7 +65,7 @@ ContactForm Contact(const BodyForm& one, const BodyForm& two) {
 // --- Linkages ---
 
 struct LinkForm {
-  SlopeForm length, mass, com, inertia, theta, rate;
+  AffineInterval length, mass, com, inertia, theta, rate;
 };
 
 std::vector<LinkForm> Between(const Linkage& low, const Linkage& high, SlopeParameters& parameters) {
@@ -82,15 +82,15 @@ std::vector<LinkForm> Between(const Linkage& low, const Linkage& high, SlopePara
   return links;
 }
 
-using Row = std::vector<SlopeForm>;
+using Row = std::vector<AffineInterval>;
 
 // Returns the lower triangle; MassMatrix in core/contact/linkage_matrices.h has the formula.
 std::vector<Row> MassMatrix(const std::vector<LinkForm>& links) {
   std::vector<Row> mass(links.size());
-  SlopeForm outer_mass(0.0);
+  AffineInterval outer_mass(0.0);
   for (size_t k = links.size(); k-- > 0;) {
     const LinkForm& link = links[k];
-    const SlopeForm moment = link.mass * link.com + outer_mass * link.length;
+    const AffineInterval moment = link.mass * link.com + outer_mass * link.length;
     for (size_t i = 0; i < k; ++i) {
       mass[k].push_back(moment * links[i].length * Cos(links[i].theta - link.theta));
     }
@@ -112,11 +112,11 @@ Gram Eliminate(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> sto
   std::vector<Row> scaled(links.size());  // L D
   for (size_t i = 0; i < links.size(); ++i) {
     const bool is_stopped = stopped();
-    SlopeForm d = mass[i][i];
-    SlopeForm t = links[i].length * Cos(links[i].theta);
-    SlopeForm n = links[i].length * Sin(links[i].theta);
+    AffineInterval d = mass[i][i];
+    AffineInterval t = links[i].length * Cos(links[i].theta);
+    AffineInterval n = links[i].length * Sin(links[i].theta);
     for (size_t j = 0; j < i; ++j) {
-      SlopeForm entry = mass[i][j];
+      AffineInterval entry = mass[i][j];
       for (size_t k = 0; k < j && !is_stopped; ++k) entry = entry - scaled[i][k] * scaled[j][k] / gram.d[k];
       d = d - Square(entry) / gram.d[j];
       t = t - entry / gram.d[j] * gram.t[j];
@@ -130,9 +130,9 @@ Gram Eliminate(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> sto
   return gram;
 }
 
-ContactForm Contact(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> stopped) {
+AffineContact Contact(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> stopped) {
   const Gram gram = Eliminate(links, stopped);
-  SlopeForm wtt(0.0), wtn(0.0), wnn(0.0), determinant(0.0), u0(0.0), v0(0.0);
+  AffineInterval wtt(0.0), wtn(0.0), wnn(0.0), determinant(0.0), u0(0.0), v0(0.0);
   for (size_t i = 0; i < links.size(); ++i) {
     wtt = wtt + Square(gram.t[i]) / gram.d[i];
     wtn = wtn + gram.t[i] * gram.n[i] / gram.d[i];
@@ -186,18 +186,18 @@ IntervalPendulum Between(const SceneBox& box, const Pendulum& low, const Pendulu
   return pendulum;
 }
 
-ContactForm Between(const PlanarContact& low, const PlanarContact& high, SlopeParameters& parameters) {
+AffineContact Between(const PlanarContact& low, const PlanarContact& high, SlopeParameters& parameters) {
   const auto between = ParametersBetween(low, high, parameters);
-  ContactForm contact = {.wtt = between(&PlanarContact::w_tt_per_kg),
-                         .wtn = between(&PlanarContact::w_tn_per_kg),
-                         .wnn = between(&PlanarContact::w_nn_per_kg),
-                         .u0 = between(&PlanarContact::tangential_m_s),
-                         .v0 = between(&PlanarContact::normal_m_s)};
+  AffineContact contact = {.wtt = between(&PlanarContact::w_tt_per_kg),
+                           .wtn = between(&PlanarContact::w_tn_per_kg),
+                           .wnn = between(&PlanarContact::w_nn_per_kg),
+                           .u0 = between(&PlanarContact::tangential_m_s),
+                           .v0 = between(&PlanarContact::normal_m_s)};
   contact.stick_slope = contact.wnn - Square(contact.wtn) / contact.wtt;
   return contact;
 }
 
-ContactForm Contact(const SceneBox& box, SlopeParameters& parameters, absl::FunctionRef<bool()> stopped) {
+AffineContact Contact(const SceneBox& box, SlopeParameters& parameters, absl::FunctionRef<bool()> stopped) {
   const System& high = box.high.system;
   if (const auto* low = std::get_if<PlanarContact>(&box.low.system)) {
     return Between(*low, std::get<PlanarContact>(high), parameters);
@@ -228,14 +228,14 @@ IntervalReduction Reduce(const SceneBox& box, SlopeParameters& parameters, absl:
   if (IsOfRankOne(box.low.system)) {
     return OneLink(std::get<Linkage>(box.low.system).links[0], std::get<Linkage>(box.high.system).links[0]);
   }
-  ContactForm contact = Contact(box, parameters, stopped);
+  AffineContact contact = Contact(box, parameters, stopped);
   if (!box.low.surface_velocity.has_value()) return contact;
   const SurfaceVelocity& low = *box.low.surface_velocity;
   const SurfaceVelocity& high = *box.high.surface_velocity;
   if (!low.tangential_m_s.empty()) {
-    contact.u0 = contact.u0 - SlopeForm::Parameter({low.tangential_m_s[0], high.tangential_m_s[0]}, parameters);
+    contact.u0 = contact.u0 - AffineInterval::Parameter({low.tangential_m_s[0], high.tangential_m_s[0]}, parameters);
   }
-  contact.v0 = contact.v0 - SlopeForm::Parameter({low.normal_m_s, high.normal_m_s}, parameters);
+  contact.v0 = contact.v0 - AffineInterval::Parameter({low.normal_m_s, high.normal_m_s}, parameters);
   return contact;
 }
 

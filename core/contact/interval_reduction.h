@@ -1,6 +1,6 @@
 // Reduce: the contact (core/contact/reduction.h) of every scene of a box, enclosed in intervals.
 //
-// Entries are forms to first order in the parameters of the box (core/numerics/slope_form.h). Every operation is
+// Entries are forms to first order in the parameters of the box (core/numerics/affine_interval.h). Every operation is
 // rounded outward, so they contain the exact contact of every scene. They are too wide by at most the square of the
 // box's size; those of a pendulum are no wider than they must be. `stick_slope` is C = Wnn - Wtn^2/Wtt = det W/Wtt in a
 // form without that difference, because the entries of W alone cannot tell a W of full rank from others.
@@ -13,8 +13,8 @@
 #include <variant>
 
 #include "absl/functional/function_ref.h"
+#include "core/numerics/affine_interval.h"
 #include "core/numerics/interval.h"
-#include "core/numerics/slope_form.h"
 #include "ricochet/scene.h"
 
 namespace ricochet {
@@ -32,13 +32,13 @@ struct IntervalPendulum {
   Interval omega_minus;
 };
 
-struct ContactForm {
-  SlopeForm wtt, wtn, wnn;
-  SlopeForm stick_slope;  // C
-  SlopeForm u0, v0;       // The velocity relative to the surface.
+struct AffineContact {
+  AffineInterval wtt, wtn, wnn;
+  AffineInterval stick_slope;  // C
+  AffineInterval u0, v0;       // The velocity relative to the surface.
 };
 
-using IntervalReduction = std::variant<IntervalPendulum, ContactForm>;
+using IntervalReduction = std::variant<IntervalPendulum, AffineContact>;
 
 // Tells whether the system's W has rank one by construction: a pendulum, or a linkage of one link.
 bool IsOfRankOne(const System& system);

@@ -36,7 +36,7 @@ Wide ExactNumber(const Certificate& certificate, const std::string& path) {
   return Wide::Exactly(number.value) + Wide::Exactly(certified::Residual(number.decimal, number.value));
 }
 
-ExactVelocity ExactVelocityOf(const Certificate& certificate) {
+ReferenceVelocity ReferenceVelocityOf(const Certificate& certificate) {
   return {.of = {ExactNumber(certificate, kTangentialPath), Wide::Exactly(0.0), ExactNumber(certificate, kNormalPath)},
           .error = 0x1p-104,
           .source = kCertifiedSource};

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "core/cost/cost_kernel.h"
-#include "core/cost/exact_velocity.h"
+#include "core/cost/reference_velocity.h"
 #include "core/numerics/wide.h"
 #include "ricochet/certificate.h"
 #include "ricochet/scene.h"
@@ -25,7 +25,7 @@ std::optional<Certificate> CertifyContact(const Scene& scene, int digits, Stoppe
 Wide ExactNumber(const Certificate& certificate, const std::string& path);
 
 // The contact velocity after the impact of a planar scene.
-ExactVelocity ExactVelocityOf(const Certificate& certificate);
+ReferenceVelocity ReferenceVelocityOf(const Certificate& certificate);
 Velocity3 RoundedVelocityOf(const Certificate& certificate);
 
 // The largest component of the difference of two certificates' contact velocities, by their decimals.

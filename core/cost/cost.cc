@@ -157,8 +157,8 @@ class CostStudy::Impl {
 
   void SetErrors(const KernelAnswer& answer, const StudiedMethod& method, Stopped stopped, CostRow& row) {
     if (study_.truth == nullptr || method.exact == nullptr) return;
-    const ExactVelocity* const exact = method.exact->Get(stopped);
-    const ExactVelocity* const truth = study_.truth->Get(stopped);
+    const ReferenceVelocity* const exact = method.exact->Get(stopped);
+    const ReferenceVelocity* const truth = study_.truth->Get(stopped);
     if (exact == nullptr || truth == nullptr) return AddNote(kNoReferenceNote, row);
     CostError achieved = {.total = Relative(Distance(answer.velocity, *truth)),
                           .numerical = Relative(Distance(answer.velocity, *exact)),
@@ -193,7 +193,7 @@ class CostStudy::Impl {
 
   CostSummary Summarise(Stopped stopped) {
     CostSummary summary = {.front = ParetoFront(rows_), .picks = PicksFor(scene_, contact_, rows_)};
-    const ExactVelocity* const truth = study_.truth == nullptr ? nullptr : study_.truth->Get(stopped);
+    const ReferenceVelocity* const truth = study_.truth == nullptr ? nullptr : study_.truth->Get(stopped);
     if (truth != nullptr) {
       summary.reference = ToContactVelocity(RoundedVelocity(*truth), study_.directions);
       summary.reference_source = truth->source;
@@ -202,7 +202,7 @@ class CostStudy::Impl {
       summary.reference_source = kNoReferenceNote;
     }
     for (const CostRow& row : rows_) {
-      if (row.IsDeceived()) ++summary.deceived;
+      if (row.ClaimIsBroken()) ++summary.deceived;
       if (row.status == CostStatus::kOutOfTime) ++summary.out_of_time;
       if (row.status == CostStatus::kFailed) ++summary.failed;
     }

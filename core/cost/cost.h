@@ -7,10 +7,10 @@
 //     Send(*chunk);
 //   }
 //
-// core/cost/cost_methods.h lists the methods, core/cost/exact_velocity.h their references, core/cost/stopwatch.h says
-// how they are timed, core/cost/cost_summary.h how the front and the picks are found. A method has an equal share of
-// the time that is left, one half for single solves and one for a batch, which is left out if it takes more than 2 % of
-// the limit. Its first answer may take a quarter of the time left, so that a slow method does not take that of all
+// core/cost/cost_methods.h lists the methods, core/cost/reference_velocity.h their references, core/cost/stopwatch.h
+// says how they are timed, core/cost/cost_summary.h how the front and the picks are found. A method has an equal share
+// of the time that is left, one half for single solves and one for a batch, which is left out if it takes more than 2 %
+// of the limit. Its first answer may take a quarter of the time left, so that a slow method does not take that of all
 // others.
 
 #ifndef RICOCHET_CORE_COST_COST_H_

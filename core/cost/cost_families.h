@@ -61,7 +61,7 @@ void AddSliding(const sliding::Problem<kTangential>& problem, const Choice& choi
 void AddPlanar(const planar::Problem& problem, const ContactPhysics& physics, const ReferencePointer& exact,
                double reduction_error, Methods& methods);
 
-// Certified digits of a rigid impact: those of `scene`, which SceneOf made (core/cost/exact_velocity.h).
+// Certified digits of a rigid impact: those of `scene`, which SceneOf made (core/cost/reference_velocity.h).
 void AddCertified(const Scene& scene, double speed, double claimed_modelling, const ReferencePointer& exact,
                   Methods& methods);
 

@@ -32,7 +32,7 @@ double SpeedOf(double u0, double v0) { return std::max(std::fabs(u0), std::fabs(
 
 ReferencePointer NoImpact(const Velocity3& before) {
   return MakeReference(
-      [before](Stopped) { return ExactlyThis(before, 0.0, "the velocity before, because the contact separates"); });
+      [before](Stopped) { return ReferenceAt(before, 0.0, "the velocity before, because the contact separates"); });
 }
 
 // A planar scene with all that its methods need.
@@ -147,9 +147,9 @@ StudiedScene StudySpatial(const Scene& scene, const SpatialReduction& reduction,
 
 }  // namespace
 
-const ExactVelocity* Reference::Get(Stopped stopped) {
+const ReferenceVelocity* Reference::Get(Stopped stopped) {
   if (!known_.has_value()) {
-    ExactVelocity computed = compute_(stopped);
+    ReferenceVelocity computed = compute_(stopped);
     if (stopped()) return nullptr;
     known_ = std::move(computed);
   }

@@ -28,7 +28,7 @@
 #include "absl/status/statusor.h"
 #include "core/contact/scene_contact.h"
 #include "core/cost/cost_kernel.h"
-#include "core/cost/exact_velocity.h"
+#include "core/cost/reference_velocity.h"
 #include "ricochet/cost.h"
 #include "ricochet/scene.h"
 
@@ -37,16 +37,16 @@ namespace ricochet {
 // An exact answer that is computed when it is first asked for, because some take long.
 class Reference {
  public:
-  using Compute = std::function<ExactVelocity(Stopped)>;
+  using Compute = std::function<ReferenceVelocity(Stopped)>;
 
   explicit Reference(Compute compute) : compute_(std::move(compute)) {}
 
   // Returns null if none is known: its error is infinite. An answer that was stopped is not kept.
-  const ExactVelocity* Get(Stopped stopped);
+  const ReferenceVelocity* Get(Stopped stopped);
 
  private:
   Compute compute_;
-  std::optional<ExactVelocity> known_;
+  std::optional<ReferenceVelocity> known_;
 };
 
 struct StudiedMethod {

@@ -72,7 +72,7 @@ ReferencePointer AddCompliant(const Problem& problem, const ContactPhysics& phys
   };
   const ReferencePointer exact = MakeReference([compliance](Stopped) {
     const compliant::Impact impact = compliant::Solve(compliance);
-    return ExactlyThis({impact.u1, 0.0, impact.v1}, impact.error_estimate,
+    return ReferenceAt({impact.u1, 0.0, impact.v1}, impact.error_estimate,
                        "the model of tangential compliance itself, with the error that it estimates");
   });
   methods.push_back({.name = "tangential compliance",

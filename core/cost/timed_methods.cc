@@ -85,11 +85,11 @@ Kernel TimedKernel(const Problem& problem) {
   return MakeKernel(problem, solve, read);
 }
 
-ExactVelocity AtLeastTolerance(Problem problem, Stopped stopped) {
+ReferenceVelocity AtLeastTolerance(Problem problem, Stopped stopped) {
   problem.tolerance = kLeastTolerance;
   const finite_duration::Impact impact = finite_duration::Solve(problem, stopped);
   const bool known = !impact.stopped && impact.Converged();
-  return ExactlyThis({impact.u1, 0.0, impact.v1}, known ? impact.error_estimate : kNotKnown,
+  return ReferenceAt({impact.u1, 0.0, impact.v1}, known ? impact.error_estimate : kNotKnown,
                      "the model of finite duration at a tolerance of 1e-12, with the error that it estimates");
 }
 

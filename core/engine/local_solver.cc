@@ -16,7 +16,7 @@
 #include "core/certified/certified.h"
 #include "core/cost/cost.h"
 #include "core/engine/audit_run.h"
-#include "core/engine/call_watch.h"
+#include "core/engine/call_control.h"
 #include "core/engine/check_limits.h"
 #include "core/engine/check_solve.h"
 #include "core/engine/chunk_size.h"
@@ -78,7 +78,7 @@ absl::Status Certify(const BoundsRequest& request, absl::FunctionRef<bool()> sto
 }
 
 // Answers in place, because an outcome is large.
-absl::Status Answer(const SolveRequest& request, CallWatch& watch, SolveResponse& response) {
+absl::Status Answer(const SolveRequest& request, CallControl& watch, SolveResponse& response) {
   std::optional<SceneContact> contact;
   auto violations = Validate(request.scene, RestitutionIs::kRequired, contact);
   if (violations.empty()) violations = CheckSolve(request, contact);
@@ -86,10 +86,10 @@ absl::Status Answer(const SolveRequest& request, CallWatch& watch, SolveResponse
   if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
   const auto stopped = [&watch] { return watch.IsStopped(); };
   Outcome& outcome = response.outcome;
-  const Extent extent = {.history_at_n_s = request.history_at_n_s,
-                         .history_intervals = request.history_intervals,
-                         .force_intervals = request.force_intervals};
-  const absl::Status solved = SolveScene(request.scene, contact, DemandOf(request), extent, stopped, outcome);
+  const OutcomeDetail detail = {.history_at_n_s = request.history_at_n_s,
+                                .history_intervals = request.history_intervals,
+                                .force_intervals = request.force_intervals};
+  const absl::Status solved = SolveScene(request.scene, contact, DemandOf(request), detail, stopped, outcome);
   if (!solved.ok()) return watch.OrWhyEnded(solved);
   if (request.inadmissible_is_error && !outcome.admissible) return Inadmissible(outcome);
   const absl::Status certified = Certify(request, stopped, outcome.certificate);
@@ -106,7 +106,7 @@ LocalSolver::LocalSolver(const Limits& limits, int threads)
 }
 
 absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
-  CallWatch watch(options);
+  CallControl watch(options);
   absl::StatusOr<SolveResponse> response(absl::in_place);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status status = Answer(request, watch, *response); !status.ok()) response = std::move(status);
@@ -114,7 +114,7 @@ absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, 
 }
 
 absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, const CallOptions& options) const {
-  CallWatch watch(options);
+  CallControl watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   std::optional<SceneContact> contact;
   std::vector<Violation> violations = Validate(request.scene, RestitutionIs::kRequired, contact);
@@ -127,7 +127,7 @@ absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, con
 }
 
 absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& request, const CallOptions& options) const {
-  CallWatch watch(options);
+  CallControl watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   const auto stopped = [&watch] { return watch.IsStopped(); };
   std::optional<SceneContact> contact;
@@ -152,7 +152,7 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
 }
 
 absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, const CallOptions& options) const {
-  CallWatch watch(options);
+  CallControl watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
   absl::StatusOr<AuditResponse> response = AuditScene(request, [&watch] { return watch.IsStopped(); });
@@ -163,7 +163,7 @@ absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, 
 
 absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchRequest& request,
                                                              const CallOptions& options) const {
-  CallWatch watch(options);
+  CallControl watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
   absl::StatusOr<AuditBatchResponse> response =
@@ -194,7 +194,7 @@ class LocalBatches final : public BatchSession::Worker {
  private:
   std::unique_ptr<ParallelBatch> run_;
   const Limits limits_;
-  CallWatch watch_;
+  CallControl watch_;
 };
 
 }  // namespace
@@ -222,7 +222,7 @@ SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions&
   if (absl::Status too_large = CheckPoints(made->points_total(), limits_); !too_large.ok()) {
     return SweepStream(too_large);
   }
-  auto next = [run = *std::move(made), watch = CallWatch(options), size = ChunkSize(),
+  auto next = [run = *std::move(made), watch = CallControl(options), size = ChunkSize(),
                is_first = true]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
     if (run.ended()) return std::nullopt;
     watch.StartPiece(std::exchange(is_first, false) ? kFirstChunkTime : kChunkTime);
@@ -242,7 +242,7 @@ CostStream LocalSolver::DoCost(const CostRequest& request, const CallOptions& op
   absl::StatusOr<CostStudy> made = CostStudy::Make(request);
   if (!made.ok()) return CostStream(made.status());
   auto next = [study = *std::move(made),
-               watch = CallWatch(options)]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
+               watch = CallControl(options)]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
     if (study.ended()) return std::nullopt;
     absl::StatusOr<CostChunk> chunk = study.NextChunk([&watch] { return watch.IsStopped(); });
     if (!chunk.ok()) return watch.OrWhyEnded(chunk.status());
@@ -253,7 +253,7 @@ CostStream LocalSolver::DoCost(const CostRequest& request, const CallOptions& op
 }
 
 absl::StatusOr<InfoResponse> LocalSolver::DoInfo(const InfoRequest& /*request*/, const CallOptions& options) const {
-  if (absl::Status ended = CallWatch(options).WhyEnded(); !ended.ok()) return ended;
+  if (absl::Status ended = CallControl(options).WhyEnded(); !ended.ok()) return ended;
   return InfoOf(limits_);
 }
 

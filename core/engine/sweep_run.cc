@@ -35,7 +35,7 @@ constexpr int64_t kSharedLanePoints = 2 * RowSolver::kRowsBetweenStops;
 // The most points that a thread takes at once, where it is alone or points take long.
 constexpr int64_t kMostPoints = 1024;
 
-// A helper gives back the rest of a block that takes longer than this, because its points have become dear.
+// A helper gives back the rest of a block that takes longer than this, because its points have become expensive.
 constexpr std::chrono::milliseconds kMostBlockTime(10);
 
 absl::Status Stopped() { return absl::CancelledError("the sweep was stopped by its caller"); }

@@ -27,7 +27,7 @@
 namespace ricochet {
 
 // Thread safety: one thread at a time. Destroying a run waits until nobody helps it any more, which takes as long as
-// one block does, or a step of a dear point.
+// one block does, or a step of an expensive point.
 class SweepRun {
  public:
   // The most bytes of values in a chunk, unless one point has more.

@@ -1,4 +1,4 @@
-// TellOutputs: every output of a planar impact (core/models/planar_outputs.h), of one problem or of one in each lane.
+// ForEachOutput: every output of a planar impact (core/models/planar_outputs.h), of one problem or of one in each lane.
 
 // Per-target include guard.
 #if defined(RICOCHET_CORE_MODELS_PLANAR_OUTPUTS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -16,7 +16,7 @@ namespace ricochet::HWY_NAMESPACE {
 
 // Calls tell(output, value) for every output of an impact. `V` is double or a vector.
 template <typename X, typename V, typename Tell>
-HWY_INLINE void TellOutputs(const X& x, V zero, V relative_error, const Tell& tell) {
+HWY_INLINE void ForEachOutput(const X& x, V zero, V relative_error, const Tell& tell) {
   using Output = PlanarOutput;
   const V work_tangential = x.work_tangential_compression + x.work_tangential_restitution;
   tell(Output::kNewton, x.newton);

@@ -79,28 +79,28 @@ const Candidate* Cheapest(const Context& context, const Candidates& candidates) 
   return fallback;
 }
 
-struct Wishes {
+struct Requested {
   EffectSet required;
   EffectSet excluded;
 };
 
-Decision DecisionOn(Effect effect, const Size& size, Wishes wishes, EffectSet simulates) {
-  if (wishes.required.Has(effect)) return Decision::kRequired;
+Decision DecisionOn(Effect effect, const Size& size, Requested requested, EffectSet simulates) {
+  if (requested.required.Has(effect)) return Decision::kRequired;
   if (size.IsAbsent()) return Decision::kAbsent;
-  if (wishes.excluded.Has(effect)) return Decision::kExcluded;
+  if (requested.excluded.Has(effect)) return Decision::kExcluded;
   return simulates.Has(effect) ? Decision::kSimulated : Decision::kNegligible;
 }
 
 // Sets the decisions and what follows from them. The sizes are still those without the excluded effects.
 void Decide(const Context& context, const Candidate& candidate, const Sizes& of_all, Choice& choice) {
   choice.model = candidate.model;
-  const Wishes wishes = {.required = context.demand.required, .excluded = context.excluded};
+  const Requested requested = {.required = context.demand.required, .excluded = context.excluded};
   const EffectSet simulates = candidate.simulates;
-  const bool smooth = !simulates.Has(Effect::kFriction) || wishes.excluded.Has(Effect::kFriction);
+  const bool smooth = !simulates.Has(Effect::kFriction) || requested.excluded.Has(Effect::kFriction);
   for (const Effect effect : kEffects) {
     Size& size = choice.sizes[effect];
-    if (wishes.excluded.Has(effect)) size = of_all[effect];
-    const Decision decision = DecisionOn(effect, size, wishes, simulates);
+    if (requested.excluded.Has(effect)) size = of_all[effect];
+    const Decision decision = DecisionOn(effect, size, requested, simulates);
     choice.decisions[static_cast<size_t>(effect)] = decision;
     if (decision != Decision::kNegligible && decision != Decision::kExcluded) continue;
     choice.left_out.Add(effect);
@@ -215,8 +215,8 @@ Choice ForcedContact() {
   Choice choice = Separating();
   choice.model = Model::kFiniteDuration;
   choice.model_tolerance = 1e-12;
-  choice.sizes[Effect::kFiniteDuration] = {.value = kUnbounded, .ground = Ground::kNoInequality};
-  choice.sizes[Effect::kFiniteForces] = {.value = kUnbounded, .ground = Ground::kNoInequality};
+  choice.sizes[Effect::kFiniteDuration] = {.value = kUnbounded, .basis = Basis::kNoInequality};
+  choice.sizes[Effect::kFiniteForces] = {.value = kUnbounded, .basis = Basis::kNoInequality};
   choice.decisions[static_cast<size_t>(Effect::kFiniteDuration)] = Decision::kSimulated;
   choice.decisions[static_cast<size_t>(Effect::kFiniteForces)] = Decision::kSimulated;
   return choice;

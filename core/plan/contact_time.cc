@@ -45,7 +45,7 @@ struct DepthTimer {
   double Time(double depth, double loading) const {
     const double pressed = 6.0 * of.acceleration * depth * of.slope_high;
     const bool holds = pressed <= of.slope_low * of.v0 * of.v0 * (1.0 - 0x1p-20) && of.energetic > 0.0;
-    return holds ? Padded((1.0 + of.energetic) * loading) : kUnbounded;
+    return holds ? WithRoundingMargin((1.0 + of.energetic) * loading) : kUnbounded;
   }
 };
 

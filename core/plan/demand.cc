@@ -26,7 +26,7 @@ bool HasFriction(const Scene& scene) {
 bool IsInSpace(const Scene& scene) { return TangentialDirections(scene.system) == 2; }
 
 // True if the scene has finite forces and a spring, so that the forces have time to act.
-bool HasFiniteForces(const Scene& scene) { return Lacking(scene, Effect::kFiniteForces).empty(); }
+bool HasFiniteForces(const Scene& scene) { return MissingPart(scene, Effect::kFiniteForces).empty(); }
 
 // The reason why the effect cannot be left out; empty if it can, or if that depends on the numbers of the contact.
 std::string WhyNotExcluded(const Scene& scene, Effect effect, EffectSet excluded, EffectSet required) {
@@ -79,7 +79,7 @@ Effect CauseOf(Effect effect, EffectSet excluded, bool in_space) {
 
 // Refuses a normal spring, whatever the tolerance leaves of it, if the build cannot follow an impact in time.
 void CheckComponents(const Scene& scene, std::vector<Violation>& violations) {
-  if (finite_duration::IsAvailable() || !Lacking(scene, Effect::kFiniteDuration).empty()) return;
+  if (finite_duration::IsAvailable() || !MissingPart(scene, Effect::kFiniteDuration).empty()) return;
   violations.push_back(MakeViolation("compliance.normal", "is set",
                                      "not be, this build has no impacts that take time (component finite_duration)"));
 }
@@ -88,7 +88,7 @@ void CheckRequired(const Scene& scene, const Demand& demand, std::vector<Violati
   const bool in_space = IsInSpace(scene);
   const EffectSet excluded = WithImplied(demand.excluded, in_space);
   ForEach(demand.required, "required", [&](Effect effect, std::string path) {
-    const std::string lacking = Lacking(scene, effect);
+    const std::string lacking = MissingPart(scene, effect);
     if (!lacking.empty()) {
       violations.push_back(Refuse(std::move(path), effect, "not be required of a scene without " + lacking));
     } else if (excluded.Has(effect)) {
@@ -135,7 +135,7 @@ void CheckForms(const Scene& scene, std::optional<SceneContact>& contact, const 
 
 }  // namespace
 
-std::string Lacking(const Scene& scene, Effect effect) {
+std::string MissingPart(const Scene& scene, Effect effect) {
   const auto unless = [](bool holds, const char* lacking) { return std::string(holds ? "" : lacking); };
   const bool rubs = HasFriction(scene);
   switch (effect) {

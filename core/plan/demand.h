@@ -44,7 +44,7 @@ EffectSet WithImplied(EffectSet excluded, bool in_space);
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
 // The part that the scene lacks for the effect: "a normal spring in compliance"; empty if it lacks nothing.
-std::string Lacking(const Scene& scene, Effect effect);
+std::string MissingPart(const Scene& scene, Effect effect);
 
 // The name of the effect in the proto, in small letters and without its prefix: "slip_stop".
 const char* NameOf(Effect effect);

@@ -22,8 +22,8 @@ std::string Percent(double share) { return absl::StrCat(Digits(100.0 * share), "
 enum class ContactKind { kPlanar, kPendulum, kSpatial };
 
 ContactKind KindOf(const Sizes& sizes) {
-  if (sizes[Effect::kHigherOrder].ground != Ground::kNotOfSystem) return ContactKind::kPendulum;
-  return sizes[Effect::kSlipTurn].ground != Ground::kNotOfSystem ? ContactKind::kSpatial : ContactKind::kPlanar;
+  if (sizes[Effect::kHigherOrder].basis != Basis::kNotOfSystem) return ContactKind::kPendulum;
+  return sizes[Effect::kSlipTurn].basis != Basis::kNotOfSystem ? ContactKind::kSpatial : ContactKind::kPlanar;
 }
 
 std::string NotInScene(Effect effect, ContactKind kind) {
@@ -99,35 +99,35 @@ std::string SlidesThroughout(Effect effect, const Size& size, ContactKind kind) 
 }
 
 std::string ReasonOf(Effect effect, const Size& size, ContactKind kind) {
-  switch (size.ground) {
-    case Ground::kNotInScene:
+  switch (size.basis) {
+    case Basis::kNotInScene:
       return NotInScene(effect, kind);
-    case Ground::kNotOfSystem:
+    case Basis::kNotOfSystem:
       return effect == Effect::kSlipTurn ? "in a plane slip cannot turn" : "only a pendulum has first-order formulas";
-    case Ground::kImmobile:
+    case Basis::kImmobile:
       return "Wtt = 0: no tangential impulse moves the contact";
-    case Ground::kSlidesThroughout:
+    case Basis::kSlidesThroughout:
       return SlidesThroughout(effect, size, kind);
-    case Ground::kStraight:
+    case Basis::kStraight:
       return "Wtt is the same in all directions and wtn = 0: slip keeps its direction";
-    case Ground::kDecidesNothing:
+    case Basis::kDecidesNothing:
       return "the contact sticks with both coefficients of friction or with neither";
-    case Ground::kNoSpring:
+    case Basis::kNoSpring:
       return "the scene has no normal spring: forces have no time to act";
-    case Ground::kSameImpulses:
+    case Basis::kSameImpulses:
       return "velocities and impulses do not depend on it; require it to get the duration and the forces";
-    case Ground::kInequality:
+    case Basis::kInequality:
       return ByInequality(effect, size, kind);
-    case Ground::kSelfLocking:
+    case Basis::kSelfLocking:
       return absl::StrCat("friction may lock the contact, as the coefficient times |Wtn| is ", Digits(size.number),
                           " Wnn: no bound is known");
-    case Ground::kStaysAtRest:
+    case Basis::kStaysAtRest:
       return "there is no slip at the start, and the contact sticks";
-    case Ground::kStopsAtCompressionEnd:
+    case Basis::kStopsAtCompressionEnd:
       return "slip stops at the end of compression, as for every pendulum";
-    case Ground::kNoInequality:
+    case Basis::kNoInequality:
       return WithoutInequality(effect, size);
-    case Ground::kDamped:
+    case Basis::kDamped:
       return "the damping of the spring determines the restitution";
   }
   return "";
@@ -147,8 +147,7 @@ std::string ForContact(Effect effect, const PlannedEffects::Facts& facts) {
   if (kOnFriction.Has(effect) && IsLeftOut(fact) && IsLeftOut(facts[static_cast<size_t>(Effect::kFriction)])) {
     return "included in the change by friction";
   }
-  return ReasonOf(effect, {.value = fact.size, .ground = static_cast<Ground>(fact.ground), .number = fact.number},
-                  kKind);
+  return ReasonOf(effect, {.value = fact.size, .basis = static_cast<Basis>(fact.basis), .number = fact.number}, kKind);
 }
 
 PlannedEffects::Author AuthorFor(const Choice& choice) {
@@ -176,7 +175,7 @@ void Explain(const Choice& choice, const Demand& demand, Plan& plan) {
     plan.effects[effect] = {.size = size.value,
                             .number = size.number,
                             .decision = choice.decisions[static_cast<size_t>(effect)],
-                            .ground = static_cast<int>(size.ground)};
+                            .basis = static_cast<int>(size.basis)};
   }
 }
 

@@ -34,7 +34,7 @@ std::string LackingForNumber(const Scene& scene, absl::string_view path) {
   const EffectSet behind = EffectsBehind(path);
   for (const Effect effect : kEffects) {
     if (!behind.Has(effect)) continue;
-    const std::string lacking = Lacking(scene, effect);
+    const std::string lacking = MissingPart(scene, effect);
     if (!lacking.empty()) return lacking;
   }
   return "";

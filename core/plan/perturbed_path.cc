@@ -136,7 +136,7 @@ EndShift ShiftBySlopes(const Restoring& restoring, const ReferencePath& referenc
 
 }  // namespace
 
-double Padded(double bound) {
+double WithRoundingMargin(double bound) {
   if (bound == 0.0) return 0.0;
   const double padded = bound * (1.0 + 0x1p-20) + std::numeric_limits<double>::min();
   return padded >= 0.0 ? padded : kUnbounded;
@@ -156,7 +156,7 @@ double LargestChange(const Mobility& mobility, const Restoring& restoring, const
   const double u1 = by.OfU(shift.last) + reference.u_slope * shift.tau1;
   const double f1 = mobility.tangential * (by.OfF(shift.last) + reference.f_slope * shift.tau1);
   const bool bounded = shift.v1 + shift.tau1 + u1 + f1 < kUnbounded;  // A NaN makes this false, too.
-  return bounded ? Padded(std::max({shift.v1, shift.tau1, u1, f1})) : kUnbounded;
+  return bounded ? WithRoundingMargin(std::max({shift.v1, shift.tau1, u1, f1})) : kUnbounded;
 }
 
 }  // namespace ricochet

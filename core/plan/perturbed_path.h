@@ -57,7 +57,7 @@ double LargestChange(const Mobility& mobility, const Restoring& restoring, const
                      const Perturbation& perturbation);
 
 // Enlarges a bound to cover the rounding of itself and of the numbers that it was computed from. NaN becomes infinite.
-double Padded(double bound);
+double WithRoundingMargin(double bound);
 
 }  // namespace ricochet
 

@@ -43,7 +43,7 @@ struct Scaled {
   // A lower bound on tau_s, close to it.
   double EarliestStop() const { return slip / std::max(Braking() + kRounding * UTerms(), 0.0) * (1.0 - TimeError()); }
   double Change(const ReferencePath& reference, const Perturbation& change) const {
-    return Padded(scale * LargestChange(mobility, restoring, reference, change));
+    return WithRoundingMargin(scale * LargestChange(mobility, restoring, reference, change));
   }
 };
 
@@ -72,7 +72,7 @@ ReferencePath Sliding(const Scaled& contact) {
           .f_slope = contact.mu};
 }
 
-Size Locking(double cone) { return {.value = kUnbounded, .ground = Ground::kSelfLocking, .number = cone}; }
+Size Locking(double cone) { return {.value = kUnbounded, .basis = Basis::kSelfLocking, .number = cone}; }
 
 // Bounds |f| by 2 (|u0| + w tau1)/W, because friction only slows slip.
 double HeldImpulse(const Scaled& contact) {
@@ -105,7 +105,7 @@ Size FrictionSize(const Scaled& contact, const ContactPhysics& physics, bool sli
                                                   .slope_high = std::max(contact.SlideSlope(), contact.StickSlope())}));
   }
   if (!(size < kUnbounded)) return Locking(cone);
-  return {.value = size, .ground = Ground::kInequality, .number = cone};
+  return {.value = size, .basis = Basis::kInequality, .number = cone};
 }
 
 // True if slip goes on to the end of the sliding path.
@@ -117,7 +117,7 @@ bool SlidesThroughout(const Scaled& contact) {
 
 Size SlidingThroughout(const Scaled& contact, const planar::Problem& problem) {
   const double end = contact.slip - contact.Braking() * contact.SlideImpulse();
-  return {.value = 0.0, .ground = Ground::kSlidesThroughout, .number = -problem.v0 * end};
+  return {.value = 0.0, .basis = Basis::kSlidesThroughout, .number = -problem.v0 * end};
 }
 
 // The size of a change of f' by `f_slope` from the earliest stop of slip on; `path` is A.
@@ -126,14 +126,14 @@ Size AfterStop(const Scaled& contact, const ReferencePath& path, double f_slope,
   const double size = contact.Change(path, {.f_slope = f_slope, .from = stop, .slope_low = low, .slope_high = high});
   if (!(size < kUnbounded)) return Locking(contact.Cone());
   return {.value = size,
-          .ground = Ground::kInequality,
+          .basis = Basis::kInequality,
           .number = std::min(1.0, stop * path.slope_low / (1.0 + contact.restoring.coefficient))};
 }
 
 Size StopSize(const Scaled& contact, const planar::Problem& problem) {
   if (contact.friction == 0.0) return {};
   if (SlidesThroughout(contact)) return SlidingThroughout(contact, problem);
-  if (contact.slip == 0.0) return {.value = kUnbounded, .ground = Ground::kStaysAtRest};
+  if (contact.slip == 0.0) return {.value = kUnbounded, .basis = Basis::kStaysAtRest};
   if (!(contact.SlideSlope() >= kLeastSlope)) return Locking(contact.Cone());
   double change = 0.0;
   double low = kUnbounded;
@@ -164,7 +164,7 @@ bool CoefficientsDisagree(const planar::Problem& problem) {
 
 Size StaticSize(const Scaled& contact, const planar::Problem& problem) {
   if (!(problem.mu_static > problem.mu)) return {};
-  if (!CoefficientsDisagree(problem)) return {.ground = Ground::kDecidesNothing};
+  if (!CoefficientsDisagree(problem)) return {.basis = Basis::kDecidesNothing};
   if (contact.slip > 0.0 && SlidesThroughout(contact)) return SlidingThroughout(contact, problem);
   const double cone = contact.mu * contact.mobility.coupling;
   const double first = contact.slip == 0.0 ? 1.0 - cone : contact.SlideSlope();
@@ -226,15 +226,15 @@ Size ComplianceSize(const Scaled& contact, const planar::Problem& problem, const
   const double meeting = LatestMeeting(contact, lag);
   if (meeting < kUnbounded) size = std::min(size, change(rigid, 2.0 * contact.mu * meeting, 0.0, 0.0));
   if (!(size < kUnbounded)) return Locking(cone);
-  return {.value = size, .ground = Ground::kInequality, .number = cone};
+  return {.value = size, .basis = Basis::kInequality, .number = cone};
 }
 
 Size DurationSize(const ContactPhysics& physics) {
   if (std::holds_alternative<std::monostate>(physics.spring)) return {};
   if (std::holds_alternative<HuntCrossleySpring>(physics.spring)) {
-    return {.value = kUnbounded, .ground = Ground::kDamped};
+    return {.value = kUnbounded, .basis = Basis::kDamped};
   }
-  return {.value = 0.0, .ground = Ground::kSameImpulses};
+  return {.value = 0.0, .basis = Basis::kSameImpulses};
 }
 
 // Changes of velocity by finite forces, scaled, and the duration in which they act.
@@ -269,7 +269,7 @@ double ForcesOnSlide(const Scaled& contact, const ContactPhysics& physics, const
   if (!(least > (drift.u + lag * drift.v) * (1.0 + kRounding))) return kUnbounded;
   const double change =
       LargestChange(contact.mobility, contact.restoring, Sliding(contact), {.u = drift.u, .v = drift.v});
-  return change <= 0.25 * end ? Padded(contact.scale * change) : kUnbounded;
+  return change <= 0.25 * end ? WithRoundingMargin(contact.scale * change) : kUnbounded;
 }
 
 double ForcesOnFriction(const Scaled& contact, const planar::Problem& problem, const ContactPhysics& physics,
@@ -288,11 +288,11 @@ void SetForces(const Scaled& contact, const planar::Problem& problem, const Cont
   Size& size = sizes[Effect::kFiniteForces];
   if (physics.tangential_acceleration == 0.0 && physics.normal_acceleration == 0.0) return;
   if (std::holds_alternative<std::monostate>(physics.spring)) {
-    size = {.value = 0.0, .ground = Ground::kNoSpring};
+    size = {.value = 0.0, .basis = Basis::kNoSpring};
     return;
   }
   if (std::holds_alternative<HuntCrossleySpring>(physics.spring)) {
-    size = {.value = kUnbounded, .ground = Ground::kDamped};
+    size = {.value = kUnbounded, .basis = Basis::kDamped};
     sizes.forces_beyond_friction = kUnbounded;
     return;
   }
@@ -312,7 +312,7 @@ void SetForces(const Scaled& contact, const planar::Problem& problem, const Cont
         std::min(ForcesOnSlide(contact, physics, drift), ForcesOnFriction(contact, problem, physics, drift));
   }
   size = {.value = with_friction,
-          .ground = with_friction < kUnbounded ? Ground::kInequality : Ground::kNoInequality,
+          .basis = with_friction < kUnbounded ? Basis::kInequality : Basis::kNoInequality,
           .number = drift.seconds};
 }
 
@@ -323,22 +323,22 @@ Sizes PlanarSizes(const planar::Problem& problem, const ContactPhysics& physics,
   const Scaled contact = Scale(problem);
   sizes[Effect::kFriction] = FrictionSize(contact, physics, slips_on);
   sizes[Effect::kSlipStop] = StopSize(contact, problem);
-  sizes[Effect::kSlipTurn].ground = Ground::kNotOfSystem;
+  sizes[Effect::kSlipTurn].basis = Basis::kNotOfSystem;
   sizes[Effect::kStaticFriction] = StaticSize(contact, problem);
   sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, problem, physics, sizes[Effect::kFriction].value);
   if (problem.w.tt == 0.0) {
     for (const Effect effect : {Effect::kFriction, Effect::kSlipStop, Effect::kStaticFriction}) {
-      sizes[effect] = {.ground = Ground::kImmobile};
+      sizes[effect] = {.basis = Basis::kImmobile};
     }
     // Where the contact slips all the same, friction has an impulse and does work, which no velocity shows.
     if (problem.u0 != 0.0 && problem.mu > 0.0) {
-      sizes[Effect::kFriction] = {.value = kUnbounded, .ground = Ground::kNoInequality};
+      sizes[Effect::kFriction] = {.value = kUnbounded, .basis = Basis::kNoInequality};
     }
-    if (physics.ratio_squared > 0.0) sizes[Effect::kTangentialCompliance] = {.ground = Ground::kImmobile};
+    if (physics.ratio_squared > 0.0) sizes[Effect::kTangentialCompliance] = {.basis = Basis::kImmobile};
   }
   sizes[Effect::kFiniteDuration] = DurationSize(physics);
   SetForces(contact, problem, physics, sizes);
-  sizes[Effect::kHigherOrder].ground = Ground::kNotOfSystem;
+  sizes[Effect::kHigherOrder].basis = Basis::kNotOfSystem;
   return sizes;
 }
 
@@ -389,14 +389,17 @@ Size PendulumFrictionSize(const pendulum::Problem& problem) {
   // Under Newton's law with kappa = 1, friction changes nothing but the impulses of compression.
   const double tau0 = x / (1.0 + x);
   const double largest = std::max({v1, arm * v1, tau1, f1, tau0, arm * tau0}) / std::max(1.0, arm);
-  return {.value = Padded(largest + std::numeric_limits<double>::min()), .ground = Ground::kInequality, .number = x};
+  return {.value = WithRoundingMargin(largest + std::numeric_limits<double>::min()),
+          .basis = Basis::kInequality,
+          .number = x};
 }
 
 Size PendulumHigherOrderSize(const pendulum::Problem& problem) {
   const double x = first_order::FrictionRatio(problem);
   if (x == 0.0) return {};
-  if (!first_order::Serves(problem)) return {.value = kUnbounded, .ground = Ground::kNoInequality, .number = x};
-  return {.value = Padded(first_order::ErrorsOf(problem).Largest()), .ground = Ground::kInequality, .number = x};
+  if (!first_order::Serves(problem)) return {.value = kUnbounded, .basis = Basis::kNoInequality, .number = x};
+  return {
+      .value = WithRoundingMargin(first_order::ErrorsOf(problem).Largest()), .basis = Basis::kInequality, .number = x};
 }
 
 Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& physics) {
@@ -407,14 +410,14 @@ Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& phys
   sizes[Effect::kFriction] = PendulumFrictionSize(problem);
   const bool rubs = problem.mu_static > 0.0 && b > 0.0;
   if (rubs && !sizes[Effect::kFriction].IsAbsent()) {
-    sizes[Effect::kSlipStop] = {.value = kUnbounded, .ground = Ground::kStopsAtCompressionEnd};
+    sizes[Effect::kSlipStop] = {.value = kUnbounded, .basis = Basis::kStopsAtCompressionEnd};
   }
-  sizes[Effect::kSlipTurn].ground = Ground::kNotOfSystem;
+  sizes[Effect::kSlipTurn].basis = Basis::kNotOfSystem;
   if (problem.mu_static > problem.mu) {
     const bool disagree =
         std::fma(problem.mu, b, -problem.a) < 0.0 && std::fma(problem.mu_static, b, -problem.a) >= 0.0;
     sizes[Effect::kStaticFriction] =
-        disagree ? Locking(problem.mu_static * b / problem.a) : Size{.ground = Ground::kDecidesNothing};
+        disagree ? Locking(problem.mu_static * b / problem.a) : Size{.basis = Basis::kDecidesNothing};
   }
   const double friction = FrictionSize(contact, physics, false).value;
   sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, planar, physics, friction);

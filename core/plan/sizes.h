@@ -35,7 +35,7 @@ struct ContactPhysics {
 };
 
 // The reason for a size. Sizes are 0 up to kSameImpulses, and infinite from kSelfLocking on.
-enum class Ground {
+enum class Basis {
   kNotInScene,             // The scene does not have the effect.
   kNotOfSystem,            // Such a system cannot have the effect.
   kImmobile,               // Wtt = 0: impulses along t move nothing.
@@ -57,11 +57,11 @@ enum class Ground {
 // for higher order.
 struct Size {
   double value = 0.0;
-  Ground ground = Ground::kNotInScene;
+  Basis basis = Basis::kNotInScene;
   double number = 0.0;
 
   // True if the scene's answer and its duration are the same without the effect.
-  bool IsAbsent() const { return value == 0.0 && ground != Ground::kSameImpulses; }
+  bool IsAbsent() const { return value == 0.0 && basis != Basis::kSameImpulses; }
 };
 
 struct Sizes {

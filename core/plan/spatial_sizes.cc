@@ -34,7 +34,7 @@ struct Scaled {
   double SlideSlope() const { return 1.0 - mu * along_normal; }
   double Friction() const { return holding <= mu_static * (1.0 + kRounding) ? std::max(mu, holding) : mu; }
   double Change(const ReferencePath& reference, const Perturbation& change) const {
-    return Padded(scale * LargestChange(mobility, restoring, reference, change));
+    return WithRoundingMargin(scale * LargestChange(mobility, restoring, reference, change));
   }
 };
 
@@ -130,7 +130,7 @@ Turn LargestTurn(const Scaled& contact) {
   return {};
 }
 
-Size Locking(double cone) { return {.value = kUnbounded, .ground = Ground::kSelfLocking, .number = cone}; }
+Size Locking(double cone) { return {.value = kUnbounded, .basis = Basis::kSelfLocking, .number = cone}; }
 
 Size FrictionSize(const Scaled& contact) {
   const double m = contact.Friction();
@@ -139,7 +139,7 @@ Size FrictionSize(const Scaled& contact) {
   const double size = contact.Change({.u_slope = contact.mobility.coupling},
                                      {.f_slope = m, .slope_low = 1.0 - cone, .slope_high = 1.0 + cone});
   if (!(size < kUnbounded)) return Locking(cone);
-  return {.value = size, .ground = Ground::kInequality, .number = cone};
+  return {.value = size, .basis = Basis::kInequality, .number = cone};
 }
 
 ReferencePath Sliding(const Scaled& contact) {
@@ -152,22 +152,22 @@ ReferencePath Sliding(const Scaled& contact) {
 // Sets the sizes of slip for an isotropic contact such as a sphere's: slip keeps its direction until it stops and
 // sticks.
 void SetStraight(const Scaled& contact, double speed, Sizes& sizes) {
-  sizes[Effect::kSlipTurn] = {.ground = Ground::kStraight};
+  sizes[Effect::kSlipTurn] = {.basis = Basis::kStraight};
   Size& stop = sizes[Effect::kSlipStop];
   if (contact.slip == 0.0) {
-    stop = {.value = kUnbounded, .ground = Ground::kStaysAtRest};
+    stop = {.value = kUnbounded, .basis = Basis::kStaysAtRest};
     return;
   }
   const double impulse = 1.0 + contact.restoring.coefficient;
   const double end = contact.slip - contact.slowing * impulse;
   if (end > kRounding * contact.slip) {
-    stop = {.value = 0.0, .ground = Ground::kSlidesThroughout, .number = speed * end};
+    stop = {.value = 0.0, .basis = Basis::kSlidesThroughout, .number = speed * end};
     return;
   }
   const double from = contact.slip / contact.slowing * (1.0 - kRounding);
   stop = {.value = contact.Change(Sliding(contact),
                                   {.f_slope = contact.mu, .from = from, .slope_low = 1.0, .slope_high = 1.0}),
-          .ground = Ground::kInequality,
+          .basis = Basis::kInequality,
           .number = std::min(1.0, from / impulse)};
 }
 
@@ -178,8 +178,8 @@ void SetSlip(const Scaled& contact, double speed, Sizes& sizes) {
     SetStraight(contact, speed, sizes);
     return;
   }
-  sizes[Effect::kSlipTurn] = {.value = kUnbounded, .ground = Ground::kNoInequality};
-  sizes[Effect::kSlipStop] = {.value = kUnbounded, .ground = Ground::kNoInequality};
+  sizes[Effect::kSlipTurn] = {.value = kUnbounded, .basis = Basis::kNoInequality};
+  sizes[Effect::kSlipStop] = {.value = kUnbounded, .basis = Basis::kNoInequality};
   const Turn turn = LargestTurn(contact);
   if (!(turn.angle < kUnbounded)) return;
   const double chord = contact.mu * std::min(turn.angle, 2.0);
@@ -188,24 +188,23 @@ void SetSlip(const Scaled& contact, double speed, Sizes& sizes) {
       Sliding(contact),
       {.f_slope = chord, .slope_low = contact.SlideSlope() - spread, .slope_high = contact.SlideSlope() + spread});
   if (!(size < kUnbounded)) return;
-  sizes[Effect::kSlipTurn] = {.value = size, .ground = Ground::kInequality, .number = turn.angle};
-  sizes[Effect::kSlipStop] = {.value = 0.0, .ground = Ground::kSlidesThroughout, .number = speed * turn.least_slip};
+  sizes[Effect::kSlipTurn] = {.value = size, .basis = Basis::kInequality, .number = turn.angle};
+  sizes[Effect::kSlipStop] = {.value = 0.0, .basis = Basis::kSlidesThroughout, .number = speed * turn.least_slip};
 }
 
 Size StaticSize(const Scaled& contact, double speed, const Size& stop) {
   if (!(contact.mu_static > contact.mu)) return {};
   const bool disagree = contact.holding == kUnbounded || (contact.holding >= contact.mu * (1.0 - 0x1p-19) &&
                                                           contact.holding <= contact.mu_static * (1.0 + 0x1p-19));
-  if (!disagree || contact.mobility.coupling == 0.0) return {.ground = Ground::kDecidesNothing};
-  if (contact.slip > 0.0 && stop.ground == Ground::kSlidesThroughout) return stop;
+  if (!disagree || contact.mobility.coupling == 0.0) return {.basis = Basis::kDecidesNothing};
+  if (contact.slip > 0.0 && stop.basis == Basis::kSlidesThroughout) return stop;
   const double cone = contact.Friction() * contact.mobility.coupling;
   if (!(1.0 - cone >= kLeastSlope)) return Locking(cone);
   const double impulse = LongestImpulse(contact.restoring, 1.0 - cone, 1.0 + cone);
   const double from = contact.slip / contact.Terms() * (1.0 - kRounding);
   if (from > impulse * (1.0 + 0x1p-20)) {
-    return {.value = 0.0,
-            .ground = Ground::kSlidesThroughout,
-            .number = speed * (contact.slip - contact.Terms() * impulse)};
+    return {
+        .value = 0.0, .basis = Basis::kSlidesThroughout, .number = speed * (contact.slip - contact.Terms() * impulse)};
   }
   const ReferencePath any = {.slope_low = 1.0 - cone,
                              .slope_high = 1.0 + cone,
@@ -214,7 +213,7 @@ Size StaticSize(const Scaled& contact, double speed, const Size& stop) {
   const double size = contact.Change(
       any, {.f_slope = contact.mu + contact.holding, .from = from, .slope_low = 1.0 - cone, .slope_high = 1.0 + cone});
   if (!(size < kUnbounded)) return Locking(cone);
-  return {.value = size, .ground = Ground::kInequality, .number = std::min(1.0, from / impulse)};
+  return {.value = size, .basis = Basis::kInequality, .number = std::min(1.0, from / impulse)};
 }
 
 }  // namespace
@@ -226,11 +225,11 @@ Sizes SpatialSizes(const spatial::Problem& problem) {
   const bool is_immobile = problem.w11 == 0.0 && problem.w22 == 0.0;
   // Where the contact slips all the same, friction has an impulse and does work, which no velocity shows.
   if (is_immobile && contact.slip > 0.0 && problem.mu > 0.0) {
-    sizes[Effect::kFriction] = {.value = kUnbounded, .ground = Ground::kNoInequality};
+    sizes[Effect::kFriction] = {.value = kUnbounded, .basis = Basis::kNoInequality};
   }
   SetSlip(contact, -problem.v0, sizes);
   sizes[Effect::kStaticFriction] = StaticSize(contact, -problem.v0, sizes[Effect::kSlipStop]);
-  sizes[Effect::kHigherOrder].ground = Ground::kNotOfSystem;
+  sizes[Effect::kHigherOrder].basis = Basis::kNotOfSystem;
   return sizes;
 }
 

@@ -59,7 +59,7 @@ bool Take(absl::string_view word, absl::string_view& text) { return absl::Consum
 bool TakeIndex(int index, absl::string_view& text) { return index < 0 || Take(absl::StrCat("[", index, "]"), text); }
 
 // True if `text` is path.Text(), without making that text for a path that starts otherwise.
-bool Spells(absl::string_view text, const NumberPath& path) {
+bool Matches(absl::string_view text, const NumberPath& path) {
   const bool has_prefix = *path.prefix != '\0';
   if (has_prefix && !(Take(path.prefix, text) && TakeIndex(path.entry, text) && Take(".", text))) return false;
   return Take(path.name, text) && TakeIndex(path.index, text) && text.empty();
@@ -89,7 +89,7 @@ NumberRule Field::rule() const {
 std::optional<Field::Scalar> Field::Find(const std::string& path, Scene& scene) {
   std::optional<Scalar> found;
   VisitNumbers(scene, [&](const NumberPath& number_path, double& number, NumberRule rule) {
-    if (Spells(path, number_path)) found = Scalar{.number = &number, .rule = rule};
+    if (Matches(path, number_path)) found = Scalar{.number = &number, .rule = rule};
   });
   return found;
 }

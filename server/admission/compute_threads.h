@@ -1,8 +1,8 @@
 // ComputeThreads: a fixed number of threads of low priority, for work that must not delay what is short.
 //
-// The kernel lets a thread of normal priority run in place of these at once, so that dear calls may use every core and
-// cheap ones still find one. A thread without privileges cannot raise its priority again, which is why the work goes to
-// threads of its own and not to those of the handlers.
+// The kernel lets a thread of normal priority run in place of these at once, so that expensive calls may use every core
+// and cheap ones still find one. A thread without privileges cannot raise its priority again, which is why the work
+// goes to threads of its own and not to those of the handlers.
 
 #ifndef RICOCHET_SERVER_ADMISSION_COMPUTE_THREADS_H_
 #define RICOCHET_SERVER_ADMISSION_COMPUTE_THREADS_H_

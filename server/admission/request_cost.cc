@@ -17,7 +17,7 @@ constexpr int64_t kFewLinks = 32;
 constexpr int64_t kShortHistory = 2048;
 constexpr int64_t kFewRows = 64;
 
-RequestCost Dear(CostCause cause, double size) {
+RequestCost Expensive(CostCause cause, double size) {
   return {.cause = cause, .octave = static_cast<int>(std::log2(std::max(size, 1.0)))};
 }
 
@@ -29,11 +29,11 @@ int64_t Links(const Scene& scene) {
 double Cube(int64_t number) { return std::pow(static_cast<double>(number), 3); }
 
 RequestCost CostOf(const Scene& scene) {
-  return Links(scene) > kFewLinks ? Dear(CostCause::kLinks, Cube(Links(scene))) : RequestCost();
+  return Links(scene) > kFewLinks ? Expensive(CostCause::kLinks, Cube(Links(scene))) : RequestCost();
 }
 
 RequestCost CertificateCost(const Scene& scene, int32_t digits) {
-  return Dear(CostCause::kCertificate, digits * Cube(Links(scene)));
+  return Expensive(CostCause::kCertificate, digits * Cube(Links(scene)));
 }
 
 bool TakesTime(const Scene& scene, const DemandFields& demand) {
@@ -57,10 +57,10 @@ size_t Rows(const AuditColumns& columns) {
 
 RequestCost CostOf(const SolveRequest& request) {
   if (request.certified_digits > 0) return CertificateCost(request.scene, request.certified_digits);
-  if (TakesTime(request)) return Dear(CostCause::kDuration, static_cast<double>(request.force_intervals));
+  if (TakesTime(request)) return Expensive(CostCause::kDuration, static_cast<double>(request.force_intervals));
   const int64_t states = std::max(request.history_intervals, static_cast<int64_t>(request.history_at_n_s.size()));
   if (states > kShortHistory) {
-    return Dear(CostCause::kHistory, static_cast<double>(states) * static_cast<double>(4 + Links(request.scene)));
+    return Expensive(CostCause::kHistory, static_cast<double>(states) * static_cast<double>(4 + Links(request.scene)));
   }
   return CostOf(request.scene);
 }
@@ -68,7 +68,7 @@ RequestCost CostOf(const SolveRequest& request) {
 RequestCost CostOf(const PlanRequest& request) { return CostOf(request.scene); }
 
 RequestCost CostOf(const BoundsRequest& request) {
-  if (!request.ranges.empty()) return Dear(CostCause::kEnclosure, std::exp2(request.ranges.size()));
+  if (!request.ranges.empty()) return Expensive(CostCause::kEnclosure, std::exp2(request.ranges.size()));
   if (request.certified_digits > 0) return CertificateCost(request.scene, request.certified_digits);
   return CostOf(request.scene);
 }
@@ -78,15 +78,15 @@ RequestCost CostOf(const AuditRequest& request) { return CostOf(request.scene); 
 RequestCost CostOf(const AuditBatchRequest& request) {
   const size_t rows = Rows(request.columns);
   if (rows > kFewRows) {
-    return Dear(CostCause::kRows, static_cast<double>(rows) * static_cast<double>(Links(request.scene)));
+    return Expensive(CostCause::kRows, static_cast<double>(rows) * static_cast<double>(Links(request.scene)));
   }
   return CostOf(request.scene);
 }
 
 RequestCost CostOf(const BatchSetup& setup, size_t rows) {
   const double size = static_cast<double>(rows) * static_cast<double>(Links(setup.scene));
-  if (TakesTime(setup.scene, setup.demand)) return Dear(CostCause::kDuration, size);
-  return rows > kFewRows ? Dear(CostCause::kRows, size) : CostOf(setup.scene);
+  if (TakesTime(setup.scene, setup.demand)) return Expensive(CostCause::kDuration, size);
+  return rows > kFewRows ? Expensive(CostCause::kRows, size) : CostOf(setup.scene);
 }
 
 RequestCost CostOf(const InfoRequest& /*request*/) { return {}; }

@@ -1,7 +1,7 @@
-// RequestCost: how dear a unary call is, known from its request alone and before any work.
+// RequestCost: how expensive a unary call is, known from its request alone and before any work.
 //
 // A cheap call takes at most a millisecond or so on a machine of the 2020s, whatever its numbers are. Every other call
-// is dear; its cause and size say which calls take about the same time.
+// is expensive; its cause and size say which calls take about the same time.
 
 #ifndef RICOCHET_SERVER_ADMISSION_REQUEST_COST_H_
 #define RICOCHET_SERVER_ADMISSION_REQUEST_COST_H_
@@ -13,7 +13,7 @@
 
 namespace ricochet::server {
 
-// Why a call is dear.
+// Why a call is expensive.
 enum class CostCause {
   kNothing,      // The call is cheap.
   kCertificate,  // Certified digits.

@@ -57,7 +57,7 @@ CallOptions Call::options() const {
   CallOptions options = {.stop = drain(),
                          .deadline = start_ + time_limit(),
                          .is_stopped = [this] { return IsCancelled(); },
-                         .helpers = frame_.gate.HelpersFor(peer_key_)};
+                         .helpers = frame_.scheduler.HelpersFor(peer_key_)};
   const system_clock::time_point deadline = context_.deadline();
   if (deadline != system_clock::time_point::max()) {
     const auto left = deadline - system_clock::now();
@@ -71,7 +71,7 @@ absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<vo
   const double asked_s = elapsed_s();
   const Turn turn = {.peer = peer_key_, .deadline = limits.deadline, .is_gone = limits.is_stopped, .cost = cost};
   bool is_done = false;
-  const absl::Status turned = frame_.gate.Compute(turn, [&] {
+  const absl::Status turned = frame_.scheduler.Compute(turn, [&] {
     record_.queued_s += elapsed_s() - asked_s;
     is_done = true;
     work();

@@ -1,6 +1,6 @@
 // Call: the frame around the work of every handler. It takes a place among the live calls, has the work done at the
-// gate, ends the call at the server's limits, gathers what is known of the call and hands it to the observer at the
-// end.
+// scheduler, ends the call at the server's limits, gathers what is known of the call and hands it to the observer at
+// the end.
 
 #ifndef RICOCHET_SERVER_CALLS_CALL_H_
 #define RICOCHET_SERVER_CALLS_CALL_H_
@@ -17,8 +17,8 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/call_options.h"
-#include "server/admission/gate.h"
 #include "server/admission/places.h"
+#include "server/admission/scheduler.h"
 #include "server/admission/unread_watch.h"
 #include "server/base/drain.h"
 #include "server/telemetry/call_record.h"
@@ -38,7 +38,7 @@ class Auth;
 // CallFrame: the objects that all calls of a server share.
 struct CallFrame {
   Places& places;
-  Gate& gate;
+  Scheduler& scheduler;
   UnreadWatch& unread;
   DrainStops drain;
   TimeLimits limits;

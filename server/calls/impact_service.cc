@@ -31,8 +31,8 @@ void CountModels(const SweepSummary& summary, CallRecord& record) {
 // Reads a stream of the solver to its end, each element when it is the call's turn to compute. `prepare` turns an
 // element into a message, `send` sends the message.
 template <typename T>
-absl::Status PassOn(Call& call, absl::FunctionRef<ResultStream<T>()> open, absl::FunctionRef<void(T&)> prepare,
-                    absl::FunctionRef<absl::Status()> send) {
+absl::Status ForwardStream(Call& call, absl::FunctionRef<ResultStream<T>()> open, absl::FunctionRef<void(T&)> prepare,
+                           absl::FunctionRef<absl::Status()> send) {
   std::optional<ResultStream<T>> stream;
   typename ResultStream<T>::Iterator at;
   for (;;) {
@@ -208,7 +208,7 @@ absl::Status ImpactService::Stream(const SweepRequest& request, grpc::ServerWrit
     chunk.regimes = {};
     seal.Put(response);
   };
-  return PassOn<SweepChunk>(
+  return ForwardStream<SweepChunk>(
       call, [&] { return solver_.Sweep(request, call.options()); }, prepare,
       [&] { return Send(response, writer, call); });
 }
@@ -217,7 +217,7 @@ absl::Status ImpactService::Stream(const CostRequest& request, grpc::ServerWrite
                                    Call& call) const {
   v1::CostResponse response;
   const auto prepare = [&](const CostChunk& chunk) { response = ToProto(chunk); };
-  return PassOn<CostChunk>(
+  return ForwardStream<CostChunk>(
       call, [&] { return solver_.Cost(request, call.options()); }, prepare,
       [&] { return Send(response, writer, call); });
 }

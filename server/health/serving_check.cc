@@ -60,9 +60,9 @@ int64_t Noticed(const Acceptor& acceptor) {
 
 }  // namespace
 
-ServingCheck::ServingCheck(std::vector<ListenAddress> addresses, const Acceptor& acceptor, Gate& gate,
+ServingCheck::ServingCheck(std::vector<ListenAddress> addresses, const Acceptor& acceptor, Scheduler& scheduler,
                            milliseconds patience)
-    : addresses_(std::move(addresses)), acceptor_(acceptor), gate_(gate), patience_(patience) {}
+    : addresses_(std::move(addresses)), acceptor_(acceptor), scheduler_(scheduler), patience_(patience) {}
 
 absl::Status ServingCheck::Run(const std::stop_token& stop) const {
   for (const ListenAddress& address : addresses_) {
@@ -92,7 +92,7 @@ absl::Status ServingCheck::CheckGate(const std::stop_token& stop) const {
                      .deadline = steady_clock::now() + patience_,
                      .is_gone = [&stop] { return stop.stop_requested(); },
                      .cost = RequestCost()};
-  const absl::Status computed = gate_.Compute(turn, [] {});
+  const absl::Status computed = scheduler_.Compute(turn, [] {});
   if (!absl::IsDeadlineExceeded(computed)) return absl::OkStatus();
   return absl::UnavailableError(absl::StrCat("no call got its turn to compute for ", patience_.count(), " ms"));
 }

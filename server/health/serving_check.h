@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
-#include "server/admission/gate.h"
+#include "server/admission/scheduler.h"
 #include "server/base/listen_address.h"
 #include "server/transport/acceptor.h"
 
@@ -17,13 +17,13 @@ namespace ricochet::server {
 
 class ServingCheck {
  public:
-  // Each step of the check may take `patience`. `acceptor`, which listens on `addresses`, and `gate` must outlive it.
-  ServingCheck(std::vector<ListenAddress> addresses, const Acceptor& acceptor, Gate& gate,
+  // Each step of the check may take `patience`. `acceptor`, which listens on `addresses`, and `scheduler` must outlive
+  // it.
+  ServingCheck(std::vector<ListenAddress> addresses, const Acceptor& acceptor, Scheduler& scheduler,
                std::chrono::milliseconds patience);
 
-  // Connects to every address and waits until the acceptor has noticed, then waits for a turn at the gate. Returns OK
-  // early once `stop` is requested.
-  // Errors: UNAVAILABLE that says what does not work.
+  // Connects to every address and waits until the acceptor has noticed, then waits for a turn at the scheduler. Returns
+  // OK early once `stop` is requested. Errors: UNAVAILABLE that says what does not work.
   absl::Status Run(const std::stop_token& stop) const;
 
  private:
@@ -32,7 +32,7 @@ class ServingCheck {
 
   const std::vector<ListenAddress> addresses_;
   const Acceptor& acceptor_;
-  Gate& gate_;
+  Scheduler& scheduler_;
   const std::chrono::milliseconds patience_;
 };
 

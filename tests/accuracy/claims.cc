@@ -1,5 +1,5 @@
 // Prints the table of claims: for each method, tolerance and kind of scenes, how the errors claimed compare with the
-// errors achieved. It takes the number of scenes of each row as its argument and fails if a claim deceived.
+// errors achieved. It takes the number of scenes of each row as its argument and fails if a claim is broken.
 //
 // Rows of coefficients, impulses and works hold each number of an outcome against its own error, on its own scale.
 // docs/accuracy.md explains the columns. "unknown" counts infinite claims, "least" and "median" are of claimed over
@@ -206,7 +206,7 @@ void AddFiniteDuration(int count, Jobs& jobs) {
 }
 
 // Does the jobs on all cores and prints their rows in order, each as soon as those before it are known. Returns how
-// many claims deceived. Each job draws its own scenes, so that no number depends on the cores.
+// many claims are broken. Each job draws its own scenes, so that no number depends on the cores.
 int PrintTable(const Jobs& jobs) {
   std::vector<std::packaged_task<std::vector<Row>()>> tasks(jobs.all.begin(), jobs.all.end());
   std::atomic<size_t> next = 0;
@@ -217,16 +217,16 @@ int PrintTable(const Jobs& jobs) {
   for (auto& task : tasks) results.push_back(task.get_future());
   std::vector<std::jthread> workers;
   for (unsigned i = 0; i < std::max(1U, std::thread::hardware_concurrency()); ++i) workers.emplace_back(work);
-  int deceived = 0;
+  int broken = 0;
   PrintClaimsHeader();
   for (std::future<std::vector<Row>>& result : results) {
     for (const Row& row : result.get()) {
       PrintClaims(row.method, row.scenes, row.tally);
-      deceived += row.tally.deceived();
+      broken += row.tally.broken();
     }
     std::fflush(stdout);
   }
-  return deceived;
+  return broken;
 }
 
 void AddVelocities(int count, Jobs& jobs) {
@@ -245,9 +245,9 @@ int Run(int count, const std::string& only) {
   AddNumbersOfClosedForms(count, jobs);
   AddNumbersOfSpace(count, jobs);
   AddNumbersOfSprings(count, jobs);
-  const int deceived = PrintTable(jobs);
-  std::printf("%d claims deceived\n", deceived);
-  return deceived == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
+  const int broken = PrintTable(jobs);
+  std::printf("%d claims broken\n", broken);
+  return broken == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
 
 }  // namespace

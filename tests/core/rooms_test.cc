@@ -40,8 +40,8 @@ constexpr char kLastWords[] = "core/base/invariant.cc";
 // others help it, one how soon the reader of a stream comes back, and two measure the time that a method takes.
 const std::set<std::string>& ReadersOfTheClock() {
   static const std::set<std::string> files = {"core/include/ricochet/call_options.h",
-                                              "core/engine/call_watch.h",
-                                              "core/engine/call_watch.cc",
+                                              "core/engine/call_control.h",
+                                              "core/engine/call_control.cc",
                                               "core/engine/chunk_size.h",
                                               "core/engine/local_solver.cc",
                                               "core/engine/helped_run.h",

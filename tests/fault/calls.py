@@ -74,14 +74,14 @@ def _seconds_of(on, what):
 
 
 @dataclasses.dataclass
-class Dear:
+class Expensive:
     """A valid Solve that takes about this long."""
 
     request: object
     seconds: float
 
 
-def dear(server, about_s=0.045):
+def expensive(server, about_s=0.045):
     """A valid Solve of about this time on this machine: a certificate of a chain, with as many digits as that takes."""
     with channel(server.address) as line:
         on = stub(line)
@@ -96,7 +96,7 @@ def dear(server, about_s=0.045):
                         f"a chain of {links} with {digits} digits: {error.code().name} {error.details()}")
                 continue
             if best is None or abs(seconds - about_s) < abs(best.seconds - about_s):
-                best = Dear(what, seconds)
+                best = Expensive(what, seconds)
             if seconds > about_s:
                 break
     return best
@@ -164,5 +164,5 @@ def health(server, seconds=5):
     return {b"\x08\x01": "SERVING", b"\x08\x02": "NOT_SERVING"}.get(answer, answer.hex())
 
 
-__all__ = ["HARD_DURATION", "HERTZ", "PENDULUM", "channel", "cheap", "code_of", "dear", "details", "health", "linkage",
+__all__ = ["HARD_DURATION", "HERTZ", "PENDULUM", "channel", "cheap", "code_of", "expensive", "details", "health", "linkage",
            "long_sweep", "pb", "request", "request_class", "require_served", "stub", "tools", "wait_served"]

@@ -14,7 +14,7 @@ import time
 
 import grpc
 
-from calls import channel, cheap, code_of, dear, health, long_sweep, require_served, stub, wait_served
+from calls import channel, cheap, code_of, expensive, health, long_sweep, require_served, stub, wait_served
 from framework import (Group, Process, Server, Skipped, check, command_line, cpu_until_idle, in_threads, main, remove,
                        require, tools, wait_until)
 from http2 import SERVICE, RawConnection
@@ -55,12 +55,12 @@ def client_killed():
 
 
 @check("SIGTERM with everything connected", "watches, reflection, sweeps that nobody reads, silent and idle connections and a "
-       "running dear call: the process ends with 0 within 10 s")
+       "running expensive call: the process ends with 0 within 10 s")
 def drain_with_everything():
     # The defaults take up to 9 s, which a busy machine may draw out to more than 10 s.
     with Server(**({} if tools().soak else {"drain_grace": 1})) as server, channel(server.address) as idle, channel(server.address) as busy:
         stub(idle).Solve(cheap(), timeout=20)
-        slow = dear(server, 0.5)
+        slow = expensive(server, 0.5)
         raw = RawConnection(server.host, server.port, window=0)
         raw.open("/grpc.health.v1.Health/Watch", b"")
         raw.open("/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo")
@@ -77,8 +77,8 @@ def drain_with_everything():
         raw.close()
         for connection in silent:
             connection.close()
-        require(code in (grpc.StatusCode.OK, grpc.StatusCode.UNAVAILABLE), f"the dear call ended with {code.name}")
-        return {"s": took, "dear call": code.name}
+        require(code in (grpc.StatusCode.OK, grpc.StatusCode.UNAVAILABLE), f"the expensive call ended with {code.name}")
+        return {"s": took, "expensive call": code.name}
 
 
 @check("SIGTERM twice", "the second one ends the process within 2 s, whatever is connected")

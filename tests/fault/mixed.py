@@ -5,7 +5,7 @@ import time
 
 import grpc
 
-from calls import channel, cheap, dear, details, linkage, long_sweep, request, require_served, stub
+from calls import channel, cheap, expensive, details, linkage, long_sweep, request, require_served, stub
 from framework import Server, check, main, require, tools, wait_until
 from http2 import SERVICE, RawConnection
 
@@ -17,7 +17,7 @@ class Clients:
 
     def __init__(self, server):
         self.server = server
-        self.slow = dear(server)
+        self.slow = expensive(server)
         self.stop = threading.Event()
         self.lock = threading.Lock()
         self.counts = {}
@@ -58,7 +58,7 @@ class Clients:
             stub(line).Bounds(request("Bounds", f"scene {{ {linkage(rng.randint(1, 4))} }}"), timeout=20)
         return "OK"
 
-    def dear(self, rng):
+    def expensive(self, rng):
         with channel(self.server.address) as line:
             stub(line).Solve(self.slow.request, timeout=self.slow.seconds * rng.choice([0.1, 1, 20]))
         return "OK"
@@ -107,7 +107,7 @@ def mixed_load():
             require_served(server)
         descriptors, threads = server.descriptors(), server.threads()
         clients = Clients(server)
-        for work, pause in ((clients.solve, 0.01), (clients.solve, 0.05), (clients.bounds, 0.02), (clients.dear, 0.2),
+        for work, pause in ((clients.solve, 0.01), (clients.solve, 0.05), (clients.bounds, 0.02), (clients.expensive, 0.2),
                             (clients.sweep, 0.05), (clients.cancel, 0.05), (clients.vanish, 0.02), (clients.nonsense, 0.05)):
             clients.start(work.__name__, work, pause)
         samples = []

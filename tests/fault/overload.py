@@ -1,15 +1,15 @@
-"""More work than there are processors: what is answered in time must not fall, and cheap calls must not wait for dear ones."""
+"""More work than there are processors: what is answered in time must not fall, and cheap calls must not wait for expensive ones."""
 
 import threading
 import time
 
 import grpc
 
-from calls import channel, cheap, dear, details, stub
+from calls import channel, cheap, expensive, details, stub
 from framework import PROCESSORS, Server, check, cpu_until_idle, main, percentile, require, tools
 from http2 import SERVICE, RawConnection
 
-LONG_DEADLINES = 7  # Deadline of a dear call, in times that it takes alone.
+LONG_DEADLINES = 7  # Deadline of an expensive call, in times that it takes alone.
 
 
 def serve(**more):
@@ -58,7 +58,7 @@ def goodput(server, call, clients, seconds):
 def goodput_under_overload():
     seconds = 20 if tools().soak else 4
     with serve() as server:
-        call = dear(server)
+        call = expensive(server)
         figures = {"one call s": call.seconds}
         at_capacity, _ = goodput(server, call, PROCESSORS, seconds)
         figures["at capacity /s"] = at_capacity
@@ -73,11 +73,11 @@ def goodput_under_overload():
         return figures
 
 
-@check("short deadlines", "200 dear calls at once, with deadlines of three times their time, use less than a quarter of the CPU time of all",
+@check("short deadlines", "200 expensive calls at once, with deadlines of three times their time, use less than a quarter of the CPU time of all",
        kind="load", timed=True)
 def dead_calls():
     with serve() as server:
-        call = dear(server)
+        call = expensive(server)
         before = server.cpu_s()
         connections = [RawConnection(server.host, server.port) for _ in range(2)]
         body = call.request.SerializeToString()
@@ -112,12 +112,12 @@ def latencies(server, count):
     return times
 
 
-@check("Solves beside dear calls", "p99 of a cheap Solve beside the dearest calls of 64 clients is at most 5 times p99 alone "
+@check("Solves beside expensive calls", "p99 of a cheap Solve beside the most expensive calls of 64 clients is at most 5 times p99 alone "
        "and 20 ms", kind="load", timed=True)
 def beside_dear_calls():
     count = 1000 if tools().soak else 150
     with serve() as server:
-        call = dear(server, 1)
+        call = expensive(server, 1)
         alone = percentile(latencies(server, count), 0.99)
         stop = threading.Event()
 
@@ -139,7 +139,7 @@ def beside_dear_calls():
         finally:
             stop.set()
         require(beside <= 5 * max(alone, 0.02), f"p99 alone {alone:.4f} s, beside 64 clients {beside:.4f} s")
-        return {"dear call s": call.seconds, "p99 alone s": alone, "p99 beside s": beside, "ratio": beside / alone}
+        return {"expensive call s": call.seconds, "p99 alone s": alone, "p99 beside s": beside, "ratio": beside / alone}
 
 
 if __name__ == "__main__":

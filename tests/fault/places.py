@@ -6,7 +6,7 @@ import time
 
 import grpc
 
-from calls import (HERTZ, channel, cheap, code_of, dear, health, long_sweep, request, require_served, stub, wait_served)
+from calls import (HERTZ, channel, cheap, code_of, expensive, health, long_sweep, request, require_served, stub, wait_served)
 from framework import Server, check, main, percentile, require, tools, wait_until
 from http2 import SERVICE, RawConnection
 
@@ -141,7 +141,7 @@ def half_calls():
     return held_open(SERVICE + "Solve")
 
 
-@check("silence of dear sweeps", "a sweep of points of milliseconds sends a chunk at least every 5 s")
+@check("silence of expensive sweeps", "a sweep of points of milliseconds sends a chunk at least every 5 s")
 def chunks_by_time():
     what = request("Sweep", f"""scene {{ {HERTZ} }} columns: "coefficients.newton"
       axes {{ path: "planar_body.velocity_n_m_s" linspace {{ start: -1 stop: -2 count: 1000000 }} }}""")
@@ -164,7 +164,7 @@ def chunks_by_time():
 @check("a unary call without a deadline", "the server ends it by its own longest time")
 def longest_time():
     with serve() as server:
-        slow = dear(server, 0.3)
+        slow = expensive(server, 0.3)
     limit = slow.seconds / 10
     with serve(max_unary_time=limit) as server, channel(server.address) as line:
         start = time.monotonic()

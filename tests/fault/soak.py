@@ -97,7 +97,7 @@ def number(value, digits=3):
 
 
 def summary(results):
-    unary, beside = figures_of(results, "unary clients"), figures_of(results, "Solves beside dear calls")
+    unary, beside = figures_of(results, "unary clients"), figures_of(results, "Solves beside expensive calls")
     goodput, mixed = figures_of(results, "goodput under overload"), figures_of(results, "mixed load")
     rates = {name: value for name, value in unary.items() if name.endswith("/s")}
     best = max(rates, key=rates.get) if rates else None
@@ -105,7 +105,7 @@ def summary(results):
     rows = [
         ("load held", f"{number(rates.get(best))} Solves a second, {best.split(':')[0]} clients on the server's own cores, "
          f"every one answered; 1000 clients: {number(100 * rates['1000: /s'] / rates[best])} % of that" if best else "not measured"),
-        ("p99 of a cheap Solve beside the dearest calls of 64 clients",
+        ("p99 of a cheap Solve beside the most expensive calls of 64 clients",
          f"{number(beside.get('ratio'))} times p99 alone ({number(1e3 * beside['p99 alone s'])} ms)" if beside else "not measured"),
         ("answers a second with 8 times as many clients as cores, with deadlines",
          f"{number(100 * goodput['x8'])} % of those at capacity" if goodput else "not measured"),

@@ -7,7 +7,7 @@ import struct
 import time
 import zlib
 
-from calls import cheap, dear, request, require_served, HARD_DURATION
+from calls import cheap, expensive, request, require_served, HARD_DURATION
 from framework import MIB, Server, check, cpu_until_idle, in_threads, main, require, tools
 from http2 import (CONTINUATION, DATA, END_HEADERS, HEADERS, PING, PREFACE, PRIORITY, RST_STREAM, SERVICE, SETTINGS,
                    WINDOW_UPDATE, RawConnection, frame, message)
@@ -191,10 +191,10 @@ for row in ATTACKS:
     register(*row)
 
 
-@check("rapid reset of dear calls", "calls that are reset at once are not computed", kind="input")
+@check("rapid reset of expensive calls", "calls that are reset at once are not computed", kind="input")
 def reset_of_dear_calls():
     with server() as running:
-        call = dear(running, 0.3)
+        call = expensive(running, 0.3)
         hard = request("Solve", f"scene {{ {HARD_DURATION} }} required: EFFECT_FINITE_DURATION").SerializeToString()
         connection = RawConnection(running.host, running.port, source="127.0.0.2")
         before = running.cpu_s()

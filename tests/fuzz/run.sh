@@ -15,7 +15,7 @@ fuzzed_code() {
     batches) find core/rows core/types/check_rows.cc core/types/grid.cc -name '*.cc' ;;
     chunks) echo client/chunk_checker.cc client/tally_checker.cc proto/wire/chunk_seal.cc proto/wire/crc32c.cc ;;
     cost)
-      find core/cost -name '*cost*.cc' -o -name '*_methods.cc' -o -name 'exact_velocity.cc' \
+      find core/cost -name '*cost*.cc' -o -name '*_methods.cc' -o -name 'reference_velocity.cc' \
         -o -name 'certified_velocity.cc' -o -name 'stopwatch.cc'
       ;;
     duration) find core/models/finite_duration core/contact/finite_forces.cc -name '*.cc' ! -name unavailable.cc ;;

@@ -13,17 +13,17 @@ namespace ricochet::server {
 struct MadeFrame {
   explicit MadeFrame(const Observer& observer, DrainStops drain = {}, TimeLimits limits = {},
                      std::chrono::milliseconds unread_limit = std::chrono::seconds(30))
-      : gate(2, 64, drain.streams),
+      : scheduler(2, 64, drain.streams),
         unread(unread_limit),
         frame{.places = places,
-              .gate = gate,
+              .scheduler = scheduler,
               .unread = unread,
               .drain = std::move(drain),
               .limits = limits,
               .observer = observer} {}
 
   Places places{PlacesFor(64)};
-  Gate gate;
+  Scheduler scheduler;
   UnreadWatch unread;
   CallFrame frame;
 };

@@ -127,7 +127,7 @@ std::string MethodsTable(const CostChunk& study) {
   const std::vector<bool> front = OnFront(study);
   for (size_t i = 0; i < study.rows.size(); ++i) {
     const CostRow& row = study.rows[i];
-    const bool alarm = row.IsDeceived() || row.status == CostStatus::kFailed;
+    const bool alarm = row.ClaimIsBroken() || row.status == CostStatus::kFailed;
     const char* kind = alarm ? " class=\"alarm\"" : front[i] ? " class=\"front\"" : "";
     absl::StrAppend(&text, "<tr", kind, ">", CellsText(row), "</tr>\n");
   }
@@ -219,7 +219,8 @@ constexpr char kTimeCaption[] =
     "line "
     "joins the tolerances, or the digits, that one method was asked for.";
 constexpr char kClaimCaption[] =
-    "A method below the dashed diagonal errs by less than it claims. One above it would have deceived its caller, and "
+    "A method below the dashed diagonal errs by less than it claims. One above it would have made its caller believe "
+    "too much, and "
     "would "
     "be ringed in red.";
 

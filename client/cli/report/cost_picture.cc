@@ -154,7 +154,7 @@ void AddRing(const CostChunk& study, Place place, const char* title, const char*
 void AddRings(const CostChunk& study, Place place, std::vector<Curve>& curves) {
   AddRing(
       study, place, kErrsMore, "with points pointtype 6 pointsize 2.6 linewidth 2 linecolor rgb 'red'",
-      [](const CostRow& row) { return row.IsDeceived(); }, curves);
+      [](const CostRow& row) { return row.ClaimIsBroken(); }, curves);
   AddRing(
       study, place, kMisses, "with points pointtype 4 pointsize 2.4 linewidth 1.5 linecolor rgb '#7F7F7F'",
       [](const CostRow& row) {

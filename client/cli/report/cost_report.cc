@@ -120,7 +120,7 @@ CsvRow CsvRowOf(const CostChunk& study, size_t index, bool on_front) {
   AddError("claimed", row.status == CostStatus::kMeasured ? std::optional(row.claimed) : std::nullopt, csv);
   AddError("achieved", row.achieved, csv);
   csv.Number("reference_error", row.reference_error);
-  csv.Integer("deceived", row.IsDeceived());
+  csv.Integer("deceived", row.ClaimIsBroken());
   csv.Integer("steps", row.steps);
   csv.Integer("right_hand_sides", row.right_hand_sides);
   csv.Integer("on_front", on_front);

@@ -109,7 +109,7 @@ struct CostRow {
   friend bool operator==(const CostRow&, const CostRow&) = default;
 
   // The error achieved is larger than the one claimed, by more than the reference leaves open.
-  bool IsDeceived() const { return achieved.has_value() && achieved->total - reference_error > claimed.total; }
+  bool ClaimIsBroken() const { return achieved.has_value() && achieved->total - reference_error > claimed.total; }
 };
 
 // The tolerances from which CostPick takes the ends of its ranges.

@@ -58,7 +58,7 @@ inline constexpr NamedServerLimit kServerLimits[] = {
     {"max_live_calls_per_peer", &ServerLimits::max_live_calls_per_peer, "Calls of one client among them"},
     {"max_streams", &ServerLimits::max_streams, "Sweeps and studies of cost among the live calls"},
     {"max_streams_per_peer", &ServerLimits::max_streams_per_peer, "Those of one client"},
-    {"max_waiting_calls", &ServerLimits::max_waiting_calls, "Dear unary calls that wait to be computed"},
+    {"max_waiting_calls", &ServerLimits::max_waiting_calls, "Expensive unary calls that wait to be computed"},
     {"max_unary_time_ms", &ServerLimits::max_unary_time_ms, "The longest that a unary call may take"},
     {"max_stream_age_ms", &ServerLimits::max_stream_age_ms, "The longest that a stream may run"},
     {"write_stall_timeout_ms", &ServerLimits::write_stall_timeout_ms,

@@ -58,12 +58,12 @@ struct PlannedEffect {
 // because most are not.
 class PlannedEffects {
  public:
-  // The data that a decision and its sentence are made of. The number of `ground` is known to the author alone.
+  // The data that a decision and its sentence are made of. The number of `basis` is known to the author alone.
   struct Fact {
     double size = 0.0;
     double number = 0.0;
     Decision decision = Decision::kUnspecified;
-    int ground = 0;
+    int basis = 0;
   };
   using Facts = std::array<Fact, kEffectCount>;  // By number; the first is not used.
   // Gives the reason for a decision.

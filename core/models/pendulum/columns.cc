@@ -56,7 +56,7 @@ inline constexpr uint64_t kInadmissible = 64;
 inline constexpr uint64_t kUnproved = 128;
 
 // Which problems of a block plain arithmetic has proved.
-enum class Proof { kNotAll, kAll, kAllUsual };
+enum class Proof { kNotAll, kAll, kAllReboundWithinLimits };
 
 // A verdict for each problem of a block, as lanes store it. Whole vectors are stored, which may reach beyond the block.
 using Verdicts = std::array<uint64_t, Block::kCapacity + ProblemColumns::kMostLanes>;
@@ -114,7 +114,7 @@ class Loader {
 };
 
 // These parts take a division or a root each.
-inline constexpr unsigned kDearParts = kPartOneMinusKappa | kPartEta;
+inline constexpr unsigned kExpensiveParts = kPartOneMinusKappa | kPartEta;
 
 HWY_INLINE VCodes::Type CodeOfRegime(Regime regime) { return VCodes::Fill(static_cast<uint64_t>(regime)); }
 
@@ -204,7 +204,8 @@ double MostKappa(double tolerance) { return (tolerance - kErrorOfOne) / kErrorOf
 // True where a problem rebounds, keeps all limits and is proved with room to spare, as most problems of a sweep are.
 // This takes a third of the operations that tell the other problems apart.
 template <typename N>
-HWY_INLINE Mask AreUsual(RestitutionLaw law, const Inputs<N, Mask>& in, const Solution<N, Mask>& x, V most_kappa) {
+HWY_INLINE Mask ReboundWithinLimits(RestitutionLaw law, const Inputs<N, Mask>& in, const Solution<N, Mask>& x,
+                                    V most_kappa) {
   const V zero = VLanes::Fill(0.0);
   const Mask rebounds = zero < Smaller(Smaller(Rounded(x.margin), Rounded(x.d)), Rounded(x.q));
   const bool is_exact = law == RestitutionLaw::kEnergetic;
@@ -219,7 +220,7 @@ HWY_INLINE Mask AreUsual(RestitutionLaw law, const Inputs<N, Mask>& in, const So
 template <RestitutionLaw kLaw, unsigned kParts>
 HWY_INLINE Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
   using N = Plain<V>;
-  const unsigned parts = kParts | (block.parts & kDearParts);
+  const unsigned parts = kParts | (block.parts & kExpensiveParts);
   const Loader loader(block);
   Storer storer(block);
   const V most_kappa = VLanes::Fill(MostKappa(tolerance));
@@ -230,7 +231,7 @@ HWY_INLINE Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdict
     const auto in = loader.Load<N>(i);
     Solution<N, Mask> x;
     SolveUnlocked(kLaw, in, parts, x);
-    if (!InAllLanes(AreUsual(kLaw, in, x, most_kappa))) [[unlikely]] {
+    if (!InAllLanes(ReboundWithinLimits(kLaw, in, x, most_kappa))) [[unlikely]] {
       if (all_usual) verdicts.fill(static_cast<uint64_t>(Regime::kRebound));
       all_usual = false;
       OverrideLocked(x);
@@ -246,7 +247,7 @@ HWY_INLINE Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdict
   if (all_usual) {
     std::fill_n(block.solved.regimes.data() + block.place, block.size, Regime::kRebound);
     std::fill_n(block.solved.inadmissible.data() + block.place, block.size, false);
-    return Proof::kAllUsual;
+    return Proof::kAllReboundWithinLimits;
   }
   StoreVerdicts(block, verdicts);
   return InAllLanes(all) ? Proof::kAll : Proof::kNotAll;
@@ -256,7 +257,7 @@ template <RestitutionLaw kLaw>
 Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdicts& verdicts) {
   constexpr unsigned kFew = kPartKappa | kPartKappaHat;
   if ((block.parts & ~kFew) == 0) return SolvePlainBlockOf<kLaw, kFew>(block, tolerance, verdicts);
-  return SolvePlainBlockOf<kLaw, kPartAll & ~kDearParts>(block, tolerance, verdicts);
+  return SolvePlainBlockOf<kLaw, kPartAll & ~kExpensiveParts>(block, tolerance, verdicts);
 }
 
 Proof SolvePlainBlock(const Block& block, double tolerance, Verdicts& verdicts) {
@@ -349,11 +350,11 @@ void SolveCompensated(const Block& block) {
   }
 }
 
-// Returns true if all problems are usual (AreUsual).
+// Returns true if all problems are usual (ReboundWithinLimits).
 bool SolvePlainFirst(const Block& block, double tolerance) {
   Verdicts verdicts;
   const Proof proof = HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(block, tolerance, verdicts);
-  if (proof != Proof::kNotAll) return proof == Proof::kAllUsual;
+  if (proof != Proof::kNotAll) return proof == Proof::kAllReboundWithinLimits;
   const auto is_proved = [&verdicts](size_t i) { return verdicts[i] < kUnproved; };
   for (size_t from = 0; from < block.size;) {
     size_t to = from;

@@ -118,11 +118,11 @@ HWY_INLINE Answer<DoubleDouble<V>> Judge(unsigned parts, const Course<DoubleDoub
 
 template <typename N>
 HWY_INLINE void Store(const Job& job, size_t i, const Answer<N>& answer) {
-  ricochet::HWY_NAMESPACE::TellOutputs(answer.numbers, VLanes::Fill(0.0), answer.relative_error,
-                                       [&](Output output, V value) HWY_ATTR {
-                                         double* const place = job.places[static_cast<size_t>(output)];
-                                         if (place != nullptr) VLanes::Store(value, place + i);
-                                       });
+  ricochet::HWY_NAMESPACE::ForEachOutput(answer.numbers, VLanes::Fill(0.0), answer.relative_error,
+                                         [&](Output output, V value) HWY_ATTR {
+                                           double* const place = job.places[static_cast<size_t>(output)];
+                                           if (place != nullptr) VLanes::Store(value, place + i);
+                                         });
 }
 
 // Solves the problems [first, first + count), of which there are at least as many as a vector has lanes. The last
@@ -169,7 +169,7 @@ HWY_EXPORT(CountLanes);
 
 std::array<double, kOutputCount> NumbersOf(const ImpactEnd<double>& impact, double relative_error) {
   std::array<double, kOutputCount> numbers = {};
-  ricochet::HWY_NAMESPACE::TellOutputs(
+  ricochet::HWY_NAMESPACE::ForEachOutput(
       impact, 0.0, relative_error, [&](Output output, double value) { numbers[static_cast<size_t>(output)] = value; });
   return numbers;
 }
@@ -210,9 +210,9 @@ void SetVerdict(const Job& job, size_t i, uint64_t verdict) {
 }
 
 // Problems wait here for double-double arithmetic until they fill vectors.
-class WaitingRoom {
+class CompensatedQueue {
  public:
-  explicit WaitingRoom(const Job& job) : job_(job), own_{.law = job.law, .parts = job.parts} {
+  explicit CompensatedQueue(const Job& job) : job_(job), own_{.law = job.law, .parts = job.parts} {
     for (size_t k = 0; k < kNumbers; ++k) own_.numbers[k] = numbers_[k].data();
     for (size_t output = 0; output < kOutputCount; ++output) {
       if (job.places[output] != nullptr) own_.places[output] = results_[output].data();
@@ -270,7 +270,7 @@ class WaitingRoom {
 
 // Solves the problems [first, first + count) as far as plain arithmetic serves. Returns the number of problems for
 // which it does not.
-size_t SolveSome(const Job& job, size_t first, size_t count, double tolerance, WaitingRoom& waiting) {
+size_t SolveSome(const Job& job, size_t first, size_t count, double tolerance, CompensatedQueue& waiting) {
   Verdicts verdicts;
   HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(job, first, count, tolerance, verdicts);
   size_t unproved = 0;
@@ -290,7 +290,7 @@ size_t SolveSome(const Job& job, size_t first, size_t count, double tolerance, W
 
 size_t SolvePlainFirst(const Job& job, size_t count, double tolerance) {
   const size_t lanes = HWY_DYNAMIC_DISPATCH(CountLanes)();
-  WaitingRoom waiting(job);
+  CompensatedQueue waiting(job);
   size_t unproved = 0;
   if (count < lanes) {
     for (size_t i = 0; i < count; ++i) {
@@ -311,7 +311,7 @@ size_t SolvePlainFirst(const Job& job, size_t count, double tolerance) {
 }
 
 void SolveCompensated(const Job& job, size_t count) {
-  WaitingRoom waiting(job);
+  CompensatedQueue waiting(job);
   for (size_t i = 0; i < count; ++i) {
     if (job.IsSeparating(i)) {
       WriteSeparating(job, i);

@@ -109,7 +109,7 @@ HWY_INLINE EndErrors<M> SelectErrors(const MaskOf<M>& condition, const EndErrors
 
 // Twice the sum of the magnitudes of the four works.
 template <typename N, typename M = CoarseOf<N>>
-HWY_INLINE M TwiceMoved(const Solution<N>& x) {
+HWY_INLINE M TwiceTotalWork(const Solution<N>& x) {
   return Coarse(x.restitution.normal) - Coarse(x.compression.normal) + Abs(Coarse(x.compression.tangential)) +
          Abs(Coarse(x.restitution.tangential));
 }
@@ -169,7 +169,7 @@ HWY_INLINE EndErrors<M> StraightErrors(const Course<N>& course) {
   // At rank one u' has two roundings more.
   const MaskOf<N> has_more = Both(course.in.rank_one, Not(course.in.u_follows_v));
   if (!InNoLane(has_more)) errors.u = errors.u + Select(has_more, Times(2.0, Abs(u1 - u_c)), Zero<M>());
-  errors.works = Times(36.0, TwiceMoved(x));
+  errors.works = Times(36.0, TwiceTotalWork(x));
   errors.tau_compression = Times(2.0, tau_c);
   errors.before = Times(in_step, tau - tau_c);
   errors.stuck = errors.after = Zero<M>();
@@ -225,7 +225,7 @@ HWY_INLINE EndErrors<M> StopInCompressionErrors(const Course<N>& course) {
   errors.after = Zero<M>();
   errors.u_compression = Abs(Coarse(second.u)) * stuck_error + Times(5.0, Abs(Coarse(x.compression_end.u)));
   const M works = normal_error + step * errors.v + v1 * step_error +
-                  Times(2.0, f_slope * (steps * errors.u + u1 * steps_error)) + Times(8.0, TwiceMoved(x));
+                  Times(2.0, f_slope * (steps * errors.u + u1 * steps_error)) + Times(8.0, TwiceTotalWork(x));
   errors.works = WithEnergyChange(course, errors, f_path, works);
   errors.decisive = errors.decisive_error = Zero<M>();
   return errors;
@@ -275,7 +275,7 @@ HWY_INLINE EndErrors<M> StopInRestitutionErrors(const Course<N>& course) {
   errors.u_compression = UCompressionError(course);
   const M works = before * v_stop_error + before_error * (v_stop + f_first * u_c) + after * (v_stop_error + errors.v) +
                   (v_stop + v1) * after_error + f_slope * (after * errors.u + u1 * after_error) +
-                  Times(10.0, TwiceMoved(x));
+                  Times(10.0, TwiceTotalWork(x));
   errors.works = WithEnergyChange(course, errors, f_path, works);
   errors.decisive = after;
   errors.decisive_error = after_error;
@@ -356,7 +356,7 @@ HWY_INLINE Bounds<V> PlainBounds(const Course<Plain<V>>& course, const EndErrors
   const V unit = rounding / SpeedBefore(course.in).value;
   return {.velocity = unit * Larger(errors.u, errors.v).value,
           .impulse = unit * Larger(course.in.wnn * errors.tau, course.in.wtt * errors.f).value,
-          .work = rounding * (errors.works * Inverse(TwiceMoved(course.x))).value};
+          .work = rounding * (errors.works * Inverse(TwiceTotalWork(course.x))).value};
 }
 
 // The error of rounding `x` to a double, enlarged by 2^-10 for the rounding of the bound. It is at most half of the
@@ -390,7 +390,7 @@ HWY_INLINE Bounds<RoundedOf<M>> CompensatedBounds(const Course<N>& course, const
   const M velocity = rounding * Larger(errors.u, errors.v) + FinalRounding(Larger(u1, v1));
   const M impulse = rounding * Larger(wnn * errors.tau, wtt * errors.f) +
                     Larger(wnn * FinalRounding(tau), wtt * FinalRounding(largest_f));
-  const M moved = TwiceMoved(x);
+  const M moved = TwiceTotalWork(x);
   const M work = rounding * errors.works + FinalRounding(moved) + Times(0x1p-95, terms);
   const M per_speed = Inverse(SpeedBefore(in));
   return {.velocity = OutBound(velocity * per_speed),

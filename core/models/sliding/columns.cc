@@ -88,7 +88,7 @@ HWY_INLINE Answer<V> MakeAnswer(const Motion<V>& in, V u_slope, V v_slope) {
 template <typename V>
 HWY_INLINE void Store(const Job& job, size_t i, const Answer<V>& answer) {
   const V zero = Lanes<V>::Fill(0.0);
-  ricochet::HWY_NAMESPACE::TellOutputs(answer, zero, zero, [&](PlanarOutput output, V value) HWY_ATTR {
+  ricochet::HWY_NAMESPACE::ForEachOutput(answer, zero, zero, [&](PlanarOutput output, V value) HWY_ATTR {
     double* const place = job.places[static_cast<size_t>(output)];
     if (place != nullptr) Lanes<V>::Store(value, place + i);
   });

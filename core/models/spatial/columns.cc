@@ -10,7 +10,7 @@
 // Highway prescribes the order of these includes.
 // clang-format off
 #include "hwy/foreach_target.h"
-#include "core/models/spatial/crew-inl.h"
+#include "core/models/spatial/lane_group-inl.h"
 // clang-format on
 
 HWY_BEFORE_NAMESPACE();
@@ -23,7 +23,7 @@ void SolveAll(absl::Span<const Problem> problems, absl::Span<Impact> impacts) {
     for (const bool may_jam : {false, true}) {
       const StepGroup group = {order, may_jam};
       const auto is_in_group = [&group](const Problem& problem) { return group.Has(problem); };
-      if (std::any_of(problems.begin(), problems.end(), is_in_group)) Crew(group, problems, impacts).Run();
+      if (std::any_of(problems.begin(), problems.end(), is_in_group)) LaneGroup(group, problems, impacts).Run();
     }
   }
 #else

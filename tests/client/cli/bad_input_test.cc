@@ -153,7 +153,7 @@ std::vector<BadInput> Scenes() {
       {kSolveInput, "line 1, column 24: syntax error", R"({"pendulum": {"a_m": 1,,}})"},
       {kSolveInput, "line 1, column 46: linkage.links[1].mass_kg = \"heavy\": must be a number",
        R"({"linkage": {"links": [{}, {"mass_kg": "heavy"}]}})"},
-      {kSolveInput, "line 1, column 25: \"planar_body\" cannot be given beside \"pendulum\": there is one system only",
+      {kSolveInput, R"(line 1, column 25: "planar_body" cannot be given beside "pendulum": there is one system only)",
        "pendulum {} planar_body {}"},
       {kSolveInput, "is not a ricochet.v1.Scene in textproto: line 2, column 7", "pendulum {\n  mass: 1\n}"},
       {kSolveInput, "restitution.energetic = 2: must be in [0, 1]",

@@ -47,7 +47,7 @@ Enclosure EnclosePlanar(const PlanarBox& box, const EnclosureOptions& options) {
   SlopeParameters parameters;
   const auto to_form = [&](absl::Span<const Interval> x) -> std::variant<PlanarForm, PendulumBox> {
     parameters = SlopeParameters();
-    const auto at = [&](size_t i) { return SlopeForm::Parameter(x[i], parameters); };
+    const auto at = [&](size_t i) { return AffineInterval::Parameter(x[i], parameters); };
     PlanarForm form = {.wtt = at(0), .wtn = at(1), .wnn = at(2), .u0 = at(3), .v0 = at(4), .mu = at(5)};
     if (x.size() > 6) form.mu_static = at(6);
     return form;

@@ -62,14 +62,14 @@ Scene Inside(SceneBox box, std::mt19937_64& random) {
   return box.low;
 }
 
-void ExpectHolds(const SlopeForm& form, double value, double scale, double ulps) {
+void ExpectHolds(const AffineInterval& form, double value, double scale, double ulps) {
   const double slack = ulps * 0x1p-52 * scale;
   EXPECT_GE(value, form.range().lower - slack);
   EXPECT_LE(value, form.range().upper + slack);
 }
 
 // Up to the rounding of the sample's own reduction.
-void ExpectHolds(const ContactForm& form, const PlanarReduction& sample) {
+void ExpectHolds(const AffineContact& form, const PlanarReduction& sample) {
   const auto& [tt, tn, nn] = sample.w;
   const double speed = 10.0;
   ExpectHolds(form.wtt, tt, tt, 64.0);
@@ -88,7 +88,7 @@ TEST(IntervalReductionTest, HoldsTheContactOfEverySceneOfTheBox) {
       const double relative = i % 4 == 0 ? 0.0 : std::exp2(-Uniform(random, 3.0, 50.0));
       const SceneBox box = RandomBox(scene, 1 + static_cast<int>(random() % 12), relative, random);
       SlopeParameters parameters;
-      const auto form = std::get<ContactForm>(Reduce(box, parameters, [] { return false; }));
+      const auto form = std::get<AffineContact>(Reduce(box, parameters, [] { return false; }));
       for (int k = 0; k < 50; ++k) {
         ExpectHolds(form, std::get<PlanarReduction>(Reduce(Inside(box, random))));
         if (HasFailure()) return;
@@ -102,8 +102,8 @@ TEST(IntervalReductionTest, OfOneSceneIsItsReductionToRounding) {
     SCOPED_TRACE(scene.system.index());
     SlopeParameters parameters;
     const auto form =
-        std::get<ContactForm>(Reduce(SceneBox{scene, scene, std::nullopt}, parameters, [] { return false; }));
-    for (const SlopeForm* one : {&form.wtt, &form.wtn, &form.wnn, &form.stick_slope, &form.u0, &form.v0}) {
+        std::get<AffineContact>(Reduce(SceneBox{scene, scene, std::nullopt}, parameters, [] { return false; }));
+    for (const AffineInterval* one : {&form.wtt, &form.wtn, &form.wnn, &form.stick_slope, &form.u0, &form.v0}) {
       EXPECT_LE(one->range().upper - one->range().lower, 1e-13);
     }
   }
@@ -121,7 +121,7 @@ TEST(IntervalReductionTest, IsNarrowToFirstOrder) {
     std::get<Linkage>(box.low.system).links[1].theta_rad = 0.7 - reach;
     std::get<Linkage>(box.high.system).links[1].theta_rad = 0.7 + reach;
     SlopeParameters parameters;
-    const Interval wnn = std::get<ContactForm>(Reduce(box, parameters, [] { return false; })).wnn.range();
+    const Interval wnn = std::get<AffineContact>(Reduce(box, parameters, [] { return false; })).wnn.range();
     return (wnn.upper - wnn.lower) - std::fabs(wnn_at(0.7 + reach) - wnn_at(0.7 - reach));
   };
   EXPECT_NEAR(excess(1e-2) / excess(1e-3), 100.0, 15.0);

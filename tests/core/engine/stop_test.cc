@@ -1,4 +1,4 @@
-// A stop that another thread asks for ends each dear call long before it would end by itself.
+// A stop that another thread asks for ends each expensive call long before it would end by itself.
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ struct DearCall {
 
 void PrintTo(const DearCall& call, std::ostream* out) { *out << call.name; }
 
-std::vector<DearCall> DearCalls() {
+std::vector<DearCall> ExpensiveCalls() {
   const LocalSolver solver;
   return {
       {"CertifiedChain",
@@ -133,7 +133,7 @@ TEST_P(StopTest, EndsADearCallAtItsDeadline) {
   EXPECT_LT(late_ms, 5000.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Dear, StopTest, testing::ValuesIn(DearCalls()),
+INSTANTIATE_TEST_SUITE_P(Expensive, StopTest, testing::ValuesIn(ExpensiveCalls()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(Chunks, OfDearPointsAreCutByTime) {

@@ -27,7 +27,7 @@ constexpr uint64_t kSeed = 41;
 void Expect(const NumberClaims& claims, const char* method, double unknown) {
   const auto check = [&](const char* kind, const ClaimTally& tally) {
     PrintClaims(std::string(method) + ", " + kind, "", tally);
-    EXPECT_EQ(tally.deceived(), 0) << method << ", " << kind << ": " << tally.first_deceived();
+    EXPECT_EQ(tally.broken(), 0) << method << ", " << kind << ": " << tally.first_broken();
     EXPECT_LE(tally.unknown(), unknown * tally.count()) << method << ", " << kind;
   };
   check("velocities", claims.velocity);
@@ -146,7 +146,7 @@ TEST(GrazingTest, NewtonsLawEndsAJamAtItsOwnScale) {
   EXPECT_DOUBLE_EQ(impact.v1, -problem.coefficient * problem.v0);
   NumberClaims claims;
   claims.Add(impact.errors, Compare(impact, *exact), spatial::ToString(problem));
-  EXPECT_EQ(claims.deceived(), 0);
+  EXPECT_EQ(claims.broken(), 0);
 }
 
 TEST(GrazingTest, StraightSlipOfRankOneInSpaceHasAnErrorOfSomeRoundings) {

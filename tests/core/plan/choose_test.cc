@@ -154,7 +154,7 @@ TEST(ChooseTest, AnswersInSpaceAreWithinTheTolerance) {
 TEST(ChooseTest, NoCheaperModelIsProvedToDo) {
   PlanScenes scenes(34);
   int sliding = 0;
-  int dearer = 0;
+  int more_expensive = 0;
   for (int i = 0; i < kScenes && !HasFailure(); ++i) {
     const auto [problem, physics] = SomePlanarScene(scenes);
     const double cone = problem.mu * std::fabs(problem.w.tn) / problem.w.nn;
@@ -175,12 +175,12 @@ TEST(ChooseTest, NoCheaperModelIsProvedToDo) {
     EXPECT_EQ(choice.model == Model::kSliding, slides);
     sliding += slides ? 1 : 0;
     if (slides) continue;
-    ++dearer;
+    ++more_expensive;
     const bool rigid = sizes[Effect::kTangentialCompliance].value <= demand.relative_tolerance;
     EXPECT_EQ(choice.model, rigid ? Model::kPlanar : Model::kCompliant);
   }
   EXPECT_GT(sliding, kScenes / 100);
-  EXPECT_GT(dearer, kScenes / 100);
+  EXPECT_GT(more_expensive, kScenes / 100);
 }
 
 TEST(ChooseTest, ASmallerToleranceNeverTakesACheaperModel) {

@@ -104,7 +104,7 @@ TEST(ForcesSizeTest, ASpringAloneChangesNothing) {
     const finite_duration::Impact with = finite_duration::Solve(TimedOf(scene));
     const Sizes sizes = PlanarSizes(scene.problem, scene.physics);
     EXPECT_EQ(sizes[Effect::kFiniteDuration].value, 0.0);
-    EXPECT_EQ(sizes[Effect::kFiniteDuration].ground, Ground::kSameImpulses);
+    EXPECT_EQ(sizes[Effect::kFiniteDuration].basis, Basis::kSameImpulses);
     EXPECT_LE(ChangeBetween(scene.problem, EndingOf(with), EndingOf(planar::Solve(scene.problem))),
               10.0 * std::max(with.error_estimate, kTolerance));
   }

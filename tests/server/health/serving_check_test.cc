@@ -18,7 +18,7 @@ using testing::HasSubstr;
 constexpr std::chrono::milliseconds kSoon(200);
 constexpr std::chrono::milliseconds kLate(20'000);
 
-// An acceptor that listens, on TCP and a Unix socket, but accepts only once it is started; and a gate.
+// An acceptor that listens, on TCP and a Unix socket, but accepts only once it is started; and a scheduler.
 class ServingCheckTest : public testing::Test {
  protected:
   ServingCheckTest() {
@@ -35,7 +35,7 @@ class ServingCheckTest : public testing::Test {
   }
 
   absl::Status Check(std::chrono::milliseconds patience) {
-    return ServingCheck(addresses_, *acceptor_, gate_, patience).Run(stop_.get_token());
+    return ServingCheck(addresses_, *acceptor_, scheduler_, patience).Run(stop_.get_token());
   }
 
   std::ostringstream logged_;
@@ -43,7 +43,7 @@ class ServingCheckTest : public testing::Test {
   std::vector<ListenAddress> addresses_;
   std::unique_ptr<Acceptor> acceptor_;
   std::stop_source drain_;
-  Gate gate_{1, 1, drain_.get_token()};
+  Scheduler scheduler_{1, 1, drain_.get_token()};
   std::stop_source stop_;
 };
 
@@ -72,14 +72,14 @@ TEST_F(ServingCheckTest, FailsWhileNoCheapCallGetsItsTurn) {
   const std::shared_future<void> released = release.get_future().share();
   {
     std::vector<std::jthread> holders;
-    // More calls than the gate has slots for cheap ones.
+    // More calls than the scheduler has slots for cheap ones.
     for (int i = 0; i < 100; ++i) {
       holders.emplace_back([&] {
         const Turn turn = {.peer = "holder", .deadline = {}, .is_gone = [] { return false; }, .cost = RequestCost()};
-        EXPECT_TRUE(gate_.Compute(turn, [&] { released.wait(); }).ok());
+        EXPECT_TRUE(scheduler_.Compute(turn, [&] { released.wait(); }).ok());
       });
     }
-    while (gate_.waiting() == 0 || gate_.waiting() + gate_.computing() < 100) std::this_thread::yield();
+    while (scheduler_.waiting() == 0 || scheduler_.waiting() + scheduler_.computing() < 100) std::this_thread::yield();
     const absl::Status status = Check(kSoon);
     EXPECT_TRUE(absl::IsUnavailable(status)) << status;
     EXPECT_THAT(std::string(status.message()), HasSubstr("turn to compute"));

@@ -1,6 +1,6 @@
 // ClaimTally: the errors that a model claims, held against the errors that it makes.
 //
-// Both are relative, as the model defines its error estimate. A claim below the error has deceived. A claim that is far
+// Both are relative, as the model defines its error estimate. A claim below the error is broken. A claim that is far
 // above the error is honest and of little use.
 
 #ifndef RICOCHET_TESTS_SUPPORT_CLAIMS_CLAIMS_H_
@@ -21,7 +21,7 @@ class ClaimTally {
   // `tolerance` is the error asked for; 0 if the model takes no tolerance.
   explicit ClaimTally(double tolerance = 0.0) : tolerance_(tolerance) {}
 
-  // `scene` describes the scene to somebody who wants to look into a claim that has deceived.
+  // `scene` describes the scene to somebody who wants to look into a claim that is broken.
   void Add(double claimed, double achieved, const std::string& scene = {}) {
     ++count_;
     // An infinite claim says that nothing is known of the error.
@@ -32,7 +32,7 @@ class ClaimTally {
     // An error, and a claim, below the rounding of a result counts as that rounding.
     constexpr double kRounding = 0x1p-54;
     // A NaN deceives.
-    if (!(claimed >= achieved) && deceived_++ == 0) first_deceived_ = scene;
+    if (!(claimed >= achieved) && broken_++ == 0) first_deceived_ = scene;
     above_ += claimed > tolerance_ ? 1 : 0;
     exceeded_ += achieved > tolerance_ ? 1 : 0;
     worst_ = std::max(worst_, achieved);
@@ -40,8 +40,8 @@ class ClaimTally {
   }
 
   int count() const { return count_; }
-  int deceived() const { return deceived_; }
-  const std::string& first_deceived() const { return first_deceived_; }
+  int broken() const { return broken_; }
+  const std::string& first_broken() const { return first_deceived_; }
   int claimed_above_tolerance() const { return above_; }
   int achieved_above_tolerance() const { return exceeded_; }
   int unknown() const { return unknown_; }
@@ -63,7 +63,7 @@ class ClaimTally {
 
  private:
   double tolerance_;
-  int count_ = 0, deceived_ = 0, above_ = 0, exceeded_ = 0, unknown_ = 0;
+  int count_ = 0, broken_ = 0, above_ = 0, exceeded_ = 0, unknown_ = 0;
   double worst_ = 0.0;
   std::string first_deceived_;
   std::vector<double> ratios_;
@@ -72,7 +72,7 @@ class ClaimTally {
 // One row of the table of claims: a method, its scenes, and its tally.
 inline void PrintClaimsHeader() {
   std::printf("%-22s %-8s %9s %6s %8s %9s %6s %7s %8s %11s %11s\n", "method", "scenes", "tolerance", "count", "unknown",
-              "deceived", "least", "median", "worst", "claim > tol", "error > tol");
+              "broken", "least", "median", "worst", "claim > tol", "error > tol");
 }
 
 inline void PrintClaims(const std::string& method, const std::string& scenes, const ClaimTally& tally) {
@@ -82,14 +82,14 @@ inline void PrintClaims(const std::string& method, const std::string& scenes, co
   } else {
     std::printf("%9s ", "-");
   }
-  std::printf("%6d %8d %9d %6.2f %7.1f %8.1e ", tally.count(), tally.unknown(), tally.deceived(), tally.LeastRatio(),
+  std::printf("%6d %8d %9d %6.2f %7.1f %8.1e ", tally.count(), tally.unknown(), tally.broken(), tally.LeastRatio(),
               tally.MedianRatio(), tally.WorstError());
   if (tally.tolerance() > 0.0) {
     std::printf("%11d %11d\n", tally.claimed_above_tolerance(), tally.achieved_above_tolerance());
   } else {
     std::printf("%11s %11s\n", "-", "-");
   }
-  if (tally.deceived() > 0) std::printf("  deceived first: %s\n", tally.first_deceived().c_str());
+  if (tally.broken() > 0) std::printf("  broken first: %s\n", tally.first_broken().c_str());
 }
 
 }  // namespace ricochet

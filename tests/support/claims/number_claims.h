@@ -92,7 +92,7 @@ struct NumberClaims {
     add(work, "energy", claimed.energy_change, found.energy_change);
   }
 
-  int deceived() const { return velocity.deceived() + coefficient.deceived() + impulse.deceived() + work.deceived(); }
+  int broken() const { return velocity.broken() + coefficient.broken() + impulse.broken() + work.broken(); }
 };
 
 }  // namespace ricochet

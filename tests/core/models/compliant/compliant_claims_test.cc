@@ -15,7 +15,7 @@ TEST(CompliantClaimsTest, DeceiveNobodyAndAreUseful) {
   for (const bool hard : {false, true}) {
     const ClaimTally tally = ClaimsOf(hard, 200, 31);
     PrintClaims("compliant", hard ? "hard" : "typical", tally);
-    EXPECT_EQ(tally.deceived(), 0);
+    EXPECT_EQ(tally.broken(), 0);
     EXPECT_LE(tally.MedianRatio(), 10.0);
     // The error of a wedged impact is not known.
     EXPECT_LE(tally.unknown(), hard ? 20 : 0);

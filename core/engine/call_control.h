@@ -1,10 +1,10 @@
-// CallWatch: looks at the clock and at the options of a call while it is computed.
+// CallControl: looks at the clock and at the options of a call while it is computed.
 //
 // Computations ask IsStopped as often as they like, down to every microsecond. It reads the clock each time, which
 // takes some 25 ns, and looks at the options themselves at most once a millisecond, because that may take a lock.
 
-#ifndef RICOCHET_CORE_ENGINE_CALL_WATCH_H_
-#define RICOCHET_CORE_ENGINE_CALL_WATCH_H_
+#ifndef RICOCHET_CORE_ENGINE_CALL_CONTROL_H_
+#define RICOCHET_CORE_ENGINE_CALL_CONTROL_H_
 
 #include <chrono>
 #include <utility>
@@ -14,9 +14,9 @@
 
 namespace ricochet {
 
-class CallWatch {
+class CallControl {
  public:
-  explicit CallWatch(CallOptions options) : options_(std::move(options)) {}
+  explicit CallControl(CallOptions options) : options_(std::move(options)) {}
 
   // Returns the error with which the options end the call by now, or OK if it may go on.
   absl::Status WhyEnded() const;
@@ -45,4 +45,4 @@ class CallWatch {
 
 }  // namespace ricochet
 
-#endif  // RICOCHET_CORE_ENGINE_CALL_WATCH_H_
+#endif  // RICOCHET_CORE_ENGINE_CALL_CONTROL_H_

@@ -1,4 +1,4 @@
-#include "server/telemetry/call_watch.h"
+#include "server/telemetry/call_interceptor.h"
 
 #include <grpcpp/server_context.h>
 #include <grpcpp/support/server_interceptor.h>
@@ -51,9 +51,9 @@ Refusal RefusalOf(const absl::Status& status) {
   return {kRefusedByGrpcReason, status};
 }
 
-class CallWatch final : public grpc::experimental::Interceptor {
+class CallInterceptor final : public grpc::experimental::Interceptor {
  public:
-  CallWatch(std::string method, const grpc::ServerContextBase& context, const Observer& observer)
+  CallInterceptor(std::string method, const grpc::ServerContextBase& context, const Observer& observer)
       : method_(std::move(method)), context_(context), observer_(observer) {}
 
   void Intercept(InterceptorBatchMethods* batch) override {
@@ -97,7 +97,7 @@ class Factory final : public grpc::experimental::ServerInterceptorFactoryInterfa
     if (method != kUnknownMethod && !absl::StartsWith(method, prefix_)) return nullptr;
     if (method != kUnknownMethod) method.remove_prefix(prefix_.size());
     observer_.Started(std::string(method));
-    return new CallWatch(std::string(method), *info->server_context(), observer_);
+    return new CallInterceptor(std::string(method), *info->server_context(), observer_);
   }
 
  private:

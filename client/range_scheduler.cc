@@ -1,12 +1,12 @@
-#include "client/range_board.h"
+#include "client/range_scheduler.h"
 
 #include <algorithm>
 #include <utility>
 
 namespace ricochet {
 
-RangeBoard::RangeBoard(int64_t first_index, int64_t end_index, int64_t point_bytes, int64_t buffer_bytes,
-                       int64_t servers)
+RangeScheduler::RangeScheduler(int64_t first_index, int64_t end_index, int64_t point_bytes, int64_t buffer_bytes,
+                               int64_t servers)
     : end_(end_index),
       point_bytes_(point_bytes),
       room_(std::max<int64_t>(1, buffer_bytes / point_bytes)),
@@ -15,7 +15,7 @@ RangeBoard::RangeBoard(int64_t first_index, int64_t end_index, int64_t point_byt
       left_(first_index),
       untaken_(first_index) {}
 
-std::optional<RangeBoard::Task> RangeBoard::Take(int64_t points) {
+std::optional<RangeScheduler::Task> RangeScheduler::Take(int64_t points) {
   for (Range& range : ranges_) {
     if (range.next < range.end && range.tasks.empty()) return Give(range);
   }
@@ -27,7 +27,7 @@ std::optional<RangeBoard::Task> RangeBoard::Take(int64_t points) {
   return Give(ranges_.back());
 }
 
-RangeBoard::Task RangeBoard::Give(Range& range) {
+RangeScheduler::Task RangeScheduler::Give(Range& range) {
   range.wants_another = false;
   range.tasks.push_back({.number = ++tasks_,
                          .first_index = range.next,
@@ -37,7 +37,7 @@ RangeBoard::Task RangeBoard::Give(Range& range) {
   return range.tasks.back();
 }
 
-RangeBoard::Range* RangeBoard::Find(const Task& task) {
+RangeScheduler::Range* RangeScheduler::Find(const Task& task) {
   for (Range& range : ranges_) {
     for (const Task& one : range.tasks) {
       if (one.number == task.number) return &range;
@@ -46,7 +46,7 @@ RangeBoard::Range* RangeBoard::Find(const Task& task) {
   return nullptr;
 }
 
-bool RangeBoard::Put(const Task& task, SweepChunk chunk) {
+bool RangeScheduler::Put(const Task& task, SweepChunk chunk) {
   Range* const range = Find(task);
   if (range == nullptr) return false;
   if (chunk.count == 0) return true;
@@ -62,25 +62,25 @@ bool RangeBoard::Put(const Task& task, SweepChunk chunk) {
   return true;
 }
 
-void RangeBoard::End(const Task& task) {
+void RangeScheduler::End(const Task& task) {
   if (Range* const range = Find(task); range != nullptr) {
     std::erase_if(range->tasks, [&task](const Task& one) { return one.number == task.number; });
   }
 }
 
-void RangeBoard::AskAnother() {
+void RangeScheduler::AskAnother() {
   if (ranges_.empty()) return;
   Range& range = ranges_.front();
   range.wants_another = range.next < range.end && !range.tasks.empty();
 }
 
-void RangeBoard::StopAll() {
+void RangeScheduler::StopAll() {
   for (Range& range : ranges_) {
     for (Task& task : range.tasks) task.stop.request_stop();
   }
 }
 
-std::optional<RangeBoard::Piece> RangeBoard::Leave() {
+std::optional<RangeScheduler::Piece> RangeScheduler::Leave() {
   while (!ranges_.empty() && ranges_.front().pieces.empty()) {
     if (ranges_.front().next < ranges_.front().end) return std::nullopt;
     ranges_.pop_front();

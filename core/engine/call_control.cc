@@ -1,4 +1,4 @@
-#include "core/engine/call_watch.h"
+#include "core/engine/call_control.h"
 
 namespace ricochet {
 namespace {
@@ -7,7 +7,7 @@ constexpr std::chrono::milliseconds kBetweenLooks(1);
 
 }  // namespace
 
-absl::Status CallWatch::WhyEnded() const {
+absl::Status CallControl::WhyEnded() const {
   if (options_.deadline.has_value() && Clock::now() >= *options_.deadline) {
     return absl::DeadlineExceededError("the call's deadline has passed");
   }
@@ -17,13 +17,13 @@ absl::Status CallWatch::WhyEnded() const {
   return absl::OkStatus();
 }
 
-absl::Status CallWatch::OrWhyEnded(const absl::Status& error) const {
+absl::Status CallControl::OrWhyEnded(const absl::Status& error) const {
   if (!absl::IsCancelled(error)) return error;
   const absl::Status ended = WhyEnded();
   return ended.ok() ? error : ended;
 }
 
-bool CallWatch::IsStopped() {
+bool CallControl::IsStopped() {
   if (is_stopped_) return true;
   now_ = Clock::now();
   if (now_ < next_look_) return false;
@@ -32,7 +32,7 @@ bool CallWatch::IsStopped() {
   return is_stopped_;
 }
 
-void CallWatch::StartPiece(std::chrono::milliseconds time) {
+void CallControl::StartPiece(std::chrono::milliseconds time) {
   now_ = Clock::now();
   piece_end_ = now_ + time;
   next_look_ = now_;

@@ -1,4 +1,4 @@
-// CallWatch: sees every call that gRPC hands to the service, those that end before a handler runs included.
+// CallInterceptor: sees every call that gRPC hands to the service, those that end before a handler runs included.
 //
 // Such calls end because their bytes are no message, because no thread is free, or because there is no such method.
 // Each gets a record like any other call. gRPC answers the first with INTERNAL and no text, and the second without
@@ -7,8 +7,8 @@
 // gRPC 1.51 ends some calls before it hands them on, and they are seen by nobody: messages and headers that are too
 // large, and streams beyond the limit of a connection.
 
-#ifndef RICOCHET_SERVER_TELEMETRY_CALL_WATCH_H_
-#define RICOCHET_SERVER_TELEMETRY_CALL_WATCH_H_
+#ifndef RICOCHET_SERVER_TELEMETRY_CALL_INTERCEPTOR_H_
+#define RICOCHET_SERVER_TELEMETRY_CALL_INTERCEPTOR_H_
 
 #include <grpcpp/server_builder.h>
 
@@ -21,4 +21,4 @@ void WatchCalls(const Observer& observer, grpc::ServerBuilder& builder);
 
 }  // namespace ricochet::server
 
-#endif  // RICOCHET_SERVER_TELEMETRY_CALL_WATCH_H_
+#endif  // RICOCHET_SERVER_TELEMETRY_CALL_INTERCEPTOR_H_

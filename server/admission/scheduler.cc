@@ -1,4 +1,4 @@
-#include "server/admission/gate.h"
+#include "server/admission/scheduler.h"
 
 #include <limits>
 #include <memory>
@@ -10,7 +10,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // The kernel gives a thread of nice value 0 three times the time of one of 5, and nine times that of one of 10. It is
-// enough that cheap calls go first; more would starve dear ones beside other programs.
+// enough that cheap calls go first; more would starve expensive ones beside other programs.
 constexpr int kDearIsNicer = 5;
 constexpr int kStreamsAreNicer = 10;
 
@@ -23,11 +23,11 @@ constexpr size_t kUnlimited = std::numeric_limits<size_t>::max();
 // Frees a slot however the work ends, and learns how long it took.
 class Leaving {
  public:
-  Leaving(Lane& lane, Lane::Visitor& visitor, const Turn& turn, ServiceTimes& times)
-      : lane_(lane), visitor_(visitor), turn_(turn), times_(times) {}
+  Leaving(SlotQueue& queue, SlotQueue::Waiter& waiter, const Turn& turn, ServiceTimes& times)
+      : slots_of_kind_(queue), waiter_(waiter), turn_(turn), times_(times) {}
   ~Leaving() {
-    const double computed_s = lane_.Leave(visitor_);
-    if (computed_ && turn_.cost.has_value()) times_.Learn(*turn_.cost, computed_s, Clock::now() >= visitor_.deadline);
+    const double computed_s = slots_of_kind_.Leave(waiter_);
+    if (computed_ && turn_.cost.has_value()) times_.Learn(*turn_.cost, computed_s, Clock::now() >= waiter_.deadline);
   }
   Leaving(const Leaving&) = delete;
   Leaving& operator=(const Leaving&) = delete;
@@ -35,8 +35,8 @@ class Leaving {
   void Computes() { computed_ = true; }
 
  private:
-  Lane& lane_;
-  Lane::Visitor& visitor_;
+  SlotQueue& slots_of_kind_;
+  SlotQueue::Waiter& waiter_;
   const Turn& turn_;
   ServiceTimes& times_;
   bool computed_ = false;
@@ -44,43 +44,43 @@ class Leaving {
 
 }  // namespace
 
-class Gate::SweepHelpers final : public Helpers {
+class Scheduler::SweepHelpers final : public Helpers {
  public:
-  SweepHelpers(Gate& gate, std::string peer) : gate_(gate), peer_(std::move(peer)) {}
+  SweepHelpers(Scheduler& scheduler, std::string peer) : scheduler_(scheduler), peer_(std::move(peer)) {}
 
-  int most() const override { return static_cast<int>(gate_.threads_) - 1; }
-  bool Start(Help help) override { return gate_.StartHelp(peer_, std::move(help)); }
+  int most() const override { return static_cast<int>(scheduler_.threads_) - 1; }
+  bool Start(Help help) override { return scheduler_.StartHelp(peer_, std::move(help)); }
 
  private:
-  Gate& gate_;
+  Scheduler& scheduler_;
   const std::string peer_;
 };
 
-Gate::Gate(int threads, int most_waiting, std::stop_token drain)
+Scheduler::Scheduler(int threads, int most_waiting, std::stop_token drain)
     : threads_(static_cast<size_t>(threads)),
       cheap_(kCheapSlotsPerCore * threads, kUnlimited),
-      dear_(threads, static_cast<size_t>(most_waiting)),
+      expensive_(threads, static_cast<size_t>(most_waiting)),
       streams_(threads, kUnlimited),
-      dear_threads_(threads, kDearIsNicer),
+      expensive_threads_(threads, kDearIsNicer),
       stream_threads_(threads, kStreamsAreNicer),
       close_(std::move(drain), [this] {
         cheap_.Close();
-        dear_.Close();
+        expensive_.Close();
         streams_.Close();
       }) {}
 
-absl::Status Gate::Compute(const Turn& turn, absl::FunctionRef<void()> work) {
+absl::Status Scheduler::Compute(const Turn& turn, absl::FunctionRef<void()> work) {
   const bool is_stream = !turn.cost.has_value();
   const bool is_cheap = !is_stream && turn.cost->is_cheap();
-  Lane& lane = is_stream ? streams_ : is_cheap ? cheap_ : dear_;
-  Lane::Visitor visitor;
-  visitor.peer = turn.peer;
+  SlotQueue& queue = is_stream ? streams_ : is_cheap ? cheap_ : expensive_;
+  SlotQueue::Waiter waiter;
+  waiter.peer = turn.peer;
   // Parts of streams take turns: if their deadlines decided, one stream would keep out the others of its peer to its
   // end.
-  if (!is_stream) visitor.deadline = turn.deadline.value_or(Lane::Time::max());
-  if (!is_stream) visitor.expected_s = times_.Expected(*turn.cost);
-  if (absl::Status turned_away = lane.Enter(visitor, turn.is_gone); !turned_away.ok()) return turned_away;
-  Leaving leaving(lane, visitor, turn, times_);
+  if (!is_stream) waiter.deadline = turn.deadline.value_or(SlotQueue::Time::max());
+  if (!is_stream) waiter.expected_s = times_.Expected(*turn.cost);
+  if (absl::Status turned_away = queue.Enter(waiter, turn.is_gone); !turned_away.ok()) return turned_away;
+  Leaving leaving(queue, waiter, turn, times_);
   if (turn.deadline.has_value() && Clock::now() >= *turn.deadline) {
     return absl::DeadlineExceededError("the deadline passed before the call began");
   }
@@ -89,33 +89,33 @@ absl::Status Gate::Compute(const Turn& turn, absl::FunctionRef<void()> work) {
   if (is_cheap) {
     work();
   } else {
-    (is_stream ? stream_threads_ : dear_threads_).Run(work);
+    (is_stream ? stream_threads_ : expensive_threads_).Run(work);
   }
   return absl::OkStatus();
 }
 
-std::shared_ptr<Helpers> Gate::HelpersFor(std::string peer) {
+std::shared_ptr<Helpers> Scheduler::HelpersFor(std::string peer) {
   return std::make_shared<SweepHelpers>(*this, std::move(peer));
 }
 
-bool Gate::IsFull(size_t helpers) const {
-  if (dear_.waiting() + streams_.waiting() > 0) return true;
-  return dear_.computing() + streams_.computing() + 1 > threads_ + helpers;
+bool Scheduler::IsFull(size_t helpers) const {
+  if (expensive_.waiting() + streams_.waiting() > 0) return true;
+  return expensive_.computing() + streams_.computing() + 1 > threads_ + helpers;
 }
 
-bool Gate::StartHelp(const std::string& peer, Helpers::Help help) {
+bool Scheduler::StartHelp(const std::string& peer, Helpers::Help help) {
   if (IsFull(0)) return false;
   struct Visit {
-    Lane::Visitor visitor;
+    SlotQueue::Waiter waiter;
     Helpers::Help help;
   };
   const auto visit = std::make_shared<Visit>();
-  visit->visitor.peer = peer;
+  visit->waiter.peer = peer;
   visit->help = std::move(help);
-  if (!streams_.TryEnter(visit->visitor)) return false;
+  if (!streams_.TryEnter(visit->waiter)) return false;
   stream_threads_.Start([this, visit] {
     visit->help([this] { return IsFull(1); });
-    streams_.Leave(visit->visitor);
+    streams_.Leave(visit->waiter);
   });
   return true;
 }

@@ -1,6 +1,6 @@
 // Slope forms: they contain the function at every point of the box, and get narrow with the square of its size.
 
-#include "core/numerics/slope_form.h"
+#include "core/numerics/affine_interval.h"
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr slong kBits = 200;
 
-// Every operation, and each variable several times. N is a SlopeForm or a Ball.
+// Every operation, and each variable several times. N is a AffineInterval or a Ball.
 template <typename N>
 N Formula(const N& x, const N& y) {
   const N root = Sqrt(x * x + y);
@@ -27,13 +27,13 @@ double Uniform(std::mt19937_64& random, double low, double high) {
 
 Interval Enclose(const Interval& x, const Interval& y) {
   SlopeParameters parameters;
-  const SlopeForm x_form = SlopeForm::Parameter(x, parameters);
-  return Formula(x_form, SlopeForm::Parameter(y, parameters)).range();
+  const AffineInterval x_form = AffineInterval::Parameter(x, parameters);
+  return Formula(x_form, AffineInterval::Parameter(y, parameters)).range();
 }
 
 bool Holds(const Interval& x, const Ball& exact) { return Ball(x.lower) <= exact && exact <= Ball(x.upper); }
 
-TEST(SlopeFormTest, ContainsTheFunctionAtEveryPoint) {
+TEST(AffineIntervalTest, ContainsTheFunctionAtEveryPoint) {
   std::mt19937_64 random(1);
   for (int i = 0; i < 2'000; ++i) {
     const double reach = std::exp2(-Uniform(random, 0.0, 50.0));
@@ -51,11 +51,11 @@ TEST(SlopeFormTest, ContainsTheFunctionAtEveryPoint) {
 }
 
 // x (1 - x) reaches 1/4 at most; interval arithmetic alone would say more by the reach, not by its square.
-TEST(SlopeFormTest, IsTooWideByTheSquareOfTheBoxOnly) {
+TEST(AffineIntervalTest, IsTooWideByTheSquareOfTheBoxOnly) {
   for (const double reach : {0x1p-3, 0x1p-6, 0x1p-12, 0x1p-20}) {
     SlopeParameters parameters;
-    const SlopeForm x = SlopeForm::Parameter({0.5 - reach, 0.5 + reach}, parameters);
-    const Interval range = (x * (SlopeForm(1.0) - x)).range();
+    const AffineInterval x = AffineInterval::Parameter({0.5 - reach, 0.5 + reach}, parameters);
+    const Interval range = (x * (AffineInterval(1.0) - x)).range();
     EXPECT_GE(range.upper, 0.25);
     EXPECT_LE(range.upper, 0.25 + 2.0 * reach * reach);
     EXPECT_LE(range.lower, 0.25 - reach * reach);
@@ -63,26 +63,26 @@ TEST(SlopeFormTest, IsTooWideByTheSquareOfTheBoxOnly) {
   }
 }
 
-TEST(SlopeFormTest, WhatCancelsExactlyCancelsHere) {
+TEST(AffineIntervalTest, WhatCancelsExactlyCancelsHere) {
   SlopeParameters parameters;
-  const SlopeForm x = SlopeForm::Parameter({1.0, 3.0}, parameters);
+  const AffineInterval x = AffineInterval::Parameter({1.0, 3.0}, parameters);
   EXPECT_EQ((x - x).range(), Interval(0.0));
 }
 
-TEST(SlopeFormTest, ParametersBeyondThoseWithSlopesCountAsIntervals) {
+TEST(AffineIntervalTest, ParametersBeyondThoseWithSlopesCountAsIntervals) {
   SlopeParameters parameters;
-  SlopeForm sum(0.0);
+  AffineInterval sum(0.0);
   for (size_t i = 0; i < SlopeParameters::kMostSlopes + 2; ++i) {
-    sum = sum + SlopeForm::Parameter({1.0, 2.0}, parameters);
+    sum = sum + AffineInterval::Parameter({1.0, 2.0}, parameters);
   }
   EXPECT_EQ(parameters.size(), SlopeParameters::kMostSlopes);
   EXPECT_EQ(sum.range(), Interval(10.0, 20.0));
 }
 
-TEST(SlopeFormTest, PowersFollowTheirDerivative) {
+TEST(AffineIntervalTest, PowersFollowTheirDerivative) {
   SlopeParameters parameters;
-  const SlopeForm x = SlopeForm::Parameter({1.0 - 0x1p-10, 1.0 + 0x1p-10}, parameters);
-  const Interval range = (Pow(x, 0.5) - x * SlopeForm(0.5)).range();  // Flat at 1.
+  const AffineInterval x = AffineInterval::Parameter({1.0 - 0x1p-10, 1.0 + 0x1p-10}, parameters);
+  const Interval range = (Pow(x, 0.5) - x * AffineInterval(0.5)).range();  // Flat at 1.
   EXPECT_TRUE(Contains(range, 0.5));
   EXPECT_LE(range.upper - range.lower, 0x1p-20);
 }

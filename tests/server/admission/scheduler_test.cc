@@ -1,6 +1,6 @@
-// The gate with real threads: how many compute at once, in which order, and who is turned away without computing.
+// The scheduler with real threads: how many compute at once, in which order, and who is turned away without computing.
 
-#include "server/admission/gate.h"
+#include "server/admission/scheduler.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ using std::chrono::steady_clock;
 using testing::ElementsAre;
 
 constexpr RequestCost kCheap = {};
-constexpr RequestCost kDear = {.cause = CostCause::kCertificate, .octave = 10};
+constexpr RequestCost kExpensive = {.cause = CostCause::kCertificate, .octave = 10};
 
 Turn TurnOf(const std::string& peer, std::optional<RequestCost> cost) {
   return {.peer = peer, .deadline = {}, .is_gone = [] { return false; }, .cost = cost};
@@ -38,9 +38,10 @@ Turn TurnOf(const std::string& peer, std::optional<RequestCost> cost) {
 // Work that holds a slot until it is released.
 class Holder {
  public:
-  Holder(Gate& gate, std::optional<RequestCost> cost)
-      : thread_([this, &gate, cost] {
-          EXPECT_TRUE(gate.Compute(TurnOf("holder", cost),
+  Holder(Scheduler& scheduler, std::optional<RequestCost> cost)
+      : thread_([this, &scheduler, cost] {
+          EXPECT_TRUE(scheduler
+                          .Compute(TurnOf("holder", cost),
                                    [this] {
                                      started_.set_value();
                                      release_.get_future().wait();
@@ -62,32 +63,32 @@ class Holder {
   std::jthread thread_;
 };
 
-class GateTest : public testing::Test {
+class SchedulerTest : public testing::Test {
  protected:
   // Starts a call that adds its name to the order in which calls compute.
   void Start(const std::string& name, Turn turn) {
-    const size_t before = gate_.waiting();
+    const size_t before = scheduler_.waiting();
     threads_.emplace_back([this, name, turn] {
-      const absl::Status status = gate_.Compute(turn, [&] {
+      const absl::Status status = scheduler_.Compute(turn, [&] {
         const std::lock_guard lock(mutex_);
         order_.push_back(name);
       });
       if (!status.ok()) turned_away_.push_back(name);
     });
-    EXPECT_TRUE(Eventually([&] { return gate_.waiting() > before; })) << name << " does not wait";
+    EXPECT_TRUE(Eventually([&] { return scheduler_.waiting() > before; })) << name << " does not wait";
   }
 
   std::stop_source drain_;
-  Gate gate_{1, 3, drain_.get_token()};
+  Scheduler scheduler_{1, 3, drain_.get_token()};
   std::mutex mutex_;
   std::vector<std::string> order_;
   std::vector<std::string> turned_away_;
   std::vector<std::jthread> threads_;
 };
 
-TEST_F(GateTest, AsManyComputeAtOnceAsThereAreThreads) {
+TEST_F(SchedulerTest, AsManyComputeAtOnceAsThereAreThreads) {
   std::stop_source drain;
-  Gate gate(2, 1000, drain.get_token());
+  Scheduler scheduler(2, 1000, drain.get_token());
   std::atomic<int> now = 0;
   std::atomic<int> most = 0;
   std::atomic<int> done = 0;
@@ -95,7 +96,8 @@ TEST_F(GateTest, AsManyComputeAtOnceAsThereAreThreads) {
     std::vector<std::jthread> threads;
     for (int i = 0; i < 40; ++i) {
       threads.emplace_back([&, i] {
-        ASSERT_TRUE(gate.Compute(TurnOf(std::to_string(i % 3), kDear),
+        ASSERT_TRUE(scheduler
+                        .Compute(TurnOf(std::to_string(i % 3), kExpensive),
                                  [&] {
                                    const int inside = ++now;
                                    int seen = most;
@@ -113,24 +115,24 @@ TEST_F(GateTest, AsManyComputeAtOnceAsThereAreThreads) {
   EXPECT_EQ(most, 2);
 }
 
-TEST_F(GateTest, PeersTakeTurnsAndDeadlinesOrderTheCallsOfOne) {
+TEST_F(SchedulerTest, PeersTakeTurnsAndDeadlinesOrderTheCallsOfOne) {
   {
-    Holder holder(gate_, kDear);
-    Turn late = TurnOf("a", kDear);
+    Holder holder(scheduler_, kExpensive);
+    Turn late = TurnOf("a", kExpensive);
     late.deadline = steady_clock::now() + seconds(200);
     Turn soon = late;
     soon.deadline = steady_clock::now() + seconds(100);
     Start("a late", late);
     Start("a soon", soon);
-    Start("b", TurnOf("b", kDear));
+    Start("b", TurnOf("b", kExpensive));
   }
   threads_.clear();
   EXPECT_THAT(order_, ElementsAre("a soon", "b", "a late"));
 }
 
-TEST_F(GateTest, PartsOfStreamsTakeTurnsWhateverTheirDeadlines) {
+TEST_F(SchedulerTest, PartsOfStreamsTakeTurnsWhateverTheirDeadlines) {
   {
-    Holder holder(gate_, std::nullopt);
+    Holder holder(scheduler_, std::nullopt);
     Turn late = TurnOf("a", std::nullopt);
     late.deadline = steady_clock::now() + seconds(200);
     Turn soon = late;
@@ -142,63 +144,64 @@ TEST_F(GateTest, PartsOfStreamsTakeTurnsWhateverTheirDeadlines) {
   EXPECT_THAT(order_, ElementsAre("late", "soon"));
 }
 
-TEST_F(GateTest, CheapCallsDoNotWaitForDearOnesOrStreams) {
-  Holder dear(gate_, kDear);
-  Holder stream(gate_, std::nullopt);
+TEST_F(SchedulerTest, CheapCallsDoNotWaitForDearOnesOrStreams) {
+  Holder expensive(scheduler_, kExpensive);
+  Holder stream(scheduler_, std::nullopt);
   bool computed = false;
-  EXPECT_TRUE(gate_.Compute(TurnOf("a", kCheap), [&computed] { computed = true; }).ok());
+  EXPECT_TRUE(scheduler_.Compute(TurnOf("a", kCheap), [&computed] { computed = true; }).ok());
   EXPECT_TRUE(computed);
 }
 
-TEST_F(GateTest, DearWorkRunsAtALowerPriorityAndStreamsAtTheLowest) {
+TEST_F(SchedulerTest, DearWorkRunsAtALowerPriorityAndStreamsAtTheLowest) {
   const auto nice = [this](std::optional<RequestCost> cost) {
     int value = 0;
-    EXPECT_TRUE(gate_.Compute(TurnOf("a", cost), [&value] { value = getpriority(PRIO_PROCESS, 0); }).ok());
+    EXPECT_TRUE(scheduler_.Compute(TurnOf("a", cost), [&value] { value = getpriority(PRIO_PROCESS, 0); }).ok());
     return value;
   };
   const int own = getpriority(PRIO_PROCESS, 0);
   EXPECT_EQ(nice(kCheap), own);
-  EXPECT_GT(nice(kDear), own);
-  EXPECT_GT(nice(std::nullopt), nice(kDear));
+  EXPECT_GT(nice(kExpensive), own);
+  EXPECT_GT(nice(std::nullopt), nice(kExpensive));
 }
 
-TEST_F(GateTest, CallWhoseDeadlinePassesWhileItWaitsIsNeverComputed) {
-  Holder holder(gate_, kDear);
-  Turn turn = TurnOf("a", kDear);
+TEST_F(SchedulerTest, CallWhoseDeadlinePassesWhileItWaitsIsNeverComputed) {
+  Holder holder(scheduler_, kExpensive);
+  Turn turn = TurnOf("a", kExpensive);
   turn.deadline = steady_clock::now() + milliseconds(30);
   bool computed = false;
-  EXPECT_EQ(gate_.Compute(turn, [&computed] { computed = true; }).code(), absl::StatusCode::kDeadlineExceeded);
+  EXPECT_EQ(scheduler_.Compute(turn, [&computed] { computed = true; }).code(), absl::StatusCode::kDeadlineExceeded);
   EXPECT_FALSE(computed);
-  EXPECT_EQ(gate_.waiting(), 0U);
+  EXPECT_EQ(scheduler_.waiting(), 0U);
 }
 
-TEST_F(GateTest, CallWhoseDeadlineHasPassedIsNeverComputed) {
-  for (const RequestCost& cost : {kCheap, kDear}) {
+TEST_F(SchedulerTest, CallWhoseDeadlineHasPassedIsNeverComputed) {
+  for (const RequestCost& cost : {kCheap, kExpensive}) {
     Turn turn = TurnOf("a", cost);
     turn.deadline = steady_clock::now() - milliseconds(1);
-    EXPECT_EQ(gate_.Compute(turn, [] { FAIL() << "it was computed"; }).code(), absl::StatusCode::kDeadlineExceeded);
+    EXPECT_EQ(scheduler_.Compute(turn, [] { FAIL() << "it was computed"; }).code(),
+              absl::StatusCode::kDeadlineExceeded);
   }
 }
 
-TEST_F(GateTest, CallWhoseCallerHasGoneIsNeverComputed) {
+TEST_F(SchedulerTest, CallWhoseCallerHasGoneIsNeverComputed) {
   std::atomic<bool> gone = false;
-  Turn turn = TurnOf("a", kDear);
+  Turn turn = TurnOf("a", kExpensive);
   turn.is_gone = [&gone] { return gone.load(); };
-  Holder holder(gate_, kDear);
+  Holder holder(scheduler_, kExpensive);
   std::future<absl::Status> ended =
-      std::async(std::launch::async, [&] { return gate_.Compute(turn, [] { FAIL() << "it was computed"; }); });
-  EXPECT_TRUE(Eventually([this] { return gate_.waiting() == 1; }));
+      std::async(std::launch::async, [&] { return scheduler_.Compute(turn, [] { FAIL() << "it was computed"; }); });
+  EXPECT_TRUE(Eventually([this] { return scheduler_.waiting() == 1; }));
   gone = true;
   EXPECT_EQ(ended.get().code(), absl::StatusCode::kCancelled) << "it need not wait for its turn";
   holder.Release();
-  EXPECT_EQ(gate_.Compute(turn, [] { FAIL() << "it was computed"; }).code(), absl::StatusCode::kCancelled);
+  EXPECT_EQ(scheduler_.Compute(turn, [] { FAIL() << "it was computed"; }).code(), absl::StatusCode::kCancelled);
 }
 
-TEST_F(GateTest, CallAboveTheBoundOfTheQueueIsRefusedAtOnceWithARetryDelay) {
+TEST_F(SchedulerTest, CallAboveTheBoundOfTheQueueIsRefusedAtOnceWithARetryDelay) {
   {
-    Holder holder(gate_, kDear);
-    for (int i = 0; i < 3; ++i) Start("a", TurnOf("a", kDear));
-    const absl::Status refused = gate_.Compute(TurnOf("a", kDear), [] { FAIL() << "it was computed"; });
+    Holder holder(scheduler_, kExpensive);
+    for (int i = 0; i < 3; ++i) Start("a", TurnOf("a", kExpensive));
+    const absl::Status refused = scheduler_.Compute(TurnOf("a", kExpensive), [] { FAIL() << "it was computed"; });
     EXPECT_EQ(refused.code(), absl::StatusCode::kResourceExhausted);
     EXPECT_EQ(ReasonOf(refused), ErrorReason::kOverloaded);
     EXPECT_TRUE(RetryDelayOf(refused).has_value());
@@ -207,38 +210,41 @@ TEST_F(GateTest, CallAboveTheBoundOfTheQueueIsRefusedAtOnceWithARetryDelay) {
   EXPECT_EQ(order_.size(), 3U);
 }
 
-TEST_F(GateTest, CallThatWouldWaitBeyondItsDeadlineIsRefusedAtOnce) {
+TEST_F(SchedulerTest, CallThatWouldWaitBeyondItsDeadlineIsRefusedAtOnce) {
   constexpr int kWaiting = 40;
-  Gate gate(1, kWaiting + 1, drain_.get_token());
-  // The gate learns that such a call takes 250 ms at least, so that those that wait are expected to take 10 s. The
+  Scheduler scheduler(1, kWaiting + 1, drain_.get_token());
+  // The scheduler learns that such a call takes 250 ms at least, so that those that wait are expected to take 10 s. The
   // deadline is far away on the clock of any machine that runs this test.
-  ASSERT_TRUE(gate.Compute(TurnOf("a", kDear), [] { std::this_thread::sleep_for(milliseconds(250)); }).ok());
-  Turn hurried = TurnOf("b", kDear);
+  ASSERT_TRUE(scheduler.Compute(TurnOf("a", kExpensive), [] { std::this_thread::sleep_for(milliseconds(250)); }).ok());
+  Turn hurried = TurnOf("b", kExpensive);
   {
     std::vector<std::jthread> waiting;
-    Holder holder(gate, kDear);
+    Holder holder(scheduler, kExpensive);
     for (int i = 0; i < kWaiting; ++i) {
-      waiting.emplace_back([&gate, i] { EXPECT_TRUE(gate.Compute(TurnOf(std::to_string(i), kDear), [] {}).ok()); });
+      waiting.emplace_back(
+          [&scheduler, i] { EXPECT_TRUE(scheduler.Compute(TurnOf(std::to_string(i), kExpensive), [] {}).ok()); });
     }
-    ASSERT_TRUE(Eventually([&gate] { return gate.waiting() == kWaiting; }));
+    ASSERT_TRUE(Eventually([&scheduler] { return scheduler.waiting() == kWaiting; }));
     hurried.deadline = steady_clock::now() + seconds(8);
-    EXPECT_EQ(ReasonOf(gate.Compute(hurried, [] { FAIL() << "it was computed"; })), ErrorReason::kOverloaded);
-    EXPECT_EQ(gate.waiting(), kWaiting) << "it was refused at once, and waited for none of them";
+    EXPECT_EQ(ReasonOf(scheduler.Compute(hurried, [] { FAIL() << "it was computed"; })), ErrorReason::kOverloaded);
+    EXPECT_EQ(scheduler.waiting(), kWaiting) << "it was refused at once, and waited for none of them";
   }
   // Without a wait it is computed, however long such calls are expected to take.
   hurried.deadline = steady_clock::now() + seconds(60);
-  EXPECT_TRUE(gate.Compute(hurried, [] {}).ok());
+  EXPECT_TRUE(scheduler.Compute(hurried, [] {}).ok());
 }
 
-TEST_F(GateTest, ADrainTurnsAwayCallsThatWaitAndNewOnes) {
-  Holder holder(gate_, kDear);
-  std::future<absl::Status> waits = std::async(
-      std::launch::async, [this] { return gate_.Compute(TurnOf("a", kDear), [] { FAIL() << "it was computed"; }); });
-  EXPECT_TRUE(Eventually([this] { return gate_.waiting() == 1; }));
+TEST_F(SchedulerTest, ADrainTurnsAwayCallsThatWaitAndNewOnes) {
+  Holder holder(scheduler_, kExpensive);
+  std::future<absl::Status> waits = std::async(std::launch::async, [this] {
+    return scheduler_.Compute(TurnOf("a", kExpensive), [] { FAIL() << "it was computed"; });
+  });
+  EXPECT_TRUE(Eventually([this] { return scheduler_.waiting() == 1; }));
   drain_.request_stop();
   EXPECT_EQ(ReasonOf(waits.get()), ErrorReason::kDraining);
-  for (const RequestCost& cost : {kCheap, kDear}) {
-    EXPECT_EQ(ReasonOf(gate_.Compute(TurnOf("a", cost), [] { FAIL() << "it was computed"; })), ErrorReason::kDraining);
+  for (const RequestCost& cost : {kCheap, kExpensive}) {
+    EXPECT_EQ(ReasonOf(scheduler_.Compute(TurnOf("a", cost), [] { FAIL() << "it was computed"; })),
+              ErrorReason::kDraining);
   }
 }
 
@@ -266,51 +272,51 @@ class EndlessHelp {
   std::atomic<int> nice_ = 0;
 };
 
-TEST_F(GateTest, AHelperComputesAtTheLowestPriorityInASlotThatNoCallWants) {
+TEST_F(SchedulerTest, AHelperComputesAtTheLowestPriorityInASlotThatNoCallWants) {
   std::stop_source drain;
-  Gate gate(2, 10, drain.get_token());
-  const std::shared_ptr<Helpers> helpers = gate.HelpersFor("a");
+  Scheduler scheduler(2, 10, drain.get_token());
+  const std::shared_ptr<Helpers> helpers = scheduler.HelpersFor("a");
   EXPECT_EQ(helpers->most(), 1);
-  const Holder stream(gate, std::nullopt);
+  const Holder stream(scheduler, std::nullopt);
   EndlessHelp help;
   ASSERT_TRUE(help.StartIn(*helpers));
   EXPECT_TRUE(Eventually([&] { return help.helps(); }));
   EXPECT_GT(help.nice(), getpriority(PRIO_PROCESS, 0));
-  EXPECT_EQ(gate.computing(), 2U);
+  EXPECT_EQ(scheduler.computing(), 2U);
   EndlessHelp another;
   EXPECT_FALSE(another.StartIn(*helpers));
 }
 
-TEST_F(GateTest, AHelperGivesWayToEveryOtherCall) {
-  for (const std::optional<RequestCost> cost : {std::optional<RequestCost>(), std::optional<RequestCost>(kDear)}) {
+TEST_F(SchedulerTest, AHelperGivesWayToEveryOtherCall) {
+  for (const std::optional<RequestCost> cost : {std::optional<RequestCost>(), std::optional<RequestCost>(kExpensive)}) {
     std::stop_source drain;
-    Gate gate(2, 10, drain.get_token());
-    const std::shared_ptr<Helpers> helpers = gate.HelpersFor("a");
-    const Holder stream(gate, std::nullopt);
+    Scheduler scheduler(2, 10, drain.get_token());
+    const std::shared_ptr<Helpers> helpers = scheduler.HelpersFor("a");
+    const Holder stream(scheduler, std::nullopt);
     EndlessHelp help;
     ASSERT_TRUE(help.StartIn(*helpers));
     EXPECT_TRUE(Eventually([&] { return help.helps(); }));
-    const Holder call(gate, cost);
+    const Holder call(scheduler, cost);
     EXPECT_TRUE(Eventually([&] { return !help.helps(); }));
-    EXPECT_TRUE(Eventually([&] { return gate.computing() == 2; }));
+    EXPECT_TRUE(Eventually([&] { return scheduler.computing() == 2; }));
     EXPECT_FALSE(help.StartIn(*helpers));
   }
 }
 
-TEST_F(GateTest, NoHelperStartsOnceADrainHas) {
+TEST_F(SchedulerTest, NoHelperStartsOnceADrainHas) {
   std::stop_source drain;
-  Gate gate(2, 10, drain.get_token());
+  Scheduler scheduler(2, 10, drain.get_token());
   drain.request_stop();
   EndlessHelp help;
-  EXPECT_FALSE(help.StartIn(*gate.HelpersFor("a")));
+  EXPECT_FALSE(help.StartIn(*scheduler.HelpersFor("a")));
 }
 
-TEST_F(GateTest, ExceptionIsPassedOnAndItsSlotIsFree) {
-  for (const RequestCost& cost : {kCheap, kDear}) {
-    EXPECT_THROW(gate_.Compute(TurnOf("a", cost), [] { throw std::bad_alloc(); }).IgnoreError(), std::bad_alloc);
-    EXPECT_TRUE(gate_.Compute(TurnOf("a", cost), [] {}).ok());
+TEST_F(SchedulerTest, ExceptionIsPassedOnAndItsSlotIsFree) {
+  for (const RequestCost& cost : {kCheap, kExpensive}) {
+    EXPECT_THROW(scheduler_.Compute(TurnOf("a", cost), [] { throw std::bad_alloc(); }).IgnoreError(), std::bad_alloc);
+    EXPECT_TRUE(scheduler_.Compute(TurnOf("a", cost), [] {}).ok());
   }
-  EXPECT_EQ(gate_.computing(), 0U);
+  EXPECT_EQ(scheduler_.computing(), 0U);
 }
 
 }  // namespace

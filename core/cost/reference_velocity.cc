@@ -1,4 +1,4 @@
-#include "core/cost/exact_velocity.h"
+#include "core/cost/reference_velocity.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +25,7 @@ constexpr double kWide = 0x1p-96;
 Wide Exactly(double value) { return Wide::Exactly(value); }
 
 // The velocity of a contact of rank one, whose two components change by the same factor.
-ExactVelocity RankOne(const Wide& newton, const Wide& u0, const Wide& v0, double error, const std::string& source) {
+ReferenceVelocity RankOne(const Wide& newton, const Wide& u0, const Wide& v0, double error, const std::string& source) {
   return {.of = {-newton * u0, Exactly(0.0), -newton * v0}, .error = error, .source = source};
 }
 
@@ -53,7 +53,7 @@ NewtonCoefficientOf NewtonOf(const pendulum::Problem& problem, Stopped stopped) 
 }
 
 template <size_t kTangential>
-ExactVelocity Straight(const sliding::Problem<kTangential>& problem, double mu) {
+ReferenceVelocity Straight(const sliding::Problem<kTangential>& problem, double mu) {
   // e = u0/|u0|
   std::array<Wide, kTangential> e;
   e.fill(Exactly(0.0));
@@ -70,7 +70,7 @@ ExactVelocity Straight(const sliding::Problem<kTangential>& problem, double mu) 
   const Wide c = Exactly(problem.coefficient);
   const Wide v0 = Exactly(problem.v0);
   const Wide tau1 = (Exactly(1.0) + c) * -v0 / slope;
-  ExactVelocity exact = {.of = {Exactly(0.0), Exactly(0.0), -c * v0}, .error = kWide, .source = ""};
+  ReferenceVelocity exact = {.of = {Exactly(0.0), Exactly(0.0), -c * v0}, .error = kWide, .source = ""};
   const auto wtt = [&problem](size_t i, size_t k) {
     return Exactly(kTangential == 1 ? problem.w[0] : problem.w[i + k == 2 ? 3 : i + k]);
   };
@@ -84,7 +84,7 @@ ExactVelocity Straight(const sliding::Problem<kTangential>& problem, double mu) 
 
 }  // namespace
 
-ExactVelocity ExactlyThis(const Velocity3& velocity, double error, std::string source) {
+ReferenceVelocity ReferenceAt(const Velocity3& velocity, double error, std::string source) {
   return {.of = {Exactly(velocity[0]), Exactly(velocity[1]), Exactly(velocity[2])},
           .error = error,
           .source = std::move(source)};
@@ -94,14 +94,14 @@ Scene CertifiableScene(const planar::Problem& problem) {
   return problem.w.UFollowsV(problem.u0, problem.v0) ? SceneOf(PendulumOf(problem)) : SceneOf(problem);
 }
 
-ExactVelocity ExactRigid(const pendulum::Problem& problem, Stopped stopped) {
+ReferenceVelocity ExactRigid(const pendulum::Problem& problem, Stopped stopped) {
   const NewtonCoefficientOf newton = NewtonOf(problem, stopped);
   const Wide omega = Exactly(problem.omega_minus);
   return RankOne(newton.value, Exactly(problem.b) * omega, Exactly(problem.a) * omega, newton.certified ? kWide : kUlp,
                  newton.certified ? kCertifiedSource : kCompensatedSource);
 }
 
-ExactVelocity ExactRigid(const planar::Problem& problem, Stopped stopped) {
+ReferenceVelocity ExactRigid(const planar::Problem& problem, Stopped stopped) {
   if (problem.w.UFollowsV(problem.u0, problem.v0)) {
     const NewtonCoefficientOf newton = NewtonOf(PendulumOf(problem), stopped);
     // The rounding of u0 and v0 leaves open which of them lies in the range of W: u1 may be -newton u0 or
@@ -115,30 +115,30 @@ ExactVelocity ExactRigid(const planar::Problem& problem, Stopped stopped) {
   // A contact of rank one beside its range has no certificate.
   const std::optional<Certificate> certificate =
       problem.w.Rank() == 1 ? std::nullopt : CertifyContact(SceneOf(problem), kReferenceDigits, stopped);
-  if (certificate.has_value()) return ExactVelocityOf(*certificate);
+  if (certificate.has_value()) return ReferenceVelocityOf(*certificate);
   const planar::Impact impact = planar::Solve(problem);
-  return ExactlyThis({impact.u1, 0.0, impact.v1}, kUlp, kCompensatedSource);
+  return ReferenceAt({impact.u1, 0.0, impact.v1}, kUlp, kCompensatedSource);
 }
 
 template <size_t kTangential>
-ExactVelocity ExactSliding(const sliding::Problem<kTangential>& problem) {
+ReferenceVelocity ExactSliding(const sliding::Problem<kTangential>& problem) {
   return Straight(problem, problem.mu);
 }
 template <size_t kTangential>
-ExactVelocity ExactFrictionless(const sliding::Problem<kTangential>& problem) {
+ReferenceVelocity ExactFrictionless(const sliding::Problem<kTangential>& problem) {
   return Straight(problem, 0.0);
 }
-template ExactVelocity ExactSliding(const sliding::Problem<1>& problem);
-template ExactVelocity ExactSliding(const sliding::Problem<2>& problem);
-template ExactVelocity ExactFrictionless(const sliding::Problem<1>& problem);
-template ExactVelocity ExactFrictionless(const sliding::Problem<2>& problem);
+template ReferenceVelocity ExactSliding(const sliding::Problem<1>& problem);
+template ReferenceVelocity ExactSliding(const sliding::Problem<2>& problem);
+template ReferenceVelocity ExactFrictionless(const sliding::Problem<1>& problem);
+template ReferenceVelocity ExactFrictionless(const sliding::Problem<2>& problem);
 
-ExactVelocity ExactFrictionless(const pendulum::Problem& problem) {
+ReferenceVelocity ExactFrictionless(const pendulum::Problem& problem) {
   const Wide omega = Exactly(problem.omega_minus);
   return RankOne(Exactly(problem.coefficient), Exactly(problem.b) * omega, Exactly(problem.a) * omega, kWide, "");
 }
 
-ExactVelocity ExactFirstOrder(const pendulum::Problem& problem) {
+ReferenceVelocity ExactFirstOrder(const pendulum::Problem& problem) {
   const Wide omega = Exactly(problem.omega_minus);
   const Wide one = Exactly(1.0);
   const Wide x = Exactly(problem.mu) * Exactly(std::fabs(problem.b)) / Exactly(problem.a);
@@ -146,22 +146,22 @@ ExactVelocity ExactFirstOrder(const pendulum::Problem& problem) {
   return RankOne(forms.newton.value, Exactly(problem.b) * omega, Exactly(problem.a) * omega, kWide, "");
 }
 
-ExactVelocity ExactSpatial(const spatial::Problem& problem) {
+ReferenceVelocity ExactSpatial(const spatial::Problem& problem) {
   using Real = long double;
   spatial::HWY_NAMESPACE::Solver<Real> solver(problem, problem.Delassus().Rank(), Real{1e-16L});
   const spatial::Impact impact = solver.Run();
   // The answer is rounded to doubles in the end.
   const double error = impact.error_estimate + kUlp / 2.0;
-  return ExactlyThis({impact.u1[0], impact.u1[1], impact.v1},
+  return ReferenceAt({impact.u1[0], impact.u1[1], impact.v1},
                      impact.Converged() ? error : std::numeric_limits<double>::infinity(),
                      "the spatial model in long double arithmetic, at a tolerance of 1e-16");
 }
 
-Velocity3 RoundedVelocity(const ExactVelocity& exact) {
+Velocity3 RoundedVelocity(const ReferenceVelocity& exact) {
   return {Rounded(exact.of[0]), Rounded(exact.of[1]), Rounded(exact.of[2])};
 }
 
-double Distance(const Velocity3& velocity, const ExactVelocity& exact) {
+double Distance(const Velocity3& velocity, const ReferenceVelocity& exact) {
   double most = 0.0;
   for (size_t i = 0; i < velocity.size(); ++i) {
     most = std::max(most, std::fabs(Rounded(Exactly(velocity[i]) - exact.of[i])));
@@ -169,7 +169,7 @@ double Distance(const Velocity3& velocity, const ExactVelocity& exact) {
   return most;
 }
 
-double Distance(const ExactVelocity& one, const ExactVelocity& other) {
+double Distance(const ReferenceVelocity& one, const ReferenceVelocity& other) {
   double most = 0.0;
   for (size_t i = 0; i < one.of.size(); ++i) most = std::max(most, std::fabs(Rounded(one.of[i] - other.of[i])));
   return most;

@@ -1,4 +1,4 @@
-// ExactVelocity: the exact contact velocity after an impact, to about twice double precision, for a study of cost.
+// ReferenceVelocity: the exact contact velocity after an impact, to about twice double precision, for a study of cost.
 //
 //   rigid contact     Certified digits (core/certified/certified.h). A contact of rank one is that of a pendulum, whose
 //                     v1 = -kappa_hat v0 and u1 = -kappa_hat u0; rank two is certified from W and (u0, v0) themselves.
@@ -10,8 +10,8 @@
 //
 // W and the velocity before the impact are taken as exact, as Accuracy::relative_error does.
 
-#ifndef RICOCHET_CORE_COST_EXACT_VELOCITY_H_
-#define RICOCHET_CORE_COST_EXACT_VELOCITY_H_
+#ifndef RICOCHET_CORE_COST_REFERENCE_VELOCITY_H_
+#define RICOCHET_CORE_COST_REFERENCE_VELOCITY_H_
 
 #include <array>
 #include <cstddef>
@@ -27,18 +27,18 @@
 
 namespace ricochet {
 
-struct ExactVelocity {
+struct ReferenceVelocity {
   std::array<Wide, 3> of;  // Along t1, t2 and n; in a plane the second is 0.
   double error = 0.0;      // Over V = max(|u0|, |v0|).
   std::string source;      // One sentence that says where the numbers come from.
 };
 
 // These numbers as they are.
-ExactVelocity ExactlyThis(const Velocity3& velocity, double error, std::string source);
+ReferenceVelocity ReferenceAt(const Velocity3& velocity, double error, std::string source);
 
 // The impact of a pendulum, or of a contact of rank one, that approaches.
-ExactVelocity ExactRigid(const pendulum::Problem& problem, Stopped stopped);
-ExactVelocity ExactRigid(const planar::Problem& problem, Stopped stopped);
+ReferenceVelocity ExactRigid(const pendulum::Problem& problem, Stopped stopped);
+ReferenceVelocity ExactRigid(const planar::Problem& problem, Stopped stopped);
 
 // The scene whose certificate gives the numbers of a contact: that of a pendulum if W has rank one
 // and the velocity lies in its range.
@@ -46,22 +46,22 @@ Scene CertifiableScene(const planar::Problem& problem);
 
 // Slip along u0 that is taken to go on to the end, and no friction at all.
 template <size_t kTangential>
-ExactVelocity ExactSliding(const sliding::Problem<kTangential>& problem);
+ReferenceVelocity ExactSliding(const sliding::Problem<kTangential>& problem);
 template <size_t kTangential>
-ExactVelocity ExactFrictionless(const sliding::Problem<kTangential>& problem);
-ExactVelocity ExactFrictionless(const pendulum::Problem& problem);
+ReferenceVelocity ExactFrictionless(const sliding::Problem<kTangential>& problem);
+ReferenceVelocity ExactFrictionless(const pendulum::Problem& problem);
 
-ExactVelocity ExactFirstOrder(const pendulum::Problem& problem);
+ReferenceVelocity ExactFirstOrder(const pendulum::Problem& problem);
 
 // If the impact has no end, the error is infinite.
-ExactVelocity ExactSpatial(const spatial::Problem& problem);
+ReferenceVelocity ExactSpatial(const spatial::Problem& problem);
 
-Velocity3 RoundedVelocity(const ExactVelocity& exact);
+Velocity3 RoundedVelocity(const ReferenceVelocity& exact);
 
 // The largest component of the difference.
-double Distance(const Velocity3& velocity, const ExactVelocity& exact);
-double Distance(const ExactVelocity& one, const ExactVelocity& other);
+double Distance(const Velocity3& velocity, const ReferenceVelocity& exact);
+double Distance(const ReferenceVelocity& one, const ReferenceVelocity& other);
 
 }  // namespace ricochet
 
-#endif  // RICOCHET_CORE_COST_EXACT_VELOCITY_H_
+#endif  // RICOCHET_CORE_COST_REFERENCE_VELOCITY_H_

@@ -1,6 +1,6 @@
 // The exact velocities of a study agree with each other where two ways lead to one of them.
 
-#include "core/cost/exact_velocity.h"
+#include "core/cost/reference_velocity.h"
 
 #include <gtest/gtest.h>
 
@@ -36,9 +36,9 @@ planar::Problem ItsContact(RestitutionLaw law) {
           .coefficient = 0.7};
 }
 
-TEST(ExactVelocityTest, AContactOfRankOneMovesAsItsPendulum) {
+TEST(ReferenceVelocityTest, AContactOfRankOneMovesAsItsPendulum) {
   for (const RestitutionLaw law : {RestitutionLaw::kNewton, RestitutionLaw::kPoisson, RestitutionLaw::kEnergetic}) {
-    const ExactVelocity pendulum = ExactRigid(SomePendulum(law), Never);
+    const ReferenceVelocity pendulum = ExactRigid(SomePendulum(law), Never);
     EXPECT_LE(Distance(pendulum, ExactRigid(ItsContact(law), Never)), 1e-28);
     EXPECT_LE(Distance({pendulum::Solve(SomePendulum(law))[pendulum::Output::kTangentialVelocityAfter], 0.0,
                         pendulum::Solve(SomePendulum(law))[pendulum::Output::kNormalVelocityAfter]},
@@ -47,11 +47,11 @@ TEST(ExactVelocityTest, AContactOfRankOneMovesAsItsPendulum) {
   }
 }
 
-TEST(ExactVelocityTest, SlipThatGoesOnIsTheWholeImpact) {
+TEST(ReferenceVelocityTest, SlipThatGoesOnIsTheWholeImpact) {
   const planar::Problem problem = {
       .w = {2.0, 0.5, 1.0}, .u0 = 30.0, .v0 = -1.0, .mu = 0.3, .mu_static = 0.3, .coefficient = 0.6};
   const sliding::Problem<1> straight = {.w = {2.0, 0.5, 1.0}, .u0 = {30.0}, .v0 = -1.0, .mu = 0.3, .coefficient = 0.6};
-  const ExactVelocity exact = ExactRigid(problem, Never);
+  const ReferenceVelocity exact = ExactRigid(problem, Never);
   EXPECT_LE(Distance(ExactSliding(straight), exact), 1e-27);
   // Computed by hand: tau1 = 1.6/(1 - 0.3 * 0.5), u1 = 30 + (0.5 - 0.3 * 2) tau1.
   const Velocity3 rounded = RoundedVelocity(exact);
@@ -59,7 +59,7 @@ TEST(ExactVelocityTest, SlipThatGoesOnIsTheWholeImpact) {
   EXPECT_NEAR(rounded[2], 0.6, 1e-16);
 }
 
-TEST(ExactVelocityTest, SpaceWithoutCouplingIsAPlane) {
+TEST(ReferenceVelocityTest, SpaceWithoutCouplingIsAPlane) {
   // Slip along t1 stays there, because nothing couples t2.
   const spatial::Problem problem = {.w11 = 2.0,
                                     .w13 = 0.5,
@@ -70,8 +70,8 @@ TEST(ExactVelocityTest, SpaceWithoutCouplingIsAPlane) {
                                     .mu = 0.5,
                                     .mu_static = 0.5,
                                     .coefficient = 0.6};
-  const ExactVelocity space = ExactSpatial(problem);
-  const ExactVelocity plane = ExactRigid(
+  const ReferenceVelocity space = ExactSpatial(problem);
+  const ReferenceVelocity plane = ExactRigid(
       planar::Problem{.w = {2.0, 0.5, 1.0}, .u0 = 1.0, .v0 = -1.0, .mu = 0.5, .mu_static = 0.5, .coefficient = 0.6},
       Never);
   EXPECT_LE(std::fabs(RoundedVelocity(space)[0] - RoundedVelocity(plane)[0]), space.error + 0x1p-52);
@@ -79,8 +79,8 @@ TEST(ExactVelocityTest, SpaceWithoutCouplingIsAPlane) {
   EXPECT_LE(space.error, 1e-13);
 }
 
-TEST(ExactVelocityTest, ALastBitIsSeen) {
-  const ExactVelocity exact = ExactRigid(SomePendulum(RestitutionLaw::kEnergetic), Never);
+TEST(ReferenceVelocityTest, ALastBitIsSeen) {
+  const ReferenceVelocity exact = ExactRigid(SomePendulum(RestitutionLaw::kEnergetic), Never);
   if (!certified::IsAvailable()) GTEST_SKIP() << "the component certified is left out";
   Velocity3 rounded = RoundedVelocity(exact);
   const double nearest = Distance(rounded, exact);

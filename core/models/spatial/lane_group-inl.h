@@ -1,15 +1,15 @@
-// Crew: impacts in progress, one in each SIMD lane, that take their steps together.
+// LaneGroup: impacts in progress, one in each SIMD lane, that take their steps together.
 //
 // A step costs far more than all else on a path, and it is the same for every impact: only its numbers differ. Between
 // steps each impact goes its own way (Solver::Accept and GoOn). A lane whose impact has ended takes the next problem.
 // Steps are those of TakeStep in LaneNumbers, so that each impact has the bits of one that is solved alone.
 
 // Per-target include guard.
-#if defined(RICOCHET_CORE_MODELS_SPATIAL_CREW_INL_H_) == defined(HWY_TARGET_TOGGLE)
-#ifdef RICOCHET_CORE_MODELS_SPATIAL_CREW_INL_H_
-#undef RICOCHET_CORE_MODELS_SPATIAL_CREW_INL_H_
+#if defined(RICOCHET_CORE_MODELS_SPATIAL_LANE_GROUP_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef RICOCHET_CORE_MODELS_SPATIAL_LANE_GROUP_INL_H_
+#undef RICOCHET_CORE_MODELS_SPATIAL_LANE_GROUP_INL_H_
 #else
-#define RICOCHET_CORE_MODELS_SPATIAL_CREW_INL_H_
+#define RICOCHET_CORE_MODELS_SPATIAL_LANE_GROUP_INL_H_
 #endif
 
 #include <array>
@@ -40,10 +40,10 @@ struct StepGroup {
   bool HasOrderOf(double tolerance) const { return Solver<double>::OrderFor(tolerance) == order; }
 };
 
-class Crew {
+class LaneGroup {
  public:
   // Those of the problems are solved that belong to `group`.
-  Crew(const StepGroup& group, absl::Span<const Problem> problems, absl::Span<Impact> impacts)
+  LaneGroup(const StepGroup& group, absl::Span<const Problem> problems, absl::Span<Impact> impacts)
       : group_(group), problems_(problems), impacts_(impacts) {}
 
   void Run() {

@@ -1,8 +1,8 @@
-// RangeBoard: the points of one sweep that several servers compute, range by range: which server has which range, and
-// the chunks that wait until the points before them have left.
+// RangeScheduler: the points of one sweep that several servers compute, range by range: which server has which range,
+// and the chunks that wait until the points before them have left.
 
-#ifndef RICOCHET_CLIENT_RANGE_BOARD_H_
-#define RICOCHET_CLIENT_RANGE_BOARD_H_
+#ifndef RICOCHET_CLIENT_RANGE_SCHEDULER_H_
+#define RICOCHET_CLIENT_RANGE_SCHEDULER_H_
 
 #include <cstdint>
 #include <deque>
@@ -18,7 +18,7 @@ namespace ricochet {
 // never waits for room, and neither does the reader for a task.
 //
 // Thread safety: one thread at a time.
-class RangeBoard {
+class RangeScheduler {
  public:
   // One call to one server, for the points of a range that have not arrived.
   struct Task {
@@ -36,7 +36,7 @@ class RangeBoard {
 
   // The points [first_index, end_index), of `point_bytes` each, which `servers` >= 1 compute. At most `buffer_bytes` of
   // them are out or wait, but at least one point.
-  RangeBoard(int64_t first_index, int64_t end_index, int64_t point_bytes, int64_t buffer_bytes, int64_t servers);
+  RangeScheduler(int64_t first_index, int64_t end_index, int64_t point_bytes, int64_t buffer_bytes, int64_t servers);
 
   // Gives out the first range that nobody computes; else the one that the reader waits for, if AskAnother was called;
   // else a new one of at most `points` >= 1 points. Nothing if there is no point left, or no room.
@@ -88,4 +88,4 @@ class RangeBoard {
 
 }  // namespace ricochet
 
-#endif  // RICOCHET_CLIENT_RANGE_BOARD_H_
+#endif  // RICOCHET_CLIENT_RANGE_SCHEDULER_H_
