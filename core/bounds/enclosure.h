@@ -4,9 +4,9 @@
 // core/bounds/pendulum_bounds.h) lie within `outer`, in spite of rounding: every operation is rounded outward
 // (core/numerics/interval.h). `attained` lies within what scenes of the box reach, also in spite of rounding. The true
 // range lies between the two, and `excess` bounds by how much `outer` is too wide. Scenes that validation would refuse
-// (det W < 0, mu_s < mu, (u0, v0) outside the range of a W of rank one) count for nothing; scenes that separate count
-// only for tau1 = 0. Where a box reaches into locking, or near det W = 0, the true suprema of Poisson's coefficient and
-// of tau1 may be infinite. A pendulum's box is solved at its corners, any other by branch and bound.
+// (det W < 0, mu_s < mu) and impacts that jam count for nothing; scenes that separate count only for tau1 = 0. Where a
+// box reaches into locking, or near det W = 0, the true suprema of Poisson's coefficient and of tau1 may be infinite. A
+// pendulum's box is solved at its corners, any other by branch and bound.
 // docs/theory/bounds.md has the derivation.
 
 #ifndef RICOCHET_CORE_BOUNDS_ENCLOSURE_H_

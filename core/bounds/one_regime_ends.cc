@@ -1,6 +1,7 @@
 #include <optional>
 
 #include "core/bounds/planar_ends.h"
+#include "core/contact/delassus.h"
 
 namespace ricochet {
 namespace {
@@ -42,18 +43,25 @@ std::optional<Slipping> MakeSlipping(const PlanarForm& form) {
                   .braking = form.mu * form.wtt - q};
 }
 
-// Returns nothing if some scenes stick and others do not, or if W comes near to rank one.
+AffineInterval StickSlope(const PlanarForm& form) {
+  return form.stick_slope.value_or(form.wnn - Square(form.wtn) / form.wtt);
+}
+
+// Tells whether the W of every scene counts as one of rank two.
+bool HasRankTwo(const PlanarForm& form) {
+  return StickSlope(form).range().lower > (Interval(kRankTolerance) * form.wnn.range()).upper;
+}
+
+// Returns nothing if some scenes stick and others do not.
 std::optional<AfterStop> FindAfterStop(const PlanarForm& form, const Slipping& slipping) {
   const AffineInterval hold = form.mu_static.value_or(form.mu) * form.wtt;
-  const AffineInterval stick_slope = form.stick_slope.value_or(form.wnn - Square(form.wtn) / form.wtt);
   std::optional<AfterStop> after;
   if ((hold - slipping.q).range().lower >= 0.0 && (hold + slipping.q).range().lower >= 0.0) {
-    after = AfterStop{stick_slope, slipping.q / slipping.wtt};
+    after = AfterStop{StickSlope(form), slipping.q / slipping.wtt};
   } else if ((hold + slipping.q).range().upper < 0.0) {
     after = AfterStop{slipping.wnn + slipping.mu * slipping.q, -slipping.mu};
   }
-  const bool is_full_rank = stick_slope.range().lower > 0.0;
-  if (!after.has_value() || !is_full_rank || after->second.range().lower <= 0.0) return std::nullopt;
+  if (!after.has_value() || after->second.range().lower <= 0.0) return std::nullopt;
   return after;
 }
 
@@ -111,7 +119,7 @@ Forms StopInCompression(const Slipping& slipping, const AfterStop& after, const 
 std::optional<Forms> FormsOf(const PlanarForm& form, const Slipping& slipping) {
   const bool never_jams = slipping.first.range().lower > 0.0;
   if (slipping.braking.range().upper <= 0.0 && never_jams) return Sliding(slipping);
-  if (slipping.braking.range().lower <= 0.0) return std::nullopt;
+  if (slipping.braking.range().lower <= 0.0 || !HasRankTwo(form)) return std::nullopt;
   const AffineInterval ratio = slipping.slip / slipping.speed;
   const AffineInterval stop_ratio = slipping.first / slipping.braking * ratio;  // 1 + sigma
   if (stop_ratio.range().lower >= 2.0) return Sliding(slipping);

@@ -9,9 +9,6 @@
 namespace ricochet {
 namespace {
 
-// Rounding takes (u0, v0) so far from the range of a W of rank one, relative to |u0| Wnn + |v0 Wtn|.
-constexpr double kRangeTolerance = 0x1p-49;
-
 Interval Join(const Interval& x, const Interval& y) { return IsEmpty(x) ? y : IsEmpty(y) ? x : Hull(x, y); }
 
 // Returns the members that two enclosures of one number have in common; rounding never leaves them without any.
@@ -103,10 +100,10 @@ class OneSlipDirection {
   // Adds scenes with q >= 0, in which Wtn drives slip on and the contact in.
   void AddDriving(const Interval& q) {
     if (wtt_.upper == 0.0) return AddSliding(wnn_);
-    const Interval determinant = Determinant(q);
-    const Interval full = RankTolerance();
-    if (determinant.upper <= full.lower && wtt_.lower > 0.0) return;
     const Interval first = wnn_ - mu_ * q;
+    // At rank one slip grows while v rises, and any other scene jams.
+    if (MayHaveRankOne(q)) AddSliding(first);
+    if (!MayHaveRankTwo(q) && wtt_.lower > 0.0) return;
     const Interval braking = mu_ * wtt_ - q;
     const Interval stuck = StuckSlope(q);
     if (IsEmpty(stuck)) return;
@@ -121,22 +118,8 @@ class OneSlipDirection {
   // Adds scenes with q = -r <= 0, in which Wtn brakes slip.
   void AddOpposing(const Interval& r) {
     if (wtt_.upper == 0.0) return;
-    const Interval determinant = Determinant(r);
-    const Interval tolerance = RankTolerance();
-    if (determinant.lower <= tolerance.upper && determinant.upper >= -tolerance.upper) AddRankOne(r);
-    if (determinant.upper <= tolerance.lower) return;
-    const Interval first = wnn_ + mu_ * r;
-    const Interval braking = mu_ * wtt_ + r;
-    const Interval stuck = StuckSlope(r);
-    if (IsEmpty(stuck)) return;
-    const Interval hold = mu_static_ * wtt_ - r;
-    if (braking.lower <= 0.0) AddSliding(first);
-    if (hold.upper >= 0.0) AddStop({-r, first, braking, stuck, StuckRatio(-r, first, braking), true}, slip_);
-    if (hold.lower < 0.0) {
-      // Slip reverses only if mu r < r^2/Wtt.
-      const Interval second = AtLeast(wnn_ - mu_ * r, stuck.lower);
-      if (!IsEmpty(second)) AddStop({-r, first, braking, second, ReversedRatio(r), false}, slip_);
-    }
+    if (MayHaveRankOne(r)) AddRankOne(r);
+    if (MayHaveRankTwo(r)) AddStopAgainst(r);
   }
 
  private:
@@ -155,6 +138,13 @@ class OneSlipDirection {
     const Interval plain = wtt_ * wnn_ - Square(q);
     return stick_slope_ ? Both(plain, wtt_ * *stick_slope_) : plain;
   }
+
+  bool MayHaveRankOne(const Interval& q) const {
+    const Interval determinant = Determinant(q);
+    const double tolerance = RankTolerance().upper;
+    return determinant.lower <= tolerance && determinant.upper >= -tolerance;
+  }
+  bool MayHaveRankTwo(const Interval& q) const { return Determinant(q).upper > RankTolerance().lower; }
 
   // Returns C = Wnn - q^2/Wtt, the slope of v while the contact sticks.
   Interval StuckSlope(const Interval& q) const {
@@ -203,6 +193,22 @@ class OneSlipDirection {
     ends_.normal_elastic = Join(ends_.normal_elastic, normal_elastic);
   }
 
+  // Adds scenes with q = -r <= 0 in which slip stops, unless restitution ends before.
+  void AddStopAgainst(const Interval& r) {
+    const Interval first = wnn_ + mu_ * r;
+    const Interval braking = mu_ * wtt_ + r;
+    const Interval stuck = StuckSlope(r);
+    if (IsEmpty(stuck)) return;
+    const Interval hold = mu_static_ * wtt_ - r;
+    if (braking.lower <= 0.0) AddSliding(first);
+    if (hold.upper >= 0.0) AddStop({-r, first, braking, stuck, StuckRatio(-r, first, braking), true}, slip_);
+    if (hold.lower < 0.0) {
+      // Slip reverses only if mu r < r^2/Wtt.
+      const Interval second = AtLeast(wnn_ - mu_ * r, stuck.lower);
+      if (!IsEmpty(second)) AddStop({-r, first, braking, second, ReversedRatio(r), false}, slip_);
+    }
+  }
+
   // Adds scenes with u0 = 0 in which static friction holds a slip that kinetic friction could not stop:
   // mu Wtt <= q <= mu_s Wtt.
   void AddHeld(const Interval& q, const Interval& stuck) {
@@ -224,14 +230,18 @@ class OneSlipDirection {
     Add(1.0, 1.0, 1.0, friction, friction, compression, Interval(2.0) * compression);
   }
 
-  // Adds scenes whose W has rank one. W then counts as Wnn (g, 1)(g, 1)^T whatever Wtt says, and slip stops where
-  // compression ends.
+  // Adds scenes with q = -r <= 0 whose W has rank one. W then counts as Wnn (g, 1)(g, 1)^T whatever Wtt says.
   void AddRankOne(const Interval& r) {
     const Interval tangential = slip_ * wnn_;
     const Interval normal = speed_ * r;
     const Interval off = tangential - normal;
-    const double tolerance = (Interval(kRangeTolerance) * (tangential + normal)).upper;
-    if (off.lower > tolerance || off.upper < -tolerance) return;
+    const Interval tolerance = Interval(kRangeTolerance) * (tangential + normal);
+    if (off.lower <= tolerance.upper && off.upper >= -tolerance.upper) AddInRange(r);
+    if (off.lower < -tolerance.lower || off.upper > tolerance.lower) AddBesideRange(r);
+  }
+
+  // Adds scenes of rank one whose (u0, v0) lies in the range of W, where slip stops as compression ends.
+  void AddInRange(const Interval& r) {
     const Interval first = wnn_ + mu_ * r;
     const Interval compression = speed_ / first;
     const Interval held = mu_static_ * r - wnn_;
@@ -242,6 +252,14 @@ class OneSlipDirection {
     const Interval total = compression + speed_ / Sqrt(first * AtLeast(wnn_ - mu_ * r, 0.0));
     const Interval elastic = mu_ * (Interval(1.0) - Interval(2.0) / (Interval(1.0) + poisson));
     Add(newton, poisson, 1.0, -mu_, elastic, compression, total);
+  }
+
+  // Adds scenes of rank one whose (u0, v0) lies beside the range of W: those of rank two with Wtt = r^2/Wnn and C = 0.
+  void AddBesideRange(const Interval& r) {
+    OneSlipDirection beside = *this;
+    beside.wtt_ = AtLeast(Square(r) / wnn_, 0.0);
+    beside.stick_slope_ = Interval(0.0);
+    beside.AddStopAgainst(r);
   }
 
   void AddStop(const Stop& stop, const Interval& slip) {
@@ -257,7 +275,9 @@ class OneSlipDirection {
       in_restitution.rho = Both(stop.rho, AtLeast(in_restitution.second / in_restitution.first, 0.0));
       if (!IsEmpty(in_restitution.first)) AddStopInRestitution(in_restitution, Intersect(stop_ratio, {1.0, 2.0}));
     }
-    if (stop_ratio.lower < 1.0) AddStopInCompression(stop, slip, ratio, AtMost(stop_ratio, 1.0));
+    // A contact that sticks in compression and whose v does not rise then jams.
+    if (stop_ratio.lower < 1.0 && stop.second.upper > 0.0)
+      AddStopInCompression(stop, slip, ratio, AtMost(stop_ratio, 1.0));
   }
 
   void AddStopInRestitution(const Stop& stop, const Interval& stop_ratio) {

@@ -283,6 +283,39 @@ TEST(EnclosureTest, ContainsScenesOfRankOneAmongOthers) {
   }
 }
 
+// Wnn goes by doubles through W = (t, n)(t, n)^T, so that a box holds W that are refused, of rank one and of rank two,
+// and the velocity lies beside the range of those of rank one.
+TEST(EnclosureTest, ContainsScenesBesideTheRangeOfAWOfRankOne) {
+  Random random(15);
+  constexpr int kDoubles = 12;
+  int answered = 0;
+  for (int i = 0; i < 2'000; ++i) {
+    const double t = random.Below(2) == 0 ? 2.0 : -0.5;
+    const double n = random.Below(2) == 0 ? 1.0 : 0.75;
+    const Numbers centre = {t * t,
+                            t * n,
+                            n * n,
+                            random.Uniform(-3.0, 3.0),
+                            -random.Uniform(0.1, 2.0),
+                            random.Below(4) == 0 ? std::fabs(n / t) : random.Uniform(0.0, 3.0)};
+    const double ulp = std::nextafter(centre[2], kInfinity) - centre[2];
+    Box box = RandomBox(centre, 2, 0.01, random);
+    box[0] = centre[0];
+    box[1] = centre[1];
+    box[2] = {centre[2] - kDoubles * ulp, centre[2] + kDoubles * ulp};
+    const Enclosure enclosure = EnclosePlanar(ToPlanarBox(box), {.budget = 300});
+    for (int k = -kDoubles; k <= kDoubles; ++k) {
+      Numbers point = random.In(box);
+      point[2] = centre[2] + k * ulp;
+      const planar::Problem problem = ToPlanarProblem(point);
+      if (!problem.w.IsSemidefinite() || planar::Solve(problem).regime == Regime::kWedged) continue;
+      ++answered;
+      ASSERT_TRUE(Contains(enclosure.outer, PlanarBounds(point), 1e-13)) << ToString(box) << "\nat " << ToString(point);
+    }
+  }
+  EXPECT_GT(answered, 20'000);
+}
+
 void ExpectPendulumContainment(const Box& box, int samples, Random& random) {
   const Enclosure enclosure = Enclose(ToPendulumBox(box));
   ASSERT_TRUE(Contains(enclosure.outer, enclosure.attained, 0.0)) << ToString(box);
