@@ -15,8 +15,14 @@ absl::Status MakeOutcome(const Problem& problem, const PlanarReduction& reductio
                       .right_hand_sides = impact.right_hand_sides};
   SetErrors(impact.errors, outcome);
   outcome.contact = impact.contact;
-  return Complete(
-      detail, [&] { return impact.events; }, NoPath, outcome);
+  const auto timeline = [&] {
+    std::vector<Event> events;
+    for (const TimedInstant& at : impact.events) {
+      events.push_back({at.kind, MakeState<1>(reduction, at.tau, {at.f}, {at.u}, at.v, at.time_s)});
+    }
+    return events;
+  };
+  return Complete(detail, timeline, NoPath, outcome);
 }
 
 }  // namespace ricochet::finite_duration

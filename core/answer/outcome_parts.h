@@ -109,15 +109,16 @@ std::array<double, kTangential> ByDirection(const std::array<double, kTangential
   return t;
 }
 
-// The state of the contact at normal impulse tau, with the rates of the system's joints.
+// The state of the contact at normal impulse tau, with the rates of the system's joints, after finite forces have acted
+// for `duration` in s.
 template <size_t kTangential>
 State MakeState(const Reduction<kTangential>& reduction, double tau, const std::array<double, kTangential>& f,
-                const std::array<double, kTangential>& u, double v) {
+                const std::array<double, kTangential>& u, double v, double duration = 0.0) {
   State state = {.normal_impulse_n_s = tau,
                  .tangential_impulse_n_s = {f.begin(), f.end()},
                  .contact_velocity = {.tangential_m_s = {u.begin(), u.end()}, .normal_m_s = v}};
   if (reduction.coordinates == Coordinates::kRates) {
-    const auto rates = reduction.After(f, tau);
+    const auto rates = reduction.After(f, tau, duration);
     state.rates_rad_s.assign(rates.begin(), rates.end());
   }
   return state;

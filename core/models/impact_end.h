@@ -40,6 +40,7 @@ struct ImpactInstant {
   Tangential f = {};  // Tangential impulse so far.
   Tangential u = {};
   double v = 0.0;
+  friend bool operator==(const ImpactInstant&, const ImpactInstant&) = default;
 };
 
 // The result for a contact that does not approach, v0 >= 0: nothing changes.

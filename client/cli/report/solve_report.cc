@@ -144,7 +144,8 @@ void AppendCells(const Components& values, std::vector<std::string>& cells) {
 void AddMotion(const std::string& name, const Components& before, const Components& after, Table& table) {
   for (size_t i = 0; i < after.size(); ++i) {
     const std::string number = after.size() == 1 ? "" : absl::StrCat(" ", i + 1);
-    table.Add({absl::StrCat(name, number), Rounded(i < before.size() ? before[i] : after[i]), Rounded(after[i])});
+    const std::optional<double> known = i < before.size() ? std::optional(before[i]) : std::nullopt;
+    table.Add({absl::StrCat(name, number), IfKnown(known), Rounded(after[i])});
   }
 }
 

@@ -39,6 +39,11 @@ struct Problem {
   int64_t intervals = 0;     // > 0: a history of so many equal steps of time.
 };
 
+struct TimedInstant : ImpactInstant<double> {
+  double time_s = 0.0;  // Since first touch.
+  friend bool operator==(const TimedInstant&, const TimedInstant&) = default;
+};
+
 // No limit is ever broken, because no spring here gives back more than it stored and the contact's forces only take
 // energy. The excess is free of cancellation. The change of energy is the work of the contact's forces alone.
 struct Impact : ImpactEnd<double> {
@@ -50,8 +55,8 @@ struct Impact : ImpactEnd<double> {
   bool stopped = false;               // The caller wanted no more: nothing else is known.
   int64_t steps = 0;
   int64_t right_hand_sides = 0;
-  ContactDuration contact;    // Duration, peaks, history.
-  std::vector<Event> events;  // States of the contact, without the velocities of the bodies.
+  ContactDuration contact;  // Duration, peaks, history.
+  std::vector<TimedInstant> events;
 };
 
 // Says whether this build has the model. Without it, Solve must not be called.

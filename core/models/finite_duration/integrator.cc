@@ -18,6 +18,14 @@ Motion& StateOf(N_Vector vector) { return *reinterpret_cast<Motion*>(NV_DATA_S(v
 // Checks a call that fails only where this program is wrong.
 void Require(int flag) { CheckInvariant(flag >= 0, "CVODE refused a call"); }
 
+// CVODE does not look for what is not finite: it would search for a root among such values for ever.
+constexpr int kTakeShorterStep = 1;
+constexpr int kGiveUp = -1;
+
+bool IsFinite(const Motion& y) {
+  return std::all_of(y.begin(), y.end(), [](double part) { return std::isfinite(part); });
+}
+
 void IgnoreMessage(int /*code*/, const char* /*module*/, const char* /*function*/, char* /*message*/, void* /*data*/) {}
 
 }  // namespace
@@ -104,14 +112,14 @@ std::pair<int64_t, int64_t> Integrator::TakeCosts() {
 int Integrator::Rates(realtype /*s*/, N_Vector y, N_Vector rates, void* data) {
   const Integrator& self = *static_cast<const Integrator*>(data);
   StateOf(rates) = RatesAt(self.contact_, self.mode_, StateOf(y));
-  return 0;
+  return IsFinite(StateOf(y)) && IsFinite(StateOf(rates)) ? 0 : kTakeShorterStep;
 }
 
 int Integrator::Roots(realtype /*s*/, N_Vector y, realtype* values, void* data) {
   const Integrator& self = *static_cast<const Integrator*>(data);
   const Guards guards = GuardsAt(self.contact_, self.mode_, StateOf(y));
   std::copy(guards.begin(), guards.end(), values);
-  return 0;
+  return IsFinite(StateOf(y)) ? 0 : kGiveUp;
 }
 
 void Integrator::AddLocalErrors() {

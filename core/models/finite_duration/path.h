@@ -33,7 +33,7 @@ enum class PathEnd {
   kParted,  // N = 0, or eta = 0 and v = 0.
   kHeld,    // Friction and the spring hold the contact at rest where compression ends.
   kBudgetUsedUp,
-  kNeverEnds,  // It goes on for ever, or it is lost in rounding.
+  kNeverEnds,  // It goes on for ever, or it is lost in rounding or beyond the largest double.
   kStopped     // The caller wanted no more.
 };
 

@@ -79,11 +79,13 @@ void WriteEvents(const ScaledContact& contact, const Path& path, Impact& impact)
   for (auto instant = path.events.begin(); instant != path.events.end(); ++instant) {
     if (is_end(*instant) && instant + 1 != last.base()) continue;
     const Motion& y = instant->y;
-    Event& event = impact.events.emplace_back();
+    TimedInstant& event = impact.events.emplace_back();
     event.kind = instant->kind;
-    event.state.normal_impulse_n_s = contact.Impulse() * y[kNormal];
-    event.state.tangential_impulse_n_s = {contact.Impulse() * y[kTangential]};
-    event.state.contact_velocity = {{contact.speed * y[kU]}, contact.speed * y[kV]};
+    event.tau = contact.Impulse() * y[kNormal];
+    event.f = contact.Impulse() * y[kTangential];
+    event.u = contact.speed * y[kU];
+    event.v = contact.speed * y[kV];
+    event.time_s = contact.time * y[kTime];
   }
 }
 

@@ -1,5 +1,6 @@
 #include "core/models/finite_duration/scaled_contact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <variant>
@@ -11,6 +12,7 @@ namespace ricochet::finite_duration {
 namespace {
 
 constexpr double kEps = std::numeric_limits<double>::epsilon();
+constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
 
 struct Curve {
   double stiffness = 0.0, exponent = 1.0, damping = 0.0;
@@ -74,9 +76,11 @@ void SetInertia(const PlanarProblem& problem, ScaledContact& contact) {
   contact.forward_slope.u = contact.wtn * contact.forward_slope.v;
   contact.backward_slope.u = contact.wtn * contact.backward_slope.v;
   if (!problem.w.UFollowsV(problem.u0, problem.v0)) return;
-  // u is then v Wtn/Wnn, unless a force of its own drives it off.
+  // u is then v Wtn/Wnn, unless a force of its own drives it off by more than rounding and underflow do.
   const double in_range = contact.an * contact.wtn;
-  contact.coupled = std::fabs(contact.at - in_range) <= kInRange * (std::fabs(contact.at) + std::fabs(in_range));
+  const double underflow = kSmallest * std::max(contact.time, 1.0) / contact.speed * (1.0 + std::fabs(contact.wtn));
+  contact.coupled =
+      std::fabs(contact.at - in_range) <= kInRange * (std::fabs(contact.at) + std::fabs(in_range)) + underflow;
   contact.u0 = -contact.wtn;
   if (contact.coupled) contact.at = in_range;
 }

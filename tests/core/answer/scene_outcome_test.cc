@@ -539,6 +539,23 @@ TEST(SceneOutcomeTest, APendulumThatFrictionHoldsOnAFallingSurfacePartsAtTheSpee
   EXPECT_THAT(newton.notes[0].text, HasSubstr("while it parts at"));
 }
 
+// Each event has the rates that go with its contact velocity (b w, a w), from those before to those after the impact.
+TEST(SceneOutcomeTest, EventsOfAnImpactInTimeHaveTheRatesOfThePendulum) {
+  constexpr double kA = 0.6;
+  constexpr double kB = 0.25;
+  Scene scene = With(Pendulum{1.3, kA, kB, -2.0}, 0.1, EnergeticCoefficient{0.8});
+  scene.compliance = Compliance{.normal = HertzSpring{1e5}};
+  scene.finite_forces = PinMoment{-20.0};
+  const Outcome outcome = SolvedTo(scene, {.required = {Effect::kFiniteDuration}});
+  ASSERT_GE(outcome.timeline.size(), 3U);
+  for (const Event& event : outcome.timeline) {
+    ASSERT_THAT(event.state.rates_rad_s, SizeIs(1));
+    EXPECT_NEAR(kA * event.state.rates_rad_s[0], event.state.contact_velocity.normal_m_s, 1e-9);
+  }
+  EXPECT_EQ(outcome.timeline.front().state.rates_rad_s[0], -2.0);
+  EXPECT_EQ(outcome.timeline.back().state.rates_rad_s, outcome.rates_after_rad_s);
+}
+
 // Without finite forces and rigid along t, an impact that takes time ends as one that takes none, for any spring. A
 // tangential compliance of 1e-6 of the normal one changes velocities by a small multiple of its root.
 TEST(SceneOutcomeTest, SpringsAgreeWithRigidContactBesideTheRange) {

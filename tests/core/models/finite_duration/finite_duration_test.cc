@@ -15,6 +15,10 @@
 #include <variant>
 #include <vector>
 
+#include "core/models/finite_duration/integrator.h"
+#include "core/models/finite_duration/path.h"
+#include "core/models/finite_duration/scaled_contact.h"
+#include "core/models/finite_duration/stop_check.h"
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "tests/support/scenes/planar_scenes.h"
@@ -55,7 +59,7 @@ double DistanceOf(const Problem& problem, const Impact& impact, double u1, doubl
 
 std::vector<EventKind> KindsOf(const Impact& impact) {
   std::vector<EventKind> kinds;
-  for (const Event& event : impact.events) kinds.push_back(event.kind);
+  for (const TimedInstant& event : impact.events) kinds.push_back(event.kind);
   return kinds;
 }
 
@@ -605,23 +609,54 @@ TEST(FiniteDurationTest, ImpulsesMakeTheChangeOfASlipThatStopsAllOfASudden) {
   EXPECT_LE(impact.error_estimate, 1e-8);
 }
 
+// A pendulum that static friction holds, with the accelerations that a moment about the pin gives its contact: the normal
+// one is below the smallest double.
+Problem NearlyVertical(double a, double mu, double mu_static) {
+  constexpr double kInertia = 1.3;
+  constexpr double kB = 1.0 / 3.0;
+  constexpr double kMoment = -4.889078302384e-311;
+  return {.contact = {.w = {kB * kB / kInertia, a * kB / kInertia, a * a / kInertia},
+                      .u0 = -2.0 * kB,
+                      .v0 = -2.0 * a,
+                      .mu = mu,
+                      .mu_static = mu_static,
+                      .coefficient = 1.0},
+          .tangential_acceleration = kMoment * kB / kInertia,
+          .normal_acceleration = kMoment * a / kInertia,
+          .spring = HertzSpring{0.45385987235336556},
+          .tolerance = 1e-12};
+}
+
+TEST(FiniteDurationTest, APendulumIsLockedThoughItsNormalAccelerationUnderflows) {
+  for (const double a : {1e-20, 1.3e-86, 5.8e-102, 1e-150}) {
+    const Problem problem = NearlyVertical(a, 0.0, 0.9);
+    const Impact impact = Solve(problem);
+    EXPECT_EQ(impact.regime, Regime::kLocked) << a;
+    EXPECT_TRUE(impact.Converged()) << a;
+    EXPECT_EQ(impact.u1, 0.0) << a;
+    EXPECT_EQ(impact.v1, 0.0) << a;
+  }
+}
+
 // v0 is 10^-86 of u0, and what becomes of it a part in 10^12 of u0.
 TEST(FiniteDurationTest, AnImpactThatIsLostInRoundingIsNotAnswered) {
-  constexpr double kInertia = 1.3;
-  constexpr double kA = 1.3065459890738525e-86;
-  constexpr double kB = 0.3133785130770308;
-  constexpr double kMoment = 4.889078302384e-311;
-  const Impact impact = Solve({.contact = {.w = {kB * kB / kInertia, kA * kB / kInertia, kA * kA / kInertia},
-                                           .u0 = -2.0 * kB,
-                                           .v0 = -2.0 * kA,
-                                           .mu = 0.012424130900937969,
-                                           .mu_static = 0.9450167383826467,
-                                           .coefficient = 1.0},
-                               .tangential_acceleration = kMoment * kB / kInertia,
-                               .spring = HertzSpring{0.45385987235336556},
-                               .tolerance = 1e-12});
+  Problem problem = NearlyVertical(1.3e-86, 0.0124, 0.945);
+  problem.tangential_acceleration = 1e-200;
+  const Impact impact = Solve(problem);
   EXPECT_FALSE(impact.Converged());
   EXPECT_GE(impact.contact.duration_s, 0.0);
+}
+
+// The contact sticks, and what pulls it along t lifts it so slowly that it would part beyond the largest double.
+TEST(FiniteDurationTest, AMotionThatLeavesTheDoublesEnds) {
+  const Problem problem = NearlyVertical(5.8022297592057571e-102, 0.0, 5e16);
+  ScaledContact contact = MakeScaledContact(problem);
+  contact.coupled = false;
+  contact.at = problem.tangential_acceleration * contact.time / contact.speed;
+  Integrator integrator(contact);
+  const auto never = [] { return false; };
+  StopCheck stop(never);
+  EXPECT_EQ(FollowPath(contact, integrator, 1e-13, stop, nullptr).how, PathEnd::kNeverEnds);
 }
 
 TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
