@@ -18,12 +18,13 @@ Motion& StateOf(N_Vector vector) { return *reinterpret_cast<Motion*>(NV_DATA_S(v
 // Checks a call that fails only where this program is wrong.
 void Require(int flag) { CheckInvariant(flag >= 0, "CVODE refused a call"); }
 
-// CVODE does not look for what is not finite: it would search for a root among such values for ever.
-constexpr int kTakeShorterStep = 1;
-constexpr int kGiveUp = -1;
+// CVODE's search for roots multiplies a guard by a step and by another guard. Steps and guards within these limits keep
+// its products in the range of doubles; a search that meets an infinity or a NaN never ends.
+constexpr double kLargest = 0x1p500;
+constexpr double kSmallest = 0x1p-500;
 
-bool IsFinite(const Motion& y) {
-  return std::all_of(y.begin(), y.end(), [](double part) { return std::isfinite(part); });
+double InRangeOfSearch(double guard) {
+  return guard == 0.0 ? guard : std::copysign(std::clamp(std::fabs(guard), kSmallest, kLargest), guard);
 }
 
 void IgnoreMessage(int /*code*/, const char* /*module*/, const char* /*function*/, char* /*message*/, void* /*data*/) {}
@@ -42,6 +43,7 @@ Integrator::Integrator(const ScaledContact& contact)
   Require(CVodeInit(memory_, Rates, 0.0, y_));
   Require(CVodeSVtolerances(memory_, 1.0, absolute_));
   Require(CVodeSetUserData(memory_, this));
+  Require(CVodeSetMaxStep(memory_, kLargest));
   Require(CVodeSetNonlinearSolver(memory_, fixed_point_));
   Require(CVodeRootInit(memory_, kGuards, Roots));
   std::array<int, kGuards> directions = {};
@@ -112,14 +114,15 @@ std::pair<int64_t, int64_t> Integrator::TakeCosts() {
 int Integrator::Rates(realtype /*s*/, N_Vector y, N_Vector rates, void* data) {
   const Integrator& self = *static_cast<const Integrator*>(data);
   StateOf(rates) = RatesAt(self.contact_, self.mode_, StateOf(y));
-  return IsFinite(StateOf(y)) && IsFinite(StateOf(rates)) ? 0 : kTakeShorterStep;
+  return 0;
 }
 
 int Integrator::Roots(realtype /*s*/, N_Vector y, realtype* values, void* data) {
   const Integrator& self = *static_cast<const Integrator*>(data);
   const Guards guards = GuardsAt(self.contact_, self.mode_, StateOf(y));
-  std::copy(guards.begin(), guards.end(), values);
-  return IsFinite(StateOf(y)) ? 0 : kGiveUp;
+  std::transform(guards.begin(), guards.end(), values, InRangeOfSearch);
+  constexpr int kGiveUp = -1;
+  return std::any_of(guards.begin(), guards.end(), [](double guard) { return std::isnan(guard); }) ? kGiveUp : 0;
 }
 
 void Integrator::AddLocalErrors() {

@@ -11,9 +11,6 @@
 namespace ricochet::finite_duration {
 namespace {
 
-constexpr double kEps = std::numeric_limits<double>::epsilon();
-constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
-
 struct Curve {
   double stiffness = 0.0, exponent = 1.0, damping = 0.0;
   bool damped = false;
@@ -60,8 +57,15 @@ Acceleration SlopeOf(const PlanarProblem& problem, double mu) {
           std::fma(-mu, problem.w.tn, problem.w.nn) / problem.w.nn};
 }
 
+// Tells whether finite forces move u off v Wtn/Wnn by no more than rounding, of them or of u0, and underflow do.
+bool ForcesFollow(const ScaledContact& contact, double in_range) {
+  constexpr double kSmallest = std::numeric_limits<double>::denorm_min();
+  const double terms = std::fabs(contact.at) + std::fabs(in_range) + std::fabs(contact.u0);
+  const double underflow = kSmallest + kSmallest * std::max(contact.time, 1.0) / contact.speed;
+  return std::fabs(contact.at - in_range) <= kRangeTolerance * terms + underflow * (1.0 + std::fabs(contact.wtn));
+}
+
 void SetInertia(const PlanarProblem& problem, ScaledContact& contact) {
-  constexpr double kInRange = 8.0 * kEps;
   contact.rank = problem.w.Rank();
   contact.wtn = problem.w.tn / problem.w.nn;
   contact.wtt = problem.w.tt / problem.w.nn;
@@ -78,10 +82,8 @@ void SetInertia(const PlanarProblem& problem, ScaledContact& contact) {
   if (!problem.w.UFollowsV(problem.u0, problem.v0)) return;
   // u is then v Wtn/Wnn, unless a force of its own drives it off by more than rounding and underflow do.
   const double in_range = contact.an * contact.wtn;
-  const double underflow = kSmallest * std::max(contact.time, 1.0) / contact.speed * (1.0 + std::fabs(contact.wtn));
-  contact.coupled =
-      std::fabs(contact.at - in_range) <= kInRange * (std::fabs(contact.at) + std::fabs(in_range)) + underflow;
   contact.u0 = -contact.wtn;
+  contact.coupled = ForcesFollow(contact, in_range);
   if (contact.coupled) contact.at = in_range;
 }
 

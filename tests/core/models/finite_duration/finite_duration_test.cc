@@ -15,10 +15,6 @@
 #include <variant>
 #include <vector>
 
-#include "core/models/finite_duration/integrator.h"
-#include "core/models/finite_duration/path.h"
-#include "core/models/finite_duration/scaled_contact.h"
-#include "core/models/finite_duration/stop_check.h"
 #include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
 #include "tests/support/scenes/planar_scenes.h"
@@ -489,6 +485,41 @@ TEST(FiniteDurationTest, AContactAtRestAlongTSlipsFirstUnderAFiniteForce) {
   EXPECT_EQ(Solve(problem).regime, Regime::kStickInCompression);
 }
 
+// W = Wnn (g, 1)(g, 1)^T without friction until slip stops, at v = 1e-6 m/s. The contact then sticks, which leaves v
+// alone, and unloads at that speed, so long that a step times a cone of friction as steep as doubles allow overflows.
+TEST(FiniteDurationTest, ASteepConeIsLeftAfterALongStick) {
+  constexpr double kSpeed = 1e-6;
+  for (const NormalSpring& spring : {NormalSpring(LinearSpring{1.0}), NormalSpring(HertzSpring{1.0})}) {
+    for (const double g : {1e100, 1e140}) {
+      for (const double push : {-1e-20, 1e-20}) {
+        Problem problem;
+        problem.contact = {.w = {g * g, g, 1.0}, .u0 = -(1.0 + kSpeed) * g, .v0 = -1.0, .coefficient = 1.0};
+        problem.contact.mu_static = 1e308 / (g * g);
+        problem.tangential_acceleration = push * g;
+        problem.spring = spring;
+        problem.tolerance = 1e-9;
+        const Impact impact = Solve(problem);
+        EXPECT_EQ(impact.regime, Regime::kStickInRestitution) << g << " " << push;
+        EXPECT_NEAR(impact.v1, kSpeed, 1e-12) << g << " " << push;
+      }
+    }
+  }
+}
+
+TEST(FiniteDurationTest, ForcesBelowTheRoundingOfSlipDoNotDecideWhatAContactOfRankOneDoes) {
+  Problem problem;
+  problem.contact = {.w = {4.0, 2.0, 1.0}, .u0 = -2.0, .v0 = -1.0, .mu = 0.1, .mu_static = 0.1, .coefficient = 0.5};
+  problem.spring = LinearSpring{1.0};
+  const Impact free = Solve(problem);
+  for (const double push : {1e-15, -1e-15, 1e-17, -1e-17, 1e-20, -1e-20, 1e-30, -1e-30}) {
+    problem.tangential_acceleration = push;
+    const Impact impact = Solve(problem);
+    EXPECT_EQ(impact.regime, free.regime) << push;
+    EXPECT_EQ(impact.u1, free.u1) << push;
+    EXPECT_EQ(impact.v1, free.v1) << push;
+  }
+}
+
 // Held against the same model at its tightest tolerance.
 TEST(FiniteDurationTest, EstimatesAreNotBelowTheErrorUnderForcesDampingAndSprings) {
   EstimateLog log;
@@ -609,7 +640,7 @@ TEST(FiniteDurationTest, ImpulsesMakeTheChangeOfASlipThatStopsAllOfASudden) {
   EXPECT_LE(impact.error_estimate, 1e-8);
 }
 
-// A pendulum that static friction holds, with the accelerations that a moment about the pin gives its contact: the normal
+// A pendulum that static friction holds, with the accelerations that a moment about its pin gives the contact. The normal
 // one is below the smallest double.
 Problem NearlyVertical(double a, double mu, double mu_static) {
   constexpr double kInertia = 1.3;
@@ -638,25 +669,20 @@ TEST(FiniteDurationTest, APendulumIsLockedThoughItsNormalAccelerationUnderflows)
   }
 }
 
+TEST(FiniteDurationTest, APendulumReboundsThoughItsNormalAccelerationUnderflows) {
+  const Problem problem = NearlyVertical(5.8e-102, 0.0, 1e-200);
+  const Impact impact = Solve(problem);
+  EXPECT_NEAR(impact.u1 / -problem.contact.u0, 1.0, 1e-11);
+  EXPECT_NEAR(impact.v1 / -problem.contact.v0, 1.0, 1e-11);
+}
+
 // v0 is 10^-86 of u0, and what becomes of it a part in 10^12 of u0.
 TEST(FiniteDurationTest, AnImpactThatIsLostInRoundingIsNotAnswered) {
   Problem problem = NearlyVertical(1.3e-86, 0.0124, 0.945);
-  problem.tangential_acceleration = 1e-200;
+  problem.contact.u0 *= 1.0 + 1e-12;
   const Impact impact = Solve(problem);
   EXPECT_FALSE(impact.Converged());
   EXPECT_GE(impact.contact.duration_s, 0.0);
-}
-
-// The contact sticks, and what pulls it along t lifts it so slowly that it would part beyond the largest double.
-TEST(FiniteDurationTest, AMotionThatLeavesTheDoublesEnds) {
-  const Problem problem = NearlyVertical(5.8022297592057571e-102, 0.0, 5e16);
-  ScaledContact contact = MakeScaledContact(problem);
-  contact.coupled = false;
-  contact.at = problem.tangential_acceleration * contact.time / contact.speed;
-  Integrator integrator(contact);
-  const auto never = [] { return false; };
-  StopCheck stop(never);
-  EXPECT_EQ(FollowPath(contact, integrator, 1e-13, stop, nullptr).how, PathEnd::kNeverEnds);
 }
 
 TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
