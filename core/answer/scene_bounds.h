@@ -26,7 +26,7 @@ inline constexpr int kSpatialImpacts = 65;
 
 // `scene` is valid, its restitution set or not, and has no impact law. `stopped` is asked before each impact of a
 // sample. Errors: OUT_OF_RANGE if W, the contact velocity or a bound, which is named, exceeds the largest double, if
-// W_nn is below the smallest, or if an impact of a sample does not end; CANCELLED once `stopped` says true.
+// W_nn is below the smallest normal one, or if an impact of a sample does not end; CANCELLED once `stopped` says true.
 absl::StatusOr<Bounds> SolveSceneBounds(const Scene& scene, std::optional<SceneContact> contact,
                                         absl::FunctionRef<bool()> stopped);
 

@@ -122,7 +122,7 @@ absl::Status ContactOverflow() {
   return MakeError(
       absl::StatusCode::kOutOfRange, ErrorReason::kOutputOverflow,
       "the contact-space inverse inertia W or the contact velocity exceeds the largest double, or W_nn is below the "
-      "smallest");
+      "smallest normal one");
 }
 
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,

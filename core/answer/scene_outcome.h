@@ -34,7 +34,7 @@ absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>&
 // Errors: ContactOverflow.
 absl::StatusOr<Plan> PlanOf(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
-// OUT_OF_RANGE: W or the contact velocity exceeds the largest double, or W_nn is below the smallest.
+// OUT_OF_RANGE: W or the contact velocity exceeds the largest double, or W_nn is below the smallest normal one.
 absl::Status ContactOverflow();
 
 }  // namespace ricochet

@@ -496,7 +496,7 @@ PathPoint MovedBack(const spatial::Problem& problem, const PathPoint& point, dou
 absl::StatusOr<AuditReport> AuditSpatialDeficient(const spatial::Problem& problem, const Contact<3>& contact,
                                                   const PathPoint& start, absl::FunctionRef<bool()> stopped) {
   const NearestPoint search(problem, contact, stopped);
-  double error = contact.uncertainty + start.velocity_error;
+  double error = contact.uncertainty;
   for (size_t i = 0; i < 3; ++i) error += kRounding * (std::abs(contact.after[i]) + std::abs(contact.before[i]));
   PathPoint point = start;
   PathPoint moved_back = start;

@@ -21,8 +21,12 @@ double Scale(const spatial::Problem& problem) {
 }
 bool Slips(const planar::Problem& problem) { return problem.u0 != 0.0; }
 bool Slips(const spatial::Problem& problem) { return problem.u0[0] != 0.0 || problem.u0[1] != 0.0; }
-double VelocityError(const planar::Problem& problem) { return kPlanarError * Scale(problem); }
-double VelocityError(const spatial::Problem& problem) { return problem.tolerance * Scale(problem); }
+double VelocityError(const planar::Problem& problem, const planar::Impact& /*impact*/) {
+  return kPlanarError * Scale(problem);
+}
+double VelocityError(const spatial::Problem& problem, const spatial::Impact& impact) {
+  return std::max(problem.tolerance, impact.error_estimate) * Scale(problem);
+}
 
 // The end of an impact is a point of the path.
 template <typename Problem, typename Impact>
@@ -43,7 +47,7 @@ PathPoint EndOf(const Problem& problem, const Impact& impact) {
           .work_tangential_compression = impact.work_tangential_compression,
           .work_tangential_restitution = impact.work_tangential_restitution,
           .energy_change = impact.energy_change,
-          .velocity_error = VelocityError(problem)};
+          .velocity_error = VelocityError(problem, impact)};
 }
 
 using planar::Solve;
@@ -67,7 +71,7 @@ PathPoint DuringCompression(const Problem& problem, const Impact& impact, double
   if (!stopped && Slips(problem) && impact.regime != Regime::kFrictionless) point.regime = Regime::kSliding;
   point.poisson = (tau - impact.tau_compression) / impact.tau_compression;
   point.energetic_excess = -1.0;
-  point.velocity_error = VelocityError(problem);
+  point.velocity_error = VelocityError(problem, impact);
   return point;
 }
 
@@ -105,6 +109,7 @@ PathPoint BeforeCompressionEnds(const spatial::Problem& problem, const spatial::
     other.v0 = -0.5 * problem.w33 * tau;
     const double tau_compression = SolveBy(other, RestitutionLaw::kPoisson, 0.0).tau_compression;
     const spatial::Impact end = SolveBy(other, RestitutionLaw::kPoisson, (tau - tau_compression) / tau_compression);
+    point.velocity_error = std::max(point.velocity_error, VelocityError(other, end));
     const double v_shift = problem.v0 - other.v0;
     const double slope_shift = other.w33 - problem.w33;
     point.f = end.f1;

@@ -41,7 +41,7 @@ struct PlanarDelassus {
   // together. Where Wtt = 0 no impulse changes u, and it is false.
   bool UFollowsV(double u, double v) const {
     if (!(tt > 0.0) || !(nn > 0.0) || Rank() != 1) return false;
-    return std::abs(DifferenceOfProducts(u, nn, v, tn)) <= kRangeTolerance * (std::abs(u) * nn + std::abs(v * tn));
+    return ProductsAgree(u, nn, v, tn, kRangeTolerance);
   }
 };
 

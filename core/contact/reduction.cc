@@ -262,9 +262,12 @@ bool IsFinite(const AnyReduction& reduction) {
 }
 
 bool FitsDoubles(const AnyReduction& reduction) {
-  const bool may_bounce =
-      std::visit([](const auto& reduced) { return reduced.w.back() > 0.0 || reduced.v0 >= 0.0; }, reduction);
-  return may_bounce && IsFinite(reduction);
+  const auto may_bounce = [](const auto& reduced) {
+    constexpr double kSmallestNormal = std::numeric_limits<double>::min();
+    const double nn = reduced.w.back();
+    return reduced.v0 >= 0.0 || (reduced.coordinates == Coordinates::kNone ? nn > 0.0 : nn >= kSmallestNormal);
+  };
+  return std::visit(may_bounce, reduction) && IsFinite(reduction);
 }
 
 double ApproachSpeed(const AnyReduction& reduction) {

@@ -68,8 +68,8 @@ bool ReductionDependsOn(absl::string_view path);
 // True if W and the velocities are finite.
 bool IsFinite(const AnyReduction& reduction);
 
-// True if doubles can represent what an impact needs: W and the velocities are finite, and W_nn has not underflowed to
-// 0 while the contact approaches.
+// True if doubles can represent what an impact needs: W and the velocities are finite, and if the contact approaches,
+// W_nn is not 0 and has not lost digits to underflow. A stated W_nn has all its digits whatever its size.
 bool FitsDoubles(const AnyReduction& reduction);
 
 // The approach speed max(0, -v0), m/s.

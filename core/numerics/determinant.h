@@ -1,4 +1,4 @@
-// The determinant of a symmetric 2 x 2 matrix, relative to its diagonal.
+// The determinant of a symmetric 2 x 2 matrix, relative to its diagonal, and whether two products agree.
 
 #ifndef RICOCHET_CORE_NUMERICS_DETERMINANT_H_
 #define RICOCHET_CORE_NUMERICS_DETERMINANT_H_
@@ -32,6 +32,22 @@ inline double RelativeDeterminant(double x, double y, double z) {
   const int i = std::ilogb(x) / 2;
   const int j = std::ilogb(z) / 2;
   return determinant::Quotient(std::scalbn(x, -2 * i), std::scalbn(y, -i - j), std::scalbn(z, -2 * j));
+}
+
+// Tells whether a b and c d differ by at most `tolerance`, which is below 1/8, times the sum of their sizes, over the
+// whole range of doubles.
+inline bool ProductsAgree(double a, double b, double c, double d, double tolerance) {
+  const auto agree = [tolerance](double x, double y, double z, double w) {
+    return std::abs(DifferenceOfProducts(x, y, z, w)) <= tolerance * (std::abs(x * y) + std::abs(z * w));
+  };
+  const auto is_exact = [](double value) { return value == 0.0 || determinant::IsModerate(value); };
+  if (is_exact(a) && is_exact(b) && is_exact(c) && is_exact(d)) return agree(a, b, c, d);
+  const bool is_zero = a == 0.0 || b == 0.0;
+  if (is_zero || c == 0.0 || d == 0.0) return is_zero == (c == 0.0 || d == 0.0);
+  const int size = std::ilogb(a) + std::ilogb(b);
+  if (std::abs(std::ilogb(c) + std::ilogb(d) - size) > 2) return false;
+  return agree(std::scalbn(a, -std::ilogb(a)), std::scalbn(b, -std::ilogb(b)), std::scalbn(c, -std::ilogb(c)),
+               std::scalbn(d, std::ilogb(c) - size));
 }
 
 }  // namespace ricochet

@@ -7,6 +7,8 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/types/span.h"
+#include "core/plan/demand_fields.h"
+#include "core/plan/number_demand.h"
 #include "core/rows/axis_values.h"
 #include "core/rows/column.h"
 #include "core/scene/check.h"
@@ -22,7 +24,8 @@ constexpr NumberPath kPhi = {.prefix = "pendulum", .name = "phi_rad"};
 
 }  // namespace
 
-InvalidPoints::InvalidPoints(const Grid& grid) : grid_(grid) {}
+InvalidPoints::InvalidPoints(const SweepRequest& request)
+    : grid_(request.grid), demand_(WithNumbers(ToDemand(request.demand), request.columns)) {}
 
 std::optional<Violation> InvalidPoints::First(int64_t index) {
   std::vector<int64_t> positions(grid_.axes.size());
@@ -36,7 +39,9 @@ std::optional<Violation> InvalidPoints::First(int64_t index) {
     check.Number(kPhi, value, NumberRule::kHalfTurn);
     if (check.failed()) return std::move(check).violations().front();
   }
-  std::vector<Violation> violations = Validate(driven_->scene());
+  std::optional<SceneContact> contact;
+  std::vector<Violation> violations = Validate(driven_->scene(), RestitutionIs::kRequired, contact);
+  if (violations.empty()) violations = CheckSolvableWithout(driven_->scene(), contact, demand_);
   if (violations.empty()) return std::nullopt;
   return std::move(violations.front());
 }
@@ -58,8 +63,7 @@ std::string InvalidPoints::Rule(int64_t index) {
 }
 
 InvalidCounts::InvalidCounts(const SweepRequest& request)
-    : points_(request.grid),
-      may_lack_numbers_(std::all_of(request.columns.begin(), request.columns.end(), MayBeUnset)) {}
+    : points_(request), may_lack_numbers_(std::all_of(request.columns.begin(), request.columns.end(), MayBeUnset)) {}
 
 // True if the point has no numbers because it is invalid.
 bool InvalidCounts::IsInvalid(const SweepChunk& chunk, int64_t i) {

@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 
+#include "core/plan/demand.h"
 #include "core/rows/driven_scene.h"
 #include "ricochet/error.h"
 #include "ricochet/sweep.h"
@@ -18,9 +19,10 @@ namespace ricochet::cli {
 
 class InvalidPoints {
  public:
-  explicit InvalidPoints(const Grid& grid);
+  explicit InvalidPoints(const SweepRequest& request);
 
-  // True if the scene of a point keeps every rule: if the point has no numbers, one of them is too large.
+  // True if the scene of a point keeps every rule and needs no effect that the request excludes: if the point has no
+  // numbers, one of them is too large.
   bool KeepsRules(int64_t index);
 
   // Returns the first reason of an invalid point of a grid that a solver has taken:
@@ -32,11 +34,12 @@ class InvalidPoints {
   std::string Rule(int64_t index);
 
  private:
-  // The first rule that the scene of a point breaks, if it breaks one.
+  // The first rule that a point breaks, if it breaks one.
   std::optional<Violation> First(int64_t index);
   Violation WhyInvalid(int64_t index);
 
   Grid grid_;
+  Demand demand_;
   std::shared_ptr<DrivenScene> driven_;  // Made for the first invalid point.
 };
 

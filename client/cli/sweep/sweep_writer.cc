@@ -93,7 +93,7 @@ class PointWriter {
         format_(format),
         most_(most),
         cursor_(request_->grid),
-        invalid_(request_->grid),
+        invalid_(*request_),
         rows_(format, NamesOf(request)) {}
 
   absl::StatusOr<std::string> operator()(const SweepChunk& chunk) {

@@ -23,7 +23,7 @@ enum class RowStatus : uint8_t {
   kUnspecified = 0,
   kOk = 1,                // The row has all its numbers.
   kInadmissible = 2,      // The row has its numbers, but its outcome breaks a limit. One that is unset is quiet NaN.
-  kInvalid = 3,           // The row breaks a rule of its scene.
+  kInvalid = 3,           // The row breaks a rule of its scene, or needs an effect that the call excludes.
   kNotRepresentable = 4,  // A number asked for exceeds the largest double.
   kIncomplete = 5,        // The row has its numbers, but for those that its outcome leaves unset: they are quiet NaN.
 };

@@ -193,6 +193,22 @@ constexpr char kKane[] =
     "inertia_com_kg_m2: 0.0833333333333333 theta_rad: 0.524 rate_rad_s: -0.2 } } "
     "friction { kinetic_coefficient: 0.7 }";
 
+TEST_F(Cli, SaysWhichExcludedEffectAPointOfASweepNeeds) {
+  const CliResult result = Run({"sweep", "--a", "1", "--b", "1", "--energetic", "0.5", "--exclude", "higher-order",
+                                "--axis", "friction.kinetic_coefficient=0.25,0.75", "--format", "csv", "--regime"});
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out,
+              HasSubstr("INVALID: excluded[0] = higher_order: must be left in: the first-order form needs"));
+  EXPECT_THAT(result.err, HasSubstr("excluded[0]: must be left in: the first-order form needs mu |b|/a <= 0.5"));
+}
+
+TEST_F(Cli, ShowsTheRateBeforeAnImpactThatTakesTime) {
+  Write("spring.json", R"({"pendulum":{"inertia_kg_m2":1,"a_m":0.6,"b_m":0.3,"omega_minus_rad_s":-2},)"
+                       R"("restitution":{"energetic":0.8},"compliance":{"linear":{"stiffness_n_m":1e6}}})");
+  const CliResult result = Run({"solve", "--scene", "spring.json", "--require", "finite-duration"});
+  EXPECT_THAT(result.out, testing::ContainsRegex("angular velocity .rad/s. +-2 +1.6\n"));
+}
+
 TEST_F(Cli, AuditsEveryRowOfATableAndFlagsTheBadOnes) {
   Write("kane.textproto", kKane);
   const CliResult result =

@@ -236,12 +236,20 @@ TEST(SceneOutcomeTest, AWThatOverflowsIsOutOfRange) {
 }
 
 TEST(SceneOutcomeTest, AWThatUnderflowsIsOutOfRange) {
-  Scene scene = With(Pendulum{1.3, 1e-200, 0.4, -2.0}, 0.8, EnergeticCoefficient{0.8});
-  EXPECT_TRUE(LocalSolver().Solve({.scene = scene}).ok());
-  scene.compliance = Compliance{.tangential_ratio_squared = 0.3};
-  const absl::Status status = LocalSolver().Solve({.scene = scene}).status();
-  EXPECT_EQ(status.code(), absl::StatusCode::kOutOfRange);
-  EXPECT_THAT(std::string(status.message()), HasSubstr("W_nn is below the smallest"));
+  // a^2 is 0, or has lost its digits.
+  for (const double a : {1e-200, 1e-160}) {
+    Scene scene = With(Pendulum{1.3, a, 0.4, -2.0}, 0.8, EnergeticCoefficient{0.8});
+    EXPECT_TRUE(LocalSolver().Solve({.scene = scene}).ok());
+    scene.compliance = Compliance{.tangential_ratio_squared = 0.3};
+    const absl::Status status = LocalSolver().Solve({.scene = scene}).status();
+    EXPECT_EQ(status.code(), absl::StatusCode::kOutOfRange);
+    EXPECT_THAT(std::string(status.message()), HasSubstr("W_nn is below the smallest normal one"));
+  }
+}
+
+TEST(SceneOutcomeTest, AStatedWHasAllItsDigitsWhateverItsSize) {
+  const Scene scene = With(PlanarContact{1.0, 0.0, 0x1p-1060, -0.5, -0x1p-100}, 0.0, EnergeticCoefficient{0.5});
+  EXPECT_EQ(Solved(scene).impulse.normal_total_n_s, 1.5 * 0x1p960);
 }
 
 TEST(SceneOutcomeTest, ALinkTooHeavyForDoublesIsOutOfRangeAndDoesNotSeparate) {

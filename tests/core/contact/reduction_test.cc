@@ -258,5 +258,29 @@ TEST(DeterminantTest, RelativeDeterminantIsRightOverTheWholeRange) {
   EXPECT_EQ(RelativeDeterminant(0.0, 1e-300, 1.0), -INFINITY);
 }
 
+TEST(DeterminantTest, ProductsAgreeWhateverTheirSize) {
+  for (const double x : {0x1p-1070, 0x1p-500, 1.0, 0x1p500, 0x1p1020}) {
+    for (const double y : {0x1p-1022, 0x1p-300, 1.0, 0x1p1020}) {
+      EXPECT_TRUE(ProductsAgree(x, y * 0.5, y, x * 0.5, 0x1p-49)) << x << ' ' << y;
+      EXPECT_TRUE(ProductsAgree(-x, y * 0.5, y, -x * 0.5, 0x1p-49)) << x << ' ' << y;
+      EXPECT_FALSE(ProductsAgree(x, y * 0.5, -y, x * 0.5, 0x1p-49)) << x << ' ' << y;
+      EXPECT_FALSE(ProductsAgree(x, y, y, x * 0.5, 0x1p-49)) << x << ' ' << y;
+      EXPECT_FALSE(ProductsAgree(x, y, 0.0, x, 0x1p-49)) << x << ' ' << y;
+      if (y < 0x1p-1000) continue;
+      EXPECT_TRUE(ProductsAgree(x, y * (1.0 + 0x1p-51), y, x, 0x1p-49)) << x << ' ' << y;
+      EXPECT_FALSE(ProductsAgree(x, y * (1.0 + 0x1p-40), y, x, 0x1p-49)) << x << ' ' << y;
+    }
+  }
+  EXPECT_TRUE(ProductsAgree(0.0, 1e-300, 1e300, 0.0, 0x1p-49));
+}
+
+// u Wnn and v Wtn are both below the smallest double.
+TEST(DelassusTest, AVelocityBesideTheRangeOfASmallWIsBesideIt) {
+  const double tn = 0x1p-530;
+  const PlanarDelassus w = {1.0, tn, tn * tn};
+  EXPECT_TRUE(w.UFollowsV(-1.0, -tn));
+  EXPECT_FALSE(w.UFollowsV(-1.0, -tn * (1.0 + 0x1p-20)));
+}
+
 }  // namespace
 }  // namespace ricochet
