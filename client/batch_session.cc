@@ -42,11 +42,11 @@ RemoteBatches::RemoteBatches(const BatchSetup& setup, Start start, PreferredServ
 
 absl::StatusOr<BatchSummary> RemoteBatches::Solve(const BatchRows& rows) {
   if (absl::Status misfit = CheckRows(rows, fields_, columns_); !misfit.ok()) return misfit;
-  Rest rest = {.rows = rows, .first = 0, .end = RowCount(rows), .summary = {}};
+  Remaining remaining = {.rows = rows, .first = 0, .end = RowCount(rows), .summary = {}};
   for (Attempts attempts(servers_, policy_);;) {
     if (IsStopped(options_)) return StoppedByCaller();
-    const absl::Status status = Exchange(rest, attempts);
-    if (status.ok()) return rest.summary;
+    const absl::Status status = Exchange(remaining, attempts);
+    if (status.ok()) return remaining.summary;
     if (IsStopped(options_)) return StoppedByCaller();
     const int most = std::max(policy_.max_attempts, static_cast<int>(servers_.count())) - 1;
     const auto wait = MayResume(status) ? attempts.AfterFailure(status, most) : std::nullopt;
@@ -73,20 +73,20 @@ bool RemoteBatches::Write(const BatchRows& rows, size_t first, size_t count) {
   return call_->stream->Write(request_);
 }
 
-// Asks for the whole rest by one call, and takes the answers as far as they come. The call is over after an error.
-absl::Status RemoteBatches::Exchange(Rest& rest, Attempts& attempts) {
+// Asks for all that remains by one call, and reads the answers as far as they come. The call is over after an error.
+absl::Status RemoteBatches::Exchange(Remaining& remaining, Attempts& attempts) {
   if (!call_.has_value()) call_.emplace(options_, start_, attempts.server());
   std::thread writer;
-  if (PieceAt(rest.first, rest.end) == rest.end - rest.first) {
-    Write(rest.rows, rest.first, rest.end - rest.first);
+  if (PieceAt(remaining.first, remaining.end) == remaining.end - remaining.first) {
+    Write(remaining.rows, remaining.first, remaining.end - remaining.first);
   } else {
     // Another thread writes, because a server whose answer is not read reads no further piece.
-    writer = std::thread([this, &rows = rest.rows, first = rest.first, end = rest.end]() mutable {
+    writer = std::thread([this, &rows = remaining.rows, first = remaining.first, end = remaining.end]() mutable {
       for (; first < end && Write(rows, first, PieceAt(first, end)); first += PieceAt(first, end)) {
       }
     });
   }
-  const absl::Status taken = ReadAll(rest, attempts);
+  const absl::Status taken = ReadAll(remaining, attempts);
   if (!taken.ok()) call_->context.get().TryCancel();
   if (writer.joinable()) writer.join();
   if (taken.ok()) return taken;
@@ -95,23 +95,24 @@ absl::Status RemoteBatches::Exchange(Rest& rest, Attempts& attempts) {
 }
 
 // Errors: UNAVAILABLE if the call has ended; its own status then says why.
-absl::Status RemoteBatches::ReadAll(Rest& rest, Attempts& attempts) {
+absl::Status RemoteBatches::ReadAll(Remaining& remaining, Attempts& attempts) {
   do {
     if (!call_->stream->Read(&response_)) return absl::UnavailableError("the call has ended");
-    if (absl::Status wrong = Take(rest); !wrong.ok()) return wrong;
+    if (absl::Status wrong = ReadAnswer(remaining); !wrong.ok()) return wrong;
     attempts.Succeeded();
-  } while (rest.first < rest.end);
+  } while (remaining.first < remaining.end);
   return absl::OkStatus();
 }
 
-absl::Status RemoteBatches::Take(Rest& rest) {
+absl::Status RemoteBatches::ReadAnswer(Remaining& remaining) {
   const EngineInfo engine = FromProto(response_.engine());
   if (engine_.fingerprint.empty()) engine_ = engine;
   if (engine.fingerprint != engine_.fingerprint) return OtherEngine(engine_, engine);
-  const size_t count = PieceAt(rest.first, rest.end);
-  if (absl::Status misfit = CopyOutputs(response_, rest.first, count, rest.rows); !misfit.ok()) return misfit;
-  rest.summary = Joined(std::move(rest.summary), FromProto(response_.summary()), static_cast<int64_t>(rest.first));
-  rest.first += count;
+  const size_t count = PieceAt(remaining.first, remaining.end);
+  if (absl::Status misfit = CopyOutputs(response_, remaining.first, count, remaining.rows); !misfit.ok()) return misfit;
+  remaining.summary =
+      Joined(std::move(remaining.summary), FromProto(response_.summary()), static_cast<int64_t>(remaining.first));
+  remaining.first += count;
   return absl::OkStatus();
 }
 

@@ -56,7 +56,7 @@ class RemoteBatches final : public BatchSession::Worker {
   };
 
   // The rows [first, end) of a batch that still have no answer, and the summary of those before them.
-  struct Rest {
+  struct Remaining {
     const BatchRows& rows;
     size_t first;
     size_t end;
@@ -65,9 +65,9 @@ class RemoteBatches final : public BatchSession::Worker {
 
   size_t PieceAt(size_t first, size_t end) const { return std::min(piece_, end - first); }
   bool Write(const BatchRows& rows, size_t first, size_t count);
-  absl::Status Exchange(Rest& rest, Attempts& attempts);
-  absl::Status ReadAll(Rest& rest, Attempts& attempts);
-  absl::Status Take(Rest& rest);
+  absl::Status Exchange(Remaining& remaining, Attempts& attempts);
+  absl::Status ReadAll(Remaining& remaining, Attempts& attempts);
+  absl::Status ReadAnswer(Remaining& remaining);
   // Ends the call and returns its status.
   absl::Status End();
 

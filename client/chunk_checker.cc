@@ -44,7 +44,7 @@ ChunkChecker::ChunkChecker(const SweepRequest& request)
       end_index_(EndIndex(request)),
       seal_(request) {}
 
-absl::StatusOr<SweepChunk> ChunkChecker::Take(const v1::SweepResponse& message) {
+absl::StatusOr<SweepChunk> ChunkChecker::Accept(const v1::SweepResponse& message) {
   if (absl::Status status = seal_.Check(message); !status.ok()) return status;
   if (message.values().size() % sizeof(double) != 0) {
     return absl::DataLossError(absl::StrCat("the sweep's chunk at point ", message.first_index(), " has ",

@@ -25,7 +25,7 @@ class ChunkChecker {
 
   // Returns the next chunk, with the points done and the tallies of all calls. Errors: DATA_LOSS if `message` cannot be
   // it; FAILED_PRECONDITION if the engine of a new call is not that of the call before.
-  absl::StatusOr<SweepChunk> Take(const v1::SweepResponse& message);
+  absl::StatusOr<SweepChunk> Accept(const v1::SweepResponse& message);
 
   // True once a chunk was received.
   bool has_begun() const { return engine_.has_value(); }

@@ -17,7 +17,7 @@ bool AllWithin(const Indices& indices, int64_t least, int64_t rows, Index index)
 
 }  // namespace
 
-absl::StatusOr<CostChunk> CostChecker::Take(const v1::CostResponse& message) {
+absl::StatusOr<CostChunk> CostChecker::Accept(const v1::CostResponse& message) {
   CostChunk chunk = FromProto(message);
   if (absl::Status status = Check(chunk); !status.ok()) return status;
   return chunk;

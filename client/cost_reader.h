@@ -17,7 +17,7 @@ namespace ricochet {
 class CostChecker {
  public:
   // Errors: DATA_LOSS if `message` or `chunk` cannot be the next one.
-  absl::StatusOr<CostChunk> Take(const v1::CostResponse& message);
+  absl::StatusOr<CostChunk> Accept(const v1::CostResponse& message);
   absl::Status Check(const CostChunk& chunk);
   // Errors: DATA_LOSS if chunks are missing at the end of the stream.
   absl::Status CheckEnd() const;

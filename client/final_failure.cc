@@ -3,6 +3,7 @@
 #include <array>
 #include <string>
 
+#include "absl/strings/cord.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
@@ -20,6 +21,8 @@ struct Cause {
 constexpr char kClosed[] =
     "the server closed the connection: it has no room, or it wants TLS (security.tls, --tls) or another certificate of "
     "this client (security.tls_cert, --tls-cert)";
+
+constexpr char kClosedUrl[] = "ricochet/connection_closed";
 
 // The first whose sign is found counts, so that a special one stands before the kind that it belongs to.
 constexpr std::array kCauses = {
@@ -42,7 +45,9 @@ absl::Status ExplainConnection(const absl::Status& status) {
   for (const Cause& cause : kCauses) {
     if (!absl::StrContains(status.message(), cause.sign)) continue;
     const absl::StatusCode code = cause.is_lasting ? absl::StatusCode::kFailedPrecondition : status.code();
-    return {code, absl::StrCat(cause.words, " (", status.message(), ")")};
+    absl::Status explained(code, absl::StrCat(cause.words, " (", status.message(), ")"));
+    if (!cause.is_lasting) explained.SetPayload(kClosedUrl, absl::Cord());
+    return explained;
   }
   return status;
 }
@@ -59,5 +64,7 @@ absl::Status ExplainFailure(const absl::Status& status) {
   }
   return status;
 }
+
+bool IsClosedByServer(const absl::Status& status) { return status.GetPayload(kClosedUrl).has_value(); }
 
 }  // namespace ricochet

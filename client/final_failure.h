@@ -16,6 +16,9 @@ namespace ricochet {
 // kLimitExceeded. Every other status stays as it is.
 absl::Status ExplainFailure(const absl::Status& status);
 
+// True if ExplainFailure has found that the server closed the connection, for which TLS may be the reason.
+bool IsClosedByServer(const absl::Status& status);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CLIENT_FINAL_FAILURE_H_

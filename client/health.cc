@@ -2,8 +2,6 @@
 
 #include <grpcpp/client_context.h>
 
-#include <utility>
-
 #include "client/channel.h"
 #include "client/final_failure.h"
 #include "grpc/health/v1/health.grpc.pb.h"

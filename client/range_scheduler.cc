@@ -12,18 +12,18 @@ RangeScheduler::RangeScheduler(int64_t first_index, int64_t end_index, int64_t p
       room_(std::max<int64_t>(1, buffer_bytes / point_bytes)),
       // While each server computes one range, another one of each may wait.
       longest_range_(std::max<int64_t>(1, room_ / (2 * servers))),
-      left_(first_index),
-      untaken_(first_index) {}
+      emitted_(first_index),
+      unclaimed_(first_index) {}
 
-std::optional<RangeScheduler::Task> RangeScheduler::Take(int64_t points) {
+std::optional<RangeScheduler::Task> RangeScheduler::Claim(int64_t points) {
   for (Range& range : ranges_) {
     if (range.next < range.end && range.tasks.empty()) return Give(range);
   }
   if (!ranges_.empty() && ranges_.front().wants_another) return Give(ranges_.front());
-  const int64_t count = std::min({points, longest_range_, untaken()});
-  if (count <= 0 || untaken_ + count - left_ > room_) return std::nullopt;
-  ranges_.push_back({.next = untaken_, .end = untaken_ + count, .tasks = {}, .pieces = {}});
-  untaken_ += count;
+  const int64_t count = std::min({points, longest_range_, unclaimed()});
+  if (count <= 0 || unclaimed_ + count - emitted_ > room_) return std::nullopt;
+  ranges_.push_back({.next = unclaimed_, .end = unclaimed_ + count, .tasks = {}, .pieces = {}});
+  unclaimed_ += count;
   return Give(ranges_.back());
 }
 
@@ -80,7 +80,7 @@ void RangeScheduler::StopAll() {
   }
 }
 
-std::optional<RangeScheduler::Piece> RangeScheduler::Leave() {
+std::optional<RangeScheduler::Piece> RangeScheduler::Emit() {
   while (!ranges_.empty() && ranges_.front().pieces.empty()) {
     if (ranges_.front().next < ranges_.front().end) return std::nullopt;
     ranges_.pop_front();
@@ -88,7 +88,7 @@ std::optional<RangeScheduler::Piece> RangeScheduler::Leave() {
   if (ranges_.empty()) return std::nullopt;
   Piece piece = std::move(ranges_.front().pieces.front());
   ranges_.front().pieces.pop_front();
-  left_ += piece.chunk.count;
+  emitted_ += piece.chunk.count;
   waiting_ -= piece.chunk.count * point_bytes_;
   return piece;
 }

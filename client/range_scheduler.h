@@ -40,7 +40,7 @@ class RangeScheduler {
 
   // Gives out the first range that nobody computes; else the one that the reader waits for, if AskAnother was called;
   // else a new one of at most `points` >= 1 points. Nothing if there is no point left, or no room.
-  std::optional<Task> Take(int64_t points);
+  std::optional<Task> Claim(int64_t points);
 
   // Takes the next chunk of a task, and triggers the stop of any other task for its range. Returns false if that
   // happened to this task.
@@ -56,10 +56,10 @@ class RangeScheduler {
   void StopAll();
 
   // Returns the next chunk in the order of the points, if it is there.
-  std::optional<Piece> Leave();
+  std::optional<Piece> Emit();
 
-  int64_t next_index() const { return left_; }                  // The first point that has not left.
-  int64_t untaken() const { return end_ - untaken_; }           // The number of points that were never given out.
+  int64_t next_index() const { return emitted_; }               // The first point that has not left.
+  int64_t unclaimed() const { return end_ - unclaimed_; }       // The number of points that were never given out.
   int64_t most_waiting_bytes() const { return most_waiting_; }  // The most bytes of chunks that ever waited.
 
  private:
@@ -79,8 +79,8 @@ class RangeScheduler {
   const int64_t room_;           // Points.
   const int64_t longest_range_;  // Points.
   std::deque<Range> ranges_;     // Those of which not every point has left.
-  int64_t left_;
-  int64_t untaken_;
+  int64_t emitted_;
+  int64_t unclaimed_;
   int64_t tasks_ = 0;
   int64_t waiting_ = 0;  // Bytes of all pieces.
   int64_t most_waiting_ = 0;

@@ -16,7 +16,7 @@
 
 namespace ricochet {
 
-// Reads one stream of `Wire` messages; the last one, and no other, has a summary. `Checker` has Take(message), which
+// Reads one stream of `Wire` messages; the last one, and no other, has a summary. `Checker` has Accept(message), which
 // makes each message in order a `Chunk`, and CheckEnd(); both give DATA_LOSS if a chunk is missing or wrong.
 //
 // Thread safety: one thread at a time may use a reader; any thread may trigger the stop token.
@@ -36,7 +36,7 @@ class StreamReader {
     // Once the caller has asked to stop, chunks that had already arrived are dropped.
     if (!call_.Read(message_)) return End(call_.Finish());
     if (IsStopped(options_) && !message_.has_summary()) return End(call_.Cancel());
-    return checker_.Take(message_);
+    return checker_.Accept(message_);
   }
 
  private:

@@ -1,7 +1,6 @@
 #include "client/sweep_fan_out.h"
 
 #include <algorithm>
-#include <array>
 #include <system_error>
 #include <utility>
 
@@ -48,9 +47,9 @@ class SweepFanOut::Server {
   size_t number() const { return number_; }
   Attempts& attempts() { return attempts_; }
 
-  // The length of the next range, if `untaken` points are left for `servers` servers.
-  int64_t NextLength(int64_t untaken, size_t servers) const {
-    const double share = static_cast<double>(untaken) / (2.0 * static_cast<double>(servers));
+  // The length of the next range, if `unclaimed` points are left for `servers` servers.
+  int64_t NextLength(int64_t unclaimed, size_t servers) const {
+    const double share = static_cast<double>(unclaimed) / (2.0 * static_cast<double>(servers));
     const double most = std::min(rate_ * kRangeSeconds, last_ * kMostGrowth);
     const double length = std::max(std::min(most, share), std::min(most, rate_ * kShortestSeconds));
     return std::max<int64_t>(1, static_cast<int64_t>(length));
@@ -144,7 +143,8 @@ std::optional<RangeScheduler::Task> SweepFanOut::WaitForTask(const Server& serve
   std::unique_lock lock(mutex_);
   for (;;) {
     if (ended_ || failure_.has_value()) return std::nullopt;
-    std::optional<RangeScheduler::Task> task = scheduler_.Take(server.NextLength(scheduler_.untaken(), servers_.count));
+    std::optional<RangeScheduler::Task> task =
+        scheduler_.Claim(server.NextLength(scheduler_.unclaimed(), servers_.count));
     if (task.has_value()) return task;
     work_.wait(lock);
   }
@@ -159,7 +159,7 @@ absl::Status SweepFanOut::Compute(const RangeScheduler::Task& task, Server& serv
       {.stop = task.stop.get_token(), .deadline = options_.deadline});
   v1::SweepResponse message;
   while (call.Read(message)) {
-    absl::StatusOr<SweepChunk> chunk = checker.Take(message);
+    absl::StatusOr<SweepChunk> chunk = checker.Accept(message);
     if (!chunk.ok()) return chunk.status();
     server.attempts().Succeeded();
     const std::lock_guard lock(mutex_);
@@ -177,7 +177,7 @@ absl::Status SweepFanOut::Compute(const RangeScheduler::Task& task, Server& serv
 void SweepFanOut::Fail(const absl::Status& status, const RangeScheduler::Task& task, Server& server) {
   if (task.stop.stop_requested()) {
     // Another server was faster. If it was asked after this one, then this one was slow.
-    if (!task.is_second) Rest(server.AfterSlow(servers_.fan_out.slow_after));
+    if (!task.is_second) BackOff(server.AfterSlow(servers_.fan_out.slow_after));
     return;
   }
   std::optional<milliseconds> wait;
@@ -195,10 +195,10 @@ void SweepFanOut::Fail(const absl::Status& status, const RangeScheduler::Task& t
       work_.notify_all();
     }
   }
-  Rest(wait.value_or(std::max(servers_.retry.max_backoff, RetryDelayOf(status).value_or(milliseconds(0)))));
+  BackOff(wait.value_or(std::max(servers_.retry.max_backoff, RetryDelayOf(status).value_or(milliseconds(0)))));
 }
 
-void SweepFanOut::Rest(milliseconds time) {
+void SweepFanOut::BackOff(milliseconds time) {
   std::unique_lock lock(mutex_);
   work_.wait_until(lock, Clock::now() + time, [this] { return ended_ || failure_.has_value(); });
 }
@@ -237,7 +237,7 @@ std::optional<absl::StatusOr<SweepChunk>> SweepFanOut::WaitUntil(Clock::time_poi
   std::unique_lock lock(mutex_);
   std::optional<RangeScheduler::Piece> piece;
   arrived_.wait_until(lock, until, [&] {
-    piece = scheduler_.Leave();
+    piece = scheduler_.Emit();
     return piece.has_value() || failure_.has_value() || ended_;
   });
   if (!piece.has_value()) {

@@ -72,7 +72,7 @@ class SweepFanOut {
   // Decides what an error means: how long the server is left alone, or that the sweep fails.
   void Fail(const absl::Status& status, const RangeScheduler::Task& task, Server& server);
   // Waits for this time, or until the end.
-  void Rest(std::chrono::milliseconds time);
+  void BackOff(std::chrono::milliseconds time);
   void End();
 
   // Returns the next chunk or the failure, or nothing at this time or at the end.

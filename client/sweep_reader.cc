@@ -27,7 +27,7 @@ void SweepReader::Ask() {
 
 std::optional<absl::StatusOr<SweepChunk>> SweepReader::Next() {
   for (;;) {
-    if (call_->Read(message_)) return Take();
+    if (call_->Read(message_)) return Received();
     const std::optional<absl::Status> end = AfterEnd();
     if (!end.has_value()) continue;
     if (end->ok()) return std::nullopt;
@@ -35,10 +35,10 @@ std::optional<absl::StatusOr<SweepChunk>> SweepReader::Next() {
   }
 }
 
-absl::StatusOr<SweepChunk> SweepReader::Take() {
+absl::StatusOr<SweepChunk> SweepReader::Received() {
   // Once the caller has asked to stop, chunks that had already arrived are dropped.
   if (IsStopped(options_) && !message_.has_summary()) return StoppedByCaller();
-  absl::StatusOr<SweepChunk> chunk = checker_.Take(message_);
+  absl::StatusOr<SweepChunk> chunk = checker_.Accept(message_);
   if (chunk.ok()) attempts_.Succeeded();
   return chunk;
 }

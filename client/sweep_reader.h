@@ -42,7 +42,7 @@ class SweepReader {
 
  private:
   void Ask();
-  absl::StatusOr<SweepChunk> Take();
+  absl::StatusOr<SweepChunk> Received();
   std::optional<absl::Status> AfterEnd();
 
   ChunkChecker checker_;

@@ -1,45 +1,24 @@
 #include "client/tls_files.h"
 
-#include <openssl/bio.h>
 #include <openssl/err.h>
-#include <openssl/pem.h>
 #include <openssl/x509.h>
 
 #include <fstream>
-#include <memory>
 #include <sstream>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "proto/wire/pem.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
 namespace {
 
-template <auto function>
-struct Free {
-  template <typename Object>
-  void operator()(Object* object) const {
-    function(object);
-  }
-};
-using Bio = std::unique_ptr<BIO, Free<BIO_free_all>>;
-using Certificate = std::unique_ptr<X509, Free<X509_free>>;
-using Key = std::unique_ptr<EVP_PKEY, Free<EVP_PKEY_free>>;
-
-Bio BioOf(const std::string& text) { return Bio(BIO_new_mem_buf(text.data(), static_cast<int>(text.size()))); }
-
-// Otherwise OpenSSL would ask for a pass phrase at the terminal.
-int NoPassPhrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*data*/) { return -1; }
-
-Certificate ParseCertificate(const std::string& pem) {
-  return Certificate(PEM_read_bio_X509(BioOf(pem).get(), nullptr, NoPassPhrase, nullptr));
-}
-
-Key ParseKey(const std::string& pem) {
-  return Key(PEM_read_bio_PrivateKey(BioOf(pem).get(), nullptr, NoPassPhrase, nullptr));
-}
+using pem::Certificate;
+using pem::Key;
+using pem::ParseCertificate;
+using pem::ParseKey;
 
 Violation Holds(const char* option, const std::string& path, const char* rule) {
   return {option, absl::StrCat("= ", path, ": must hold ", rule)};

@@ -9,7 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <system_error>
@@ -182,13 +181,17 @@ std::vector<Setting> SecuritySettings() {
 std::vector<Setting> CallSettings() {
   return {
       {"max-live-calls", "N", "Calls that may run or wait at once [1024]",
-       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.places.calls); }},
+       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.live_calls.calls); }},
       {"max-live-calls-per-peer", "N", "Those of one client [7/8 of max-live-calls]",
-       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.places.calls_per_peer); }},
+       [](const std::string& text, Options& to) {
+         return ReadInteger(text, kMostCalls, to.live_calls.calls_per_peer);
+       }},
       {"max-streams", "N", "Sweeps and studies of cost among them [1/4 of max-live-calls]",
-       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.places.streams); }},
+       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.live_calls.streams); }},
       {"max-streams-per-peer", "N", "Those of one client [3/16 of max-live-calls]",
-       [](const std::string& text, Options& to) { return ReadInteger(text, kMostCalls, to.places.streams_per_peer); }},
+       [](const std::string& text, Options& to) {
+         return ReadInteger(text, kMostCalls, to.live_calls.streams_per_peer);
+       }},
       {"max-threads", "N", absl::StrCat("Threads [max-live-calls + ", Options::kSpareThreads, "]"),
        [](const std::string& text, Options& to) { return ReadInteger(text, 1 << 20, to.max_threads); }},
       {"compute-threads", "N",
@@ -243,11 +246,7 @@ std::vector<Setting> LogSettings() {
                                    to.log_level);
        }},
       {"log-file", "FILE", "Append the log to this file, opened anew after SIGHUP [standard error]",
-       [](const std::string& text, Options& to) -> BrokenRule {
-         to.log_file = text;
-         if (text.empty()) return "must not be empty";
-         return std::nullopt;
-       }},
+       [](const std::string& text, Options& to) { return ReadPath(text, to.log_file); }},
       {"log-calls", "RULE",
        "all; or failed calls and: errors (no other), slow:SECONDS, one in sample:N, the first rate:N a second "
        "[rate:100]",
@@ -349,7 +348,7 @@ void CheckTogether(const Options& options, std::vector<std::string>& violations)
     violations.push_back(
         Violated("port-file", options.port_file, "needs HOST:PORT in --listen; a Unix socket has no port"));
   }
-  const int threads = options.places.calls + Options::kSpareThreads;
+  const int threads = options.live_calls.calls + Options::kSpareThreads;
   if (options.max_threads < threads) {
     violations.push_back(
         Violated("max-threads", absl::StrCat(options.max_threads),
@@ -469,14 +468,14 @@ absl::StatusOr<std::variant<Options, Notice>> ParseCommandLine(int argc, const c
   std::vector<std::string> violations;
   CheckEnvironment(app, violations);
   Read(line.given, options, violations);
-  const PlaceLimits usual = PlacesFor(options.places.calls);
-  const auto or_usual = [&app](const char* flag, int usual_limit, int& limit) {
-    if (app.count(flag) == 0) limit = usual_limit;
+  const LiveCallLimits defaults = LiveCallLimitsFor(options.live_calls.calls);
+  const auto or_default = [&app](const char* flag, int default_limit, int& limit) {
+    if (app.count(flag) == 0) limit = default_limit;
   };
-  or_usual("--max-live-calls-per-peer", usual.calls_per_peer, options.places.calls_per_peer);
-  or_usual("--max-streams", usual.streams, options.places.streams);
-  or_usual("--max-streams-per-peer", usual.streams_per_peer, options.places.streams_per_peer);
-  or_usual("--max-threads", options.places.calls + Options::kSpareThreads, options.max_threads);
+  or_default("--max-live-calls-per-peer", defaults.calls_per_peer, options.live_calls.calls_per_peer);
+  or_default("--max-streams", defaults.streams, options.live_calls.streams);
+  or_default("--max-streams-per-peer", defaults.streams_per_peer, options.live_calls.streams_per_peer);
+  or_default("--max-threads", options.live_calls.calls + Options::kSpareThreads, options.max_threads);
   CheckTogether(options, violations);
   if (!violations.empty()) return absl::InvalidArgumentError(absl::StrJoin(violations, "\n"));
   return parsed;

@@ -51,13 +51,13 @@ Server::Server(const Options& options, std::shared_ptr<Auth> auth, const Log& lo
       log_(log),
       auth_(std::move(auth)),
       solver_(options.limits, 1),
-      places_(options.places),
+      live_calls_(options.live_calls),
       drain_(options.drain_grace, options.drain_timeout),
       scheduler_(options.compute_threads, options.max_waiting_calls, drain_.stops().streams),
       unread_(options.unread_limit),
       observer_(log, options.log_calls),
       service_(solver_,
-               {.places = places_,
+               {.live_calls = live_calls_,
                 .scheduler = scheduler_,
                 .unread = unread_,
                 .drain = drain_.stops(),
@@ -142,7 +142,7 @@ void Server::StartWatchdog() {
 absl::Status Server::OpenMetrics() {
   Metrics& metrics = observer_.metrics();
   Acceptor& acceptor = endpoint_->acceptor();
-  metrics.AddGauge("ricochet_live_calls", "Calls that hold a place.", [this] { return places_.live(); });
+  metrics.AddGauge("ricochet_live_calls", "Calls that hold a place.", [this] { return live_calls_.live(); });
   metrics.AddGauge("ricochet_queued_calls", "Calls that wait to compute.",
                    [this] { return static_cast<double>(scheduler_.waiting()); });
   metrics.AddGauge("ricochet_computing_calls", "Calls that compute.",
@@ -178,16 +178,16 @@ void Server::LogAddresses(const std::string& event, const Endpoint& endpoint) co
 
 void Server::ServeUntil(const Signals& signals) {
   const std::string signal = signals.WaitForStop([this] { HangUp(); });
-  log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", places_.live()}});
+  log_.Write(LogLevel::kInfo, "draining", {{"signal", signal}, {"live_calls", live_calls_.live()}});
   watchdog_.reset();
   serving_ = false;
   endpoint_->server().GetHealthCheckService()->SetServingStatus(false);
-  drain_.Run(signals, [this] { return places_.live(); });
+  drain_.Run(signals, [this] { return live_calls_.live(); });
   // Removes the files of Unix sockets.
   endpoint_->acceptor().StopAccepting();
   if (reflection_ != nullptr) reflection_->endpoint().acceptor().StopAccepting();
   if (!options_.port_file.empty()) RemovePortFile(options_.port_file, port());
-  log_.Write(LogLevel::kInfo, "stopped", {{"live_calls", places_.live()}});
+  log_.Write(LogLevel::kInfo, "stopped", {{"live_calls", live_calls_.live()}});
 }
 
 void Server::HangUp() {

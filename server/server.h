@@ -12,7 +12,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/solver.h"
-#include "server/admission/places.h"
+#include "server/admission/live_calls.h"
 #include "server/admission/scheduler.h"
 #include "server/admission/unread_watch.h"
 #include "server/admission/watchdog.h"
@@ -67,7 +67,7 @@ class Server {
   const Log& log_;
   const std::shared_ptr<Auth> auth_;  // Null unless there are tokens.
   LocalSolver solver_;                // It has no threads of its own, so that the scheduler alone decides who computes.
-  Places places_;
+  LiveCalls live_calls_;
   Drain drain_;
   Scheduler scheduler_;
   UnreadWatch unread_;

@@ -3,7 +3,6 @@
 #include <CLI/App.hpp>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -17,7 +16,6 @@
 #include "client/cli/report/audit_report.h"
 #include "client/cli/subcommands.h"
 #include "client/cli/text/number_input.h"
-#include "core/contact/reduction.h"
 
 namespace ricochet::cli {
 namespace {

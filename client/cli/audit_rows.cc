@@ -18,7 +18,6 @@
 #include "client/cli/terminal/progress.h"
 #include "client/cli/text/json_text.h"
 #include "core/audit/audit_scene.h"
-#include "core/contact/reduction.h"
 #include "proto/wire/audit.h"
 #include "proto/wire/engine.h"
 
@@ -28,7 +27,7 @@ namespace {
 // The summary names this many invalid rows.
 constexpr size_t kNamedRows = 8;
 
-// What the writers of the formats are given of a row.
+// A row as the writers of the formats take it.
 struct Row {
   int64_t index;
   int64_t line;  // Of the file.

@@ -12,7 +12,6 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
 #include "client/cli/input/make_solver.h"
-#include "client/cli/report/plan_report.h"
 #include "client/cli/subcommands.h"
 #include "client/cli/text/enum_names.h"
 

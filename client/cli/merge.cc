@@ -81,7 +81,7 @@ class Merger {
   absl::Status Write(const ShardFile& shard, v1::SweepResponse& message) {
     // Files of shards have no summaries, and the last call of a sweep ends with one.
     if (message.first_index() + message.count() == end_index_) *message.mutable_summary() = message.tallies();
-    const absl::StatusOr<SweepChunk> chunk = checker_.Take(message);
+    const absl::StatusOr<SweepChunk> chunk = checker_.Accept(message);
     if (!chunk.ok()) return Damaged(shard, chunk.status());
     progress_.Update(chunk->points_done, chunk->points_total);
     invalid_.Add(*chunk);

@@ -1,8 +1,6 @@
 #include <CLI/App.hpp>
 #include <memory>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/input/certificate_report.h"

@@ -102,7 +102,7 @@ absl::Status MakeLawOutcome(const ImpactLaw& law, const PlanarProblem& problem, 
   UnsetPhases(outcome);
   outcome.energy_change_j = solution.energy_change;
   SetBrokenLimits(reduction, solution, outcome);
-  if (detail.detail == Detail::kAll) AddAlternatives(result, outcome);
+  if (!detail.numbers_only) AddAlternatives(result, outcome);
   return Complete(
       detail, [&] { return TimelineOf(reduction, outcome.regime, solution); }, NoPath, outcome);
 }

@@ -9,7 +9,6 @@
 #define RICOCHET_CORE_ANSWER_MODEL_OUTCOMES_H_
 
 #include <cstddef>
-#include <string>
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
@@ -30,9 +29,6 @@ namespace ricochet {
 namespace pendulum {
 
 absl::Status MakeOutcome(const Problem& problem, double tolerance, const OutcomeDetail& detail, Outcome& outcome);
-
-// The path of an output in ricochet.v1.Outcome, such as "coefficients.newton"; empty if it is not in an outcome.
-std::string OutputPath(Output output);
 
 }  // namespace pendulum
 

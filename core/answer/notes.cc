@@ -80,7 +80,7 @@ void AddIdleFrictionNote(Outcome& outcome) {
                   outcome);
 }
 
-// What the outcome cannot know of an impact. The problems have the coefficients that the model has used.
+// Adds notes on what the outcome cannot know. The problems have the coefficients that the model has used.
 struct AddUndeterminedOf {
   Outcome& outcome;
 

@@ -21,16 +21,11 @@
 
 namespace ricochet {
 
-// The part of an outcome that the caller needs.
-enum class Detail {
-  kNumbers,  // A sweep needs the numbers of VisitOutcomeNumbers, the regime and the limits, finite or not.
-  kAll,
-};
-
-// The parts of an outcome that a caller wants beyond its numbers. The rules of histories hold already, but for the
+// The parts of an outcome that a caller wants. The rules of histories hold already, but for the
 // range of the impulses.
 struct OutcomeDetail {
-  Detail detail = Detail::kAll;
+  // A sweep needs the numbers of VisitOutcomeNumbers, the regime and the limits alone, finite or not.
+  bool numbers_only = false;
   absl::Span<const double> history_at_n_s;
   int64_t history_intervals = 0;
   int64_t force_intervals = 0;  // Of a history in time (finite_duration::Problem::intervals).
@@ -89,11 +84,11 @@ absl::Status AddHistory(const OutcomeDetail& detail, absl::FunctionRef<State(dou
 
 // Completes an outcome whose numbers are set: every model ends so. `timeline()` gives the events, `state_at(tau)` the
 // state at a normal impulse.
-// Errors: OUT_OF_RANGE of CheckFinite, INVALID_ARGUMENT of AddHistory. With Detail::kNumbers there are none.
+// Errors: OUT_OF_RANGE of CheckFinite, INVALID_ARGUMENT of AddHistory. With numbers_only there are none.
 template <typename Timeline>
 absl::Status Complete(const OutcomeDetail& detail, const Timeline& timeline, absl::FunctionRef<State(double)> state_at,
                       Outcome& outcome) {
-  if (detail.detail == Detail::kNumbers) return absl::OkStatus();
+  if (detail.numbers_only) return absl::OkStatus();
   outcome.timeline = timeline();
   absl::Status finite = CheckFinite(outcome);
   return finite.ok() ? AddHistory(detail, state_at, outcome) : finite;

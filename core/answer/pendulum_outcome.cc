@@ -89,49 +89,6 @@ absl::Status MakeOutcome(const Problem& problem, double tolerance, const Outcome
   return MakeOutcomeOf(problem, solved.impact, solved.relative_error(), solved.errors, At, detail, outcome);
 }
 
-std::string OutputPath(Output output) {
-  switch (output) {
-    case Output::kNewton:
-      return "coefficients.newton";
-    case Output::kPoisson:
-      return "coefficients.poisson";
-    case Output::kEnergetic:
-      return "coefficients.energetic";
-    case Output::kTangentialCoefficient:
-      return "coefficients.tangential";
-    case Output::kOmegaPlus:
-      return "rates_after_rad_s[0]";
-    case Output::kTangentialVelocityAfter:
-      return "contact_velocity_after.tangential_m_s[0]";
-    case Output::kNormalVelocityAfter:
-      return "contact_velocity_after.normal_m_s";
-    case Output::kNormalImpulseCompression:
-      return "impulse.normal_compression_n_s";
-    case Output::kNormalImpulse:
-      return "impulse.normal_total_n_s";
-    case Output::kTangentialImpulse:
-      return "impulse.tangential_n_s[0]";
-    case Output::kWorkNormalCompression:
-      return "work.normal_compression_j";
-    case Output::kWorkNormalRestitution:
-      return "work.normal_restitution_j";
-    case Output::kWorkTangentialCompression:
-      return "work.tangential_compression_j";
-    case Output::kWorkTangentialRestitution:
-      return "work.tangential_restitution_j";
-    case Output::kWorkNormal:
-      return "work.normal_total_j";
-    case Output::kWorkTangential:
-      return "work.tangential_total_j";
-    case Output::kEnergyChange:
-      return "energy_change_j";
-    case Output::kTangentialImpulseCompression:
-    case Output::kEnergeticExcess:
-      return "";
-  }
-  return "";
-}
-
 }  // namespace ricochet::pendulum
 
 namespace ricochet::first_order {

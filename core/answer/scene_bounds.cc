@@ -14,7 +14,6 @@
 #include "core/bounds/pendulum_bounds.h"
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
-#include "core/plan/planned_scene.h"
 #include "core/plan/scene_problem.h"
 
 namespace ricochet {

@@ -1,7 +1,6 @@
 #include "core/answer/scene_enclosure.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <string>
 #include <unordered_map>
@@ -164,20 +163,20 @@ class UncertainScene {
 // ---- Friction ----
 
 // The coefficients of friction, with the factor for speed enclosed over all approach speeds of the scenes.
-struct FrictionForm {
+struct AffineFriction {
   AffineInterval kinetic;
   // Unset if static friction equals kinetic friction, because two forms would not know that they are of one scene.
   std::optional<AffineInterval> static_of_its_own;
 };
 
 // `approach` is -v0. Scenes that separate do not matter.
-FrictionForm FrictionAt(const SceneBox& box, const AffineInterval& approach, SlopeParameters& parameters) {
+AffineFriction FrictionAt(const SceneBox& box, const AffineInterval& approach, SlopeParameters& parameters) {
   const Friction& low = box.low.friction;
   const Friction& high = box.high.friction;
   const bool all_approach = approach.range().lower > 0.0;
   const AffineInterval speed = all_approach ? approach : AffineInterval(Hull(AtLeast(approach.range(), 0.0), 0.0));
   const AffineInterval factor = FactorAt(low.by_speed, speed);
-  FrictionForm friction = {
+  AffineFriction friction = {
       .kinetic = factor * AffineInterval::Parameter({low.kinetic_coefficient, high.kinetic_coefficient}, parameters),
       .static_of_its_own = std::nullopt};
   if (low.static_coefficient.has_value()) {
@@ -187,11 +186,11 @@ FrictionForm FrictionAt(const SceneBox& box, const AffineInterval& approach, Slo
   return friction;
 }
 
-using ContactBox = std::variant<PlanarForm, PendulumBox>;
+using ContactBox = std::variant<AffinePlanarBox, PendulumBox>;
 
 ContactBox WithFriction(const SceneBox& box, const IntervalPendulum& pendulum, SlopeParameters& parameters) {
   if (IsEmpty(pendulum.a)) return PendulumBox{.mu = pendulum.a};
-  const FrictionForm friction = FrictionAt(box, -(pendulum.a * pendulum.omega_minus), parameters);
+  const AffineFriction friction = FrictionAt(box, -(pendulum.a * pendulum.omega_minus), parameters);
   PendulumBox contact = {.inertia = pendulum.inertia,
                          .a = pendulum.a,
                          .b = pendulum.b,
@@ -204,15 +203,15 @@ ContactBox WithFriction(const SceneBox& box, const IntervalPendulum& pendulum, S
 }
 
 ContactBox WithFriction(const SceneBox& box, const AffineContact& contact, SlopeParameters& parameters) {
-  const FrictionForm friction = FrictionAt(box, -contact.v0, parameters);
-  return PlanarForm{.wtt = contact.wtt,
-                    .wtn = contact.wtn,
-                    .wnn = contact.wnn,
-                    .u0 = contact.u0,
-                    .v0 = contact.v0,
-                    .mu = friction.kinetic,
-                    .mu_static = friction.static_of_its_own,
-                    .stick_slope = contact.stick_slope};
+  const AffineFriction friction = FrictionAt(box, -contact.v0, parameters);
+  return AffinePlanarBox{.wtt = contact.wtt,
+                         .wtn = contact.wtn,
+                         .wnn = contact.wnn,
+                         .u0 = contact.u0,
+                         .v0 = contact.v0,
+                         .mu = friction.kinetic,
+                         .mu_static = friction.static_of_its_own,
+                         .stick_slope = contact.stick_slope};
 }
 
 ContactBox ContactOf(const SceneBox& box, SlopeParameters& parameters, absl::FunctionRef<bool()> stopped) {

@@ -7,22 +7,22 @@
 #include "core/answer/notes.h"
 #include "core/base/invariant.h"
 #include "core/plan/planned_scene.h"
-#include "core/plan/straight_problem.h"
+#include "core/plan/sliding_problem.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
 namespace {
 
-bool IsStraight(const PlannedScene& planned) {
+bool IsOnePiece(const PlannedScene& planned) {
   return planned.choice.model == Model::kFrictionless || planned.choice.model == Model::kSliding;
 }
 
 template <size_t kTangential>
-absl::Status SolveStraight(const PlannedScene& planned, const sliding::Problem<kTangential>& problem,
+absl::Status SolveOnePiece(const PlannedScene& planned, const sliding::Problem<kTangential>& problem,
                            const Reduction<kTangential>& reduction, const OutcomeDetail& detail, Outcome& outcome) {
   const bool slides = planned.choice.model == Model::kSliding;
   return sliding::MakeOutcome(problem, slides ? sliding::Solve(problem) : sliding::SolveFrictionless(problem),
-                              planned.choice.straight_errors, reduction, detail, outcome);
+                              planned.choice.one_piece_errors, reduction, detail, outcome);
 }
 
 absl::Status SolveFiniteDuration(const PlannedScene& planned, const planar::Problem& contact,
@@ -47,7 +47,7 @@ absl::Status SolveContact(const Scene& scene, const PlannedScene& planned, const
       return MakeLawOutcome(scene.impact_law, problem, reduction, detail, outcome);
     case Model::kFrictionless:
     case Model::kSliding:
-      return SolveStraight(planned, SlidingProblemOf(problem), reduction, detail, outcome);
+      return SolveOnePiece(planned, SlidingProblemOf(problem), reduction, detail, outcome);
     case Model::kNone:
     case Model::kPlanar:
       return planar::MakeOutcome(problem, reduction, planned.ToleranceLeft(), detail, outcome);
@@ -68,7 +68,7 @@ absl::Status SolveContact(const Scene& scene, const PlannedScene& planned, const
 
 absl::Status SolveContact(const PlannedScene& planned, const spatial::Problem& problem,
                           const SpatialReduction& reduction, const OutcomeDetail& detail, Outcome& outcome) {
-  if (IsStraight(planned)) return SolveStraight(planned, SlidingProblemOf(problem), reduction, detail, outcome);
+  if (IsOnePiece(planned)) return SolveOnePiece(planned, SlidingProblemOf(problem), reduction, detail, outcome);
   return spatial::MakeOutcome(spatial::Solve(problem), reduction, detail, outcome);
 }
 
@@ -140,7 +140,7 @@ absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>&
   const Approach approach = ApproachOf(planned);
   AddNeglected(planned.choice.negligible, approach.speed, approach.v0, outcome);
   CompareWithTolerance(planned.demand.relative_tolerance, outcome);
-  if (detail.detail == Detail::kAll) {
+  if (!detail.numbers_only) {
     Explain(planned, outcome.plan);
     AddNotes(scene, planned, outcome);
   } else {

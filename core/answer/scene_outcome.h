@@ -19,7 +19,7 @@
 namespace ricochet {
 
 // Solves a valid scene in which CheckDemand finds nothing, into an outcome that is empty. `contact` is set if it was
-// not yet and the scene needs it. With Detail::kNumbers the outcome's plan has the model alone. Errors are those of the
+// not yet and the scene needs it. With numbers_only the outcome's plan has the model alone. Errors are those of the
 // models' MakeOutcome, and ContactOverflow.
 //
 // An impact that takes time asks `stopped` every few steps and ends soon after it says true, with CANCELLED.

@@ -35,7 +35,7 @@ struct PlanarBox {
 };
 
 // A PlanarBox to first order in its parameters.
-struct PlanarForm {
+struct AffinePlanarBox {
   AffineInterval wtt, wtn, wnn;
   AffineInterval u0, v0;
   AffineInterval mu;
@@ -63,7 +63,7 @@ Enclosure Enclose(const PendulumBox& box);
 
 // Gives the contact, or the pendulum (a of either sign), of all scenes whose parameters lie in `ranges`: the answer
 // must contain each of theirs, and must shrink with the ranges. If no scene is valid, mu may be empty.
-using ToBox = absl::FunctionRef<std::variant<PlanarForm, PendulumBox>(absl::Span<const Interval> ranges)>;
+using ToBox = absl::FunctionRef<std::variant<AffinePlanarBox, PendulumBox>(absl::Span<const Interval> ranges)>;
 
 // Encloses the scenes whose parameters lie in `ranges`, by branch and bound. `stopped` is asked before each box; once
 // it says true the answer is what the boxes until then prove.

@@ -8,8 +8,8 @@ namespace {
 
 const AffineInterval kOne = 1.0;
 
-Interval Tighter(const Interval& x, const AffineInterval& form) {
-  const Interval both = Intersect(x, form.range());
+Interval Tighter(const Interval& x, const AffineInterval& tighter) {
+  const Interval both = Intersect(x, tighter.range());
   return IsEmpty(both) ? x : both;
 }
 
@@ -27,37 +27,37 @@ struct AfterStop {
   AffineInterval drag;    // -f'
 };
 
-std::optional<Slipping> MakeSlipping(const PlanarForm& form) {
-  const bool forwards = form.u0.range().lower > 0.0;
-  const bool backwards = form.u0.range().upper < 0.0;
-  if ((!forwards && !backwards) || form.v0.range().upper >= 0.0 || form.wtt.range().lower <= 0.0) return std::nullopt;
-  if (form.mu.range().lower < 0.0) return std::nullopt;
-  const AffineInterval q = forwards ? form.wtn : -form.wtn;
-  return Slipping{.wtt = form.wtt,
+std::optional<Slipping> MakeSlipping(const AffinePlanarBox& box) {
+  const bool forwards = box.u0.range().lower > 0.0;
+  const bool backwards = box.u0.range().upper < 0.0;
+  if ((!forwards && !backwards) || box.v0.range().upper >= 0.0 || box.wtt.range().lower <= 0.0) return std::nullopt;
+  if (box.mu.range().lower < 0.0) return std::nullopt;
+  const AffineInterval q = forwards ? box.wtn : -box.wtn;
+  return Slipping{.wtt = box.wtt,
                   .q = q,
-                  .wnn = form.wnn,
-                  .slip = forwards ? form.u0 : -form.u0,
-                  .speed = -form.v0,
-                  .mu = form.mu,
-                  .first = form.wnn - form.mu * q,
-                  .braking = form.mu * form.wtt - q};
+                  .wnn = box.wnn,
+                  .slip = forwards ? box.u0 : -box.u0,
+                  .speed = -box.v0,
+                  .mu = box.mu,
+                  .first = box.wnn - box.mu * q,
+                  .braking = box.mu * box.wtt - q};
 }
 
-AffineInterval StickSlope(const PlanarForm& form) {
-  return form.stick_slope.value_or(form.wnn - Square(form.wtn) / form.wtt);
+AffineInterval StickSlope(const AffinePlanarBox& box) {
+  return box.stick_slope.value_or(box.wnn - Square(box.wtn) / box.wtt);
 }
 
 // Tells whether the W of every scene counts as one of rank two.
-bool HasRankTwo(const PlanarForm& form) {
-  return StickSlope(form).range().lower > (Interval(kRankTolerance) * form.wnn.range()).upper;
+bool HasRankTwo(const AffinePlanarBox& box) {
+  return StickSlope(box).range().lower > (Interval(kRankTolerance) * box.wnn.range()).upper;
 }
 
 // Returns nothing if some scenes stick and others do not.
-std::optional<AfterStop> FindAfterStop(const PlanarForm& form, const Slipping& slipping) {
-  const AffineInterval hold = form.mu_static.value_or(form.mu) * form.wtt;
+std::optional<AfterStop> FindAfterStop(const AffinePlanarBox& box, const Slipping& slipping) {
+  const AffineInterval hold = box.mu_static.value_or(box.mu) * box.wtt;
   std::optional<AfterStop> after;
   if ((hold - slipping.q).range().lower >= 0.0 && (hold + slipping.q).range().lower >= 0.0) {
-    after = AfterStop{StickSlope(form), slipping.q / slipping.wtt};
+    after = AfterStop{StickSlope(box), slipping.q / slipping.wtt};
   } else if ((hold + slipping.q).range().upper < 0.0) {
     after = AfterStop{slipping.wnn + slipping.mu * slipping.q, -slipping.mu};
   }
@@ -65,11 +65,12 @@ std::optional<AfterStop> FindAfterStop(const PlanarForm& form, const Slipping& s
   return after;
 }
 
-struct Forms {
+// Newton's and Poisson's coefficient, the normal impulses and the mean drag for a plastic and an elastic impact.
+struct AffineEnds {
   AffineInterval newton, poisson, plastic, elastic, drag_plastic, drag_elastic;
 };
 
-Forms Sliding(const Slipping& slipping) {
+AffineEnds Sliding(const Slipping& slipping) {
   const AffineInterval compression = slipping.speed / slipping.first;
   return {.newton = kOne,
           .poisson = kOne,
@@ -84,7 +85,7 @@ AffineInterval Blend(const Slipping& slipping, const AfterStop& after, const Aff
   return after.drag + share * (slipping.mu - after.drag);
 }
 
-Forms StopInRestitution(const Slipping& slipping, const AfterStop& after, const AffineInterval& stop_ratio) {
+AffineEnds StopInRestitution(const Slipping& slipping, const AfterStop& after, const AffineInterval& stop_ratio) {
   const AffineInterval sigma = Within(stop_ratio - kOne, {0.0, 1.0});
   const AffineInterval rho = after.second / slipping.first;
   const AffineInterval square = Square(sigma);
@@ -99,8 +100,8 @@ Forms StopInRestitution(const Slipping& slipping, const AfterStop& after, const 
           .drag_elastic = Blend(slipping, after, (sigma + newton) / (kOne + newton))};
 }
 
-Forms StopInCompression(const Slipping& slipping, const AfterStop& after, const AffineInterval& ratio,
-                        const AffineInterval& stop_ratio) {
+AffineEnds StopInCompression(const Slipping& slipping, const AfterStop& after, const AffineInterval& ratio,
+                             const AffineInterval& stop_ratio) {
   const AffineInterval m = Within(kOne - stop_ratio, {0.0, rounding::kInfinity});
   const AffineInterval h = after.second * ratio / slipping.braking;
   const AffineInterval compression_end = h + m;  // A2 tau_c/w
@@ -116,48 +117,48 @@ Forms StopInCompression(const Slipping& slipping, const AfterStop& after, const 
 }
 
 // Returns nothing if the scenes of the box may go different ways.
-std::optional<Forms> FormsOf(const PlanarForm& form, const Slipping& slipping) {
+std::optional<AffineEnds> EndsOf(const AffinePlanarBox& box, const Slipping& slipping) {
   const bool never_jams = slipping.first.range().lower > 0.0;
   if (slipping.braking.range().upper <= 0.0 && never_jams) return Sliding(slipping);
-  if (slipping.braking.range().lower <= 0.0 || !HasRankTwo(form)) return std::nullopt;
+  if (slipping.braking.range().lower <= 0.0 || !HasRankTwo(box)) return std::nullopt;
   const AffineInterval ratio = slipping.slip / slipping.speed;
   const AffineInterval stop_ratio = slipping.first / slipping.braking * ratio;  // 1 + sigma
   if (stop_ratio.range().lower >= 2.0) return Sliding(slipping);
-  const std::optional<AfterStop> after = FindAfterStop(form, slipping);
+  const std::optional<AfterStop> after = FindAfterStop(box, slipping);
   if (!after.has_value()) return std::nullopt;
   if (stop_ratio.range().upper <= 1.0) return StopInCompression(slipping, *after, ratio, stop_ratio);
   if (stop_ratio.range().lower < 1.0 || stop_ratio.range().upper > 2.0 || !never_jams) return std::nullopt;
   return StopInRestitution(slipping, *after, stop_ratio);
 }
 
-PlanarBox RangesOf(const PlanarForm& form) {
-  PlanarBox box = {.wtt = form.wtt.range(),
-                   .wtn = form.wtn.range(),
-                   .wnn = form.wnn.range(),
-                   .u0 = form.u0.range(),
-                   .v0 = form.v0.range(),
-                   .mu = AtLeast(form.mu.range(), 0.0)};
-  if (form.mu_static.has_value()) box.mu_static = AtLeast(form.mu_static->range(), 0.0);
-  if (form.stick_slope.has_value()) box.stick_slope = form.stick_slope->range();
-  return box;
+PlanarBox RangesOf(const AffinePlanarBox& box) {
+  PlanarBox ranges = {.wtt = box.wtt.range(),
+                      .wtn = box.wtn.range(),
+                      .wnn = box.wnn.range(),
+                      .u0 = box.u0.range(),
+                      .v0 = box.v0.range(),
+                      .mu = AtLeast(box.mu.range(), 0.0)};
+  if (box.mu_static.has_value()) ranges.mu_static = AtLeast(box.mu_static->range(), 0.0);
+  if (box.stick_slope.has_value()) ranges.stick_slope = box.stick_slope->range();
+  return ranges;
 }
 
 }  // namespace
 
-PlanarEnds EncloseEnds(const PlanarForm& form) {
-  PlanarEnds ends = EncloseEnds(RangesOf(form));
-  const std::optional<Slipping> slipping = MakeSlipping(form);
+PlanarEnds EncloseEnds(const AffinePlanarBox& box) {
+  PlanarEnds ends = EncloseEnds(RangesOf(box));
+  const std::optional<Slipping> slipping = MakeSlipping(box);
   if (!slipping.has_value() || IsEmpty(ends.newton)) return ends;
-  const std::optional<Forms> forms = FormsOf(form, *slipping);
-  if (!forms.has_value()) return ends;
-  const bool backwards = form.u0.range().upper < 0.0;
+  const std::optional<AffineEnds> tighter = EndsOf(box, *slipping);
+  if (!tighter.has_value()) return ends;
+  const bool backwards = box.u0.range().upper < 0.0;
   const auto along = [&](const AffineInterval& drag) { return backwards ? drag : -drag; };
-  ends.newton = Tighter(ends.newton, forms->newton);
-  ends.poisson = Tighter(ends.poisson, forms->poisson);
-  ends.normal_plastic = Tighter(ends.normal_plastic, forms->plastic);
-  ends.normal_elastic = Tighter(ends.normal_elastic, forms->elastic);
-  ends.tangential_plastic = Tighter(ends.tangential_plastic, along(forms->drag_plastic));
-  ends.tangential_elastic = Tighter(ends.tangential_elastic, along(forms->drag_elastic));
+  ends.newton = Tighter(ends.newton, tighter->newton);
+  ends.poisson = Tighter(ends.poisson, tighter->poisson);
+  ends.normal_plastic = Tighter(ends.normal_plastic, tighter->plastic);
+  ends.normal_elastic = Tighter(ends.normal_elastic, tighter->elastic);
+  ends.tangential_plastic = Tighter(ends.tangential_plastic, along(tighter->drag_plastic));
+  ends.tangential_elastic = Tighter(ends.tangential_elastic, along(tighter->drag_elastic));
   return ends;
 }
 

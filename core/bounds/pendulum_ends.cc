@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "core/bounds/planar_ends.h"
 

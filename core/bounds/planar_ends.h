@@ -22,7 +22,7 @@ struct PlanarEnds {
 };
 
 PlanarEnds EncloseEnds(const PlanarBox& box);
-PlanarEnds EncloseEnds(const PlanarForm& form);
+PlanarEnds EncloseEnds(const AffinePlanarBox& form);
 PlanarEnds EncloseEnds(const PendulumBox& box);
 
 }  // namespace ricochet

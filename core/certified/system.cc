@@ -32,7 +32,7 @@ void SetCoefficients(const Scene& scene, const EffectiveCoefficients& effective,
                      Contact<N>& contact) {
   contact.mu = exactly(effective.kinetic_friction);
   contact.mu_static = exactly(effective.static_friction);
-  contact.law = StatedBy(scene.restitution).law;
+  contact.law = LawAndCoefficientOf(scene.restitution).law;
   contact.coefficient = exactly(effective.restitution.value_or(0.0));
 }
 

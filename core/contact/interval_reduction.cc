@@ -19,11 +19,11 @@ auto ParametersBetween(const T& low, const T& high, SlopeParameters& parameters)
 
 // --- Free bodies ---
 
-struct BodyForm {
+struct AffineBody {
   AffineInterval mass, inertia, t, n, velocity_t, velocity_n, rate;
 };
 
-BodyForm Between(const PlanarBody& low, const PlanarBody& high, SlopeParameters& parameters) {
+AffineBody Between(const PlanarBody& low, const PlanarBody& high, SlopeParameters& parameters) {
   const auto between = ParametersBetween(low, high, parameters);
   return {.mass = between(&PlanarBody::mass_kg),
           .inertia = between(&PlanarBody::inertia_com_kg_m2),
@@ -34,10 +34,10 @@ BodyForm Between(const PlanarBody& low, const PlanarBody& high, SlopeParameters&
           .rate = between(&PlanarBody::rate_rad_s)};
 }
 
-AffineInterval SlipOf(const BodyForm& body) { return body.velocity_t - body.rate * body.n; }
-AffineInterval SpeedOf(const BodyForm& body) { return body.velocity_n + body.rate * body.t; }
+AffineInterval SlipOf(const AffineBody& body) { return body.velocity_t - body.rate * body.n; }
+AffineInterval SpeedOf(const AffineBody& body) { return body.velocity_n + body.rate * body.t; }
 
-AffineContact Contact(const BodyForm& body) {
+AffineContact Contact(const AffineBody& body) {
   const AffineInterval inverse_mass = AffineInterval(1.0) / body.mass;
   const AffineInterval t2 = Square(body.t);
   const AffineInterval n2 = Square(body.n);
@@ -49,7 +49,7 @@ AffineContact Contact(const BodyForm& body) {
           .v0 = SpeedOf(body)};
 }
 
-AffineContact Contact(const BodyForm& one, const BodyForm& two) {
+AffineContact Contact(const AffineBody& one, const AffineBody& two) {
   const AffineInterval inverse_mass = AffineInterval(1.0) / one.mass + AffineInterval(1.0) / two.mass;
   const AffineInterval tt = Square(one.n) / one.inertia + Square(two.n) / two.inertia;
   const AffineInterval nn = Square(one.t) / one.inertia + Square(two.t) / two.inertia;
@@ -64,12 +64,12 @@ AffineContact Contact(const BodyForm& one, const BodyForm& two) {
 
 // --- Linkages ---
 
-struct LinkForm {
+struct AffineLink {
   AffineInterval length, mass, com, inertia, theta, rate;
 };
 
-std::vector<LinkForm> Between(const Linkage& low, const Linkage& high, SlopeParameters& parameters) {
-  std::vector<LinkForm> links;
+std::vector<AffineLink> Between(const Linkage& low, const Linkage& high, SlopeParameters& parameters) {
+  std::vector<AffineLink> links;
   for (size_t i = 0; i < low.links.size(); ++i) {
     const auto between = ParametersBetween(low.links[i], high.links[i], parameters);
     links.push_back({.length = between(&Link::length_m),
@@ -85,11 +85,11 @@ std::vector<LinkForm> Between(const Linkage& low, const Linkage& high, SlopePara
 using Row = std::vector<AffineInterval>;
 
 // Returns the lower triangle; MassMatrix in core/contact/linkage_matrices.h has the formula.
-std::vector<Row> MassMatrix(const std::vector<LinkForm>& links) {
+std::vector<Row> MassMatrix(const std::vector<AffineLink>& links) {
   std::vector<Row> mass(links.size());
   AffineInterval outer_mass(0.0);
   for (size_t k = links.size(); k-- > 0;) {
-    const LinkForm& link = links[k];
+    const AffineLink& link = links[k];
     const AffineInterval moment = link.mass * link.com + outer_mass * link.length;
     for (size_t i = 0; i < k; ++i) {
       mass[k].push_back(moment * links[i].length * Cos(links[i].theta - link.theta));
@@ -106,7 +106,7 @@ struct Gram {
 };
 
 // Eliminates row by row. Once `stopped`, the lists are filled with numbers that mean nothing.
-Gram Eliminate(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> stopped) {
+Gram Eliminate(const std::vector<AffineLink>& links, absl::FunctionRef<bool()> stopped) {
   const std::vector<Row> mass = MassMatrix(links);
   Gram gram;
   std::vector<Row> scaled(links.size());  // L D
@@ -130,7 +130,7 @@ Gram Eliminate(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> sto
   return gram;
 }
 
-AffineContact Contact(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> stopped) {
+AffineContact Contact(const std::vector<AffineLink>& links, absl::FunctionRef<bool()> stopped) {
   const Gram gram = Eliminate(links, stopped);
   AffineInterval wtt(0.0), wtn(0.0), wnn(0.0), determinant(0.0), u0(0.0), v0(0.0);
   for (size_t i = 0; i < links.size(); ++i) {
@@ -210,7 +210,7 @@ AffineContact Contact(const SceneBox& box, SlopeParameters& parameters, absl::Fu
   }
   const auto& low_pair = std::get<PlanarPair>(std::get<BodyPair>(box.low.system).bodies);
   const auto& high_pair = std::get<PlanarPair>(std::get<BodyPair>(high).bodies);
-  const BodyForm body_1 = Between(low_pair.body_1, high_pair.body_1, parameters);
+  const AffineBody body_1 = Between(low_pair.body_1, high_pair.body_1, parameters);
   return Contact(body_1, Between(low_pair.body_2, high_pair.body_2, parameters));
 }
 

@@ -4,14 +4,13 @@
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <string>
 #include <utility>
 #include <variant>
 
 #include "absl/strings/str_cat.h"
 #include "core/certified/certified.h"
 #include "core/cost/certified_velocity.h"
-#include "core/cost/cost_families.h"
+#include "core/cost/methods_by_model.h"
 
 namespace ricochet {
 namespace {

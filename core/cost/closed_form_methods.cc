@@ -1,13 +1,10 @@
 // The methods of a rigid pendulum: frictionless, first order, and the closed form in plain and compensated arithmetic.
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <memory>
-#include <utility>
 #include <vector>
 
-#include "core/cost/cost_families.h"
+#include "core/cost/methods_by_model.h"
 #include "core/cost/scaled.h"
 #include "core/models/pendulum/columns.h"
 #include "core/models/pendulum/first_order.h"
@@ -59,7 +56,7 @@ class Lanes {
                             .columns = columns,
                             .regimes = absl::MakeSpan(regimes_).first(count),
                             .inadmissible = absl::MakeSpan(inadmissible_).first(count)});
-    Keep(values_);
+    DoNotOptimize(values_);
   }
 
  private:

@@ -11,10 +11,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/base/invariant.h"
-#include "core/cost/cost_families.h"
 #include "core/cost/cost_methods.h"
 #include "core/cost/cost_summary.h"
 #include "core/cost/machine.h"
+#include "core/cost/methods_by_model.h"
 #include "core/cost/stopwatch.h"
 #include "core/scene/validate.h"
 #include "ricochet/error.h"

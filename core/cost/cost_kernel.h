@@ -49,7 +49,7 @@ struct Kernel {
 
 // Makes the compiler believe that `value` is read, so that computing it cannot be left out.
 template <typename T>
-void Keep(const T& value) {
+void DoNotOptimize(const T& value) {
   asm volatile("" : : "g"(&value) : "memory");
 }
 
@@ -63,13 +63,14 @@ Kernel MakeKernel(Problem problem, Solve solve, Read read) {
   Kernel kernel;
   kernel.answer = [=](Stopped stopped) { return read(problem, solve(problem, stopped)); };
   kernel.repeat = [=](int64_t times, Stopped stopped) {
-    for (int64_t i = 0; i < times; ++i) Keep(solve(problem, stopped));
+    for (int64_t i = 0; i < times; ++i) DoNotOptimize(solve(problem, stopped));
   };
   kernel.make_batch = [=] {
     auto problems = std::make_shared<std::vector<Problem>>();
     for (int64_t i = 0; i < kCostBatch; ++i) problems->push_back(Scaled(problem, BatchFactor(i)));
     return [=](int64_t first, int64_t count, Stopped stopped) {
-      for (int64_t i = first; i < first + count; ++i) Keep(solve((*problems)[static_cast<size_t>(i)], stopped));
+      for (int64_t i = first; i < first + count; ++i)
+        DoNotOptimize(solve((*problems)[static_cast<size_t>(i)], stopped));
     };
   };
   return kernel;

@@ -6,11 +6,11 @@
 #include <variant>
 
 #include "core/answer/scene_outcome.h"
-#include "core/cost/cost_families.h"
+#include "core/cost/methods_by_model.h"
 #include "core/plan/contact_scene.h"
 #include "core/plan/planned_scene.h"
 #include "core/plan/scene_problem.h"
-#include "core/plan/straight_problem.h"
+#include "core/plan/sliding_problem.h"
 
 namespace ricochet {
 namespace {
@@ -59,7 +59,7 @@ class PlanarStudy {
   }
 
  private:
-  // What is computed from a contact that has lost its digits may have any error. The closed forms do not use it.
+  // A result computed from a contact that has lost its digits may have any error. The closed forms do not use it.
   void ClaimNothingFromContact() {
     for (StudiedMethod& method : study_.methods) {
       const Model model = method.method.model;
@@ -100,7 +100,7 @@ class PlanarStudy {
   void AddRigid(const ReferencePointer& rigid) {
     Methods& methods = study_.methods;
     if (closed_form_.has_value()) AddClosedForms(*closed_form_, physics_, rigid, methods);
-    if (Approaches()) AddStraight();
+    if (Approaches()) AddOnePiece();
     AddPlanar(problem_, physics_, rigid, closed_form_.has_value() && Approaches() ? ReductionError(problem_) : 0.0,
               methods);
     if (!Approaches()) return;
@@ -108,12 +108,12 @@ class PlanarStudy {
                  NeglectedBy(Model::kPlanar, problem_, physics_), rigid, methods);
   }
 
-  void AddStraight() {
-    const sliding::Problem<1> straight = SlidingProblemOf(problem_);
+  void AddOnePiece() {
+    const sliding::Problem<1> sliding_problem = SlidingProblemOf(problem_);
     const auto choice = [this](Model model) { return ChoosePlanar(problem_, physics_, DemandFor(model)); };
     // A pendulum has a frictionless form of its own.
-    if (!closed_form_.has_value()) AddFrictionless(straight, choice(Model::kFrictionless), study_.methods);
-    AddSliding(straight, choice(Model::kSliding), study_.methods);
+    if (!closed_form_.has_value()) AddFrictionless(sliding_problem, choice(Model::kFrictionless), study_.methods);
+    AddSliding(sliding_problem, choice(Model::kSliding), study_.methods);
   }
 
   // A scene without a spring has finite forces that do not act; the springs that it is given let them act.
@@ -140,10 +140,10 @@ StudiedScene StudySpatial(const Scene& scene, const SpatialReduction& reduction,
       .speed = SpeedOf(std::sqrt(problem.u0[0] * problem.u0[0] + problem.u0[1] * problem.u0[1]), problem.v0),
       .directions = 2};
   if (problem.v0 < 0.0) {
-    const sliding::Problem<2> straight = SlidingProblemOf(problem);
+    const sliding::Problem<2> sliding_problem = SlidingProblemOf(problem);
     const auto choice = [&problem](Model model) { return ChooseSpatial(problem, DemandFor(model)); };
-    AddFrictionless(straight, choice(Model::kFrictionless), study.methods);
-    AddSliding(straight, choice(Model::kSliding), study.methods);
+    AddFrictionless(sliding_problem, choice(Model::kFrictionless), study.methods);
+    AddSliding(sliding_problem, choice(Model::kSliding), study.methods);
   }
   AddSpatial(problem, study.truth, study.methods);
   return study;

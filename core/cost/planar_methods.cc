@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "core/answer/outcome_parts.h"
-#include "core/cost/cost_families.h"
+#include "core/cost/methods_by_model.h"
 #include "core/models/compliant/compliant.h"
 #include "core/models/laws/impact_laws.h"
 

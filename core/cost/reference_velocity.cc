@@ -53,7 +53,7 @@ NewtonCoefficientOf NewtonOf(const pendulum::Problem& problem, Stopped stopped) 
 }
 
 template <size_t kTangential>
-ReferenceVelocity Straight(const sliding::Problem<kTangential>& problem, double mu) {
+ReferenceVelocity Sliding(const sliding::Problem<kTangential>& problem, double mu) {
   // e = u0/|u0|
   std::array<Wide, kTangential> e;
   e.fill(Exactly(0.0));
@@ -122,11 +122,11 @@ ReferenceVelocity ExactRigid(const planar::Problem& problem, Stopped stopped) {
 
 template <size_t kTangential>
 ReferenceVelocity ExactSliding(const sliding::Problem<kTangential>& problem) {
-  return Straight(problem, problem.mu);
+  return Sliding(problem, problem.mu);
 }
 template <size_t kTangential>
 ReferenceVelocity ExactFrictionless(const sliding::Problem<kTangential>& problem) {
-  return Straight(problem, 0.0);
+  return Sliding(problem, 0.0);
 }
 template ReferenceVelocity ExactSliding(const sliding::Problem<1>& problem);
 template ReferenceVelocity ExactSliding(const sliding::Problem<2>& problem);

@@ -1,9 +1,7 @@
 // The spatial model at tolerances from 1e-2 to 1e-12.
 
-#include <string>
-
 #include "absl/strings/str_cat.h"
-#include "core/cost/cost_families.h"
+#include "core/cost/methods_by_model.h"
 
 namespace ricochet {
 namespace {

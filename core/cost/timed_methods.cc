@@ -1,16 +1,14 @@
 // The model of finite duration at four tolerances, and at three stiffnesses where the stiffness changes the impulses.
 
 #include <cmath>
-#include <limits>
 #include <numbers>
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
-#include "core/cost/cost_families.h"
+#include "core/cost/methods_by_model.h"
 #include "core/models/finite_duration/finite_duration.h"
 
 namespace ricochet {

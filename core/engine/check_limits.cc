@@ -1,7 +1,6 @@
 #include "core/engine/check_limits.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string>
 #include <variant>

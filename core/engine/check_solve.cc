@@ -6,7 +6,6 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/certified/certified.h"
-#include "core/contact/reduction.h"
 #include "core/plan/demand_fields.h"
 #include "core/plan/number_demand.h"
 

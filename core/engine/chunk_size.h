@@ -27,11 +27,11 @@ class ChunkSize {
   int64_t Next(Time now);
 
   // Says that the reader got that chunk at `now`.
-  void Given(Time now) { given_ = now; }
+  void Emitted(Time now) { emitted_at_ = now; }
 
  private:
   int64_t bytes_ = 0;  // Size of the last chunk; 0 before the first.
-  Time given_;
+  Time emitted_at_;
 };
 
 }  // namespace ricochet

@@ -10,82 +10,19 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "core/answer/scene_outcome.h"
 #include "core/base/stable_hash.h"
-#include "core/contact/coefficients_at_speed.h"
-#include "core/contact/reduction.h"
-#include "core/models/compliant/compliant.h"
 #include "core/models/finite_duration/finite_duration.h"
-#include "core/models/laws/impact_laws.h"
-#include "core/models/pendulum/first_order.h"
-#include "core/models/pendulum/pendulum.h"
-#include "core/models/planar/planar.h"
 #include "core/models/restitution_law.h"
-#include "core/models/sliding/sliding.h"
-#include "core/models/spatial/spatial.h"
+#include "core/plan/demand.h"
+#include "core/scene/validate.h"
 #include "ricochet/engine_info.h"
+#include "ricochet/outcome_numbers.h"
 #include "ricochet/plan.h"
+#include "ricochet/scene.h"
 
 namespace ricochet {
 namespace {
-
-// One of 64 pendulums, which together reach every law and regime.
-pendulum::Problem PendulumProbe(int i) {
-  const int step = i / 8;  // 0 ... 7
-  return {.inertia = 1.0 + 0.1 * i,
-          .a = 0.3 + 0.07 * step,
-          .b = i % 5 == 0 ? 0.0 : 1.0 - 0.25 * step,
-          .omega_minus = i == 63 ? 1.0 : -1.0 - 0.01 * i,
-          .mu = 0.05 * (i % 8),
-          .mu_static = 0.05 * (i % 8) + (i % 7 == 0 ? 0.2 : 0.0),
-          .law = static_cast<RestitutionLaw>(i % 3),
-          .coefficient = (i % 11) / 10.0};
-}
-
-// One of 16 planar contacts, or of 16 contacts in space: every law, and slip that goes on, turns, reverses and stops.
-planar::Problem PlanarProbe(int i) {
-  return {.w = {2.5, -1.5 + 0.2 * i, 2.5},
-          .u0 = i % 4 == 3 ? 0.0 : -1.0 + 0.1 * i,
-          .v0 = -1.0,
-          .mu = 0.1 * (i % 9),
-          .mu_static = 0.1 * (i % 9),
-          .law = static_cast<RestitutionLaw>(i % 3),
-          .coefficient = (i % 11) / 10.0};
-}
-
-spatial::Problem SpatialProbe(int i) {
-  return {.w11 = 1.96,
-          .w12 = 0.24,
-          .w13 = 0.6,
-          .w22 = 2.96,
-          .w23 = -0.8,
-          .w33 = 1.85,
-          .u0 = {1.0 - 0.2 * i, 0.6},
-          .v0 = -1.0,
-          .mu = 0.1 * (i % 10),
-          .mu_static = 0.1 * (i % 10),
-          .law = static_cast<RestitutionLaw>(i % 3),
-          .coefficient = (i % 11) / 10.0};
-}
-
-// One of the planar contacts with a compliance along t: some sticks end and some impacts do not.
-compliant::Problem CompliantProbe(int i) {
-  planar::Problem contact = PlanarProbe(i);
-  contact.mu = 0.1 * (i % 7);
-  contact.coefficient = 0.1 + 0.05 * i;
-  return {.contact = contact, .ratio_squared = 0.25 + 0.1 * i};
-}
-
-sliding::Problem<1> SlidingProbe(int i) {
-  return {.w = {2.5, 0.1 * i, 2.5}, .u0 = {1.0 + 0.1 * i}, .v0 = -1.0, .mu = 0.05 * i, .coefficient = i / 16.0};
-}
-
-sliding::Problem<2> SpatialSlidingProbe(int i) {
-  return {.w = {1.96, 0.24, 0.6, 2.96, -0.8, 1.85},
-          .u0 = {1.0 + 0.1 * i, 0.6},
-          .v0 = -1.0,
-          .mu = 0.01 * i,
-          .coefficient = i / 16.0};
-}
 
 // A chain of one to four links, which needs elementary functions and the factors of a matrix.
 Linkage LinkageProbe(int i) {
@@ -99,25 +36,6 @@ Linkage LinkageProbe(int i) {
                              .rate_rad_s = -1.0 - 0.1 * k});
   }
   return linkage;
-}
-
-// A contact that lasts, at a tolerance that takes few steps: each spring, rigid and compliant along the surface.
-finite_duration::Problem FiniteDurationProbe(int i) {
-  finite_duration::Problem problem;
-  problem.contact = PlanarProbe(4 * i + 1);
-  problem.contact.law = RestitutionLaw::kEnergetic;
-  problem.contact.coefficient = 0.5;
-  problem.tangential_acceleration = 0.3;
-  problem.normal_acceleration = -9.81;
-  problem.tolerance = 1e-3;
-  if (i == 0) problem.spring = LinearSpring{1e4};
-  if (i == 1) problem.spring = HertzSpring{1e6};
-  if (i == 2) problem.spring = HuntCrossleySpring{1e5, 1.3, 0.2};
-  if (i == 3) {
-    problem.spring = LinearSpring{1e4};
-    problem.ratio_squared = 0.8;
-  }
-  return problem;
 }
 
 PlanarBody PlanarBodyProbe(int i) {
@@ -159,130 +77,6 @@ std::vector<System> SystemProbes() {
   return systems;
 }
 
-// Collects the bits of answers.
-class Bits {
- public:
-  void Add(uint64_t word) { bits_.push_back(word); }
-  void Add(double value) { Add(std::bit_cast<uint64_t>(value)); }
-  template <typename Values>
-  void AddAll(const Values& values) {
-    for (const double value : values) Add(value);
-  }
-  void Add(const std::array<double, 1>& values) { AddAll(values); }
-  void Add(const std::array<double, 2>& values) { AddAll(values); }
-
-  template <typename Tangential>
-  void Add(const ImpactEnd<Tangential>& impact) {
-    Add(static_cast<uint64_t>(impact.regime));
-    AddAll(std::array{impact.newton, impact.poisson, impact.energetic, impact.tangential, impact.v1,
-                      impact.tau_compression, impact.tau1, impact.work_normal_compression,
-                      impact.work_normal_restitution, impact.work_tangential_compression,
-                      impact.work_tangential_restitution, impact.energy_change});
-    Add(impact.u1);
-    Add(impact.f1);
-  }
-
-  void Add(const pendulum::Impact& impact) {
-    Add(static_cast<uint64_t>(impact.regime));
-    AddAll(impact.values);
-  }
-
-  void Add(const laws::ImpactLawResult& result) {
-    Add(static_cast<uint64_t>(result.solutions.size()));
-    for (const laws::ImpactSolution& solution : result.solutions) {
-      AddAll(std::array{solution.f, solution.tau1, solution.u1, solution.v1, solution.energy_change});
-    }
-  }
-
-  std::vector<uint64_t> bits() && { return std::move(bits_); }
-
- private:
-  std::vector<uint64_t> bits_;
-};
-
-// Adds both arithmetics of the closed forms, each with the bound on its rounding error.
-void AddArithmetics(const planar::Problem& problem, Bits& bits) {
-  planar::RoundingErrors errors;
-  bits.Add(planar::Solve(problem, errors));
-  bits.Add(errors.Largest());
-  const planar::PlainImpact plain = planar::SolvePlain(problem);
-  if (!plain.proved) return;
-  bits.Add(plain.impact);
-  bits.Add(plain.errors.Largest());
-}
-
-void AddArithmetics(const pendulum::Problem& problem, Bits& bits) {
-  bits.Add(pendulum::Solve(problem));
-  const pendulum::PlainImpact plain = pendulum::SolvePlain(problem);
-  if (!plain.proved) return;
-  bits.Add(plain.impact);
-  bits.Add(plain.relative_error);
-}
-
-// SUNDIALS chooses its steps by roots of errors. Two libraries whose pow differs may agree on the few roots of a few
-// impacts, so that many more are compared.
-void AddFiniteDuration(Bits& bits) {
-  if (!finite_duration::IsAvailable()) return;
-  for (int i = 0; i < 4; ++i) bits.Add(finite_duration::Solve(FiniteDurationProbe(i)));
-  double base = 1e-6;
-  for (int i = 0; i < 4096; ++i, base *= 1.007) bits.Add(finite_duration::LibraryPower(base, 1.0 / (2 + i % 12)));
-}
-
-void AddLaws(Bits& bits) {
-  static_assert(std::variant_size_v<ImpactLaw> == 5, "a law that was added needs a probe");
-  for (int i = 0; i < 16; ++i) {
-    const PlanarProblem problem = PlanarProbe(i);
-    bits.Add(laws::SolveWhittaker(problem, 0.05 * i));
-    bits.Add(laws::SolveKaneLevinson(problem, 0.05 * i));
-    bits.Add(laws::SolveBrach(problem, 0.05 * i, 0.3 - 0.1 * i));
-    bits.Add(laws::SolveChatterjeeRuina(problem, 0.05 * i, 0.6 - 0.1 * i));
-  }
-}
-
-void AddPendulums(Bits& bits) {
-  for (int i = 0; i < 64; ++i) AddArithmetics(PendulumProbe(i), bits);
-}
-
-void AddFirstOrder(Bits& bits) {
-  for (int i = 0; i < 64; i += 4) {
-    if (first_order::Serves(PendulumProbe(i))) bits.Add(first_order::Solve(PendulumProbe(i)));
-  }
-}
-
-template <typename AddProbe>
-void AddSixteen(const AddProbe& add) {
-  for (int i = 0; i < 16; ++i) add(i);
-}
-
-void AddModel(Model model, Bits& bits) {
-  switch (model) {
-    case Model::kUnspecified:
-    case Model::kNone:
-      return;
-    case Model::kFrictionless:
-      return AddSixteen([&](int i) { bits.Add(sliding::SolveFrictionless(SlidingProbe(i))); });
-    case Model::kFirstOrder:
-      return AddFirstOrder(bits);
-    case Model::kSliding:
-      return AddSixteen([&](int i) {
-        bits.Add(sliding::Solve(SlidingProbe(i)));
-        bits.Add(sliding::Solve(SpatialSlidingProbe(i)));
-      });
-    case Model::kPendulum:
-      return AddPendulums(bits);
-    case Model::kPlanar:
-      return AddSixteen([&](int i) { AddArithmetics(PlanarProbe(i), bits); });
-    case Model::kSpatial:
-      return AddSixteen([&](int i) { bits.Add(spatial::Solve(SpatialProbe(i))); });
-    case Model::kCompliant:
-      return AddSixteen([&](int i) { bits.Add(compliant::Solve(CompliantProbe(i))); });
-    case Model::kFiniteDuration:
-      return AddFiniteDuration(bits);
-    case Model::kImpactLaw:
-      return AddLaws(bits);
-  }
-}
-
 // Gravity where a system may have it, and a moment about the pin of a pendulum.
 FiniteForces ForcesOn(const System& system) {
   if (std::holds_alternative<Pendulum>(system)) return PinMoment{0.3};
@@ -292,49 +86,124 @@ FiniteForces ForcesOn(const System& system) {
   return has_gravity ? FiniteForces(Gravity{0.4, -9.81}) : FiniteForces();
 }
 
-template <size_t kTangential>
-void AddReduction(const Reduction<kTangential>& reduction, Bits& bits) {
-  bits.AddAll(reduction.w);
-  bits.Add(reduction.u0);
-  bits.Add(reduction.v0);
-  bits.AddAll(reduction.response);
-  bits.AddAll(reduction.acceleration);
-  bits.AddAll(reduction.drift);
-  std::array<double, kTangential> tangential;
-  tangential.fill(0.3);
-  bits.AddAll(reduction.After(tangential, 0.7, 1e-3));
+// Rigid impacts: every definition of restitution, friction from none to much, slip that goes on, turns, reverses and
+// stops, and coefficients that depend on the speed.
+Scene RigidScene(const System& system, int i) {
+  const double mu = 0.1 * (i % 9);
+  Scene scene = {.system = system,
+                 .friction = {.kinetic_coefficient = mu},
+                 .restitution = ToRestitution(static_cast<RestitutionLaw>(i % 3), (i % 11) / 10.0)};
+  if (i % 7 == 0) scene.friction.static_coefficient = mu + 0.2;
+  if (i % 8 == 5) scene.friction.by_speed = PowerLaw{.alpha = 0.3, .exponent = 0.2};
+  if (i % 8 == 6) {
+    scene.restitution_by_speed = SpeedTable{.speed_m_s = {0.1, 1.0, 3.0}, .factor = {1.0, 0.7, 0.4}};
+  }
+  return scene;
 }
 
-// Coefficients that depend on the approach speed take powers and interpolate.
-void AddCoefficients(Bits& bits) {
-  const std::optional<SpeedDependence> power = PowerLaw{.alpha = 0.3, .exponent = 0.2};
-  const std::optional<SpeedDependence> table = SpeedTable{.speed_m_s = {0.1, 1.0, 3.0}, .factor = {1.0, 0.7, 0.4}};
-  AddSixteen([&](int i) {
-    bits.Add(FactorAt(power, 0.05 + 0.3 * i));
-    bits.Add(FactorAt(table, 0.05 + 0.3 * i));
-  });
+// Contacts that a spring along the surface holds; some sticks end and some impacts do not.
+Scene CompliantScene(const System& system, int i) {
+  return {.system = system,
+          .friction = {.kinetic_coefficient = 0.1 * (i % 7)},
+          .restitution = EnergeticCoefficient{0.1 + 0.05 * (i % 16)},
+          .compliance = Compliance{.tangential_ratio_squared = 0.25 + 0.1 * (i % 16)}};
+}
+
+// Contacts that last: each spring, rigid and compliant along the surface, under finite forces.
+Scene LastingScene(const System& system, int i) {
+  static_assert(std::variant_size_v<NormalSpring> == 4, "a spring that was added needs a probe");
+  Scene scene = CompliantScene(system, i);
+  scene.finite_forces = ForcesOn(system);
+  if (i % 2 == 0) scene.compliance->tangential_ratio_squared.reset();
+  scene.compliance->normal = LinearSpring{1e4};
+  if (i % 3 == 1) scene.compliance->normal = HertzSpring{1e6};
+  if (i % 3 != 2) return scene;
+  scene.compliance->normal = HuntCrossleySpring{1e5, 1.3, 0.2};
+  scene.restitution = std::monostate();
+  return scene;
+}
+
+Scene LawScene(const System& system, int i) {
+  static_assert(std::variant_size_v<ImpactLaw> == 5, "a law that was added needs a probe");
+  const double e = 0.05 * (i % 16);
+  const ImpactLaw laws[] = {WhittakerLaw{e}, KaneLevinsonLaw{e}, BrachLaw{e, 0.3 - 0.05 * (i % 8)},
+                            ChatterjeeRuinaLaw{e, 0.6 - 0.1 * (i % 8)}};
+  return {.system = system, .friction = {.kinetic_coefficient = 0.1 * (i % 9)}, .impact_law = laws[i % 4]};
+}
+
+class Questions {
+ public:
+  // Asks for all numbers of the impact, which are those of its system and of the model that the demand calls for. A
+  // scene that breaks a rule is not asked, nor a demand that it cannot meet.
+  void Ask(const Scene& scene, const Demand& demand) {
+    std::optional<SceneContact> contact;
+    if (!Validate(scene, RestitutionIs::kRequired, contact).empty()) return;
+    if (!CheckDemand(scene, contact, demand).empty()) return;
+    Outcome outcome;
+    const auto never = [] { return false; };
+    if (!SolveScene(scene, contact, demand, {.numbers_only = true}, never, outcome).ok()) return;
+    std::vector<uint64_t>& of_model = by_model_[static_cast<size_t>(outcome.plan.model)];
+    std::vector<uint64_t>& of_system = by_system_[scene.system.index()];
+    const auto add = [&](uint64_t word) {
+      of_model.push_back(word);
+      of_system.push_back(word);
+    };
+    add(static_cast<uint64_t>(outcome.regime));
+    VisitOutcomeNumbers(outcome,
+                        [&add](const NumberPath& /*path*/, double number) { add(std::bit_cast<uint64_t>(number)); });
+  }
+
+  std::vector<Probe> Answers() && {
+    std::vector<Probe> probes;
+    for (size_t model = 0; model < by_model_.size(); ++model) {
+      probes.push_back({absl::StrCat("model ", model), std::move(by_model_[model])});
+    }
+    for (size_t system = 0; system < by_system_.size(); ++system) {
+      probes.push_back({absl::StrCat("system ", system), std::move(by_system_[system])});
+    }
+    return probes;
+  }
+
+ private:
+  std::array<std::vector<uint64_t>, kModelCount> by_model_;
+  std::array<std::vector<uint64_t>, std::variant_size_v<System>> by_system_;
+};
+
+// SUNDIALS chooses its steps by roots of errors. Two libraries whose pow differs may agree on the few roots of a few
+// impacts, so that many more are compared.
+std::vector<uint64_t> PowersOfTheLibrary() {
+  std::vector<uint64_t> bits;
+  double base = 1e-6;
+  for (int i = 0; i < 4096 && finite_duration::IsAvailable(); ++i, base *= 1.007) {
+    bits.push_back(std::bit_cast<uint64_t>(finite_duration::LibraryPower(base, 1.0 / (2 + i % 12))));
+  }
+  return bits;
 }
 
 }  // namespace
 
 std::vector<Probe> ProbeEngine() {
-  std::vector<Probe> probes;
-  for (int model = 0; model < kModelCount; ++model) {
-    Bits bits;
-    AddModel(static_cast<Model>(model), bits);
-    probes.push_back({absl::StrCat("model ", model), std::move(bits).bits()});
-  }
-  std::array<Bits, std::variant_size_v<System>> by_system;
+  Questions questions;
+  int i = 0;
   for (const System& system : SystemProbes()) {
-    const AnyReduction any = Reduce({.system = system, .finite_forces = ForcesOn(system)});
-    std::visit([&](const auto& reduction) { AddReduction(reduction, by_system[system.index()]); }, any);
+    // Both arithmetics, and what each effect leaves when it is left out.
+    for (const double tolerance : {0.0, 1e-12, 1e-6}) {
+      questions.Ask(RigidScene(system, i), {.relative_tolerance = tolerance});
+    }
+    for (const Effect effect : {Effect::kFriction, Effect::kSlipStop, Effect::kHigherOrder}) {
+      questions.Ask(RigidScene(system, i), {.excluded = {effect}});
+    }
+    if (TangentialDirections(system) == 1) {
+      questions.Ask(CompliantScene(system, i), {});
+      questions.Ask(LawScene(system, i), {});
+      if (finite_duration::IsAvailable() && i % 4 == 1) {
+        questions.Ask(LastingScene(system, i), {.relative_tolerance = 1e-3});
+      }
+    }
+    ++i;
   }
-  for (size_t i = 0; i < by_system.size(); ++i) {
-    probes.push_back({absl::StrCat("system ", i), std::move(by_system[i]).bits()});
-  }
-  Bits coefficients;
-  AddCoefficients(coefficients);
-  probes.push_back({"coefficients", std::move(coefficients).bits()});
+  std::vector<Probe> probes = std::move(questions).Answers();
+  probes.push_back({"powers", PowersOfTheLibrary()});
   return probes;
 }
 

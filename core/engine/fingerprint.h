@@ -1,8 +1,9 @@
 // Fingerprint: a hash over what the engine answers to a fixed set of problems, so that two engines can be compared.
 //
-// Every model, impact law and system is asked. Two engines with equal fingerprints give the same bits as far as these
-// problems tell; sweeps are joined on that ground. The model of finite duration, if the build has it, depends on the C
-// library's pow, which differs from one machine to another: it is asked for itself at thousands of arguments.
+// Scenes of every system, law and model are solved as any other scene is. Two engines with equal fingerprints give the
+// same bits as far as these problems tell; sweeps are joined on that ground. The model of finite duration, if the build
+// has it, depends on the C library's pow, which differs from one machine to another: it is asked for itself at thousands
+// of arguments.
 
 #ifndef RICOCHET_CORE_ENGINE_FINGERPRINT_H_
 #define RICOCHET_CORE_ENGINE_FINGERPRINT_H_
@@ -17,7 +18,7 @@ namespace ricochet {
 
 // The answers to the problems of one kind.
 struct Probe {
-  std::string kind;  // "model 6" by the number of Model, "system 3" by the alternative of System, "coefficients"
+  std::string kind;            // "model 6" by the number of Model, "system 3" by the alternative of System, or "powers"
   std::vector<uint64_t> bits;  // Of every number of the answers, in a fixed order.
 };
 

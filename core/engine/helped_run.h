@@ -27,7 +27,7 @@ class HelpedRun {
  public:
   // Called with the mutex locked: whether one more helper would find something to do.
   using HasWork = absl::AnyInvocable<bool()>;
-  // What a helper does; see Helpers::Help. Called on several threads at once, with the mutex unlocked.
+  // The work of a helper; see Helpers::Help. Called on several threads at once, with the mutex unlocked.
   using Help = absl::AnyInvocable<void(absl::FunctionRef<bool()> gives_way)>;
 
   // Null stands for no helpers.

@@ -60,40 +60,35 @@ absl::Status Inadmissible(const Outcome& outcome) {
 constexpr std::chrono::milliseconds kFirstChunkTime(100);
 constexpr std::chrono::milliseconds kChunkTime(1000);
 
-// Sets `certificate` if the request asks for one.
-absl::Status Keep(absl::StatusOr<Certificate> certified, std::optional<Certificate>& certificate) {
+// Sets `certificate` to what `certify` proves, if the request asks for digits.
+template <typename Request, typename CertifyScene>
+absl::Status Certify(const Request& request, const CertifyScene& certify, absl::FunctionRef<bool()> stopped,
+                     std::optional<Certificate>& certificate) {
+  if (request.certified_digits == 0) return absl::OkStatus();
+  absl::StatusOr<Certificate> certified =
+      certify(request.scene, CertifiedPrecision{.digits = request.certified_digits}, stopped);
   if (!certified.ok()) return certified.status();
   certificate = *std::move(certified);
   return absl::OkStatus();
 }
-absl::Status Certify(const SolveRequest& request, absl::FunctionRef<bool()> stopped,
-                     std::optional<Certificate>& certificate) {
-  if (request.certified_digits == 0) return absl::OkStatus();
-  return Keep(CertifySolve(request.scene, {.digits = request.certified_digits}, stopped), certificate);
-}
-absl::Status Certify(const BoundsRequest& request, absl::FunctionRef<bool()> stopped,
-                     std::optional<Certificate>& certificate) {
-  if (request.certified_digits == 0) return absl::OkStatus();
-  return Keep(CertifyBounds(request.scene, {.digits = request.certified_digits}, stopped), certificate);
-}
 
 // Answers in place, because an outcome is large.
-absl::Status Answer(const SolveRequest& request, CallControl& watch, SolveResponse& response) {
+absl::Status Answer(const SolveRequest& request, CallControl& control, SolveResponse& response) {
   std::optional<SceneContact> contact;
   auto violations = Validate(request.scene, RestitutionIs::kRequired, contact);
   if (violations.empty()) violations = CheckSolve(request, contact);
   if (!violations.empty()) return InvalidRequest(violations);
-  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
-  const auto stopped = [&watch] { return watch.IsStopped(); };
+  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
+  const auto stopped = [&control] { return control.IsStopped(); };
   Outcome& outcome = response.outcome;
   const OutcomeDetail detail = {.history_at_n_s = request.history_at_n_s,
                                 .history_intervals = request.history_intervals,
                                 .force_intervals = request.force_intervals};
   const absl::Status solved = SolveScene(request.scene, contact, DemandOf(request), detail, stopped, outcome);
-  if (!solved.ok()) return watch.OrWhyEnded(solved);
+  if (!solved.ok()) return control.OrWhyEnded(solved);
   if (request.inadmissible_is_error && !outcome.admissible) return Inadmissible(outcome);
-  const absl::Status certified = Certify(request, stopped, outcome.certificate);
-  if (!certified.ok()) return watch.OrWhyEnded(certified);
+  const absl::Status certified = Certify(request, CertifySolve, stopped, outcome.certificate);
+  if (!certified.ok()) return control.OrWhyEnded(certified);
   response.engine = ThisEngine();
   return absl::OkStatus();
 }
@@ -106,30 +101,30 @@ LocalSolver::LocalSolver(const Limits& limits, int threads)
 }
 
 absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
-  CallControl watch(options);
+  CallControl control(options);
   absl::StatusOr<SolveResponse> response(absl::in_place);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status status = Answer(request, watch, *response); !status.ok()) response = std::move(status);
+  if (absl::Status status = Answer(request, control, *response); !status.ok()) response = std::move(status);
   return response;
 }
 
 absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, const CallOptions& options) const {
-  CallControl watch(options);
+  CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   std::optional<SceneContact> contact;
   std::vector<Violation> violations = Validate(request.scene, RestitutionIs::kRequired, contact);
   if (violations.empty()) violations = CheckDemand(request.scene, contact, request.demand);
   if (!violations.empty()) return InvalidRequest(violations);
-  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
+  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
   absl::StatusOr<ricochet::Plan> plan = PlanOf(request.scene, contact, ToDemand(request.demand));
   if (!plan.ok()) return plan.status();
   return PlanResponse{.plan = *std::move(plan), .engine = ThisEngine()};
 }
 
 absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& request, const CallOptions& options) const {
-  CallControl watch(options);
+  CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  const auto stopped = [&watch] { return watch.IsStopped(); };
+  const auto stopped = [&control] { return control.IsStopped(); };
   std::optional<SceneContact> contact;
   auto violations = Validate(request.scene, RestitutionIs::kOptional, contact);
   if (!std::holds_alternative<std::monostate>(request.scene.impact_law)) {
@@ -138,37 +133,37 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
   for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
   CheckDigits(request.scene, request.certified_digits, violations);
   if (!violations.empty()) return InvalidRequest(violations);
-  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
+  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
   const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene, std::move(contact), stopped);
-  if (!bounds.ok()) return watch.OrWhyEnded(bounds.status());
+  if (!bounds.ok()) return control.OrWhyEnded(bounds.status());
   BoundsResponse response{.bounds = *bounds, .engine = ThisEngine()};
-  const absl::Status certified = Certify(request, stopped, response.certificate);
-  if (!certified.ok()) return watch.OrWhyEnded(certified);
+  const absl::Status certified = Certify(request, CertifyBounds, stopped, response.certificate);
+  if (!certified.ok()) return control.OrWhyEnded(certified);
   if (request.ranges.empty()) return response;
   const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, limits_.max_boxes, stopped);
-  if (!enclosure.ok()) return watch.OrWhyEnded(enclosure.status());
+  if (!enclosure.ok()) return control.OrWhyEnded(enclosure.status());
   response.enclosure = *enclosure;
   return response;
 }
 
 absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, const CallOptions& options) const {
-  CallControl watch(options);
+  CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
-  absl::StatusOr<AuditResponse> response = AuditScene(request, [&watch] { return watch.IsStopped(); });
-  if (!response.ok()) return watch.OrWhyEnded(response.status());
+  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
+  absl::StatusOr<AuditResponse> response = AuditScene(request, [&control] { return control.IsStopped(); });
+  if (!response.ok()) return control.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;
 }
 
 absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchRequest& request,
                                                              const CallOptions& options) const {
-  CallControl watch(options);
+  CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
+  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
   absl::StatusOr<AuditBatchResponse> response =
-      RunAudits(request, HelpersOf(options), [&watch] { return watch.IsStopped(); });
-  if (!response.ok()) return watch.OrWhyEnded(response.status());
+      RunAudits(request, HelpersOf(options), [&control] { return control.IsStopped(); });
+  if (!response.ok()) return control.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;
 }
@@ -178,15 +173,15 @@ namespace {
 class LocalBatches final : public BatchSession::Worker {
  public:
   LocalBatches(std::unique_ptr<ParallelBatch> run, const Limits& limits, const CallOptions& options)
-      : run_(std::move(run)), limits_(limits), watch_(options) {}
+      : run_(std::move(run)), limits_(limits), control_(options) {}
 
   absl::Status CheckSize(size_t rows) const override { return CheckBatchSize(rows, run_->columns(), limits_); }
 
   absl::StatusOr<BatchSummary> Solve(const BatchRows& rows) override {
     if (absl::Status too_large = CheckSize(RowCount(rows)); !too_large.ok()) return too_large;
-    if (absl::Status ended = watch_.WhyEnded(); !ended.ok()) return ended;
-    absl::StatusOr<BatchSummary> summary = run_->Solve(rows, [this] { return watch_.IsStopped(); });
-    if (!summary.ok()) return watch_.OrWhyEnded(summary.status());
+    if (absl::Status ended = control_.WhyEnded(); !ended.ok()) return ended;
+    absl::StatusOr<BatchSummary> summary = run_->Solve(rows, [this] { return control_.IsStopped(); });
+    if (!summary.ok()) return control_.OrWhyEnded(summary.status());
     return summary;
   }
   const EngineInfo& engine() const override { return ThisEngine(); }
@@ -194,7 +189,7 @@ class LocalBatches final : public BatchSession::Worker {
  private:
   std::unique_ptr<ParallelBatch> run_;
   const Limits limits_;
-  CallControl watch_;
+  CallControl control_;
 };
 
 }  // namespace
@@ -222,16 +217,16 @@ SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions&
   if (absl::Status too_large = CheckPoints(made->points_total(), limits_); !too_large.ok()) {
     return SweepStream(too_large);
   }
-  auto next = [run = *std::move(made), watch = CallControl(options), size = ChunkSize(),
+  auto next = [run = *std::move(made), control = CallControl(options), size = ChunkSize(),
                is_first = true]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
     if (run.ended()) return std::nullopt;
-    watch.StartPiece(std::exchange(is_first, false) ? kFirstChunkTime : kChunkTime);
+    control.StartPiece(std::exchange(is_first, false) ? kFirstChunkTime : kChunkTime);
     const int64_t most_bytes = size.Next(std::chrono::steady_clock::now());
-    absl::StatusOr<SweepChunk> chunk = run.NextChunk([&watch] { return watch.IsStopped(); },
-                                                     [&watch] { return watch.PieceTookLongEnough(); }, most_bytes);
-    if (!chunk.ok()) return watch.OrWhyEnded(chunk.status());
+    absl::StatusOr<SweepChunk> chunk = run.NextChunk([&control] { return control.IsStopped(); },
+                                                     [&control] { return control.PieceTookLongEnough(); }, most_bytes);
+    if (!chunk.ok()) return control.OrWhyEnded(chunk.status());
     chunk->engine = ThisEngine();
-    size.Given(std::chrono::steady_clock::now());
+    size.Emitted(std::chrono::steady_clock::now());
     return chunk;
   };
   return SweepStream(std::move(next));
@@ -242,10 +237,10 @@ CostStream LocalSolver::DoCost(const CostRequest& request, const CallOptions& op
   absl::StatusOr<CostStudy> made = CostStudy::Make(request);
   if (!made.ok()) return CostStream(made.status());
   auto next = [study = *std::move(made),
-               watch = CallControl(options)]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
+               control = CallControl(options)]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
     if (study.ended()) return std::nullopt;
-    absl::StatusOr<CostChunk> chunk = study.NextChunk([&watch] { return watch.IsStopped(); });
-    if (!chunk.ok()) return watch.OrWhyEnded(chunk.status());
+    absl::StatusOr<CostChunk> chunk = study.NextChunk([&control] { return control.IsStopped(); });
+    if (!chunk.ok()) return control.OrWhyEnded(chunk.status());
     chunk->engine = ThisEngine();
     return chunk;
   };

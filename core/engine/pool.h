@@ -23,7 +23,7 @@ class Pool {
   // Gives the object back to its pool in place of destroying it. The pool must outlive it.
   struct GiveBack {
     Pool* pool = nullptr;
-    void operator()(T* object) const { pool->Keep(std::unique_ptr<T>(object)); }
+    void operator()(T* object) const { pool->PutBack(std::unique_ptr<T>(object)); }
   };
   using Taken = std::unique_ptr<T, GiveBack>;
 
@@ -41,7 +41,7 @@ class Pool {
     spare_.pop_back();
     return object;
   }
-  void Keep(std::unique_ptr<T> object) {
+  void PutBack(std::unique_ptr<T> object) {
     const std::lock_guard lock(mutex_);
     spare_.push_back(std::move(object));
   }

@@ -14,14 +14,14 @@ SweepBuffer::SweepBuffer(int64_t first, int64_t room, size_t columns, bool with_
       values_(static_cast<size_t>(room) * columns),
       regimes_(with_regimes ? static_cast<size_t>(room) : 0),
       statuses_(regimes_.size()),
-      untaken_({{0, room}}) {}
+      unclaimed_({{0, room}}) {}
 
-std::optional<SweepBuffer::Block> SweepBuffer::Take(int64_t most) {
-  if (untaken_.empty()) return std::nullopt;
-  const auto [start, length] = *untaken_.begin();
-  untaken_.erase(untaken_.begin());
+std::optional<SweepBuffer::Block> SweepBuffer::Claim(int64_t most) {
+  if (unclaimed_.empty()) return std::nullopt;
+  const auto [start, length] = *unclaimed_.begin();
+  unclaimed_.erase(unclaimed_.begin());
   const int64_t count = std::min(most, length);
-  if (count < length) untaken_.emplace(start + count, length - count);
+  if (count < length) unclaimed_.emplace(start + count, length - count);
   return Block{.first = first_ + start, .count = count};
 }
 
@@ -41,7 +41,7 @@ RowSink SweepBuffer::SinkOf(const Block& block, SweepSummary& counts) {
 
 void SweepBuffer::Finish(const Block& block, int64_t count, const SweepSummary& tallies) {
   const int64_t start = block.first - first_;
-  if (count < block.count) untaken_.emplace(start + count, block.count - count);
+  if (count < block.count) unclaimed_.emplace(start + count, block.count - count);
   computed_.emplace(start, Part{.count = count, .tallies = tallies});
   while (!computed_.empty() && computed_.begin()->first == ready_) {
     const Part& part = computed_.begin()->second;
@@ -51,8 +51,8 @@ void SweepBuffer::Finish(const Block& block, int64_t count, const SweepSummary& 
   }
 }
 
-SweepChunk SweepBuffer::Leave(SweepSummary& tallies) {
-  SweepChunk chunk = {.first_index = first_ + left_, .count = ready_ - left_};
+SweepChunk SweepBuffer::Emit(SweepSummary& tallies) {
+  SweepChunk chunk = {.first_index = first_ + emitted_, .count = ready_ - emitted_};
   if (chunk.count == room_) {
     chunk.values = std::move(values_);
     chunk.regimes = std::move(regimes_);
@@ -60,7 +60,7 @@ SweepChunk SweepBuffer::Leave(SweepSummary& tallies) {
   } else {
     CopyReady(chunk);
   }
-  left_ = ready_;
+  emitted_ = ready_;
   tallies = Joined(tallies, std::exchange(ready_tallies_, {}));
   return chunk;
 }
@@ -69,11 +69,11 @@ void SweepBuffer::CopyReady(SweepChunk& chunk) const {
   chunk.values.reserve(static_cast<size_t>(chunk.count) * columns_);
   for (size_t c = 0; c < columns_; ++c) {
     const auto column = values_.begin() + static_cast<int64_t>(c) * room_;
-    chunk.values.insert(chunk.values.end(), column + left_, column + ready_);
+    chunk.values.insert(chunk.values.end(), column + emitted_, column + ready_);
   }
   if (regimes_.empty()) return;
-  chunk.regimes.assign(regimes_.begin() + left_, regimes_.begin() + ready_);
-  chunk.statuses.assign(statuses_.begin() + left_, statuses_.begin() + ready_);
+  chunk.regimes.assign(regimes_.begin() + emitted_, regimes_.begin() + ready_);
+  chunk.statuses.assign(statuses_.begin() + emitted_, statuses_.begin() + ready_);
 }
 
 }  // namespace ricochet

@@ -17,7 +17,7 @@
 namespace ricochet {
 
 // Thread safety: one thread at a time; but several threads may ask for the sinks of different blocks that they have
-// taken, and write to them.
+// claimed, and write to them.
 class SweepBuffer {
  public:
   // Points [first, first + count) of the grid.
@@ -29,32 +29,32 @@ class SweepBuffer {
   // Room for `room` >= 1 points from `first` on, with `columns` values each, and with a regime and a status if wanted.
   SweepBuffer(int64_t first, int64_t room, size_t columns, bool with_regimes);
 
-  // Takes the first points that nobody has taken yet, at most `most` of them; nothing if there are none.
-  std::optional<Block> Take(int64_t most);
+  // Claims the first points that nobody has claimed yet, at most `most` of them; nothing if there are none.
+  std::optional<Block> Claim(int64_t most);
 
-  bool has_untaken() const { return !untaken_.empty(); }
+  bool has_unclaimed() const { return !unclaimed_.empty(); }
   bool Contains(const Block& block) const { return block.first >= first_ && block.first < first_ + room_; }
 
   // Where the results of the points of a block go; without regimes, neither they nor the statuses.
   RowSink SinkOf(const Block& block, SweepSummary& counts);
 
-  // Says that the first `count` points of a block that was taken are computed. The rest may be taken again.
+  // Says that the first `count` points of a block that was claimed are computed. The rest may be claimed again.
   void Finish(const Block& block, int64_t count, const SweepSummary& tallies);
 
   bool is_complete() const { return ready_ == room_; }
   // True if the next point to leave is computed.
-  bool has_ready() const { return ready_ > left_; }
+  bool has_ready() const { return ready_ > emitted_; }
 
   // Moves all points that can leave now into a chunk: its index, count, values, regimes and statuses. Adds them to
   // `tallies`.
-  SweepChunk Leave(SweepSummary& tallies);
+  SweepChunk Emit(SweepSummary& tallies);
 
  private:
   struct Part {
     int64_t count = 0;
     SweepSummary tallies;
   };
-  // Copies the points [left_, ready_).
+  // Copies the points [emitted_, ready_).
   void CopyReady(SweepChunk& chunk) const;
 
   const int64_t first_;
@@ -64,11 +64,11 @@ class SweepBuffer {
   std::vector<Regime> regimes_;
   std::vector<RowStatus> statuses_;
   // Points by their distance from first_.
-  std::map<int64_t, int64_t> untaken_;  // Runs of points: where each starts, and its length.
-  std::map<int64_t, Part> computed_;    // Blocks behind one that is not computed yet.
-  int64_t ready_ = 0;                   // Every point before this one is computed.
-  int64_t left_ = 0;                    // Every point before this one has left.
-  SweepSummary ready_tallies_;          // Those of the points that can leave.
+  std::map<int64_t, int64_t> unclaimed_;  // Runs of points: where each starts, and its length.
+  std::map<int64_t, Part> computed_;      // Blocks behind one that is not computed yet.
+  int64_t ready_ = 0;                     // Every point before this one is computed.
+  int64_t emitted_ = 0;                   // Every point before this one has left.
+  SweepSummary ready_tallies_;            // Those of the points that can leave.
 };
 
 }  // namespace ricochet

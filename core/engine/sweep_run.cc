@@ -58,7 +58,7 @@ class SweepRun::Impl {
                                        int64_t most_bytes);
 
  private:
-  // What a thread computes points with.
+  // A thread computes points with one of these.
   struct Points {
     explicit Points(const CheckedSweep& sweep)
         : source(sweep.grid), solver(sweep.grid.scene, AxisPaths(sweep.grid), sweep.columns, sweep.demand) {}
@@ -89,7 +89,7 @@ class SweepRun::Impl {
 
   // The functions below are called with the mutex locked.
   // Takes a block, in a new buffer if need be. Nothing if all points are taken or the buffers that may be open are.
-  std::optional<Task> Take();
+  std::optional<Task> Claim();
   size_t MostBuffers() const { return caller_is_here_ ? 2 + static_cast<size_t>(helped_.most_helpers()) / 4 : 1; }
   bool CanTake() const;
   int64_t RoomOfNextBuffer() const;
@@ -98,7 +98,7 @@ class SweepRun::Impl {
   bool CanLeave(bool is_cut) const {
     return !buffers_.empty() && (buffers_.front().is_complete() || (is_cut && buffers_.front().has_ready()));
   }
-  SweepChunk Leave();
+  SweepChunk Emit();
 
   const CheckedSweep sweep_;
   Pool<Points> points_;
@@ -155,7 +155,7 @@ absl::Status SweepRun::Impl::ComputeChunk(absl::FunctionRef<bool()> stopped, abs
   caller_is_here_ = true;
   while (points_total() > 0 && !CanLeave(is_cut)) {
     helped_.ThrowWhatAHelperMet();
-    const std::optional<Task> task = Take();
+    const std::optional<Task> task = Claim();
     helped_.AskForHelp(lock);
     if (task.has_value()) {
       const std::optional<int64_t> count = Compute(*task, *own_points_, lock, stopped, is_enough);
@@ -170,7 +170,7 @@ absl::Status SweepRun::Impl::ComputeChunk(absl::FunctionRef<bool()> stopped, abs
     is_cut = is_cut || is_enough();
     lock.lock();
   }
-  chunk = Leave();
+  chunk = Emit();
   caller_is_here_ = false;
   helped_.AskForHelp(lock);
   lock.unlock();
@@ -196,7 +196,7 @@ std::optional<int64_t> SweepRun::Impl::Compute(const Task& task, Points& points,
 void SweepRun::Impl::Help(absl::FunctionRef<bool()> gives_way) {
   const Pool<Points>::Taken points = points_.Take();
   std::unique_lock lock(helped_.mutex());
-  while (const std::optional<Task> task = Take()) {
+  while (const std::optional<Task> task = Claim()) {
     const Clock::time_point end = Clock::now() + kMostBlockTime;
     const auto stopped = [this] { return helped_.is_stopping(); };
     const auto is_enough = [end] { return Clock::now() >= end; };
@@ -208,21 +208,21 @@ void SweepRun::Impl::Help(absl::FunctionRef<bool()> gives_way) {
   }
 }
 
-std::optional<SweepRun::Impl::Task> SweepRun::Impl::Take() {
+std::optional<SweepRun::Impl::Task> SweepRun::Impl::Claim() {
   if (!CanTake()) return std::nullopt;
-  auto buffer = std::find_if(buffers_.begin(), buffers_.end(), [](const SweepBuffer& b) { return b.has_untaken(); });
+  auto buffer = std::find_if(buffers_.begin(), buffers_.end(), [](const SweepBuffer& b) { return b.has_unclaimed(); });
   if (buffer == buffers_.end()) {
     const int64_t room = RoomOfNextBuffer();
     buffer = buffers_.emplace(buffers_.end(), next_, room, sweep_.columns.size(), sweep_.with_regime);
     next_ += room;
   }
-  return Task{.buffer = &*buffer, .block = *buffer->Take(block_)};
+  return Task{.buffer = &*buffer, .block = *buffer->Claim(block_)};
 }
 
 bool SweepRun::Impl::CanTake() const {
   if (helped_.is_stopping()) return false;
   if (next_ < sweep_.end && buffers_.size() < MostBuffers()) return true;
-  return std::any_of(buffers_.begin(), buffers_.end(), [](const SweepBuffer& b) { return b.has_untaken(); });
+  return std::any_of(buffers_.begin(), buffers_.end(), [](const SweepBuffer& b) { return b.has_unclaimed(); });
 }
 
 // The first chunk is small, so that a caller soon sees something.
@@ -237,10 +237,10 @@ void SweepRun::Impl::LearnBlockTime(int64_t count, Clock::duration time) {
   if (time > 2 * kBlockTime) block_ = std::max(block_ / 2, int64_t{1});
 }
 
-SweepChunk SweepRun::Impl::Leave() {
+SweepChunk SweepRun::Impl::Emit() {
   SweepChunk chunk = {.first_index = next_};
   if (points_total() > 0) {
-    chunk = buffers_.front().Leave(summary_);
+    chunk = buffers_.front().Emit(summary_);
     if (buffers_.front().is_complete()) buffers_.pop_front();
   }
   chunk.points_done = summary_.points;

@@ -43,7 +43,7 @@ inline double ErrorOfQuotient(double quotient, double x_error, double y, double 
 
 }  // namespace internal
 
-// What errors of velocities make of the impulses in a plane, W (f, tau) = d(u, v): `determinant` is that of W.
+// The errors of the impulses in a plane by those of velocities, W (f, tau) = d(u, v): `determinant` is that of W.
 struct ImpulseErrors {
   double tau = ImpactErrors::kUnknown, f = ImpactErrors::kUnknown;
 };

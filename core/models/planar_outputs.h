@@ -4,6 +4,7 @@
 #ifndef RICOCHET_CORE_MODELS_PLANAR_OUTPUTS_H_
 #define RICOCHET_CORE_MODELS_PLANAR_OUTPUTS_H_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -14,28 +15,47 @@
 
 namespace ricochet {
 
-// The numbers of an outcome that the impact determines (ricochet/outcome_numbers.h has their paths).
+// The numbers of an outcome that the impact determines.
 enum class PlanarOutput : uint8_t {
-  kNewton,                     // coefficients.newton
-  kPoisson,                    // coefficients.poisson
-  kEnergetic,                  // coefficients.energetic
-  kTangentialCoefficient,      // coefficients.tangential
-  kTangentialVelocityAfter,    // contact_velocity_after.tangential_m_s[0]
-  kNormalVelocityAfter,        // contact_velocity_after.normal_m_s
-  kNormalImpulseCompression,   // impulse.normal_compression_n_s
-  kNormalImpulse,              // impulse.normal_total_n_s
-  kTangentialImpulse,          // impulse.tangential_n_s[0]
-  kWorkNormalCompression,      // work.normal_compression_j
-  kWorkNormalRestitution,      // work.normal_restitution_j
-  kWorkTangentialCompression,  // work.tangential_compression_j
-  kWorkTangentialRestitution,  // work.tangential_restitution_j
-  kWorkNormal,                 // work.normal_total_j
-  kWorkTangential,             // work.tangential_total_j
-  kFrictionDissipation,        // work.friction_dissipation_j
-  kEnergyChange,               // energy_change_j
-  kRelativeError,              // accuracy.relative_error of the model's own rounding.
+  kNewton,
+  kPoisson,
+  kEnergetic,
+  kTangentialCoefficient,
+  kTangentialVelocityAfter,
+  kNormalVelocityAfter,
+  kNormalImpulseCompression,
+  kNormalImpulse,
+  kTangentialImpulse,
+  kWorkNormalCompression,
+  kWorkNormalRestitution,
+  kWorkTangentialCompression,
+  kWorkTangentialRestitution,
+  kWorkNormal,
+  kWorkTangential,
+  kFrictionDissipation,
+  kEnergyChange,
+  kRelativeError,  // accuracy.relative_error of the model's own rounding
 };
-inline constexpr int kPlanarOutputCount = 18;
+
+// Their paths (ricochet/outcome_numbers.h), as far as they are columns of lanes.
+inline constexpr std::array kPlanarOutputPaths = {"coefficients.newton",
+                                                  "coefficients.poisson",
+                                                  "coefficients.energetic",
+                                                  "coefficients.tangential",
+                                                  "contact_velocity_after.tangential_m_s[0]",
+                                                  "contact_velocity_after.normal_m_s",
+                                                  "impulse.normal_compression_n_s",
+                                                  "impulse.normal_total_n_s",
+                                                  "impulse.tangential_n_s[0]",
+                                                  "work.normal_compression_j",
+                                                  "work.normal_restitution_j",
+                                                  "work.tangential_compression_j",
+                                                  "work.tangential_restitution_j",
+                                                  "work.normal_total_j",
+                                                  "work.tangential_total_j",
+                                                  "work.friction_dissipation_j",
+                                                  "energy_change_j"};
+inline constexpr int kPlanarOutputCount = kPlanarOutputPaths.size() + 1;
 
 // Problems, column by column. All columns have the length of `wtt`.
 struct PlanarProblemColumns {

@@ -4,7 +4,7 @@
 
 namespace ricochet {
 
-StatedRestitution StatedBy(const Restitution& restitution) {
+StatedRestitution LawAndCoefficientOf(const Restitution& restitution) {
   struct Reader {
     StatedRestitution operator()(std::monostate) const { return {}; }
     StatedRestitution operator()(NewtonCoefficient given) const { return {RestitutionLaw::kNewton, given.value}; }
@@ -14,7 +14,7 @@ StatedRestitution StatedBy(const Restitution& restitution) {
   return std::visit(Reader(), restitution);
 }
 
-Restitution RestitutionOf(RestitutionLaw law, double coefficient) {
+Restitution ToRestitution(RestitutionLaw law, double coefficient) {
   switch (law) {
     case RestitutionLaw::kNewton:
       return NewtonCoefficient{coefficient};

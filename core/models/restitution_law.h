@@ -21,10 +21,10 @@ struct StatedRestitution {
 };
 
 // Bounds allow a restitution that is not set; it counts as energetic with the coefficient 0.
-StatedRestitution StatedBy(const Restitution& restitution);
+StatedRestitution LawAndCoefficientOf(const Restitution& restitution);
 
 // The restitution that states this law and coefficient.
-Restitution RestitutionOf(RestitutionLaw law, double coefficient);
+Restitution ToRestitution(RestitutionLaw law, double coefficient);
 
 }  // namespace ricochet
 

@@ -22,7 +22,7 @@ struct Sizes {
 
   HWY_INLINE Sizes() : least(Lanes<V>::Fill(1.0)), most(Lanes<V>::Fill(1.0)) {}
 
-  HWY_INLINE void TakeIn(V x) {
+  HWY_INLINE void Include(V x) {
     const V size = Absolute(x);
     most = Larger(most, size);
     least = Smaller(least, Select(Lanes<V>::Fill(0.0) < size, size, Lanes<V>::Fill(1.0)));

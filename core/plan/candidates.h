@@ -12,7 +12,7 @@
 
 namespace ricochet {
 
-// What one impact takes, by order of magnitude on a processor of 2020.
+// The time that one impact takes, by order of magnitude on a processor of 2020.
 enum class CostClass {
   kLine,      // One straight path without events: 2 ns in lanes, 30 to 100 ns alone.
   kEvents,    // A closed form whose events have to be proved: 4 to 20 ns in lanes, 25 to 400 ns alone.

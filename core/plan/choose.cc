@@ -1,20 +1,17 @@
 #include "core/plan/choose.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <variant>
 
 #include "absl/functional/function_ref.h"
 #include "absl/types/span.h"
 #include "core/models/pendulum/first_order.h"
-#include "core/models/restitution_law.h"
 #include "core/models/sliding/sliding.h"
 #include "core/plan/candidates.h"
 #include "core/plan/perturbed_path.h"
-#include "core/plan/straight_problem.h"
+#include "core/plan/sliding_problem.h"
 
 namespace ricochet {
 namespace {
@@ -138,7 +135,7 @@ bool HasForces(const ContactPhysics& physics) {
          !std::holds_alternative<std::monostate>(physics.spring);
 }
 
-bool StraightPathServes(const planar::Problem& problem) {
+bool IsOnePiece(const planar::Problem& problem) {
   const bool full_rank = std::fabs(problem.w.RelativeDeterminant()) > 0x1p-40;
   const double cone = problem.mu * std::fabs(problem.w.tn) / problem.w.nn;
   return problem.coefficient <= 1.0 && (full_rank || problem.w.tt == 0.0) && 1.0 - cone >= kLeastSlope;
@@ -152,7 +149,7 @@ bool HasFullRank(const spatial::Problem& w) {
   return 1.0 + 2.0 * c12 * c13 * c23 - (c12 * c12 + c13 * c13 + c23 * c23) > 0x1p-40;
 }
 
-bool StraightPathServes(const spatial::Problem& problem) {
+bool IsOnePiece(const spatial::Problem& problem) {
   const double coupling = std::sqrt(problem.w13 * problem.w13 + problem.w23 * problem.w23);
   return problem.coefficient <= 1.0 && HasFullRank(problem) && 1.0 - problem.mu * coupling / problem.w33 >= kLeastSlope;
 }
@@ -160,23 +157,23 @@ bool StraightPathServes(const spatial::Problem& problem) {
 // The errors of the two models whose path is a straight line, for a planar or spatial problem. Each is computed when
 // it is asked for.
 template <typename Problem>
-class StraightErrors {
+class OnePieceErrors {
  public:
-  StraightErrors(const Problem& problem, bool slips) : problem_(problem), slips_(slips) {}
+  OnePieceErrors(const Problem& problem, bool slips) : problem_(problem), slips_(slips) {}
 
   double Frictionless() {
-    if (!StraightPathServes(problem_)) return kUnbounded;
+    if (!IsOnePiece(problem_)) return kUnbounded;
     frictionless_ = sliding::FrictionlessErrorsOf(SlidingProblemOf(problem_));
     return frictionless_.Largest();
   }
   double Sliding() {
-    if (!slips_ || !(problem_.mu > 0.0) || !StraightPathServes(problem_)) return kUnbounded;
+    if (!slips_ || !(problem_.mu > 0.0) || !IsOnePiece(problem_)) return kUnbounded;
     sliding_ = sliding::ErrorsOf(SlidingProblemOf(problem_));
     return sliding_.Largest();
   }
   void KeepThoseOf(Choice& choice) const {
-    if (choice.model == Model::kFrictionless) choice.straight_errors = frictionless_;
-    if (choice.model == Model::kSliding) choice.straight_errors = sliding_;
+    if (choice.model == Model::kFrictionless) choice.one_piece_errors = frictionless_;
+    if (choice.model == Model::kSliding) choice.one_piece_errors = sliding_;
   }
 
  private:
@@ -244,7 +241,7 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   if (problem.v0 >= 0.0) return HasForces(kept_physics) ? ForcedContact() : Separating();
   const planar::Problem kept = Without(excluded, problem);
   const Sizes of_all = PlanarSizes(problem, physics);
-  StraightErrors errors(kept, kept.u0 != 0.0);
+  OnePieceErrors errors(kept, kept.u0 != 0.0);
   const auto error = [&](Model model) {
     if (model == Model::kPlanar) return 0.0;
     if (model == Model::kFrictionless) return errors.Frictionless();
@@ -293,7 +290,7 @@ Choice ChooseSpatial(const spatial::Problem& problem, const Demand& demand) {
   const spatial::Problem kept = Without(excluded, problem);
   const Sizes of_all = SpatialSizes(problem);
   const Sizes sizes = excluded.IsEmpty() ? of_all : SpatialSizes(kept);
-  StraightErrors errors(kept, kept.u0[0] != 0.0 || kept.u0[1] != 0.0);
+  OnePieceErrors errors(kept, kept.u0[0] != 0.0 || kept.u0[1] != 0.0);
   const auto error = [&](Model model) {
     if (model == Model::kFrictionless) return errors.Frictionless();
     if (model == Model::kSliding) return SlidesTooFar(kept, of_all, excluded) ? kUnbounded : errors.Sliding();

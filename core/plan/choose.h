@@ -26,10 +26,10 @@ namespace ricochet {
 struct Choice {
   Model model = Model::kUnspecified;
   EffectSet left_out;
-  double neglected = 0.0;          // Sum of the sizes of all effects left out.
-  double negligible = 0.0;         // The part of `neglected` that the plan itself leaves out, and not the caller.
-  double model_tolerance = 0.0;    // Tolerance for the spatial model or that of finite duration; 0 for other models.
-  RelativeErrors straight_errors;  // The model's own errors, if it is kFrictionless or kSliding.
+  double neglected = 0.0;           // Sum of the sizes of all effects left out.
+  double negligible = 0.0;          // The part of `neglected` that the plan itself leaves out, and not the caller.
+  double model_tolerance = 0.0;     // Tolerance for the spatial model or that of finite duration; 0 for other models.
+  RelativeErrors one_piece_errors;  // The model's own errors, if it is kFrictionless or kSliding.
   std::array<Decision, kEffectCount> decisions = {};
   Sizes sizes;
 };

@@ -10,7 +10,7 @@ Scene SceneWith(const System& system, const Problem& problem) {
   Scene scene;
   scene.system = system;
   scene.friction = {.kinetic_coefficient = problem.mu, .static_coefficient = problem.mu_static};
-  scene.restitution = RestitutionOf(problem.law, problem.coefficient);
+  scene.restitution = ToRestitution(problem.law, problem.coefficient);
   return scene;
 }
 

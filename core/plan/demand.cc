@@ -178,8 +178,8 @@ std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContac
 std::vector<Violation> CheckSolvableWithout(const Scene& scene, std::optional<SceneContact>& contact,
                                             const Demand& demand) {
   std::vector<Violation> violations;
-  const EffectSet forms = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kHigherOrder};
-  const EffectSet asked = demand.excluded & forms;
+  const EffectSet limited = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kHigherOrder};
+  const EffectSet asked = demand.excluded & limited;
   if (asked.IsEmpty() || demand.excluded.Has(Effect::kFriction)) return violations;
   if (!HasClosedForm(scene)) {
     if (!contact.has_value()) contact.emplace(scene);

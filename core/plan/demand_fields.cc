@@ -1,8 +1,5 @@
 #include "core/plan/demand_fields.h"
 
-#include <string>
-#include <utility>
-
 #include "absl/strings/str_cat.h"
 
 namespace ricochet {

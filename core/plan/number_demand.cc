@@ -1,7 +1,5 @@
 #include "core/plan/number_demand.h"
 
-#include <variant>
-
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "ricochet/error.h"

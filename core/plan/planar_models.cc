@@ -56,14 +56,14 @@ HWY_INLINE auto IsSurelyValid(RestitutionLaw law, const Contact<V>& in) {
   const V zero = Fill<V>(0.0);
   const V limit = Fill<V>(kLimit);
   Sizes<V> sizes;
-  sizes.TakeIn(in.wtt);
-  sizes.TakeIn(in.wtn);
-  sizes.TakeIn(in.wnn);
-  sizes.TakeIn(in.u0);
-  sizes.TakeIn(in.v0);
-  sizes.TakeIn(in.mu);
-  sizes.TakeIn(in.mu_static);
-  sizes.TakeIn(in.coefficient);
+  sizes.Include(in.wtt);
+  sizes.Include(in.wtn);
+  sizes.Include(in.wnn);
+  sizes.Include(in.u0);
+  sizes.Include(in.v0);
+  sizes.Include(in.mu);
+  sizes.Include(in.mu_static);
+  sizes.Include(in.coefficient);
   const V most = Fill<V>(law == RestitutionLaw::kEnergetic ? 1.0 : kLimit);
   const auto has_full_rank =
       Both(Both(zero < in.wtt, zero < in.wnn), in.wtn * in.wtn < Fill<V>(0.999) * (in.wtt * in.wnn));

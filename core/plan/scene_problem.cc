@@ -32,7 +32,7 @@ namespace pendulum {
 
 Problem MakeProblem(const Scene& scene) {
   const auto& pendulum = std::get<Pendulum>(scene.system);
-  const StatedRestitution stated = StatedBy(scene.restitution);
+  const StatedRestitution stated = LawAndCoefficientOf(scene.restitution);
   return {.inertia = pendulum.inertia_kg_m2,
           .a = pendulum.a_m,
           .b = pendulum.b_m,
@@ -54,7 +54,7 @@ Problem MakeProblem(const PlanarReduction& reduction, const Restitution& restitu
           .v0 = reduction.v0,
           .mu = effective.kinetic_friction,
           .mu_static = effective.static_friction,
-          .law = StatedBy(restitution).law,
+          .law = LawAndCoefficientOf(restitution).law,
           .coefficient = effective.restitution.value_or(0.0)};
 }
 
@@ -75,7 +75,7 @@ Problem MakeProblem(const SpatialReduction& reduction, const Restitution& restit
           .v0 = reduction.v0,
           .mu = effective.kinetic_friction,
           .mu_static = effective.static_friction,
-          .law = StatedBy(restitution).law,
+          .law = LawAndCoefficientOf(restitution).law,
           .coefficient = effective.restitution.value_or(0.0),
           .tolerance = tolerance};
 }

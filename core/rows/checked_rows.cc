@@ -1,10 +1,8 @@
 #include "core/rows/checked_rows.h"
 
-#include <algorithm>
 #include <functional>
 #include <iterator>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -14,7 +14,6 @@
 #include "absl/strings/str_cat.h"
 #include "core/answer/outcome_parts.h"
 #include "core/base/nearest.h"
-#include "core/contact/reduction.h"
 #include "core/plan/number_demand.h"
 #include "core/scene/check.h"
 #include "core/scene/field.h"

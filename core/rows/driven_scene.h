@@ -36,7 +36,7 @@ class DrivenScene {
   DrivenScene(const DrivenScene&) = delete;
   DrivenScene& operator=(const DrivenScene&) = delete;
 
-  // What is wrong with the paths: see DrivenFields.
+  // Lists what is wrong with the paths: see DrivenFields.
   const std::vector<Violation>& violations() const { return fields_.violations(); }
 
   // True if driving a field can cure this violation of the base scene. IsValid decides it for each row.

@@ -4,9 +4,18 @@
 #include <limits>
 #include <string>
 
+#include "absl/strings/match.h"
+#include "absl/strings/string_view.h"
+
 namespace ricochet {
 
 static constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+// The place of the number that the field at `path` sets. An axis may drive any definition of restitution.
+static size_t NumberAt(absl::string_view path, const std::vector<std::string>& paths) {
+  if (absl::StartsWith(path, "restitution.")) return paths.size() - 1;
+  return static_cast<size_t>(std::find(paths.begin(), paths.end(), path) - paths.begin());
+}
 
 LaneColumns::LaneColumns(const SceneLanes& lanes, DrivenScene& driven)
     : lanes_(lanes),
@@ -20,44 +29,49 @@ LaneColumns::LaneColumns(const SceneLanes& lanes, DrivenScene& driven)
     columns_.varies[n] = !lanes_.TakesFields();
   }
   if (!lanes_.TakesFields()) return;
+  const std::vector<std::string> paths = SceneLanes::PathsOf(driven_.scene());
+  static_ = paths.size() - 2;
   for (size_t k = 0; k < driven_.fields().size(); ++k) {
     std::vector<size_t>& set = numbers_of_.emplace_back();
-    for (const std::string& path : driven_.fields()[k].sets()) set.push_back(*lanes_.NumberAt(path));
+    for (const std::string& path : driven_.fields()[k].sets()) set.push_back(NumberAt(path, paths));
   }
 }
 
 const SceneLanes::Columns& LaneColumns::Of(absl::Span<const FieldColumn> fields, size_t count) {
   if (!lanes_.TakesFields()) {
-    TakeScenes(fields, count);
+    SetFromScenes(fields, count);
     return columns_;
   }
-  for (size_t k = 0; k < fields.size(); ++k) TakeField(k, fields[k], count);
-  if (static_is_kinetic_) lanes_.TakeStaticFromKinetic(columns_);
+  for (size_t k = 0; k < fields.size(); ++k) SetField(k, fields[k], count);
+  if (static_is_kinetic_) {
+    columns_.of[static_] = columns_.of[static_ - 1];
+    columns_.varies[static_] = columns_.varies[static_ - 1];
+  }
   return columns_;
 }
 
-void LaneColumns::TakeField(size_t k, const FieldColumn& field, size_t count) {
+void LaneColumns::SetField(size_t k, const FieldColumn& field, size_t count) {
   for (const size_t n : numbers_of_[k]) columns_.varies[n] = field.varies;
   if (numbers_of_[k].size() == 1) {
     columns_.of[numbers_of_[k][0]] = field.values;
   } else if (field.varies) {
     derived_of_[k].reset();
-    for (size_t i = 0; i < count; ++i) TakeDerived(k, field.values[i], i, 1);
+    for (size_t i = 0; i < count; ++i) SetDerived(k, field.values[i], i, 1);
   } else if (derived_of_[k] != field.values[0]) {
     derived_of_[k] = field.values[0];
-    TakeDerived(k, field.values[0], 0, SceneLanes::kBlock);
+    SetDerived(k, field.values[0], 0, SceneLanes::kBlock);
   }
 }
 
 // Writes the numbers of a derived field, NaN if it may not have the value.
-void LaneColumns::TakeDerived(size_t k, double value, size_t from, size_t count) {
+void LaneColumns::SetDerived(size_t k, double value, size_t from, size_t count) {
   const bool is_good = driven_.Set(k, value);
   const SceneLanes::Numbers numbers = lanes_.NumbersOf(driven_.scene());
   for (const size_t n : numbers_of_[k]) std::fill_n(numbers_[n].data() + from, count, is_good ? numbers[n] : kNan);
 }
 
 // Takes the numbers of scenes whose coefficients depend on the speed. No lanes take those of a row that is not valid.
-void LaneColumns::TakeScenes(absl::Span<const FieldColumn> fields, size_t count) {
+void LaneColumns::SetFromScenes(absl::Span<const FieldColumn> fields, size_t count) {
   for (size_t i = 0; i < count; ++i) {
     driven_.SetRow(fields, i);
     SceneLanes::Numbers numbers;

@@ -27,13 +27,14 @@ class LaneColumns {
   const SceneLanes::Columns& Of(absl::Span<const FieldColumn> fields, size_t count);
 
  private:
-  void TakeField(size_t k, const FieldColumn& field, size_t count);
-  void TakeDerived(size_t k, double value, size_t from, size_t count);
-  void TakeScenes(absl::Span<const FieldColumn> fields, size_t count);
+  void SetField(size_t k, const FieldColumn& field, size_t count);
+  void SetDerived(size_t k, double value, size_t from, size_t count);
+  void SetFromScenes(absl::Span<const FieldColumn> fields, size_t count);
 
   const SceneLanes& lanes_;
   DrivenScene& driven_;
   bool static_is_kinetic_ = false;                 // The scene states no static coefficient.
+  size_t static_ = 0;                              // The place of static friction among the numbers.
   std::vector<std::vector<size_t>> numbers_of_;    // Those that each field sets: one, or several if it is derived.
   std::vector<std::optional<double>> derived_of_;  // The value of a derived field that fills its columns, if it is one.
   SceneLanes::Columns columns_;

@@ -16,33 +16,19 @@ namespace {
 using pendulum::Output;
 using pendulum::Problem;
 
-constexpr const char* kPaths[] = {"pendulum.inertia_kg_m2",
-                                  "pendulum.a_m",
-                                  "pendulum.b_m",
-                                  "pendulum.omega_minus_rad_s",
-                                  "friction.kinetic_coefficient",
-                                  "friction.static_coefficient"};
-
-std::optional<Output> OutputAt(const std::string& path) {
-  for (int i = 0; i < pendulum::kOutputCount; ++i) {
-    const auto output = static_cast<Output>(i);
-    if (!path.empty() && pendulum::OutputPath(output) == path) return output;
-  }
-  return std::nullopt;
-}
-
 // True if every rule of a scene holds for sure. Any other problem is left to the checks of a scene.
 bool IsSurelyValid(const Problem& x) {
   return AreModerate({x.inertia, x.a, x.b, x.omega_minus, x.mu, x.mu_static, x.coefficient}, kMostInLanes) &&
          x.inertia > 0.0 && x.a > 0.0 && KeepCoefficientRules(x.mu, x.mu_static, x.law, x.coefficient);
 }
 
-enum class Way { kClosedForm, kFirstOrder, kLeft };
+// How the lanes answer a problem.
+enum class Answer { kClosedForm, kFirstOrder, kNone };
 
 // The forms of first order are those without friction, too.
-Way WayOf(Model model) {
-  if (model == Model::kUnspecified) return Way::kLeft;
-  return model == Model::kPendulum || model == Model::kNone ? Way::kClosedForm : Way::kFirstOrder;
+Answer AnswerBy(Model model) {
+  if (model == Model::kUnspecified) return Answer::kNone;
+  return model == Model::kPendulum || model == Model::kNone ? Answer::kClosedForm : Answer::kFirstOrder;
 }
 
 }  // namespace
@@ -56,10 +42,7 @@ std::unique_ptr<SceneLanes> PendulumLanes::Make(const Scene& scene, absl::Span<c
 }
 
 PendulumLanes::PendulumLanes(const Scene& scene, const Demand& demand)
-    : SceneLanes(kPaths),
-      demand_(demand),
-      takes_fields_(IsPlain(scene)),
-      problems_(pendulum::MakeProblem(scene).law, kBlock) {}
+    : demand_(demand), takes_fields_(IsPlain(scene)), problems_(pendulum::MakeProblem(scene).law, kBlock) {}
 
 // Returns false if the closed form does not give every column.
 bool PendulumLanes::SetColumns(absl::Span<const std::string> paths) {
@@ -68,7 +51,7 @@ bool PendulumLanes::SetColumns(absl::Span<const std::string> paths) {
       dissipation_ = c;
     } else if (paths[c] == "work.tangential_spring_j") {
       spring_ = c;
-    } else if (const std::optional<Output> output = OutputAt(paths[c])) {
+    } else if (const auto output = OutputAt<Output>(pendulum::kOutputPaths, paths[c])) {
       outputs_.push_back(*output);
       column_of_.emplace_back(c);
     } else {
@@ -93,7 +76,7 @@ SceneLanes::Numbers PendulumLanes::NumbersOf(const Scene& scene) const {
           problem.mu,      problem.mu_static, problem.coefficient};
 }
 
-void PendulumLanes::TakeIn(const Columns& columns, size_t count) {
+void PendulumLanes::SetProblems(const Columns& columns, size_t count) {
   for (size_t n = 0; n < kNumberCount; ++n) {
     double* const to = problems_.numbers(n);
     if (columns.varies[n]) {
@@ -158,21 +141,21 @@ bool PendulumLanes::PlanAll(size_t count, Block& block) {
   return all;
 }
 
-// Solves each run of problems that go the same way. Returns true if none is left and all numbers are finite.
+// Solves each run of problems that are answered alike. Returns true if none is left and all numbers are finite.
 bool PendulumLanes::SolveRuns(size_t count, Block& block) {
   bool is_complete = true;
   for (size_t first = 0, end = 0; first < count; first = end) {
-    const Way way = WayOf(block.models[first]);
-    while (end < count && WayOf(block.models[end]) == way) ++end;
-    const bool has_numbers = way == Way::kClosedForm && SolveByClosedForm(first, end - first, block);
-    if (way == Way::kFirstOrder) SolveToFirstOrder(first, end - first, block);
-    is_complete = is_complete && way != Way::kLeft && (has_numbers || AreFinite(places_, first, end - first));
+    const Answer answer = AnswerBy(block.models[first]);
+    while (end < count && AnswerBy(block.models[end]) == answer) ++end;
+    const bool has_numbers = answer == Answer::kClosedForm && SolveByClosedForm(first, end - first, block);
+    if (answer == Answer::kFirstOrder) SolveToFirstOrder(first, end - first, block);
+    is_complete = is_complete && answer != Answer::kNone && (has_numbers || AreFinite(places_, first, end - first));
   }
   return is_complete;
 }
 
 void PendulumLanes::Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) {
-  TakeIn(columns, count);
+  SetProblems(columns, count);
   for (size_t c = 0; c < outputs_.size(); ++c) {
     places_[c] = column_of_[c].has_value() ? places[*column_of_[c]] : friction_work_.data();
   }

@@ -31,11 +31,11 @@ class PendulumLanes : public SceneLanes {
   void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) override;
 
  private:
-  enum Number { kInertia, kA, kB, kOmega, kMu, kMuStatic, kCoefficient, kNumberCount };
+  static constexpr size_t kNumberCount = pendulum::ProblemColumns::kNumbers;
 
   PendulumLanes(const Scene& scene, const Demand& demand);
   bool SetColumns(absl::Span<const std::string> paths);
-  void TakeIn(const Columns& columns, size_t count);
+  void SetProblems(const Columns& columns, size_t count);
   Model Plan(size_t i);
   bool PlanAll(size_t count, Block& block);
   bool SolveByClosedForm(size_t first, size_t count, Block& block);

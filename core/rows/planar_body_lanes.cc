@@ -6,35 +6,10 @@
 
 #include "absl/strings/str_cat.h"
 #include "core/contact/planar_body_share.h"
-#include "core/models/restitution_law.h"
 #include "core/rows/planar_lanes.h"
 
 namespace ricochet {
 namespace {
-
-enum BodyNumber { kMass, kInertia, kOffsetT, kOffsetN, kVelocityT, kVelocityN, kRate, kBodyNumbers };
-
-constexpr const char* kBodyPaths[] = {
-    "planar_body.mass_kg",    "planar_body.inertia_com_kg_m2", "planar_body.offset_t_m",
-    "planar_body.offset_n_m", "planar_body.velocity_t_m_s",    "planar_body.velocity_n_m_s",
-    "planar_body.rate_rad_s", "friction.kinetic_coefficient",  "friction.static_coefficient"};
-
-constexpr const char* kPairPaths[] = {"body_pair.planar.body_1.mass_kg",
-                                      "body_pair.planar.body_1.inertia_com_kg_m2",
-                                      "body_pair.planar.body_1.offset_t_m",
-                                      "body_pair.planar.body_1.offset_n_m",
-                                      "body_pair.planar.body_1.velocity_t_m_s",
-                                      "body_pair.planar.body_1.velocity_n_m_s",
-                                      "body_pair.planar.body_1.rate_rad_s",
-                                      "body_pair.planar.body_2.mass_kg",
-                                      "body_pair.planar.body_2.inertia_com_kg_m2",
-                                      "body_pair.planar.body_2.offset_t_m",
-                                      "body_pair.planar.body_2.offset_n_m",
-                                      "body_pair.planar.body_2.velocity_t_m_s",
-                                      "body_pair.planar.body_2.velocity_n_m_s",
-                                      "body_pair.planar.body_2.rate_rad_s",
-                                      "friction.kinetic_coefficient",
-                                      "friction.static_coefficient"};
 
 constexpr const char* kComponents[] = {"linear_m_s[0]", "linear_m_s[1]", "angular_rad_s[0]"};
 
@@ -51,14 +26,11 @@ std::vector<const PlanarBody*> BodiesOf(const Scene& scene) {
 double SideOf(size_t body) { return body == 0 ? 1.0 : -1.0; }
 
 PlanarBody BodyAt(const SceneLanes::Columns& columns, size_t body, size_t i) {
-  const double* const* const of = columns.of.data() + body * kBodyNumbers;
-  return {.mass_kg = of[kMass][i],
-          .inertia_com_kg_m2 = of[kInertia][i],
-          .offset_t_m = of[kOffsetT][i],
-          .offset_n_m = of[kOffsetN][i],
-          .velocity_t_m_s = of[kVelocityT][i],
-          .velocity_n_m_s = of[kVelocityN][i],
-          .rate_rad_s = of[kRate][i]};
+  PlanarBody one;
+  const double* const* next = columns.of.data() + body * kNumbersOf<PlanarBody>;
+  const auto set = [&](const NumberPath& /*path*/, double& number, NumberRule /*rule*/) { number = (*next++)[i]; };
+  numbers::VisitPart(one, "", set);
+  return one;
 }
 
 bool IsPositive(double number) { return number > 0.0 && number <= std::numeric_limits<double>::max(); }
@@ -78,8 +50,7 @@ std::unique_ptr<SceneLanes> PlanarBodyLanes::Make(const Scene& scene, absl::Span
   return lanes;
 }
 
-PlanarBodyLanes::PlanarBodyLanes(size_t bodies)
-    : SceneLanes(bodies == 1 ? absl::MakeConstSpan(kBodyPaths) : absl::MakeConstSpan(kPairPaths)), bodies_(bodies) {}
+PlanarBodyLanes::PlanarBodyLanes(size_t bodies) : bodies_(bodies) {}
 
 void PlanarBodyLanes::SetColumns(absl::Span<const std::string> columns) {
   for (size_t c = 0; c < columns.size(); ++c) {
@@ -111,25 +82,8 @@ size_t PlanarBodyLanes::ContactColumn(const char* path) {
   return number;
 }
 
-SceneLanes::Numbers PlanarBodyLanes::NumbersOf(const Scene& scene) const {
-  Numbers numbers = {};
-  double* next = numbers.data();
-  for (const PlanarBody* body : BodiesOf(scene)) {
-    for (const double number : {body->mass_kg, body->inertia_com_kg_m2, body->offset_t_m, body->offset_n_m,
-                                body->velocity_t_m_s, body->velocity_n_m_s, body->rate_rad_s}) {
-      *next++ = number;
-    }
-  }
-  const double mu = scene.friction.kinetic_coefficient;
-  *next++ = mu;
-  *next++ = scene.friction.static_coefficient.value_or(mu);
-  *next = StatedBy(scene.restitution).coefficient;
-  return numbers;
-}
-
-// Computes W and the contact velocities as core/contact/reduction.cc does, but for a W that may have rank one, which
-// the lanes of the contact leave to its scene. A body that breaks a rule of its own gets a W that is not a number, so
-// that its scene is left, too.
+// Computes W and the contact velocities as core/contact/reduction.cc does. Rows whose W may have rank one are not
+// solved here, nor those with an invalid body, for which W is NaN: the caller solves them one by one.
 void PlanarBodyLanes::Reduce(const Columns& columns, size_t count) {
   contact_ = {};
   for (size_t body = 0; body < bodies_; ++body) {
@@ -155,7 +109,7 @@ SceneLanes::Columns PlanarBodyLanes::ContactOf(const Columns& columns) const {
     contact.of[n] = number->data();
     contact.varies[n++] = true;
   }
-  for (size_t from = bodies_ * kBodyNumbers; n < PlanarLanes::kNumberCount; ++n, ++from) {
+  for (size_t from = bodies_ * kNumbersOf<PlanarBody>; n < PlanarLanes::kNumberCount; ++n, ++from) {
     contact.of[n] = columns.of[from];
     contact.varies[n] = columns.varies[from];
   }
@@ -164,15 +118,16 @@ SceneLanes::Columns PlanarBodyLanes::ContactOf(const Columns& columns) const {
 
 // The sums are those of Reduction::After.
 void PlanarBodyLanes::SetAfter(const AfterColumn& after, const Columns& columns, size_t count, double* to) const {
-  const double* const before = columns.of[after.body * kBodyNumbers + kVelocityT + after.component];
   const double* const tangential = contact_places_[tangential_impulse_];
   const double* const normal = contact_places_[normal_impulse_];
   const double side = SideOf(after.body);
   for (size_t i = 0; i < count; ++i) {
-    const std::array<double, 6> response = ResponseOf(BodyAt(columns, after.body, i), side);
+    const PlanarBody body = BodyAt(columns, after.body, i);
+    const std::array<double, 3> before = {body.velocity_t_m_s, body.velocity_n_m_s, body.rate_rad_s};
+    const std::array<double, 6> response = ResponseOf(body, side);
     double change = response[2 * after.component + 1] * normal[i];
     change += response[2 * after.component] * tangential[i];
-    to[i] = before[i] + change;
+    to[i] = before[after.component] + change;
   }
 }
 

@@ -23,7 +23,6 @@ class PlanarBodyLanes : public SceneLanes {
   static std::unique_ptr<SceneLanes> Make(const Scene& scene, absl::Span<const std::string> columns,
                                           const Demand& demand);
 
-  Numbers NumbersOf(const Scene& scene) const override;
   void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) override;
 
  private:

@@ -1,9 +1,7 @@
 #include "core/rows/planar_lanes.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <utility>
 #include <variant>
@@ -19,38 +17,6 @@
 
 namespace ricochet {
 namespace {
-
-constexpr const char* kPaths[] = {"planar_contact.w_tt_per_kg", "planar_contact.w_tn_per_kg",
-                                  "planar_contact.w_nn_per_kg", "planar_contact.tangential_m_s",
-                                  "planar_contact.normal_m_s",  "friction.kinetic_coefficient",
-                                  "friction.static_coefficient"};
-
-constexpr std::pair<const char*, PlanarOutput> kOutputs[] = {
-    {"coefficients.newton", PlanarOutput::kNewton},
-    {"coefficients.poisson", PlanarOutput::kPoisson},
-    {"coefficients.energetic", PlanarOutput::kEnergetic},
-    {"coefficients.tangential", PlanarOutput::kTangentialCoefficient},
-    {"contact_velocity_after.tangential_m_s[0]", PlanarOutput::kTangentialVelocityAfter},
-    {"contact_velocity_after.normal_m_s", PlanarOutput::kNormalVelocityAfter},
-    {"impulse.normal_compression_n_s", PlanarOutput::kNormalImpulseCompression},
-    {"impulse.normal_total_n_s", PlanarOutput::kNormalImpulse},
-    {"impulse.tangential_n_s[0]", PlanarOutput::kTangentialImpulse},
-    {"work.normal_compression_j", PlanarOutput::kWorkNormalCompression},
-    {"work.normal_restitution_j", PlanarOutput::kWorkNormalRestitution},
-    {"work.tangential_compression_j", PlanarOutput::kWorkTangentialCompression},
-    {"work.tangential_restitution_j", PlanarOutput::kWorkTangentialRestitution},
-    {"work.normal_total_j", PlanarOutput::kWorkNormal},
-    {"work.tangential_total_j", PlanarOutput::kWorkTangential},
-    {"work.friction_dissipation_j", PlanarOutput::kFrictionDissipation},
-    {"energy_change_j", PlanarOutput::kEnergyChange},
-};
-
-std::optional<PlanarOutput> OutputAt(const std::string& path) {
-  for (const auto& [name, output] : kOutputs) {
-    if (path == name) return output;
-  }
-  return std::nullopt;
-}
 
 // True if every rule of the scene holds for sure and W has full rank. Any other problem is left to the checks of a
 // scene.
@@ -73,29 +39,15 @@ std::unique_ptr<SceneLanes> PlanarLanes::Make(const Scene& scene, absl::Span<con
   if (!demand.IsToleranceAlone()) return nullptr;
   std::vector<PlanarOutput> outputs;
   for (const std::string& column : columns) {
-    const std::optional<PlanarOutput> output = OutputAt(column);
+    const auto output = OutputAt<PlanarOutput>(kPlanarOutputPaths, column);
     if (!output.has_value()) return nullptr;
     outputs.push_back(*output);
   }
   return std::unique_ptr<SceneLanes>(new PlanarLanes(scene, std::move(outputs), demand.relative_tolerance));
 }
 
-SceneLanes::Numbers PlanarLanes::NumbersOf(const Scene& scene) const {
-  const auto& contact = std::get<PlanarContact>(scene.system);
-  const double mu = scene.friction.kinetic_coefficient;
-  return {contact.w_tt_per_kg,
-          contact.w_tn_per_kg,
-          contact.w_nn_per_kg,
-          contact.tangential_m_s,
-          contact.normal_m_s,
-          mu,
-          scene.friction.static_coefficient.value_or(mu),
-          StatedBy(scene.restitution).coefficient};
-}
-
 PlanarLanes::PlanarLanes(const Scene& scene, std::vector<PlanarOutput> outputs, double tolerance)
-    : SceneLanes(kPaths),
-      law_(StatedBy(scene.restitution).law),
+    : law_(LawAndCoefficientOf(scene.restitution).law),
       tolerance_(tolerance),
       outputs_(std::move(outputs)),
       answers_(outputs_.size()) {}

@@ -22,14 +22,13 @@ namespace ricochet {
 
 class PlanarLanes : public SceneLanes {
  public:
-  // The numbers of a contact, in the order of their columns.
+  // The numbers of a contact, in the order of their columns (SceneLanes::Numbers).
   enum Number { kWtt, kWtn, kWnn, kU0, kV0, kMu, kMuStatic, kCoefficient, kNumberCount };
 
   // Returns null if the planar models do not give every column, or if the demand is more than a tolerance.
   static std::unique_ptr<SceneLanes> Make(const Scene& scene, absl::Span<const std::string> columns,
                                           const Demand& demand);
 
-  Numbers NumbersOf(const Scene& scene) const override;
   void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) override;
 
  private:

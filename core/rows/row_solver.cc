@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "core/answer/scene_outcome.h"
-#include "core/contact/reduction.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
 
@@ -74,7 +73,7 @@ std::optional<size_t> RowSolver::SolveBlock(size_t count, absl::FunctionRef<bool
   return count;
 }
 
-// Those rows that the lanes leave go by their scenes. Returns false if it was stopped.
+// Rows that the lanes leave go by their scenes. Returns false if it was stopped.
 bool RowSolver::SolveInLanes(size_t count, absl::FunctionRef<bool()> stopped) {
   lanes_->Solve(lane_columns_->Of(fields_, count), count, places_, block_);
   std::transform(block_.inadmissible.begin(), block_.inadmissible.begin() + count, statuses_.begin(),
@@ -136,8 +135,7 @@ bool RowSolver::Begin(size_t i, absl::FunctionRef<bool()> stopped) {
 bool RowSolver::SolvePlannedRow(size_t i, std::optional<SceneContact>& contact, const PlannedScene& planned,
                                 absl::FunctionRef<bool()> stopped) {
   Outcome outcome;
-  const absl::Status solved =
-      SolvePlanned(driven_.scene(), contact, planned, {.detail = Detail::kNumbers}, stopped, outcome);
+  const absl::Status solved = SolvePlanned(driven_.scene(), contact, planned, {.numbers_only = true}, stopped, outcome);
   if (absl::IsCancelled(solved)) return false;
   if (solved.ok()) {
     SetRow(i, outcome);

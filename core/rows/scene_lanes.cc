@@ -1,16 +1,32 @@
 #include "core/rows/scene_lanes.h"
 
-#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
 
-#include "absl/strings/match.h"
 #include "core/rows/pendulum_lanes.h"
 #include "core/rows/planar_body_lanes.h"
 #include "core/rows/planar_lanes.h"
 
 namespace ricochet {
+namespace {
+
+// The system and the coefficients of friction and restitution, and nothing else.
+Scene PlainPart(const Scene& scene) {
+  return {.system = scene.system,
+          .friction = {.kinetic_coefficient = scene.friction.kinetic_coefficient,
+                       .static_coefficient = scene.friction.static_coefficient},
+          .restitution = scene.restitution};
+}
+
+// The part of a scene that has the numbers of the lanes: it states static friction, too.
+Scene NumberedPart(const Scene& scene) {
+  Scene part = PlainPart(scene);
+  part.friction.static_coefficient = scene.friction.static_coefficient.value_or(scene.friction.kinetic_coefficient);
+  return part;
+}
+
+}  // namespace
 
 std::unique_ptr<SceneLanes> SceneLanes::Make(const Scene& scene, absl::Span<const std::string> columns,
                                              const Demand& demand) {
@@ -19,11 +35,21 @@ std::unique_ptr<SceneLanes> SceneLanes::Make(const Scene& scene, absl::Span<cons
   return PlanarBodyLanes::Make(scene, columns, demand);
 }
 
-std::optional<size_t> SceneLanes::NumberAt(const std::string& path) const {
-  if (absl::StartsWith(path, "restitution.")) return paths_.size();
-  const auto found = std::find(paths_.begin(), paths_.end(), path);
-  if (found == paths_.end()) return std::nullopt;
-  return static_cast<size_t>(found - paths_.begin());
+std::vector<std::string> SceneLanes::PathsOf(const Scene& scene) {
+  std::vector<std::string> paths;
+  const Scene part = NumberedPart(scene);
+  VisitNumbers(
+      part, [&paths](const NumberPath& path, double /*number*/, NumberRule /*rule*/) { paths.push_back(path.Text()); });
+  return paths;
+}
+
+SceneLanes::Numbers SceneLanes::NumbersOf(const Scene& scene) const {
+  Numbers numbers = {};
+  const Scene part = NumberedPart(scene);
+  VisitNumbers(part, [next = numbers.data()](const NumberPath& /*path*/, double number, NumberRule /*rule*/) mutable {
+    *next++ = number;
+  });
+  return numbers;
 }
 
 bool KeepCoefficientRules(double mu, double mu_static, RestitutionLaw law, double coefficient) {
@@ -43,13 +69,6 @@ bool AreFinite(absl::Span<double* const> columns, size_t first, size_t count) {
   return (carry & kSign) == 0;
 }
 
-bool IsPlain(const Scene& scene) {
-  Scene plain;
-  plain.system = scene.system;
-  plain.friction.kinetic_coefficient = scene.friction.kinetic_coefficient;
-  plain.friction.static_coefficient = scene.friction.static_coefficient;
-  plain.restitution = scene.restitution;
-  return scene == plain;
-}
+bool IsPlain(const Scene& scene) { return scene == PlainPart(scene); }
 
 }  // namespace ricochet

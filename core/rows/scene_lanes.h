@@ -6,15 +6,19 @@
 #ifndef RICOCHET_CORE_ROWS_SCENE_LANES_H_
 #define RICOCHET_CORE_ROWS_SCENE_LANES_H_
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "absl/strings/string_view.h"
 #include "absl/types/span.h"
 #include "core/models/restitution_law.h"
 #include "core/plan/demand.h"
+#include "core/scene/numbers.h"
 #include "ricochet/outcome.h"
 #include "ricochet/plan.h"
 #include "ricochet/scene.h"
@@ -25,10 +29,11 @@ class SceneLanes {
  public:
   // Scenes are solved in blocks of at most this many.
   static constexpr size_t kBlock = 256;
-  static constexpr size_t kMostNumbers = 17;  // Those of two bodies in a plane.
+  // Two bodies in a plane have the most, beside the last three of all lanes.
+  static constexpr size_t kMostNumbers = 2 * kNumbersOf<PlanarBody> + 3;
 
-  // The numbers of a scene. The last three of those that the lanes have are kinetic friction, static friction and the
-  // coefficient of restitution.
+  // The numbers of a scene: those of its system in the order of core/scene/numbers.h, kinetic friction, static friction
+  // and the coefficient of restitution.
   using Numbers = std::array<double, kMostNumbers>;
 
   // A column for each number.
@@ -56,31 +61,23 @@ class SceneLanes {
 
   virtual ~SceneLanes() = default;
 
-  // The number that the field at `path` states by itself, or nothing.
-  std::optional<size_t> NumberAt(const std::string& path) const;
-  // Makes the column of kinetic friction that of static friction, too: so it is for a scene that states no static
-  // friction.
-  void TakeStaticFromKinetic(Columns& columns) const {
-    const size_t coefficient = paths_.size();
-    columns.of[coefficient - 1] = columns.of[coefficient - 2];
-    columns.varies[coefficient - 1] = columns.varies[coefficient - 2];
-  }
-
   // True if each number is a field of the scene, so that a column of the field is a column of the number.
   virtual bool TakesFields() const { return true; }
-  virtual Numbers NumbersOf(const Scene& scene) const = 0;
+  virtual Numbers NumbersOf(const Scene& scene) const;
+  // The paths of the numbers of a scene.
+  static std::vector<std::string> PathsOf(const Scene& scene);
 
   // Solves the scenes [0, count) of the columns, at most kBlock, as far as they are plain. `places[c]` receives column
   // c of the answer.
   virtual void Solve(const Columns& columns, size_t count, absl::Span<double* const> places, Block& block) = 0;
-
- protected:
-  // `paths` are those of the numbers but the last, the coefficient of restitution, by whatever path a scene states it.
-  explicit SceneLanes(absl::Span<const char* const> paths) : paths_(paths) {}
-
- private:
-  absl::Span<const char* const> paths_;
 };
+
+// The output of a model with a path, by the paths of its outputs in their order.
+template <typename Output>
+std::optional<Output> OutputAt(absl::Span<const char* const> paths, absl::string_view path) {
+  const auto found = path.empty() ? paths.end() : std::find(paths.begin(), paths.end(), path);
+  return found == paths.end() ? std::nullopt : std::optional(static_cast<Output>(found - paths.begin()));
+}
 
 // No product of a few numbers overflows or vanishes that are 0 or have magnitudes between the inverse of this one and
 // it.

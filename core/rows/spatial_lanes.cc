@@ -49,7 +49,7 @@ void SpatialLanes::Solve() {
 
 void SpatialLanes::SetOutcome(size_t place, Outcome& outcome) const {
   const Added& added = added_[place];
-  spatial::MakeOutcome(impacts_[place], added.reduction, {.detail = Detail::kNumbers}, outcome).IgnoreError();
+  spatial::MakeOutcome(impacts_[place], added.reduction, {.numbers_only = true}, outcome).IgnoreError();
   outcome.effective = added.effective;
   outcome.accuracy.relative_error += added.negligible;
   const spatial::Problem& problem = problems_[place];

@@ -29,7 +29,7 @@ class SpatialLanes {
   std::optional<size_t> Add(const PlannedScene& planned, std::optional<SceneContact>& contact);
   void Solve();
 
-  // Sets the numbers of the scene at a place, as SolveScene does with Detail::kNumbers, into an outcome that is empty.
+  // Sets the numbers of the scene at a place, as SolveScene does with numbers_only, into an outcome that is empty.
   void SetOutcome(size_t place, Outcome& outcome) const;
 
  private:

@@ -1,8 +1,5 @@
-#include <cmath>
-#include <string>
 #include <variant>
 
-#include "core/contact/reduction.h"
 #include "core/scene/check.h"
 
 namespace ricochet {

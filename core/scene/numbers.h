@@ -142,6 +142,14 @@ inline constexpr auto kSceneNumbers = std::tuple{
     SceneNumber("tangential_m_s2", &ContactAcceleration::tangential_m_s2),
     SceneNumber("normal_m_s2", &ContactAcceleration::normal_m_s2)};
 
+// How many numbers of the table a part has.
+template <typename Part>
+inline constexpr size_t kNumbersOf = std::apply(
+    [](const auto&... number) {
+      return (size_t{std::is_same_v<Part, typename std::remove_cvref_t<decltype(number)>::Owner>} + ...);
+    },
+    kSceneNumbers);
+
 // The prefix of the numbers of a part that stands in one place of a scene only.
 constexpr const char* PrefixOf(const Pendulum& /*part*/) { return "pendulum"; }
 constexpr const char* PrefixOf(const PlanarBody& /*part*/) { return "planar_body"; }

@@ -29,7 +29,7 @@ void CheckStatic(const Friction& friction, Check& check) {
   });
 }
 
-void CheckForm(const std::string& field, const SpeedDependence& dependence, Check& check) {
+void CheckSpeedDependence(const std::string& field, const SpeedDependence& dependence, Check& check) {
   check.RequireSet(!std::holds_alternative<std::monostate>(dependence), (field + ".form").c_str(),
                    "be one of power_law, table");
   const auto* table = std::get_if<SpeedTable>(&dependence);
@@ -103,9 +103,10 @@ void CheckFields(const Scene& scene, RestitutionIs restitution, Scope scope, Che
                  [&](const NumberPath& path, double value, NumberRule rule) { check.Number(path, value, rule); });
   }
   CheckStatic(scene.friction, check);
-  if (scene.friction.by_speed.has_value()) CheckForm("friction.by_speed", *scene.friction.by_speed, check);
+  if (scene.friction.by_speed.has_value()) CheckSpeedDependence("friction.by_speed", *scene.friction.by_speed, check);
   if (scope == Scope::kAll) CheckRestitution(scene, restitution, check);
-  if (scene.restitution_by_speed.has_value()) CheckForm("restitution.by_speed", *scene.restitution_by_speed, check);
+  if (scene.restitution_by_speed.has_value())
+    CheckSpeedDependence("restitution.by_speed", *scene.restitution_by_speed, check);
   if (scope == Scope::kAll) CheckTogether(scene, check);
   CheckEffects(scene, check);
 }

@@ -1,6 +1,5 @@
 #include "proto/wire/audit.h"
 
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -80,7 +79,7 @@ struct Map<AuditReport> : Between<AuditReport, v1::AuditReport> {
       Nested<&P::limits, &P::mutable_limits, LimitEntries>{}>;
 };
 
-// The same for the tallies of a limit.
+// Pairs the tallies of a limit in the same way.
 template <AuditLimit kLimit>
 struct TallyField {
   const v1::LimitTally& (v1::AuditSummary::*get)() const;

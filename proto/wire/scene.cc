@@ -1,7 +1,5 @@
 #include "proto/wire/scene.h"
 
-#include <variant>
-
 #include "proto/wire/map.h"
 
 namespace ricochet {

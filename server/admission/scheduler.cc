@@ -23,11 +23,12 @@ constexpr size_t kUnlimited = std::numeric_limits<size_t>::max();
 // Frees a slot however the work ends, and learns how long it took.
 class Leaving {
  public:
-  Leaving(SlotQueue& queue, SlotQueue::Waiter& waiter, const Turn& turn, ServiceTimes& times)
-      : slots_of_kind_(queue), waiter_(waiter), turn_(turn), times_(times) {}
+  Leaving(SlotQueue& queue, SlotQueue::Waiter& waiter, const ComputeRequest& request, ServiceTimes& times)
+      : slots_of_kind_(queue), waiter_(waiter), request_(request), times_(times) {}
   ~Leaving() {
     const double computed_s = slots_of_kind_.Leave(waiter_);
-    if (computed_ && turn_.cost.has_value()) times_.Learn(*turn_.cost, computed_s, Clock::now() >= waiter_.deadline);
+    if (computed_ && request_.cost.has_value())
+      times_.Learn(*request_.cost, computed_s, Clock::now() >= waiter_.deadline);
   }
   Leaving(const Leaving&) = delete;
   Leaving& operator=(const Leaving&) = delete;
@@ -37,7 +38,7 @@ class Leaving {
  private:
   SlotQueue& slots_of_kind_;
   SlotQueue::Waiter& waiter_;
-  const Turn& turn_;
+  const ComputeRequest& request_;
   ServiceTimes& times_;
   bool computed_ = false;
 };
@@ -69,22 +70,22 @@ Scheduler::Scheduler(int threads, int most_waiting, std::stop_token drain)
         streams_.Close();
       }) {}
 
-absl::Status Scheduler::Compute(const Turn& turn, absl::FunctionRef<void()> work) {
-  const bool is_stream = !turn.cost.has_value();
-  const bool is_cheap = !is_stream && turn.cost->is_cheap();
+absl::Status Scheduler::Compute(const ComputeRequest& request, absl::FunctionRef<void()> work) {
+  const bool is_stream = !request.cost.has_value();
+  const bool is_cheap = !is_stream && request.cost->is_cheap();
   SlotQueue& queue = is_stream ? streams_ : is_cheap ? cheap_ : expensive_;
   SlotQueue::Waiter waiter;
-  waiter.peer = turn.peer;
+  waiter.peer = request.peer;
   // Parts of streams take turns: if their deadlines decided, one stream would keep out the others of its peer to its
   // end.
-  if (!is_stream) waiter.deadline = turn.deadline.value_or(SlotQueue::Time::max());
-  if (!is_stream) waiter.expected_s = times_.Expected(*turn.cost);
-  if (absl::Status turned_away = queue.Enter(waiter, turn.is_gone); !turned_away.ok()) return turned_away;
-  Leaving leaving(queue, waiter, turn, times_);
-  if (turn.deadline.has_value() && Clock::now() >= *turn.deadline) {
+  if (!is_stream) waiter.deadline = request.deadline.value_or(SlotQueue::Time::max());
+  if (!is_stream) waiter.expected_s = times_.Expected(*request.cost);
+  if (absl::Status refused = queue.Enter(waiter, request.is_gone); !refused.ok()) return refused;
+  Leaving leaving(queue, waiter, request, times_);
+  if (request.deadline.has_value() && Clock::now() >= *request.deadline) {
     return absl::DeadlineExceededError("the deadline passed before the call began");
   }
-  if (turn.is_gone()) return absl::CancelledError("the caller gave up before the call began");
+  if (request.is_gone()) return absl::CancelledError("the caller gave up before the call began");
   leaving.Computes();
   if (is_cheap) {
     work();

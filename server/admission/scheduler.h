@@ -26,8 +26,8 @@
 
 namespace ricochet::server {
 
-// Turn: a call's request to the scheduler.
-struct Turn {
+// ComputeRequest: a call's request to the scheduler.
+struct ComputeRequest {
   std::string peer;  // Peers get fair shares (server/security/peer.h).
   std::optional<std::chrono::steady_clock::time_point> deadline;
   std::function<bool()> is_gone;    // Says whether the caller has given up.
@@ -45,7 +45,7 @@ class Scheduler {
   // Waits until it is the caller's turn, does the work and returns OK. Does nothing if it returns an error:
   // RESOURCE_EXHAUSTED with kOverloaded and a retry delay, DEADLINE_EXCEEDED, CANCELLED, UNAVAILABLE with kDraining.
   // An exception that `work` throws is thrown here.
-  absl::Status Compute(const Turn& turn, absl::FunctionRef<void()> work);
+  absl::Status Compute(const ComputeRequest& request, absl::FunctionRef<void()> work);
 
   // Returns helpers for a sweep or a batch of a peer. A helper takes a slot for parts of streams, and its time counts
   // as its peer's. It gets one only while fewer expensive calls and parts of streams compute than there are threads and

@@ -56,7 +56,7 @@ void SlotQueue::Close() {
   closed_ = true;
   const auto turn_away = [](Waiter& waiter) {
     waiter.state = Waiter::State::kTurnedAway;
-    waiter.turn.notify_one();
+    waiter.changed.notify_one();
   };
   while (FairQueue::Item* const item = queue_.Next()) turn_away(static_cast<Waiter&>(*item));
   for (Waiter* const waiter : refused_) turn_away(*waiter);
@@ -84,7 +84,7 @@ void SlotQueue::Start(Waiter& waiter) {
   waiter.state = Waiter::State::kComputing;
   waiter.started = Clock::now();
   waiter.place = computing_.insert(computing_.end(), &waiter);
-  waiter.turn.notify_one();
+  waiter.changed.notify_one();
 }
 
 double SlotQueue::ExpectedWait(const Waiter& waiter) const {
@@ -112,7 +112,7 @@ absl::Status SlotQueue::WaitUntil(Time end, Waiter& waiter, absl::FunctionRef<bo
     const Time now = Clock::now();
     if (now >= waiter.deadline) return absl::DeadlineExceededError("the deadline passed before the call's turn came");
     if (now >= end) return absl::OkStatus();
-    waiter.turn.wait_until(lock, std::min({end, waiter.deadline, now + kBetweenLooks}));
+    waiter.changed.wait_until(lock, std::min({end, waiter.deadline, now + kBetweenLooks}));
     if (waiter.state != Waiter::State::kWaiting) break;
     lock.unlock();
     const bool gone = is_gone();

@@ -33,7 +33,7 @@ class SlotQueue {
     State state = State::kWaiting;
     Time started;
     std::list<const Waiter*>::iterator place;
-    std::condition_variable turn;
+    std::condition_variable changed;
   };
 
   // At most `slots` calls compute at once and `most_waiting` wait; both >= 1.
@@ -73,7 +73,7 @@ class SlotQueue {
   FairQueue queue_;
   RefusalPace pace_;
   std::list<const Waiter*> computing_;
-  std::list<Waiter*> refused_;  // Visitors that wait to be told that they are refused.
+  std::list<Waiter*> refused_;  // Waiters that are to be told that they are refused.
   bool closed_ = false;
 };
 

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <climits>
 #include <condition_variable>
@@ -14,6 +13,7 @@
 #include <utility>
 
 #include "absl/strings/str_cat.h"
+#include "server/base/descriptor.h"
 
 namespace ricochet::server {
 namespace {
@@ -27,24 +27,6 @@ constexpr milliseconds kTimeToEnd(1000);
 // A pipe that poll calls writable takes this number of bytes without blocking.
 constexpr size_t kPipePiece = PIPE_BUF;
 constexpr size_t kFilePiece = size_t{64} << 10;
-
-class Descriptor {
- public:
-  Descriptor() = default;
-  explicit Descriptor(int fd) : fd_(fd) {}
-  Descriptor(Descriptor&& other) noexcept : fd_(std::exchange(other.fd_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
-    std::swap(fd_, other.fd_);
-    return *this;
-  }
-  ~Descriptor() {
-    if (fd_ >= 0) close(fd_);
-  }
-  int get() const { return fd_; }
-
- private:
-  int fd_ = -1;
-};
 
 // Returns true if standard error is closed, or was at the start and its number belongs to an event of a library now.
 bool HasNoStandardError() {
@@ -61,7 +43,7 @@ absl::StatusOr<Descriptor> OpenPath(const std::string& path) {
   // Nonblocking, because opening a pipe that nobody reads would wait for a reader.
   constexpr int kFlags = O_WRONLY | O_APPEND | O_CREAT | O_CLOEXEC | O_NOCTTY | O_NONBLOCK;
   Descriptor file(path.empty() ? OpenStandardError() : open(path.c_str(), kFlags, 0640));
-  if (file.get() >= 0) return file;
+  if (file.is_open()) return file;
   const std::string name = path.empty() ? "standard error" : path;
   if (errno == ENXIO)
     return absl::UnavailableError(absl::StrCat("cannot write the log to ", name, ": nobody reads it"));
@@ -133,7 +115,7 @@ bool LogWriter::State::Take(std::string& batch) {
   being_written = 0;
   changed.notify_all();
   const auto unreported = [this] { return notice && dropped > reported; };
-  changed.wait(lock, [&] { return stopping || !waiting.empty() || reopened.get() >= 0 || unreported(); });
+  changed.wait(lock, [&] { return stopping || !waiting.empty() || reopened.is_open() || unreported(); });
   if (stopping) return false;
   if (unreported()) {
     waiting += notice(dropped - reported);
@@ -147,22 +129,22 @@ bool LogWriter::State::Take(std::string& batch) {
 // Goes on with the file that Reopen has opened, with the line at `done` from its start.
 void LogWriter::State::TakeReopened(const std::string& batch, size_t& done) {
   const std::lock_guard lock(mutex);
-  if (reopened.get() < 0) return;
+  if (!reopened.is_open()) return;
   file = std::exchange(reopened, Descriptor());
   done = LineStart(batch, done);
 }
 
 void LogWriter::State::WaitForRetry() {
   std::unique_lock lock(mutex);
-  changed.wait_for(lock, kBetweenRetries, [this] { return stopping || reopened.get() >= 0; });
+  changed.wait_for(lock, kBetweenRetries, [this] { return stopping || reopened.is_open(); });
 }
 
 void LogWriter::State::WriteAll(const std::string& batch) {
   for (size_t done = 0;;) {
     TakeReopened(batch, done);
     if (done == batch.size()) return;
-    const size_t end = PieceEnd(batch, done, PieceFor(file.get()));
-    const ssize_t written = WriteSome(file.get(), batch.data() + done, end - done);
+    const size_t end = PieceEnd(batch, done, PieceFor(file.number()));
+    const ssize_t written = WriteSome(file.number(), batch.data() + done, end - done);
     if (written < 0) {
       WaitForRetry();
     } else {

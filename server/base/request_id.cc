@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 
 #include "absl/random/random.h"
 #include "absl/strings/str_cat.h"

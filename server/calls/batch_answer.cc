@@ -1,6 +1,5 @@
 #include "server/calls/batch_answer.h"
 
-#include <cstdint>
 #include <utility>
 
 #include "ricochet/error.h"

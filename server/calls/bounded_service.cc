@@ -31,7 +31,7 @@ constexpr int kMostDepth = 100;     // The parser refuses messages that are nest
 class ElementCount {
  public:
   ElementCount(absl::string_view bytes, int64_t most)
-      : in_(reinterpret_cast<const uint8_t*>(bytes.data()), static_cast<int>(bytes.size())), left_(most) {}
+      : in_(reinterpret_cast<const uint8_t*>(bytes.data()), static_cast<int>(bytes.size())), remaining_(most) {}
 
   // Reads the fields of one message, or of an unknown group, to their end. `type` is null in an unknown group. Returns
   // false once there are too many elements, or where the bytes are no message.
@@ -47,7 +47,7 @@ class ElementCount {
     return true;
   }
 
-  bool is_exceeded() const { return left_ < 0; }
+  bool is_exceeded() const { return remaining_ < 0; }
   // Where the element stands that was one too many.
   const std::string& place() const { return place_; }
 
@@ -57,7 +57,7 @@ class ElementCount {
     const bool is_number = field != nullptr && field->cpp_type() != FieldDescriptor::CPPTYPE_MESSAGE &&
                            field->cpp_type() != FieldDescriptor::CPPTYPE_STRING &&
                            wire_type != WireFormatLite::WIRETYPE_START_GROUP;
-    if (is_number || --left_ >= 0) return true;
+    if (is_number || --remaining_ >= 0) return true;
     place_ = field == nullptr ? "an unknown field" : field->full_name();
     return false;
   }
@@ -77,7 +77,7 @@ class ElementCount {
   }
 
   CodedInputStream in_;
-  int64_t left_;
+  int64_t remaining_;
   std::string place_;
 };
 

@@ -8,9 +8,9 @@
 
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
-#include "server/base/names.h"
 #include "server/base/refusals.h"
 #include "server/base/request_id.h"
+#include "server/base/telemetry_names.h"
 #include "server/security/peer.h"
 
 namespace ricochet::server {
@@ -31,14 +31,14 @@ Call::Call(const char* method, Kind kind, grpc::ServerContext& context, const Ca
       frame_(frame),
       peer_key_(PeerKey(context, frame.auth)),
       next_look_(start_ + kBetweenLooks),
-      place_(frame.places.Enter(peer_key_, kind == Kind::kStream)),
+      place_(frame.live_calls.Enter(peer_key_, kind == Kind::kStream)),
       record_(RecordOf(method, context)) {
   // Trailing metadata, because a client repeats only a call that was refused without initial metadata.
   context.AddTrailingMetadata(kRequestIdHeader, record_.request_id);
 }
 
 Call::~Call() {
-  frame_.unread.Sends(context_, place_.ok() ? std::make_shared<Places::Place>(*std::move(place_)) : nullptr);
+  frame_.unread.Sends(context_, place_.ok() ? std::make_shared<LiveCalls::Permit>(*std::move(place_)) : nullptr);
   record_.duration_s = elapsed_s();
   frame_.observer.Ended(record_);
 }
@@ -69,15 +69,16 @@ CallOptions Call::options() const {
 absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<void()> work) {
   const CallOptions limits = options();
   const double asked_s = elapsed_s();
-  const Turn turn = {.peer = peer_key_, .deadline = limits.deadline, .is_gone = limits.is_stopped, .cost = cost};
+  const ComputeRequest request = {
+      .peer = peer_key_, .deadline = limits.deadline, .is_gone = limits.is_stopped, .cost = cost};
   bool is_done = false;
-  const absl::Status turned = frame_.scheduler.Compute(turn, [&] {
+  const absl::Status computed = frame_.scheduler.Compute(request, [&] {
     record_.queued_s += elapsed_s() - asked_s;
     is_done = true;
     work();
   });
   if (!is_done) record_.queued_s += elapsed_s() - asked_s;
-  return turned;
+  return computed;
 }
 
 absl::StatusOr<bool> Call::Receive(absl::FunctionRef<bool()> read) {

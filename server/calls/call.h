@@ -17,7 +17,7 @@
 #include "absl/status/status.h"
 #include "absl/status/statusor.h"
 #include "ricochet/call_options.h"
-#include "server/admission/places.h"
+#include "server/admission/live_calls.h"
 #include "server/admission/scheduler.h"
 #include "server/admission/unread_watch.h"
 #include "server/base/drain.h"
@@ -37,7 +37,7 @@ class Auth;
 
 // CallFrame: the objects that all calls of a server share.
 struct CallFrame {
-  Places& places;
+  LiveCalls& live_calls;
   Scheduler& scheduler;
   UnreadWatch& unread;
   DrainStops drain;
@@ -103,7 +103,7 @@ class Call {
   const std::string peer_key_;
   mutable std::chrono::steady_clock::time_point next_look_;
   mutable bool is_cancelled_ = false;
-  absl::StatusOr<Places::Place> place_;
+  absl::StatusOr<LiveCalls::Permit> place_;
   // The status UNKNOWN stays if a handler throws and never finishes; gRPC then answers the same.
   CallRecord record_;
 };

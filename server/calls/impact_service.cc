@@ -12,7 +12,6 @@
 #include "proto/wire/sweep.h"
 #include "ricochet/result_stream.h"
 #include "server/admission/request_cost.h"
-#include "server/base/refusals.h"
 #include "server/calls/batch_answer.h"
 
 namespace ricochet::server {
@@ -38,7 +37,7 @@ absl::Status ForwardStream(Call& call, absl::FunctionRef<ResultStream<T>()> open
   for (;;) {
     absl::Status status;
     bool is_last = false;
-    const absl::Status turn = call.Compute(std::nullopt, [&] {
+    const absl::Status computed = call.Compute(std::nullopt, [&] {
       if (stream.has_value()) {
         ++at;
       } else {
@@ -50,7 +49,7 @@ absl::Status ForwardStream(Call& call, absl::FunctionRef<ResultStream<T>()> open
       status = at->status();
       if (at->ok()) prepare(**at);
     });
-    if (!turn.ok()) return turn;
+    if (!computed.ok()) return computed;
     if (!status.ok()) return status;
     if (at == stream->end()) return absl::OkStatus();
     if (absl::Status sent = send(); !sent.ok() || is_last) return sent;
@@ -82,7 +81,7 @@ grpc::Status ImpactService::Answer(const char* name, Method method, grpc::Server
   call.record().received_bytes = static_cast<int64_t>(request.ByteSizeLong());
   const auto asked = FromProto(request);
   absl::Status status;
-  const absl::Status turn = call.Compute(CostOf(asked), [&] {
+  const absl::Status computed = call.Compute(CostOf(asked), [&] {
     const auto answer = std::invoke(method, solver_, asked, call.options());
     status = answer.status();
     if (!answer.ok()) return;
@@ -90,7 +89,7 @@ grpc::Status ImpactService::Answer(const char* name, Method method, grpc::Server
     response = ToProto(*answer);
     call.record().sent_bytes = static_cast<int64_t>(response.ByteSizeLong());
   });
-  return call.Finish(turn.ok() ? status : turn);
+  return call.Finish(computed.ok() ? status : computed);
 }
 
 grpc::Status ImpactService::Solve(grpc::ServerContext* context, const v1::SolveRequest* request,
@@ -141,11 +140,11 @@ grpc::Status ImpactService::SolveBatch(grpc::ServerContext* context, const v1::S
   call.record().received_bytes = static_cast<int64_t>(request->ByteSizeLong());
   BatchAnswer answer(solver_, call.options());
   absl::Status status;
-  const absl::Status turn = call.Compute(answer.CostOf(*request), [&] {
+  const absl::Status computed = call.Compute(answer.CostOf(*request), [&] {
     status = answer.Fill(*request, *response, call.record());
     call.record().sent_bytes = static_cast<int64_t>(response->ByteSizeLong());
   });
-  return call.Finish(turn.ok() ? status : turn);
+  return call.Finish(computed.ok() ? status : computed);
 }
 
 grpc::Status ImpactService::AnswerBatches(grpc::ServerContext& context, BoundedBatches& batches) const {
@@ -167,9 +166,9 @@ absl::Status ImpactService::Answer(BoundedBatches& batches, Call& call) const {
     // A step of a simulation is short and answered at once; a long batch takes its turn among the parts of streams.
     const RequestCost cost = answer.CostOf(request);
     absl::Status status;
-    const absl::Status turn = call.Compute(cost.is_cheap() ? std::optional(cost) : std::nullopt,
-                                           [&] { status = answer.Fill(request, response, call.record()); });
-    if (!turn.ok()) return turn;
+    const absl::Status computed = call.Compute(cost.is_cheap() ? std::optional(cost) : std::nullopt,
+                                               [&] { status = answer.Fill(request, response, call.record()); });
+    if (!computed.ok()) return computed;
     if (!status.ok()) return status;
     const auto bytes = static_cast<int64_t>(response.ByteSizeLong());
     ++call.record().chunks;

@@ -68,7 +68,7 @@ absl::Status ServingCheck::Run(const std::stop_token& stop) const {
   for (const ListenAddress& address : addresses_) {
     if (absl::Status status = CheckAddress(address, stop); !status.ok()) return status;
   }
-  return CheckGate(stop);
+  return CheckScheduler(stop);
 }
 
 // The kernel completes a connection although nobody accepts it, so the acceptor's own counts have to tell.
@@ -87,12 +87,12 @@ absl::Status ServingCheck::CheckAddress(const ListenAddress& address, const std:
   return absl::OkStatus();
 }
 
-absl::Status ServingCheck::CheckGate(const std::stop_token& stop) const {
-  const Turn turn = {.peer = "watchdog",
-                     .deadline = steady_clock::now() + patience_,
-                     .is_gone = [&stop] { return stop.stop_requested(); },
-                     .cost = RequestCost()};
-  const absl::Status computed = scheduler_.Compute(turn, [] {});
+absl::Status ServingCheck::CheckScheduler(const std::stop_token& stop) const {
+  const ComputeRequest request = {.peer = "watchdog",
+                                  .deadline = steady_clock::now() + patience_,
+                                  .is_gone = [&stop] { return stop.stop_requested(); },
+                                  .cost = RequestCost()};
+  const absl::Status computed = scheduler_.Compute(request, [] {});
   if (!absl::IsDeadlineExceeded(computed)) return absl::OkStatus();
   return absl::UnavailableError(absl::StrCat("no call got its turn to compute for ", patience_.count(), " ms"));
 }

@@ -28,7 +28,7 @@ class ServingCheck {
 
  private:
   absl::Status CheckAddress(const ListenAddress& address, const std::stop_token& stop) const;
-  absl::Status CheckGate(const std::stop_token& stop) const;
+  absl::Status CheckScheduler(const std::stop_token& stop) const;
 
   const std::vector<ListenAddress> addresses_;
   const Acceptor& acceptor_;

@@ -13,7 +13,7 @@
 namespace ricochet::server {
 namespace {
 
-// What is kept with an SSL object until it is freed.
+// This is kept with an SSL object until it is freed.
 struct Handshake {
   std::string peer;
   std::string alert;

@@ -2,45 +2,23 @@
 
 #include <openssl/bio.h>
 #include <openssl/err.h>
-#include <openssl/pem.h>
 #include <openssl/ssl.h>
 #include <openssl/x509.h>
 
 #include <memory>
 
 #include "absl/strings/str_cat.h"
+#include "proto/wire/pem.h"
 
 namespace ricochet::server {
 namespace {
 
-template <auto function>
-struct Free {
-  template <typename Object>
-  void operator()(Object* object) const {
-    function(object);
-  }
-};
-using Bio = std::unique_ptr<BIO, Free<BIO_free_all>>;
-using Certificate = std::unique_ptr<X509, Free<X509_free>>;
-using Context = std::unique_ptr<SSL_CTX, Free<SSL_CTX_free>>;
-using Key = std::unique_ptr<EVP_PKEY, Free<EVP_PKEY_free>>;
-
-Bio BioOf(const std::string& text) { return Bio(BIO_new_mem_buf(text.data(), static_cast<int>(text.size()))); }
-
-// Otherwise OpenSSL would ask for a pass phrase at the terminal.
-int NoPassPhrase(char* /*buffer*/, int /*size*/, int /*writing*/, void* /*data*/) { return -1; }
-
-Certificate ParseCertificate(const std::string& pem) {
-  Certificate certificate(PEM_read_bio_X509(BioOf(pem).get(), nullptr, NoPassPhrase, nullptr));
-  ERR_clear_error();
-  return certificate;
-}
-
-Key ParseKey(const std::string& pem) {
-  Key key(PEM_read_bio_PrivateKey(BioOf(pem).get(), nullptr, NoPassPhrase, nullptr));
-  ERR_clear_error();
-  return key;
-}
+using pem::Bio;
+using pem::Certificate;
+using pem::Key;
+using pem::ParseCertificate;
+using pem::ParseKey;
+using Context = std::unique_ptr<SSL_CTX, pem::Free<SSL_CTX_free>>;
 
 absl::Status HoldsNo(const std::string& what, const WatchedFile& file) {
   return absl::InvalidArgumentError(absl::StrCat(file.path(), " holds no ", what, " in PEM form"));

@@ -14,9 +14,9 @@
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
-#include "server/base/names.h"
 #include "server/base/refusals.h"
 #include "server/base/request_id.h"
+#include "server/base/telemetry_names.h"
 #include "server/telemetry/call_record.h"
 
 namespace ricochet::server {

@@ -19,7 +19,7 @@
 #include "ricochet/engine_info.h"
 #include "ricochet/v1/error_reason.pb.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
-#include "server/base/names.h"
+#include "server/base/telemetry_names.h"
 
 namespace ricochet::server {
 namespace {

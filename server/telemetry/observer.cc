@@ -8,7 +8,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
-#include "server/base/names.h"
+#include "server/base/telemetry_names.h"
 
 namespace ricochet::server {
 namespace {

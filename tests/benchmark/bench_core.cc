@@ -121,32 +121,32 @@ double LargestUlp(const std::vector<Problem>& problems) {
   return largest;
 }
 
-constexpr double kUsualTolerance = 1e-12;
+constexpr double kDefaultTolerance = 1e-12;
 
-// The first arithmetic that is exact enough, as a request with the usual tolerance takes it.
-Impact SolveUsually(const Problem& problem) { return SolveWithin(problem, kUsualTolerance).impact; }
+// The first arithmetic that is exact enough, as a request with the default tolerance takes it.
+Impact SolveAtDefault(const Problem& problem) { return SolveWithin(problem, kDefaultTolerance).impact; }
 
 void ScalarSolve() {
   const std::vector<Problem> problems = TypicalProblems(4096);
   const auto run = [&](auto solve) {
     double sum = 0.0;
     for (const Problem& problem : problems) sum += solve(problem)[Output::kOmegaPlus];
-    Keep(sum);
+    DoNotOptimize(sum);
   };
   const auto against_plain = [&](auto solve) {
     return Compare(
         kRounds, [&] { run(solve); }, [&] { run(PlainSolve); });
   };
   const Comparison exact = against_plain(pendulum::Solve);
-  const Comparison usual = against_plain(SolveUsually);
+  const Comparison at_default = against_plain(SolveAtDefault);
   const double count = static_cast<double>(problems.size());
   const auto nanoseconds = [&](double seconds) { return absl::StrFormat("%.1f ns", seconds / count * 1e9); };
   std::printf("Pendulum, one solve, all %d outputs\n", pendulum::kOutputCount);
   Print("at tolerance 0", nanoseconds(exact.seconds_a),
         absl::StrFormat("%.2f x plain, within 1 ulp of exact, always", exact.ratio));
-  Print("at tolerance 1e-12", nanoseconds(usual.seconds_a),
-        absl::StrFormat("%.2f x plain, error and signs proved", usual.ratio));
-  Print("the same formulas, plain C++", nanoseconds(usual.seconds_b),
+  Print("at tolerance 1e-12", nanoseconds(at_default.seconds_a),
+        absl::StrFormat("%.2f x plain, error and signs proved", at_default.ratio));
+  Print("the same formulas, plain C++", nanoseconds(at_default.seconds_b),
         absl::StrFormat("wrong by up to %.3g ulp in everyday scenes, %.3g ulp in hard ones",
                         LargestUlp(TypicalProblems(100000)), LargestUlp(HardProblems(100000))));
 }
@@ -218,11 +218,11 @@ void Columns() {
     };
   };
   std::printf("Pendulum, columns of many solves\n");
-  print("8 columns at 1e-12", Compare(kRounds, solve(8, kUsualTolerance), floor(2, 1)),
+  print("8 columns at 1e-12", Compare(kRounds, solve(8, kDefaultTolerance), floor(2, 1)),
         "2 divisions and a root in lanes");
-  print("1 column at 1e-12", Compare(kRounds, solve(1, kUsualTolerance), floor(1, 1)),
+  print("1 column at 1e-12", Compare(kRounds, solve(1, kDefaultTolerance), floor(1, 1)),
         "a division and a root in lanes");
-  print("8 columns at 1e-12", Compare(kRounds, solve(8, kUsualTolerance), plain_columns), "plain C++ in a loop");
+  print("8 columns at 1e-12", Compare(kRounds, solve(8, kDefaultTolerance), plain_columns), "plain C++ in a loop");
   print("8 columns at 0", Compare(kRounds, solve(8, 0.0), plain_columns), "plain C++ in a loop");
   print("1 column at 0", Compare(kRounds, solve(1, 0.0), solve(8, 0.0)), "eight columns");
 }
@@ -238,11 +238,11 @@ void CompareSweep(const std::string& what, const std::vector<std::string>& names
       .columns = names};
   const auto sweep = [&] {
     absl::StatusOr<SweepRun> run = SweepRun::Make(request);
-    while (!run->ended()) Keep(run->NextChunk([] { return false; }).ok());
+    while (!run->ended()) DoNotOptimize(run->NextChunk([] { return false; }).ok());
   };
   const std::vector<Problem> problems = TypicalProblems(kPoints);
   Bench bench(problems);
-  const Comparison time = Compare(kRounds, sweep, [&] { bench.Solve(names.size(), kUsualTolerance); });
+  const Comparison time = Compare(kRounds, sweep, [&] { bench.Solve(names.size(), kDefaultTolerance); });
   Print(what, absl::StrFormat("%.1f ns/point", time.seconds_a / kPoints * 1e9),
         absl::StrFormat("%.2f x the columns of as many problems", time.ratio));
 }
@@ -262,12 +262,12 @@ void ComparePlanar(const std::string& what, const std::vector<planar::Problem>& 
       [&] {
         double sum = 0.0;
         for (const planar::Problem& contact : contacts) sum += planar::Solve(contact).v1;
-        Keep(sum);
+        DoNotOptimize(sum);
       },
       [&] {
         double sum = 0.0;
         for (const Problem& pendulum : pendulums) sum += pendulum::Solve(pendulum)[Output::kOmegaPlus];
-        Keep(sum);
+        DoNotOptimize(sum);
       });
   Print(what, absl::StrFormat("%.1f ns", time.seconds_a / static_cast<double>(contacts.size()) * 1e9),
         absl::StrFormat("%.2f x the pendulum's closed form, %.1f ns", time.ratio,
@@ -279,19 +279,19 @@ void ComparePlainPlanar(const std::string& what, const std::vector<planar::Probl
                         const std::vector<Problem>& pendulums) {
   double served = 0.0;
   for (const planar::Problem& contact : contacts) {
-    served += SolveWithin(contact, kUsualTolerance).arithmetic.arithmetic == Arithmetic::kPlain ? 1.0 : 0.0;
+    served += SolveWithin(contact, kDefaultTolerance).arithmetic.arithmetic == Arithmetic::kPlain ? 1.0 : 0.0;
   }
   const Comparison time = Compare(
       kRounds,
       [&] {
         double sum = 0.0;
         for (const planar::Problem& contact : contacts) sum += planar::SolvePlain(contact).impact.v1;
-        Keep(sum);
+        DoNotOptimize(sum);
       },
       [&] {
         double sum = 0.0;
         for (const Problem& pendulum : pendulums) sum += PlainSolve(pendulum)[Output::kOmegaPlus];
-        Keep(sum);
+        DoNotOptimize(sum);
       });
   const double count = static_cast<double>(contacts.size());
   Print(what, absl::StrFormat("%.1f ns", time.seconds_a / count * 1e9),
@@ -339,7 +339,7 @@ void CancellationLatency() {
       asked = std::chrono::steady_clock::now();
       stop.request_stop();
     });
-    for (const auto& chunk : LocalSolver().Sweep(EndlessSweep(), {.stop = stop.get_token()})) Keep(chunk.ok());
+    for (const auto& chunk : LocalSolver().Sweep(EndlessSweep(), {.stop = stop.get_token()})) DoNotOptimize(chunk.ok());
     const auto ended = std::chrono::steady_clock::now();
     stopper.join();
     seconds.push_back(std::chrono::duration<double>(ended - asked).count());

@@ -14,8 +14,8 @@
 #include "core/plan/arithmetic.h"
 #include "tests/benchmark/division_floor.h"
 #include "tests/benchmark/measure.h"
-#include "tests/support/scenes/planar_in_lanes.h"
 #include "tests/support/scenes/planar_scenes.h"
+#include "tests/support/scenes/solved_in_lanes.h"
 
 namespace ricochet::bench {
 namespace {
@@ -26,7 +26,7 @@ using planar::Problem;
 constexpr int kRounds = 21;
 constexpr int kTimes = 8;
 constexpr size_t kContacts = 1024;
-constexpr double kUsualTolerance = 1e-12;
+constexpr double kDefaultTolerance = 1e-12;
 
 // What a simulator needs of a contact, beside its regime.
 constexpr std::array kStep = {Output::kTangentialVelocityAfter, Output::kNormalVelocityAfter, Output::kNormalImpulse,
@@ -143,20 +143,20 @@ void RunAll() {
   Bench energetic = everyday(RestitutionLaw::kEnergetic);
   Bench newton = everyday(RestitutionLaw::kNewton);
   Bench poisson = everyday(RestitutionLaw::kPoisson);
-  PrintRow("everyday, energetic law, at 1e-12", energetic, kStep, kUsualTolerance);
-  PrintRow("everyday, Newton's law, at 1e-12", newton, kStep, kUsualTolerance);
-  PrintRow("everyday, Poisson's law, at 1e-12", poisson, kStep, kUsualTolerance);
-  PrintRow("everyday, energetic law, all outputs", energetic, kAll, kUsualTolerance);
-  PrintRow("everyday, Newton's law, all outputs", newton, kAll, kUsualTolerance);
+  PrintRow("everyday, energetic law, at 1e-12", energetic, kStep, kDefaultTolerance);
+  PrintRow("everyday, Newton's law, at 1e-12", newton, kStep, kDefaultTolerance);
+  PrintRow("everyday, Poisson's law, at 1e-12", poisson, kStep, kDefaultTolerance);
+  PrintRow("everyday, energetic law, all outputs", energetic, kAll, kDefaultTolerance);
+  PrintRow("everyday, Newton's law, all outputs", newton, kAll, kDefaultTolerance);
   PrintRow("everyday, energetic law, at 0", energetic, kStep, 0.0);
   Bench hard(Contacts(RestitutionLaw::kEnergetic, &planar::SceneSource::Any));
-  PrintRow("near thresholds, energetic law, at 1e-12", hard, kStep, kUsualTolerance);
+  PrintRow("near thresholds, energetic law, at 1e-12", hard, kStep, kDefaultTolerance);
   Bench sliding(ContactsOfRegime(Regime::kSliding));
   Bench stick_early(ContactsOfRegime(Regime::kStickInCompression));
   Bench stick_late(ContactsOfRegime(Regime::kStickInRestitution));
-  PrintRow("all slide", sliding, kStep, kUsualTolerance);
-  PrintRow("all stick in compression", stick_early, kStep, kUsualTolerance);
-  PrintRow("all stick in restitution", stick_late, kStep, kUsualTolerance);
+  PrintRow("all slide", sliding, kStep, kDefaultTolerance);
+  PrintRow("all stick in compression", stick_early, kStep, kDefaultTolerance);
+  PrintRow("all stick in restitution", stick_late, kStep, kDefaultTolerance);
 }
 
 }  // namespace

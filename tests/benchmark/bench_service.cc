@@ -2,7 +2,6 @@
 
 #include <grpcpp/grpcpp.h>
 
-#include <chrono>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
@@ -86,7 +85,8 @@ void StreamedSweep(Loopback& ricochet, Loopback& echo) {
   const v1::SweepRequest request = EightColumnSweep(kSweepPoints);
   double bytes = 0.0;
   const Comparison time = Compare(
-      kRounds, [&] { bytes = ReadSweep(ricochet.stub(), request); }, [&] { Keep(ReadSweep(echo.stub(), request)); });
+      kRounds, [&] { bytes = ReadSweep(ricochet.stub(), request); },
+      [&] { DoNotOptimize(ReadSweep(echo.stub(), request)); });
   std::printf("Streamed sweep, 8 columns, %.0e points\n", static_cast<double>(kSweepPoints));
   Print("ricochet", absl::StrFormat("%.1f M points/s", kSweepPoints / time.seconds_a / 1e6),
         absl::StrFormat("%.2f GB/s", bytes / time.seconds_a / 1e9));
@@ -137,9 +137,9 @@ void SweepByColumns(Loopback& ricochet, Loopback& echo) {
   for (const size_t count : {1, 2, 4, 8, 12, 16, 19}) {
     const SweepRequest request = SweepOf({std::begin(kColumns), std::begin(kColumns) + count}, kPoints);
     const v1::SweepRequest wire = ToProto(request);
-    const auto served = [&] { Keep(ReadSweep(ricochet.stub(), wire)); };
-    const Comparison local = Compare(kRounds, served, [&] { Keep(ReadLocally(request)); });
-    const Comparison empty = Compare(kRounds, served, [&] { Keep(ReadSweep(echo.stub(), wire)); });
+    const auto served = [&] { DoNotOptimize(ReadSweep(ricochet.stub(), wire)); };
+    const Comparison local = Compare(kRounds, served, [&] { DoNotOptimize(ReadLocally(request)); });
+    const Comparison empty = Compare(kRounds, served, [&] { DoNotOptimize(ReadSweep(echo.stub(), wire)); });
     std::printf("  %7zu %14.1f %14.1f %16.1f %12.2f x %14.2f x\n", count, kPoints / local.seconds_b / 1e6,
                 kPoints / empty.seconds_a / 1e6, kPoints / empty.seconds_b / 1e6, local.ratio, empty.ratio);
     std::fflush(stdout);
@@ -165,7 +165,7 @@ double LocalP50(const SolveRequest& request) {
   std::vector<double> seconds;
   for (int i = 0; i < 100; ++i) {
     seconds.push_back(Seconds([&] {
-      for (int k = 0; k < kCalls; ++k) Keep(LocalSolver().Solve(request)->outcome.coefficients.newton);
+      for (int k = 0; k < kCalls; ++k) DoNotOptimize(LocalSolver().Solve(request)->outcome.coefficients.newton);
     }));
   }
   return Median(seconds) / kCalls;

@@ -57,12 +57,12 @@ void Measure(const char* what, const std::vector<Problem>& problems) {
       [&] {
         double sum = 0.0;
         for (const Problem& problem : problems) sum += Solve(problem).v1;
-        Keep(sum);
+        DoNotOptimize(sum);
       },
       [&] {
         double sum = 0.0;
         for (const planar::Problem& problem : planar_problems) sum += planar::Solve(problem).v1;
-        Keep(sum);
+        DoNotOptimize(sum);
       });
   double terms = 0.0;
   for (const Problem& problem : problems) terms += static_cast<double>(Solve(problem).right_hand_sides);
@@ -80,12 +80,12 @@ void MeasureColumns(const char* what, const std::vector<Problem>& problems) {
       kRounds,
       [&] {
         SolveColumns(problems, absl::MakeSpan(impacts));
-        Keep(impacts.back().v1);
+        DoNotOptimize(impacts.back().v1);
       },
       [&] {
         double sum = 0.0;
         for (const Problem& problem : problems) sum += Solve(problem).v1;
-        Keep(sum);
+        DoNotOptimize(sum);
       });
   Print(absl::StrFormat("%s in columns, tolerance %.0e", what, problems[0].tolerance),
         absl::StrFormat("%.0f ns", time.seconds_a / kCount * 1e9),

@@ -109,7 +109,8 @@ Times TimesOf(CvodePeer& peer, const std::vector<Case>& cases, double asked, dou
   for (const Case& c : cases) {
     if (!Theirs(peer, c, their_tolerance).ended) continue;
     const Comparison time = Compare(
-        kRounds, [&] { Keep(Ours(c, asked).error); }, [&] { Keep(Theirs(peer, c, their_tolerance).error); });
+        kRounds, [&] { DoNotOptimize(Ours(c, asked).error); },
+        [&] { DoNotOptimize(Theirs(peer, c, their_tolerance).error); });
     times.ours.push_back(time.seconds_a);
     times.theirs.push_back(time.seconds_b);
     times.ratios.push_back(1.0 / time.ratio);

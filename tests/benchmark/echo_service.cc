@@ -1,8 +1,5 @@
 #include "tests/benchmark/echo_service.h"
 
-#include "core/engine/sweep_run.h"
-#include "proto/wire/sweep.h"
-
 namespace ricochet::bench {
 
 grpc::Status EchoService::Solve(grpc::ServerContext* /*context*/, const v1::SolveRequest* /*request*/,

@@ -168,7 +168,7 @@ const std::vector<Work>& Works() {
 // A function of its own for each piece of work, whose name callgrind reports with its number.
 template <size_t kNumber>
 [[gnu::noinline]] void Counted() {
-  Keep(Works()[kNumber].run());
+  DoNotOptimize(Works()[kNumber].run());
 }
 
 template <size_t... kNumbers>
@@ -184,7 +184,7 @@ int Main() {
   if (Works().size() != kWorks) return 1;
   const OnlyTarget avx2(HWY_AVX2);
   for (const Work& work : Works()) {
-    Keep(work.run());
+    DoNotOptimize(work.run());
     std::printf("%s\n", work.name);
   }
   CountAll(std::make_index_sequence<kWorks>());

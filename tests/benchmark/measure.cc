@@ -44,6 +44,6 @@ void Print(const std::string& what, const std::string& value, const std::string&
   std::fflush(stdout);
 }
 
-void Keep(double value) { sink = value; }
+void DoNotOptimize(double value) { sink = value; }
 
 }  // namespace ricochet::bench

@@ -31,7 +31,7 @@ Comparison Compare(int rounds, absl::FunctionRef<void()> a, absl::FunctionRef<vo
 void Print(const std::string& what, const std::string& value, const std::string& note);
 
 // Keeps the compiler from dropping the computation of `value`.
-void Keep(double value);
+void DoNotOptimize(double value);
 
 }  // namespace ricochet::bench
 

@@ -136,7 +136,7 @@ std::vector<Case> Cases() {
   const int64_t before = allocations;
   for (int i = 0; i < count; ++i) sum += SolveOnce(request);
   std::printf("%lld\n", static_cast<long long>(allocations - before));
-  Keep(sum);
+  DoNotOptimize(sum);
 }
 
 int Main(int argc, char** argv) {
@@ -144,7 +144,7 @@ int Main(int argc, char** argv) {
     if (argc != 3) {
       std::printf("%s\n", one.name.c_str());
     } else if (one.name == argv[1]) {
-      Keep(SolveOnce(one.request));
+      DoNotOptimize(SolveOnce(one.request));
       SolveRepeatedly(one.request, std::atoi(argv[2]));
     }
   }

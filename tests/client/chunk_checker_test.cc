@@ -120,19 +120,19 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(ChunkCheckerRefuses, AsDataLoss) {
   ChunkChecker checker(Sweep());
-  ASSERT_TRUE(checker.Take(Sealed(Chunk(0, 40, false))).ok());
+  ASSERT_TRUE(checker.Accept(Sealed(Chunk(0, 40, false))).ok());
   SweepChunk second = Chunk(40, 60, true);
   ASSERT_TRUE(ChunkChecker(checker).Take(Sealed(second)).ok());
   GetParam().damage(second);
-  EXPECT_EQ(CodeOf(checker.Take(Sealed(second))), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(CodeOf(checker.Accept(Sealed(second))), absl::StatusCode::kDataLoss);
 }
 
 TEST(ChunkChecker, RefusesAnEndBeforeTheLastPoint) {
   ChunkChecker checker(Sweep());
   EXPECT_EQ(checker.CheckEnd().code(), absl::StatusCode::kDataLoss);
-  ASSERT_TRUE(checker.Take(Sealed(Chunk(0, 40, false))).ok());
+  ASSERT_TRUE(checker.Accept(Sealed(Chunk(0, 40, false))).ok());
   EXPECT_EQ(checker.CheckEnd().code(), absl::StatusCode::kDataLoss);
-  ASSERT_TRUE(checker.Take(Sealed(Chunk(40, 60, true))).ok());
+  ASSERT_TRUE(checker.Accept(Sealed(Chunk(40, 60, true))).ok());
   EXPECT_TRUE(checker.CheckEnd().ok());
 }
 
@@ -142,7 +142,7 @@ TEST(ChunkChecker, HoldsASubRangeToItsOwnEnds) {
   request.end_index = 30;
   ChunkChecker checker(request);
   EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(Chunk(0, 20, true)))), absl::StatusCode::kDataLoss);
-  EXPECT_TRUE(checker.Take(Sealed(Chunk(10, 20, true, 10))).ok());
+  EXPECT_TRUE(checker.Accept(Sealed(Chunk(10, 20, true, 10))).ok());
 }
 
 TEST(ChunkChecker, CountsTheRegimesThatTheRequestAskedFor) {

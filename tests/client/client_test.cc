@@ -11,12 +11,9 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <functional>
 #include <memory>
 #include <optional>
-#include <ostream>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "client/cost_reader.h"

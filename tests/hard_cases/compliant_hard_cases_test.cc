@@ -160,9 +160,8 @@ HardCaseResult RunLoss() {
     const PlanarReduction reduction = {.w = {problem.contact.w.tt, problem.contact.w.tn, problem.contact.w.nn},
                                        .u0 = {problem.contact.u0},
                                        .v0 = problem.contact.v0};
-    const Outcome outcome = Made([&](Outcome& made) {
-                              return MakeOutcome(problem, reduction, {.detail = Detail::kNumbers}, made);
-                            }).value();
+    const Outcome outcome =
+        Made([&](Outcome& made) { return MakeOutcome(problem, reduction, {.numbers_only = true}, made); }).value();
     const auto error = [&exact](double loss) {
       return (Abs(Ball(loss, 192) - exact.work_normal) / Abs(exact.work_normal)).UpperBound();
     };

@@ -9,7 +9,6 @@
 #include <array>
 #include <cmath>
 #include <random>
-#include <string>
 #include <variant>
 #include <vector>
 

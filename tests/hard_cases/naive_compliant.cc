@@ -1,6 +1,5 @@
 #include "tests/hard_cases/naive_compliant.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

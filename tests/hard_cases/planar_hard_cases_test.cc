@@ -12,7 +12,6 @@
 #include "tests/hard_cases/hard_case_table.h"
 #include "tests/hard_cases/naive_planar.h"
 #include "tests/support/oracles/planar_oracle.h"
-#include "tests/support/scenes/known_contacts.h"
 #include "tests/support/scenes/planar_scenes.h"
 
 namespace ricochet::planar {

@@ -8,11 +8,9 @@
 #include <chrono>
 #include <csignal>
 #include <memory>
-#include <string>
 #include <thread>
 
 #include "grpc/health/v1/health.grpc.pb.h"
-#include "proto/wire/status.h"
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"
 #include "tests/support/processes/server_process.h"

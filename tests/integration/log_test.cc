@@ -15,7 +15,6 @@
 #include <sstream>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "proto/wire/status.h"
 #include "ricochet/engine_info.h"

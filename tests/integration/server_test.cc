@@ -12,16 +12,12 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
-#include <memory>
-#include <optional>
 #include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "grpc/health/v1/health.grpc.pb.h"
-#include "proto/wire/engine.h"
-#include "proto/wire/status.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"
 #include "ricochet/v1/impact_service.grpc.pb.h"

@@ -55,7 +55,7 @@ class KernelPeer final : public Peer {
         for (size_t i = 0; i < kImpacts; ++i) omega_[i] = pendulum::Solve(problems_[i])[Output::kOmegaPlus];
         break;
     }
-    bench::Keep(omega_.back());
+    bench::DoNotOptimize(omega_.back());
   }
   AfterImpact After() const override { return AfterAt(omega_.back()); }
   int impacts_per_run() const override { return kImpacts; }
@@ -94,7 +94,7 @@ class SolverPeer final : public Peer {
       // A refused request leaves a NaN, which no table can overlook.
       omega_ = response.ok() ? response->outcome.rates_after_rad_s[0] : std::numeric_limits<double>::quiet_NaN();
     }
-    bench::Keep(omega_);
+    bench::DoNotOptimize(omega_);
   }
   AfterImpact After() const override { return AfterAt(omega_); }
   int impacts_per_run() const override { return kImpacts; }

@@ -15,14 +15,14 @@ struct MadeFrame {
                      std::chrono::milliseconds unread_limit = std::chrono::seconds(30))
       : scheduler(2, 64, drain.streams),
         unread(unread_limit),
-        frame{.places = places,
+        frame{.live_calls = live_calls,
               .scheduler = scheduler,
               .unread = unread,
               .drain = std::move(drain),
               .limits = limits,
               .observer = observer} {}
 
-  Places places{PlacesFor(64)};
+  LiveCalls live_calls{LiveCallLimitsFor(64)};
   Scheduler scheduler;
   UnreadWatch unread;
   CallFrame frame;

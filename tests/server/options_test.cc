@@ -145,14 +145,14 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                              GoodCase{"ThreadsFollowCalls",
                                       {.flags = {"--max-live-calls", "1"}},
                                       [](Options& o) {
-                                        o.places = {
+                                        o.live_calls = {
                                             .calls = 1, .calls_per_peer = 1, .streams = 1, .streams_per_peer = 1};
                                         o.max_threads = 129;
                                       }},
                              GoodCase{"FewestThreads",
                                       {.flags = {"--max-live-calls", "16", "--max-threads", "144"}},
                                       [](Options& o) {
-                                        o.places = {
+                                        o.live_calls = {
                                             .calls = 16, .calls_per_peer = 14, .streams = 4, .streams_per_peer = 3};
                                         o.max_threads = 144;
                                       }},
@@ -160,7 +160,7 @@ INSTANTIATE_TEST_SUITE_P(Table, GoodOptions,
                                       {.flags = {"--max-live-calls-per-peer", "5", "--max-streams", "6",
                                                  "--max-streams-per-peer", "7"}},
                                       [](Options& o) {
-                                        o.places = {
+                                        o.live_calls = {
                                             .calls = 1024, .calls_per_peer = 5, .streams = 6, .streams_per_peer = 7};
                                       }},
                              GoodCase{"Compute",
@@ -242,7 +242,7 @@ TEST(Options, ConfigFileIsNamedByTheEnvironmentToo) {
   const std::string path = WriteConfig("environment", "max-live-calls = 5\n");
   const auto parsed = Parse("", {.environment = {{"RICOCHETD_CONFIG", path}}});
   ASSERT_TRUE(parsed.ok()) << parsed.status();
-  EXPECT_EQ(std::get<Options>(*parsed).places.calls, 5);
+  EXPECT_EQ(std::get<Options>(*parsed).live_calls.calls, 5);
 }
 
 struct BadCase {

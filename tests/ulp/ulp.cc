@@ -29,6 +29,7 @@
 #include "absl/synchronization/mutex.h"
 #include "core/answer/model_outcomes.h"
 #include "core/contact/reduction.h"
+#include "core/models/planar/columns.h"
 #include "tests/support/oracles/pendulum_oracle.h"
 #include "tests/support/oracles/planar_oracle.h"
 #include "tests/support/scenes/made_outcome.h"
@@ -67,7 +68,7 @@ struct PendulumModel {
     bool overflows = false;
     for (size_t i = 0; i < kOutputs; ++i) {
       errors[i] = pendulum::OutputError(exact, i, impact.values[i]);
-      const bool is_told = !pendulum::OutputPath(static_cast<pendulum::Output>(i)).empty();
+      const bool is_told = *pendulum::kOutputPaths[i] != '\0';
       overflows = overflows || (is_told && std::isinf(impact.values[i]));
     }
     const auto outcome = Made([&problem](Outcome& made) { return pendulum::MakeOutcome(problem, 0.0, {}, made); });
@@ -100,20 +101,7 @@ struct PlanarModel {
 
  private:
   static bool Overflows(const planar::Impact& impact) {
-    const double told[] = {impact.newton,
-                           impact.poisson,
-                           impact.energetic,
-                           impact.tangential,
-                           impact.u1,
-                           impact.v1,
-                           impact.tau_compression,
-                           impact.tau1,
-                           impact.f1,
-                           impact.work_normal_compression,
-                           impact.work_normal_restitution,
-                           impact.work_tangential_compression,
-                           impact.work_tangential_restitution,
-                           impact.energy_change};
+    const auto told = planar::NumbersOf(impact, 0.0);
     return std::any_of(std::begin(told), std::end(told), [](double value) { return std::isinf(value); });
   }
 

@@ -30,7 +30,7 @@ Spelling SpellingOf(const std::string& path);
 // with "coefficients.", and spaces around a name do not count. Errors: those of FullName.
 absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names);
 
-// The same among the columns of a file: "*" stands for those that are `known`, a name for one of `places`.
+// Looks among the columns of a file: "*" stands for those that are `known`, a name for one of `places`.
 absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::string>& known,
                                                      const std::vector<std::string>& places,
                                                      const std::vector<std::string>& names);

@@ -7,7 +7,6 @@
 #include "client/cli/io/csv_row.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/json_text.h"
-#include "core/base/decimal.h"
 
 namespace ricochet::cli {
 

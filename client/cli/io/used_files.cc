@@ -6,7 +6,6 @@
 #include <cerrno>
 #include <filesystem>
 #include <map>
-#include <utility>
 
 #include "absl/status/statusor.h"
 #include "absl/strings/str_cat.h"

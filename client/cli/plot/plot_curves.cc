@@ -23,7 +23,7 @@ constexpr std::array kColours = {"#0072B2", "#D55E00", "#009E73", "#CC79A7", "#5
 constexpr std::array kDashes = {"1", "'-'", "'.'", "'-.'", "'_ '", "'-..'", "'_.'"};
 
 constexpr double kLineWidth = 2.0;
-// Of curves that lie on each other, each is so much wider than the next one, which is drawn upon it.
+// A curve is so much wider than the next one that lies on it, which is drawn upon it.
 constexpr double kRibbon = 3.0;
 constexpr int kMostRibbons = 4;
 

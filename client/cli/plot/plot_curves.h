@@ -17,7 +17,7 @@ namespace ricochet::cli {
 
 inline constexpr AxisRange kNoRange{1.0, 10.0};
 
-// What the axes of a panel show.
+// The ranges that the axes of a panel show.
 struct Axes {
   bool log_x = false;
   bool log_y = false;

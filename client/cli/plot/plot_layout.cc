@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "client/cli/plot/plot_axis.h"
 #include "client/cli/plot/plot_map.h"
 #include "client/cli/text/wrap.h"
 

@@ -27,7 +27,7 @@ struct Layout {
   // The length of a line across a panel, and upwards beside one.
   double across() const { return cell_width() / character() - 4.0; }
   double upwards() const { return cell_height() / character() - 8.0; }
-  // What is left of a cell between the labels of the axes, the titles and what stands `beside` the frame.
+  // The room left of a cell between the labels of the axes, the titles and what stands `beside` the frame.
   double frame_width(double beside) const { return cell_width() - 9.0 * character() - 2.0 * font - beside; }
   double frame_height() const;
 };

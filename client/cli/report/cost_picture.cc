@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -76,32 +75,21 @@ struct Look {
 
 // Models are told apart by mark and colour, arithmetics by open and full marks, so that a print in grey can be read
 // too.
+constexpr std::pair<Model, Look> kLooks[] = {
+    {Model::kFrictionless, {"#0072B2", 4, 5}}, {Model::kFirstOrder, {"#D55E00", 14, 15}},
+    {Model::kSliding, {"#E69F00", 14, 15}},    {Model::kPendulum, {"#009E73", 8, 9}},
+    {Model::kPlanar, {"#CC79A7", 10, 11}},     {Model::kSpatial, {"#56B4E9", 12, 13}},
+    {Model::kCompliant, {"#D55E00", 6, 7}},    {Model::kFiniteDuration, {"#8C6D31", 1, 1}},
+    {Model::kImpactLaw, {"#0072B2", 6, 7}},
+};
+constexpr Look kOtherLook = {"#7F7F7F", 3, 3};
+
 Look LookOf(const Family& family) {
   if (family.arithmetic == Arithmetic::kCertified) return {"#000000", 7, 7};
-  switch (family.model) {
-    case Model::kUnspecified:
-    case Model::kNone:
-      break;
-    case Model::kFrictionless:
-      return {"#0072B2", 4, 5};
-    case Model::kFirstOrder:
-      return {"#D55E00", 14, 15};
-    case Model::kSliding:
-      return {"#E69F00", 14, 15};
-    case Model::kPendulum:
-      return {"#009E73", 8, 9};
-    case Model::kPlanar:
-      return {"#CC79A7", 10, 11};
-    case Model::kSpatial:
-      return {"#56B4E9", 12, 13};
-    case Model::kCompliant:
-      return {"#D55E00", 6, 7};
-    case Model::kFiniteDuration:
-      return {"#8C6D31", 1, 1};
-    case Model::kImpactLaw:
-      return {"#0072B2", 6, 7};
+  for (const auto& [model, look] : kLooks) {
+    if (model == family.model) return look;
   }
-  return {"#7F7F7F", 3, 3};
+  return kOtherLook;
 }
 
 // The stiffnesses of a spring share a colour; `ordinal` counts them.
@@ -116,7 +104,6 @@ std::string StyleOf(const Family& family, int ordinal) {
 double Drawn(double error) { return std::max(error, std::pow(10.0, kLeastExponent)); }
 double DrawnClaim(double error) { return std::isinf(error) ? kBeyond : Drawn(error); }
 
-// Gives a row's point, if it has one.
 using Place = std::pair<double, double> (*)(const CostRow& row);
 
 std::pair<double, double> TimePlace(const CostRow& row) { return {Drawn(row.achieved->total), row.solve->median_s}; }

@@ -10,7 +10,6 @@
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
 #include "core/base/decimal.h"
-#include "proto/wire/plan.h"
 
 namespace ricochet::cli {
 namespace {

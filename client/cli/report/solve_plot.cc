@@ -10,7 +10,6 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
-#include "core/contact/reduction.h"
 
 namespace ricochet::cli {
 namespace {
@@ -107,7 +106,7 @@ Plot PlanarPlot(const Outcome& outcome) {
   Plot plot{.title = absl::StrCat(Heading(outcome), Legend(outcome))};
   plot.panels = {has_rates ? RatesPanel(timeline) : VelocityPanel(timeline), RatioPanel(timeline),
                  ImpulsePanel(timeline)};
-  const bool is_straight = outcome.plan.model != Model::kCompliant;
+  const bool is_straight = IsLinearBetweenEvents(outcome.plan.model);
   for (Panel& panel : plot.panels) {
     MarkCompression(outcome, panel);
     if (is_straight) continue;

@@ -1,7 +1,6 @@
 #include "client/cli/report/solve_report.h"
 
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "absl/strings/str_cat.h"
@@ -272,11 +271,6 @@ std::vector<std::string> StateCells(const std::string& name, const State& state)
   return cells;
 }
 
-// Returns true if every quantity is linear in the normal impulse from one event to the next.
-bool IsLinear(Model model) {
-  return model != Model::kSpatial && model != Model::kCompliant && model != Model::kFiniteDuration;
-}
-
 std::string StatesText(const char* title, const Table& table) {
   return absl::StrCat("\n", title, "\n", table.Render(2));
 }
@@ -389,8 +383,9 @@ std::string SolveText(const Outcome& outcome) {
     const State& start = outcome.timeline.front().state;
     Table table = StateTable(start);
     for (const Event& event : outcome.timeline) table.Add(StateCells(EventText(event.kind), event.state));
-    absl::StrAppend(&text,
-                    StatesText(IsLinear(outcome.plan.model) ? "Timeline (linear between events)" : "Timeline", table));
+    absl::StrAppend(
+        &text,
+        StatesText(IsLinearBetweenEvents(outcome.plan.model) ? "Timeline (linear between events)" : "Timeline", table));
   }
   if (!outcome.history.empty()) {
     Table table = StateTable(outcome.history.front());

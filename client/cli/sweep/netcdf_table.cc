@@ -117,7 +117,7 @@ std::set<std::string> AxesOf(File& file, const std::vector<Variable>& variables)
   return axes;
 }
 
-// What a file has, in the order of its variables.
+// The contents of a file, in the order of its variables.
 struct Contents {
   std::vector<int> dimensions;  // Of every column.
   std::vector<int64_t> counts;  // The lengths of the dimensions.

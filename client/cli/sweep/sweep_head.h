@@ -1,4 +1,4 @@
-// What JSON says of the columns of a table and the axes of a sweep: their names, units and meanings.
+// The head of JSON: the names, units and meanings of the columns of a table and of the axes of a sweep.
 
 #ifndef RICOCHET_CLIENT_CLI_SWEEP_SWEEP_HEAD_H_
 #define RICOCHET_CLIENT_CLI_SWEEP_SWEEP_HEAD_H_

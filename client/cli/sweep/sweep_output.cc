@@ -102,7 +102,7 @@ absl::Status SweepOutput::Join(SweepChunk& chunk) {
 }
 
 absl::Status SweepOutput::Write(const SweepChunk& chunk) {
-  // What follows may come to the terminal: a table, or the counts of invalid points.
+  // The text may come to the terminal: a table, or the counts of invalid points.
   if (chunk.summary.has_value()) Progress::Erase();
   if (netcdf_.has_value()) return netcdf_->Write(chunk);
   const absl::StatusOr<std::string> text = writer_(chunk);

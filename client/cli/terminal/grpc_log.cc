@@ -9,6 +9,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
+#include "client/final_failure.h"
 
 namespace ricochet::cli {
 namespace {
@@ -41,9 +42,7 @@ void QuietGrpc() {
 }
 
 absl::Status WithTlsAlert(const absl::Status& status) {
-  if (!absl::IsUnavailable(status) || !absl::StrContains(status.message(), "the server closed the connection")) {
-    return status;
-  }
+  if (!IsClosedByServer(status)) return status;
   Alert& alert = LastAlert();
   const std::lock_guard lock(alert.mutex);
   if (alert.text.empty()) return status;

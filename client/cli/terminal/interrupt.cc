@@ -5,7 +5,6 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <ctime>
 
 #include "client/cli/terminal/progress.h"
 

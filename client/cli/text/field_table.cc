@@ -4,7 +4,6 @@
 
 #include <array>
 #include <map>
-#include <utility>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"

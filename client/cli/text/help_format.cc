@@ -1,7 +1,6 @@
 #include "client/cli/text/help_format.h"
 
 #include <CLI/App.hpp>
-#include <vector>
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"

@@ -25,7 +25,7 @@ absl::StatusOr<double> ParseNumber(const std::string& text, const std::string& w
 
 // Reads a whole number of at most 2^53: "1000", "1e6".
 absl::StatusOr<int64_t> ParseCount(const std::string& text, const std::string& what);
-// The same for a number from 1 to `most`.
+// Reads such a number from 1 to `most`.
 absl::StatusOr<int64_t> ParseCount(const std::string& text, const std::string& what, int64_t most);
 
 // Reads "250ms", "30s", "5m", "2h"; a bare number is in seconds. At least one millisecond, at most a year.

@@ -9,7 +9,7 @@
 
 namespace ricochet {
 
-// What a column states, which decides whether a request must have it.
+// The kind of number that a column states, which decides whether a request must have it.
 enum class AuditColumnPart {
   kBefore,  // The velocity before the impact: either all of it is stated or the scene's own holds.
   kAfter,   // The velocity after the impact: it is stated here or by the rates.

@@ -168,7 +168,7 @@ struct NumberErrors {
   friend bool operator==(const NumberErrors&, const NumberErrors&) = default;
 };
 
-// What a note tells. The numbers are those of ricochet.v1.Note.Kind.
+// The subject of a note. The numbers are those of ricochet.v1.Note.Kind.
 enum class NoteKind {
   kUnspecified = 0,
   kDurationLeftOut = 1,  // The scene has a normal spring, but the answer has no duration and no forces.

@@ -100,6 +100,26 @@ enum class Model {
 };
 inline constexpr int kModelCount = 11;
 
+// True if every quantity of the model's path is linear in the normal impulse from one event to the next.
+constexpr bool IsLinearBetweenEvents(Model model) {
+  switch (model) {
+    case Model::kSpatial:
+    case Model::kCompliant:
+    case Model::kFiniteDuration:
+      return false;
+    case Model::kUnspecified:
+    case Model::kNone:
+    case Model::kFrictionless:
+    case Model::kFirstOrder:
+    case Model::kSliding:
+    case Model::kPendulum:
+    case Model::kPlanar:
+    case Model::kImpactLaw:
+      break;
+  }
+  return true;
+}
+
 // How the rounding errors of an impact are kept small. The numbers are those of ricochet.v1.Arithmetic.
 enum class Arithmetic {
   kUnspecified = 0,

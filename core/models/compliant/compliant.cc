@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "core/models/compliant/path.h"
 #include "core/models/compliant/spring_contact.h"

@@ -105,7 +105,7 @@ ImpactErrors NumberErrorsOf(const Problem& problem, const ScaledContact& contact
   const ImpulseErrors impulses = impulses_of(velocity);
   // The impulses err as the estimate of the velocities does, which is no bound.
   constexpr double kOfEnergy = 2.0;
-  // What is cut off of a velocity stays in the impulses, which then act on the velocities before as well.
+  // The part that is cut off a velocity stays in the impulses, which then act on the velocities before as well.
   const ImpulseErrors kept = impulses_of(path.cut_off[kU] + path.cut_off[kV]);
   const double energy =
       kOfEnergy * ((std::fabs(end[kU]) + velocity) * impulses.f + (std::fabs(end[kV]) + velocity) * impulses.tau) +

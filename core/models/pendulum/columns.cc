@@ -225,15 +225,15 @@ HWY_INLINE Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdict
   Storer storer(block);
   const V most_kappa = VLanes::Fill(MostKappa(tolerance));
   Mask all = VLanes::Fill(0.0) == VLanes::Fill(0.0);
-  bool all_usual = true;
+  bool all_within = true;
   const size_t last = storer.Last();
   for (size_t i = 0;; i = std::min(i + VLanes::Count(), last)) {
     const auto in = loader.Load<N>(i);
     Solution<N, Mask> x;
     SolveUnlocked(kLaw, in, parts, x);
     if (!InAllLanes(ReboundWithinLimits(kLaw, in, x, most_kappa))) [[unlikely]] {
-      if (all_usual) verdicts.fill(static_cast<uint64_t>(Regime::kRebound));
-      all_usual = false;
+      if (all_within) verdicts.fill(static_cast<uint64_t>(Regime::kRebound));
+      all_within = false;
       OverrideLocked(x);
       const Mask is_right = Both(SignsAreProved(kLaw, x), RelativeError(x) <= VLanes::Fill(tolerance));
       const Mask is_proved = Both(IsModerate(in), is_right);
@@ -244,7 +244,7 @@ HWY_INLINE Proof SolvePlainBlockOf(const Block& block, double tolerance, Verdict
     if (i == last) break;
   }
   storer.End();
-  if (all_usual) {
+  if (all_within) {
     std::fill_n(block.solved.regimes.data() + block.place, block.size, Regime::kRebound);
     std::fill_n(block.solved.inadmissible.data() + block.place, block.size, false);
     return Proof::kAllReboundWithinLimits;
@@ -279,9 +279,9 @@ HWY_INLINE bool FitsDoubleDouble(const Block& block) {
   for (size_t i = block.first; i < block.first + block.size; i += VLanes::Count()) {
     for (const double* column : {problems.inertia(), problems.a(), problems.b(), problems.omega_minus(), problems.mu(),
                                  problems.mu_static()}) {
-      sizes.TakeIn(VLanes::Load(column + i));
+      sizes.Include(VLanes::Load(column + i));
     }
-    coefficients.TakeIn(VLanes::Load(problems.coefficient() + i));
+    coefficients.Include(VLanes::Load(problems.coefficient() + i));
   }
   return InAllLanes(sizes.AreWithin(kLimit)) && InAllLanes(coefficients.AreWithin(kCoefficientLimit));
 }
@@ -350,7 +350,7 @@ void SolveCompensated(const Block& block) {
   }
 }
 
-// Returns true if all problems are usual (ReboundWithinLimits).
+// Returns true if all problems rebound within the limits (ReboundWithinLimits).
 bool SolvePlainFirst(const Block& block, double tolerance) {
   Verdicts verdicts;
   const Proof proof = HWY_DYNAMIC_DISPATCH(SolvePlainBlock)(block, tolerance, verdicts);
@@ -395,7 +395,7 @@ bool SolveColumns(const ProblemColumns& problems, size_t first, size_t count, do
   const bool may_be_plain = tolerance >= HWY_NAMESPACE::kLeastError;
   // The bound on the rounding error needs kappa.
   const unsigned parts = PartsOf(solved.outputs) | (may_be_plain ? kPartKappa : 0U);
-  bool all_usual = may_be_plain;
+  bool all_within = may_be_plain;
   for (size_t done = 0; done < count; done += Block::kCapacity) {
     const Block block = {.problems = problems,
                          .solved = solved,
@@ -404,12 +404,12 @@ bool SolveColumns(const ProblemColumns& problems, size_t first, size_t count, do
                          .place = done,
                          .size = std::min(Block::kCapacity, count - done)};
     if (may_be_plain) {
-      all_usual &= SolvePlainFirst(block, tolerance);
+      all_within &= SolvePlainFirst(block, tolerance);
     } else {
       SolveCompensated(block);
     }
   }
-  return all_usual;
+  return all_within;
 }
 
 }  // namespace ricochet::pendulum

@@ -1,6 +1,5 @@
 // The errors of the numbers of a pendulum's impact (core/models/pendulum/pendulum.h,
 // core/models/pendulum/first_order.h).
-#include <algorithm>
 #include <cmath>
 
 #include "core/models/pendulum/first_order.h"

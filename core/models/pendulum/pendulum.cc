@@ -4,12 +4,10 @@
 #define HWY_TARGET_INCLUDE "core/models/pendulum/pendulum.cc"
 #include "core/models/pendulum/pendulum.h"
 
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
 #include "core/models/pendulum/parts.h"
-#include "core/models/restitution_law.h"
 #include "core/numerics/moderate.h"
 // Highway prescribes the order of these includes.
 // clang-format off

@@ -67,7 +67,28 @@ enum class Output {
   kEnergyChange,     // -dE
   kEnergeticExcess,  // eta - 1 without cancellation; > 0 exactly if the sharp limit is broken
 };
-inline constexpr int kOutputCount = 19;
+
+// Their paths in an outcome (ricochet/outcome_numbers.h); empty for those that are none of its numbers.
+inline constexpr std::array kOutputPaths = {"coefficients.newton",
+                                            "coefficients.poisson",
+                                            "coefficients.energetic",
+                                            "coefficients.tangential",
+                                            "rates_after_rad_s[0]",
+                                            "contact_velocity_after.tangential_m_s[0]",
+                                            "contact_velocity_after.normal_m_s",
+                                            "impulse.normal_compression_n_s",
+                                            "impulse.normal_total_n_s",
+                                            "impulse.tangential_n_s[0]",
+                                            "",
+                                            "work.normal_compression_j",
+                                            "work.normal_restitution_j",
+                                            "work.tangential_compression_j",
+                                            "work.tangential_restitution_j",
+                                            "work.normal_total_j",
+                                            "work.tangential_total_j",
+                                            "energy_change_j",
+                                            ""};
+inline constexpr int kOutputCount = kOutputPaths.size();
 
 struct Impact {
   Regime regime = Regime::kUnspecified;

@@ -219,8 +219,8 @@ class CompensatedQueue {
     }
   }
 
-  // Takes in the i-th problem of the job. It must not be separating.
-  void TakeIn(size_t i) {
+  // Adds the i-th problem of the job. It must not be separating.
+  void Push(size_t i) {
     indices_[size_] = i;
     for (size_t k = 0; k < kNumbers; ++k) numbers_[k][size_] = job_.numbers[k][i];
     if (++size_ == kBlock) SolveAll();
@@ -281,7 +281,7 @@ size_t SolveSome(const Job& job, size_t first, size_t count, double tolerance, C
     } else if (job.IsSeparating(first + i)) {
       WriteSeparating(job, first + i);
     } else {
-      waiting.TakeIn(first + i);
+      waiting.Push(first + i);
       ++unproved;
     }
   }
@@ -295,7 +295,7 @@ size_t SolvePlainFirst(const Job& job, size_t count, double tolerance) {
   if (count < lanes) {
     for (size_t i = 0; i < count; ++i) {
       if (ServesPlainly(job, i, tolerance)) continue;
-      waiting.TakeIn(i);
+      waiting.Push(i);
       ++unproved;
     }
   } else {
@@ -316,7 +316,7 @@ void SolveCompensated(const Job& job, size_t count) {
     if (job.IsSeparating(i)) {
       WriteSeparating(job, i);
     } else {
-      waiting.TakeIn(i);
+      waiting.Push(i);
     }
   }
   waiting.SolveAll();

@@ -19,7 +19,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::planar::HWY_NAMESPACE {
 
-// Of an impact that has no end, nothing is known.
+// Nothing is known of an impact that has no end.
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr RoundingErrors kNoErrors = {.velocity = kInfinity, .impulse = kInfinity, .work = kInfinity};
 
@@ -52,7 +52,7 @@ Impact SolveModerateWithErrors(const Problem& problem, RoundingErrors& errors, I
 static_assert(offsetof(Problem, w) == 0 && offsetof(PlanarDelassus, nn) == 2 * sizeof(double) &&
               offsetof(Problem, mu_static) == 6 * sizeof(double));
 
-// What IsModerate of core/models/planar/rounding-inl.h says, for four numbers at once instead of one.
+// Says what IsModerate of core/models/planar/rounding-inl.h says, for four numbers at once instead of one.
 HWY_INLINE bool IsModerateAlone(const Problem& problem) {
   namespace hn = hwy::HWY_NAMESPACE;
   constexpr double kOfMatrix[] = {kLeastModerate, kLeastCoupling, kLeastModerate, kLeastCoupling};  // W and u0

@@ -60,8 +60,8 @@ template <typename N>
 HWY_INLINE MaskOf<CoarseOf<N>> IsModerate(const Inputs<N>& in) {
   ricochet::HWY_NAMESPACE::Sizes<RoundedOf<N>> sizes;
   ricochet::HWY_NAMESPACE::Sizes<RoundedOf<N>> couplings;
-  for (const N* x : {&in.wtt, &in.wnn, &in.v0, &in.mu, &in.mu_static, &in.coefficient}) sizes.TakeIn(Coarse(*x).value);
-  for (const N* x : {&in.wtn, &in.stated_u0}) couplings.TakeIn(Coarse(*x).value);
+  for (const N* x : {&in.wtt, &in.wnn, &in.v0, &in.mu, &in.mu_static, &in.coefficient}) sizes.Include(Coarse(*x).value);
+  for (const N* x : {&in.wtn, &in.stated_u0}) couplings.Include(Coarse(*x).value);
   return Both(sizes.AreWithin(kLeastModerate, kMostModerate), couplings.AreWithin(kLeastCoupling, kMostModerate));
 }
 
@@ -86,8 +86,8 @@ struct EndErrors {
   M works;  // Twice the error of each work and of the change of energy.
   // The difference that decides whether slip stops during restitution, and its error; 0 and 0 if nothing does.
   M decisive, decisive_error;
-  // Of the normal impulses of compression, from the stop of slip to its end, and of restitution up to the stop and
-  // after it; of u where v = 0.
+  // The errors of the normal impulses of compression, from the stop of slip to its end, and of restitution up to the
+  // stop and after it; of u where v = 0.
   M tau_compression, stuck, before, after, u_compression;
 };
 
@@ -148,7 +148,7 @@ HWY_INLINE M WithEnergyChange(const Course<N>& course, const EndErrors<M>& end, 
 
 // The whole impact lies on the first piece.
 template <typename N, typename M = CoarseOf<N>>
-HWY_INLINE EndErrors<M> StraightErrors(const Course<N>& course) {
+HWY_INLINE EndErrors<M> OnePieceErrors(const Course<N>& course) {
   const RestitutionLaw law = course.law;
   const Solution<N>& x = course.x;
   // Roundings of the step of restitution and of v1.
@@ -288,7 +288,7 @@ HWY_INLINE EndErrors<M> ErrorsOf(const Course<N>& course) {
   const MaskOf<N> late = Both(course.x.stops_in_restitution, IsPositive(course.x.end.v));
   if (InAllLanes(early)) return StopInCompressionErrors(course);
   if (InAllLanes(late)) return StopInRestitutionErrors(course);
-  EndErrors<M> errors = StraightErrors(course);
+  EndErrors<M> errors = OnePieceErrors(course);
   if (!InNoLane(early)) errors = SelectErrors(early, StopInCompressionErrors(course), errors);
   if (!InNoLane(late)) errors = SelectErrors(late, StopInRestitutionErrors(course), errors);
   return errors;

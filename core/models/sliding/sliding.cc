@@ -73,7 +73,7 @@ Vector<kTangential> Sum(const Vector<kTangential>& x, const Vector<kTangential>&
 
 // x + slope * tau, where adding 0.0 turns -0 into 0.
 template <size_t kTangential>
-Vector<kTangential> Moved(const Vector<kTangential>& x, const Vector<kTangential>& slope, double tau) {
+Vector<kTangential> Advanced(const Vector<kTangential>& x, const Vector<kTangential>& slope, double tau) {
   Vector<kTangential> moved;
   for (size_t i = 0; i < kTangential; ++i) moved[i] = std::fma(slope[i], tau, x[i]) + 0.0;
   return moved;
@@ -91,7 +91,7 @@ template <size_t kTangential>
 End<kTangential> EndOf(const Problem<kTangential>& problem, const Vector<kTangential>& u_slope, double v_slope) {
   const double tau_compression = -problem.v0 / v_slope;
   const double tau1 = std::fma(problem.coefficient, tau_compression, tau_compression);
-  return {tau_compression, tau1, Moved(problem.u0, u_slope, tau1), -problem.coefficient * problem.v0};
+  return {tau_compression, tau1, Advanced(problem.u0, u_slope, tau1), -problem.coefficient * problem.v0};
 }
 
 // Fills the fields of Impact that do not depend on the friction impulse.
@@ -116,7 +116,7 @@ Impact<kTangential> MakeImpact(const Problem<kTangential>& problem, const Vector
   impact.events = {{{.kind = EventKind::kStart, .u = problem.u0, .v = problem.v0},
                     {.kind = EventKind::kCompressionEnds,
                      .tau = end.tau_compression,
-                     .u = Moved(problem.u0, u_slope, end.tau_compression)},
+                     .u = Advanced(problem.u0, u_slope, end.tau_compression)},
                     {.kind = EventKind::kRestitutionEnds, .tau = end.tau1, .u = end.u1, .v = end.v1}}};
   return impact;
 }
@@ -125,14 +125,14 @@ Impact<kTangential> MakeImpact(const Problem<kTangential>& problem, const Vector
 template <size_t kTangential>
 constexpr double kDirectionErrors = kTangential == 1 ? 0.0 : 6.0;
 
-// What they are, relative to v'; infinite if v' is not positive.
+// Their values, relative to v'; infinite if v' is not positive.
 template <size_t kTangential>
 double ConditioningOf(const Problem<kTangential>& problem, const Slopes<kTangential>& slopes) {
   if (!(slopes.v > 0.0)) return std::numeric_limits<double>::infinity();
   return kDirectionErrors<kTangential> * (std::fabs(slopes.v - problem.Wnn()) / slopes.v);
 }
 
-// What underflow takes from velocities, and from impulses times mobilities below 2^100, over the largest velocity.
+// Bounds what underflow takes from velocities, and from impulses times mobilities below 2^100, over the largest one.
 template <size_t kTangential>
 double Unseen(const Problem<kTangential>& problem) {
   const bool nothing = AreModerate(problem.u0, kLimit) && AreModerate({problem.v0}, kLimit);

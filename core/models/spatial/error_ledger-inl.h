@@ -51,7 +51,7 @@ class ErrorLedger {
   // Adds the rounding of the direction of slip.
   void AddSlipRounding(T slip) { sum_.slip_rounding += StepErrors<T>::SlipRounding(problem_, slip); }
   // Slip is turned by the friction impulse (f1, f2).
-  void AddTurn(T f1, T f2) { sum_.AddKnown(problem_.w, {.known = {.f1 = -f1, .f2 = -f2}, .rest = {}}); }
+  void AddTurn(T f1, T f2) { sum_.AddKnown(problem_.w, {.known = {.f1 = -f1, .f2 = -f2}, .remainder = {}}); }
   // Adds a straight piece over `length`, with `slip` along e at its start and v at its end.
   void AddStraightSlip(const Direction<T>& e, T length, T slip, T next_slip, T v);
   // Adds a piece without slip.
@@ -63,7 +63,7 @@ class ErrorLedger {
     sum_.AddRounding(problem_, problem_.w.w33 * length, v, length);
   }
   // Sets the distance from an event, in normal impulse, at which root finding stopped.
-  void SetEventOffset(T offset) { event_offset_ = offset; }
+  void SetEventDistance(T distance) { event_distance_ = distance; }
   // Says that the path came so near to a goal, or so little beyond it, that the true path may not agree: `gap` is the
   // distance, in the goal's quantity, at the end of a step. Where the contact is nearly at rest, the paths on both
   // sides of the goal stay as near to each other as they are to rest.
@@ -175,7 +175,7 @@ class ErrorLedger {
   EndErrors<T> at_compression_end_;
   T compression_end_tau_{0};
   bool is_straight_ = false;  // The path has come here on a straight piece.
-  T event_offset_{0};
+  T event_distance_{0};
   T compression_end_v_{0};      // the v found in place of 0
   T stop_tau_ = -kInfinity<T>;  // where slip stopped, from the start of the phase
   T settles_{0};                // the normal impulse after which the true path sticks as well
@@ -212,7 +212,7 @@ void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
   const T error = sum_.friction + sum_.slip_rounding;
   settles_ = error == T{0} ? T{0} : margin > T{0} ? error / (problem_.smallest_root * margin) : kInfinity<T>;
   locks_ = problem_.Locks(sticking);
-  // What holds the contact is what u has lost, so that the friction impulse has the rounding of u.
+  // The contact is held by what u has lost, so that the friction impulse has the rounding of u.
   const T root = problem_.smallest_root;
   if (error > T{0}) f_rounding_ += (sum_.slip_rounding + u_rounding_ / root) / root;
   if (locks_) ForgetSlip();
@@ -227,7 +227,7 @@ void ErrorLedger<T>::Stick(const Sticking<T>& sticking) {
 template <typename T>
 void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes) {
   const T doubtful = std::fabs(sum_.doubtful.NormalVelocity(problem_.w)) + DoubtOfV();
-  compression_ = {.impulse = ImpulseErrorOfVelocityEvent(VelocityError() + doubtful, slopes) + event_offset_,
+  compression_ = {.impulse = ImpulseErrorOfVelocityEvent(VelocityError() + doubtful, slopes) + event_distance_,
                   .work = sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state)};
   known_compression_ = {.impulse = ImpulseErrorOfVelocityEvent(sum_.known.NormalVelocity(problem_.w), slopes),
                         .work = sum_.known.work};
@@ -245,7 +245,7 @@ void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes
   if (path.IsRounding(path.state.v)) sum_.v_rounding += std::fabs(path.state.v);  // v is set to 0.
   compression_end_tau_ = path.state.tau;
   compression_end_v_ = path.state.v;
-  event_offset_ = sum_.work = sum_.known.work = sum_.doubtful.work = T{0};
+  event_distance_ = sum_.work = sum_.known.work = sum_.doubtful.work = T{0};
   stop_tau_ -= path.state.tau;
 }
 
@@ -316,7 +316,7 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
                                 sum_.work + std::fabs(sum_.doubtful.work) + WorkRounding(path.state) + jump +
                                     DoubtOfV() * path.state.tau,
                                 compression_) +
-              event_offset_;
+              event_distance_;
   const T known_impulse = SignedImpulseErrorOfEnd(path, slopes, sum_.known, known_compression_);
   const T all = impulse + kSafety * std::fabs(known_impulse);
   T u_slope = Size(slopes.u1, slopes.u2);
@@ -333,7 +333,7 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
   errors.u = kSafety * known_u + RestOfU() + problem_.graze * impulse * u_slope;
   // A v that ends the impact has its error from root finding alone.
   const bool v_is_goal = problem_.coefficient == T{0} || (path.goal.quantity == Quantity::kVelocity && !v_is_turned);
-  errors.v = v_is_goal ? event_offset_ * v_slope : kSafety * known_v + v_error_of_state + impulse * v_slope;
+  errors.v = v_is_goal ? event_distance_ * v_slope : kSafety * known_v + v_error_of_state + impulse * v_slope;
   errors.relative = std::max(errors.u, problem_.graze * errors.v) / problem_.velocity + kOutput;
   // Each velocity by itself has no other one whose error is larger: what cancels in the known errors counts in part.
   errors.u += kOfParts * (Size(sum_.known.Velocity1(w), sum_.known.Velocity2(w)) +
@@ -356,7 +356,7 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
   errors.f = ErrorOfF(path.state) + problem_.mu_static * all;
   // Restitution that ends with a certain work errs by what that work does, and by root finding.
   const T stated = problem_.coefficient * problem_.coefficient * errors.normal_compression +
-                   std::fabs(path.state.v) * event_offset_ + WorkRounding(path.state);
+                   std::fabs(path.state.v) * event_distance_ + WorkRounding(path.state);
   const T followed = GoalError(path, Quantity::kWork) + v_error_of_state * (path.state.tau + all) +
                      (std::fabs(path.state.v) + v_slope * all) * (all + errors.tau_compression);
   errors.normal_restitution = path.goal.quantity == Quantity::kWork ? stated + jump : followed + jump;

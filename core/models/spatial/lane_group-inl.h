@@ -42,12 +42,12 @@ struct StepGroup {
 
 class LaneGroup {
  public:
-  // Those of the problems are solved that belong to `group`.
+  // Solves those of the problems that belong to `group`.
   LaneGroup(const StepGroup& group, absl::Span<const Problem> problems, absl::Span<Impact> impacts)
       : group_(group), problems_(problems), impacts_(impacts) {}
 
   void Run() {
-    for (size_t lane = 0; lane < kLanes; ++lane) TakeNext(lane);
+    for (size_t lane = 0; lane < kLanes; ++lane) StartNext(lane);
     while (busy_ > 0) {
       step_.Take(group_.order);
       for (size_t lane = 0; lane < kLanes; ++lane) {
@@ -66,11 +66,11 @@ class LaneGroup {
     const bool goes_on = solver.IsUnderWay() && (!step_.Pauses(lane) || solver.GoOn().has_value());
     if (goes_on) return step_.SetPath(lane, solver);
     --busy_;
-    if (!Finish(lane)) TakeNext(lane);
+    if (!Finish(lane)) StartNext(lane);
   }
 
   // Gives the lane the next impact that needs steps, if there is one.
-  void TakeNext(size_t lane) {
+  void StartNext(size_t lane) {
     for (; next_ < problems_.size(); ++next_) {
       const Problem& problem = problems_[next_];
       if (!group_.Has(problem)) continue;
@@ -85,7 +85,7 @@ class LaneGroup {
       return;
     }
     solvers_[lane].reset();
-    step_.Rest(lane);
+    step_.SetIdle(lane);
   }
 
   // Begins the next attempt at the impact of a lane, and ends it if it needs no steps. Returns true if it needs some.

@@ -46,9 +46,9 @@ struct Goal {
   T target;
 };
 
-// The way from the present state to the goal of its phase. T is a floating type or a LaneNumber.
+// The goal of the present phase, as seen from a state of the path. T is a floating type or a LaneNumber.
 template <typename T>
-struct Way {
+struct PhaseGoal {
   // The value of the goal's quantity.
   HWY_INLINE T Value(const State<T>& at) const {
     return Select(to_velocity, at.v, Select(to_impulse, at.tau, at.normal_work));
@@ -78,7 +78,7 @@ template <typename T>
 struct Path {
   explicit Path(const ScaledProblem<T>& its_problem);
 
-  Way<T> WayAhead() const {
+  PhaseGoal<T> GoalFromHere() const {
     return {.from = state,
             .target = goal.target,
             .to_velocity = goal.quantity == Quantity::kVelocity,
@@ -126,7 +126,7 @@ Path<T>::Path(const ScaledProblem<T>& its_problem)
 }
 
 template <typename T>
-HWY_INLINE T Way<T>::ImpulseToGoal(const Slopes<T>& slopes) const {
+HWY_INLINE T PhaseGoal<T>::ImpulseToGoal(const Slopes<T>& slopes) const {
   const T never{kInfinity<Constant<T>>};
   const T zero{0};
   const T missing = target - Value(from);

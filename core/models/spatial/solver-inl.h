@@ -35,26 +35,26 @@ class Solver {
   Solver(const Problem& problem, int rank, T tolerance);
 
   Impact Run() {
-    for (auto heading = Start(); heading.has_value(); heading = GoOn()) {
-      Accept(TakeStep<T>(problem_, impact_.path.WayAhead(), errors(), *heading, tolerance_, order_), 1);
+    for (auto slip_frame = Start(); slip_frame.has_value(); slip_frame = GoOn()) {
+      Accept(TakeStep<T>(problem_, impact_.path.GoalFromHere(), errors(), *slip_frame, tolerance_, order_), 1);
     }
     return Report();
   }
 
   // Run, step by step, for a caller who takes the steps himself. Start and GoOn follow what needs no step, and return
-  // the heading of the step that comes next, if there is one. Accept takes over the end of the last of some steps, of
-  // which the others may not reach a goal or pause, and if dv/dtau < 0 is possible there must be no others.
-  std::optional<Heading<T>> Start();
+  // the frame of slip for the step that comes next, if there is one. Accept takes over the end of the last of some
+  // steps, of which the others may not reach a goal or pause, and if dv/dtau < 0 is possible there must be no others.
+  std::optional<SlipFrame<T>> Start();
   void Accept(const StepEnd<T>& end, int64_t steps);
-  std::optional<Heading<T>> GoOn();
+  std::optional<SlipFrame<T>> GoOn();
   Impact Report() const;
 
   // The number of terms of each series.
   static int OrderFor(T tolerance);
-  // True where GoOn would do more than return the heading of a path that is under way.
+  // True where GoOn would do more than return the frame of slip on a path that is under way.
   template <typename N>
-  static HWY_INLINE MaskOf<N> Pauses(const Heading<N>& heading, N stopped, N tolerance) {
-    return Either(heading.slip < stopped, heading.IsNearlyStraight(N{kSwitchShare} * tolerance));
+  static HWY_INLINE MaskOf<N> Pauses(const SlipFrame<N>& slip_frame, N stopped, N tolerance) {
+    return Either(slip_frame.slip < stopped, slip_frame.IsNearlyStraight(N{kSwitchShare} * tolerance));
   }
   bool IsUnderWay() const { return !impact_.path.ended && StepsLeft() > 0; }
   // The budget lies far above the number of steps of every impact that tests have found.
@@ -73,7 +73,7 @@ class Solver {
   static constexpr double kSwitchShare = 0.2;
 
   bool SlipKeepsItsDirection() const;
-  bool SwitchToStraight(const Heading<T>& heading);
+  bool SwitchToStraight(const SlipFrame<T>& slip_frame);
   bool StandsAlong(const Direction<T>& e) const;
   void StandSlipAlong(const Direction<T>& e);
   void TurnSlipTo(const Direction<T>& e);
@@ -103,7 +103,7 @@ int Solver<T>::OrderFor(T tolerance) {
 }
 
 template <typename T>
-std::optional<Heading<T>> Solver<T>::Start() {
+std::optional<SlipFrame<T>> Solver<T>::Start() {
   const bool slips = state_.u1 != T{0} || state_.u2 != T{0};
   if (problem_.w.HasNoTangentialMobility() || (slips && problem_.mu == T{0})) {
     SlideFreely(impact_);
@@ -136,17 +136,17 @@ bool Solver<T>::SlipKeepsItsDirection() const {
 }
 
 template <typename T>
-std::optional<Heading<T>> Solver<T>::GoOn() {
+std::optional<SlipFrame<T>> Solver<T>::GoOn() {
   if (!IsUnderWay()) return std::nullopt;
-  const Heading<T> heading(problem_, state_);
-  if (!Pauses(heading, StoppedSlip(), tolerance_)) return heading;
-  if (heading.slip < StoppedSlip()) {
-    if (heading.slip > T{0}) impact_.errors.SetSlopesOfSlip(problem_.SlopesAlong(Normalized(state_.u1, state_.u2)));
+  const SlipFrame<T> slip_frame(problem_, state_);
+  if (!Pauses(slip_frame, StoppedSlip(), tolerance_)) return slip_frame;
+  if (slip_frame.slip < StoppedSlip()) {
+    if (slip_frame.slip > T{0}) impact_.errors.SetSlopesOfSlip(problem_.SlopesAlong(Normalized(state_.u1, state_.u2)));
     ContinueFromStop(impact_);
     return std::nullopt;
   }
-  if (SwitchToStraight(heading)) return std::nullopt;
-  return heading;
+  if (SwitchToStraight(slip_frame)) return std::nullopt;
+  return slip_frame;
 }
 
 template <typename T>
@@ -154,17 +154,17 @@ void Solver<T>::Accept(const StepEnd<T>& end, int64_t steps) {
   steps_ += steps;
   state_ = end.state;
   impact_.errors.SetAfterStep(end.errors);
-  if (problem_.may_jam) impact_.errors.NoteGap(impact_.path, std::fabs(end.beyond));
+  if (problem_.may_jam) impact_.errors.NoteGap(impact_.path, std::fabs(end.overshoot));
   if (!end.reaches_goal) return;
-  impact_.errors.SetEventOffset(end.offset);
+  impact_.errors.SetEventDistance(end.distance_to_goal);
   impact_.EndPhase(problem_.SlopesAlong(end.e));
 }
 
 // Slip may be so near to a direction that attracts it that what it still turns by cannot be seen in the result. It then
 // follows that direction, exactly linear in tau, until it stops or the impact ends.
 template <typename T>
-bool Solver<T>::SwitchToStraight(const Heading<T>& heading) {
-  const auto attracting = problem_.AttractingDirectionNear(heading.frame);
+bool Solver<T>::SwitchToStraight(const SlipFrame<T>& slip_frame) {
+  const auto attracting = problem_.AttractingDirectionNear(slip_frame.frame);
   if (!attracting.has_value()) return false;
   if (!problem_.w.tangent_is_singular) {
     TurnSlipTo(*attracting);

@@ -46,10 +46,10 @@ HWY_INLINE T FindRoot(const Function& function, MaskOf<T> is_sought, T guess, T 
   return x;
 }
 
-// Slip that turns, as seen in the frame of its direction.
+// Slip that turns, in the frame of its direction.
 template <typename T>
-struct Heading {
-  HWY_INLINE Heading(const Contact<T>& contact, const State<T>& state)
+struct SlipFrame {
+  HWY_INLINE SlipFrame(const Contact<T>& contact, const State<T>& state)
       : slip(state.Slip()),
         frame(contact.FrameAt({state.u1 / slip, state.u2 / slip})),
         scale(Min(contact.velocity, Max(contact.approach, Absolute(state.v)))) {}
@@ -72,8 +72,8 @@ struct Heading {
 template <typename T>
 class Step {
  public:
-  // All that is given must stay as it is meanwhile.
-  HWY_INLINE Step(const Contact<T>& contact, const Way<T>& way, const Heading<T>& heading, int order);
+  // The arguments must stay as they are meanwhile.
+  HWY_INLINE Step(const Contact<T>& contact, const PhaseGoal<T>& goal, const SlipFrame<T>& slip_frame, int order);
 
   HWY_INLINE State<T> At(T xi) const;
   // The largest xi at which the errors of the velocities, over their scales, stay below `allowed`.
@@ -83,15 +83,15 @@ class Step {
     const auto across = [this](T xi) HWY_ATTR { return SlipAcrossCoupling(xi); };
     const auto normal = [this](T xi) HWY_ATTR { return NormalRate(xi); };
     const auto velocity = [this](T xi) HWY_ATTR { return NormalVelocity(xi); };
-    end = EndAtSignChange(across, way_.may_turn, end);
-    end = EndAtSignChange(normal, way_.may_turn, end);
-    return EndAtSignChange(velocity, Both(Both(way_.may_turn, way_.in_restitution), Not(way_.from.v == T{0})), end);
+    end = EndAtSignChange(across, goal_.may_turn, end);
+    end = EndAtSignChange(normal, goal_.may_turn, end);
+    return EndAtSignChange(velocity, Both(Both(goal_.may_turn, goal_.in_restitution), Not(goal_.from.v == T{0})), end);
   }
   // Where `is_reached`, the xi at which the phase reaches its goal, which is at most `end`; found to `relative` of
   // itself.
   HWY_INLINE T GoalWithin(MaskOf<T> is_reached, T end, T relative) const {
-    const T guess = way_.ImpulseToGoal(contact_.SlopesAlong({frame_.c, frame_.s})) * contact_.rate / slip_;
-    const auto rates = [this](T xi) HWY_ATTR { return way_.GoalRates(contact_, At(xi)); };
+    const T guess = goal_.ImpulseToGoal(contact_.SlopesAlong({frame_.c, frame_.s})) * contact_.rate / slip_;
+    const auto rates = [this](T xi) HWY_ATTR { return goal_.GoalRates(contact_, At(xi)); };
     return Select(is_reached, FindRoot<T>(rates, is_reached, guess, end, relative), end);
   }
 
@@ -114,14 +114,14 @@ class Step {
   HWY_INLINE Rates<T> NormalRate(T xi) const;
   HWY_INLINE Rates<T> NormalVelocity(T xi) const {
     const State<T> at = At(xi);
-    return {at.v, way_.VelocityRate(contact_, at)};
+    return {at.v, goal_.VelocityRate(contact_, at)};
   }
   // `end`, or the xi before it where the quantity changes its sign, where that counts.
   template <typename Function>
   HWY_INLINE static T EndAtSignChange(const Function& quantity, MaskOf<T> counts, T end);
 
   const Contact<T>& contact_;
-  const Way<T>& way_;
+  const PhaseGoal<T>& goal_;
   const Frame<T>& frame_;
   const T slip_;
   const T scale_;  // of v
@@ -131,12 +131,12 @@ class Step {
 };
 
 template <typename T>
-HWY_INLINE Step<T>::Step(const Contact<T>& contact, const Way<T>& way, const Heading<T>& heading, int order)
+HWY_INLINE Step<T>::Step(const Contact<T>& contact, const PhaseGoal<T>& goal, const SlipFrame<T>& slip_frame, int order)
     : contact_(contact),
-      way_(way),
-      frame_(heading.frame),
-      slip_(heading.slip),
-      scale_(heading.scale),
+      goal_(goal),
+      frame_(slip_frame.frame),
+      slip_(slip_frame.slip),
+      scale_(slip_frame.scale),
       order_(order),
       friction_unit_(contact.largest_root * contact.mu * slip_ / contact.rate),
       work_unit_(contact.mu * slip_ * slip_ / contact.rate) {
@@ -146,7 +146,7 @@ HWY_INLINE Step<T>::Step(const Contact<T>& contact, const Way<T>& way, const Hea
 template <typename T>
 HWY_INLINE State<T> Step<T>::At(T xi) const {
   const SeriesValues<T> values = series_.At(xi);
-  const State<T>& from = way_.from;
+  const State<T>& from = goal_.from;
   const Matrix<T>& w = contact_.w;
   const T mu = contact_.mu;
   const T unit = slip_ / contact_.rate;
@@ -173,13 +173,13 @@ HWY_INLINE StepError<T> Step<T>::ErrorAt(T xi, const State<T>& end, const Direct
   const PathError<T> last = ErrorOf(terms.last, end, e);
   const auto size = [](const PathError<T>& of) HWY_ATTR { return Absolute(of.f1) + Absolute(of.f2); };
   const T q = terms.ratio;
-  StepError<T> error = {.known = before, .rest = last};
+  StepError<T> error = {.known = before, .remainder = last};
   error.known.Add(last, T{1});
   const auto falls_fast = size(before) * q > size(last);
   const T factor = T{3} * q / (T{1} - q) * Select(falls_fast, q, T{1});
-  error.rest = {.f1 = factor * Select(falls_fast, before.f1, last.f1),
-                .f2 = factor * Select(falls_fast, before.f2, last.f2),
-                .work = factor * Select(falls_fast, before.work, last.work)};
+  error.remainder = {.f1 = factor * Select(falls_fast, before.f1, last.f1),
+                     .f2 = factor * Select(falls_fast, before.f2, last.f2),
+                     .work = factor * Select(falls_fast, before.work, last.work)};
   return error;
 }
 
@@ -253,37 +253,42 @@ struct StepEnd {
   State<T> state;
   Direction<T> e;  // of slip
   StepErrors<T> errors;
-  T beyond;                // how far the goal's quantity lies beyond the goal at the accurate end
+  T overshoot;             // how far the goal's quantity lies beyond the goal at the accurate end
   MaskOf<T> reaches_goal;  // The step ends at the goal, which counts as reached.
-  T offset;                // the distance from the goal, in normal impulse, where it is reached
+  T distance_to_goal;      // the distance from the goal, in normal impulse, where it is reached
 };
 
 // Follows slip as far as its error stays below a share of the tolerance, and not beyond the goal of the phase.
 template <typename T>
-HWY_INLINE StepEnd<T> TakeStep(const Contact<T>& contact, const Way<T>& way, const StepErrors<T>& errors,
-                               const Heading<T>& heading, T tolerance, int order) {
+HWY_INLINE StepEnd<T> TakeStep(const Contact<T>& contact, const PhaseGoal<T>& goal, const StepErrors<T>& errors,
+                               const SlipFrame<T>& slip_frame, T tolerance, int order) {
   const T step_share{0.175};
-  const Step<T> step(contact, way, heading, order);
+  const Step<T> step(contact, goal, slip_frame, order);
   T xi = step.AccurateEnd(step_share * tolerance);
-  if (!InNoLane(way.may_turn)) xi = step.MonotonicEnd(xi);
+  if (!InNoLane(goal.may_turn)) xi = step.MonotonicEnd(xi);
   State<T> state = step.At(xi);
-  const T beyond = way.Value(state) - way.target;
-  const auto reaches_goal = beyond >= T{0};
-  T offset{0};
+  const T overshoot = goal.Value(state) - goal.target;
+  const auto reaches_goal = overshoot >= T{0};
+  T distance{0};
   if (!InNoLane(reaches_goal)) {
     xi = step.GoalWithin(reaches_goal, xi, T{1e-2} * SquareRoot(tolerance));
     state = step.At(xi);
-    const Rates<T> rates = way.GoalRates(contact, state);
-    offset = T{2} * Absolute(rates.value / rates.slope) * state.Slip() / contact.rate;
+    const Rates<T> rates = goal.GoalRates(contact, state);
+    distance = T{2} * Absolute(rates.value / rates.slope) * state.Slip() / contact.rate;
   }
   const T slip = state.Slip();
   const Direction<T> e = {state.u1 / slip, state.u2 / slip};
-  const Stretch<T> stretch = {.length = state.tau - way.from.tau,
-                              .m = {heading.frame.c + e.c, heading.frame.s + e.s},
-                              .slip = {heading.slip, slip}};
+  const Stretch<T> stretch = {.length = state.tau - goal.from.tau,
+                              .m = {slip_frame.frame.c + e.c, slip_frame.frame.s + e.s},
+                              .slip = {slip_frame.slip, slip}};
   StepErrors<T> sum = errors;
   sum.AddStep(contact, step.ErrorAt(xi, state, e), stretch, state.v);
-  return {.state = state, .e = e, .errors = sum, .beyond = beyond, .reaches_goal = reaches_goal, .offset = offset};
+  return {.state = state,
+          .e = e,
+          .errors = sum,
+          .overshoot = overshoot,
+          .reaches_goal = reaches_goal,
+          .distance_to_goal = distance};
 }
 
 }  // namespace ricochet::spatial::HWY_NAMESPACE

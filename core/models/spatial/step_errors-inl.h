@@ -22,7 +22,7 @@ namespace ricochet::spatial::HWY_NAMESPACE {
 // The error of one step to leading order, and one like what that leaves out.
 template <typename T>
 struct StepError {
-  PathError<T> known, rest;
+  PathError<T> known, remainder;
 };
 
 // A stretch of slip: its length in normal impulse, its mean direction at any length, and the sizes of slip at its ends.
@@ -65,14 +65,14 @@ struct StepErrors {
     known.Add(error.known, T{1});
     friction += T{kAnyDirection} * error.known.Norm(w);
     AddDoubt(w, error.known, T{kDoubt});
-    AddDoubt(w, error.rest, T{1});
+    AddDoubt(w, error.remainder, T{1});
   }
   HWY_INLINE void AddDoubt(const Matrix<T>& w, const PathError<T>& doubt, T part) {
     const T product = doubtful.f1 * doubt.Velocity1(w) + doubtful.f2 * doubt.Velocity2(w);
     doubtful.Add(doubt, CopySign(part, product));
   }
 
-  // Carries on no longer what is known where `counts`.
+  // Where `counts`, known errors and their doubts count by their norm from here on, and are carried no further.
   HWY_INLINE void CountByNorm(const Matrix<T>& w, MaskOf<T> counts) {
     if (InNoLane(counts)) return;
     const T zero{0};

@@ -64,7 +64,7 @@ template <typename T>
 void Follow(Progress<T>& impact, const StraightPiece<T>& piece) {
   T left = piece.length;
   while (!impact.path.ended) {
-    const T to_goal = piece.ends_locked ? kInfinity<T> : impact.path.WayAhead().ImpulseToGoal(piece.slopes);
+    const T to_goal = piece.ends_locked ? kInfinity<T> : impact.path.GoalFromHere().ImpulseToGoal(piece.slopes);
     const T length = std::min(to_goal, left);
     if (!(length < kInfinity<T>)) return;
     Advance(impact, piece, length);

@@ -12,7 +12,6 @@
 #include "absl/strings/str_split.h"
 #include "ricochet/v1/cost.pb.h"
 #include "tests/client/cli/cli_run.h"
-#include "tests/support/paths.h"
 #include "tests/support/processes/server_process.h"
 
 namespace ricochet::cli {

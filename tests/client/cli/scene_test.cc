@@ -7,7 +7,6 @@
 #include <string>
 
 #include "client/cli/input/scene_templates.h"
-#include "client/cli/text/field_table.h"
 #include "ricochet/v1/scene.pb.h"
 #include "tests/client/cli/cli_run.h"
 #include "tests/support/paths.h"

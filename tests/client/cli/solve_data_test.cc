@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "tests/client/cli/cli_run.h"
 #include "tests/support/paths.h"

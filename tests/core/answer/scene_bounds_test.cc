@@ -10,8 +10,6 @@
 #include <optional>
 #include <vector>
 
-#include "core/bounds/contact_bounds.h"
-#include "core/contact/reduction.h"
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
 #include "tests/support/scenes/system_scenes.h"

@@ -16,7 +16,6 @@
 #include <vector>
 
 #include "core/answer/scene_bounds.h"
-#include "core/contact/reduction.h"
 #include "core/scene/field.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"

@@ -5,7 +5,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -45,10 +44,10 @@ Enclosure EnclosePlanar(const PlanarBox& box, const EnclosureOptions& options) {
     ranges.push_back(AtLeast(*box.mu_static, box.mu.lower));
   }
   SlopeParameters parameters;
-  const auto to_form = [&](absl::Span<const Interval> x) -> std::variant<PlanarForm, PendulumBox> {
+  const auto to_form = [&](absl::Span<const Interval> x) -> std::variant<AffinePlanarBox, PendulumBox> {
     parameters = SlopeParameters();
     const auto at = [&](size_t i) { return AffineInterval::Parameter(x[i], parameters); };
-    PlanarForm form = {.wtt = at(0), .wtn = at(1), .wnn = at(2), .u0 = at(3), .v0 = at(4), .mu = at(5)};
+    AffinePlanarBox form = {.wtt = at(0), .wtn = at(1), .wnn = at(2), .u0 = at(3), .v0 = at(4), .mu = at(5)};
     if (x.size() > 6) form.mu_static = at(6);
     return form;
   };
@@ -533,15 +532,15 @@ TEST(EnclosureTest, ABoxWithoutAValidSceneIsEmpty) {
 // ---- A system that is not a bare contact ----
 
 // A free body, contact offset (x, y) and mass m uncertain: W = [1/m + y^2/I, -xy/I; ., 1/m + x^2/I].
-std::variant<PlanarForm, PendulumBox> BodyContact(absl::Span<const Interval> range) {
+std::variant<AffinePlanarBox, PendulumBox> BodyContact(absl::Span<const Interval> range) {
   const Interval inverse = Interval(1.0) / range[2];
   const Interval inertia(0.1);
-  return PlanarForm{.wtt = inverse + Square(range[1]) / inertia,
-                    .wtn = -(range[0] * range[1]) / inertia,
-                    .wnn = inverse + Square(range[0]) / inertia,
-                    .u0 = 1.0,
-                    .v0 = -1.0,
-                    .mu = 0.4};
+  return AffinePlanarBox{.wtt = inverse + Square(range[1]) / inertia,
+                         .wtn = -(range[0] * range[1]) / inertia,
+                         .wnn = inverse + Square(range[0]) / inertia,
+                         .u0 = 1.0,
+                         .v0 = -1.0,
+                         .mu = 0.4};
 }
 
 TEST(EnclosureTest, AsksBeforeEachBoxWhetherToStop) {

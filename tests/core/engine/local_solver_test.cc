@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -13,7 +12,6 @@
 #include "core/engine/sweep_run.h"
 #include "core/models/pendulum/pendulum.h"
 #include "core/plan/scene_problem.h"
-#include "core/rows/column.h"
 #include "core/rows/scene_lanes.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"

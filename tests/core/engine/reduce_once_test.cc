@@ -5,7 +5,6 @@
 #include <atomic>
 #include <functional>
 #include <string>
-#include <utility>
 
 #include "core/contact/reduction.h"
 #include "ricochet/engine_info.h"

@@ -33,45 +33,45 @@ void Compute(const Block& block, int64_t count, SweepBuffer& buffer) {
 TEST(SweepBufferTest, BlocksAreTakenInOrderAndTheLastIsSmaller) {
   SweepBuffer buffer(10, 5, 1, false);
   for (const int64_t first : {10, 12, 14}) {
-    ASSERT_TRUE(buffer.has_untaken());
-    const std::optional<Block> block = buffer.Take(2);
+    ASSERT_TRUE(buffer.has_unclaimed());
+    const std::optional<Block> block = buffer.Claim(2);
     ASSERT_TRUE(block.has_value());
     EXPECT_EQ(block->first, first);
     EXPECT_EQ(block->count, first == 14 ? 1 : 2);
   }
-  EXPECT_FALSE(buffer.has_untaken());
-  EXPECT_FALSE(buffer.Take(2).has_value());
+  EXPECT_FALSE(buffer.has_unclaimed());
+  EXPECT_FALSE(buffer.Claim(2).has_value());
 }
 
 TEST(SweepBufferTest, ABlockIsReadyOnceAllBeforeItAre) {
   SweepBuffer buffer(0, 4, 1, false);
-  const Block first = *buffer.Take(2);
-  const Block second = *buffer.Take(2);
+  const Block first = *buffer.Claim(2);
+  const Block second = *buffer.Claim(2);
   Compute(second, 2, buffer);
   EXPECT_FALSE(buffer.has_ready());
   Compute(first, 2, buffer);
   EXPECT_TRUE(buffer.has_ready());
   EXPECT_TRUE(buffer.is_complete());
   SweepSummary tallies;
-  EXPECT_THAT(buffer.Leave(tallies).values, ElementsAre(0.0, 100.0, 200.0, 300.0));
+  EXPECT_THAT(buffer.Emit(tallies).values, ElementsAre(0.0, 100.0, 200.0, 300.0));
   EXPECT_EQ(tallies.points, 4);
   EXPECT_FALSE(buffer.has_ready());
 }
 
 TEST(SweepBufferTest, PointsThatAreReadyLeaveBeforeTheRest) {
   SweepBuffer buffer(0, 4, 2, true);
-  Compute(*buffer.Take(1), 1, buffer);
-  const Block second = *buffer.Take(1);
-  Compute(*buffer.Take(1), 1, buffer);
+  Compute(*buffer.Claim(1), 1, buffer);
+  const Block second = *buffer.Claim(1);
+  Compute(*buffer.Claim(1), 1, buffer);
   SweepSummary tallies;
-  SweepChunk chunk = buffer.Leave(tallies);
+  SweepChunk chunk = buffer.Emit(tallies);
   EXPECT_EQ(chunk.first_index, 0);
   EXPECT_EQ(chunk.count, 1);
   EXPECT_THAT(chunk.values, ElementsAre(0.0, 1.0));
   EXPECT_EQ(tallies.points, 1);
   Compute(second, 1, buffer);
-  Compute(*buffer.Take(1), 1, buffer);
-  chunk = buffer.Leave(tallies);
+  Compute(*buffer.Claim(1), 1, buffer);
+  chunk = buffer.Emit(tallies);
   EXPECT_EQ(chunk.first_index, 1);
   EXPECT_THAT(chunk.values, ElementsAre(100.0, 200.0, 300.0, 101.0, 201.0, 301.0));
   EXPECT_THAT(chunk.regimes, ElementsAre(static_cast<Regime>(1), static_cast<Regime>(2), static_cast<Regime>(0)));
@@ -82,12 +82,12 @@ TEST(SweepBufferTest, PointsThatAreReadyLeaveBeforeTheRest) {
 
 TEST(SweepBufferTest, TheRestOfABlockIsTakenAgainBeforeLaterPoints) {
   SweepBuffer buffer(0, 10, 1, false);
-  const Block block = *buffer.Take(4);
+  const Block block = *buffer.Claim(4);
   Compute(block, 1, buffer);
-  const Block rest = *buffer.Take(100);
+  const Block rest = *buffer.Claim(100);
   EXPECT_EQ(rest.first, 1);
   EXPECT_EQ(rest.count, 3);
-  EXPECT_EQ(buffer.Take(100)->first, 4);
+  EXPECT_EQ(buffer.Claim(100)->first, 4);
 }
 
 // Blocks of any size, of which any part is computed, in any order, and which leave at any time.
@@ -100,7 +100,7 @@ TEST(SweepBufferTest, EveryPointLeavesOnceWhateverTheOrder) {
     std::vector<double> values;
     SweepSummary tallies;
     while (tallies.points < kRoom) {
-      if (const auto block = buffer.Take(1 + static_cast<int64_t>(random() % 9))) taken.push_back(*block);
+      if (const auto block = buffer.Claim(1 + static_cast<int64_t>(random() % 9))) taken.push_back(*block);
       if (random() % 3 > 0 && !taken.empty()) {
         std::swap(taken[random() % taken.size()], taken.back());
         const int64_t count = 1 + static_cast<int64_t>(random() % static_cast<uint64_t>(taken.back().count));
@@ -108,7 +108,7 @@ TEST(SweepBufferTest, EveryPointLeavesOnceWhateverTheOrder) {
         taken.pop_back();
       }
       if (random() % 4 == 0 && buffer.has_ready()) {
-        const SweepChunk chunk = buffer.Leave(tallies);
+        const SweepChunk chunk = buffer.Emit(tallies);
         ASSERT_EQ(chunk.first_index, 7 + static_cast<int64_t>(values.size()));
         values.insert(values.end(), chunk.values.begin(), chunk.values.end());
       }

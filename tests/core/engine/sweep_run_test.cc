@@ -16,7 +16,6 @@
 #include "absl/functional/function_ref.h"
 #include "absl/strings/str_cat.h"
 #include "core/rows/axis_values.h"
-#include "core/rows/column.h"
 #include "core/types/grid.h"
 #include "ricochet/solver.h"
 #include "tests/support/scenes/pendulum_columns.h"

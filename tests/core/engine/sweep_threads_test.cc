@@ -9,9 +9,7 @@
 #include <memory>
 #include <random>
 #include <stop_token>
-#include <string>
 #include <thread>
-#include <utility>
 #include <vector>
 
 #include "core/engine/sweep_run.h"

@@ -8,12 +8,11 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <string>
 
 #include "core/models/restitution_law.h"
 #include "core/plan/explain.h"
 #include "core/plan/perturbed_path.h"
-#include "core/plan/straight_problem.h"
+#include "core/plan/sliding_problem.h"
 #include "tests/support/claims/planned_answer.h"
 #include "tests/support/scenes/plan_scenes.h"
 

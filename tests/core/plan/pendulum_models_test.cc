@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
@@ -13,7 +12,6 @@
 
 #include "core/models/pendulum/columns.h"
 #include "core/plan/choose.h"
-#include "core/plan/sizes.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
 #include "tests/support/scenes/plan_scenes.h"

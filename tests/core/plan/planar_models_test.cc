@@ -5,7 +5,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <vector>
@@ -13,12 +12,12 @@
 #include "core/models/sliding/sliding.h"
 #include "core/plan/choose.h"
 #include "core/plan/sizes.h"
-#include "core/plan/straight_problem.h"
+#include "core/plan/sliding_problem.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
 #include "tests/support/scenes/plan_scenes.h"
-#include "tests/support/scenes/planar_in_lanes.h"
 #include "tests/support/scenes/planar_scenes.h"
+#include "tests/support/scenes/solved_in_lanes.h"
 
 namespace ricochet {
 namespace {

@@ -31,7 +31,7 @@ using testing::ElementsAre;
 constexpr RequestCost kCheap = {};
 constexpr RequestCost kExpensive = {.cause = CostCause::kCertificate, .octave = 10};
 
-Turn TurnOf(const std::string& peer, std::optional<RequestCost> cost) {
+ComputeRequest TurnOf(const std::string& peer, std::optional<RequestCost> cost) {
   return {.peer = peer, .deadline = {}, .is_gone = [] { return false; }, .cost = cost};
 }
 
@@ -66,7 +66,7 @@ class Holder {
 class SchedulerTest : public testing::Test {
  protected:
   // Starts a call that adds its name to the order in which calls compute.
-  void Start(const std::string& name, Turn turn) {
+  void Start(const std::string& name, ComputeRequest turn) {
     const size_t before = scheduler_.waiting();
     threads_.emplace_back([this, name, turn] {
       const absl::Status status = scheduler_.Compute(turn, [&] {
@@ -118,9 +118,9 @@ TEST_F(SchedulerTest, AsManyComputeAtOnceAsThereAreThreads) {
 TEST_F(SchedulerTest, PeersTakeTurnsAndDeadlinesOrderTheCallsOfOne) {
   {
     Holder holder(scheduler_, kExpensive);
-    Turn late = TurnOf("a", kExpensive);
+    ComputeRequest late = TurnOf("a", kExpensive);
     late.deadline = steady_clock::now() + seconds(200);
-    Turn soon = late;
+    ComputeRequest soon = late;
     soon.deadline = steady_clock::now() + seconds(100);
     Start("a late", late);
     Start("a soon", soon);
@@ -133,9 +133,9 @@ TEST_F(SchedulerTest, PeersTakeTurnsAndDeadlinesOrderTheCallsOfOne) {
 TEST_F(SchedulerTest, PartsOfStreamsTakeTurnsWhateverTheirDeadlines) {
   {
     Holder holder(scheduler_, std::nullopt);
-    Turn late = TurnOf("a", std::nullopt);
+    ComputeRequest late = TurnOf("a", std::nullopt);
     late.deadline = steady_clock::now() + seconds(200);
-    Turn soon = late;
+    ComputeRequest soon = late;
     soon.deadline = steady_clock::now() + seconds(100);
     Start("late", late);
     Start("soon", soon);
@@ -166,7 +166,7 @@ TEST_F(SchedulerTest, DearWorkRunsAtALowerPriorityAndStreamsAtTheLowest) {
 
 TEST_F(SchedulerTest, CallWhoseDeadlinePassesWhileItWaitsIsNeverComputed) {
   Holder holder(scheduler_, kExpensive);
-  Turn turn = TurnOf("a", kExpensive);
+  ComputeRequest turn = TurnOf("a", kExpensive);
   turn.deadline = steady_clock::now() + milliseconds(30);
   bool computed = false;
   EXPECT_EQ(scheduler_.Compute(turn, [&computed] { computed = true; }).code(), absl::StatusCode::kDeadlineExceeded);
@@ -176,7 +176,7 @@ TEST_F(SchedulerTest, CallWhoseDeadlinePassesWhileItWaitsIsNeverComputed) {
 
 TEST_F(SchedulerTest, CallWhoseDeadlineHasPassedIsNeverComputed) {
   for (const RequestCost& cost : {kCheap, kExpensive}) {
-    Turn turn = TurnOf("a", cost);
+    ComputeRequest turn = TurnOf("a", cost);
     turn.deadline = steady_clock::now() - milliseconds(1);
     EXPECT_EQ(scheduler_.Compute(turn, [] { FAIL() << "it was computed"; }).code(),
               absl::StatusCode::kDeadlineExceeded);
@@ -185,7 +185,7 @@ TEST_F(SchedulerTest, CallWhoseDeadlineHasPassedIsNeverComputed) {
 
 TEST_F(SchedulerTest, CallWhoseCallerHasGoneIsNeverComputed) {
   std::atomic<bool> gone = false;
-  Turn turn = TurnOf("a", kExpensive);
+  ComputeRequest turn = TurnOf("a", kExpensive);
   turn.is_gone = [&gone] { return gone.load(); };
   Holder holder(scheduler_, kExpensive);
   std::future<absl::Status> ended =
@@ -216,7 +216,7 @@ TEST_F(SchedulerTest, CallThatWouldWaitBeyondItsDeadlineIsRefusedAtOnce) {
   // The scheduler learns that such a call takes 250 ms at least, so that those that wait are expected to take 10 s. The
   // deadline is far away on the clock of any machine that runs this test.
   ASSERT_TRUE(scheduler.Compute(TurnOf("a", kExpensive), [] { std::this_thread::sleep_for(milliseconds(250)); }).ok());
-  Turn hurried = TurnOf("b", kExpensive);
+  ComputeRequest hurried = TurnOf("b", kExpensive);
   {
     std::vector<std::jthread> waiting;
     Holder holder(scheduler, kExpensive);

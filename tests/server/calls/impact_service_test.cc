@@ -7,15 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <cstdint>
 #include <fstream>
-#include <limits>
 #include <memory>
 #include <optional>
 #include <stop_token>
 #include <string>
 #include <thread>
-#include <vector>
 
 #include "proto/wire/status.h"
 #include "ricochet/error.h"
@@ -53,8 +50,8 @@ class ImpactServiceTest : public testing::Test {
   // Waits until no handler runs. Returns false if one still does after ten seconds.
   bool AllEnded() const {
     const auto end = steady_clock::now() + seconds(10);
-    while (made_.places.live() > 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
-    return made_.places.live() == 0;
+    while (made_.live_calls.live() > 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
+    return made_.live_calls.live() == 0;
   }
 
   std::ofstream nowhere_;
@@ -153,7 +150,7 @@ TEST_F(ImpactServiceTest, AUnaryCallRunsOnAfterTheGraceAndIsUnavailableOnceItIsS
     std::this_thread::sleep_for(milliseconds(50));
     streams_.request_stop();
     std::this_thread::sleep_for(milliseconds(50));
-    EXPECT_EQ(made_.places.live(), 1);
+    EXPECT_EQ(made_.live_calls.live(), 1);
     unary_.request_stop();
   });
   grpc::ClientContext context;
@@ -207,10 +204,10 @@ TEST_F(ImpactServiceTest, AStreamThatNobodyReadsEndsAndGivesItsPlaceBack) {
   grpc::ClientContext context;
   const auto reader = stub_->Sweep(&context, {});
   const auto end = steady_clock::now() + seconds(10);
-  while (made.places.live() == 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
-  EXPECT_EQ(made.places.live(), 1);
-  while (made.places.live() > 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
-  EXPECT_EQ(made.places.live(), 0);
+  while (made.live_calls.live() == 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_EQ(made.live_calls.live(), 1);
+  while (made.live_calls.live() > 0 && steady_clock::now() < end) std::this_thread::sleep_for(milliseconds(1));
+  EXPECT_EQ(made.live_calls.live(), 0);
   v1::SweepResponse chunk;
   while (reader->Read(&chunk)) {
   }

@@ -75,7 +75,8 @@ TEST_F(ServingCheckTest, FailsWhileNoCheapCallGetsItsTurn) {
     // More calls than the scheduler has slots for cheap ones.
     for (int i = 0; i < 100; ++i) {
       holders.emplace_back([&] {
-        const Turn turn = {.peer = "holder", .deadline = {}, .is_gone = [] { return false; }, .cost = RequestCost()};
+        const ComputeRequest turn = {
+            .peer = "holder", .deadline = {}, .is_gone = [] { return false; }, .cost = RequestCost()};
         EXPECT_TRUE(scheduler_.Compute(turn, [&] { released.wait(); }).ok());
       });
     }

@@ -31,8 +31,8 @@ class ClaimTally {
     }
     // An error, and a claim, below the rounding of a result counts as that rounding.
     constexpr double kRounding = 0x1p-54;
-    // A NaN deceives.
-    if (!(claimed >= achieved) && broken_++ == 0) first_deceived_ = scene;
+    // A NaN keeps no claim.
+    if (!(claimed >= achieved) && broken_++ == 0) first_broken_ = scene;
     above_ += claimed > tolerance_ ? 1 : 0;
     exceeded_ += achieved > tolerance_ ? 1 : 0;
     worst_ = std::max(worst_, achieved);
@@ -41,7 +41,7 @@ class ClaimTally {
 
   int count() const { return count_; }
   int broken() const { return broken_; }
-  const std::string& first_broken() const { return first_deceived_; }
+  const std::string& first_broken() const { return first_broken_; }
   int claimed_above_tolerance() const { return above_; }
   int achieved_above_tolerance() const { return exceeded_; }
   int unknown() const { return unknown_; }
@@ -65,7 +65,7 @@ class ClaimTally {
   double tolerance_;
   int count_ = 0, broken_ = 0, above_ = 0, exceeded_ = 0, unknown_ = 0;
   double worst_ = 0.0;
-  std::string first_deceived_;
+  std::string first_broken_;
   std::vector<double> ratios_;
 };
 

@@ -26,7 +26,7 @@ inline Ball Distance(double computed, const Ball& exact) {
 }
 
 // The sum of the magnitudes of the four works.
-inline Ball Moved(const ExactImpact& exact) {
+inline Ball TotalWork(const ExactImpact& exact) {
   return Abs(exact.work_normal_compression) + Abs(exact.work_normal_restitution) +
          Abs(exact.work_tangential_compression) + Abs(exact.work_tangential_restitution);
 }
@@ -48,7 +48,7 @@ inline RoundingErrors ErrorsReached(const Problem& problem, const Impact& impact
   work = Larger(work, Distance(impact.work_tangential_restitution, exact.work_tangential_restitution));
   return {.velocity = (velocity / speed).UpperBound(),
           .impulse = (Larger(Ball(problem.w.nn) * normal, Ball(problem.w.tt) * tangential) / speed).UpperBound(),
-          .work = (work / Moved(exact)).UpperBound()};
+          .work = (work / TotalWork(exact)).UpperBound()};
 }
 
 inline bool AreFinite(const Impact& impact) {

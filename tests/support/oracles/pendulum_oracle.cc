@@ -1,6 +1,5 @@
 #include "tests/support/oracles/pendulum_oracle.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 

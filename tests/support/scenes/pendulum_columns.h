@@ -15,7 +15,7 @@ namespace ricochet {
 inline std::vector<std::string> PendulumColumns() {
   std::vector<std::string> paths;
   for (int i = 0; i < pendulum::kOutputCount; ++i) {
-    std::string path = pendulum::OutputPath(static_cast<pendulum::Output>(i));
+    std::string path = pendulum::kOutputPaths[static_cast<size_t>(i)];
     if (!path.empty()) paths.push_back(std::move(path));
   }
   return paths;

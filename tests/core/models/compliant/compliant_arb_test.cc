@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <limits>
-#include <string>
-#include <vector>
 
 #include "core/models/compliant/compliant.h"
 #include "tests/support/oracles/arb.h"

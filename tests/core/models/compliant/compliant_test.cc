@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <vector>
 
 #include "core/models/planar/planar.h"
 #include "tests/support/scenes/compliant_scenes.h"

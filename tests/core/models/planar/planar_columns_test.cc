@@ -7,7 +7,6 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include "core/models/planar/columns.h"
@@ -17,13 +16,13 @@
 #include "tests/support/claims/planar_claims.h"
 #include "tests/support/only_target.h"
 #include "tests/support/oracles/planar_oracle.h"
-#include "tests/support/scenes/planar_in_lanes.h"
 #include "tests/support/scenes/planar_scenes.h"
+#include "tests/support/scenes/solved_in_lanes.h"
 
 namespace ricochet::planar {
 namespace {
 
-constexpr double kUsualTolerance = 1e-12;
+constexpr double kDefaultTolerance = 1e-12;
 
 struct Solved {
   Impact impact;
@@ -108,7 +107,7 @@ std::vector<Problem> MixedProblems(uint64_t seed, int count) {
 
 void ExpectBitsOfSingleImpacts(const std::vector<Problem>& problems, const std::vector<Output>& outputs,
                                double tolerance) {
-  const PlanarInLanes lanes = SolveInLanes(problems, outputs, tolerance);
+  const SolvedInLanes lanes = SolveInLanes(problems, outputs, tolerance);
   size_t compensated = 0;
   for (size_t i = 0; i < problems.size(); ++i) {
     const Solved solved = SolveWithin(tolerance, problems[i]);
@@ -130,7 +129,7 @@ TEST(PlanarColumnsTest, ColumnsHaveTheBitsOfSingleImpactsOnEveryTarget) {
   for (const int64_t target : hwy::SupportedAndGeneratedTargets()) {
     const OnlyTarget only(target);
     SCOPED_TRACE(hwy::TargetName(target));
-    ExpectBitsOfSingleImpacts(problems, AllOutputs(), kUsualTolerance);
+    ExpectBitsOfSingleImpacts(problems, AllOutputs(), kDefaultTolerance);
   }
 }
 
@@ -149,7 +148,7 @@ TEST(PlanarColumnsTest, ColumnsHaveTheBitsOfSingleImpactsAtEveryTolerance) {
 TEST(PlanarColumnsTest, AnySelectionOfOutputsHasTheBitsOfSingleImpacts) {
   const std::vector<Problem> problems = MixedProblems(73, 3'000);
   for (const std::vector<Output>& outputs : Selections()) {
-    ExpectBitsOfSingleImpacts(problems, outputs, kUsualTolerance);
+    ExpectBitsOfSingleImpacts(problems, outputs, kDefaultTolerance);
   }
 }
 
@@ -164,7 +163,7 @@ TEST(PlanarColumnsTest, AnyPartOfTheProblemsHasTheBitsOfAll) {
   const auto solve = [&](size_t first, size_t count) {
     std::vector<double> impulses(count);
     const std::vector<double*> columns = {impulses.data()};
-    SolveColumns(all.Columns(first, count), kUsualTolerance, {.outputs = outputs, .columns = columns});
+    SolveColumns(all.Columns(first, count), kDefaultTolerance, {.outputs = outputs, .columns = columns});
     return impulses;
   };
   const std::vector<double> expected = solve(0, kCount);
@@ -188,7 +187,7 @@ TEST(PlanarColumnsTest, NothingIsWrittenBesideTheResults) {
   for (size_t count = 0; count <= kMost; ++count) {
     std::vector<double> velocities(kMost + 64, kUntouched);
     const std::vector<double*> columns = {velocities.data()};
-    SolveColumns(all.Columns(0, count), kUsualTolerance, {.outputs = outputs, .columns = columns});
+    SolveColumns(all.Columns(0, count), kDefaultTolerance, {.outputs = outputs, .columns = columns});
     const auto beyond = velocities.begin() + static_cast<std::ptrdiff_t>(count);
     EXPECT_EQ(std::count(beyond, velocities.end(), kUntouched), velocities.end() - beyond) << count;
   }
@@ -201,7 +200,7 @@ TEST(PlanarColumnsTest, NoRegimeIsDecidedByARoundedSign) {
   for (int i = 0; i < 10'000; ++i) {
     problems.push_back(i % 2 == 0 ? source.NearStopAtRest() : source.NearStopAtEnd());
   }
-  const PlanarInLanes lanes = SolveInLanes(problems, AllOutputs(), 1e-3);
+  const SolvedInLanes lanes = SolveInLanes(problems, AllOutputs(), 1e-3);
   for (size_t i = 0; i < problems.size(); ++i) {
     ASSERT_EQ(lanes.regimes[i], SolveExactly(problems[i]).regime) << ToString(problems[i]);
   }
@@ -213,7 +212,7 @@ TEST(PlanarColumnsTest, NumbersAreThoseOfTheSimulationWithinTheirClaimedError) {
   SceneSource source(77);
   for (int i = 0; i < 3'000; ++i) problems.push_back(i % 2 == 0 ? source.Everyday() : source.Any());
   const std::vector<Output> outputs = AllOutputs();
-  const PlanarInLanes lanes = SolveInLanes(problems, outputs, kUsualTolerance);
+  const SolvedInLanes lanes = SolveInLanes(problems, outputs, kDefaultTolerance);
   for (size_t i = 0; i < problems.size(); ++i) {
     const ExactImpact exact = SolveExactly(problems[i]);
     const auto number = [&](Output output) { return lanes.columns[static_cast<size_t>(output)][i]; };

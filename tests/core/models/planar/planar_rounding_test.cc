@@ -4,13 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
-#include <functional>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -192,7 +189,7 @@ TEST(PlanarRoundingTest, BoundsOnCoefficientsFollow) {
     const double in_v = plain.errors.velocity * speed;
     const double in_tau = plain.errors.impulse * speed / problem.w.nn;
     const double in_f = problem.w.tt == 0.0 ? 0.0 : plain.errors.impulse * speed / problem.w.tt;
-    const double in_work = plain.errors.work * Moved(exact).Nearest();
+    const double in_work = plain.errors.work * TotalWork(exact).Nearest();
     const auto within = [&](double computed, const Ball& value, double bound) {
       return Distance(computed, value).UpperBound() <= 1.1 * (bound + 0x1p-51 * std::fabs(computed));
     };

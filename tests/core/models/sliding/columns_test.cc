@@ -15,8 +15,8 @@
 #include "core/models/sliding/sliding.h"
 #include "hwy/targets.h"
 #include "tests/support/only_target.h"
-#include "tests/support/scenes/planar_in_lanes.h"
 #include "tests/support/scenes/planar_scenes.h"
+#include "tests/support/scenes/solved_in_lanes.h"
 
 namespace ricochet::sliding {
 namespace {

@@ -4,8 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include <string>
-
 #include "tests/support/claims/claims.h"
 
 namespace ricochet::spatial {

@@ -1,7 +1,7 @@
-// Families of methods: the parts of StudyScene (core/cost/cost_methods.h), one for each kind of model.
+// The methods of each kind of model: the parts of StudyScene (core/cost/cost_methods.h).
 
-#ifndef RICOCHET_CORE_COST_COST_FAMILIES_H_
-#define RICOCHET_CORE_COST_COST_FAMILIES_H_
+#ifndef RICOCHET_CORE_COST_METHODS_BY_MODEL_H_
+#define RICOCHET_CORE_COST_METHODS_BY_MODEL_H_
 
 #include <cstddef>
 #include <limits>
@@ -51,7 +51,7 @@ std::string NameOf(Arithmetic arithmetic);
 void AddClosedForms(const pendulum::Problem& problem, const ContactPhysics& physics, const ReferencePointer& exact,
                     Methods& methods);
 
-// Straight paths. `choice` is the plan's for DemandFor the model; no method is added if it took another model.
+// Paths of one piece. `choice` is the plan's for DemandFor the model; no method is added if it took another model.
 template <size_t kTangential>
 void AddFrictionless(const sliding::Problem<kTangential>& problem, const Choice& choice, Methods& methods);
 template <size_t kTangential>
@@ -80,4 +80,4 @@ void AddImpactLaw(const ImpactLaw& law, const planar::Problem& problem, Methods&
 
 }  // namespace ricochet
 
-#endif  // RICOCHET_CORE_COST_COST_FAMILIES_H_
+#endif  // RICOCHET_CORE_COST_METHODS_BY_MODEL_H_

@@ -1,6 +1,4 @@
-#include "server/admission/places.h"
-
-#include <utility>
+#include "server/admission/live_calls.h"
 
 #include "server/base/refusals.h"
 
@@ -12,7 +10,7 @@ constexpr char kStreams[] = "streams";
 
 }  // namespace
 
-absl::StatusOr<Places::Place> Places::Enter(const std::string& peer, bool is_stream) {
+absl::StatusOr<LiveCalls::Permit> LiveCalls::Enter(const std::string& peer, bool is_stream) {
   const std::lock_guard lock(mutex_);
   const auto found = peers_.find(peer);
   const Count of_peer = found == peers_.end() ? Count() : found->second;
@@ -24,19 +22,19 @@ absl::StatusOr<Places::Place> Places::Enter(const std::string& peer, bool is_str
   }
   all_.Add(1, is_stream);
   peers_[peer].Add(1, is_stream);
-  return Place(this, {.peer = peer, .is_stream = is_stream});
+  return Permit(this, {.peer = peer, .is_stream = is_stream});
 }
 
-void Places::Place::GiveBack::operator()(Held* held) const {
+void LiveCalls::Permit::GiveBack::operator()(Held* held) const {
   const std::unique_ptr<Held> owned(held);
-  const std::lock_guard lock(places->mutex_);
-  places->all_.Add(-1, held->is_stream);
-  const auto found = places->peers_.find(held->peer);
+  const std::lock_guard lock(live_calls->mutex_);
+  live_calls->all_.Add(-1, held->is_stream);
+  const auto found = live_calls->peers_.find(held->peer);
   found->second.Add(-1, held->is_stream);
-  if (found->second.calls == 0) places->peers_.erase(found);
+  if (found->second.calls == 0) live_calls->peers_.erase(found);
 }
 
-int Places::live() const {
+int LiveCalls::live() const {
   const std::lock_guard lock(mutex_);
   return all_.calls;
 }

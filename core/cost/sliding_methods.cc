@@ -1,13 +1,13 @@
 // The methods whose path is a straight line, in a plane and in space: without friction, and with slip that goes on.
 
-#include "core/cost/cost_families.h"
+#include "core/cost/methods_by_model.h"
 
 namespace ricochet {
 namespace {
 
 template <size_t kTangential>
-Kernel MakeStraightKernel(const sliding::Problem<kTangential>& problem, double claimed,
-                          sliding::Impact<kTangential> (*solve)(const sliding::Problem<kTangential>&)) {
+Kernel MakeSlidingKernel(const sliding::Problem<kTangential>& problem, double claimed,
+                         sliding::Impact<kTangential> (*solve)(const sliding::Problem<kTangential>&)) {
   using Problem = sliding::Problem<kTangential>;
   const auto call = [solve](const Problem& of, Stopped) { return solve(of); };
   const auto read = [claimed](const Problem&, const sliding::Impact<kTangential>& impact) {
@@ -25,7 +25,7 @@ void AddFrictionless(const sliding::Problem<kTangential>& problem, const Choice&
   methods.push_back(
       {.name = "frictionless",
        .method = {.model = Model::kFrictionless, .arithmetic = Arithmetic::kPlain},
-       .kernel = MakeStraightKernel(problem, without.straight_errors.velocity, sliding::SolveFrictionless<kTangential>),
+       .kernel = MakeSlidingKernel(problem, without.one_piece_errors.velocity, sliding::SolveFrictionless<kTangential>),
        .claimed_modelling = without.neglected,
        .exact = MakeReference([problem](Stopped) { return ExactFrictionless(problem); })});
 }
@@ -36,7 +36,7 @@ void AddSliding(const sliding::Problem<kTangential>& problem, const Choice& with
   methods.push_back(
       {.name = "sliding",
        .method = {.model = Model::kSliding, .arithmetic = Arithmetic::kPlain},
-       .kernel = MakeStraightKernel(problem, without.straight_errors.velocity, sliding::Solve<kTangential>),
+       .kernel = MakeSlidingKernel(problem, without.one_piece_errors.velocity, sliding::Solve<kTangential>),
        .claimed_modelling = without.neglected,
        .exact = MakeReference([problem](Stopped) { return ExactSliding(problem); })});
 }

@@ -1,7 +1,7 @@
 // Names of models and reasons in the log and in the metrics.
 
-#ifndef RICOCHET_SERVER_BASE_NAMES_H_
-#define RICOCHET_SERVER_BASE_NAMES_H_
+#ifndef RICOCHET_SERVER_BASE_TELEMETRY_NAMES_H_
+#define RICOCHET_SERVER_BASE_TELEMETRY_NAMES_H_
 
 #include <cstddef>
 #include <string>
@@ -28,4 +28,4 @@ std::string ModelName(size_t model);
 
 }  // namespace ricochet::server
 
-#endif  // RICOCHET_SERVER_BASE_NAMES_H_
+#endif  // RICOCHET_SERVER_BASE_TELEMETRY_NAMES_H_

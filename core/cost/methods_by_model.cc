@@ -1,4 +1,4 @@
-#include "core/cost/cost_families.h"
+#include "core/cost/methods_by_model.h"
 
 #include "absl/types/span.h"
 #include "core/plan/candidates.h"
@@ -6,7 +6,7 @@
 namespace ricochet {
 namespace {
 
-// What a model simulates of any contact.
+// The effects that a model simulates, of any contact.
 EffectSet SimulatedBy(Model model) {
   EffectSet simulated;
   const auto add = [&](absl::Span<const Candidate> candidates) {

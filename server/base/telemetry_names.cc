@@ -1,4 +1,4 @@
-#include "server/base/names.h"
+#include "server/base/telemetry_names.h"
 
 #include "absl/strings/ascii.h"
 #include "ricochet/v1/error_reason.pb.h"

@@ -1,7 +1,7 @@
 // SlidingProblemOf: the same contact for the models whose slip neither stops nor turns.
 
-#ifndef RICOCHET_CORE_PLAN_STRAIGHT_PROBLEM_H_
-#define RICOCHET_CORE_PLAN_STRAIGHT_PROBLEM_H_
+#ifndef RICOCHET_CORE_PLAN_SLIDING_PROBLEM_H_
+#define RICOCHET_CORE_PLAN_SLIDING_PROBLEM_H_
 
 #include "core/models/planar/planar.h"
 #include "core/models/sliding/sliding.h"
@@ -27,4 +27,4 @@ inline sliding::Problem<2> SlidingProblemOf(const spatial::Problem& problem) {
 
 }  // namespace ricochet
 
-#endif  // RICOCHET_CORE_PLAN_STRAIGHT_PROBLEM_H_
+#endif  // RICOCHET_CORE_PLAN_SLIDING_PROBLEM_H_
