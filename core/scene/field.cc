@@ -1,6 +1,7 @@
 #include "core/scene/field.h"
 
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "absl/strings/escaping.h"
@@ -94,6 +95,19 @@ std::optional<Field::Scalar> Field::Find(const std::string& path, Scene& scene) 
   return found;
 }
 
+void Field::SetMirror(Mechanism& mechanism, Scalar& entry, std::vector<std::string>& sets) {
+  std::vector<double>& mass = mechanism.mass_matrix;
+  const size_t n = mechanism.rates.size();
+  const std::less<> is_before;
+  const bool is_of_mass = !is_before(entry.number, mass.data()) && is_before(entry.number, mass.data() + mass.size());
+  if (!is_of_mass || mass.size() != n * n) return;
+  const auto place = static_cast<size_t>(entry.number - mass.data());
+  const size_t across = place % n * n + place / n;
+  if (across == place) return;
+  entry.mirror = &mass[across];
+  sets.push_back(absl::StrCat("mechanism.mass_matrix[", across, "]"));
+}
+
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   auto* const pendulum = std::get_if<Pendulum>(&scene.system);
   if (path == kPhi && pendulum != nullptr) {
@@ -109,8 +123,12 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   if (is_definition) return UnknownField(path, scene);
   const std::optional<SurfaceVelocity> stated = scene.surface_velocity;
   MakePresent(path, scene);
-  const std::optional<Field::Scalar> number = Field::Find(path, scene);
-  if (number.has_value()) return Field(*number, {path});
+  std::optional<Field::Scalar> number = Field::Find(path, scene);
+  if (number.has_value()) {
+    std::vector<std::string> sets = {path};
+    if (auto* const mechanism = std::get_if<Mechanism>(&scene.system)) SetMirror(*mechanism, *number, sets);
+    return Field(*number, sets);
+  }
   scene.surface_velocity = stated;
   return UnknownField(path, scene);
 }
