@@ -10,7 +10,7 @@ readonly client_packages=(
 readonly build_packages=(
   "${core_packages[@]}" libflint-arb-dev libflint-dev libgmp-dev libsundials-dev
   libcli11-dev libgrpc++-dev libisal-dev libnetcdf-dev libprotobuf-dev libspdlog-dev libssl-dev
-  nlohmann-json3-dev prometheus-cpp-dev libcivetweb-dev protobuf-compiler protobuf-compiler-grpc python3)
+  libzip-dev nlohmann-json3-dev prometheus-cpp-dev libcivetweb-dev protobuf-compiler protobuf-compiler-grpc python3)
 readonly demo_packages=("${build_packages[@]}" gnuplot-nox)
 readonly bench_packages=(
   "${build_packages[@]}" fonts-dejavu-core gnuplot-nox python3-grpcio python3-numpy python3-protobuf valgrind)
