@@ -126,7 +126,7 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   std::optional<Field::Scalar> number = Field::Find(path, scene);
   if (number.has_value()) {
     std::vector<std::string> sets = {path};
-    if (auto* const mechanism = std::get_if<Mechanism>(&scene.system)) SetMirror(*mechanism, *number, sets);
+    if (auto* const mechanism = std::get_if<Mechanism>(&scene.system)) Field::SetMirror(*mechanism, *number, sets);
     return Field(*number, sets);
   }
   scene.surface_velocity = stated;
