@@ -22,6 +22,7 @@
 #include "core/contact/mechanism.h"
 #include "core/models/planar/planar.h"
 #include "core/models/spatial/spatial.h"
+#include "core/plan/scene_problem.h"
 #include "ricochet/eigen.h"
 #include "tests/support/claims/claims.h"
 #include "tests/support/oracles/planar_oracle.h"
