@@ -260,8 +260,8 @@ absl::Status RankOneThroughout(const System& system) {
   const char* const field = std::holds_alternative<Linkage>(system)     ? "linkage"
                             : std::holds_alternative<Mechanism>(system) ? "mechanism"
                                                                         : "planar_contact";
-  return InvalidRequest({MakeViolation(field, "has a W of rank one",
-                                       "have rank two, with ranges, or be stated as a pendulum")});
+  return InvalidRequest(
+      {MakeViolation(field, "has a W of rank one", "have rank two, with ranges, or be stated as a pendulum")});
 }
 
 }  // namespace

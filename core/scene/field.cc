@@ -155,10 +155,9 @@ std::vector<std::string> FieldPaths(const Scene& scene) {
   MakeSurface(all);
   all.restitution = std::monostate();
   std::vector<std::string> paths;
-  VisitNumbers(all,
-               [&](const NumberPath& path, double& /*number*/, NumberRule /*rule*/) {
-                 if (!IsDrivenFromAbove(scene.system, path)) paths.push_back(path.Text());
-               });
+  VisitNumbers(all, [&](const NumberPath& path, double& /*number*/, NumberRule /*rule*/) {
+    if (!IsDrivenFromAbove(scene.system, path)) paths.push_back(path.Text());
+  });
   if (std::holds_alternative<Pendulum>(scene.system)) paths.emplace_back(kPhi);
   if (!std::holds_alternative<std::monostate>(scene.impact_law)) return paths;
   for (const char* definition : {"newton", "poisson", "energetic"}) {

@@ -61,9 +61,7 @@ struct Robot {
 const Eigen::Matrix3d kFloor = Eigen::Matrix3d::Identity();
 
 Scene With(const System& system, double friction, double newton) {
-  return {.system = system,
-          .friction = {.kinetic_coefficient = friction},
-          .restitution = NewtonCoefficient{newton}};
+  return {.system = system, .friction = {.kinetic_coefficient = friction}, .restitution = NewtonCoefficient{newton}};
 }
 Outcome Solve(const Scene& scene) {
   const auto response = LocalSolver().Solve({.scene = scene});
@@ -138,12 +136,12 @@ TEST_P(FloatingArm, IsOneRigidBodyWhereItsJointsHold) {
   const Eigen::Vector3d omega(0.1, 0.2, -0.1);  // The base is not turned, so that its axes are those of the world.
   const Eigen::Vector3d speed = Eigen::Vector3d(0.3, -0.2, -1.0) + omega.cross(com - origin);
   const auto list = [](const Eigen::Vector3d& x) { return std::vector<double>{x(0), x(1), x(2)}; };
-  const SpatialBody body = {.mass_kg = mass,
-                            .inertia_com_kg_m2 = {inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1),
-                                                  inertia(1, 2), inertia(2, 2)},
-                            .offset_m = list(tip - com),
-                            .linear_m_s = list(speed),
-                            .angular_rad_s = list(omega)};
+  const SpatialBody body = {
+      .mass_kg = mass,
+      .inertia_com_kg_m2 = {inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1), inertia(1, 2), inertia(2, 2)},
+      .offset_m = list(tip - com),
+      .linear_m_s = list(speed),
+      .angular_rad_s = list(omega)};
   const Outcome held = Solve(With(mechanism, 0.2, 0.5));
   const Outcome rigid = Solve(With(body, 0.2, 0.5));
   EXPECT_NEAR(held.impulse.normal_total_n_s, rigid.impulse.normal_total_n_s, 1e-9);
@@ -155,7 +153,7 @@ TEST_P(FloatingArm, IsOneRigidBodyWhereItsJointsHold) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Files, FloatingArm, testing::Values("floating_arm.xml", "floating_arm.urdf"),
-                         [](const auto& info) { return info.index == 0 ? "Mjcf" : "Urdf"; });
+                         [](const auto& file) { return file.index == 0 ? "Mjcf" : "Urdf"; });
 
 }  // namespace
 }  // namespace ricochet::robots
