@@ -86,6 +86,10 @@ absl::Status Answer(const SolveRequest& request, CallControl& control, SolveResp
                                 .force_intervals = request.force_intervals};
   const absl::Status solved = SolveScene(request.scene, contact, DemandOf(request), detail, stopped, outcome);
   if (!solved.ok()) return control.OrWhyEnded(solved);
+  if (request.both_ends) {
+    const absl::Status ended = SetFreeEnd(request.scene, DemandOf(request), stopped, outcome);
+    if (!ended.ok()) return control.OrWhyEnded(ended);
+  }
   if (request.inadmissible_is_error && !outcome.admissible) return Inadmissible(outcome);
   const absl::Status certified = Certify(request, CertifySolve, stopped, outcome.certificate);
   if (!certified.ok()) return control.OrWhyEnded(certified);

@@ -98,6 +98,9 @@ class Check {
 // whether matrices are definite.
 void CheckShape(const System& system, Check& check);
 
+// The same for a mechanism.
+void CheckMechanism(const Mechanism& mechanism, Check& check);
+
 // True if the damping of a spring takes the place of the coefficient of restitution.
 bool HasDamping(const Scene& scene);
 
