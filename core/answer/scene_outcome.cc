@@ -1,6 +1,7 @@
 #include "core/answer/scene_outcome.h"
 
 #include <cmath>
+#include <utility>
 #include <variant>
 
 #include "core/answer/model_outcomes.h"
@@ -9,7 +10,6 @@
 #include "core/base/invariant.h"
 #include "core/plan/planned_scene.h"
 #include "core/plan/sliding_problem.h"
-#include "core/scene/validate.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
@@ -130,8 +130,8 @@ absl::Status ContactOverflow() {
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
                         const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   absl::Status status = SolvePlanned(scene, contact, PlanScene(scene, contact, demand), detail, stopped, outcome);
-  if (status.ok() && detail.detail == Detail::kAll && contact.has_value()) {
-    SetRatesErrors(scene, *contact, demand, stopped, outcome);
+  if (status.ok() && !detail.numbers_only && contact.has_value()) {
+    SetRatesErrors(scene, *contact, outcome);
   }
   return status;
 }
@@ -141,18 +141,19 @@ absl::Status SetFreeEnd(const Scene& scene, const Demand& demand, absl::Function
   auto& mechanism = std::get<Mechanism>(free.system);
   mechanism.kept_coordinates.clear();
   mechanism.composite = false;
-  std::optional<SceneContact> contact;
-  const std::vector<Violation> violations = Validate(free, RestitutionIs::kRequired, contact);
-  if (!violations.empty()) return InvalidRequest(violations);
+  std::optional<SceneContact> contact(std::in_place, free);
   Outcome end;
-  absl::Status status = SolvePlanned(free, contact, PlanScene(free, contact, demand), {}, stopped, end);
+  absl::Status status = SolveScene(free, contact, demand, {}, stopped, end);
   if (!status.ok()) return status;
   outcome.free_end = FreeEnd{.regime = end.regime,
                              .termination = end.termination,
+                             .admissible = end.admissible,
+                             .broken_limits = std::move(end.broken_limits),
                              .coefficients = end.coefficients,
-                             .rates_after = end.rates_after,
-                             .contact_velocity_after = end.contact_velocity_after,
-                             .impulse = end.impulse};
+                             .rates_after = std::move(end.rates_after),
+                             .contact_velocity_after = std::move(end.contact_velocity_after),
+                             .impulse = std::move(end.impulse),
+                             .errors = std::move(end.errors)};
   return status;
 }
 

@@ -26,8 +26,9 @@ namespace ricochet {
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
                         const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome);
 
-// Sets the outcome's free_end. The scene states a mechanism that holds some coordinates.
-// Errors: those of SolveScene, and INVALID_ARGUMENT where a coefficient breaks its rule at the speed of the free end.
+// Sets the outcome's free_end. The scene is valid and states a mechanism that holds some coordinates. These move the
+// contact by their rates, so that both ends have one contact velocity and one set of coefficients.
+// Errors: those of SolveScene.
 absl::Status SetFreeEnd(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped, Outcome& outcome);
 
 // The second half of SolveScene, for a scene that PlanScene has planned.

@@ -152,13 +152,10 @@ ContactMotion::ContactMotion(const Mechanism& mechanism) {
   }
 }
 
-MechanismErrors::MechanismErrors(const Mechanism& mechanism) {
-  const FreePart part(mechanism);
-  const Response solved(part);
+MechanismErrors::MechanismErrors(const Mechanism& mechanism, const FreePart& part) : solved(part), motion(mechanism) {
   const Factor factor(part.mass);
   const Index n = part.jt.rows();
   const Index directions = part.jt.cols();
-  const ContactMotion motion(mechanism);
   // Bounds on the norms of L^-1 R, with the residual's own error.
   const VectorXd energy = factor.inverse_norm * (solved.residual.cwiseAbs() + solved.doubt).colwise().norm();
   const double noise = CompensatedNoise(2 * n);

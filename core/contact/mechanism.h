@@ -59,15 +59,6 @@ struct Response {
   Eigen::MatrixXd w_size;  // The sum of the magnitudes of the terms of each entry of W.
 };
 
-// Bounds on what rounding has made of the reduction of a mechanism, in the units of the caller. They are infinite where
-// no bound is known.
-struct MechanismErrors {
-  explicit MechanismErrors(const Mechanism& mechanism);
-
-  Eigen::MatrixXd w;         // d x d
-  Eigen::VectorXd velocity;  // d, without what subtracting a surface velocity adds.
-  Eigen::MatrixXd response;  // n x d
-};
 
 // M M^-1 J^T of all coordinates, from M^-1 J^T (n x d, row by row), whose rows of coordinates that are held are 0.
 std::vector<double> MomentumOf(const Mechanism& mechanism, absl::Span<const double> response);
@@ -76,6 +67,21 @@ std::vector<double> MomentumOf(const Mechanism& mechanism, absl::Span<const doub
 struct ContactMotion {
   explicit ContactMotion(const Mechanism& mechanism);
   std::vector<double> velocity, size;
+};
+
+// Bounds on what rounding has made of the reduction of a mechanism, in the units of the caller. They are infinite where
+// no bound is known.
+struct MechanismErrors {
+  explicit MechanismErrors(const Mechanism& mechanism) : MechanismErrors(mechanism, FreePart(mechanism)) {}
+
+  Response solved;
+  ContactMotion motion;
+  Eigen::MatrixXd w;         // d x d, errors of solved.w
+  Eigen::VectorXd velocity;  // d, errors of motion.velocity
+  Eigen::MatrixXd response;  // n x d, errors of M^-1 J^T
+
+ private:
+  MechanismErrors(const Mechanism& mechanism, const FreePart& part);
 };
 
 }  // namespace ricochet

@@ -49,11 +49,16 @@ std::string BrokenLimitText(const BrokenLimit& limit) {
   return " of an unknown limit;";
 }
 
-absl::Status Inadmissible(const Outcome& outcome) {
-  std::string message = "the outcome is inadmissible:";
-  for (const BrokenLimit& limit : outcome.broken_limits) message += BrokenLimitText(limit);
-  message.pop_back();
-  return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
+// Gives FAILED_PRECONDITION that names the limits that an end of the impact breaks, if one breaks any.
+absl::Status CheckAdmissible(const Outcome& outcome) {
+  const auto refuse = [](std::string message, const std::vector<BrokenLimit>& broken_limits) {
+    for (const BrokenLimit& limit : broken_limits) message += BrokenLimitText(limit);
+    message.pop_back();
+    return MakeError(absl::StatusCode::kFailedPrecondition, ErrorReason::kInadmissibleOutcome, message);
+  };
+  if (!outcome.admissible) return refuse("the outcome is inadmissible:", outcome.broken_limits);
+  if (!outcome.free_end.has_value() || outcome.free_end->admissible) return absl::OkStatus();
+  return refuse("the outcome with no coordinate held is inadmissible:", outcome.free_end->broken_limits);
 }
 
 // A client sees the first points soon, and no proxy or caller waits long between two chunks.
@@ -90,7 +95,9 @@ absl::Status Answer(const SolveRequest& request, CallControl& control, SolveResp
     const absl::Status ended = SetFreeEnd(request.scene, DemandOf(request), stopped, outcome);
     if (!ended.ok()) return control.OrWhyEnded(ended);
   }
-  if (request.inadmissible_is_error && !outcome.admissible) return Inadmissible(outcome);
+  if (request.inadmissible_is_error) {
+    if (absl::Status status = CheckAdmissible(outcome); !status.ok()) return status;
+  }
   const absl::Status certified = Certify(request, CertifySolve, stopped, outcome.certificate);
   if (!certified.ok()) return control.OrWhyEnded(certified);
   response.engine = ThisEngine();

@@ -307,6 +307,25 @@ TEST_P(SolverContract, RefusesAHistoryOutsideTheImpact) {
   EXPECT_THAT(ViolationsOf(status), ElementsAre(Field(&Violation::field, "history_at_n_s[1]")));
 }
 
+TEST_P(SolverContract, MechanismsHaveTheBitsOfTheEngineAtBothEnds) {
+  for (const bool in_space : {false, true}) {
+    Mechanism arm = Arm(in_space);
+    arm.kept_coordinates = {2};
+    const SolveRequest request = {.scene = With(arm), .both_ends = true};
+    const auto response = solver().Solve(request);
+    ASSERT_TRUE(response.ok()) << response.status();
+    EXPECT_EQ(*response, *LocalSolver().Solve(request));
+    ASSERT_TRUE(response->outcome.free_end.has_value());
+    EXPECT_EQ(response->outcome.errors.rates_after.size(), 3U);
+  }
+}
+
+TEST_P(SolverContract, RefusesBothEndsOfAMechanismThatHoldsNothing) {
+  const absl::Status status = solver().Solve({.scene = With(Arm()), .both_ends = true}).status();
+  ASSERT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(ViolationsOf(status), ElementsAre(Field(&Violation::field, "both_ends")));
+}
+
 // Two rods of 1 m and 1 kg, hinged, at 20 and 30 degrees: Kane and Levinson (1985).
 Scene KanesScene() {
   constexpr double kDegree = 0.017453292519943295;

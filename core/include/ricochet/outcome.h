@@ -166,8 +166,7 @@ struct NumberErrors {
   std::optional<double> tangential_compression_j, tangential_restitution_j;
   std::optional<double> energy_change_j;
   // Of Outcome::rates_after and momentum_change, entry by entry, and infinite where no bound is known. These take M, J
-  // and q' as exact, but not W and the contact velocity that they were reduced to; they are estimates whatever
-  // Accuracy::kind says (docs/theory/mechanism.md).
+  // and q' as exact, but not W and the contact velocity that they were reduced to (docs/theory/mechanism.md).
   Components rates_after, momentum_change;
   friend bool operator==(const NumberErrors&, const NumberErrors&) = default;
 };
@@ -222,10 +221,13 @@ struct ImpactSolution {
 struct FreeEnd {
   Regime regime = Regime::kUnspecified;
   Termination termination = Termination::kConverged;
+  bool admissible = true;  // False exactly if broken_limits is not empty.
+  std::vector<BrokenLimit> broken_limits;
   Coefficients coefficients;
   Components rates_after;
   ContactVelocity contact_velocity_after;
   Impulse impulse;
+  NumberErrors errors;
   friend bool operator==(const FreeEnd&, const FreeEnd&) = default;
 };
 
@@ -258,7 +260,7 @@ struct Outcome {
   // on to it: less J^T (f, tau), it is the impulse of the brake or controller that holds it. Empty for other systems.
   Components rates_after;
   Components momentum_change;
-  std::optional<FreeEnd> free_end;         // Present exactly if SolveRequest::both_ends asks for it.
+  std::optional<FreeEnd> free_end;  // Present exactly if SolveRequest::both_ends, or a column of a row, asks for it.
   std::optional<Certificate> certificate;  // Present exactly if SolveRequest::certified_digits asks for it.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };

@@ -22,7 +22,7 @@ namespace ricochet {
 // True for an error, which is infinite where nothing is known. All other numbers of an answer are finite.
 inline bool MayBeInfinite(const NumberPath& path) {
   const std::string_view prefix = path.prefix;
-  return prefix == "accuracy" || prefix == "errors";
+  return prefix == "accuracy" || prefix == "errors" || prefix == "free_end.errors";
 }
 
 // A number of a part of an outcome, one that may be unset, or a list of numbers.
@@ -90,7 +90,7 @@ void VisitOutcomePart(Part& part, const Visitor& visit) {
 }
 
 // Calls visit(path, number) for the place of every number; `number` is a const double*, null if it is unset. Paths
-// start at the outcome: "coefficients.newton", "bodies_after[0].linear_m_s[1]".
+// start at the outcome: "coefficients.newton", "bodies_after[0].linear_m_s[1]". Those of a free end come last.
 template <typename Visitor>
 void VisitOutcomeFields(const Outcome& outcome, const Visitor& visit) {
   const auto visit_value = [&visit]<typename Value>(NumberPath path, const Value& value) {
@@ -128,6 +128,12 @@ void VisitOutcomeFields(const Outcome& outcome, const Visitor& visit) {
     visit(NumberPath{.prefix = "contact", .name = name}, has_contact ? &number : nullptr);
   });
   visit_part("errors", outcome.errors);
+  if (!outcome.free_end.has_value()) return;
+  visit_part("free_end.coefficients", outcome.free_end->coefficients);
+  visit_value({.name = "free_end.rates_after"}, outcome.free_end->rates_after);
+  visit_part("free_end.contact_velocity_after", outcome.free_end->contact_velocity_after);
+  visit_part("free_end.impulse", outcome.free_end->impulse);
+  visit_part("free_end.errors", outcome.free_end->errors);
 }
 
 // Calls visit(path, number) for every number that is set.

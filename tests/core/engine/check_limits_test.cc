@@ -31,6 +31,16 @@ Scene ChainScene(size_t links) {
   return {.system = Chain(links), .friction = {.kinetic_coefficient = 0.1}, .restitution = EnergeticCoefficient{0.5}};
 }
 
+// The unit matrix, and a contact that the first coordinate moves.
+Scene ArmScene(size_t coordinates) {
+  Mechanism arm = {.rates = std::vector<double>(coordinates, -1.0)};
+  arm.mass_matrix.resize(coordinates * coordinates);
+  for (size_t i = 0; i < coordinates; ++i) arm.mass_matrix[i * coordinates + i] = 1.0;
+  arm.jacobian.assign(2 * coordinates, 1.0);
+  arm.jacobian[0] = 0.5;
+  return With(arm);
+}
+
 Scene WithTable(size_t speeds) {
   Scene scene = ChainScene(1);
   SpeedTable table;
@@ -74,6 +84,9 @@ const std::vector<Case>& Cases() {
   static const std::vector<Case> cases = {
       {"LinksOfASolve", &Limits::max_links, 3, "linkage.links",
        [](const Solver& solver, size_t n) { return solver.Solve({.scene = ChainScene(n)}).status(); }},
+      {"CoordinatesOfASolve", &Limits::max_links, 3, "mechanism.rates",
+       [](const Solver& solver, size_t n) { return solver.Solve({.scene = ArmScene(n)}).status(); },
+       /*fields_above=*/2},
       {"LinksOfAPlan", &Limits::max_links, 3, "linkage.links",
        [](const Solver& solver, size_t n) { return solver.Plan({.scene = ChainScene(n)}).status(); }},
       {"LinksOfBounds", &Limits::max_links, 3, "linkage.links",

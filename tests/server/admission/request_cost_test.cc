@@ -40,6 +40,9 @@ TEST(RequestCost, EachCauseMakesACallDear) {
   EXPECT_EQ(CostOf(SolveRequest{.history_intervals = 65535}).cause, CostCause::kHistory);  // 40 ms
   EXPECT_EQ(CostOf(SolveRequest{.history_at_n_s = std::vector<double>(65535)}).cause, CostCause::kHistory);
   EXPECT_EQ(CostOf(SolveRequest{.scene = Chain(128)}).cause, CostCause::kLinks);  // 1 ms
+  Scene arm;
+  arm.system = Mechanism{.rates = std::vector<double>(64)};
+  EXPECT_EQ(CostOf(SolveRequest{.scene = arm}).cause, CostCause::kLinks);
   EXPECT_EQ(CostOf(AuditRequest{.scene = Chain(128), .observed = {}}).cause, CostCause::kLinks);
   EXPECT_EQ(CostOf(AuditBatchRequest{.scene = {}, .columns = {.rates_after_rad_s = {std::vector<double>(8192)}}}).cause,
             CostCause::kRows);  // 130 ms

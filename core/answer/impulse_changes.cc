@@ -1,0 +1,388 @@
+#include "core/answer/impulse_changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "absl/functional/function_ref.h"
+#include "core/numerics/products.h"
+#include "core/plan/perturbed_path.h"
+
+namespace ricochet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnit = 0x1p-53;
+
+template <size_t kTangential>
+using Vector = std::array<double, kTangential>;
+
+template <size_t kTangential>
+double Length(const Vector<kTangential>& x) {
+  double square = 0.0;
+  for (const double component : x) square += component * component;
+  return std::sqrt(square);
+}
+
+double Weighted(double weight, double size) { return size == 0.0 ? 0.0 : weight * size; }
+
+// The contact of A, and how far B is from it. Slip is measured by |u|, the root of u^T Wtt^-1 u; comments have the
+// symbols of docs/theory/mechanism.md.
+template <size_t kTangential>
+class Neighbours {
+ public:
+  Neighbours(const Reduction<kTangential>& reduction, const EffectiveCoefficients& coefficients,
+             const ContactErrors<kTangential>& errors);
+
+  double SlipGap(double tau) const { return slip_gap_ + slip_growth_ * tau; }                          // N
+  double SpeedGap(double tau) const { return speed_gap_ + speed_growth_ * tau + lever_ * SlipGap(tau); }  // E
+  // The growth of SpeedGap from the end of compression of each impact on, where their slips differ by `slip_gap`.
+  double SpeedGapAfter(double time, double slip_gap) const {
+    return (speed_growth_ + lever_ * slip_growth_) * time + lever_ * slip_gap;
+  }
+  double ImpulseGap(size_t i, double tau) const {
+    const double bound = Weighted(inverse_roots_[i], 2.0 * SlipGap(tau));
+    return std::min(bound, 2.0 * most_friction_ * tau) + friction_error_ * tau;
+  }
+
+  double slip_pace() const { return slip_pace_; }          // |u_A'| is at most that.
+  double steepest() const { return steepest_; }            // |v_A'| is at most that.
+  double most_friction() const { return most_friction_; }  // Of A and of B.
+  double root_trace() const { return root_trace_; }        // The length of u is at most this times |u|.
+  bool has_friction() const { return most_friction_ > 0.0; }
+
+  // Whether B is sure to hold a contact at rest as A does, by kinetic friction; how long slip of this gap takes to stop.
+  double SettlingTime(double slip_gap) const;
+  // True if static friction decides, or may decide, whether a contact at rest is held.
+  bool StaticFrictionDecides() const {
+    return static_friction_ > kinetic_friction_ && hold_ + hold_error_ > kinetic_friction_ - friction_error_ &&
+           hold_ - hold_error_ <= static_friction_ + static_error_;
+  }
+  bool SurelyHolds() const { return hold_ + hold_error_ <= static_friction_ - static_error_; }
+  bool Holds() const { return hold_ <= static_friction_; }
+
+  double SlidingSlope(const Vector<kTangential>& u) const {
+    double along = 0.0;
+    for (size_t i = 0; i < kTangential; ++i) along += coupling_[i] * u[i];
+    return wnn_ - kinetic_friction_ * (along / Length<kTangential>(u)) - slope_noise_;
+  }
+  // The least v_A' while slip differs from `u` by no more than `reach`.
+  double LeastSlope(const Vector<kTangential>& u, double reach, bool is_held) const;
+
+ private:
+  // The root of x^T Wtt^-1 x for all x whose components are no larger.
+  double Norm(const Vector<kTangential>& x) const {
+    double sum = 0.0;
+    for (size_t i = 0; i < kTangential; ++i) {
+      if (x[i] > 0.0) sum += x[i] / roots_[i];
+    }
+    return Weighted(conditioning_, sum);
+  }
+  void SetHold(const Reduction<kTangential>& reduction, const ContactErrors<kTangential>& errors);
+  void SetGaps(const ContactErrors<kTangential>& errors);
+
+  double wnn_, kinetic_friction_, static_friction_, friction_error_, static_error_, most_friction_;
+  Vector<kTangential> roots_, inverse_roots_;  // Of the diagonals of Wtt and of Wtt^-1.
+  Vector<kTangential> coupling_;               // wtn
+  double conditioning_ = 1.0;                  // 1/sqrt(1 - rho^2), rho the correlation of t1 and t2.
+  double coupling_size_, root_trace_, steepest_, slope_noise_;
+  double hold_ = 0.0, hold_error_ = 0.0;  // |Wtt^-1 wtn|
+  double stick_slope_ = 0.0;
+  double slip_gap_ = 0.0, slip_growth_ = 0.0, speed_gap_ = 0.0, speed_growth_ = 0.0, lever_ = 0.0, slip_pace_ = 0.0;
+};
+
+template <size_t kTangential>
+Neighbours<kTangential>::Neighbours(const Reduction<kTangential>& reduction, const EffectiveCoefficients& coefficients,
+                                    const ContactErrors<kTangential>& errors)
+    : wnn_(reduction.w.back()),
+      kinetic_friction_(coefficients.kinetic_friction),
+      static_friction_(coefficients.static_friction),
+      friction_error_(errors.coefficients.kinetic_friction),
+      static_error_(errors.coefficients.static_friction),
+      most_friction_(kinetic_friction_ + friction_error_) {
+  if constexpr (kTangential == 1) {
+    roots_ = {std::sqrt(reduction.w[0])};
+    coupling_ = {reduction.w[1]};
+  } else {
+    roots_ = {std::sqrt(reduction.w[0]), std::sqrt(reduction.w[3])};
+    coupling_ = {reduction.w[2], reduction.w[4]};
+    if (roots_[0] > 0.0 && roots_[1] > 0.0) {
+      const double rho = reduction.w[1] / roots_[0] / roots_[1];
+      const double square = 1.0 - rho * rho - 16.0 * kUnit;
+      conditioning_ = square > 0.0 ? 1.0 / std::sqrt(square) : kInfinity;
+    }
+  }
+  for (size_t i = 0; i < kTangential; ++i) inverse_roots_[i] = conditioning_ / roots_[i];
+  coupling_size_ = Length<kTangential>(coupling_);
+  root_trace_ = Length<kTangential>(roots_);
+  steepest_ = wnn_ + std::max(most_friction_, static_friction_) * coupling_size_;
+  slope_noise_ = 16.0 * kUnit * steepest_;
+  SetHold(reduction, errors);
+  SetGaps(errors);
+}
+
+template <size_t kTangential>
+void Neighbours<kTangential>::SetHold(const Reduction<kTangential>& reduction,
+                                      const ContactErrors<kTangential>& errors) {
+  Vector<kTangential> hold = {};
+  if constexpr (kTangential == 1) {
+    const double wtt = reduction.w[0];
+    stick_slope_ = wnn_;
+    if (wtt > 0.0) {
+      hold[0] = coupling_[0] / wtt;
+      stick_slope_ = DifferenceOfProducts(wtt, wnn_, coupling_[0], coupling_[0]) / wtt;
+    }
+  } else {
+    const bool is_full = roots_[0] > 0.0 && roots_[1] > 0.0;
+    const double rho = is_full ? reduction.w[1] / roots_[0] / roots_[1] : 0.0;
+    const double square = conditioning_ * conditioning_;
+    Vector<2> scaled = {};
+    for (size_t i = 0; i < 2; ++i) scaled[i] = roots_[i] > 0.0 ? coupling_[i] / roots_[i] : 0.0;
+    for (size_t i = 0; i < 2; ++i) {
+      if (roots_[i] > 0.0) hold[i] = square * (scaled[i] - rho * scaled[1 - i]) / roots_[i];
+    }
+    stick_slope_ = wnn_ - coupling_[0] * hold[0] - coupling_[1] * hold[1] - Weighted(square, slope_noise_);
+  }
+  hold_ = Length<kTangential>(hold);
+  Vector<kTangential> change = {};
+  for (size_t i = 0; i < kTangential; ++i) {
+    change[i] = errors.w[i][kTangential];
+    for (size_t j = 0; j < kTangential; ++j) change[i] += errors.w[i][j] * std::fabs(hold[j]);
+  }
+  const double norm = Norm(change);
+  for (size_t i = 0; i < kTangential; ++i) hold_error_ += Weighted(inverse_roots_[i], norm);
+  hold_error_ += 16.0 * kUnit * hold_;
+}
+
+template <size_t kTangential>
+void Neighbours<kTangential>::SetGaps(const ContactErrors<kTangential>& errors) {
+  constexpr size_t n = kTangential;
+  speed_gap_ = errors.velocity[n];
+  speed_growth_ = errors.w[n][n];
+  if (!has_friction()) return;
+  Vector<kTangential> u = {}, growth = {}, coupling = {};
+  for (size_t i = 0; i < kTangential; ++i) {
+    u[i] = errors.velocity[i];
+    growth[i] = errors.w[i][n];
+    coupling[i] = std::fabs(coupling_[i]);
+    for (size_t j = 0; j < kTangential; ++j) growth[i] += most_friction_ * errors.w[i][j];
+    speed_growth_ += most_friction_ * errors.w[i][n] + friction_error_ * coupling[i];
+  }
+  const double omega = std::min(std::sqrt(wnn_), Norm(coupling));
+  slip_gap_ = Norm(u);
+  slip_growth_ = Norm(growth) + friction_error_ * root_trace_;
+  lever_ = 2.0 * omega;
+  slip_pace_ = most_friction_ * root_trace_ + omega;
+}
+
+template <size_t kTangential>
+double Neighbours<kTangential>::SettlingTime(double slip_gap) const {
+  const double margin = kinetic_friction_ - friction_error_ - hold_ - hold_error_;
+  double least = kInfinity;  // A bound below the root of the least eigenvalue of Wtt.
+  for (const double root : roots_) least = std::min(least, root > 0.0 ? root / conditioning_ : kInfinity);
+  least /= std::sqrt(static_cast<double>(kTangential));
+  return margin > 0.0 && least > 0.0 ? slip_gap / (margin * least) : kInfinity;
+}
+
+template <size_t kTangential>
+double Neighbours<kTangential>::LeastSlope(const Vector<kTangential>& u, double reach, bool is_held) const {
+  if (!has_friction()) return wnn_;
+  if (is_held) return stick_slope_;
+  const double size = Length<kTangential>(u);
+  if (size > reach) {
+    const double turn = kTangential == 1 ? 0.0 : std::min(2.0 * reach / size, 2.0);
+    return SlidingSlope(u) - kinetic_friction_ * coupling_size_ * turn;
+  }
+  const double slides = wnn_ - kinetic_friction_ * coupling_size_ - slope_noise_;
+  return Holds() ? std::min(slides, stick_slope_) : slides;
+}
+
+// The course of A as far as the bound needs it.
+template <size_t kTangential>
+struct Course {
+  explicit Course(const Outcome& outcome);
+
+  bool is_known = false;
+  Vector<kTangential> u0, u_compression, u1;
+  double v0 = 0.0, v1 = 0.0, compression = 0.0, total = 0.0;
+  std::optional<double> stop;  // Where slip stops, or 0 if there was none.
+
+  bool SlidesOneWay(double reach_at_start, double reach_at_end) const {
+    return kTangential == 1 && !stop.has_value() && std::fabs(u0[0]) > reach_at_start &&
+           std::fabs(u1[0]) > reach_at_end && u0[0] * u1[0] > 0.0;
+  }
+};
+
+template <size_t kTangential>
+Course<kTangential>::Course(const Outcome& outcome) {
+  const auto slip_at = [](const State& state) {
+    Vector<kTangential> u;
+    std::copy_n(state.contact_velocity.tangential_m_s.begin(), kTangential, u.begin());
+    return u;
+  };
+  for (const Event& event : outcome.timeline) {
+    const State& state = event.state;
+    if (event.kind == EventKind::kStart) u0 = slip_at(state), v0 = state.contact_velocity.normal_m_s;
+    if (event.kind == EventKind::kSlipStops) stop = state.normal_impulse_n_s;
+    if (event.kind == EventKind::kCompressionEnds) {
+      is_known = true;
+      u_compression = slip_at(state);
+      compression = state.normal_impulse_n_s;
+    }
+  }
+  if (!is_known) return;
+  const State& end = outcome.timeline.back().state;
+  u1 = slip_at(end);
+  v1 = end.contact_velocity.normal_m_s;
+  total = end.normal_impulse_n_s;
+  if (Length<kTangential>(u0) == 0.0) stop = stop.value_or(0.0);
+}
+
+// Returns a bound on the shift of an end: `bound(step)`, which holds if it is no larger than `step`.
+double ProvedShift(absl::FunctionRef<double(double)> bound) {
+  double step = bound(0.0);
+  for (int i = 0; i < 8 && step < kInfinity; ++i) {
+    step *= 1.0 + 0x1p-10;
+    const double shift = bound(step);
+    if (shift <= step) return shift;
+    step = 2.0 * shift;
+  }
+  return kInfinity;
+}
+
+double Over(double gap, double slope) { return slope > 0.0 ? gap / slope : gap == 0.0 ? 0.0 : kInfinity; }
+
+bool IsRigid(Model model) {
+  return model == Model::kFrictionless || model == Model::kSliding || model == Model::kPlanar ||
+         model == Model::kSpatial;
+}
+
+template <size_t kTangential>
+class Comparison {
+ public:
+  Comparison(const Reduction<kTangential>& reduction, RestitutionLaw law, const ContactErrors<kTangential>& errors,
+             const Outcome& outcome)
+      : law_(law),
+        errors_(errors),
+        outcome_(outcome),
+        near_(reduction, outcome.effective, errors),
+        course_(outcome),
+        u_error_(outcome.errors.tangential_m_s.value_or(kInfinity)),
+        v_error_(outcome.errors.normal_m_s.value_or(kInfinity)) {}
+
+  // The changes of the impulses.
+  Impulses<kTangential> Bound(bool has_exact_rank) const;
+
+ private:
+  double LeastSlope(const Vector<kTangential>& u, double from, double step) const {
+    const double reach = near_.root_trace() * near_.slip_pace() * step + u_error_;
+    return near_.LeastSlope(u, reach, course_.stop.has_value() && near_.Holds() && *course_.stop <= from - step);
+  }
+  double CompressionShift() const {
+    return ProvedShift([&](double step) {
+      const double slope = LeastSlope(course_.u_compression, course_.compression, step);
+      return Over(near_.SpeedGap(course_.compression + step), slope);
+    });
+  }
+  // The shift of a locked contact, which slips until everything stops.
+  double LockShift() const {
+    const double slope = near_.SlidingSlope(course_.u0);
+    return ProvedShift([&](double step) { return Over(near_.SpeedGap(course_.compression + step), slope); });
+  }
+  double RestitutionShift(double compression_shift) const;
+  // True if A and B slip in one direction, or stick, from the ends of their compression on.
+  bool RebounceAlike(double compression_shift, double slip_gap) const {
+    if (!near_.has_friction()) return true;
+    const double since = course_.stop.value_or(kInfinity) + near_.SettlingTime(slip_gap);
+    return since <= course_.compression - compression_shift || SlideOneWay(slip_gap);
+  }
+  bool SlideOneWay(double slip_gap) const {
+    const double reach = near_.root_trace() * slip_gap + u_error_;
+    return course_.SlidesOneWay(reach, reach);
+  }
+  bool MayRest(double reach) const {
+    const auto length = [](const Vector<kTangential>& u) { return Length<kTangential>(u); };
+    return course_.stop.has_value() || std::min({length(course_.u0), length(course_.u_compression),
+                                                 length(course_.u1)}) <= reach;
+  }
+
+  const RestitutionLaw law_;
+  const ContactErrors<kTangential>& errors_;
+  const Outcome& outcome_;
+  const Neighbours<kTangential> near_;
+  const Course<kTangential> course_;
+  const double u_error_, v_error_;  // Of A itself.
+};
+
+template <size_t kTangential>
+double Comparison<kTangential>::RestitutionShift(double compression_shift) const {
+  const double e = outcome_.effective.restitution.value_or(0.0);
+  const double e_error = errors_.coefficients.restitution.value_or(0.0);
+  if (e + e_error == 0.0) return 0.0;
+  const double compression = course_.compression + compression_shift;
+  if (law_ == RestitutionLaw::kPoisson) return e * compression_shift + e_error * compression;
+  const double slip_gap = near_.SlipGap(compression) + near_.slip_pace() * compression_shift;
+  const double lasting_gap = RebounceAlike(compression_shift, slip_gap) ? 0.0 : slip_gap;
+  const double time = course_.total - course_.compression;
+  if (law_ == RestitutionLaw::kNewton) {
+    const double goal_gap = e * errors_.velocity[kTangential] + e_error * std::fabs(course_.v0);
+    return ProvedShift([&](double step) {
+      return Over(near_.SpeedGapAfter(time + step, lasting_gap) + goal_gap, LeastSlope(course_.u1, course_.total, step));
+    });
+  }
+  const double most = e + e_error;
+  const double stored = std::fabs(outcome_.work.normal_compression_j.value_or(kInfinity));
+  const double goal_gap = most * (most * near_.SpeedGap(compression) * compression + 2.0 * Weighted(stored, e_error));
+  return ProvedShift([&](double step) {
+    const double work_gap = near_.SpeedGapAfter(time + step, lasting_gap) * (time + step) + goal_gap;
+    return Over(work_gap, course_.v1 - v_error_ - near_.steepest() * step);
+  });
+}
+
+template <size_t kTangential>
+Impulses<kTangential> Comparison<kTangential>::Bound(bool has_exact_rank) const {
+  Impulses<kTangential> change;
+  change.fill(kInfinity);
+  const bool locks = outcome_.regime == Regime::kLocked;
+  if (!course_.is_known || !(near_.SpeedGap(0.0) < -0.5 * course_.v0)) return change;
+  if (locks && !(has_exact_rank && near_.SurelyHolds() && Length<kTangential>(course_.u0) > 0.0)) return change;
+  const double compression_shift = locks ? LockShift() : CompressionShift();
+  const double shift = compression_shift + (locks ? 0.0 : RestitutionShift(compression_shift));
+  const double last = course_.total + shift;
+  if (!(last < kInfinity)) return change;
+  const double slip_gap = near_.SlipGap(last) + near_.slip_pace() * shift;
+  if (!locks && near_.StaticFrictionDecides() && MayRest(near_.root_trace() * slip_gap + u_error_)) return change;
+  const bool same_friction = locks || !near_.has_friction() || SlideOneWay(slip_gap);
+  for (size_t i = 0; i < kTangential; ++i) {
+    const double gap = same_friction ? errors_.coefficients.kinetic_friction * last : near_.ImpulseGap(i, last);
+    change[i] = WithRoundingMargin(gap + near_.most_friction() * shift);
+  }
+  change[kTangential] = WithRoundingMargin(shift);
+  return change;
+}
+
+}  // namespace
+
+template <size_t kTangential>
+Impulses<kTangential> ImpulseChanges(const Reduction<kTangential>& reduction, RestitutionLaw law,
+                                     const ContactErrors<kTangential>& errors, bool has_exact_rank,
+                                     const Outcome& outcome) {
+  Impulses<kTangential> change = {};
+  const double v_error = errors.velocity[kTangential];
+  if (outcome.regime == Regime::kSeparating && (v_error == 0.0 || reduction.v0 > v_error)) return change;
+  const bool has_end =
+      outcome.termination == Termination::kConverged || outcome.termination == Termination::kLessAccurate;
+  if (has_end && IsRigid(outcome.plan.model)) {
+    return Comparison<kTangential>(reduction, law, errors, outcome).Bound(has_exact_rank);
+  }
+  change.fill(kInfinity);
+  return change;
+}
+
+template Impulses<1> ImpulseChanges<1>(const Reduction<1>&, RestitutionLaw, const ContactErrors<1>&, bool,
+                                       const Outcome&);
+template Impulses<2> ImpulseChanges<2>(const Reduction<2>&, RestitutionLaw, const ContactErrors<2>&, bool,
+                                       const Outcome&);
+
+}  // namespace ricochet

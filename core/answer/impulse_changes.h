@@ -1,0 +1,46 @@
+// Impulse changes: bounds on what small errors of a contact make of the impulses of a rigid impact.
+//
+// A is the impact that was computed, B the one whose W, velocity before and coefficients differ by no more than the
+// errors stated. Friction opposes slip, so that u and v of B stay near those of A at every normal impulse, in whatever
+// way slip stops, turns or starts again. What is left is how far that moves the ends of compression and restitution: an
+// error of v over the slope of v there. docs/theory/mechanism.md derives the bound. It takes no further impact.
+//
+// In a plane it is proved. In space it takes the slopes of v at the two ends alone, which proves it unless v almost
+// returns to 0 in between. The errors of A itself come on top. No bound is known, and it is infinite, where the model
+// is not that of a rigid contact under Coulomb's law, where static friction alone holds the contact or may do so, where
+// rounding may decide whether the contact approaches or locks, and where Wtt is singular beside rows that are 0.
+
+#ifndef RICOCHET_CORE_ANSWER_IMPULSE_CHANGES_H_
+#define RICOCHET_CORE_ANSWER_IMPULSE_CHANGES_H_
+
+#include <array>
+#include <cstddef>
+
+#include "core/contact/reduction.h"
+#include "core/models/restitution_law.h"
+#include "ricochet/outcome.h"
+
+namespace ricochet {
+
+// Bounds on errors, all >= 0. A row of W that is 0 has none.
+template <size_t kTangential>
+struct ContactErrors {
+  std::array<std::array<double, kTangential + 1>, kTangential + 1> w = {};  // 1/kg, both triangles
+  std::array<double, kTangential + 1> velocity = {};                        // u0, then v0, m/s
+  EffectiveCoefficients coefficients;                                       // 0 where a coefficient is constant.
+};
+
+// Impulses along t, or t1 and t2, then n, in N s.
+template <size_t kTangential>
+using Impulses = std::array<double, kTangential + 1>;
+
+// The outcome is that of the reduction, with its timeline and its effective coefficients. `has_exact_rank` says that W
+// of A and of B has the rank one for reasons of structure, so that both lock where one does.
+template <size_t kTangential>
+Impulses<kTangential> ImpulseChanges(const Reduction<kTangential>& reduction, RestitutionLaw law,
+                                     const ContactErrors<kTangential>& errors, bool has_exact_rank,
+                                     const Outcome& outcome);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_ANSWER_IMPULSE_CHANGES_H_
