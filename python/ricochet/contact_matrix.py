@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import math
-from typing import Any, Mapping
+from typing import TYPE_CHECKING, Any, Mapping
 
 import numpy as np
 
-from ricochet.errors import Violation
-from ricochet.values import Numbers, column, is_list
+from ricochet.errors import InvalidRequest, Violation
+from ricochet.values import column, is_list, refuse
+
+if TYPE_CHECKING:
+    from ricochet.values import Numbers
 
 # What a matrix may differ from its transpose by rounding, as a part of sqrt(W_ii W_jj), which bounds its entries.
 _ROUNDING = 1e-9
@@ -17,11 +20,14 @@ _NAME = "w_per_kg"
 _PLANAR = ("w_tt_per_kg", "w_tn_per_kg", "w_nn_per_kg")
 
 
-def unpacked(contact: str, values: Mapping[str, Any], path: str, violations: list[Violation]) -> Mapping[str, Any]:
+def unpacked(contact: str, values: Mapping[str, Any], path: str) -> Mapping[str, Any]:
     """Returns the dictionary of a contact with the entries of its message in place of a matrix ``w_per_kg``.
 
-    The rows of W are those of the contact velocity: t, n in the plane and t1, t2, n in space. Each entry that its
-    mirror image contradicts is a violation. What `contact`, a message of ricochet.v1, does not take stays as it is.
+    The rows of W are those of the contact velocity: t, n in the plane and t1, t2, n in space. What `contact`, a message
+    of ricochet.v1, does not take stays as it is.
+
+    Raises:
+        InvalidRequest: the matrix has another shape; or names each entry that its mirror image contradicts.
     """
     size = {"PlanarContact": 2, "SpatialContact": 3}.get(contact)
     if size is None or values.get(_NAME) is None:
@@ -32,14 +38,15 @@ def unpacked(contact: str, values: Mapping[str, Any], path: str, violations: lis
         return values
     if w.shape != (size, size):
         order = ", or its entries 11, 12, 13, 22, 23, 33 in this order" if size == 3 else ""
-        violations.append(Violation(where, f"has shape {w.shape}: must be a symmetric {size} x {size} matrix{order}"))
-        return {name: value for name, value in values.items() if name != _NAME}
-    violations += _asymmetries(w, where)
+        refuse(where, f"has shape {w.shape}: must be a symmetric {size} x {size} matrix{order}")
+    twice = [name for name in _PLANAR if size == 2 and values.get(name) is not None]
+    violations = _asymmetries(w, where)
+    violations += [Violation(f"{path}.{name}", f"is set together with {_NAME}: must not be") for name in twice]
+    if violations:
+        raise InvalidRequest.of(violations)
     entries = [float(w[i, j]) for i in range(size) for j in range(i, size)]
     if size == 3:
         return {**values, _NAME: entries}
-    twice = [name for name in _PLANAR if values.get(name) is not None]
-    violations += [Violation(f"{path}.{name}", f"is set together with {_NAME}: must not be") for name in twice]
     return {**{name: value for name, value in values.items() if name != _NAME}, **dict(zip(_PLANAR, entries))}
 
 

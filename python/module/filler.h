@@ -1,0 +1,79 @@
+// Filler: a message of the service from what a caller of Python gives: dictionaries with the names of its fields, whose
+// values are numbers, texts, lists and arrays.
+//
+// The descriptor of the message says which fields there are, so that no field is named here. What is wrong is collected
+// and raised at once, as InvalidRequest: unknown fields with the nearest name, values of a wrong kind, two alternatives
+// of one choice. None leaves a field unset. Python decides what counts as a number (ricochet/values.py) wherever it is
+// not a plain int or float.
+
+#ifndef RICOCHET_PYTHON_MODULE_FILLER_H_
+#define RICOCHET_PYTHON_MODULE_FILLER_H_
+
+#include <google/protobuf/message.h>
+#include <pybind11/pybind11.h>
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/string_view.h"
+
+namespace ricochet::python {
+
+// The path of a field: the place of what holds it, its name, and its index in a list. It becomes text only if something
+// is wrong there.
+struct Place {
+  const Place* outer = nullptr;
+  absl::string_view name;
+  int index = -1;
+
+  std::string Text() const;
+};
+
+class Filler {
+ public:
+  // Fills `message` from a dictionary. `place` is null for a scene, whose fields have no other path.
+  void Fill(pybind11::handle values, google::protobuf::Message& message, const Place* place = nullptr);
+
+  // Sets the field that an argument of a function of Python means ("tolerance" for relative_tolerance). None and ()
+  // leave it as it is.
+  void FillArgument(absl::string_view argument, pybind11::handle value, google::protobuf::Message& message);
+
+  // Raises InvalidRequest if something was wrong.
+  void Finish() const;
+
+ private:
+  using Message = google::protobuf::Message;
+  using Field = google::protobuf::FieldDescriptor;
+
+  void FillField(pybind11::handle value, Message& message, const Field& field, const Place& place);
+  void FillList(pybind11::handle value, Message& message, const Field& field, const Place& place);
+  // Sets a field that is no message, or adds to it if it is a list.
+  void Put(pybind11::handle value, Message& message, const Field& field, const Place& place);
+  std::optional<double> Number(pybind11::handle value, const Place& place);
+  std::optional<int> EnumNumber(pybind11::handle value, const google::protobuf::EnumDescriptor& type,
+                                const Place& place);
+  // Returns what Python makes of a value that is not plainly of the kind; null if nothing.
+  pybind11::object Scalar(const char* kind, pybind11::handle value, const Place& place);
+  // Calls NAME of ricochet.values. Returns null if it raises InvalidRequest, whose violations are kept.
+  template <typename... Arguments>
+  pybind11::object Ask(const char* name, Arguments&&... arguments) {
+    return AskModule("ricochet.values", name, std::forward<Arguments>(arguments)...);
+  }
+  template <typename... Arguments>
+  pybind11::object AskModule(const char* module, const char* name, Arguments&&... arguments);
+  // Returns the dictionary of a contact with the entries of W in place of a matrix.
+  pybind11::dict WithoutMatrix(const pybind11::dict& dictionary, pybind11::handle matrix, const Message& message,
+                               const Place* place);
+
+  void Refuse(std::string place, std::string description) {
+    violations_.emplace_back(std::move(place), std::move(description));
+  }
+
+  std::vector<std::pair<std::string, std::string>> violations_;
+};
+
+}  // namespace ricochet::python
+
+#endif  // RICOCHET_PYTHON_MODULE_FILLER_H_
