@@ -5,6 +5,10 @@
 // place of its answer. A LocalSolver is asked on the thread of the call, where it looks at its options every few
 // milliseconds. A Client waits for the network without looking, so that it is asked on another thread, which is told to
 // stop.
+//
+// A process that is forked has no thread but the one that forked. So the child leaves every solver as it is for ever and
+// makes others. gRPC has handlers of its own for a fork, which need that no call is under way: a child that was forked
+// while another thread asked a server can compute, but not ask a server.
 
 #ifndef RICOCHET_PYTHON_MODULE_CALL_H_
 #define RICOCHET_PYTHON_MODULE_CALL_H_
@@ -20,23 +24,31 @@
 #include <utility>
 
 #include "absl/status/statusor.h"
-#include "python/module/fork.h"
-#include "python/module/python_names.h"
-#include "python/module/raise.h"
+#include "python/module/exceptions.h"
 #include "ricochet/solver.h"
 
 namespace ricochet::python {
 
-// A solver, and how its calls end.
+// What a client of Python asks: a solver, and how its calls end.
 struct Callee {
   std::shared_ptr<const Solver> solver;
   bool is_remote = false;
   std::optional<std::chrono::milliseconds> deadline;  // Of each call; absent if the solver has its own.
+
+  // Leaves the solver as it is for ever: after a fork its threads and connections are those of the parent.
+  void Abandon();
 };
+
+// Says that gRPC is about to be used, so that forks need its handlers. Raises Unavailable in a child that cannot use it.
+void StartGrpc();
+
+// Adds to the module what os.register_at_fork takes.
+void AddForks(py::module_& module);
 
 class Call {
  public:
   explicit Call(const Callee& callee);
+  ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
 
@@ -89,7 +101,6 @@ class Call {
   bool HandleSignals();
 
   const Callee callee_;
-  const CallOfServer counted_;
   CallOptions options_;
   std::stop_source stop_;
   Clock::time_point next_look_ = Clock::now() + kBetweenLooks;

@@ -9,8 +9,8 @@
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/invariant.h"
-#include "python/module/enum_names.h"
-#include "python/module/python_names.h"
+#include "python/module/exceptions.h"
+#include "python/module/record.h"
 
 namespace ricochet::python {
 namespace {
@@ -73,15 +73,6 @@ bool ReadDictionary(py::handle values, py::dict& dictionary) {
   return true;
 }
 
-// The name of W, and of its six entries in space.
-constexpr char kMatrix[] = "w_per_kg";
-
-// Returns whether `value` is a list of six numbers.
-bool HasSixNumbers(PyObject* value) {
-  if (!PyList_CheckExact(value) || PyList_GET_SIZE(value) != 6) return false;
-  return PyNumber_Check(PyList_GET_ITEM(value, 0)) != 0;
-}
-
 }  // namespace
 
 std::string Place::Text() const {
@@ -91,15 +82,19 @@ std::string Place::Text() const {
   return text;
 }
 
+void Filler::Keep(const py::object& violations) {
+  for (const py::handle violation : violations) {
+    violations_.push_back({py::str(violation.attr("field")), py::str(violation.attr("description"))});
+  }
+}
+
 template <typename... Arguments>
-py::object Filler::AskModule(const char* module, const char* name, Arguments&&... arguments) {
+py::object Filler::Ask(const char* name, Arguments&&... arguments) {
   try {
-    return PythonName(module, name)(std::forward<Arguments>(arguments)...);
+    return PythonName("ricochet.values", name)(std::forward<Arguments>(arguments)...);
   } catch (const py::error_already_set& error) {
     if (!error.matches(PythonName("ricochet.errors", "InvalidRequest"))) throw;
-    for (const py::handle violation : error.value().attr("violations")) {
-      Refuse(py::str(violation.attr("field")), py::str(violation.attr("description")));
-    }
+    Keep(error.value().attr("violations"));
     return {};
   }
 }
@@ -111,37 +106,25 @@ void Filler::Fill(py::handle values, Message& message, const Place* place) {
     return;
   }
   const google::protobuf::Descriptor& type = *message.GetDescriptor();
-  if (PyObject* const matrix = PyDict_GetItemString(dictionary.ptr(), kMatrix); matrix != nullptr) {
-    dictionary = WithoutMatrix(dictionary, matrix, message, place);
+  if (place != nullptr && dictionary.contains("w_per_kg")) {
+    const py::tuple unpacked =
+        PythonName("ricochet.contact_matrix", "unpacked")(type.name(), dictionary, place->Text());
+    dictionary = unpacked[0];
+    Keep(unpacked[1]);
   }
-  PyObject* key = nullptr;
-  PyObject* value = nullptr;
-  for (Py_ssize_t position = 0; PyDict_Next(dictionary.ptr(), &position, &key, &value) != 0;) {
-    // What a value is asked for may run Python, which may change the dictionary.
-    const py::object held_key = py::reinterpret_borrow<py::object>(key);
-    const py::object held_value = py::reinterpret_borrow<py::object>(value);
-    const auto name = Utf8(key);
+  for (const auto& [key, value] : dictionary) {
+    const auto name = Utf8(key.ptr());
     const FieldDescriptor* const field = name.has_value() ? type.FindFieldByName(std::string(*name)) : nullptr;
     if (field == nullptr) {
-      const std::string shown = py::str(held_key);
+      const std::string shown = py::str(key);
       const Place there = {.outer = place, .name = shown};
-      Ask("unknown_field", there.Text(), held_key, NamesOf(type));
-    } else if (value != Py_None) {
-      FillField(held_value, message, *field, {.outer = place, .name = *name});
+      Ask("unknown_field", there.Text(), key, NamesOf(type));
+    } else if (!value.is_none()) {
+      // Python may be asked what the value is, and may change the dictionary then.
+      const py::object held = py::reinterpret_borrow<py::object>(value);
+      FillField(held, message, *field, {.outer = place, .name = *name});
     }
   }
-}
-
-py::dict Filler::WithoutMatrix(const py::dict& dictionary, py::handle matrix, const Message& message,
-                               const Place* place) {
-  const google::protobuf::Descriptor& type = *message.GetDescriptor();
-  if (type.FindFieldByName(kMatrix) != nullptr && HasSixNumbers(matrix.ptr())) return dictionary;
-  const std::string path = place == nullptr ? "" : place->Text();
-  py::object unpacked = AskModule("ricochet.contact_matrix", "unpacked", type.name(), dictionary, path);
-  if (unpacked) return unpacked;
-  py::dict rest = dictionary.attr("copy")();
-  PyDict_DelItemString(rest.ptr(), kMatrix);
-  return rest;
 }
 
 void Filler::FillArgument(absl::string_view argument, py::handle value, Message& message) {
@@ -150,22 +133,12 @@ void Filler::FillArgument(absl::string_view argument, py::handle value, Message&
   if (field.has_presence() || !IsZeroOrFalse(value.ptr())) FillField(value, message, field, {.name = argument});
 }
 
-void Filler::Finish() const {
-  if (violations_.empty()) return;
-  const py::object make = PythonName("ricochet.errors", "Violation");
-  py::list violations;
-  for (const auto& [place, description] : violations_) violations.append(make(place, description));
-  const py::object error = PythonName("ricochet.errors", "InvalidRequest").attr("of")(violations);
-  PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());
-  throw py::error_already_set();
-}
-
 void Filler::FillField(py::handle value, Message& message, const Field& field, const Place& place) {
   const Reflection& reflection = *message.GetReflection();
   if (const auto* const choice = field.real_containing_oneof(); choice != nullptr) {
     const Field* const already = reflection.GetOneofFieldDescriptor(message, choice);
     if (already != nullptr && already != &field) {
-      Refuse(place.Text(), absl::StrCat("is set together with ", already->name(), ": must not be"));
+      violations_.push_back({place.Text(), absl::StrCat("is set together with ", already->name(), ": must not be")});
       return;
     }
   }
@@ -207,10 +180,6 @@ void Filler::FillList(py::handle value, Message& message, const Field& field, co
   }
 }
 
-py::object Filler::Scalar(const char* kind, py::handle value, const Place& place) {
-  return Ask("scalar", kind, value, place.Text());
-}
-
 std::optional<double> Filler::Number(py::handle value, const Place& place) {
   if (PyFloat_Check(value.ptr())) return PyFloat_AS_DOUBLE(value.ptr());
   if (PyLong_CheckExact(value.ptr())) {
@@ -218,14 +187,14 @@ std::optional<double> Filler::Number(py::handle value, const Place& place) {
     if (PyErr_Occurred() == nullptr) return number;
     PyErr_Clear();
   }
-  const py::object number = Scalar("double", value, place);
+  const py::object number = Ask("scalar", "double", value, place.Text());
   return number ? std::optional(number.cast<double>()) : std::nullopt;
 }
 
 std::optional<int> Filler::EnumNumber(py::handle value, const EnumDescriptor& type, const Place& place) {
   const auto name = Utf8(value.ptr());
   if (!name.has_value()) {
-    Scalar("enum", value, place);
+    Ask("scalar", "enum", value, place.Text());
     return std::nullopt;
   }
   const std::string upper = absl::AsciiStrToUpper(*name);
@@ -243,47 +212,27 @@ std::optional<int> Filler::EnumNumber(py::handle value, const EnumDescriptor& ty
 void Filler::Put(py::handle value, Message& message, const Field& field, const Place& place) {
   const Reflection& reflection = *message.GetReflection();
   const auto put = [&](auto set, auto add, auto found) {
-    if (field.is_repeated()) {
-      (reflection.*add)(&message, &field, std::move(found));
-    } else {
-      (reflection.*set)(&message, &field, std::move(found));
-    }
+    if (!found.has_value()) return;
+    (reflection.*(field.is_repeated() ? add : set))(&message, &field, *std::move(found));
   };
-  const auto whole = [&](const char* kind) -> std::optional<int64_t> {
-    const py::object number = Scalar(kind, value, place);
-    return number ? std::optional(number.cast<int64_t>()) : std::nullopt;
+  // What Python makes of a value of the kind; nothing if it is none.
+  const auto ask = [&]<typename Value>(const char* kind, Value /*type*/) -> std::optional<Value> {
+    const py::object found = Ask("scalar", kind, value, place.Text());
+    return found ? std::optional(found.cast<Value>()) : std::nullopt;
   };
   switch (field.cpp_type()) {
     case Field::CPPTYPE_DOUBLE:
-      if (const auto number = Number(value, place); number.has_value()) {
-        put(&Reflection::SetDouble, &Reflection::AddDouble, *number);
-      }
-      return;
+      return put(&Reflection::SetDouble, &Reflection::AddDouble, Number(value, place));
     case Field::CPPTYPE_INT32:
-      if (const auto number = whole("int32"); number.has_value()) {
-        put(&Reflection::SetInt32, &Reflection::AddInt32, static_cast<int32_t>(*number));
-      }
-      return;
+      return put(&Reflection::SetInt32, &Reflection::AddInt32, ask("int32", int32_t{}));
     case Field::CPPTYPE_INT64:
-      if (const auto number = whole("int64"); number.has_value()) {
-        put(&Reflection::SetInt64, &Reflection::AddInt64, *number);
-      }
-      return;
+      return put(&Reflection::SetInt64, &Reflection::AddInt64, ask("int64", int64_t{}));
     case Field::CPPTYPE_BOOL:
-      if (const py::object found = Scalar("bool", value, place); found) {
-        put(&Reflection::SetBool, &Reflection::AddBool, found.cast<bool>());
-      }
-      return;
+      return put(&Reflection::SetBool, &Reflection::AddBool, ask("bool", bool{}));
     case Field::CPPTYPE_STRING:
-      if (const py::object found = Scalar("text", value, place); found) {
-        put(&Reflection::SetString, &Reflection::AddString, found.cast<std::string>());
-      }
-      return;
+      return put(&Reflection::SetString, &Reflection::AddString, ask("text", std::string()));
     case Field::CPPTYPE_ENUM:
-      if (const auto number = EnumNumber(value, *field.enum_type(), place); number.has_value()) {
-        put(&Reflection::SetEnumValue, &Reflection::AddEnumValue, *number);
-      }
-      return;
+      return put(&Reflection::SetEnumValue, &Reflection::AddEnumValue, EnumNumber(value, *field.enum_type(), place));
     case Field::CPPTYPE_FLOAT:
     case Field::CPPTYPE_UINT32:
     case Field::CPPTYPE_UINT64:

@@ -18,6 +18,8 @@
 #include <vector>
 
 #include "absl/strings/string_view.h"
+#include "python/module/exceptions.h"
+#include "ricochet/error.h"
 
 namespace ricochet::python {
 
@@ -34,44 +36,33 @@ struct Place {
 class Filler {
  public:
   // Fills `message` from a dictionary. `place` is null for a scene, whose fields have no other path.
-  void Fill(pybind11::handle values, google::protobuf::Message& message, const Place* place = nullptr);
+  void Fill(py::handle values, google::protobuf::Message& message, const Place* place = nullptr);
 
   // Sets the field that an argument of a function of Python means ("tolerance" for relative_tolerance). None and ()
   // leave it as it is.
-  void FillArgument(absl::string_view argument, pybind11::handle value, google::protobuf::Message& message);
+  void FillArgument(absl::string_view argument, py::handle value, google::protobuf::Message& message);
 
   // Raises InvalidRequest if something was wrong.
-  void Finish() const;
+  void Finish() const {
+    if (!violations_.empty()) Raise(violations_);
+  }
 
  private:
   using Message = google::protobuf::Message;
   using Field = google::protobuf::FieldDescriptor;
 
-  void FillField(pybind11::handle value, Message& message, const Field& field, const Place& place);
-  void FillList(pybind11::handle value, Message& message, const Field& field, const Place& place);
+  void FillField(py::handle value, Message& message, const Field& field, const Place& place);
+  void FillList(py::handle value, Message& message, const Field& field, const Place& place);
   // Sets a field that is no message, or adds to it if it is a list.
-  void Put(pybind11::handle value, Message& message, const Field& field, const Place& place);
-  std::optional<double> Number(pybind11::handle value, const Place& place);
-  std::optional<int> EnumNumber(pybind11::handle value, const google::protobuf::EnumDescriptor& type,
-                                const Place& place);
-  // Returns what Python makes of a value that is not plainly of the kind; null if nothing.
-  pybind11::object Scalar(const char* kind, pybind11::handle value, const Place& place);
+  void Put(py::handle value, Message& message, const Field& field, const Place& place);
+  std::optional<double> Number(py::handle value, const Place& place);
+  std::optional<int> EnumNumber(py::handle value, const google::protobuf::EnumDescriptor& type, const Place& place);
   // Calls NAME of ricochet.values. Returns null if it raises InvalidRequest, whose violations are kept.
   template <typename... Arguments>
-  pybind11::object Ask(const char* name, Arguments&&... arguments) {
-    return AskModule("ricochet.values", name, std::forward<Arguments>(arguments)...);
-  }
-  template <typename... Arguments>
-  pybind11::object AskModule(const char* module, const char* name, Arguments&&... arguments);
-  // Returns the dictionary of a contact with the entries of W in place of a matrix.
-  pybind11::dict WithoutMatrix(const pybind11::dict& dictionary, pybind11::handle matrix, const Message& message,
-                               const Place* place);
+  py::object Ask(const char* name, Arguments&&... arguments);
+  void Keep(const py::object& violations);
 
-  void Refuse(std::string place, std::string description) {
-    violations_.emplace_back(std::move(place), std::move(description));
-  }
-
-  std::vector<std::pair<std::string, std::string>> violations_;
+  std::vector<Violation> violations_;
 };
 
 }  // namespace ricochet::python

@@ -1,23 +1,21 @@
 #include "python/module/record.h"
 
-#include <google/protobuf/descriptor.h>
-
+#include <algorithm>
 #include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "absl/container/flat_hash_map.h"
 #include "core/base/invariant.h"
 #include "proto/wire/outcome.h"
-#include "python/module/enum_names.h"
-#include "python/module/python_names.h"
+#include "python/module/exceptions.h"
 #include "ricochet/v1/outcome.pb.h"
 
 namespace ricochet::python {
 namespace {
 
 using google::protobuf::Descriptor;
+using google::protobuf::EnumDescriptor;
 using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
@@ -36,20 +34,39 @@ struct Entry {
   bool may_be_unset;
 };
 
-// The entries of a type of messages. They are kept for ever, because a name that Python knows is found without hashing.
-const std::vector<Entry>& EntriesOf(const Descriptor& type) {
-  static auto* const known = new absl::flat_hash_map<const Descriptor*, std::unique_ptr<std::vector<Entry>>>();
-  std::unique_ptr<std::vector<Entry>>& entries = (*known)[&type];
-  if (entries == nullptr) {
-    entries = std::make_unique<std::vector<Entry>>();
-    for (int i = 0; i < type.field_count(); ++i) {
-      const FieldDescriptor* const field = type.field(i);
-      entries->push_back({.field = field,
-                          .name = PyUnicode_InternFromString(field->name().c_str()),
-                          .may_be_unset = !field->is_repeated() && field->has_presence()});
-    }
+// What is known of a type of messages or of an enum, made once and kept for ever: a text that Python has interned is
+// found without being hashed.
+template <typename Known, typename Type>
+const std::vector<Known>& Kept(const Type& type, Known (*make)(const Type& type, int i), int count) {
+  static auto* const kept = new absl::flat_hash_map<const Type*, std::unique_ptr<std::vector<Known>>>();
+  std::unique_ptr<std::vector<Known>>& all = (*kept)[&type];
+  if (all == nullptr) {
+    all = std::make_unique<std::vector<Known>>();
+    for (int i = 0; i < count; ++i) all->push_back(make(type, i));
   }
-  return *entries;
+  return *all;
+}
+
+Entry MakeEntry(const Descriptor& type, int i) {
+  const FieldDescriptor* const field = type.field(i);
+  return {.field = field,
+          .name = PyUnicode_InternFromString(field->name().c_str()),
+          .may_be_unset = !field->is_repeated() && field->has_presence()};
+}
+const std::vector<Entry>& EntriesOf(const Descriptor& type) { return Kept(type, MakeEntry, type.field_count()); }
+
+PyObject* MakeName(const EnumDescriptor& type, int i) {
+  return PyUnicode_InternFromString(type.value(i)->name().substr(EnumPrefix(type).size()).c_str());
+}
+const std::vector<PyObject*>& NamesOf(const EnumDescriptor& type) { return Kept(type, MakeName, type.value_count()); }
+
+// Returns the class of an answer that is read, or of one that is not. They are looked up once, but under no guard of a
+// static variable: an import can let another thread run, which would wait for the guard and hold the lock of Python.
+PyTypeObject* RecordType(bool is_read) {
+  static PyObject* types[2] = {nullptr, nullptr};
+  PyObject*& type = types[is_read ? 1 : 0];
+  if (type == nullptr) type = PythonName("ricochet.record", is_read ? "Record" : "UnreadRecord").release().ptr();
+  return reinterpret_cast<PyTypeObject*>(type);
 }
 
 py::object Owned(PyObject* object) {
@@ -124,6 +141,25 @@ const v1::Outcome& MessageOf(py::handle record) {
 bool IsRead(py::handle record) { return Py_TYPE(record.ptr()) == RecordType(/*is_read=*/true); }
 
 }  // namespace
+
+std::string EnumPrefix(const EnumDescriptor& type) {
+  std::string prefix = type.value(0)->name();
+  for (int i = 1; i < type.value_count(); ++i) {
+    const std::string& name = type.value(i)->name();
+    prefix.erase(std::mismatch(prefix.begin(), prefix.end(), name.begin(), name.end()).first, prefix.end());
+  }
+  return prefix.substr(0, prefix.rfind('_') + 1);
+}
+
+py::object EnumName(const EnumDescriptor& type, int number) {
+  return py::reinterpret_borrow<py::object>(NamesOf(type).at(static_cast<size_t>(number)));
+}
+
+py::list EnumNames(const EnumDescriptor& type) {
+  py::list names;
+  for (PyObject* name : NamesOf(type)) names.append(py::handle(name));
+  return names;
+}
 
 py::object RecordOf(const Message& message) {
   py::object record = Make(RecordType(/*is_read=*/true));

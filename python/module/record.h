@@ -7,14 +7,23 @@
 #ifndef RICOCHET_PYTHON_MODULE_RECORD_H_
 #define RICOCHET_PYTHON_MODULE_RECORD_H_
 
+#include <google/protobuf/descriptor.h>
 #include <google/protobuf/message.h>
 #include <pybind11/pybind11.h>
 
 #include <memory>
+#include <string>
 
 #include "ricochet/solver.h"
 
 namespace ricochet::python {
+
+// Returns the words with which every name of an enum begins: "REGIME_".
+std::string EnumPrefix(const google::protobuf::EnumDescriptor& type);
+
+// Returns the name of a number that the enum has: "REBOUND". EnumNames has those of all its numbers, which are 0, 1, ...
+pybind11::object EnumName(const google::protobuf::EnumDescriptor& type, int number);
+pybind11::list EnumNames(const google::protobuf::EnumDescriptor& type);
 
 // Returns the message as a record.
 pybind11::object RecordOf(const google::protobuf::Message& message);

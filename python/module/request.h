@@ -1,53 +1,39 @@
-// Request: a request of Python on its way to a solver: the arguments of a function as a message of the service, and the
-// scene.
+// RequestOf: the request of a call from what Python gives: the scene, and the arguments of a function by their names.
 
 #ifndef RICOCHET_PYTHON_MODULE_REQUEST_H_
 #define RICOCHET_PYTHON_MODULE_REQUEST_H_
 
-#include <google/protobuf/message.h>
 #include <pybind11/pybind11.h>
 
-#include <memory>
 #include <string>
-#include <vector>
 
-#include "core/base/invariant.h"
-#include "ricochet/scene.h"
+#include "proto/wire/audit.h"
+#include "proto/wire/batch.h"
+#include "proto/wire/cost.h"
+#include "proto/wire/requests.h"
+#include "proto/wire/sweep.h"
+#include "python/module/filler.h"
+#include "python/module/scene.h"
 
 namespace ricochet::python {
 
-// The names that a caller may give, as a collection of Python that is searched without being copied.
-struct Paths {
-  std::vector<std::string> texts;
-};
+template <typename Request>
+Scene& SceneIn(Request& request) {
+  return request.scene;
+}
+inline Scene& SceneIn(SweepRequest& request) { return request.grid.scene; }
 
-class Request {
- public:
-  // Makes a message of ricochet.v1, which has a scene, from the arguments of a function of Python.
-  Request(const std::string& type, pybind11::handle scene, const pybind11::dict& arguments);
-
-  // Sets further fields from a dictionary.
-  void Set(const pybind11::dict& fields);
-
-  const Scene& scene() const { return scene_; }
-  Paths Fields() const;
-  Paths Columns() const;
-
-  // The message, whose scene is not set.
-  template <typename Wire>
-  const Wire& As() const {
-    const auto* const message = dynamic_cast<const Wire*>(message_.get());
-    CheckInvariant(message != nullptr, "a function of Python makes the request of its own call");
-    return *message;
-  }
-
- private:
-  std::unique_ptr<google::protobuf::Message> message_;
-  Scene scene_;
-};
-
-// Adds the class to the module.
-void AddRequest(pybind11::module_& module);
+// `Wire` is the message of the request. Raises InvalidRequest, which names everything that is wrong.
+template <typename Wire>
+auto RequestOf(py::handle scene, const py::dict& arguments) {
+  Filler filler;
+  Wire message;
+  for (const auto& [name, value] : arguments) filler.FillArgument(std::string(py::str(name)), value, message);
+  auto request = FromProto(message);
+  SceneIn(request) = SceneOf(scene, filler);
+  filler.Finish();
+  return request;
+}
 
 }  // namespace ricochet::python
 

@@ -1,3 +1,5 @@
+#include "python/module/rows.h"
+
 #include <google/protobuf/util/json_util.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
@@ -7,14 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "core/base/invariant.h"
 #include "core/rows/axis_values.h"
 #include "core/types/grid.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/sweep.h"
-#include "python/module/python_names.h"
-#include "python/module/solver.h"
+#include "python/module/request.h"
 
 namespace ricochet::python {
 namespace {
@@ -50,15 +52,11 @@ absl::Span<const double> SpanOf(py::handle column) {
 }
 
 // Solves the rows of `inputs`, which are arrays of doubles, into arrays of its own.
-py::tuple SolveBatch(const BoundSolver& solver, const Request& asked, std::vector<std::string> fields,
-                     const py::list& inputs, std::vector<std::string> columns) {
-  BatchSetup setup = FromProto(asked.As<v1::BatchSetup>());
-  setup.scene = asked.scene();
-  setup.fields = std::move(fields);
-  setup.columns = std::move(columns);
+py::tuple SolveBatch(const Callee& solver, py::handle scene, const py::dict& arguments, const py::list& inputs) {
+  auto setup = RequestOf<v1::BatchSetup>(scene, arguments);
   BatchRows rows;
   for (const py::handle column : inputs) rows.inputs.push_back(SpanOf(column));
-  const size_t count = rows.inputs.front().size();
+  const size_t count = rows.inputs.empty() ? 0 : rows.inputs.front().size();
   py::list outputs;
   for (size_t c = 0; c < setup.columns.size(); ++c) {
     Numbers column(static_cast<py::ssize_t>(count));
@@ -70,7 +68,7 @@ py::tuple SolveBatch(const BoundSolver& solver, const Request& asked, std::vecto
   Codes statuses(static_cast<py::ssize_t>(count));
   rows.regimes = absl::MakeSpan(regimes);
   rows.statuses = absl::MakeSpan(reinterpret_cast<RowStatus*>(statuses.mutable_data()), count);
-  Call call(solver.callee());
+  Call call(solver);
   const absl::StatusOr<BatchResponse> answer =
       call.Run([&] { return call.solver().SolveBatch(setup, rows, call.options()); });
   if (!answer.ok()) Raise(answer.status());
@@ -119,12 +117,11 @@ py::dict Provenance(const SweepRequest& request, const EngineInfo& engine) {
   return attributes;
 }
 
-py::tuple Sweep(const BoundSolver& solver, const Request& asked, const py::object& progress) {
-  SweepRequest request = FromProto(asked.As<v1::SweepRequest>());
-  request.grid.scene = asked.scene();
+py::tuple Sweep(const Callee& solver, py::handle scene, const py::dict& arguments, const py::object& progress) {
+  const auto request = RequestOf<v1::SweepRequest>(scene, arguments);
   std::optional<Points> points;
   EngineInfo engine;
-  Call call(solver.callee());
+  Call call(solver);
   ForEachPart<SweepStream>(call, &Solver::Sweep, request, [&](const SweepChunk& chunk) {
     if (!points.has_value()) points.emplace(request.columns.size(), chunk.points_total);
     points->Take(chunk);
@@ -146,7 +143,7 @@ py::array_t<double> AxisOf(double start, double stop, int64_t count) {
 
 }  // namespace
 
-void AddRows(py::module_& module, py::class_<BoundSolver>& solver) {
+void AddRows(py::module_& module, py::class_<Callee>& solver) {
   solver.def("solve_batch", &SolveBatch).def("sweep", &Sweep);
   module.def("linspace", &AxisOf<Linspace>);
   module.def("logspace", &AxisOf<Logspace>);

@@ -15,7 +15,7 @@ import numpy as np
 from ricochet import _core, names, values
 from ricochet import axes as sweep_axes
 from ricochet._core import Scene
-from ricochet.connection import Connection, resolve
+from ricochet.connection import resolve
 from ricochet.errors import InvalidRequest, RicochetError, Violation
 from ricochet.record import Record
 from ricochet.table import Codes, Table
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
 SceneLike = Union[Scene, Mapping[str, Any]]
 """A scene: a dictionary with the names of ricochet.v1.Scene, or a ``Scene`` that was made of one."""
+Names = Union[str, Iterable[str]]
 Progress = Callable[[int, int], object]
 
 _TITLE = "Sweep of impacts with friction"
@@ -69,33 +70,13 @@ class Client:
     """
 
     def __init__(
-        self,
-        server: str = "",
-        *,
-        deadline: str | float = "",
-        max_receive: str | int = "",
-        tls: str | bool = "",
-        tls_ca: str = "",
-        tls_cert: str = "",
-        tls_key: str = "",
-        server_name: str = "",
-        token_file: str = "",
-        token: str = "",
-        config: str = "",
+        self, server: str = "", *, deadline: str | float = "", max_receive: str | int = "", tls: str | bool = "",
+        tls_ca: str = "", tls_cert: str = "", tls_key: str = "", server_name: str = "", token_file: str = "",
+        token: str = "", config: str = "",
     ) -> None:
-        self._given = Connection(
-            server=server,
-            deadline=str(deadline),
-            max_receive=str(max_receive),
-            tls=str(tls).lower(),
-            tls_ca=tls_ca,
-            tls_cert=tls_cert,
-            tls_key=tls_key,
-            server_name=server_name,
-            token_file=token_file,
-            token=token,
-            config=config,
-        )
+        options = {name: value for name, value in locals().items() if name != "self"}
+        self._given = {**options, **{name: str(options[name]) for name in ("deadline", "max_receive")}}
+        self._given["tls"] = str(tls).lower()
         self._options: dict[str, Any] | None = None
         self._start()
         # Wrong options are an error here, and not at the first call.
@@ -110,7 +91,7 @@ class Client:
     def _resolved(self) -> dict[str, Any]:
         """Returns the options as the module takes them. Raises InvalidRequest if one is wrong."""
         if self._options is None:
-            options = resolve(self._given).options()
+            options = resolve(self._given)
             if options["server"]:
                 _core.check_options(options)
             self._options = options
@@ -149,16 +130,8 @@ class Client:
         self._start()
 
     def solve(
-        self,
-        scene: SceneLike,
-        *,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
-        strict: bool = False,
-        history: int = 0,
-        force_history: int = 0,
-        certified: int = 0,
+        self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),
+        strict: bool = False, history: int = 0, force_history: int = 0, certified: int = 0,
     ) -> Record:
         """Computes one impact.
 
@@ -184,12 +157,7 @@ class Client:
         return self._solver.solve(scene, tolerance, require, exclude, strict, history, force_history, certified)
 
     def plan(
-        self,
-        scene: SceneLike,
-        *,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
+        self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),
     ) -> Record:
         """Plans one impact without computing it: which effects are simulated, which are left out, and why.
 
@@ -204,7 +172,7 @@ class Client:
             RicochetError: the call failed otherwise.
         """
         arguments = {"tolerance": tolerance, "require": require, "exclude": exclude}
-        return self._solver.plan(_core.Request("PlanRequest", scene, arguments))
+        return self._solver.plan(scene, arguments)
 
     def bounds(
         self, scene: SceneLike, *, ranges: Mapping[str, tuple[float, float]] | None = None, certified: int = 0
@@ -224,18 +192,14 @@ class Client:
             InvalidRequest: the scene or a range breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        request = _core.Request("BoundsRequest", scene, {"certified": certified})
-        named = names.by_full_name(ranges or {}, request.fields(), "ranges")
-        request.set({"ranges": [_range(path, ends) for path, ends in named.items()]})
-        return self._solver.bounds(request)
+        scene = Scene(scene)
+        named = names.by_full_name(ranges or {}, scene._fields(), "ranges")
+        listed = tuple(_range(path, ends) for path, ends in named.items())
+        return self._solver.bounds(scene, {"ranges": listed, "certified": certified})
 
     def audit(
-        self,
-        scene: SceneLike,
-        *,
-        contact_velocity: Mapping[str, Any] | None = None,
-        rates_rad_s: ArrayLike | None = None,
-        velocity_uncertainty_m_s: float = 0.0,
+        self, scene: SceneLike, *, contact_velocity: Mapping[str, Any] | None = None,
+        rates_rad_s: ArrayLike | None = None, velocity_uncertainty_m_s: float = 0.0,
     ) -> Record:
         """Computes what an observed impact implies, and which limits it breaks.
 
@@ -258,7 +222,7 @@ class Client:
             arguments["contact_velocity"] = contact_velocity
         if rates_rad_s is not None:
             arguments["rates"] = {"rates_rad_s": np.atleast_1d(values.column(rates_rad_s, "rates_rad_s"))}
-        return self._solver.audit(_core.Request("AuditRequest", scene, arguments))
+        return self._solver.audit(scene, arguments)
 
     def audit_batch(self, scene: SceneLike, columns: Mapping[str, Any]) -> Table:
         """Audits many observed impacts at one contact.
@@ -286,7 +250,7 @@ class Client:
             part: dict[str, Any] = {name: _part(column, start, start + most) for name, column in arrays.items()}
             if "rates_after" in part:
                 part["rates_after"] = [{"rates_rad_s": link} for link in np.atleast_2d(part["rates_after"])]
-            answer = self._solver.audit_batch(_core.Request("AuditBatchRequest", scene, {"columns": part}))
+            answer = self._solver.audit_batch(scene, {"columns": part})
             if len(answer.reports) != min(most, rows - start):
                 raise RicochetError(f"the server answers {len(answer.reports)} rows of an audit", code="DATA_LOSS")
             answers.append(answer)
@@ -294,14 +258,8 @@ class Client:
         return _audit_table(flat, [answer.summary for answer in answers], index)
 
     def solve_batch(
-        self,
-        scene: SceneLike,
-        inputs: Mapping[str, ArrayLike],
-        columns: str | Sequence[str],
-        *,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
+        self, scene: SceneLike, inputs: Mapping[str, ArrayLike], columns: Names, *,
+        tolerance: float | None = None, require: Names = (), exclude: Names = (),
     ) -> Table:
         """Computes many different impacts of one system.
 
@@ -324,16 +282,17 @@ class Client:
             InvalidRequest: the scene, a path, an entry or the length of an array is wrong.
             RicochetError: the call failed otherwise.
         """
-        arguments = {"tolerance": tolerance, "require": require, "exclude": exclude}
-        request = _core.Request("BatchSetup", scene, arguments)
-        given = names.by_full_name(inputs, request.fields(), "inputs")
+        scene = Scene(scene)
+        given = names.by_full_name(inputs, scene._fields(), "inputs")
         if not given:
             values.refuse("inputs", "is empty: must have at least one column")
         arrays = _equally_long({name: np.atleast_1d(values.column(given[name], name)) for name in given})
-        wanted = names.full_names(values.names(columns, "columns"), request.columns(), "columns")
-        outputs, regimes, statuses, counts, bad_rows = self._solver.solve_batch(
-            request, list(arrays), list(arrays.values()), wanted
-        )
+        wanted = names.full_names(values.names(columns, "columns"), scene._columns(), "columns")
+        arguments = {
+            "fields": list(arrays), "columns": wanted, "tolerance": tolerance, "require": require, "exclude": exclude
+        }
+        solved = self._solver.solve_batch(scene, arguments, list(arrays.values()))
+        outputs, regimes, statuses, counts, bad_rows = solved
         table = Table(
             dict(zip(wanted, outputs)),
             {"regime": Codes(regimes, _REGIMES), "status": Codes(statuses, _STATUSES)},
@@ -353,60 +312,29 @@ class Client:
 
     @overload
     def sweep(
-        self,
-        scene: SceneLike,
-        axes: Mapping[str, sweep_axes.Axis],
-        columns: str | Sequence[str],
-        *,
-        form: Literal["xarray"] = "xarray",
-        zip_axes: bool = False,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
-        progress: Progress | None = None,
+        self, scene: SceneLike, axes: Mapping[str, sweep_axes.Axis], columns: Names, *,
+        form: Literal["xarray"] = "xarray", zip_axes: bool = False, tolerance: float | None = None,
+        require: Names = (), exclude: Names = (), progress: Progress | None = None,
     ) -> "xarray.Dataset": ...
 
     @overload
     def sweep(
-        self,
-        scene: SceneLike,
-        axes: Mapping[str, sweep_axes.Axis],
-        columns: str | Sequence[str],
-        *,
-        form: Literal["pandas"],
-        zip_axes: bool = False,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
+        self, scene: SceneLike, axes: Mapping[str, sweep_axes.Axis], columns: Names, *, form: Literal["pandas"],
+        zip_axes: bool = False, tolerance: float | None = None, require: Names = (), exclude: Names = (),
         progress: Progress | None = None,
     ) -> "pandas.DataFrame": ...
 
     @overload
     def sweep(
-        self,
-        scene: SceneLike,
-        axes: Mapping[str, sweep_axes.Axis],
-        columns: str | Sequence[str],
-        *,
-        form: Literal["table"],
-        zip_axes: bool = False,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
+        self, scene: SceneLike, axes: Mapping[str, sweep_axes.Axis], columns: Names, *, form: Literal["table"],
+        zip_axes: bool = False, tolerance: float | None = None, require: Names = (), exclude: Names = (),
         progress: Progress | None = None,
     ) -> Table: ...
 
     def sweep(
-        self,
-        scene: SceneLike,
-        axes: Mapping[str, sweep_axes.Axis],
-        columns: str | Sequence[str],
-        *,
-        form: Literal["xarray", "pandas", "table"] = "xarray",
-        zip_axes: bool = False,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
+        self, scene: SceneLike, axes: Mapping[str, sweep_axes.Axis], columns: Names, *,
+        form: Literal["xarray", "pandas", "table"] = "xarray", zip_axes: bool = False,
+        tolerance: float | None = None, require: Names = (), exclude: Names = (),
         progress: Progress | None = None,
     ) -> Any:
         """Computes impacts over a grid.
@@ -440,19 +368,15 @@ class Client:
         """
         if form not in ("xarray", "pandas", "table"):
             values.refuse("form", f"= {form!r}: must be 'xarray', 'pandas' or 'table'")
-        arguments = {"tolerance": tolerance, "require": require, "exclude": exclude}
-        request = _core.Request("SweepRequest", scene, arguments)
-        given = names.by_full_name(axes, request.fields(), "axes")
-        wanted = names.full_names(values.names(columns, "columns"), request.columns(), "columns")
-        request.set(
-            {
-                "axes": [sweep_axes.to_fields(path, axis) for path, axis in given.items()],
-                "columns": wanted,
-                "combination": "zip" if zip_axes else "product",
-                "with_regime": True,
-            }
-        )
-        numbers, regimes, statuses, counts, coordinates, attrs = self._solver.sweep(request, progress)
+        scene = Scene(scene)
+        given = names.by_full_name(axes, scene._fields(), "axes")
+        wanted = names.full_names(values.names(columns, "columns"), scene._columns(), "columns")
+        arguments = {
+            "axes": [sweep_axes.to_fields(path, axis) for path, axis in given.items()],
+            "columns": wanted, "combination": "zip" if zip_axes else "product", "with_regime": True,
+            "tolerance": tolerance, "require": require, "exclude": exclude,
+        }
+        numbers, regimes, statuses, counts, coordinates, attrs = self._solver.sweep(scene, arguments, progress)
         codes = {"regime": Codes(regimes, _REGIMES), "status": Codes(statuses, _STATUSES)}
         table = Table(
             dict(zip(wanted, numbers)),
@@ -468,11 +392,7 @@ class Client:
         return table.to_xarray() if form == "xarray" else table.to_pandas()
 
     def cost(
-        self,
-        scene: SceneLike,
-        *,
-        time_limit_s: float | None = None,
-        samples: int | None = None,
+        self, scene: SceneLike, *, time_limit_s: float | None = None, samples: int | None = None,
         progress: Progress | None = None,
     ) -> Record:
         """Studies what the accuracy of one impact costs in time, on the machine that answers.
@@ -491,8 +411,7 @@ class Client:
             InvalidRequest: the scene or an option breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        request = _core.Request("CostRequest", scene, {"time_limit_s": time_limit_s, "samples": samples})
-        return self._solver.cost(request, progress)
+        return self._solver.cost(scene, {"time_limit_s": time_limit_s, "samples": samples}, progress)
 
     def info(self) -> Record:
         """Returns which engine answers, what it can compute, and its limits, as ricochet.v1.InfoResponse has them."""
@@ -510,7 +429,7 @@ class ModuleClient(Client):
     """The client of the package's own functions: it reads its options from the environment at the first call."""
 
     def __init__(self) -> None:
-        self._given = Connection()
+        self._given = {}
         self._options = None
         self._start()
 

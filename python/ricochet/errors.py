@@ -86,11 +86,10 @@ _CLASSES: dict[str, type[RicochetError]] = {
 
 
 def from_status(
-    code: str, message: str, reason: str, violations: list[tuple[str, str]], retry_after_s: float | None
+    code: str, message: str, reason: str, violations: list[Violation], retry_after_s: float | None
 ) -> RicochetError:
     """Makes the exception for a call that failed."""
     kind = _CLASSES.get(code, RicochetError)
     if reason == "INADMISSIBLE_OUTCOME":
         kind = Inadmissible
-    found = [Violation(*violation) for violation in violations]
-    return kind(message or code, code=code, reason=reason, violations=found, retry_after_s=retry_after_s)
+    return kind(message or code, code=code, reason=reason, violations=violations, retry_after_s=retry_after_s)

@@ -17,16 +17,12 @@ import numpy as np
 import pandas
 import ricochet
 import xarray
-from ricochet import _core, names
+from ricochet import names
 from ricochet.units import without_unit
 from support import PENDULUM, SOURCE, main
 
 NEWTON = "coefficients.newton"
 MU = "friction.kinetic_coefficient"
-
-
-def request(scene):
-    return _core.Request("SolveRequest", scene, {})
 
 
 def command_line(*arguments):
@@ -216,14 +212,14 @@ class ShortNames(Case):
         for path in sorted((SOURCE / "tests/data/scenes").iterdir()):
             if path.suffix not in (".json", ".textproto"):
                 continue
-            known = request(ricochet.read_scene(path))
+            known = ricochet.Scene(ricochet.read_scene(path))
             text = command_line("sweep", "--scene", path, "--axis", "?").stdout
             listed = re.findall(r"^ *([a-z]\S*\.\S+)", text, re.M)
             self.assertGreater(len(listed), 3, path)
-            self.check_names(path, known.fields(), listed, "axis")
+            self.check_names(path, known._fields(), listed, "axis")
             text = command_line("sweep", "--scene", path, "--column", "?").stdout
             listed = re.findall(r"^ *([a-z]\S*(?:\.\S+|\]))", text, re.M)
-            self.check_names(path, known.columns(), listed, "column")
+            self.check_names(path, known._columns(), listed, "column")
 
     def check_names(self, path, known, listed, what):
         """Every end of a listed path means that path here exactly if the command line takes it for that path."""
@@ -239,7 +235,7 @@ class ShortNames(Case):
 
     def test_letters_are_those_of_the_command_line(self):
         source = (SOURCE / "client/cli/input/short_name.cc").read_text()
-        known = request(PENDULUM).fields()
+        known = ricochet.Scene(PENDULUM)._fields()
         # A letter of the tables of audits names no field of a scene.
         letters = {letter: path for letter, path in re.findall(r'\{"(\w+)",\s+"(\S+?)"\}', source) if path in known}
         self.assertGreater(len(letters), 3)
