@@ -5,12 +5,15 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "absl/strings/ascii.h"
 #include "absl/strings/str_cat.h"
 #include "core/base/invariant.h"
 #include "python/module/exceptions.h"
 #include "python/module/record.h"
+#include "ricochet/contact_matrix.h"
+#include "ricochet/v1/scene.pb.h"
 
 namespace ricochet::python {
 namespace {
@@ -73,6 +76,53 @@ bool ReadDictionary(py::handle values, py::dict& dictionary) {
   return true;
 }
 
+// Returns whether the value of a message may be a matrix: W of a contact, M or J of a mechanism.
+bool MayBeMatrix(const google::protobuf::Descriptor& type, absl::string_view name) {
+  if (&type == v1::Mechanism::descriptor()) return name == "mass_matrix" || name == "jacobian";
+  return name == "w_per_kg" && (&type == v1::PlanarContact::descriptor() || &type == v1::SpatialContact::descriptor());
+}
+
+using Matrix = py::array_t<double, py::array::c_style>;
+
+// Returns whether so many numbers are the entries of the matrix, in place of the matrix itself.
+bool IsList(const google::protobuf::Descriptor& type, py::ssize_t size) {
+  return &type == v1::Mechanism::descriptor() || (&type == v1::SpatialContact::descriptor() && size == 6);
+}
+
+// Returns the shape that a matrix must have; nothing if it has that.
+std::string RuleForShape(const google::protobuf::Descriptor& type, absl::string_view name, const Matrix& matrix) {
+  const py::ssize_t rows = matrix.ndim() == 2 ? matrix.shape(0) : 0;
+  const py::ssize_t columns = matrix.ndim() == 2 ? matrix.shape(1) : 0;
+  const auto is_square = [&](py::ssize_t size) { return rows == size && columns == size; };
+  if (name == "mass_matrix") return rows > 0 && rows == columns ? "" : "n x n";
+  if (name == "jacobian") return rows == 2 || rows == 3 ? "" : "2 x n, rows t, n, or 3 x n, rows t1, t2, n";
+  if (&type == v1::PlanarContact::descriptor()) return is_square(2) ? "" : "a symmetric 2 x 2 matrix";
+  return is_square(3) ? "" : "a symmetric 3 x 3 matrix, or its entries 11, 12, 13, 22, 23, 33 in this order";
+}
+
+// Sets the entries of W in the message of a contact.
+absl::Status PackW(const Matrix& w, google::protobuf::Message& message) {
+  if (w.size() == 4) {
+    const auto contact = ContactFrom(std::span<const double, 4>(w.data(), 4), 0.0, 0.0);
+    if (!contact.ok()) return contact.status();
+    auto& planar = dynamic_cast<v1::PlanarContact&>(message);
+    planar.set_w_tt_per_kg(contact->w_tt_per_kg);
+    planar.set_w_tn_per_kg(contact->w_tn_per_kg);
+    planar.set_w_nn_per_kg(contact->w_nn_per_kg);
+    return absl::OkStatus();
+  }
+  const auto contact = ContactFrom(std::span<const double, 9>(w.data(), 9), {}, 0.0);
+  if (!contact.ok()) return contact.status();
+  auto& spatial = dynamic_cast<v1::SpatialContact&>(message);
+  spatial.mutable_w_per_kg()->Assign(contact->w_per_kg.begin(), contact->w_per_kg.end());
+  return absl::OkStatus();
+}
+
+// Returns whether `value` is a plain list of six numbers.
+bool HasSixNumbers(PyObject* value) {
+  return PyList_CheckExact(value) && PyList_GET_SIZE(value) == 6 && PyFloat_Check(PyList_GET_ITEM(value, 0));
+}
+
 }  // namespace
 
 std::string Place::Text() const {
@@ -82,19 +132,15 @@ std::string Place::Text() const {
   return text;
 }
 
-void Filler::Keep(const py::object& violations) {
-  for (const py::handle violation : violations) {
-    violations_.push_back({py::str(violation.attr("field")), py::str(violation.attr("description"))});
-  }
-}
-
 template <typename... Arguments>
 py::object Filler::Ask(const char* name, Arguments&&... arguments) {
   try {
     return PythonName("ricochet.values", name)(std::forward<Arguments>(arguments)...);
   } catch (const py::error_already_set& error) {
     if (!error.matches(PythonName("ricochet.errors", "InvalidRequest"))) throw;
-    Keep(error.value().attr("violations"));
+    for (const py::handle violation : error.value().attr("violations")) {
+      violations_.push_back({py::str(violation.attr("field")), py::str(violation.attr("description"))});
+    }
     return {};
   }
 }
@@ -106,25 +152,47 @@ void Filler::Fill(py::handle values, Message& message, const Place* place) {
     return;
   }
   const google::protobuf::Descriptor& type = *message.GetDescriptor();
-  if (place != nullptr && dictionary.contains("w_per_kg")) {
-    const py::tuple unpacked =
-        PythonName("ricochet.contact_matrix", "unpacked")(type.name(), dictionary, place->Text());
-    dictionary = unpacked[0];
-    Keep(unpacked[1]);
-  }
   for (const auto& [key, value] : dictionary) {
     const auto name = Utf8(key.ptr());
+    // Python may be asked what the value is, and may change the dictionary then.
+    const py::object held = py::reinterpret_borrow<py::object>(value);
+    const Place there = {.outer = place, .name = name.value_or("")};
+    if (name.has_value() && MayBeMatrix(type, *name) && FillMatrix(held, message, there, dictionary)) continue;
     const FieldDescriptor* const field = name.has_value() ? type.FindFieldByName(std::string(*name)) : nullptr;
     if (field == nullptr) {
       const std::string shown = py::str(key);
-      const Place there = {.outer = place, .name = shown};
-      Ask("unknown_field", there.Text(), key, NamesOf(type));
-    } else if (!value.is_none()) {
-      // Python may be asked what the value is, and may change the dictionary then.
-      const py::object held = py::reinterpret_borrow<py::object>(value);
-      FillField(held, message, *field, {.outer = place, .name = *name});
+      Ask("unknown_field", Place{.outer = place, .name = shown}.Text(), key, NamesOf(type));
+    } else if (!held.is_none()) {
+      FillField(held, message, *field, there);
     }
   }
+}
+
+bool Filler::FillMatrix(py::handle value, Message& message, const Place& place, const py::dict& beside) {
+  if (value.is_none() || HasSixNumbers(value.ptr())) return false;
+  const py::object column = Ask("column", value, place.Text());
+  if (!column) return true;
+  const Matrix matrix = Matrix::ensure(column);
+  const auto& type = *message.GetDescriptor();
+  if (matrix.ndim() == 1 && IsList(type, matrix.size())) return false;
+  if (const std::string rule = RuleForShape(type, place.name, matrix); !rule.empty()) {
+    Refuse(place, absl::StrCat("has shape ", std::string(py::str(matrix.attr("shape"))), ": must be ", rule));
+    return true;
+  }
+  if (&type == v1::Mechanism::descriptor()) {
+    const Field& field = *type.FindFieldByName(std::string(place.name));
+    for (py::ssize_t i = 0; i < matrix.size(); ++i) {
+      message.GetReflection()->AddDouble(&message, &field, matrix.data()[i]);
+    }
+    return true;
+  }
+  for (const char* const name : {"w_tt_per_kg", "w_tn_per_kg", "w_nn_per_kg"}) {
+    if (beside.contains(name)) Refuse({.outer = place.outer, .name = name}, "is set together with w_per_kg: must not be");
+  }
+  for (const Violation& violation : ViolationsOf(PackW(matrix, message))) {
+    Refuse({.outer = place.outer, .name = violation.field}, violation.description);
+  }
+  return true;
 }
 
 void Filler::FillArgument(absl::string_view argument, py::handle value, Message& message) {
@@ -138,7 +206,7 @@ void Filler::FillField(py::handle value, Message& message, const Field& field, c
   if (const auto* const choice = field.real_containing_oneof(); choice != nullptr) {
     const Field* const already = reflection.GetOneofFieldDescriptor(message, choice);
     if (already != nullptr && already != &field) {
-      violations_.push_back({place.Text(), absl::StrCat("is set together with ", already->name(), ": must not be")});
+      Refuse(place, absl::StrCat("is set together with ", already->name(), ": must not be"));
       return;
     }
   }

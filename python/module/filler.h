@@ -53,6 +53,9 @@ class Filler {
 
   void FillField(py::handle value, Message& message, const Field& field, const Place& place);
   void FillList(py::handle value, Message& message, const Field& field, const Place& place);
+  // Fills the entries of W (2 x 2 in a plane, 3 x 3 in space) of a contact, or M (n x n) or J (d x n) of a mechanism.
+  // `beside` has the other values of the message. Returns false if the value is no matrix, but may be another list.
+  bool FillMatrix(py::handle value, Message& message, const Place& place, const py::dict& beside);
   // Sets a field that is no message, or adds to it if it is a list.
   void Put(py::handle value, Message& message, const Field& field, const Place& place);
   std::optional<double> Number(py::handle value, const Place& place);
@@ -60,7 +63,10 @@ class Filler {
   // Calls NAME of ricochet.values. Returns null if it raises InvalidRequest, whose violations are kept.
   template <typename... Arguments>
   py::object Ask(const char* name, Arguments&&... arguments);
-  void Keep(const py::object& violations);
+
+  void Refuse(const Place& place, std::string description) {
+    violations_.push_back({place.Text(), std::move(description)});
+  }
 
   std::vector<Violation> violations_;
 };

@@ -19,6 +19,7 @@
 #include "python/module/record.h"
 #include "python/module/request.h"
 #include "python/module/rows.h"
+#include "python/module/states.h"
 #include "ricochet/client.h"
 #include "ricochet/engine_info.h"
 
@@ -76,7 +77,7 @@ Callee OfServer(const py::dict& given) {
 
 py::object Solve(const Callee& solver, py::handle scene, py::handle tolerance, py::handle require,
                  py::handle exclude, py::handle strict, py::handle history, py::handle force_history,
-                 py::handle certified) {
+                 py::handle certified, py::handle both_ends) {
   Filler filler;
   SolveRequest request;
   {
@@ -88,6 +89,7 @@ py::object Solve(const Callee& solver, py::handle scene, py::handle tolerance, p
     filler.FillArgument("history", history, arguments);
     filler.FillArgument("force_history", force_history, arguments);
     filler.FillArgument("certified", certified, arguments);
+    filler.FillArgument("both_ends", both_ends, arguments);
     request = FromProto(arguments);
   }
   request.scene = SceneOf(scene, filler);
@@ -160,6 +162,7 @@ PYBIND11_MODULE(_core, module) {
   AddScene(module);
   AddSolver(module);
   AddForks(module);
+  AddStates(module);
   module.def("read", &ReadRecord);
   module.def("read_entry", [](py::handle record, py::handle name) {
     py::object entry = ReadEntry(record, name);

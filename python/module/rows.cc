@@ -31,18 +31,13 @@ void Put(const std::vector<Code>& codes, int64_t first, Codes& to) {
                  [](Code code) { return static_cast<uint8_t>(code); });
 }
 
-// What the statuses say of all rows: how many have no numbers, the first of them, and how many are inadmissible.
+// What the statuses say of all rows: how many have no numbers, and how many are inadmissible.
 py::tuple Counts(const Codes& statuses) {
-  int64_t invalid = 0;
-  int64_t first = -1;
-  int64_t inadmissible = 0;
-  for (py::ssize_t row = 0; row < statuses.size(); ++row) {
-    const auto status = static_cast<RowStatus>(statuses.data()[row]);
-    if (status == RowStatus::kInadmissible) ++inadmissible;
-    if (status != RowStatus::kInvalid && status != RowStatus::kNotRepresentable) continue;
-    if (invalid++ == 0) first = row;
-  }
-  return py::make_tuple(invalid, first, inadmissible);
+  const auto count = [&](RowStatus status) {
+    return std::count(statuses.data(), statuses.data() + statuses.size(), static_cast<uint8_t>(status));
+  };
+  return py::make_tuple(count(RowStatus::kInvalid) + count(RowStatus::kNotRepresentable),
+                        count(RowStatus::kInadmissible));
 }
 
 absl::Span<const double> SpanOf(py::handle column) {

@@ -29,6 +29,7 @@ from ricochet.errors import (
     Unavailable,
     Violation,
 )
+from ricochet.mechanisms import AtContact
 from ricochet.record import Record
 from ricochet.scenes import read_scene
 from ricochet.table import Codes, Table
@@ -36,6 +37,7 @@ from ricochet.units import unit_of
 from ricochet.version import __version__
 
 __all__ = [
+    "AtContact",
     "Axis",
     "Client",
     "Codes",
@@ -56,6 +58,7 @@ __all__ = [
     "Unavailable",
     "Violation",
     "__version__",
+    "at_contact",
     "audit",
     "audit_batch",
     "bounds",
@@ -79,6 +82,7 @@ bounds = _client.bounds
 audit = _client.audit
 audit_batch = _client.audit_batch
 plan = _client.plan
+at_contact = _client.at_contact
 cost = _client.cost
 info = _client.info
 close = _client.close

@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Mapping, Seq
 
 import numpy as np
 
-from ricochet import _core, names, values
+from ricochet import _core, mechanisms, names, values
 from ricochet import axes as sweep_axes
 from ricochet._core import Scene
 from ricochet.connection import resolve
 from ricochet.errors import InvalidRequest, RicochetError, Violation
+from ricochet.mechanisms import AtContact
 from ricochet.record import Record
 from ricochet.table import Codes, Table
 
@@ -34,6 +35,7 @@ _TITLE = "Sweep of impacts with friction"
 _REGIMES = _core.enum_names("Regime")
 _STATUSES = _core.enum_names("RowStatus")
 _VERDICTS = _core.enum_names("LimitCheck.Verdict")
+_WITHOUT_NUMBERS = [_STATUSES.index(name) for name in ("INVALID", "NOT_REPRESENTABLE")]
 _MOST_AUDIT_ROWS = 8192  # Of one call.
 _clients: "weakref.WeakSet[Client]" = weakref.WeakSet()
 
@@ -131,7 +133,7 @@ class Client:
 
     def solve(
         self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),
-        strict: bool = False, history: int = 0, force_history: int = 0, certified: int = 0,
+        strict: bool = False, history: int = 0, force_history: int = 0, certified: int = 0, both_ends: bool = False,
     ) -> Record:
         """Computes one impact.
 
@@ -145,6 +147,7 @@ class Client:
             history: also give the states at this number of equal steps of the normal impulse.
             force_history: also give the forces at this number of equal time steps; needs a spring along n.
             certified: also give numbers with this many proved significant digits, at most 1000.
+            both_ends: also give the impact in which no coordinate of a mechanism is held, as ``free_end``.
 
         Returns:
             The outcome as ricochet.v1.Outcome has it: ``outcome.coefficients.newton``,
@@ -154,7 +157,8 @@ class Client:
             InvalidRequest: the scene breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        return self._solver.solve(scene, tolerance, require, exclude, strict, history, force_history, certified)
+        return self._solver.solve(
+            scene, tolerance, require, exclude, strict, history, force_history, certified, both_ends)
 
     def plan(
         self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),
@@ -282,24 +286,30 @@ class Client:
             InvalidRequest: the scene, a path, an entry or the length of an array is wrong.
             RicochetError: the call failed otherwise.
         """
-        scene = Scene(scene)
+        arguments = {"tolerance": tolerance, "require": require, "exclude": exclude}
+        table = self._batch(Scene(scene), inputs, columns, arguments)
+        _warn_of_invalid(table)
+        return table
+
+    def _batch(
+        self, scene: Scene, inputs: Mapping[str, ArrayLike], columns: Names, arguments: dict[str, Any]
+    ) -> Table:
         given = names.by_full_name(inputs, scene._fields(), "inputs")
         if not given:
             values.refuse("inputs", "is empty: must have at least one column")
         arrays = _equally_long({name: np.atleast_1d(values.column(given[name], name)) for name in given})
         wanted = names.full_names(values.names(columns, "columns"), scene._columns(), "columns")
-        arguments = {
-            "fields": list(arrays), "columns": wanted, "tolerance": tolerance, "require": require, "exclude": exclude
-        }
+        arguments = {"fields": list(arrays), "columns": wanted, **arguments}
         solved = self._solver.solve_batch(scene, arguments, list(arrays.values()))
         outputs, regimes, statuses, counts, bad_rows = solved
-        table = Table(
+        return Table(
             dict(zip(wanted, outputs)),
             {"regime": Codes(regimes, _REGIMES), "status": Codes(statuses, _STATUSES)},
             axes=arrays,
             summary=Record(
                 rows=len(regimes),
-                inadmissible=counts[2],
+                invalid=counts[0],
+                inadmissible=counts[1],
                 bad_rows=[
                     Record(row=row, status=_STATUSES[status], field=field, description=description)
                     for row, status, field, description in bad_rows
@@ -307,8 +317,6 @@ class Client:
             ),
             index=_index_of(inputs, given, len(regimes)),
         )
-        _warn_of_invalid(table, *counts[:2])
-        return table
 
     @overload
     def sweep(
@@ -383,10 +391,11 @@ class Client:
             codes,
             axes=dict(zip(given, coordinates)),
             is_grid=not zip_axes and bool(given),
-            summary=Record(points=len(regimes), by_regime=codes["regime"].counts(), inadmissible=counts[2]),
+            summary=Record(
+                points=len(regimes), by_regime=codes["regime"].counts(), invalid=counts[0], inadmissible=counts[1]),
             attrs={"Conventions": "CF-1.8", "title": _TITLE, **attrs},
         )
-        _warn_of_invalid(table, *counts[:2])
+        _warn_of_invalid(table)
         if form == "table":
             return table
         return table.to_xarray() if form == "xarray" else table.to_pandas()
@@ -412,6 +421,52 @@ class Client:
             RicochetError: the call failed otherwise.
         """
         return self._solver.cost(scene, {"time_limit_s": time_limit_s, "samples": samples}, progress)
+
+    def at_contact(
+        self, M: ArrayLike, J: ArrayLike, qdot: ArrayLike, normal: ArrayLike, *, friction: ArrayLike = 0.0,
+        energetic: ArrayLike | None = None, newton: ArrayLike | None = None, poisson: ArrayLike | None = None,
+        held: Iterable[int] = (), tolerance: float | None = None,
+    ) -> AtContact:
+        """Computes the impact of a mechanism from what a library of multibody dynamics gives at one instant.
+
+        Many states are computed at once if any of the arrays has a leading axis of them; the others hold for all. The
+        contact frame is made here: n along `normal`, t1 along the slip.
+
+        Args:
+            M: the mass matrix, n x n, symmetric and positive definite.
+            J: the Jacobian of the contact point in world axes, 3 x n: its velocity relative to what it strikes is
+                ``J @ qdot``, m/s.
+            qdot: the generalised velocities before the impact, n.
+            normal: the direction out of the surface that is struck, in world axes; of any length.
+            friction: the coefficient of kinetic friction, one for all states or one for each.
+            energetic, newton, poisson: the coefficient of restitution in one of its definitions, likewise.
+            held: coordinates that a brake or a stiff controller holds: their velocities do not change. With a floating
+                base, ``held=range(6, n)`` takes the mechanism for one rigid body.
+            tolerance: as in ``solve``.
+
+        Returns:
+            ``rates_after``, the generalised velocities after the impact, and ``impulse_n_s`` on the mechanism in world
+            axes, N s, as arrays; ``answer`` is the outcome of a single state, which has errors of all numbers, or the
+            table of a batch in the contact frame. A state that breaks a rule has NaN in a batch.
+
+        Raises:
+            InvalidRequest: the shapes do not fit, or a single state breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        states = mechanisms.States(M, J, qdot, normal, held)
+        given = {"energetic": energetic, "newton": newton, "poisson": poisson}
+        restitution = {name: value for name, value in given.items() if value is not None}
+        if not states.is_batch:
+            parts = {"friction": {"kinetic_coefficient": friction}, "restitution": restitution}
+            outcome = self.solve({**states.scene(0), **parts}, tolerance=tolerance)
+            return AtContact(np.array(outcome.rates_after), states.in_world(outcome), outcome)
+        inputs = {"friction.kinetic_coefficient": friction, **states.columns}
+        inputs.update({f"restitution.{name}": value for name, value in restitution.items()})
+        table = self._batch(mechanisms.CONTACT, inputs, mechanisms.COLUMNS, {"tolerance": tolerance})
+        for bad in table.summary.bad_rows:
+            states.explain(bad)
+        _warn_of_invalid(table)
+        return AtContact(*states.after(table), table)
 
     def info(self) -> Record:
         """Returns which engine answers, what it can compute, and its limits, as ricochet.v1.InfoResponse has them."""
@@ -465,19 +520,21 @@ def _index_of(given: Any, columns: Mapping[str, Any], rows: int) -> Any:
     return indices[0] if indices else None
 
 
-def _warn_of_invalid(table: Table, count: int, first: int) -> None:
+def _warn_of_invalid(table: Table) -> None:
     """Warns of rows without numbers, at the line that has asked for them."""
-    if not count:
+    if not table.summary.invalid:
         return
     reasons = table.summary.get("bad_rows")
     if reasons:
-        why = f"{reasons[0].field} {reasons[0].description}"
+        first, why = reasons[0].row, f"{reasons[0].field} {reasons[0].description}"
     else:
+        first = int(np.flatnonzero(np.isin(table.codes["status"].numbers, _WITHOUT_NUMBERS))[0])
         why = ", ".join(f"{name} = {value:.6g}" for name, value in table.inputs_of(first).items())
     depth = 1
     while sys._getframe(depth).f_globals.get("__name__", "").split(".")[0] == "ricochet":
         depth += 1
-    text = f"rows that break a rule and have NaN: {count} of {len(table)}; the first is row {first}: {why}"
+    text = (f"rows that break a rule and have NaN: {table.summary.invalid} of {len(table)}; "
+            f"the first is row {first}: {why}")
     warnings.warn(text, InvalidRows, stacklevel=depth + 1)
 
 

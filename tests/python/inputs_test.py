@@ -140,12 +140,12 @@ class Matrices(Case):
         for i, j in ((0, 1), (0, 2), (1, 2)):
             w = self.W.copy()
             w[i, j] += 1e-6
-            self.refused(lambda: ricochet.Scene(self.contact(w)), f"spatial_contact.w_per_kg[{i}][{j}]",
-                         f"must equal [{j}][{i}] = {self.W[j, i]!r}")
+            self.refused(lambda: ricochet.Scene(self.contact(w)), f"spatial_contact.w_per_kg[{j}][{i}]",
+                         f"= {self.W[j, i]!r}: must be equal to [{i}][{j}]")
             w[i, j] = self.W[i, j] * (1 + 1e-14)
             ricochet.Scene(self.contact(w))
         self.refused(lambda: ricochet.Scene({"planar_contact": {"w_per_kg": [[2, 1], [0, 2]]}}),
-                     "planar_contact.w_per_kg[0][1]")
+                     "planar_contact.w_per_kg[1][0]")
 
     def test_another_shape_is_told_the_order(self):
         for w in ([1, 2, 3, 4, 5], np.eye(2), np.eye(4), np.ones((3, 2)), 3, np.zeros(0)):
