@@ -110,7 +110,8 @@ absl::Status RunSolve(const SolveOptions& options) {
     return absl::InvalidArgumentError("--column and --skip-column need --data FILE.csv");
   }
   if (options.plan_only) return RunPlan(options, **solver, *scene, *demand);
-  SolveRequest request{.scene = *scene, .inadmissible_is_error = options.strict, .demand = *demand, .both_ends = options.both_ends};
+  SolveRequest request{
+      .scene = *scene, .inadmissible_is_error = options.strict, .demand = *demand, .both_ends = options.both_ends};
   const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
   if (!digits.ok()) return digits.status();
   request.certified_digits = *digits;

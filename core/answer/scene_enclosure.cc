@@ -16,6 +16,7 @@
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/delassus.h"
 #include "core/contact/interval_reduction.h"
+#include "core/contact/mechanism.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
 #include "core/scene/field.h"
@@ -248,6 +249,8 @@ bool RankMayVary(const SceneBox& box) {
 
 // Tells whether the W of every scene has rank one though other systems of its kind have rank two.
 bool HasRankOneThroughout(const Scene& scene, const SceneBox& box) {
+  const auto* const mechanism = std::get_if<Mechanism>(&scene.system);
+  if (mechanism != nullptr && FreeCoordinates(*mechanism).size() == 1) return true;
   if (IsOfRankOne(scene.system) || RankMayVary(box)) return false;
   const PlanarReduction reduction = std::get<PlanarReduction>(Reduce(scene));
   return PlanarDelassus{.tt = reduction.w[0], .tn = reduction.w[1], .nn = reduction.w[2]}.Rank() < 2;
@@ -257,8 +260,8 @@ absl::Status RankOneThroughout(const System& system) {
   const char* const field = std::holds_alternative<Linkage>(system)     ? "linkage"
                             : std::holds_alternative<Mechanism>(system) ? "mechanism"
                                                                         : "planar_contact";
-  return InvalidRequest({MakeViolation(field, "has a W of rank one",
-                                       "have rank two, with ranges, or be stated as a pendulum")});
+  return InvalidRequest(
+      {MakeViolation(field, "has a W of rank one", "have rank two, with ranges, or be stated as a pendulum")});
 }
 
 }  // namespace

@@ -136,8 +136,7 @@ absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact
   return status;
 }
 
-absl::Status SetFreeEnd(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped,
-                        Outcome& outcome) {
+absl::Status SetFreeEnd(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
   Scene free = scene;
   auto& mechanism = std::get<Mechanism>(free.system);
   mechanism.kept_coordinates.clear();

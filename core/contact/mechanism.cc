@@ -169,7 +169,8 @@ MechanismErrors::MechanismErrors(const Mechanism& mechanism) {
     velocity(i) = kUnit * std::fabs(motion.velocity[at]) +
                   CompensatedNoise(static_cast<Index>(mechanism.rates.size())) * motion.size[at];
     for (Index j = 0; j < directions; ++j) {
-      w(i, j) = energy(i) * energy(j) + 1.01 * solved.x.col(std::min(i, j)).cwiseAbs().dot(solved.doubt.col(std::max(i, j))) +
+      w(i, j) = energy(i) * energy(j) +
+                1.01 * solved.x.col(std::min(i, j)).cwiseAbs().dot(solved.doubt.col(std::max(i, j))) +
                 kUnit * std::fabs(solved.w(i, j)) + noise * solved.w_size(i, j);
     }
   }
@@ -182,7 +183,8 @@ MechanismErrors::MechanismErrors(const Mechanism& mechanism) {
   // Outside this range a product may have underflowed.
   const auto is_moderate = [](double size) { return size == 0.0 || (size >= 0x1p-300 && size <= 0x1p300); };
   for (Index j = 0; j < directions; ++j) {
-    if (is_moderate(part.jt.col(j).lpNorm<Eigen::Infinity>()) && is_moderate(motion.size[static_cast<size_t>(j)])) continue;
+    if (is_moderate(part.jt.col(j).lpNorm<Eigen::Infinity>()) && is_moderate(motion.size[static_cast<size_t>(j)]))
+      continue;
     w.setConstant(kInfinity);
     response.setConstant(kInfinity);
   }

@@ -166,7 +166,8 @@ AnyReduction ReduceMechanism(const Mechanism& mechanism) {
   reduction.before.assign(mechanism.rates.begin(), mechanism.rates.end());
   reduction.response.resize(static_cast<size_t>(n * kDirections));
   for (Eigen::Index i = 0; i < part.jt.rows(); ++i) {
-    double* const row = &reduction.response[static_cast<size_t>(part.coordinates[static_cast<size_t>(i)] * kDirections)];
+    double* const row =
+        &reduction.response[static_cast<size_t>(part.coordinates[static_cast<size_t>(i)] * kDirections)];
     for (Eigen::Index j = 0; j < kDirections; ++j) row[j] = part.scales(i) * solved.x(i, j);
   }
   reduction.momentum = MomentumOf(mechanism, reduction.response);

@@ -76,12 +76,16 @@ void SizeCheck::Coordinates(const Mechanism& mechanism) {
   };
   const int64_t most = std::min(limits_.max_links, int64_t{1'000'000});
   if (rows(mechanism.mass_matrix.size(), most) > most) {
-    Exceeded("mechanism.mass_matrix", absl::StrCat("has ", mechanism.mass_matrix.size(), " entries: must have at most ",
-                                                   most * most, ", the square of the limit"), &Limits::max_links);
+    Exceeded("mechanism.mass_matrix",
+             absl::StrCat("has ", mechanism.mass_matrix.size(), " entries: must have at most ", most * most,
+                          ", the square of the limit"),
+             &Limits::max_links);
   }
   if (rows(mechanism.jacobian.size(), 3) > most) {
-    Exceeded("mechanism.jacobian", absl::StrCat("has ", mechanism.jacobian.size(), " entries: must have at most ",
-                                                3 * most, ", three times the limit"), &Limits::max_links);
+    Exceeded("mechanism.jacobian",
+             absl::StrCat("has ", mechanism.jacobian.size(), " entries: must have at most ", 3 * most,
+                          ", three times the limit"),
+             &Limits::max_links);
   }
 }
 

@@ -74,8 +74,8 @@ void CheckBothEnds(const SolveRequest& request, std::vector<Violation>& violatio
   const auto* const mechanism = std::get_if<Mechanism>(&request.scene.system);
   const bool holds = mechanism != nullptr && (mechanism->composite || !mechanism->kept_coordinates.empty());
   if (!request.both_ends || holds) return;
-  violations.push_back(MakeViolation("both_ends", "is set",
-                                     "not be but for a mechanism with kept_coordinates or composite"));
+  violations.push_back(
+      MakeViolation("both_ends", "is set", "not be but for a mechanism with kept_coordinates or composite"));
 }
 
 }  // namespace

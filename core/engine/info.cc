@@ -12,7 +12,7 @@ namespace ricochet {
 namespace {
 
 // In the order of System, whose first alternative stands for none.
-constexpr const char* kSystems[] = {"pendulum", "planar_body",    "spatial_body",   "body_pair",
+constexpr const char* kSystems[] = {"pendulum", "planar_body",    "spatial_body",    "body_pair",
                                     "linkage",  "planar_contact", "spatial_contact", "mechanism"};
 static_assert(std::size(kSystems) + 1 == std::variant_size_v<System>);
 

@@ -47,8 +47,8 @@ Outcome WithEveryNumber(const Scene& scene) {
   const size_t tangential = TangentialDirections(scene.system);
   Outcome outcome;
   outcome.rates_after_rad_s.resize(shape.rates);
-  for (Components* const list : {&outcome.rates_after, &outcome.momentum_change, &outcome.errors.rates_after,
-                                 &outcome.errors.momentum_change}) {
+  for (Components* const list :
+       {&outcome.rates_after, &outcome.momentum_change, &outcome.errors.rates_after, &outcome.errors.momentum_change}) {
     list->resize(shape.coordinates);
   }
   outcome.bodies_after.resize(shape.bodies);

@@ -38,9 +38,9 @@ bool CheckSizes(const Mechanism& mechanism, Check& check) {
   });
   const size_t jacobian = mechanism.jacobian.size();
   check.Require(jacobian == 2 * n || jacobian == 3 * n, [&] {
-    return MakeViolation(kJacobian, entries(jacobian),
-                         absl::StrCat("have 2 x n = ", 2 * n, " in a plane or 3 x n = ", 3 * n, " in space, for the ",
-                                      n, " of rates"));
+    return MakeViolation(
+        kJacobian, entries(jacobian),
+        absl::StrCat("have 2 x n = ", 2 * n, " in a plane or 3 x n = ", 3 * n, " in space, for the ", n, " of rates"));
   });
   return n > 0 && mass == n * n && (jacobian == 2 * n || jacobian == 3 * n);
 }
@@ -83,12 +83,11 @@ void CheckDefinite(const Mechanism& mechanism, Check& check) {
   check.Require(eigenvalue.value > eigenvalue.least, [&] {
     std::vector<std::string> entries;
     for (size_t i = 0; i < n * n; ++i) entries.push_back(EntryOf(kMass, i));
-    return MakeViolation(kMass,
-                         absl::StrCat("has the eigenvalue ", ShortestDecimal(eigenvalue.value),
-                                      " when scaled to a diagonal in [1, 4)"),
-                         absl::StrCat("be positive definite, with eigenvalues above rounding, ",
-                                      ShortestDecimal(eigenvalue.least)),
-                         ViolationKind::kValue, std::move(entries));
+    return MakeViolation(
+        kMass,
+        absl::StrCat("has the eigenvalue ", ShortestDecimal(eigenvalue.value), " when scaled to a diagonal in [1, 4)"),
+        absl::StrCat("be positive definite, with eigenvalues above rounding, ", ShortestDecimal(eigenvalue.least)),
+        ViolationKind::kValue, std::move(entries));
   });
 }
 
@@ -106,9 +105,8 @@ void CheckKept(const Mechanism& mechanism, Check& check) {
                   [&] { return MakeViolation(EntryOf(kKept, i), kept[i], "be named once"); });
     is_held[static_cast<size_t>(kept[i])] = true;
   }
-  check.Require(kept.empty() || !mechanism.composite, [] {
-    return MakeViolation(kKept, "is set beside composite", "not be, composite holds all joints");
-  });
+  check.Require(kept.empty() || !mechanism.composite,
+                [] { return MakeViolation(kKept, "is set beside composite", "not be, composite holds all joints"); });
 }
 
 // True if the linear velocity of a free body takes the `axes` coordinates from `first` on.
@@ -135,8 +133,8 @@ void CheckBase(const Mechanism& mechanism, Check& check) {
   const bool in_space = TangentialDirections(mechanism) == 2;
   const size_t axes = in_space ? 3 : 2;
   const size_t base = in_space ? 6 : 3;
-  const bool has_base = mechanism.rates.size() >= base &&
-                        (MovesAsBody(mechanism, 0, axes) || MovesAsBody(mechanism, base - axes, axes));
+  const bool has_base =
+      mechanism.rates.size() >= base && (MovesAsBody(mechanism, 0, axes) || MovesAsBody(mechanism, base - axes, axes));
   check.Require(has_base, [&] {
     return MakeViolation(
         "mechanism.composite", "is set",

@@ -1,6 +1,7 @@
 #include "core/scene/field.h"
 
 #include <cmath>
+#include <cstring>
 #include <functional>
 #include <utility>
 
@@ -64,6 +65,14 @@ bool Matches(absl::string_view text, const NumberPath& path) {
   const bool has_prefix = *path.prefix != '\0';
   if (has_prefix && !(Take(path.prefix, text) && TakeIndex(path.entry, text) && Take(".", text))) return false;
   return Take(path.name, text) && TakeIndex(path.index, text) && text.empty();
+}
+
+// True for an entry below the diagonal of a mass matrix, which the one above it drives.
+bool IsDrivenFromAbove(const System& system, const NumberPath& path) {
+  const auto* const mechanism = std::get_if<Mechanism>(&system);
+  if (mechanism == nullptr || std::strcmp(path.name, "mass_matrix") != 0 || mechanism->rates.empty()) return false;
+  const auto n = static_cast<int>(mechanism->rates.size());
+  return path.index / n > path.index % n;
 }
 
 absl::Status UnknownField(const std::string& path, const Scene& scene) {
@@ -146,8 +155,9 @@ std::vector<std::string> FieldPaths(const Scene& scene) {
   MakeSurface(all);
   all.restitution = std::monostate();
   std::vector<std::string> paths;
-  VisitNumbers(all,
-               [&](const NumberPath& path, double& /*number*/, NumberRule /*rule*/) { paths.push_back(path.Text()); });
+  VisitNumbers(all, [&](const NumberPath& path, double& /*number*/, NumberRule /*rule*/) {
+    if (!IsDrivenFromAbove(scene.system, path)) paths.push_back(path.Text());
+  });
   if (std::holds_alternative<Pendulum>(scene.system)) paths.emplace_back(kPhi);
   if (!std::holds_alternative<std::monostate>(scene.impact_law)) return paths;
   for (const char* definition : {"newton", "poisson", "energetic"}) {

@@ -73,7 +73,8 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
 // Begins the description of a violation by a text of the caller: "= \"TEXT\"". It is escaped, and cut if it is long.
 std::string Found(const std::string& text);
 
-// Every path that an axis may drive in the scene.
+// Every path that an axis may drive in the scene. Of two entries of a mass matrix across the diagonal it has the upper
+// one.
 std::vector<std::string> FieldPaths(const Scene& scene);
 
 }  // namespace ricochet

@@ -26,8 +26,8 @@ absl::Status CheckSymmetric(std::span<const double> w, size_t rows, std::string_
       if (!(std::fabs(upper - lower) > kSymmetric * largest)) continue;
       violations.push_back(MakeViolation(
           absl::StrCat("w_per_kg[", j, "][", i, "]"), lower,
-          absl::StrCat("be equal to [", i, "][", j, "] = ", ShortestDecimal(upper), ", as W is symmetric in the frame (",
-                       absl::string_view(frame.data(), frame.size()), ")")));
+          absl::StrCat("be equal to [", i, "][", j, "] = ", ShortestDecimal(upper),
+                       ", as W is symmetric in the frame (", absl::string_view(frame.data(), frame.size()), ")")));
     }
   }
   return violations.empty() ? absl::OkStatus() : InvalidRequest(violations);

@@ -83,11 +83,11 @@ struct Map<SpatialContact> : Between<SpatialContact, v1::SpatialContact> {
 
 template <>
 struct Map<Mechanism> : Between<Mechanism, v1::Mechanism> {
-  using Fields = Entries<Entry(&T::mass_matrix, &P::mass_matrix, &P::mutable_mass_matrix),
-                         Entry(&T::jacobian, &P::jacobian, &P::mutable_jacobian),
-                         Entry(&T::rates, &P::rates, &P::mutable_rates),
-                         Entry(&T::kept_coordinates, &P::kept_coordinates, &P::mutable_kept_coordinates),
-                         Entry(&T::composite, &P::composite, &P::set_composite)>;
+  using Fields =
+      Entries<Entry(&T::mass_matrix, &P::mass_matrix, &P::mutable_mass_matrix),
+              Entry(&T::jacobian, &P::jacobian, &P::mutable_jacobian), Entry(&T::rates, &P::rates, &P::mutable_rates),
+              Entry(&T::kept_coordinates, &P::kept_coordinates, &P::mutable_kept_coordinates),
+              Entry(&T::composite, &P::composite, &P::set_composite)>;
 };
 
 template <>

@@ -37,7 +37,8 @@ std::optional<Matrix> MatrixAt(const std::string& text, size_t at) {
                                           text.begin() + static_cast<ptrdiff_t>(matrix.end), nullptr, false);
   if (!json.is_array() || json.empty()) return std::nullopt;
   for (const nlohmann::json& row : json) {
-    const bool is_row = row.is_array() && std::all_of(row.begin(), row.end(), [](const auto& x) { return x.is_number(); });
+    const bool is_row =
+        row.is_array() && std::all_of(row.begin(), row.end(), [](const auto& x) { return x.is_number(); });
     if (!is_row) return std::nullopt;
     matrix.rows.push_back(row.get<std::vector<double>>());
   }
@@ -61,8 +62,9 @@ absl::StatusOr<std::string> PackedW(const std::vector<double>& w, bool in_space)
   const auto contact = ContactFrom(std::span<const double, 4>(w.data(), 4), 0.0, 0.0);
   if (!contact.ok()) return contact.status();
   const auto number = [](double x) { return nlohmann::json(x).dump(); };
-  return absl::StrCat("\"w_tt_per_kg\": ", number(contact->w_tt_per_kg), ", \"w_tn_per_kg\": ",
-                      number(contact->w_tn_per_kg), ", \"w_nn_per_kg\": ", number(contact->w_nn_per_kg));
+  return absl::StrCat("\"w_tt_per_kg\": ", number(contact->w_tt_per_kg),
+                      ", \"w_tn_per_kg\": ", number(contact->w_tn_per_kg),
+                      ", \"w_nn_per_kg\": ", number(contact->w_nn_per_kg));
 }
 
 // True if the system that begins last before `at` is a contact in space.

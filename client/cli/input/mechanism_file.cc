@@ -41,8 +41,9 @@ absl::StatusOr<Archive> Open(const std::string& path) {
   zip_error_init_with_code(&error, code);
   const std::string why = zip_error_strerror(&error);
   zip_error_fini(&error);
-  return absl::InvalidArgumentError(absl::StrCat(why, ": must be a file that numpy.savez has written, with the arrays M, "
-                                                      "J and qdot"));
+  return absl::InvalidArgumentError(absl::StrCat(why,
+                                                 ": must be a file that numpy.savez has written, with the arrays M, "
+                                                 "J and qdot"));
 }
 
 std::string NamesIn(zip_t* archive) {
@@ -109,14 +110,15 @@ absl::StatusOr<Array> ReadArray(zip_t* archive, const std::string& name) {
   std::optional<std::vector<double>> numbers;
   if (has_type) numbers = NumbersOf(type, bytes->substr(static_cast<size_t>(stream.tellg())));
   if (!numbers.has_value() || !shape.has_value()) {
-    return absl::InvalidArgumentError(absl::StrCat(
-        name, " has the type ", has_type ? type : "of a record", ": must be float64, as ", name, ".astype(float) is"));
+    return absl::InvalidArgumentError(absl::StrCat(name, " has the type ", has_type ? type : "of a record",
+                                                   ": must be float64, as ", name, ".astype(float) is"));
   }
   Array array = {.shape = *shape, .numbers = *std::move(numbers)};
   double count = 1.0;
   for (const int64_t length : array.shape) count *= static_cast<double>(length);
   if (count != static_cast<double>(array.numbers.size())) {
-    return absl::InvalidArgumentError(absl::StrCat(name, " has ", array.numbers.size(), " numbers, not those of its shape"));
+    return absl::InvalidArgumentError(
+        absl::StrCat(name, " has ", array.numbers.size(), " numbers, not those of its shape"));
   }
   if (array.shape.size() == 2 && header->find("'fortran_order': True") != std::string::npos) Transpose(array);
   return array;

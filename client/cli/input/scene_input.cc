@@ -200,7 +200,8 @@ absl::Status RequireVelocity(const Scene& scene) {
   bool is_moving = false;
   std::vector<std::string> velocities;
   VisitNumbers(scene, [&](const NumberPath& path, double value, NumberRule /*rule*/) {
-    const bool is_velocity = absl::EndsWith(path.name, "rad_s") || std::strcmp(path.name, "rates") == 0 || absl::EndsWith(path.name, "_m_s");
+    const bool is_velocity =
+        absl::EndsWith(path.name, "rad_s") || std::strcmp(path.name, "rates") == 0 || absl::EndsWith(path.name, "_m_s");
     if (!is_velocity || absl::StartsWith(path.name, "speed")) return;
     velocities.push_back(path.Text());
     is_moving = is_moving || value != 0.0;

@@ -411,10 +411,10 @@ std::string RowsOf(const Messages& messages) {
 }  // namespace
 
 std::string SolveText(const Outcome& outcome) {
-  std::string text =
-      absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination), Verdict(outcome),
-                   NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n", MotionText(outcome),
-                   BodiesText(outcome.bodies_after), CoordinatesText(outcome), "\n", ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+  std::string text = absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination),
+                                  Verdict(outcome), NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n",
+                                  MotionText(outcome), BodiesText(outcome.bodies_after), CoordinatesText(outcome), "\n",
+                                  ImpulseText(outcome.impulse), "\n", WorkText(outcome));
   if (outcome.contact.has_value()) text += ContactText(*outcome.contact);
   text += EndsText(outcome);
   text += AlternativesText(outcome);

@@ -99,11 +99,11 @@ struct Linkage {
 // one rigid body: the first 6 coordinates (3 in a plane) stay free. They must be those of a free body: its velocity
 // along orthonormal axes, of which M makes m, m, m and J a rotation, before or after its angular velocity.
 struct Mechanism {
-  std::vector<double> mass_matrix;       // n x n entries, row by row, of a symmetric positive definite matrix.
-  std::vector<double> jacobian;          // d x n entries, row by row; the last row is along n.
-  std::vector<double> rates;             // n entries, q' before the impact.
+  std::vector<double> mass_matrix;        // n x n entries, row by row, of a symmetric positive definite matrix.
+  std::vector<double> jacobian;           // d x n entries, row by row; the last row is along n.
+  std::vector<double> rates;              // n entries, q' before the impact.
   std::vector<int32_t> kept_coordinates;  // Coordinates in [0, n), each once, that keep their rates.
-  bool composite = false;                // All joints are held; kept_coordinates must then be empty.
+  bool composite = false;                 // All joints are held; kept_coordinates must then be empty.
 
   friend bool operator==(const Mechanism&, const Mechanism&) = default;
 };

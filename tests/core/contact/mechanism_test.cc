@@ -199,9 +199,8 @@ TEST(MechanismTest, BothEndsAreTheAnswersWithAndWithoutWhatIsHeld) {
 
 // Two joints cannot move a contact along three directions.
 TEST(MechanismTest, TwoJointsInSpaceHaveAWOfRankTwo) {
-  const Mechanism two = {.mass_matrix = {1.3, 0.5, 0.5, 0.4},
-                         .jacobian = {0.9, 0.2, -0.3, 0.8, 0.6, 0.5},
-                         .rates = {-1.0, -0.5}};
+  const Mechanism two = {
+      .mass_matrix = {1.3, 0.5, 0.5, 0.4}, .jacobian = {0.9, 0.2, -0.3, 0.8, 0.6, 0.5}, .rates = {-1.0, -0.5}};
   const Outcome outcome = Solve(two);
   EXPECT_EQ(outcome.w_rank, 2);
   EXPECT_EQ(outcome.termination, Termination::kConverged);

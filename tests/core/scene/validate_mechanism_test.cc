@@ -32,8 +32,7 @@ TEST(ValidateMechanismTest, NamesWhatIsWrong) {
        [](Mechanism& m) { m.mass_matrix.pop_back(); }},
       {"mechanism.jacobian", "has 5 entries: must have 2 x n = 6 in a plane or 3 x n = 9 in space",
        [](Mechanism& m) { m.jacobian.pop_back(); }},
-      {"mechanism.mass_matrix[3]",
-       "= 0.7: must be equal to the entry across the diagonal, [1] = 0.6 (row 0, column 1)",
+      {"mechanism.mass_matrix[3]", "= 0.7: must be equal to the entry across the diagonal, [1] = 0.6 (row 0, column 1)",
        [](Mechanism& m) { m.mass_matrix[3] = 0.7; }},
       {"mechanism.mass_matrix[4]", "= -1: must be > 0", [](Mechanism& m) { m.mass_matrix[4] = -1.0; }},
       // The eigenvalues of [2 3; 3 1.2], scaled by powers of two to [2 3; 3 1.2], are 1.6 +- 3.03.
@@ -44,10 +43,14 @@ TEST(ValidateMechanismTest, NamesWhatIsWrong) {
       {"mechanism.rates[0]", "= inf: must be finite",
        [](Mechanism& m) { m.rates[0] = std::numeric_limits<double>::infinity(); }},
       {"mechanism.kept_coordinates[1]", "= 3: must be in [0, 3)",
-       [](Mechanism& m) { m.kept_coordinates = {0, 3}; }},
+       [](Mechanism& m) {
+         m.kept_coordinates = {0, 3};
+       }},
       {"mechanism.kept_coordinates[0]", "= -1: must be in [0, 3)", [](Mechanism& m) { m.kept_coordinates = {-1}; }},
       {"mechanism.kept_coordinates[1]", "= 2: must be named once",
-       [](Mechanism& m) { m.kept_coordinates = {2, 2}; }},
+       [](Mechanism& m) {
+         m.kept_coordinates = {2, 2};
+       }},
       {"mechanism.kept_coordinates", "is set beside composite",
        [](Mechanism& m) {
          m.kept_coordinates = {2};
@@ -55,7 +58,10 @@ TEST(ValidateMechanismTest, NamesWhatIsWrong) {
        }},
       {"mechanism.composite", "must not be without a floating base", [](Mechanism& m) { m.composite = true; }},
       // Nothing is free to move.
-      {"system", "where W_nn = 0", [](Mechanism& m) { m.kept_coordinates = {0, 1, 2}; }},
+      {"system", "where W_nn = 0",
+       [](Mechanism& m) {
+         m.kept_coordinates = {0, 1, 2};
+       }},
   };
   for (const BadMechanism& bad : all) {
     SCOPED_TRACE(bad.field + " " + bad.description);
@@ -64,7 +70,8 @@ TEST(ValidateMechanismTest, NamesWhatIsWrong) {
     const std::vector<Violation> violations = Validate(With(mechanism));
     bool found = false;
     for (const Violation& violation : violations) {
-      found = found || (violation.field == bad.field && violation.description.find(bad.description) != std::string::npos);
+      found =
+          found || (violation.field == bad.field && violation.description.find(bad.description) != std::string::npos);
       EXPECT_THAT(violation.description, HasSubstr("must"));
     }
     EXPECT_TRUE(found) << (violations.empty() ? "valid" : violations[0].field + " " + violations[0].description);

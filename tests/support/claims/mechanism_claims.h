@@ -22,6 +22,7 @@
 #include "core/contact/mechanism.h"
 #include "core/models/planar/planar.h"
 #include "core/models/spatial/spatial.h"
+#include "core/plan/scene_problem.h"
 #include "ricochet/eigen.h"
 #include "tests/support/claims/claims.h"
 #include "tests/support/oracles/planar_oracle.h"
@@ -113,9 +114,9 @@ inline ExactReduction ReduceExactly(const Mechanism& mechanism) {
 inline std::optional<std::vector<Ball>> ImpulsesOf(const Scene& scene, const SceneContact& contact,
                                                    const ExactReduction& exact) {
   if (const auto* planar = std::get_if<PlanarReduction>(&contact.reduction)) {
-    const planar::ExactImpact impact = planar::SolveExactly(
-        planar::MakeProblem(*planar, scene.restitution, contact.coefficients),
-        {exact.w[0][0], exact.w[0][1], exact.w[1][1], exact.velocity[0], exact.velocity[1]});
+    const planar::ExactImpact impact =
+        planar::SolveExactly(planar::MakeProblem(*planar, scene.restitution, contact.coefficients),
+                             {exact.w[0][0], exact.w[0][1], exact.w[1][1], exact.velocity[0], exact.velocity[1]});
     return std::vector<Ball>{impact.end().f, impact.end().tau};
   }
   const auto problem = spatial::MakeProblem(std::get<SpatialReduction>(contact.reduction), scene.restitution,
@@ -132,7 +133,8 @@ inline void AddTo(const Scene& scene, const std::string& name, MechanismClaims& 
   const auto& mechanism = std::get<Mechanism>(scene.system);
   std::optional<SceneContact> contact(std::in_place, scene);
   Outcome outcome;
-  const absl::Status solved = SolveScene(scene, contact, Demand(), {}, [] { return false; }, outcome);
+  const absl::Status solved = SolveScene(
+      scene, contact, Demand(), {}, [] { return false; }, outcome);
   if (!solved.ok() || outcome.regime == Regime::kSeparating || outcome.termination == Termination::kRefused) return;
   const ExactReduction exact = ReduceExactly(mechanism);
   const std::optional<std::vector<Ball>> impulses = ImpulsesOf(scene, *contact, exact);

@@ -39,8 +39,15 @@ inline SpatialContact ContactInSpace() { return {{1.96, 0.24, 0.6, 2.96, -0.8, 1
 inline std::vector<System> Systems() {
   const PlanarBody flat = {2.0, 0.2, 0.1, 0.3, 0.0, 0.5, 0.0};
   const SpatialBody body = {2.0, {1, 0, 0, 1, 0, 1}, {0, 0, 0.5}, {0, 0, 1}, {1, 1, 0}};
-  return {Flat(),    Body(),          BodyPair{PlanarPair{Flat(), flat}}, BodyPair{SpatialPair{Body(), body}}, Chain(),
-          Contact(), ContactInSpace(), Arm(), Arm(/*in_space=*/true)};
+  return {Flat(),
+          Body(),
+          BodyPair{PlanarPair{Flat(), flat}},
+          BodyPair{SpatialPair{Body(), body}},
+          Chain(),
+          Contact(),
+          ContactInSpace(),
+          Arm(),
+          Arm(/*in_space=*/true)};
 }
 
 // A scene of the system with friction 0.5 and the energetic coefficient 0.5.
