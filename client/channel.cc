@@ -39,6 +39,8 @@ absl::StatusOr<std::vector<std::shared_ptr<grpc::Channel>>> MakeChannels(const C
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, kFirstReconnectMs);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, kLongestReconnectMs);
   if (!options.security.server_name.empty()) arguments.SetSslTargetNameOverride(options.security.server_name);
+  // gRPC would share the connection of another Client, which after a fork may be the parent's.
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   std::vector<std::shared_ptr<grpc::Channel>> channels;
   for (const std::string& target : Targets(options)) {
     const auto credentials = MakeChannelCredentials(options.security, target);

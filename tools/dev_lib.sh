@@ -9,8 +9,9 @@ readonly client_packages=(
   cmake g++ libabsl-dev libgrpc++-dev libisal-dev libprotobuf-dev libssl-dev ninja-build protobuf-compiler-grpc)
 readonly build_packages=(
   "${core_packages[@]}" libflint-arb-dev libflint-dev libgmp-dev libsundials-dev
-  libcli11-dev libgrpc++-dev libisal-dev libnetcdf-dev libprotobuf-dev libspdlog-dev libssl-dev
-  libzip-dev nlohmann-json3-dev prometheus-cpp-dev libcivetweb-dev protobuf-compiler protobuf-compiler-grpc python3)
+  libcli11-dev libgrpc++-dev libisal-dev libnetcdf-dev libprotobuf-dev libpython3-dev libspdlog-dev libssl-dev
+  libzip-dev nlohmann-json3-dev prometheus-cpp-dev libcivetweb-dev protobuf-compiler protobuf-compiler-grpc pybind11-dev
+  python3)
 readonly demo_packages=("${build_packages[@]}" gnuplot-nox)
 readonly bench_packages=(
   "${build_packages[@]}" fonts-dejavu-core gnuplot-nox python3-grpcio python3-numpy python3-protobuf valgrind)

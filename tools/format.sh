@@ -5,7 +5,7 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/dev_lib.sh"
 
 our_sources() {
-  find core proto server client tests \( -name '*.h' -o -name '*.cc' -o -name '*.proto' \) -print0
+  find core proto server client python tests \( -name '*.h' -o -name '*.cc' -o -name '*.proto' \) -print0
 }
 
 # Every line beyond 120 columns of what is written by hand: sources, comments, scripts, and the prose of pages. Tables,

@@ -1,48 +1,42 @@
-"""Client: asks a server, or one that it starts itself."""
+"""Client: asks the engine in this process, or a server that is named."""
 
 from __future__ import annotations
 
-import math
 import os
 import sys
 import threading
 import warnings
 import weakref
-from functools import cached_property
 from types import TracebackType
-from typing import Any, Callable, Iterable, Iterator, Mapping, Sequence, TypeVar
+from typing import TYPE_CHECKING, Any, Callable, Iterable, Literal, Mapping, Sequence, Union, overload
 
-import grpc
 import numpy as np
-from google.protobuf import json_format
-from numpy.typing import ArrayLike, NDArray
 
-from ricochet import answers
+from ricochet import _core, mechanisms, names, values
 from ricochet import axes as sweep_axes
-from ricochet import names, values
-from ricochet.connection import DEFAULT_DEADLINE_S, Connection, metadata, open_channel, resolve
-from ricochet.embedded import EmbeddedServer
-from ricochet.errors import InvalidRequest, RicochetError, Unavailable, Violation, from_rpc
-from ricochet.messages import Record, enum_names, fill, to_message, to_record
+from ricochet._core import Scene
+from ricochet.connection import resolve
+from ricochet.errors import InvalidRequest, RicochetError, Violation
+from ricochet.mechanisms import AtContact
+from ricochet.record import Record
 from ricochet.table import Codes, Table
-from ricochet.v1 import (
-    audit_pb2,
-    batch_pb2,
-    impact_service_pb2,
-    impact_service_pb2_grpc,
-    info_pb2,
-    outcome_pb2,
-    sweep_pb2,
-)
 
-Scene = Mapping[str, Any]
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+    from numpy.typing import ArrayLike, NDArray
+
+SceneLike = Union[Scene, Mapping[str, Any]]
+"""A scene: a dictionary with the names of ricochet.v1.Scene, or a ``Scene`` that was made of one."""
+Names = Union[str, Iterable[str]]
 Progress = Callable[[int, int], object]
-_Answer = TypeVar("_Answer")
 
-_MOST_RESUMES = 10
 _TITLE = "Sweep of impacts with friction"
-_REGIMES = enum_names(outcome_pb2.Regime.DESCRIPTOR)
-_STATUSES = enum_names(sweep_pb2.RowStatus.DESCRIPTOR)
+_REGIMES = _core.enum_names("Regime")
+_STATUSES = _core.enum_names("RowStatus")
+_VERDICTS = _core.enum_names("LimitCheck.Verdict")
+_WITHOUT_NUMBERS = [_STATUSES.index(name) for name in ("INVALID", "NOT_REPRESENTABLE")]
+_MOST_AUDIT_ROWS = 8192  # Of one call.
 _clients: "weakref.WeakSet[Client]" = weakref.WeakSet()
 
 
@@ -51,16 +45,18 @@ class InvalidRows(UserWarning):
 
 
 class Client:
-    """Asks the server that is named, or starts a ``ricochetd`` of its own at the first call and stops it at the end.
+    """Computes in this process, or asks the server that is named. Both give the same answers, bit by bit.
 
-    Use it as a context manager, or call ``close``; an own server ends with the process in any case. The options are
-    those of the command line; one that is not given is taken from the environment (``RICOCHET_TLS_CA`` for ``tls_ca``),
-    then from the TOML file that ``config`` or ``RICOCHET_CONFIG`` names, as a line ``tls-ca = "FILE"``. Several threads
-    may use one client; after a fork it opens a connection of its own in the new process.
+    Use it as a context manager, or call ``close``. The options are those of the command line; one that is not given is
+    taken from the environment (``RICOCHET_TLS_CA`` for ``tls_ca``), then from the TOML file that ``config`` or
+    ``RICOCHET_CONFIG`` names, as a line ``tls-ca = "FILE"``. Several threads may use one client, and compute at once;
+    after a fork it starts threads and opens connections of its own in the new process. Ctrl-C ends a call.
 
     Args:
-        server: ``"HOST:PORT"`` or ``"unix:PATH"``; several with commas between them stand in for each other.
-        deadline: the time that one call may take, s, or ``"250ms"``, ``"5m"``; by default 10 s, for a sweep any.
+        server: ``"HOST:PORT"`` or ``"unix:PATH"``; several with commas between them stand in for each other. None: the
+            engine in this process.
+        deadline: the time that one call may take, s, or ``"250ms"``, ``"5m"``; by default any in this process and for a
+            sweep, 10 s for other calls of a server.
         max_receive: bytes of one message of an answer, in [1, 2147483647]; by default 67108864.
         tls: encrypt, and make sure of the server; the next four imply it.
         tls_ca: PEM file with the authorities that the server's certificate must come from; by default the system's.
@@ -76,48 +72,32 @@ class Client:
     """
 
     def __init__(
-        self,
-        server: str = "",
-        *,
-        deadline: str | float = "",
-        max_receive: str | int = "",
-        tls: str | bool = "",
-        tls_ca: str = "",
-        tls_cert: str = "",
-        tls_key: str = "",
-        server_name: str = "",
-        token_file: str = "",
-        token: str = "",
-        config: str = "",
+        self, server: str = "", *, deadline: str | float = "", max_receive: str | int = "", tls: str | bool = "",
+        tls_ca: str = "", tls_cert: str = "", tls_key: str = "", server_name: str = "", token_file: str = "",
+        token: str = "", config: str = "",
     ) -> None:
-        self._given = Connection(
-            server=server,
-            deadline=str(deadline),
-            max_receive=str(max_receive),
-            tls=str(tls).lower(),
-            tls_ca=tls_ca,
-            tls_cert=tls_cert,
-            tls_key=tls_key,
-            server_name=server_name,
-            token_file=token_file,
-            token=token,
-            config=config,
-        )
-        self._disconnect()
-        _clients.add(self)
+        options = {name: value for name, value in locals().items() if name != "self"}
+        self._given = {**options, **{name: str(options[name]) for name in ("deadline", "max_receive")}}
+        self._given["tls"] = str(tls).lower()
+        self._options: dict[str, Any] | None = None
+        self._start()
         # Wrong options are an error here, and not at the first call.
-        self._options.deadline_s()
-        self._options.max_receive_bytes()
+        self._resolved()
 
-    def _disconnect(self) -> None:
+    def _start(self) -> None:
         self._lock = threading.Lock()
-        self._embedded: EmbeddedServer | None = None
-        self._channels: list[grpc.Channel] = []
+        self._made: _core.Solver | None = None
         self._limits: Record | None = None
+        _clients.add(self)
 
-    @cached_property
-    def _options(self) -> Connection:
-        return resolve(self._given)
+    def _resolved(self) -> dict[str, Any]:
+        """Returns the options as the module takes them. Raises InvalidRequest if one is wrong."""
+        if self._options is None:
+            options = resolve(self._given)
+            if options["server"]:
+                _core.check_options(options)
+            self._options = options
+        return self._options
 
     def __enter__(self) -> "Client":
         return self
@@ -128,64 +108,38 @@ class Client:
         self.close()
 
     def close(self) -> None:
-        """Closes the connection, and stops the server if it is an own one. The next call opens another."""
+        """Closes the connection to a server. The next call opens another."""
         with self._lock:
-            for channel in self._channels:
-                channel.close()
-            self._channels = []
-            if self._embedded is not None:
-                self._embedded.stop()
-                self._embedded = None
+            self._made = None
+            self._limits = None
 
-    def _open(self) -> list[grpc.Channel]:
+    @property
+    def _solver(self) -> "_core.Solver":
+        made = self._made
+        if made is not None:
+            return made
         with self._lock:
-            if not self._channels:
-                targets = self._options.targets
-                if not targets:
-                    self._embedded = EmbeddedServer()
-                    targets = [self._embedded.target]
-                self._channels = [open_channel(target, self._options) for target in targets]
-            return self._channels
+            if self._made is None:
+                options = self._resolved()
+                is_remote = bool(options["server"])
+                self._made = _core.of_server(options) if is_remote else _core.in_process(options["deadline"])
+            return self._made
 
-    def _ask(self, call: Callable[[Any], _Answer]) -> _Answer:
-        """Returns what `call` makes of the stub of the first server that is available."""
-        error: RicochetError | None = None
-        make_stub: Callable[[grpc.Channel], Any] = impact_service_pb2_grpc.ImpactServiceStub
-        for channel in self._open():
-            try:
-                return call(make_stub(channel))
-            except grpc.RpcError as failure:
-                error = from_rpc(failure)
-                if not isinstance(error, Unavailable):
-                    break
-        assert error is not None
-        raise error
-
-    def _unary(self, method: str, request: Any) -> Any:
-        deadline_s = self._options.deadline_s() or DEFAULT_DEADLINE_S
-        headers = metadata(self._options)
-
-        def call(stub: Any) -> Any:
-            return getattr(stub, method)(request, timeout=deadline_s, metadata=headers)
-
-        return self._ask(call)
+    def _leave_to_parent(self) -> None:
+        """In a forked process: leaves the threads and connections of the solver to the parent, whose they are."""
+        if self._made is not None:
+            self._made.abandon()
+        self._start()
 
     def solve(
-        self,
-        scene: Scene,
-        *,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
-        strict: bool = False,
-        history: int = 0,
-        force_history: int = 0,
-        certified: int = 0,
+        self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),
+        strict: bool = False, history: int = 0, force_history: int = 0, certified: int = 0, both_ends: bool = False,
     ) -> Record:
         """Computes one impact.
 
         Args:
-            scene: the impact, a dictionary with the names of ricochet.v1.Scene; units are SI and radians.
+            scene: the impact, a dictionary with the names of ricochet.v1.Scene; units are SI and radians. A ``Scene``
+                made of one saves reading it at each call.
             tolerance: largest relative error of the contact velocity after the impact, in [0, 0.1]; default 1e-12.
             require: effects that are simulated even if they are negligible, such as ``"tangential_compliance"``.
             exclude: effects that are left out whatever that changes.
@@ -193,6 +147,7 @@ class Client:
             history: also give the states at this number of equal steps of the normal impulse.
             force_history: also give the forces at this number of equal time steps; needs a spring along n.
             certified: also give numbers with this many proved significant digits, at most 1000.
+            both_ends: also give the impact in which no coordinate of a mechanism is held, as ``free_end``.
 
         Returns:
             The outcome as ricochet.v1.Outcome has it: ``outcome.coefficients.newton``,
@@ -202,22 +157,29 @@ class Client:
             InvalidRequest: the scene breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        request = impact_service_pb2.SolveRequest()
-        fill(
-            request,
-            scene,
-            tolerance=tolerance,
-            require=require,
-            exclude=exclude,
-            strict=strict,
-            history=history,
-            force_history=force_history,
-            certified=certified,
-        )
-        return to_record(self._unary("Solve", request).outcome)
+        return self._solver.solve(
+            scene, tolerance, require, exclude, strict, history, force_history, certified, both_ends)
+
+    def plan(
+        self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),
+    ) -> Record:
+        """Plans one impact without computing it: which effects are simulated, which are left out, and why.
+
+        Args:
+            scene, tolerance, require, exclude: as in ``solve``.
+
+        Returns:
+            ``plan`` as ricochet.v1.Plan: ``plan.model``, and ``plan.effects`` with the reason for each.
+
+        Raises:
+            InvalidRequest: the scene breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        arguments = {"tolerance": tolerance, "require": require, "exclude": exclude}
+        return self._solver.plan(scene, arguments)
 
     def bounds(
-        self, scene: Scene, *, ranges: Mapping[str, tuple[float, float]] | None = None, certified: int = 0
+        self, scene: SceneLike, *, ranges: Mapping[str, tuple[float, float]] | None = None, certified: int = 0
     ) -> Record:
         """Computes the values that the coefficients of an impact can take.
 
@@ -234,23 +196,14 @@ class Client:
             InvalidRequest: the scene or a range breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        request = impact_service_pb2.BoundsRequest()
-        fill(request, scene, certified=certified)
-        for path, ends in names.by_full_name(ranges or {}, names.fields_of(request.scene), "ranges").items():
-            pair = values.column(ends, path)
-            if pair.shape != (2,):
-                raise InvalidRequest.of(
-                    [Violation(path, f"= {values.shown(ends)}: must be two numbers, the least first")])
-            request.ranges.add(path=path, low=pair[0], high=pair[1])
-        return to_record(self._unary("Bounds", request))
+        scene = Scene(scene)
+        named = names.by_full_name(ranges or {}, scene._fields(), "ranges")
+        listed = tuple(_range(path, ends) for path, ends in named.items())
+        return self._solver.bounds(scene, {"ranges": listed, "certified": certified})
 
     def audit(
-        self,
-        scene: Scene,
-        *,
-        contact_velocity: Mapping[str, Any] | None = None,
-        rates_rad_s: ArrayLike | None = None,
-        velocity_uncertainty_m_s: float = 0.0,
+        self, scene: SceneLike, *, contact_velocity: Mapping[str, Any] | None = None,
+        rates_rad_s: ArrayLike | None = None, velocity_uncertainty_m_s: float = 0.0,
     ) -> Record:
         """Computes what an observed impact implies, and which limits it breaks.
 
@@ -268,15 +221,14 @@ class Client:
             InvalidRequest: the scene or the observation breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        request = impact_service_pb2.AuditRequest()
-        fill(request, scene, velocity_uncertainty_m_s=velocity_uncertainty_m_s)
+        arguments: dict[str, Any] = {"velocity_uncertainty_m_s": velocity_uncertainty_m_s}
         if contact_velocity is not None:
-            to_message(request.contact_velocity, contact_velocity, "contact_velocity")
+            arguments["contact_velocity"] = contact_velocity
         if rates_rad_s is not None:
-            request.rates.rates_rad_s.extend(np.atleast_1d(values.column(rates_rad_s, "rates_rad_s")))
-        return to_record(self._unary("Audit", request))
+            arguments["rates"] = {"rates_rad_s": np.atleast_1d(values.column(rates_rad_s, "rates_rad_s"))}
+        return self._solver.audit(scene, arguments)
 
-    def audit_batch(self, scene: Scene, columns: Mapping[str, Any]) -> Table:
+    def audit_batch(self, scene: SceneLike, columns: Mapping[str, Any]) -> Table:
         """Audits many observed impacts at one contact.
 
         Args:
@@ -292,36 +244,26 @@ class Client:
             InvalidRequest: the scene or a column breaks a rule.
             RicochetError: the call failed otherwise.
         """
-        known = [field.name for field in audit_pb2.AuditColumns.DESCRIPTOR.fields]
-        given = names.by_full_name(columns, known, "columns")
+        given = names.by_full_name(columns, _core.field_names("AuditColumns"), "columns")
         arrays = {name: _columns_of(name, column) for name, column in given.items()}
         rows = max((column.shape[-1] for column in arrays.values()), default=0)
         index = _index_of(columns, given, rows)
-        most = self._limit("max_audit_rows")
-        reports: list[Record] = []
-        summaries = []
+        most = min(self._limit("max_audit_rows"), _MOST_AUDIT_ROWS)
+        answers = []
         for start in range(0, rows, most):
-            request = impact_service_pb2.AuditBatchRequest()
-            to_message(request.scene, scene, "")
             part: dict[str, Any] = {name: _part(column, start, start + most) for name, column in arrays.items()}
             if "rates_after" in part:
                 part["rates_after"] = [{"rates_rad_s": link} for link in np.atleast_2d(part["rates_after"])]
-            to_message(request.columns, part, "columns")
-            response = self._unary("AuditBatch", request)
-            reports += map(to_record, answers.entries(response.reports, min(most, rows - start), "reports"))
-            summaries.append(to_record(response.summary))
-        flat = [_flat(report) for report in reports]
-        return _audit_table(flat, summaries, index)
+            answer = self._solver.audit_batch(scene, {"columns": part})
+            if len(answer.reports) != min(most, rows - start):
+                raise RicochetError(f"the server answers {len(answer.reports)} rows of an audit", code="DATA_LOSS")
+            answers.append(answer)
+        flat = [_flat(report) for answer in answers for report in answer.reports]
+        return _audit_table(flat, [answer.summary for answer in answers], index)
 
     def solve_batch(
-        self,
-        scene: Scene,
-        inputs: Mapping[str, ArrayLike],
-        columns: str | Sequence[str],
-        *,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
+        self, scene: SceneLike, inputs: Mapping[str, ArrayLike], columns: Names, *,
+        tolerance: float | None = None, require: Names = (), exclude: Names = (),
     ) -> Table:
         """Computes many different impacts of one system.
 
@@ -329,7 +271,8 @@ class Client:
             scene: gives every field that no column states.
             inputs: an array for each field that varies, by the field's path, ``"planar_contact.normal_m_s"``, or a
                 short name, ``"mu"``. They are equally long, or single numbers for all rows. A pandas frame will do; its
-                index is kept. What is missing (None, pandas.NA) is NaN, which makes the row invalid.
+                index is kept. What is missing (None, pandas.NA) is NaN, which makes the row invalid. An array of
+                doubles that lie side by side is not copied.
             columns: the numbers of the outcome to compute: ``"contact_velocity_after.normal_m_s"``, or short names,
                 ``["newton", "poisson"]``. The table has their full names.
             tolerance, require, exclude: as in ``solve``, for every row.
@@ -343,209 +286,230 @@ class Client:
             InvalidRequest: the scene, a path, an entry or the length of an array is wrong.
             RicochetError: the call failed otherwise.
         """
-        setup = batch_pb2.BatchSetup()
-        fill(setup, scene, tolerance=tolerance, require=require, exclude=exclude)
-        given = names.by_full_name(inputs, names.fields_of(setup.scene), "inputs")
+        arguments = {"tolerance": tolerance, "require": require, "exclude": exclude}
+        table = self._batch(Scene(scene), inputs, columns, arguments)
+        _warn_of_invalid(table)
+        return table
+
+    def _batch(
+        self, scene: Scene, inputs: Mapping[str, ArrayLike], columns: Names, arguments: dict[str, Any]
+    ) -> Table:
+        given = names.by_full_name(inputs, scene._fields(), "inputs")
         if not given:
-            raise InvalidRequest.of([Violation("inputs", "is empty: must have at least one column")])
+            values.refuse("inputs", "is empty: must have at least one column")
         arrays = _equally_long({name: np.atleast_1d(values.column(given[name], name)) for name in given})
-        rows = len(next(iter(arrays.values())))
-        index = _index_of(inputs, given, rows)
-        wanted = names.full_names(values.names(columns, "columns"), names.columns_of(setup.scene), "columns")
-        setup.fields.extend(arrays)
-        setup.columns.extend(wanted)
-        outputs = {column: np.empty(rows) for column in wanted}
-        regimes, statuses = np.empty(rows, np.uint8), np.empty(rows, np.uint8)
-        parts = []
-        most = self._most_batch_rows(max(len(arrays), len(outputs), 1))
-        for start in range(0, max(rows, 1), most):
-            part = slice(start, start + most)
-            data = [array[part].astype("<f8").tobytes() for array in arrays.values()]
-            request = batch_pb2.SolveBatchRequest(setup=setup, inputs=data)
-            response = self._unary("SolveBatch", request)
-            count = len(regimes[part])
-            for column, numbers in zip(outputs.values(), answers.entries(response.outputs, len(outputs), "columns")):
-                column[part] = answers.numbers(numbers, count, "a column")
-            regimes[part] = answers.codes(response.regimes, count, "regimes")
-            statuses[part] = answers.codes(response.statuses, count, "statuses")
-            parts.append((start, response.summary))
-        table = Table(
-            outputs,
+        wanted = names.full_names(values.names(columns, "columns"), scene._columns(), "columns")
+        arguments = {"fields": list(arrays), "columns": wanted, **arguments}
+        solved = self._solver.solve_batch(scene, arguments, list(arrays.values()))
+        outputs, regimes, statuses, counts, bad_rows = solved
+        return Table(
+            dict(zip(wanted, outputs)),
             {"regime": Codes(regimes, _REGIMES), "status": Codes(statuses, _STATUSES)},
             axes=arrays,
-            summary=_batch_summary(parts),
-            index=index,
+            summary=Record(
+                rows=len(regimes),
+                invalid=counts[0],
+                inadmissible=counts[1],
+                bad_rows=[
+                    Record(row=row, status=_STATUSES[status], field=field, description=description)
+                    for row, status, field, description in bad_rows
+                ],
+            ),
+            index=_index_of(inputs, given, len(regimes)),
         )
-        _warn_of_invalid(table)
-        return table
+
+    @overload
+    def sweep(
+        self, scene: SceneLike, axes: Mapping[str, sweep_axes.Axis], columns: Names, *,
+        form: Literal["xarray"] = "xarray", zip_axes: bool = False, tolerance: float | None = None,
+        require: Names = (), exclude: Names = (), progress: Progress | None = None,
+    ) -> "xarray.Dataset": ...
+
+    @overload
+    def sweep(
+        self, scene: SceneLike, axes: Mapping[str, sweep_axes.Axis], columns: Names, *, form: Literal["pandas"],
+        zip_axes: bool = False, tolerance: float | None = None, require: Names = (), exclude: Names = (),
+        progress: Progress | None = None,
+    ) -> "pandas.DataFrame": ...
+
+    @overload
+    def sweep(
+        self, scene: SceneLike, axes: Mapping[str, sweep_axes.Axis], columns: Names, *, form: Literal["table"],
+        zip_axes: bool = False, tolerance: float | None = None, require: Names = (), exclude: Names = (),
+        progress: Progress | None = None,
+    ) -> Table: ...
 
     def sweep(
-        self,
-        scene: Scene,
-        axes: Mapping[str, sweep_axes.Axis],
-        columns: str | Sequence[str],
-        *,
-        zip_axes: bool = False,
-        tolerance: float | None = None,
-        require: str | Iterable[str] = (),
-        exclude: str | Iterable[str] = (),
+        self, scene: SceneLike, axes: Mapping[str, sweep_axes.Axis], columns: Names, *,
+        form: Literal["xarray", "pandas", "table"] = "xarray", zip_axes: bool = False,
+        tolerance: float | None = None, require: Names = (), exclude: Names = (),
         progress: Progress | None = None,
-    ) -> Table:
-        """Computes impacts over a grid: what ``ricochet.sweep``, which describes the arguments, gives as a table."""
-        product = sweep_pb2.SweepRequest.COMBINATION_ZIP if zip_axes else sweep_pb2.SweepRequest.COMBINATION_PRODUCT
-        request = sweep_pb2.SweepRequest(combination=product, with_regime=True)
-        fill(request, scene, tolerance=tolerance, require=require, exclude=exclude)
-        given = names.by_full_name(axes, names.fields_of(request.scene), "axes")
-        request.axes.extend(sweep_axes.to_message(path, axis) for path, axis in given.items())
-        wanted = names.full_names(values.names(columns, "columns"), names.columns_of(request.scene), "columns")
-        request.columns.extend(wanted)
-        text = json_format.MessageToJson(request, indent=None)
-        lengths = [sweep_axes.length(path, axis) for path, axis in given.items()]
-        received = _Received(len(wanted), lengths[0] if zip_axes and lengths else math.prod(lengths))
-        for chunk in self._chunks(request, received):
-            received.take(chunk)
-            if progress is not None:
-                progress(received.points, received.total)
+    ) -> Any:
+        """Computes impacts over a grid.
+
+        A connection that breaks, or a server that stops, does not end the sweep: it goes on from the first point that
+        has not arrived, if another call reaches the same engine.
+
+        Args:
+            scene: gives every field that no axis drives.
+            axes: the values of each field that varies, by the field's path, ``"friction.kinetic_coefficient"``, or a
+                short name, ``"mu"``. An array, or ``ricochet.Linspace`` or ``ricochet.Logspace``; a server takes arrays
+                of at most 65,536 values.
+            columns: the numbers of the outcome to compute: ``"coefficients.newton"``, or short names, ``["newton"]``.
+                The answer has their full names.
+            form: what is returned. ``"xarray"``: a dataset with a dimension for each axis; ``"pandas"``: a frame with a
+                row for each point; ``"table"``: a ``Table`` of numpy arrays. The first two need the package of that
+                name.
+            zip_axes: the axes advance together; otherwise the points are all combinations of their values.
+            tolerance, require, exclude: as in ``solve``, for every point.
+            progress: is called with the points done and the points in all, after each part of the answer.
+
+        Returns:
+            The numbers of each column, ``regime``, and ``status``, which says whether a point is ``"OK"`` or
+            ``"INADMISSIBLE"``; one that breaks a rule is ``"INVALID"`` and has NaN, and a warning ``InvalidRows`` says
+            so; one whose outcome leaves a number unset is ``"INCOMPLETE"`` and has NaN there. ``attrs`` has the request
+            and the engine, under the names that the files of the command line have.
+
+        Raises:
+            InvalidRequest: the scene, an axis or a column is wrong.
+            RicochetError: the call failed otherwise.
+        """
+        if form not in ("xarray", "pandas", "table"):
+            values.refuse("form", f"= {form!r}: must be 'xarray', 'pandas' or 'table'")
+        scene = Scene(scene)
+        given = names.by_full_name(axes, scene._fields(), "axes")
+        wanted = names.full_names(values.names(columns, "columns"), scene._columns(), "columns")
+        arguments = {
+            "axes": [sweep_axes.to_fields(path, axis) for path, axis in given.items()],
+            "columns": wanted, "combination": "zip" if zip_axes else "product", "with_regime": True,
+            "tolerance": tolerance, "require": require, "exclude": exclude,
+        }
+        numbers, regimes, statuses, counts, coordinates, attrs = self._solver.sweep(scene, arguments, progress)
+        codes = {"regime": Codes(regimes, _REGIMES), "status": Codes(statuses, _STATUSES)}
         table = Table(
-            dict(zip(wanted, received.values)),
-            {"regime": Codes(received.regimes, _REGIMES), "status": Codes(received.statuses, _STATUSES)},
-            axes={path: sweep_axes.coordinates(path, axis) for path, axis in given.items()},
+            dict(zip(wanted, numbers)),
+            codes,
+            axes=dict(zip(given, coordinates)),
             is_grid=not zip_axes and bool(given),
-            summary=received.summary,
-            attrs={"Conventions": "CF-1.8", "title": _TITLE, "ricochet_request": text, **received.provenance},
+            summary=Record(
+                points=len(regimes), by_regime=codes["regime"].counts(), invalid=counts[0], inadmissible=counts[1]),
+            attrs={"Conventions": "CF-1.8", "title": _TITLE, **attrs},
         )
         _warn_of_invalid(table)
-        return table
+        if form == "table":
+            return table
+        return table.to_xarray() if form == "xarray" else table.to_pandas()
 
-    def _chunks(self, request: Any, received: "_Received") -> Iterator[Any]:
-        """Yields the chunks of a sweep. A call that breaks off is followed by one for the rest."""
-        resumes = 0
-        while not received.complete:
-            before = received.points
-            request.first_index = before
-            try:
-                yield from self._stream(request)
-            except RicochetError as error:
-                resumes = 0 if received.points > before else resumes + 1
-                if not received.points or not isinstance(error, Unavailable) or resumes > _MOST_RESUMES:
-                    raise
-            else:
-                break
-        received.check_complete()
+    def cost(
+        self, scene: SceneLike, *, time_limit_s: float | None = None, samples: int | None = None,
+        progress: Progress | None = None,
+    ) -> Record:
+        """Studies what the accuracy of one impact costs in time, on the machine that answers.
 
-    def _stream(self, request: Any) -> Iterator[Any]:
-        """Yields the chunks of one call, from the first server that is available."""
-        timeout, headers = self._options.deadline_s(), metadata(self._options)
+        Args:
+            scene: as in ``solve``.
+            time_limit_s: time for the whole study, s; default 3.
+            samples: samples taken of each time; default 21.
+            progress: is called with the methods done and the methods in all, after each of them.
 
-        def start(stub: Any) -> tuple[Any, Any]:
-            stream = stub.Sweep(request, timeout=timeout, metadata=headers)
-            return next(stream), stream
+        Returns:
+            ``rows``, every method that applies with its time and its error as ricochet.v1.CostRow, and ``summary``, the
+            Pareto front and the methods that the plan picks, as ricochet.v1.CostSummary.
 
-        first, stream = self._ask(start)
-        yield first
-        try:
-            yield from stream
-        except grpc.RpcError as failure:
-            raise from_rpc(failure) from None
-        finally:
-            stream.cancel()
+        Raises:
+            InvalidRequest: the scene or an option breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        return self._solver.cost(scene, {"time_limit_s": time_limit_s, "samples": samples}, progress)
+
+    def at_contact(
+        self, M: ArrayLike, J: ArrayLike, qdot: ArrayLike, normal: ArrayLike, *, friction: ArrayLike = 0.0,
+        energetic: ArrayLike | None = None, newton: ArrayLike | None = None, poisson: ArrayLike | None = None,
+        held: Iterable[int] = (), tolerance: float | None = None,
+    ) -> AtContact:
+        """Computes the impact of a mechanism from what a library of multibody dynamics gives at one instant.
+
+        Many states are computed at once if any of the arrays has a leading axis of them; the others hold for all. The
+        contact frame is made here: n along `normal`, t1 along the slip.
+
+        Args:
+            M: the mass matrix, n x n, symmetric and positive definite.
+            J: the Jacobian of the contact point in world axes, 3 x n: its velocity relative to what it strikes is
+                ``J @ qdot``, m/s.
+            qdot: the generalised velocities before the impact, n.
+            normal: the direction out of the surface that is struck, in world axes; of any length.
+            friction: the coefficient of kinetic friction, one for all states or one for each.
+            energetic, newton, poisson: the coefficient of restitution in one of its definitions, likewise.
+            held: coordinates that a brake or a stiff controller holds: their velocities do not change. With a floating
+                base, ``held=range(6, n)`` takes the mechanism for one rigid body.
+            tolerance: as in ``solve``.
+
+        Returns:
+            ``rates_after``, the generalised velocities after the impact, and ``impulse_n_s`` on the mechanism in world
+            axes, N s, as arrays; ``answer`` is the outcome of a single state, which has errors of all numbers, or the
+            table of a batch in the contact frame. A state that breaks a rule has NaN in a batch.
+
+        Raises:
+            InvalidRequest: the shapes do not fit, or a single state breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        states = mechanisms.States(M, J, qdot, normal, held)
+        given = {"energetic": energetic, "newton": newton, "poisson": poisson}
+        restitution = {name: value for name, value in given.items() if value is not None}
+        if not states.is_batch:
+            parts = {"friction": {"kinetic_coefficient": friction}, "restitution": restitution}
+            outcome = self.solve({**states.scene(0), **parts}, tolerance=tolerance)
+            return AtContact(np.array(outcome.rates_after), states.in_world(outcome), outcome)
+        inputs = {"friction.kinetic_coefficient": friction, **states.columns}
+        inputs.update({f"restitution.{name}": value for name, value in restitution.items()})
+        table = self._batch(mechanisms.CONTACT, inputs, mechanisms.COLUMNS, {"tolerance": tolerance})
+        for bad in table.summary.bad_rows:
+            states.explain(bad)
+        _warn_of_invalid(table)
+        return AtContact(*states.after(table), table)
 
     def info(self) -> Record:
         """Returns which engine answers, what it can compute, and its limits, as ricochet.v1.InfoResponse has them."""
-        return to_record(self._unary("Info", info_pb2.InfoRequest()))
+        return self._solver.info()
 
     def _limit(self, name: str) -> int:
-        """Returns a limit of a request; 2^31 if the server has none."""
+        """Returns a limit of a request; 2^31 if there is none."""
         if self._limits is None:
             self._limits = self.info().limits
         limit = self._limits[name]
-        return 1 << 31 if limit is None else answers.at_least_one(int(limit), name)
-
-    def _most_batch_rows(self, columns: int) -> int:
-        numbers = min(
-            self._limit("max_batch_numbers"),
-            self._limit("max_request_bytes") // 16,
-            self._options.max_receive_bytes() // 16,
-        )
-        return max(numbers // columns, 1)
+        return 1 << 31 if limit is None else int(limit)
 
 
 class ModuleClient(Client):
     """The client of the package's own functions: it reads its options from the environment at the first call."""
 
     def __init__(self) -> None:
-        self._given = Connection()
-        self._disconnect()
-        _clients.add(self)
+        self._given = {}
+        self._options = None
+        self._start()
 
     def close(self) -> None:
-        """Closes the connection, and stops the server if it is an own one. The next call opens another."""
+        """Closes the connection to a server. The next call reads the environment and opens another."""
         super().close()
-        self.__dict__.pop("_options", None)
+        self._options = None
 
 
-def _disconnect_all() -> None:
-    """In a forked process: leaves the connections and servers to the parent, whose they are."""
-    for client in _clients:
-        client._disconnect()
+def _after_fork_in_child() -> None:
+    _core.after_fork_in_child()
+    for client in list(_clients):
+        client._leave_to_parent()
 
 
-os.register_at_fork(after_in_child=_disconnect_all)
+os.register_at_fork(
+    before=_core.before_fork, after_in_parent=_core.after_fork_in_parent, after_in_child=_after_fork_in_child
+)
 
 
-class _Received:
-    """What has arrived of a sweep of so many points."""
-
-    def __init__(self, columns: int, total: int) -> None:
-        self.values = np.empty((columns, 0))
-        self.regimes = np.empty(0, np.uint8)
-        self.statuses = np.empty(0, np.uint8)
-        self.points = 0
-        self.total = total
-        self.complete = False
-        self.summary = Record()
-        self.provenance: dict[str, str] = {}
-        self._origin: tuple[str, str] | None = None
-
-    def take(self, chunk: Any) -> None:
-        origin = (chunk.engine.fingerprint, chunk.grid_fingerprint)
-        if self._origin is None:
-            self._origin = origin
-            self.provenance = {
-                "ricochet_grid_fingerprint": chunk.grid_fingerprint,
-                "source": f"ricochet {chunk.engine.version}",
-                "ricochet_engine_fingerprint": chunk.engine.fingerprint,
-            }
-            if chunk.points_total != self.total:
-                raise RicochetError(
-                    f"the server answers {chunk.points_total} points of {self.total}", code="DATA_LOSS"
-                )
-            self.values = np.empty((len(self.values), self.total))
-            self.regimes = np.empty(self.total, np.uint8)
-            self.statuses = np.empty(self.total, np.uint8)
-        fits = chunk.first_index == self.points and 0 <= chunk.count <= self.total - self.points
-        if origin != self._origin or not fits:
-            raise RicochetError(
-                "the server that goes on with the sweep is another engine, or points are missing", code="DATA_LOSS"
-            )
-        part = slice(self.points, self.points + chunk.count)
-        columns = len(self.values)
-        values = answers.numbers(chunk.values, columns * chunk.count, "values")
-        self.values[:, part] = values.reshape(columns, chunk.count)
-        self.regimes[part] = answers.codes(chunk.regimes, chunk.count, "regimes")
-        self.statuses[part] = answers.codes(chunk.statuses, chunk.count, "statuses")
-        self.points += chunk.count
-        self.complete = self.points == self.total and chunk.HasField("summary")
-        if self.complete:
-            self.summary = Record(
-                points=self.total,
-                by_regime=Codes(self.regimes, _REGIMES).counts(),
-                inadmissible=int(Codes(self.statuses, _STATUSES).equal("INADMISSIBLE").sum()),
-            )
-
-    def check_complete(self) -> None:
-        if not self.complete:
-            raise RicochetError(f"the sweep ended after {self.points} of {self.total} points", code="DATA_LOSS")
+def _range(path: str, ends: Any) -> dict[str, Any]:
+    pair = values.column(ends, path)
+    if pair.shape != (2,):
+        values.refuse(path, f"= {values.shown(ends)}: must be two numbers, the least first")
+    return {"path": path, "low": pair[0], "high": pair[1]}
 
 
 def _index_of(given: Any, columns: Mapping[str, Any], rows: int) -> Any:
@@ -558,20 +522,19 @@ def _index_of(given: Any, columns: Mapping[str, Any], rows: int) -> Any:
 
 def _warn_of_invalid(table: Table) -> None:
     """Warns of rows without numbers, at the line that has asked for them."""
-    without_numbers = (sweep_pb2.ROW_STATUS_INVALID, sweep_pb2.ROW_STATUS_NOT_REPRESENTABLE)
-    bad = np.flatnonzero(np.isin(table.codes["status"].numbers, without_numbers))
-    if not len(bad):
+    if not table.summary.invalid:
         return
-    first = int(bad[0])
     reasons = table.summary.get("bad_rows")
     if reasons:
-        why = f"{reasons[0].field} {reasons[0].description}"
+        first, why = reasons[0].row, f"{reasons[0].field} {reasons[0].description}"
     else:
+        first = int(np.flatnonzero(np.isin(table.codes["status"].numbers, _WITHOUT_NUMBERS))[0])
         why = ", ".join(f"{name} = {value:.6g}" for name, value in table.inputs_of(first).items())
     depth = 1
     while sys._getframe(depth).f_globals.get("__name__", "").split(".")[0] == "ricochet":
         depth += 1
-    text = f"rows that break a rule and have NaN: {len(bad)} of {len(table)}; the first is row {first}: {why}"
+    text = (f"rows that break a rule and have NaN: {table.summary.invalid} of {len(table)}; "
+            f"the first is row {first}: {why}")
     warnings.warn(text, InvalidRows, stacklevel=depth + 1)
 
 
@@ -584,17 +547,10 @@ def _equally_long(arrays: dict[str, NDArray[np.float64]]) -> dict[str, NDArray[n
     ]
     if wrong:
         raise InvalidRequest.of(wrong)
-    return {name: np.broadcast_to(array, rows) for name, array in arrays.items()}
-
-
-def _batch_summary(parts: list[tuple[int, Any]]) -> Record:
-    """Joins the summaries of the parts of a batch, whose rows are counted from the first of all."""
-    bad_rows = [Record(to_record(bad), row=bad.row + start) for start, summary in parts for bad in summary.bad_rows]
-    return Record(
-        rows=sum(summary.counts.points for _, summary in parts),
-        inadmissible=sum(summary.counts.inadmissible.count for _, summary in parts),
-        bad_rows=bad_rows,
-    )
+    return {
+        name: np.ascontiguousarray(array) if len(array) == rows else np.full(rows, array[0])
+        for name, array in arrays.items()
+    }
 
 
 def _columns_of(name: str, value: Any) -> NDArray[Any]:
@@ -623,13 +579,12 @@ def _flat(record: Record, path: str = "") -> dict[str, Any]:
 def _audit_table(rows: list[dict[str, Any]], summaries: list[Record], index: Any) -> Table:
     # Lists of invalid rows are empty, so that the names are those of the fullest row.
     fullest: dict[str, Any] = max(rows, key=len, default={})
-    names = list(fullest)
     codes: dict[str, Codes] = {}
     columns: dict[str, NDArray[np.float64]] = {}
-    for name in names:
+    for name in fullest:
         values = [row.get(name) for row in rows]
         if any(isinstance(value, str) for value in values):
-            known = _REGIMES if name == "regime" else enum_names(audit_pb2.LimitCheck.Verdict.DESCRIPTOR)
+            known = _REGIMES if name == "regime" else _VERDICTS
             codes[name] = Codes(np.array([known.index(str(value)) for value in values], np.uint8), known)
         else:
             columns[name] = np.array(values, dtype=np.float64)

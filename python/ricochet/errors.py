@@ -2,12 +2,8 @@
 
 from __future__ import annotations
 
-import importlib.resources
 from dataclasses import dataclass
-from typing import Any, Iterable
-
-import grpc
-from google.protobuf import descriptor_pb2, descriptor_pool, message_factory
+from typing import Iterable
 
 
 @dataclass(frozen=True)
@@ -82,7 +78,6 @@ class TimedOut(RicochetError, TimeoutError):
 
 _CLASSES: dict[str, type[RicochetError]] = {
     "INVALID_ARGUMENT": InvalidRequest,
-    "FAILED_PRECONDITION": Inadmissible,
     "OUT_OF_RANGE": OutOfRange,
     "RESOURCE_EXHAUSTED": LimitReached,
     "UNAVAILABLE": Unavailable,
@@ -90,38 +85,11 @@ _CLASSES: dict[str, type[RicochetError]] = {
 }
 
 
-def _details() -> dict[str, Any]:
-    """The messages of google.rpc, in a pool of their own so that other packages may define them, too."""
-    data = importlib.resources.files(__package__).joinpath("error_details.binpb").read_bytes()
-    pool = descriptor_pool.DescriptorPool()
-    for file in descriptor_pb2.FileDescriptorSet.FromString(data).file:
-        pool.Add(file)
-    factory = message_factory.MessageFactory(pool)
-    names = ("Status", "BadRequest", "ErrorInfo", "RetryInfo")
-    return {name: factory.GetPrototype(pool.FindMessageTypeByName(f"google.rpc.{name}")) for name in names}
-
-
-_MESSAGES = _details()
-
-
-def from_rpc(error: grpc.RpcError) -> RicochetError:
+def from_status(
+    code: str, message: str, reason: str, violations: list[Violation], retry_after_s: float | None
+) -> RicochetError:
     """Makes the exception for a call that failed."""
-    code = error.code().name
-    reason = ""
-    violations: list[Violation] = []
-    retry_after_s = None
-    metadata = dict(error.trailing_metadata() or ())
-    for detail in _MESSAGES["Status"].FromString(metadata.get("grpc-status-details-bin", b"")).details:
-        name = detail.type_url.rpartition(".")[2]
-        if name not in _MESSAGES:
-            continue
-        message = _MESSAGES[name].FromString(detail.value)
-        if name == "ErrorInfo":
-            reason = message.reason
-        elif name == "BadRequest":
-            violations = [Violation(each.field, each.description) for each in message.field_violations]
-        elif name == "RetryInfo":
-            retry_after_s = message.retry_delay.seconds + message.retry_delay.nanos * 1e-9
-    return _CLASSES.get(code, RicochetError)(
-        error.details() or code, code=code, reason=reason, violations=violations, retry_after_s=retry_after_s
-    )
+    kind = _CLASSES.get(code, RicochetError)
+    if reason == "INADMISSIBLE_OUTCOME":
+        kind = Inadmissible
+    return kind(message or code, code=code, reason=reason, violations=violations, retry_after_s=retry_after_s)

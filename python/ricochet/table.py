@@ -6,17 +6,17 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from ricochet.messages import Record
 from ricochet.names import meanings
+from ricochet.record import Record
 from ricochet.units import unit_of
 
 if TYPE_CHECKING:
     import pandas
     import xarray
+    from numpy.typing import NDArray
 
-Numbers = NDArray[np.float64]
+    Numbers = NDArray[np.float64]
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 
 _UNITS = {
     "stiffness_n_m1_5": "N/m^1.5",
@@ -38,6 +39,7 @@ def unit_of(path: str) -> str:
     return "1"
 
 
+@lru_cache(4096)
 def without_unit(path: str) -> str:
     """Returns a path without the unit in its name.
 

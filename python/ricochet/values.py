@@ -1,19 +1,31 @@
-"""Values: the numbers of a caller, from whatever holds them. What is no number is named and never converted."""
+"""Values: the numbers of a caller, from whatever holds them. What is no number is named and never converted.
+
+The module in C++ asks here for every value that is not plainly what it should be, and for the words of its errors.
+"""
 
 from __future__ import annotations
 
 import numbers
 import sys
-from typing import Any
+from typing import TYPE_CHECKING, Any, Iterable, NoReturn
 
 import numpy as np
-from numpy.typing import NDArray
 
 from ricochet.errors import InvalidRequest, Violation
 
-Numbers = NDArray[np.float64]
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    Numbers = NDArray[np.float64]
 
 _LONGEST_SHOWN = 60
+_BITS = {"int32": 31, "int64": 63}
+_KINDS: dict[str, tuple[Any, str]] = {
+    "bool": (bool, "True or False"),
+    "text": (str, "a text"),
+    "enum": ((), "the name of a value"),
+    **{kind: (numbers.Integral, f"a whole number below 2^{bits}") for kind, bits in _BITS.items()},
+}
 
 
 def shown(value: Any) -> str:
@@ -22,6 +34,34 @@ def shown(value: Any) -> str:
         return f"an integer of {value.bit_length()} bits"
     text = " ".join(repr(value).split())
     return text if len(text) <= _LONGEST_SHOWN else text[: _LONGEST_SHOWN - 3] + "..."
+
+
+def refuse(path: str, description: str) -> NoReturn:
+    """Raises InvalidRequest for one field."""
+    raise InvalidRequest.of([Violation(path, description)])
+
+
+def suggestion(name: str, known: Iterable[str]) -> str:
+    """Returns the known name that is nearest, or all of them, as the end of a message."""
+    import difflib  # Only errors need it.
+
+    names = list(known)
+    near = difflib.get_close_matches(name, names, n=1)
+    if near:
+        return f"; did you mean {near[0]!r}?"
+    return f"; there are {', '.join(sorted(names))}"
+
+
+def unknown_field(path: str, name: Any, known: list[str]) -> NoReturn:
+    refuse(path, f"is unknown{suggestion(str(name), known)}")
+
+
+def unknown_name(path: str, name: str, known: list[str]) -> NoReturn:
+    refuse(path, f"= {name!r} is unknown{suggestion(name.lower(), known)}")
+
+
+def dictionary_expected(values: Any, path: str) -> NoReturn:
+    refuse(path, f"= {shown(values)}: must be a dictionary")
 
 
 def plain(value: Any) -> Any:
@@ -39,12 +79,30 @@ def number(value: Any, path: str) -> float:
             return float(found)
         except OverflowError:
             rule = f"a number of at most {sys.float_info.max:.4g}"
-    raise InvalidRequest.of([Violation(path, f"= {shown(value)}: must be {rule}")])
+    refuse(path, f"= {shown(value)}: must be {rule}")
+
+
+def scalar(kind: str, value: Any, path: str) -> Any:
+    """Returns a value of a field as Python's own type. True and 1.0 are no whole numbers, and 1 is not True."""
+    if kind == "double":
+        return number(value, path)
+    found = plain(value)
+    wanted, rule = _KINDS[kind]
+    fits = isinstance(found, wanted) and isinstance(found, bool) == (kind == "bool")
+    if fits and kind in _BITS:
+        found = int(found)
+        fits = -(2 ** _BITS[kind]) <= found < 2 ** _BITS[kind]
+    return found if fits else refuse(path, f"= {shown(value)}: must be {rule}")
 
 
 def is_list(value: Any) -> bool:
     """Returns whether a value is a list: neither a text, nor a dictionary, nor an array without dimensions."""
     return not isinstance(value, (str, bytes, dict)) and hasattr(value, "__iter__") and getattr(value, "ndim", 1) > 0
+
+
+def entries(value: Any) -> Any:
+    """Returns the entries of a list; a value that is none is the only entry."""
+    return value if is_list(value) else [value]
 
 
 def is_missing(value: Any) -> bool:
@@ -67,7 +125,7 @@ def column(values: Any, path: str) -> Numbers:
     except ValueError:  # The arrays in a list differ in shape.
         raise InvalidRequest.of([Violation(path, f"= {shown(values)}: must be an array of numbers")]) from None
     if array.dtype.kind in "iuf":
-        return array.astype(np.float64)
+        return array.astype(np.float64, copy=False)
     entries = [
         np.nan if is_missing(entry) else number(entry, path + "".join(f"[{i}]" for i in place))
         for place, entry in np.ndenumerate(array)
@@ -79,5 +137,5 @@ def names(values: Any, path: str) -> list[str]:
     """Returns a list of names; a text is one name."""
     found: list[Any] = [values] if isinstance(values, str) else list(values) if is_list(values) else [None]
     if not all(isinstance(name, str) for name in found):
-        raise InvalidRequest.of([Violation(path, f"= {shown(values)}: must be a name or a list of names")])
+        refuse(path, f"= {shown(values)}: must be a name or a list of names")
     return [str(name) for name in found]

@@ -8,6 +8,7 @@ build_benchmarks
 run_benchmarks
 show /usr/bin/python3 tests/benchmark/plan_cost.py build/release/tests/benchmark/ricochet_plan_cost
 show /usr/bin/python3 tests/benchmark/numpy_peer.py
+show /usr/bin/python3 tests/benchmark/python_calls.py
 show /usr/bin/python3 tests/benchmark/growth.py
 echo "-> docs/growth.md, docs/images/growth.svg"
 show /usr/bin/python3 tests/benchmark/fan_out.py

@@ -1,24 +1,24 @@
-"""Fuzzes the messages that the Python package reads: answers to sweeps, batches, audits and info, one number, list or
-chunk of which is wrong.
+"""Fuzzes the messages that the Python package reads: answers of a server to batches, audits and info, one number or
+list of which is wrong. Those to sweeps are fuzzed by chunks_fuzz.cc.
 
 It checks that a call gives the columns, regimes and statuses of the right answer, or raises RicochetError: no answer that
-is not whole becomes a table, and no other exception comes out. It covers python/ricochet/client.py.
+is not whole becomes a table, and no other exception comes out. It covers python/ricochet/client.py and python/module.
 
 usage: python_messages.py [--inputs N | --seconds S] [--seed SEED]
 """
 
 import argparse
 import collections
+import concurrent.futures
 import random
 import sys
 import time
-from unittest import mock
 
+import grpc
 import numpy as np
 
 import ricochet
-from ricochet import client as package
-from ricochet.v1 import audit_pb2, batch_pb2, impact_service_pb2, info_pb2, sweep_pb2
+from ricochet.v1 import batch_pb2, impact_service_pb2, impact_service_pb2_grpc, info_pb2
 
 SCENE = {
     "pendulum": {"inertia_kg_m2": 1, "a_m": 0.3, "b_m": 1, "omega_minus_rad_s": -1},
@@ -26,23 +26,10 @@ SCENE = {
     "restitution": {"energetic": 1},
 }
 COLUMNS = ["coefficients.newton", "energy_change_j"]
-POINTS, PIECE, MOST_ROWS = 12, 4, 5
+POINTS, MOST_ROWS = 12, 5
 VALUES = np.arange(len(COLUMNS) * POINTS, dtype="<f8").reshape(len(COLUMNS), POINTS) + 0.5
 REGIMES = bytes(3 + i % 4 for i in range(POINTS))
 STATUSES = bytes(1 + i % 2 for i in range(POINTS))
-
-
-def chunks():
-    """The stream of a sweep."""
-    for first in range(0, POINTS, PIECE):
-        part = slice(first, first + PIECE)
-        chunk = sweep_pb2.SweepResponse(
-            first_index=first, count=PIECE, values=VALUES[:, part].tobytes(), regimes=REGIMES[part],
-            statuses=STATUSES[part], points_total=POINTS, grid_fingerprint="grid")
-        chunk.engine.fingerprint = "engine"
-        if first + PIECE == POINTS:
-            chunk.summary.points = POINTS
-        yield chunk
 
 
 def batch_answer(request):
@@ -93,7 +80,7 @@ class Damage:
         are the answer."""
         fields = [
             field for field in message.DESCRIPTOR.fields
-            if field.name not in ("energy_change_j", "crc32c", "tallies", "summary", "engine", "grid_fingerprint")]
+            if field.name not in ("energy_change_j", "summary", "engine")]
         field = self.chance.choice(fields)
         old = getattr(message, field.name)
         if field.label == field.LABEL_REPEATED:
@@ -127,61 +114,20 @@ class Damage:
             self.field(message)
         return message
 
-    def stream(self, messages):
-        messages = list(messages)
-        place = self.chance.randrange(len(messages))
-        how = self.chance.randrange(6)
-        if how == 0:
-            del messages[place]
-        elif how == 1:
-            messages.insert(place, messages[place])
-        elif how == 2:
-            self.chance.shuffle(messages)
-        elif how == 3:
-            messages[place].ClearField("summary")
-        else:
-            self.field(messages[place])
-        return messages
 
-
-class Stream:
-    """What gRPC gives for a call with many answers."""
-
-    def __init__(self, messages):
-        self._messages = iter(messages)
-
-    def __iter__(self):
-        return self
-
-    def __next__(self):
-        return next(self._messages)
-
-    def cancel(self):
-        pass
-
-
-class Stub:
+class Service(impact_service_pb2_grpc.ImpactServiceServicer):
     """A server whose answers are damaged."""
 
-    def __init__(self, damage):
-        self.damage = damage
+    damage = None
 
-    def Sweep(self, request, **_):
-        return Stream(self.damage.stream(list(chunks())))
-
-    def SolveBatch(self, request, **_):
+    def SolveBatch(self, request, context):
         return self.damage.message(batch_answer(request))
 
-    def AuditBatch(self, request, **_):
+    def AuditBatch(self, request, context):
         return self.damage.message(audit_answer(request))
 
-    def Info(self, request, **_):
+    def Info(self, request, context):
         return self.damage.message(info_answer())
-
-
-def sweep(client):
-    table = client.sweep(SCENE, {"friction.kinetic_coefficient": ricochet.Linspace(0, 1, POINTS)}, COLUMNS)
-    return [table[name] for name in COLUMNS], table.codes["regime"], table.codes["status"]
 
 
 def solve_batch(client):
@@ -203,13 +149,12 @@ def is_right(answer):
     return numbers and codes
 
 
-def run(seed):
+def run(service, address, seed):
     """One call with a damaged answer. Returns what came out: "answer" or "refusal"."""
     chance = random.Random(seed)
-    call = chance.choice([sweep, solve_batch, audit_batch])
-    stub = Stub(Damage(chance))
-    with mock.patch.object(package.Client, "_ask", lambda self, ask: ask(stub)):
-        client = ricochet.Client(server="127.0.0.1:1")
+    call = chance.choice([solve_batch, audit_batch])
+    service.damage = Damage(chance)
+    with ricochet.Client(address) as client:
         try:
             right = is_right(call(client))
         except ricochet.RicochetError:
@@ -229,11 +174,16 @@ def main():
     options = parser.parse_args()
     if options.inputs is None and options.seconds is None:
         options.inputs = 2000
+    service = Service()
+    server = grpc.server(concurrent.futures.ThreadPoolExecutor(2))
+    impact_service_pb2_grpc.add_ImpactServiceServicer_to_server(service, server)
+    address = f"127.0.0.1:{server.add_insecure_port('127.0.0.1:0')}"
+    server.start()
     end = time.monotonic() + (options.seconds or 0)
     seed = options.seed
     outcomes = collections.Counter()
     while seed < options.seed + options.inputs if options.inputs is not None else time.monotonic() < end:
-        outcomes[run(seed)] += 1
+        outcomes[run(service, address, seed)] += 1
         seed += 1
     print(f"{sum(outcomes.values())} answers: {outcomes['answer']} taken, {outcomes['refusal']} refused")
     # A test of which nothing goes either way tests nothing.

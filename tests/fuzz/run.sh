@@ -94,8 +94,8 @@ run_fuzz() {
 fuzz_messages() {
   local seconds=$1
   say "Fuzzing the messages that the Python package reads: $seconds s"
-  cmake --build --preset fuzz --target ricochet_python
-  show env PYTHONPATH=build/fuzz/python/package /usr/bin/python3 tests/fuzz/python_messages.py --seconds "$seconds"
+  build_for_tests ricochet_python
+  show env PYTHONPATH=build/dev/python/package /usr/bin/python3 tests/fuzz/python_messages.py --seconds "$seconds"
 }
 
 fuzz_all() {

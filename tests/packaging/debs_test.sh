@@ -89,6 +89,7 @@ assert abs(ricochet.solve(scene).coefficients.newton - 0.5**0.5) < 1e-15
 data = ricochet.sweep(scene, {"friction.kinetic_coefficient": [0.0, 0.1]}, ["coefficients.newton"])
 print(data["coefficients.newton"].values)
 assert abs(float(data["coefficients.newton"][1]) - 0.5**0.5) < 1e-15
+assert ricochet.info().server_limits is None, "a server was asked"
 PYTHON
 
 say "The first hour of a new user"

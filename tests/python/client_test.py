@@ -1,14 +1,13 @@
-"""The Python package as a client: its own server, other servers, errors, broken connections."""
+"""The Python package as a client: scenes, errors, servers that are named, broken connections."""
 
 import concurrent.futures
+import copy
+import json
 import os
+import pickle
 import re
-import signal
-import struct
 import subprocess
-import sys
 import tempfile
-import textwrap
 import unittest
 from pathlib import Path
 from unittest import mock
@@ -16,121 +15,9 @@ from unittest import mock
 import grpc
 import numpy as np
 import ricochet
-from support import PENDULUM, SOURCE, Ricochetd, eventually
+from support import PENDULUM, SOURCE, Ricochetd, main
 
-from ricochet.v1 import impact_service_pb2_grpc, sweep_pb2
-
-ASK = f"import ricochet; scene = {PENDULUM!r}; newton = ricochet.solve(scene).coefficients.newton"
-
-
-def servers_below(directory):
-    """The processes whose command line names a socket in the directory."""
-    found = []
-    for path in Path("/proc").glob("[0-9]*/cmdline"):
-        try:
-            if f"unix:{directory}".encode() in path.read_bytes():
-                found.append(int(path.parent.name))
-        except OSError:
-            pass
-    return found
-
-
-class OwnServer(unittest.TestCase):
-    def setUp(self):
-        directory = tempfile.TemporaryDirectory()
-        self.addCleanup(directory.cleanup)
-        self.directory = directory.name
-
-    def start(self, code):
-        # Without its handlers of fork gRPC aborts or hangs in a child.
-        environment = {**os.environ, "TMPDIR": self.directory, "GRPC_ENABLE_FORK_SUPPORT": "1"}
-        return subprocess.Popen(
-            [sys.executable, "-c", textwrap.dedent(code)],
-            env=environment,
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.PIPE,
-            text=True,
-        )
-
-    def expect_nothing_left(self):
-        self.assertTrue(eventually(lambda: not servers_below(self.directory)), "a server still runs")
-        self.assertTrue(eventually(lambda: not os.listdir(self.directory)), "its files remain")
-
-    def test_it_ends_with_the_program(self):
-        output, errors = self.start(f"{ASK}\nprint(newton)").communicate()
-        self.assertEqual(output.strip(), "0.7071067811865475", errors)
-        self.expect_nothing_left()
-
-    def test_nobody_else_can_open_its_socket(self):
-        process = self.start(f"import os; os.umask(0)\n{ASK}\nprint(newton, flush=True)\ninput()")
-        self.addCleanup(process.communicate)
-        self.assertTrue(process.stdout.readline())
-        [directory] = Path(self.directory).iterdir()
-        self.assertEqual(directory.stat().st_mode & 0o777, 0o700)
-        self.assertEqual((directory / "socket").stat().st_mode & 0o777, 0o600)
-        process.communicate("\n")
-
-    def test_it_ends_with_an_exception(self):
-        process = self.start(f"{ASK}\nraise SystemExit(3)")
-        process.communicate()
-        self.assertEqual(process.returncode, 3)
-        self.expect_nothing_left()
-
-    def test_it_ends_with_a_program_that_is_killed(self):
-        process = self.start(f"{ASK}\nprint(newton, flush=True)\ninput()")
-        self.addCleanup(process.communicate)
-        self.assertTrue(process.stdout.readline())
-        self.assertTrue(servers_below(self.directory))
-        process.send_signal(signal.SIGKILL)
-        self.expect_nothing_left()
-
-    def test_close_stops_it_and_the_next_call_starts_another(self):
-        with mock.patch.dict(os.environ, TMPDIR=self.directory), mock.patch.object(tempfile, "tempdir", None):
-            with ricochet.Client() as client:
-                client.solve(PENDULUM)
-                self.assertTrue(servers_below(self.directory))
-                client.close()
-                self.expect_nothing_left()
-                self.assertEqual(client.solve(PENDULUM).regime, "REBOUND")
-            self.expect_nothing_left()
-
-    def test_the_functions_of_the_module_work_after_a_fork(self):
-        child = "print(ricochet.solve(scene).regime, flush=True); ricochet.close(); os._exit(0)"
-        code = f"{ASK}\nimport os\nif os.fork() == 0:\n  {child}\nos.wait()"
-        output, errors = self.start(code).communicate()
-        self.assertEqual(output.strip(), "REBOUND", errors)
-        self.expect_nothing_left()
-
-    def test_a_client_works_after_a_fork_as_well(self):
-        child = "print(client.solve(scene).regime, flush=True); client.close(); os._exit(0)"
-        code = (f"import os, ricochet; scene = {PENDULUM!r}; client = ricochet.Client(); client.solve(scene)\n"
-                f"if os.fork() == 0:\n  {child}\nos.wait(); print(client.solve(scene).regime)")
-        output, errors = self.start(code).communicate()
-        self.assertEqual(output.split(), ["REBOUND", "REBOUND"], errors)
-        self.expect_nothing_left()
-
-    def test_threads_that_ask_first_share_one_server(self):
-        code = f"""
-            import concurrent.futures, pathlib, ricochet, tempfile
-            with concurrent.futures.ThreadPoolExecutor(8) as pool:
-                list(pool.map(lambda _: ricochet.solve({PENDULUM!r}), range(8)))
-            print(len(list(pathlib.Path(tempfile.gettempdir()).glob("ricochet-*"))))
-        """
-        output, errors = self.start(code).communicate()
-        self.assertEqual(output.strip(), "1", errors)
-        self.expect_nothing_left()
-
-    def test_a_missing_program_is_named(self):
-        with mock.patch.dict(os.environ, RICOCHETD="/nowhere/ricochetd"):
-            with self.assertRaisesRegex(ricochet.Unavailable, "ricochetd was not found"):
-                ricochet.Client().solve(PENDULUM)
-
-    def test_a_program_that_fails_says_why(self):
-        with mock.patch.dict(os.environ, RICOCHETD="/bin/false"):
-            with self.assertRaisesRegex(ricochet.Unavailable, "did not start: it ended with 1"):
-                ricochet.Client().solve(PENDULUM)
-
+from ricochet.v1 import impact_service_pb2_grpc
 
 class Errors(unittest.TestCase):
     def violations(self, scene, **options):
@@ -198,6 +85,82 @@ class Scenes(unittest.TestCase):
         self.assertIsNone(outcome.contact)
         self.assertIsNone(outcome.certificate)
 
+    def test_one_that_was_read_once_has_the_answers_of_its_dictionary(self):
+        scene = ricochet.Scene(PENDULUM)
+        self.assertEqual(ricochet.solve(scene), ricochet.solve(PENDULUM))
+        self.assertEqual(ricochet.plan(scene), ricochet.plan(PENDULUM))
+        self.assertEqual(ricochet.bounds(scene, ranges={"mu": (0, 0.1)}), ricochet.bounds(PENDULUM, ranges={"mu": (0, 0.1)}))
+        self.assertEqual(ricochet.audit(scene, rates_rad_s=0.5), ricochet.audit(PENDULUM, rates_rad_s=0.5))
+        for call in (ricochet.solve_batch, ricochet.sweep):
+            options = {"form": "table"} if call is ricochet.sweep else {}
+            tables = [call(one, {"mu": [0, 0.1]}, "newton", **options) for one in (scene, PENDULUM)]
+            self.assertEqual(list(tables[0]["newton"]), list(tables[1]["newton"]))
+        self.assertEqual(ricochet.Scene(scene.to_dict()), scene)
+        self.assertEqual(eval(repr(scene), {"Scene": ricochet.Scene}), scene)
+
+
+class Records(unittest.TestCase):
+    """The entries of an outcome are made when they are asked for, which nobody may notice."""
+
+    def setUp(self):
+        self.whole = ricochet.solve(PENDULUM).copy()
+
+    def test_each_way_of_reading_reads_all(self):
+        ways = {
+            "dict": dict,
+            "keys": lambda outcome: dict(zip(outcome.keys(), outcome.values())),
+            "items": lambda outcome: dict(outcome.items()),
+            "unpacked": lambda outcome: {**outcome},
+            "arguments": lambda outcome: (lambda **given: given)(**outcome),
+            "update": lambda outcome: (lambda given: given.update(outcome) or given)({}),
+            "union": lambda outcome: {} | outcome,
+            "union from the left": lambda outcome: outcome | {},
+            "copy": lambda outcome: outcome.copy(),
+            "shallow copy": copy.copy,
+            "deep copy": copy.deepcopy,
+            "json": lambda outcome: json.loads(json.dumps(outcome)),
+            "pickle": lambda outcome: pickle.loads(pickle.dumps(outcome)),
+            "iteration": lambda outcome: {name: outcome[name] for name in outcome},
+            "get": lambda outcome: {name: outcome.get(name) for name in self.whole},
+            "pop": lambda outcome: {name: outcome.pop(name) for name in self.whole},
+            "attributes": lambda outcome: {name: getattr(outcome, name) for name in self.whole},
+            "after one entry": lambda outcome: (outcome.work, dict(outcome))[1],
+        }
+        for name, read in ways.items():
+            with self.subTest(name):
+                found = read(ricochet.solve(PENDULUM))
+                self.assertEqual(found, self.whole)
+                self.assertEqual(list(found), list(self.whole))
+
+    def test_each_question_is_about_all(self):
+        solve = lambda: ricochet.solve(PENDULUM)
+        self.assertEqual(len(solve()), len(self.whole))
+        self.assertIn("work", solve())
+        self.assertNotIn("wrok", solve())
+        self.assertTrue(solve() == solve() and self.whole == solve() and solve() == self.whole)
+        self.assertFalse(solve() != solve() or self.whole != solve())
+        self.assertEqual(list(reversed(solve())), list(reversed(self.whole)))
+        self.assertEqual(repr(solve()), repr(ricochet.Record(self.whole)))
+        self.assertLess(set(self.whole), set(dir(solve())))
+        self.assertIsInstance(solve(), ricochet.Record)
+        for name in ("wrok", 3):
+            with self.assertRaises(KeyError):
+                _ = solve()[name]
+
+    def test_an_entry_stays_the_same_object(self):
+        outcome = ricochet.solve(PENDULUM)
+        work = outcome.work
+        self.assertIs(outcome["work"], work)
+        self.assertIs(dict(outcome)["work"], work)
+
+    def test_it_can_be_changed_as_a_dictionary(self):
+        outcome = ricochet.solve(PENDULUM)
+        outcome["work"] = 1
+        del outcome["impulse"]
+        self.assertEqual(outcome, {**{name: value for name, value in self.whole.items() if name != "impulse"}, "work": 1})
+        outcome.clear()
+        self.assertEqual(outcome, {})
+
 
 class Options(unittest.TestCase):
     def refuse(self, field, **options):
@@ -207,7 +170,7 @@ class Options(unittest.TestCase):
 
     def test_numbers_and_truths_are_taken_as_such(self):
         options = ricochet.Client(deadline=2.5, max_receive=1000, tls=True)._options
-        self.assertEqual((options.deadline_s(), options.max_receive_bytes(), options.is_tls), (2.5, 1000, True))
+        self.assertEqual((options["deadline"], options["max_receive"], options["tls"]), (2.5, 1000, True))
 
     def test_wrong_ones_are_refused(self):
         self.refuse("deadline", deadline="soon")
@@ -226,7 +189,7 @@ class Options(unittest.TestCase):
             with mock.patch.dict(os.environ, RICOCHET_CONFIG=file.name, RICOCHET_DEADLINE="20s"):
                 with ricochet.Client() as client:
                     self.assertEqual(client.solve(PENDULUM).regime, "REBOUND")
-                    self.assertIsNone(client._embedded)
+                    self.assertIsNotNone(client.info().server_limits)
 
     def test_an_unknown_line_of_the_file_is_refused(self):
         with tempfile.NamedTemporaryFile("w", suffix=".toml") as file:
@@ -239,7 +202,7 @@ class Options(unittest.TestCase):
         self.addCleanup(server.stop)
         with ricochet.Client(f"unix:/nowhere/socket,{server.address}") as client:
             self.assertEqual(client.solve(PENDULUM).regime, "REBOUND")
-            table = client.sweep(PENDULUM, {"restitution.energetic": [0, 1]}, ["coefficients.newton"])
+            table = client.sweep(PENDULUM, {"restitution.energetic": [0, 1]}, ["newton"], form="table")
             self.assertEqual(len(table), 2)
 
 
@@ -292,7 +255,7 @@ class Security(unittest.TestCase):
         for wrong, code in [
             ({"tls_ca": self.cert}, "UNAUTHENTICATED"),
             ({"tls_ca": self.cert, "token": "guess"}, "UNAUTHENTICATED"),
-            ({"token": "secret"}, "UNAVAILABLE"),
+            ({"token": "secret"}, "FAILED_PRECONDITION"),
         ]:
             with self.subTest(wrong), self.assertRaises(ricochet.RicochetError) as raised:
                 self.solve(**wrong)
@@ -300,54 +263,54 @@ class Security(unittest.TestCase):
 
 
 class BreakingService(impact_service_pb2_grpc.ImpactServiceServicer):
-    """Sweeps of the points 0, 1, 2, ... that break off after two points of each call."""
+    """Passes sweeps on to a server, and breaks off after two messages of each call."""
 
-    def __init__(self, fingerprints):
+    def __init__(self, address, fingerprints):
+        self._channel = grpc.insecure_channel(address)
+        self._stub = impact_service_pb2_grpc.ImpactServiceStub(self._channel)
         self.fingerprints = list(fingerprints)
-        self.firsts = []
+        self.calls = []
 
     def Sweep(self, request, context):
-        self.firsts.append(request.first_index)
-        fingerprint = self.fingerprints[min(len(self.firsts), len(self.fingerprints)) - 1]
-        total = 5
-        for index in range(request.first_index, total):
-            if index == request.first_index + 2:
+        self.calls.append(request.first_index)
+        answers = self._stub.Sweep(request)
+        for count, chunk in enumerate(answers):
+            if count == 2:
+                answers.cancel()
                 context.abort(grpc.StatusCode.UNAVAILABLE, "the server stops")
-            chunk = sweep_pb2.SweepResponse(
-                first_index=index,
-                count=1,
-                values=struct.pack("<d", index),
-                regimes=b"\x02",
-                statuses=b"\x02",
-                points_total=total,
-            )
-            chunk.engine.fingerprint = fingerprint
-            chunk.tallies.points = index + 1 - request.first_index
-            chunk.tallies.inadmissible.count = index + 1 - request.first_index
-            if index == total - 1:
-                chunk.summary.points = total
+            chunk.engine.fingerprint = self.fingerprints[min(len(self.calls), len(self.fingerprints)) - 1]
             yield chunk
+
+    def close(self):
+        self._channel.close()
 
 
 class BrokenSweeps(unittest.TestCase):
+    COUNT = 300_000
+
     def sweep(self, *fingerprints):
-        self.service = BreakingService(fingerprints)
+        behind = Ricochetd()
+        self.addCleanup(behind.stop)
+        self.service = BreakingService(behind.address, fingerprints)
+        self.addCleanup(self.service.close)
         server = grpc.server(concurrent.futures.ThreadPoolExecutor(2))
         impact_service_pb2_grpc.add_ImpactServiceServicer_to_server(self.service, server)
         port = server.add_insecure_port("127.0.0.1:0")
         server.start()
         self.addCleanup(server.stop, None)
         with ricochet.Client(f"127.0.0.1:{port}") as client:
-            return client.sweep(PENDULUM, {"restitution.energetic": np.linspace(0, 1, 5)}, ["coefficients.newton"])
+            axis = ricochet.Linspace(0, 1, self.COUNT)
+            return client.sweep({**PENDULUM, "friction": {}}, {"restitution.energetic": axis}, "newton", form="table")
 
     def test_they_go_on_from_the_first_point_that_has_not_arrived(self):
         table = self.sweep("same")
-        self.assertEqual(list(table["coefficients.newton"]), [0, 1, 2, 3, 4])
-        self.assertEqual(self.service.firsts, [0, 2, 4])
-        self.assertEqual(table.summary.inadmissible, 5)
+        np.testing.assert_array_max_ulp(table["coefficients.newton"], np.linspace(0, 1, self.COUNT), 4)
+        self.assertGreater(len(self.service.calls), 1)
+        self.assertEqual(self.service.calls, sorted(self.service.calls))
+        self.assertEqual(table.codes["status"].counts(), {"OK": self.COUNT})
 
     def test_points_of_two_engines_are_not_joined(self):
-        with self.assertRaisesRegex(ricochet.RicochetError, "another engine"):
+        with self.assertRaisesRegex(ricochet.RicochetError, "come from the engine .*two.*, those before from .*one"):
             self.sweep("one", "two")
 
 
@@ -395,4 +358,4 @@ class Units(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

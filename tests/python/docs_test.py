@@ -1,15 +1,14 @@
-"""Runs the Python examples of a page and of the package, and compares what they print. usage: docs_test.py PAGE"""
+"""Runs the Python examples of docs/python.md and of the package, and compares what they print."""
 
 import doctest
 import re
-import sys
 import unittest
-from pathlib import Path
 
 import ricochet
 from ricochet import units
+from support import SOURCE, main
 
-PAGE = Path(sys.argv.pop())
+PAGE = SOURCE / "docs/python.md"
 FLAGS = doctest.ELLIPSIS | doctest.NORMALIZE_WHITESPACE
 
 
@@ -36,4 +35,4 @@ class Examples(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

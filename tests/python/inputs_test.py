@@ -18,19 +18,11 @@ import pandas
 import ricochet
 import xarray
 from ricochet import names
-from ricochet.messages import to_message
 from ricochet.units import without_unit
-from ricochet.v1 import scene_pb2
-from support import PENDULUM, SOURCE
+from support import PENDULUM, SOURCE, main
 
 NEWTON = "coefficients.newton"
 MU = "friction.kinetic_coefficient"
-
-
-def scene_message(scene):
-    message = scene_pb2.Scene()
-    to_message(message, scene, "")
-    return message
 
 
 def command_line(*arguments):
@@ -136,32 +128,33 @@ class Matrices(Case):
     def test_a_matrix_means_its_upper_triangle_row_by_row(self):
         entries = [1.96, 0.24, 0.6, 2.96, -0.8, 1.85]
         for w in (self.W, self.W.tolist(), np.asfortranarray(self.W), self.W.astype(object)):
-            self.assertEqual(list(scene_message(self.contact(w)).spatial_contact.w_per_kg), entries)
+            self.assertEqual(ricochet.Scene(self.contact(w)).to_dict()["spatial_contact"]["w_per_kg"], entries)
         self.assertEqual(ricochet.solve(self.contact(self.W)), ricochet.solve(self.contact(entries)))
 
     def test_a_matrix_of_the_plane_means_its_three_entries(self):
-        contact = scene_message({"planar_contact": {"w_per_kg": [[2.5, 1.5], [1.5, 3.0]]}}).planar_contact
-        self.assertEqual((contact.w_tt_per_kg, contact.w_tn_per_kg, contact.w_nn_per_kg), (2.5, 1.5, 3.0))
+        scene = ricochet.Scene({"planar_contact": {"w_per_kg": [[2.5, 1.5], [1.5, 3.0]]}})
+        self.assertEqual(scene, ricochet.Scene(
+            {"planar_contact": {"w_tt_per_kg": 2.5, "w_tn_per_kg": 1.5, "w_nn_per_kg": 3.0}}))
 
     def test_an_entry_that_differs_from_its_mirror_image_is_named(self):
         for i, j in ((0, 1), (0, 2), (1, 2)):
             w = self.W.copy()
             w[i, j] += 1e-6
-            self.refused(lambda: scene_message(self.contact(w)), f"spatial_contact.w_per_kg[{i}][{j}]",
-                         f"must equal [{j}][{i}] = {self.W[j, i]!r}")
+            self.refused(lambda: ricochet.Scene(self.contact(w)), f"spatial_contact.w_per_kg[{j}][{i}]",
+                         f"= {self.W[j, i]!r}: must be equal to [{i}][{j}]")
             w[i, j] = self.W[i, j] * (1 + 1e-14)
-            scene_message(self.contact(w))
-        self.refused(lambda: scene_message({"planar_contact": {"w_per_kg": [[2, 1], [0, 2]]}}),
-                     "planar_contact.w_per_kg[0][1]")
+            ricochet.Scene(self.contact(w))
+        self.refused(lambda: ricochet.Scene({"planar_contact": {"w_per_kg": [[2, 1], [0, 2]]}}),
+                     "planar_contact.w_per_kg[1][0]")
 
     def test_another_shape_is_told_the_order(self):
         for w in ([1, 2, 3, 4, 5], np.eye(2), np.eye(4), np.ones((3, 2)), 3, np.zeros(0)):
-            self.refused(lambda: scene_message(self.contact(w)), "spatial_contact.w_per_kg", "11, 12, 13, 22, 23, 33")
-        self.refused(lambda: scene_message({"planar_contact": {"w_per_kg": np.eye(3)}}), "planar_contact.w_per_kg",
+            self.refused(lambda: ricochet.Scene(self.contact(w)), "spatial_contact.w_per_kg", "11, 12, 13, 22, 23, 33")
+        self.refused(lambda: ricochet.Scene({"planar_contact": {"w_per_kg": np.eye(3)}}), "planar_contact.w_per_kg",
                      "2 x 2")
-        self.refused(lambda: scene_message({"planar_contact": {"w_per_kg": np.eye(2), "w_tn_per_kg": 0}}),
+        self.refused(lambda: ricochet.Scene({"planar_contact": {"w_per_kg": np.eye(2), "w_tn_per_kg": 0}}),
                      "planar_contact.w_tn_per_kg", "set together")
-        self.refused(lambda: scene_message(self.contact([[1, 0, "x"], [0, 1, 0], [0, 0, 1]])),
+        self.refused(lambda: ricochet.Scene(self.contact([[1, 0, "x"], [0, 1, 0], [0, 0, 1]])),
                      "spatial_contact.w_per_kg[0][2]", "= 'x': must be a number")
 
 
@@ -219,14 +212,14 @@ class ShortNames(Case):
         for path in sorted((SOURCE / "tests/data/scenes").iterdir()):
             if path.suffix not in (".json", ".textproto"):
                 continue
-            message = scene_message(ricochet.read_scene(path))
+            known = ricochet.Scene(ricochet.read_scene(path))
             text = command_line("sweep", "--scene", path, "--axis", "?").stdout
             listed = re.findall(r"^ *([a-z]\S*\.\S+)", text, re.M)
             self.assertGreater(len(listed), 3, path)
-            self.check_names(path, names.fields_of(message), listed, "axis")
+            self.check_names(path, known._fields(), listed, "axis")
             text = command_line("sweep", "--scene", path, "--column", "?").stdout
             listed = re.findall(r"^ *([a-z]\S*(?:\.\S+|\]))", text, re.M)
-            self.check_names(path, names.columns_of(message), listed, "column")
+            self.check_names(path, known._columns(), listed, "column")
 
     def check_names(self, path, known, listed, what):
         """Every end of a listed path means that path here exactly if the command line takes it for that path."""
@@ -242,7 +235,7 @@ class ShortNames(Case):
 
     def test_letters_are_those_of_the_command_line(self):
         source = (SOURCE / "client/cli/input/short_name.cc").read_text()
-        known = names.fields_of(scene_message({**PENDULUM}))
+        known = ricochet.Scene(PENDULUM)._fields()
         # A letter of the tables of audits names no field of a scene.
         letters = {letter: path for letter, path in re.findall(r'\{"(\w+)",\s+"(\S+?)"\}', source) if path in known}
         self.assertGreater(len(letters), 3)
@@ -319,4 +312,4 @@ class Help(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

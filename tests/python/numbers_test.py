@@ -5,7 +5,7 @@ import unittest
 
 import numpy as np
 import ricochet
-from support import PENDULUM, vectors
+from support import PENDULUM, main, vectors
 
 ULPS = 4  # What tolerance 0 promises for a pendulum.
 LAWS = ("newton", "poisson", "energetic")
@@ -214,4 +214,4 @@ class BoundsAndAudits(unittest.TestCase):
 
 
 if __name__ == "__main__":
-    unittest.main()
+    main()

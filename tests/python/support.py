@@ -1,10 +1,16 @@
-"""What the tests of the Python package share."""
+"""What the tests of the Python package share.
+
+Each test program runs in two ways: as it is, with the engine in its own process, and with --server, where the functions
+of the package ask a ricochetd.
+"""
 
 import csv
 import os
 import subprocess
+import sys
 import tempfile
 import time
+import unittest
 from pathlib import Path
 
 SOURCE = Path(__file__).resolve().parents[2]
@@ -51,3 +57,16 @@ class Ricochetd:
         self._process.terminate()
         self._process.wait()
         self._directory.cleanup()
+
+
+def main():
+    """Runs the tests of the program."""
+    if "--server" not in sys.argv:
+        unittest.main()
+    sys.argv.remove("--server")
+    server = Ricochetd()
+    os.environ["RICOCHET_SERVER"] = server.address
+    try:
+        unittest.main()
+    finally:
+        server.stop()

@@ -1,0 +1,156 @@
+#include "python/module/states.h"
+
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <future>
+#include <limits>
+#include <variant>
+#include <vector>
+
+#include "core/contact/reduction.h"
+#include "core/scene/check.h"
+#include "ricochet/helpers.h"
+#include "ricochet/system.h"
+
+namespace ricochet::python {
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style>;
+using Vector = std::array<double, 3>;
+
+// States that a thread reduces between two looks at the signals of Python: some 10 ms of work.
+constexpr int64_t kPiece = 2048;
+
+double Dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+// The unit vector along the part of `vector` that is perpendicular to `normal`. It is made twice, because the first
+// difference may cancel.
+Vector UnitAcross(Vector vector, const Vector& normal) {
+  for (int i = 0; i < 2; ++i) {
+    const double along = Dot(vector, normal);
+    for (size_t k = 0; k < 3; ++k) vector[k] -= along * normal[k];
+    const double length = std::sqrt(Dot(vector, vector));
+    for (double& component : vector) component /= length;
+  }
+  return vector;
+}
+
+// The axes t1, t2 and n of a contact: n along `normal`, t1 along the slip, or anywhere if nothing slips.
+std::array<Vector, 3> AxesOf(const Vector& velocity, Vector normal) {
+  const double length = std::sqrt(Dot(normal, normal));
+  for (double& component : normal) component /= length;
+  Vector t1 = UnitAcross(velocity, normal);
+  if (!std::isfinite(Dot(t1, t1))) {
+    Vector any = {};
+    const auto smaller = [](double a, double b) { return std::fabs(a) < std::fabs(b); };
+    any[static_cast<size_t>(std::min_element(normal.begin(), normal.end(), smaller) - normal.begin())] = 1.0;
+    t1 = UnitAcross(any, normal);
+  }
+  const Vector t2 = {normal[1] * t1[2] - normal[2] * t1[1], normal[2] * t1[0] - normal[0] * t1[2],
+                     normal[0] * t1[1] - normal[1] * t1[0]};
+  return {t1, t2, normal};
+}
+
+// The arrays of a call: those of the caller, and those of the answer.
+struct States {
+  size_t coordinates;
+  const double *mass, *jacobian, *rates, *normal;
+  std::array<double*, 9> contact;  // W by its upper triangle, then the contact velocity.
+  double *axes, *response;
+  Mechanism kept;  // What is held.
+};
+
+// Reduces one state. The W of one that breaks a rule is NaN, which the batch refuses.
+void Reduce(const States& states, size_t state, Scene& scene) {
+  const size_t n = states.coordinates;
+  auto& mechanism = std::get<Mechanism>(scene.system);
+  const double* const mass = states.mass + state * n * n;
+  const double* const jacobian = states.jacobian + state * 3 * n;
+  const double* const rates = states.rates + state * n;
+  const double* const normal = states.normal + state * 3;
+  Vector velocity = {};
+  for (size_t i = 0; i < 3; ++i) {
+    for (size_t k = 0; k < n; ++k) velocity[i] += jacobian[i * n + k] * rates[k];
+  }
+  const std::array<Vector, 3> axes = AxesOf(velocity, {normal[0], normal[1], normal[2]});
+  mechanism.mass_matrix.assign(mass, mass + n * n);
+  mechanism.rates.assign(rates, rates + n);
+  for (size_t i = 0; i < 3; ++i) {
+    std::copy(axes[i].begin(), axes[i].end(), states.axes + (state * 3 + i) * 3);
+    for (size_t k = 0; k < n; ++k) {
+      mechanism.jacobian[i * n + k] = Dot(axes[i], {jacobian[k], jacobian[n + k], jacobian[2 * n + k]});
+    }
+  }
+  SpatialReduction reduction;
+  reduction.w.fill(std::numeric_limits<double>::quiet_NaN());
+  Check check(Check::Mode::kVerdict);
+  CheckMechanism(mechanism, check);
+  if (!check.failed()) reduction = std::get<SpatialReduction>(ricochet::Reduce(scene));
+  for (size_t k = 0; k < 6; ++k) states.contact[k][state] = reduction.w[k];
+  for (size_t k = 0; k < 2; ++k) states.contact[6 + k][state] = reduction.u0[k];
+  states.contact[8][state] = reduction.v0;
+  reduction.response.resize(3 * n, std::numeric_limits<double>::quiet_NaN());
+  std::copy(reduction.response.begin(), reduction.response.end(), states.response + state * 3 * n);
+}
+
+void ReducePart(const States& states, int64_t first, int64_t end) {
+  Scene scene;
+  auto& mechanism = scene.system.emplace<Mechanism>(states.kept);
+  mechanism.jacobian.resize(3 * states.coordinates);
+  for (int64_t state = first; state < end; ++state) Reduce(states, static_cast<size_t>(state), scene);
+}
+
+// Reduces the states on all cores and lets Python handle its signals meanwhile.
+void ReduceAll(const States& states, int64_t count) {
+  const int64_t step = kPiece * AvailableCores();
+  for (int64_t first = 0; first < count; first += step) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    const py::gil_scoped_release without_lock;
+    const int64_t end = std::min(count, first + step);
+    const int64_t piece = (end - first + AvailableCores() - 1) / AvailableCores();
+    std::vector<std::future<void>> others;
+    for (int64_t at = first + piece; at < end; at += piece) {
+      others.push_back(std::async(std::launch::async, ReducePart, states, at, std::min(end, at + piece)));
+    }
+    ReducePart(states, first, std::min(end, first + piece));
+    for (std::future<void>& other : others) other.get();
+  }
+}
+
+// Returns the columns of the contacts (W by its upper triangle, then the contact velocity), the axes t1, t2, n of each
+// (B x 3 x 3), and M^-1 J^T in them (B x n x 3). M is B x n x n, J is B x 3 x n, q' B x n and the normals B x 3.
+py::tuple ReduceStates(const Numbers& mass, const Numbers& jacobian, const Numbers& rates, const Numbers& normal,
+                       const std::vector<int32_t>& held) {
+  const py::ssize_t count = rates.shape(0);
+  const py::ssize_t n = rates.shape(1);
+  Numbers axes({count, py::ssize_t{3}, py::ssize_t{3}});
+  Numbers response({count, n, py::ssize_t{3}});
+  States states = {.coordinates = static_cast<size_t>(n),
+                   .mass = mass.data(),
+                   .jacobian = jacobian.data(),
+                   .rates = rates.data(),
+                   .normal = normal.data(),
+                   .contact = {},
+                   .axes = axes.mutable_data(),
+                   .response = response.mutable_data(),
+                   .kept = {.kept_coordinates = held}};
+  py::list columns;
+  for (double*& column : states.contact) {
+    Numbers made(count);
+    column = made.mutable_data();
+    columns.append(std::move(made));
+  }
+  ReduceAll(states, count);
+  return py::make_tuple(columns, axes, response);
+}
+
+}  // namespace
+
+void AddStates(py::module_& module) { module.def("reduce_states", &ReduceStates); }
+
+}  // namespace ricochet::python

@@ -1,0 +1,95 @@
+"""Mechanisms: states of them as M, J and q', and what an impact makes of these."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Iterable, NamedTuple, Union
+
+import numpy as np
+
+from ricochet import _core
+from ricochet.errors import InvalidRequest, Violation
+from ricochet.record import Record
+from ricochet.table import Table
+from ricochet.values import column, scalar
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
+    from ricochet.values import Numbers
+
+CONTACT = _core.Scene({"spatial_contact": {"w_per_kg": [0.0] * 6, "tangential_m_s": [0.0] * 2}})
+_FIELDS = [f"spatial_contact.{name}" for name in (
+    *(f"w_per_kg[{i}]" for i in range(6)), "tangential_m_s[0]", "tangential_m_s[1]", "normal_m_s")]
+_IMPULSE = ["impulse.tangential_n_s[0]", "impulse.tangential_n_s[1]", "impulse.normal_total_n_s"]
+COLUMNS = [*_IMPULSE, *(f"contact_velocity_after.{name}" for name in (
+    "tangential_m_s[0]", "tangential_m_s[1]", "normal_m_s")), "energy_change_j", "accuracy.relative_error"]
+
+
+class AtContact(NamedTuple):
+    """What ``at_contact`` answers; for a batch the arrays have a leading axis of states."""
+
+    rates_after: "Numbers"
+    """The generalised velocities after the impact."""
+    impulse_n_s: "Numbers"
+    """The impulse on the mechanism in world axes, N s."""
+    answer: Union[Record, Table]
+    """The outcome of a single state, or the table of a batch."""
+
+
+class States:
+    """States of a mechanism, with the contact of each: n along the normal, t1 along the slip."""
+
+    def __init__(self, M: ArrayLike, J: ArrayLike, qdot: ArrayLike, normal: ArrayLike, held: Iterable[int]) -> None:
+        given = {name: column(value, name) for name, value in
+                 (("M", M), ("J", J), ("qdot", qdot), ("normal", normal))}
+        n = given["qdot"].shape[-1] if given["qdot"].ndim else 0
+        shapes = {"M": (n, n), "J": (3, n), "qdot": (n,), "normal": (3,)}
+        lead = {array.shape[:-len(shapes[name])] for name, array in given.items()} - {()}
+        wrong = [
+            Violation(name, f"has shape {array.shape}: must be {shapes[name]}, or that after one axis of states")
+            for name, array in given.items()
+            if array.shape[-len(shapes[name]):] != shapes[name] or array.ndim > len(shapes[name]) + 1
+        ]
+        if not wrong and len(lead) > 1:
+            wrong.append(Violation("M", f"J, qdot and normal have {sorted(lead)} states: must have as many, or one"))
+        lengths = np.linalg.norm(given["normal"], axis=-1) if not wrong else np.ones(1)
+        if not np.all((lengths > 0) & (lengths < np.inf)):
+            wrong.append(Violation("normal", "has no direction: must be finite and not 0"))
+        self.held = [int(scalar("int32", entry, f"held[{i}]")) for i, entry in enumerate(held)]
+        wrong += [Violation(f"held[{i}]", f"= {entry}: must be in [0, {n})")
+                  for i, entry in enumerate(self.held) if not 0 <= entry < n]
+        if wrong:
+            raise InvalidRequest.of(wrong)
+        self.is_batch = bool(lead)
+        count = lead.pop() if lead else (1,)
+        arrays = {name: np.ascontiguousarray(np.broadcast_to(array, count + shapes[name]))
+                  for name, array in given.items()}
+        self._mass, self._jacobian, self._rates, normals = arrays.values()
+        contacts, self._axes, self._response = _core.reduce_states(
+            self._mass, self._jacobian, self._rates, normals, self.held)
+        self.columns: dict[str, ArrayLike] = dict(zip(_FIELDS, contacts))
+
+    def scene(self, state: int) -> dict[str, Any]:
+        """Returns the system of one state."""
+        return {"mechanism": {
+            "mass_matrix": self._mass[state], "jacobian": self._axes[state] @ self._jacobian[state],
+            "rates": self._rates[state], "kept_coordinates": self.held}}
+
+    def in_world(self, outcome: Record) -> Numbers:
+        """Returns the impulse of a single state in world axes."""
+        impulse: Numbers = np.array([*outcome.impulse.tangential_n_s, outcome.impulse.normal_total_n_s]) @ self._axes[0]
+        return impulse
+
+    def after(self, table: Table) -> tuple[Numbers, Numbers]:
+        """Returns the rates after the impacts of a batch, and their impulses in world axes."""
+        impulses = np.stack([table.columns[name] for name in _IMPULSE], axis=-1)
+        rates = self._rates + np.einsum("bij,bj->bi", self._response, impulses)
+        return rates, np.einsum("bj,bji->bi", impulses, self._axes)
+
+    def explain(self, bad: Record) -> None:
+        """Names the rule that a state of a batch breaks by its own field, and not by the contact it has no part of."""
+        try:
+            _core.in_process(None).solve(
+                {**self.scene(bad.row), "restitution": {"newton": 0.0}}, None, (), (), False, 0, 0, 0, False)
+        except InvalidRequest as error:
+            bad.update(field=error.violations[0].field, description=error.violations[0].description)

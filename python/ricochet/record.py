@@ -1,0 +1,111 @@
+"""Record: an answer, as a dictionary whose entries are attributes, too."""
+
+from __future__ import annotations
+
+import operator
+from typing import Any, Callable, Iterable, Iterator
+
+from ricochet import _core
+from ricochet.units import unit_of
+from ricochet.values import suggestion
+
+_WIDTH = 110  # Of a record on one line.
+_MOST_ENTRIES = 12  # Of a list in a record for people.
+
+
+class Record(dict[str, Any]):
+    """An answer: a dictionary whose entries can be read as attributes, too.
+
+    The names are those of the proto files, with the unit as their ending. A value is a number, a text, a record or a
+    list; an enum is its name without the prefix, such as ``"REBOUND"``; what is not set is None. Printed it is one
+    line, in a notebook a table; ``dict(record)`` has everything.
+    """
+
+    __slots__ = ("_unread",)
+
+    def __getattr__(self, name: str) -> Any:
+        try:
+            return self[name]
+        except KeyError:
+            raise AttributeError(f"no {name!r}{suggestion(name, self)}") from None
+
+    def __dir__(self) -> Iterable[str]:
+        return [*super().__dir__(), *self]
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Record, (dict(self),)
+
+    def __repr__(self) -> str:
+        parts = [f"{path}={_short(value)}" for path, value in leaves(self)]
+        most = 0
+        width = 0
+        while most < len(parts) and width + len(parts[most]) <= _WIDTH:
+            width += len(parts[most]) + 2
+            most += 1
+        left_out = [f"... {len(parts) - most} more"] if most < len(parts) else []
+        return f"Record({', '.join(parts[:most] + left_out)})"
+
+    def _repr_html_(self) -> str:
+        import html  # Only notebooks need it.
+
+        rows = "".join(
+            f"<tr><td style='text-align: left'>{html.escape(path)}</td><td>{html.escape(_short(value))}</td>"
+            f"<td style='text-align: left'>{html.escape(unit_of(path)) if isinstance(value, float) else ''}</td></tr>"
+            for path, value in leaves(self)
+        )
+        return f"<table><tr><th>name</th><th>value</th><th>unit</th></tr>{rows}</table>"
+
+
+class UnreadRecord(Record):
+    """An answer whose entries are made when they are first asked for. It becomes a Record once all of them are."""
+
+    __slots__ = ()
+
+    def __getitem__(self, name: str) -> Any:
+        return _core.read_entry(self, name)
+
+
+def _reading(name: str) -> Callable[..., Any]:
+    def read(self: Record, *arguments: Any, **options: Any) -> Any:
+        _core.read(self)
+        return getattr(self, name)(*arguments, **options)
+
+    return read
+
+
+def _reading_both(operation: Callable[[Any, Any], Any]) -> Callable[..., Any]:
+    # The operator asks the other one first if that is unread still.
+    def read(self: Record, other: Any) -> Any:
+        _core.read(self)
+        return operation(self, other)
+
+    return read
+
+
+for _name in (
+    "__contains__ __delitem__ __iter__ __len__ __reversed__ __setitem__ __sizeof__ "
+    "clear copy get items keys pop popitem setdefault update values"
+).split():
+    setattr(UnreadRecord, _name, _reading(_name))
+for _operation in (operator.eq, operator.ne, operator.or_, operator.ior):
+    setattr(UnreadRecord, f"__{_operation.__name__.strip('_')}__", _reading_both(_operation))
+setattr(UnreadRecord, "__ror__", _reading_both(lambda self, other: other | self))
+
+
+def _short(value: Any) -> str:
+    return f"{value:.6g}" if isinstance(value, float) else repr(value)
+
+
+def leaves(record: Record, path: str = "") -> Iterator[tuple[str, Any]]:
+    """Yields what is set in a record and those below it, by path; of a long list its first entries and its length."""
+    for name, value in record.items():
+        entries = [(f"{path}{name}", value)]
+        if isinstance(value, list):
+            entries = [(f"{path}{name}[{i}]", entry) for i, entry in enumerate(value[:_MOST_ENTRIES])]
+            if len(value) > _MOST_ENTRIES:
+                entries.append((f"len({path}{name})", len(value)))
+        for where, entry in entries:
+            if isinstance(entry, Record):
+                yield from leaves(entry, f"{where}.")
+            elif entry is not None:
+                yield where, entry

@@ -1,0 +1,27 @@
+"""Scenes in files."""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from ricochet import _core
+from ricochet.values import refuse
+
+
+def read_scene(path: str | os.PathLike[str]) -> dict[str, Any]:
+    """Reads a scene from a file that ``ricochet --scene`` takes: JSON or the text format of protobuf.
+
+    Returns:
+        The scene as a dictionary, with only what the file sets.
+
+    Raises:
+        InvalidRequest: the file is no scene.
+        OSError: the file cannot be read.
+    """
+    with open(path, encoding="utf-8") as file:
+        text = file.read()
+    try:
+        return _core.parse_scene(text, text.lstrip().startswith("{"))
+    except ValueError as error:
+        refuse(os.fspath(path), f"is not a scene: {error}")

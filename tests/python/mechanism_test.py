@@ -1,0 +1,165 @@
+"""at_contact: mechanisms as a library of multibody dynamics gives them, against other systems and against mechanics."""
+
+import unittest
+import warnings
+
+import numpy as np
+import ricochet
+from support import PENDULUM, main
+
+RANDOM = np.random.default_rng(12)
+
+
+def rotation():
+    q, r = np.linalg.qr(RANDOM.normal(size=(3, 3)))
+    q *= np.sign(np.diag(r))
+    return q if np.linalg.det(q) > 0 else -q
+
+
+def random_states(count, n):
+    """Mass matrices, Jacobians, rates and normals; every contact approaches."""
+    root = RANDOM.normal(size=(count, n, n))
+    mass = root @ root.transpose(0, 2, 1) + 0.3 * np.eye(n)
+    mass = np.triu(mass) + np.triu(mass, 1).transpose(0, 2, 1)
+    jacobian, rates, normal = (RANDOM.normal(size=shape) for shape in ((count, 3, n), (count, n), (count, 3)))
+    approach = np.einsum("bi,bij,bj->b", normal, jacobian, rates)
+    return mass, jacobian, np.where(approach[:, None] > 0, -rates, rates), normal
+
+
+def cross(r):
+    return np.array([[0, -r[2], r[1]], [r[2], 0, -r[0]], [-r[1], r[0], 0]])
+
+
+class Case(unittest.TestCase):
+    def refused(self, call, *fields):
+        with self.assertRaises(ricochet.InvalidRequest) as raised:
+            call()
+        self.assertEqual([violation.field for violation in raised.exception.violations], list(fields))
+
+
+class SingleStates(Case):
+    def test_a_sliding_mass_loses_what_friction_takes(self):
+        # p_n = (1 + e) m v and p_t = mu p_n, as long as the slip does not stop.
+        after = ricochet.at_contact(2 * np.eye(3), np.eye(3), [3, 4, -1], [0, 0, 2], friction=0.5, newton=0.5)
+        np.testing.assert_allclose(after.impulse_n_s, [-0.9, -1.2, 3], rtol=1e-14)
+        np.testing.assert_allclose(after.rates_after, [2.55, 3.4, 0.5], rtol=1e-14)
+        self.assertEqual(after.answer.regime, "SLIDING")
+
+    def test_a_pendulum_is_the_mechanism_of_one_coordinate(self):
+        expected = ricochet.solve(PENDULUM)
+        after = ricochet.at_contact([[1]], [[1], [0], [0.3]], [-1], [0, 0, 1], friction=0.1, energetic=1)
+        np.testing.assert_allclose(after.rates_after, expected.rates_after_rad_s, rtol=1e-12)
+        np.testing.assert_allclose(after.impulse_n_s[2], expected.impulse.normal_total_n_s, rtol=1e-12)
+
+    def test_a_free_body_in_any_axes_is_a_spatial_body(self):
+        inertia, arm = np.diag([0.02, 0.05, 0.04]), np.array([0.1, -0.05, -0.2])
+        linear, angular = np.array([0.7, 0.2, -1.5]), np.array([1.0, -2.0, 0.5])
+        body = {"mass_kg": 1.5, "inertia_com_kg_m2": [0.02, 0, 0, 0.05, 0, 0.04], "offset_m": arm,
+                "linear_m_s": linear, "angular_rad_s": angular}
+        [expected] = ricochet.solve({"spatial_body": body, "friction": {"kinetic_coefficient": 0.2},
+                                     "restitution": {"poisson": 0.6}}).bodies_after
+        for _ in range(5):
+            turn = rotation()
+            mass = np.block([[1.5 * np.eye(3), np.zeros((3, 3))], [np.zeros((3, 3)), turn @ inertia @ turn.T]])
+            mass = np.triu(mass) + np.triu(mass, 1).T
+            jacobian = np.hstack([np.eye(3), -cross(turn @ arm)])
+            after = ricochet.at_contact(mass, jacobian, [*turn @ linear, *turn @ angular], turn @ [0, 0, 1],
+                                        friction=0.2, poisson=0.6)
+            np.testing.assert_allclose(turn.T @ after.rates_after[:3], expected.linear_m_s, atol=1e-11)
+            np.testing.assert_allclose(turn.T @ after.rates_after[3:], expected.angular_rad_s, atol=1e-11)
+
+    def test_a_contact_that_separates_changes_nothing(self):
+        after = ricochet.at_contact(np.eye(3), np.eye(3), [1, 2, 3], [0, 0, 1], friction=0.5, newton=0.5)
+        np.testing.assert_array_equal(after.rates_after, [1, 2, 3])
+        np.testing.assert_array_equal(after.impulse_n_s, [0, 0, 0])
+
+    def test_without_slip_any_direction_will_do(self):
+        after = ricochet.at_contact(np.eye(3), np.eye(3), [0, 0, -1], [0, 0, 1], friction=0.5, newton=0.5)
+        np.testing.assert_array_equal(after.rates_after, [0, 0, 0.5])
+
+    def test_what_is_wrong_is_named(self):
+        good = {"M": np.eye(3), "J": np.eye(3), "qdot": [0, 0, -1], "normal": [0, 0, 1]}
+        call = lambda **wrong: ricochet.at_contact(**{**good, **wrong}, newton=0.5)
+        self.refused(lambda: call(M=np.eye(2)), "M")
+        self.refused(lambda: call(J=np.eye(3)[:2], normal=[0, 1]), "J", "normal")
+        self.refused(lambda: call(normal=[0, 0, 0]), "normal")
+        self.refused(lambda: call(qdot=3), "M", "J", "qdot")
+        self.refused(lambda: call(qdot=[0, 0, "x"]), "qdot[2]")
+        self.refused(lambda: call(M=np.ones((4, 3, 3)), J=np.ones((5, 3, 3))), "M")
+        self.refused(lambda: call(held=[3]), "held[0]")
+        self.refused(lambda: call(M=np.diag([1, 1, -1.0])), "mechanism.mass_matrix[8]")
+        self.refused(lambda: call(M=np.eye(3) + np.triu(np.ones((3, 3)), 2)), "mechanism.mass_matrix[6]")
+        self.refused(lambda: ricochet.at_contact(**good), "restitution.coefficient")
+        self.refused(lambda: ricochet.at_contact(**good, newton=1, poisson=1), "restitution.poisson")
+
+
+class Batches(Case):
+    def test_they_keep_the_laws_of_mechanics(self):
+        mass, jacobian, rates, normal = random_states(500, 7)
+        mu, e = RANDOM.uniform(0, 1, 500), RANDOM.uniform(0, 1, 500)
+        after, impulse, table = ricochet.at_contact(mass, jacobian, rates, normal, friction=mu, newton=e)
+        self.assertEqual(table.codes["status"].counts().get("INVALID", 0), 0)
+        # M (q'+ - q') = J^T p.
+        gained = np.einsum("bij,bj->bi", mass, after - rates)
+        given = np.einsum("bij,bi->bj", jacobian, impulse)
+        np.testing.assert_allclose(gained, given, atol=1e-9 * np.abs(given).max())
+        unit = normal / np.linalg.norm(normal, axis=1)[:, None]
+        speeds = [np.einsum("bi,bij,bj->b", unit, jacobian, velocities) for velocities in (rates, after)]
+        np.testing.assert_allclose(speeds[1], -e * speeds[0], atol=1e-9)
+        along = np.einsum("bi,bi->b", unit, impulse)
+        across = np.linalg.norm(impulse - along[:, None] * unit, axis=1)
+        self.assertTrue(np.all(across <= mu * along * (1 + 1e-9)))
+
+    def test_each_state_has_the_answer_of_a_single_one(self):
+        mass, jacobian, rates, normal = random_states(20, 5)
+        after, impulse, table = ricochet.at_contact(mass, jacobian, rates, normal, friction=0.3, energetic=0.7, held=[1])
+        for b in range(20):
+            one = ricochet.at_contact(mass[b], jacobian[b], rates[b], normal[b], friction=0.3, energetic=0.7, held=[1])
+            np.testing.assert_allclose(after[b], one.rates_after, rtol=1e-10, atol=1e-12)
+            np.testing.assert_allclose(impulse[b], one.impulse_n_s, rtol=1e-10, atol=1e-12)
+            self.assertEqual(table.codes["regime"][b], one.answer.regime)
+
+    def test_held_coordinates_leave_the_mechanism(self):
+        mass, jacobian, rates, normal = random_states(50, 6)
+        free, held = [0, 2, 3, 5], [1, 4]
+        after, impulse, _ = ricochet.at_contact(mass, jacobian, rates, normal, friction=0.4, poisson=0.5, held=held)
+        np.testing.assert_array_equal(after[:, held], rates[:, held])
+        # The velocity of the contact that the held ones give is that of a moving surface: take it from the free ones.
+        w = np.einsum("bij,bjk,blk->bil", jacobian[:, :, free], np.linalg.inv(mass[:, free][:, :, free]),
+                      jacobian[:, :, free])
+        change = np.einsum("bij,bj->bi", jacobian, after - rates)
+        np.testing.assert_allclose(change, np.einsum("bij,bj->bi", w, impulse), atol=1e-9 * np.abs(change).max())
+
+    def test_what_has_no_axis_of_states_holds_for_all(self):
+        mass, jacobian, rates, normal = random_states(10, 4)
+        after, _, _ = ricochet.at_contact(mass[0], jacobian[0], rates, normal[0], friction=0.1, newton=0.5)
+        for b in range(10):
+            one = ricochet.at_contact(mass[0], jacobian[0], rates[b], normal[0], friction=0.1, newton=0.5)
+            np.testing.assert_allclose(after[b], one.rates_after, rtol=1e-10, atol=1e-12)
+
+    def test_a_state_that_breaks_a_rule_is_nan_and_says_why(self):
+        mass, jacobian, rates, normal = random_states(4, 3)
+        mass[1] = -mass[1]
+        jacobian[2, 0, 0] = np.nan
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            after, impulse, table = ricochet.at_contact(mass, jacobian, rates, normal, newton=0.5)
+        self.assertEqual([str(warning.message).partition(": mech")[0] for warning in caught],
+                         ["rows that break a rule and have NaN: 2 of 4; the first is row 1"])
+        self.assertEqual(caught[0].filename, __file__)
+        for rows in (after, impulse):
+            np.testing.assert_array_equal(np.isnan(rows).any(axis=1), [False, True, True, False])
+        self.assertEqual([bad.field for bad in table.summary.bad_rows],
+                         ["mechanism.mass_matrix[0]", "mechanism.jacobian[0]"])
+
+    def test_matrices_are_taken_in_scenes_as_well(self):
+        mass, jacobian, rates, _ = random_states(1, 4)
+        listed = {"mass_matrix": mass[0].ravel(), "jacobian": jacobian[0].ravel(), "rates": rates[0]}
+        scene = {"mechanism": {"mass_matrix": mass[0], "jacobian": jacobian[0].tolist(), "rates": rates[0]}}
+        self.assertEqual(ricochet.Scene(scene), ricochet.Scene({"mechanism": listed}))
+        self.refused(lambda: ricochet.Scene({"mechanism": {"mass_matrix": mass[0][:2]}}), "mechanism.mass_matrix")
+        self.refused(lambda: ricochet.Scene({"mechanism": {"jacobian": jacobian[0].T}}), "mechanism.jacobian")
+
+
+if __name__ == "__main__":
+    main()
