@@ -161,6 +161,22 @@ absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits)
   return check.status();
 }
 
+// The size of an answer and the time for it grow with the cube of the contacts. A curve of outcomes counts as so many
+// states.
+absl::Status CheckLimits(const MultiContactRequest& request, const Limits& limits) {
+  constexpr int64_t kStatesOfCurve = 16;
+  SizeCheck check(limits);
+  const auto* const free = std::get_if<FreeBodies>(&request.scene.system);
+  if (free != nullptr) check.Entries("free_bodies.bodies", free->bodies.size(), &Limits::max_links);
+  check.Entries("outputs", request.outputs.size(), &Limits::max_columns);
+  const auto contacts = static_cast<int64_t>(std::min<size_t>(request.scene.contacts.size(), kMostContacts));
+  const int64_t states = std::max<int64_t>(static_cast<int64_t>(request.states.size()), 1);
+  const int64_t times = request.stiffness_range.has_value() ? kStatesOfCurve : 1;
+  check.Product("states", states * times, " states, times the cube of the number of contacts, ",
+                std::max<int64_t>(contacts * contacts * contacts, 1), &Limits::max_states_times_cubed_contacts);
+  return check.status();
+}
+
 absl::Status CheckLimits(const BatchSetup& setup, const Limits& limits) {
   SizeCheck check(limits);
   check.Scene(setup.scene);

@@ -14,7 +14,8 @@
 namespace ricochet {
 
 struct Limits {
-  // Links of a linkage, and rates after an impact that an audit states. Time grows with the cube of the links.
+  // Links of a linkage, rates after an impact that an audit states, and bodies that touch at several contacts. Time
+  // grows with the cube of the links.
   int64_t max_links = 64;
   // Numbers in one list of a scene, such as a table of coefficients by speed.
   int64_t max_list_numbers = 1024;
@@ -27,7 +28,7 @@ struct Limits {
   int64_t max_axes = 32;
   // Values of an axis that lists them.
   int64_t max_axis_values = 65'536;
-  // Columns of a sweep or a batch.
+  // Columns of a sweep or a batch, and outputs of a request about several contacts.
   int64_t max_columns = 256;
   // Points of a sweep.
   int64_t max_points_per_sweep = 10'000'000'000;
@@ -41,6 +42,9 @@ struct Limits {
   int64_t max_audit_rows = 8192;
   // Rows of a batch times its columns: those of the request or those of the answer, whichever are more.
   int64_t max_batch_numbers = 2'097'152;
+  // States of a request about several contacts times the cube of the contacts. A range of stiffnesses counts as 16
+  // times as many states.
+  int64_t max_states_times_cubed_contacts = 4096;
   // Bytes of the message of a batch. Of the messages of other requests 1 MiB is the most. A LocalSolver has no
   // messages.
   int64_t max_request_bytes = int64_t{16} << 20;
@@ -76,6 +80,8 @@ inline constexpr NamedLimit kLimits[] = {
     {"max_force_intervals", &Limits::max_force_intervals, 65'535, "Steps of a history of forces"},
     {"max_audit_rows", &Limits::max_audit_rows, 8192, "Rows of a batch of audits"},
     {"max_batch_numbers", &Limits::max_batch_numbers, 100'000'000, "Rows of a batch times its columns, in or out"},
+    {"max_states_times_cubed_contacts", &Limits::max_states_times_cubed_contacts, 1'000'000'000,
+     "States of several contacts times the cube of the contacts"},
     {"max_request_bytes", &Limits::max_request_bytes, int64_t{256} << 20, "Bytes of the message of a batch"},
 };
 

@@ -1,0 +1,96 @@
+#include "core/multi/outputs.h"
+
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+
+namespace ricochet::multi {
+namespace {
+
+std::vector<std::string> NamesOfBodies(size_t bodies, int directions) {
+  std::vector<std::string> names;
+  for (size_t body = 1; body <= bodies; ++body) {
+    const auto add = [&](const char* name) { names.push_back(absl::StrCat("body_", body, ".", name)); };
+    for (const char* name : {"x", "y"}) add(name);
+    if (directions == 2) add("rate");
+    if (directions == 2) continue;
+    for (const char* name : {"z", "rate_x", "rate_y", "rate_z"}) add(name);
+  }
+  return names;
+}
+
+class Maker {
+ public:
+  Maker(const MultiReduction& reduction, const Eigen::VectorXd& before, const SortedProblem& sorted,
+        const EnergyMetric& metric, double w_scale)
+      : reduction_(reduction), before_(before), sorted_(sorted), metric_(metric), w_scale_(w_scale) {}
+
+  void AddContacts() {
+    const Problem& problem = sorted_.problem;
+    const Eigen::VectorXd velocity = reduction_.ContactVelocity(before_);
+    for (int row = 0; row < velocity.size(); ++row) {
+      const bool is_normal = row % problem.d == problem.d - 1;
+      const std::string tangent = problem.d == 2 ? "t" : absl::StrCat("t", row % problem.d + 1);
+      Output& output = outputs_.emplace_back();
+      output.name = absl::StrCat("contact_", row / problem.d + 1, ".", is_normal ? "n" : tangent);
+      output.gamma = sorted_.FromScene(Eigen::VectorXd::Unit(velocity.size(), row));
+      output.before = velocity(row);
+      output.mobility = output.gamma.dot(problem.w * output.gamma);
+    }
+  }
+
+  // Adds coefficients . q'. An impulse p changes it by driven . p, and that is gamma . W p.
+  void AddVelocity(const std::string& name, const Eigen::VectorXd& coefficients) {
+    const Eigen::VectorXd driven = sorted_.FromScene(reduction_.response.transpose() * coefficients / w_scale_);
+    Eigen::VectorXd of_pivots(static_cast<Eigen::Index>(metric_.pivots.size()));
+    const auto solve = [&](const Eigen::VectorXd& right) {
+      for (Eigen::Index c = 0; c < of_pivots.size(); ++c) {
+        const int row = metric_.pivots[static_cast<size_t>(c)];
+        of_pivots(c) = (right(row) - metric_.g.row(row).head(c).dot(of_pivots.head(c))) / metric_.g(row, c);
+      }
+    };
+    solve(driven);
+    Output& output = outputs_.emplace_back();
+    output.name = name;
+    output.gamma = metric_.ImpulseFor(of_pivots);
+    output.before = coefficients.dot(before_);
+    output.mobility = of_pivots.squaredNorm();
+    const double rounding = 16.0 * kEpsilon * static_cast<double>(of_pivots.size()) * of_pivots.norm();
+    solve(driven - sorted_.problem.w * output.gamma);
+    // The velocity moves by at most 2 sqrt(2T) in the metric of energy.
+    output.slack = 2.0 * (2.0 * of_pivots.norm() + rounding);
+  }
+
+  std::vector<Output> outputs() && { return std::move(outputs_); }
+
+ private:
+  const MultiReduction& reduction_;
+  const Eigen::VectorXd& before_;
+  const SortedProblem& sorted_;
+  const EnergyMetric& metric_;
+  const double w_scale_;
+  std::vector<Output> outputs_;
+};
+
+}  // namespace
+
+std::vector<Output> OutputsOf(const MultiContactRequest& request, const MultiReduction& reduction,
+                              const Eigen::VectorXd& before, const SortedProblem& sorted, const EnergyMetric& metric,
+                              double w_scale) {
+  Maker maker(reduction, before, sorted, metric, w_scale);
+  maker.AddContacts();
+  if (const auto* const free = std::get_if<FreeBodies>(&request.scene.system)) {
+    const std::vector<std::string> names = NamesOfBodies(free->bodies.size(), reduction.directions);
+    for (size_t i = 0; i < names.size(); ++i) {
+      maker.AddVelocity(names[i], Eigen::VectorXd::Unit(before.size(), static_cast<Eigen::Index>(i)));
+    }
+  }
+  for (const LinearOutput& output : request.outputs) {
+    maker.AddVelocity(output.name, Eigen::Map<const Eigen::VectorXd>(output.coefficients.data(), before.size()));
+  }
+  return std::move(maker).outputs();
+}
+
+}  // namespace ricochet::multi
