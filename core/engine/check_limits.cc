@@ -173,7 +173,7 @@ absl::Status CheckLimits(const MultiContactRequest& request, const Limits& limit
   const int64_t states = std::max<int64_t>(static_cast<int64_t>(request.states.size()), 1);
   const int64_t times = request.stiffness_range.has_value() ? kStatesOfCurve : 1;
   check.Product("states", states * times, " states, times the cube of the number of contacts, ",
-                std::max<int64_t>(contacts * contacts * contacts, 1), &Limits::max_states_times_cubed_contacts);
+                std::max<int64_t>(contacts * contacts * contacts, 1), &Limits::max_contact_states);
   return check.status();
 }
 

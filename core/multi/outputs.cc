@@ -2,24 +2,11 @@
 
 #include <cmath>
 #include <utility>
-#include <variant>
 
-#include "absl/strings/str_cat.h"
+#include "core/types/multi_contact.h"
 
 namespace ricochet::multi {
 namespace {
-
-std::vector<std::string> NamesOfBodies(size_t bodies, int directions) {
-  std::vector<std::string> names;
-  for (size_t body = 1; body <= bodies; ++body) {
-    const auto add = [&](const char* name) { names.push_back(absl::StrCat("body_", body, ".", name)); };
-    for (const char* name : {"x", "y"}) add(name);
-    if (directions == 2) add("rate");
-    if (directions == 2) continue;
-    for (const char* name : {"z", "rate_x", "rate_y", "rate_z"}) add(name);
-  }
-  return names;
-}
 
 class Maker {
  public:
@@ -30,11 +17,10 @@ class Maker {
   void AddContacts() {
     const Problem& problem = sorted_.problem;
     const Eigen::VectorXd velocity = reduction_.ContactVelocity(before_);
+    const std::vector<std::string> names = ContactOutputNames(static_cast<size_t>(problem.k), problem.d);
     for (int row = 0; row < velocity.size(); ++row) {
-      const bool is_normal = row % problem.d == problem.d - 1;
-      const std::string tangent = problem.d == 2 ? "t" : absl::StrCat("t", row % problem.d + 1);
       Output& output = outputs_.emplace_back();
-      output.name = absl::StrCat("contact_", row / problem.d + 1, ".", is_normal ? "n" : tangent);
+      output.name = names[static_cast<size_t>(row)];
       output.gamma = sorted_.FromScene(Eigen::VectorXd::Unit(velocity.size(), row));
       output.before = velocity(row);
       output.mobility = output.gamma.dot(problem.w * output.gamma);
@@ -81,11 +67,9 @@ std::vector<Output> OutputsOf(const MultiContactRequest& request, const MultiRed
                               double w_scale) {
   Maker maker(reduction, before, sorted, metric, w_scale);
   maker.AddContacts();
-  if (const auto* const free = std::get_if<FreeBodies>(&request.scene.system)) {
-    const std::vector<std::string> names = NamesOfBodies(free->bodies.size(), reduction.directions);
-    for (size_t i = 0; i < names.size(); ++i) {
-      maker.AddVelocity(names[i], Eigen::VectorXd::Unit(before.size(), static_cast<Eigen::Index>(i)));
-    }
+  const std::vector<std::string> names = SystemOutputNames(request.scene.system, reduction.directions);
+  for (size_t i = 0; i < names.size(); ++i) {
+    maker.AddVelocity(names[i], Eigen::VectorXd::Unit(before.size(), static_cast<Eigen::Index>(i)));
   }
   for (const LinearOutput& output : request.outputs) {
     maker.AddVelocity(output.name, Eigen::Map<const Eigen::VectorXd>(output.coefficients.data(), before.size()));

@@ -81,7 +81,7 @@ class Answerer {
     problem.v = v / v_scale_;
     for (const MultiContactPoint& contact : request.scene.contacts) {
       problem.laws.push_back(
-          {.mu = contact.friction, .e = *contact.energetic, .stiffness = contact.relative_stiffness});
+          {.mu = contact.friction, .e = *contact.energetic, .stiffness = contact.relative_stiffness.value_or(1.0)});
     }
     sorted_ = Sort(problem);
     metric_ = MetricOf(sorted_.problem);
@@ -159,13 +159,14 @@ class Answerer {
                                .error_is_proved = attained.error_is_proved};
     Vector error(attained.v.size());
     for (int j = 0; j < error.size(); ++j) error(j) = attained.ErrorOf(problem, j) * v_scale_;
-    Vector in_scene = sorted_.InScene(attained.v) * v_scale_;
+    // Adding 0 makes -0 positive.
+    Vector in_scene = (sorted_.InScene(attained.v) * v_scale_).array() + 0.0;
     outcome.contact_velocity_m_s.assign(in_scene.begin(), in_scene.end());
     in_scene = sorted_.InScene(error).cwiseAbs();
     outcome.contact_velocity_error_m_s.assign(in_scene.begin(), in_scene.end());
     if (!std::holds_alternative<ContactMatrix>(request_.scene.system)) AddVelocities(attained, outcome);
     if (attained.end == MultiContactEnd::kWedged) return outcome;
-    in_scene = sorted_.InScene(attained.p) * ImpulseScale();
+    in_scene = (sorted_.InScene(attained.p) * ImpulseScale()).array() + 0.0;
     outcome.impulse_n_s.assign(in_scene.begin(), in_scene.end());
     outcome.normal_impulse_error_n_s.resize(static_cast<size_t>(problem.k));
     outcome.contacts.resize(static_cast<size_t>(problem.k));

@@ -25,21 +25,13 @@ struct Map<FreeBodies> : Between<FreeBodies, v1::FreeBodies> {
   using Fields = Entries<Entry(&T::bodies, &P::bodies, &P::mutable_bodies)>;
 };
 
-// The relative stiffness keeps its default if a message lacks it.
-struct RelativeStiffnessEntry {
-  static void Write(const MultiContactPoint& point, v1::MultiContactPoint& proto) {
-    proto.set_relative_stiffness(point.relative_stiffness);
-  }
-  static void Read(const v1::MultiContactPoint& proto, MultiContactPoint& point) {
-    if (proto.has_relative_stiffness()) point.relative_stiffness = proto.relative_stiffness();
-  }
-};
-
 template <>
 struct Map<MultiContactPoint> : Between<MultiContactPoint, v1::MultiContactPoint> {
   using Fields =
       Entries<Entry(&T::friction, &P::friction, &P::set_friction),
-              Entry(&T::energetic, &P::has_energetic, &P::energetic, &P::set_energetic), RelativeStiffnessEntry{},
+              Entry(&T::energetic, &P::has_energetic, &P::energetic, &P::set_energetic),
+              Entry(&T::relative_stiffness, &P::has_relative_stiffness, &P::relative_stiffness,
+                    &P::set_relative_stiffness),
               Entry(&T::body, &P::body, &P::set_body), Entry(&T::other_body, &P::other_body, &P::set_other_body),
               Entry(&T::point_m, &P::point_m, &P::mutable_point_m), Entry(&T::normal, &P::normal, &P::mutable_normal)>;
 };

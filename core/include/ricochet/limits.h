@@ -42,12 +42,12 @@ struct Limits {
   int64_t max_audit_rows = 8192;
   // Rows of a batch times its columns: those of the request or those of the answer, whichever are more.
   int64_t max_batch_numbers = 2'097'152;
-  // States of a request about several contacts times the cube of the contacts. A range of stiffnesses counts as 16
-  // times as many states.
-  int64_t max_states_times_cubed_contacts = 4096;
   // Bytes of the message of a batch. Of the messages of other requests 1 MiB is the most. A LocalSolver has no
   // messages.
   int64_t max_request_bytes = int64_t{16} << 20;
+  // States of a request about several contacts times the cube of the contacts. A range of stiffnesses counts as 16
+  // times as many states.
+  int64_t max_contact_states = 4096;
 
   // Limits that no request exceeds.
   static constexpr Limits None();
@@ -80,9 +80,9 @@ inline constexpr NamedLimit kLimits[] = {
     {"max_force_intervals", &Limits::max_force_intervals, 65'535, "Steps of a history of forces"},
     {"max_audit_rows", &Limits::max_audit_rows, 8192, "Rows of a batch of audits"},
     {"max_batch_numbers", &Limits::max_batch_numbers, 100'000'000, "Rows of a batch times its columns, in or out"},
-    {"max_states_times_cubed_contacts", &Limits::max_states_times_cubed_contacts, 1'000'000'000,
-     "States of several contacts times the cube of the contacts"},
     {"max_request_bytes", &Limits::max_request_bytes, int64_t{256} << 20, "Bytes of the message of a batch"},
+    {"max_contact_states", &Limits::max_contact_states, 1'000'000'000,
+     "States of several contacts times the cube of the contacts"},
 };
 
 constexpr Limits Limits::None() {

@@ -59,8 +59,8 @@ using MultiContactSystem = std::variant<std::monostate, ContactMatrix, FreeBodie
 struct MultiContactPoint {
   double friction = 0.0;            // Coulomb's coefficient, kinetic and static, >= 0
   std::optional<double> energetic;  // Stronge's coefficient of restitution, in [0, 1]. Required.
-  // Stiffness of this contact relative to that of the others, > 0. Only springs use it.
-  double relative_stiffness = 1.0;
+  // Stiffness of this contact relative to that of the others, > 0; unset: 1. Only springs use it.
+  std::optional<double> relative_stiffness;
   // Of FreeBodies alone. The normal points out of the other body, or the ground, into the body; its length does not
   // matter. In a plane t = (n_y, -n_x), so that t points to the right where n points up. In space t1 is the x axis
   // without its part along n, or the y axis if |n_x| > 0.9, and t2 = n x t1.

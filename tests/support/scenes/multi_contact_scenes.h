@@ -52,6 +52,23 @@ inline MultiContactScene FallingBlock(double friction, double energetic, double 
   return scene;
 }
 
+// A box in space that lands on its four lower corners.
+inline MultiContactScene SpatialBox(double friction = 0.3, double energetic = 0.4) {
+  MultiContactScene scene;
+  scene.system = FreeBodies{.bodies = {{.mass_kg = 2.0,
+                                        .inertia_com_kg_m2 = {0.04, 0.0, 0.0, 0.06, 0.0, 0.08},
+                                        .position_m = {0.0, 0.0, 0.1},
+                                        .linear_m_s = {0.4, 0.1, -1.0},
+                                        .angular_rad_s = {0.3, -0.2, 0.0}}}};
+  for (const double x : {-0.2, 0.2}) {
+    for (const double y : {-0.15, 0.15}) {
+      scene.contacts.push_back(
+          {.friction = friction, .energetic = energetic, .body = 1, .point_m = {x, y, 0.0}, .normal = {0.0, 0.0, 1.0}});
+    }
+  }
+  return scene;
+}
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_TESTS_SUPPORT_SCENES_MULTI_CONTACT_SCENES_H_
