@@ -15,7 +15,10 @@
 namespace ricochet {
 namespace {
 
-bool IsSubnormal(const PlanarDelassus& w) { return std::min(w.tt, w.nn) < std::numeric_limits<double>::min(); }
+// True if the contact of a pendulum may have lost digits, because a number of it is subnormal or 0.
+bool HasLostDigits(const planar::Problem& problem) {
+  return std::min({problem.w.tt, problem.w.nn, std::fabs(problem.v0)}) < std::numeric_limits<double>::min();
+}
 
 // The rounding of a pendulum's W as a planar contact, over V: x has a relative error of a few 2^-53, which moves
 // kappa_hat by at most kappa_hat/(1 - x^2) times that. `newton` is at least kappa_hat.
@@ -51,14 +54,13 @@ class PlanarStudy {
     } else {
       AddImpactLaw(scene_.impact_law, problem_, study_.methods);
     }
-    if (closed_form_.has_value() && IsSubnormal(problem_.w)) ClaimNothingFromW();
+    if (closed_form_.has_value() && HasLostDigits(problem_)) ClaimNothingFromContact();
     return std::move(study_);
   }
 
  private:
-  // A subnormal W may have lost all of its digits, so that what is computed from it may have any error. The closed
-  // forms do not use it.
-  void ClaimNothingFromW() {
+  // What is computed from a contact that has lost its digits may have any error. The closed forms do not use it.
+  void ClaimNothingFromContact() {
     for (StudiedMethod& method : study_.methods) {
       const Model model = method.method.model;
       const bool is_form = model == Model::kPendulum || model == Model::kFrictionless || model == Model::kFirstOrder;
@@ -86,7 +88,9 @@ class PlanarStudy {
   }
 
   ReferencePointer RigidReference() const {
-    if (!Approaches()) return NoImpact({problem_.u0, 0.0, problem_.v0});
+    // A pendulum can approach at a speed that is below the smallest double at its contact.
+    const bool approaches = closed_form_.has_value() ? closed_form_->omega_minus < 0.0 : Approaches();
+    if (!approaches) return NoImpact({problem_.u0, 0.0, problem_.v0});
     if (closed_form_.has_value()) {
       return MakeReference([problem = *closed_form_](Stopped stopped) { return ExactRigid(problem, stopped); });
     }

@@ -110,29 +110,6 @@ bool CheckExcluded(const Scene& scene, const Demand& demand, std::vector<Violati
   return violations.size() == before;
 }
 
-// Checks that the contact has the form that the exclusions ask for: slip along a straight line, or first order in x.
-void CheckForms(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
-                std::vector<Violation>& violations) {
-  const EffectSet forms = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kHigherOrder};
-  const EffectSet asked = demand.excluded & forms;
-  if (asked.IsEmpty() || demand.excluded.Has(Effect::kFriction)) return;
-  // Solve itself refuses a contact that doubles cannot represent.
-  if (!HasClosedForm(scene)) {
-    if (!contact.has_value()) contact.emplace(scene);
-    if (!FitsDoubles(contact->reduction)) return;
-  }
-  if (PlanScene(scene, contact, demand).choice.model != Model::kUnspecified) return;
-  const char* higher_order =
-      "be left in: the first-order form needs mu |b|/a <= 0.5, no lock, and a coefficient within its own bound";
-  const char* slip =
-      "be left in: slip in a straight line needs u0 != 0, mu |Wtn| < Wnn, a W of full rank and a coefficient of "
-      "restitution <= 1";
-  ForEach(demand.excluded, "excluded", [&](Effect effect, std::string path) {
-    if (!asked.Has(effect)) return;
-    violations.push_back(Refuse(std::move(path), effect, effect == Effect::kHigherOrder ? higher_order : slip));
-  });
-}
-
 }  // namespace
 
 std::string MissingPart(const Scene& scene, Effect effect) {
@@ -192,7 +169,32 @@ std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContac
   CheckComponents(scene, violations);
   if (demand.IsToleranceAlone()) return violations;
   CheckRequired(scene, demand, violations);
-  if (CheckExcluded(scene, demand, violations) && violations.empty()) CheckForms(scene, contact, demand, violations);
+  if (CheckExcluded(scene, demand, violations) && violations.empty()) {
+    return CheckSolvableWithout(scene, contact, demand);
+  }
+  return violations;
+}
+
+std::vector<Violation> CheckSolvableWithout(const Scene& scene, std::optional<SceneContact>& contact,
+                                            const Demand& demand) {
+  std::vector<Violation> violations;
+  const EffectSet forms = {Effect::kSlipStop, Effect::kSlipTurn, Effect::kHigherOrder};
+  const EffectSet asked = demand.excluded & forms;
+  if (asked.IsEmpty() || demand.excluded.Has(Effect::kFriction)) return violations;
+  if (!HasClosedForm(scene)) {
+    if (!contact.has_value()) contact.emplace(scene);
+    if (!FitsDoubles(contact->reduction)) return violations;
+  }
+  if (PlanScene(scene, contact, demand).choice.model != Model::kUnspecified) return violations;
+  const char* higher_order =
+      "be left in: the first-order form needs mu |b|/a <= 0.5, no lock, and a coefficient within its own bound";
+  const char* slip =
+      "be left in: slip in a straight line needs u0 != 0, mu |Wtn| < Wnn, a W of full rank and a coefficient of "
+      "restitution <= 1";
+  ForEach(demand.excluded, "excluded", [&](Effect effect, std::string path) {
+    if (!asked.Has(effect)) return;
+    violations.push_back(Refuse(std::move(path), effect, effect == Effect::kHigherOrder ? higher_order : slip));
+  });
   return violations;
 }
 

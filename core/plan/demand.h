@@ -43,6 +43,11 @@ EffectSet WithImplied(EffectSet excluded, bool in_space);
 // "relative_tolerance", "required[i]" and "excluded[i]", where i counts the effects of a set in order of their numbers.
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand);
 
+// Lists the excluded effects without which no model solves a valid scene: a contact whose slip cannot be a straight
+// line, a pendulum beyond first order. The list is empty if a model does, or if doubles cannot represent the contact.
+std::vector<Violation> CheckSolvableWithout(const Scene& scene, std::optional<SceneContact>& contact,
+                                            const Demand& demand);
+
 // The part that the scene lacks for the effect: "a normal spring in compliance"; empty if it lacks nothing.
 std::string MissingPart(const Scene& scene, Effect effect);
 

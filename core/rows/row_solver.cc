@@ -133,7 +133,7 @@ bool RowSolver::Begin(size_t i, absl::FunctionRef<bool()> stopped) {
 }
 
 // Returns false if it was stopped.
-bool RowSolver::SolvePlannedRow(size_t i, const std::optional<SceneContact>& contact, const PlannedScene& planned,
+bool RowSolver::SolvePlannedRow(size_t i, std::optional<SceneContact>& contact, const PlannedScene& planned,
                                 absl::FunctionRef<bool()> stopped) {
   Outcome outcome;
   const absl::Status solved =
@@ -142,7 +142,9 @@ bool RowSolver::SolvePlannedRow(size_t i, const std::optional<SceneContact>& con
   if (solved.ok()) {
     SetRow(i, outcome);
   } else {
-    statuses_[i] = RowStatus::kNotRepresentable;
+    // The demand was checked for the base scene. This row may need an effect that it excludes.
+    const bool is_solvable = CheckSolvableWithout(driven_.scene(), contact, demand_).empty();
+    statuses_[i] = is_solvable ? RowStatus::kNotRepresentable : RowStatus::kInvalid;
     too_large_[i].reset();
   }
   return true;
@@ -236,7 +238,9 @@ Violation RowSolver::WhyInvalid(size_t i) {
       return MakeViolation(field_names_[k], value, "lie in the range of the field");
     }
   }
-  return {};
+  std::optional<SceneContact> contact;
+  violations = CheckSolvableWithout(driven_.scene(), contact, demand_);
+  return violations.empty() ? Violation() : std::move(violations.front());
 }
 
 }  // namespace ricochet

@@ -71,7 +71,7 @@ class RowSolver {
   std::optional<size_t> SolveScenes(size_t count, absl::FunctionRef<bool()> stopped,
                                     absl::FunctionRef<bool()> is_enough);
   bool Begin(size_t i, absl::FunctionRef<bool()> stopped);
-  bool SolvePlannedRow(size_t i, const std::optional<SceneContact>& contact, const PlannedScene& planned,
+  bool SolvePlannedRow(size_t i, std::optional<SceneContact>& contact, const PlannedScene& planned,
                        absl::FunctionRef<bool()> stopped);
   void SetRow(size_t i, const Outcome& outcome);
   void CheckNumbers(size_t i);

@@ -227,6 +227,33 @@ TEST(SystemsSweepTest, WhatFollowsFromTheWholeContactIsAMatterOfEachPointWhateve
   EXPECT_THAT(points.regimes, testing::ElementsAre(Regime::kInvalid, Regime::kRebound));
 }
 
+// The plan of the base scene keeps slip in a straight line; with the second friction slip would stop.
+TEST(SystemsSweepTest, APointThatNeedsAnExcludedEffectIsInvalidAndSaysWhy) {
+  Scene scene = With(Contact());
+  scene.restitution = EnergeticCoefficient{0.5};
+  SpatialContact turning = ContactInSpace();
+  turning.tangential_m_s = {1.0, 0.0};
+  turning.normal_m_s = -1.0;
+  scene.system = turning;
+  const std::vector<double> frictions = {0.01, 1.9e288};
+  const BatchSetup setup = {.scene = scene,
+                            .fields = {"friction.kinetic_coefficient"},
+                            .columns = {"impulse.normal_total_n_s"},
+                            .demand = {.excluded = {Effect::kSlipTurn}}};
+  std::vector<double> impulses(2);
+  std::vector<RowStatus> statuses(2);
+  const absl::StatusOr<BatchResponse> response =
+      LocalSolver().SolveBatch(setup, {.inputs = {frictions},
+                                       .outputs = {absl::MakeSpan(impulses)},
+                                       .regimes = {},
+                                       .statuses = absl::MakeSpan(statuses)});
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_THAT(statuses, testing::ElementsAre(RowStatus::kOk, RowStatus::kInvalid));
+  ASSERT_EQ(response->summary.bad_rows.size(), 1U);
+  EXPECT_EQ(response->summary.bad_rows[0].field, "excluded[0]");
+  EXPECT_THAT(response->summary.bad_rows[0].description, HasSubstr("slip in a straight line needs"));
+}
+
 TEST(SystemsSweepTest, AListOfTheWrongLengthIsNotCuredByDrivingOneOfItsEntries) {
   SpatialContact contact = ContactInSpace();
   contact.w_per_kg.pop_back();
