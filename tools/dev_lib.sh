@@ -10,12 +10,12 @@ readonly client_packages=(
 readonly build_packages=(
   "${core_packages[@]}" libflint-arb-dev libflint-dev libgmp-dev libsundials-dev
   libcli11-dev libgrpc++-dev libisal-dev libnetcdf-dev libprotobuf-dev libspdlog-dev libssl-dev
-  nlohmann-json3-dev prometheus-cpp-dev libcivetweb-dev protobuf-compiler protobuf-compiler-grpc python3)
+  libzip-dev nlohmann-json3-dev prometheus-cpp-dev libcivetweb-dev protobuf-compiler protobuf-compiler-grpc python3)
 readonly demo_packages=("${build_packages[@]}" gnuplot-nox)
 readonly bench_packages=(
   "${build_packages[@]}" fonts-dejavu-core gnuplot-nox python3-grpcio python3-numpy python3-protobuf valgrind)
 readonly test_packages=(
-  "${build_packages[@]}" bash-completion gnuplot-nox groff-base haproxy libgmock-dev libgtest-dev mandoc mypy
+  "${build_packages[@]}" bash-completion gnuplot-nox groff-base haproxy libgmock-dev libgtest-dev libmujoco-dev mandoc mypy
   nghttp2-client nginx openssl pkg-config prometheus python3-cryptography python3-grpcio python3-h2 python3-jsonschema
   python3-mpmath python3-netcdf4 python3-numpy python3-pandas python3-protobuf python3-xarray python3-yaml valgrind zsh)
 readonly image_packages=(

@@ -50,6 +50,7 @@ struct SolveOptions {
   std::string force_history;
   std::string certified;
   bool strict = false;
+  bool both_ends = false;
   PictureOptions picture;
   DataOptions data;
 };
@@ -72,9 +73,9 @@ std::string Csv(const Outcome& outcome, const SolveOptions& options) {
 absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
   if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || options.strict ||
-      !options.picture.file.empty()) {
+      !options.picture.file.empty() || options.both_ends) {
     return absl::InvalidArgumentError(
-        "--plan-only cannot be combined with --history, --force-history, --certified, --strict or --plot");
+        "--plan-only cannot be combined with --history, --force-history, --certified, --strict, --both-ends or --plot");
   }
   const absl::StatusOr<PlanResponse> response = solver.Plan({.scene = scene, .demand = demand});
   if (!response.ok()) return response.status();
@@ -86,9 +87,10 @@ absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Sc
 absl::Status RunData(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
   if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() ||
-      !options.picture.file.empty() || options.explain || options.plan_only) {
+      !options.picture.file.empty() || options.explain || options.plan_only || options.both_ends) {
     return absl::InvalidArgumentError(
-        "--data cannot be combined with --history, --force-history, --certified, --plot, --explain or --plan-only");
+        "--data cannot be combined with --history, --force-history, --certified, --plot, --explain, --both-ends or "
+        "--plan-only");
   }
   DataOptions data = options.data;
   data.strict = options.strict;
@@ -108,7 +110,8 @@ absl::Status RunSolve(const SolveOptions& options) {
     return absl::InvalidArgumentError("--column and --skip-column need --data FILE.csv");
   }
   if (options.plan_only) return RunPlan(options, **solver, *scene, *demand);
-  SolveRequest request{.scene = *scene, .inadmissible_is_error = options.strict, .demand = *demand};
+  SolveRequest request{
+      .scene = *scene, .inadmissible_is_error = options.strict, .demand = *demand, .both_ends = options.both_ends};
   const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
   if (!digits.ok()) return digits.status();
   request.certified_digits = *digits;
@@ -138,6 +141,9 @@ void AddSolve(CLI::App& app, Command& command) {
   CLI::App* sub = app.add_subcommand("solve", "Compute one impact: velocities, impulses, coefficients, works");
   const auto options = std::make_shared<SolveOptions>();
   AddSceneOptions(*sub, options->scene);
+  AddMechanismOptions(*sub, options->scene);
+  sub->add_flag("--both-ends", options->both_ends,
+                "Also print the impact with no coordinate of the mechanism held, and how far the two are apart");
   sub->add_option("--history", options->history, "Also print the states at N + 1 evenly spaced normal impulses")
       ->type_name("N");
   sub->add_option("--force-history", options->force_history,

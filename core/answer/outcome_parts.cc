@@ -144,7 +144,7 @@ void AddNeglected(double neglected, double speed, double v0, Outcome& outcome) {
   const NumberErrors without = outcome.errors;
   const double change = neglected * speed;
   NumberErrors& errors = outcome.errors;
-  errors = {};
+  errors = {.rates_after = without.rates_after, .momentum_change = without.momentum_change};
   const auto add = [](const std::optional<double>& error, double more, std::optional<double>& place) {
     if (error.has_value() && std::isfinite(more)) place = *error + more;
   };

@@ -129,7 +129,8 @@ State MakeState(const Reduction<kTangential>& reduction, const SomeInstant& inst
   return MakeState<kTangential>(reduction, instant.tau, ByDirection(instant.f), ByDirection(instant.u), instant.v);
 }
 
-// Sets the system's own velocities after the impulse: rates_after_rad_s or bodies_after.
+// Sets the system's own velocities after the impulse: rates_after_rad_s, bodies_after, or rates_after with the momentum
+// that a mechanism takes, whose errors count as not known.
 template <size_t kTangential>
 void SetVelocities(const Reduction<kTangential>& reduction, const std::array<double, kTangential>& f, double tau1,
                    double duration, Outcome& outcome) {
@@ -139,6 +140,19 @@ void SetVelocities(const Reduction<kTangential>& reduction, const std::array<dou
   const auto after = reduction.After(f, tau1, duration);
   if (reduction.coordinates == Coordinates::kRates) {
     outcome.rates_after_rad_s.assign(after.begin(), after.end());
+    return;
+  }
+  if (reduction.coordinates == Coordinates::kAny) {
+    outcome.rates_after.assign(after.begin(), after.end());
+    outcome.momentum_change.resize(after.size());
+    const double* row = reduction.momentum.data();
+    for (double& momentum : outcome.momentum_change) {
+      momentum = row[kTangential] * tau1;
+      for (size_t i = 0; i < kTangential; ++i) momentum += row[i] * f[i];
+      row += kTangential + 1;
+    }
+    outcome.errors.rates_after.assign(after.size(), ImpactErrors::kUnknown);
+    outcome.errors.momentum_change.assign(after.size(), ImpactErrors::kUnknown);
     return;
   }
   outcome.bodies_after.reserve(after.size() / (kLinear + kAngular));

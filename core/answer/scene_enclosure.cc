@@ -16,6 +16,7 @@
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/delassus.h"
 #include "core/contact/interval_reduction.h"
+#include "core/contact/mechanism.h"
 #include "core/contact/reduction.h"
 #include "core/scene/check.h"
 #include "core/scene/field.h"
@@ -228,12 +229,15 @@ bool IsSolvedAtCorners(const SceneBox& box) {
 }
 
 // Tells whether the box holds systems whose W may have another rank than the scene's. Masses, lengths and inertias do
-// not change the rank of a linkage; a body's W has rank two.
+// not change the rank of a linkage, nor does M that of a mechanism; a body's W has rank two.
 bool RankMayVary(const SceneBox& box) {
   if (const auto* low = std::get_if<PlanarContact>(&box.low.system)) {
     const auto& high = std::get<PlanarContact>(box.high.system);
     return low->w_tt_per_kg < high.w_tt_per_kg || low->w_tn_per_kg < high.w_tn_per_kg ||
            low->w_nn_per_kg < high.w_nn_per_kg;
+  }
+  if (const auto* low = std::get_if<Mechanism>(&box.low.system)) {
+    return low->jacobian != std::get<Mechanism>(box.high.system).jacobian;
   }
   if (const auto* low = std::get_if<Linkage>(&box.low.system)) {
     const auto& high = std::get<Linkage>(box.high.system);
@@ -245,15 +249,19 @@ bool RankMayVary(const SceneBox& box) {
 
 // Tells whether the W of every scene has rank one though other systems of its kind have rank two.
 bool HasRankOneThroughout(const Scene& scene, const SceneBox& box) {
+  const auto* const mechanism = std::get_if<Mechanism>(&scene.system);
+  if (mechanism != nullptr && FreeCoordinates(*mechanism).size() == 1) return true;
   if (IsOfRankOne(scene.system) || RankMayVary(box)) return false;
   const PlanarReduction reduction = std::get<PlanarReduction>(Reduce(scene));
   return PlanarDelassus{.tt = reduction.w[0], .tn = reduction.w[1], .nn = reduction.w[2]}.Rank() < 2;
 }
 
 absl::Status RankOneThroughout(const System& system) {
-  const bool is_linkage = std::holds_alternative<Linkage>(system);
-  return InvalidRequest({MakeViolation(is_linkage ? "linkage" : "planar_contact", "has a W of rank one",
-                                       "have rank two, with ranges, or be stated as a pendulum")});
+  const char* const field = std::holds_alternative<Linkage>(system)     ? "linkage"
+                            : std::holds_alternative<Mechanism>(system) ? "mechanism"
+                                                                        : "planar_contact";
+  return InvalidRequest(
+      {MakeViolation(field, "has a W of rank one", "have rank two, with ranges, or be stated as a pendulum")});
 }
 
 }  // namespace
@@ -264,7 +272,7 @@ std::vector<Violation> CheckRanges(const Scene& scene, absl::Span<const FieldRan
   check.Require(IsPlanar(scene.system), [] {
     return MakeViolation("system", "has no enclosure",
                          "be one of pendulum, planar_body, body_pair.planar, linkage, "
-                         "planar_contact, with ranges");
+                         "planar_contact, mechanism in a plane, with ranges");
   });
   check.Require(!scene.surface_velocity.has_value() || !IsOfRankOne(scene.system), [] {
     return MakeViolation("surface_velocity", "is set",

@@ -5,9 +5,11 @@
 
 #include "core/answer/model_outcomes.h"
 #include "core/answer/notes.h"
+#include "core/answer/rates_errors.h"
 #include "core/base/invariant.h"
 #include "core/plan/planned_scene.h"
 #include "core/plan/straight_problem.h"
+#include "core/scene/validate.h"
 #include "ricochet/error.h"
 
 namespace ricochet {
@@ -127,7 +129,31 @@ absl::Status ContactOverflow() {
 
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
                         const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
-  return SolvePlanned(scene, contact, PlanScene(scene, contact, demand), detail, stopped, outcome);
+  absl::Status status = SolvePlanned(scene, contact, PlanScene(scene, contact, demand), detail, stopped, outcome);
+  if (status.ok() && detail.detail == Detail::kAll && contact.has_value()) {
+    SetRatesErrors(scene, *contact, demand, stopped, outcome);
+  }
+  return status;
+}
+
+absl::Status SetFreeEnd(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
+  Scene free = scene;
+  auto& mechanism = std::get<Mechanism>(free.system);
+  mechanism.kept_coordinates.clear();
+  mechanism.composite = false;
+  std::optional<SceneContact> contact;
+  const std::vector<Violation> violations = Validate(free, RestitutionIs::kRequired, contact);
+  if (!violations.empty()) return InvalidRequest(violations);
+  Outcome end;
+  absl::Status status = SolvePlanned(free, contact, PlanScene(free, contact, demand), {}, stopped, end);
+  if (!status.ok()) return status;
+  outcome.free_end = FreeEnd{.regime = end.regime,
+                             .termination = end.termination,
+                             .coefficients = end.coefficients,
+                             .rates_after = end.rates_after,
+                             .contact_velocity_after = end.contact_velocity_after,
+                             .impulse = end.impulse};
+  return status;
 }
 
 absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,

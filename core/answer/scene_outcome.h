@@ -26,6 +26,10 @@ namespace ricochet {
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
                         const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome);
 
+// Sets the outcome's free_end. The scene states a mechanism that holds some coordinates.
+// Errors: those of SolveScene, and INVALID_ARGUMENT where a coefficient breaks its rule at the speed of the free end.
+absl::Status SetFreeEnd(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped, Outcome& outcome);
+
 // The second half of SolveScene, for a scene that PlanScene has planned.
 absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>& contact, const PlannedScene& planned,
                           const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome);

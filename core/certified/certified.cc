@@ -200,6 +200,9 @@ std::vector<Violation> CheckCertifiable(const Scene& scene, int digits) {
   }
   refuse(TangentialDirections(scene.system) > 1, "system", "lies in space",
          "be a pendulum, planar bodies, a linkage or planar_contact for a certified answer");
+  refuse(
+      std::holds_alternative<Mechanism>(scene.system), "mechanism", "is stated",
+      "not be for a certified answer, which takes a linkage, planar bodies or the W and velocity of a planar_contact");
   refuse(!std::holds_alternative<std::monostate>(scene.impact_law), "impact_law", "is set",
          "not be for a certified answer, which needs Coulomb friction and a coefficient of restitution");
   refuse(scene.compliance.has_value(), "compliance", "is set",

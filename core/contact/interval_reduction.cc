@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "core/contact/mechanism.h"
 #include "core/numerics/affine_interval.h"
 #include "core/numerics/interval_elementary.h"
 
@@ -62,7 +63,7 @@ AffineContact Contact(const BodyForm& one, const BodyForm& two) {
           .v0 = SpeedOf(one) - SpeedOf(two)};
 }
 
-// --- Linkages ---
+// --- Linkages and mechanisms ---
 
 struct LinkForm {
   AffineInterval length, mass, com, inertia, theta, rate;
@@ -100,21 +101,66 @@ std::vector<Row> MassMatrix(const std::vector<LinkForm>& links) {
   return mass;
 }
 
+// The lower triangle of M, the rows of J^T and the contact velocity.
+struct MechanismForm {
+  std::vector<Row> mass;
+  Row t, n;
+  AffineInterval u0 = AffineInterval(0.0), v0 = AffineInterval(0.0);
+};
+
+MechanismForm FormOf(const std::vector<LinkForm>& links) {
+  MechanismForm form = {.mass = MassMatrix(links)};
+  for (const LinkForm& link : links) {
+    form.t.push_back(link.length * Cos(link.theta));
+    form.n.push_back(link.length * Sin(link.theta));
+    form.u0 = form.u0 + form.t.back() * link.rate;
+    form.v0 = form.v0 + form.n.back() * link.rate;
+  }
+  return form;
+}
+
+// The free coordinates of a mechanism. Those that are held move the contact by their rates alone.
+MechanismForm Between(const Mechanism& low, const Mechanism& high, SlopeParameters& parameters) {
+  const size_t size = low.rates.size();
+  const auto between = [&](std::vector<double> Mechanism::*list, size_t i) {
+    return AffineInterval::Parameter({(low.*list)[i], (high.*list)[i]}, parameters);
+  };
+  const std::vector<Eigen::Index> free = FreeCoordinates(low);
+  MechanismForm form;
+  Row t, n;
+  for (size_t i = 0; i < size; ++i) {
+    const AffineInterval rate = between(&Mechanism::rates, i);
+    t.push_back(between(&Mechanism::jacobian, i));
+    n.push_back(between(&Mechanism::jacobian, size + i));
+    form.u0 = form.u0 + t.back() * rate;
+    form.v0 = form.v0 + n.back() * rate;
+  }
+  for (const Eigen::Index row : free) {
+    Row& lower = form.mass.emplace_back();
+    for (size_t k = 0; k < form.mass.size(); ++k) {
+      lower.push_back(between(&Mechanism::mass_matrix, static_cast<size_t>(row) * size + static_cast<size_t>(free[k])));
+    }
+    form.t.push_back(t[static_cast<size_t>(row)]);
+    form.n.push_back(n[static_cast<size_t>(row)]);
+  }
+  return form;
+}
+
 // W = sum_i (t_i, n_i)^T (t_i, n_i)/d_i
 struct Gram {
   Row d, t, n;
 };
 
 // Eliminates row by row. Once `stopped`, the lists are filled with numbers that mean nothing.
-Gram Eliminate(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> stopped) {
-  const std::vector<Row> mass = MassMatrix(links);
+Gram Eliminate(const MechanismForm& form, absl::FunctionRef<bool()> stopped) {
+  const std::vector<Row>& mass = form.mass;
   Gram gram;
-  std::vector<Row> scaled(links.size());  // L D
-  for (size_t i = 0; i < links.size(); ++i) {
+  std::vector<Row> scaled(mass.size());  // L D
+  for (size_t i = 0; i < mass.size(); ++i) {
     const bool is_stopped = stopped();
     AffineInterval d = mass[i][i];
-    AffineInterval t = links[i].length * Cos(links[i].theta);
-    AffineInterval n = links[i].length * Sin(links[i].theta);
+    AffineInterval t = form.t[i];
+    AffineInterval n = form.n[i];
     for (size_t j = 0; j < i; ++j) {
       AffineInterval entry = mass[i][j];
       for (size_t k = 0; k < j && !is_stopped; ++k) entry = entry - scaled[i][k] * scaled[j][k] / gram.d[k];
@@ -130,20 +176,18 @@ Gram Eliminate(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> sto
   return gram;
 }
 
-AffineContact Contact(const std::vector<LinkForm>& links, absl::FunctionRef<bool()> stopped) {
-  const Gram gram = Eliminate(links, stopped);
-  AffineInterval wtt(0.0), wtn(0.0), wnn(0.0), determinant(0.0), u0(0.0), v0(0.0);
-  for (size_t i = 0; i < links.size(); ++i) {
+AffineContact Contact(const MechanismForm& form, absl::FunctionRef<bool()> stopped) {
+  const Gram gram = Eliminate(form, stopped);
+  AffineInterval wtt(0.0), wtn(0.0), wnn(0.0), determinant(0.0);
+  for (size_t i = 0; i < gram.d.size(); ++i) {
     wtt = wtt + Square(gram.t[i]) / gram.d[i];
     wtn = wtn + gram.t[i] * gram.n[i] / gram.d[i];
     wnn = wnn + Square(gram.n[i]) / gram.d[i];
     for (size_t j = 0; j < i; ++j) {
       determinant = determinant + Square(gram.t[i] * gram.n[j] - gram.t[j] * gram.n[i]) / (gram.d[i] * gram.d[j]);
     }
-    u0 = u0 + links[i].length * Cos(links[i].theta) * links[i].rate;
-    v0 = v0 + links[i].length * Sin(links[i].theta) * links[i].rate;
   }
-  return {.wtt = wtt, .wtn = wtn, .wnn = wnn, .stick_slope = determinant / wtt, .u0 = u0, .v0 = v0};
+  return {.wtt = wtt, .wtn = wtn, .wnn = wnn, .stick_slope = determinant / wtt, .u0 = form.u0, .v0 = form.v0};
 }
 
 // Returns cos/sin, which falls between its poles, over the angles whose sine lies in `sine`.
@@ -206,7 +250,10 @@ AffineContact Contact(const SceneBox& box, SlopeParameters& parameters, absl::Fu
     return Contact(Between(*low, std::get<PlanarBody>(high), parameters));
   }
   if (const auto* low = std::get_if<Linkage>(&box.low.system)) {
-    return Contact(Between(*low, std::get<Linkage>(high), parameters), stopped);
+    return Contact(FormOf(Between(*low, std::get<Linkage>(high), parameters)), stopped);
+  }
+  if (const auto* low = std::get_if<Mechanism>(&box.low.system)) {
+    return Contact(Between(*low, std::get<Mechanism>(high), parameters), stopped);
   }
   const auto& low_pair = std::get<PlanarPair>(std::get<BodyPair>(box.low.system).bodies);
   const auto& high_pair = std::get<PlanarPair>(std::get<BodyPair>(high).bodies);

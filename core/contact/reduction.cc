@@ -12,6 +12,7 @@
 #include "core/contact/delassus.h"
 #include "core/contact/finite_forces.h"
 #include "core/contact/linkage_matrices.h"
+#include "core/contact/mechanism.h"
 #include "core/contact/planar_body_share.h"
 #include "core/numerics/products.h"
 
@@ -19,6 +20,19 @@ namespace ricochet {
 namespace {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+
+Eigen::Matrix3d Symmetric(const double* upper) {
+  Eigen::Matrix3d matrix;
+  matrix << upper[0], upper[1], upper[2], upper[1], upper[3], upper[4], upper[2], upper[4], upper[5];
+  return matrix;
+}
+
+// The inverse square roots of the diagonal; 0 for an entry of 0.
+Eigen::Vector3d InverseScales(const Eigen::Matrix3d& matrix) {
+  Eigen::Vector3d scales;
+  for (int i = 0; i < 3; ++i) scales(i) = matrix(i, i) > 0.0 ? 1.0 / std::sqrt(matrix(i, i)) : 0.0;
+  return scales;
+}
 
 // --- From M, J and q' ---
 
@@ -45,8 +59,10 @@ Reduction<kTangential> FromMechanism(const Eigen::MatrixXd& mass, const Eigen::M
   return reduction;
 }
 
-// A bound on |det W|/(Wtt Wnn) after rounding, if the exact determinant is 0.
-double RankNoise(const PlanarReduction& reduction) {
+// A bound on |det W|/(Wtt Wnn), or on an eigenvalue of W scaled to a unit diagonal, after rounding, if the exact one is
+// 0.
+template <size_t kTangential>
+double RankNoise(const Reduction<kTangential>& reduction) {
   return 8.0 * static_cast<double>(reduction.before.size()) * kEpsilon;
 }
 
@@ -102,6 +118,67 @@ PlanarReduction ReduceOne(const Linkage& linkage) {
   return reduction;
 }
 
+// The same in space, where eigenvalues of the scaled W are compared with the noise.
+void SettleRankAndVelocity(const Eigen::Vector3d& sizes, SpatialReduction& reduction) {
+  if (!IsFinite(reduction) || IsSurelyDefinite(reduction.w)) return;
+  const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());
+  const Eigen::Vector3d scales = InverseScales(matrix);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scales.asDiagonal() * matrix * scales.asDiagonal());
+  const double noise = RankNoise(reduction);
+  Eigen::Vector3d velocity(reduction.u0[0], reduction.u0[1], reduction.v0);
+  Eigen::Matrix3d settled = matrix;
+  for (int i = 0; i < 3; ++i) {
+    const Eigen::Vector3d axis = solver.eigenvectors().col(i);
+    const Eigen::Vector3d along = axis.cwiseProduct(scales.unaryExpr([](double x) { return x > 0.0 ? 1.0 / x : 0.0; }));
+    if (solver.eigenvalues()(i) > noise || along.isZero(0.0)) continue;  // A row of J that is 0 is exact.
+    settled -= solver.eigenvalues()(i) * along * along.transpose();
+    const double outside = axis.dot(scales.asDiagonal() * velocity);
+    if (std::abs(outside) <= std::sqrt(noise) * (scales.asDiagonal() * sizes).norm()) velocity -= outside * along;
+  }
+  reduction.w = {settled(0, 0), settled(0, 1), settled(0, 2), settled(1, 1), settled(1, 2), settled(2, 2)};
+  reduction.u0 = {velocity(0), velocity(1)};
+  reduction.v0 = velocity(2);
+}
+
+void Settle(const std::vector<double>& sizes, PlanarReduction& reduction) {
+  SettleRank(reduction);
+  SettleVelocity({sizes[0], sizes[1]}, reduction);
+}
+void Settle(const std::vector<double>& sizes, SpatialReduction& reduction) {
+  SettleRankAndVelocity({sizes[0], sizes[1], sizes[2]}, reduction);
+}
+
+template <size_t kTangential>
+AnyReduction ReduceMechanism(const Mechanism& mechanism) {
+  const FreePart part(mechanism);
+  const Response solved(part);
+  const ContactMotion motion(mechanism);
+  constexpr auto kDirections = static_cast<Eigen::Index>(kTangential + 1);
+  const auto n = static_cast<Eigen::Index>(mechanism.rates.size());
+  Reduction<kTangential> reduction;
+  size_t k = 0;
+  for (Eigen::Index i = 0; i < kDirections; ++i) {
+    for (Eigen::Index j = i; j < kDirections; ++j) reduction.w[k++] = solved.w(i, j);
+  }
+  std::copy_n(motion.velocity.begin(), kTangential, reduction.u0.begin());
+  reduction.v0 = motion.velocity[kTangential];
+  reduction.coordinates = Coordinates::kAny;
+  reduction.before.assign(mechanism.rates.begin(), mechanism.rates.end());
+  reduction.response.resize(static_cast<size_t>(n * kDirections));
+  for (Eigen::Index i = 0; i < part.jt.rows(); ++i) {
+    double* const row =
+        &reduction.response[static_cast<size_t>(part.coordinates[static_cast<size_t>(i)] * kDirections)];
+    for (Eigen::Index j = 0; j < kDirections; ++j) row[j] = part.scales(i) * solved.x(i, j);
+  }
+  reduction.momentum = MomentumOf(mechanism, reduction.response);
+  Settle(motion.size, reduction);
+  return reduction;
+}
+
+AnyReduction ReduceOne(const Mechanism& mechanism) {
+  return TangentialDirections(mechanism) == 2 ? ReduceMechanism<2>(mechanism) : ReduceMechanism<1>(mechanism);
+}
+
 // --- Bodies. `side` is 1 for the body on which the impulses act, -1 for the one on which their opposites act. ---
 
 void AddBody(const PlanarBody& body, double side, PlanarReduction& reduction) {
@@ -118,12 +195,6 @@ void AddBody(const PlanarBody& body, double side, PlanarReduction& reduction) {
 }
 
 Eigen::Vector3d ToEigen(const std::vector<double>& values) { return {values[0], values[1], values[2]}; }
-
-Eigen::Matrix3d Symmetric(const double* upper) {
-  Eigen::Matrix3d matrix;
-  matrix << upper[0], upper[1], upper[2], upper[1], upper[3], upper[4], upper[2], upper[4], upper[5];
-  return matrix;
-}
 
 // The matrix of the cross product r x.
 Eigen::Matrix3d Cross(const Eigen::Vector3d& r) {
@@ -204,13 +275,6 @@ SpatialReduction ReduceOne(const SpatialContact& contact) {
 }
 
 PlanarReduction ReduceOne(std::monostate /*unset*/) { return {}; }
-
-// The inverse square roots of the diagonal; 0 for an entry of 0.
-Eigen::Vector3d InverseScales(const Eigen::Matrix3d& matrix) {
-  Eigen::Vector3d scales;
-  for (int i = 0; i < 3; ++i) scales(i) = matrix(i, i) > 0.0 ? 1.0 / std::sqrt(matrix(i, i)) : 0.0;
-  return scales;
-}
 
 }  // namespace
 

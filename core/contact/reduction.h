@@ -7,7 +7,8 @@
 // pendulum or linkage, or the velocity and angular velocity of a body. W is computed as the Gram matrix of L^-1 J^T
 // with L L^T = M, so that it is positive semidefinite up to rounding. A planar W whose determinant may be rounding
 // alone (below 8 n eps Wtt Wnn) is given rank one by wtn = +-sqrt(Wtt Wnn). docs/theory/contact.md derives this.
-// Accuracy: a few n ulp times the condition of M after scaling to a unit diagonal. Units are SI units. The scene must
+// Accuracy: a few n ulp times the condition of M after scaling to a unit diagonal. The M^-1 J^T of a mechanism is
+// corrected once by its residual (core/contact/mechanism.h), so that the condition counts for little. Units are SI units. The scene must
 // be valid (core/scene/validate.h). If a product overflows, W or a velocity is not finite.
 
 #ifndef RICOCHET_CORE_CONTACT_REDUCTION_H_
@@ -29,6 +30,7 @@ namespace ricochet {
 enum class Coordinates {
   kNone,    // The system is a contact alone and has none.
   kRates,   // A pendulum or a linkage has the angular velocities of its links.
+  kAny,     // A mechanism has generalised velocities of any kind.
   kBodies,  // Each body has its linear, then its angular velocity: 3 numbers in a plane, 6 in space.
 };
 
@@ -45,6 +47,9 @@ struct Reduction {
   Coordinates coordinates = Coordinates::kNone;
   Velocities before;                                                // q'
   absl::InlinedVector<double, kVelocities * kDirections> response;  // M^-1 J^T, row by row.
+  // Of a mechanism alone: M M^-1 J^T of all coordinates, row by row, the momentum that each takes of a unit impulse. A
+  // free coordinate has its row of J^T, one that is held has what the free ones pass on to it.
+  std::vector<double> momentum;
   // The accelerations by finite forces alone: (a_t, a_n) of the contact and q'' = M^-1 Q of the system. The latter is
   // empty if there are no finite forces.
   std::array<double, kDirections> acceleration = {};

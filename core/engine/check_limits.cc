@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstring>
 #include <string>
 #include <variant>
 #include <vector>
@@ -41,6 +42,7 @@ class SizeCheck {
   }
 
   void Scene(const ricochet::Scene& scene);
+  void Coordinates(const Mechanism& mechanism);
 
   absl::Status status() const { return exceeded_.empty() ? absl::OkStatus() : LimitExceeded(exceeded_); }
 
@@ -56,15 +58,42 @@ class SizeCheck {
   std::vector<Violation> exceeded_;
 };
 
-// The links of the system; a system that is no linkage counts as one.
+// The links of a linkage, or the coordinates of a mechanism; any other system counts as one.
 int64_t LinksOf(const System& system) {
+  if (const auto* const mechanism = std::get_if<Mechanism>(&system)) {
+    return std::max<int64_t>(static_cast<int64_t>(mechanism->rates.size()), 1);
+  }
   const auto* const linkage = std::get_if<Linkage>(&system);
   return linkage == nullptr ? 1 : std::max<int64_t>(static_cast<int64_t>(linkage->links.size()), 1);
+}
+
+// Time grows with the cube of the coordinates, and so with the lists of numbers that they bring along.
+void SizeCheck::Coordinates(const Mechanism& mechanism) {
+  Entries("mechanism.rates", mechanism.rates.size(), &Limits::max_links);
+  Entries("mechanism.kept_coordinates", mechanism.kept_coordinates.size(), &Limits::max_links);
+  const auto rows = [](size_t numbers, int64_t per_row) {
+    return (static_cast<int64_t>(numbers) + per_row - 1) / per_row;
+  };
+  const int64_t most = std::min(limits_.max_links, int64_t{1'000'000});
+  if (rows(mechanism.mass_matrix.size(), most) > most) {
+    Exceeded("mechanism.mass_matrix",
+             absl::StrCat("has ", mechanism.mass_matrix.size(), " entries: must have at most ", most * most,
+                          ", the square of the limit"),
+             &Limits::max_links);
+  }
+  if (rows(mechanism.jacobian.size(), 3) > most) {
+    Exceeded("mechanism.jacobian",
+             absl::StrCat("has ", mechanism.jacobian.size(), " entries: must have at most ", 3 * most,
+                          ", three times the limit"),
+             &Limits::max_links);
+  }
 }
 
 void SizeCheck::Scene(const ricochet::Scene& scene) {
   const auto* const linkage = std::get_if<Linkage>(&scene.system);
   if (linkage != nullptr) Entries("linkage.links", linkage->links.size(), &Limits::max_links);
+  const auto* const mechanism = std::get_if<Mechanism>(&scene.system);
+  if (mechanism != nullptr) Coordinates(*mechanism);
   // The last number of a list tells its size.
   NumberPath last;
   const auto check_list = [&] {
@@ -72,6 +101,7 @@ void SizeCheck::Scene(const ricochet::Scene& scene) {
     Entries(field, static_cast<size_t>(last.index + 1), &Limits::max_list_numbers);
   };
   VisitNumbers(scene, [&](const NumberPath& path, double /*number*/, NumberRule /*rule*/) {
+    if (mechanism != nullptr && std::strcmp(path.prefix, "mechanism") == 0) return;
     if (path.index <= 0 && last.index >= limits_.max_list_numbers) check_list();
     last = path;
   });

@@ -70,6 +70,14 @@ void CheckCertified(const SolveRequest& request, std::vector<Violation>& violati
       MakeViolation("excluded", "is set", "not be, with certified_digits: certificates leave nothing out"));
 }
 
+void CheckBothEnds(const SolveRequest& request, std::vector<Violation>& violations) {
+  const auto* const mechanism = std::get_if<Mechanism>(&request.scene.system);
+  const bool holds = mechanism != nullptr && (mechanism->composite || !mechanism->kept_coordinates.empty());
+  if (!request.both_ends || holds) return;
+  violations.push_back(
+      MakeViolation("both_ends", "is set", "not be but for a mechanism with kept_coordinates or composite"));
+}
+
 }  // namespace
 
 Demand DemandOf(const SolveRequest& request) {
@@ -81,6 +89,7 @@ std::vector<Violation> CheckSolve(const SolveRequest& request, std::optional<Sce
   std::vector<Violation> violations = CheckDemand(request.scene, contact, request.demand);
   CheckForceIntervals(request, contact, violations);
   CheckHistory(request, violations);
+  CheckBothEnds(request, violations);
   if (violations.empty()) CheckCertified(request, violations);
   return violations;
 }

@@ -139,9 +139,23 @@ SpatialBody SpatialBodyProbe(int i) {
           .angular_rad_s = {0.3, 0.2 * i, -0.9}};
 }
 
+// A chain of two to five coordinates, in a plane or in space, with all free or one held.
+Mechanism MechanismProbe(int i) {
+  Mechanism mechanism;
+  const int n = 2 + i % 4;
+  const int rows = 2 + i % 2;
+  for (int k = 0; k < n; ++k) {
+    for (int l = 0; l < n; ++l) mechanism.mass_matrix.push_back(1.0 / (1.0 + k + l) + (k == l ? 0.3 : 0.0));
+    mechanism.rates.push_back(0.4 - 0.3 * k);
+  }
+  for (int k = 0; k < rows * n; ++k) mechanism.jacobian.push_back(0.7 - 0.11 * k + 0.01 * i * k * k);
+  if (i % 3 == 0) mechanism.kept_coordinates = {1};
+  return mechanism;
+}
+
 // Systems of every kind, none of which lacks a number that its reduction reads.
 std::vector<System> SystemProbes() {
-  static_assert(std::variant_size_v<System> == 8, "a system that was added needs a probe");
+  static_assert(std::variant_size_v<System> == 9, "a system that was added needs a probe");
   std::vector<System> systems;
   for (int i = 0; i < 4; ++i) {
     const double part = 0.1 * i;
@@ -156,6 +170,7 @@ std::vector<System> SystemProbes() {
         .w_per_kg = {1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, .tangential_m_s = {0.3, part}, .normal_m_s = -0.9});
   }
   for (int i = 0; i < 16; ++i) systems.push_back(LinkageProbe(i));
+  for (int i = 0; i < 8; ++i) systems.push_back(MechanismProbe(i));
   return systems;
 }
 
@@ -298,6 +313,7 @@ void AddReduction(const Reduction<kTangential>& reduction, Bits& bits) {
   bits.Add(reduction.u0);
   bits.Add(reduction.v0);
   bits.AddAll(reduction.response);
+  bits.AddAll(reduction.momentum);
   bits.AddAll(reduction.acceleration);
   bits.AddAll(reduction.drift);
   std::array<double, kTangential> tangential;

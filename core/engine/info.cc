@@ -12,8 +12,8 @@ namespace ricochet {
 namespace {
 
 // In the order of System, whose first alternative stands for none.
-constexpr const char* kSystems[] = {"pendulum", "planar_body",    "spatial_body",   "body_pair",
-                                    "linkage",  "planar_contact", "spatial_contact"};
+constexpr const char* kSystems[] = {"pendulum", "planar_body",    "spatial_body",    "body_pair",
+                                    "linkage",  "planar_contact", "spatial_contact", "mechanism"};
 static_assert(std::size(kSystems) + 1 == std::variant_size_v<System>);
 
 }  // namespace

@@ -93,6 +93,10 @@ absl::Status Answer(const SolveRequest& request, CallControl& watch, SolveRespon
                                 .force_intervals = request.force_intervals};
   const absl::Status solved = SolveScene(request.scene, contact, DemandOf(request), detail, stopped, outcome);
   if (!solved.ok()) return watch.OrWhyEnded(solved);
+  if (request.both_ends) {
+    const absl::Status ended = SetFreeEnd(request.scene, DemandOf(request), stopped, outcome);
+    if (!ended.ok()) return watch.OrWhyEnded(ended);
+  }
   if (request.inadmissible_is_error && !outcome.admissible) return Inadmissible(outcome);
   const absl::Status certified = Certify(request, stopped, outcome.certificate);
   if (!certified.ok()) return watch.OrWhyEnded(certified);

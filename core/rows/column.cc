@@ -5,6 +5,7 @@
 #include <limits>
 #include <set>
 #include <string_view>
+#include <type_traits>
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
@@ -27,6 +28,7 @@ namespace {
 struct Shape {
   size_t rates = 0;
   size_t bodies = 0;
+  size_t coordinates = 0;
 };
 
 Shape ShapeOf(std::monostate /*unset*/) { return {}; }
@@ -37,6 +39,7 @@ Shape ShapeOf(const BodyPair& /*pair*/) { return {.bodies = 2}; }
 Shape ShapeOf(const Linkage& linkage) { return {.rates = linkage.links.size()}; }
 Shape ShapeOf(const PlanarContact& /*contact*/) { return {}; }
 Shape ShapeOf(const SpatialContact& /*contact*/) { return {}; }
+Shape ShapeOf(const Mechanism& mechanism) { return {.coordinates = mechanism.rates.size()}; }
 
 // An outcome in which every number is set that an outcome of the scene may have.
 Outcome WithEveryNumber(const Scene& scene) {
@@ -44,6 +47,10 @@ Outcome WithEveryNumber(const Scene& scene) {
   const size_t tangential = TangentialDirections(scene.system);
   Outcome outcome;
   outcome.rates_after_rad_s.resize(shape.rates);
+  for (Components* const list :
+       {&outcome.rates_after, &outcome.momentum_change, &outcome.errors.rates_after, &outcome.errors.momentum_change}) {
+    list->resize(shape.coordinates);
+  }
   outcome.bodies_after.resize(shape.bodies);
   for (BodyVelocity& body : outcome.bodies_after) {
     body.linear_m_s.resize(tangential + 1);
@@ -52,7 +59,9 @@ Outcome WithEveryNumber(const Scene& scene) {
   outcome.contact_velocity_after.tangential_m_s.resize(tangential);
   outcome.impulse.tangential_n_s.resize(tangential);
   if (!HasDamping(scene)) outcome.effective.restitution = 0.0;
-  VisitOutcomePart(outcome.errors, [](const char* /*name*/, std::optional<double>& error) { error = 0.0; });
+  VisitOutcomePart(outcome.errors, [](const char* /*name*/, auto& error) {
+    if constexpr (std::is_same_v<decltype(error), std::optional<double>&>) error = 0.0;
+  });
   if (!std::holds_alternative<std::monostate>(scene.impact_law)) UnsetPhases(outcome);
   outcome.contact.emplace();
   return outcome;
@@ -61,6 +70,10 @@ Outcome WithEveryNumber(const Scene& scene) {
 // Which outcomes have a number that those of some scenes lack.
 constexpr std::pair<const char*, const char*> kOwners[] = {
     {"rates_after_rad_s[", "rates_after_rad_s has an entry for each link of a linkage and one for a pendulum"},
+    {"rates_after[", "rates_after has an entry for each coordinate of a mechanism"},
+    {"momentum_change[", "momentum_change has an entry for each coordinate of a mechanism"},
+    {"errors.rates_after[", "rates_after has an entry for each coordinate of a mechanism"},
+    {"errors.momentum_change[", "momentum_change has an entry for each coordinate of a mechanism"},
     {"bodies_after[",
      "bodies_after has an entry for planar_body and spatial_body and two for body_pair, with linear_m_s along t and n "
      "and one angular_rad_s in a plane, and three of each in space"},

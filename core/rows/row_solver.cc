@@ -6,6 +6,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "absl/strings/match.h"
+#include "core/answer/rates_errors.h"
 #include "core/answer/scene_outcome.h"
 #include "core/contact/reduction.h"
 #include "core/scene/numbers.h"
@@ -43,7 +45,10 @@ RowSolver::RowSolver(const Scene& scene, std::vector<std::string> fields, std::v
       in_space_(TangentialDirections(scene.system) == 2),
       reader_(driven_.scene(), column_names_),
       lanes_(SceneLanes::Make(driven_.scene(), column_names_, demand_)),
-      places_(column_names_.size()) {
+      places_(column_names_.size()),
+      asks_rates_errors_(std::any_of(column_names_.begin(), column_names_.end(), [](const std::string& column) {
+        return absl::StartsWith(column, "errors.rates_after") || absl::StartsWith(column, "errors.momentum_change");
+      })) {
   if (lanes_ != nullptr) lane_columns_ = std::make_unique<LaneColumns>(*lanes_, driven_);
 }
 
@@ -109,6 +114,11 @@ std::optional<size_t> RowSolver::SolveScenes(size_t count, absl::FunctionRef<boo
   for (const auto& [i, place] : in_spatial_) {
     Outcome outcome;
     spatial_.SetOutcome(place, outcome);
+    if (asks_rates_errors_) {
+      driven_.SetRow(fields_, i);
+      SetRatesErrors(driven_.scene(), SceneContact(driven_.scene()), demand_, stopped, outcome);
+      if (stopped()) return std::nullopt;
+    }
     SetRow(i, outcome);
   }
   return count;
@@ -140,6 +150,8 @@ bool RowSolver::SolvePlannedRow(size_t i, std::optional<SceneContact>& contact, 
       SolvePlanned(driven_.scene(), contact, planned, {.detail = Detail::kNumbers}, stopped, outcome);
   if (absl::IsCancelled(solved)) return false;
   if (solved.ok()) {
+    if (asks_rates_errors_) SetRatesErrors(driven_.scene(), *contact, demand_, stopped, outcome);
+    if (asks_rates_errors_ && stopped()) return false;
     SetRow(i, outcome);
   } else {
     // The demand was checked for the base scene. This row may need an effect that it excludes.

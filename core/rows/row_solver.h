@@ -98,7 +98,8 @@ class RowSolver {
 
   // The current block.
   absl::Span<const FieldColumn> fields_;
-  std::vector<double*> places_;  // Of the first row's value in each column.
+  std::vector<double*> places_;   // Of the first row's value in each column.
+  const bool asks_rates_errors_;  // A column is one of SetRatesErrors (core/answer/rates_errors.h).
   SceneLanes::Block block_;
   std::array<RowStatus, kBlock> statuses_;
   std::array<std::optional<size_t>, kBlock> too_large_;  // The column that makes a row not representable, if one does.

@@ -55,7 +55,7 @@ bool CheckMatrix(const std::string& field, const std::vector<double>& upper, dou
 void CheckOne(std::monostate /*unset*/, Check& check) {
   check.RequireSet(
       false, "system",
-      "be one of pendulum, planar_body, spatial_body, body_pair, linkage, planar_contact, spatial_contact");
+      "be one of pendulum, planar_body, spatial_body, body_pair, linkage, planar_contact, spatial_contact, mechanism");
 }
 
 void CheckOne(const Pendulum& /*pendulum*/, Check& /*check*/) {}
@@ -102,6 +102,8 @@ void CheckOne(const SpatialContact& contact, Check& check) {
   CheckMatrix("spatial_contact.w_per_kg", contact.w_per_kg, -16.0 * kEpsilon, "positive semidefinite", check);
   check.Length("spatial_contact.tangential_m_s", contact.tangential_m_s.size(), 2);
 }
+
+void CheckOne(const Mechanism& mechanism, Check& check) { CheckMechanism(mechanism, check); }
 
 }  // namespace
 

@@ -1,6 +1,8 @@
 #include "core/scene/field.h"
 
 #include <cmath>
+#include <cstring>
+#include <functional>
 #include <utility>
 
 #include "absl/strings/escaping.h"
@@ -65,6 +67,14 @@ bool Matches(absl::string_view text, const NumberPath& path) {
   return Take(path.name, text) && TakeIndex(path.index, text) && text.empty();
 }
 
+// True for an entry below the diagonal of a mass matrix, which the one above it drives.
+bool IsDrivenFromAbove(const System& system, const NumberPath& path) {
+  const auto* const mechanism = std::get_if<Mechanism>(&system);
+  if (mechanism == nullptr || std::strcmp(path.name, "mass_matrix") != 0 || mechanism->rates.empty()) return false;
+  const auto n = static_cast<int>(mechanism->rates.size());
+  return path.index / n > path.index % n;
+}
+
 absl::Status UnknownField(const std::string& path, const Scene& scene) {
   return absl::InvalidArgumentError(
       absl::StrCat(Found(path), ": must be a field of the scene; `ricochet sweep --axis '?'` lists them",
@@ -94,6 +104,19 @@ std::optional<Field::Scalar> Field::Find(const std::string& path, Scene& scene) 
   return found;
 }
 
+void Field::SetMirror(Mechanism& mechanism, Scalar& entry, std::vector<std::string>& sets) {
+  std::vector<double>& mass = mechanism.mass_matrix;
+  const size_t n = mechanism.rates.size();
+  const std::less<> is_before;
+  const bool is_of_mass = !is_before(entry.number, mass.data()) && is_before(entry.number, mass.data() + mass.size());
+  if (!is_of_mass || mass.size() != n * n) return;
+  const auto place = static_cast<size_t>(entry.number - mass.data());
+  const size_t across = place % n * n + place / n;
+  if (across == place) return;
+  entry.mirror = &mass[across];
+  sets.push_back(absl::StrCat("mechanism.mass_matrix[", across, "]"));
+}
+
 absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   auto* const pendulum = std::get_if<Pendulum>(&scene.system);
   if (path == kPhi && pendulum != nullptr) {
@@ -109,8 +132,12 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene) {
   if (is_definition) return UnknownField(path, scene);
   const std::optional<SurfaceVelocity> stated = scene.surface_velocity;
   MakePresent(path, scene);
-  const std::optional<Field::Scalar> number = Field::Find(path, scene);
-  if (number.has_value()) return Field(*number, {path});
+  std::optional<Field::Scalar> number = Field::Find(path, scene);
+  if (number.has_value()) {
+    std::vector<std::string> sets = {path};
+    if (auto* const mechanism = std::get_if<Mechanism>(&scene.system)) Field::SetMirror(*mechanism, *number, sets);
+    return Field(*number, sets);
+  }
   scene.surface_velocity = stated;
   return UnknownField(path, scene);
 }
@@ -128,8 +155,9 @@ std::vector<std::string> FieldPaths(const Scene& scene) {
   MakeSurface(all);
   all.restitution = std::monostate();
   std::vector<std::string> paths;
-  VisitNumbers(all,
-               [&](const NumberPath& path, double& /*number*/, NumberRule /*rule*/) { paths.push_back(path.Text()); });
+  VisitNumbers(all, [&](const NumberPath& path, double& /*number*/, NumberRule /*rule*/) {
+    if (!IsDrivenFromAbove(scene.system, path)) paths.push_back(path.Text());
+  });
   if (std::holds_alternative<Pendulum>(scene.system)) paths.emplace_back(kPhi);
   if (!std::holds_alternative<std::monostate>(scene.impact_law)) return paths;
   for (const char* definition : {"newton", "poisson", "energetic"}) {

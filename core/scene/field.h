@@ -5,7 +5,8 @@
 // "spatial_contact.w_per_kg[3]"; core/scene/numbers.h lists them. A scene has the fields of its own system and lists.
 // In addition an axis may drive friction.static_coefficient, each definition of restitution, and surface_velocity, even
 // if the scene states none. One field is derived: pendulum.phi_rad is the paper's angle phi = arctan(a/b) (Fig. 4) at
-// the base scene's distance R = sqrt(a^2 + b^2) from the pin, so that a = R sin(phi) and b = R cos(phi).
+// the base scene's distance R = sqrt(a^2 + b^2) from the pin, so that a = R sin(phi) and b = R cos(phi). An entry of
+// mechanism.mass_matrix beside the diagonal drives the one across it, too, so that the matrix stays symmetric.
 
 #ifndef RICOCHET_CORE_SCENE_FIELD_H_
 #define RICOCHET_CORE_SCENE_FIELD_H_
@@ -32,7 +33,8 @@ class Field {
   // contact is behind the pin.
   NumberRule rule() const;
 
-  // The paths of the numbers that the field sets: one, or two for phi_rad.
+  // The paths of the numbers that the field sets: one, or two for phi_rad and for an entry of a mechanism's mass matrix
+  // beside the diagonal.
   const std::vector<std::string>& sets() const { return sets_; }
 
  private:
@@ -41,8 +43,10 @@ class Field {
   struct Scalar {
     double* number;
     NumberRule rule;
+    double* mirror = nullptr;  // The entry across the diagonal of a symmetric matrix, which is set to the same value.
     bool Set(double value) const {
       *number = value;
+      if (mirror != nullptr) *mirror = value;
       return Holds(value, rule);
     }
   };
@@ -50,6 +54,8 @@ class Field {
     Scalar a, b;
     double distance;
   };
+  // Lets an entry of the mass matrix set the one across the diagonal, too, and adds its path to `sets`.
+  static void SetMirror(Mechanism& mechanism, Scalar& entry, std::vector<std::string>& sets);
   static std::optional<Scalar> Find(const std::string& path, Scene& scene);
   Field(std::variant<Scalar, Phi> driver, std::vector<std::string> sets) : driver_(driver), sets_(std::move(sets)) {}
 
@@ -67,7 +73,8 @@ absl::StatusOr<Field> ResolveField(const std::string& path, Scene& scene);
 // Begins the description of a violation by a text of the caller: "= \"TEXT\"". It is escaped, and cut if it is long.
 std::string Found(const std::string& text);
 
-// Every path that an axis may drive in the scene.
+// Every path that an axis may drive in the scene. Of two entries of a mass matrix across the diagonal it has the upper
+// one.
 std::vector<std::string> FieldPaths(const Scene& scene);
 
 }  // namespace ricochet

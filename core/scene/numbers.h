@@ -114,6 +114,9 @@ inline constexpr auto kSceneNumbers = std::tuple{
     SceneNumber("w_per_kg", &SpatialContact::w_per_kg),
     SceneNumber("tangential_m_s", &SpatialContact::tangential_m_s),
     SceneNumber("normal_m_s", &SpatialContact::normal_m_s),
+    SceneNumber("mass_matrix", &Mechanism::mass_matrix),
+    SceneNumber("jacobian", &Mechanism::jacobian),
+    SceneNumber("rates", &Mechanism::rates),
     SceneNumber("kinetic_coefficient", &Friction::kinetic_coefficient, NumberRule::kNotNegative),
     SceneNumber("static_coefficient", &Friction::static_coefficient, NumberRule::kNotNegative),
     SceneNumber("alpha", &PowerLaw::alpha),
@@ -161,6 +164,7 @@ constexpr const char* PrefixOf(const PlanarBody& /*part*/) { return "planar_body
 constexpr const char* PrefixOf(const SpatialBody& /*part*/) { return "spatial_body"; }
 constexpr const char* PrefixOf(const PlanarContact& /*part*/) { return "planar_contact"; }
 constexpr const char* PrefixOf(const SpatialContact& /*part*/) { return "spatial_contact"; }
+constexpr const char* PrefixOf(const Mechanism& /*part*/) { return "mechanism"; }
 constexpr const char* PrefixOf(const Friction& /*part*/) { return "friction"; }
 constexpr const char* PrefixOf(const NewtonCoefficient& /*part*/) { return "restitution"; }
 constexpr const char* PrefixOf(const PoissonCoefficient& /*part*/) { return "restitution"; }

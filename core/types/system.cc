@@ -2,9 +2,14 @@
 
 namespace ricochet {
 
+size_t TangentialDirections(const Mechanism& mechanism) {
+  return mechanism.jacobian.size() == 3 * mechanism.rates.size() ? 2 : 1;
+}
+
 size_t TangentialDirections(const System& system) {
   if (const auto* pair = std::get_if<BodyPair>(&system))
     return std::holds_alternative<SpatialPair>(pair->bodies) ? 2 : 1;
+  if (const auto* mechanism = std::get_if<Mechanism>(&system)) return TangentialDirections(*mechanism);
   return std::holds_alternative<SpatialBody>(system) || std::holds_alternative<SpatialContact>(system) ? 2 : 1;
 }
 

@@ -120,7 +120,9 @@ struct Map<NumberErrors> : Between<NumberErrors, v1::Errors> {
                     &P::set_tangential_compression_j),
               Entry(&T::tangential_restitution_j, &P::has_tangential_restitution_j, &P::tangential_restitution_j,
                     &P::set_tangential_restitution_j),
-              Entry(&T::energy_change_j, &P::has_energy_change_j, &P::energy_change_j, &P::set_energy_change_j)>;
+              Entry(&T::energy_change_j, &P::has_energy_change_j, &P::energy_change_j, &P::set_energy_change_j),
+              Entry(&T::rates_after, &P::rates_after, &P::mutable_rates_after),
+              Entry(&T::momentum_change, &P::momentum_change, &P::mutable_momentum_change)>;
 };
 
 template <>
@@ -156,6 +158,17 @@ struct Map<ContactDuration> : Between<ContactDuration, v1::ContactDuration> {
 };
 
 template <>
+struct Map<FreeEnd> : Between<FreeEnd, v1::FreeEnd> {
+  using Fields =
+      Entries<Entry(&T::regime, &P::regime, &P::set_regime),
+              Entry(&T::termination, &P::termination, &P::set_termination),
+              Entry(&T::coefficients, &P::coefficients, &P::mutable_coefficients),
+              Entry(&T::rates_after, &P::rates_after, &P::mutable_rates_after),
+              Entry(&T::contact_velocity_after, &P::contact_velocity_after, &P::mutable_contact_velocity_after),
+              Entry(&T::impulse, &P::impulse, &P::mutable_impulse)>;
+};
+
+template <>
 struct Map<Outcome> : Between<Outcome, v1::Outcome> {
   using Fields = Entries<
       Entry(&T::regime, &P::regime, &P::set_regime), Entry(&T::termination, &P::termination, &P::set_termination),
@@ -174,7 +187,9 @@ struct Map<Outcome> : Between<Outcome, v1::Outcome> {
       Entry(&T::notes, &P::notes, &P::mutable_notes),
       Entry(&T::alternatives, &P::alternatives, &P::mutable_alternatives),
       Entry(&T::alternatives_are_ends, &P::alternatives_are_ends, &P::set_alternatives_are_ends),
-      Entry(&T::plan, &P::plan, &P::mutable_plan),
+      Entry(&T::plan, &P::plan, &P::mutable_plan), Entry(&T::rates_after, &P::rates_after, &P::mutable_rates_after),
+      Entry(&T::momentum_change, &P::momentum_change, &P::mutable_momentum_change),
+      Entry(&T::free_end, &P::has_free_end, &P::free_end, &P::mutable_free_end),
       Entry(&T::contact, &P::has_contact, &P::contact, &P::mutable_contact),
       Entry(&T::certificate, &P::has_certificate, &P::certificate, &P::mutable_certificate)>;
 };

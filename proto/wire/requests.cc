@@ -19,7 +19,7 @@ struct Map<SolveRequest> : Between<SolveRequest, v1::SolveRequest> {
                          Entry(&T::history_intervals, &P::history_intervals, &P::set_history_intervals),
                          Entry(&T::force_intervals, &P::force_intervals, &P::set_force_intervals),
                          Entry(&T::certified_digits, &P::certified_digits, &P::set_certified_digits),
-                         Flat<&T::demand, DemandEntries<P>>{}>;
+                         Entry(&T::both_ends, &P::both_ends, &P::set_both_ends), Flat<&T::demand, DemandEntries<P>>{}>;
 };
 
 template <>

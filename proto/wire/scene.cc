@@ -82,6 +82,15 @@ struct Map<SpatialContact> : Between<SpatialContact, v1::SpatialContact> {
 };
 
 template <>
+struct Map<Mechanism> : Between<Mechanism, v1::Mechanism> {
+  using Fields =
+      Entries<Entry(&T::mass_matrix, &P::mass_matrix, &P::mutable_mass_matrix),
+              Entry(&T::jacobian, &P::jacobian, &P::mutable_jacobian), Entry(&T::rates, &P::rates, &P::mutable_rates),
+              Entry(&T::kept_coordinates, &P::kept_coordinates, &P::mutable_kept_coordinates),
+              Entry(&T::composite, &P::composite, &P::set_composite)>;
+};
+
+template <>
 struct Map<PowerLaw> : Between<PowerLaw, v1::PowerLaw> {
   using Fields =
       Entries<Entry(&T::alpha, &P::alpha, &P::set_alpha), Entry(&T::exponent, &P::exponent, &P::set_exponent)>;
@@ -203,7 +212,8 @@ struct Map<Scene> : Between<Scene, v1::Scene> {
                              Case(&P::has_body_pair, &P::body_pair, &P::mutable_body_pair),
                              Case(&P::has_linkage, &P::linkage, &P::mutable_linkage),
                              Case(&P::has_planar_contact, &P::planar_contact, &P::mutable_planar_contact),
-                             Case(&P::has_spatial_contact, &P::spatial_contact, &P::mutable_spatial_contact)>>{},
+                             Case(&P::has_spatial_contact, &P::spatial_contact, &P::mutable_spatial_contact),
+                             Case(&P::has_mechanism, &P::mechanism, &P::mutable_mechanism)>>{},
       Entry(&T::friction, &P::friction, &P::mutable_friction), RestitutionEntry{},
       Entry(&T::surface_velocity, &P::has_surface_velocity, &P::surface_velocity, &P::mutable_surface_velocity),
       Flat<&T::impact_law, OneOf<Case(&P::has_whittaker, &P::whittaker, &P::mutable_whittaker),

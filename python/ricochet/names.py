@@ -26,13 +26,17 @@ _LETTERS = {
 }
 # The parts of an outcome whose numbers are columns; there are others with numbers of the same names.
 _COLUMNS = (
-    "coefficients rates_after_rad_s contact_velocity_after impulse work energy_change_j bodies_after effective "
-    "accuracy contact errors").split()
+    "coefficients rates_after_rad_s contact_velocity_after impulse work energy_change_j bodies_after rates_after "
+    "momentum_change effective accuracy contact errors").split()
 
 
 def fields_of(scene: Message) -> list[str]:
     """Returns the paths of the numbers of a scene, and of those that an axis may add to it."""
     paths = _paths(scene, "", {"surface_velocity.tangential_m_s": _tangential_directions(scene)})
+    rates = len(scene.mechanism.rates)
+    # An entry of a mass matrix beside the diagonal drives the one across it.
+    lower = {f"mechanism.mass_matrix[{i * rates + j}]" for i in range(rates) for j in range(i)}
+    paths = [path for path in paths if path not in lower]
     return paths + (["pendulum.phi_rad"] if scene.HasField("pendulum") else [])
 
 
@@ -44,6 +48,8 @@ def columns_of(scene: Message) -> list[str]:
     rates = len(scene.linkage.links) if system == "linkage" else int(system == "pendulum")
     angular = 1 if tangential == 1 else 3
     lengths = {"rates_after_rad_s": rates, "bodies_after": bodies}
+    for path in ("rates_after", "momentum_change", "errors.rates_after", "errors.momentum_change"):
+        lengths[path] = len(scene.mechanism.rates)
     for path in ("contact_velocity_after.tangential_m_s", "impulse.tangential_n_s"):
         lengths[path] = tangential
     for i in range(bodies):
@@ -55,6 +61,8 @@ def columns_of(scene: Message) -> list[str]:
 def _tangential_directions(scene: Message) -> int:
     system = scene.WhichOneof("system") or ""
     is_spatial = system.startswith("spatial") or (system == "body_pair" and scene.body_pair.HasField("spatial"))
+    if system == "mechanism":
+        is_spatial = len(scene.mechanism.jacobian) == 3 * len(scene.mechanism.rates)
     return 2 if is_spatial else 1
 
 

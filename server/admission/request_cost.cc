@@ -22,7 +22,11 @@ RequestCost Expensive(CostCause cause, double size) {
   return {.cause = cause, .octave = static_cast<int>(std::log2(std::max(size, 1.0)))};
 }
 
+// The links of a linkage, or the coordinates of a mechanism.
 int64_t Links(const Scene& scene) {
+  if (const auto* const mechanism = std::get_if<Mechanism>(&scene.system)) {
+    return static_cast<int64_t>(mechanism->rates.size());
+  }
   const auto* const linkage = std::get_if<Linkage>(&scene.system);
   return linkage == nullptr ? 1 : static_cast<int64_t>(linkage->links.size());
 }

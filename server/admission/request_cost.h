@@ -20,7 +20,7 @@ enum class CostCause {
   kEnclosure,    // Ranges of uncertain fields.
   kDuration,     // An impact that takes time is integrated.
   kHistory,      // A long history.
-  kLinks,        // A linkage of many links.
+  kLinks,        // A linkage of many links or a mechanism of many coordinates.
   kRows,         // A batch of many rows.
   kContacts,     // Many contacts at once, or many states of them.
 };

@@ -22,6 +22,7 @@
 
 #include "tests/support/claims/compliant_claims.h"
 #include "tests/support/claims/finite_duration_claims.h"
+#include "tests/support/claims/mechanism_claims.h"
 #include "tests/support/claims/pendulum_claims.h"
 #include "tests/support/claims/planar_claims.h"
 #include "tests/support/claims/sliding_claims.h"
@@ -93,6 +94,20 @@ void AddNumbersOfClosedForms(int count, Jobs& jobs) {
         AddNumbers(method + " (3D)", kind, jobs,
                    [=] { return sliding::NumberClaimsOf<2>(friction, hard, grazing, count, kSeed); });
       }
+    }
+  });
+}
+
+// The velocities of a mechanism after the impact, and the momentum that it takes.
+void AddMechanisms(int count, Jobs& jobs) {
+  ForBothKinds([&](const char* scenes, bool hard) {
+    for (const bool in_space : {false, true}) {
+      jobs.all.push_back([=] {
+        const MechanismClaims claims = MechanismClaimsOf(in_space, hard, in_space ? count / 10 : count, kSeed);
+        const std::string where = in_space ? " (3D)" : " (2D)";
+        return std::vector<Row>{{"mechanism, rates" + where, scenes, claims.rates},
+                                {"mechanism, mom." + where, scenes, claims.momentum}};
+      });
     }
   });
 }
@@ -242,6 +257,7 @@ void AddVelocities(int count, Jobs& jobs) {
 int Run(int count, const std::string& only) {
   Jobs jobs = {.only = only, .all = {}};
   if (only.empty()) AddVelocities(count, jobs);
+  AddMechanisms(count, jobs);
   AddNumbersOfClosedForms(count, jobs);
   AddNumbersOfSpace(count, jobs);
   AddNumbersOfSprings(count, jobs);

@@ -123,7 +123,7 @@ TEST_P(SolverContract, InfoNamesTheEngineAndWhatItCanCompute) {
   ASSERT_TRUE(info.ok()) << info.status();
   EXPECT_EQ(info->engine, ThisEngine());
   EXPECT_THAT(info->systems, ElementsAre("pendulum", "planar_body", "spatial_body", "body_pair", "linkage",
-                                         "planar_contact", "spatial_contact"));
+                                         "planar_contact", "spatial_contact", "mechanism"));
   EXPECT_THAT(info->models, testing::Contains(Model::kSpatial));
   EXPECT_THAT(info->models, testing::Not(testing::Contains(Model::kUnspecified)));
 }

@@ -88,7 +88,8 @@ class ExamplesTest(unittest.TestCase):
             self.assertEqual(picture(WORK / name), picture(SOURCE / "docs/images" / name), name)
 
     def test_cpp_is_compiled_by_the_consumer_project(self):
-        compiled = [path.read_text() for path in sorted((SOURCE / "tests/consumer").glob("*.cc"))]
+        compiled = [path.read_text() for path in sorted([*(SOURCE / "tests/consumer").glob("*.cc"),
+                                                              *(SOURCE / "tests/robots").glob("*.cc")])]
         count = 0
         for page in PAGES:
             for block in blocks("cpp", page):

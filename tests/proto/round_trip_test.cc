@@ -80,7 +80,8 @@ TEST(SceneTest, SurvivesWithEachSystem) {
        {System(std::monostate()), System(flat), System(body), System(BodyPair()),
         System(BodyPair{PlanarPair{flat, {2.0, 0.2}}}), System(BodyPair{SpatialPair{body, {2.0}}}), System(Linkage()),
         System(Linkage{{{1.0, 2.0, 0.5, 0.1, 0.3, -1.0}, {1.5}}}), System(PlanarContact{2.0, 0.5, 1.0, 1.0, -1.0}),
-        System(SpatialContact{{1, 2, 3, 4, 5, 6}, {7, 8}, -9}), System(SpatialContact{{1.0}, {}, 0.0})}) {
+        System(SpatialContact{{1, 2, 3, 4, 5, 6}, {7, 8}, -9}), System(SpatialContact{{1.0}, {}, 0.0}),
+        System(Mechanism{{2.0, 0.5, 0.5, 1.0}, {1, 2, 3, 4}, {-1, 0.5}, {1}, true}), System(Mechanism())}) {
     scene.system = system;
     EXPECT_EQ(ThroughWire(scene), scene) << "system " << system.index();
   }

@@ -24,6 +24,8 @@
 #include "absl/strings/str_split.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/json_errors.h"
+#include "client/cli/input/json_matrices.h"
+#include "client/cli/input/mechanism_file.h"
 #include "client/cli/io/csv_table.h"
 #include "client/cli/io/output_format.h"
 #include "client/cli/text/number_input.h"
@@ -106,14 +108,9 @@ class NumberReader {
   std::vector<Violation> violations_;
 };
 
-absl::StatusOr<Scene> PendulumFromFlags(const SceneOptions& options) {
-  NumberReader reader;
-  Pendulum pendulum{.inertia_kg_m2 = kDefaultInertia, .omega_minus_rad_s = kDefaultOmega};
-  reader.Read(options.a, "--a", pendulum.a_m);
-  reader.Read(options.b, "--b", pendulum.b_m);
-  reader.Read(options.inertia, "--inertia", pendulum.inertia_kg_m2);
-  reader.Read(options.omega, "--omega", pendulum.omega_minus_rad_s);
-  Scene scene;
+// Friction and restitution by flags; `system` has its flags read.
+Scene SceneFromFlags(const SceneOptions& options, System system, NumberReader& reader) {
+  Scene scene = {.system = std::move(system)};
   reader.Read(options.mu, "--mu", scene.friction.kinetic_coefficient);
   if (options.mu_static.has_value()) {
     reader.Read(options.mu_static, "--mu-static", scene.friction.static_coefficient.emplace());
@@ -125,9 +122,40 @@ absl::StatusOr<Scene> PendulumFromFlags(const SceneOptions& options) {
   if (options.newton.has_value()) scene.restitution = NewtonCoefficient{coefficient};
   if (options.poisson.has_value()) scene.restitution = PoissonCoefficient{coefficient};
   if (options.energetic.has_value()) scene.restitution = EnergeticCoefficient{coefficient};
-  scene.system = pendulum;
+  return scene;
+}
+
+absl::StatusOr<Scene> PendulumFromFlags(const SceneOptions& options) {
+  NumberReader reader;
+  Pendulum pendulum{.inertia_kg_m2 = kDefaultInertia, .omega_minus_rad_s = kDefaultOmega};
+  reader.Read(options.a, "--a", pendulum.a_m);
+  reader.Read(options.b, "--b", pendulum.b_m);
+  reader.Read(options.inertia, "--inertia", pendulum.inertia_kg_m2);
+  reader.Read(options.omega, "--omega", pendulum.omega_minus_rad_s);
+  Scene scene = SceneFromFlags(options, pendulum, reader);
   if (absl::Status status = reader.status(); !status.ok()) return status;
   return scene;
+}
+
+absl::StatusOr<Scene> MechanismFromFlags(const SceneOptions& options) {
+  absl::StatusOr<Mechanism> mechanism = ReadMechanism(options.mechanism);
+  if (!mechanism.ok()) return mechanism.status();
+  constexpr int64_t kMostCoordinates = 1'000'000;
+  for (const std::string& kept : options.kept) {
+    const absl::StatusOr<int64_t> coordinate = ParseCount(kept, "--keep", kMostCoordinates);
+    if (!coordinate.ok()) return coordinate.status();
+    mechanism->kept_coordinates.push_back(static_cast<int32_t>(*coordinate));
+  }
+  mechanism->composite = options.composite;
+  NumberReader reader;
+  Scene scene = SceneFromFlags(options, *std::move(mechanism), reader);
+  if (absl::Status status = reader.status(); !status.ok()) return status;
+  return scene;
+}
+
+// True if a flag is given that describes the pendulum itself.
+bool AnyPendulumFlag(const SceneOptions& options) {
+  return options.a.has_value() || options.b.has_value() || options.inertia.has_value() || options.omega.has_value();
 }
 
 bool AnyFlag(const SceneOptions& options) {
@@ -139,7 +167,7 @@ bool AnyFlag(const SceneOptions& options) {
 
 absl::Span<const SceneFlag> SceneFlags() { return kSceneFlags; }
 
-bool SceneOptions::any() const { return !file.empty() || AnyFlag(*this); }
+bool SceneOptions::any() const { return !file.empty() || !mechanism.empty() || AnyFlag(*this); }
 
 void AddSceneOptions(CLI::App& app, SceneOptions& options) {
   MarkFile(FileUse::kRead,
@@ -153,11 +181,27 @@ void AddSceneOptions(CLI::App& app, SceneOptions& options) {
   app.get_option("--poisson")->excludes(app.get_option("--energetic"));
 }
 
+void AddMechanismOptions(CLI::App& app, SceneOptions& options) {
+  MarkFile(FileUse::kRead,
+           app.add_option("--mechanism", options.mechanism,
+                          "A mechanism as numpy.savez writes it: arrays M (n x n), J (2 x n or 3 x n) and qdot (n)"))
+      ->type_name("FILE.npz")
+      ->group("Scene");
+  app.add_option("--keep", options.kept, "Coordinates of the mechanism that a brake or a controller holds")
+      ->type_name("I,...")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->group("Scene");
+  app.add_flag("--composite", options.composite, "All joints of the mechanism hold: it moves as one rigid body")
+      ->group("Scene");
+}
+
 absl::Status RequireVelocity(const Scene& scene) {
   bool is_moving = false;
   std::vector<std::string> velocities;
   VisitNumbers(scene, [&](const NumberPath& path, double value, NumberRule /*rule*/) {
-    const bool is_velocity = absl::EndsWith(path.name, "rad_s") || absl::EndsWith(path.name, "_m_s");
+    const bool is_velocity =
+        absl::EndsWith(path.name, "rad_s") || std::strcmp(path.name, "rates") == 0 || absl::EndsWith(path.name, "_m_s");
     if (!is_velocity || absl::StartsWith(path.name, "speed")) return;
     velocities.push_back(path.Text());
     is_moving = is_moving || value != 0.0;
@@ -169,6 +213,15 @@ absl::Status RequireVelocity(const Scene& scene) {
 }
 
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options) {
+  if (!options.mechanism.empty()) {
+    if (options.file.empty() && !AnyPendulumFlag(options)) return MechanismFromFlags(options);
+    return absl::InvalidArgumentError(
+        "--mechanism cannot be combined with --scene or the flags of a pendulum: it takes --mu, --mu-static and a "
+        "coefficient of restitution");
+  }
+  if (!options.kept.empty() || options.composite) {
+    return absl::InvalidArgumentError("--keep and --composite need --mechanism FILE.npz; a scene states its own");
+  }
   if (options.file.empty()) {
     if (AnyFlag(options)) return PendulumFromFlags(options);
     return absl::InvalidArgumentError("no scene: give --scene FILE, or a pendulum by --a, --b, --mu, --energetic ...");
@@ -213,9 +266,10 @@ absl::Status ParseMessage(const std::string& path, const std::string& text, goog
   const std::string name = path == "-" ? "standard input" : path;
   const std::string type = message.GetTypeName();
   if (IsJson(path, text)) {
-    std::string wrong = ExplainJson(text, *message.GetDescriptor());
+    const absl::StatusOr<std::string> flat = WithFlatMatrices(text);
+    std::string wrong(flat.ok() ? ExplainJson(*flat, *message.GetDescriptor()) : flat.status().message());
     if (wrong.empty()) {
-      const auto status = google::protobuf::util::JsonStringToMessage(text, &message);
+      const auto status = google::protobuf::util::JsonStringToMessage(*flat, &message);
       if (status.ok()) return absl::OkStatus();
       wrong = status.message().ToString();
     }

@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/status/statusor.h"
 #include "absl/types/span.h"
@@ -20,9 +21,13 @@ class Message;
 
 namespace ricochet::cli {
 
-// The options of a scene: --scene FILE, or the flags of a pendulum. Values are kept as typed until they are read.
+// The options of a scene: --scene FILE, or the flags of a pendulum, or --mechanism FILE with those of friction and
+// restitution. Values are kept as typed until they are read.
 struct SceneOptions {
   std::string file;
+  std::string mechanism;
+  std::vector<std::string> kept;  // Coordinates of the mechanism.
+  bool composite = false;
   std::optional<std::string> a, b, inertia, omega;
   std::optional<std::string> mu, mu_static;
   std::optional<std::string> newton, poisson, energetic;
@@ -40,10 +45,12 @@ struct SceneFlag {
 absl::Span<const SceneFlag> SceneFlags();
 
 void AddSceneOptions(CLI::App& app, SceneOptions& options);
+// --mechanism FILE, --keep and --composite.
+void AddMechanismOptions(CLI::App& app, SceneOptions& options);
 
 // Returns the scene that the options describe, without validating it. A pendulum's inertia is 1 kg m² and its w- is
 // -1 rad/s unless given.
-// Errors: INVALID_ARGUMENT for neither or both of file and flags, a text that is not a number, an unreadable file.
+// Errors: INVALID_ARGUMENT for neither or several of a scene, a mechanism and a pendulum, a text that is not a number, an unreadable file.
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options);
 
 // Returns INVALID_ARGUMENT, with the fields that may hold one, for a scene that states no velocity at all. Such a scene

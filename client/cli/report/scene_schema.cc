@@ -58,19 +58,35 @@ std::string Reference(const Descriptor& message) { return absl::StrCat("#/$defs/
 
 Json ValueSchema(const FieldDescriptor& field, const std::string& comment) {
   if (field.message_type() != nullptr) return {{"$ref", Reference(*field.message_type())}};
-  Json schema = {{"type", field.cpp_type() == FieldDescriptor::CPPTYPE_DOUBLE ? "number" : "integer"}};
+  const bool is_flag = field.cpp_type() == FieldDescriptor::CPPTYPE_BOOL;
+  const bool is_whole = field.cpp_type() == FieldDescriptor::CPPTYPE_INT32;
+  Json schema = {{"type", is_flag ? "boolean" : is_whole ? "integer" : "number"}};
   if (!UnitOf(field).empty()) schema["unit"] = UnitOf(field);
   AddRange(RangeOf(comment), schema);
   return schema;
+}
+
+// A matrix as a list of its rows (client/cli/input/json_matrices.h).
+Json RowsSchema() {
+  return {{"type", "array"}, {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
+}
+
+bool IsMatrix(const FieldDescriptor& field) {
+  return field.name() == "mass_matrix" || field.name() == "jacobian" || field.name() == "w_per_kg";
 }
 
 Json FieldSchema(const FieldDescriptor& field) {
   const std::string comment = CommentOf(field);
   Json schema = {{"description", comment}};
   if (field.is_repeated()) {
-    schema["type"] = "array";
-    AddLength(comment, schema);
-    schema["items"] = ValueSchema(field, comment);
+    Json list = {{"type", "array"}};
+    AddLength(comment, list);
+    list["items"] = ValueSchema(field, comment);
+    if (IsMatrix(field)) {
+      schema["anyOf"] = {list, RowsSchema()};
+    } else {
+      schema.update(list);
+    }
   } else {
     schema.update(ValueSchema(field, comment));
   }
@@ -94,6 +110,10 @@ Json MessageSchema(const Descriptor& message) {
     schema["properties"][field.name()] = FieldSchema(field);
     const bool is_alone = field.real_containing_oneof() == nullptr;
     if (is_alone && absl::EndsWith(CommentOf(field), "Required.")) required.push_back(field.name());
+  }
+  if (message.name() == "PlanarContact") {
+    schema["properties"]["w_per_kg"] = RowsSchema();
+    schema["properties"]["w_per_kg"]["description"] = "W, 2 x 2 with rows t and n, in place of its entries, 1/kg.";
   }
   schema["additionalProperties"] = false;
   if (!required.empty()) schema["required"] = required;

@@ -198,6 +198,37 @@ std::string BodiesText(absl::Span<const BodyVelocity> bodies) {
   return absl::StrCat("\nBodies after\n", table.Render(2));
 }
 
+// The motion of a mechanism, in the units of its coordinates.
+std::string CoordinatesText(const Outcome& outcome) {
+  if (outcome.rates_after.empty()) return "";
+  const bool has_free_end = outcome.free_end.has_value();
+  Table table;
+  table.Add({"coordinate", "rate", "error <=", "momentum taken", has_free_end ? "rate, none held" : ""});
+  for (size_t i = 0; i < outcome.rates_after.size(); ++i) {
+    const double error = outcome.errors.rates_after[i];
+    table.Add({absl::StrCat(i), Rounded(outcome.rates_after[i]), std::isinf(error) ? "unknown" : RoundedUp(error),
+               Rounded(outcome.momentum_change[i]), has_free_end ? Rounded(outcome.free_end->rates_after[i]) : ""});
+  }
+  return absl::StrCat("\nMechanism after\n", table.Render(2));
+}
+
+// How far the two ends are apart: as the mechanism states it, and with no coordinate held.
+std::string EndsText(const Outcome& outcome) {
+  if (!outcome.free_end.has_value()) return "";
+  const FreeEnd& free = *outcome.free_end;
+  Table table;
+  table.Add({"", "as held", "none held"});
+  AddMotion("contact, tangential [m/s]", outcome.contact_velocity_after.tangential_m_s,
+            free.contact_velocity_after.tangential_m_s, table);
+  AddMotion("contact, normal [m/s]", {outcome.contact_velocity_after.normal_m_s},
+            {free.contact_velocity_after.normal_m_s}, table);
+  AddMotion("tangential impulse [N s]", outcome.impulse.tangential_n_s, free.impulse.tangential_n_s, table);
+  AddMotion("normal impulse [N s]", {outcome.impulse.normal_total_n_s}, {free.impulse.normal_total_n_s}, table);
+  AddMotion("Newton's coefficient", {outcome.coefficients.newton}, {free.coefficients.newton}, table);
+  return absl::StrCat("\nBoth ends\n", table.Render(2), "  With nothing held: ", Sentence(free.regime), "\n",
+                      TerminationText(free.termination));
+}
+
 // Lists every solution of an impact law that can have several.
 std::string AlternativesText(const Outcome& outcome) {
   const std::vector<ImpactSolution>& alternatives = outcome.alternatives;
@@ -324,6 +355,8 @@ void AppendSingle(const Message& message, const FieldDescriptor* field, const st
   is_unset = is_unset || ((is_message || field->has_optional_keyword()) && !reflection.HasField(message, field));
   if (is_message) {
     if (field->message_type() == v1::Certificate::descriptor()) return;
+    // Only a request for it gives these columns.
+    if (field->message_type() == v1::FreeEnd::descriptor() && !reflection.HasField(message, field)) return;
     return AppendFields(reflection.GetMessage(message, field), absl::StrCat(path, "."), is_unset, row);
   }
   if (is_unset) return row.Words(path, "");
@@ -378,11 +411,12 @@ std::string RowsOf(const Messages& messages) {
 }  // namespace
 
 std::string SolveText(const Outcome& outcome) {
-  std::string text =
-      absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination), Verdict(outcome),
-                   NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n", MotionText(outcome),
-                   BodiesText(outcome.bodies_after), "\n", ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+  std::string text = absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination),
+                                  Verdict(outcome), NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n",
+                                  MotionText(outcome), BodiesText(outcome.bodies_after), CoordinatesText(outcome), "\n",
+                                  ImpulseText(outcome.impulse), "\n", WorkText(outcome));
   if (outcome.contact.has_value()) text += ContactText(*outcome.contact);
+  text += EndsText(outcome);
   text += AlternativesText(outcome);
   if (!outcome.timeline.empty()) {
     const State& start = outcome.timeline.front().state;

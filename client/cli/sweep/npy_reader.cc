@@ -1,17 +1,17 @@
 // Reads the NPY files that NpyWriter writes: one record for each point.
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
+#include <vector>
 
-#include "absl/strings/match.h"
-#include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
+#include "client/cli/io/npy_header.h"
 #include "client/cli/sweep/sweep_file.h"
 #include "client/cli/sweep/sweep_rows.h"
 
@@ -20,8 +20,6 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "records are read as they lie in memory");
 
-// A header of more bytes would name thousands of columns.
-constexpr uint32_t kMostHeader = 1 << 20;
 constexpr size_t kRecordsAtATime = 4096;
 
 struct Field {
@@ -39,33 +37,6 @@ absl::Status NotRecords(const std::string& why) {
       absl::StrCat(why, ": must be a list of records with named cells of <f8, <i8 and |u1, as ricochet sweep writes"));
 }
 
-absl::StatusOr<std::string> HeaderText(std::istream& stream) {
-  std::array<char, 8> magic;
-  stream.read(magic.data(), magic.size());
-  // The length of the header has two bytes in version 1 of the format, else four.
-  uint32_t length = 0;
-  if (stream) stream.read(reinterpret_cast<char*>(&length), magic[6] == 1 ? 2 : 4);
-  if (!stream || length > kMostHeader) return absl::InvalidArgumentError("ends in its header");
-  std::string text(length, '\0');
-  if (!stream.read(text.data(), length)) return absl::InvalidArgumentError("ends in its header");
-  return text;
-}
-
-// Removes the text up to and with the first `mark`. Returns false if there is none.
-bool SkipPast(absl::string_view mark, absl::string_view& text) {
-  const size_t place = text.find(mark);
-  if (place == absl::string_view::npos) return false;
-  text.remove_prefix(place + mark.size());
-  return true;
-}
-
-// Removes the text up to `end`, and returns it.
-absl::string_view TakeUntil(char end, absl::string_view& text) {
-  const absl::string_view part = text.substr(0, text.find(end));
-  text.remove_prefix(part.size());
-  return part;
-}
-
 // Returns the fields of a list such as [('index', '<i8'), ('pendulum.a_m', '<f8')].
 std::vector<Field> FieldsIn(absl::string_view text) {
   std::vector<Field> fields;
@@ -79,17 +50,16 @@ std::vector<Field> FieldsIn(absl::string_view text) {
 }
 
 absl::StatusOr<NpyHeader> ReadHeader(std::istream& stream) {
-  const absl::StatusOr<std::string> text = HeaderText(stream);
+  const absl::StatusOr<std::string> text = ReadNpyHeader(stream);
   if (!text.ok()) return text.status();
   NpyHeader header = {.fields = FieldsIn(*text)};
   for (const auto& [name, type] : header.fields) {
     if (type != "<f8" && type != "<i8" && type != "|u1") return NotRecords(absl::StrCat(name, " has the type ", type));
   }
   if (header.fields.empty()) return NotRecords("its numbers have no names");
-  absl::string_view shape = *text;
-  const bool is_list = SkipPast("'shape': (", shape) && absl::SimpleAtoi(TakeUntil(',', shape), &header.records) &&
-                       absl::StartsWith(shape, ",)") && header.records >= 0;
-  if (!is_list) return NotRecords("it has more than one dimension");
+  const std::optional<std::vector<int64_t>> shape = ShapeIn(*text);
+  if (!shape.has_value() || shape->size() != 1) return NotRecords("it has more than one dimension");
+  header.records = shape->front();
   return header;
 }
 

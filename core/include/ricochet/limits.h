@@ -14,8 +14,8 @@
 namespace ricochet {
 
 struct Limits {
-  // Links of a linkage, rates after an impact that an audit states, and bodies that touch at several contacts. Time
-  // grows with the cube of the links.
+  // Links of a linkage, coordinates of a mechanism, rates after an impact that an audit states, and bodies that touch at
+  // several contacts. Time grows with the cube of the links and coordinates.
   int64_t max_links = 64;
   // Numbers in one list of a scene, such as a table of coefficients by speed.
   int64_t max_list_numbers = 1024;
@@ -65,7 +65,7 @@ struct NamedLimit {
 
 // Every limit, in the order of the struct.
 inline constexpr NamedLimit kLimits[] = {
-    {"max_links", &Limits::max_links, 1'000'000, "Links of a linkage"},
+    {"max_links", &Limits::max_links, 1'000'000, "Links of a linkage, or coordinates of a mechanism"},
     {"max_list_numbers", &Limits::max_list_numbers, 1'000'000, "Numbers in one list of a scene"},
     {"max_ranges", &Limits::max_ranges, 1'000'000, "Uncertain fields of one request for bounds"},
     {"max_boxes", &Limits::max_boxes, 200'000, "Boxes that one enclosure evaluates; fewer leave it wider"},

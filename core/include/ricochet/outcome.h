@@ -165,6 +165,10 @@ struct NumberErrors {
   std::optional<double> normal_compression_j, normal_restitution_j;
   std::optional<double> tangential_compression_j, tangential_restitution_j;
   std::optional<double> energy_change_j;
+  // Of Outcome::rates_after and momentum_change, entry by entry, and infinite where no bound is known. These take M, J
+  // and q' as exact, but not W and the contact velocity that they were reduced to; they are estimates whatever
+  // Accuracy::kind says (docs/theory/mechanism.md).
+  Components rates_after, momentum_change;
   friend bool operator==(const NumberErrors&, const NumberErrors&) = default;
 };
 
@@ -214,6 +218,17 @@ struct ImpactSolution {
   friend bool operator==(const ImpactSolution&, const ImpactSolution&) = default;
 };
 
+// The end of an impact in which no coordinate of a mechanism is held.
+struct FreeEnd {
+  Regime regime = Regime::kUnspecified;
+  Termination termination = Termination::kConverged;
+  Coefficients coefficients;
+  Components rates_after;
+  ContactVelocity contact_velocity_after;
+  Impulse impulse;
+  friend bool operator==(const FreeEnd&, const FreeEnd&) = default;
+};
+
 struct Outcome {
   Regime regime = Regime::kUnspecified;
   Termination termination = Termination::kConverged;
@@ -238,6 +253,12 @@ struct Outcome {
   bool alternatives_are_ends = false;
   Plan plan;
   std::optional<ContactDuration> contact;  // Present exactly if the model is Model::kFiniteDuration.
+  // Of a mechanism, in the units of its coordinates: q' after the impact, and M (q'+ - q'), the momentum that the impact
+  // gives each coordinate. For a free one that is J^T (f, tau). A coordinate that is held takes what the free ones pass
+  // on to it: less J^T (f, tau), it is the impulse of the brake or controller that holds it. Empty for other systems.
+  Components rates_after;
+  Components momentum_change;
+  std::optional<FreeEnd> free_end;         // Present exactly if SolveRequest::both_ends asks for it.
   std::optional<Certificate> certificate;  // Present exactly if SolveRequest::certified_digits asks for it.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };

@@ -76,7 +76,9 @@ inline constexpr auto kOutcomeNumbers =
                OutcomeNumber("normal_restitution_j", &NumberErrors::normal_restitution_j),
                OutcomeNumber("tangential_compression_j", &NumberErrors::tangential_compression_j),
                OutcomeNumber("tangential_restitution_j", &NumberErrors::tangential_restitution_j),
-               OutcomeNumber("energy_change_j", &NumberErrors::energy_change_j)};
+               OutcomeNumber("energy_change_j", &NumberErrors::energy_change_j),
+               OutcomeNumber("rates_after", &NumberErrors::rates_after),
+               OutcomeNumber("momentum_change", &NumberErrors::momentum_change)};
 
 // Calls visit(name, value) for the numbers of `part`, which may be const: each a double, an optional or Components.
 template <typename Part, typename Visitor>
@@ -116,6 +118,8 @@ void VisitOutcomeFields(const Outcome& outcome, const Visitor& visit) {
   visit_part("impulse", outcome.impulse);
   visit_part("work", outcome.work);
   visit_value({.name = "energy_change_j"}, outcome.energy_change_j);
+  visit_value({.name = "rates_after"}, outcome.rates_after);
+  visit_value({.name = "momentum_change"}, outcome.momentum_change);
   visit_part("effective", outcome.effective);
   visit_part("accuracy", outcome.accuracy);
   const bool has_contact = outcome.contact.has_value();

@@ -57,6 +57,8 @@ struct SolveRequest {
   // If > 0, Outcome::certificate has this many significant digits, at most kMostCertifiedDigits. It must be 0 with
   // excluded effects. docs/theory/certified.md says which scenes can be certified.
   int32_t certified_digits = 0;
+  // If true, Outcome::free_end has the same impact with no coordinate held. It takes a mechanism that holds some.
+  bool both_ends = false;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };
 

@@ -8,6 +8,7 @@
 #define RICOCHET_SYSTEM_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <variant>
 #include <vector>
 
@@ -88,6 +89,25 @@ struct Linkage {
   friend bool operator==(const Linkage&, const Linkage&) = default;
 };
 
+// Any mechanism, as a multibody library gives it at one instant: its mass matrix M, the Jacobian J of the contact point
+// and its generalised velocities q', in n coordinates of any kind. J has d rows, along t and n in a plane (d = 2) or
+// along t1, t2 and n in space (d = 3); rates.size() is n, and jacobian.size() tells d. A linkage is the case whose M and
+// J follow from its links.
+//
+// Coordinates that a brake or a stiff controller holds during the impact keep their rates: their rows and columns leave
+// M, and their columns leave J. `composite` holds all joints of a mechanism with a floating base, which then moves as
+// one rigid body: the first 6 coordinates (3 in a plane) stay free. They must be those of a free body: its velocity
+// along orthonormal axes, of which M makes m, m, m and J a rotation, before or after its angular velocity.
+struct Mechanism {
+  std::vector<double> mass_matrix;        // n x n entries, row by row, of a symmetric positive definite matrix.
+  std::vector<double> jacobian;           // d x n entries, row by row; the last row is along n.
+  std::vector<double> rates;              // n entries, q' before the impact.
+  std::vector<int32_t> kept_coordinates;  // Coordinates in [0, n), each once, that keep their rates.
+  bool composite = false;                 // All joints are held; kept_coordinates must then be empty.
+
+  friend bool operator==(const Mechanism&, const Mechanism&) = default;
+};
+
 // A contact in the plane: W = J M^-1 J^T, the contact-space inverse inertia (Delassus matrix), symmetric positive
 // semidefinite, and the contact velocity, which lies in the range of W.
 struct PlanarContact {
@@ -110,11 +130,12 @@ struct SpatialContact {
 };
 
 // std::monostate means that the request stated no system, which Validate reports.
-using System =
-    std::variant<std::monostate, Pendulum, PlanarBody, SpatialBody, BodyPair, Linkage, PlanarContact, SpatialContact>;
+using System = std::variant<std::monostate, Pendulum, PlanarBody, SpatialBody, BodyPair, Linkage, PlanarContact,
+                            SpatialContact, Mechanism>;
 
 // The number of tangential directions: 1 in a plane, 2 in space. The system must be set.
 size_t TangentialDirections(const System& system);
+size_t TangentialDirections(const Mechanism& mechanism);  // 1 for a Jacobian of no valid size, too.
 
 }  // namespace ricochet
 

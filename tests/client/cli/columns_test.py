@@ -51,6 +51,9 @@ PLANAR = {
                                 "normal_m_s": towards()}, "contact_acceleration", "normal_m_s2"),
 }
 SPATIAL = {
+    "mechanism": lambda: {"mass_matrix": [2, 0.6, 0.1, 0.6, 1.2, 0.3, 0.1, 0.3, 0.5],
+                          "jacobian": [RANDOM.uniform(-1, 1) for _ in range(9)],
+                          "rates": [RANDOM.uniform(-2, 2) for _ in range(3)]},
     "spatial_body": body_in_space,
     "body_pair": lambda: {"spatial": {"body_1": body_in_space(), "body_2": body_in_space()}},
     "spatial_contact": lambda: {"w_per_kg": [1.96, RANDOM.uniform(-0.3, 0.3), 0.6, 2.96, -0.8, 1.85],

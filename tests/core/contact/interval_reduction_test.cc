@@ -41,6 +41,14 @@ std::vector<Scene> Scenes() {
   return scenes;
 }
 
+// A mass matrix stays symmetric.
+void Mirror(Scene& scene) {
+  auto* const mechanism = std::get_if<Mechanism>(&scene.system);
+  if (mechanism == nullptr) return;
+  const size_t n = mechanism->rates.size();
+  for (size_t i = 0; i < n * n; ++i) mechanism->mass_matrix[i % n * n + i / n] = mechanism->mass_matrix[i];
+}
+
 // `count` numbers of the scene, drawn at random, get ranges.
 SceneBox RandomBox(const Scene& scene, int count, double relative, std::mt19937_64& random) {
   SceneBox box = {scene, scene, std::nullopt};
@@ -52,6 +60,8 @@ SceneBox RandomBox(const Scene& scene, int count, double relative, std::mt19937_
     *low[i] -= reach;
     *high[i] += reach;
   }
+  Mirror(box.low);
+  Mirror(box.high);
   return box;
 }
 
@@ -59,6 +69,7 @@ Scene Inside(SceneBox box, std::mt19937_64& random) {
   const std::vector<double*> low = NumbersOf(box.low);
   const std::vector<double*> high = NumbersOf(box.high);
   for (size_t i = 0; i < low.size(); ++i) *low[i] = Uniform(random, *low[i], *high[i]);
+  Mirror(box.low);
   return box.low;
 }
 

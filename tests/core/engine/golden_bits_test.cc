@@ -63,11 +63,7 @@ std::vector<System> AllSystems() {
   return systems;
 }
 
-bool IsPlanar(const System& system) {
-  const auto* const pair = std::get_if<BodyPair>(&system);
-  if (pair != nullptr) return std::holds_alternative<PlanarPair>(pair->bodies);
-  return !std::holds_alternative<SpatialBody>(system) && !std::holds_alternative<SpatialContact>(system);
-}
+bool IsPlanar(const System& system) { return TangentialDirections(system) == 1; }
 
 Restitution AnyRestitution(Random& random) {
   const double value = random.Below(8) == 0 ? 1.0 : random.Uniform(0.0, 1.0);

@@ -27,7 +27,7 @@ using testing::IsEmpty;
 
 constexpr char kOneOfTheSystems[] =
     "is not set: must be one of pendulum, planar_body, spatial_body, body_pair, linkage, planar_contact, "
-    "spatial_contact";
+    "spatial_contact, mechanism";
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();

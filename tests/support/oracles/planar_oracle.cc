@@ -32,14 +32,14 @@ slong PrecisionFor(const Problem& problem) {
 
 class Simulation {
  public:
-  explicit Simulation(const Problem& problem)
+  Simulation(const Problem& problem, const ExactContact& contact)
       : problem_(problem),
         bits_(PrecisionFor(problem)),
-        wtt_(problem.w.tt, bits_),
-        wtn_(problem.w.tn, bits_),
-        wnn_(problem.w.nn, bits_),
-        u0_(problem.u0, bits_),
-        v0_(problem.v0, bits_),
+        wtt_(contact.wtt),
+        wtn_(contact.wtn),
+        wnn_(contact.wnn),
+        u0_(contact.u0),
+        v0_(contact.v0),
         mu_(problem.mu, bits_),
         mu_static_(problem.mu_static, bits_),
         coefficient_(problem.coefficient, bits_) {
@@ -286,7 +286,18 @@ class ErrorOnScale {
 
 }  // namespace
 
-ExactImpact SolveExactly(const Problem& problem) { return Simulation(problem).Run(); }
+ExactImpact SolveExactly(const Problem& problem, const ExactContact& contact) {
+  return Simulation(problem, contact).Run();
+}
+
+ExactImpact SolveExactly(const Problem& problem) {
+  const auto ball = [bits = PrecisionFor(problem)](double x) { return Ball(x, bits); };
+  return SolveExactly(problem, {.wtt = ball(problem.w.tt),
+                                .wtn = ball(problem.w.tn),
+                                .wnn = ball(problem.w.nn),
+                                .u0 = ball(problem.u0),
+                                .v0 = ball(problem.v0)});
+}
 
 OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact) {
   const Ball work_scale = Larger(Larger(-exact.work_normal_compression, exact.work_normal_restitution),

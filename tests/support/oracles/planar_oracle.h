@@ -41,6 +41,12 @@ struct ExactImpact {
 // The problem must not be separating.
 ExactImpact SolveExactly(const Problem& problem);
 
+// A contact that is no double, in place of that of a problem.
+struct ExactContact {
+  Ball wtt, wtn, wnn, u0, v0;
+};
+ExactImpact SolveExactly(const Problem& problem, const ExactContact& contact);
+
 // The outputs whose errors are reported. The last four are the largest errors at an event after the start.
 inline constexpr std::array kOutputNames = {
     "u1",

@@ -43,16 +43,15 @@ using State = std::array<Ball, kQuantities>;
 
 class Path {
  public:
-  explicit Path(const Problem& p)
-      : p_(p),
-        mu_(Of(p.mu)),
-        w11_(Of(p.w11)),
-        w12_(Of(p.w12)),
-        w13_(Of(p.w13)),
-        w22_(Of(p.w22)),
-        w23_(Of(p.w23)),
-        w33_(Of(p.w33)) {
-    state_ = {Of(p.u0[0]), Of(p.u0[1]), Of(p.v0), Of(0.0), Of(0.0), Of(0.0), Of(0.0), Of(0.0)};
+  Path(const Problem& p, const ExactContact& contact)
+      : mu_(Of(p.mu)),
+        w11_(contact.w[0]),
+        w12_(contact.w[1]),
+        w13_(contact.w[2]),
+        w22_(contact.w[3]),
+        w23_(contact.w[4]),
+        w33_(contact.w[5]) {
+    state_ = {contact.u0[0], contact.u0[1], contact.v0, Of(0.0), Of(0.0), Of(0.0), Of(0.0), Of(0.0)};
   }
 
   // Follows the path until the quantity, which grows on the last step, reaches the target.
@@ -139,7 +138,6 @@ class Path {
     }
   }
 
-  const Problem& p_;
   Ball mu_, w11_, w12_, w13_, w22_, w23_, w33_;
   std::array<Series, kQuantities> series_;
 };
@@ -147,7 +145,14 @@ class Path {
 }  // namespace
 
 std::optional<ExactImpact> SolveExactly(const Problem& problem) {
-  Path path(problem);
+  return SolveExactly(problem, {.w = {Of(problem.w11), Of(problem.w12), Of(problem.w13), Of(problem.w22),
+                                      Of(problem.w23), Of(problem.w33)},
+                                .u0 = {Of(problem.u0[0]), Of(problem.u0[1])},
+                                .v0 = Of(problem.v0)});
+}
+
+std::optional<ExactImpact> SolveExactly(const Problem& problem, const ExactContact& contact) {
+  Path path(problem, contact);
   if (!path.RunTo(kV, Of(0.0))) return std::nullopt;
   const State compression = path.state_;
   for (const Quantity q : {kTau, kF1, kF2, kNormalWork, kFrictionWork}) path.state_[q] = Of(0.0);
@@ -156,7 +161,7 @@ std::optional<ExactImpact> SolveExactly(const Problem& problem) {
     bool ends = false;
     switch (problem.law) {
       case RestitutionLaw::kNewton:
-        ends = path.RunTo(kV, -(coefficient * problem.v0));
+        ends = path.RunTo(kV, -(coefficient * contact.v0));
         break;
       case RestitutionLaw::kPoisson:
         ends = path.RunTo(kTau, coefficient * compression[kTau]);
@@ -172,7 +177,7 @@ std::optional<ExactImpact> SolveExactly(const Problem& problem) {
   exact.u1 = {end[kU1], end[kU2]};
   // Where friction jams the contact, v grows so far beyond |v0| that the path ends below its own digits of v.
   const bool newton = problem.law == RestitutionLaw::kNewton;
-  exact.v1 = newton ? -(coefficient * problem.v0) : problem.coefficient > 0.0 ? end[kV] : Of(0.0);
+  exact.v1 = newton ? -(coefficient * contact.v0) : problem.coefficient > 0.0 ? end[kV] : Of(0.0);
   exact.tau_compression = compression[kTau];
   exact.tau1 = compression[kTau] + end[kTau];
   exact.f1 = {compression[kF1] + end[kF1], compression[kF2] + end[kF2]};
@@ -181,7 +186,7 @@ std::optional<ExactImpact> SolveExactly(const Problem& problem) {
   exact.work_tangential_compression = compression[kFrictionWork];
   exact.work_tangential_restitution = end[kFrictionWork];
   exact.energy_change = compression[kNormalWork] + end[kNormalWork] + compression[kFrictionWork] + end[kFrictionWork];
-  exact.newton = -(exact.v1 / Of(problem.v0));
+  exact.newton = -(exact.v1 / contact.v0);
   exact.poisson = end[kTau] / compression[kTau];
   exact.energetic = Sqrt(Abs(Middle(end[kNormalWork] / compression[kNormalWork])));
   if (problem.coefficient > 0.0) {

@@ -30,6 +30,14 @@ struct ExactImpact {
 // and have friction.
 std::optional<ExactImpact> SolveExactly(const Problem& problem);
 
+// A contact that is no double, in place of that of a problem: W is 11, 12, 13, 22, 23, 33.
+struct ExactContact {
+  std::array<Ball, 6> w;
+  std::array<Ball, 2> u0;
+  Ball v0;
+};
+std::optional<ExactImpact> SolveExactly(const Problem& problem, const ExactContact& contact);
+
 // A problem as hexadecimal floats, to be pasted into a test.
 std::string ToString(const Problem& problem);
 

@@ -80,6 +80,25 @@ class RandomScenes {
             .tangential_m_s = {Uniform(-2.0, 2.0), Uniform(-2.0, 2.0)},
             .normal_m_s = Towards()};
   }
+  // M = A A^T + 0.3.
+  Mechanism Arm(bool in_space) {
+    const size_t n = in_space ? 4 : 3;
+    std::vector<std::vector<double>> a(n);
+    Mechanism arm;
+    for (std::vector<double>& row : a) {
+      for (size_t k = 0; k < n; ++k) row.push_back(Uniform(-1.0, 1.0));
+    }
+    for (size_t i = 0; i < n; ++i) {
+      for (size_t j = 0; j < n; ++j) {
+        double entry = i == j ? 0.3 : 0.0;
+        for (size_t k = 0; k < n; ++k) entry += a[i][k] * a[j][k];
+        arm.mass_matrix.push_back(entry);
+      }
+      arm.rates.push_back(Uniform(-2.0, 2.0));
+    }
+    for (size_t i = 0; i < (in_space ? 3 : 2) * n; ++i) arm.jacobian.push_back(Uniform(-1.0, 1.0));
+    return arm;
+  }
   Pendulum Bar() {
     return {.inertia_kg_m2 = Power(-1.0, 1.0),
             .a_m = Uniform(0.05, 1.0),
@@ -127,6 +146,8 @@ inline std::vector<RandomSystem> RandomSystems() {
        gravity},
       {"linkage", false, false, [](R& r) -> System { return r.Chain(); }, gravity},
       {"planar_contact", false, true, [](R& r) -> System { return r.Contact(); }, acceleration},
+      {"mechanism", false, false, [](R& r) -> System { return r.Arm(false); }, none},
+      {"mechanism in space", true, false, [](R& r) -> System { return r.Arm(true); }, none},
       {"spatial_body", true, true, [](R& r) -> System { return r.BodyInSpace(); }, none},
       {"spatial_pair", true, false,
        [](R& r) -> System {

@@ -24,6 +24,14 @@ inline Linkage Chain(size_t links = 2) {
   }
   return chain;
 }
+// A chain of three coordinates, in a plane or in space.
+inline Mechanism Arm(bool in_space = false) {
+  Mechanism arm = {.mass_matrix = {2.0, 0.6, 0.1, 0.6, 1.2, 0.3, 0.1, 0.3, 0.5},
+                   .jacobian = {0.9, 0.3, -0.2, 0.7, 0.6, 0.4},
+                   .rates = {-1.0, 0.4, -0.5}};
+  if (in_space) arm.jacobian.insert(arm.jacobian.begin() + 3, {0.1, -0.5, 0.6});
+  return arm;
+}
 inline PlanarContact Contact() { return {2.0, 0.5, 1.0, 1.0, -1.0}; }
 inline SpatialContact ContactInSpace() { return {{1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, {1.0, 0.6}, -1.0}; }
 
@@ -31,8 +39,15 @@ inline SpatialContact ContactInSpace() { return {{1.96, 0.24, 0.6, 2.96, -0.8, 1
 inline std::vector<System> Systems() {
   const PlanarBody flat = {2.0, 0.2, 0.1, 0.3, 0.0, 0.5, 0.0};
   const SpatialBody body = {2.0, {1, 0, 0, 1, 0, 1}, {0, 0, 0.5}, {0, 0, 1}, {1, 1, 0}};
-  return {Flat(),    Body(),          BodyPair{PlanarPair{Flat(), flat}}, BodyPair{SpatialPair{Body(), body}}, Chain(),
-          Contact(), ContactInSpace()};
+  return {Flat(),
+          Body(),
+          BodyPair{PlanarPair{Flat(), flat}},
+          BodyPair{SpatialPair{Body(), body}},
+          Chain(),
+          Contact(),
+          ContactInSpace(),
+          Arm(),
+          Arm(/*in_space=*/true)};
 }
 
 // A scene of the system with friction 0.5 and the energetic coefficient 0.5.

@@ -1,0 +1,110 @@
+#include "client/cli/input/json_matrices.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "ricochet/contact_matrix.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kBlanks[] = " \t\r\n";
+
+// The rows of a matrix and where its text begins and ends.
+struct Matrix {
+  size_t begin = 0, end = 0;
+  std::vector<std::vector<double>> rows;
+};
+
+// Reads the value of the key that ends before `at`, if it is a list of lists of numbers.
+std::optional<Matrix> MatrixAt(const std::string& text, size_t at) {
+  Matrix matrix;
+  const size_t colon = text.find_first_not_of(kBlanks, at);
+  if (colon == std::string::npos || text[colon] != ':') return std::nullopt;
+  matrix.begin = text.find_first_not_of(kBlanks, colon + 1);
+  if (matrix.begin == std::string::npos || text[matrix.begin] != '[') return std::nullopt;
+  int depth = 0;
+  for (matrix.end = matrix.begin; matrix.end < text.size(); ++matrix.end) {
+    if (text[matrix.end] == '[') ++depth;
+    if (text[matrix.end] == ']' && --depth == 0) break;
+  }
+  if (matrix.end++ >= text.size()) return std::nullopt;
+  const auto json = nlohmann::json::parse(text.begin() + static_cast<ptrdiff_t>(matrix.begin),
+                                          text.begin() + static_cast<ptrdiff_t>(matrix.end), nullptr, false);
+  if (!json.is_array() || json.empty()) return std::nullopt;
+  for (const nlohmann::json& row : json) {
+    const bool is_row =
+        row.is_array() && std::all_of(row.begin(), row.end(), [](const auto& x) { return x.is_number(); });
+    if (!is_row) return std::nullopt;
+    matrix.rows.push_back(row.get<std::vector<double>>());
+  }
+  return matrix;
+}
+
+// The shortest decimals that read back as the same doubles.
+std::string ListOf(const std::vector<double>& values) { return nlohmann::json(values).dump(); }
+
+absl::StatusOr<std::string> PackedW(const std::vector<double>& w, bool in_space) {
+  const size_t rows = in_space ? 3 : 2;
+  if (w.size() != rows * rows) {
+    return absl::InvalidArgumentError(absl::StrCat("w_per_kg has ", w.size(), " entries: must be ", rows, " x ", rows,
+                                                   " in a ", in_space ? "spatial_contact" : "planar_contact"));
+  }
+  if (in_space) {
+    const auto contact = ContactFrom(std::span<const double, 9>(w.data(), 9), {0.0, 0.0}, 0.0);
+    if (!contact.ok()) return contact.status();
+    return absl::StrCat("\"w_per_kg\": ", ListOf(contact->w_per_kg));
+  }
+  const auto contact = ContactFrom(std::span<const double, 4>(w.data(), 4), 0.0, 0.0);
+  if (!contact.ok()) return contact.status();
+  const auto number = [](double x) { return nlohmann::json(x).dump(); };
+  return absl::StrCat("\"w_tt_per_kg\": ", number(contact->w_tt_per_kg),
+                      ", \"w_tn_per_kg\": ", number(contact->w_tn_per_kg),
+                      ", \"w_nn_per_kg\": ", number(contact->w_nn_per_kg));
+}
+
+// True if the system that begins last before `at` is a contact in space.
+bool IsInSpace(const std::string& text, size_t at) {
+  const size_t planar = text.rfind("\"planar_contact\"", at);
+  const size_t spatial = text.rfind("\"spatial_contact\"", at);
+  return planar == std::string::npos || (spatial != std::string::npos && spatial > planar);
+}
+
+absl::StatusOr<std::string> FlatText(const std::string& text, const std::string& key, size_t key_at,
+                                     const Matrix& matrix) {
+  std::vector<double> entries;
+  for (const std::vector<double>& row : matrix.rows) {
+    if (row.size() != matrix.rows.front().size()) {
+      return absl::InvalidArgumentError(absl::StrCat(key, " has rows of ", matrix.rows.front().size(), " and of ",
+                                                     row.size(), " entries: must have rows of one length"));
+    }
+    entries.insert(entries.end(), row.begin(), row.end());
+  }
+  if (key == "w_per_kg") return PackedW(entries, IsInSpace(text, key_at));
+  return absl::StrCat("\"", key, "\": ", ListOf(entries));
+}
+
+}  // namespace
+
+absl::StatusOr<std::string> WithFlatMatrices(const std::string& text) {
+  std::string flat = text;
+  for (const char* const key : {"w_per_kg", "mass_matrix", "jacobian"}) {
+    const std::string quoted = absl::StrCat("\"", key, "\"");
+    for (size_t at = flat.find(quoted); at != std::string::npos; at = flat.find(quoted, at + quoted.size())) {
+      const std::optional<Matrix> matrix = MatrixAt(flat, at + quoted.size());
+      if (!matrix.has_value()) continue;
+      absl::StatusOr<std::string> entry = FlatText(flat, key, at, *matrix);
+      if (!entry.ok()) return entry.status();
+      const auto first = flat.begin() + static_cast<ptrdiff_t>(at);
+      const auto lines = std::count(first, flat.begin() + static_cast<ptrdiff_t>(matrix->end), '\n');
+      flat.replace(at, matrix->end - at, *entry + std::string(static_cast<size_t>(lines), '\n'));
+    }
+  }
+  return flat;
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,193 @@
+#include "core/contact/mechanism.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "core/numerics/compensated_dot.h"
+
+namespace ricochet {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnit = 0x1p-53;  // The largest relative error of one operation.
+
+// (n u)^2/(1 - n u)^2, with a margin: what a compensated sum of n products adds to its own rounding.
+double CompensatedNoise(Index n) {
+  const double noise = static_cast<double>(n + 1) * kUnit;
+  return 1.01 * noise * noise;
+}
+
+// The power of two that brings `diagonal` > 0 into [1, 4) from both sides.
+double ScaleFor(double diagonal) { return std::scalbn(1.0, -static_cast<int>(std::floor(std::ilogb(diagonal) / 2.0))); }
+
+// J^T - M x, each entry in twice the precision.
+void SetResidual(const FreePart& part, Response& response) {
+  const Index n = part.mass.rows();
+  const double noise = CompensatedNoise(n);
+  for (Index j = 0; j < part.jt.cols(); ++j) {
+    for (Index i = 0; i < n; ++i) {
+      CompensatedDot sum(part.jt(i, j));
+      for (Index k = 0; k < n; ++k) sum.Add(-part.mass(k, i), response.x(k, j));
+      response.residual(i, j) = sum.value();
+      response.doubt(i, j) = noise * sum.size() + kUnit * std::fabs(sum.value());
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Index> FreeCoordinates(const Mechanism& mechanism) {
+  const auto n = static_cast<Index>(mechanism.rates.size());
+  const Index base = TangentialDirections(mechanism) == 2 ? 6 : 3;
+  std::vector<bool> is_held(mechanism.rates.size());
+  for (const int32_t kept : mechanism.kept_coordinates) is_held[static_cast<size_t>(kept)] = true;
+  std::vector<Index> free;
+  for (Index i = 0; i < (mechanism.composite ? std::min(n, base) : n); ++i) {
+    if (!is_held[static_cast<size_t>(i)]) free.push_back(i);
+  }
+  return free;
+}
+
+Factor::Factor(const MatrixXd& mass) : cholesky(mass), inverse_norm(kInfinity) {
+  const Index n = mass.rows();
+  inverse_roots = VectorXd::Constant(n, kInfinity);
+  if (n == 0) inverse_norm = 0.0;
+  if (n == 0 || cholesky.info() != Eigen::Success) return;
+  const VectorXd columns = cholesky.matrixL().solve(MatrixXd::Identity(n, n)).colwise().norm();
+  const double square = columns.squaredNorm();
+  // The factor is that of M + dM with |dM| <= (n + 1) u trace M; where that is small, M^-1 is below 4/3 of the computed
+  // inverse, and the inverse of the factor is right to a tenth of its columns.
+  const double perturbation = static_cast<double>(n + 2) * kUnit * mass.trace();
+  if (!(8.0 * perturbation * square <= 1.0)) return;
+  inverse_roots = 1.3 * columns;
+  inverse_norm = 1.3 * std::sqrt(square);
+}
+
+LeastEigenvalue LeastEigenvalueOf(const std::vector<double>& matrix, size_t n) {
+  const auto size = static_cast<Index>(n);
+  MatrixXd scaled = Eigen::Map<const MatrixXd>(matrix.data(), size, size);
+  VectorXd scales(size);
+  for (Index i = 0; i < size; ++i) scales(i) = ScaleFor(scaled(i, i));
+  scaled = scales.asDiagonal() * scaled * scales.asDiagonal();
+  const double least = 16.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
+  // 1/trace M^-1 is at most the smallest eigenvalue.
+  const double inverse_norm = Factor(scaled).inverse_norm;
+  const double bound = 1.0 / (inverse_norm * inverse_norm);
+  if (bound > least) return {.value = bound, .least = least};
+  const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
+  return {.value = solver.eigenvalues()(0), .least = least};
+}
+
+FreePart::FreePart(const Mechanism& mechanism) : coordinates(FreeCoordinates(mechanism)) {
+  const auto n = static_cast<Index>(mechanism.rates.size());
+  const auto free = static_cast<Index>(coordinates.size());
+  const auto directions = static_cast<Index>(TangentialDirections(mechanism) + 1);
+  const Eigen::Map<const MatrixXd> all(mechanism.mass_matrix.data(), n, n);  // It is symmetric.
+  const Eigen::Map<const MatrixXd> transposed(mechanism.jacobian.data(), n, directions);
+  scales.resize(free);
+  mass.resize(free, free);
+  jt.resize(free, directions);
+  for (Index i = 0; i < free; ++i) scales(i) = ScaleFor(all(coordinates[i], coordinates[i]));
+  for (Index i = 0; i < free; ++i) {
+    for (Index k = 0; k < free; ++k) mass(i, k) = scales(i) * all(coordinates[i], coordinates[k]) * scales(k);
+    for (Index j = 0; j < directions; ++j) jt(i, j) = scales(i) * transposed(coordinates[i], j);
+  }
+}
+
+Response::Response(const FreePart& part) : cholesky(part.mass) {
+  const Index n = part.jt.rows();
+  const Index directions = part.jt.cols();
+  x = residual = doubt = MatrixXd::Zero(n, directions);
+  w = w_size = MatrixXd::Zero(directions, directions);
+  if (n == 0) return;
+  x = cholesky.solve(part.jt);
+  SetResidual(part, *this);
+  x += cholesky.solve(residual);
+  SetResidual(part, *this);
+  for (Index i = 0; i < directions; ++i) {
+    for (Index j = i; j < directions; ++j) {
+      CompensatedDot sum;
+      for (Index k = 0; k < n; ++k) sum.Add(part.jt(k, i), x(k, j));
+      for (Index k = 0; k < n; ++k) sum.Add(x(k, i), residual(k, j));
+      w(i, j) = w(j, i) = sum.value();
+      w_size(i, j) = w_size(j, i) = sum.size();
+    }
+  }
+}
+
+std::vector<double> MomentumOf(const Mechanism& mechanism, absl::Span<const double> response) {
+  const auto n = static_cast<Index>(mechanism.rates.size());
+  const auto directions = static_cast<Index>(TangentialDirections(mechanism) + 1);
+  std::vector<double> momentum(response.size());
+  const auto at = [directions](Index i, Index j) { return static_cast<size_t>(i * directions + j); };
+  std::vector<bool> is_held(mechanism.rates.size(), true);
+  for (const Index i : FreeCoordinates(mechanism)) is_held[static_cast<size_t>(i)] = false;
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < directions; ++j) {
+      double& sum = momentum[at(i, j)];
+      if (!is_held[static_cast<size_t>(i)]) {
+        sum = mechanism.jacobian[static_cast<size_t>(j * n + i)];
+        continue;
+      }
+      for (Index k = 0; k < n; ++k) sum += mechanism.mass_matrix[static_cast<size_t>(i * n + k)] * response[at(k, j)];
+    }
+  }
+  return momentum;
+}
+
+ContactMotion::ContactMotion(const Mechanism& mechanism) {
+  const size_t n = mechanism.rates.size();
+  for (size_t i = 0; i <= TangentialDirections(mechanism); ++i) {
+    CompensatedDot sum;
+    for (size_t k = 0; k < n; ++k) sum.Add(mechanism.jacobian[i * n + k], mechanism.rates[k]);
+    velocity.push_back(sum.value());
+    size.push_back(sum.size());
+  }
+}
+
+MechanismErrors::MechanismErrors(const Mechanism& mechanism) {
+  const FreePart part(mechanism);
+  const Response solved(part);
+  const Factor factor(part.mass);
+  const Index n = part.jt.rows();
+  const Index directions = part.jt.cols();
+  const ContactMotion motion(mechanism);
+  // Bounds on the norms of L^-1 R, with the residual's own error.
+  const VectorXd energy = factor.inverse_norm * (solved.residual.cwiseAbs() + solved.doubt).colwise().norm();
+  const double noise = CompensatedNoise(2 * n);
+  w.resize(directions, directions);
+  velocity.resize(directions);
+  for (Index i = 0; i < directions; ++i) {
+    const auto at = static_cast<size_t>(i);
+    velocity(i) = kUnit * std::fabs(motion.velocity[at]) +
+                  CompensatedNoise(static_cast<Index>(mechanism.rates.size())) * motion.size[at];
+    for (Index j = 0; j < directions; ++j) {
+      w(i, j) = energy(i) * energy(j) +
+                1.01 * solved.x.col(std::min(i, j)).cwiseAbs().dot(solved.doubt.col(std::max(i, j))) +
+                kUnit * std::fabs(solved.w(i, j)) + noise * solved.w_size(i, j);
+    }
+  }
+  response = MatrixXd::Zero(static_cast<Index>(mechanism.rates.size()), directions);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j = 0; j < directions; ++j) {
+      response(part.coordinates[static_cast<size_t>(i)], j) = part.scales(i) * factor.inverse_roots(i) * energy(j);
+    }
+  }
+  // Outside this range a product may have underflowed.
+  const auto is_moderate = [](double size) { return size == 0.0 || (size >= 0x1p-300 && size <= 0x1p300); };
+  for (Index j = 0; j < directions; ++j) {
+    if (is_moderate(part.jt.col(j).lpNorm<Eigen::Infinity>()) && is_moderate(motion.size[static_cast<size_t>(j)]))
+      continue;
+    w.setConstant(kInfinity);
+    response.setConstant(kInfinity);
+  }
+}
+
+}  // namespace ricochet

@@ -1,0 +1,83 @@
+// Free part: the coordinates of a mechanism that move during the impact, with their mass matrix and Jacobian, and
+// X = M^-1 J^T with bounds on its error.
+//
+// X is solved by the Cholesky factor of M and corrected once by its residual R = J^T - M X, which is computed in twice
+// the precision. W = J X + X^T R then errs by the square of the error of X only. M is scaled to a diagonal in [1, 4) by
+// powers of two, which changes no digit. docs/theory/mechanism.md proves the bounds. This header includes Eigen.
+
+#ifndef RICOCHET_CORE_CONTACT_MECHANISM_H_
+#define RICOCHET_CORE_CONTACT_MECHANISM_H_
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <vector>
+
+#include "absl/types/span.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+// The coordinates that are not held, in rising order.
+std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism);
+
+// M^-1 by its Cholesky factor, with a lower bound on the smallest eigenvalue. `mass` has a diagonal in [1, 4).
+struct Factor {
+  explicit Factor(const Eigen::MatrixXd& mass);
+
+  Eigen::LLT<Eigen::MatrixXd> cholesky;
+  // Bounds on the roots of the diagonal entries of M^-1, and on the root of its trace; infinite where M is singular to
+  // rounding.
+  Eigen::VectorXd inverse_roots;
+  double inverse_norm;
+};
+
+// The smallest eigenvalue of a symmetric matrix (n x n, row by row) that is scaled to a diagonal in [1, 4), which must
+// be positive, and the smallest that counts as positive: 16 n eps.
+struct LeastEigenvalue {
+  double value;
+  double least;
+};
+LeastEigenvalue LeastEigenvalueOf(const std::vector<double>& matrix, size_t n);
+
+struct FreePart {
+  explicit FreePart(const Mechanism& mechanism);
+
+  std::vector<Eigen::Index> coordinates;
+  Eigen::VectorXd scales;    // Powers of two: coordinate i is scales(i) times the scaled one.
+  Eigen::MatrixXd mass, jt;  // Scaled: one row for each free coordinate; `jt` has a column for each direction.
+};
+
+// X of a free part, scaled like it.
+struct Response {
+  explicit Response(const FreePart& part);
+
+  Eigen::LLT<Eigen::MatrixXd> cholesky;
+  Eigen::MatrixXd x;         // M^-1 J^T
+  Eigen::MatrixXd residual;  // J^T - M x, each entry to within an ulp and `doubt`.
+  Eigen::MatrixXd doubt;
+  Eigen::MatrixXd w;       // W
+  Eigen::MatrixXd w_size;  // The sum of the magnitudes of the terms of each entry of W.
+};
+
+// Bounds on what rounding has made of the reduction of a mechanism, in the units of the caller. They are infinite where
+// no bound is known.
+struct MechanismErrors {
+  explicit MechanismErrors(const Mechanism& mechanism);
+
+  Eigen::MatrixXd w;         // d x d
+  Eigen::VectorXd velocity;  // d, without what subtracting a surface velocity adds.
+  Eigen::MatrixXd response;  // n x d
+};
+
+// M M^-1 J^T of all coordinates, from M^-1 J^T (n x d, row by row), whose rows of coordinates that are held are 0.
+std::vector<double> MomentumOf(const Mechanism& mechanism, absl::Span<const double> response);
+
+// J q' of all coordinates, row by row of J, and the sums of the magnitudes of its terms.
+struct ContactMotion {
+  explicit ContactMotion(const Mechanism& mechanism);
+  std::vector<double> velocity, size;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_CONTACT_MECHANISM_H_

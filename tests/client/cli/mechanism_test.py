@@ -1,0 +1,105 @@
+"""Mechanisms that NumPy has saved, and matrices in JSON: ricochet solve --mechanism FILE.npz.
+
+usage: mechanism_test.py RICOCHET WORK_DIRECTORY
+"""
+import json
+import unittest
+
+import numpy
+
+from ricochet_case import RicochetCase, WORK
+
+M = numpy.array([[2.0, 0.6, 0.1], [0.6, 1.2, 0.3], [0.1, 0.3, 0.5]])
+J = numpy.array([[0.9, 0.3, -0.2], [0.1, -0.5, 0.6], [0.7, 0.6, 0.4]])
+QDOT = numpy.array([-1.0, 0.4, -0.5])
+LAW = ["--mu", "0.3", "--energetic", "0.5"]
+
+
+class MechanismTest(RicochetCase):
+    def saved(self, name, save=numpy.savez, **arrays):
+        save(WORK / name, **{"M": M, "J": J, "qdot": QDOT, **arrays})
+        return ["solve", "--mechanism", name, *LAW]
+
+    def outcome(self, *arguments):
+        return json.loads(self.made(*arguments, "--format", "json"))["outcome"]
+
+    def scene(self, name, **mechanism):
+        matrices = {"mass_matrix": M.tolist(), "jacobian": J.tolist(), "rates": QDOT.tolist(), **mechanism}
+        (WORK / name).write_text(json.dumps({"mechanism": matrices, "friction": {"kinetic_coefficient": 0.3},
+                                             "restitution": {"energetic": 0.5}}, indent=2))
+        return ["solve", "--scene", name]
+
+    def test_an_archive_is_the_scene_with_its_numbers(self):
+        expected = self.outcome(*self.scene("nested.json"))
+        self.assertEqual(len(expected["rates_after"]), 3)
+        flat = self.scene("flat.json", mass_matrix=M.ravel().tolist(), jacobian=J.ravel().tolist())
+        self.assertEqual(self.outcome(*flat), expected)
+        self.assertEqual(self.outcome(*self.saved("plain.npz")), expected)
+        self.assertEqual(self.outcome(*self.saved("packed.npz", save=numpy.savez_compressed)), expected)
+        fortran = {"M": numpy.asfortranarray(M), "J": numpy.asfortranarray(J)}
+        self.assertEqual(self.outcome(*self.saved("fortran.npz", **fortran)), expected)
+
+    def test_any_real_type_is_read(self):
+        whole = {"M": numpy.diag([2, 1, 3]), "J": numpy.array([[1, 0, 0], [0, 0, 1]]), "qdot": [-1, 0, -1]}
+        expected = self.outcome(*self.saved("whole.npz", **whole))
+        for kind in (numpy.float32, numpy.int32, numpy.float64):
+            arrays = {name: numpy.asarray(array, dtype=kind) for name, array in whole.items()}
+            self.assertEqual(self.outcome(*self.saved("kind.npz", **arrays)), expected)
+
+    def test_what_is_held_and_both_ends(self):
+        held = self.outcome(*self.saved("held.npz"), "--keep", "1,2", "--both-ends")
+        self.assertEqual(held["rates_after"][1:], QDOT[1:].tolist())
+        self.assertEqual(held["free_end"]["rates_after"], self.outcome(*self.saved("free.npz"))["rates_after"])
+        text = self.made(*self.saved("held.npz"), "--keep", "1,2", "--both-ends")
+        for part in ("Mechanism after", "momentum taken", "rate, none held", "Both ends", "With nothing held:"):
+            self.assertIn(part, text)
+        self.assertIn("both_ends", self.refused(*self.saved("free.npz"), "--both-ends"))
+
+    def test_archives_that_lack_something_are_refused_in_words(self):
+        rates = {"M": M, "J": J}
+        numpy.savez(WORK / "lacks.npz", **rates)
+        for arguments, words in [
+                (["solve", "--mechanism", "lacks.npz"], "has no array qdot but M.npy, J.npy: must have M, J and qdot"),
+                (self.saved("shape.npz", M=M[:2]), "M has the shape (2, 3): must be (3, 3) for the 3 of qdot"),
+                (self.saved("rows.npz", J=J[:1]), "J has the shape (1, 3): must be (2, 3) with rows t, n or (3, 3)"),
+                (self.saved("column.npz", qdot=QDOT[:, None]), "qdot has the shape (3, 1): must be (n,)"),
+                (self.saved("complex.npz", M=M + 0j), "M has the type <c16: must be float64"),
+                (self.saved("big.npz", M=M.astype(">f8")), "M has the type >f8: must be float64"),
+                (self.saved("skew.npz", M=M + numpy.triu(numpy.ones((3, 3)), 1)), "mechanism.mass_matrix[3]"),
+                (self.saved("nan.npz", qdot=QDOT * numpy.nan), "mechanism.rates[0] = nan"),
+                (["solve", "--mechanism", "none.npz"], "none.npz: No such file"),
+                ([*self.saved("both.npz"), "--a", "1"], "cannot be combined with --scene or the flags of a pendulum"),
+                (["solve", "--a", "1", "--keep", "1"], "--keep and --composite need --mechanism")]:
+            with self.subTest(words=words):
+                self.assertIn(words, self.refused(*arguments))
+        (WORK / "text.npz").write_text("M J qdot")
+        self.assertIn("must be a file that numpy.savez has written", self.refused("solve", "--mechanism", "text.npz"))
+
+    def contact(self, name, system, w):
+        velocity = {"tangential_m_s": -1 if system == "planar_contact" else [1, 0.6], "normal_m_s": -1}
+        (WORK / name).write_text(json.dumps({system: {"w_per_kg": w, **velocity}, "restitution": {"newton": 0.5}}))
+        return ["solve", "--scene", name]
+
+    def test_w_is_a_matrix_too(self):
+        packed = {"planar_contact": {"w_tt_per_kg": 2.5, "w_tn_per_kg": 1.5, "w_nn_per_kg": 2.5, "tangential_m_s": -1,
+                                     "normal_m_s": -1}, "restitution": {"newton": 0.5}}
+        (WORK / "packed.json").write_text(json.dumps(packed))
+        matrix = self.contact("plane.json", "planar_contact", [[2.5, 1.5], [1.5, 2.5]])
+        self.assertEqual(self.outcome(*matrix), self.outcome("solve", "--scene", "packed.json"))
+        space = [[1.96, 0.24, 0.6], [0.24, 2.96, -0.8], [0.6, -0.8, 1.85]]
+        six = self.contact("six.json", "spatial_contact", [1.96, 0.24, 0.6, 2.96, -0.8, 1.85])
+        self.assertEqual(self.outcome(*self.contact("space.json", "spatial_contact", space)), self.outcome(*six))
+
+    def test_a_w_that_is_wrong_is_named_with_its_frame(self):
+        skew = [[2.5, 1.5], [1.4, 2.5]]
+        for system, w, words in [
+                ("planar_contact", skew, "w_per_kg[1][0] = 1.4: must be equal to [0][1] = 1.5, as W is symmetric in the "
+                                         "frame (t, n)"),
+                ("spatial_contact", skew, "w_per_kg has 4 entries: must be 3 x 3 in a spatial_contact"),
+                ("planar_contact", [[1, 2], [3]], "rows of 2 and of 1 entries")]:
+            with self.subTest(words=words):
+                self.assertIn(words, self.refused(*self.contact("wrong.json", system, w)))
+
+
+if __name__ == "__main__":
+    unittest.main()

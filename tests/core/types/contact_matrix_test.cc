@@ -1,0 +1,70 @@
+// W as a whole matrix, by spans and by Eigen.
+
+#include "ricochet/contact_matrix.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "ricochet/eigen.h"
+
+namespace ricochet {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr std::array kPlane = {2.0, 0.5, 0.5, 1.0};
+constexpr std::array kSpace = {1.96, 0.24, 0.6, 0.24, 2.96, -0.8, 0.6, -0.8, 1.85};
+
+TEST(ContactMatrixTest, TakesTheUpperTriangle) {
+  const auto plane = ContactFrom(std::span<const double, 4>(kPlane), 1.0, -1.0);
+  ASSERT_TRUE(plane.ok());
+  EXPECT_EQ(*plane, (PlanarContact{2.0, 0.5, 1.0, 1.0, -1.0}));
+  const auto space = ContactFrom(std::span<const double, 9>(kSpace), {1.0, 0.6}, -1.0);
+  ASSERT_TRUE(space.ok());
+  EXPECT_THAT(space->w_per_kg, ElementsAre(1.96, 0.24, 0.6, 2.96, -0.8, 1.85));
+}
+
+TEST(ContactMatrixTest, NamesTheEntriesThatDifferAndTheFrame) {
+  std::array<double, 9> w = kSpace;
+  w[5] = 0.8;
+  const auto space = ContactFrom(std::span<const double, 9>(w), {1.0, 0.6}, -1.0, "x, y, z of the world");
+  ASSERT_FALSE(space.ok());
+  EXPECT_THAT(std::string(space.status().message()), HasSubstr("w_per_kg[2][1] = -0.8: must be equal to [1][2] = 0.8"));
+  EXPECT_THAT(std::string(space.status().message()), HasSubstr("x, y, z of the world"));
+}
+
+TEST(ContactMatrixTest, TakesDifferencesOfRounding) {
+  std::array<double, 4> w = kPlane;
+  w[2] += 1e-15;
+  EXPECT_TRUE(ContactFrom(std::span<const double, 4>(w), 1.0, -1.0).ok());
+}
+
+TEST(EigenTest, MatricesOfEitherOrderGiveTheSameMechanism) {
+  const Eigen::MatrixXd mass{{2.0, 0.5}, {0.5, 1.0}};
+  const Eigen::Matrix<double, 2, 2, Eigen::RowMajor> by_rows{{1.0, 2.0}, {3.0, 4.0}};
+  const Eigen::VectorXd rates{{-1.0, 0.5}};
+  const Mechanism mechanism = MechanismFrom(mass, by_rows, rates);
+  EXPECT_THAT(mechanism.mass_matrix, ElementsAre(2.0, 0.5, 0.5, 1.0));
+  EXPECT_THAT(mechanism.jacobian, ElementsAre(1.0, 2.0, 3.0, 4.0));
+  EXPECT_THAT(mechanism.rates, ElementsAre(-1.0, 0.5));
+}
+
+TEST(EigenTest, TurnsAWorldJacobianIntoTheFrameOfTheContact) {
+  // t1 = y, t2 = z, n = x.
+  const Eigen::Matrix3d axes{{0, 1, 0}, {0, 0, 1}, {1, 0, 0}};
+  const Eigen::MatrixXd world{{1.0}, {2.0}, {3.0}};
+  EXPECT_EQ(InFrame(axes, world), (Eigen::MatrixXd{{2.0}, {3.0}, {1.0}}));
+}
+
+TEST(EigenTest, ContactsTakeMatrices) {
+  const Eigen::Matrix2d w{{2.0, 0.5}, {0.5, 1.0}};
+  EXPECT_EQ(*ContactFrom(w, 1.0, -1.0), (PlanarContact{2.0, 0.5, 1.0, 1.0, -1.0}));
+  const Eigen::Matrix2d skew{{2.0, 0.5}, {0.4, 1.0}};
+  EXPECT_FALSE(ContactFrom(skew, 1.0, -1.0).ok());
+}
+
+}  // namespace
+}  // namespace ricochet
