@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "core/contact/mechanism.h"
+
 namespace ricochet {
 namespace {
 
@@ -46,8 +48,7 @@ MultiReduction ReduceBodies(const std::vector<FreeBody>& bodies, const std::vect
   const Eigen::Index coordinates = space + turns;
   const auto n = coordinates * static_cast<Eigen::Index>(bodies.size());
   const Eigen::Index rows = space * static_cast<Eigen::Index>(contacts.size());
-  MultiReduction reduction = {.directions = static_cast<int>(space),
-                              .w = Eigen::MatrixXd::Zero(rows, rows),
+  MultiReduction reduction = {.w = Eigen::MatrixXd::Zero(rows, rows),
                               .jacobian = Eigen::MatrixXd::Zero(rows, n),
                               .response = Eigen::MatrixXd::Zero(n, rows),
                               .mobility = Eigen::VectorXd(n),
@@ -120,6 +121,26 @@ MultiReduction ReduceMatrix(const ContactMatrix& matrix) {
           .velocity = ToEigen(matrix.velocity_m_s, rows)};
 }
 
+MultiReduction ReduceMechanism(const Mechanism& mechanism, int directions) {
+  const FreePart part(mechanism, directions == 3);
+  const Response solved(part);
+  const auto n = static_cast<Eigen::Index>(mechanism.rates.size());
+  const Eigen::Index rows = part.jt.cols();
+  MultiReduction reduction = {.w = solved.w,
+                              .jacobian = Eigen::Map<const Eigen::MatrixXd>(mechanism.jacobian.data(), n, rows).transpose(),
+                              .response = Eigen::MatrixXd::Zero(n, rows),
+                              .mobility = Eigen::VectorXd::Zero(n),
+                              .velocity = ToEigen(mechanism.rates, n)};
+  const auto count = static_cast<Eigen::Index>(part.coordinates.size());
+  const Eigen::VectorXd inverse = solved.cholesky.solve(Eigen::MatrixXd::Identity(count, count)).diagonal();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index coordinate = part.coordinates[static_cast<size_t>(i)];
+    reduction.response.row(coordinate) = part.scales(i) * solved.x.row(i);
+    reduction.mobility(coordinate) = part.scales(i) * part.scales(i) * inverse(i);
+  }
+  return reduction;
+}
+
 Eigen::VectorXd ScalesOf(const Eigen::MatrixXd& matrix) {
   Eigen::VectorXd scales(matrix.rows());
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
@@ -151,29 +172,19 @@ Eigen::MatrixXd DirectionsOf(const MultiContactPoint& contact) {
   return directions;
 }
 
-int DirectionsOf(const MultiContactScene& scene) {
-  struct Finder {
-    size_t contacts;
-    int operator()(std::monostate) const { return 0; }
-    int operator()(const ContactMatrix& matrix) const {
-      if (matrix.velocity_m_s.size() == 2 * contacts) return 2;
-      return matrix.velocity_m_s.size() == 3 * contacts ? 3 : 0;
-    }
-    int operator()(const FreeBodies& free) const {
-      const size_t size = free.bodies.empty() ? 0 : free.bodies.front().position_m.size();
-      return size == 2 || size == 3 ? static_cast<int>(size) : 0;
+MultiReduction Reduce(const MultiContactScene& scene) {
+  struct Reducer {
+    const MultiContactScene& scene;
+    MultiReduction operator()(std::monostate) const { return {}; }
+    MultiReduction operator()(const ContactMatrix& matrix) const { return ReduceMatrix(matrix); }
+    MultiReduction operator()(const FreeBodies& free) const { return ReduceBodies(free.bodies, scene.contacts); }
+    MultiReduction operator()(const Mechanism& mechanism) const {
+      return ReduceMechanism(mechanism, DirectionsOf(scene));
     }
   };
-  return std::visit(Finder{scene.contacts.size()}, scene.system);
-}
-
-MultiReduction Reduce(const MultiContactScene& scene) {
-  if (const auto* matrix = std::get_if<ContactMatrix>(&scene.system)) {
-    MultiReduction reduction = ReduceMatrix(*matrix);
-    reduction.directions = DirectionsOf(scene);
-    return reduction;
-  }
-  return ReduceBodies(std::get<FreeBodies>(scene.system).bodies, scene.contacts);
+  MultiReduction reduction = std::visit(Reducer{scene}, scene.system);
+  reduction.directions = DirectionsOf(scene);
+  return reduction;
 }
 
 double SmallestScaledEigenvalue(const Eigen::MatrixXd& matrix) {
@@ -185,14 +196,14 @@ double SmallestScaledEigenvalue(const Eigen::MatrixXd& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
 }
 
-double DistanceFromRange(const Eigen::MatrixXd& w, const Eigen::VectorXd& v) {
+double DistanceFromRange(const Eigen::MatrixXd& w, const Eigen::VectorXd& v, const Eigen::VectorXd& sizes) {
   const Eigen::VectorXd scales = ScalesOf(w);
   for (Eigen::Index i = 0; i < v.size(); ++i) {
     if (scales(i) == 0.0 && v(i) != 0.0) return kInfinity;
   }
   const Eigen::MatrixXd scaled = scales.asDiagonal() * w * scales.asDiagonal();
   const Eigen::VectorXd x = scales.asDiagonal() * v;
-  const double norm = x.norm();
+  const double norm = (scales.asDiagonal() * sizes).norm();
   if (norm == 0.0) return 0.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
   Eigen::VectorXd outside = Eigen::VectorXd::Zero(v.size());

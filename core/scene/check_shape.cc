@@ -103,7 +103,7 @@ void CheckOne(const SpatialContact& contact, Check& check) {
   check.Length("spatial_contact.tangential_m_s", contact.tangential_m_s.size(), 2);
 }
 
-void CheckOne(const Mechanism& mechanism, Check& check) { CheckMechanism(mechanism, check); }
+void CheckOne(const Mechanism& mechanism, Check& check) { CheckMechanism(mechanism, 1, check); }
 
 }  // namespace
 

@@ -54,7 +54,7 @@ void CheckBody(const FreeBody& body, size_t index, int directions, Check& check)
 }
 
 void CheckSystem(const std::monostate& /*unset*/, const MultiContactScene& /*scene*/, Check& check) {
-  check.RequireSet(false, "system", "be one of contact_matrix, free_bodies");
+  check.RequireSet(false, "system", "be one of contact_matrix, free_bodies, mechanism");
 }
 
 void CheckSystem(const ContactMatrix& matrix, const MultiContactScene& scene, Check& check) {
@@ -80,6 +80,11 @@ void CheckSystem(const FreeBodies& free, const MultiContactScene& scene, Check& 
                          "have 2 in a plane or 3 in space");
   });
   for (size_t i = 0; directions != 0 && i < free.bodies.size(); ++i) CheckBody(free.bodies[i], i, directions, check);
+}
+
+void CheckSystem(const Mechanism& mechanism, const MultiContactScene& scene, Check& check) {
+  CheckNumbers(mechanism, "mechanism", -1, check);
+  CheckMechanism(mechanism, std::max<size_t>(scene.contacts.size(), 1), check);
 }
 
 // --- Contacts ---
@@ -152,11 +157,21 @@ void CheckMatrix(const ContactMatrix& matrix, const MultiReduction& reduction, C
                          absl::StrCat("has the eigenvalue ", ShortestDecimal(least), ", scaled to a unit diagonal"),
                          "be positive semidefinite");
   });
-  if (check.failed()) return;
-  const double outside = DistanceFromRange(reduction.w, reduction.velocity);
-  check.Require(outside <= 4.0 * rounding, [&] {
-    return MakeViolation("contact_matrix.velocity_m_s",
-                         absl::StrCat("has a share of ", ShortestDecimal(outside), " beside the range of W"),
+}
+
+// Velocities of bodies always lie in the range, and so do those of a mechanism without coordinates that are held.
+bool MayLieBesideRange(const MultiContactSystem& system) {
+  const auto* const mechanism = std::get_if<Mechanism>(&system);
+  if (mechanism != nullptr) return mechanism->composite || !mechanism->kept_coordinates.empty();
+  return std::holds_alternative<ContactMatrix>(system);
+}
+
+void CheckRange(const std::string& field, const MultiReduction& reduction, const Eigen::VectorXd& velocity,
+                Check& check) {
+  const Eigen::VectorXd sizes = reduction.jacobian.cwiseAbs() * velocity.cwiseAbs();
+  const double outside = DistanceFromRange(reduction.w, reduction.ContactVelocity(velocity), sizes);
+  check.Require(outside <= 64.0 * static_cast<double>(reduction.w.rows()) * kEpsilon, [&] {
+    return MakeViolation(field, absl::StrCat("has a share of ", ShortestDecimal(outside), " beside the range of W"),
                          "lie in it, no impulse changes the rest");
   });
 }
@@ -200,18 +215,13 @@ void CheckList(const std::string& field, const std::vector<double>& list, size_t
 // Checks lists that have one number for each velocity of the system.
 void CheckLists(const MultiContactRequest& request, const MultiReduction& reduction, Check& check) {
   const auto size = static_cast<size_t>(reduction.velocity.size());
-  const bool is_matrix = std::holds_alternative<ContactMatrix>(request.scene.system);
+  const bool may_lie_beside = MayLieBesideRange(request.scene.system);
   for (size_t i = 0; i < request.states.size() && !check.IsFull(); ++i) {
     const bool failed = check.failed();
     CheckList(Entry("states", i, "velocity"), request.states[i].velocity, size, check);
-    if (!is_matrix || check.failed() != failed) continue;
+    if (!may_lie_beside || check.failed() != failed) continue;
     const Eigen::Map<const Eigen::VectorXd> velocity(request.states[i].velocity.data(), reduction.velocity.size());
-    const double outside = DistanceFromRange(reduction.w, velocity);
-    check.Require(outside <= 64.0 * static_cast<double>(size) * kEpsilon, [&] {
-      return MakeViolation(Entry("states", i, "velocity"),
-                           absl::StrCat("has a share of ", ShortestDecimal(outside), " beside the range of W"),
-                           "lie in it, no impulse changes the rest");
-    });
+    CheckRange(Entry("states", i, "velocity"), reduction, velocity, check);
   }
   for (size_t i = 0; i < request.outputs.size() && !check.IsFull(); ++i) {
     CheckList(Entry("outputs", i, "coefficients"), request.outputs[i].coefficients, size, check);
@@ -251,6 +261,10 @@ std::vector<Violation> Validate(const MultiContactRequest& request, std::optiona
   if (reduction->w.allFinite() && reduction->response.allFinite()) {
     const auto* const matrix = std::get_if<ContactMatrix>(&scene.system);
     if (matrix != nullptr) CheckMatrix(*matrix, *reduction, check);
+    if (MayLieBesideRange(scene.system) && !check.failed()) {
+      CheckRange(matrix != nullptr ? "contact_matrix.velocity_m_s" : "mechanism.rates", *reduction, reduction->velocity,
+                 check);
+    }
   }
   if (reduction->w.allFinite()) CheckLists(request, *reduction, check);
   return std::move(check).violations();

@@ -6,6 +6,25 @@
 
 namespace ricochet {
 
+int DirectionsOf(const MultiContactScene& scene) {
+  struct Finder {
+    size_t contacts;
+    // Of `numbers` in all, in lists of `each`.
+    int Rows(size_t numbers, size_t each) const {
+      if (numbers == 2 * contacts * each) return 2;
+      return numbers == 3 * contacts * each ? 3 : 0;
+    }
+    int operator()(std::monostate) const { return 0; }
+    int operator()(const ContactMatrix& matrix) const { return Rows(matrix.velocity_m_s.size(), 1); }
+    int operator()(const FreeBodies& free) const {
+      const size_t size = free.bodies.empty() ? 0 : free.bodies.front().position_m.size();
+      return size == 2 || size == 3 ? static_cast<int>(size) : 0;
+    }
+    int operator()(const Mechanism& mechanism) const { return Rows(mechanism.jacobian.size(), mechanism.rates.size()); }
+  };
+  return std::visit(Finder{scene.contacts.size()}, scene.system);
+}
+
 std::vector<std::string> ContactOutputNames(size_t contacts, int directions) {
   std::vector<std::string> names;
   for (size_t contact = 1; contact <= contacts; ++contact) {
@@ -27,6 +46,10 @@ std::vector<std::string> SystemOutputNames(const MultiContactSystem& system, int
     } else {
       for (const char* name : {"x", "y", "z", "rate_x", "rate_y", "rate_z"}) add(name);
     }
+  }
+  const auto* const mechanism = std::get_if<Mechanism>(&system);
+  for (size_t i = 1; mechanism != nullptr && i <= mechanism->rates.size(); ++i) {
+    names.push_back(absl::StrCat("rate_", i));
   }
   return names;
 }

@@ -2,6 +2,7 @@
 
 #include "proto/wire/engine.h"
 #include "proto/wire/map.h"
+#include "proto/wire/scene.h"
 
 namespace ricochet {
 
@@ -40,7 +41,8 @@ template <>
 struct Map<MultiContactScene> : Between<MultiContactScene, v1::MultiContactScene> {
   using Fields =
       Entries<Flat<&T::system, OneOf<Case(&P::has_contact_matrix, &P::contact_matrix, &P::mutable_contact_matrix),
-                                     Case(&P::has_free_bodies, &P::free_bodies, &P::mutable_free_bodies)>>{},
+                                     Case(&P::has_free_bodies, &P::free_bodies, &P::mutable_free_bodies),
+                                     Case(&P::has_mechanism, &P::mechanism, &P::mutable_mechanism)>>{},
               Entry(&T::contacts, &P::contacts, &P::mutable_contacts)>;
 };
 

@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "ricochet/engine_info.h"
+#include "ricochet/system.h"
 
 namespace ricochet {
 
@@ -53,8 +54,9 @@ struct FreeBodies {
   friend bool operator==(const FreeBodies&, const FreeBodies&) = default;
 };
 
-// std::monostate means that the request stated none, which is a violation.
-using MultiContactSystem = std::variant<std::monostate, ContactMatrix, FreeBodies>;
+// The Jacobian of a Mechanism has the d rows of each contact, one contact after the other. std::monostate means that the
+// request stated none, which is a violation.
+using MultiContactSystem = std::variant<std::monostate, ContactMatrix, FreeBodies, Mechanism>;
 
 struct MultiContactPoint {
   double friction = 0.0;            // Coulomb's coefficient, kinetic and static, >= 0
@@ -76,6 +78,9 @@ struct MultiContactScene {
   std::vector<MultiContactPoint> contacts;  // 1 to kMostContacts.
   friend bool operator==(const MultiContactScene&, const MultiContactScene&) = default;
 };
+
+// Numbers of each contact, 2 in a plane or 3 in space; 0 if no system is set, or the lengths of its lists do not tell.
+int DirectionsOf(const MultiContactScene& scene);
 
 // The numbers are those of ricochet.v1.MultiContactMethod.
 enum class MultiContactMethod { kUnspecified = 0, kOrders = 1, kSprings = 2, kPossible = 3 };
@@ -169,7 +174,9 @@ struct ContactPair {
 
 // Bounds on one output over all outcomes that are possible.
 struct PossibleRange {
-  std::string output;  // "contacts[1].n", "bodies[1].linear[0]", "velocity[3]", or the name of a LinearOutput.
+  // "contact_1.t" (t1, t2 and n in space), "body_1.x", "body_1.rate" (rate_x and so on in space), "rate_1" of a
+  // mechanism, or the name of a LinearOutput.
+  std::string output;
   double lower = 0.0;
   double upper = 0.0;
   friend bool operator==(const PossibleRange&, const PossibleRange&) = default;
