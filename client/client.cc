@@ -22,6 +22,7 @@
 #include "proto/wire/cost.h"
 #include "proto/wire/engine.h"
 #include "proto/wire/info.h"
+#include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
 #include "proto/wire/sweep.h"
@@ -152,6 +153,11 @@ absl::StatusOr<AuditResponse> Client::DoAudit(const AuditRequest& request, const
 absl::StatusOr<AuditBatchResponse> Client::DoAuditBatch(const AuditBatchRequest& request,
                                                         const CallOptions& options) const {
   return connection_->Ask(&Stub::AuditBatch, request, options);
+}
+
+absl::StatusOr<MultiContactResponse> Client::DoMultiContact(const MultiContactRequest& request,
+                                                            const CallOptions& options) const {
+  return connection_->Ask(&Stub::MultiContact, request, options);
 }
 
 absl::StatusOr<BatchSession> Client::DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const {

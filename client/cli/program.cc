@@ -22,6 +22,7 @@ std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Comman
   app->require_subcommand(1);
   AddSolve(*app, command);
   AddBounds(*app, command);
+  AddMultiContact(*app, command);
   AddSweep(*app, std::move(arguments), command);
   AddMerge(*app, command);
   AddPlot(*app, command);

@@ -9,8 +9,11 @@
 #include <string>
 #include <vector>
 
+#include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/str_split.h"
+#include "absl/strings/string_view.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/input/scene_templates.h"
 #include "client/cli/report/scene_schema.h"
@@ -23,6 +26,7 @@
 #include "core/scene/field.h"
 #include "core/scene/validate.h"
 #include "proto/comments/commented_protos.h"
+#include "proto/wire/multi_contact.h"
 #include "ricochet/error.h"
 
 namespace ricochet::cli {
@@ -38,6 +42,7 @@ struct SceneCommand {
   CommonOptions common;
   SceneOptions scene;
   std::string system;
+  bool several_contacts = false;
 
   bool json() const { return common.format == Format::kJson; }
 };
@@ -51,38 +56,58 @@ std::string CommentOfSystem(const std::string& system) {
   return CommentOf(*scene->FindFieldByName(system));
 }
 
+// The comment at the start of a template, without its marks.
+std::string FirstComment(const std::string& text) {
+  std::string comment;
+  for (const absl::string_view line : absl::StrSplit(text, '\n')) {
+    if (!absl::StartsWith(line, "# ")) break;
+    absl::StrAppend(&comment, comment.empty() ? "" : " ", line.substr(2));
+  }
+  return comment;
+}
+
 absl::Status RunList(const SceneCommand& options) {
   Table table(Table::Align::kLeft);
   std::string json = "[";
-  for (const SceneTemplate& one : SceneTemplates()) {
-    const std::string comment = CommentOfSystem(one.system);
-    table.Add({one.system, comment});
-    absl::StrAppend(&json, json.size() > 1 ? "," : "", "{\"system\":");
-    AppendJson(one.system, json);
+  const auto add = [&](const std::string& name, const std::string& comment, bool is_multi_contact) {
+    table.Add({name, comment});
+    absl::StrAppend(&json, json.size() > 1 ? "," : "", is_multi_contact ? "{\"multicontact\":" : "{\"system\":");
+    AppendJson(name, json);
     json += ",\"meaning\":";
     AppendJson(comment, json);
     json += "}";
-  }
+  };
+  for (const SceneTemplate& one : SceneTemplates()) add(one.system, CommentOfSystem(one.system), false);
+  table.Add({""});
+  for (const SceneTemplate& one : MultiContactTemplates()) add(one.system, FirstComment(one.text), true);
   return Write(options, options.json() ? json + "]\n" : table.Render(0));
 }
 
 // Returns the scene as JSON or textproto.
-std::string SceneText(const v1::Scene& scene, bool json) {
+std::string SceneText(const google::protobuf::Message& scene, bool json) {
   if (json) return SparseJsonOf(scene);
   std::string text;
   google::protobuf::TextFormat::PrintToString(scene, &text);
   return text;
 }
 
+absl::Status WriteTemplate(const SceneCommand& options, const std::string& text, google::protobuf::Message& scene) {
+  if (!options.json()) return Write(options, text);
+  if (absl::Status parsed = ParseMessage("template.textproto", text, scene); !parsed.ok()) return parsed;
+  return Write(options, SceneText(scene, /*json=*/true));
+}
+
 absl::Status RunTemplate(const SceneCommand& options) {
   std::vector<std::string> systems;
+  v1::Scene scene;
+  v1::MultiContactScene several;
   for (const SceneTemplate& one : SceneTemplates()) {
+    if (one.system == options.system) return WriteTemplate(options, one.text, scene);
     systems.push_back(one.system);
-    if (one.system != options.system) continue;
-    if (!options.json()) return Write(options, one.text);
-    v1::Scene scene;
-    if (absl::Status parsed = ParseMessage("template.textproto", one.text, scene); !parsed.ok()) return parsed;
-    return Write(options, SceneText(scene, /*json=*/true));
+  }
+  for (const SceneTemplate& one : MultiContactTemplates()) {
+    if (one.system == options.system) return WriteTemplate(options, one.text, several);
+    systems.push_back(one.system);
   }
   return absl::InvalidArgumentError(absl::StrCat(options.system, " is not a system",
                                                  DidYouMean(options.system, systems),
@@ -187,12 +212,16 @@ void AddScene(CLI::App& app, Command& command) {
   };
   add("list", "List the systems that can strike", RunList, kListFormats);
   const Added one = add("template", "Print a commented scene to start from", RunTemplate, kSceneFormats);
-  one.app->add_option("SYSTEM", one.options->system, "A system of `ricochet scene list`")->required();
+  one.app->add_option("NAME", one.options->system, "A name of `ricochet scene list`")->required();
   const Added print = add("print", "Print the scene of a file or of flags", RunPrint, kSceneFormats);
   AddSceneOptions(*print.app, print.options->scene);
-  add(
+  const Added schema = add(
       "schema", "Print the JSON Schema of a scene, draft 2020-12",
-      [](const SceneCommand& all) { return Write(all, SceneSchema()); }, kSchemaFormats);
+      [](const SceneCommand& all) {
+        return Write(all, all.several_contacts ? MultiContactSceneSchema() : SceneSchema());
+      },
+      kSchemaFormats);
+  schema.app->add_flag("--multicontact", schema.options->several_contacts, "That of a scene with several contacts");
   const Added fields =
       add("fields", "List the numbers of a scene with units, ranges and meanings", RunFields, kListFormats);
   AddSceneOptions(*fields.app, fields.options->scene);

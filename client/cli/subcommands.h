@@ -17,6 +17,7 @@ void AddCost(CLI::App& app, Command& command);
 void AddHealth(CLI::App& app, Command& command);
 void AddInfo(CLI::App& app, Command& command);
 void AddMerge(CLI::App& app, Command& command);
+void AddMultiContact(CLI::App& app, Command& command);
 void AddPlot(CLI::App& app, Command& command);
 void AddScene(CLI::App& app, Command& command);
 void AddSolve(CLI::App& app, Command& command);

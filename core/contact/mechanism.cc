@@ -44,8 +44,12 @@ void SetResidual(const FreePart& part, Response& response) {
 }  // namespace
 
 std::vector<Index> FreeCoordinates(const Mechanism& mechanism) {
+  return FreeCoordinates(mechanism, TangentialDirections(mechanism) == 2);
+}
+
+std::vector<Index> FreeCoordinates(const Mechanism& mechanism, bool in_space) {
   const auto n = static_cast<Index>(mechanism.rates.size());
-  const Index base = TangentialDirections(mechanism) == 2 ? 6 : 3;
+  const Index base = in_space ? 6 : 3;
   std::vector<bool> is_held(mechanism.rates.size());
   for (const int32_t kept : mechanism.kept_coordinates) is_held[static_cast<size_t>(kept)] = true;
   std::vector<Index> free;
@@ -85,10 +89,12 @@ LeastEigenvalue LeastEigenvalueOf(const std::vector<double>& matrix, size_t n) {
   return {.value = solver.eigenvalues()(0), .least = least};
 }
 
-FreePart::FreePart(const Mechanism& mechanism) : coordinates(FreeCoordinates(mechanism)) {
+FreePart::FreePart(const Mechanism& mechanism) : FreePart(mechanism, TangentialDirections(mechanism) == 2) {}
+
+FreePart::FreePart(const Mechanism& mechanism, bool in_space) : coordinates(FreeCoordinates(mechanism, in_space)) {
   const auto n = static_cast<Index>(mechanism.rates.size());
   const auto free = static_cast<Index>(coordinates.size());
-  const auto directions = static_cast<Index>(TangentialDirections(mechanism) + 1);
+  const auto directions = static_cast<Index>(mechanism.jacobian.size()) / n;
   const Eigen::Map<const MatrixXd> all(mechanism.mass_matrix.data(), n, n);  // It is symmetric.
   const Eigen::Map<const MatrixXd> transposed(mechanism.jacobian.data(), n, directions);
   scales.resize(free);
@@ -144,7 +150,7 @@ std::vector<double> MomentumOf(const Mechanism& mechanism, absl::Span<const doub
 
 ContactMotion::ContactMotion(const Mechanism& mechanism) {
   const size_t n = mechanism.rates.size();
-  for (size_t i = 0; i <= TangentialDirections(mechanism); ++i) {
+  for (size_t i = 0; i < mechanism.jacobian.size() / n; ++i) {
     CompensatedDot sum;
     for (size_t k = 0; k < n; ++k) sum.Add(mechanism.jacobian[i * n + k], mechanism.rates[k]);
     velocity.push_back(sum.value());

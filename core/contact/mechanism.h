@@ -17,8 +17,9 @@
 
 namespace ricochet {
 
-// The coordinates that are not held, in rising order.
-std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism);
+// The coordinates that are not held, in rising order. A base in space has 6 of them, one in a plane 3.
+std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism, bool in_space);
+std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism);  // Of one contact, whose Jacobian tells.
 
 // M^-1 by its Cholesky factor, with a lower bound on the smallest eigenvalue. `mass` has a diagonal in [1, 4).
 struct Factor {
@@ -40,11 +41,13 @@ struct LeastEigenvalue {
 LeastEigenvalue LeastEigenvalueOf(const std::vector<double>& matrix, size_t n);
 
 struct FreePart {
-  explicit FreePart(const Mechanism& mechanism);
+  // The Jacobian may have the rows of several contacts.
+  FreePart(const Mechanism& mechanism, bool in_space);
+  explicit FreePart(const Mechanism& mechanism);  // Of one contact.
 
   std::vector<Eigen::Index> coordinates;
   Eigen::VectorXd scales;    // Powers of two: coordinate i is scales(i) times the scaled one.
-  Eigen::MatrixXd mass, jt;  // Scaled: one row for each free coordinate; `jt` has a column for each direction.
+  Eigen::MatrixXd mass, jt;  // Scaled: one row for each free coordinate; `jt` has a column for each row of J.
 };
 
 // X of a free part, scaled like it.

@@ -41,7 +41,7 @@ class SizeCheck {
   }
 
   void Scene(const ricochet::Scene& scene);
-  void Coordinates(const Mechanism& mechanism);
+  void Coordinates(const Mechanism& mechanism, int64_t contacts = 1);
 
   absl::Status status() const { return exceeded_.empty() ? absl::OkStatus() : LimitExceeded(exceeded_); }
 
@@ -67,7 +67,7 @@ int64_t LinksOf(const System& system) {
 }
 
 // Time grows with the cube of the coordinates, and so with the lists of numbers that they bring along.
-void SizeCheck::Coordinates(const Mechanism& mechanism) {
+void SizeCheck::Coordinates(const Mechanism& mechanism, int64_t contacts) {
   Entries("mechanism.rates", mechanism.rates.size(), &Limits::max_links);
   Entries("mechanism.kept_coordinates", mechanism.kept_coordinates.size(), &Limits::max_links);
   const auto rows = [](size_t numbers, int64_t per_row) {
@@ -80,10 +80,10 @@ void SizeCheck::Coordinates(const Mechanism& mechanism) {
                           ", the square of the limit"),
              &Limits::max_links);
   }
-  if (rows(mechanism.jacobian.size(), 3) > most) {
+  if (rows(mechanism.jacobian.size(), 3 * contacts) > most) {
     Exceeded("mechanism.jacobian",
-             absl::StrCat("has ", mechanism.jacobian.size(), " entries: must have at most ", 3 * most,
-                          ", three times the limit"),
+             absl::StrCat("has ", mechanism.jacobian.size(), " entries: must have at most ", 3 * contacts * most, ", ",
+                          contacts == 1 ? "three" : absl::StrCat(3 * contacts), " times the limit"),
              &Limits::max_links);
   }
 }
@@ -187,6 +187,24 @@ absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits)
   SizeCheck check(limits);
   check.Scene(request.scene);
   CheckColumns(request.columns, check);
+  return check.status();
+}
+
+// The size of an answer and the time for it grow with the cube of the contacts. A curve of outcomes counts as so many
+// states.
+absl::Status CheckLimits(const MultiContactRequest& request, const Limits& limits) {
+  constexpr int64_t kStatesOfCurve = 16;
+  SizeCheck check(limits);
+  const auto* const free = std::get_if<FreeBodies>(&request.scene.system);
+  if (free != nullptr) check.Entries("free_bodies.bodies", free->bodies.size(), &Limits::max_links);
+  const auto* const mechanism = std::get_if<Mechanism>(&request.scene.system);
+  if (mechanism != nullptr) check.Coordinates(*mechanism, kMostContacts);
+  check.Entries("outputs", request.outputs.size(), &Limits::max_columns);
+  const auto contacts = static_cast<int64_t>(std::min<size_t>(request.scene.contacts.size(), kMostContacts));
+  const int64_t states = std::max<int64_t>(static_cast<int64_t>(request.states.size()), 1);
+  const int64_t times = request.stiffness_range.has_value() ? kStatesOfCurve : 1;
+  check.Product("states", states * times, " states, times the cube of the number of contacts, ",
+                std::max<int64_t>(contacts * contacts * contacts, 1), &Limits::max_contact_states);
   return check.status();
 }
 

@@ -24,8 +24,10 @@
 #include "core/engine/info.h"
 #include "core/engine/parallel_batch.h"
 #include "core/engine/sweep_run.h"
+#include "core/multi/solve_multi_contact.h"
 #include "core/plan/demand_fields.h"
 #include "core/scene/validate.h"
+#include "core/scene/validate_multi.h"
 #include "core/types/check_rows.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"
@@ -177,6 +179,20 @@ absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchReq
   if (!response.ok()) return control.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;
+}
+
+absl::StatusOr<MultiContactResponse> LocalSolver::DoMultiContact(const MultiContactRequest& request,
+                                                                 const CallOptions& options) const {
+  CallControl watch(options);
+  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
+  std::optional<MultiReduction> reduction;
+  const std::vector<Violation> violations = Validate(request, reduction);
+  if (!violations.empty()) return InvalidRequest(violations);
+  if (absl::Status ended = watch.WhyEnded(); !ended.ok()) return ended;
+  absl::StatusOr<std::vector<MultiContactAnswer>> answers =
+      SolveMultiContact(request, *reduction, [&watch] { return watch.IsStopped(); });
+  if (!answers.ok()) return watch.OrWhyEnded(answers.status());
+  return MultiContactResponse{.answers = *std::move(answers), .engine = ThisEngine()};
 }
 
 namespace {

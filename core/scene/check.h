@@ -98,8 +98,11 @@ class Check {
 // whether matrices are definite.
 void CheckShape(const System& system, Check& check);
 
-// The same for a mechanism.
-void CheckMechanism(const Mechanism& mechanism, Check& check);
+// The same for a mechanism whose Jacobian has the rows of so many contacts.
+void CheckMechanism(const Mechanism& mechanism, size_t contacts, Check& check);
+
+// Checks the inertia of a body in space about its centre of mass, which is finite: 11, 12, 13, 22, 23, 33.
+void CheckInertia(const std::string& field, const std::vector<double>& upper, Check& check);
 
 // True if the damping of a spring takes the place of the coefficient of restitution.
 bool HasDamping(const Scene& scene);

@@ -28,7 +28,7 @@ bool AllFinite(const std::vector<double>& values) {
 std::string EntryOf(const char* field, size_t entry) { return absl::StrCat(field, "[", entry, "]"); }
 
 // Returns whether M, J and q' go together.
-bool CheckSizes(const Mechanism& mechanism, Check& check) {
+bool CheckSizes(const Mechanism& mechanism, size_t contacts, Check& check) {
   const size_t n = mechanism.rates.size();
   const auto entries = [](size_t count) { return absl::StrCat("has ", count, count == 1 ? " entry" : " entries"); };
   check.Require(n > 0, [] { return MakeViolation("mechanism.rates", "has 0 entries", "have at least one"); });
@@ -37,12 +37,14 @@ bool CheckSizes(const Mechanism& mechanism, Check& check) {
     return MakeViolation(kMass, entries(mass), absl::StrCat("have n x n = ", n * n, " for the ", n, " of rates"));
   });
   const size_t jacobian = mechanism.jacobian.size();
-  check.Require(jacobian == 2 * n || jacobian == 3 * n, [&] {
-    return MakeViolation(
-        kJacobian, entries(jacobian),
-        absl::StrCat("have 2 x n = ", 2 * n, " in a plane or 3 x n = ", 3 * n, " in space, for the ", n, " of rates"));
+  const size_t row = contacts * n;
+  check.Require(jacobian == 2 * row || jacobian == 3 * row, [&] {
+    const std::string times = contacts == 1 ? " x n = " : absl::StrCat(" x ", contacts, " x n = ");
+    return MakeViolation(kJacobian, entries(jacobian),
+                         absl::StrCat("have 2", times, 2 * row, " in a plane or 3", times, 3 * row, " in space, for the ",
+                                      n, " of rates"));
   });
-  return n > 0 && mass == n * n && (jacobian == 2 * n || jacobian == 3 * n);
+  return n > 0 && mass == n * n && (jacobian == 2 * row || jacobian == 3 * row);
 }
 
 // M as it is given is symmetric: an entry that differs from the one across the diagonal is named, not averaged.
@@ -109,7 +111,7 @@ void CheckKept(const Mechanism& mechanism, Check& check) {
                 [] { return MakeViolation(kKept, "is set beside composite", "not be, composite holds all joints"); });
 }
 
-// True if the linear velocity of a free body takes the `axes` coordinates from `first` on.
+// True if the linear velocity of a free body takes the `axes` coordinates from `first` on. The first contact tells.
 bool MovesAsBody(const Mechanism& mechanism, size_t first, size_t axes) {
   const size_t n = mechanism.rates.size();
   const double mass = mechanism.mass_matrix[first * n + first];
@@ -129,8 +131,7 @@ bool MovesAsBody(const Mechanism& mechanism, size_t first, size_t axes) {
 }
 
 // In a plane a base has one angular velocity and two axes, in space three of each.
-void CheckBase(const Mechanism& mechanism, Check& check) {
-  const bool in_space = TangentialDirections(mechanism) == 2;
+void CheckBase(const Mechanism& mechanism, bool in_space, Check& check) {
   const size_t axes = in_space ? 3 : 2;
   const size_t base = in_space ? 6 : 3;
   const bool has_base =
@@ -146,12 +147,14 @@ void CheckBase(const Mechanism& mechanism, Check& check) {
 
 }  // namespace
 
-void CheckMechanism(const Mechanism& mechanism, Check& check) {
-  if (!CheckSizes(mechanism, check)) return;
+void CheckMechanism(const Mechanism& mechanism, size_t contacts, Check& check) {
+  if (!CheckSizes(mechanism, contacts, check)) return;
   CheckKept(mechanism, check);
   if (!AllFinite(mechanism.mass_matrix) || !CheckSymmetry(mechanism, check)) return;
   CheckDefinite(mechanism, check);
-  if (mechanism.composite && AllFinite(mechanism.jacobian)) CheckBase(mechanism, check);
+  if (mechanism.composite && AllFinite(mechanism.jacobian)) {
+    CheckBase(mechanism, mechanism.jacobian.size() == 3 * contacts * mechanism.rates.size(), check);
+  }
 }
 
 }  // namespace ricochet

@@ -52,15 +52,6 @@ bool CheckMatrix(const std::string& field, const std::vector<double>& upper, dou
   return holds;
 }
 
-// A body's tensor is positive definite, and none of its principal moments exceeds the sum of the other two.
-void CheckInertia(const std::string& field, const std::vector<double>& upper, Check& check) {
-  if (!CheckMatrix(field, upper, 16.0 * kEpsilon, "positive definite", check)) return;
-  check.Require(LargestMomentShare(upper) <= 0.5 + 0.5 * kMomentRounding, [&] {
-    return MatrixViolation(field, upper,
-                           "that of a body: its largest principal moment is at most the sum of the other two");
-  });
-}
-
 void CheckOne(std::monostate /*unset*/, Check& check) {
   check.RequireSet(
       false, "system",
@@ -112,9 +103,18 @@ void CheckOne(const SpatialContact& contact, Check& check) {
   check.Length("spatial_contact.tangential_m_s", contact.tangential_m_s.size(), 2);
 }
 
-void CheckOne(const Mechanism& mechanism, Check& check) { CheckMechanism(mechanism, check); }
+void CheckOne(const Mechanism& mechanism, Check& check) { CheckMechanism(mechanism, 1, check); }
 
 }  // namespace
+
+// A body's tensor is positive definite, and none of its principal moments exceeds the sum of the other two.
+void CheckInertia(const std::string& field, const std::vector<double>& upper, Check& check) {
+  if (!CheckMatrix(field, upper, 16.0 * kEpsilon, "positive definite", check)) return;
+  check.Require(LargestMomentShare(upper) <= 0.5 + 0.5 * kMomentRounding, [&] {
+    return MatrixViolation(field, upper,
+                           "that of a body: its largest principal moment is at most the sum of the other two");
+  });
+}
 
 void CheckShape(const System& system, Check& check) {
   std::visit([&check](const auto& one) { CheckOne(one, check); }, system);

@@ -18,6 +18,7 @@
 #include <variant>
 #include <vector>
 
+#include "ricochet/multi_contact.h"
 #include "ricochet/number_path.h"
 #include "ricochet/scene.h"
 
@@ -80,8 +81,8 @@ struct SceneNumber {
   NumberRule rule;
 };
 
-// Every number of every part of a scene, part by part in the order of the proto's fields. Validate checks in addition
-// the rules between numbers.
+// Every number of every part of a scene, or of a scene of several contacts, part by part in the order of the proto's
+// fields. Validate checks in addition the rules between numbers.
 inline constexpr auto kSceneNumbers = std::tuple{
     SceneNumber("inertia_kg_m2", &Pendulum::inertia_kg_m2, NumberRule::kPositive),
     SceneNumber("a_m", &Pendulum::a_m, NumberRule::kPositive),
@@ -143,7 +144,19 @@ inline constexpr auto kSceneNumbers = std::tuple{
     SceneNumber("normal_m_s2", &Gravity::normal_m_s2),
     SceneNumber("moment_n_m", &PinMoment::moment_n_m),
     SceneNumber("tangential_m_s2", &ContactAcceleration::tangential_m_s2),
-    SceneNumber("normal_m_s2", &ContactAcceleration::normal_m_s2)};
+    SceneNumber("normal_m_s2", &ContactAcceleration::normal_m_s2),
+    SceneNumber("w_per_kg", &ContactMatrix::w_per_kg),
+    SceneNumber("velocity_m_s", &ContactMatrix::velocity_m_s),
+    SceneNumber("mass_kg", &FreeBody::mass_kg, NumberRule::kPositive),
+    SceneNumber("inertia_com_kg_m2", &FreeBody::inertia_com_kg_m2),
+    SceneNumber("position_m", &FreeBody::position_m),
+    SceneNumber("linear_m_s", &FreeBody::linear_m_s),
+    SceneNumber("angular_rad_s", &FreeBody::angular_rad_s),
+    SceneNumber("friction", &MultiContactPoint::friction, NumberRule::kNotNegative),
+    SceneNumber("energetic", &MultiContactPoint::energetic, NumberRule::kUnitInterval),
+    SceneNumber("relative_stiffness", &MultiContactPoint::relative_stiffness, NumberRule::kPositive),
+    SceneNumber("point_m", &MultiContactPoint::point_m),
+    SceneNumber("normal", &MultiContactPoint::normal)};
 
 // How many numbers of the table a part has.
 template <typename Part>

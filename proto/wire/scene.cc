@@ -228,6 +228,9 @@ struct Map<Scene> : Between<Scene, v1::Scene> {
 void ToProto(const Scene& scene, v1::Scene& proto) { Map<Scene>::Fields::Write(scene, proto); }
 void FromProto(const v1::Scene& proto, Scene& scene) { Map<Scene>::Fields::Read(proto, scene); }
 
+void ToProto(const Mechanism& mechanism, v1::Mechanism& proto) { Map<Mechanism>::Fields::Write(mechanism, proto); }
+void FromProto(const v1::Mechanism& proto, Mechanism& mechanism) { Map<Mechanism>::Fields::Read(proto, mechanism); }
+
 v1::Scene ToProto(const Scene& scene) { return Sent(scene); }
 Scene FromProto(const v1::Scene& proto) { return Received<Scene>(proto); }
 

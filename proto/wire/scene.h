@@ -13,6 +13,8 @@ v1::Scene ToProto(const Scene& scene);
 Scene FromProto(const v1::Scene& proto);
 void ToProto(const Scene& scene, v1::Scene& proto);
 void FromProto(const v1::Scene& proto, Scene& scene);
+void ToProto(const Mechanism& mechanism, v1::Mechanism& proto);
+void FromProto(const v1::Mechanism& proto, Mechanism& mechanism);
 
 }  // namespace ricochet
 

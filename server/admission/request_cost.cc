@@ -16,6 +16,8 @@ namespace {
 constexpr int64_t kFewLinks = 32;
 constexpr int64_t kShortHistory = 2048;
 constexpr int64_t kFewRows = 64;
+constexpr double kFewContacts = 27;    // States times the cube of the contacts, in a plane.
+constexpr size_t kFewVelocities = 32;  // Of several contacts: those of the system, and the outputs asked for.
 
 RequestCost Expensive(CostCause cause, double size) {
   return {.cause = cause, .octave = static_cast<int>(std::log2(std::max(size, 1.0)))};
@@ -85,6 +87,31 @@ RequestCost CostOf(const AuditBatchRequest& request) {
     return Expensive(CostCause::kRows, static_cast<double>(rows) * static_cast<double>(Links(request.scene)));
   }
   return CostOf(request.scene);
+}
+
+namespace {
+
+size_t Velocities(const MultiContactSystem& system) {
+  struct Counter {
+    size_t operator()(std::monostate) const { return 0; }
+    size_t operator()(const ContactMatrix& matrix) const { return matrix.velocity_m_s.size(); }
+    size_t operator()(const FreeBodies& free) const { return 3 * free.bodies.size(); }
+    size_t operator()(const Mechanism& mechanism) const { return mechanism.rates.size(); }
+  };
+  return std::visit(Counter(), system);
+}
+
+}  // namespace
+
+RequestCost CostOf(const MultiContactRequest& request) {
+  // A curve of outcomes takes as long as so many states.
+  constexpr double kStatesOfCurve = 16.0;
+  const auto states = static_cast<double>(std::max<size_t>(request.states.size(), 1));
+  const double size = states * Cube(static_cast<int64_t>(request.scene.contacts.size())) *
+                      (request.stiffness_range.has_value() ? kStatesOfCurve : 1.0);
+  const bool has_few_velocities = Velocities(request.scene.system) + request.outputs.size() <= kFewVelocities;
+  const bool is_cheap = DirectionsOf(request.scene) == 2 && size <= kFewContacts && has_few_velocities;
+  return is_cheap ? RequestCost() : Expensive(CostCause::kContacts, size);
 }
 
 RequestCost CostOf(const BatchSetup& setup, size_t rows) {

@@ -22,6 +22,7 @@ enum class CostCause {
   kHistory,      // A long history.
   kLinks,        // A linkage of many links or a mechanism of many coordinates.
   kRows,         // A batch of many rows.
+  kContacts,     // Many contacts at once, or many states of them.
 };
 
 struct RequestCost {
@@ -37,6 +38,7 @@ RequestCost CostOf(const PlanRequest& request);
 RequestCost CostOf(const BoundsRequest& request);
 RequestCost CostOf(const AuditRequest& request);
 RequestCost CostOf(const AuditBatchRequest& request);
+RequestCost CostOf(const MultiContactRequest& request);
 RequestCost CostOf(const BatchSetup& setup, size_t rows);
 RequestCost CostOf(const InfoRequest& request);
 

@@ -185,6 +185,7 @@ BoundedService::BoundedService(Methods& service, Batches batches, const Limits& 
   AddStream("/ricochet.v1.ImpactService/Cost", &Methods::Cost);
   AddUnary("/ricochet.v1.ImpactService/SolveBatch", &Methods::SolveBatch);
   AddBatches("/ricochet.v1.ImpactService/SolveBatches");
+  AddUnary("/ricochet.v1.ImpactService/MultiContact", &Methods::MultiContact);
   AddUnary("/ricochet.v1.ImpactService/Info", &Methods::Info);
 }
 

@@ -8,6 +8,7 @@
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/info.h"
+#include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "ricochet/result_stream.h"
@@ -115,6 +116,11 @@ grpc::Status ImpactService::Audit(grpc::ServerContext* context, const v1::AuditR
 grpc::Status ImpactService::AuditBatch(grpc::ServerContext* context, const v1::AuditBatchRequest* request,
                                        v1::AuditBatchResponse* response) {
   return Answer("AuditBatch", &Solver::AuditBatch, *context, *request, *response);
+}
+
+grpc::Status ImpactService::MultiContact(grpc::ServerContext* context, const v1::MultiContactRequest* request,
+                                         v1::MultiContactResponse* response) {
+  return Answer("MultiContact", &Solver::MultiContact, *context, *request, *response);
 }
 
 grpc::Status ImpactService::Sweep(grpc::ServerContext* context, const v1::SweepRequest* request,

@@ -25,9 +25,9 @@ constexpr char kCertificate[] = "certificate";
 // The scope of each method of the service.
 const std::map<std::string, std::string>& MethodScopes() {
   static const std::map<std::string, std::string> scopes = {
-      {"Solve", "solve"}, {"SolveBatch", "solve"},   {"Plan", "solve"},  {"Bounds", "solve"},
-      {"Audit", "audit"}, {"AuditBatch", "audit"},   {"Sweep", "sweep"}, {"Cost", "cost"},
-      {"Info", "info"},   {"SolveBatches", "solve"},
+      {"Solve", "solve"}, {"SolveBatch", "solve"},   {"Plan", "solve"},         {"Bounds", "solve"},
+      {"Audit", "audit"}, {"AuditBatch", "audit"},   {"Sweep", "sweep"},        {"Cost", "cost"},
+      {"Info", "info"},   {"SolveBatches", "solve"}, {"MultiContact", "solve"},
   };
   return scopes;
 }

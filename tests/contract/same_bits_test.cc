@@ -9,9 +9,11 @@
 
 #include "core/rows/column.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "tests/contract/solvers.h"
+#include "tests/support/scenes/multi_contact_scenes.h"
 #include "tests/support/scenes/pendulum_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
 
@@ -25,6 +27,7 @@ std::string Bytes(const SolveResponse& response) { return ToProto(response).Seri
 std::string Bytes(const BoundsResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(const AuditResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(const AuditBatchResponse& response) { return ToProto(response).SerializeAsString(); }
+std::string Bytes(const MultiContactResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(SweepChunk chunk) {
   // The time of a clock is not a result.
   if (chunk.summary.has_value()) chunk.summary->elapsed_s.reset();
@@ -228,6 +231,21 @@ TEST(SameBits, OfAuditsOfEverySystemAndOfTheirErrors) {
   }
   ExpectSame(Local().Audit({}), Remote().Audit({}));
   ExpectSame(Local().AuditBatch({}), Remote().AuditBatch({}));
+}
+
+TEST(SameBits, OfSeveralContactsAndOfTheirErrors) {
+  MultiContactRequest block = {.scene = FallingBlock(0.7, 0.3, 3.0),
+                               .states = {{{0.2, -1.0, 0.4}}, {{-0.1, -0.5, 0.0}}},
+                               .outputs = {{.name = "top", .coefficients = {1.0, 0.0, -1.0}}},
+                               .stiffness_range = StiffnessRange{.contact = 2, .low = 0.1, .high = 10.0}};
+  ExpectSame(Local().MultiContact(block), Remote().MultiContact(block));
+  const MultiContactRequest balls = {.scene = RowOfBalls({1, 2, 1}, {1, 0, -1}, {1, 0.5})};
+  ExpectSame(Local().MultiContact(balls), Remote().MultiContact(balls));
+  ExpectSame(Local().MultiContact({.scene = SpatialBox()}), Remote().MultiContact({.scene = SpatialBox()}));
+  block.scene.contacts.front().friction = -1.0;
+  block.methods = {MultiContactMethod::kUnspecified};
+  ExpectSame(Local().MultiContact(block), Remote().MultiContact(block));
+  ExpectSame(Local().MultiContact({}), Remote().MultiContact({}));
 }
 
 }  // namespace

@@ -17,6 +17,7 @@
 #include "core/rows/axis_values.h"
 #include "ricochet/engine_info.h"
 #include "tests/contract/solvers.h"
+#include "tests/support/scenes/multi_contact_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
@@ -73,6 +74,42 @@ TEST_P(SolverContract, ASurfaceThatOnlyRisesNeedsNoTangentialVelocity) {
     EXPECT_EQ(solver().Bounds({.scene = left_out, .ranges = ranges})->enclosure,
               solver().Bounds({.scene = stated, .ranges = ranges})->enclosure);
   }
+}
+
+TEST_P(SolverContract, SaysWhetherTheOrderOfSeveralImpactsMatters) {
+  const auto response = solver().MultiContact({.scene = FallingBlock(1.0, 0.5)});
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(response->engine, ThisEngine());
+  ASSERT_EQ(response->answers.size(), 1U);
+  const MultiContactAnswer& answer = response->answers.front();
+  EXPECT_EQ(answer.verdict, MultiContactVerdict::kOrderMatters);
+  EXPECT_THAT(answer.orders, ElementsAre(Field(&AttainedOutcome::orders, ElementsAre("1")),
+                                         Field(&AttainedOutcome::orders, ElementsAre("2"))));
+  EXPECT_NEAR(answer.springs->velocity[1], 0.5, 1e-15);
+  EXPECT_TRUE(answer.refused.empty());
+}
+
+TEST_P(SolverContract, AnswersEachStateOfSeveralContacts) {
+  const auto response =
+      solver().MultiContact({.scene = FallingBlock(1.0, 0.5), .states = {{{0, -1, 0}}, {{0, -2, 0}}, {{0, 1, 0}}}});
+  ASSERT_TRUE(response.ok()) << response.status();
+  ASSERT_EQ(response->answers.size(), 3U);
+  EXPECT_NEAR(response->answers[1].springs->velocity[1], 1.0, 1e-15);
+  EXPECT_EQ(response->answers[2].verdict, MultiContactVerdict::kSingle);
+  EXPECT_EQ(response->answers[2].orders.front().orders.front(), "none");
+}
+
+TEST_P(SolverContract, ListsAllViolationsOfSeveralContacts) {
+  MultiContactRequest request = {.scene = FallingBlock(-1.0, 2.0)};
+  request.scene.contacts.back() = {.body = 3, .other_body = 3, .point_m = {0.0}, .normal = {0.0, 0.0}};
+  request.states = {{{1.0}}};
+  EXPECT_THAT(
+      ViolationsOf(solver().MultiContact(request).status()),
+      ElementsAre(Field(&Violation::field, "contacts[0].friction"), Field(&Violation::field, "contacts[0].energetic"),
+                  Field(&Violation::field, "contacts[1].energetic"), Field(&Violation::field, "contacts[1].body"),
+                  Field(&Violation::field, "contacts[1].other_body"),
+                  Field(&Violation::field, "contacts[1].other_body"), Field(&Violation::field, "contacts[1].point_m"),
+                  Field(&Violation::field, "contacts[1].normal")));
 }
 
 TEST_P(SolverContract, SaysWhichEngineAnswered) {

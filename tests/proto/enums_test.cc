@@ -7,6 +7,7 @@
 #include "proto/wire/audit.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
+#include "proto/wire/multi_contact.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
 #include "proto/wire/sweep.h"
@@ -22,7 +23,8 @@ class EnumTest : public testing::Test {};
 using Enums =
     testing::Types<v1::Regime, v1::Event::Kind, v1::BrokenLimit::Kind, v1::Accuracy::Kind, v1::LimitCheck::Verdict,
                    v1::SweepRequest::Combination, v1::Termination, v1::Effect, v1::Model, v1::Arithmetic,
-                   v1::PlannedEffect::Decision, v1::PlannedArithmetic::Reason, v1::CostRow::Status, v1::RowStatus>;
+                   v1::PlannedEffect::Decision, v1::PlannedArithmetic::Reason, v1::CostRow::Status, v1::RowStatus,
+                   v1::MultiContactRequest::Method, v1::AttainedOutcome::End, v1::MultiContactAnswer::Verdict>;
 TYPED_TEST_SUITE(EnumTest, Enums);
 
 TYPED_TEST(EnumTest, EveryValueOfTheProtoIsTheCoresOfTheSameNumber) {

@@ -20,6 +20,7 @@
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/info.h"
+#include "proto/wire/multi_contact.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/scene.h"
@@ -51,11 +52,11 @@ v1::SweepResponse ThroughCore(const v1::SweepResponse& proto) {
 template <typename Message>
 class EveryFieldTest : public testing::Test {};
 
-using Messages =
-    testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse, v1::SweepRequest,
-                   v1::SweepResponse, v1::AuditRequest, v1::AuditResponse, v1::AuditBatchRequest,
-                   v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse, v1::CostRequest, v1::CostResponse,
-                   v1::BatchSetup, v1::BatchSummary, v1::InfoRequest, v1::InfoResponse>;
+using Messages = testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse,
+                                v1::SweepRequest, v1::SweepResponse, v1::AuditRequest, v1::AuditResponse,
+                                v1::AuditBatchRequest, v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse,
+                                v1::CostRequest, v1::CostResponse, v1::BatchSetup, v1::BatchSummary,
+                                v1::MultiContactRequest, v1::MultiContactResponse, v1::InfoRequest, v1::InfoResponse>;
 TYPED_TEST_SUITE(EveryFieldTest, Messages);
 
 TYPED_TEST(EveryFieldTest, SurvivesTheCore) {

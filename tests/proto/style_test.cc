@@ -29,6 +29,9 @@ using testing::IsEmpty;
 const std::set<std::string>& WithoutUnit() {
   static const std::set<std::string> names = {"allowance",
                                               "alpha",
+                                              "coefficients",
+                                              "cosine",
+                                              "difference",
                                               "e",
                                               "e_t",
                                               "energetic",
@@ -52,11 +55,13 @@ const std::set<std::string>& WithoutUnit() {
                                               "neglected",
                                               "newton",
                                               "newton_error",
+                                              "normal",
                                               "numerical",
                                               "poisson",
                                               "poisson_error",
                                               "reference_error",
                                               "relative_error",
+                                              "relative_stiffness",
                                               "relative_tolerance",
                                               "restitution",
                                               "reversal",
@@ -77,7 +82,9 @@ const std::set<std::string>& WithoutUnit() {
                                               "total",
                                               "upper",
                                               "value",
-                                              "values"};
+                                              "values",
+                                              "velocity",
+                                              "velocity_error"};
   return names;
 }
 

@@ -59,6 +59,10 @@ class FakeSolver final : public Solver {
                                                   const CallOptions& /*options*/) const override {
     return InvalidRequest({{"scene", "is refused"}});
   }
+  absl::StatusOr<MultiContactResponse> DoMultiContact(const MultiContactRequest& /*request*/,
+                                                      const CallOptions& /*options*/) const override {
+    return absl::UnimplementedError("fake");
+  }
   SweepStream DoSweep(const SweepRequest& request, const CallOptions& options) const override {
     return SweepStream(
         [options, next = int64_t{0}, count = values, chunks = most_chunks,

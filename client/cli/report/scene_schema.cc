@@ -32,12 +32,16 @@ void AddRange(const std::string& range, Json& schema) {
   }
 }
 
-// Adds the length of a list: "3 entries", "11, 12, 13, 22, 23, 33", "one entry in a plane, two in space", "At least
-// one".
+// Adds the length of a list: "2 entries in a plane, 3 in space", "3 entries", "11, 12, 13, 22, 23, 33", "one entry in a
+// plane, two in space", "At least one".
 void AddLength(const std::string& comment, Json& schema) {
+  static const std::regex by_space("([0-9]) entr(?:y|ies) in a plane, ([0-9]) in space");
   static const std::regex fixed("([0-9]) entries");
   std::smatch length;
-  if (std::regex_search(comment, length, fixed)) {
+  if (std::regex_search(comment, length, by_space)) {
+    schema["minItems"] = std::stoi(length[1].str());
+    schema["maxItems"] = std::stoi(length[2].str());
+  } else if (std::regex_search(comment, length, fixed)) {
     schema["minItems"] = schema["maxItems"] = std::stoi(length[1].str());
   } else if (absl::StrContains(comment, "11, 12, 13, 22, 23, 33")) {
     schema["minItems"] = schema["maxItems"] = 6;
@@ -130,13 +134,18 @@ void AddDefinitions(const Descriptor& message, Json& definitions) {
 
 }  // namespace
 
-std::string SceneSchema() {
-  const Descriptor& scene = *CommentedProtos().FindMessageTypeByName("ricochet.v1.Scene");
-  Json schema = {{"$schema", "https://json-schema.org/draft/2020-12/schema"},
-                 {"title", "A scene of Ricochet. Units are SI and radians."},
-                 {"$ref", Reference(scene)}};
+static std::string SchemaOf(const char* message, const char* title) {
+  const Descriptor& scene = *CommentedProtos().FindMessageTypeByName(message);
+  Json schema = {
+      {"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}, {"$ref", Reference(scene)}};
   AddDefinitions(scene, schema["$defs"]);
   return schema.dump(2) + "\n";
+}
+
+std::string SceneSchema() { return SchemaOf("ricochet.v1.Scene", "A scene of Ricochet. Units are SI and radians."); }
+
+std::string MultiContactSceneSchema() {
+  return SchemaOf("ricochet.v1.MultiContactScene", "Several contacts at once, of Ricochet. Units are SI and radians.");
 }
 
 }  // namespace ricochet::cli

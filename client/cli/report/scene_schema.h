@@ -11,6 +11,9 @@ namespace ricochet::cli {
 // numbers, lengths of lists, required fields and exclusive ones. Rules that tie one number to another are not in it.
 std::string SceneSchema();
 
+// The same of a ricochet.v1.MultiContactScene.
+std::string MultiContactSceneSchema();
+
 }  // namespace ricochet::cli
 
 #endif  // RICOCHET_CLIENT_CLI_REPORT_SCENE_SCHEMA_H_

@@ -14,8 +14,8 @@
 namespace ricochet {
 
 struct Limits {
-  // Links of a linkage, coordinates of a mechanism, and rates after an impact that an audit states. Time grows with the
-  // cube of them.
+  // Links of a linkage, coordinates of a mechanism, rates after an impact that an audit states, and bodies that touch at
+  // several contacts. Time grows with the cube of the links and coordinates.
   int64_t max_links = 64;
   // Numbers in one list of a scene, such as a table of coefficients by speed.
   int64_t max_list_numbers = 1024;
@@ -28,7 +28,7 @@ struct Limits {
   int64_t max_axes = 32;
   // Values of an axis that lists them.
   int64_t max_axis_values = 65'536;
-  // Columns of a sweep or a batch.
+  // Columns of a sweep or a batch, and outputs of a request about several contacts.
   int64_t max_columns = 256;
   // Points of a sweep.
   int64_t max_points_per_sweep = 10'000'000'000;
@@ -45,6 +45,9 @@ struct Limits {
   // Bytes of the message of a batch. Of the messages of other requests 1 MiB is the most. A LocalSolver has no
   // messages.
   int64_t max_request_bytes = int64_t{16} << 20;
+  // States of a request about several contacts times the cube of the contacts. A range of stiffnesses counts as 16
+  // times as many states.
+  int64_t max_contact_states = 4096;
 
   // Limits that no request exceeds.
   static constexpr Limits None();
@@ -78,6 +81,8 @@ inline constexpr NamedLimit kLimits[] = {
     {"max_audit_rows", &Limits::max_audit_rows, 8192, "Rows of a batch of audits"},
     {"max_batch_numbers", &Limits::max_batch_numbers, 100'000'000, "Rows of a batch times its columns, in or out"},
     {"max_request_bytes", &Limits::max_request_bytes, int64_t{256} << 20, "Bytes of the message of a batch"},
+    {"max_contact_states", &Limits::max_contact_states, 1'000'000'000,
+     "States of several contacts times the cube of the contacts"},
 };
 
 constexpr Limits Limits::None() {

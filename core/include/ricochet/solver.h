@@ -28,6 +28,7 @@
 #include "ricochet/helpers.h"
 #include "ricochet/info.h"
 #include "ricochet/limits.h"
+#include "ricochet/multi_contact.h"
 #include "ricochet/outcome.h"
 #include "ricochet/plan.h"
 #include "ricochet/result_stream.h"
@@ -166,6 +167,13 @@ class Solver {
     return DoAuditBatch(request, options);
   }
 
+  // Finds what several contacts at once can do, and whether their order matters. It stops within 10 ms of a stop by its
+  // options.
+  absl::StatusOr<MultiContactResponse> MultiContact(const MultiContactRequest& request,
+                                                    const CallOptions& options = {}) const {
+    return DoMultiContact(request, options);
+  }
+
   // Computes many impacts of one system, given as columns, into the columns of `rows`. A bad row does not spoil the
   // others. A Client sends a batch that is too long for one message in pieces.
   absl::StatusOr<BatchResponse> SolveBatch(const BatchSetup& setup, const BatchRows& rows,
@@ -206,6 +214,8 @@ class Solver {
   virtual absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const = 0;
   virtual absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                           const CallOptions& options) const = 0;
+  virtual absl::StatusOr<MultiContactResponse> DoMultiContact(const MultiContactRequest& request,
+                                                              const CallOptions& options) const = 0;
   virtual absl::StatusOr<BatchResponse> DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
                                                      const CallOptions& options) const = 0;
   virtual absl::StatusOr<BatchSession> DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const = 0;
@@ -235,6 +245,8 @@ class LocalSolver final : public Solver {
   absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const override;
   absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                   const CallOptions& options) const override;
+  absl::StatusOr<MultiContactResponse> DoMultiContact(const MultiContactRequest& request,
+                                                      const CallOptions& options) const override;
   absl::StatusOr<BatchResponse> DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
                                              const CallOptions& options) const override;
   absl::StatusOr<BatchSession> DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const override;

@@ -19,6 +19,7 @@
 #include "ricochet/error.h"
 #include "ricochet/limits.h"
 #include "ricochet/solver.h"
+#include "tests/support/scenes/multi_contact_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
@@ -160,6 +161,26 @@ const std::vector<Case>& Cases() {
          request.columns.friction.assign(n, 0.1);
          request.columns.rates_after_rad_s = {{0.0}};
          return solver.AuditBatch(request).status();
+       }},
+      {"BodiesThatTouch", &Limits::max_links, 2, "free_bodies.bodies",
+       [](const Solver& solver, size_t n) {
+         return solver
+             .MultiContact({.scene = RowOfBalls(std::vector<double>(n, 1.0), std::vector<double>(n, 0.0),
+                                                std::vector<double>(n - 1, 0.5))})
+             .status();
+       }},
+      {"StatesOfSeveralContacts", &Limits::max_contact_states, 5, "states",
+       [](const Solver& solver, size_t n) {
+         MultiContactRequest request = {.scene = FallingBlock(0.5, 0.5)};
+         request.scene.contacts.resize(1);
+         request.states.assign(n, {.velocity = {0.0, -1.0, 0.0}});
+         return solver.MultiContact(request).status();
+       }},
+      {"OutputsOfSeveralContacts", &Limits::max_columns, 3, "outputs",
+       [](const Solver& solver, size_t n) {
+         const LinearOutput output = {.name = "top", .coefficients = {1.0, 0.0, -1.0}};
+         return solver.MultiContact({.scene = FallingBlock(0.5, 0.5), .outputs = std::vector<LinearOutput>(n, output)})
+             .status();
        }},
       {"RatesOfABatch", &Limits::max_audit_rows, 7, "columns.rates_after[0].rates_rad_s",
        [](const Solver& solver, size_t n) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ricochet/solver.h"
+#include "tests/support/scenes/multi_contact_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
@@ -92,6 +93,13 @@ std::vector<DearCall> ExpensiveCalls() {
        [solver](const CallOptions& options) { return solver.AuditBatch(DeficientRows(), options).status(); }},
       {"SweepOfAStiffContact", [](const CallOptions& options) { return Sweep(StiffContact(), options); }},
       {"SweepOfAChain", [](const CallOptions& options) { return Sweep(ChainScene(64), options); }},
+      {"ManyStatesOfABoxInSpace",
+       [solver](const CallOptions& options) {
+         const MultiContactState state = {.velocity = {0.4, 0.1, -1.0, 0.3, -0.2, 0.0}};
+         return solver
+             .MultiContact({.scene = SpatialBox(), .states = std::vector<MultiContactState>(4096, state)}, options)
+             .status();
+       }},
       {"StudyOfCost",
        [solver](const CallOptions& options) {
          absl::Status last;

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/scenes/multi_contact_scenes.h"
+
 namespace ricochet::server {
 namespace {
 
@@ -45,7 +47,12 @@ TEST(RequestCost, EachCauseMakesACallDear) {
   EXPECT_EQ(CostOf(SolveRequest{.scene = arm}).cause, CostCause::kLinks);
   EXPECT_EQ(CostOf(AuditRequest{.scene = Chain(128), .observed = {}}).cause, CostCause::kLinks);
   EXPECT_EQ(CostOf(AuditBatchRequest{.scene = {}, .columns = {.rates_after_rad_s = {std::vector<double>(8192)}}}).cause,
-            CostCause::kRows);  // 130 ms
+            CostCause::kRows);                                                                // 130 ms
+  EXPECT_EQ(CostOf(MultiContactRequest{.scene = SpatialBox()}).cause, CostCause::kContacts);  // 10 ms
+  MultiContactRequest block = {.scene = FallingBlock(0.5, 0.5)};
+  EXPECT_TRUE(CostOf(block).is_cheap());
+  block.states.resize(64);
+  EXPECT_EQ(CostOf(block).cause, CostCause::kContacts);  // 10 ms
 }
 
 TEST(RequestCost, CallsOfOneSizeShareAnOctaveAndLargerOnesAreApart) {

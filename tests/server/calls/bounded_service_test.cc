@@ -103,6 +103,10 @@ class AnsweringService final : public v1::ImpactService::Service {
                           v1::AuditBatchResponse* /*response*/) override {
     return {grpc::StatusCode::ABORTED, ""};
   }
+  grpc::Status MultiContact(grpc::ServerContext* /*context*/, const v1::MultiContactRequest* /*request*/,
+                            v1::MultiContactResponse* /*response*/) override {
+    return {grpc::StatusCode::ABORTED, ""};
+  }
   grpc::Status Plan(grpc::ServerContext* /*context*/, const v1::PlanRequest* /*request*/,
                     v1::PlanResponse* /*response*/) override {
     return {grpc::StatusCode::ABORTED, ""};

@@ -77,9 +77,9 @@ TEST(Callers, FileWithoutCallersIsRefused) {
 TEST(Scopes, EveryMethodOfTheServiceHasTheOneThatTheReadmeStates) {
   // The table under "Tokens" in deploy/README.md.
   const std::map<std::string, std::string> stated = {
-      {"Solve", "solve"},      {"SolveBatch", "solve"}, {"SolveBatches", "solve"}, {"Plan", "solve"},
-      {"Bounds", "solve"},     {"Sweep", "sweep"},      {"Cost", "cost"},          {"Audit", "audit"},
-      {"AuditBatch", "audit"}, {"Info", "info"}};
+      {"Solve", "solve"},      {"SolveBatch", "solve"},   {"SolveBatches", "solve"}, {"Plan", "solve"},
+      {"Bounds", "solve"},     {"Sweep", "sweep"},        {"Cost", "cost"},          {"Audit", "audit"},
+      {"AuditBatch", "audit"}, {"MultiContact", "solve"}, {"Info", "info"}};
   const auto* const file = v1::SolveRequest::descriptor()->file();
   ASSERT_EQ(file->service_count(), 1);
   const auto& service = *file->service(0);

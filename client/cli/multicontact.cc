@@ -1,0 +1,163 @@
+#include <CLI/App.hpp>
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/make_solver.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/plot/picture_input.h"
+#include "client/cli/report/multicontact_plot.h"
+#include "client/cli/report/multicontact_report.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/text/number_input.h"
+#include "proto/wire/multi_contact.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] = R"(Example: a block that falls flat on two corners.
+  $ ricochet scene template box_on_two_feet -o box.textproto
+  $ ricochet multicontact --scene box.textproto
+  ORDER_MATTERS: body_1.x differs by 0.9 m/s between the order 1 and the order 2.
+  ...
+--method names what to compute: orders of single impacts (at most 6 contacts), springs (in a plane), possible (bounds on
+every outcome). The default is each that the scene allows. `ricochet scene list` names templates with several contacts.
+CSV has one row for each outcome, each sample of --stiffness-ratio, and each end of the bounds.
+Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
+
+struct MultiContactOptions {
+  CommonOptions common;
+  std::string scene;
+  std::vector<std::string> methods;
+  std::vector<std::string> states;
+  std::vector<std::string> outputs;
+  std::string stiffness_ratio;
+  PictureOptions picture;
+};
+
+absl::StatusOr<std::vector<double>> ReadNumbers(const std::string& text, const std::string& what) {
+  std::vector<double> numbers;
+  for (const auto piece : absl::StrSplit(text, ',')) {
+    const absl::StatusOr<double> number = ParseNumber(std::string(piece), what);
+    if (!number.ok()) return number.status();
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+absl::StatusOr<MultiContactMethod> ReadMethod(const std::string& name) {
+  constexpr std::array kMethods = {std::pair("orders", MultiContactMethod::kOrders),
+                                   std::pair("springs", MultiContactMethod::kSprings),
+                                   std::pair("possible", MultiContactMethod::kPossible)};
+  for (const auto& [known, method] : kMethods) {
+    if (name == known) return method;
+  }
+  return InputError("--method", name, "be orders, springs or possible");
+}
+
+absl::StatusOr<LinearOutput> ReadOutput(const std::string& text) {
+  const size_t equals = text.rfind('=');
+  if (equals == std::string::npos || equals == 0) return InputError("--function", text, "be NAME=NUMBER,NUMBER,...");
+  absl::StatusOr<std::vector<double>> coefficients = ReadNumbers(text.substr(equals + 1), "--function");
+  if (!coefficients.ok()) return coefficients.status();
+  return LinearOutput{.name = text.substr(0, equals), .coefficients = *std::move(coefficients)};
+}
+
+absl::StatusOr<StiffnessRange> ReadRange(const std::string& text) {
+  const std::vector<std::string> halves = absl::StrSplit(text, '=');
+  const std::vector<std::string> ends = absl::StrSplit(halves.back(), ':');
+  StiffnessRange range;
+  if (halves.size() != 2 || ends.size() != 2 || !absl::SimpleAtoi(halves[0], &range.contact)) {
+    return InputError("--stiffness-ratio", text, "be CONTACT=LOW:HIGH, such as 2=0.01:100");
+  }
+  const absl::StatusOr<double> low = ParseNumber(ends[0], "--stiffness-ratio");
+  if (!low.ok()) return low.status();
+  const absl::StatusOr<double> high = ParseNumber(ends[1], "--stiffness-ratio");
+  if (!high.ok()) return high.status();
+  range.low = *low;
+  range.high = *high;
+  return range;
+}
+
+absl::StatusOr<MultiContactRequest> ReadRequest(const MultiContactOptions& options) {
+  v1::MultiContactScene scene;
+  if (absl::Status status = ReadMessage(options.scene, scene); !status.ok()) return status;
+  MultiContactRequest request = {.scene = FromProto(scene)};
+  for (const std::string& name : options.methods) {
+    const absl::StatusOr<MultiContactMethod> method = ReadMethod(name);
+    if (!method.ok()) return method.status();
+    request.methods.push_back(*method);
+  }
+  for (const std::string& text : options.states) {
+    absl::StatusOr<std::vector<double>> velocity = ReadNumbers(text, "--state");
+    if (!velocity.ok()) return velocity.status();
+    request.states.push_back({.velocity = *std::move(velocity)});
+  }
+  for (const std::string& text : options.outputs) {
+    absl::StatusOr<LinearOutput> output = ReadOutput(text);
+    if (!output.ok()) return output.status();
+    request.outputs.push_back(*std::move(output));
+  }
+  if (options.stiffness_ratio.empty()) return request;
+  const absl::StatusOr<StiffnessRange> range = ReadRange(options.stiffness_ratio);
+  if (!range.ok()) return range.status();
+  request.stiffness_range = *range;
+  return request;
+}
+
+absl::Status RunMultiContact(const MultiContactOptions& options) {
+  if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+  if (!solver.ok()) return solver.status();
+  const absl::StatusOr<MultiContactRequest> request = ReadRequest(options);
+  if (!request.ok()) return request.status();
+  const absl::StatusOr<MultiContactResponse> response = (*solver)->MultiContact(*request);
+  if (!response.ok()) return response.status();
+  absl::Status written = WriteAnswer(
+      options.common, *response, [&] { return MultiContactText(*request, *response); },
+      [&] { return MultiContactCsv(*request, *response); });
+  if (!written.ok() || options.picture.file.empty()) return written;
+  return DrawPicture(MultiContactPlot(*request, *response), options.picture);
+}
+
+}  // namespace
+
+void AddMultiContact(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("multicontact", "What several contacts at once can do, and whether order matters");
+  const auto options = std::make_shared<MultiContactOptions>();
+  MarkFile(FileUse::kRead,
+           sub->add_option("--scene", options->scene,
+                           "A ricochet.v1.MultiContactScene as JSON or textproto; - for standard input"))
+      ->type_name("FILE")
+      ->required();
+  sub->add_option("--method", options->methods,
+                  "What to compute: orders, springs, possible [all that the scene allows]")
+      ->type_name("NAME,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  sub->add_option("--state", options->states,
+                  "A velocity before in place of the scene's, body by body or contact by contact; repeatable")
+      ->type_name("V,V,...")
+      ->allow_extra_args(false);
+  sub->add_option("--function", options->outputs,
+                  "A linear function of the velocities that gets bounds too; repeatable")
+      ->type_name("NAME=C,C,...")
+      ->allow_extra_args(false);
+  sub->add_option("--stiffness-ratio", options->stiffness_ratio,
+                  "Springs while the relative stiffness of a contact runs from LOW to HIGH")
+      ->type_name("CONTACT=LOW:HIGH");
+  AddPictureOptions(*sub, "the strike, the outcomes within what is possible, and the outcomes over the stiffness,",
+                    options->picture);
+  AddServerOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common, kMessageFormats);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunMultiContact(*options); }; });
+}
+
+}  // namespace ricochet::cli

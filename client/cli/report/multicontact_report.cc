@@ -1,0 +1,288 @@
+#include "client/cli/report/multicontact_report.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_format.h"
+#include "absl/strings/str_join.h"
+#include "absl/strings/strip.h"
+#include "client/cli/io/csv_row.h"
+#include "client/cli/text/table.h"
+#include "core/types/multi_contact.h"
+#include "proto/wire/multi_contact.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kSprings[] = "springs";
+// A table of text has no more outcomes than these.
+constexpr size_t kMostRows = 12;
+
+std::string EndName(MultiContactEnd end) {
+  return std::string(absl::StripPrefix(v1::AttainedOutcome::End_Name(ToProto(end)), "END_"));
+}
+
+std::string EndText(MultiContactEnd end) {
+  switch (end) {
+    case MultiContactEnd::kSeparated:
+      return "separated";
+    case MultiContactEnd::kEndless:
+      return "endless, its limit";
+    case MultiContactEnd::kEndlessEstimate:
+      return "endless, estimated";
+    case MultiContactEnd::kWedged:
+      return "wedged";
+    case MultiContactEnd::kBudgetUsedUp:
+      return "not ended";
+    case MultiContactEnd::kUndetermined:
+      return "undetermined";
+    case MultiContactEnd::kUnspecified:
+      break;
+  }
+  return "";
+}
+
+std::string WithUnit(const std::string& name, double value) {
+  const std::string unit = UnitOfOutput(name);
+  return absl::StrCat(Rounded(value), unit.empty() ? "" : " ", unit);
+}
+
+std::string OutcomeInWords(const std::string& name) {
+  return name == kSprings ? std::string(kSprings) : absl::StrCat("the order ", name);
+}
+
+std::string VerdictText(const MultiContactAnswer& answer) {
+  const std::string difference =
+      absl::StrCat(answer.differing_output, " differs by ", WithUnit(answer.differing_output, answer.difference),
+                   " between ", OutcomeInWords(answer.outcome_1), " and ", OutcomeInWords(answer.outcome_2), ".\n");
+  switch (answer.verdict) {
+    case MultiContactVerdict::kSingle:
+      return "SINGLE: only one outcome is possible.\n";
+    case MultiContactVerdict::kOrderMatters:
+      return absl::StrCat("ORDER_MATTERS: ", difference);
+    case MultiContactVerdict::kOrdersAgreeSpringsDiffer:
+      return absl::StrCat("ORDERS_AGREE_SPRINGS_DIFFER: all orders end alike, but ", difference);
+    case MultiContactVerdict::kOrdersAgree:
+      return "ORDERS_AGREE: all outcomes that were computed are alike. This does not prove that no other is "
+             "possible.\n";
+    case MultiContactVerdict::kUnspecified:
+      break;
+  }
+  return "Undecided: the outcomes found are alike, but some could not be found.\n";
+}
+
+// Every outcome with its name, those of orders first.
+std::vector<std::pair<std::string, const AttainedOutcome*>> OutcomesOf(const MultiContactAnswer& answer) {
+  std::vector<std::pair<std::string, const AttainedOutcome*>> all;
+  for (const AttainedOutcome& outcome : answer.orders) {
+    std::string name = absl::StrJoin(outcome.orders, ", ");
+    const auto more = outcome.order_count - static_cast<int64_t>(outcome.orders.size());
+    if (more > 0) absl::StrAppend(&name, " and ", more, " more");
+    all.emplace_back(std::move(name), &outcome);
+  }
+  if (answer.springs.has_value()) all.emplace_back(kSprings, &*answer.springs);
+  return all;
+}
+
+double LargestError(const AttainedOutcome& outcome) {
+  const std::vector<double>& errors =
+      outcome.velocity.empty() ? outcome.contact_velocity_error_m_s : outcome.velocity_error;
+  return *std::max_element(errors.begin(), errors.end());
+}
+
+// The numbers that the text shows: the velocities of the system, or of the contacts alone.
+std::vector<double> Shown(const AttainedOutcome& outcome) {
+  return outcome.velocity.empty() ? outcome.contact_velocity_m_s : outcome.velocity;
+}
+
+std::string OutcomesText(const MultiContactRequest& request, const MultiContactAnswer& answer) {
+  const auto outcomes = OutcomesOf(answer);
+  if (outcomes.empty()) return "";
+  const AttainedOutcome& first = *outcomes.front().second;
+  const std::vector<std::string> names = OutputNames(request, first);
+  std::vector<std::string> header = {"", "ends", "events"};
+  header.insert(header.end(), names.end() - static_cast<std::ptrdiff_t>(Shown(first).size()), names.end());
+  header.emplace_back("error");
+  Table table;
+  table.Add(header);
+  for (size_t i = 0; i < std::min(outcomes.size(), kMostRows); ++i) {
+    const auto& [name, outcome] = outcomes[i];
+    std::vector<std::string> row = {name, EndText(outcome->end), absl::StrCat(outcome->events)};
+    for (const double value : Shown(*outcome)) row.push_back(Rounded(value));
+    row.push_back(absl::StrFormat("%s%.1e", outcome->error_is_proved ? "<= " : "about ", LargestError(*outcome)));
+    table.Add(row);
+  }
+  std::string text = absl::StrCat("\nOutcomes (velocities after, m/s and rad/s)\n", table.Render(2));
+  if (outcomes.size() > kMostRows) {
+    absl::StrAppend(&text, "  and ", outcomes.size() - kMostRows, " more: --format json has all\n");
+  }
+  return text;
+}
+
+std::string LedgerText(const MultiContactAnswer& answer) {
+  Table table;
+  table.Add({"", "contact", "normal impulse [N s]", "compression [J]", "restitution [J]", "friction [J]", "Newton",
+             "Poisson"});
+  const auto outcomes = OutcomesOf(answer);
+  for (size_t i = 0; i < std::min(outcomes.size(), kMostRows); ++i) {
+    const AttainedOutcome& outcome = *outcomes[i].second;
+    const size_t directions =
+        outcome.contacts.empty() ? 2 : outcome.contact_velocity_m_s.size() / outcome.contacts.size();
+    const auto cell = [](std::optional<double> value) { return value.has_value() ? Rounded(*value) : ""; };
+    for (size_t c = 0; c < outcome.contacts.size(); ++c) {
+      const ContactLedger& ledger = outcome.contacts[c];
+      table.Add({c == 0 ? outcomes[i].first : "", absl::StrCat(c + 1),
+                 Rounded(outcome.impulse_n_s[directions * (c + 1) - 1]), Rounded(ledger.work_compression_j),
+                 Rounded(ledger.work_restitution_j), Rounded(ledger.work_friction_j), cell(ledger.newton),
+                 cell(ledger.poisson)});
+    }
+  }
+  return outcomes.empty() ? "" : absl::StrCat("\nWhat each contact did\n", table.Render(2));
+}
+
+std::string PossibleText(const MultiContactAnswer& answer) {
+  if (answer.possible.empty()) return "";
+  Table table;
+  for (const PossibleRange& range : answer.possible) {
+    // An end that is rounding beside the other shows as 0.
+    const double rounding = 1e-12 * std::max(std::abs(range.lower), std::abs(range.upper));
+    const auto shown = [&](double end) { return std::abs(end) <= rounding ? 0.0 : end; };
+    table.Add(
+        {range.output, absl::StrCat(Rounded(shown(range.lower)), " ... ", WithUnit(range.output, shown(range.upper)))});
+  }
+  return absl::StrCat("\nNo outcome lies outside\n", table.Render(2));
+}
+
+std::string PairsText(const MultiContactAnswer& answer) {
+  std::string text;
+  for (const ContactPair& pair : answer.pairs) {
+    absl::StrAppend(&text, "  contacts ", pair.contact_1, " and ", pair.contact_2,
+                    ": cos(theta) = ", Rounded(pair.cosine));
+    if (pair.divisor.has_value()) absl::StrAppend(&text, ", theta = pi/", *pair.divisor);
+    text += "\n";
+  }
+  return text.empty() ? "" : absl::StrCat("\nHow the contacts are coupled\n", text);
+}
+
+std::string CurveText(const MultiContactAnswer& answer) {
+  if (answer.stiffness_samples.empty()) return "";
+  std::string text =
+      absl::StrCat("\nOver relative stiffnesses from ", Rounded(answer.stiffness_samples.front().relative_stiffness),
+                   " to ", Rounded(answer.stiffness_samples.back().relative_stiffness), ": ",
+                   answer.stiffness_samples.size(), " outcomes of springs, which csv and json have");
+  for (const StiffnessJump& jump : answer.stiffness_jumps) {
+    absl::StrAppend(&text, "; a jump between ", Rounded(jump.low), " and ", Rounded(jump.high));
+  }
+  return text + (answer.stiffness_jumps.empty() ? "; no jump\n" : "\n");
+}
+
+std::string RefusedText(const MultiContactAnswer& answer) {
+  std::string text;
+  for (const RefusedMethod& refused : answer.refused) absl::StrAppend(&text, "Left out: ", refused.reason, ".\n");
+  if (answer.jams) text += "The contacts may jam: impulses within the cones of friction exist that move nothing.\n";
+  return text.empty() ? "" : "\n" + text;
+}
+
+// Adds the names and the values of a row of numbers.
+void AddNumbers(const std::vector<std::string>& names, const std::string& ending, const std::vector<double>& values,
+                CsvRow& row) {
+  for (size_t i = 0; i < names.size(); ++i) {
+    row.Number(names[i] + ending, i < values.size() ? std::optional(values[i]) : std::nullopt);
+  }
+}
+
+// The columns of all rows: those of an outcome, and the values of the outputs.
+class CsvTable {
+ public:
+  CsvTable(const MultiContactRequest& request, const MultiContactResponse& response) {
+    for (size_t state = 0; state < response.answers.size(); ++state) AddAnswer(request, response.answers[state], state);
+  }
+
+  std::string Text() const { return CsvOf(rows_); }
+
+ private:
+  void AddAnswer(const MultiContactRequest& request, const MultiContactAnswer& answer, size_t state) {
+    const auto outcomes = OutcomesOf(answer);
+    for (const auto& [name, outcome] : outcomes) Add(request, state, name, std::nullopt, *outcome);
+    for (const StiffnessSample& sample : answer.stiffness_samples) {
+      Add(request, state, kSprings, sample.relative_stiffness, sample.outcome);
+    }
+    if (answer.possible.empty()) return;
+    AttainedOutcome lower, upper;
+    const size_t contacts = answer.contact_velocity_before_m_s.size();
+    for (size_t i = 0; i < answer.possible.size(); ++i) {
+      const PossibleRange& range = answer.possible[i];
+      const bool is_asked = i + request.outputs.size() >= answer.possible.size();
+      if (is_asked) continue;
+      (i < contacts ? lower.contact_velocity_m_s : lower.velocity).push_back(range.lower);
+      (i < contacts ? upper.contact_velocity_m_s : upper.velocity).push_back(range.upper);
+    }
+    Add(request, state, "possible, lower", std::nullopt, lower);
+    Add(request, state, "possible, upper", std::nullopt, upper);
+  }
+
+  void Add(const MultiContactRequest& request, size_t state, const std::string& name, std::optional<double> stiffness,
+           const AttainedOutcome& outcome) {
+    CsvRow& row = rows_.emplace_back();
+    row.Integer("state", static_cast<int64_t>(state));
+    row.Quoted("outcome", name);
+    row.Number("relative_stiffness", stiffness);
+    const bool is_outcome = outcome.end != MultiContactEnd::kUnspecified;
+    row.Words("end", is_outcome ? EndName(outcome.end) : "");
+    row.Integer("events", is_outcome ? std::optional(outcome.events) : std::nullopt);
+    row.Words("error_is_proved", !is_outcome ? "" : outcome.error_is_proved ? "true" : "false");
+    std::vector<double> values = outcome.contact_velocity_m_s, errors = outcome.contact_velocity_error_m_s;
+    values.insert(values.end(), outcome.velocity.begin(), outcome.velocity.end());
+    errors.insert(errors.end(), outcome.velocity_error.begin(), outcome.velocity_error.end());
+    const std::vector<std::string> names = OutputNames(request, outcome);
+    AddNumbers(names, "", values, row);
+    AddNumbers(names, ".error", errors, row);
+    std::vector<std::string> impulses(names.begin(),
+                                      names.begin() + static_cast<std::ptrdiff_t>(outcome.contact_velocity_m_s.size()));
+    AddNumbers(impulses, ".impulse_n_s", outcome.impulse_n_s, row);
+    row.Number("energy_change_j",
+               is_outcome && !outcome.contacts.empty() ? std::optional(outcome.energy_change_j) : std::nullopt);
+  }
+
+  std::vector<CsvRow> rows_;
+};
+
+}  // namespace
+
+std::vector<std::string> OutputNames(const MultiContactRequest& request, const AttainedOutcome& outcome) {
+  const size_t contacts = request.scene.contacts.size();
+  const size_t directions = contacts == 0 ? 2 : outcome.contact_velocity_m_s.size() / contacts;
+  std::vector<std::string> names = ContactOutputNames(contacts, static_cast<int>(directions));
+  for (std::string& name : SystemOutputNames(request.scene.system, static_cast<int>(directions))) {
+    names.push_back(std::move(name));
+  }
+  return names;
+}
+
+std::string UnitOfOutput(const std::string& name) {
+  if (absl::StartsWith(name, "contact_")) return "m/s";
+  if (!absl::StartsWith(name, "body_")) return "";
+  return absl::StrContains(name, ".rate") ? "rad/s" : "m/s";
+}
+
+std::string MultiContactText(const MultiContactRequest& request, const MultiContactResponse& response) {
+  std::string text;
+  for (size_t state = 0; state < response.answers.size(); ++state) {
+    const MultiContactAnswer& answer = response.answers[state];
+    if (response.answers.size() > 1) absl::StrAppend(&text, state > 0 ? "\n" : "", "State ", state + 1, "\n\n");
+    absl::StrAppend(&text, VerdictText(answer), OutcomesText(request, answer), LedgerText(answer), PossibleText(answer),
+                    PairsText(answer), CurveText(answer), RefusedText(answer));
+  }
+  return text;
+}
+
+std::string MultiContactCsv(const MultiContactRequest& request, const MultiContactResponse& response) {
+  return CsvTable(request, response).Text();
+}
+
+}  // namespace ricochet::cli

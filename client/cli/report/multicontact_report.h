@@ -1,0 +1,27 @@
+// What several contacts at once can do, as text and CSV.
+
+#ifndef RICOCHET_CLIENT_CLI_REPORT_MULTICONTACT_REPORT_H_
+#define RICOCHET_CLIENT_CLI_REPORT_MULTICONTACT_REPORT_H_
+
+#include <string>
+#include <vector>
+
+#include "ricochet/multi_contact.h"
+
+namespace ricochet::cli {
+
+// The verdict first, then the outcomes, what each contact did, the bounds, and what was left out.
+std::string MultiContactText(const MultiContactRequest& request, const MultiContactResponse& response);
+
+// One row for each outcome and sample, and for each end of the bounds.
+std::string MultiContactCsv(const MultiContactRequest& request, const MultiContactResponse& response);
+
+// The names of the numbers of an outcome: its contact velocities, and the velocities of the system if they are others.
+std::vector<std::string> OutputNames(const MultiContactRequest& request, const AttainedOutcome& outcome);
+
+// Returns "m/s", "rad/s" or nothing for an output.
+std::string UnitOfOutput(const std::string& name);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_REPORT_MULTICONTACT_REPORT_H_

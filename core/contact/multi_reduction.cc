@@ -1,0 +1,218 @@
+#include "core/contact/multi_reduction.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/contact/mechanism.h"
+
+namespace ricochet {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The arm of a direction about a centre of mass: one number in a plane, three in space.
+Eigen::VectorXd Arm(const Eigen::VectorXd& r, const Eigen::VectorXd& direction) {
+  if (r.size() == 2) return Eigen::VectorXd::Constant(1, r(0) * direction(1) - r(1) * direction(0));
+  return Eigen::Vector3d(r).cross(Eigen::Vector3d(direction));
+}
+
+Eigen::VectorXd ToEigen(const std::vector<double>& values, Eigen::Index size) {
+  if (values.empty()) return Eigen::VectorXd::Zero(size);
+  return Eigen::Map<const Eigen::VectorXd>(values.data(), size);
+}
+
+Eigen::MatrixXd InertiaOf(const FreeBody& body) {
+  const std::vector<double>& i = body.inertia_com_kg_m2;
+  if (i.size() == 1) return Eigen::MatrixXd::Constant(1, 1, i[0]);
+  Eigen::Matrix3d inertia;
+  inertia << i[0], i[1], i[2], i[1], i[3], i[4], i[2], i[4], i[5];
+  return inertia;
+}
+
+// What a contact has of one of its two bodies: the body's place, +1 if its impulses act on it and -1 if their opposites
+// do, and for each direction the arm and L^-1 times it, with the inertia L L^T.
+struct Share {
+  int body;
+  double side;
+  std::vector<Eigen::VectorXd> arms, scaled;
+};
+
+MultiReduction ReduceBodies(const std::vector<FreeBody>& bodies, const std::vector<MultiContactPoint>& contacts) {
+  const auto space = static_cast<Eigen::Index>(bodies.front().position_m.size());
+  const Eigen::Index turns = space == 2 ? 1 : 3;
+  const Eigen::Index coordinates = space + turns;
+  const auto n = coordinates * static_cast<Eigen::Index>(bodies.size());
+  const Eigen::Index rows = space * static_cast<Eigen::Index>(contacts.size());
+  MultiReduction reduction = {.w = Eigen::MatrixXd::Zero(rows, rows),
+                              .jacobian = Eigen::MatrixXd::Zero(rows, n),
+                              .response = Eigen::MatrixXd::Zero(n, rows),
+                              .mobility = Eigen::VectorXd(n),
+                              .velocity = Eigen::VectorXd(n)};
+  std::vector<Eigen::LLT<Eigen::MatrixXd>> inertias;
+  for (size_t b = 0; b < bodies.size(); ++b) {
+    const auto at = coordinates * static_cast<Eigen::Index>(b);
+    inertias.emplace_back(InertiaOf(bodies[b]));
+    reduction.velocity.segment(at, space) = ToEigen(bodies[b].linear_m_s, space);
+    reduction.velocity.segment(at + space, turns) = ToEigen(bodies[b].angular_rad_s, turns);
+    reduction.mobility.segment(at, space).setConstant(1.0 / bodies[b].mass_kg);
+    reduction.mobility.segment(at + space, turns) =
+        inertias[b].solve(Eigen::MatrixXd::Identity(turns, turns)).diagonal();
+  }
+  std::vector<Eigen::MatrixXd> directions;
+  std::vector<std::vector<Share>> shares;
+  for (size_t c = 0; c < contacts.size(); ++c) {
+    const MultiContactPoint& contact = contacts[c];
+    directions.push_back(DirectionsOf(contact));
+    shares.emplace_back();
+    for (const auto& [number, side] : {std::pair(contact.body, 1.0), std::pair(contact.other_body, -1.0)}) {
+      if (number == 0) continue;
+      const auto b = static_cast<size_t>(number - 1);
+      const auto at = coordinates * static_cast<Eigen::Index>(b);
+      Share& share = shares.back().emplace_back(Share{.body = number, .side = side, .arms = {}, .scaled = {}});
+      const Eigen::VectorXd r = ToEigen(contact.point_m, space) - ToEigen(bodies[b].position_m, space);
+      for (Eigen::Index a = 0; a < space; ++a) {
+        const Eigen::Index row = space * static_cast<Eigen::Index>(c) + a;
+        const Eigen::VectorXd direction = directions.back().row(a);
+        share.arms.push_back(Arm(r, direction));
+        share.scaled.push_back(inertias[b].matrixL().solve(share.arms.back()));
+        reduction.jacobian.row(row).segment(at, space) = side * direction;
+        reduction.jacobian.row(row).segment(at + space, turns) = side * share.arms.back();
+        reduction.response.col(row).segment(at, space) = (side / bodies[b].mass_kg) * direction;
+        reduction.response.col(row).segment(at + space, turns) = side * inertias[b].solve(share.arms.back());
+      }
+    }
+  }
+  for (size_t i = 0; i < contacts.size(); ++i) {
+    for (size_t j = 0; j < contacts.size(); ++j) {
+      auto block =
+          reduction.w.block(space * static_cast<Eigen::Index>(i), space * static_cast<Eigen::Index>(j), space, space);
+      for (const Share& one : shares[i]) {
+        for (const Share& other : shares[j]) {
+          if (one.body != other.body) continue;
+          const double side = one.side * other.side;
+          const double per_mass = 1.0 / bodies[static_cast<size_t>(one.body - 1)].mass_kg;
+          for (Eigen::Index a = 0; a < space; ++a) {
+            for (Eigen::Index b = 0; b < space; ++b) {
+              const double along = directions[i].row(a).dot(directions[j].row(b));
+              const double turning = one.scaled[static_cast<size_t>(a)].dot(other.scaled[static_cast<size_t>(b)]);
+              block(a, b) += side * (per_mass * along + turning);
+            }
+          }
+        }
+      }
+    }
+  }
+  return reduction;
+}
+
+MultiReduction ReduceMatrix(const ContactMatrix& matrix) {
+  const auto rows = static_cast<Eigen::Index>(matrix.velocity_m_s.size());
+  const Eigen::Map<const Eigen::MatrixXd> w(matrix.w_per_kg.data(), rows, rows);
+  const Eigen::MatrixXd symmetric = 0.5 * (w + w.transpose());
+  return {.w = symmetric,
+          .jacobian = Eigen::MatrixXd::Identity(rows, rows),
+          .response = symmetric,
+          .mobility = symmetric.diagonal(),
+          .velocity = ToEigen(matrix.velocity_m_s, rows)};
+}
+
+MultiReduction ReduceMechanism(const Mechanism& mechanism, int directions) {
+  const FreePart part(mechanism, directions == 3);
+  const Response solved(part);
+  const auto n = static_cast<Eigen::Index>(mechanism.rates.size());
+  const Eigen::Index rows = part.jt.cols();
+  MultiReduction reduction = {.w = solved.w,
+                              .jacobian = Eigen::Map<const Eigen::MatrixXd>(mechanism.jacobian.data(), n, rows).transpose(),
+                              .response = Eigen::MatrixXd::Zero(n, rows),
+                              .mobility = Eigen::VectorXd::Zero(n),
+                              .velocity = ToEigen(mechanism.rates, n)};
+  const auto count = static_cast<Eigen::Index>(part.coordinates.size());
+  const Eigen::VectorXd inverse = solved.cholesky.solve(Eigen::MatrixXd::Identity(count, count)).diagonal();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Eigen::Index coordinate = part.coordinates[static_cast<size_t>(i)];
+    reduction.response.row(coordinate) = part.scales(i) * solved.x.row(i);
+    reduction.mobility(coordinate) = part.scales(i) * part.scales(i) * inverse(i);
+  }
+  return reduction;
+}
+
+Eigen::VectorXd ScalesOf(const Eigen::MatrixXd& matrix) {
+  Eigen::VectorXd scales(matrix.rows());
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    scales(i) = matrix(i, i) > 0.0 ? 1.0 / std::sqrt(matrix(i, i)) : 0.0;
+  }
+  return scales;
+}
+
+}  // namespace
+
+Eigen::VectorXd MultiReduction::ContactVelocity(const Eigen::VectorXd& velocities) const {
+  return jacobian * velocities;
+}
+
+Eigen::MatrixXd DirectionsOf(const MultiContactPoint& contact) {
+  const Eigen::VectorXd normal = ToEigen(contact.normal, static_cast<Eigen::Index>(contact.normal.size()));
+  const Eigen::VectorXd n = normal / normal.stableNorm();
+  Eigen::MatrixXd directions(n.size(), n.size());
+  if (n.size() == 2) {
+    directions << n(1), -n(0), n(0), n(1);
+    return directions;
+  }
+  const Eigen::Vector3d normal_3 = n;
+  const Eigen::Vector3d axis = std::abs(normal_3(0)) > 0.9 ? Eigen::Vector3d::UnitY() : Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d t1 = (axis - axis.dot(normal_3) * normal_3).normalized();
+  directions.row(0) = t1;
+  directions.row(1) = normal_3.cross(t1);
+  directions.row(2) = normal_3;
+  return directions;
+}
+
+MultiReduction Reduce(const MultiContactScene& scene) {
+  struct Reducer {
+    const MultiContactScene& scene;
+    MultiReduction operator()(std::monostate) const { return {}; }
+    MultiReduction operator()(const ContactMatrix& matrix) const { return ReduceMatrix(matrix); }
+    MultiReduction operator()(const FreeBodies& free) const { return ReduceBodies(free.bodies, scene.contacts); }
+    MultiReduction operator()(const Mechanism& mechanism) const {
+      return ReduceMechanism(mechanism, DirectionsOf(scene));
+    }
+  };
+  MultiReduction reduction = std::visit(Reducer{scene}, scene.system);
+  reduction.directions = DirectionsOf(scene);
+  return reduction;
+}
+
+double SmallestScaledEigenvalue(const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd scales = ScalesOf(matrix);
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (scales(i) == 0.0 && !matrix.row(i).isZero(0.0)) return -kInfinity;
+  }
+  const Eigen::MatrixXd scaled = scales.asDiagonal() * matrix * scales.asDiagonal();
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues()(0);
+}
+
+double DistanceFromRange(const Eigen::MatrixXd& w, const Eigen::VectorXd& v, const Eigen::VectorXd& sizes) {
+  const Eigen::VectorXd scales = ScalesOf(w);
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    if (scales(i) == 0.0 && v(i) != 0.0) return kInfinity;
+  }
+  const Eigen::MatrixXd scaled = scales.asDiagonal() * w * scales.asDiagonal();
+  const Eigen::VectorXd x = scales.asDiagonal() * v;
+  const double norm = (scales.asDiagonal() * sizes).norm();
+  if (norm == 0.0) return 0.0;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
+  Eigen::VectorXd outside = Eigen::VectorXd::Zero(v.size());
+  const double least = 16.0 * static_cast<double>(v.size()) * std::numeric_limits<double>::epsilon();
+  for (Eigen::Index i = 0; i < v.size(); ++i) {
+    if (solver.eigenvalues()(i) > least) continue;
+    outside += solver.eigenvectors().col(i) * solver.eigenvectors().col(i).dot(x);
+  }
+  return outside.cwiseAbs().maxCoeff() / norm;
+}
+
+}  // namespace ricochet

@@ -1,0 +1,244 @@
+#include "core/multi/orders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "core/multi/endless_pair.h"
+#include "core/multi/single_impact.h"
+
+namespace ricochet::multi {
+namespace {
+
+// Speeds of approach below this part of the first speeds may be rounding.
+constexpr double kRoundingSpeed = 64.0 * kEpsilon;
+// A sequence whose impacts have come down to this part of the first speeds counts as one without end.
+constexpr double kEndlessSpeed = 1e-12;
+// Fewer impacts than these are no sequence without end.
+constexpr size_t kLeastOfEndless = 6;
+
+class Search {
+ public:
+  Search(const Problem& problem, absl::FunctionRef<bool()> stopped) : problem_(problem), stopped_(stopped) {
+    roots_ = problem.w.diagonal().cwiseMax(0.0).cwiseSqrt();
+    scale_ = problem.v.cwiseAbs().maxCoeff();
+    coupled_.resize(static_cast<size_t>(problem.k * problem.k));
+    for (int i = 0; i < problem.k; ++i) {
+      for (int j = 0; j < problem.k; ++j) coupled_[Place(i, j)] = problem.AreCoupled(i, j);
+    }
+  }
+
+  Orders Run(int64_t budget) && {
+    Follow(StartOf(problem_), -1, 0.0, budget);
+    return std::move(orders_);
+  }
+
+ private:
+  size_t Place(int i, int j) const { return static_cast<size_t>(i * problem_.k + j); }
+
+  // Carries the error of the impulses over an impact of contact i: an error of the velocity before changes the impulse
+  // by D times it, and the impulse has an error of its own.
+  void AddError(int i, const SingleImpact& impact, Attained& state) const {
+    const int d = problem_.d;
+    const int t = problem_.T(i);
+    const auto rows = problem_.w.middleRows(t, d);
+    if (state.error_terms == 0.0) state.error_squares = Eigen::MatrixXd::Zero(state.p.size(), state.p.size());
+    Eigen::MatrixXd& squares = state.error_squares;
+    const Eigen::MatrixXd by_impulses = impact.derivative * rows;
+    const Eigen::MatrixXd across = by_impulses * squares;
+    squares.middleRows(t, d) += across;
+    squares.middleCols(t, d) += across.transpose();
+    squares.block(t, t, d, d) += across * by_impulses.transpose();
+    // Rounding must not part the two halves, whose difference would grow.
+    squares.triangularView<Eigen::StrictlyLower>() = squares.transpose();
+    ContactVector own = impact.derivative.cwiseAbs() * state.slack.segment(t, d);
+    for (int a = 0; a < d; ++a) {
+      own(a) += (a == d - 1 ? impact.normal_error : impact.tangential_error) + kEpsilon * std::abs(state.p(t + a));
+      squares(t + a, t + a) += own(a) * own(a);
+      state.work_error += 4.0 * std::abs(impact.impulse(a)) * state.ErrorOf(problem_, t + a);
+    }
+    state.error_terms += d;
+    state.work_error += impact.work_error;
+  }
+
+  // Strikes contact i.
+  void Strike(int i, Attained& state) {
+    const int d = problem_.d;
+    const int t = problem_.T(i);
+    const ContactVector x = state.v.segment(t, d);
+    const SingleImpact impact = SolveSingleImpact(problem_, i, x);
+    state.order.push_back(i);
+    ++state.events;
+    if (!impact.ended) {
+      state.end = MultiContactEnd::kWedged;
+      return;
+    }
+    AddError(i, impact, state);
+    state.error_is_proved = state.error_is_proved && impact.error_is_proved;
+    for (int j = 0; j < problem_.k; ++j) {
+      if (j == i || !coupled_[Place(i, j)]) continue;
+      for (int row = problem_.T(j); row < problem_.T(j) + d; ++row) {
+        double moved = 0.0, size = 0.0;
+        for (int a = 0; a < d; ++a) {
+          const double term = problem_.w(row, t + a) * impact.impulse(a);
+          moved += term;
+          size += std::abs(term);
+        }
+        state.v(row) += moved;
+        state.slack(row) += kEpsilon * (static_cast<double>(d) * size + 0.5 * std::abs(state.v(row)));
+      }
+    }
+    state.v.segment(t, d) = impact.velocity;
+    state.slack.segment(t, d).array() += impact.velocity_error;
+    state.p.segment(t, d) += impact.impulse;
+    ContactWorks& works = state.works[static_cast<size_t>(i)];
+    works.compression += impact.works.compression;
+    works.restitution += impact.works.restitution;
+    works.friction += impact.works.friction;
+    works.compression_impulse += impact.works.compression_impulse;
+  }
+
+  // The contacts that approach by more than rounding. What the others would still do is added to `left_out`.
+  std::vector<int> Approaching(const Attained& state, double& left_out) const {
+    std::vector<int> contacts;
+    for (int i = 0; i < problem_.k; ++i) {
+      const double v = state.v(problem_.N(i));
+      if (!(v < 0.0)) continue;
+      if (v < -std::min(state.ErrorOf(problem_, problem_.N(i)), kRoundingSpeed * scale_)) {
+        contacts.push_back(i);
+      } else {
+        left_out += (1.0 + problem_.laws[static_cast<size_t>(i)].e) * -v / roots_(problem_.N(i));
+      }
+    }
+    return contacts;
+  }
+
+  // Follows all sequences that go on from `state`, after an impact of contact `last` with the speed `approach`, with at
+  // most `budget` impacts. Returns the impacts that it took.
+  int64_t Follow(Attained state, int last, double approach, int64_t budget) {
+    int64_t taken = 0;
+    double before_last = approach;  // The speed of the impact before the last one.
+    for (;;) {
+      if (stopped_()) return taken;
+      double left_out = 0.0;
+      std::vector<int> next = Approaching(state, left_out);
+      if (next.empty()) {
+        const bool fell = state.order.size() >= kLeastOfEndless && approach <= kEndlessSpeed * scale_;
+        state.end = fell ? MultiContactEnd::kEndlessEstimate : MultiContactEnd::kSeparated;
+        // What is left out of a sequence without end falls geometrically.
+        const double ratio = std::min(approach / before_last, 1.0 - 1e-6);
+        state.error += fell ? left_out / (1.0 - ratio) : left_out;
+        state.error_is_proved = state.error_is_proved && !fell;
+        if (fell) FoldPair(state);
+        Keep(std::move(state));
+        return taken;
+      }
+      if (next.size() == 1 && last >= 0 && CloseEndlessPair(problem_, last, next[0], approach, state)) {
+        state.repeats_from = static_cast<int>(state.order.size());
+        state.order.insert(state.order.end(), {next[0], last});
+        Keep(std::move(state));
+        return taken;
+      }
+      if (taken >= budget) {
+        state.end = MultiContactEnd::kBudgetUsedUp;
+        Keep(std::move(state));
+        return taken;
+      }
+      // Of two impacts that do not affect each other, the contact with the smaller number is struck first.
+      next.erase(std::remove_if(next.begin(), next.end(), [&](int i) { return i < last && !coupled_[Place(i, last)]; }),
+                 next.end());
+      if (next.empty()) return taken;
+      if (next.size() > 1 && !IsNew(state)) return taken;
+      for (size_t i = 0; i + 1 < next.size(); ++i) {
+        const int64_t share = (budget - taken) / static_cast<int64_t>(next.size() - i);
+        Attained child = state;
+        const double speed = -child.v(problem_.N(next[i]));
+        Strike(next[i], child);
+        taken += 1;
+        if (child.end == MultiContactEnd::kWedged) {
+          Keep(std::move(child));
+        } else {
+          taken += Follow(std::move(child), next[i], speed, share - 1);
+        }
+      }
+      last = next.back();
+      before_last = approach;
+      approach = -state.v(problem_.N(last));
+      Strike(last, state);
+      ++taken;
+      if (state.end == MultiContactEnd::kWedged) {
+        Keep(std::move(state));
+        return taken;
+      }
+    }
+  }
+
+  // Two contacts that have struck each other in turn at the end of an order do so without end.
+  static void FoldPair(Attained& state) {
+    std::vector<int>& order = state.order;
+    size_t first = order.size() - 2;
+    while (first > 0 && order[first - 1] == order[first + 1]) --first;
+    if (order.size() - first < kLeastOfEndless) return;
+    state.repeats_from = static_cast<int>(first);
+    order.resize(first + 2);
+  }
+
+  // True if two states differ by no more than both errors, nor by more than `most`.
+  bool AreEqual(const Attained& x, const Attained& y, double most = std::numeric_limits<double>::infinity()) const {
+    for (int j = 0; j < x.v.size(); ++j) {
+      const double difference = std::abs(x.v(j) - y.v(j));
+      if (!(difference <= most && difference <= x.ErrorOf(problem_, j) + y.ErrorOf(problem_, j))) return false;
+    }
+    return true;
+  }
+
+  // Remembers a state in which several contacts approach; false if such a state was met before. The last contact makes
+  // no difference, because it does not approach.
+  bool IsNew(const Attained& state) {
+    // States that are apart by more than rounding may end further apart than their errors.
+    const double rounding = 4.0 * kEpsilon * scale_;
+    const auto is_same = [&](const Attained& other) { return AreEqual(state, other, rounding); };
+    if (std::any_of(branched_.begin(), branched_.end(), is_same)) return false;
+    if (branched_.size() < kMostBranched) branched_.push_back(state);
+    return true;
+  }
+
+  void Keep(Attained end) {
+    const bool is_end = end.end != MultiContactEnd::kBudgetUsedUp && end.end != MultiContactEnd::kWedged;
+    orders_.complete = orders_.complete && is_end;
+    const auto same = std::find_if(orders_.outcomes.begin(), orders_.outcomes.end(), [&](const DistinctOutcome& other) {
+      return (other.attained.end == end.end || is_end) && AreEqual(other.attained, end);
+    });
+    if (same == orders_.outcomes.end() && orders_.outcomes.size() >= kMostOutcomes) {
+      orders_.complete = false;
+      return;
+    }
+    DistinctOutcome& outcome = same == orders_.outcomes.end() ? orders_.outcomes.emplace_back() : *same;
+    ++outcome.order_count;
+    if (outcome.orders.size() < static_cast<size_t>(kMostOrdersListed)) {
+      outcome.orders.push_back(end.order);
+      outcome.repeats_from.push_back(end.repeats_from);
+    }
+    if (outcome.order_count == 1) outcome.attained = std::move(end);
+  }
+
+  static constexpr size_t kMostBranched = 1024;
+  static constexpr size_t kMostOutcomes = 256;
+
+  const Problem& problem_;
+  absl::FunctionRef<bool()> stopped_;
+  Vector roots_;  // sqrt(W_jj)
+  double scale_ = 0.0;
+  std::vector<bool> coupled_;
+  std::vector<Attained> branched_;
+  Orders orders_;
+};
+
+}  // namespace
+
+Orders FindOrders(const Problem& problem, absl::FunctionRef<bool()> stopped, int64_t budget) {
+  return Search(problem, stopped).Run(budget);
+}
+
+}  // namespace ricochet::multi

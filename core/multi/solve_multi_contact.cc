@@ -1,0 +1,409 @@
+#include "core/multi/solve_multi_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "absl/status/status.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "core/multi/energy.h"
+#include "core/multi/mirror.h"
+#include "core/multi/orders.h"
+#include "core/multi/outputs.h"
+#include "core/multi/possible.h"
+#include "core/multi/springs.h"
+#include "core/multi/stiffness_curve.h"
+#include "core/numerics/elementary.h"
+#include "core/scene/validate_multi.h"
+#include "ricochet/error.h"
+
+namespace ricochet {
+namespace multi {
+namespace {
+
+constexpr char kSpringsName[] = "springs";
+// The width of a range that is rounding alone, over its scale.
+constexpr double kNoWidth = 1e-11;
+constexpr double kPi = 3.141592653589793;
+
+// A sum of products with the rounding of one. Terms that cancel leave nothing, in whichever order they are added.
+class Sum {
+ public:
+  void Add(double x, double y) {
+    const double product = x * y;
+    size_ += std::abs(product);
+    error_ += std::fma(x, y, -product);
+    const double sum = value_ + product;
+    const double part = sum - value_;
+    error_ += (value_ - (sum - part)) + (product - part);
+    value_ = sum;
+  }
+  double value() const {
+    const double value = value_ + error_;
+    return std::abs(value) <= 16.0 * kEpsilon * kEpsilon * size_ ? 0.0 : value;
+  }
+
+ private:
+  double value_ = 0.0, error_ = 0.0, size_ = 0.0;
+};
+
+// The power of two above the size of a number.
+double PowerAbove(double size) { return size > 0.0 ? std::scalbn(1.0, std::ilogb(size) + 1) : 1.0; }
+
+// The order as text, up to a number of impacts that somebody may still read.
+std::string OrderText(const std::vector<int>& order, int repeats_from, const SortedProblem& sorted) {
+  constexpr size_t kMostInText = 64;
+  std::string text;
+  for (size_t i = 0; i < order.size(); ++i) {
+    if (i == kMostInText) return text + "-...";
+    if (i > 0) text += '-';
+    if (static_cast<int>(i) == repeats_from) text += '(';
+    absl::StrAppend(&text, sorted.from[static_cast<size_t>(order[i])] + 1);
+  }
+  if (repeats_from >= 0) text += ')';
+  return text.empty() ? "none" : text;
+}
+
+// The answer for one state.
+class Answerer {
+ public:
+  Answerer(const MultiContactRequest& request, const MultiReduction& reduction, Eigen::VectorXd velocity,
+           absl::FunctionRef<bool()> stopped)
+      : request_(request), reduction_(reduction), velocity_(std::move(velocity)), stopped_(stopped) {
+    Problem problem = {.d = reduction.directions, .k = static_cast<int>(request.scene.contacts.size())};
+    const Eigen::VectorXd v = reduction.ContactVelocity(velocity_);
+    w_scale_ = PowerAbove(reduction.w.diagonal().maxCoeff());
+    v_scale_ = PowerAbove(v.cwiseAbs().maxCoeff());
+    problem.w = reduction.w / w_scale_;
+    problem.v = v / v_scale_;
+    for (const MultiContactPoint& contact : request.scene.contacts) {
+      problem.laws.push_back(
+          {.mu = contact.friction, .e = *contact.energetic, .stiffness = contact.relative_stiffness.value_or(1.0)});
+    }
+    sorted_ = Sort(problem);
+    metric_ = MetricOf(sorted_.problem);
+  }
+
+  MultiContactAnswer Answer() {
+    const Eigen::VectorXd v = reduction_.ContactVelocity(velocity_);
+    answer_.contact_velocity_before_m_s.assign(v.data(), v.data() + v.size());
+    answer_.energy_before_j = 0.5 * metric_.y.squaredNorm() * EnergyScale();
+    const Eigen::VectorXd apart = PushApart(sorted_.problem);
+    answer_.jams = apart.size() == 0;
+    AddPairs();
+    const bool orders = Wanted(MultiContactMethod::kOrders);
+    const bool springs = Wanted(MultiContactMethod::kSprings);
+    const bool possible = Wanted(MultiContactMethod::kPossible);
+    if (orders) AddOrders();
+    if (springs) AddSprings();
+    if (possible) AddPossible(apart);
+    Judge(orders, springs);
+    return std::move(answer_);
+  }
+
+ private:
+  // Made when they are first needed.
+  const std::vector<Output>& Outputs() {
+    if (outputs_.empty()) outputs_ = OutputsOf(request_, reduction_, velocity_, sorted_, metric_, w_scale_);
+    return outputs_;
+  }
+
+  double ImpulseScale() const { return v_scale_ / w_scale_; }
+  double EnergyScale() const { return v_scale_ * v_scale_ / w_scale_; }
+
+  // True if the method was asked for, or everything was and the scene allows it. What it does not allow is named.
+  bool Wanted(MultiContactMethod method) {
+    const auto& methods = request_.methods;
+    if (!methods.empty()) return std::find(methods.begin(), methods.end(), method) != methods.end();
+    std::string why_not = WhyNot(method, sorted_.problem.d, sorted_.problem.k);
+    if (why_not.empty()) return true;
+    answer_.refused.push_back({.method = method, .reason = std::move(why_not)});
+    return false;
+  }
+
+  void AddPairs() {
+    const int d = reduction_.directions;
+    for (int i = 0; i < sorted_.problem.k; ++i) {
+      for (int j = i + 1; j < sorted_.problem.k; ++j) {
+        const double own = std::sqrt(reduction_.w(d * i + d - 1, d * i + d - 1));
+        const double other = std::sqrt(reduction_.w(d * j + d - 1, d * j + d - 1));
+        ContactPair& pair = answer_.pairs.emplace_back(ContactPair{.contact_1 = i + 1, .contact_2 = j + 1});
+        if (!(own > 0.0 && other > 0.0)) continue;
+        pair.cosine = std::clamp(-reduction_.w(d * i + d - 1, d * j + d - 1) / own / other, -1.0, 1.0) + 0.0;
+        SetDivisor(pair);
+      }
+    }
+  }
+
+  static void SetDivisor(ContactPair& pair) {
+    if (!(pair.cosine >= 0.0 && pair.cosine < 1.0)) return;
+    // cos(theta) = 1 - theta^2/2 + ..., so that this is m or next to it.
+    const double near = std::min(kPi / std::sqrt(2.0 * (1.0 - pair.cosine)), 1e6);
+    for (double m = std::max(std::floor(near), 2.0); m <= near + 2.0; ++m) {
+      const double exact = m == 2.0 ? 0.0 : m == 3.0 ? 0.5 : Cos(kPi / m);
+      if (std::abs(pair.cosine - exact) <= kEpsilon * std::max(exact, 0.5)) pair.divisor = static_cast<int32_t>(m);
+    }
+  }
+
+  // --- Outcomes ---
+
+  AttainedOutcome OutcomeOf(const Attained& attained) const {
+    const Problem& problem = sorted_.problem;
+    AttainedOutcome outcome = {.end = attained.end,
+                               .events = attained.events,
+                               .friction_split_is_unique = attained.split_is_unique,
+                               .work_error_j = attained.work_error * EnergyScale(),
+                               .error_is_proved = attained.error_is_proved};
+    Vector error(attained.v.size());
+    for (int j = 0; j < error.size(); ++j) error(j) = attained.ErrorOf(problem, j) * v_scale_;
+    // Adding 0 makes -0 positive.
+    Vector in_scene = (sorted_.InScene(attained.v) * v_scale_).array() + 0.0;
+    outcome.contact_velocity_m_s.assign(in_scene.begin(), in_scene.end());
+    in_scene = sorted_.InScene(error).cwiseAbs();
+    outcome.contact_velocity_error_m_s.assign(in_scene.begin(), in_scene.end());
+    if (!std::holds_alternative<ContactMatrix>(request_.scene.system)) AddVelocities(attained, outcome);
+    if (attained.end == MultiContactEnd::kWedged) return outcome;
+    in_scene = (sorted_.InScene(attained.p) * ImpulseScale()).array() + 0.0;
+    outcome.impulse_n_s.assign(in_scene.begin(), in_scene.end());
+    outcome.normal_impulse_error_n_s.resize(static_cast<size_t>(problem.k));
+    outcome.contacts.resize(static_cast<size_t>(problem.k));
+    for (int i = 0; i < problem.k; ++i) {
+      const auto place = static_cast<size_t>(sorted_.from[static_cast<size_t>(i)]);
+      outcome.normal_impulse_error_n_s[place] = attained.ErrorOfNormalImpulse(problem, i) * ImpulseScale();
+      outcome.contacts[place] = LedgerOf(attained, i);
+    }
+    Sum change;
+    for (int j = 0; j < attained.p.size(); ++j) change.Add(attained.p(j), problem.v(j) + attained.v(j));
+    outcome.energy_change_j = 0.5 * change.value() * EnergyScale();
+    return outcome;
+  }
+
+  void AddVelocities(const Attained& attained, AttainedOutcome& outcome) const {
+    for (Eigen::Index i = 0; i < velocity_.size(); ++i) {
+      const Vector row = sorted_.FromScene(Vector(reduction_.response.row(i)));
+      Sum change;
+      double size = std::abs(velocity_(i));
+      for (int j = 0; j < row.size(); ++j) {
+        change.Add(row(j), attained.p(j));
+        size += std::abs(row(j) * attained.p(j)) * ImpulseScale();
+      }
+      outcome.velocity.push_back(velocity_(i) + change.value() * ImpulseScale());
+      const double of_state = attained.ErrorOfRow(row, reduction_.mobility(i) * w_scale_) * ImpulseScale();
+      outcome.velocity_error.push_back(of_state + 4.0 * kEpsilon * size);
+    }
+  }
+
+  ContactLedger LedgerOf(const Attained& attained, int i) const {
+    const Problem& problem = sorted_.problem;
+    const ContactWorks& works = attained.works[static_cast<size_t>(i)];
+    ContactLedger ledger = {.work_compression_j = works.compression * EnergyScale(),
+                            .work_restitution_j = works.restitution * EnergyScale(),
+                            .work_friction_j = works.friction * EnergyScale()};
+    const double before = problem.v(problem.N(i));
+    if (before < 0.0) ledger.newton = -attained.v(problem.N(i)) / before;
+    const double compression = works.compression_impulse;
+    if (compression > 0.0) ledger.poisson = (attained.p(problem.N(i)) - compression) / compression;
+    return ledger;
+  }
+
+  void AddOrders() {
+    const Orders orders = FindOrders(sorted_.problem, stopped_);
+    orders_complete_ = orders.complete;
+    for (const DistinctOutcome& distinct : orders.outcomes) {
+      AttainedOutcome& outcome = answer_.orders.emplace_back(OutcomeOf(distinct.attained));
+      outcome.order_count = distinct.order_count;
+      for (size_t i = 0; i < distinct.orders.size(); ++i) {
+        outcome.orders.push_back(OrderText(distinct.orders[i], distinct.repeats_from[i], sorted_));
+      }
+    }
+    std::sort(answer_.orders.begin(), answer_.orders.end(),
+              [](const AttainedOutcome& x, const AttainedOutcome& y) { return x.orders < y.orders; });
+  }
+
+  void AddSprings() {
+    answer_.springs = OutcomeOf(FindSprings(sorted_.problem, sorted_.mirror, stopped_));
+    if (!request_.stiffness_range.has_value()) return;
+    const auto at = [&](double stiffness) {
+      Problem problem = sorted_.problem;
+      for (int i = 0; i < problem.k; ++i) {
+        const bool is_driven = sorted_.from[static_cast<size_t>(i)] + 1 == request_.stiffness_range->contact;
+        if (is_driven) problem.laws[static_cast<size_t>(i)].stiffness = stiffness;
+      }
+      return OutcomeOf(FindSprings(problem, Sort(problem).mirror, stopped_));
+    };
+    StiffnessCurve curve = SampleStiffness(
+        *request_.stiffness_range, at,
+        [&](const AttainedOutcome& x, const AttainedOutcome& y) { return Largest(x, y).over_scale; }, stopped_);
+    answer_.stiffness_samples = std::move(curve.samples);
+    answer_.stiffness_jumps = std::move(curve.jumps);
+  }
+
+  void AddPossible(const Eigen::VectorXd& apart) {
+    std::vector<Eigen::VectorXd> gammas;
+    for (const Output& output : Outputs()) gammas.push_back(output.gamma);
+    const std::vector<Range> ranges = FindPossible(sorted_.problem, metric_, apart, gammas, stopped_);
+    for (size_t i = 0; i < ranges.size(); ++i) {
+      const Output& output = outputs_[i];
+      const double before = output.gamma.dot(sorted_.problem.v);
+      const double slack = output.slack * metric_.root_energy +
+                           8.0 * kEpsilon * output.gamma.cwiseAbs().dot(sorted_.problem.v.cwiseAbs());
+      const auto end = [&](double bound, double sign) {
+        const double value = output.before + v_scale_ * (bound - before + sign * slack);
+        return value + sign * 4.0 * kEpsilon * (std::abs(output.before) + std::abs(value));
+      };
+      const bool is_contact = i < static_cast<size_t>(sorted_.problem.v.size());
+      PossibleRange& range = answer_.possible.emplace_back(PossibleRange{.output = output.name});
+      range.lower = is_contact ? ranges[i].lower * v_scale_ : end(ranges[i].lower, -1.0);
+      range.upper = is_contact ? ranges[i].upper * v_scale_ : end(ranges[i].upper, 1.0);
+    }
+  }
+
+  // --- The verdict ---
+
+  struct Difference {
+    size_t output = 0;
+    double value = 0.0;
+    double over_scale = 0.0;
+  };
+
+  double ValueOf(const AttainedOutcome& outcome, size_t output) const {
+    const auto contacts = outcome.contact_velocity_m_s.size();
+    if (output < contacts) return outcome.contact_velocity_m_s[output];
+    if (output < contacts + outcome.velocity.size()) return outcome.velocity[output - contacts];
+    const size_t place = outputs_.size() - output;
+    const std::vector<double>& coefficients = request_.outputs[request_.outputs.size() - place].coefficients;
+    const std::vector<double>& velocity = outcome.velocity.empty() ? outcome.contact_velocity_m_s : outcome.velocity;
+    Sum sum;
+    for (size_t i = 0; i < coefficients.size(); ++i) sum.Add(coefficients[i], velocity[i]);
+    return sum.value();
+  }
+
+  // The output in which two outcomes differ most, over its scale.
+  Difference Largest(const AttainedOutcome& x, const AttainedOutcome& y) {
+    Difference largest;
+    for (size_t i = 0; i < Outputs().size(); ++i) {
+      const double scale = metric_.root_energy * std::sqrt(outputs_[i].mobility) * v_scale_;
+      const double value = std::abs(ValueOf(x, i) - ValueOf(y, i));
+      if (scale > 0.0 && value / scale > largest.over_scale) largest = {i, value, value / scale};
+    }
+    return largest;
+  }
+
+  // True if a contact velocity differs by more than both errors.
+  static bool Differ(const AttainedOutcome& x, const AttainedOutcome& y) {
+    for (size_t j = 0; j < x.contact_velocity_m_s.size(); ++j) {
+      const double error = x.contact_velocity_error_m_s[j] + y.contact_velocity_error_m_s[j];
+      if (std::abs(x.contact_velocity_m_s[j] - y.contact_velocity_m_s[j]) > error) return true;
+    }
+    return false;
+  }
+
+  static bool IsAttained(const AttainedOutcome& outcome) {
+    return outcome.end == MultiContactEnd::kSeparated || outcome.end == MultiContactEnd::kEndless ||
+           outcome.end == MultiContactEnd::kEndlessEstimate;
+  }
+
+  // Names the two outcomes of `x` and `y` that differ most, and returns whether any two do.
+  bool Compare(const std::vector<const AttainedOutcome*>& x, const std::vector<const AttainedOutcome*>& y) {
+    double most = 0.0;
+    const auto name = [](const AttainedOutcome& one) { return one.orders.empty() ? kSpringsName : one.orders.front(); };
+    for (const AttainedOutcome* const one : x) {
+      for (const AttainedOutcome* const other : y) {
+        if (one == other || !Differ(*one, *other)) continue;
+        const Difference difference = Largest(*one, *other);
+        if (!(difference.over_scale > most)) continue;
+        most = difference.over_scale;
+        answer_.differing_output = outputs_[difference.output].name;
+        answer_.difference = difference.value;
+        answer_.outcome_1 = name(*one);
+        answer_.outcome_2 = name(*other);
+      }
+    }
+    return most > 0.0;
+  }
+
+  // True if no contact affects another, none approaches, or all possible outcomes are one.
+  bool IsSingle() const {
+    const Problem& problem = sorted_.problem;
+    bool is_alone = true, approaches = false;
+    for (int i = 0; i < problem.k; ++i) {
+      approaches = approaches || problem.v(problem.N(i)) < 0.0;
+      for (int j = 0; j < i; ++j) is_alone = is_alone && !problem.AreCoupled(i, j);
+    }
+    if (is_alone || !approaches) return true;
+    for (size_t i = 0; i < answer_.possible.size(); ++i) {
+      const double scale = metric_.root_energy * std::sqrt(outputs_[i].mobility) * v_scale_;
+      if (answer_.possible[i].upper - answer_.possible[i].lower > kNoWidth * scale) return false;
+    }
+    return !answer_.possible.empty();
+  }
+
+  void Judge(bool has_orders, bool has_springs) {
+    std::vector<const AttainedOutcome*> orders, springs;
+    for (const AttainedOutcome& outcome : answer_.orders) {
+      if (IsAttained(outcome)) orders.push_back(&outcome);
+    }
+    if (answer_.springs.has_value() && IsAttained(*answer_.springs)) springs.push_back(&*answer_.springs);
+    for (const StiffnessSample& sample : answer_.stiffness_samples) {
+      if (IsAttained(sample.outcome)) springs.push_back(&sample.outcome);
+    }
+    if (IsSingle()) {
+      answer_.verdict = MultiContactVerdict::kSingle;
+    } else if (Compare(orders, orders)) {
+      answer_.verdict = MultiContactVerdict::kOrderMatters;
+    } else if (Compare(orders, springs)) {
+      answer_.verdict = MultiContactVerdict::kOrdersAgreeSpringsDiffer;
+    } else if (has_orders && orders_complete_ && (!has_springs || !springs.empty())) {
+      answer_.verdict = MultiContactVerdict::kOrdersAgree;
+    }
+  }
+
+  const MultiContactRequest& request_;
+  const MultiReduction& reduction_;
+  const Eigen::VectorXd velocity_;
+  absl::FunctionRef<bool()> stopped_;
+  double w_scale_ = 1.0, v_scale_ = 1.0;
+  SortedProblem sorted_;
+  EnergyMetric metric_;
+  std::vector<Output> outputs_;
+  bool orders_complete_ = true;
+  MultiContactAnswer answer_;
+};
+
+bool IsFinite(const AttainedOutcome& outcome) {
+  const auto all = [](const std::vector<double>& list) {
+    return std::all_of(list.begin(), list.end(), [](double x) { return std::isfinite(x); });
+  };
+  return all(outcome.contact_velocity_m_s) && all(outcome.velocity) && all(outcome.impulse_n_s) &&
+         std::isfinite(outcome.energy_change_j) && std::isfinite(outcome.work_error_j);
+}
+
+}  // namespace
+}  // namespace multi
+
+absl::StatusOr<std::vector<MultiContactAnswer>> SolveMultiContact(const MultiContactRequest& request,
+                                                                  const MultiReduction& reduction,
+                                                                  absl::FunctionRef<bool()> stopped) {
+  if (!reduction.w.allFinite() || !reduction.response.allFinite()) return OutputOverflow("contact_matrix");
+  std::vector<Eigen::VectorXd> velocities;
+  for (const MultiContactState& state : request.states) {
+    velocities.emplace_back(Eigen::Map<const Eigen::VectorXd>(state.velocity.data(), reduction.velocity.size()));
+  }
+  if (velocities.empty()) velocities.push_back(reduction.velocity);
+  std::vector<MultiContactAnswer> answers;
+  for (const Eigen::VectorXd& velocity : velocities) {
+    if (!reduction.ContactVelocity(velocity).allFinite()) return OutputOverflow("contact_velocity_before_m_s");
+    MultiContactAnswer& answer = answers.emplace_back(multi::Answerer(request, reduction, velocity, stopped).Answer());
+    if (stopped()) return absl::CancelledError("stopped");
+    const bool fits = std::all_of(answer.orders.begin(), answer.orders.end(), multi::IsFinite) &&
+                      (!answer.springs.has_value() || multi::IsFinite(*answer.springs)) &&
+                      std::isfinite(answer.energy_before_j);
+    if (!fits) return OutputOverflow("answers.energy_before_j");
+  }
+  return answers;
+}
+
+}  // namespace ricochet

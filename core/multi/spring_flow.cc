@@ -1,0 +1,245 @@
+#include "core/multi/spring_flow.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace ricochet::multi {
+namespace {
+
+// |A| h of a step.
+constexpr double kTheta = 2.0;
+// An eigenvalue of this part of the largest is rounding: the sticking contacts are then held more than once.
+constexpr double kRankTolerance = 1e-12;
+
+}  // namespace
+
+int Series::Lead() const {
+  for (int m = 0; m <= kSeriesOrder; ++m) {
+    if (std::abs(c[static_cast<size_t>(m)]) > noise[static_cast<size_t>(m)]) return m;
+  }
+  return kSeriesOrder + 1;
+}
+
+double Series::At(double s) const {
+  double value = 0.0;
+  for (size_t m = kSeriesOrder + 1; m-- > 0;) value = value * s + c[m];
+  return value;
+}
+
+double Series::Integral(double s) const {
+  double value = 0.0;
+  for (size_t m = kSeriesOrder + 1; m-- > 0;) value = value * s + c[m] / static_cast<double>(m + 1);
+  return value * s;
+}
+
+double FirstRoot(const Series& series, int lead) {
+  constexpr double kNone = 2.0;
+  constexpr int kMostSteps = 200;
+  const double* const c = series.c.data() + lead;
+  const int order = kSeriesOrder - lead;
+  double others = 0.0, curvature = 0.0;
+  for (int m = 1; m <= order; ++m) {
+    others += std::abs(c[m]);
+    curvature += m * (m - 1) * std::abs(c[m]);
+  }
+  if (c[0] >= others) return kNone;
+  // The parabola with this curvature bends below the series, so that it vanishes first.
+  double s = 0.0;
+  for (int step = 0; step < kMostSteps; ++step) {
+    double value = c[order], slope = 0.0;
+    for (int m = order - 1; m >= 0; --m) {
+      slope = slope * s + value;
+      value = value * s + c[m];
+    }
+    if (value <= kEpsilon * (c[0] + others)) return s;
+    const double root = std::sqrt(slope * slope + 2.0 * curvature * value);
+    const double ahead = slope < 0.0 ? 2.0 * value / (root - slope) : (slope + root) / curvature;
+    if (!(s + ahead > s)) return s;
+    s += ahead;
+    if (!(s <= 1.0)) return kNone;
+  }
+  return s;
+}
+
+SpringFlow::SpringFlow(const Problem& problem, const Modes& modes, const SpringState& state, const Vector& v,
+                       const Vector& v_noise)
+    : k_(problem.k), modes_(modes) {
+  for (int i = 0; i < k_; ++i) {
+    const ContactLaw& law = problem.laws[static_cast<size_t>(i)];
+    const NormalMode mode = modes_[static_cast<size_t>(i)].normal;
+    if (mode == NormalMode::kLoading) stiffness_[static_cast<size_t>(i)] = law.stiffness;
+    if (mode == NormalMode::kUnloading) stiffness_[static_cast<size_t>(i)] = law.stiffness / (law.e * law.e);
+  }
+  SetFriction(problem, state, v);
+  SetStep(problem, state, v);
+  Expand(state, v, v_noise);
+}
+
+// The tangential forces of contacts that stick answer to the others: W_SS tau_S = -W_S,rest. If W_SS is singular they
+// are one choice of many, and contacts with larger weights take more.
+void SpringFlow::SetStick(const Problem& problem, const Vector& weights) {
+  std::array<int, kMostContacts> sticking;
+  int count = 0;
+  for (int i = 0; i < k_; ++i) {
+    const bool sticks = IsClosed(i) && modes_[static_cast<size_t>(i)].slip == 0 && weights(i) > 0.0;
+    if (sticks && problem.w(2 * i, 2 * i) > 0.0) sticking[static_cast<size_t>(count++)] = i;
+  }
+  if (count == 0) return;
+  Square matrix(count, count);
+  Square driven(count, k_);  // Minus the slip accelerations by the forces, without the friction of these contacts.
+  for (int a = 0; a < count; ++a) {
+    const int i = sticking[static_cast<size_t>(a)];
+    for (int b = 0; b < count; ++b) matrix(a, b) = problem.w(2 * i, 2 * sticking[static_cast<size_t>(b)]);
+    for (int j = 0; j < k_; ++j) {
+      double sum = 0.0;
+      if (IsClosed(j)) sum = problem.w(2 * i, 2 * j + 1) + problem.w(2 * i, 2 * j) * friction_(j, j);
+      driven(a, j) = -sum;
+    }
+  }
+  Square solution;
+  const Eigen::LLT<Square> cholesky(matrix);
+  const auto is_regular = [&] {
+    if (cholesky.info() != Eigen::Success) return false;
+    const auto diagonal = cholesky.matrixLLT().diagonal();
+    return diagonal.cwiseAbs2().minCoeff() > kRankTolerance * matrix.diagonal().maxCoeff();
+  };
+  if (is_regular()) {
+    solution = cholesky.solve(driven);
+  } else {
+    split_is_free_ = true;
+    Vector roots(count);
+    for (int a = 0; a < count; ++a) roots(a) = std::sqrt(weights(sticking[static_cast<size_t>(a)]));
+    const Eigen::MatrixXd weighted = roots.asDiagonal() * matrix * roots.asDiagonal();
+    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(weighted);
+    Vector inverse = solver.eigenvalues();
+    const double least = kRankTolerance * inverse.cwiseAbs().maxCoeff();
+    for (double& value : inverse) value = value > least ? 1.0 / value : 0.0;
+    solution = roots.asDiagonal() *
+               (solver.eigenvectors() *
+                (inverse.asDiagonal() * (solver.eigenvectors().transpose() * (roots.asDiagonal() * driven))));
+  }
+  for (int a = 0; a < count; ++a) friction_.row(sticking[static_cast<size_t>(a)]) = solution.row(a);
+}
+
+void SpringFlow::SetFriction(const Problem& problem, const SpringState& state, const Vector& v) {
+  friction_ = Square::Zero(k_, k_);
+  Vector weights = Vector::Zero(k_);
+  Vector slides = Vector::Zero(k_);  // mu sqrt(stiffness) of the contacts that slip
+  for (int i = 0; i < k_; ++i) {
+    const auto place = static_cast<size_t>(i);
+    const double mu = problem.laws[place].mu;
+    if (!IsClosed(i) || mu == 0.0) continue;
+    friction_(i, i) = -mu * modes_[place].slip;
+    if (modes_[place].slip != 0) slides(i) = mu * std::sqrt(stiffness_[place]);
+    weights(i) = mu * (state.f[place] > 0.0 ? state.f[place] : stiffness_[place] * std::abs(v(2 * i + 1)));
+    if (weights(i) == 0.0) weights(i) = std::numeric_limits<double>::min();
+  }
+  SetStick(problem, weights);
+  by_force_ = Tall::Zero(2 * k_, k_);
+  size_ = Tall::Zero(2 * k_, k_);
+  for (int row = 0; row < 2 * k_; ++row) {
+    const auto contact = static_cast<size_t>(row / 2);
+    const bool sticks = row % 2 == 0 && weights(row / 2) > 0.0 && modes_[contact].slip == 0;
+    for (int j = 0; j < k_; ++j) {
+      if (!IsClosed(j) || sticks) continue;
+      double sum = problem.w(row, 2 * j + 1);
+      double size = std::abs(sum);
+      for (int l = 0; l < k_; ++l) {
+        if (friction_(l, j) == 0.0) continue;
+        const double term = problem.w(row, 2 * l) * friction_(l, j);
+        sum += term;
+        size += std::abs(term);
+      }
+      by_force_(row, j) = sum;
+      size_(row, j) = size;
+    }
+  }
+  double square = 0.0;
+  for (int i = 0; i < k_; ++i) {
+    double row = 0.0;
+    for (int j = 0; j < k_; ++j) row += slides(i) * slides(j) * std::abs(problem.w(2 * i, 2 * j));
+    square = std::max(square, row);
+  }
+  growth_rate_ = 0.5 * std::sqrt(square);
+}
+
+void SpringFlow::SetStep(const Problem& problem, const SpringState& state, const Vector& v) {
+  double square = 0.0;
+  for (int i = 0; i < k_; ++i) {
+    if (!IsClosed(i)) continue;
+    double row = 1e-3 * stiffness(i) * problem.w(2 * i + 1, 2 * i + 1);
+    for (int j = 0; j < k_; ++j) row += std::sqrt(stiffness(i) * stiffness(j)) * std::abs(by_force_(2 * i + 1, j));
+    square = std::max(square, row);
+  }
+  if (square > 0.0) {
+    h_ = kTheta / std::sqrt(square);
+    return;
+  }
+  h_ = 1.0;  // Any will do where no gap closes.
+  bool closes = false;
+  for (int i = 0; i < k_; ++i) {
+    const double gap = state.g[static_cast<size_t>(i)];
+    if (!(v(2 * i + 1) < 0.0 && gap > 0.0)) continue;
+    const double step = 2.0 * gap / -v(2 * i + 1);
+    h_ = closes ? std::min(h_, step) : step;
+    closes = true;
+  }
+}
+
+void SpringFlow::Expand(const SpringState& state, const Vector& v, const Vector& v_noise) {
+  for (int row = 0; row < 2 * k_; ++row) {
+    v_[static_cast<size_t>(row)].c[0] = v(row);
+    v_[static_cast<size_t>(row)].noise[0] = v_noise(row);
+  }
+  for (int i = 0; i < k_; ++i) {
+    const auto place = static_cast<size_t>(i);
+    f_[place].c[0] = state.f[place];
+    f_[place].noise[0] = 16.0 * kEpsilon * std::max(state.f[place], state.largest_f[place]);
+    g_[place].c[0] = state.g[place];
+    g_[place].noise[0] = 8.0 * kEpsilon * state.g[place];
+  }
+  for (size_t m = 0; m < kSeriesOrder; ++m) {
+    const double factor = h_ / static_cast<double>(m + 1);
+    for (int row = 0; row < 2 * k_; ++row) {
+      double sum = 0.0, noise = 0.0;
+      for (int j = 0; j < k_; ++j) {
+        const double by = by_force_(row, j);
+        if (by == 0.0) continue;
+        const Series& force = f_[static_cast<size_t>(j)];
+        sum += by * force.c[m];
+        noise += size_(row, j) * (force.noise[m] + 16.0 * kEpsilon * std::abs(force.c[m]));
+      }
+      v_[static_cast<size_t>(row)].c[m + 1] = factor * sum;
+      v_[static_cast<size_t>(row)].noise[m + 1] = factor * noise;
+    }
+    for (int i = 0; i < k_; ++i) {
+      const auto place = static_cast<size_t>(i);
+      const Series& normal = v_[2 * place + 1];
+      const double by = factor * (IsClosed(i) ? -stiffness_[place] : 0.0);
+      f_[place].c[m + 1] = by * normal.c[m];
+      f_[place].noise[m + 1] = std::abs(by) * normal.noise[m];
+      g_[place].c[m + 1] = IsClosed(i) ? 0.0 : factor * normal.c[m];
+      g_[place].noise[m + 1] = IsClosed(i) ? 0.0 : factor * normal.noise[m];
+    }
+  }
+}
+
+Series SpringFlow::Friction(int i) const {
+  Series tau;
+  tau.c.fill(0.0);
+  tau.noise.fill(0.0);
+  for (int j = 0; j < k_; ++j) {
+    const double by = friction_(i, j);
+    if (by == 0.0) continue;
+    const Series& force = f_[static_cast<size_t>(j)];
+    for (size_t m = 0; m <= kSeriesOrder; ++m) {
+      tau.c[m] += by * force.c[m];
+      tau.noise[m] += std::abs(by) * (force.noise[m] + 64.0 * kEpsilon * std::abs(force.c[m]));
+    }
+  }
+  return tau;
+}
+
+}  // namespace ricochet::multi

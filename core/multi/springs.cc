@@ -1,0 +1,716 @@
+#include "core/multi/springs.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "core/multi/single_impact.h"
+#include "core/multi/spring_flow.h"
+#include "core/numerics/elementary.h"
+
+namespace ricochet::multi {
+namespace {
+
+// Rounding of v- + W p, in units of eps of the terms' magnitudes.
+constexpr double kVelocityRounding = 64.0;
+// An event is found to within this part of the largest coefficient of its condition.
+constexpr double kZeroOfEvent = 1e-10;
+// After fewer events than these a motion is not one without end.
+constexpr int64_t kLeastOfEndless = 12;
+// An error above this part of the velocities' scale is estimated from a second motion beside the first.
+constexpr double kLargeError = 1e-9;
+// Combinations of modes that are tried where changing one mode after the other does not settle.
+constexpr int64_t kMostModes = 6561;
+
+size_t At(int i) { return static_cast<size_t>(i); }
+
+// What has to stay >= 0 for a contact to keep its mode.
+enum class Keeps { kGap, kPressed, kApproaching, kParting, kSlip, kConeAbove, kConeBelow };
+
+struct Condition {
+  int contact = 0;
+  Keeps keeps = Keeps::kGap;
+  Series series;
+  int lead = 0;
+};
+
+// The least P.B P over all P >= 0 that add up to 1; at least a lower bound of it.
+double LeastOnSimplex(const Eigen::MatrixXd& b) {
+  const auto k = static_cast<int>(b.rows());
+  if (k > kMostContactsInOrders) return b.minCoeff();
+  double least = std::numeric_limits<double>::infinity();
+  for (int set = 1; set < 1 << k; ++set) {
+    std::vector<int> members;
+    for (int i = 0; i < k; ++i) {
+      if ((set >> i & 1) != 0) members.push_back(i);
+    }
+    const auto size = static_cast<Eigen::Index>(members.size());
+    const Eigen::FullPivLU<Eigen::MatrixXd> lu(b(members, members));
+    if (!lu.isInvertible()) continue;
+    const Eigen::VectorXd x = lu.solve(Eigen::VectorXd::Ones(size));
+    if ((x * x.sum()).minCoeff() >= 0.0) least = std::min(least, 1.0 / x.sum());
+  }
+  return least;
+}
+
+class Motion {
+ public:
+  Motion(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped)
+      : problem_(problem), mirror_(mirror), stopped_(stopped), k_(problem.k), result_(StartOf(problem)) {
+    state_.p = Vector::Zero(2 * k_);
+    roots_ = problem.w.diagonal().cwiseMax(0.0).cwiseSqrt();
+    for (int i = 0; i < k_; ++i) modes_[At(i)].normal = NormalMode::kOpen;
+  }
+
+  // The errors of all steps and events before any growth.
+  double made() const { return made_; }
+
+  Attained Run(int64_t budget) {
+    Refresh();
+    result_.end = MultiContactEnd::kBudgetUsedUp;
+    Settle();
+    while (result_.end == MultiContactEnd::kBudgetUsedUp && result_.events < budget && steps_++ < 8 * budget) {
+      if (stopped_() || HasEnded() || TailIsRounding()) break;
+      Step();
+    }
+    return Finish();
+  }
+
+ private:
+  // --- The state ---
+
+  double Normal(int i) const { return v_(2 * i + 1); }
+  bool IsClosed(int i) const { return modes_[At(i)].normal != NormalMode::kOpen; }
+  bool HasFriction(int i) const { return problem_.laws[At(i)].mu > 0.0; }
+
+  // Computes the velocities anew from the impulses, so that their rounding does not add up.
+  void Refresh() {
+    if (mirror_.has_value()) {
+      mirror_->Average(state_.p);
+      mirror_->Average(state_.f);
+      mirror_->Average(state_.g);
+    }
+    v_.resize(2 * k_);
+    noise_.resize(2 * k_);
+    for (int row = 0; row < 2 * k_; ++row) {
+      double sum = problem_.v(row), size = std::abs(sum);
+      for (int j = 0; j < 2 * k_; ++j) {
+        const double term = problem_.w(row, j) * state_.p(j);
+        sum += term;
+        size += std::abs(term);
+      }
+      v_(row) = sum;
+      noise_(row) = kVelocityRounding * kEpsilon * size;
+    }
+  }
+
+  // --- Modes ---
+
+  void AddCondition(int contact, Keeps keeps, double sign, const Series& series, std::vector<Condition>& conditions) {
+    Condition& condition = conditions.emplace_back(Condition{.contact = contact, .keeps = keeps, .series = series});
+    if (sign < 0.0) {
+      for (double& c : condition.series.c) c = -c;
+    }
+    const bool is_event = event_.has_value() && event_->contact == contact && event_->keeps == keeps;
+    if (is_event && IsRoundingOfZero(condition.series)) condition.series.c[0] = 0.0;
+    condition.lead = condition.series.Lead();
+  }
+
+  // A condition that an event made 0 may be more than rounding where another mode divides friction anew.
+  static bool IsRoundingOfZero(const Series& series) {
+    double largest = 0.0;
+    for (const double c : series.c) largest = std::max(largest, std::abs(c));
+    return std::abs(series.c[0]) <= kZeroOfEvent * largest;
+  }
+
+  std::vector<Condition> ConditionsOf(const SpringFlow& flow) {
+    std::vector<Condition> conditions;
+    for (int i = 0; i < k_; ++i) {
+      const ContactMode mode = modes_[At(i)];
+      switch (mode.normal) {
+        case NormalMode::kOpen:
+          AddCondition(i, Keeps::kGap, 1.0, flow.gap(i), conditions);
+          continue;
+        case NormalMode::kLoading:
+          AddCondition(i, Keeps::kApproaching, -1.0, flow.velocity(2 * i + 1), conditions);
+          break;
+        case NormalMode::kUnloading:
+          AddCondition(i, Keeps::kParting, 1.0, flow.velocity(2 * i + 1), conditions);
+          AddCondition(i, Keeps::kPressed, 1.0, flow.force(i), conditions);
+          break;
+      }
+      if (!HasFriction(i)) continue;
+      if (mode.slip != 0) {
+        AddCondition(i, Keeps::kSlip, mode.slip, flow.velocity(2 * i), conditions);
+        continue;
+      }
+      const double mu = problem_.laws[At(i)].mu;
+      const Series tau = flow.Friction(i);
+      Series above = flow.force(i), below = flow.force(i);
+      for (size_t m = 0; m <= kSeriesOrder; ++m) {
+        above.c[m] = mu * above.c[m] - tau.c[m];
+        below.c[m] = mu * below.c[m] + tau.c[m];
+        above.noise[m] = below.noise[m] = mu * above.noise[m] + tau.noise[m];
+      }
+      AddCondition(i, Keeps::kConeAbove, 1.0, above, conditions);
+      AddCondition(i, Keeps::kConeBelow, 1.0, below, conditions);
+    }
+    return conditions;
+  }
+
+  // The condition that is broken at the lowest order, or null. Plastic contacts that stop approaching come last: their
+  // forces fall, and that changes the state.
+  const Condition* Broken(const std::vector<Condition>& conditions) const {
+    const Condition* broken = nullptr;
+    for (const Condition& condition : conditions) {
+      if (condition.lead > kSeriesOrder || condition.series.c[At(condition.lead)] > 0.0 || Falls(condition)) continue;
+      if (broken == nullptr || condition.lead < broken->lead) broken = &condition;
+    }
+    return broken;
+  }
+  bool Falls(const Condition& condition) const {
+    return condition.keeps == Keeps::kApproaching && condition.lead > 0 && state_.f[At(condition.contact)] > 0.0 &&
+           problem_.laws[At(condition.contact)].e == 0.0;
+  }
+
+  // Changes the mode that breaks a condition.
+  void Change(const Condition& broken) {
+    ContactMode& mode = modes_[At(broken.contact)];
+    const double force = state_.f[At(broken.contact)];
+    switch (broken.keeps) {
+      case Keeps::kGap:
+      case Keeps::kParting:
+        mode.normal = NormalMode::kLoading;
+        return;
+      case Keeps::kPressed:
+        mode.normal = NormalMode::kOpen;
+        return;
+      case Keeps::kApproaching:
+        mode.normal = force > 0.0 ? NormalMode::kUnloading : NormalMode::kOpen;
+        return;
+      case Keeps::kSlip:
+        mode.slip = static_cast<int8_t>(broken.lead == 0 ? -mode.slip : 0);
+        return;
+      case Keeps::kConeAbove:
+        mode.slip = -1;
+        return;
+      case Keeps::kConeBelow:
+        mode.slip = 1;
+        return;
+    }
+  }
+
+  // The modes that the signs of the state leave open, for each contact: its own first.
+  std::vector<ContactMode> OptionsOf(int i) const {
+    const double force = state_.f[At(i)];
+    std::vector<NormalMode> normals;
+    const double v = Normal(i);
+    const double noise = noise_(2 * i + 1);
+    if (force > 0.0) {
+      if (v <= noise) normals.push_back(NormalMode::kLoading);
+      if (v >= -noise && problem_.laws[At(i)].e > 0.0) normals.push_back(NormalMode::kUnloading);
+      if (normals.empty()) normals.push_back(NormalMode::kLoading);
+    } else {
+      if (state_.g[At(i)] > 0.0 || v >= -noise) normals.push_back(NormalMode::kOpen);
+      if (state_.g[At(i)] == 0.0 && v <= noise) normals.push_back(NormalMode::kLoading);
+    }
+    std::vector<int8_t> slips = {0, 1, -1};
+    const double u = v_(2 * i);
+    if (!HasFriction(i)) slips = {0};
+    if (HasFriction(i) && std::abs(u) > noise_(2 * i)) slips = {static_cast<int8_t>(u > 0.0 ? 1 : -1)};
+    std::vector<ContactMode> options;
+    for (const NormalMode normal : normals) {
+      for (const int8_t slip : slips) options.push_back({normal, slip});
+    }
+    return options;
+  }
+
+  void MakeFlow() {
+    flow_.emplace(problem_, modes_, state_, v_, noise_);
+    conditions_ = ConditionsOf(*flow_);
+  }
+
+  // Finds the modes in which every condition has the right sign, and the flow in them.
+  void FindModes() {
+    for (int i = 0; i < k_; ++i) {
+      if (!HasFriction(i)) continue;
+      const double u = v_(2 * i);
+      if (std::abs(u) > noise_(2 * i)) modes_[At(i)].slip = static_cast<int8_t>(u > 0.0 ? 1 : -1);
+    }
+    const int most_changes = 8 * k_ + 8;
+    for (int change = 0; change < most_changes; ++change) {
+      MakeFlow();
+      const Condition* const broken = Broken(conditions_);
+      if (broken == nullptr) return;
+      Change(*broken);
+    }
+    TryAllModes();
+  }
+
+  void TryAllModes() {
+    std::vector<std::vector<ContactMode>> options;
+    int64_t count = 1;
+    for (int i = 0; i < k_; ++i) {
+      options.push_back(OptionsOf(i));
+      count = std::min(count * static_cast<int64_t>(options.back().size()), kMostModes);
+    }
+    Modes best = modes_;
+    int best_lead = -1;
+    for (int64_t number = 0; number < count; ++number) {
+      int64_t rest = number;
+      for (int i = 0; i < k_; ++i) {
+        const auto size = static_cast<int64_t>(options[At(i)].size());
+        modes_[At(i)] = options[At(i)][static_cast<size_t>(rest % size)];
+        rest /= size;
+      }
+      MakeFlow();
+      const Condition* const broken = Broken(conditions_);
+      if (broken == nullptr) return;
+      if (broken->lead > best_lead) best_lead = broken->lead, best = modes_;
+    }
+    modes_ = best;
+    MakeFlow();
+    result_.error_is_proved = false;
+  }
+
+  // --- Plastic contacts ---
+
+  // Finds the modes, and lets the forces of plastic contacts that stop approaching fall.
+  void Settle() {
+    FindModes();
+    for (int fall = 0; fall < 4 * k_; ++fall) {
+      std::vector<int> falling;
+      for (const Condition& condition : conditions_) {
+        const bool is_broken = condition.lead <= kSeriesOrder && condition.series.c[At(condition.lead)] < 0.0;
+        if (is_broken && Falls(condition)) falling.push_back(condition.contact);
+      }
+      if (falling.empty()) return;
+      if (!MayFall(falling)) {
+        result_.end = MultiContactEnd::kUndetermined;
+        return;
+      }
+      Fall(falling);
+      event_.reset();
+      Refresh();
+      FindModes();
+    }
+  }
+
+  // Several may fall at once if none affects another, or if they are images of each other; else the limit depends on
+  // the ratios of their coefficients.
+  bool MayFall(std::vector<int>& falling) const {
+    if (falling.size() == 1) return true;
+    if (mirror_.has_value() && falling.size() == 2 && mirror_->image[At(falling[0])] == falling[1]) return true;
+    for (const int i : falling) {
+      for (const int j : falling) {
+        if (i != j && flow_->NormalByForce(i, j) != 0.0) return false;
+      }
+    }
+    falling.resize(1);
+    return true;
+  }
+
+  // How far the forces of `falling` may fall until friction changes its mode. Slopes are those of the flow.
+  double FallUntilFrictionChanges(const std::vector<int>& falling) const {
+    double most = state_.f[At(falling[0])];
+    for (int l = 0; l < k_; ++l) {
+      if (!IsClosed(l) || !HasFriction(l)) continue;
+      const double mu = problem_.laws[At(l)].mu;
+      const bool is_falling = std::find(falling.begin(), falling.end(), l) != falling.end();
+      double tau = 0.0, tau_slope = 0.0, u_slope = 0.0, acceleration = 0.0;
+      for (int j = 0; j < k_; ++j) {
+        const bool falls = std::find(falling.begin(), falling.end(), j) != falling.end();
+        tau += flow_->FrictionByForce(l, j) * state_.f[At(j)];
+        acceleration += flow_->TangentialByForce(l, j) * state_.f[At(j)];
+        if (falls) tau_slope -= flow_->FrictionByForce(l, j);
+        if (falls) u_slope -= flow_->TangentialByForce(l, j);
+      }
+      const double limit = mu * state_.f[At(l)];
+      const double limit_slope = is_falling ? -mu : 0.0;
+      const auto shorten = [&](double value, double slope) {
+        if (slope < 0.0 && value > 0.0) most = std::min(most, value / -slope);
+      };
+      if (modes_[At(l)].slip == 0) {
+        shorten(limit - tau, limit_slope - tau_slope);
+        shorten(limit + tau, limit_slope + tau_slope);
+      } else if (std::abs(v_(2 * l)) <= noise_(2 * l)) {
+        shorten(modes_[At(l)].slip * acceleration, modes_[At(l)].slip * u_slope);
+      }
+    }
+    return most;
+  }
+
+  // Lets the forces fall, all by as much, until the integral of the normal acceleration over the fall is 0, or to 0.
+  void Fall(const std::vector<int>& falling) {
+    const int first = falling[0];
+    double ratio = 0.0;
+    double integral = 0.0;
+    for (int piece = 0; piece < 8 * k_; ++piece) {
+      double acceleration = 0.0, slope = 0.0;
+      for (int j = 0; j < k_; ++j) acceleration += flow_->NormalByForce(first, j) * state_.f[At(j)];
+      for (const int j : falling) slope -= flow_->NormalByForce(first, j);
+      for (int j = 0; j < k_; ++j) {
+        if (!IsClosed(j)) continue;
+        ratio = std::max(ratio, std::abs(flow_->NormalByForce(first, j) / slope) *
+                                    std::sqrt(problem_.laws[At(j)].stiffness / problem_.laws[At(first)].stiffness));
+      }
+      const double reach = FallUntilFrictionChanges(falling);
+      // integral + acceleration x + slope x^2/2 = 0
+      const double square = acceleration * acceleration - 2.0 * slope * integral;
+      double x = std::numeric_limits<double>::infinity();
+      if (slope < 0.0 && square >= 0.0) x = (acceleration + std::sqrt(square)) / -slope;
+      const bool ends = x <= reach;
+      x = std::min(x, reach);
+      integral += x * (acceleration + 0.5 * slope * x);
+      for (const int i : falling) {
+        state_.f[At(i)] -= x;
+        if (state_.f[At(i)] <= 4.0 * kEpsilon * x) state_.f[At(i)] = 0.0;
+      }
+      if (ends || state_.f[At(first)] == 0.0) break;
+      // Just beyond the change of friction.
+      const double beyond = 0x1p-40 * state_.f[At(first)];
+      for (const int i : falling) state_.f[At(i)] -= beyond;
+      FindModes();
+    }
+    for (const int i : falling) {
+      if (state_.f[At(i)] == 0.0) modes_[At(i)].normal = NormalMode::kOpen;
+    }
+    ++result_.events;
+    result_.error *= 2.0 + 2.0 * ratio * std::sqrt(static_cast<double>(k_));
+  }
+
+  // --- Steps ---
+
+  // Steps to the first event, or as far as the series reach.
+  void Step() {
+    const Condition* first = nullptr;
+    double s = 1.0;
+    for (const Condition& condition : conditions_) {
+      if (condition.lead > kSeriesOrder) continue;
+      const double root = FirstRoot(condition.series, condition.lead);
+      if (root > s || (root == s && first != nullptr)) continue;
+      s = root;
+      first = &condition;
+    }
+    // A contact that sticks reaches its cone at the latest when its force vanishes, and then it opens.
+    for (const Condition& condition : conditions_) {
+      if (first == nullptr || condition.keeps != Keeps::kPressed || condition.contact != first->contact) continue;
+      if (FirstRoot(condition.series, condition.lead) <= s * (1.0 + 0x1p-36)) first = &condition;
+    }
+    if (first == nullptr && IsStill()) {
+      result_.end = MultiContactEnd::kWedged;
+      return;
+    }
+    Advance(s);
+    event_.reset();
+    if (first != nullptr) {
+      ++result_.events;
+      event_ = Event{.contact = first->contact, .keeps = first->keeps};
+      AddEventError(*first, s);
+      if (first->keeps == Keeps::kPressed) Open(first->contact);
+      if (first->keeps == Keeps::kGap) {
+        state_.g[At(first->contact)] = 0.0;
+        modes_[At(first->contact)].normal = NormalMode::kLoading;
+        modes_[At(first->contact)].slip = 0;
+      }
+    }
+    Refresh();
+    const Modes before = modes_;
+    Settle();
+    AddReloadError(before);
+  }
+
+  void Open(int i) {
+    state_.f[At(i)] = state_.g[At(i)] = state_.largest_f[At(i)] = 0.0;
+    modes_[At(i)].normal = NormalMode::kOpen;
+  }
+
+  // True if forces stay and nothing moves.
+  bool IsStill() const {
+    bool presses = false;
+    for (int i = 0; i < k_; ++i) {
+      if (!IsClosed(i)) continue;
+      presses = true;
+      if (flow_->velocity(2 * i + 1).Lead() <= kSeriesOrder || flow_->velocity(2 * i).Lead() == 1) return false;
+    }
+    return presses;
+  }
+
+  bool HasEnded() {
+    for (int i = 0; i < k_; ++i) {
+      if (IsClosed(i) || Normal(i) < -noise_(2 * i + 1)) return false;
+    }
+    result_.end = MultiContactEnd::kSeparated;
+    return true;
+  }
+
+  void Advance(double s) {
+    const double h = flow_->h();
+    double added = 0.0;
+    result_.error *= Exp(flow_->growth_rate() * h * s);
+    for (int i = 0; i < k_; ++i) {
+      const ContactLaw& law = problem_.laws[At(i)];
+      if (!IsClosed(i)) {
+        gap_error_[At(i)] += roots_(2 * i + 1) * result_.error * h * s;
+        if (state_.g[At(i)] > 0.0 || Normal(i) > 0.0) state_.g[At(i)] = std::max(flow_->gap(i).At(s), 0.0);
+        continue;
+      }
+      ContactWorks& works = result_.works[At(i)];
+      const double stiffness = flow_->stiffness(i);
+      const double before = state_.f[At(i)];
+      const double after = std::max(flow_->force(i).At(s), 0.0);
+      const double normal = h * flow_->force(i).Integral(s);
+      const double stored = 0.5 * (after - before) * ((after + before) / stiffness);
+      if (modes_[At(i)].normal == NormalMode::kLoading) {
+        works.compression -= stored;
+        works.compression_impulse += normal;
+      } else {
+        works.restitution -= stored;
+      }
+      state_.f[At(i)] = after;
+      state_.largest_f[At(i)] = std::max({state_.largest_f[At(i)], before, after});
+      state_.p(2 * i + 1) += normal;
+      const double largest = std::max(before, after);
+      const double force_error = std::sqrt(stiffness) * result_.error;
+      added += kEpsilon * (16.0 * largest / std::sqrt(stiffness) +
+                           roots_(2 * i + 1) * (2.0 * std::abs(state_.p(2 * i + 1)) + 8.0 * normal));
+      result_.normal_impulse_error(i) += force_error * h * s + 8.0 * kEpsilon * normal;
+      result_.work_error += largest * force_error / stiffness;
+      if (law.mu == 0.0) continue;
+      const Series tau = flow_->Friction(i);
+      const double tangential = h * tau.Integral(s);
+      state_.p(2 * i) += tangential;
+      added += 64.0 * kEpsilon * roots_(2 * i) * (std::abs(tangential) + std::abs(state_.p(2 * i)));
+      if (modes_[At(i)].slip == 0) continue;
+      works.friction += h * IntegralOfProduct(tau, flow_->velocity(2 * i), s);
+      result_.work_error +=
+          h * s * law.mu * (largest * roots_(2 * i) * result_.error + std::abs(v_(2 * i)) * force_error);
+    }
+    AddError(added);
+    if (flow_->split_is_free()) result_.split_is_unique = false;
+  }
+
+  static double IntegralOfProduct(const Series& x, const Series& y, double s) {
+    std::array<double, 2 * kSeriesOrder + 1> product{};
+    for (size_t i = 0; i <= kSeriesOrder; ++i) {
+      for (size_t j = 0; j <= kSeriesOrder; ++j) product[i + j] += x.c[i] * y.c[j];
+    }
+    double value = 0.0;
+    for (size_t m = product.size(); m-- > 0;) value = value * s + product[m] / static_cast<double>(m + 1);
+    return value * s;
+  }
+
+  // --- Errors ---
+
+  // Adds an error that one step or event makes.
+  void AddError(double error) {
+    result_.error += error;
+    made_ += error;
+  }
+
+  // What an error of the state, and the rounding of its velocities, may change about an event: during the time between
+  // the event and that of a path within the error, the modes of the two differ.
+  void AddEventError(const Condition& event, double s) {
+    const int i = event.contact;
+    const double error = result_.error;
+    const double normal_error = roots_(2 * i + 1) * error;
+    const double stiffness = problem_.laws[At(i)].stiffness;
+    const double v = flow_->velocity(2 * i + 1).At(s);
+    double added = 0.0;
+    bool grazes = false;
+    switch (event.keeps) {
+      case Keeps::kApproaching:
+      case Keeps::kParting: {
+        const double e = std::max(problem_.laws[At(i)].e, 0x1p-10);
+        double acceleration = 0.0;
+        for (int j = 0; j < k_; ++j) acceleration += flow_->NormalByForce(i, j) * flow_->force(j).At(s);
+        added = 0.5 * std::sqrt(stiffness) / e * normal_error * normal_error / std::abs(acceleration);
+        grazes = !(added <= error);
+        break;
+      }
+      case Keeps::kPressed:
+        added = 0.5 * normal_error * error / v;
+        grazes = !(normal_error < 0.5 * v);
+        gap_error_[At(i)] = error / std::sqrt(flow_->stiffness(i));
+        break;
+      case Keeps::kGap:
+        added = std::sqrt(stiffness) * (gap_error_[At(i)] + kEpsilon * std::abs(v) * flow_->h());
+        grazes = !(normal_error < -0.5 * v);
+        break;
+      case Keeps::kSlip:
+      case Keeps::kConeAbove:
+      case Keeps::kConeBelow:
+        break;
+    }
+    if (grazes) result_.error_is_proved = false;
+    result_.error += grazes ? std::min(added, error) : added;
+    for (const int row : {2 * i, 2 * i + 1}) {
+      if (roots_(row) > 0.0) AddError(noise_(row) / roots_(row));
+    }
+  }
+
+  // A contact that is loaded again keeps the error of its force, which weighs 1/e more.
+  void AddReloadError(const Modes& before) {
+    for (int i = 0; i < k_; ++i) {
+      const bool reloads = before[At(i)].normal == NormalMode::kUnloading &&
+                           modes_[At(i)].normal == NormalMode::kLoading && state_.f[At(i)] > 0.0;
+      if (reloads) result_.error /= problem_.laws[At(i)].e;
+    }
+  }
+
+  // Ends the motion if what is still to come cannot change more than the rounding of the velocities.
+  bool TailIsRounding() {
+    if (result_.events < kLeastOfEndless) return false;
+    double speed = 0.0, stored = 0.0, mobility = 0.0;
+    for (int i = 0; i < k_; ++i) {
+      speed = std::max(speed, -Normal(i));
+      if (IsClosed(i)) stored += 0.5 * state_.f[At(i)] * state_.f[At(i)] / flow_->stiffness(i);
+    }
+    if (speed > 1e-9 * problem_.v.cwiseAbs().maxCoeff()) return false;
+    if (!beta_.has_value()) beta_ = Beta();
+    const double beta = *beta_;
+    if (beta > 0.0) {
+      const double impulse = (speed + std::sqrt(speed * speed + 2.0 * beta * stored)) / beta;
+      bool is_rounding = true;
+      for (int row = 0; row < 2 * k_; ++row) {
+        mobility = 0.0;
+        for (int i = 0; i < k_; ++i) {
+          mobility = std::max(mobility, std::abs(problem_.w(row, 2 * i + 1)) +
+                                            problem_.laws[At(i)].mu * std::abs(problem_.w(row, 2 * i)));
+        }
+        tail_[At(row)] = impulse * mobility;
+        is_rounding = is_rounding && tail_[At(row)] <= noise_(row);
+      }
+      if (!is_rounding) return false;
+      for (int row = 0; row < 2 * k_; ++row) result_.slack(row) += tail_[At(row)];
+      result_.end = MultiContactEnd::kEndless;
+      return true;
+    }
+    const double rounding = noise_.maxCoeff();
+    if (speed > 4.0 * rounding || std::sqrt(2.0 * stored) * roots_.maxCoeff() > 4.0 * rounding) return false;
+    result_.end = MultiContactEnd::kEndlessEstimate;
+    result_.error_is_proved = false;
+    return true;
+  }
+
+  double Beta() const {
+    Eigen::MatrixXd b(k_, k_);
+    const auto drag = [&](int i, int j) { return problem_.laws[At(j)].mu * std::abs(problem_.w(2 * i + 1, 2 * j)); };
+    for (int i = 0; i < k_; ++i) {
+      for (int j = 0; j < k_; ++j) b(i, j) = problem_.w(2 * i + 1, 2 * j + 1) - std::max(drag(i, j), drag(j, i));
+    }
+    // The rounding of B and of the search.
+    return LeastOnSimplex(b) - 64.0 * kEpsilon * b.cwiseAbs().maxCoeff();
+  }
+
+  Attained Finish() {
+    if (mirror_.has_value()) {
+      std::array<double, kMostContacts> compression{}, restitution{}, friction{}, impulse{};
+      for (size_t i = 0; i < kMostContacts; ++i) {
+        compression[i] = result_.works[i].compression;
+        restitution[i] = result_.works[i].restitution;
+        friction[i] = result_.works[i].friction;
+        impulse[i] = result_.works[i].compression_impulse;
+      }
+      for (auto* const one : {&compression, &restitution, &friction, &impulse}) mirror_->Average(*one);
+      for (size_t i = 0; i < kMostContacts; ++i) {
+        result_.works[i] = {.compression = compression[i],
+                            .restitution = restitution[i],
+                            .friction = friction[i],
+                            .compression_impulse = impulse[i]};
+      }
+      mirror_->Average(v_);
+    }
+    result_.v = v_;
+    result_.p = state_.p;
+    result_.slack += noise_;
+    result_.error_is_proved = result_.error_is_proved && std::isfinite(result_.error);
+    return std::move(result_);
+  }
+
+  struct Event {
+    int contact = 0;
+    Keeps keeps = Keeps::kGap;
+  };
+
+  const Problem& problem_;
+  const std::optional<Mirror> mirror_;
+  absl::FunctionRef<bool()> stopped_;
+  const int k_;
+  Attained result_;
+  SpringState state_;
+  Modes modes_{};
+  Vector v_, noise_, roots_;
+  std::optional<SpringFlow> flow_;
+  std::vector<Condition> conditions_;
+  std::optional<Event> event_;  // The condition that is 0 by the event at which the state is.
+  std::array<double, kMostContacts> gap_error_{};
+  std::array<double, 2 * kMostContacts> tail_{};
+  std::optional<double> beta_;
+  double made_ = 0.0;  // The errors of all steps and events, none of them grown.
+  int64_t steps_ = 0;
+};
+
+// The largest component of a velocity over the root of its mobility: its size in the metric of energy.
+double SizeOf(const Problem& problem, const Vector& v) {
+  double size = 0.0;
+  for (int j = 0; j < v.size(); ++j) {
+    if (problem.w(j, j) > 0.0) size = std::max(size, std::abs(v(j)) / std::sqrt(problem.w(j, j)));
+  }
+  return size;
+}
+
+// Replaces a bound on the error that has grown too large by an estimate: the errors of all steps, as much as a motion
+// that starts beside this one moves away from it.
+void EstimateError(const Problem& problem, absl::FunctionRef<bool()> stopped, int64_t budget, double made,
+                   Attained& result) {
+  constexpr double kBeside = 0x1p-30;
+  constexpr double kMargin = 16.0;
+  Problem beside = problem;
+  Vector push = problem.v;
+  for (int j = 0; j < push.size(); ++j) {
+    push(j) = problem.w(j, j) > 0.0 ? kBeside * (j % 3 == 0 ? 1.0 : -0.7) * problem.v(j) / problem.w(j, j) : 0.0;
+  }
+  beside.v += problem.w * push;
+  const Attained other = Motion(beside, std::nullopt, stopped).Run(budget);
+  const double start = SizeOf(problem, beside.v - problem.v);
+  const double growth = start > 0.0 ? SizeOf(problem, other.v - result.v) / start : 1.0;
+  result.error = std::min(result.error, kMargin * std::max(growth, 1.0) * made);
+  result.error_is_proved = false;
+}
+
+// One contact alone does what the model of one contact says.
+Attained SolveAlone(const Problem& problem) {
+  Attained result = StartOf(problem);
+  result.end = MultiContactEnd::kSeparated;
+  if (!(problem.v(1) < 0.0)) return result;
+  const SingleImpact impact = SolveSingleImpact(problem, 0, problem.v.head(2));
+  result.events = 1;
+  if (!impact.ended) {
+    result.end = MultiContactEnd::kWedged;
+    return result;
+  }
+  result.v = impact.velocity;
+  result.p = impact.impulse;
+  result.slack.setConstant(impact.velocity_error);
+  result.normal_impulse_error(0) = impact.normal_error;
+  result.work_error = impact.work_error;
+  result.works[0] = impact.works;
+  return result;
+}
+
+}  // namespace
+
+Attained FindSprings(const Problem& problem, const std::optional<Mirror>& mirror, absl::FunctionRef<bool()> stopped,
+                     int64_t budget) {
+  if (problem.k == 1) return SolveAlone(problem);
+  Motion motion(problem, mirror, stopped);
+  Attained result = motion.Run(budget);
+  const double large = kLargeError * SizeOf(problem, problem.v);
+  if (!result.error_is_proved || result.error > large) EstimateError(problem, stopped, budget, motion.made(), result);
+  return result;
+}
+
+}  // namespace ricochet::multi

@@ -1,0 +1,57 @@
+#include "core/types/multi_contact.h"
+
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+
+namespace ricochet {
+
+int DirectionsOf(const MultiContactScene& scene) {
+  struct Finder {
+    size_t contacts;
+    // Of `numbers` in all, in lists of `each`.
+    int Rows(size_t numbers, size_t each) const {
+      if (numbers == 2 * contacts * each) return 2;
+      return numbers == 3 * contacts * each ? 3 : 0;
+    }
+    int operator()(std::monostate) const { return 0; }
+    int operator()(const ContactMatrix& matrix) const { return Rows(matrix.velocity_m_s.size(), 1); }
+    int operator()(const FreeBodies& free) const {
+      const size_t size = free.bodies.empty() ? 0 : free.bodies.front().position_m.size();
+      return size == 2 || size == 3 ? static_cast<int>(size) : 0;
+    }
+    int operator()(const Mechanism& mechanism) const { return Rows(mechanism.jacobian.size(), mechanism.rates.size()); }
+  };
+  return std::visit(Finder{scene.contacts.size()}, scene.system);
+}
+
+std::vector<std::string> ContactOutputNames(size_t contacts, int directions) {
+  std::vector<std::string> names;
+  for (size_t contact = 1; contact <= contacts; ++contact) {
+    for (int t = 1; t < directions; ++t) {
+      names.push_back(absl::StrCat("contact_", contact, ".t", directions == 2 ? "" : absl::StrCat(t)));
+    }
+    names.push_back(absl::StrCat("contact_", contact, ".n"));
+  }
+  return names;
+}
+
+std::vector<std::string> SystemOutputNames(const MultiContactSystem& system, int directions) {
+  std::vector<std::string> names;
+  const auto* const free = std::get_if<FreeBodies>(&system);
+  for (size_t body = 1; free != nullptr && body <= free->bodies.size(); ++body) {
+    const auto add = [&](const char* name) { names.push_back(absl::StrCat("body_", body, ".", name)); };
+    if (directions == 2) {
+      for (const char* name : {"x", "y", "rate"}) add(name);
+    } else {
+      for (const char* name : {"x", "y", "z", "rate_x", "rate_y", "rate_z"}) add(name);
+    }
+  }
+  const auto* const mechanism = std::get_if<Mechanism>(&system);
+  for (size_t i = 1; mechanism != nullptr && i <= mechanism->rates.size(); ++i) {
+    names.push_back(absl::StrCat("rate_", i));
+  }
+  return names;
+}
+
+}  // namespace ricochet

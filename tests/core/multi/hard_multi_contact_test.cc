@@ -1,0 +1,186 @@
+// Scenes of several contacts that tempt a solver to loop, to lose a digit, or to answer where there is no answer.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "core/multi/energy.h"
+#include "core/multi/orders.h"
+#include "core/multi/possible.h"
+#include "core/multi/springs.h"
+#include "ricochet/solver.h"
+#include "tests/support/scenes/multi_contact_scenes.h"
+#include "tests/support/scenes/random_multi_contact.h"
+
+namespace ricochet::multi {
+namespace {
+
+const auto kNever = [] { return false; };
+
+// A ball that fills a slot: two walls that face each other.
+Problem Slot(double e1, double e2) {
+  Problem slot = {.d = 2, .k = 2, .w = Eigen::MatrixXd::Zero(4, 4), .v = Vector::Zero(4)};
+  slot.laws = {{.e = e1}, {.e = e2}};
+  slot.w(1, 1) = slot.w(3, 3) = 2.0;
+  slot.w(1, 3) = slot.w(3, 1) = -2.0;
+  slot.v(1) = -1.0;
+  slot.v(3) = 1.0;
+  return slot;
+}
+
+// Each two impacts multiply the speed by e1 e2, so that the impulses are geometric sums.
+TEST(HardMultiContactTest, ABallInASlotComesToRest) {
+  const Problem slot = Slot(0.5, 0.8);
+  const Orders orders = FindOrders(slot, kNever);
+  ASSERT_EQ(orders.outcomes.size(), 1U);
+  const Attained& rest = orders.outcomes.front().attained;
+  EXPECT_EQ(rest.end, MultiContactEnd::kEndless);
+  EXPECT_EQ(rest.v(1), 0.0);
+  EXPECT_EQ(rest.v(3), 0.0);
+  EXPECT_NEAR(rest.p(1), 1.5 / 2.0 / (1.0 - 0.4), 1e-15);
+  EXPECT_NEAR(rest.p(3), 1.8 * 0.5 / 2.0 / (1.0 - 0.4), 1e-15);
+  EXPECT_EQ(PushApart(slot).size(), 0);
+  const Attained springs = FindSprings(slot, std::nullopt, kNever);
+  EXPECT_NEAR(springs.v(1), 0.0, springs.ErrorOf(slot, 1) + 1e-12);
+}
+
+TEST(HardMultiContactTest, AnElasticBallInASlotHasNoLimit) {
+  const Orders orders = FindOrders(Slot(1.0, 1.0), kNever, 200);
+  EXPECT_FALSE(orders.complete);
+  EXPECT_EQ(orders.outcomes.front().attained.end, MultiContactEnd::kBudgetUsedUp);
+  EXPECT_EQ(FindSprings(Slot(1.0, 1.0), std::nullopt, kNever, 500).end, MultiContactEnd::kBudgetUsedUp);
+}
+
+// The feet of a wide box on a smooth floor: after the first impact both strike without end, and both orders agree.
+TEST(HardMultiContactTest, TwoPlasticFeetStrikeWithoutEndAndComeToRestTogether) {
+  Problem feet = {.d = 2, .k = 2, .w = Eigen::MatrixXd::Zero(4, 4), .v = Vector::Zero(4), .laws = {{}, {}}};
+  feet.w(1, 1) = feet.w(3, 3) = 1.0;
+  feet.w(1, 3) = feet.w(3, 1) = -0.6;
+  feet.v(1) = -1.0;
+  feet.v(3) = -0.8;
+  const Orders orders = FindOrders(feet, kNever);
+  ASSERT_EQ(orders.outcomes.size(), 1U);
+  EXPECT_EQ(orders.outcomes.front().order_count, 2);
+  const Attained& rest = orders.outcomes.front().attained;
+  EXPECT_EQ(rest.end, MultiContactEnd::kEndless);
+  // P = -W^-1 v
+  EXPECT_NEAR(rest.p(1), (1.0 + 0.6 * 0.8) / 0.64, 4e-15);
+  EXPECT_NEAR(rest.p(3), (0.8 + 0.6 * 1.0) / 0.64, 4e-15);
+}
+
+TEST(HardMultiContactTest, PlasticSpringsAreTheLimitOfSpringsThatAreNearlyPlastic) {
+  std::mt19937_64 random(21);
+  int compared = 0;
+  for (int scene = 0; scene < 60; ++scene) {
+    Problem problem = RandomMultiContact(random, true);
+    if (problem.k != 2 || PushApart(problem).size() == 0) continue;
+    const auto with = [&](double e) {
+      for (ContactLaw& law : problem.laws) law.e = e;
+      return FindSprings(problem, std::nullopt, kNever);
+    };
+    const Attained plastic = with(0.0);
+    const Attained nearly = with(1e-4);
+    if (plastic.end == MultiContactEnd::kUndetermined || nearly.end == MultiContactEnd::kBudgetUsedUp) continue;
+    ++compared;
+    EXPECT_LE((plastic.v - nearly.v).cwiseAbs().maxCoeff(), 1e-2) << scene;
+    const Attained far = with(1e-2);
+    const double scale = 1e-9 + (far.v - plastic.v).cwiseAbs().maxCoeff();
+    EXPECT_LE((plastic.v - nearly.v).cwiseAbs().maxCoeff(), 0.2 * scale + 1e-7) << scene;
+  }
+  EXPECT_GE(compared, 10);
+}
+
+// Contacts 1 and 2 strike one after the other as their stiffnesses part, and chatter in between.
+TEST(HardMultiContactTest, StiffnessRatiosFromAMillionthToAMillion) {
+  for (int exponent = -6; exponent <= 6; ++exponent) {
+    const auto response = LocalSolver().MultiContact({.scene = FallingBlock(0.3, 0.6, std::pow(10.0, exponent))});
+    ASSERT_TRUE(response.ok());
+    const AttainedOutcome& springs = *response->answers.front().springs;
+    EXPECT_EQ(springs.end, MultiContactEnd::kSeparated) << exponent;
+    EXPECT_LE(springs.contact_velocity_error_m_s[1], 1e-9) << exponent;
+    EXPECT_LE(springs.energy_change_j, springs.work_error_j) << exponent;
+    if (std::abs(exponent) < 6) continue;
+    // The stiff contact strikes first, and the soft one is not pressed again: the difference is of the order 1e-6.
+    const std::string order = exponent > 0 ? "2" : "1";
+    const auto& orders = response->answers.front().orders;
+    const auto same = std::find_if(orders.begin(), orders.end(),
+                                   [&](const AttainedOutcome& one) { return one.orders.front().rfind(order, 0) == 0; });
+    ASSERT_NE(same, orders.end());
+    EXPECT_NEAR(same->velocity[2], springs.velocity[2], 1e-4) << exponent;
+  }
+}
+
+TEST(HardMultiContactTest, ACradleOfTenBallsEndsOnSprings) {
+  const MultiContactScene scene =
+      RowOfBalls(std::vector<double>(10, 1.0), {1, 0, 0, 0, 0, 0, 0, 0, 0, 0}, std::vector<double>(9, 1.0));
+  const auto response = LocalSolver().MultiContact({.scene = scene});
+  ASSERT_TRUE(response.ok());
+  const MultiContactAnswer& answer = response->answers.front();
+  EXPECT_EQ(answer.springs->end, MultiContactEnd::kSeparated);
+  EXPECT_NEAR(answer.springs->energy_change_j, 0.0, answer.springs->work_error_j);
+  ASSERT_EQ(answer.refused.size(), 1U);
+  EXPECT_EQ(answer.refused.front().method, MultiContactMethod::kOrders);
+  EXPECT_EQ(answer.possible.size(), 18U + 30U);
+}
+
+// Three feet on one floor: W has rank 2 in the normals, and the impulses of springs are still unique.
+TEST(HardMultiContactTest, ThreeFeetShareTheLoadOfEqualSprings) {
+  MultiContactScene scene = FallingBlock(0.5, 0.5);
+  scene.contacts.push_back(scene.contacts.front());
+  scene.contacts.back().point_m = {0.0, 0.0};
+  const auto response = LocalSolver().MultiContact({.scene = scene});
+  ASSERT_TRUE(response.ok());
+  const AttainedOutcome& springs = *response->answers.front().springs;
+  for (const size_t n : {1U, 3U, 5U}) EXPECT_NEAR(springs.impulse_n_s[n], 0.5, 1e-14);
+  EXPECT_FALSE(springs.friction_split_is_unique);
+  EXPECT_NEAR(springs.velocity[2], 0.0, 1e-15);
+}
+
+// The second contact moves along the floor at first: v_n = 0, and it is pressed only by what the first does.
+TEST(HardMultiContactTest, ASecondContactThatGrazes) {
+  Problem problem = {.d = 2, .k = 2, .w = Eigen::MatrixXd::Zero(4, 4), .v = Vector::Zero(4)};
+  problem.laws = {{.mu = 0.3, .e = 0.5}, {.mu = 0.3, .e = 0.5}};
+  problem.w << 2.0, 0.25, 1.0, 0.25, 0.25, 1.5, -0.25, -0.5, 1.0, -0.25, 2.0, 0.25, 0.25, -0.5, 0.25, 1.5;
+  problem.v << 0.5, -1.0, 0.5, 0.0;
+  const Orders orders = FindOrders(problem, kNever);
+  EXPECT_TRUE(orders.complete);
+  const Attained springs = FindSprings(problem, std::nullopt, kNever);
+  EXPECT_EQ(springs.end, MultiContactEnd::kSeparated);
+  EXPECT_GT(springs.p(3), 0.0);
+  for (int i = 0; i < 2; ++i) EXPECT_GE(springs.v(2 * i + 1), -springs.ErrorOf(problem, 2 * i + 1));
+}
+
+// A pendulum whose tip locks: k = 1 is the planar model, which says that it stays.
+TEST(HardMultiContactTest, ALockedPendulumStays) {
+  Problem locked = {.d = 2, .k = 1, .w = Eigen::MatrixXd(2, 2), .v = Vector(2), .laws = {{.mu = 1.0, .e = 1.0}}};
+  locked.w << 1.0, 0.5, 0.5, 0.25;
+  locked.v << -1.0, -0.5;
+  const Orders orders = FindOrders(locked, kNever);
+  EXPECT_EQ(orders.outcomes.front().attained.v, Vector::Zero(2));
+  EXPECT_EQ(FindSprings(locked, std::nullopt, kNever).v, Vector::Zero(2));
+}
+
+// The same contact beside another that is not coupled to it takes the way through all events of springs.
+TEST(HardMultiContactTest, SpringsOfOneContactAreThePlanarModel) {
+  std::mt19937_64 random(31);
+  for (int scene = 0; scene < 200; ++scene) {
+    const Problem several = RandomMultiContact(random, true);
+    Problem one = {.d = 2, .k = 1, .w = several.w.topLeftCorner(2, 2), .v = several.v.head(2)};
+    one.laws = {several.laws.front()};
+    if (!(one.v(1) < 0.0) || PushApart(one).size() == 0) continue;
+    Problem beside = {.d = 2, .k = 2, .w = Eigen::MatrixXd::Identity(4, 4), .v = Vector::Ones(4)};
+    beside.laws = {one.laws.front(), one.laws.front()};
+    beside.w.topLeftCorner(2, 2) = one.w;
+    beside.v.head(2) = one.v;
+    const Attained planar = FindSprings(one, std::nullopt, kNever);
+    const Attained springs = FindSprings(beside, std::nullopt, kNever);
+    for (int j = 0; j < 2; ++j) {
+      EXPECT_NEAR(springs.v(j), planar.v(j), springs.ErrorOf(beside, j) + planar.ErrorOf(one, j)) << scene;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace ricochet::multi
