@@ -22,13 +22,13 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr char kExample[] = R"(Example: a page to drag friction, geometry and velocity, until Ctrl-C.
+constexpr char kExample[] =
+    R"(Example: a page to drag friction, geometry and velocity, until Ctrl-C. It opens no browser.
   $ ricochet explore
   http://127.0.0.1:40719/?token=4f6f1c...
-It opens no browser. The same address answers the calls of the service as HTTP with JSON:
-  $ curl -H "Authorization: Bearer $TOKEN" --json @request.json \
+The same address answers the calls of the service as HTTP with JSON, to whoever knows the token (docs/page.md):
+  $ curl -H "Authorization: Bearer 4f6f1c..." --json @request.json \
       http://127.0.0.1:40719/ricochet.v1.ImpactService/Solve
-Whoever knows the token can ask, and nobody else. docs/page.md tells more.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct ExploreOptions {
@@ -43,7 +43,8 @@ absl::Status ReadListen(const ExploreOptions& options, WebServer::Options& serve
   const size_t colon = options.listen.rfind(':');
   const bool has_port = colon != std::string::npos && absl::SimpleAtoi(options.listen.substr(colon + 1), &server.port);
   if (!has_port || colon == 0 || server.port < 0 || server.port > 65535) {
-    return InputError("--listen", options.listen, "be ADDRESS:PORT with a port from 0 to 65535; 0 lets the system choose");
+    return InputError("--listen", options.listen,
+                      "be ADDRESS:PORT with a port from 0 to 65535; 0 lets the system choose");
   }
   server.host = options.listen.substr(0, colon);
   if (server.host == "localhost") server.host = "127.0.0.1";
@@ -70,7 +71,7 @@ void WaitFor(const std::stop_token& stop) {
 }
 
 absl::Status RunExplore(const ExploreOptions& options) {
-  WebServer::Options server = {.host = "", .token = RandomHex(), .answer = nullptr, .refuse = nullptr};
+  WebServer::Options server = {.host = "", .token = RandomHex(), .answer = nullptr};
   if (absl::Status wrong = ReadListen(options, server); !wrong.ok()) return wrong;
   std::optional<Scene> scene;
   if (options.scene.any()) {
@@ -82,11 +83,11 @@ absl::Status RunExplore(const ExploreOptions& options) {
   const Interrupt interrupt;
   const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common, {}, Limits());
   if (!solver.ok()) return solver.status();
-  server.answer = [&](Exchange& exchange) {
+  server.answer = [&](Exchange& exchange, const absl::Status& allowed) {
+    if (!allowed.ok()) return ReplyError(allowed, exchange);
     if (exchange.path() == "/") return AnswerPage(scene, exchange);
     AnswerConnect(**solver, interrupt.token(), exchange);
   };
-  server.refuse = [](Exchange& exchange, const absl::Status& why) { ReplyError(why, exchange); };
   const std::string token = server.token;
   const absl::StatusOr<std::unique_ptr<WebServer>> web = WebServer::Start(std::move(server));
   if (!web.ok()) return web.status();

@@ -137,7 +137,8 @@ absl::Status RunSolve(const SolveOptions& options) {
       [&] { return Csv(response->outcome, options); });
   if (!written.ok()) return written;
   if (!options.html.empty()) {
-    if (absl::Status page = WriteFile(options.html, FinishedPage(**solver, request, *response)); !page.ok()) return page;
+    if (absl::Status page = WriteFile(options.html, FinishedPage(**solver, request, *response)); !page.ok())
+      return page;
   }
   if (options.picture.file.empty()) return absl::OkStatus();
   return DrawPicture(SolvePlot(**solver, request, *response), options.picture);

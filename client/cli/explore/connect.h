@@ -2,9 +2,9 @@
 //
 //   POST /ricochet.v1.ImpactService/Solve     a SolveRequest as JSON gets a SolveResponse
 //
-// So do all calls of one answer, and Cost, whose answers are a stream. JSON is read by the rules of protobuf and written
-// as the command line writes it, which these rules can read. An error is {"code", "message", "details"}, and details
-// carry the violations as they do over gRPC.
+// So does every call of one request and one answer. Cost has a stream of answers, which are sent together. JSON is read
+// by the rules of protobuf and written as the command line writes it, which these rules read as well. An error is
+// {"code", "message", "details"}, and its details carry the violations as they do over gRPC.
 
 #ifndef RICOCHET_CLIENT_CLI_EXPLORE_CONNECT_H_
 #define RICOCHET_CLIENT_CLI_EXPLORE_CONNECT_H_
@@ -17,8 +17,8 @@
 
 namespace ricochet::cli {
 
-// Answers one request to a path below /ricochet.v1.ImpactService/. A call takes at most a minute, as in ricochetd, or
-// the time that the client allows (Connect-Timeout-Ms), and ends when `stop` says so.
+// Answers a request. A call takes at most a minute, as in ricochetd, or the time that the client allows
+// (Connect-Timeout-Ms), and ends when `stop` says so.
 void AnswerConnect(const Solver& solver, const std::stop_token& stop, Exchange& exchange);
 
 // Answers with an error.

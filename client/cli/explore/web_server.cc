@@ -1,19 +1,16 @@
 #include "client/cli/explore/web_server.h"
 
-#include <arpa/inet.h>
 #include <civetweb.h>
 #include <sys/random.h>
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cstdlib>
 #include <cstring>
 #include <utility>
 #include <vector>
 
 #include "absl/strings/escaping.h"
-#include "absl/strings/match.h"
 #include "absl/strings/numbers.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
@@ -27,6 +24,8 @@ namespace {
 constexpr char kThreads[] = "64";
 constexpr char kSlowest[] = "5000";  // ms.
 
+constexpr size_t kMostBodyBytes = size_t{1} << 20;
+
 // Nothing that a browser could make of an answer beside its purpose.
 constexpr char kHeaders[] =
     "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n"
@@ -37,11 +36,6 @@ bool IsSame(absl::string_view a, absl::string_view b) {
   unsigned difference = a.size() == b.size() ? 0 : 1;
   for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) difference |= static_cast<unsigned>(a[i] ^ b[i]);
   return difference == 0;
-}
-
-bool IsIpv4(absl::string_view host) {
-  in_addr address;
-  return inet_pton(AF_INET, std::string(host).c_str(), &address) == 1;
 }
 
 }  // namespace
@@ -69,25 +63,19 @@ std::string Exchange::Header(const std::string& name) const {
 }
 
 absl::StatusOr<std::string> Exchange::Body() {
-  const int64_t length = mg_get_request_info(connection_)->content_length;
-  const auto too_large = [this] {
-    mg_disable_connection_keep_alive(connection_);
-    return absl::ResourceExhaustedError(absl::StrCat("the body must have at most ", kMostBodyBytes, " bytes"));
-  };
-  if (length > static_cast<int64_t>(kMostBodyBytes)) return too_large();
+  const int64_t length = mg_get_request_info(connection_)->content_length;  // < 0 if the request does not say it.
   std::string body;
   std::vector<char> buffer(size_t{64} << 10);
-  for (;;) {
-    const int count = mg_read(connection_, buffer.data(), buffer.size());
-    if (count <= 0) break;
-    body.append(buffer.data(), static_cast<size_t>(count));
-    if (body.size() > kMostBodyBytes) return too_large();
+  int count = 1;
+  while (count > 0 && body.size() <= kMostBodyBytes && length <= static_cast<int64_t>(kMostBodyBytes)) {
+    count = mg_read(connection_, buffer.data(), buffer.size());
+    body.append(buffer.data(), static_cast<size_t>(std::max(count, 0)));
   }
-  if (length >= 0 && static_cast<int64_t>(body.size()) < length) {
-    mg_disable_connection_keep_alive(connection_);
-    return absl::DataLossError(absl::StrCat("only ", body.size(), " of ", length, " bytes of the body came in time"));
-  }
-  return body;
+  if (count == 0 && static_cast<int64_t>(body.size()) >= length) return body;
+  mg_disable_connection_keep_alive(connection_);
+  if (count > 0)
+    return absl::ResourceExhaustedError(absl::StrCat("the body must have at most ", kMostBodyBytes, " bytes"));
+  return absl::DataLossError(absl::StrCat("only ", body.size(), " bytes of the body came in time"));
 }
 
 void Exchange::Reply(int status, absl::string_view type, absl::string_view body, absl::string_view headers) {
@@ -96,18 +84,6 @@ void Exchange::Reply(int status, absl::string_view type, absl::string_view body,
                                         kHeaders, headers, "\r\n", method() == "HEAD" ? "" : body);
   mg_write(connection_, text.data(), text.size());
 }
-
-void Exchange::BeginParts(absl::string_view type) {
-  const std::string head = absl::StrCat("HTTP/1.1 200 OK\r\nContent-Type: ", type,
-                                        "\r\nTransfer-Encoding: chunked\r\n", kHeaders, "\r\n");
-  mg_write(connection_, head.data(), head.size());
-}
-
-bool Exchange::SendPart(absl::string_view part) {
-  return mg_send_chunk(connection_, part.data(), static_cast<unsigned>(part.size())) > 0;
-}
-
-bool Exchange::EndParts() { return mg_send_chunk(connection_, "", 0) > 0; }
 
 absl::StatusOr<std::unique_ptr<WebServer>> WebServer::Start(Options options) {
   std::unique_ptr<WebServer> server(new WebServer(std::move(options)));
@@ -150,41 +126,32 @@ bool WebServer::IsOwn(absl::string_view authority) const {
   if (colon == absl::string_view::npos || !absl::SimpleAtoi(authority.substr(colon + 1), &port)) return false;
   if (port != options_.port) return false;
   if (IsLoopbackAddress(authority)) return true;
-  const absl::string_view host = authority.substr(0, colon);
-  return !IsLoopbackAddress(options_.host) && (IsIpv4(host) || absl::StartsWith(host, "["));
+  const bool is_address = authority.front() == '[' || authority.find_first_not_of("0123456789.:") == authority.npos;
+  return is_address && !IsLoopbackAddress(options_.host);
 }
 
 absl::Status WebServer::Check(const Exchange& exchange) const {
   const std::string host = exchange.Header("Host");
-  if (!IsOwn(host)) {
-    return absl::PermissionDeniedError(
-        absl::StrCat("Host ", host, ": must be ", this->authority(), ", the address of this server"));
-  }
+  if (!IsOwn(host)) return absl::PermissionDeniedError(absl::StrCat("Host ", host, ": must be ", authority()));
   const std::string origin = exchange.Header("Origin");
   absl::string_view sender = origin;
   if (!origin.empty() && !(absl::ConsumePrefix(&sender, "http://") && IsOwn(sender))) {
-    return absl::PermissionDeniedError(absl::StrCat("Origin ", origin, ": must be this server, or be absent"));
+    return absl::PermissionDeniedError(absl::StrCat("Origin ", origin, ": must be http://", authority(), " or absent"));
   }
-  const std::string authorization = exchange.Header("Authorization");
-  absl::string_view token = authorization;
-  const std::string in_url = exchange.Query("token");
-  if (!absl::ConsumePrefix(&token, "Bearer ")) token = in_url;
-  if (IsSame(token, options_.token)) return absl::OkStatus();
+  const std::string header = exchange.Header("Authorization");
+  if (IsSame(header, "Bearer " + options_.token) || IsSame(exchange.Query("token"), options_.token)) {
+    return absl::OkStatus();
+  }
   return absl::UnauthenticatedError(
-      "the token is missing or wrong: must be that of the address which ricochet explore has printed, as ?token=... or "
-      "as Authorization: Bearer ...");
+      "the token must be that which ricochet explore has printed, as ?token=... or as Authorization: Bearer ...");
 }
 
 int WebServer::Handle(mg_connection* connection, void* server) {
   const auto& self = *static_cast<const WebServer*>(server);
   Exchange exchange(connection);
   const absl::Status allowed = self.Check(exchange);
-  if (allowed.ok()) {
-    self.options_.answer(exchange);
-  } else {
-    mg_disable_connection_keep_alive(connection);
-    self.options_.refuse(exchange, allowed);
-  }
+  if (!allowed.ok()) mg_disable_connection_keep_alive(connection);
+  self.options_.answer(exchange, allowed);
   return 1;
 }
 

@@ -2,13 +2,12 @@
 //
 // A page of somebody else, open in the same browser, must neither ask nor read anything here. Every request needs the
 // token, as "?token=..." or "Authorization: Bearer ...". Its Host must be an address of this server, so that no name
-// can be bound to it anew, and its Origin, if it has one, the same. No answer may be read across origins. Requests that
-// are sent too slowly are dropped; bodies have at most 1 MiB.
+// can be bound to it anew, and its Origin, if it has one, the same. No answer may be read across origins. A request
+// that is sent too slowly is dropped; a body has at most 1 MiB, the limit of ricochetd.
 
 #ifndef RICOCHET_CLIENT_CLI_EXPLORE_WEB_SERVER_H_
 #define RICOCHET_CLIENT_CLI_EXPLORE_WEB_SERVER_H_
 
-#include <cstddef>
 #include <functional>
 #include <memory>
 #include <string>
@@ -23,9 +22,6 @@ struct mg_context;
 
 namespace ricochet::cli {
 
-// The most bytes that the body of a request may have, which is the limit of ricochetd for a message.
-inline constexpr size_t kMostBodyBytes = size_t{1} << 20;
-
 // Returns 32 random hexadecimal digits that nobody can guess.
 std::string RandomHex();
 
@@ -35,21 +31,16 @@ class Exchange {
   explicit Exchange(mg_connection* connection) : connection_(connection) {}
 
   absl::string_view method() const;
-  absl::string_view path() const;                  // "/ricochet.v1.ImpactService/Solve".
-  std::string Query(const std::string& name) const;   // Empty if there is no such parameter.
-  std::string Header(const std::string& name) const;  // Empty if there is none.
+  absl::string_view path() const;  // "/ricochet.v1.ImpactService/Solve".
+  // These return nothing for what the request does not have.
+  std::string Query(const std::string& name) const;
+  std::string Header(const std::string& name) const;
 
-  // Reads the whole body. Errors: RESOURCE_EXHAUSTED above kMostBodyBytes, DATA_LOSS if the body ends early or comes too
-  // slowly.
+  // Reads the whole body. Errors: RESOURCE_EXHAUSTED for one that is too long, DATA_LOSS for one that comes too slowly.
   absl::StatusOr<std::string> Body();
 
-  // Sends a whole answer. `headers` are further lines, each with CRLF.
+  // Answers. `headers` are further lines, each with CRLF.
   void Reply(int status, absl::string_view type, absl::string_view body, absl::string_view headers = "");
-
-  // Sends an answer in parts. Each of the last two returns false once the client has gone.
-  void BeginParts(absl::string_view type);
-  bool SendPart(absl::string_view part);
-  bool EndParts();
 
  private:
   mg_connection* connection_;
@@ -61,9 +52,8 @@ class WebServer {
     std::string host;  // An IP address, with brackets if it is one of IPv6.
     int port = 0;      // 0 lets the system choose.
     std::string token;
-    std::function<void(Exchange&)> answer;  // Called by several threads at once.
-    // Called for a request that is refused before `answer` sees it.
-    std::function<void(Exchange&, const absl::Status&)> refuse;
+    // Answers a request, or one that was refused. Several threads call it at once.
+    std::function<void(Exchange&, const absl::Status& allowed)> answer;
   };
 
   // Starts to serve. Errors: UNAVAILABLE if it cannot listen there.
@@ -80,7 +70,6 @@ class WebServer {
  private:
   explicit WebServer(Options options) : options_(std::move(options)) {}
   absl::Status Listen();
-  // Returns why a request gets no answer, or OK.
   absl::Status Check(const Exchange& exchange) const;
   bool IsOwn(absl::string_view authority) const;
   static int Handle(mg_connection* connection, void* server);

@@ -38,15 +38,14 @@ std::string WordsJson(const EnumDescriptor& type, Words words) {
 
 // `more` is what the page starts with beside its words: further members of the object, or nothing.
 std::string PageOf(const std::string& more, const std::string& nonce) {
-  const std::string regimes = WordsJson(*v1::Regime_descriptor(),
-                                        [](int number) { return RegimeSentence(static_cast<Regime>(number)); });
-  const std::string events = WordsJson(*v1::Event::Kind_descriptor(),
-                                       [](int number) { return EventText(static_cast<EventKind>(number)); });
-  const std::string terminations = WordsJson(*v1::Termination_descriptor(), [](int number) {
-    return TerminationText(static_cast<Termination>(number));
-  });
-  const std::string start = absl::StrCat("{\"regimes\":", regimes, ",\"events\":", events, ",\"terminations\":",
-                                         terminations, more, "}");
+  const std::string regimes =
+      WordsJson(*v1::Regime_descriptor(), [](int number) { return RegimeSentence(static_cast<Regime>(number)); });
+  const std::string events =
+      WordsJson(*v1::Event::Kind_descriptor(), [](int number) { return EventText(static_cast<EventKind>(number)); });
+  const std::string terminations = WordsJson(
+      *v1::Termination_descriptor(), [](int number) { return TerminationText(static_cast<Termination>(number)); });
+  const std::string start =
+      absl::StrCat("{\"regimes\":", regimes, ",\"events\":", events, ",\"terminations\":", terminations, more, "}");
   // The end of the element must not stand in a text of the JSON.
   return absl::StrReplaceAll(kImpactPage,
                              {{"{{nonce}}", nonce}, {"{{start}}", absl::StrReplaceAll(start, {{"<", "\\u003c"}})}});
@@ -54,7 +53,7 @@ std::string PageOf(const std::string& more, const std::string& nonce) {
 
 // Returns `,"name":{"request":...,"answer":...}`, or with the message of the error in place of the answer.
 std::string PairJson(const char* name, const google::protobuf::Message& request,
-                       const absl::StatusOr<std::string>& answer) {
+                     const absl::StatusOr<std::string>& answer) {
   std::string text = absl::StrCat(",\"", name, "\":{\"request\":", SparseJsonOf(request));
   if (answer.ok()) return absl::StrCat(text, ",\"answer\":", *answer, "}");
   text += ",\"error\":{\"message\":";
@@ -74,10 +73,9 @@ std::string CurvesJson(const char* name, const Solver& solver, const Scene& scen
   const double most = std::max(kMostFriction, 1.25 * scene.friction.kinetic_coefficient);
   std::vector<double> friction;
   for (int i = 0; i <= kFrictionSteps; ++i) friction.push_back(most * i / kFrictionSteps);
-  const BatchSetup setup = {
-      .scene = scene,
-      .fields = {"friction.kinetic_coefficient"},
-      .columns = {"coefficients.newton", "coefficients.poisson", "coefficients.energetic"}};
+  const BatchSetup setup = {.scene = scene,
+                            .fields = {"friction.kinetic_coefficient"},
+                            .columns = {"coefficients.newton", "coefficients.poisson", "coefficients.energetic"}};
   v1::SolveBatchRequest request;
   *request.mutable_setup() = ToProto(setup);
   SetInputs({.inputs = {friction}}, 0, friction.size(), request);
@@ -123,9 +121,10 @@ std::string LivePage(const std::optional<Scene>& scene, const std::string& nonce
 std::string FinishedPage(const Solver& solver, const SolveRequest& request, const SolveResponse& response) {
   const Scene& scene = request.scene;
   const BoundsRequest bounds = {.scene = scene};
-  std::string more = absl::StrCat(",\"scene\":", SparseJsonOf(ToProto(scene)), ",\"answers\":{\"solve\":{\"request\":",
-                                  SparseJsonOf(ToProto(request)), ",\"answer\":", JsonOf(ToProto(response)), "}",
-                                  AnswerJson("bounds", bounds, solver.Bounds(bounds)));
+  std::string more =
+      absl::StrCat(",\"scene\":", SparseJsonOf(ToProto(scene)),
+                   ",\"answers\":{\"solve\":{\"request\":", SparseJsonOf(ToProto(request)),
+                   ",\"answer\":", JsonOf(ToProto(response)), "}", AnswerJson("bounds", bounds, solver.Bounds(bounds)));
   more += LawsJson(solver, scene);
   if (response.outcome.timeline.size() > 1 && TangentialDirections(scene.system) == 2) {
     const AuditBatchRequest path = {.scene = scene, .columns = PartsOfTheWay(response.outcome, kPathIntervals)};
