@@ -13,7 +13,7 @@
 #include "client/cli/explore/web_server.h"
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
-#include "client/cli/report/impact_page.h"
+#include "client/cli/explore/impact_page.h"
 #include "client/cli/subcommands.h"
 #include "client/cli/terminal/interrupt.h"
 #include "client/cli/text/number_input.h"

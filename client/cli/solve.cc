@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "absl/strings/str_cat.h"
+#include "client/cli/explore/impact_page.h"
 #include "client/cli/input/certificate_report.h"
 #include "client/cli/input/demand_input.h"
 #include "client/cli/input/file_option.h"
@@ -12,7 +13,6 @@
 #include "client/cli/input/scene_input.h"
 #include "client/cli/io/output.h"
 #include "client/cli/plot/picture_input.h"
-#include "client/cli/report/impact_page.h"
 #include "client/cli/report/plan_report.h"
 #include "client/cli/report/solve_plot.h"
 #include "client/cli/report/solve_report.h"

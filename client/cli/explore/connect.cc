@@ -53,18 +53,6 @@ std::string DetailText(const google::protobuf::Any& any) {
                       "\",\"debug\":", json, "}");
 }
 
-std::string ErrorText(const absl::Status& status) {
-  const grpc::Status sent = ToGrpcStatus(status);
-  std::string text = absl::StrCat("{\"code\":\"", kCodes.at(static_cast<size_t>(status.code())), "\",\"message\":");
-  AppendJson(sent.error_message(), text);
-  google::rpc::Status proto;
-  proto.ParseFromString(sent.error_details());
-  for (int i = 0; i < proto.details_size(); ++i) {
-    absl::StrAppend(&text, i == 0 ? ",\"details\":[" : ",", DetailText(proto.details(i)));
-  }
-  return text + (proto.details().empty() ? "}" : "]}");
-}
-
 // --- Calls: the JSON text of the answer to a request in JSON ---
 
 using Answer = absl::StatusOr<std::string>;
@@ -118,7 +106,7 @@ absl::Status AppendStudy(const Solver& solver, const std::string& body, const Ca
 Answer AnswerCost(const Solver& solver, const std::string& body, const CallOptions& options) {
   std::string text;
   const absl::Status status = AppendStudy(solver, body, options, text);
-  return text + Enveloped(kLast, status.ok() ? "{}" : absl::StrCat("{\"error\":", ErrorText(status), "}"));
+  return text + Enveloped(kLast, status.ok() ? "{}" : absl::StrCat("{\"error\":", ErrorJson(status), "}"));
 }
 
 struct Method {
@@ -156,8 +144,25 @@ Answer Ask(const Method& method, const Solver& solver, const std::stop_token& st
 
 }  // namespace
 
+std::string ErrorJson(const absl::Status& status) {
+  const grpc::Status sent = ToGrpcStatus(status);
+  std::string text = absl::StrCat("{\"code\":\"", kCodes.at(static_cast<size_t>(status.code())), "\",\"message\":");
+  AppendJson(sent.error_message(), text);
+  google::rpc::Status proto;
+  proto.ParseFromString(sent.error_details());
+  for (int i = 0; i < proto.details_size(); ++i) {
+    absl::StrAppend(&text, i == 0 ? ",\"details\":[" : ",", DetailText(proto.details(i)));
+  }
+  return text + (proto.details().empty() ? "}" : "]}");
+}
+
+absl::StatusOr<std::string> AskInJson(const Solver& solver, absl::string_view method, const std::string& body) {
+  const auto* found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == method; });
+  return found->answer(solver, body, {});
+}
+
 void ReplyError(const absl::Status& status, Exchange& exchange) {
-  exchange.Reply(kStatuses.at(static_cast<size_t>(status.code())), kJson, ErrorText(status));
+  exchange.Reply(kStatuses.at(static_cast<size_t>(status.code())), kJson, ErrorJson(status));
 }
 
 void AnswerConnect(const Solver& solver, const std::stop_token& stop, Exchange& exchange) {
@@ -165,7 +170,7 @@ void AnswerConnect(const Solver& solver, const std::stop_token& stop, Exchange& 
     return exchange.path() == absl::StrCat(kService, one.name);
   });
   const auto refuse = [&](int http, const std::string& why, const std::string& header) {
-    exchange.Reply(http, kJson, ErrorText(absl::UnimplementedError(why)), header);
+    exchange.Reply(http, kJson, ErrorJson(absl::UnimplementedError(why)), header);
   };
   if (method == kMethods.end())
     return refuse(404, absl::StrCat(exchange.path(), " is no call that is served here"), "");

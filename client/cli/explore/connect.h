@@ -10,8 +10,11 @@
 #define RICOCHET_CLIENT_CLI_EXPLORE_CONNECT_H_
 
 #include <stop_token>
+#include <string>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
+#include "absl/strings/string_view.h"
 #include "client/cli/explore/web_server.h"
 #include "ricochet/solver.h"
 
@@ -20,6 +23,12 @@ namespace ricochet::cli {
 // Answers a request. A call takes at most a minute, as in ricochetd, or the time that the client allows
 // (Connect-Timeout-Ms), and ends when `stop` says so.
 void AnswerConnect(const Solver& solver, const std::stop_token& stop, Exchange& exchange);
+
+// Asks for a call of one answer by its name, as "Solve", with a request in JSON, and returns the answer in JSON.
+absl::StatusOr<std::string> AskInJson(const Solver& solver, absl::string_view method, const std::string& body);
+
+// Returns {"code": ..., "message": ..., "details": [...]}.
+std::string ErrorJson(const absl::Status& status);
 
 // Answers with an error.
 void ReplyError(const absl::Status& status, Exchange& exchange);
