@@ -29,6 +29,7 @@ std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Comman
   AddAudit(*app, command);
   AddScene(*app, command);
   AddCost(*app, command);
+  AddExplore(*app, command);
   AddInfo(*app, command);
   AddHealth(*app, command);
   app->footer(

@@ -3,11 +3,13 @@
 #include <string>
 
 #include "absl/strings/str_cat.h"
+#include "client/cli/explore/impact_page.h"
 #include "client/cli/input/certificate_report.h"
 #include "client/cli/input/demand_input.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
+#include "client/cli/io/output.h"
 #include "client/cli/plot/picture_input.h"
 #include "client/cli/report/plan_report.h"
 #include "client/cli/report/solve_plot.h"
@@ -50,8 +52,12 @@ struct SolveOptions {
   bool strict = false;
   bool both_ends = false;
   PictureOptions picture;
+  std::string html;
   DataOptions data;
 };
+
+// True for the options that draw the impact.
+bool Draws(const SolveOptions& options) { return !options.picture.file.empty() || !options.html.empty(); }
 
 std::string Text(const Outcome& outcome, const SolveOptions& options) {
   std::string text = SolveText(outcome);
@@ -71,9 +77,10 @@ std::string Csv(const Outcome& outcome, const SolveOptions& options) {
 absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
   if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || options.strict ||
-      !options.picture.file.empty() || options.both_ends) {
+      Draws(options) || options.both_ends) {
     return absl::InvalidArgumentError(
-        "--plan-only cannot be combined with --history, --force-history, --certified, --strict, --both-ends or --plot");
+        "--plan-only cannot be combined with --history, --force-history, --certified, --strict, --both-ends, --plot or "
+        "--html");
   }
   const absl::StatusOr<PlanResponse> response = solver.Plan({.scene = scene, .demand = demand});
   if (!response.ok()) return response.status();
@@ -84,11 +91,11 @@ absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Sc
 // Solves the rows of a table.
 absl::Status RunData(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
-  if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() ||
-      !options.picture.file.empty() || options.explain || options.plan_only || options.both_ends) {
+  if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || Draws(options) ||
+      options.explain || options.plan_only || options.both_ends) {
     return absl::InvalidArgumentError(
-        "--data cannot be combined with --history, --force-history, --certified, --plot, --explain, --both-ends or "
-        "--plan-only");
+        "--data cannot be combined with --history, --force-history, --certified, --plot, --html, --explain, --both-ends "
+        "or --plan-only");
   }
   DataOptions data = options.data;
   data.strict = options.strict;
@@ -129,7 +136,12 @@ absl::Status RunSolve(const SolveOptions& options) {
   absl::Status written = WriteAnswer(
       options.common, *response, [&] { return Text(response->outcome, options); },
       [&] { return Csv(response->outcome, options); });
-  if (!written.ok() || options.picture.file.empty()) return written;
+  if (!written.ok()) return written;
+  if (!options.html.empty()) {
+    if (absl::Status page = WriteFile(options.html, FinishedPage(**solver, request, *response)); !page.ok())
+      return page;
+  }
+  if (options.picture.file.empty()) return absl::OkStatus();
   return DrawPicture(SolvePlot(**solver, request, *response), options.picture);
 }
 
@@ -155,6 +167,12 @@ void AddSolve(CLI::App& app, Command& command) {
                 "Fail if the outcome is inadmissible; with --data, if one is or has no numbers, after writing all");
   AddPictureOptions(*sub, "velocities and forces over impulse or time, and in space also the slip,", options->picture);
   AddAxisOptions(*sub, options->picture);
+  MarkFile(FileUse::kWritten,
+           sub->add_option("--html", options->html,
+                           "Write the pictures of `ricochet explore` as one page that needs nothing beside it; - for "
+                           "standard output"),
+           {"html", "htm"})
+      ->type_name("FILE.html");
   MarkFile(
       FileUse::kRead,
       sub->add_option("--data", options->data.file,

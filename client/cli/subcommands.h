@@ -14,6 +14,7 @@ namespace ricochet::cli {
 void AddAudit(CLI::App& app, Command& command);
 void AddBounds(CLI::App& app, Command& command);
 void AddCost(CLI::App& app, Command& command);
+void AddExplore(CLI::App& app, Command& command);
 void AddHealth(CLI::App& app, Command& command);
 void AddInfo(CLI::App& app, Command& command);
 void AddMerge(CLI::App& app, Command& command);

@@ -147,4 +147,19 @@ void BatchExchange::Close(const BatchSummary& summary, const EngineInfo& engine,
   ToProto(engine, *response.mutable_engine());
 }
 
+absl::StatusOr<BatchSummary> BatchExchange::Answer(BatchSession& session, size_t columns,
+                                                   const v1::SolveBatchRequest& request,
+                                                   v1::SolveBatchResponse& response) {
+  if (absl::Status wrong = OpenInputs(request); !wrong.ok()) return wrong;
+  if (absl::Status too_large = session.CheckSize(row_count()); !too_large.ok()) return too_large;
+  OpenOutputs(columns, response);
+  absl::StatusOr<BatchSummary> summary = session.Solve(rows());
+  if (summary.ok()) {
+    Close(*summary, session.engine(), response);
+  } else {
+    response.Clear();
+  }
+  return summary;
+}
+
 }  // namespace ricochet

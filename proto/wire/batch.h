@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "absl/status/status.h"
+#include "absl/status/statusor.h"
 #include "absl/types/span.h"
 #include "ricochet/batch.h"
 #include "ricochet/v1/batch.pb.h"
@@ -42,6 +43,11 @@ class BatchExchange {
 
   // Completes the response once the rows are solved.
   void Close(const BatchSummary& summary, const EngineInfo& engine, v1::SolveBatchResponse& response);
+
+  // Lets `session`, whose setup has `columns` columns, answer `request`: all of the above. The response is empty after
+  // an error. Errors: those of OpenInputs and of BatchSession.
+  absl::StatusOr<BatchSummary> Answer(BatchSession& session, size_t columns, const v1::SolveBatchRequest& request,
+                                      v1::SolveBatchResponse& response);
 
  private:
   BatchRows rows_;

@@ -35,17 +35,9 @@ absl::Status BatchAnswer::Fill(const v1::SolveBatchRequest& request, v1::SolveBa
     if (!session.ok()) return session.status();
     session_.emplace(*std::move(session));
   }
-  if (absl::Status wrong = exchange_.OpenInputs(request); !wrong.ok()) return wrong;
-  if (absl::Status too_large = session_->CheckSize(exchange_.row_count()); !too_large.ok()) return too_large;
-  exchange_.OpenOutputs(setup_.columns.size(), response);
-  const absl::StatusOr<BatchSummary> summary = session_->Solve(exchange_.rows());
-  if (!summary.ok()) {
-    response.Clear();
-    return summary.status();
-  }
-  Count(*summary, record);
-  exchange_.Close(*summary, session_->engine(), response);
-  return absl::OkStatus();
+  const absl::StatusOr<BatchSummary> summary = exchange_.Answer(*session_, setup_.columns.size(), request, response);
+  if (summary.ok()) Count(*summary, record);
+  return summary.status();
 }
 
 }  // namespace ricochet::server

@@ -30,11 +30,12 @@ absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options) {
   return ClientOptionsOf(*connection);
 }
 
-absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads) {
+absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads,
+                                                   const Limits& limits) {
   const absl::StatusOr<ConnectionInput> connection = Resolve(options.connection);
   if (!connection.ok()) return connection.status();
   if (connection->server.empty()) {
-    return std::make_unique<LocalSolver>(Limits::None(), threads.value_or(AvailableCores()));
+    return std::make_unique<LocalSolver>(limits, threads.value_or(AvailableCores()));
   }
   if (absl::Status status = CheckThreads(*connection, threads); !status.ok()) return status;
   const absl::StatusOr<ClientOptions> client = ClientOptionsOf(*connection);

@@ -17,8 +17,9 @@ namespace ricochet::cli {
 absl::StatusOr<ClientOptions> MakeClientOptions(const CommonOptions& options);
 
 // Returns a LocalSolver, or a Client if a server is given. `threads` are those of the LocalSolver, >= 1; absent: one
-// for each core. Errors: INVALID_ARGUMENT, also for threads beside a server.
-absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads = {});
+// for each core; `limits` are its, too. Errors: INVALID_ARGUMENT, also for threads beside a server.
+absl::StatusOr<std::unique_ptr<Solver>> MakeSolver(const CommonOptions& options, std::optional<int> threads = {},
+                                                   const Limits& limits = Limits::None());
 
 // Returns a Client whose sweeps all servers of --server compute together. Errors: INVALID_ARGUMENT, also for less than
 // two servers and for threads.

@@ -264,22 +264,24 @@ absl::Status ReadMessage(const std::string& path, google::protobuf::Message& mes
 
 absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message) {
   const std::string name = path == "-" ? "standard input" : path;
-  const std::string type = message.GetTypeName();
-  if (IsJson(path, text)) {
-    const absl::StatusOr<std::string> flat = WithFlatMatrices(text);
-    std::string wrong(flat.ok() ? ExplainJson(*flat, *message.GetDescriptor()) : flat.status().message());
-    if (wrong.empty()) {
-      const auto status = google::protobuf::util::JsonStringToMessage(*flat, &message);
-      if (status.ok()) return absl::OkStatus();
-      wrong = status.message().ToString();
-    }
-    return absl::InvalidArgumentError(absl::StrCat(name, " is not a ", type, " in JSON: ", wrong));
-  }
+  if (IsJson(path, text)) return ParseJson(name, text, message);
   FirstError error;
   google::protobuf::TextFormat::Parser parser;
   parser.RecordErrorsTo(&error);
   if (parser.ParseFromString(text, &message)) return absl::OkStatus();
-  return absl::InvalidArgumentError(absl::StrCat(name, " is not a ", type, " in textproto: ", error.text));
+  return absl::InvalidArgumentError(
+      absl::StrCat(name, " is not a ", message.GetTypeName(), " in textproto: ", error.text));
+}
+
+absl::Status ParseJson(const std::string& name, const std::string& text, google::protobuf::Message& message) {
+  const absl::StatusOr<std::string> flat = WithFlatMatrices(text);
+  std::string wrong(flat.ok() ? ExplainJson(*flat, *message.GetDescriptor()) : flat.status().message());
+  if (wrong.empty()) {
+    const auto status = google::protobuf::util::JsonStringToMessage(*flat, &message);
+    if (status.ok()) return absl::OkStatus();
+    wrong = status.message().ToString();
+  }
+  return absl::InvalidArgumentError(absl::StrCat(name, " is not a ", message.GetTypeName(), " in JSON: ", wrong));
 }
 
 }  // namespace ricochet::cli

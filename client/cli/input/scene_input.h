@@ -67,6 +67,8 @@ absl::StatusOr<std::string> ReadText(const std::string& path);
 absl::Status ReadMessage(const std::string& path, google::protobuf::Message& message);
 // Reads a message from the text of the file `path`, by the rules of ReadMessage.
 absl::Status ParseMessage(const std::string& path, const std::string& text, google::protobuf::Message& message);
+// Reads a message from JSON; `name` is what the error calls the text. Errors: INVALID_ARGUMENT.
+absl::Status ParseJson(const std::string& name, const std::string& text, google::protobuf::Message& message);
 
 }  // namespace ricochet::cli
 

@@ -165,26 +165,10 @@ Plot DurationPlot(const Outcome& outcome) {
 
 // --- In space ---
 
-// An audit of a velocity between those before and after the impact gives the state of Coulomb's path at that part of
-// the normal impulse, because W is constant.
-AuditColumns PartsOfTheWay(const Outcome& outcome) {
-  const ContactVelocity& from = outcome.timeline.front().state.contact_velocity;
-  const ContactVelocity& to = outcome.timeline.back().state.contact_velocity;
-  AuditColumns columns;
-  for (int i = 0; i <= kPlotIntervals; ++i) {
-    const double part = static_cast<double>(i) / kPlotIntervals;
-    const auto between = [part](double a, double b) { return a + part * (b - a); };
-    columns.tangential_after_m_s.push_back(between(from.tangential_m_s[0], to.tangential_m_s[0]));
-    columns.tangential_2_after_m_s.push_back(between(from.tangential_m_s[1], to.tangential_m_s[1]));
-    columns.normal_after_m_s.push_back(between(from.normal_m_s, to.normal_m_s));
-  }
-  return columns;
-}
-
 // Returns the events of the path, and the states between them that audits of the scene find.
 absl::StatusOr<std::vector<Event>> SpatialPath(const Solver& solver, const Scene& scene, const Outcome& outcome) {
   const absl::StatusOr<AuditBatchResponse> parts =
-      solver.AuditBatch({.scene = scene, .columns = PartsOfTheWay(outcome)});
+      solver.AuditBatch({.scene = scene, .columns = PartsOfTheWay(outcome, kPlotIntervals)});
   if (!parts.ok()) return parts.status();
   std::vector<Event> path = outcome.timeline;
   for (const AuditReport& report : parts->reports) {
@@ -237,6 +221,20 @@ absl::StatusOr<Plot> SpatialPlot(const Solver& solver, const Scene& scene, const
 }
 
 }  // namespace
+
+AuditColumns PartsOfTheWay(const Outcome& outcome, int intervals) {
+  const ContactVelocity& from = outcome.timeline.front().state.contact_velocity;
+  const ContactVelocity& to = outcome.timeline.back().state.contact_velocity;
+  AuditColumns columns;
+  for (int i = 0; i <= intervals; ++i) {
+    const double part = static_cast<double>(i) / intervals;
+    const auto between = [part](double a, double b) { return a + part * (b - a); };
+    columns.tangential_after_m_s.push_back(between(from.tangential_m_s[0], to.tangential_m_s[0]));
+    columns.tangential_2_after_m_s.push_back(between(from.tangential_m_s[1], to.tangential_m_s[1]));
+    columns.normal_after_m_s.push_back(between(from.normal_m_s, to.normal_m_s));
+  }
+  return columns;
+}
 
 absl::StatusOr<Plot> SolvePlot(const Solver& solver, const SolveRequest& request, const SolveResponse& response) {
   const Outcome& outcome = response.outcome;

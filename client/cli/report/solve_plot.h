@@ -21,6 +21,11 @@ absl::StatusOr<Plot> SolvePlot(const Solver& solver, const SolveRequest& request
 
 inline constexpr int kPlotIntervals = 400;
 
+// Returns velocities after an impact in space, so many and one, from that before the impact to that after it. W is
+// constant, so that an audit of each gives the state of Coulomb's path at that part of the normal impulse. The outcome
+// must have a timeline.
+AuditColumns PartsOfTheWay(const Outcome& outcome, int intervals);
+
 }  // namespace ricochet::cli
 
 #endif  // RICOCHET_CLIENT_CLI_REPORT_SOLVE_PLOT_H_

@@ -17,76 +17,10 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Message;
 using google::protobuf::Reflection;
 
-const char* Sentence(Regime regime) {
-  switch (regime) {
-    case Regime::kFrictionless:
-      return "Frictionless: friction does not couple normal and tangential motion.";
-    case Regime::kRebound:
-      return "Rebound: slip reverses at the end of compression, and the contact separates.";
-    case Regime::kSliding:
-      return "Sliding: slip never stops.";
-    case Regime::kStickInCompression:
-      return "Slip stops in compression and the contact sticks.";
-    case Regime::kStickInRestitution:
-      return "Slip stops in restitution and the contact sticks.";
-    case Regime::kReversalInCompression:
-      return "Slip reverses in compression.";
-    case Regime::kReversalInRestitution:
-      return "Slip reverses in restitution.";
-    case Regime::kLocked:
-      return "Locked: friction and the pin hold the body; it does not rebound.";
-    case Regime::kWedged:
-      return "Wedged: the contact had not separated when the computation ended.";
-    case Regime::kSeparating:
-      return "Separating: the contact does not approach; nothing changes.";
-    case Regime::kByLaw:
-      return "Impact law: it gives the end of the impact, but not its phases.";
-    case Regime::kNoSolution:
-      return "No solution: the impact law has no solution for this contact.";
-    case Regime::kUnspecified:
-    case Regime::kInvalid:
-      break;
-  }
-  return "Unknown: the server answered with a regime that this build does not know.";
-}
-
-// Says why the outcome is not an answer; empty if it is one.
-std::string TerminationText(Termination termination) {
-  switch (termination) {
-    case Termination::kBudgetUsedUp:
-      return "Not converged: the model's budget of steps ran out before the contact separated.\n";
-    case Termination::kRefused:
-      return "No answer: the contact never separates, rounding has destroyed its path, or the law has no solution.\n";
-    case Termination::kLessAccurate:
-      return "Less accurate than asked: the stated error exceeds the tolerance.\n";
-    case Termination::kUnspecified:
-    case Termination::kConverged:
-      break;
-  }
-  return "";
-}
+// Ends a line, if there is one.
+std::string LineOf(const std::string& text) { return text.empty() ? "" : text + "\n"; }
 
 std::string IfKnown(const std::optional<double>& value) { return value.has_value() ? Rounded(*value) : "unknown"; }
-
-const char* EventText(EventKind kind) {
-  switch (kind) {
-    case EventKind::kStart:
-      return "contact starts";
-    case EventKind::kSlipStops:
-      return "slip stops";
-    case EventKind::kCompressionEnds:
-      return "compression ends";
-    case EventKind::kRestitutionEnds:
-      return "restitution ends";
-    case EventKind::kSlipStarts:
-      return "slip starts";
-    case EventKind::kStickStarts:
-      return "stick starts";
-    case EventKind::kUnspecified:
-      break;
-  }
-  return "?";
-}
 
 const char* LimitText(LimitKind kind) {
   switch (kind) {
@@ -225,8 +159,8 @@ std::string EndsText(const Outcome& outcome) {
   AddMotion("tangential impulse [N s]", outcome.impulse.tangential_n_s, free.impulse.tangential_n_s, table);
   AddMotion("normal impulse [N s]", {outcome.impulse.normal_total_n_s}, {free.impulse.normal_total_n_s}, table);
   AddMotion("Newton's coefficient", {outcome.coefficients.newton}, {free.coefficients.newton}, table);
-  return absl::StrCat("\nBoth ends\n", table.Render(2), "  With nothing held: ", Sentence(free.regime), "\n",
-                      TerminationText(free.termination));
+  return absl::StrCat("\nBoth ends\n", table.Render(2), "  With nothing held: ", RegimeSentence(free.regime), "\n",
+                      LineOf(TerminationText(free.termination)));
 }
 
 // Lists every solution of an impact law that can have several.
@@ -405,11 +339,80 @@ std::string RowsOf(const Messages& messages) {
 
 }  // namespace
 
+const char* TerminationText(Termination termination) {
+  switch (termination) {
+    case Termination::kBudgetUsedUp:
+      return "Not converged: the model's budget of steps ran out before the contact separated.";
+    case Termination::kRefused:
+      return "No answer: the contact never separates, rounding has destroyed its path, or the law has no solution.";
+    case Termination::kLessAccurate:
+      return "Less accurate than asked: the stated error exceeds the tolerance.";
+    case Termination::kUnspecified:
+    case Termination::kConverged:
+      break;
+  }
+  return "";
+}
+
+const char* RegimeSentence(Regime regime) {
+  switch (regime) {
+    case Regime::kFrictionless:
+      return "Frictionless: friction does not couple normal and tangential motion.";
+    case Regime::kRebound:
+      return "Rebound: slip reverses at the end of compression, and the contact separates.";
+    case Regime::kSliding:
+      return "Sliding: slip never stops.";
+    case Regime::kStickInCompression:
+      return "Slip stops in compression and the contact sticks.";
+    case Regime::kStickInRestitution:
+      return "Slip stops in restitution and the contact sticks.";
+    case Regime::kReversalInCompression:
+      return "Slip reverses in compression.";
+    case Regime::kReversalInRestitution:
+      return "Slip reverses in restitution.";
+    case Regime::kLocked:
+      return "Locked: friction and the pin hold the body; it does not rebound.";
+    case Regime::kWedged:
+      return "Wedged: the contact had not separated when the computation ended.";
+    case Regime::kSeparating:
+      return "Separating: the contact does not approach; nothing changes.";
+    case Regime::kByLaw:
+      return "Impact law: it gives the end of the impact, but not its phases.";
+    case Regime::kNoSolution:
+      return "No solution: the impact law has no solution for this contact.";
+    case Regime::kUnspecified:
+    case Regime::kInvalid:
+      break;
+  }
+  return "Unknown: the server answered with a regime that this build does not know.";
+}
+
+const char* EventText(EventKind kind) {
+  switch (kind) {
+    case EventKind::kStart:
+      return "contact starts";
+    case EventKind::kSlipStops:
+      return "slip stops";
+    case EventKind::kCompressionEnds:
+      return "compression ends";
+    case EventKind::kRestitutionEnds:
+      return "restitution ends";
+    case EventKind::kSlipStarts:
+      return "slip starts";
+    case EventKind::kStickStarts:
+      return "stick starts";
+    case EventKind::kUnspecified:
+      break;
+  }
+  return "?";
+}
+
 std::string SolveText(const Outcome& outcome) {
-  std::string text = absl::StrCat(Sentence(outcome.regime), "\n", TerminationText(outcome.termination),
-                                  Verdict(outcome), NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n",
-                                  MotionText(outcome), BodiesText(outcome.bodies_after), CoordinatesText(outcome), "\n",
-                                  ImpulseText(outcome.impulse), "\n", WorkText(outcome));
+  std::string text =
+      absl::StrCat(RegimeSentence(outcome.regime), "\n", LineOf(TerminationText(outcome.termination)), Verdict(outcome),
+                   NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n", MotionText(outcome),
+                   BodiesText(outcome.bodies_after), CoordinatesText(outcome), "\n", ImpulseText(outcome.impulse), "\n",
+                   WorkText(outcome));
   if (outcome.contact.has_value()) text += ContactText(*outcome.contact);
   text += EndsText(outcome);
   text += AlternativesText(outcome);

@@ -9,6 +9,15 @@
 
 namespace ricochet::cli {
 
+// Returns what the contact does, as a sentence.
+const char* RegimeSentence(Regime regime);
+
+// Says in a sentence why the outcome is not an answer; empty if it is one.
+const char* TerminationText(Termination termination);
+
+// Returns what happens in an event: "slip stops".
+const char* EventText(EventKind kind);
+
 // Returns tables with units, to six digits.
 std::string SolveText(const Outcome& outcome);
 

@@ -1,0 +1,158 @@
+#include "client/cli/explore/web_server.h"
+
+#include <civetweb.h>
+#include <sys/random.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/escaping.h"
+#include "absl/strings/numbers.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "client/server_address.h"
+
+namespace ricochet::cli {
+namespace {
+
+// A connection holds a thread while it is open, and a browser opens six. The others are for those who send half of a
+// request and then nothing, which takes kSlowest.
+constexpr char kThreads[] = "64";
+constexpr char kSlowest[] = "5000";  // ms.
+
+constexpr size_t kMostBodyBytes = size_t{1} << 20;
+
+// Nothing that a browser could make of an answer beside its purpose.
+constexpr char kHeaders[] =
+    "Cache-Control: no-store\r\nX-Content-Type-Options: nosniff\r\nReferrer-Policy: no-referrer\r\n"
+    "Cross-Origin-Resource-Policy: same-origin\r\nCross-Origin-Opener-Policy: same-origin\r\n";
+
+// Takes the same time wherever two texts of one length differ, so that the time tells nobody how much was right.
+bool IsSame(absl::string_view a, absl::string_view b) {
+  unsigned difference = a.size() == b.size() ? 0 : 1;
+  for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) difference |= static_cast<unsigned>(a[i] ^ b[i]);
+  return difference == 0;
+}
+
+}  // namespace
+
+std::string RandomHex() {
+  std::array<char, 16> bytes = {};
+  if (getrandom(bytes.data(), bytes.size(), 0) != static_cast<ssize_t>(bytes.size())) std::abort();
+  return absl::BytesToHexString({bytes.data(), bytes.size()});
+}
+
+absl::string_view Exchange::method() const { return mg_get_request_info(connection_)->request_method; }
+
+absl::string_view Exchange::path() const { return mg_get_request_info(connection_)->local_uri; }
+
+std::string Exchange::Query(const std::string& name) const {
+  const char* const query = mg_get_request_info(connection_)->query_string;
+  std::array<char, 256> value = {};
+  if (query == nullptr) return "";
+  return mg_get_var(query, std::strlen(query), name.c_str(), value.data(), value.size()) < 0 ? "" : value.data();
+}
+
+std::string Exchange::Header(const std::string& name) const {
+  const char* const value = mg_get_header(connection_, name.c_str());
+  return value == nullptr ? "" : value;
+}
+
+absl::StatusOr<std::string> Exchange::Body() {
+  const int64_t length = mg_get_request_info(connection_)->content_length;  // < 0 if the request does not say it.
+  std::string body;
+  std::vector<char> buffer(size_t{64} << 10);
+  int count = 1;
+  while (count > 0 && body.size() <= kMostBodyBytes && length <= static_cast<int64_t>(kMostBodyBytes)) {
+    count = mg_read(connection_, buffer.data(), buffer.size());
+    body.append(buffer.data(), static_cast<size_t>(std::max(count, 0)));
+  }
+  if (count == 0 && static_cast<int64_t>(body.size()) >= length) return body;
+  mg_disable_connection_keep_alive(connection_);
+  if (count > 0)
+    return absl::ResourceExhaustedError(absl::StrCat("the body must have at most ", kMostBodyBytes, " bytes"));
+  return absl::DataLossError(absl::StrCat("only ", body.size(), " bytes of the body came in time"));
+}
+
+void Exchange::Reply(int status, absl::string_view type, absl::string_view body, absl::string_view headers) {
+  const std::string text = absl::StrCat("HTTP/1.1 ", status, " ", mg_get_response_code_text(connection_, status),
+                                        "\r\nContent-Type: ", type, "\r\nContent-Length: ", body.size(), "\r\n",
+                                        kHeaders, headers, "\r\n", method() == "HEAD" ? "" : body);
+  mg_write(connection_, text.data(), text.size());
+}
+
+absl::StatusOr<std::unique_ptr<WebServer>> WebServer::Start(Options options) {
+  std::unique_ptr<WebServer> server(new WebServer(std::move(options)));
+  if (absl::Status listening = server->Listen(); !listening.ok()) return listening;
+  return server;
+}
+
+absl::Status WebServer::Listen() {
+  mg_init_library(0);
+  const std::string where = authority();
+  const std::array<const char*, 17> settings = {
+      "listening_ports", where.c_str(), "num_threads", kThreads, "request_timeout_ms", kSlowest, "enable_keep_alive",
+      "yes", "keep_alive_timeout_ms", kSlowest, "tcp_nodelay", "1",
+      // civetweb would itself allow every origin.
+      "access_control_allow_origin", "", "access_control_allow_methods", "", nullptr};
+  std::array<char, 256> reason = {};
+  auto* options = const_cast<const char**>(settings.data());
+  mg_init_data how = {.callbacks = nullptr, .user_data = this, .configuration_options = options};
+  mg_error_data error = {.code = nullptr, .text = reason.data(), .text_buffer_size = reason.size()};
+  web_ = mg_start2(&how, &error);
+  if (web_ == nullptr) return absl::UnavailableError(absl::StrCat("cannot listen at ", where, ": ", reason.data()));
+  mg_server_port port = {};
+  if (mg_get_server_ports(web_, 1, &port) == 1) options_.port = port.port;
+  mg_set_request_handler(web_, "/", &Handle, this);
+  return absl::OkStatus();
+}
+
+WebServer::~WebServer() {
+  if (web_ != nullptr) mg_stop(web_);
+  mg_exit_library();
+}
+
+std::string WebServer::authority() const { return absl::StrCat(options_.host, ":", options_.port); }
+
+// Only a name can be bound to another address than its owner's, so that every address is good beyond loopback, where
+// this server may have several.
+bool WebServer::IsOwn(absl::string_view authority) const {
+  const size_t colon = authority.rfind(':');
+  int port = 0;
+  if (colon == absl::string_view::npos || !absl::SimpleAtoi(authority.substr(colon + 1), &port)) return false;
+  if (port != options_.port) return false;
+  if (IsLoopbackAddress(authority)) return true;
+  const bool is_address = authority.front() == '[' || authority.find_first_not_of("0123456789.:") == authority.npos;
+  return is_address && !IsLoopbackAddress(options_.host);
+}
+
+absl::Status WebServer::Check(const Exchange& exchange) const {
+  const std::string host = exchange.Header("Host");
+  if (!IsOwn(host)) return absl::PermissionDeniedError(absl::StrCat("Host ", host, ": must be ", authority()));
+  const std::string origin = exchange.Header("Origin");
+  absl::string_view sender = origin;
+  if (!origin.empty() && !(absl::ConsumePrefix(&sender, "http://") && IsOwn(sender))) {
+    return absl::PermissionDeniedError(absl::StrCat("Origin ", origin, ": must be http://", authority(), " or absent"));
+  }
+  const std::string header = exchange.Header("Authorization");
+  if (IsSame(header, "Bearer " + options_.token) || IsSame(exchange.Query("token"), options_.token)) {
+    return absl::OkStatus();
+  }
+  return absl::UnauthenticatedError(
+      "the token must be that which ricochet explore has printed, as ?token=... or as Authorization: Bearer ...");
+}
+
+int WebServer::Handle(mg_connection* connection, void* server) {
+  const auto& self = *static_cast<const WebServer*>(server);
+  Exchange exchange(connection);
+  const absl::Status allowed = self.Check(exchange);
+  if (!allowed.ok()) mg_disable_connection_keep_alive(connection);
+  self.options_.answer(exchange, allowed);
+  return 1;
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,293 @@
+"""Uses the page of `ricochet explore` as a visitor does, in headless Chromium: drags, keys, links, screenshots. What it
+shows is compared with what `ricochet solve` answers to the scene that the page copies out.
+
+usage: explore_page.py RICOCHET DIRECTORY
+
+It needs chromium and chromium-driver of Debian, and writes screenshots into the directory.
+"""
+
+import json
+import re
+import subprocess
+import sys
+import time
+import unittest
+from pathlib import Path
+
+from browser import Browser, CUT_OFF, CUT_OFF_IN_PICTURES, SMALLEST_TEXT
+
+DIRECTORY, RICOCHET = [Path(sys.argv.pop()).resolve() for _ in range(2)]
+SCENES = ["pendulum", "rod", "ball", "two", "double", "own"]
+LEAST_TEXT_PX = 10
+SETTLED = "return document.getElementById('verdict').ariaBusy !== 'true' && document.querySelectorAll('#motion tr').length > 0"
+
+# Counts the calls of each kind that are under way, from before the first one.
+COUNT_CALLS = """
+  const ask = window.fetch, now = {};
+  window.most = {};
+  window.fetch = async (address, options) => {
+    const scene = JSON.parse(options.body).setup?.scene ?? JSON.parse(options.body).scene;
+    const kind = address.split('/').pop() + ' ' + JSON.stringify(scene.restitution);
+    now[kind] = (now[kind] ?? 0) + 1;
+    window.most[kind] = Math.max(window.most[kind] ?? 0, now[kind]);
+    try { return await ask(address, options); } finally { --now[kind]; }
+  };"""
+
+# What can be used: with the keys, a group of radio buttons is one thing.
+USABLE = """
+  return [...document.querySelectorAll('button, input, textarea, summary, .handle')].filter(
+    one => one.checkVisibility() && !one.disabled && (one.type !== 'radio' || one.checked)).length"""
+
+
+def ricochet(*arguments):
+    return subprocess.run([RICOCHET, *arguments], check=True, capture_output=True, text=True, timeout=60).stdout
+
+
+def number(text):
+    """The number that the page shows."""
+    powers = str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹−", "-0123456789-")
+    return float(re.sub(r"·10([⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)", r"e\1", text).translate(powers))
+
+
+class ExplorePageTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        DIRECTORY.mkdir(parents=True, exist_ok=True)
+        cls.engine = subprocess.Popen([RICOCHET, "explore"], stdout=subprocess.PIPE, text=True)
+        cls.addClassCleanup(cls.stop_engine)
+        cls.url = cls.engine.stdout.readline().strip()
+        cls.browser = Browser()
+        cls.addClassCleanup(cls.browser.close)
+
+    @classmethod
+    def stop_engine(cls):
+        cls.engine.terminate()
+        cls.engine.wait(20)
+        cls.engine.stdout.close()
+
+    def open(self, scene, width=1280, scheme="light"):
+        self.browser.look_like(width, scheme)
+        self.browser.open("about:blank")
+        self.browser.open(f"{self.url}#at={scene}")
+        self.settle()
+
+    def settle(self):
+        """Waits until no change is under way, and the answer to the last one is drawn."""
+        time.sleep(0.15)
+        for _ in range(200):
+            if self.browser.script(SETTLED):
+                break
+            time.sleep(0.05)
+        time.sleep(0.15)
+
+    def text(self, selector):
+        return self.browser.script(f"return document.querySelector({json.dumps(selector)}).textContent")
+
+    def place(self, selector):
+        """The middle of an element in the window, which scrolls there."""
+        return self.browser.script(
+            f"const e = document.querySelector({json.dumps(selector)}); e.scrollIntoView({{block: 'center'}});"
+            "const b = e.getBoundingClientRect(); return [b.x + b.width / 2, b.y + b.height / 2];")
+
+    def mouse(self, kind, x, y):
+        self.browser.command("Input.dispatchMouseEvent", type=kind, x=x, y=y, button="left", buttons=1, clickCount=1)
+
+    def drag(self, selector, right, up, steps=12):
+        x, y = self.place(selector)
+        self.mouse("mousePressed", x, y)
+        for i in range(1, steps + 1):
+            self.mouse("mouseMoved", x + right * i / steps, y - up * i / steps)
+        self.mouse("mouseReleased", x + right, y - up)
+        self.settle()
+
+    def key(self, name):
+        for kind in ("keyDown", "keyUp"):
+            self.browser.command("Input.dispatchKeyEvent", type=kind, key=name, code=name,
+                                 windowsVirtualKeyCode={"Tab": 9, "ArrowRight": 39}[name])
+
+    def assert_shows_the_answer_of_its_scene(self):
+        scene = DIRECTORY / "copied.textproto"
+        self.browser.script("[...document.querySelectorAll('#forms button')].find(b => b.textContent == 'textproto').click()")
+        scene.write_text(self.browser.script("return document.getElementById('copied').value"), encoding="utf-8")
+        solved = json.loads(ricochet("solve", "--scene", str(scene), "--format", "json"))["outcome"]
+        sentence = ricochet("solve", "--scene", str(scene)).splitlines()[0]
+        self.assertTrue(self.text("#sentence").startswith(sentence), (self.text("#sentence"), sentence))
+        self.assertEqual(self.text("#state").startswith("✓"), solved["admissible"])
+        rows = self.browser.script("return [...document.querySelectorAll('#motion tr')].map(r => r.children[2].textContent)")
+        after = solved["contact_velocity_after"]
+        for shown, exact in zip(rows, [*after["tangential_m_s"], after["normal_m_s"]]):
+            self.assertAlmostEqual(number(shown), exact, delta=abs(exact) * 1e-4)
+        for law in ("newton", "poisson", "energetic"):
+            shown = self.browser.script(f"return document.querySelector('input[value={law}] ~ b').textContent")
+            exact = solved["coefficients"][law]
+            self.assertAlmostEqual(number(shown), exact, delta=abs(exact) * 1e-4)
+        change = self.browser.script("return [...document.querySelectorAll('#energy .strong')].at(-1).textContent")
+        self.assertAlmostEqual(number(change), solved["energy_change_j"], delta=abs(solved["energy_change_j"]) * 1e-2)
+
+    def test_each_scene_is_drawn_and_right(self):
+        for scene in SCENES:
+            with self.subTest(scene=scene):
+                self.open(scene)
+                self.assert_shows_the_answer_of_its_scene()
+                for picture, least in (("strike", 8), ("course", 12), ("energy", 15), ("over", 20), ("strip", 2)):
+                    self.assertGreaterEqual(self.browser.script(
+                        f"return document.querySelectorAll('#{picture} .layer *').length"), least, picture)
+                self.browser.screenshot(DIRECTORY / f"explore-{scene}.png")
+        self.assertEqual(self.browser.console(), [])
+
+    def test_can_be_read_on_wide_and_narrow_screens(self):
+        for width in (1600, 1280, 800, 400):
+            for scheme in ("light", "dark"):
+                for scene in ("rod", "ball") if width in (1280, 400) else ("double",):
+                    with self.subTest(width=width, scheme=scheme, scene=scene):
+                        self.open(scene, width, scheme)
+                        self.assertEqual(self.browser.script("return document.documentElement.scrollWidth"), width)
+                        self.assertEqual(self.browser.script(CUT_OFF), [])
+                        self.assertEqual(self.browser.script(CUT_OFF_IN_PICTURES), [])
+                        self.assertGreaterEqual(self.browser.script(SMALLEST_TEXT), LEAST_TEXT_PX)
+                        self.browser.screenshot(DIRECTORY / f"explore-{scene}-{width}-{scheme}.png")
+        self.assertEqual(self.browser.console(), [])
+
+    def test_stick_reversal_and_jamming_are_found_by_dragging_alone(self):
+        self.open("pendulum")
+        self.drag("#over .handle", 90, 0)
+        self.assertIn("Locked", self.text("#sentence"))
+        self.assert_shows_the_answer_of_its_scene()
+        self.open("rod")
+        self.assertIn("Sliding", self.text("#sentence"))
+        self.drag("#strike .handle[data-id=velocity]", 260, 0)
+        self.assertIn("reverses", self.text("#sentence"))
+        self.assert_shows_the_answer_of_its_scene()
+        self.open("rod")
+        self.drag("#over .handle", 60, 0)
+        self.assertIn("sticks", self.text("#sentence"))
+        self.drag("#over .handle", 110, 0)
+        self.assertIn("jams", self.text("#sentence"))
+        self.assert_shows_the_answer_of_its_scene()
+        self.drag("#strike .handle[data-id=middle]", -100, 40)
+        self.assert_shows_the_answer_of_its_scene()
+        self.assertGreater(self.browser.script("return document.querySelectorAll('.ghost').length"), 2)
+
+    def test_newton_s_law_is_shown_to_create_energy(self):
+        self.open("double")
+        self.assertIn("of energy would come from nothing", self.text("#simulator-note"))
+        self.assertIn("not possible", self.text("#simulator tr:last-child td:last-child"))
+
+    def test_a_drag_asks_once_at_a_time_and_ends_with_the_newest_answer(self):
+        self.open("rod")
+        self.browser.script(COUNT_CALLS)
+        self.drag("#over .handle", 120, 0, steps=60)
+        most = self.browser.script("return window.most")
+        self.assertGreaterEqual(len(most), 4, most)
+        self.assertEqual(set(most.values()), {1}, most)
+        self.assert_shows_the_answer_of_its_scene()
+
+    def test_a_drag_draws_answers_as_they_come(self):
+        self.open("rod")
+        self.browser.script("""
+          window.drawn = [];
+          new MutationObserver(() => window.drawn.push(performance.now())).observe($('motion'), {childList: true});""")
+        self.drag("#over .handle", 150, 0, steps=150)
+        drawn = self.browser.script("return window.drawn")
+        self.assertGreater(len(drawn), 10)
+        print(f"a drag of friction: {(len(drawn) - 1) / (drawn[-1] - drawn[0]) * 1e3:.0f} answers drawn a second")
+
+    def test_the_keys_reach_everything_and_move_it(self):
+        self.open("rod")
+        self.browser.script("document.querySelector('details').open = true")
+        reached = set()
+        for _ in range(80):
+            self.key("Tab")
+            reached.add(self.browser.script("""
+              const e = document.activeElement;
+              e.number ??= window.count = (window.count ?? 0) + 1;
+              return e === document.body ? 0 : e.number;"""))
+            if 0 in reached and len(reached) > 1:
+                break
+        self.assertEqual(len(reached - {0}), self.browser.script(USABLE))
+        for handle in ("#strike .handle[data-id=velocity]", "#strike .handle[data-id=middle]", "#over .handle"):
+            before = self.text("#leaves")
+            self.browser.script(f"document.querySelector('{handle}').focus()")
+            self.key("ArrowRight")
+            self.settle()
+            self.assertNotEqual(self.text("#leaves"), before, handle)
+            self.assert_shows_the_answer_of_its_scene()
+
+    def test_stating_another_coefficient_keeps_the_impact(self):
+        self.open("own")
+        before = self.text("#leaves").split(" m/s")[0]
+        self.browser.script("document.querySelector('input[value=newton]').click()")
+        self.settle()
+        self.assertIn("restitution.newton=0.54", self.browser.script("return location.hash"))
+        self.assertEqual(self.text("#leaves").split(" m/s")[0], before)
+        self.assert_shows_the_answer_of_its_scene()
+
+    def test_the_address_holds_the_scene(self):
+        self.open("rod")
+        self.drag("#over .handle", 60, 0)
+        shown, address = self.text("#leaves"), self.browser.script("return location.href")
+        self.browser.open("about:blank")
+        self.browser.open(address)
+        self.settle()
+        self.assertEqual(self.text("#leaves"), shown)
+        self.browser.open("about:blank")
+        self.browser.open(f"{self.url}#at=x&pendulum.__proto__.polluted=1&constructor.prototype.polluted=1&pendulum.a_m=1")
+        self.settle()
+        self.assertTrue(self.browser.script("return ({}).polluted === undefined && Object.polluted === undefined"))
+
+    def test_a_bad_scene_is_refused_with_every_field(self):
+        self.open("pendulum")
+        self.browser.script("""
+          inputs['pendulum.a_m'].number.value = -1;
+          inputs['pendulum.a_m'].number.dispatchEvent(new Event('input'));""")
+        self.settle()
+        self.assertIn("pendulum.a_m = -1: must be > 0", self.text("#leaves"))
+        self.assertEqual(self.browser.script("return $('verdict').className"), "bad")
+        self.browser.console()  # Chromium notes that the call failed.
+
+    def test_cost_is_measured_on_demand(self):
+        self.open("pendulum")
+        self.browser.script("$('measure').click()")
+        for _ in range(200):
+            if "err by more" in self.text("#cost-state"):
+                break
+            time.sleep(0.1)
+        self.assertRegex(self.text("#cost-state"), "[0-9]+ methods; 0 err by more than they claim")
+        self.assertGreater(self.browser.script("return document.querySelectorAll('#front tr').length"), 1)
+
+    def test_a_page_from_elsewhere_cannot_ask(self):
+        foreign = DIRECTORY / "foreign.html"
+        foreign.write_text("<!DOCTYPE html><title>foreign</title>", encoding="utf-8")
+        self.browser.open(foreign.as_uri())
+        host, token = re.fullmatch(r"(http://[^/]+)/\?token=(\w+)", self.url).groups()
+        for options in ("{method: 'POST', body: '{}'}", "{method: 'POST', body: '{}', headers: {Authorization: 'Bearer " +
+                        token + "', 'Content-Type': 'application/json'}}", f"{{mode: 'no-cors'}}"):
+            answer = self.browser.post("/execute/async", {"args": [], "script": f"""
+              const done = arguments[0];
+              fetch('{host}/ricochet.v1.ImpactService/Info?token={token}', {options}).then(
+                reply => done(`${{reply.type}} ${{reply.status}}`), error => done(error.message));"""})
+            self.assertIn(answer, ("Failed to fetch", "opaque 0"))
+        self.browser.console()
+
+    def test_a_finished_page_shows_the_same_without_a_server(self):
+        for scene, name in ((["--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "0.9"], "pendulum"),
+                            (["--scene", str(DIRECTORY / "copied.textproto")], "ball")):
+            self.open(name)
+            self.assert_shows_the_answer_of_its_scene()
+            shown = {one: self.text(one) for one in ("#sentence", "#leaves", "#motion", "#possible", "#simulator")}
+            page = DIRECTORY / "solve.html"
+            page.unlink(missing_ok=True)
+            ricochet("solve", *scene, "--html", str(page))
+            self.assertNotRegex(page.read_text(encoding="utf-8"), r"(?:src|href)=.(?!data:)|@import")
+            self.browser.open(page.as_uri())
+            self.settle()
+            self.assertEqual({one: self.text(one) for one in shown}, shown)
+            self.assertEqual(self.browser.script(
+                "return [...document.querySelectorAll('input')].filter(input => !input.disabled).length"), 0)
+            self.assertEqual(self.browser.script("return performance.getEntriesByType('resource').length"), 0)
+            self.browser.screenshot(DIRECTORY / f"solve-{name}.png")
+        self.assertEqual(self.browser.console(), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
