@@ -292,7 +292,7 @@ class Comparison {
   }
   double RestitutionShift(double compression_shift) const;
   // True if A and B slip in one direction, or stick, from the ends of their compression on.
-  bool RebounceAlike(double compression_shift, double slip_gap) const {
+  bool ReboundAlike(double compression_shift, double slip_gap) const {
     if (!near_.has_friction()) return true;
     const double since = course_.stop.value_or(kInfinity) + near_.SettlingTime(slip_gap);
     return since <= course_.compression - compression_shift || SlideOneWay(slip_gap);
@@ -323,7 +323,7 @@ double Comparison<kTangential>::RestitutionShift(double compression_shift) const
   const double compression = course_.compression + compression_shift;
   if (law_ == RestitutionLaw::kPoisson) return e * compression_shift + e_error * compression;
   const double slip_gap = near_.SlipGap(compression) + near_.slip_pace() * compression_shift;
-  const double lasting_gap = RebounceAlike(compression_shift, slip_gap) ? 0.0 : slip_gap;
+  const double lasting_gap = ReboundAlike(compression_shift, slip_gap) ? 0.0 : slip_gap;
   const double time = course_.total - course_.compression;
   if (law_ == RestitutionLaw::kNewton) {
     const double goal_gap = e * errors_.velocity[kTangential] + e_error * std::fabs(course_.v0);

@@ -74,7 +74,7 @@ bool HasExactRankOne(const Scene& scene, const Mechanism& mechanism, size_t free
 template <size_t kTangential>
 Impulses<kTangential> TotalErrors(const Scene& scene, const Reduction<kTangential>& reduction,
                                     const MechanismErrors& errors, bool has_exact_rank, const Outcome& outcome) {
-  Impulses<kTangential> sum = ImpulseChanges(reduction, StatedBy(scene.restitution).law,
+  Impulses<kTangential> sum = ImpulseChanges(reduction, LawAndCoefficientOf(scene.restitution).law,
                                              ErrorsOf(scene, reduction, errors), has_exact_rank, outcome);
   if (outcome.regime == Regime::kSeparating) return sum;
   for (size_t i = 0; i < kTangential; ++i) sum[i] += outcome.errors.tangential_n_s.value_or(kInfinity);

@@ -113,11 +113,6 @@ std::optional<size_t> RowSolver::SolveScenes(size_t count, absl::FunctionRef<boo
   for (const auto& [i, place] : in_spatial_) {
     Outcome outcome;
     spatial_.SetOutcome(place, outcome);
-    if (asks_rates_errors_) {
-      driven_.SetRow(fields_, i);
-      SetRatesErrors(driven_.scene(), SceneContact(driven_.scene()), demand_, stopped, outcome);
-      if (stopped()) return std::nullopt;
-    }
     SetRow(i, outcome);
   }
   return count;
@@ -131,6 +126,7 @@ bool RowSolver::Begin(size_t i, absl::FunctionRef<bool()> stopped) {
     statuses_[i] = RowStatus::kInvalid;
     return true;
   }
+  if (asks_rates_errors_) return SolvePlannedRow(i, contact, PlanScene(scene, contact, demand_), stopped);
   std::optional<size_t> place = spatial_.Add(scene, demand_, contact);
   if (!place.has_value()) {
     const PlannedScene planned = PlanScene(scene, contact, demand_);
@@ -145,11 +141,11 @@ bool RowSolver::Begin(size_t i, absl::FunctionRef<bool()> stopped) {
 bool RowSolver::SolvePlannedRow(size_t i, std::optional<SceneContact>& contact, const PlannedScene& planned,
                                 absl::FunctionRef<bool()> stopped) {
   Outcome outcome;
-  const absl::Status solved = SolvePlanned(driven_.scene(), contact, planned, {.numbers_only = true}, stopped, outcome);
+  const OutcomeDetail detail = {.numbers_only = !asks_rates_errors_};
+  const absl::Status solved = SolvePlanned(driven_.scene(), contact, planned, detail, stopped, outcome);
   if (absl::IsCancelled(solved)) return false;
   if (solved.ok()) {
-    if (asks_rates_errors_) SetRatesErrors(driven_.scene(), *contact, demand_, stopped, outcome);
-    if (asks_rates_errors_ && stopped()) return false;
+    if (asks_rates_errors_ && contact.has_value()) SetRatesErrors(driven_.scene(), *contact, outcome);
     SetRow(i, outcome);
   } else {
     // The demand was checked for the base scene. This row may need an effect that it excludes.

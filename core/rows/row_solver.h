@@ -98,9 +98,9 @@ class RowSolver {
 
   // The current block.
   absl::Span<const FieldColumn> fields_;
-  std::vector<double*> places_;   // Of the first row's value in each column.
-  // A column is an error of the velocities of a mechanism, or a number of its free end, which take further impacts.
-  const bool asks_rates_errors_, asks_free_end_;
+  std::vector<double*> places_;  // Of the first row's value in each column.
+  // A column is an error of the velocities or the momentum of a mechanism, which take all of an outcome's detail.
+  const bool asks_rates_errors_;
   SceneLanes::Block block_;
   std::array<RowStatus, kBlock> statuses_;
   std::array<std::optional<size_t>, kBlock> too_large_;  // The column that makes a row not representable, if one does.

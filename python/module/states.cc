@@ -89,7 +89,7 @@ void Reduce(const States& states, size_t state, Scene& scene) {
   SpatialReduction reduction;
   reduction.w.fill(std::numeric_limits<double>::quiet_NaN());
   Check check(Check::Mode::kVerdict);
-  CheckMechanism(mechanism, check);
+  CheckMechanism(mechanism, 1, check);
   if (!check.failed()) reduction = std::get<SpatialReduction>(ricochet::Reduce(scene));
   for (size_t k = 0; k < 6; ++k) states.contact[k][state] = reduction.w[k];
   for (size_t k = 0; k < 2; ++k) states.contact[6 + k][state] = reduction.u0[k];

@@ -122,7 +122,7 @@ TEST_P(ChunkCheckerRefuses, AsDataLoss) {
   ChunkChecker checker(Sweep());
   ASSERT_TRUE(checker.Accept(Sealed(Chunk(0, 40, false))).ok());
   SweepChunk second = Chunk(40, 60, true);
-  ASSERT_TRUE(ChunkChecker(checker).Take(Sealed(second)).ok());
+  ASSERT_TRUE(ChunkChecker(checker).Accept(Sealed(second)).ok());
   GetParam().damage(second);
   EXPECT_EQ(CodeOf(checker.Accept(Sealed(second))), absl::StatusCode::kDataLoss);
 }
@@ -141,20 +141,20 @@ TEST(ChunkChecker, HoldsASubRangeToItsOwnEnds) {
   request.first_index = 10;
   request.end_index = 30;
   ChunkChecker checker(request);
-  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(Chunk(0, 20, true)))), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Accept(Sealed(Chunk(0, 20, true)))), absl::StatusCode::kDataLoss);
   EXPECT_TRUE(checker.Accept(Sealed(Chunk(10, 20, true, 10))).ok());
 }
 
 TEST(ChunkChecker, CountsTheRegimesThatTheRequestAskedFor) {
   const SweepRequest request = Sweep(true);
   SweepChunk chunk = Chunk(0, 100, true);
-  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Accept(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
   chunk.regimes.resize(100, Regime::kRebound);
-  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Accept(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
   chunk.statuses.resize(100, RowStatus::kOk);
-  EXPECT_TRUE(ChunkChecker(request).Take(Sealed(chunk, request)).ok());
+  EXPECT_TRUE(ChunkChecker(request).Accept(Sealed(chunk, request)).ok());
   chunk.regimes[7] = Regime::kSliding;
-  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Accept(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
 }
 
 TEST(ChunkChecker, CountsTheInadmissiblePoints) {
@@ -163,9 +163,9 @@ TEST(ChunkChecker, CountsTheInadmissiblePoints) {
   chunk.regimes.resize(100, Regime::kRebound);
   chunk.statuses.resize(100, RowStatus::kOk);
   chunk.statuses[7] = RowStatus::kInadmissible;
-  EXPECT_EQ(CodeOf(ChunkChecker(request).Take(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
+  EXPECT_EQ(CodeOf(ChunkChecker(request).Accept(Sealed(chunk, request))), absl::StatusCode::kDataLoss);
   chunk.tallies.inadmissible = chunk.summary->inadmissible = {1, 7};
-  EXPECT_TRUE(ChunkChecker(request).Take(Sealed(chunk, request)).ok());
+  EXPECT_TRUE(ChunkChecker(request).Accept(Sealed(chunk, request)).ok());
 }
 
 TEST(ChunkChecker, RefusesEveryFlippedBitOfTheData) {
@@ -178,20 +178,20 @@ TEST(ChunkChecker, RefusesEveryFlippedBitOfTheData) {
     v1::SweepResponse damaged = whole;
     char& byte = damaged.mutable_values()->at(25 * static_cast<size_t>(bit));
     byte = static_cast<char>(byte ^ 1 << bit % 8);
-    EXPECT_EQ(CodeOf(ChunkChecker(request).Take(damaged)), absl::StatusCode::kDataLoss) << bit;
+    EXPECT_EQ(CodeOf(ChunkChecker(request).Accept(damaged)), absl::StatusCode::kDataLoss) << bit;
   }
   v1::SweepResponse swapped = whole;
   char* const second = swapped.mutable_values()->data() + sizeof(double);
   std::swap_ranges(second, second + sizeof(double), second + sizeof(double));
   ASSERT_NE(swapped.values(), whole.values());
-  EXPECT_THAT(std::string(ChunkChecker(request).Take(swapped).status().message()), testing::HasSubstr("checksum"));
+  EXPECT_THAT(std::string(ChunkChecker(request).Accept(swapped).status().message()), testing::HasSubstr("checksum"));
 }
 
 TEST(ChunkChecker, RefusesAPartOfADouble) {
   v1::SweepResponse message = Sealed(Chunk(0, 40, false));
   message.mutable_values()->append("1234567");
   ChunkSeal(Sweep()).Put(message);
-  const absl::Status status = ChunkChecker(Sweep()).Take(message).status();
+  const absl::Status status = ChunkChecker(Sweep()).Accept(message).status();
   EXPECT_EQ(status.code(), absl::StatusCode::kDataLoss);
   EXPECT_THAT(std::string(status.message()), testing::HasSubstr("647 bytes of values, which are no whole doubles"));
 }
@@ -199,8 +199,8 @@ TEST(ChunkChecker, RefusesAPartOfADouble) {
 TEST(ChunkChecker, RefusesTheChunkOfAnotherRequest) {
   SweepRequest other = Sweep();
   other.grid.axes[0].values = Linspace{0.0, 0.5, 100};
-  EXPECT_EQ(CodeOf(ChunkChecker(Sweep()).Take(Sealed(Chunk(0, 40, false), other))), absl::StatusCode::kDataLoss);
-  EXPECT_TRUE(ChunkChecker(other).Take(Sealed(Chunk(0, 40, false), other)).ok());
+  EXPECT_EQ(CodeOf(ChunkChecker(Sweep()).Accept(Sealed(Chunk(0, 40, false), other))), absl::StatusCode::kDataLoss);
+  EXPECT_TRUE(ChunkChecker(other).Accept(Sealed(Chunk(0, 40, false), other)).ok());
 }
 
 }  // namespace

@@ -21,6 +21,7 @@
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/info.h"
+#include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/status.h"
 
@@ -121,6 +122,8 @@ constexpr std::array kMethods = {Method{"Solve", kJson, &AnswerUnary<v1::SolveRe
                                  Method{"Audit", kJson, &AnswerUnary<v1::AuditRequest, &Solver::Audit>},
                                  Method{"AuditBatch", kJson, &AnswerUnary<v1::AuditBatchRequest, &Solver::AuditBatch>},
                                  Method{"SolveBatch", kJson, &AnswerBatch},
+                                 Method{"MultiContact", kJson,
+                                        &AnswerUnary<v1::MultiContactRequest, &Solver::MultiContact>},
                                  Method{"Cost", kJsonStream, &AnswerCost},
                                  Method{"Info", kJson, &AnswerUnary<v1::InfoRequest, &Solver::Info>}};
 

@@ -260,7 +260,7 @@ struct Outcome {
   // on to it: less J^T (f, tau), it is the impulse of the brake or controller that holds it. Empty for other systems.
   Components rates_after;
   Components momentum_change;
-  std::optional<FreeEnd> free_end;  // Present exactly if SolveRequest::both_ends, or a column of a row, asks for it.
+  std::optional<FreeEnd> free_end;  // Present exactly if SolveRequest::both_ends asks for it.
   std::optional<Certificate> certificate;  // Present exactly if SolveRequest::certified_digits asks for it.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };

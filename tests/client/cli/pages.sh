@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# ./dev pages: the pages of "ricochet cost --html" in a headless browser. Usage: pages.sh [--short]
+# ./dev pages: the pages of "ricochet cost --html" and of "ricochet explore" in a headless browser.
+# Usage: pages.sh [--short]
 set -euo pipefail
 # shellcheck source=tools/dev_lib.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../../../tools/dev_lib.sh"
@@ -20,4 +21,6 @@ say "Headless Chromium, 1280 and 400 pixels wide, by day and by night"
 for name in pendulum "${scenes[@]}"; do
   show /usr/bin/python3 tests/client/cli/page_screenshots.py "build/pages/$name.html" build/pages
 done
+say "The page of ricochet explore, used by mouse and keys"
+show /usr/bin/python3 tests/client/cli/explore_page.py "$ricochet" build/pages
 echo "-> the screenshots: build/pages/*.png"

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <random>
 
+#include "core/contact/delassus.h"
 #include "core/numerics/determinant.h"
 
 namespace ricochet {

@@ -147,7 +147,7 @@ inline std::vector<RandomSystem> RandomSystems() {
       {"linkage", false, false, [](R& r) -> System { return r.Chain(); }, gravity},
       {"planar_contact", false, true, [](R& r) -> System { return r.Contact(); }, acceleration},
       {"mechanism", false, false, [](R& r) -> System { return r.Arm(false); }, none},
-      {"mechanism in space", true, false, [](R& r) -> System { return r.Arm(true); }, none},
+      {"mechanism_in_space", true, false, [](R& r) -> System { return r.Arm(true); }, none},
       {"spatial_body", true, true, [](R& r) -> System { return r.BodyInSpace(); }, none},
       {"spatial_pair", true, false,
        [](R& r) -> System {

@@ -1,0 +1,170 @@
+"""`ricochet explore` as HTTP with JSON, asked by curl and by bare sockets, and what those get who must not ask.
+
+usage: explore_test.py RICOCHET WORK_DIRECTORY
+"""
+
+import base64
+import concurrent.futures
+import http.client
+import json
+import re
+import signal
+import socket
+import subprocess
+import time
+import unittest
+
+from ricochet_case import RICOCHET, RicochetCase, WORK
+
+PENDULUM = {"pendulum": {"inertia_kg_m2": 1.3, "a_m": 0.3, "b_m": 1, "omega_minus_rad_s": -2},
+            "friction": {"kinetic_coefficient": 0.1}, "restitution": {"energetic": 0.9}}
+SERVICE = "/ricochet.v1.ImpactService/"
+
+
+class ExploreTest(RicochetCase):
+
+    def setUp(self):
+        # One that was started in the background ignores Ctrl-C.
+        self.server = subprocess.Popen([RICOCHET, "explore"], cwd=WORK, text=True, stdout=subprocess.PIPE,
+                                       preexec_fn=lambda: signal.signal(signal.SIGINT, signal.default_int_handler))
+        self.addCleanup(self.server.stdout.close)
+        self.addCleanup(self.server.kill)
+        url = self.server.stdout.readline()
+        self.host, self.token = re.fullmatch(r"http://([0-9.]+:[0-9]+)/\?token=([0-9a-f]{32})\n", url).groups()
+
+    def tearDown(self):
+        self.assertEqual(self.server.poll(), None)
+        self.assertEqual(self.curl(method="Info")[0], 200)
+        self.server.send_signal(signal.SIGINT)
+        self.assertEqual(self.server.wait(10), 130)
+
+    def curl(self, request=None, method="Solve", headers=(), path=None, body=None):
+        """Posts a request by curl. Returns the status of HTTP and the answer in JSON."""
+        command = ["curl", "--silent", "--max-time", "20", "--path-as-is", "--write-out", "\n%{http_code}"]
+        for header in ("Content-Type: application/json", f"Authorization: Bearer {self.token}", *headers):
+            command += ["--header", header]
+        body = json.dumps(request or {}) if body is None else body
+        done = subprocess.run([*command, "--data-binary", "@-", f"http://{self.host}{path or SERVICE + method}"],
+                              input=body, text=True, stdout=subprocess.PIPE, check=True)
+        answer, status = done.stdout.rsplit("\n", 1)
+        return int(status), json.loads(answer) if answer.startswith("{") else answer
+
+    def sent(self, text):
+        """The first line of the answer to the bytes of a request, and whatever else comes."""
+        with socket.create_connection(self.host.split(":"), timeout=20) as connection:
+            connection.sendall(text.encode("latin-1"))
+            with connection.makefile("rb") as answer:
+                return answer.readline().decode().strip(), answer.read().decode()
+
+    def test_solves_with_the_digits_of_the_command_line(self):
+        (WORK / "scene.json").write_text(json.dumps(PENDULUM), encoding="utf-8")
+        solved = json.loads(self.made("solve", "--scene", "scene.json", "--format", "json"))
+        status, answer = self.curl({"scene": PENDULUM})
+        self.assertEqual((status, answer["outcome"]), (200, solved["outcome"]))
+
+    def test_answers_the_other_calls(self):
+        status, bounds = self.curl({"scene": PENDULUM}, "Bounds")
+        self.assertEqual((status, "newton" in bounds), (200, True), bounds)
+        fields = base64.b64encode(bytes.fromhex("0000000000000000" "9a9999999999b93f")).decode()  # 0 and 0.1
+        status, rows = self.curl({"setup": {"scene": PENDULUM, "fields": ["friction.kinetic_coefficient"],
+                                            "columns": ["coefficients.newton"]}, "inputs": [fields]}, "SolveBatch")
+        self.assertEqual(status, 200, rows)
+        newton = base64.b64decode(rows["outputs"][0])
+        self.assertEqual(len(newton), 16)
+        status, plan = self.curl({"scene": PENDULUM}, "Plan")
+        self.assertEqual((status, plan["plan"]["model"]), (200, "MODEL_PENDULUM"))
+
+    def test_names_every_field_that_is_wrong(self):
+        wrong = {**PENDULUM, "pendulum": {**PENDULUM["pendulum"], "a_m": -1, "inertia_kg_m2": 0}}
+        status, error = self.curl({"scene": wrong})
+        self.assertEqual((status, error["code"]), (400, "invalid_argument"))
+        details = {detail["type"]: detail["debug"] for detail in error["details"]}
+        fields = [one["field"] for one in details["google.rpc.BadRequest"]["fieldViolations"]]
+        self.assertEqual(sorted(fields), ["scene.pendulum.a_m", "scene.pendulum.inertia_kg_m2"])
+
+    def test_refuses_what_is_no_call(self):
+        for path in (SERVICE + "Solved", "/" + "../" * 8 + "etc/passwd", "/%2e%2e/%2e%2e/etc/passwd", "/favicon.ico"):
+            status, error = self.curl({}, path=path)
+            self.assertIn(status, (400, 404), (path, error))
+            self.assertNotIn("root:", str(error))
+        self.assertEqual(self.curl(body="{")[0], 400)
+        self.assertEqual(self.curl({"scene": PENDULUM, "unknown": 1})[0], 400)
+        self.assertEqual(self.curl({}, headers=["Content-Type: text/plain"])[0], 415)
+        self.assertEqual(self.sent(f"GET {SERVICE}Solve?token={self.token} HTTP/1.1\r\nHost: {self.host}\r\n"
+                                   "Connection: close\r\n\r\n")[0], "HTTP/1.1 405 Method Not Allowed")
+
+    def test_keeps_the_deadline_of_a_client(self):
+        chain = [{"length_m": 1, "mass_kg": 1, "inertia_com_kg_m2": 0.1, "com_m": 0.5, "theta_rad": 0.01 * i + 0.2,
+                  "rate_rad_s": -0.1} for i in range(64)]
+        scene = {"linkage": {"links": chain}, "friction": {"kinetic_coefficient": 0.3},
+                 "restitution": {"energetic": 0.5}}
+        columns = [{"values": [0.001] * 4096}]
+        status, error = self.curl({"scene": scene, "columns": columns}, "AuditBatch", headers=["Connect-Timeout-Ms: 1"])
+        self.assertIn((status, error.get("code")), ((504, "deadline_exceeded"), (400, "invalid_argument")), error)
+        self.assertEqual(self.curl({"scene": PENDULUM}, headers=["Connect-Timeout-Ms: soon"])[0], 400)
+
+    def test_answers_nobody_from_elsewhere(self):
+        for header in ("Host: evil.example", f"Host: evil.example:{self.host.split(':')[1]}", "Host: 127.0.0.1:1",
+                       "Origin: http://evil.example", "Origin: null", "Origin: https://" + self.host,
+                       "Authorization: Bearer " + "0" * 32, "Authorization:"):
+            name = header.split(":")[0]
+            headers = [header] if name != "Authorization" else []
+            lines = [f"POST {SERVICE}Info HTTP/1.1", *([] if name == "Host" else [f"Host: {self.host}"]),
+                     *([header] if name == "Authorization" else [f"Authorization: Bearer {self.token}"]), *headers,
+                     "Content-Type: application/json", "Content-Length: 2", "Connection: close"]
+            first, rest = self.sent("\r\n".join(lines) + "\r\n\r\n{}")
+            self.assertRegex(first, "HTTP/1.1 40[13] ", header)
+            self.assertNotIn("version", rest, header)
+            self.assertNotRegex(rest.lower(), "access-control-allow", header)
+        first, rest = self.sent(f"GET / HTTP/1.1\r\nHost: {self.host}\r\nConnection: close\r\n\r\n")
+        self.assertEqual(first, "HTTP/1.1 401 Unauthorized")
+        self.assertNotIn("<html", rest)
+
+    def test_lets_its_page_run_nothing_of_others(self):
+        first, rest = self.sent(f"GET /?token={self.token} HTTP/1.1\r\nHost: {self.host}\r\nConnection: close\r\n\r\n")
+        self.assertEqual(first, "HTTP/1.1 200 OK")
+        policy = re.search("Content-Security-Policy: (.*)\r", rest).group(1)
+        self.assertIn("default-src 'none'", policy)
+        self.assertIn("frame-ancestors 'none'", policy)
+        self.assertNotIn("unsafe", policy)
+
+    def test_refuses_a_long_body(self):
+        status, error = self.curl(body=" " * (2 << 20))
+        self.assertEqual((status, error["code"]), (429, "resource_exhausted"))
+
+    def test_goes_on_beside_requests_that_are_half_sent(self):
+        halves = []
+        for _ in range(20):
+            half = socket.create_connection(self.host.split(":"))
+            self.addCleanup(half.close)
+            half.sendall(f"POST {SERVICE}Info HTTP/1.1\r\nHost: {self.host}\r\nContent-Le".encode())
+            halves.append(half)
+        start = time.monotonic()
+        self.assertEqual(self.curl({"scene": PENDULUM})[0], 200)
+        answered = time.monotonic() - start
+        for half in halves:
+            half.settimeout(30)
+            while half.recv(4096):
+                pass  # It ends: the server drops who sends too slowly.
+        self.assertLess(answered, time.monotonic() - start)
+
+    def test_goes_on_under_a_thousand_requests(self):
+        def ask(_):
+            connection = http.client.HTTPConnection(self.host, timeout=60)
+            try:
+                codes = set()
+                for _ in range(125):
+                    connection.request("POST", SERVICE + "Solve", json.dumps({"scene": PENDULUM}),
+                                       {"Authorization": "Bearer " + self.token, "Content-Type": "application/json"})
+                    reply = connection.getresponse()
+                    reply.read()
+                    codes.add(reply.status)
+                return codes
+            finally:
+                connection.close()
+        with concurrent.futures.ThreadPoolExecutor(8) as pool:
+            self.assertEqual(set().union(*pool.map(ask, range(8))), {200})
+
+
+if __name__ == "__main__":
+    unittest.main()
