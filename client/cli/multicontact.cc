@@ -24,7 +24,7 @@ namespace {
 constexpr char kExample[] = R"(Example: a block that falls flat on two corners.
   $ ricochet scene template box_on_two_feet -o box.textproto
   $ ricochet multicontact --scene box.textproto
-  ORDER_MATTERS: body_1.x differs by 0.9 m/s between the order 1 and the order 2.
+  ORDER_MATTERS: body_1.x differs by 0.9 m/s between the orders 1 and 2.
   ...
 --method names what to compute: orders of single impacts (at most 6 contacts), springs (in a plane), possible (bounds on
 every outcome). The default is each that the scene allows. `ricochet scene list` names templates with several contacts.

@@ -212,7 +212,7 @@ void AddScene(CLI::App& app, Command& command) {
   };
   add("list", "List the systems that can strike", RunList, kListFormats);
   const Added one = add("template", "Print a commented scene to start from", RunTemplate, kSceneFormats);
-  one.app->add_option("NAME", one.options->system, "A name of `ricochet scene list`")->required();
+  one.app->add_option("TEMPLATE", one.options->system, "A name of `ricochet scene list`")->required();
   const Added print = add("print", "Print the scene of a file or of flags", RunPrint, kSceneFormats);
   AddSceneOptions(*print.app, print.options->scene);
   const Added schema = add(

@@ -53,7 +53,8 @@ ContactErrors<kTangential> ErrorsOf(const Scene& scene, const Reduction<kTangent
     const double velocity = i == kTangential ? reduction.v0 : reduction.u0[std::min(i, kTangential - 1)];
     double surface = 0.0;
     if (scene.surface_velocity.has_value()) {
-      surface = i == kTangential ? scene.surface_velocity->normal_m_s : scene.surface_velocity->tangential_m_s[i];
+      const SurfaceVelocity& moves = *scene.surface_velocity;
+      surface = i == kTangential ? moves.normal_m_s : moves.tangential_m_s.empty() ? 0.0 : moves.tangential_m_s[i];
     }
     const double relative = errors.motion.velocity[i] - surface;
     const bool rounds = surface != 0.0 && errors.motion.velocity[i] != 0.0;

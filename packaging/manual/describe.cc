@@ -88,19 +88,20 @@ void SetWords(Struct& object, const std::string& value, const std::vector<std::s
 // Describes the words that may stand for each kind of value, by the name of the kind in the help. Paths and columns are
 // those of the scenes of all templates together.
 absl::Status DescribeValues(Struct& object) {
-  std::vector<std::string> systems, paths, columns, effects;
+  std::vector<std::string> templates, paths, columns, effects;
   for (const ricochet::cli::SceneTemplate& one : ricochet::cli::SceneTemplates()) {
     ricochet::v1::Scene proto;
     if (absl::Status bad = ricochet::cli::ParseMessage("template.textproto", one.text, proto); !bad.ok()) return bad;
     const ricochet::Scene scene = ricochet::FromProto(proto);
-    systems.push_back(one.system);
+    templates.push_back(one.system);
     AddNew(ricochet::FieldPaths(scene), paths);
     AddNew(ricochet::Columns(scene), columns);
   }
+  for (const auto& one : ricochet::cli::MultiContactTemplates()) templates.push_back(one.system);
   for (int i = 1; i < ricochet::kEffectCount; ++i) {
     effects.push_back(ricochet::cli::EffectWord(static_cast<ricochet::Effect>(i)));
   }
-  SetWords(object, "SYSTEM", systems);
+  SetWords(object, "TEMPLATE", templates);
   SetWords(object, "EFFECT,...", effects);
   SetWords(object, "COLUMN,...", columns);
   SetWords(object, "PATH=VALUES", paths);

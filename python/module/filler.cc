@@ -13,6 +13,7 @@
 #include "python/module/exceptions.h"
 #include "python/module/record.h"
 #include "ricochet/contact_matrix.h"
+#include "ricochet/v1/multi_contact.pb.h"
 #include "ricochet/v1/scene.pb.h"
 
 namespace ricochet::python {
@@ -79,14 +80,20 @@ bool ReadDictionary(py::handle values, py::dict& dictionary) {
 // Returns whether the value of a message may be a matrix: W of a contact, M or J of a mechanism.
 bool MayBeMatrix(const google::protobuf::Descriptor& type, absl::string_view name) {
   if (&type == v1::Mechanism::descriptor()) return name == "mass_matrix" || name == "jacobian";
-  return name == "w_per_kg" && (&type == v1::PlanarContact::descriptor() || &type == v1::SpatialContact::descriptor());
+  return name == "w_per_kg" && (&type == v1::PlanarContact::descriptor() ||
+                                &type == v1::SpatialContact::descriptor() || &type == v1::ContactMatrix::descriptor());
 }
 
 using Matrix = py::array_t<double, py::array::c_style>;
 
+// Returns whether a message lists all entries of its matrices, row by row.
+bool ListsAllEntries(const google::protobuf::Descriptor& type) {
+  return &type == v1::Mechanism::descriptor() || &type == v1::ContactMatrix::descriptor();
+}
+
 // Returns whether so many numbers are the entries of the matrix, in place of the matrix itself.
 bool IsList(const google::protobuf::Descriptor& type, py::ssize_t size) {
-  return &type == v1::Mechanism::descriptor() || (&type == v1::SpatialContact::descriptor() && size == 6);
+  return ListsAllEntries(type) || (&type == v1::SpatialContact::descriptor() && size == 6);
 }
 
 // Returns the shape that a matrix must have; nothing if it has that.
@@ -95,7 +102,10 @@ std::string RuleForShape(const google::protobuf::Descriptor& type, absl::string_
   const py::ssize_t columns = matrix.ndim() == 2 ? matrix.shape(1) : 0;
   const auto is_square = [&](py::ssize_t size) { return rows == size && columns == size; };
   if (name == "mass_matrix") return rows > 0 && rows == columns ? "" : "n x n";
-  if (name == "jacobian") return rows == 2 || rows == 3 ? "" : "2 x n, rows t, n, or 3 x n, rows t1, t2, n";
+  // Several contacts have as many rows each; the length of the list is checked with the other rules of the scene.
+  const bool has_rows = rows > 0 && (rows % 2 == 0 || rows % 3 == 0);
+  if (name == "jacobian") return has_rows ? "" : "2 x n, rows t, n, or 3 x n, rows t1, t2, n";
+  if (&type == v1::ContactMatrix::descriptor()) return rows > 0 && rows == columns ? "" : "a symmetric square matrix";
   if (&type == v1::PlanarContact::descriptor()) return is_square(2) ? "" : "a symmetric 2 x 2 matrix";
   return is_square(3) ? "" : "a symmetric 3 x 3 matrix, or its entries 11, 12, 13, 22, 23, 33 in this order";
 }
@@ -179,7 +189,7 @@ bool Filler::FillMatrix(py::handle value, Message& message, const Place& place, 
     Refuse(place, absl::StrCat("has shape ", std::string(py::str(matrix.attr("shape"))), ": must be ", rule));
     return true;
   }
-  if (&type == v1::Mechanism::descriptor()) {
+  if (ListsAllEntries(type)) {
     const Field& field = *type.FindFieldByName(std::string(place.name));
     for (py::ssize_t i = 0; i < matrix.size(); ++i) {
       message.GetReflection()->AddDouble(&message, &field, matrix.data()[i]);

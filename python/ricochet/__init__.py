@@ -65,6 +65,7 @@ __all__ = [
     "close",
     "cost",
     "info",
+    "multicontact",
     "plan",
     "read_scene",
     "solve",
@@ -83,6 +84,7 @@ audit = _client.audit
 audit_batch = _client.audit_batch
 plan = _client.plan
 at_contact = _client.at_contact
+multicontact = _client.multicontact
 cost = _client.cost
 info = _client.info
 close = _client.close

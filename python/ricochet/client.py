@@ -400,6 +400,41 @@ class Client:
             return table
         return table.to_xarray() if form == "xarray" else table.to_pandas()
 
+    def multicontact(
+        self, scene: Mapping[str, Any], *, states: ArrayLike | None = None, methods: Names = (),
+        outputs: Mapping[str, ArrayLike] | None = None, stiffness_range: tuple[int, float, float] | None = None,
+    ) -> Any:
+        """Computes what several contacts at once can do, and whether the order of their impacts matters.
+
+        Args:
+            scene: a dictionary with the names of ricochet.v1.MultiContactScene. Matrices may have two dimensions.
+            states: velocities before, in place of the scene's own: an array with a row for each state.
+            methods: the ways to answer, of ``"orders"``, ``"springs"`` and ``"possible"``; by default each that the
+                scene allows.
+            outputs: linear functions of the velocities that get bounds too: their names and coefficients.
+            stiffness_range: ``(contact, low, high)`` also gives the outcomes of springs while the relative stiffness of
+                this contact, counted from 1, runs from ``low`` to ``high``.
+
+        Returns:
+            The answer as ricochet.v1.MultiContactAnswer: ``answer.verdict``, ``answer.orders``, ``answer.springs``,
+            ``answer.possible``. With ``states``, a list of answers.
+
+        Raises:
+            InvalidRequest: the scene or an argument breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        arguments: dict[str, Any] = {"methods": methods}
+        if states is not None:
+            arguments["states"] = [{"velocity": state} for state in np.atleast_2d(values.column(states, "states"))]
+        if outputs is not None:
+            arguments["outputs"] = [{"name": name, "coefficients": outputs[name]} for name in outputs]
+        if stiffness_range is not None:
+            if len(stiffness_range) != 3:
+                values.refuse("stiffness_range", f"= {values.shown(stiffness_range)}: must be (contact, low, high)")
+            arguments["stiffness_range"] = dict(zip(("contact", "low", "high"), stiffness_range))
+        answers = self._solver.multicontact(scene, arguments).answers
+        return answers[0] if states is None else answers
+
     def cost(
         self, scene: SceneLike, *, time_limit_s: float | None = None, samples: int | None = None,
         progress: Progress | None = None,

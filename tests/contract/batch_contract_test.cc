@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <chrono>
 #include <cmath>
@@ -71,15 +72,7 @@ double Varied(double base, size_t row, size_t field) {
   return base * (1.0 + 0.01 * std::sin(static_cast<double>(7 * row + 3 * field + 1)));
 }
 
-// The value of each field of the scene.
-std::vector<double> ValuesOf(const Scene& scene) {
-  std::vector<double> values;
-  VisitNumbers(scene,
-               [&](const NumberPath& /*path*/, double number, NumberRule /*rule*/) { values.push_back(number); });
-  return values;
-}
-
-// A batch in which every number of the scene is a column.
+// A batch in which every number of the scene that can be driven is a column.
 struct Batch {
   BatchSetup setup;
   std::vector<std::vector<double>> in;
@@ -87,14 +80,13 @@ struct Batch {
 
 Batch BatchOf(const Scene& scene, size_t rows) {
   Batch batch = {.setup = {.scene = scene, .columns = Columns(scene)}, .in = {}};
-  const std::vector<double> values = ValuesOf(scene);
-  VisitNumbers(scene, [&](const NumberPath& path, double /*number*/, NumberRule /*rule*/) {
+  const std::vector<std::string> drivable = FieldPaths(scene);
+  VisitNumbers(scene, [&](const NumberPath& path, double number, NumberRule /*rule*/) {
+    if (std::find(drivable.begin(), drivable.end(), path.Text()) == drivable.end()) return;
     batch.setup.fields.push_back(path.Text());
-  });
-  for (size_t k = 0; k < values.size(); ++k) {
     std::vector<double>& column = batch.in.emplace_back();
-    for (size_t i = 0; i < rows; ++i) column.push_back(Varied(values[k], i, k));
-  }
+    for (size_t i = 0; i < rows; ++i) column.push_back(Varied(number, i, batch.in.size() - 1));
+  });
   return batch;
 }
 

@@ -59,7 +59,8 @@ TEST_P(SolverContract, ASurfaceThatOnlyRisesNeedsNoTangentialVelocity) {
     stated.surface_velocity = SurfaceVelocity{std::vector<double>(directions, 0.0), 0.25};
     Scene left_out = stated;
     left_out.surface_velocity->tangential_m_s.clear();
-    const int32_t digits = directions == 1 ? 10 : 0;
+    const bool has_certificate = directions == 1 && !std::holds_alternative<Mechanism>(system);
+    const int32_t digits = has_certificate ? 10 : 0;
     const auto wanted = solver().Solve({.scene = stated, .certified_digits = digits});
     const auto found = solver().Solve({.scene = left_out, .certified_digits = digits});
     ASSERT_TRUE(wanted.ok() && found.ok()) << found.status();

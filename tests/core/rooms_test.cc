@@ -179,7 +179,7 @@ TEST(RoomsTest, AnIncludeStaysInItsRoomOrGoesDownOrWhereTheTableSays) {
 }
 
 TEST(RoomsTest, EveryRoomOfTheTablesHasSources) {
-  EXPECT_EQ(Rooms().size(), 43U);
+  EXPECT_EQ(Rooms().size(), 45U);
   for (const auto& [folder, room] : Rooms()) EXPECT_FALSE(SourcesOf(folder).empty()) << folder;
 }
 
@@ -219,7 +219,8 @@ TEST(RoomsTest, NoHeadersAndNoFoldersIncludeEachOther) {
 TEST(FloorsTest, PublicHeadersIncludePublicHeadersAlone) {
   for (const std::string folder : {"core/include", "client/include"}) {
     for (const Include& include : IncludesOf(folder)) {
-      EXPECT_TRUE(IsSystemHeader(include.header) || StartsWithAny(include.header, {"ricochet/", "absl/"}))
+      const bool is_adaptor = include.file == "core/include/ricochet/eigen.h" && include.header == "Eigen/Core";
+      EXPECT_TRUE(IsSystemHeader(include.header) || StartsWithAny(include.header, {"ricochet/", "absl/"}) || is_adaptor)
           << include.file << " includes " << include.header;
       EXPECT_FALSE(StartsWithAny(include.header, {"ricochet/v1/"})) << include.file << " includes " << include.header;
     }
@@ -275,13 +276,13 @@ TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
       {"netcdf.h", {"client/cli/sweep/netcdf_file.cc", "client/cli/sweep/netcdf_table.cc"}},
       {"isa-l/", {"proto/wire/crc32c.cc"}},
       {"nlohmann/",
-       {"client/cli/text/json_text.cc", "client/cli/input/json_errors.cc", "client/cli/report/scene_schema.cc",
-        "client/cli/sweep/sweep_json.cc"}},
+       {"client/cli/text/json_text.cc", "client/cli/input/json_errors.cc", "client/cli/input/json_matrices.cc",
+        "client/cli/report/scene_schema.cc", "client/cli/sweep/sweep_json.cc"}},
       {"openssl/",
-       {"client/tls_files.cc", "server/security/callers.cc", "server/security/handshakes.cc",
+       {"proto/wire/pem.h", "client/tls_files.cc", "server/security/callers.cc", "server/security/handshakes.cc",
         "server/security/tls_files.cc"}},
       {"prometheus/", {"server/telemetry/metrics."}},
-      {"civetweb.h", {"server/telemetry/metrics_page.cc"}},
+      {"civetweb.h", {"server/telemetry/metrics_page.cc", "client/cli/explore/web_server.cc"}},
       {"pybind11/", {"python/module/"}},
   };
   for (const std::string folder : kHouses) {

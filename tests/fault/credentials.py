@@ -214,7 +214,7 @@ def tokens():
 
 # What each scope lets its caller do, as deploy/README.md states it under "Tokens".
 SCOPES = {
-    "solve": {"Solve", "SolveBatch", "SolveBatches", "Plan", "Bounds"},
+    "solve": {"Solve", "SolveBatch", "SolveBatches", "Plan", "Bounds", "MultiContact"},
     "sweep": {"Sweep"},
     "audit": {"Audit", "AuditBatch"},
     "cost": {"Cost"},

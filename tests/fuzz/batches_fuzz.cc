@@ -22,7 +22,6 @@
 #include "absl/status/statusor.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
-#include "core/plan/demand.h"
 #include "core/rows/axis_values.h"
 #include "core/scene/field.h"
 #include "core/scene/validate.h"
@@ -156,12 +155,12 @@ struct Point {
   bool keeps_rules = true;
 };
 
-// Effects that the call requires may be lacking at this point, such as friction where an axis makes its coefficient 0.
-// In a row such a requirement asks for nothing, whereas Solve refuses it.
-SolveRequest WithoutLacking(SolveRequest request) {
-  std::erase_if(request.demand.required,
-                [&request](Effect effect) { return !MissingPart(request.scene, effect).empty(); });
-  return request;
+// True if Solve refuses the point for nothing but effects that the call requires and that this point lacks, such as
+// friction where an axis makes its coefficient 0. In a row such a requirement asks for nothing.
+bool OnlyLacksRequired(const absl::Status& refused) {
+  const std::vector<Violation> violations = ViolationsOf(refused);
+  const auto is_required = [](const Violation& violation) { return absl::StartsWith(violation.field, "required["); };
+  return !violations.empty() && std::all_of(violations.begin(), violations.end(), is_required);
 }
 
 void CheckRow(const Point& point, const Rows& rows, size_t row, const std::vector<std::string>& names) {
@@ -170,11 +169,12 @@ void CheckRow(const Point& point, const Rows& rows, size_t row, const std::vecto
     if (status != RowStatus::kInvalid) Fail(absl::StrCat("a row that breaks a rule has status ", status));
     return;
   }
-  const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(WithoutLacking(point.request));
+  const absl::StatusOr<SolveResponse> response = LocalSolver().Solve(point.request);
   const bool has_numbers = status != RowStatus::kInvalid && status != RowStatus::kNotRepresentable;
   for (size_t column = 0; column < names.size() && !has_numbers; ++column) {
     if (!std::isnan(rows.columns[column][row])) Fail(names[column] + " is a number in a row without numbers");
   }
+  if (has_numbers && OnlyLacksRequired(response.status())) return;
   if (!response.ok()) {
     // Solve has more numbers than the row, one of which may be too large.
     const bool other_is_too_large = absl::IsOutOfRange(response.status()) && status != RowStatus::kInvalid;

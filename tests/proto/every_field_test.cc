@@ -32,7 +32,7 @@
 namespace ricochet {
 namespace {
 
-// This is a multiple of the number of members of every oneof except Scene.system, whose seven members all occur too.
+// This is a multiple of the number of members of every oneof except Scene.system, whose eight members all occur too.
 constexpr int kChoices = 12;
 
 template <typename Message>
@@ -154,7 +154,7 @@ TEST(NamesTest, EachColumnOfAnAuditArrivesInTheMemberOfItsName) {
 // The messages above are all messages of the service, so that none is left untested.
 TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   const auto& service = *v1::SolveRequest::descriptor()->file()->FindServiceByName("ImpactService");
-  ASSERT_EQ(service.method_count(), 10);
+  ASSERT_EQ(service.method_count(), 11);
   EXPECT_EQ(service.method(0)->input_type(), v1::SolveRequest::descriptor());
   EXPECT_EQ(service.method(0)->output_type(), v1::SolveResponse::descriptor());
   EXPECT_EQ(service.method(1)->input_type(), v1::BoundsRequest::descriptor());
@@ -174,8 +174,10 @@ TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
     EXPECT_EQ(service.method(method)->input_type(), v1::SolveBatchRequest::descriptor());
     EXPECT_EQ(service.method(method)->output_type(), v1::SolveBatchResponse::descriptor());
   }
-  EXPECT_EQ(service.method(9)->input_type(), v1::InfoRequest::descriptor());
-  EXPECT_EQ(service.method(9)->output_type(), v1::InfoResponse::descriptor());
+  EXPECT_EQ(service.method(9)->input_type(), v1::MultiContactRequest::descriptor());
+  EXPECT_EQ(service.method(9)->output_type(), v1::MultiContactResponse::descriptor());
+  EXPECT_EQ(service.method(10)->input_type(), v1::InfoRequest::descriptor());
+  EXPECT_EQ(service.method(10)->output_type(), v1::InfoResponse::descriptor());
 }
 
 TEST(FillTest, ReachesEveryMemberOfEveryOneof) {
@@ -183,7 +185,8 @@ TEST(FillTest, ReachesEveryMemberOfEveryOneof) {
   std::set<const google::protobuf::FieldDescriptor*> all;
   for (const auto* message :
        {v1::Scene::descriptor(), v1::BodyPair::descriptor(), v1::SpeedDependence::descriptor(),
-        v1::Restitution::descriptor(), v1::Compliance::descriptor(), v1::AuditRequest::descriptor()}) {
+        v1::Restitution::descriptor(), v1::Compliance::descriptor(), v1::AuditRequest::descriptor(),
+        v1::MultiContactScene::descriptor()}) {
     for (int i = 0; i < message->real_oneof_decl_count(); ++i) {
       const auto* oneof = message->oneof_decl(i);
       for (int k = 0; k < oneof->field_count(); ++k) all.insert(oneof->field(k));
@@ -191,7 +194,7 @@ TEST(FillTest, ReachesEveryMemberOfEveryOneof) {
     }
   }
   EXPECT_EQ(reached, all);
-  EXPECT_EQ(all.size(), 7U + 4U + 3U + 2U + 2U + 3U + 3U + 2U);
+  EXPECT_EQ(all.size(), 8U + 4U + 3U + 2U + 2U + 3U + 3U + 2U + 3U);
 }
 
 TEST(FillTest, SetsEveryFieldButTheOtherMembersOfAOneof) {

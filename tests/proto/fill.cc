@@ -71,6 +71,8 @@ class Filler {
     switch (field.cpp_type()) {
       case FieldDescriptor::CPPTYPE_DOUBLE:
         return reflection.AddDouble(&message, &field, NextNumber() + 0.5);
+      case FieldDescriptor::CPPTYPE_INT32:
+        return reflection.AddInt32(&message, &field, (1 << 20) + NextNumber());
       case FieldDescriptor::CPPTYPE_INT64:
         return reflection.AddInt64(&message, &field, (int64_t{1} << 40) + NextNumber());
       case FieldDescriptor::CPPTYPE_STRING:

@@ -52,14 +52,11 @@ std::string WithUnit(const std::string& name, double value) {
   return absl::StrCat(Rounded(value), unit.empty() ? "" : " ", unit);
 }
 
-std::string OutcomeInWords(const std::string& name) {
-  return name == kSprings ? std::string(kSprings) : absl::StrCat("the order ", name);
-}
-
 std::string VerdictText(const MultiContactAnswer& answer) {
+  const bool are_orders = answer.outcome_1 != kSprings && answer.outcome_2 != kSprings;
   const std::string difference =
       absl::StrCat(answer.differing_output, " differs by ", WithUnit(answer.differing_output, answer.difference),
-                   " between ", OutcomeInWords(answer.outcome_1), " and ", OutcomeInWords(answer.outcome_2), ".\n");
+                   " between the ", are_orders ? "orders " : "order ", answer.outcome_1, " and ", answer.outcome_2, ".\n");
   switch (answer.verdict) {
     case MultiContactVerdict::kSingle:
       return "SINGLE: only one outcome is possible.\n";

@@ -101,7 +101,7 @@ TEST_F(Cli, RangesOfASystemThatHasNoEnclosureNameTheSystem) {
   EXPECT_EQ(result.exit_code, 2);
   EXPECT_THAT(result.err,
               HasSubstr("system has no enclosure: must be one of pendulum, planar_body, body_pair.planar, linkage, "
-                        "planar_contact, with ranges"));
+                        "planar_contact, mechanism in a plane, with ranges"));
 }
 
 TEST_F(Cli, TellsItsVersionAndEngine) {
@@ -113,7 +113,7 @@ TEST_F(Cli, InfoSaysThatThisProgramTakesRequestsOfAnySize) {
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, StartsWith("engine    " + ThisEngine().version + ", fingerprint " + ThisEngine().fingerprint));
   EXPECT_THAT(text.out, HasSubstr("systems   pendulum, planar_body, "));
-  EXPECT_THAT(text.out, HasSubstr("  max_links               unlimited  Links of a linkage\n"));
+  EXPECT_THAT(text.out, HasSubstr("  max_links               unlimited  Links of a linkage, or coordinates of a mechanism\n"));
   EXPECT_THAT(text.out, Not(HasSubstr("Limits of the server")));
   EXPECT_THAT(Run({"info", "--format", "csv"}).out, HasSubstr("\nmax_axes,unlimited\n"));
 }
@@ -122,7 +122,7 @@ TEST_F(Cli, InfoTellsTheLimitsOfAServer) {
   const ServerProcess server({"--max-links", "12", "--max-unary-time", "1.5"});
   const CliResult text = Run({"info", "--server", server.address()});
   EXPECT_EQ(text.exit_code, 0) << text.err;
-  EXPECT_THAT(text.out, testing::ContainsRegex("  max_links +12  Links of a linkage\n"));
+  EXPECT_THAT(text.out, testing::ContainsRegex("  max_links +12  Links of a linkage, or coordinates of a mechanism\n"));
   EXPECT_THAT(text.out, testing::ContainsRegex("  max_unary_time_ms +1500  The longest that a unary call may take\n"));
   const CliResult csv = Run({"info", "--server", server.address(), "--format", "csv"});
   EXPECT_THAT(csv.out, StartsWith("name,value\nversion," + ThisEngine().version + "\n"));

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 
 #include "ricochet/solver.h"
@@ -64,12 +65,24 @@ TEST(RatesErrorsTest, AreKnownForOneCoordinate) {
   EXPECT_LT(outcome.errors.rates_after[0], 1e-13);
 }
 
-TEST(RatesErrorsTest, AreUnknownWhereRowsOfTheJacobianAreParallel) {
+// Where J has the rows c j and j, u = c v, and slip turns round as compression ends: v' = Wnn (1 + mu c) before and
+// Wnn (1 - mu c) after, so that v+ = -e v- sqrt((1 - mu c)/(1 + mu c)).
+TEST(RatesErrorsTest, AreKnownWhereRowsOfTheJacobianAreParallel) {
+  constexpr double kSlope = 0.25, kFriction = 0.5, kEnergetic = 0.5;
   Mechanism arm = Arm();
-  for (size_t i = 0; i < 3; ++i) arm.jacobian[i] = 0.25 * arm.jacobian[3 + i];
+  for (size_t i = 0; i < 3; ++i) arm.jacobian[i] = kSlope * arm.jacobian[3 + i];
   const Outcome outcome = Solve(With(arm));
   EXPECT_EQ(outcome.w_rank, 1);
-  for (const double error : outcome.errors.rates_after) EXPECT_TRUE(std::isinf(error));
+  const Eigen::Map<const Eigen::Matrix3d> mass(arm.mass_matrix.data());
+  const Eigen::Map<const Eigen::Vector3d> rates(arm.rates.data()), row(arm.jacobian.data() + 3);
+  const Eigen::Vector3d direction = mass.ldlt().solve(row);
+  const double v0 = row.dot(rates);
+  const double v1 = -kEnergetic * v0 * std::sqrt((1 - kFriction * kSlope) / (1 + kFriction * kSlope));
+  const Eigen::Vector3d after = rates + direction * ((v1 - v0) / row.dot(direction));
+  for (size_t i = 0; i < 3; ++i) {
+    EXPECT_LT(outcome.errors.rates_after[i], 1e-12);
+    EXPECT_NEAR(outcome.rates_after[i], after(static_cast<Eigen::Index>(i)), 1e-14);
+  }
 }
 
 // A planar arm in space has a row of J that is 0.

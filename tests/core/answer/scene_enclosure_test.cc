@@ -530,7 +530,7 @@ TEST(SceneEnclosureTest, RefusesSystemsInSpace) {
     EXPECT_THAT(Refused(With(system), {{"friction.kinetic_coefficient", 0.1, 0.2}}),
                 ElementsAre(Violation{"system",
                                       "has no enclosure: must be one of pendulum, planar_body, body_pair.planar, "
-                                      "linkage, planar_contact, with ranges"}));
+                                      "linkage, planar_contact, mechanism in a plane, with ranges"}));
   }
 }
 

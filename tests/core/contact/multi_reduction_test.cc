@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
 #include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <random>
 
 #include "core/contact/reduction.h"

@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "core/scene/field.h"
 #include "core/scene/numbers.h"
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/solver.h"
@@ -52,8 +54,9 @@ Answer AnswerOf(const Scene& scene, DemandFields demand, bool takes_time) {
   return answer;
 }
 
-// Scenes of one kind, as rows: the numbers of each, by their paths.
+// Scenes of one kind, as rows: the numbers of each that can be driven, by their paths.
 BatchTable TableOf(const std::vector<Scene>& scenes, const DemandFields& demand) {
+  const std::vector<std::string> drivable = FieldPaths(scenes.front());
   BatchTable table;
   table.setup.scene = scenes.front();
   table.setup.demand = demand;
@@ -61,6 +64,7 @@ BatchTable TableOf(const std::vector<Scene>& scenes, const DemandFields& demand)
     std::vector<double> row;
     table.setup.fields.clear();
     VisitNumbers(scene, [&](const NumberPath& path, double number, NumberRule /*rule*/) {
+      if (std::find(drivable.begin(), drivable.end(), path.Text()) == drivable.end()) return;
       table.setup.fields.push_back(path.Text());
       row.push_back(number);
     });

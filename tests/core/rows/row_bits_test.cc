@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -33,6 +34,16 @@ std::vector<std::string> NumberPaths(const Scene& scene) {
   return paths;
 }
 
+// The numbers that can be driven alone.
+std::vector<std::string> DrivablePaths(const Scene& scene) {
+  const std::vector<std::string> drivable = FieldPaths(scene);
+  std::vector<std::string> paths = NumberPaths(scene);
+  std::erase_if(paths, [&](const std::string& path) {
+    return std::find(drivable.begin(), drivable.end(), path) == drivable.end();
+  });
+  return paths;
+}
+
 std::vector<double*> NumbersOf(Scene& scene) {
   std::vector<double*> numbers;
   VisitNumbers(scene,
@@ -58,7 +69,10 @@ Rows RowsOf(const SceneKind& kind, size_t count, uint64_t seed) {
     const auto below = [&](size_t bound) {
       return static_cast<size_t>(random.Uniform(0.0, 1.0) * static_cast<double>(bound));
     };
-    if (i % 9 == 8) *numbers[below(numbers.size())] = kOdd[below(std::size(kOdd))];
+    if (i % 9 == 8) {
+      const std::vector<std::string> paths = DrivablePaths(scene);
+      ResolveField(paths[below(paths.size())], scene)->Set(kOdd[below(std::size(kOdd))]);
+    }
     rows.in.resize(numbers.size());
     for (size_t k = 0; k < numbers.size(); ++k) rows.in[k].push_back(*numbers[k]);
     rows.scenes.push_back(std::move(scene));
@@ -66,11 +80,11 @@ Rows RowsOf(const SceneKind& kind, size_t count, uint64_t seed) {
   return rows;
 }
 
-// Fixes the fields that no driver may drive.
+// Fixes the fields that no driver may drive, or that go along with another one.
 void KeepFields(Rows& rows) {
+  const std::vector<std::string> drivable = DrivablePaths(rows.scenes[0]);
   for (size_t k = rows.fields.size(); k-- > 0;) {
-    Scene scene = rows.scenes[0];
-    if (ResolveField(rows.fields[k], scene).ok()) continue;
+    if (std::find(drivable.begin(), drivable.end(), rows.fields[k]) != drivable.end()) continue;
     rows.fields.erase(rows.fields.begin() + static_cast<ptrdiff_t>(k));
     rows.in.erase(rows.in.begin() + static_cast<ptrdiff_t>(k));
   }

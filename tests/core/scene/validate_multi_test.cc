@@ -46,7 +46,7 @@ TEST(ValidateMultiTest, TakesScenesOfEverySystem) {
 }
 
 TEST(ValidateMultiTest, AnEmptyRequestLacksSystemAndContacts) {
-  EXPECT_THAT(TextsOf({}), ElementsAre("system is not set: must be one of contact_matrix, free_bodies",
+  EXPECT_THAT(TextsOf({}), ElementsAre("system is not set: must be one of contact_matrix, free_bodies, mechanism",
                                        "contacts has 0 entries: must have 1 to 16"));
 }
 
@@ -75,7 +75,7 @@ TEST(ValidateMultiTest, ListsHaveTheLengthsOfTheSystem) {
                                  .outputs = {{.name = "", .coefficients = {1.0}}}};
   EXPECT_THAT(
       TextsOf(request),
-      ElementsAre("states[0].velocity has 2 entries: must have 3", "states[1].velocity[1] = Infinity: must be finite",
+      ElementsAre("states[0].velocity has 2 entries: must have 3", "states[1].velocity[1] = inf: must be finite",
                   "outputs[0].coefficients has 1 entry: must have 3", "outputs[0].name is empty: must not be"));
   std::get<FreeBodies>(request.scene.system).bodies.front().position_m.push_back(0.0);
   EXPECT_FALSE(TextsOf(request).empty());
