@@ -114,15 +114,19 @@ class Motion {
       for (double& c : condition.series.c) c = -c;
     }
     const bool is_event = event_.has_value() && event_->contact == contact && event_->keeps == keeps;
-    if (is_event && IsRoundingOfZero(condition.series)) condition.series.c[0] = 0.0;
+    const bool has_tie = event_.has_value() && event_->has_tie;
+    const bool is_cone = keeps == Keeps::kConeAbove || keeps == Keeps::kConeBelow;
+    if (is_event || (has_tie && is_cone)) TakeForZero(0, condition.series);
+    // Where all friction is used up, slip starts without an acceleration.
+    if (has_tie && keeps == Keeps::kSlip) TakeForZero(1, condition.series);
     condition.lead = condition.series.Lead();
   }
 
-  // A condition that an event made 0 may be more than rounding where another mode divides friction anew.
-  static bool IsRoundingOfZero(const Series& series) {
+  // A coefficient that an event made 0 may be more than rounding where another mode divides friction anew.
+  static void TakeForZero(size_t m, Series& series) {
     double largest = 0.0;
     for (const double c : series.c) largest = std::max(largest, std::abs(c));
-    return std::abs(series.c[0]) <= kZeroOfEvent * largest;
+    if (std::abs(series.c[m]) <= kZeroOfEvent * largest) series.c[m] = 0.0;
   }
 
   std::vector<Condition> ConditionsOf(const SpringFlow& flow) {
@@ -407,7 +411,8 @@ class Motion {
     event_.reset();
     if (first != nullptr) {
       ++result_.events;
-      event_ = Event{.contact = first->contact, .keeps = first->keeps};
+      // Contacts that hold each other divide friction anew after each event, until all reach their cones at once.
+      event_ = Event{.contact = first->contact, .keeps = first->keeps, .has_tie = s <= kZeroOfEvent};
       AddEventError(*first, s);
       if (first->keeps == Keeps::kPressed) Open(first->contact);
       if (first->keeps == Keeps::kGap) {
@@ -633,6 +638,7 @@ class Motion {
   struct Event {
     int contact = 0;
     Keeps keeps = Keeps::kGap;
+    bool has_tie = false;  // No time has passed since the event before.
   };
 
   const Problem& problem_;

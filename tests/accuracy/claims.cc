@@ -23,6 +23,7 @@
 #include "tests/support/claims/compliant_claims.h"
 #include "tests/support/claims/finite_duration_claims.h"
 #include "tests/support/claims/mechanism_claims.h"
+#include "tests/support/claims/multi_contact_claims.h"
 #include "tests/support/claims/pendulum_claims.h"
 #include "tests/support/claims/planar_claims.h"
 #include "tests/support/claims/sliding_claims.h"
@@ -100,6 +101,7 @@ void AddNumbersOfClosedForms(int count, Jobs& jobs) {
 
 // The velocities of a mechanism after the impact, and the momentum that it takes.
 void AddMechanisms(int count, Jobs& jobs) {
+  if (std::string("mechanism").find(jobs.only) == std::string::npos) return;
   ForBothKinds([&](const char* scenes, bool hard) {
     for (const bool in_space : {false, true}) {
       jobs.all.push_back([=] {
@@ -110,6 +112,25 @@ void AddMechanisms(int count, Jobs& jobs) {
       });
     }
   });
+}
+
+// Several contacts in a plane: the velocities of orders and of springs, whether a sequence is missing, how far exact
+// outcomes lie outside the ranges, and the ledger of energy. Each row has a part of the scenes.
+void AddSeveralContacts(int count, Jobs& jobs) {
+  if (std::string("several contacts").find(jobs.only) == std::string::npos) return;
+  constexpr int kParts = 4;
+  for (int part = 0; part < kParts; ++part) {
+    jobs.all.push_back([=] {
+      const int scenes = count / kParts;
+      const auto claims = multi::MultiContactClaimsOf(scenes, 1 + static_cast<uint64_t>(part) * scenes);
+      const std::string name = "part " + std::to_string(part + 1);
+      return std::vector<Row>{{"contacts, orders", name, claims.orders},
+                              {"contacts, missing", name, claims.missing},
+                              {"contacts, springs", name, claims.springs},
+                              {"contacts, possible", name, claims.possible},
+                              {"contacts, energy", name, claims.energy}};
+    });
+  }
 }
 
 void AddNumbersOfSpace(int count, Jobs& jobs) {
@@ -258,6 +279,7 @@ int Run(int count, const std::string& only) {
   Jobs jobs = {.only = only, .all = {}};
   if (only.empty()) AddVelocities(count, jobs);
   AddMechanisms(count, jobs);
+  AddSeveralContacts(count, jobs);
   AddNumbersOfClosedForms(count, jobs);
   AddNumbersOfSpace(count, jobs);
   AddNumbersOfSprings(count, jobs);

@@ -33,7 +33,7 @@ TEST(RatesErrorsTest, ClaimNoLessThanTheyAreForPlanarMechanisms) {
 
 TEST(RatesErrorsTest, ClaimNoLessThanTheyAreForMechanismsInSpace) {
   for (const bool hard : {false, true}) {
-    const MechanismClaims claims = MechanismClaimsOf(/*in_space=*/true, hard, 60, kSeed);
+    const MechanismClaims claims = MechanismClaimsOf(/*in_space=*/true, hard, 120, kSeed);
     EXPECT_GT(claims.rates.count(), 50);
     ExpectHonest(claims.rates);
     ExpectHonest(claims.momentum);

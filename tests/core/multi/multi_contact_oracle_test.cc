@@ -23,5 +23,21 @@ TEST(MultiContactOracleTest, NoClaimIsBroken) {
   EXPECT_LE(claims.skipped, kScenes / 5);
 }
 
+// Three feet on one floor stick, and one of them reaches its cone. They divide friction anew, again and again, until all
+// three are at their cones at once and slip.
+TEST(MultiContactOracleTest, FeetThatDivideFrictionAnewSlipOnceItIsUsedUp) {
+  constexpr uint64_t kSeed = 820;
+  std::mt19937_64 random(kSeed);
+  const Problem problem = RandomMultiContact(random, /*springs=*/true);
+  const Attained springs = FindSprings(problem, std::nullopt, [] { return false; });
+  EXPECT_EQ(springs.end, MultiContactEnd::kSeparated);
+  EXPECT_LT(springs.events, 60);
+  MultiContactClaims claims;
+  AddClaims(problem, /*has_springs=*/true, "seed 820", claims);
+  EXPECT_EQ(claims.springs.count(), 1);
+  EXPECT_EQ(claims.springs.broken(), 0);
+  EXPECT_EQ(claims.energy.broken(), 0);
+}
+
 }  // namespace
 }  // namespace ricochet::multi

@@ -389,14 +389,14 @@ class Springs {
     return value;
   }
 
-  // The first time in (0, 1] at which a condition becomes negative: between two samples, by bisection. 2 if none does.
-  static Real FirstFailure(const Reals& series) {
+  // The first time in (0, end] at which a condition becomes negative: between two samples, by bisection. 2 if none does.
+  static Real FirstFailure(const Reals& series, const Real& end) {
     Reals rest = series;
     while (!rest.empty() && !(Abs(rest.front()) > Real(kTiny))) rest.erase(rest.begin());
     if (rest.empty()) return Real(2.0);
     Real below(0.0);
     for (int sample = 1; sample <= kSamples; ++sample) {
-      Real above = Real(sample) / Real(kSamples);
+      Real above = end * Real(sample) / Real(kSamples);
       if (!(Value(rest, above) < Real(0.0))) {
         below = above;
         continue;
@@ -422,9 +422,14 @@ class Springs {
     Expand(Real(h), kOrder);
     Real s(1.0);
     bool is_event = false;
-    for (const Reals& condition : Conditions()) {
-      const Real failure = FirstFailure(condition);
-      if (failure < s || !(s < failure)) s = failure, is_event = true;
+    // Beyond the first failure a series means nothing, and may return between two samples. So samples are taken anew, up
+    // to there.
+    for (int pass = 0; pass < 3; ++pass) {
+      const Real end = s;
+      for (const Reals& condition : Conditions()) {
+        const Real failure = FirstFailure(condition, end);
+        if (failure < s || !(s < failure)) s = failure, is_event = true;
+      }
     }
     Advance(Real(h), s);
     if (!is_event) return ++steps_ < 100'000;
