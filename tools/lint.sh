@@ -69,4 +69,5 @@ if [[ ${1-} == --changed ]]; then
   exit
 fi
 say "clang-tidy"
-run-clang-tidy -quiet -p build/dev -extra-arg=-Wno-unknown-warning-option -j "$(nproc)" "^$PWD/(core|proto/wire|server|client|tests)/.*\.cc$"
+run-clang-tidy -quiet -p build/dev -extra-arg=-Wno-unknown-warning-option -j "$(nproc)" \
+  "^$PWD/(core|proto/wire|server|client|tests)/.*\.cc$"

@@ -94,7 +94,8 @@ absl::Status RunData(const SolveOptions& options, const Solver& solver, const Sc
   if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || Draws(options) ||
       options.explain || options.plan_only || options.both_ends) {
     return absl::InvalidArgumentError(
-        "--data cannot be combined with --history, --force-history, --certified, --plot, --html, --explain, --both-ends "
+        "--data cannot be combined with --history, --force-history, --certified, --plot, --html, --explain, "
+        "--both-ends "
         "or --plan-only");
   }
   DataOptions data = options.data;

@@ -35,7 +35,7 @@ class Neighbours {
   Neighbours(const Reduction<kTangential>& reduction, const EffectiveCoefficients& coefficients,
              const ContactErrors<kTangential>& errors);
 
-  double SlipGap(double tau) const { return slip_gap_ + slip_growth_ * tau; }                          // N
+  double SlipGap(double tau) const { return slip_gap_ + slip_growth_ * tau; }                             // N
   double SpeedGap(double tau) const { return speed_gap_ + speed_growth_ * tau + lever_ * SlipGap(tau); }  // E
   // The growth of SpeedGap from the end of compression of each impact on, where their slips differ by `slip_gap`.
   double SpeedGapAfter(double time, double slip_gap) const {
@@ -52,7 +52,8 @@ class Neighbours {
   double root_trace() const { return root_trace_; }        // The length of u is at most this times |u|.
   bool has_friction() const { return most_friction_ > 0.0; }
 
-  // Whether B is sure to hold a contact at rest as A does, by kinetic friction; how long slip of this gap takes to stop.
+  // Whether B is sure to hold a contact at rest as A does, by kinetic friction; how long slip of this gap takes to
+  // stop.
   double SettlingTime(double slip_gap) const;
   // True if static friction decides, or may decide, whether a contact at rest is held.
   bool StaticFrictionDecides() const {
@@ -303,8 +304,8 @@ class Comparison {
   }
   bool MayRest(double reach) const {
     const auto length = [](const Vector<kTangential>& u) { return Length<kTangential>(u); };
-    return course_.stop.has_value() || std::min({length(course_.u0), length(course_.u_compression),
-                                                 length(course_.u1)}) <= reach;
+    return course_.stop.has_value() ||
+           std::min({length(course_.u0), length(course_.u_compression), length(course_.u1)}) <= reach;
   }
 
   const RestitutionLaw law_;
@@ -328,7 +329,8 @@ double Comparison<kTangential>::RestitutionShift(double compression_shift) const
   if (law_ == RestitutionLaw::kNewton) {
     const double goal_gap = e * errors_.velocity[kTangential] + e_error * std::fabs(course_.v0);
     return ProvedShift([&](double step) {
-      return Over(near_.SpeedGapAfter(time + step, lasting_gap) + goal_gap, LeastSlope(course_.u1, course_.total, step));
+      return Over(near_.SpeedGapAfter(time + step, lasting_gap) + goal_gap,
+                  LeastSlope(course_.u1, course_.total, step));
     });
   }
   const double most = e + e_error;

@@ -74,7 +74,7 @@ bool HasExactRankOne(const Scene& scene, const Mechanism& mechanism, size_t free
 // The errors of the impulses: those of the model, and what errors of its contact add.
 template <size_t kTangential>
 Impulses<kTangential> TotalErrors(const Scene& scene, const Reduction<kTangential>& reduction,
-                                    const MechanismErrors& errors, bool has_exact_rank, const Outcome& outcome) {
+                                  const MechanismErrors& errors, bool has_exact_rank, const Outcome& outcome) {
   Impulses<kTangential> sum = ImpulseChanges(reduction, LawAndCoefficientOf(scene.restitution).law,
                                              ErrorsOf(scene, reduction, errors), has_exact_rank, outcome);
   if (outcome.regime == Regime::kSeparating) return sum;

@@ -62,7 +62,6 @@ struct Response {
   Eigen::MatrixXd w_size;  // The sum of the magnitudes of the terms of each entry of W.
 };
 
-
 // M M^-1 J^T of all coordinates, from M^-1 J^T (n x d, row by row), whose rows of coordinates that are held are 0.
 std::vector<double> MomentumOf(const Mechanism& mechanism, absl::Span<const double> response);
 

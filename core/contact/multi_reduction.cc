@@ -126,11 +126,12 @@ MultiReduction ReduceMechanism(const Mechanism& mechanism, int directions) {
   const Response solved(part);
   const auto n = static_cast<Eigen::Index>(mechanism.rates.size());
   const Eigen::Index rows = part.jt.cols();
-  MultiReduction reduction = {.w = solved.w,
-                              .jacobian = Eigen::Map<const Eigen::MatrixXd>(mechanism.jacobian.data(), n, rows).transpose(),
-                              .response = Eigen::MatrixXd::Zero(n, rows),
-                              .mobility = Eigen::VectorXd::Zero(n),
-                              .velocity = ToEigen(mechanism.rates, n)};
+  MultiReduction reduction = {
+      .w = solved.w,
+      .jacobian = Eigen::Map<const Eigen::MatrixXd>(mechanism.jacobian.data(), n, rows).transpose(),
+      .response = Eigen::MatrixXd::Zero(n, rows),
+      .mobility = Eigen::VectorXd::Zero(n),
+      .velocity = ToEigen(mechanism.rates, n)};
   const auto count = static_cast<Eigen::Index>(part.coordinates.size());
   const Eigen::VectorXd inverse = solved.cholesky.solve(Eigen::MatrixXd::Identity(count, count)).diagonal();
   for (Eigen::Index i = 0; i < count; ++i) {

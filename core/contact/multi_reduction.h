@@ -4,9 +4,9 @@
 //
 // The d = 2 or 3 rows of J for a contact have the order t, n or t1, t2, n (ricochet/multi_contact.h). W is computed
 // entry by entry from what each body adds, so that neither the order of the contacts nor a mirror image changes its
-// bits. Accuracy: a few eps of the magnitudes of the terms, times the condition of a body's inertia; of a mechanism that
-// of core/contact/mechanism.h. The scene must be valid (core/scene/validate_multi.h). If a product overflows, a number
-// is not finite. This header includes Eigen.
+// bits. Accuracy: a few eps of the magnitudes of the terms, times the condition of a body's inertia; of a mechanism
+// that of core/contact/mechanism.h. The scene must be valid (core/scene/validate_multi.h). If a product overflows, a
+// number is not finite. This header includes Eigen.
 
 #ifndef RICOCHET_CORE_CONTACT_MULTI_REDUCTION_H_
 #define RICOCHET_CORE_CONTACT_MULTI_REDUCTION_H_

@@ -8,8 +8,8 @@
 // with L L^T = M, so that it is positive semidefinite up to rounding. A planar W whose determinant may be rounding
 // alone (below 8 n eps Wtt Wnn) is given rank one by wtn = +-sqrt(Wtt Wnn). docs/theory/contact.md derives this.
 // Accuracy: a few n ulp times the condition of M after scaling to a unit diagonal. The M^-1 J^T of a mechanism is
-// corrected once by its residual (core/contact/mechanism.h), so that the condition counts for little. Units are SI units. The scene must
-// be valid (core/scene/validate.h). If a product overflows, W or a velocity is not finite.
+// corrected once by its residual (core/contact/mechanism.h), so that the condition counts for little. Units are SI
+// units. The scene must be valid (core/scene/validate.h). If a product overflows, W or a velocity is not finite.
 
 #ifndef RICOCHET_CORE_CONTACT_REDUCTION_H_
 #define RICOCHET_CORE_CONTACT_REDUCTION_H_

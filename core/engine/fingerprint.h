@@ -2,8 +2,8 @@
 //
 // Scenes of every system, law and model are solved as any other scene is. Two engines with equal fingerprints give the
 // same bits as far as these problems tell; sweeps are joined on that ground. The model of finite duration, if the build
-// has it, depends on the C library's pow, which differs from one machine to another: it is asked for itself at thousands
-// of arguments.
+// has it, depends on the C library's pow, which differs from one machine to another: it is asked for itself at
+// thousands of arguments.
 
 #ifndef RICOCHET_CORE_ENGINE_FINGERPRINT_H_
 #define RICOCHET_CORE_ENGINE_FINGERPRINT_H_

@@ -41,8 +41,8 @@ bool CheckSizes(const Mechanism& mechanism, size_t contacts, Check& check) {
   check.Require(jacobian == 2 * row || jacobian == 3 * row, [&] {
     const std::string times = contacts == 1 ? " x n = " : absl::StrCat(" x ", contacts, " x n = ");
     return MakeViolation(kJacobian, entries(jacobian),
-                         absl::StrCat("have 2", times, 2 * row, " in a plane or 3", times, 3 * row, " in space, for the ",
-                                      n, " of rates"));
+                         absl::StrCat("have 2", times, 2 * row, " in a plane or 3", times, 3 * row,
+                                      " in space, for the ", n, " of rates"));
   });
   return n > 0 && mass == n * n && (jacobian == 2 * row || jacobian == 3 * row);
 }

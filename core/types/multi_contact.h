@@ -14,8 +14,8 @@ namespace ricochet {
 // "contact_1.t", "contact_1.n", ... or t1, t2 and n.
 std::vector<std::string> ContactOutputNames(size_t contacts, int directions);
 
-// "body_1.x", "body_1.y", "body_1.rate", ... or x, y, z, rate_x, rate_y, rate_z; "rate_1", ... of a mechanism. None of a
-// ContactMatrix, whose velocities are those of its contacts.
+// "body_1.x", "body_1.y", "body_1.rate", ... or x, y, z, rate_x, rate_y, rate_z; "rate_1", ... of a mechanism. None of
+// a ContactMatrix, whose velocities are those of its contacts.
 std::vector<std::string> SystemOutputNames(const MultiContactSystem& system, int directions);
 
 }  // namespace ricochet

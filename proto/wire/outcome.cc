@@ -165,8 +165,7 @@ struct Map<FreeEnd> : Between<FreeEnd, v1::FreeEnd> {
               Entry(&T::coefficients, &P::coefficients, &P::mutable_coefficients),
               Entry(&T::rates_after, &P::rates_after, &P::mutable_rates_after),
               Entry(&T::contact_velocity_after, &P::contact_velocity_after, &P::mutable_contact_velocity_after),
-              Entry(&T::impulse, &P::impulse, &P::mutable_impulse),
-              Entry(&T::errors, &P::errors, &P::mutable_errors),
+              Entry(&T::impulse, &P::impulse, &P::mutable_impulse), Entry(&T::errors, &P::errors, &P::mutable_errors),
               Entry(&T::admissible, &P::admissible, &P::set_admissible),
               Entry(&T::broken_limits, &P::broken_limits, &P::mutable_broken_limits)>;
 };

@@ -6,9 +6,9 @@
 // milliseconds. A Client waits for the network without looking, so that it is asked on another thread, which is told to
 // stop.
 //
-// A process that is forked has no thread but the one that forked. So the child leaves every solver as it is for ever and
-// makes others. gRPC has handlers of its own for a fork, which need that no call is under way: a child that was forked
-// while another thread asked a server can compute, but not ask a server.
+// A process that is forked has no thread but the one that forked. So the child leaves every solver as it is for ever
+// and makes others. gRPC has handlers of its own for a fork, which need that no call is under way: a child that was
+// forked while another thread asked a server can compute, but not ask a server.
 
 #ifndef RICOCHET_PYTHON_MODULE_CALL_H_
 #define RICOCHET_PYTHON_MODULE_CALL_H_
@@ -39,7 +39,8 @@ struct Callee {
   void Abandon();
 };
 
-// Says that gRPC is about to be used, so that forks need its handlers. Raises Unavailable in a child that cannot use it.
+// Says that gRPC is about to be used, so that forks need its handlers. Raises Unavailable in a child that cannot use
+// it.
 void StartGrpc();
 
 // Adds to the module what os.register_at_fork takes.

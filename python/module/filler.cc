@@ -24,13 +24,10 @@ using google::protobuf::FieldDescriptor;
 using google::protobuf::Reflection;
 
 // The arguments of Python whose field is called otherwise.
-constexpr std::pair<const char*, const char*> kFields[] = {{"tolerance", "relative_tolerance"},
-                                                           {"require", "required"},
-                                                           {"exclude", "excluded"},
-                                                           {"strict", "inadmissible_is_error"},
-                                                           {"history", "history_intervals"},
-                                                           {"force_history", "force_intervals"},
-                                                           {"certified", "certified_digits"}};
+constexpr std::pair<const char*, const char*> kFields[] = {
+    {"tolerance", "relative_tolerance"}, {"require", "required"},          {"exclude", "excluded"},
+    {"strict", "inadmissible_is_error"}, {"history", "history_intervals"}, {"force_history", "force_intervals"},
+    {"certified", "certified_digits"}};
 
 const FieldDescriptor& FieldOf(const google::protobuf::Message& message, absl::string_view argument) {
   std::string name(argument);
@@ -80,8 +77,8 @@ bool ReadDictionary(py::handle values, py::dict& dictionary) {
 // Returns whether the value of a message may be a matrix: W of a contact, M or J of a mechanism.
 bool MayBeMatrix(const google::protobuf::Descriptor& type, absl::string_view name) {
   if (&type == v1::Mechanism::descriptor()) return name == "mass_matrix" || name == "jacobian";
-  return name == "w_per_kg" && (&type == v1::PlanarContact::descriptor() ||
-                                &type == v1::SpatialContact::descriptor() || &type == v1::ContactMatrix::descriptor());
+  return name == "w_per_kg" && (&type == v1::PlanarContact::descriptor() || &type == v1::SpatialContact::descriptor() ||
+                                &type == v1::ContactMatrix::descriptor());
 }
 
 using Matrix = py::array_t<double, py::array::c_style>;
@@ -96,14 +93,15 @@ bool IsList(const google::protobuf::Descriptor& type, py::ssize_t size) {
   return ListsAllEntries(type) || (&type == v1::SpatialContact::descriptor() && size == 6);
 }
 
-// Returns the shape that a matrix must have; nothing if it has that.
-std::string RuleForShape(const google::protobuf::Descriptor& type, absl::string_view name, const Matrix& matrix) {
+// Returns the shape that a matrix must have; nothing if it has that. Several contacts have rows of J each, and the
+// rules of the scene check how many.
+std::string RuleForShape(const google::protobuf::Descriptor& type, absl::string_view name, const Matrix& matrix,
+                         bool has_several_contacts) {
   const py::ssize_t rows = matrix.ndim() == 2 ? matrix.shape(0) : 0;
   const py::ssize_t columns = matrix.ndim() == 2 ? matrix.shape(1) : 0;
   const auto is_square = [&](py::ssize_t size) { return rows == size && columns == size; };
   if (name == "mass_matrix") return rows > 0 && rows == columns ? "" : "n x n";
-  // Several contacts have as many rows each; the length of the list is checked with the other rules of the scene.
-  const bool has_rows = rows > 0 && (rows % 2 == 0 || rows % 3 == 0);
+  const bool has_rows = rows == 2 || rows == 3 || (rows > 3 && has_several_contacts);
   if (name == "jacobian") return has_rows ? "" : "2 x n, rows t, n, or 3 x n, rows t1, t2, n";
   if (&type == v1::ContactMatrix::descriptor()) return rows > 0 && rows == columns ? "" : "a symmetric square matrix";
   if (&type == v1::PlanarContact::descriptor()) return is_square(2) ? "" : "a symmetric 2 x 2 matrix";
@@ -162,6 +160,7 @@ void Filler::Fill(py::handle values, Message& message, const Place* place) {
     return;
   }
   const google::protobuf::Descriptor& type = *message.GetDescriptor();
+  has_several_contacts_ = has_several_contacts_ || &type == v1::MultiContactScene::descriptor();
   for (const auto& [key, value] : dictionary) {
     const auto name = Utf8(key.ptr());
     // Python may be asked what the value is, and may change the dictionary then.
@@ -185,7 +184,7 @@ bool Filler::FillMatrix(py::handle value, Message& message, const Place& place, 
   const Matrix matrix = Matrix::ensure(column);
   const auto& type = *message.GetDescriptor();
   if (matrix.ndim() == 1 && IsList(type, matrix.size())) return false;
-  if (const std::string rule = RuleForShape(type, place.name, matrix); !rule.empty()) {
+  if (const std::string rule = RuleForShape(type, place.name, matrix, has_several_contacts_); !rule.empty()) {
     Refuse(place, absl::StrCat("has shape ", std::string(py::str(matrix.attr("shape"))), ": must be ", rule));
     return true;
   }
@@ -197,7 +196,8 @@ bool Filler::FillMatrix(py::handle value, Message& message, const Place& place, 
     return true;
   }
   for (const char* const name : {"w_tt_per_kg", "w_tn_per_kg", "w_nn_per_kg"}) {
-    if (beside.contains(name)) Refuse({.outer = place.outer, .name = name}, "is set together with w_per_kg: must not be");
+    if (beside.contains(name))
+      Refuse({.outer = place.outer, .name = name}, "is set together with w_per_kg: must not be");
   }
   for (const Violation& violation : ViolationsOf(PackW(matrix, message))) {
     Refuse({.outer = place.outer, .name = violation.field}, violation.description);

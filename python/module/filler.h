@@ -69,6 +69,7 @@ class Filler {
   }
 
   std::vector<Violation> violations_;
+  bool has_several_contacts_ = false;
 };
 
 }  // namespace ricochet::python

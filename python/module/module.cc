@@ -47,7 +47,8 @@ std::string OptionName(const std::string& field) {
 
 ClientOptions OptionsOf(const py::dict& given) {
   const auto text = [&given](const char* name) { return given[name].cast<std::string>(); };
-  ClientOptions options = {.target = text("server"), .user_agent = absl::StrCat("ricochet-python/", ThisEngine().version)};
+  ClientOptions options = {.target = text("server"),
+                           .user_agent = absl::StrCat("ricochet-python/", ThisEngine().version)};
   options.max_receive_bytes = given["max_receive"].cast<int64_t>();
   options.sweep_deadline = Milliseconds(given["deadline"].cast<std::optional<double>>());
   if (options.sweep_deadline.has_value()) options.deadline = *options.sweep_deadline;
@@ -76,9 +77,9 @@ Callee OfServer(const py::dict& given) {
   return {.solver = std::make_shared<Client>(*std::move(client)), .is_remote = true};
 }
 
-py::object Solve(const Callee& solver, py::handle scene, py::handle tolerance, py::handle require,
-                 py::handle exclude, py::handle strict, py::handle history, py::handle force_history,
-                 py::handle certified, py::handle both_ends) {
+py::object Solve(const Callee& solver, py::handle scene, py::handle tolerance, py::handle require, py::handle exclude,
+                 py::handle strict, py::handle history, py::handle force_history, py::handle certified,
+                 py::handle both_ends) {
   Filler filler;
   SolveRequest request;
   {
@@ -98,9 +99,7 @@ py::object Solve(const Callee& solver, py::handle scene, py::handle tolerance, p
   return UnreadRecordOf(std::make_unique<SolveResponse>(Call(solver).Ask(&Solver::Solve, request)));
 }
 
-py::object Info(const Callee& solver) {
-  return RecordOf(ToProto(Call(solver).Ask(&Solver::Info, InfoRequest())));
-}
+py::object Info(const Callee& solver) { return RecordOf(ToProto(Call(solver).Ask(&Solver::Info, InfoRequest()))); }
 
 // Answers a request that has one response, as a record.
 template <typename Wire, auto kMethod>

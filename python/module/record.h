@@ -21,7 +21,8 @@ namespace ricochet::python {
 // Returns the words with which every name of an enum begins: "REGIME_".
 std::string EnumPrefix(const google::protobuf::EnumDescriptor& type);
 
-// Returns the name of a number that the enum has: "REBOUND". EnumNames has those of all its numbers, which are 0, 1, ...
+// Returns the name of a number that the enum has: "REBOUND". EnumNames has those of all its numbers, which are 0, 1,
+// ...
 pybind11::object EnumName(const google::protobuf::EnumDescriptor& type, int number);
 pybind11::list EnumNames(const google::protobuf::EnumDescriptor& type);
 

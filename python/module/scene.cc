@@ -62,7 +62,8 @@ Args:
     scene: the impact, a dictionary with the names of ricochet.v1.Scene; units are SI and radians.
 
 Raises:
-    InvalidRequest: a name is unknown, or a value is of a wrong kind. The rules of the numbers are checked by each call.)";
+    InvalidRequest: a name is unknown, or a value is of a wrong kind. The rules of the numbers are checked by each
+        call.)";
 
 py::dict ToDict(const PreparedScene& prepared) { return DictionaryOf(ToProto(prepared.scene)); }
 

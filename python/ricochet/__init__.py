@@ -10,8 +10,8 @@
 >>> outcome.regime, round(outcome.coefficients.newton, 6)
 ('REBOUND', 0.707107)
 
-The functions of this module compute in this process, or ask the server that the environment names (``RICOCHET_SERVER``);
-a ``Client`` does so with options of its own.
+The functions of this module compute in this process, or ask the server that the environment names
+(``RICOCHET_SERVER``); a ``Client`` does so with options of its own.
 """
 
 from __future__ import annotations

@@ -18,8 +18,8 @@ _UNITS_S = {"": 1.0, "s": 1.0, "ms": 1e-3, "m": 60.0, "h": 3600.0}
 def resolve(given: Mapping[str, str]) -> dict[str, Any]:
     """Returns the options as the module in C++ takes them; an empty text is not set.
 
-    An argument wins over the environment, ``RICOCHET_TLS_CA`` for ``tls_ca``, which wins over a line ``tls-ca = "FILE"``
-    of the TOML file that ``config`` or ``RICOCHET_CONFIG`` names.
+    An argument wins over the environment, ``RICOCHET_TLS_CA`` for ``tls_ca``, which wins over a line ``tls-ca =
+    "FILE"`` of the TOML file that ``config`` or ``RICOCHET_CONFIG`` names.
     """
     config = given.get("config") or os.environ.get("RICOCHET_CONFIG")
     lines = _read_config(config) if config else {}

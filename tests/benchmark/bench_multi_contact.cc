@@ -26,8 +26,7 @@ MultiContactRequest RequestOf(const multi::Problem& problem) {
   request.scene.system = ContactMatrix{.w_per_kg = {w.data(), w.data() + w.size()},
                                        .velocity_m_s = {problem.v.data(), problem.v.data() + problem.v.size()}};
   for (const multi::ContactLaw& law : problem.laws) {
-    request.scene.contacts.push_back(
-        {.friction = law.mu, .energetic = law.e, .relative_stiffness = law.stiffness});
+    request.scene.contacts.push_back({.friction = law.mu, .energetic = law.e, .relative_stiffness = law.stiffness});
   }
   return request;
 }

@@ -183,10 +183,9 @@ TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
 TEST(FillTest, ReachesEveryMemberOfEveryOneof) {
   std::set<const google::protobuf::FieldDescriptor*> reached;
   std::set<const google::protobuf::FieldDescriptor*> all;
-  for (const auto* message :
-       {v1::Scene::descriptor(), v1::BodyPair::descriptor(), v1::SpeedDependence::descriptor(),
-        v1::Restitution::descriptor(), v1::Compliance::descriptor(), v1::AuditRequest::descriptor(),
-        v1::MultiContactScene::descriptor()}) {
+  for (const auto* message : {v1::Scene::descriptor(), v1::BodyPair::descriptor(), v1::SpeedDependence::descriptor(),
+                              v1::Restitution::descriptor(), v1::Compliance::descriptor(),
+                              v1::AuditRequest::descriptor(), v1::MultiContactScene::descriptor()}) {
     for (int i = 0; i < message->real_oneof_decl_count(); ++i) {
       const auto* oneof = message->oneof_decl(i);
       for (int k = 0; k < oneof->field_count(); ++k) all.insert(oneof->field(k));

@@ -116,16 +116,16 @@ struct Method {
   Answer (*answer)(const Solver&, const std::string&, const CallOptions&);
 };
 
-constexpr std::array kMethods = {Method{"Solve", kJson, &AnswerUnary<v1::SolveRequest, &Solver::Solve>},
-                                 Method{"Plan", kJson, &AnswerUnary<v1::PlanRequest, &Solver::Plan>},
-                                 Method{"Bounds", kJson, &AnswerUnary<v1::BoundsRequest, &Solver::Bounds>},
-                                 Method{"Audit", kJson, &AnswerUnary<v1::AuditRequest, &Solver::Audit>},
-                                 Method{"AuditBatch", kJson, &AnswerUnary<v1::AuditBatchRequest, &Solver::AuditBatch>},
-                                 Method{"SolveBatch", kJson, &AnswerBatch},
-                                 Method{"MultiContact", kJson,
-                                        &AnswerUnary<v1::MultiContactRequest, &Solver::MultiContact>},
-                                 Method{"Cost", kJsonStream, &AnswerCost},
-                                 Method{"Info", kJson, &AnswerUnary<v1::InfoRequest, &Solver::Info>}};
+constexpr std::array kMethods = {
+    Method{"Solve", kJson, &AnswerUnary<v1::SolveRequest, &Solver::Solve>},
+    Method{"Plan", kJson, &AnswerUnary<v1::PlanRequest, &Solver::Plan>},
+    Method{"Bounds", kJson, &AnswerUnary<v1::BoundsRequest, &Solver::Bounds>},
+    Method{"Audit", kJson, &AnswerUnary<v1::AuditRequest, &Solver::Audit>},
+    Method{"AuditBatch", kJson, &AnswerUnary<v1::AuditBatchRequest, &Solver::AuditBatch>},
+    Method{"SolveBatch", kJson, &AnswerBatch},
+    Method{"MultiContact", kJson, &AnswerUnary<v1::MultiContactRequest, &Solver::MultiContact>},
+    Method{"Cost", kJsonStream, &AnswerCost},
+    Method{"Info", kJson, &AnswerUnary<v1::InfoRequest, &Solver::Info>}};
 
 // Returns the time that the client allows. Errors: INVALID_ARGUMENT for a header that says none.
 absl::StatusOr<std::chrono::milliseconds> TimeLimit(const Exchange& exchange) {

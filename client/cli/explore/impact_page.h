@@ -1,9 +1,9 @@
 // ImpactPage: one impact as an HTML page, in the pictures of impact_page.html.
 //
 // The page either asks an engine over HTTP (connect.h), or has its answers in itself and needs nothing beside
-// it. What differs is the JSON text that takes the place of {{start}} in the file: the words for regimes and events, the
-// scene if there is one, and the answers of a page that asks nobody. {{nonce}} is what its style and its script must
-// carry to be let in.
+// it. What differs is the JSON text that takes the place of {{start}} in the file: the words for regimes and events,
+// the scene if there is one, and the answers of a page that asks nobody. {{nonce}} is what its style and its script
+// must carry to be let in.
 
 #ifndef RICOCHET_CLIENT_CLI_EXPLORE_IMPACT_PAGE_H_
 #define RICOCHET_CLIENT_CLI_EXPLORE_IMPACT_PAGE_H_

@@ -1,5 +1,5 @@
-// Mechanism file: a mechanism as numpy.savez or numpy.savez_compressed writes it, with the arrays M (n x n), J (2 x n or
-// 3 x n) and qdot (n), of any real floating type or integers, in C or Fortran order.
+// Mechanism file: a mechanism as numpy.savez or numpy.savez_compressed writes it, with the arrays M (n x n), J (2 x n
+// or 3 x n) and qdot (n), of any real floating type or integers, in C or Fortran order.
 
 #ifndef RICOCHET_CLIENT_CLI_INPUT_MECHANISM_FILE_H_
 #define RICOCHET_CLIENT_CLI_INPUT_MECHANISM_FILE_H_

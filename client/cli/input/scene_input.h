@@ -50,7 +50,8 @@ void AddMechanismOptions(CLI::App& app, SceneOptions& options);
 
 // Returns the scene that the options describe, without validating it. A pendulum's inertia is 1 kg m² and its w- is
 // -1 rad/s unless given.
-// Errors: INVALID_ARGUMENT for neither or several of a scene, a mechanism and a pendulum, a text that is not a number, an unreadable file.
+// Errors: INVALID_ARGUMENT for neither or several of a scene, a mechanism and a pendulum, a text that is not a number,
+// an unreadable file.
 absl::StatusOr<Scene> ReadScene(const SceneOptions& options);
 
 // Returns INVALID_ARGUMENT, with the fields that may hold one, for a scene that states no velocity at all. Such a scene

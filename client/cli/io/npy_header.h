@@ -14,8 +14,8 @@
 
 namespace ricochet::cli {
 
-// Reads the header's text, a dictionary of Python with the keys descr, fortran_order and shape, up to the array's bytes.
-// Errors: INVALID_ARGUMENT if the stream ends before.
+// Reads the header's text, a dictionary of Python with the keys descr, fortran_order and shape, up to the array's
+// bytes. Errors: INVALID_ARGUMENT if the stream ends before.
 absl::StatusOr<std::string> ReadNpyHeader(std::istream& stream);
 
 // The lengths along the dimensions; none for a scalar. Nothing if the header does not state them.

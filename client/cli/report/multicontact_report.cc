@@ -54,9 +54,9 @@ std::string WithUnit(const std::string& name, double value) {
 
 std::string VerdictText(const MultiContactAnswer& answer) {
   const bool are_orders = answer.outcome_1 != kSprings && answer.outcome_2 != kSprings;
-  const std::string difference =
-      absl::StrCat(answer.differing_output, " differs by ", WithUnit(answer.differing_output, answer.difference),
-                   " between the ", are_orders ? "orders " : "order ", answer.outcome_1, " and ", answer.outcome_2, ".\n");
+  const std::string difference = absl::StrCat(
+      answer.differing_output, " differs by ", WithUnit(answer.differing_output, answer.difference), " between the ",
+      are_orders ? "orders " : "order ", answer.outcome_1, " and ", answer.outcome_2, ".\n");
   switch (answer.verdict) {
     case MultiContactVerdict::kSingle:
       return "SINGLE: only one outcome is possible.\n";

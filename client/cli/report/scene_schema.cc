@@ -66,9 +66,7 @@ Json ValueSchema(const FieldDescriptor& field, const std::string& comment) {
 }
 
 // A matrix as a list of its rows (client/cli/input/json_matrices.h).
-Json RowsSchema() {
-  return {{"type", "array"}, {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}};
-}
+Json RowsSchema() { return {{"type", "array"}, {"items", {{"type", "array"}, {"items", {{"type", "number"}}}}}}; }
 
 bool IsMatrix(const FieldDescriptor& field) {
   return field.name() == "mass_matrix" || field.name() == "jacobian" || field.name() == "w_per_kg";

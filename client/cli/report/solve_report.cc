@@ -408,11 +408,10 @@ const char* EventText(EventKind kind) {
 }
 
 std::string SolveText(const Outcome& outcome) {
-  std::string text =
-      absl::StrCat(RegimeSentence(outcome.regime), "\n", LineOf(TerminationText(outcome.termination)), Verdict(outcome),
-                   NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n", MotionText(outcome),
-                   BodiesText(outcome.bodies_after), CoordinatesText(outcome), "\n", ImpulseText(outcome.impulse), "\n",
-                   WorkText(outcome));
+  std::string text = absl::StrCat(RegimeSentence(outcome.regime), "\n", LineOf(TerminationText(outcome.termination)),
+                                  Verdict(outcome), NotesText(outcome.notes), "\n", CoefficientsText(outcome), "\n",
+                                  MotionText(outcome), BodiesText(outcome.bodies_after), CoordinatesText(outcome), "\n",
+                                  ImpulseText(outcome.impulse), "\n", WorkText(outcome));
   if (outcome.contact.has_value()) text += ContactText(*outcome.contact);
   text += EndsText(outcome);
   text += AlternativesText(outcome);

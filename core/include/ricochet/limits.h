@@ -14,8 +14,8 @@
 namespace ricochet {
 
 struct Limits {
-  // Links of a linkage, coordinates of a mechanism, rates after an impact that an audit states, and bodies that touch at
-  // several contacts. Time grows with the cube of the links and coordinates.
+  // Links of a linkage, coordinates of a mechanism, rates after an impact that an audit states, and bodies that touch
+  // at several contacts. Time grows with the cube of the links and coordinates.
   int64_t max_links = 64;
   // Numbers in one list of a scene, such as a table of coefficients by speed.
   int64_t max_list_numbers = 1024;

@@ -54,8 +54,8 @@ struct FreeBodies {
   friend bool operator==(const FreeBodies&, const FreeBodies&) = default;
 };
 
-// The Jacobian of a Mechanism has the d rows of each contact, one contact after the other. std::monostate means that the
-// request stated none, which is a violation.
+// The Jacobian of a Mechanism has the d rows of each contact, one contact after the other. std::monostate means that
+// the request stated none, which is a violation.
 using MultiContactSystem = std::variant<std::monostate, ContactMatrix, FreeBodies, Mechanism>;
 
 struct MultiContactPoint {

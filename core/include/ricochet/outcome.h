@@ -255,12 +255,13 @@ struct Outcome {
   bool alternatives_are_ends = false;
   Plan plan;
   std::optional<ContactDuration> contact;  // Present exactly if the model is Model::kFiniteDuration.
-  // Of a mechanism, in the units of its coordinates: q' after the impact, and M (q'+ - q'), the momentum that the impact
-  // gives each coordinate. For a free one that is J^T (f, tau). A coordinate that is held takes what the free ones pass
-  // on to it: less J^T (f, tau), it is the impulse of the brake or controller that holds it. Empty for other systems.
+  // Of a mechanism, in the units of its coordinates: q' after the impact, and M (q'+ - q'), the momentum that the
+  // impact gives each coordinate. For a free one that is J^T (f, tau). A coordinate that is held takes what the free
+  // ones pass on to it: less J^T (f, tau), it is the impulse of the brake or controller that holds it. Empty for other
+  // systems.
   Components rates_after;
   Components momentum_change;
-  std::optional<FreeEnd> free_end;  // Present exactly if SolveRequest::both_ends asks for it.
+  std::optional<FreeEnd> free_end;         // Present exactly if SolveRequest::both_ends asks for it.
   std::optional<Certificate> certificate;  // Present exactly if SolveRequest::certified_digits asks for it.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };

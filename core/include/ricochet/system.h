@@ -91,8 +91,8 @@ struct Linkage {
 
 // Any mechanism, as a multibody library gives it at one instant: its mass matrix M, the Jacobian J of the contact point
 // and its generalised velocities q', in n coordinates of any kind. J has d rows, along t and n in a plane (d = 2) or
-// along t1, t2 and n in space (d = 3); rates.size() is n, and jacobian.size() tells d. A linkage is the case whose M and
-// J follow from its links.
+// along t1, t2 and n in space (d = 3); rates.size() is n, and jacobian.size() tells d. A linkage is the case whose M
+// and J follow from its links.
 //
 // Coordinates that a brake or a stiff controller holds during the impact keep their rates: their rows and columns leave
 // M, and their columns leave J. `composite` holds all joints of a mechanism with a floating base, which then moves as

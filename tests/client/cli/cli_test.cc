@@ -113,7 +113,8 @@ TEST_F(Cli, InfoSaysThatThisProgramTakesRequestsOfAnySize) {
   EXPECT_EQ(text.exit_code, 0) << text.err;
   EXPECT_THAT(text.out, StartsWith("engine    " + ThisEngine().version + ", fingerprint " + ThisEngine().fingerprint));
   EXPECT_THAT(text.out, HasSubstr("systems   pendulum, planar_body, "));
-  EXPECT_THAT(text.out, HasSubstr("  max_links               unlimited  Links of a linkage, or coordinates of a mechanism\n"));
+  EXPECT_THAT(text.out,
+              HasSubstr("  max_links               unlimited  Links of a linkage, or coordinates of a mechanism\n"));
   EXPECT_THAT(text.out, Not(HasSubstr("Limits of the server")));
   EXPECT_THAT(Run({"info", "--format", "csv"}).out, HasSubstr("\nmax_axes,unlimited\n"));
 }

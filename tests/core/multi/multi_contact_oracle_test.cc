@@ -23,8 +23,8 @@ TEST(MultiContactOracleTest, NoClaimIsBroken) {
   EXPECT_LE(claims.skipped, kScenes / 5);
 }
 
-// Three feet on one floor stick, and one of them reaches its cone. They divide friction anew, again and again, until all
-// three are at their cones at once and slip.
+// Three feet on one floor stick, and one of them reaches its cone. They divide friction anew, again and again, until
+// all three are at their cones at once and slip.
 TEST(MultiContactOracleTest, FeetThatDivideFrictionAnewSlipOnceItIsUsedUp) {
   constexpr uint64_t kSeed = 820;
   std::mt19937_64 random(kSeed);

@@ -389,7 +389,8 @@ class Springs {
     return value;
   }
 
-  // The first time in (0, end] at which a condition becomes negative: between two samples, by bisection. 2 if none does.
+  // The first time in (0, end] at which a condition becomes negative: between two samples, by bisection. 2 if none
+  // does.
   static Real FirstFailure(const Reals& series, const Real& end) {
     Reals rest = series;
     while (!rest.empty() && !(Abs(rest.front()) > Real(kTiny))) rest.erase(rest.begin());
@@ -422,8 +423,8 @@ class Springs {
     Expand(Real(h), kOrder);
     Real s(1.0);
     bool is_event = false;
-    // Beyond the first failure a series means nothing, and may return between two samples. So samples are taken anew, up
-    // to there.
+    // Beyond the first failure a series means nothing, and may return between two samples. So samples are taken anew,
+    // up to there.
     for (int pass = 0; pass < 3; ++pass) {
       const Real end = s;
       for (const Reals& condition : Conditions()) {

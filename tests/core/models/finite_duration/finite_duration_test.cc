@@ -640,8 +640,8 @@ TEST(FiniteDurationTest, ImpulsesMakeTheChangeOfASlipThatStopsAllOfASudden) {
   EXPECT_LE(impact.error_estimate, 1e-8);
 }
 
-// A pendulum that static friction holds, with the accelerations that a moment about its pin gives the contact. The normal
-// one is below the smallest double.
+// A pendulum that static friction holds, with the accelerations that a moment about its pin gives the contact. The
+// normal one is below the smallest double.
 Problem NearlyVertical(double a, double mu, double mu_static) {
   constexpr double kInertia = 1.3;
   constexpr double kB = 1.0 / 3.0;
