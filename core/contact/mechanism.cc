@@ -100,10 +100,11 @@ FreePart::FreePart(const Mechanism& mechanism, bool in_space) : coordinates(Free
   scales.resize(free);
   mass.resize(free, free);
   jt.resize(free, directions);
-  for (Index i = 0; i < free; ++i) scales(i) = ScaleFor(all(coordinates[i], coordinates[i]));
+  const auto at = [this](Index i) { return coordinates[static_cast<size_t>(i)]; };
+  for (Index i = 0; i < free; ++i) scales(i) = ScaleFor(all(at(i), at(i)));
   for (Index i = 0; i < free; ++i) {
-    for (Index k = 0; k < free; ++k) mass(i, k) = scales(i) * all(coordinates[i], coordinates[k]) * scales(k);
-    for (Index j = 0; j < directions; ++j) jt(i, j) = scales(i) * transposed(coordinates[i], j);
+    for (Index k = 0; k < free; ++k) mass(i, k) = scales(i) * all(at(i), at(k)) * scales(k);
+    for (Index j = 0; j < directions; ++j) jt(i, j) = scales(i) * transposed(at(i), j);
   }
 }
 

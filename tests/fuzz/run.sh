@@ -7,13 +7,14 @@ if [[ ${1-} == --short ]]; then shift && short=yes; fi
 
 readonly fuzz_packages=(
   "${build_packages[@]}" clang libclang-rt-14-dev llvm python3-grpcio python3-numpy python3-protobuf)
-readonly fuzz_targets=(batches chunks cost duration models partial ranges scene_input sweep_files tables wire)
+readonly fuzz_targets=(batches chunks contacts cost duration models partial ranges scene_input sweep_files tables wire)
 
 # The code that a fuzz target names, which its corpus must cover.
 fuzzed_code() {
   case $1 in
     batches) find core/rows core/types/check_rows.cc core/types/grid.cc -name '*.cc' ;;
     chunks) echo client/chunk_checker.cc client/tally_checker.cc proto/wire/chunk_seal.cc proto/wire/crc32c.cc ;;
+    contacts) find core/multi core/contact/multi_reduction.cc core/scene/validate_multi.cc -name '*.cc' ;;
     cost)
       find core/cost -name '*cost*.cc' -o -name '*_methods.cc' -o -name 'reference_velocity.cc' \
         -o -name 'certified_velocity.cc' -o -name 'stopwatch.cc'
@@ -73,7 +74,7 @@ short_inputs() {
   case $1 in
     chunks | scene_input | wire) echo 30000 ;;
     duration | ranges | tables) echo 5000 ;;
-    batches | cost | sweep_files) echo 1000 ;;
+    batches | contacts | cost | sweep_files) echo 1000 ;;
     models | partial) echo 200 ;;
   esac
 }

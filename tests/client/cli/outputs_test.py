@@ -319,6 +319,7 @@ class Outputs(unittest.TestCase):
         arguments = [] if flag == "--request" else base
         if flag == "--scene":
             arguments = base[len(PENDULUM):] if base[:len(PENDULUM)] == PENDULUM else base
+            arguments = arguments[2:] if arguments[:1] == [flag] else arguments
         if flag == "--data":
             arguments = arguments[:arguments.index(flag)] if flag in arguments else arguments
             arguments = [one for i, one in enumerate(arguments) if "--observed-rate" not in (one, arguments[i - 1])]
