@@ -174,7 +174,7 @@ void CheckRow(const Point& point, const Rows& rows, size_t row, const std::vecto
   for (size_t column = 0; column < names.size() && !has_numbers; ++column) {
     if (!std::isnan(rows.columns[column][row])) Fail(names[column] + " is a number in a row without numbers");
   }
-  if (has_numbers && OnlyLacksRequired(response.status())) return;
+  if (status != RowStatus::kInvalid && OnlyLacksRequired(response.status())) return;
   if (!response.ok()) {
     // Solve has more numbers than the row, one of which may be too large.
     const bool other_is_too_large = absl::IsOutOfRange(response.status()) && status != RowStatus::kInvalid;
