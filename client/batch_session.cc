@@ -30,7 +30,7 @@ size_t RowsOfAPiece(const BatchSetup& setup) {
 }
 
 RemoteBatches::RemoteBatches(const BatchSetup& setup, Start start, PreferredServer& servers, const RetryPolicy& policy,
-                             const CallOptions& options)
+                             CallOptions options)
     : setup_(ToProto(setup)),
       fields_(setup.fields.size()),
       columns_(setup.columns.size()),
@@ -38,7 +38,7 @@ RemoteBatches::RemoteBatches(const BatchSetup& setup, Start start, PreferredServ
       start_(std::move(start)),
       servers_(servers),
       policy_(policy),
-      options_(options) {}
+      options_(std::move(options)) {}
 
 absl::StatusOr<BatchSummary> RemoteBatches::Solve(const BatchRows& rows) {
   if (absl::Status misfit = CheckRows(rows, fields_, columns_); !misfit.ok()) return misfit;
@@ -86,7 +86,7 @@ absl::Status RemoteBatches::Exchange(Remaining& remaining, Attempts& attempts) {
       }
     });
   }
-  const absl::Status taken = ReadAll(remaining, attempts);
+  absl::Status taken = ReadAll(remaining, attempts);
   if (!taken.ok()) call_->context.get().TryCancel();
   if (writer.joinable()) writer.join();
   if (taken.ok()) return taken;

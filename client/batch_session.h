@@ -38,7 +38,7 @@ class RemoteBatches final : public BatchSession::Worker {
 
   // `servers` must outlive this object.
   RemoteBatches(const BatchSetup& setup, Start start, PreferredServer& servers, const RetryPolicy& policy,
-                const CallOptions& options);
+                CallOptions options);
   ~RemoteBatches() override;
 
   absl::StatusOr<BatchSummary> Solve(const BatchRows& rows) override;

@@ -76,10 +76,10 @@ class SweepFanOut::Server {
   int slow_ = 0;       // How often in a row it was too slow.
 };
 
-SweepFanOut::SweepFanOut(const SweepRequest& request, Servers servers, const CallOptions& options)
+SweepFanOut::SweepFanOut(const SweepRequest& request, Servers servers, CallOptions options)
     : request_(request),
       servers_(std::move(servers)),
-      options_(options),
+      options_(std::move(options)),
       scheduler_(request.first_index, *request.end_index, PointBytes(request), servers_.fan_out.buffer_bytes,
                  static_cast<int64_t>(servers_.count)),
       is_lost_(servers_.count) {

@@ -46,7 +46,7 @@ class SweepFanOut {
 
   // `request` is for at least one point of a valid grid and has an end_index. All calls together end when `options` say
   // so.
-  SweepFanOut(const SweepRequest& request, Servers servers, const CallOptions& options);
+  SweepFanOut(const SweepRequest& request, Servers servers, CallOptions options);
 
   // Ends all calls and waits for their threads.
   ~SweepFanOut();

@@ -158,17 +158,16 @@ void Neighbours<kTangential>::SetHold(const Reduction<kTangential>& reduction,
 
 template <size_t kTangential>
 void Neighbours<kTangential>::SetGaps(const ContactErrors<kTangential>& errors) {
-  constexpr size_t n = kTangential;
-  speed_gap_ = errors.velocity[n];
-  speed_growth_ = errors.w[n][n];
+  speed_gap_ = errors.velocity[kTangential];
+  speed_growth_ = errors.w[kTangential][kTangential];
   if (!has_friction()) return;
   Vector<kTangential> u = {}, growth = {}, coupling = {};
   for (size_t i = 0; i < kTangential; ++i) {
     u[i] = errors.velocity[i];
-    growth[i] = errors.w[i][n];
+    growth[i] = errors.w[i][kTangential];
     coupling[i] = std::fabs(coupling_[i]);
     for (size_t j = 0; j < kTangential; ++j) growth[i] += most_friction_ * errors.w[i][j];
-    speed_growth_ += most_friction_ * errors.w[i][n] + friction_error_ * coupling[i];
+    speed_growth_ += most_friction_ * errors.w[i][kTangential] + friction_error_ * coupling[i];
   }
   const double omega = std::min(std::sqrt(wnn_), Norm(coupling));
   slip_gap_ = Norm(u);

@@ -74,8 +74,8 @@ short_inputs() {
   case $1 in
     chunks | scene_input | wire) echo 30000 ;;
     duration | ranges | tables) echo 5000 ;;
-    batches | contacts | cost | sweep_files) echo 1000 ;;
-    models | partial) echo 200 ;;
+    batches | cost | sweep_files) echo 1000 ;;
+    contacts | models | partial) echo 200 ;;
   esac
 }
 

@@ -50,8 +50,8 @@ std::string DetailText(const google::protobuf::Any& any) {
   bytes.erase(bytes.find_last_not_of('=') + 1);
   std::string json;
   if (!google::protobuf::util::MessageToJsonString(any, &json).ok()) json = "null";
-  return absl::StrCat("{\"type\":\"", any.type_url().substr(any.type_url().rfind('/') + 1), "\",\"value\":\"", bytes,
-                      "\",\"debug\":", json, "}");
+  return absl::StrCat(R"({"type":")", any.type_url().substr(any.type_url().rfind('/') + 1), R"(","value":")", bytes,
+                      R"(","debug":)", json, "}");
 }
 
 // --- Calls: the JSON text of the answer to a request in JSON ---
@@ -149,7 +149,7 @@ Answer Ask(const Method& method, const Solver& solver, const std::stop_token& st
 
 std::string ErrorJson(const absl::Status& status) {
   const grpc::Status sent = ToGrpcStatus(status);
-  std::string text = absl::StrCat("{\"code\":\"", kCodes.at(static_cast<size_t>(status.code())), "\",\"message\":");
+  std::string text = absl::StrCat(R"({"code":")", kCodes.at(static_cast<size_t>(status.code())), R"(","message":)");
   AppendJson(sent.error_message(), text);
   google::rpc::Status proto;
   proto.ParseFromString(sent.error_details());

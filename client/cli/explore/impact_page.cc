@@ -52,9 +52,8 @@ std::string SceneJson(const Scene& scene) { return SparseJsonOf(ToProto(scene));
 // Returns `,"name":{"request":...,"answer":...}`, or with an error in place of the answer.
 std::string AnswerJson(const char* name, const Solver& solver, absl::string_view method, const std::string& request) {
   const absl::StatusOr<std::string> answer = AskInJson(solver, method, request);
-  return absl::StrCat(",\"", name, "\":{\"request\":", request,
-                      answer.ok() ? ",\"answer\":" : ",\"error\":", answer.ok() ? *answer : ErrorJson(answer.status()),
-                      "}");
+  return absl::StrCat(R"(,")", name, R"(":{"request":)", request, answer.ok() ? R"(,"answer":)" : R"(,"error":)",
+                      answer.ok() ? *answer : ErrorJson(answer.status()), "}");
 }
 
 // Asks for the coefficients of restitution over friction, from 0 to at least 2.
@@ -65,9 +64,9 @@ std::string CurvesJson(const char* name, const Solver& solver, const Scene& scen
   const std::string bytes(reinterpret_cast<const char*>(mu.data()), mu.size() * sizeof(double));
   return AnswerJson(
       name, solver, "SolveBatch",
-      absl::StrCat("{\"setup\":{\"fields\":[\"friction.kinetic_coefficient\"],\"columns\":[",
-                   "\"coefficients.newton\",\"coefficients.poisson\",\"coefficients.energetic\"],",
-                   "\"scene\":", SceneJson(scene), "},\"inputs\":[\"", absl::Base64Escape(bytes), "\"]}"));
+      absl::StrCat(R"({"setup":{"fields":["friction.kinetic_coefficient"],"columns":[)",
+                   R"("coefficients.newton","coefficients.poisson","coefficients.energetic"],)", R"("scene":)",
+                   SceneJson(scene), R"(},"inputs":[")", absl::Base64Escape(bytes), R"("]})"));
 }
 
 // The answers that depend on the coefficient that the scene states, which are none without one.
@@ -96,11 +95,10 @@ std::string LivePage(const std::optional<Scene>& scene, const std::string& nonce
 std::string FinishedPage(const Solver& solver, const SolveRequest& request, const SolveResponse& response) {
   const Scene& scene = request.scene;
   const std::string shown = SceneJson(scene);
-  std::string more =
-      absl::StrCat(",\"scene\":", shown, ",\"answers\":{\"solve\":{\"request\":", SparseJsonOf(ToProto(request)),
-                   ",\"answer\":", JsonOf(ToProto(response)), "}",
-                   AnswerJson("bounds", solver, "Bounds", absl::StrCat("{\"scene\":", shown, "}")),
-                   std::visit(LawsJson{solver, scene}, scene.restitution));
+  std::string more = absl::StrCat(R"(,"scene":)", shown, R"(,"answers":{"solve":{"request":)",
+                                  SparseJsonOf(ToProto(request)), R"(,"answer":)", JsonOf(ToProto(response)), "}",
+                                  AnswerJson("bounds", solver, "Bounds", absl::StrCat(R"({"scene":)", shown, "}")),
+                                  std::visit(LawsJson{solver, scene}, scene.restitution));
   if (response.outcome.timeline.size() > 1 && TangentialDirections(scene.system) == 2) {
     const AuditBatchRequest path = {.scene = scene, .columns = PartsOfTheWay(response.outcome, 48)};
     more += AnswerJson("path", solver, "AuditBatch", JsonOf(ToProto(path)));

@@ -138,7 +138,7 @@ std::string PowerOfTen(int exponent) {
 }
 
 std::string NumberText(double value) {
-  const std::string text = Rounded(value);
+  std::string text = Rounded(value);
   const size_t mark = text.find('e');
   int exponent = 0;
   if (mark == std::string::npos || !absl::SimpleAtoi(text.substr(mark + 1), &exponent)) return text;

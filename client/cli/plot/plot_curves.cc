@@ -83,7 +83,8 @@ struct Place {
   int64_t pixel;
   size_t curve;
   size_t point;
-  friend auto operator<=>(const Place&, const Place&) = default;
+  // clang-tidy 14 takes the 0 with which an ordering is compared for a pointer.
+  friend auto operator<=>(const Place&, const Place&) = default;  // NOLINT(modernize-use-nullptr)
 };
 
 // Returns for each point of each curve how many later curves go through the same place: they would hide it.
@@ -145,7 +146,7 @@ Points Beyond(const Points& points, const Axes& axes, Mark mark) {
 std::string Quoted(const std::string& text) {
   std::vector<std::string> lines = absl::StrSplit(Printable(text), '\n');
   for (std::string& line : lines) line = absl::StrCat("'", absl::StrReplaceAll(line, {{"'", "''"}}), "'");
-  return absl::StrJoin(lines, ".\"\\n\".");
+  return absl::StrJoin(lines, R"(."\n".)");
 }
 
 std::vector<std::string> AppendCurves(const std::string& prefix, const Panel& panel, const Axes& axes,

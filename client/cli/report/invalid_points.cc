@@ -67,7 +67,7 @@ InvalidCounts::InvalidCounts(const SweepRequest& request)
 
 // True if the point has no numbers because it is invalid.
 bool InvalidCounts::IsInvalid(const SweepChunk& chunk, int64_t i) {
-  for (size_t at = static_cast<size_t>(i); at < chunk.values.size(); at += static_cast<size_t>(chunk.count)) {
+  for (auto at = static_cast<size_t>(i); at < chunk.values.size(); at += static_cast<size_t>(chunk.count)) {
     if (!std::isnan(chunk.values[at])) return false;
   }
   return !may_lack_numbers_ || !points_.KeepsRules(chunk.first_index + i);
