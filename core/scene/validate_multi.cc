@@ -19,6 +19,8 @@ namespace {
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 // How far the stiffnesses of a range may lie apart.
 constexpr double kMostStiffnessRatio = 1e12;
+// Forces that friction adds to each other must not leave the doubles.
+constexpr double kMostFriction = 1e9;
 
 std::string Entry(const char* list, size_t index, const char* field) {
   return absl::StrCat(list, "[", index, "]", *field == '\0' ? "" : ".", field);
@@ -129,6 +131,10 @@ void CheckContacts(const MultiContactScene& scene, Check& check) {
   });
   for (size_t i = 0; i < count && !check.IsFull(); ++i) {
     CheckNumbers(scene.contacts[i], "contacts", static_cast<int>(i), check);
+    check.Require(!(scene.contacts[i].friction > kMostFriction), [&] {
+      return MakeViolation(Entry("contacts", i, "friction"), scene.contacts[i].friction,
+                           absl::StrCat("be at most ", ShortestDecimal(kMostFriction)));
+    });
     check.Require(scene.contacts[i].energetic.has_value(),
                   [&] { return MakeViolation(Entry("contacts", i, "energetic"), "is not set", "be in [0, 1]"); });
     CheckPlace(scene, i, check);
