@@ -129,11 +129,7 @@ absl::Status ContactOverflow() {
 
 absl::Status SolveScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand,
                         const OutcomeDetail& detail, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
-  absl::Status status = SolvePlanned(scene, contact, PlanScene(scene, contact, demand), detail, stopped, outcome);
-  if (status.ok() && !detail.numbers_only && contact.has_value()) {
-    SetRatesErrors(scene, *contact, outcome);
-  }
-  return status;
+  return SolvePlanned(scene, contact, PlanScene(scene, contact, demand), detail, stopped, outcome);
 }
 
 absl::Status SetFreeEnd(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped, Outcome& outcome) {
@@ -170,6 +166,7 @@ absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>&
   if (!detail.numbers_only) {
     Explain(planned, outcome.plan);
     AddNotes(scene, planned, outcome);
+    if (contact.has_value()) SetRatesErrors(scene, *contact, outcome);
   } else {
     outcome.plan.model = planned.choice.model;
   }

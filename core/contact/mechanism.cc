@@ -59,19 +59,19 @@ std::vector<Index> FreeCoordinates(const Mechanism& mechanism, bool in_space) {
   return free;
 }
 
-Factor::Factor(const MatrixXd& mass) : cholesky(mass), inverse_norm(kInfinity) {
-  const Index n = mass.rows();
-  inverse_roots = VectorXd::Constant(n, kInfinity);
-  if (n == 0) inverse_norm = 0.0;
+InverseBounds::InverseBounds(const Eigen::LLT<MatrixXd>& cholesky, double trace)
+    : roots(VectorXd::Constant(cholesky.rows(), kInfinity)), norm(kInfinity) {
+  const Index n = cholesky.rows();
+  if (n == 0) norm = 0.0;
   if (n == 0 || cholesky.info() != Eigen::Success) return;
   const VectorXd columns = cholesky.matrixL().solve(MatrixXd::Identity(n, n)).colwise().norm();
   const double square = columns.squaredNorm();
   // The factor is that of M + dM with |dM| <= (n + 1) u trace M; where that is small, M^-1 is below 4/3 of the computed
   // inverse, and the inverse of the factor is right to a tenth of its columns.
-  const double perturbation = static_cast<double>(n + 2) * kUnit * mass.trace();
+  const double perturbation = static_cast<double>(n + 2) * kUnit * trace;
   if (!(8.0 * perturbation * square <= 1.0)) return;
-  inverse_roots = 1.3 * columns;
-  inverse_norm = 1.3 * std::sqrt(square);
+  roots = 1.3 * columns;
+  norm = 1.3 * std::sqrt(square);
 }
 
 LeastEigenvalue LeastEigenvalueOf(const std::vector<double>& matrix, size_t n) {
@@ -82,7 +82,7 @@ LeastEigenvalue LeastEigenvalueOf(const std::vector<double>& matrix, size_t n) {
   scaled = scales.asDiagonal() * scaled * scales.asDiagonal();
   const double least = 16.0 * static_cast<double>(n) * std::numeric_limits<double>::epsilon();
   // 1/trace M^-1 is at most the smallest eigenvalue.
-  const double inverse_norm = Factor(scaled).inverse_norm;
+  const double inverse_norm = InverseBounds(Eigen::LLT<MatrixXd>(scaled), scaled.trace()).norm;
   const double bound = 1.0 / (inverse_norm * inverse_norm);
   if (bound > least) return {.value = bound, .least = least};
   const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(scaled, Eigen::EigenvaluesOnly);
@@ -160,11 +160,11 @@ ContactMotion::ContactMotion(const Mechanism& mechanism) {
 }
 
 MechanismErrors::MechanismErrors(const Mechanism& mechanism, const FreePart& part) : solved(part), motion(mechanism) {
-  const Factor factor(part.mass);
+  const InverseBounds inverse(solved.cholesky, part.mass.trace());
   const Index n = part.jt.rows();
   const Index directions = part.jt.cols();
   // Bounds on the norms of L^-1 R, with the residual's own error.
-  const VectorXd energy = factor.inverse_norm * (solved.residual.cwiseAbs() + solved.doubt).colwise().norm();
+  const VectorXd energy = inverse.norm * (solved.residual.cwiseAbs() + solved.doubt).colwise().norm();
   const double noise = CompensatedNoise(2 * n);
   w.resize(directions, directions);
   velocity.resize(directions);
@@ -181,7 +181,7 @@ MechanismErrors::MechanismErrors(const Mechanism& mechanism, const FreePart& par
   response = MatrixXd::Zero(static_cast<Index>(mechanism.rates.size()), directions);
   for (Index i = 0; i < n; ++i) {
     for (Index j = 0; j < directions; ++j) {
-      response(part.coordinates[static_cast<size_t>(i)], j) = part.scales(i) * factor.inverse_roots(i) * energy(j);
+      response(part.coordinates[static_cast<size_t>(i)], j) = part.scales(i) * inverse.roots(i) * energy(j);
     }
   }
   // Outside this range a product may have underflowed.

@@ -17,19 +17,18 @@
 
 namespace ricochet {
 
-// The coordinates that are not held, in rising order. A base in space has 6 of them, one in a plane 3.
+// The coordinates that are not held, in rising order. A base in space has 6 of them, one in a plane 3. The Jacobian of
+// a single contact tells which of both it is.
 std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism, bool in_space);
-std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism);  // Of one contact, whose Jacobian tells.
+std::vector<Eigen::Index> FreeCoordinates(const Mechanism& mechanism);
 
-// M^-1 by its Cholesky factor, with a lower bound on the smallest eigenvalue. `mass` has a diagonal in [1, 4).
-struct Factor {
-  explicit Factor(const Eigen::MatrixXd& mass);
+// Bounds on the roots of the diagonal entries of M^-1, and on the root of its trace, from the Cholesky factor and the
+// trace of an M whose diagonal lies in [1, 4). They are infinite where M is singular to rounding.
+struct InverseBounds {
+  InverseBounds(const Eigen::LLT<Eigen::MatrixXd>& cholesky, double trace);
 
-  Eigen::LLT<Eigen::MatrixXd> cholesky;
-  // Bounds on the roots of the diagonal entries of M^-1, and on the root of its trace; infinite where M is singular to
-  // rounding.
-  Eigen::VectorXd inverse_roots;
-  double inverse_norm;
+  Eigen::VectorXd roots;
+  double norm;
 };
 
 // The smallest eigenvalue of a symmetric matrix (n x n, row by row) that is scaled to a diagonal in [1, 4), which must
@@ -41,9 +40,9 @@ struct LeastEigenvalue {
 LeastEigenvalue LeastEigenvalueOf(const std::vector<double>& matrix, size_t n);
 
 struct FreePart {
-  // The Jacobian may have the rows of several contacts.
+  // The Jacobian may have the rows of several contacts; without `in_space` it has those of one.
   FreePart(const Mechanism& mechanism, bool in_space);
-  explicit FreePart(const Mechanism& mechanism);  // Of one contact.
+  explicit FreePart(const Mechanism& mechanism);
 
   std::vector<Eigen::Index> coordinates;
   Eigen::VectorXd scales;    // Powers of two: coordinate i is scales(i) times the scaled one.

@@ -7,7 +7,6 @@
 #include <type_traits>
 
 #include "absl/strings/match.h"
-#include "core/answer/rates_errors.h"
 #include "core/answer/scene_outcome.h"
 #include "core/scene/numbers.h"
 #include "core/scene/validate.h"
@@ -145,7 +144,6 @@ bool RowSolver::SolvePlannedRow(size_t i, std::optional<SceneContact>& contact, 
   const absl::Status solved = SolvePlanned(driven_.scene(), contact, planned, detail, stopped, outcome);
   if (absl::IsCancelled(solved)) return false;
   if (solved.ok()) {
-    if (asks_rates_errors_ && contact.has_value()) SetRatesErrors(driven_.scene(), *contact, outcome);
     SetRow(i, outcome);
   } else {
     // The demand was checked for the base scene. This row may need an effect that it excludes.

@@ -176,7 +176,7 @@ void CheckRange(const std::string& field, const MultiReduction& reduction, const
   });
 }
 
-// The field that a scene states its velocity with.
+// Names the field that a scene states its velocity with.
 struct VelocityField {
   std::string operator()(std::monostate) const { return "system"; }
   std::string operator()(const ContactMatrix& /*matrix*/) const { return "contact_matrix.velocity_m_s"; }
@@ -215,11 +215,13 @@ void CheckMethods(const MultiContactRequest& request, int directions, Check& che
 // Returns whether the list keeps the rules.
 bool CheckList(const std::string& field, const std::vector<double>& list, size_t size, Check& check) {
   if (!check.Length(field, list.size(), size)) return false;
+  bool keeps = true;
   for (size_t i = 0; i < size; ++i) {
-    check.Require(std::isfinite(list[i]),
-                  [&] { return MakeViolation(absl::StrCat(field, "[", i, "]"), list[i], "be finite"); });
+    const bool is_finite = std::isfinite(list[i]);
+    check.Require(is_finite, [&] { return MakeViolation(absl::StrCat(field, "[", i, "]"), list[i], "be finite"); });
+    keeps = keeps && is_finite;
   }
-  return std::all_of(list.begin(), list.end(), [](double number) { return std::isfinite(number); });
+  return keeps;
 }
 
 // Checks lists that have one number for each velocity of the system.

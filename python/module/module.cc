@@ -15,7 +15,6 @@
 #include "absl/synchronization/mutex.h"
 #include "core/base/invariant.h"
 #include "proto/wire/info.h"
-#include "proto/wire/multi_contact.h"
 #include "python/module/call.h"
 #include "python/module/record.h"
 #include "python/module/request.h"
@@ -107,16 +106,6 @@ py::object Answer(const Callee& solver, py::handle scene, const py::dict& argume
   return RecordOf(ToProto(Call(solver).Ask(kMethod, RequestOf<Wire>(scene, arguments))));
 }
 
-// The scene has several contacts.
-py::object MultiContact(const Callee& solver, py::handle scene, const py::dict& arguments) {
-  Filler filler;
-  v1::MultiContactRequest request;
-  filler.Fill(scene, *request.mutable_scene());
-  for (const auto& [name, value] : arguments) filler.FillArgument(std::string(py::str(name)), value, request);
-  filler.Finish();
-  return RecordOf(ToProto(Call(solver).Ask(&Solver::MultiContact, FromProto(request))));
-}
-
 // Answers with one message that has all rows.
 py::object Cost(const Callee& solver, py::handle scene, const py::dict& arguments, const py::object& progress) {
   const auto request = RequestOf<v1::CostRequest>(scene, arguments);
@@ -154,7 +143,7 @@ void AddSolver(py::module_& module) {
       .def("bounds", &Answer<v1::BoundsRequest, &Solver::Bounds>)
       .def("audit", &Answer<v1::AuditRequest, &Solver::Audit>)
       .def("audit_batch", &Answer<v1::AuditBatchRequest, &Solver::AuditBatch>)
-      .def("multicontact", &MultiContact)
+      .def("multicontact", &Answer<v1::MultiContactRequest, &Solver::MultiContact>)
       .def("info", &Info)
       .def("cost", &Cost)
       .def("abandon", &Callee::Abandon);

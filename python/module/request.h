@@ -6,10 +6,12 @@
 #include <pybind11/pybind11.h>
 
 #include <string>
+#include <type_traits>
 
 #include "proto/wire/audit.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
+#include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "python/module/filler.h"
@@ -28,9 +30,11 @@ template <typename Wire>
 auto RequestOf(py::handle scene, const py::dict& arguments) {
   Filler filler;
   Wire message;
+  constexpr bool kHasSeveralContacts = std::is_same_v<Wire, v1::MultiContactRequest>;
+  if constexpr (kHasSeveralContacts) filler.Fill(scene, *message.mutable_scene());
   for (const auto& [name, value] : arguments) filler.FillArgument(std::string(py::str(name)), value, message);
   auto request = FromProto(message);
-  SceneIn(request) = SceneOf(scene, filler);
+  if constexpr (!kHasSeveralContacts) SceneIn(request) = SceneOf(scene, filler);
   filler.Finish();
   return request;
 }

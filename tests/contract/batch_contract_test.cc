@@ -18,6 +18,7 @@
 #include "core/scene/numbers.h"
 #include "ricochet/engine_info.h"
 #include "tests/contract/solvers.h"
+#include "tests/support/scenes/drivable_numbers.h"
 #include "tests/support/scenes/system_scenes.h"
 
 namespace ricochet {
@@ -80,10 +81,8 @@ struct Batch {
 
 Batch BatchOf(const Scene& scene, size_t rows) {
   Batch batch = {.setup = {.scene = scene, .columns = Columns(scene)}, .in = {}};
-  const std::vector<std::string> drivable = FieldPaths(scene);
-  VisitNumbers(scene, [&](const NumberPath& path, double number, NumberRule /*rule*/) {
-    if (std::find(drivable.begin(), drivable.end(), path.Text()) == drivable.end()) return;
-    batch.setup.fields.push_back(path.Text());
+  VisitDrivableNumbers(scene, [&](std::string path, double number) {
+    batch.setup.fields.push_back(std::move(path));
     std::vector<double>& column = batch.in.emplace_back();
     for (size_t i = 0; i < rows; ++i) column.push_back(Varied(number, i, batch.in.size() - 1));
   });

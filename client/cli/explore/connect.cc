@@ -127,6 +127,13 @@ constexpr std::array kMethods = {
     Method{"Cost", kJsonStream, &AnswerCost},
     Method{"Info", kJson, &AnswerUnary<v1::InfoRequest, &Solver::Info>}};
 
+// Returns null for a name of no call that is served.
+const Method* FindMethod(absl::string_view name) {
+  const auto* const found =
+      std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& one) { return one.name == name; });
+  return found == kMethods.end() ? nullptr : found;
+}
+
 // Returns the time that the client allows. Errors: INVALID_ARGUMENT for a header that says none.
 absl::StatusOr<std::chrono::milliseconds> TimeLimit(const Exchange& exchange) {
   const std::string header = exchange.Header("Connect-Timeout-Ms");
@@ -160,8 +167,7 @@ std::string ErrorJson(const absl::Status& status) {
 }
 
 absl::StatusOr<std::string> AskInJson(const Solver& solver, absl::string_view method, const std::string& body) {
-  const auto* found = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& m) { return m.name == method; });
-  return found->answer(solver, body, {});
+  return FindMethod(method)->answer(solver, body, {});
 }
 
 void ReplyError(const absl::Status& status, Exchange& exchange) {
@@ -169,14 +175,12 @@ void ReplyError(const absl::Status& status, Exchange& exchange) {
 }
 
 void AnswerConnect(const Solver& solver, const std::stop_token& stop, Exchange& exchange) {
-  const auto* method = std::find_if(kMethods.begin(), kMethods.end(), [&](const Method& one) {
-    return exchange.path() == absl::StrCat(kService, one.name);
-  });
+  absl::string_view name = exchange.path();
+  const Method* const method = absl::ConsumePrefix(&name, kService) ? FindMethod(name) : nullptr;
   const auto refuse = [&](int http, const std::string& why, const std::string& header) {
     exchange.Reply(http, kJson, ErrorJson(absl::UnimplementedError(why)), header);
   };
-  if (method == kMethods.end())
-    return refuse(404, absl::StrCat(exchange.path(), " is no call that is served here"), "");
+  if (method == nullptr) return refuse(404, absl::StrCat(exchange.path(), " is no call that is served here"), "");
   if (exchange.method() != "POST") return refuse(405, "the method must be POST", "Allow: POST\r\n");
   const std::string type = exchange.Header("Content-Type");
   if (!absl::EqualsIgnoreCase(absl::StripAsciiWhitespace(type.substr(0, type.find(';'))), method->type)) {

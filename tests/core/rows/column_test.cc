@@ -21,6 +21,7 @@
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/solver.h"
 #include "tests/support/scenes/batch_table.h"
+#include "tests/support/scenes/drivable_numbers.h"
 #include "tests/support/scenes/random_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
 
@@ -56,16 +57,14 @@ Answer AnswerOf(const Scene& scene, DemandFields demand, bool takes_time) {
 
 // Scenes of one kind, as rows: the numbers of each that can be driven, by their paths.
 BatchTable TableOf(const std::vector<Scene>& scenes, const DemandFields& demand) {
-  const std::vector<std::string> drivable = FieldPaths(scenes.front());
   BatchTable table;
   table.setup.scene = scenes.front();
   table.setup.demand = demand;
   for (const Scene& scene : scenes) {
     std::vector<double> row;
     table.setup.fields.clear();
-    VisitNumbers(scene, [&](const NumberPath& path, double number, NumberRule /*rule*/) {
-      if (std::find(drivable.begin(), drivable.end(), path.Text()) == drivable.end()) return;
-      table.setup.fields.push_back(path.Text());
+    VisitDrivableNumbers(scene, [&](std::string path, double number) {
+      table.setup.fields.push_back(std::move(path));
       row.push_back(number);
     });
     table.Add(row);

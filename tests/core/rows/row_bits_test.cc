@@ -17,6 +17,7 @@
 #include "core/scene/field.h"
 #include "core/scene/numbers.h"
 #include "ricochet/solver.h"
+#include "tests/support/scenes/drivable_numbers.h"
 #include "tests/support/scenes/random_scenes.h"
 
 namespace ricochet {
@@ -36,11 +37,8 @@ std::vector<std::string> NumberPaths(const Scene& scene) {
 
 // The numbers that can be driven alone.
 std::vector<std::string> DrivablePaths(const Scene& scene) {
-  const std::vector<std::string> drivable = FieldPaths(scene);
-  std::vector<std::string> paths = NumberPaths(scene);
-  std::erase_if(paths, [&](const std::string& path) {
-    return std::find(drivable.begin(), drivable.end(), path) == drivable.end();
-  });
+  std::vector<std::string> paths;
+  VisitDrivableNumbers(scene, [&](std::string path, double /*number*/) { paths.push_back(std::move(path)); });
   return paths;
 }
 
