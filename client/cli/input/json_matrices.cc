@@ -7,12 +7,16 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_join.h"
+#include "absl/strings/string_view.h"
 #include "ricochet/contact_matrix.h"
 
 namespace ricochet::cli {
 namespace {
 
 constexpr char kBlanks[] = " \t\r\n";
+
+// The systems that state a W: by its upper triangle, or all entries of that of several contacts.
+constexpr absl::string_view kPlanar = "planar_contact", kSpatial = "spatial_contact", kSeveral = "contact_matrix";
 
 // The rows of a matrix and where its text begins and ends.
 struct Matrix {
@@ -52,7 +56,7 @@ absl::StatusOr<std::string> PackedW(const std::vector<double>& w, bool in_space)
   const size_t rows = in_space ? 3 : 2;
   if (w.size() != rows * rows) {
     return absl::InvalidArgumentError(absl::StrCat("w_per_kg has ", w.size(), " entries: must be ", rows, " x ", rows,
-                                                   " in a ", in_space ? "spatial_contact" : "planar_contact"));
+                                                   " in a ", in_space ? kSpatial : kPlanar));
   }
   if (in_space) {
     const auto contact = ContactFrom(std::span<const double, 9>(w.data(), 9), {0.0, 0.0}, 0.0);
@@ -67,11 +71,15 @@ absl::StatusOr<std::string> PackedW(const std::vector<double>& w, bool in_space)
                       ", \"w_nn_per_kg\": ", number(contact->w_nn_per_kg));
 }
 
-// True if the system that begins last before `at` is a contact in space.
-bool IsInSpace(const std::string& text, size_t at) {
-  const size_t planar = text.rfind("\"planar_contact\"", at);
-  const size_t spatial = text.rfind("\"spatial_contact\"", at);
-  return planar == std::string::npos || (spatial != std::string::npos && spatial > planar);
+// Returns the system that states a W and begins last before `at`; a contact in space if there is none.
+absl::string_view SystemBefore(const std::string& text, size_t at) {
+  absl::string_view last = kSpatial;
+  size_t begin = 0;
+  for (const absl::string_view system : {kPlanar, kSpatial, kSeveral}) {
+    const size_t found = text.rfind(absl::StrCat("\"", system, "\""), at);
+    if (found != std::string::npos && found >= begin) begin = found, last = system;
+  }
+  return last;
 }
 
 absl::StatusOr<std::string> FlatText(const std::string& text, const std::string& key, size_t key_at,
@@ -84,7 +92,8 @@ absl::StatusOr<std::string> FlatText(const std::string& text, const std::string&
     }
     entries.insert(entries.end(), row.begin(), row.end());
   }
-  if (key == "w_per_kg") return PackedW(entries, IsInSpace(text, key_at));
+  const absl::string_view system = SystemBefore(text, key_at);
+  if (key == "w_per_kg" && system != kSeveral) return PackedW(entries, system == kSpatial);
   return absl::StrCat("\"", key, "\": ", ListOf(entries));
 }
 

@@ -1,5 +1,5 @@
 // Matrices in JSON as people write them, as lists of their rows: mass_matrix and jacobian of a mechanism, and W, 2 x 2
-// in a planar_contact and 3 x 3 in a spatial_contact, under the name w_per_kg.
+// in a planar_contact, 3 x 3 in a spatial_contact and square in a contact_matrix, under the name w_per_kg.
 
 #ifndef RICOCHET_CLIENT_CLI_INPUT_JSON_MATRICES_H_
 #define RICOCHET_CLIENT_CLI_INPUT_JSON_MATRICES_H_

@@ -90,6 +90,17 @@ class MechanismTest(RicochetCase):
         six = self.contact("six.json", "spatial_contact", [1.96, 0.24, 0.6, 2.96, -0.8, 1.85])
         self.assertEqual(self.outcome(*self.contact("space.json", "spatial_contact", space)), self.outcome(*six))
 
+    def test_the_w_of_several_contacts_is_a_matrix_too(self):
+        rows = [[3.4, -1.2, 3.4, 1.2], [-1.2, 1.6, -1.2, 0.4], [3.4, -1.2, 3.4, 1.2], [1.2, 0.4, 1.2, 1.6]]
+        feet = [{"friction": 1, "energetic": 0.5}] * 2
+        answers = []
+        for w in (rows, sum(rows, [])):
+            (WORK / "feet.json").write_text(json.dumps(
+                {"contact_matrix": {"w_per_kg": w, "velocity_m_s": [0, -1, 0, -1]}, "contacts": feet}))
+            answers.append(self.made("multicontact", "--scene", "feet.json", "--format", "json"))
+        self.assertEqual(*answers)
+        self.assertIn("VERDICT_ORDER_MATTERS", answers[0])
+
     def test_a_w_that_is_wrong_is_named_with_its_frame(self):
         skew = [[2.5, 1.5], [1.4, 2.5]]
         for system, w, words in [
