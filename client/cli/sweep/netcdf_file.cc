@@ -1,8 +1,6 @@
 #include "client/cli/sweep/netcdf_file.h"
 
-#include <dlfcn.h>
 #include <google/protobuf/util/json_util.h>
-#include <netcdf.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -15,6 +13,7 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/str_replace.h"
 #include "client/cli/io/output.h"
+#include "client/cli/sweep/netcdf_library.h"
 #include "client/cli/text/axis_cursor.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/field_table.h"
@@ -43,14 +42,7 @@ absl::Status StatusOf(const Failure& failure) {
   constexpr char kWhat[] = "cannot write the NetCDF file";
   if (failure.error == NC_NOERR) return absl::OkStatus();
   if (failure.cause != 0) return absl::ErrnoToStatus(failure.cause, kWhat);
-  return absl::InternalError(absl::StrCat(kWhat, ": ", nc_strerror(failure.error)));
-}
-
-// HDF5 would close its files once more when the process ends, and crashes there if one could not be written. Call it
-// before anything else of NetCDF, which brings HDF5 along.
-void LeaveHdf5AloneAtExit() {
-  using Function = int (*)();
-  if (const auto function = reinterpret_cast<Function>(dlsym(RTLD_DEFAULT, "H5dont_atexit"))) function();
+  return absl::InternalError(absl::StrCat(kWhat, ": ", Netcdf().strerror(failure.error)));
 }
 
 // Powers of units are written as UDUNITS reads them: "kg m2".
@@ -98,18 +90,17 @@ class NetcdfFile::Impl {
   Impl& operator=(const Impl&) = delete;
   ~Impl() {
     // To abort a file that could not be written crashes in NetCDF 4.9; it is removed all the same.
-    if (id_ >= 0 && !has_failed()) nc_abort(id_);
+    if (id_ >= 0 && !has_failed()) Netcdf().abort(id_);
   }
 
   absl::Status Open(int64_t points) {
-    LeaveHdf5AloneAtExit();
-    Take(nc_create(file_.temporary_path().c_str(), NC_CLOBBER | NC_NETCDF4, &id_));
+    Take(Netcdf().create(file_.temporary_path().c_str(), NC_CLOBBER | NC_NETCDF4, &id_));
     if (has_failed()) {
       id_ = -1;
       return StatusOf(failure_);
     }
     Define(points);
-    if (!has_failed()) Take(nc_enddef(id_));
+    if (!has_failed()) Take(Netcdf().enddef(id_));
     if (!is_flat_ && !has_failed()) PutAxes();
     return StatusOf(failure_);
   }
@@ -123,7 +114,7 @@ class NetcdfFile::Impl {
       Take(ForEachBlock(counts_, first, count, [&](const auto& corner, const auto& edges, size_t taken) {
         const double* const block = values;
         values += taken;
-        return nc_put_vara_double(id_, columns_[c], corner.data(), edges.data(), block);
+        return Netcdf().put_vara_double(id_, columns_[c], corner.data(), edges.data(), block);
       }));
     }
     if (request_.with_regime) {
@@ -135,7 +126,7 @@ class NetcdfFile::Impl {
   }
 
   absl::Status Commit() {
-    Take(nc_close(std::exchange(id_, -1)));
+    Take(Netcdf().close(std::exchange(id_, -1)));
     return has_failed() ? StatusOf(failure_) : file_.Commit();
   }
 
@@ -147,14 +138,14 @@ class NetcdfFile::Impl {
   }
 
   void PutText(int variable, const char* name, const std::string& text) {
-    Take(nc_put_att_text(id_, variable, name, text.size(), text.data()));
+    Take(Netcdf().put_att_text(id_, variable, name, text.size(), text.data()));
   }
 
   int DefineVariable(const std::string& name, nc_type type, const std::vector<int>& dimensions) {
     int variable = -1;
-    Take(nc_def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
+    Take(Netcdf().def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
     // Every value is written, so that filling the file beforehand would write it twice.
-    Take(nc_def_var_fill(id_, variable, NC_NOFILL, nullptr));
+    Take(Netcdf().def_var_fill(id_, variable, NC_NOFILL, nullptr));
     return variable;
   }
 
@@ -168,7 +159,7 @@ class NetcdfFile::Impl {
 
   int DefineDimension(const std::string& name, int64_t count) {
     int dimension = -1;
-    Take(nc_def_dim(id_, name.c_str(), static_cast<size_t>(count), &dimension));
+    Take(Netcdf().def_dim(id_, name.c_str(), static_cast<size_t>(count), &dimension));
     counts_.push_back(static_cast<size_t>(count));
     return dimension;
   }
@@ -209,7 +200,7 @@ class NetcdfFile::Impl {
       names.push_back(name_of(static_cast<Code>(i)));
     }
     PutText(variable, "long_name", meaning);
-    Take(nc_put_att_uchar(id_, variable, "flag_values", NC_UBYTE, numbers.size(), numbers.data()));
+    Take(Netcdf().put_att_uchar(id_, variable, "flag_values", NC_UBYTE, numbers.size(), numbers.data()));
     PutText(variable, "flag_meanings", absl::StrJoin(names, " "));
     return variable;
   }
@@ -251,7 +242,7 @@ class NetcdfFile::Impl {
           values[k] = AxisValue(request_.grid.axes[i], static_cast<int64_t>(first + k));
         }
         const size_t count = values.size();
-        Take(nc_put_vara_double(id_, axes_[i], &first, &count, values.data()));
+        Take(Netcdf().put_vara_double(id_, axes_[i], &first, &count, values.data()));
       }
     }
   }
@@ -264,7 +255,7 @@ class NetcdfFile::Impl {
     Take(ForEachBlock(counts_, first, numbers.size(), [&](const auto& corner, const auto& edges, size_t taken) {
       const unsigned char* const block = next;
       next += taken;
-      return nc_put_vara_uchar(id_, variable, corner.data(), edges.data(), block);
+      return Netcdf().put_vara_uchar(id_, variable, corner.data(), edges.data(), block);
     }));
   }
 
@@ -279,9 +270,9 @@ class NetcdfFile::Impl {
       const std::vector<double>& point = cursor_.At(indices[k]);
       for (size_t i = 0; i < axes_.size(); ++i) values[i][k] = point[i];
     }
-    Take(nc_put_vara_longlong(id_, index_, &first, &count, indices.data()));
+    Take(Netcdf().put_vara_longlong(id_, index_, &first, &count, indices.data()));
     for (size_t i = 0; i < axes_.size(); ++i) {
-      Take(nc_put_vara_double(id_, axes_[i], &first, &count, values[i].data()));
+      Take(Netcdf().put_vara_double(id_, axes_[i], &first, &count, values[i].data()));
     }
   }
 
@@ -310,6 +301,7 @@ absl::StatusOr<NetcdfFile> NetcdfFile::Create(const SweepRequest& request, const
   }
   const absl::StatusOr<CheckedSweep> checked = CheckSweep(request);
   if (!checked.ok()) return checked.status();
+  if (absl::Status unusable = LoadNetcdf(); !unusable.ok()) return unusable;
   absl::StatusOr<AtomicFile> file = AtomicFile::Create(path);
   if (!file.ok()) return file.status();
   // One way to write each range, so that equal sweeps give equal files.

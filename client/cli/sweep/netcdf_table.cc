@@ -1,7 +1,5 @@
 // Reads the NetCDF-4 files that NetcdfFile writes.
 
-#include <netcdf.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <set>
@@ -12,6 +10,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/string_view.h"
+#include "client/cli/sweep/netcdf_library.h"
 #include "client/cli/sweep/sweep_file.h"
 #include "client/cli/sweep/sweep_rows.h"
 #include "client/cli/text/field_table.h"
@@ -34,38 +33,39 @@ size_t PlaceOf(const std::string& name, const std::vector<Variable>& variables) 
 // A file that is open for reading. It keeps the first error, after which all it returns is empty.
 class File {
  public:
-  explicit File(const std::string& path) { Take(nc_open(path.c_str(), NC_NOWRITE, &id_)); }
+  explicit File(const std::string& path) { Take(Netcdf().open(path.c_str(), NC_NOWRITE, &id_)); }
   File(const File&) = delete;
   File& operator=(const File&) = delete;
   ~File() {
-    if (id_ >= 0) nc_close(id_);
+    if (id_ >= 0) Netcdf().close(id_);
   }
 
   absl::Status status() const {
     if (error_ == NC_NOERR) return absl::OkStatus();
-    return absl::InvalidArgumentError(absl::StrCat("cannot be read as NetCDF: ", nc_strerror(error_)));
+    return absl::InvalidArgumentError(absl::StrCat("cannot be read as NetCDF: ", Netcdf().strerror(error_)));
   }
 
   // Returns an empty text for an attribute that is not there.
   std::string Text(int variable, const char* name) {
     size_t length = 0;
     nc_type type = NC_NAT;
-    if (error_ != NC_NOERR || nc_inq_att(id_, variable, name, &type, &length) != NC_NOERR || type != NC_CHAR) return "";
+    if (error_ != NC_NOERR || Netcdf().inq_att(id_, variable, name, &type, &length) != NC_NOERR || type != NC_CHAR)
+      return "";
     std::string text(length, '\0');
-    Take(nc_get_att_text(id_, variable, name, text.data()));
+    Take(Netcdf().get_att_text(id_, variable, name, text.data()));
     return text;
   }
 
   std::vector<Variable> Variables() {
     int count = 0;
-    if (error_ == NC_NOERR) Take(nc_inq_nvars(id_, &count));
+    if (error_ == NC_NOERR) Take(Netcdf().inq_nvars(id_, &count));
     std::vector<Variable> variables(static_cast<size_t>(count));
     for (int i = 0; i < count && error_ == NC_NOERR; ++i) {
       Variable& variable = variables[static_cast<size_t>(i)];
       char name[NC_MAX_NAME + 1] = {};
       int dimensions[NC_MAX_VAR_DIMS] = {};
       int rank = 0;
-      Take(nc_inq_var(id_, i, name, &variable.type, &rank, dimensions, nullptr));
+      Take(Netcdf().inq_var(id_, i, name, &variable.type, &rank, dimensions, nullptr));
       variable.name = name;
       variable.dimensions.assign(dimensions, dimensions + rank);
     }
@@ -74,13 +74,13 @@ class File {
 
   std::string Name(int dimension) {
     char name[NC_MAX_NAME + 1] = {};
-    if (error_ == NC_NOERR) Take(nc_inq_dimname(id_, dimension, name));
+    if (error_ == NC_NOERR) Take(Netcdf().inq_dimname(id_, dimension, name));
     return name;
   }
 
   int64_t Length(int dimension) {
     size_t length = 0;
-    if (error_ == NC_NOERR) Take(nc_inq_dimlen(id_, dimension, &length));
+    if (error_ == NC_NOERR) Take(Netcdf().inq_dimlen(id_, dimension, &length));
     return static_cast<int64_t>(length);
   }
 
@@ -89,7 +89,7 @@ class File {
     size_t count = 1;
     for (const int dimension : dimensions) count *= static_cast<size_t>(Length(dimension));
     std::vector<double> numbers(count);
-    if (error_ == NC_NOERR) Take(nc_get_var_double(id_, variable, numbers.data()));
+    if (error_ == NC_NOERR) Take(Netcdf().get_var_double(id_, variable, numbers.data()));
     return numbers;
   }
 
@@ -208,6 +208,7 @@ void AddUnit(File& file, size_t variable, const std::string& name, SweepTable& t
 }  // namespace
 
 absl::StatusOr<SweepTable> ReadSweepNetcdf(const std::string& path, const std::vector<std::string>& columns) {
+  if (absl::Status unusable = LoadNetcdf(); !unusable.ok()) return unusable;
   File file(path);
   const std::vector<Variable> variables = file.Variables();
   const absl::StatusOr<Contents> contents = ContentsOf(file, variables);

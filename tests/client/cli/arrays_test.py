@@ -3,8 +3,10 @@
 usage: arrays_test.py RICOCHET WORK_DIRECTORY
 """
 import csv
+import os
 import pathlib
 import unittest
+from unittest import mock
 
 import netCDF4
 import numpy
@@ -120,6 +122,16 @@ class ArraysTest(RicochetCase):
             self.assertNotEqual(code, 0)
             self.assertIn(words, error)
         self.assertFalse((WORK / "x.nc").exists())
+
+    def test_a_netcdf_library_that_cannot_be_loaded_is_named(self):
+        self.made(*GRID, "-o", "read.nc")
+        (WORK / "broken").mkdir()
+        for library in pathlib.Path("/usr/lib").glob("*/libnetcdf.so.*"):
+            (WORK / "broken" / library.name).write_bytes(b"no library")
+        with mock.patch.dict(os.environ, LD_LIBRARY_PATH=str(WORK / "broken")):
+            for command in ([*GRID, "-o", "x.nc"], ["plot", "read.nc", "-o", "x.svg"]):
+                self.assertRegex(self.refused(*command, code=42), r"libnetcdf\.so\.\d+, which cannot be loaded: .*broken.*libnetcdf19")
+        self.assertFalse((WORK / "x.nc").exists() or (WORK / "x.svg").exists())
 
 
 if __name__ == "__main__":
