@@ -15,8 +15,10 @@
 #include "core/models/finite_duration/finite_duration.h"
 #include "core/models/restitution_law.h"
 #include "core/plan/demand.h"
+#include "core/rows/axis_values.h"
 #include "core/scene/validate.h"
 #include "ricochet/engine_info.h"
+#include "ricochet/grid.h"
 #include "ricochet/outcome_numbers.h"
 #include "ricochet/plan.h"
 #include "ricochet/scene.h"
@@ -195,6 +197,15 @@ std::vector<uint64_t> PowersOfTheLibrary() {
   return bits;
 }
 
+// The points of a sweep are these.
+std::vector<uint64_t> ValuesOfAxes() {
+  std::vector<uint64_t> bits;
+  for (const Axis& axis : {Axis{.values = Linspace{-0.1, 0.3, 29}}, Axis{.values = Logspace{1e-3, 7.0, 29}}}) {
+    for (int64_t i = 0; i < 29; ++i) bits.push_back(std::bit_cast<uint64_t>(AxisValue(axis, i)));
+  }
+  return bits;
+}
+
 }  // namespace
 
 std::vector<Probe> ProbeEngine() {
@@ -219,6 +230,7 @@ std::vector<Probe> ProbeEngine() {
   }
   std::vector<Probe> probes = std::move(questions).Answers();
   probes.push_back({"powers", PowersOfTheLibrary()});
+  probes.push_back({"axes", ValuesOfAxes()});
   return probes;
 }
 

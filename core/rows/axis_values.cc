@@ -8,15 +8,17 @@
 namespace ricochet {
 namespace {
 
-// Computes i/(count - 1), which is exactly 0 and 1 at the ends.
-double Fraction(int64_t i, int64_t count) {
-  return count == 1 ? 0.0 : static_cast<double>(i) / static_cast<double>(count - 1);
-}
-
 double ValueAt(std::monostate /*unset*/, int64_t /*i*/) { return 0.0; }
 double ValueAt(const ListValues& list, int64_t i) { return list.values[static_cast<size_t>(i)]; }
+// Rounds as numpy.linspace does, so that an axis that passes through 0 has the value 0 there, and scripts that make the
+// same axis have the same bits.
 double ValueAt(const Linspace& linspace, int64_t i) {
-  return std::lerp(linspace.start, linspace.stop, Fraction(i, linspace.count));
+  if (i == 0) return linspace.start;
+  if (i == linspace.count - 1) return linspace.stop;
+  const auto place = static_cast<double>(i), steps = static_cast<double>(linspace.count - 1);
+  const double way = linspace.stop - linspace.start, step = way / steps;
+  if (!std::isfinite(way)) return std::lerp(linspace.start, linspace.stop, place / steps);
+  return (step == 0.0 ? place / steps * way : place * step) + linspace.start;
 }
 double ValueAt(const Logspace& logspace, const Linspace& logarithms, int64_t i) {
   if (i == 0) return logspace.start;

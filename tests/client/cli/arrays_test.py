@@ -53,6 +53,13 @@ class ArraysTest(RicochetCase):
             # An angle picks the curve over the other axes.
             self.assertFalse(numpy.isnan(data[RATE].sel({PHI: 0.8, MU: 0.2}, method="nearest")).any())
 
+    def test_an_axis_has_the_values_of_numpy(self):
+        random = numpy.random.default_rng(1)
+        for start, stop, count in [(-0.1, 0.3, 5), *((*random.normal(0, 3, 2), int(random.integers(2, 90))) for _ in range(20))]:
+            self.made("sweep", "--a", "0.6", "--b", "0.8", "--energetic", "1", "--axis",
+                      f"{PHI}=lin:{float(start)!r}:{float(stop)!r}:{count}", "--column", RATE, "-o", "axis.npy")
+            numpy.testing.assert_array_equal(numpy.load(WORK / "axis.npy")[PHI], numpy.linspace(start, stop, count))
+
     def test_netcdf_says_where_its_numbers_come_from(self):
         self.made(*GRID, "-o", "source.nc")
         version = self.made("--version")

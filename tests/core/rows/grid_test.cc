@@ -78,6 +78,14 @@ TEST(GridTest, LinspaceHasExactEndsAndEvenSteps) {
   EXPECT_EQ(AxisValue(Lin(3.0, 9.0, 1), 0), 3.0);
 }
 
+// The values are those of numpy.linspace, which tests/client/cli/arrays_test.py asks for more.
+TEST(GridTest, LinspaceIsZeroWhereItPassesThroughZero) {
+  EXPECT_EQ(AxisValue(Lin(-0.1, 0.3, 5), 1), 0.0);
+  EXPECT_EQ(AxisValue(Lin(-0.7, 0.7, 15), 7), 0.0);
+  constexpr double kLeast = std::numeric_limits<double>::denorm_min();
+  EXPECT_EQ(AxisValue(Lin(0.0, 3 * kLeast, 7), 3), 2 * kLeast);
+}
+
 TEST(GridTest, LinspaceAcrossTheWholeRangeOfDoublesDoesNotOverflow) {
   constexpr double kLargest = std::numeric_limits<double>::max();
   const Axis axis = Lin(-kLargest, kLargest, 5);
