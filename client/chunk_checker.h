@@ -52,7 +52,7 @@ class ChunkChecker {
   ChunkSeal seal_;
   std::optional<std::string> engine_;  // The fingerprint of the engine; absent until the first chunk.
   SweepSummary earlier_;               // The counts of the calls before this.
-  TallyChecker tallies_;               // Of this call.
+  TallyChecker tallies_;               // The tallies of this call.
   bool summarised_ = false;
 };
 

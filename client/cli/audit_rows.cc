@@ -30,7 +30,7 @@ constexpr size_t kNamedRows = 8;
 // A row as the writers of the formats take it.
 struct Row {
   int64_t index;
-  int64_t line;  // Of the file.
+  int64_t line;  // The line of the file.
   const AuditReport& report;
   std::string reason;  // Why it is invalid; empty if it is valid.
 };

@@ -17,7 +17,7 @@ namespace ricochet::cli {
 struct AuditDataOptions {
   std::string file;  // "-" for standard input.
   std::vector<std::string> skipped_columns;
-  std::optional<double> uncertainty_m_s;  // Of every row, in place of a column.
+  std::optional<double> uncertainty_m_s;  // Every row has it, in place of a column.
   bool list = false;                      // Text also names each row that is not admissible, and why.
   bool strict = false;                    // A row that is not admissible is an error.
   PictureOptions picture;

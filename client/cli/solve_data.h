@@ -16,9 +16,9 @@ namespace ricochet::cli {
 
 struct DataOptions {
   std::string file;                          // A table; - for standard input.
-  std::vector<std::string> skipped_columns;  // Of the table, to be left out.
-  std::vector<std::string> columns;          // Of the outcome. Empty: the contact's velocity after and the impulse.
-  bool strict = false;                       // A row that has no numbers, or is inadmissible, is an error.
+  std::vector<std::string> skipped_columns;  // Columns of the table that are left out.
+  std::vector<std::string> columns;  // Columns of the outcome. Empty: the contact's velocity after and the impulse.
+  bool strict = false;               // A row that has no numbers, or is inadmissible, is an error.
 };
 
 // Solves the rows and writes them as the options ask. The header may have short names (client/cli/input/short_name.h).

@@ -84,7 +84,7 @@ class Neighbours {
   void SetGaps(const ContactErrors<kTangential>& errors);
 
   double wnn_, kinetic_friction_, static_friction_, friction_error_, static_error_, most_friction_;
-  Vector<kTangential> roots_, inverse_roots_;  // Of the diagonals of Wtt and of Wtt^-1.
+  Vector<kTangential> roots_, inverse_roots_;  // Square roots of the diagonals of Wtt and of Wtt^-1.
   Vector<kTangential> coupling_;               // wtn
   double conditioning_ = 1.0;                  // 1/sqrt(1 - rho^2), rho the correlation of t1 and t2.
   double coupling_size_, root_trace_, steepest_, slope_noise_;
@@ -312,7 +312,7 @@ class Comparison {
   const Outcome& outcome_;
   const Neighbours<kTangential> near_;
   const Course<kTangential> course_;
-  const double u_error_, v_error_;  // Of A itself.
+  const double u_error_, v_error_;  // The errors of A itself.
 };
 
 template <size_t kTangential>

@@ -28,7 +28,7 @@ struct OutcomeDetail {
   bool numbers_only = false;
   absl::Span<const double> history_at_n_s;
   int64_t history_intervals = 0;
-  int64_t force_intervals = 0;  // Of a history in time (finite_duration::Problem::intervals).
+  int64_t force_intervals = 0;  // A history in time has so many (finite_duration::Problem::intervals).
 };
 
 // The limits that an impact breaks, with their values.

@@ -20,7 +20,7 @@ namespace ricochet {
 struct MultiReduction {
   int directions = 2;  // d
   Eigen::MatrixXd w;   // kd x kd
-  // Of a ContactMatrix, whose velocities are those of its contacts, J is the identity and M^-1 J^T is W.
+  // The velocities of a ContactMatrix are those of its contacts, so that J is the identity and M^-1 J^T is W.
   Eigen::MatrixXd jacobian;  // kd x n
   Eigen::MatrixXd response;  // M^-1 J^T, n x kd
   Eigen::VectorXd mobility;  // The diagonal of M^-1, or of W; 0 for a coordinate that is held.

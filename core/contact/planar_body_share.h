@@ -16,7 +16,7 @@ namespace ricochet {
 
 struct PlanarBodyShare {
   double wtt, wtn, wnn;
-  double u0, v0;  // Of the point of contact, which moves with the body.
+  double u0, v0;  // The velocity of the point of contact, which moves with the body.
 };
 
 inline PlanarBodyShare ShareOf(const PlanarBody& body) {

@@ -118,7 +118,7 @@ PlanarReduction ReduceOne(const Linkage& linkage) {
   return reduction;
 }
 
-// The same in space, where eigenvalues of the scaled W are compared with the noise.
+// Finds the rank in space, where eigenvalues of the scaled W are compared with the noise.
 void SettleRankAndVelocity(const Eigen::Vector3d& sizes, SpatialReduction& reduction) {
   if (!IsFinite(reduction) || IsSurelyDefinite(reduction.w)) return;
   const Eigen::Matrix3d matrix = Symmetric(reduction.w.data());

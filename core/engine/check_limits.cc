@@ -114,7 +114,7 @@ void CheckDigits(const System& system, int32_t digits, SizeCheck& check) {
 }
 
 void CheckHistory(const SolveRequest& request, SizeCheck& check) {
-  constexpr int64_t kNumbersBesideRates = 4;  // Of a state: two impulses and two velocities of the contact.
+  constexpr int64_t kNumbersBesideRates = 4;  // A state has two impulses and two velocities of the contact.
   const int64_t numbers = kNumbersBesideRates + LinksOf(request.scene.system);
   const char* const times = " states, times the numbers of a state, ";
   const auto listed = static_cast<int64_t>(request.history_at_n_s.size());

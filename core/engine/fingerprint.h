@@ -19,7 +19,7 @@ namespace ricochet {
 // The answers to the problems of one kind.
 struct Probe {
   std::string kind;            // "model 6" by the number of Model, "system 3" by the alternative of System, or "powers"
-  std::vector<uint64_t> bits;  // Of every number of the answers, in a fixed order.
+  std::vector<uint64_t> bits;  // One word for each number of the answers, in a fixed order.
 };
 
 // Solves the problems, in some milliseconds.

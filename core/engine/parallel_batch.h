@@ -44,7 +44,7 @@ class ParallelBatch {
   const CheckedBatch batch_;
   const std::shared_ptr<Helpers> helpers_;
   Pool<RowSolver> solvers_;
-  const Pool<RowSolver>::Taken own_;  // Of the thread that asks.
+  const Pool<RowSolver>::Taken own_;  // The thread that asks uses it.
 };
 
 }  // namespace ricochet

@@ -102,7 +102,7 @@ class SweepRun::Impl {
 
   const CheckedSweep sweep_;
   Pool<Points> points_;
-  Pool<Points>::Taken own_points_;  // Of the caller's thread.
+  Pool<Points>::Taken own_points_;  // The caller's thread uses them.
   bool ended_ = false;
 
   std::list<SweepBuffer> buffers_;    // In the order of their points.
@@ -110,7 +110,7 @@ class SweepRun::Impl {
   int64_t next_;                      // The first point that has no buffer yet.
   int64_t most_bytes_ = kChunkBytes;  // The most bytes of values in a buffer that is opened now.
   int64_t points_done_ = 0;
-  SweepSummary summary_;  // Of the points that have left.
+  SweepSummary summary_;  // It counts the points that have left.
   bool caller_is_here_ = false;
   HelpedRun helped_;  // Its mutex guards what is above, but for the points and whether the run has ended.
 };

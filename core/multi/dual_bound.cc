@@ -57,7 +57,7 @@ double DualBound(const Problem& problem, double root_energy, const Eigen::Vector
   }
   Eigen::VectorXd nearest = pi + gamma;
   for (int i = 0; i < problem.k; ++i) nearest(problem.N(i)) += std::max(point.nu(i), 0.0);
-  // What rounding left out of the sum is as small as it, and its square is counted by the triangle inequality.
+  // The rounding error of the sum is as small as the sum, and its square is counted by the triangle inequality.
   const Intervals moved = Times(problem.w, nearest);
   Interval square(0.0), linear(0.0);
   double rest = 0.0;

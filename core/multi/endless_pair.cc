@@ -20,7 +20,7 @@ struct Pair {
   Eigen::Matrix2d a;                              // Normal velocities by normal impulses.
   Eigen::MatrixXd unit;                           // The unit impulses.
   Eigen::Vector2d v;                              // Normal velocities.
-  double determinant = 0.0;                       // Of a.
+  double determinant = 0.0;                       // The determinant of a.
   bool is_singular = false;                       // The determinant is rounding alone.
 
   bool IsFrictionless() const { return friction[0] == 0.0 && friction[1] == 0.0; }

@@ -178,7 +178,7 @@ class Search {
   const double energy_;  // |y-|^2
   std::vector<Point> rays_, normals_, functions_;
   std::vector<Eigen::VectorXd> impulses_;  // In contact space, for each ray.
-  std::vector<double> lengths_;            // Of the normals before they were scaled to 1.
+  std::vector<double> lengths_;            // The normals had these lengths before they were scaled to 1.
   std::vector<size_t> chosen_, held_;      // Rays and normals of the flat that is tried.
   Basis orthonormal_, factors_;            // The chosen rays are orthonormal_ times the triangle factors_.
   std::vector<Maximum> maxima_;

@@ -126,7 +126,7 @@ class Search {
       if (next.empty()) {
         const bool fell = state.order.size() >= kLeastOfEndless && approach <= kEndlessSpeed * scale_;
         state.end = fell ? MultiContactEnd::kEndlessEstimate : MultiContactEnd::kSeparated;
-        // What is left out of a sequence without end falls geometrically.
+        // The rest of a sequence without end falls geometrically.
         const double ratio = std::min(approach / before_last, 1.0 - 1e-6);
         state.error += fell ? left_out / (1.0 - ratio) : left_out;
         state.error_is_proved = state.error_is_proved && !fell;
@@ -145,7 +145,7 @@ class Search {
         Keep(std::move(state));
         return taken;
       }
-      // Of two impacts that do not affect each other, the contact with the smaller number is struck first.
+      // If two impacts do not affect each other, the contact with the smaller number is struck first.
       next.erase(std::remove_if(next.begin(), next.end(), [&](int i) { return i < last && !coupled_[Place(i, last)]; }),
                  next.end());
       if (next.empty()) return taken;

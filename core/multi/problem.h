@@ -48,7 +48,7 @@ struct ContactWorks {
   double compression_impulse = 0.0;                             // normal, N s
 };
 
-// What an order or springs attain. The velocities are v = v- + W p up to a rounding of `slack`.
+// An outcome that an order or springs attain. The velocities are v = v- + W p up to a rounding of `slack`.
 struct Attained {
   std::vector<int> order;  // Contacts in the order of their impacts.
   int repeats_from = -1;   // From this place on the order repeats without end, if it is >= 0.
@@ -62,7 +62,7 @@ struct Attained {
   double error = 0.0;
   Eigen::MatrixXd error_squares;
   double error_terms = 0.0;
-  Vector normal_impulse_error;  // Of springs, one for each contact.
+  Vector normal_impulse_error;  // Springs have one for each contact.
   double work_error = 0.0;
   bool error_is_proved = true;
   bool split_is_unique = true;

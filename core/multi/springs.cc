@@ -26,7 +26,7 @@ constexpr int64_t kMostModes = 6561;
 
 size_t At(int i) { return static_cast<size_t>(i); }
 
-// What has to stay >= 0 for a contact to keep its mode.
+// The function that has to stay >= 0 for a contact to keep its mode.
 enum class Keeps { kGap, kPressed, kApproaching, kParting, kSlip, kConeAbove, kConeBelow };
 
 struct Condition {
@@ -515,7 +515,7 @@ class Motion {
     made_ += error;
   }
 
-  // What an error of the state, and the rounding of its velocities, may change about an event: during the time between
+  // An error of the state and the rounding of its velocities may change an event so much: during the time between
   // the event and that of a path within the error, the modes of the two differ.
   void AddEventError(const Condition& event, double s) {
     const int i = event.contact;

@@ -130,7 +130,7 @@ HWY_INLINE V ChooseApproaching(const Contact<V>& in, double tolerance) {
   }
 
   const V tau1 = (one + in.coefficient) / (one - in.mu * along);
-  const V left = slip - braking * tau1;  // Of slip, at the end of a slide.
+  const V left = slip - braking * tau1;  // The slip at the end of a slide.
   const V slack = Fill<V>(kSlipRounding) * (slip + u_terms * tau1);
   const V beyond = zero - left - slack;  // The way that a slide would go on backwards.
   const auto is_flat = Fill<V>(kSureSlope) <= least_slope;

@@ -22,7 +22,7 @@ struct PlannedScene {
   // A pendulum's own problem if a form of the pendulum answers it, else that of the contact. The effects that the
   // choice leaves out are left out of it. std::monostate if there is no model.
   std::variant<std::monostate, pendulum::Problem, planar::Problem, spatial::Problem> problem;
-  ContactPhysics physics;           // Of a contact in a plane, without these effects, too.
+  ContactPhysics physics;           // Set for a contact in a plane; it lacks these effects, too.
   EffectiveCoefficients effective;  // Those of the scene, with all effects.
   Choice choice;
   Demand demand;  // That it was planned for.

@@ -49,7 +49,7 @@ class PendulumLanes : public SceneLanes {
 
   std::vector<pendulum::Output> outputs_;         // Those of the kernel, each once.
   std::vector<std::optional<size_t>> column_of_;  // For each of them the column that it is, if it is one.
-  std::vector<double*> places_;                   // Of the outputs in the current block.
+  std::vector<double*> places_;                   // The places of the outputs in the current block.
   std::optional<size_t> dissipation_;             // The column of minus the work of friction.
   std::optional<size_t> spring_;                  // The column of the energy of a spring that a rigid body has not.
   size_t friction_ = 0;                           // Which output the work of friction is, if it is needed.

@@ -98,7 +98,7 @@ class RowSolver {
 
   // The current block.
   absl::Span<const FieldColumn> fields_;
-  std::vector<double*> places_;  // Of the first row's value in each column.
+  std::vector<double*> places_;  // The places of the first row's value in each column.
   // A column is an error of the velocities or the momentum of a mechanism, which take all of an outcome's detail.
   const bool asks_rates_errors_;
   SceneLanes::Block block_;

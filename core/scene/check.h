@@ -98,7 +98,7 @@ class Check {
 // whether matrices are definite.
 void CheckShape(const System& system, Check& check);
 
-// The same for a mechanism whose Jacobian has the rows of so many contacts.
+// Checks a mechanism whose Jacobian has the rows of so many contacts.
 void CheckMechanism(const Mechanism& mechanism, size_t contacts, Check& check);
 
 // Checks the inertia of a body in space about its centre of mass, which is finite: 11, 12, 13, 22, 23, 33.

@@ -119,7 +119,7 @@ bool MovesAsBody(const Mechanism& mechanism, size_t first, size_t axes) {
     for (size_t j = 0; j < axes; ++j) {
       const double unit = i == j ? 1.0 : 0.0;
       const double entry = mechanism.mass_matrix[(first + i) * n + first + j];
-      double product = 0.0;  // Of two columns of J.
+      double product = 0.0;  // The scalar product of two columns of J.
       for (size_t row = 0; row < axes; ++row) {
         product += mechanism.jacobian[row * n + first + i] * mechanism.jacobian[row * n + first + j];
       }

@@ -97,7 +97,7 @@ void CheckBodyNumber(const std::string& field, int32_t number, int32_t least, si
   });
 }
 
-// What a contact of bodies must state, and that of another system must leave out.
+// Checks the fields that a contact of bodies must state and a contact of another system must leave out.
 void CheckPlace(const MultiContactScene& scene, size_t index, Check& check) {
   const MultiContactPoint& contact = scene.contacts[index];
   const auto name = [&](const char* field) { return Entry("contacts", index, field); };

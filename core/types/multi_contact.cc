@@ -9,7 +9,7 @@ namespace ricochet {
 int DirectionsOf(const MultiContactScene& scene) {
   struct Finder {
     size_t contacts;
-    // Of `numbers` in all, in lists of `each`.
+    // Counts the lists of `each` in `numbers`.
     int Rows(size_t numbers, size_t each) const {
       if (numbers == 2 * contacts * each) return 2;
       return numbers == 3 * contacts * each ? 3 : 0;

@@ -29,11 +29,11 @@
 
 namespace ricochet::python {
 
-// What a client of Python asks: a solver, and how its calls end.
+// A client of Python has a solver that it asks, and how its calls end.
 struct Callee {
   std::shared_ptr<const Solver> solver;
   bool is_remote = false;
-  std::optional<std::chrono::milliseconds> deadline;  // Of each call; absent if the solver has its own.
+  std::optional<std::chrono::milliseconds> deadline;  // Each call has it; absent if the solver has its own.
 
   // Leaves the solver as it is for ever: after a fork its threads and connections are those of the parent.
   void Abandon();

@@ -293,7 +293,7 @@ void Filler::Put(py::handle value, Message& message, const Field& field, const P
     if (!found.has_value()) return;
     (reflection.*(field.is_repeated() ? add : set))(&message, &field, *std::move(found));
   };
-  // What Python makes of a value of the kind; nothing if it is none.
+  // Returns what Python makes of a value of the kind; nothing if it is none.
   const auto ask = [&]<typename Value>(const char* kind, Value /*type*/) -> std::optional<Value> {
     const py::object found = Ask("scalar", kind, value, place.Text());
     return found ? std::optional(found.cast<Value>()) : std::nullopt;

@@ -34,7 +34,7 @@ struct Entry {
   bool may_be_unset;
 };
 
-// What is known of a type of messages or of an enum, made once and kept for ever: a text that Python has interned is
+// The facts about a type of messages or an enum, made once and kept for ever: a text that Python has interned is
 // found without being hashed.
 template <typename Known, typename Type>
 const std::vector<Known>& Kept(const Type& type, Known (*make)(const Type& type, int i), int count) {
@@ -84,7 +84,7 @@ py::object Make(PyTypeObject* type) {
   return Owned(type->tp_new(type, nothing, nullptr));
 }
 
-// What a message in a message becomes.
+// Returns what a message in a message becomes.
 using Convert = py::object (*)(const Message& message);
 
 // The value of a field, or of its entry with this index.
@@ -210,7 +210,7 @@ py::object ReadEntry(py::handle record, py::handle name) {
 
 void ReadRecord(py::handle record) {
   if (IsRead(record)) return;
-  // What was read before stays the same object, and the order is that of the message.
+  // A value that was read before stays the same object, and the order is that of the message.
   std::vector<py::object> values;
   const std::vector<Entry>& entries = EntriesOf(*v1::Outcome::descriptor());
   for (const Entry& entry : entries) values.push_back(ReadEntry(record, entry.name));

@@ -31,7 +31,7 @@ void Put(const std::vector<Code>& codes, int64_t first, Codes& to) {
                  [](Code code) { return static_cast<uint8_t>(code); });
 }
 
-// What the statuses say of all rows: how many have no numbers, and how many are inadmissible.
+// Counts what the statuses say of all rows: how many have no numbers, and how many are inadmissible.
 py::tuple Counts(const Codes& statuses) {
   const auto count = [&](RowStatus status) {
     return std::count(statuses.data(), statuses.data() + statuses.size(), static_cast<uint8_t>(status));

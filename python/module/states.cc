@@ -62,7 +62,7 @@ struct States {
   const double *mass, *jacobian, *rates, *normal;
   std::array<double*, 9> contact;  // W by its upper triangle, then the contact velocity.
   double *axes, *response;
-  Mechanism kept;  // What is held.
+  Mechanism kept;  // It says which coordinates are held.
 };
 
 // Reduces one state. The W of one that breaks a rule is NaN, which the batch refuses.

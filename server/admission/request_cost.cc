@@ -17,7 +17,7 @@ constexpr int64_t kFewLinks = 32;
 constexpr int64_t kShortHistory = 2048;
 constexpr int64_t kFewRows = 64;
 constexpr double kFewContacts = 27;    // States times the cube of the contacts, in a plane.
-constexpr size_t kFewVelocities = 32;  // Of several contacts: those of the system, and the outputs asked for.
+constexpr size_t kFewVelocities = 32;  // Several contacts have those of the system, and the outputs asked for.
 
 RequestCost Expensive(CostCause cause, double size) {
   return {.cause = cause, .octave = static_cast<int>(std::log2(std::max(size, 1.0)))};

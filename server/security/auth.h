@@ -28,7 +28,7 @@ struct Evidence {
   std::string method;                          // Its path: "/ricochet.v1.ImpactService/Solve".
   std::vector<std::string> authorization;      // The values of the header of this name; more than one is refused.
   std::vector<std::string> certificate_names;  // The names of a client certificate that was verified.
-  std::string user_agent;                      // What the caller says of its program.
+  std::string user_agent;                      // The caller's word for its program.
 };
 
 // Thread safety: every method may be called from several threads at once.

@@ -22,7 +22,7 @@ inline constexpr char kByteOrderMark[] = "\xEF\xBB\xBF";
 struct BadCells {
   size_t row = 0;
   std::string column;       // The name of the first such column; empty if the row has too many cells.
-  std::string description;  // What is wrong: `= "0,7": must be a number with a decimal point`.
+  std::string description;  // It says what is wrong: `= "0,7": must be a number with a decimal point`.
 
   std::string Reason() const { return column.empty() ? description : column + " " + description; }
 };
@@ -71,7 +71,7 @@ class CsvReader {
   void Append(const std::vector<std::string>& cells, CsvTable& table) const;
 
   std::istream* stream_;
-  std::string name_;  // Of the table.
+  std::string name_;  // The table's name.
   std::vector<std::string> header_;
   std::vector<CellKind> kinds_;  // One for each name of the header.
   std::string line_;

@@ -24,8 +24,8 @@ struct Axes {
   AxisRange x = kNoRange;
   AxisRange y = kNoRange;
   AxisRange z = kNoRange;  // That of the colours of a map.
-  Scale scale;             // Of the colours of a map, else upwards; without values where the panel has a fixed one.
-  int64_t left_out = 0;    // Points that a logarithmic axis cannot show.
+  Scale scale;           // The scale of a map's colours, else upwards; without values where the panel has a fixed one.
+  int64_t left_out = 0;  // Points that a logarithmic axis cannot show.
 
   bool Shows(const std::pair<double, double>& point) const {
     return std::isfinite(point.first) && std::isfinite(point.second) && !(log_x && point.first <= 0.0) &&

@@ -16,8 +16,8 @@ struct Layout {
   int width = 0;
   int height = 0;
   double font = 0.0;       // Height of the letters.
-  int title_lines = 0;     // Of the title of the picture, above all rows.
-  double top_lines = 1.0;  // What every panel has above its frame, so that all frames of a row stand at one height.
+  int title_lines = 0;     // The title of the picture has so many, above all rows.
+  double top_lines = 1.0;  // Every panel has so many above its frame, so that all frames of a row stand at one height.
 
   double cell_width() const { return static_cast<double>(width) / columns; }
   double cell_height() const { return static_cast<double>(height) / rows; }

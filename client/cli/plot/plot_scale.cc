@@ -12,7 +12,7 @@
 namespace ricochet::cli {
 namespace {
 
-constexpr size_t kLeastForAFew = 10;  // Of fewer values none are "a few".
+constexpr size_t kLeastForAFew = 10;  // Fewer values have none that are "a few".
 constexpr size_t kFew = 20;           // A few are one of so many.
 constexpr double kFarBeyond = 4.0;    // Lengths of the middle part.
 constexpr double kBeside = 0.25;

@@ -1,4 +1,4 @@
-// What several contacts at once can do, as text and CSV.
+// Writes what several contacts at once can do as text and CSV.
 
 #ifndef RICOCHET_CLIENT_CLI_REPORT_MULTICONTACT_REPORT_H_
 #define RICOCHET_CLIENT_CLI_REPORT_MULTICONTACT_REPORT_H_

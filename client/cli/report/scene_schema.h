@@ -11,7 +11,7 @@ namespace ricochet::cli {
 // numbers, lengths of lists, required fields and exclusive ones. Rules that tie one number to another are not in it.
 std::string SceneSchema();
 
-// The same of a ricochet.v1.MultiContactScene.
+// Returns the schema of a ricochet.v1.MultiContactScene.
 std::string MultiContactSceneSchema();
 
 }  // namespace ricochet::cli

@@ -119,7 +119,7 @@ std::set<std::string> AxesOf(File& file, const std::vector<Variable>& variables)
 
 // The contents of a file, in the order of its variables.
 struct Contents {
-  std::vector<int> dimensions;  // Of every column.
+  std::vector<int> dimensions;  // Every column has these.
   std::vector<int64_t> counts;  // The lengths of the dimensions.
   int64_t points = 1;
   std::vector<size_t> axes;

@@ -37,7 +37,7 @@ class SweepRows {
 
  private:
   std::vector<Kind> kinds_;
-  std::vector<size_t> places_;  // Of a number: its axis, or the number of axes plus its column.
+  std::vector<size_t> places_;  // The place of a number is its axis, or the number of axes plus its column.
   SweepTable table_;
 };
 

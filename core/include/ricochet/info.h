@@ -44,7 +44,7 @@ struct ServerLimits {
 struct NamedServerLimit {
   const char* name;
   int64_t ServerLimits::*value;
-  const char* help;  // What is limited, in one line.
+  const char* help;  // One line that says what is limited.
 };
 
 // Every limit of a server, in the order of the struct.

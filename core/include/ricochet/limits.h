@@ -60,7 +60,7 @@ struct NamedLimit {
   const char* name;
   int64_t Limits::*value;
   int64_t most;      // The limit may be from 1 to this number. No request can make use of more.
-  const char* help;  // What is limited, in one line.
+  const char* help;  // One line that says what is limited.
 };
 
 // Every limit, in the order of the struct.

@@ -42,8 +42,8 @@ struct FreeBody {
   double mass_kg = 0.0;  // > 0
   std::vector<double>
       inertia_com_kg_m2;              // In a plane one number > 0; in space 11, 12, 13, 22, 23, 33 as of SpatialBody.
-  std::vector<double> position_m;     // Of the centre of mass.
-  std::vector<double> linear_m_s;     // Of the centre of mass, before; empty: at rest.
+  std::vector<double> position_m;     // The place of the centre of mass.
+  std::vector<double> linear_m_s;     // The velocity of the centre of mass before; empty: at rest.
   std::vector<double> angular_rad_s;  // One number in a plane, three in space; empty: 0.
   friend bool operator==(const FreeBody&, const FreeBody&) = default;
 };
@@ -59,11 +59,11 @@ struct FreeBodies {
 using MultiContactSystem = std::variant<std::monostate, ContactMatrix, FreeBodies, Mechanism>;
 
 struct MultiContactPoint {
-  double friction = 0.0;            // Coulomb's coefficient, kinetic and static, >= 0
+  double friction = 0.0;            // Coulomb's coefficient, kinetic and static, from 0 to 1e9
   std::optional<double> energetic;  // Stronge's coefficient of restitution, in [0, 1]. Required.
   // Stiffness of this contact relative to that of the others, > 0; unset: 1. Only springs use it.
   std::optional<double> relative_stiffness;
-  // Of FreeBodies alone. The normal points out of the other body, or the ground, into the body; its length does not
+  // Only FreeBodies have these. The normal points out of the other body, or the ground, into the body; its length does not
   // matter. In a plane t = (n_y, -n_x), so that t points to the right where n points up. In space t1 is the x axis
   // without its part along n, or the y axis if |n_x| > 0.9, and t2 = n x t1.
   int32_t body = 0;             // From 1.
@@ -127,7 +127,7 @@ enum class MultiContactEnd {
   kUndetermined = 6,     // Two plastic contacts let go at one instant, and the limit depends on how plastic each is.
 };
 
-// What one contact did. Works are in J; a coefficient is unset where the contact did not approach or was not pressed.
+// A ContactLedger says what one contact did. Works are in J; a coefficient is unset where the contact did not approach or was not pressed.
 struct ContactLedger {
   double work_compression_j = 0.0;  // <= 0
   double work_restitution_j = 0.0;  // energetic^2 times as much, >= 0
@@ -144,12 +144,12 @@ struct AttainedOutcome {
   // The first kMostOrdersListed orders found that end with this outcome, such as "1-2-1"; "1-(2-1)" if the part in
   // brackets repeats without end. The other numbers are those of the first. Empty for springs.
   std::vector<std::string> orders;
-  int64_t order_count = 0;  // Of all orders found that end with it.
+  int64_t order_count = 0;  // So many of the orders found end with it.
   MultiContactEnd end = MultiContactEnd::kUnspecified;
   int64_t events = 0;                              // Impacts, or events on springs.
   std::vector<double> contact_velocity_m_s;        // After: kd numbers.
   std::vector<double> contact_velocity_error_m_s;  // One for each.
-  std::vector<double> velocity;                    // Of the system after, listed as in MultiContactState.
+  std::vector<double> velocity;                    // The velocity of the system after, listed as in MultiContactState.
   std::vector<double> velocity_error;              // One for each.
   std::vector<double> impulse_n_s;                 // kd numbers; empty if wedged.
   std::vector<double> normal_impulse_error_n_s;    // One for each contact; empty if none is known.
@@ -157,7 +157,7 @@ struct AttainedOutcome {
   bool friction_split_is_unique = true;
   std::vector<ContactLedger> contacts;
   double energy_change_j = 0.0;
-  double work_error_j = 0.0;  // Of each work and of the change of energy.
+  double work_error_j = 0.0;  // The error of each work and of the change of energy.
   bool error_is_proved = false;
   friend bool operator==(const AttainedOutcome&, const AttainedOutcome&) = default;
 };
@@ -211,17 +211,17 @@ struct RefusedMethod {
   friend bool operator==(const RefusedMethod&, const RefusedMethod&) = default;
 };
 
-// What the contacts can do from one velocity before.
+// A MultiContactAnswer says what the contacts can do from one velocity before.
 struct MultiContactAnswer {
   MultiContactVerdict verdict = MultiContactVerdict::kUnspecified;
-  // What differs most, for kOrderMatters and kOrdersAgreeSpringsDiffer: an output, by how much, and in which two
+  // The output that differs most, for kOrderMatters and kOrdersAgreeSpringsDiffer: an output, by how much, and in which two
   // outcomes. The most is that over sqrt(2 T g), where an impulse that changes the output by one unit takes the energy
   // 1/(2 g): the scale of the output at the kinetic energy T of the contact velocity.
   std::string differing_output;
   double difference = 0.0;
   std::string outcome_1, outcome_2;  // The text of an order, or "springs".
   std::vector<double> contact_velocity_before_m_s;
-  double energy_before_j = 0.0;  // Of the contact velocity: the least that goes with it.
+  double energy_before_j = 0.0;  // The least energy that goes with the contact velocity.
   bool jams = false;             // Impulses within the cones of friction exist that move nothing.
   std::vector<ContactPair> pairs;
   std::vector<AttainedOutcome> orders;

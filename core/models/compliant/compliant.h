@@ -62,7 +62,7 @@ struct Impact : ImpactEnd<double> {
   double friction_dissipation = 0.0;  // >= 0
   double spring_energy = 0.0;         // Lost with the tangential spring, >= 0.
   double error_estimate = 0.0;        // Error of the velocities over max(|u0|, |v0|).
-  ImpactErrors errors;                // Of each number; none of the works and impulses if W has rank one.
+  ImpactErrors errors;                // Works and impulses have none if W has rank one.
   std::vector<Section> sections;      // Empty for a separating contact.
 };
 

@@ -73,7 +73,7 @@ class PathError {
 
   const SpringContact& contact_;
   Covariance covariance_ = {};
-  double variance_of_largest_ = 0.0;  // Of N at the largest indentation so far.
+  double variance_of_largest_ = 0.0;  // The variance of N at the largest indentation so far.
   int sections_ = 0;                  // So far.
   bool in_doubt_ = false;             // The true path may part where this one turns, or turn where this one parts.
 };

@@ -51,7 +51,7 @@ struct Impact : ImpactEnd<double> {
   double friction_dissipation = 0.0;  // >= 0
   double spring_energy = 0.0;         // Lost with the tangential spring, >= 0.
   double error_estimate = 0.0;        // Error of the velocities over max(|u0|, |v0|).
-  ImpactErrors errors;                // Of each number; none of the impulses under finite forces or if W has rank one.
+  ImpactErrors errors;                // Impulses have none under finite forces or if W has rank one.
   bool stopped = false;               // The caller wanted no more: nothing else is known.
   int64_t steps = 0;
   int64_t right_hand_sides = 0;

@@ -36,7 +36,7 @@ struct Block {
   const SolvedColumns& solved;
   unsigned parts = 0;
   size_t first = 0;  // In `problems`.
-  size_t place = 0;  // The same problem in `solved`.
+  size_t place = 0;  // Where `solved` has the same problem.
   size_t size = 0;
 
   // The next `count` problems from the `from`-th on.

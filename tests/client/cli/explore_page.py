@@ -19,7 +19,7 @@ from browser import Browser, CUT_OFF, CUT_OFF_IN_PICTURES, SMALLEST_TEXT
 DIRECTORY, RICOCHET = [Path(sys.argv.pop()).resolve() for _ in range(2)]
 SCENES = ["pendulum", "rod", "ball", "two", "double", "own"]
 LEAST_TEXT_PX = 10
-SETTLED = "return document.getElementById('verdict').ariaBusy !== 'true' && document.querySelectorAll('#motion tr').length > 0"
+SETTLED = "return document.getElementById('verdict').ariaBusy !== 'true' && document.querySelector('#motion tr, #several tr')"
 
 # Counts the calls of each kind that are under way, from before the first one.
 COUNT_CALLS = """
@@ -133,6 +133,47 @@ class ExplorePageTest(unittest.TestCase):
                     self.assertGreaterEqual(self.browser.script(
                         f"return document.querySelectorAll('#{picture} .layer *').length"), least, picture)
                 self.browser.screenshot(DIRECTORY / f"explore-{scene}.png")
+        self.assertEqual(self.browser.console(), [])
+
+    def several_shown(self):
+        """The numbers of the outcomes that the page shows, by their names, and those of its scene from the command line."""
+        scene = DIRECTORY / "copied.textproto"
+        self.browser.script("[...document.querySelectorAll('#forms button')].find(b => b.textContent == 'textproto').click()")
+        scene.write_text(self.browser.script("return document.getElementById('copied').value"), encoding="utf-8")
+        answer = json.loads(ricochet("multicontact", "--scene", str(scene), "--format", "json"))["answers"][0]
+        rows = self.browser.script(
+            "return [...document.querySelectorAll('#several tr')].map(r => [...r.children].map(c => c.textContent))")
+        exact = {one["orders"][0]: one["velocity"] for one in answer["orders"]}
+        return ({name: [number(text) for text in texts[:3]] for name, *texts in rows if name != "possible"},
+                {**exact, "springs": answer["springs"]["velocity"]})
+
+    def assert_shows_the_outcomes_of_its_scene(self):
+        shown, exact = self.several_shown()
+        self.assertEqual(shown.keys(), exact.keys())
+        for name, numbers in exact.items():
+            for one, other in zip(shown[name], numbers):
+                self.assertAlmostEqual(one, other, delta=abs(other) * 1e-4 + 1e-12)
+        return exact
+
+    def test_two_contacts_turn_by_their_stiffness(self):
+        for scene in ("box", "rod"):  # By a link, and from another scene.
+            self.open(scene)
+            self.browser.script("document.querySelector('[data-at=box]').click()")
+            self.settle()
+            exact = self.assert_shows_the_outcomes_of_its_scene()
+        self.assertIn("The order matters.", self.text("#sentence"))
+        self.assertAlmostEqual(exact["springs"][2], 0, delta=1e-12)
+        self.browser.screenshot(DIRECTORY / "explore-box.png")
+        self.drag("#spread .handle", 60, 0)
+        stiffer = self.assert_shows_the_outcomes_of_its_scene()["springs"][2]
+        self.assertGreater(stiffer, 0.05)
+        self.open("box", 400, "dark")
+        self.assertEqual(self.browser.script("return document.documentElement.scrollWidth"), 400)
+        self.assertEqual(self.browser.script(CUT_OFF) + self.browser.script(CUT_OFF_IN_PICTURES), [])
+        self.browser.screenshot(DIRECTORY / "explore-box-400-dark.png")
+        self.browser.script("document.querySelector('[data-at=pendulum]').click()")
+        self.settle()
+        self.assert_shows_the_answer_of_its_scene()
         self.assertEqual(self.browser.console(), [])
 
     def test_can_be_read_on_wide_and_narrow_screens(self):

@@ -74,6 +74,22 @@ class ExploreTest(RicochetCase):
         status, plan = self.curl({"scene": PENDULUM}, "Plan")
         self.assertEqual((status, plan["plan"]["model"]), (200, "MODEL_PENDULUM"))
 
+    def test_computes_what_takes_a_deep_stack(self):
+        feet = {"contact_matrix": {"w_per_kg": [3.4, -1.2, 3.4, 1.2, -1.2, 1.6, -1.2, 0.4, 3.4, -1.2, 3.4, 1.2, 1.2, 0.4,
+                                                1.2, 1.6], "velocity_m_s": [0, -1, 0, -1]},
+                "contacts": [{"friction": 1, "energetic": 0.5}] * 2}
+        (WORK / "feet.json").write_text(json.dumps(feet), encoding="utf-8")
+        answers = json.loads(self.made("multicontact", "--scene", "feet.json", "--stiffness-ratio", "2=0.01:100",
+                                       "--format", "json"))["answers"]
+        status, answer = self.curl({"scene": feet, "stiffness_range": {"contact": 2, "low": 0.01, "high": 100}},
+                                   "MultiContact")
+        self.assertEqual((status, answer["answers"]), (200, answers))
+        status, answer = self.curl({"scene": PENDULUM, "certified_digits": 1000})
+        self.assertEqual(status, 200, answer)
+        lasting = {**PENDULUM, "compliance": {"hertz": {"stiffness_n_m1_5": 1e5}}}
+        status, answer = self.curl({"scene": lasting, "required": ["EFFECT_FINITE_DURATION"]})
+        self.assertEqual(status, 200, answer)
+
     def test_names_every_field_that_is_wrong(self):
         wrong = {**PENDULUM, "pendulum": {**PENDULUM["pendulum"], "a_m": -1, "inertia_kg_m2": 0}}
         status, error = self.curl({"scene": wrong})
