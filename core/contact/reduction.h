@@ -47,8 +47,8 @@ struct Reduction {
   Coordinates coordinates = Coordinates::kNone;
   Velocities before;                                                // q'
   absl::InlinedVector<double, kVelocities * kDirections> response;  // M^-1 J^T, row by row.
-  // Only a mechanism has it: M M^-1 J^T of all coordinates, row by row, the momentum that each takes of a unit impulse. A
-  // free coordinate has its row of J^T, one that is held has what the free ones pass on to it.
+  // Only a mechanism has it: M M^-1 J^T of all coordinates, row by row, the momentum that each takes of a unit impulse.
+  // A free coordinate has its row of J^T, one that is held has what the free ones pass on to it.
   std::vector<double> momentum;
   // The accelerations by finite forces alone: (a_t, a_n) of the contact and q'' = M^-1 Q of the system. The latter is
   // empty if there are no finite forces.

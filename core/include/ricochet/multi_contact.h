@@ -63,8 +63,8 @@ struct MultiContactPoint {
   std::optional<double> energetic;  // Stronge's coefficient of restitution, in [0, 1]. Required.
   // Stiffness of this contact relative to that of the others, > 0; unset: 1. Only springs use it.
   std::optional<double> relative_stiffness;
-  // Only FreeBodies have these. The normal points out of the other body, or the ground, into the body; its length does not
-  // matter. In a plane t = (n_y, -n_x), so that t points to the right where n points up. In space t1 is the x axis
+  // Only FreeBodies have these. The normal points out of the other body, or the ground, into the body; its length does
+  // not matter. In a plane t = (n_y, -n_x), so that t points to the right where n points up. In space t1 is the x axis
   // without its part along n, or the y axis if |n_x| > 0.9, and t2 = n x t1.
   int32_t body = 0;             // From 1.
   int32_t other_body = 0;       // From 1; 0 is the ground.
@@ -127,7 +127,8 @@ enum class MultiContactEnd {
   kUndetermined = 6,     // Two plastic contacts let go at one instant, and the limit depends on how plastic each is.
 };
 
-// A ContactLedger says what one contact did. Works are in J; a coefficient is unset where the contact did not approach or was not pressed.
+// A ContactLedger says what one contact did. Works are in J; a coefficient is unset where the contact did not approach
+// or was not pressed.
 struct ContactLedger {
   double work_compression_j = 0.0;  // <= 0
   double work_restitution_j = 0.0;  // energetic^2 times as much, >= 0
@@ -214,9 +215,9 @@ struct RefusedMethod {
 // A MultiContactAnswer says what the contacts can do from one velocity before.
 struct MultiContactAnswer {
   MultiContactVerdict verdict = MultiContactVerdict::kUnspecified;
-  // The output that differs most, for kOrderMatters and kOrdersAgreeSpringsDiffer: an output, by how much, and in which two
-  // outcomes. The most is that over sqrt(2 T g), where an impulse that changes the output by one unit takes the energy
-  // 1/(2 g): the scale of the output at the kinetic energy T of the contact velocity.
+  // The output that differs most, for kOrderMatters and kOrdersAgreeSpringsDiffer: an output, by how much, and in which
+  // two outcomes. The most is that over sqrt(2 T g), where an impulse that changes the output by one unit takes the
+  // energy 1/(2 g): the scale of the output at the kinetic energy T of the contact velocity.
   std::string differing_output;
   double difference = 0.0;
   std::string outcome_1, outcome_2;  // The text of an order, or "springs".

@@ -165,8 +165,8 @@ struct NumberErrors {
   std::optional<double> normal_compression_j, normal_restitution_j;
   std::optional<double> tangential_compression_j, tangential_restitution_j;
   std::optional<double> energy_change_j;
-  // The errors of Outcome::rates_after and momentum_change, entry by entry, infinite where no bound is known. These take M, J
-  // and q' as exact, but not W and the contact velocity that they were reduced to (docs/theory/mechanism.md).
+  // The errors of Outcome::rates_after and momentum_change, entry by entry, infinite where no bound is known. These
+  // take M, J and q' as exact, but not W and the contact velocity that they were reduced to (docs/theory/mechanism.md).
   Components rates_after, momentum_change;
   friend bool operator==(const NumberErrors&, const NumberErrors&) = default;
 };
@@ -255,10 +255,10 @@ struct Outcome {
   bool alternatives_are_ends = false;
   Plan plan;
   std::optional<ContactDuration> contact;  // Present exactly if the model is Model::kFiniteDuration.
-  // A mechanism has these, in the units of its coordinates: q' after the impact, and M (q'+ - q'), the momentum that the
-  // impact gives each coordinate. For a free one that is J^T (f, tau). A coordinate that is held takes what the free
-  // ones pass on to it: less J^T (f, tau), it is the impulse of the brake or controller that holds it. Empty for other
-  // systems.
+  // A mechanism has these, in the units of its coordinates: q' after the impact, and M (q'+ - q'), the momentum that
+  // the impact gives each coordinate. For a free one that is J^T (f, tau). A coordinate that is held takes what the
+  // free ones pass on to it: less J^T (f, tau), it is the impulse of the brake or controller that holds it. Empty for
+  // other systems.
   Components rates_after;
   Components momentum_change;
   std::optional<FreeEnd> free_end;         // Present exactly if SolveRequest::both_ends asks for it.

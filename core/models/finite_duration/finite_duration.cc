@@ -75,9 +75,18 @@ double ErrorOfAnyPath(const ScaledContact& contact, const Path& path) {
   return (safety * error + kRounding * terms) / std::max(1.0, std::fabs(contact.u0));
 }
 
-// Returns how far the velocities at the end of a path may be from the truth, over max(|u0|, |v0|).
+// True if finite forces press the contact together where it parts, at a velocity that may be nothing but error. The
+// true contact may then be pressed on and part at another time. Without restitution a contact parts where compression
+// ends.
+bool MayNotPart(const ScaledContact& contact, const Path& path, double error) {
+  return path.how == PathEnd::kParted && contact.an < 0.0 && contact.eta != 0.0 &&
+         path.end[kV] <= error * std::max(1.0, std::fabs(contact.u0));
+}
+
+// Returns how far the velocities at the end of a path may be from the truth, over max(|u0|, |v0|); infinite if unknown.
 double ErrorOf(const ScaledContact& contact, const Path& path) {
-  return contact.IsStraight() ? ErrorOfStraightPath(contact, path) : ErrorOfAnyPath(contact, path);
+  const double error = contact.IsStraight() ? ErrorOfStraightPath(contact, path) : ErrorOfAnyPath(contact, path);
+  return MayNotPart(contact, path, error) ? std::numeric_limits<double>::infinity() : error;
 }
 
 // The errors of all numbers, from the error of the velocities over max(|u0|, |v0|). Impulses follow from velocities by

@@ -695,6 +695,29 @@ TEST(FiniteDurationTest, WhatIsPressedToRestOnItsSpringDoesNotPart) {
   EXPECT_EQ(impact.regime, Regime::kWedged);
 }
 
+// A spring that starts unloaded and at rest under a weight alone swings back to where it began, without a velocity with
+// which to part: an error of any size decides whether it parts there or swings again.
+TEST(FiniteDurationTest, AReleaseAtNoMoreThanTheErrorHasNoKnownError) {
+  constexpr double kInertia = 1.0 / 12.0, kRight = 0.35355339059327379, kUp = 0.51969585681769959;
+  Problem problem = {.contact = {.w = {.tt = 1.0 + kUp * kUp / kInertia,
+                                       .tn = -kRight * kUp / kInertia,
+                                       .nn = 1.0 + kRight * kRight / kInertia},
+                                 .u0 = 1.5,
+                                 .v0 = -7.7986562883470477e-133,
+                                 .mu = 0.3,
+                                 .mu_static = 0.3,
+                                 .law = RestitutionLaw::kEnergetic,
+                                 .coefficient = 0.8},
+                     .normal_acceleration = -9.81,
+                     .spring = LinearSpring{1e6},
+                     .tolerance = 1e-3};
+  const Impact grazing = Solve(problem);
+  EXPECT_EQ(grazing.error_estimate, std::numeric_limits<double>::infinity());
+  EXPECT_FALSE(std::isfinite(grazing.errors.v));
+  problem.contact.v0 = -0.1;
+  EXPECT_LE(Solve(problem).error_estimate, problem.tolerance);
+}
+
 TEST(FiniteDurationTest, APendulumThatSticksIsLockedWhateverPressesIt) {
   Problem problem = {
       .contact = {.w = {4.0, 2.0, 1.0}, .u0 = -2.0, .v0 = -1.0, .mu = 0.6, .mu_static = 0.6, .coefficient = 0.8},
