@@ -192,7 +192,7 @@ void UnaryCalls(Loopback& ricochet, Loopback& echo) {
 }
 
 // Seconds from a client's cancel until the handler has left, told by its slot being free again.
-double CancelOnce(v1::ImpactService::Stub& stub, const server::Places& places) {
+double CancelOnce(v1::ImpactService::Stub& stub, const server::LiveCalls& live_calls) {
   const v1::SweepRequest endless = EightColumnSweep(1'000'000'000);
   grpc::ClientContext context;
   const auto reader = stub.Sweep(&context, endless);
@@ -200,15 +200,15 @@ double CancelOnce(v1::ImpactService::Stub& stub, const server::Places& places) {
   for (int i = 0; i < 3; ++i) reader->Read(&response);
   return Seconds([&] {
     context.TryCancel();
-    while (places.live() > 0) std::this_thread::yield();
+    while (live_calls.live() > 0) std::this_thread::yield();
     while (reader->Read(&response)) continue;
     (void)reader->Finish();
   });
 }
 
-void CancellationLatency(Loopback& ricochet, const server::Places& places) {
+void CancellationLatency(Loopback& ricochet, const server::LiveCalls& live_calls) {
   std::vector<double> seconds;
-  for (int i = 0; i < 21; ++i) seconds.push_back(CancelOnce(ricochet.stub(), places));
+  for (int i = 0; i < 21; ++i) seconds.push_back(CancelOnce(ricochet.stub(), live_calls));
   std::printf("Cancelling a streamed sweep of 10^9 points\n");
   Print("from the client's cancel to the handler's end", absl::StrFormat("%.0f us", Median(seconds) * 1e6), "median");
 }
@@ -227,7 +227,7 @@ void RunAll() {
   StreamedSweep(ricochet, echo);
   SweepByColumns(ricochet, echo);
   UnaryCalls(ricochet, echo);
-  CancellationLatency(ricochet, made.places);
+  CancellationLatency(ricochet, made.live_calls);
 }
 
 }  // namespace
