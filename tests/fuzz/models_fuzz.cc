@@ -75,8 +75,8 @@ bool IsRigidAndEnergetic(const Scene& scene) {
 }
 
 void CheckOwnAudit(const Scene& scene, const Outcome& outcome) {
-  // Impulses follow from velocities only as well as these are stated: where W is tiny, one that is 0 because it fell below
-  // the least double would break the cone of friction.
+  // Impulses follow from velocities only as well as these are stated: where W is tiny, one that is 0 because it fell
+  // below the least double would break the cone of friction.
   const double error = std::max(outcome.errors.tangential_m_s.value_or(0.0), outcome.errors.normal_m_s.value_or(0.0));
   AuditRequest request = {
       .scene = scene, .observed = outcome.contact_velocity_after, .velocity_uncertainty_m_s = error};
