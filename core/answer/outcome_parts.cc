@@ -154,7 +154,8 @@ void AddNeglected(double neglected, double speed, double v0, Outcome& outcome) {
 }
 
 void CompareWithTolerance(double tolerance, Outcome& outcome) {
-  const bool exceeds = tolerance > 0.0 && outcome.accuracy.relative_error > tolerance;
+  // A claim that is no number is within no tolerance.
+  const bool exceeds = tolerance > 0.0 && !(outcome.accuracy.relative_error <= tolerance);
   if (exceeds && outcome.termination == Termination::kConverged) outcome.termination = Termination::kLessAccurate;
 }
 

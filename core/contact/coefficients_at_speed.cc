@@ -13,7 +13,10 @@ namespace {
 
 double Factor(std::monostate /*unset*/, double /*speed*/) { return 1.0; }
 
-double Factor(const PowerLaw& law, double speed) { return 1.0 - law.alpha * Pow(speed, law.exponent); }
+// The power may exceed the doubles, of which 0 times is no number.
+double Factor(const PowerLaw& law, double speed) {
+  return law.alpha == 0.0 ? 1.0 : 1.0 - law.alpha * Pow(speed, law.exponent);
+}
 
 double Factor(const SpeedTable& table, double speed) {
   const auto& speeds = table.speed_m_s;
@@ -27,6 +30,7 @@ double Factor(const SpeedTable& table, double speed) {
 AffineInterval Factor(std::monostate /*unset*/, const AffineInterval& /*speed*/) { return 1.0; }
 
 AffineInterval Factor(const PowerLaw& law, const AffineInterval& speed) {
+  if (law.alpha == 0.0) return 1.0;
   return AffineInterval(1.0) - AffineInterval(law.alpha) * Pow(speed, law.exponent);
 }
 

@@ -100,10 +100,13 @@ void CheckContact(const Scene& scene, const AnyReduction* known, Check& check, s
     contact.emplace(scene, *known);
   }
   const AnyReduction& reduction = contact->reduction;
-  if (!IsFinite(reduction)) return;  // The caller reports the overflow, because no single field causes it.
-  if (!MobilityIsSure(scene)) CheckMobility(scene, reduction, check);
-  if (DependsOnSpeed(scene)) CheckEffective(scene, contact->coefficients, ApproachSpeed(reduction), check);
-  if (with_spring) CheckSpring(scene, std::get<PlanarReduction>(reduction), contact->coefficients, check);
+  // The caller reports an overflow of the reduction, because no single field causes it. A pendulum whose W overflows
+  // has a finite speed and is solved without a reduction.
+  const bool is_finite = IsFinite(reduction);
+  const double speed = ApproachSpeed(reduction);
+  if (is_finite && !MobilityIsSure(scene)) CheckMobility(scene, reduction, check);
+  if (DependsOnSpeed(scene) && std::isfinite(speed)) CheckEffective(scene, contact->coefficients, speed, check);
+  if (is_finite && with_spring) CheckSpring(scene, std::get<PlanarReduction>(reduction), contact->coefficients, check);
 }
 
 }  // namespace ricochet

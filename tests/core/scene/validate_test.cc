@@ -150,6 +150,22 @@ TEST(ValidateTest, TheEdgesOfEveryRuleAreValid) {
   }
 }
 
+TEST(ValidateTest, APowerLawBeyondTheDoublesIsRefusedUnlessNothingFollowsFromIt) {
+  Scene scene = ValidScene();
+  scene.friction.by_speed = PowerLaw{.alpha = 0.0, .exponent = 3e7};
+  PendulumOf(scene).a_m = 1.0;
+  // W of a pendulum with such a lever exceeds the doubles, too.
+  for (const double b : {1.0, 5e263}) {
+    PendulumOf(scene).b_m = b;
+    std::get<PowerLaw>(*scene.friction.by_speed).alpha = 0.0;
+    EXPECT_THAT(Validate(scene), IsEmpty());
+    std::get<PowerLaw>(*scene.friction.by_speed).alpha = 0.1;
+    const std::vector<Violation> violations = Validate(scene);
+    ASSERT_EQ(violations.size(), 1u);
+    EXPECT_EQ(violations.front().field, "friction.by_speed");
+  }
+}
+
 TEST(ValidateTest, AllViolationsAreReportedAtOnceInFieldOrder) {
   const Scene scene = {
       .system = Pendulum{.inertia_kg_m2 = 0.0, .a_m = -1.0, .b_m = kNan, .omega_minus_rad_s = kInfinity},

@@ -670,5 +670,23 @@ TEST(SpatialTest, ABudgetThatRunsOutIsSaidSo) {
   EXPECT_EQ(impact.error_estimate, std::numeric_limits<double>::infinity());
 }
 
+TEST(SpatialTest, AnErrorThatIsNoNumberIsUnknown) {
+  // Friction lifts the body at once: its normal impulse is below the least double, and bounds of it exceed the largest.
+  const Problem problem = {.w11 = 2.0,
+                           .w12 = 0.3,
+                           .w13 = 0.6,
+                           .w22 = 3.00000000745058,
+                           .w23 = -0.9,
+                           .w33 = 2.5,
+                           .u0 = {-1.0, 0.6},
+                           .v0 = -7e-138,
+                           .mu = 1e300,
+                           .mu_static = 1e300,
+                           .law = RestitutionLaw::kNewton,
+                           .coefficient = 0.5,
+                           .tolerance = 0.01};
+  EXPECT_EQ(Solve(problem).error_estimate, std::numeric_limits<double>::infinity());
+}
+
 }  // namespace
 }  // namespace ricochet::spatial
