@@ -27,7 +27,7 @@ namespace {
 constexpr char kExample[] =
     R"(Example: grade the answers of a simulator to all impacts in which slip reverses.
   $ ricochet conformance grade answers.csv --family reversal --tolerance 1e-6
-docs/conformance.md says how to take the test; impacts.json has the cases for programs, grade.py grades without ricochet.
+docs/conformance.md says how to take the test; impacts.json has the cases, and grade.py grades without ricochet.
 Exit codes: 0 all cases are right, 2 wrong input, 42 some are not.)";
 
 struct ConformanceOptions {

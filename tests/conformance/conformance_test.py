@@ -276,6 +276,11 @@ class Grades(unittest.TestCase):
                               check=False, timeout=300)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
+    def test_the_adaptor_of_the_page_is_the_one_that_dev_peers_runs(self):
+        page = (SOURCE / 'docs/conformance.md').read_text(encoding='utf-8')
+        shown = re.search(r'^```py\n(.*?)^```$', page, re.MULTILINE | re.DOTALL).group(1)
+        self.assertEqual(shown, (SOURCE / 'tests/peers/chipmunk_adaptor.py').read_text(encoding='utf-8'))
+
     def test_each_case_is_shown(self):
         listed = json.loads(run(RICOCHET, 'conformance', 'list', '--format', 'json').stdout)
         self.assertEqual([one['name'] for one in listed], [case['name'] for case in CASES])

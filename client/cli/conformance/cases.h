@@ -1,4 +1,4 @@
-// The conformance cases: impacts with their right answers by each law (conformance/impacts.json), as the program has them.
+// The conformance cases: impacts with their right answers by each law, as conformance/impacts.json states them.
 
 #ifndef RICOCHET_CLIENT_CLI_CONFORMANCE_CASES_H_
 #define RICOCHET_CLIENT_CLI_CONFORMANCE_CASES_H_

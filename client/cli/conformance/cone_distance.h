@@ -14,8 +14,8 @@ std::vector<double> Times(const Matrix& matrix, const std::vector<double>& x);
 
 // Returns what is left of the change of velocity after the impulse within the friction cones of the case that leaves
 // the least kinetic energy. It is 0 to rounding exactly if some impulse within the cones causes the change. In space a
-// cone is replaced by the pyramid inside it that has an edge along the tangential impulse of the change: what is left of
-// a change outside the cones may then be larger. A case in space has one contact.
+// cone is replaced by the pyramid inside it that has an edge along the tangential impulse of the change: what is left
+// of a change outside the cones may then be larger. A case in space has one contact.
 std::vector<double> OutsideCones(const ConformanceCase& one, const std::vector<double>& change);
 
 }  // namespace ricochet::cli
