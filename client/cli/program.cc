@@ -28,6 +28,7 @@ std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Comman
   AddPlot(*app, command);
   AddAudit(*app, command);
   AddScene(*app, command);
+  AddConformance(*app, command);
   AddCost(*app, command);
   AddExplore(*app, command);
   AddInfo(*app, command);

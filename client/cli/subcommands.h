@@ -13,6 +13,7 @@ namespace ricochet::cli {
 
 void AddAudit(CLI::App& app, Command& command);
 void AddBounds(CLI::App& app, Command& command);
+void AddConformance(CLI::App& app, Command& command);
 void AddCost(CLI::App& app, Command& command);
 void AddExplore(CLI::App& app, Command& command);
 void AddHealth(CLI::App& app, Command& command);

@@ -52,6 +52,7 @@ say "The command line"
 ricochet --version
 ricochet solve --a 0.3 --b 1 --mu 0.1 --energetic 1 | grep -q 0.707107 || fail "ricochet solve gives another number"
 ricochet solve --scene /usr/share/ricochet/examples/rod_contact.textproto >/dev/null
+ricochet conformance show --format json | cmp - /usr/share/ricochet/conformance/impacts.json
 for program in /usr/bin/ricochet /usr/bin/ricochetd; do
   ! grep -aqE '(RPATH|RUNPATH)' <(LC_ALL=C objdump -p "$program") || fail "$program has a path for libraries"
 done

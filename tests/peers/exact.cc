@@ -1,7 +1,9 @@
 #include "tests/peers/exact.h"
 
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
+#include <nlohmann/json.hpp>
 
 #include "ricochet/solver.h"
 
@@ -23,6 +25,25 @@ long double CertifiedOmega(const PendulumCase& c, const Restitution& restitution
 }
 
 }  // namespace
+
+std::vector<PendulumCase> ReadPendulumCases(const std::string& impacts_file) {
+  std::ifstream file(impacts_file);
+  const nlohmann::json impacts = nlohmann::json::parse(file);
+  std::vector<PendulumCase> cases;
+  for (const nlohmann::json& one : impacts["cases"]) {
+    const std::string name = one["name"];
+    const int number = static_cast<int>(cases.size()) + 1;
+    if (name.rfind("pendulum-" + std::to_string(number) + "-", 0) != 0) continue;
+    cases.push_back({.number = number,
+                     .a = one["jacobian"][1][0],
+                     .b = one["jacobian"][0][0],
+                     .friction = one["contacts"][0]["friction"],
+                     .restitution = one["contacts"][0]["coefficient"]});
+  }
+  if (cases.size() == 5) return cases;
+  std::cerr << impacts_file << " has " << cases.size() << " of the cases pendulum-1 to pendulum-5\n";
+  std::exit(EXIT_FAILURE);
+}
 
 Scene SceneOf(const PendulumCase& c) {
   Scene scene;

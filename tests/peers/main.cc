@@ -1,5 +1,5 @@
-// ricochet_peers FILE.csv [ENGINE]: lets every engine of this build, or the one named, strike the five cases with all
-// its settings, prints a table and writes all measurements to the file.
+// ricochet_peers IMPACTS.json FILE.csv [ENGINE]: lets every engine of this build, or the one named, strike the five
+// cases of conformance/impacts.json with all its settings, prints a table and writes all measurements to FILE.csv.
 
 #include <algorithm>
 #include <cmath>
@@ -162,13 +162,13 @@ void PrintRow(const std::vector<Measurement>& cases) {
   std::fflush(stdout);
 }
 
-void PrintHead() {
+void PrintHead(const std::vector<PendulumCase>& pendulums) {
   std::printf("omega+ in rad/s after an impact with omega- = -1 rad/s; * means that kinetic energy rose\n%-80s", "");
-  for (const PendulumCase& c : kCases) std::printf(" %10s ", absl::StrFormat("case %d", c.number).c_str());
+  for (const PendulumCase& c : pendulums) std::printf(" %10s ", absl::StrFormat("case %d", c.number).c_str());
   std::printf(" %12s %10s\n", "ns", "ns/ours");
-  const auto exact = [](const char* law, long double Exact::*omega) {
+  const auto exact = [&](const char* law, long double Exact::*omega) {
     std::printf("%-80s", law);
-    for (const PendulumCase& c : kCases) std::printf(" %10.6Lf ", ExactAnswers(c).*omega);
+    for (const PendulumCase& c : pendulums) std::printf(" %10.6Lf ", ExactAnswers(c).*omega);
     std::printf("\n");
   };
   exact("exact, Newton", &Exact::newton);
@@ -185,24 +185,25 @@ void WriteCsvRow(const Measurement& m, std::ostream& out) {
 }
 
 int Main(int argc, char** argv) {
-  if (argc != 2 && argc != 3) {
-    std::cerr << "usage: ricochet_peers FILE.csv [ENGINE]\n";
+  if (argc != 3 && argc != 4) {
+    std::cerr << "usage: ricochet_peers IMPACTS.json FILE.csv [ENGINE]\n";
     return 2;
   }
-  std::ofstream csv(argv[1]);
+  const std::vector<PendulumCase> pendulums = ReadPendulumCases(argv[1]);
+  std::ofstream csv(argv[2]);
   csv << "engine,law,method,step_s,iterations,varied,fixed,in_table,case,omega_plus,error_newton,error_poisson,"
          "error_energetic,energy_gained_j,ns_per_impact,times_ours\n";
-  PrintHead();
+  PrintHead(pendulums);
   const Peers ours = RicochetPeers();
-  for (const auto& peer : AllPeers(argc == 3 ? argv[2] : "")) {
+  for (const auto& peer : AllPeers(argc == 4 ? argv[3] : "")) {
     std::vector<Measurement> cases;
-    for (const PendulumCase& c : kCases) cases.push_back(Measure(*peer, *ours.back(), c));
+    for (const PendulumCase& c : pendulums) cases.push_back(Measure(*peer, *ours.back(), c));
     for (const Measurement& m : cases) WriteCsvRow(m, csv);
     PrintRow(cases);
   }
   csv.close();
   if (!csv) {
-    std::cerr << "ricochet_peers: cannot write " << argv[1] << '\n';
+    std::cerr << "ricochet_peers: cannot write " << argv[2] << '\n';
     return 1;
   }
   return 0;

@@ -6,7 +6,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/../../tools/dev_lib.sh"
 
 readonly peers_packages=(
   "${core_packages[@]}" gnuplot-nox libflint-arb-dev libflint-dev libgmock-dev libgmp-dev libgtest-dev libsundials-dev
-  python3)
+  nlohmann-json3-dev python3 python3-numpy)
 # Physics engines; those that cannot be installed are left out.
 readonly engine_packages=(
   libbox2d-dev libbullet-dev libchipmunk-dev libdart-dev libmujoco-dev libode-dev libsiconos-kernel-dev libsimbody-dev)
@@ -26,6 +26,9 @@ for recipe in mujoco simbody; do
 done
 say "One impact of the paper's pendulum in each engine"
 # The numerical libraries of some engines would start threads for matrices of one row.
-show env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 build/peers/tests/peers/ricochet_peers tests/peers/results.csv
+show env OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 build/peers/tests/peers/ricochet_peers \
+  conformance/impacts.json tests/peers/results.csv
 show /usr/bin/python3 tests/peers/report.py tests/peers/results.csv "${engine_packages[@]}"
+say "The conformance cases in each engine, by answers files and conformance/grade.py"
+show /usr/bin/python3 tests/peers/conformance.py tests/peers/results.csv build/peers/answers
 echo "-> docs/peers.md, docs/images/peers.svg, tests/peers/results.csv"

@@ -54,7 +54,7 @@ std::string Heading(const AuditResponse& response) {
   for (const LimitName& name : kLimits) {
     const LimitCheck& check = report[name.limit];
     if (check.verdict != Verdict::kBroken) continue;
-    absl::StrAppend(&text, "  ", name.broken, Rounded(check.excess), name.unit);
+    absl::StrAppend(&text, "  ", BrokenLimitText(name.limit, check.excess));
     if (name.limit == AuditLimit::kEnergy && response.contact_energy_j > 0.0) {
       absl::StrAppendFormat(&text, ", %+.4g %% of the contact's kinetic energy",
                             100.0 * check.excess / response.contact_energy_j);
@@ -119,6 +119,13 @@ std::string FirstText(const Tally& tally) { return tally.count == 0 ? "" : absl:
 
 }  // namespace
 
+std::string BrokenLimitText(AuditLimit limit, double excess) {
+  for (const LimitName& name : kLimits) {
+    if (name.limit == limit) return absl::StrCat(name.broken, Rounded(excess), name.unit);
+  }
+  return "";
+}
+
 std::string AuditText(const AuditResponse& response, size_t directions) {
   const AuditReport& report = response.report;
   return absl::StrCat(Heading(response), LimitsText(report), CoefficientsText(report), ImpulseText(report, directions),
@@ -175,7 +182,7 @@ std::string AuditComplaint(const AuditReport& report, const std::string& invalid
   for (const LimitName& name : kLimits) {
     const LimitCheck& check = report[name.limit];
     if (check.verdict == Verdict::kBroken) {
-      complaints.push_back(absl::StrCat(name.broken, Rounded(check.excess), name.unit));
+      complaints.push_back(BrokenLimitText(name.limit, check.excess));
     }
   }
   if (report.unexplained) {

@@ -13,65 +13,12 @@
 #include "client/cli/plot/inline_svg.h"
 #include "client/cli/report/cost_picture.h"
 #include "client/cli/report/cost_report.h"
+#include "client/cli/report/html_page.h"
 #include "core/base/decimal.h"
 #include "proto/wire/scene.h"
 
 namespace ricochet::cli {
 namespace {
-
-// In the dark the pictures are inverted and their hues turned back, so that the colours of the lines stay.
-constexpr char kStyle[] = R"(
-:root { color-scheme: light dark; --page: #ffffff; --text: #1d1d1f; --quiet: #5f6368; --rule: #d9dce0;
-  --stripe: #f5f6f8; --alarm: #b3261e; --mark: #0b6bcb; }
-@media (prefers-color-scheme: dark) {
-  :root { --page: #15171a; --text: #e6e7e9; --quiet: #a3a8ae; --rule: #363a40; --stripe: #1d2024; --alarm: #ff8a80;
-    --mark: #7ab7ff; }
-  figure svg { filter: invert(0.92) hue-rotate(180deg); }
-}
-* { box-sizing: border-box; }
-body { margin: 0; background: var(--page); color: var(--text); font: 16px/1.5 system-ui, "DejaVu Sans", sans-serif; }
-main { max-width: 1120px; margin: 0 auto; padding: 24px 20px 64px; }
-h1 { font-size: 1.7rem; line-height: 1.25; margin: 0 0 0.3em; }
-h2 { font-size: 1.2rem; margin: 2.2em 0 0.6em; }
-p, dd { max-width: 46em; }
-.quiet { color: var(--quiet); }
-.alarm { color: var(--alarm); font-weight: 600; }
-.facts { display: grid; grid-template-columns: repeat(auto-fit, minmax(220px, 1fr)); gap: 12px; padding: 0;
-  margin: 24px 0; }
-.facts li { list-style: none; border: 1px solid var(--rule); border-radius: 8px; padding: 12px 16px; }
-.facts b { display: block; font-size: 1.25rem; }
-figure { margin: 24px 0; }
-figure svg { display: block; width: 100%; height: auto; }
-figure svg rect[fill="#ffffff"] { fill: none; }
-figure svg text, figure svg tspan { font-family: system-ui, "DejaVu Sans", sans-serif; }
-figcaption { color: var(--quiet); font-size: 0.92rem; max-width: 50em; margin-top: 8px; }
-.narrow { display: none; }
-table { border-collapse: collapse; width: 100%; font-size: 0.9rem; font-variant-numeric: tabular-nums; }
-th, td { padding: 6px 10px; border-bottom: 1px solid var(--rule); text-align: right; vertical-align: top; }
-th { font-weight: 600; vertical-align: bottom; }
-th:first-child, td:first-child, .words th, .words td { text-align: left; }
-tbody tr:nth-child(even) { background: var(--stripe); }
-tr.front td:first-child { font-weight: 600; }
-tr.front td:first-child::after { content: " ●"; color: var(--mark); }
-td.time { white-space: nowrap; }
-dt { font-weight: 600; margin-top: 0.8em; }
-dd { margin: 0; }
-pre { background: var(--stripe); border: 1px solid var(--rule); border-radius: 8px; padding: 12px 16px;
-  overflow-x: auto; font: 0.85rem/1.45 ui-monospace, "DejaVu Sans Mono", monospace; }
-@media (max-width: 700px) {
-  main { padding: 16px 14px 48px; }
-  h1 { font-size: 1.35rem; }
-  .wide { display: none !important; }
-  .narrow { display: block; }
-  .cards thead { display: none; }
-  .cards, .cards tbody, .cards tr, .cards td { display: block; width: 100%; }
-  .cards tr { border: 1px solid var(--rule); border-radius: 8px; margin: 0 0 10px; padding: 8px 12px; }
-  .cards td { border: 0; padding: 1px 0; display: flex; justify-content: space-between; gap: 12px; text-align: right; }
-  .cards td:first-child { font-weight: 600; justify-content: flex-start; }
-  .cards td:not(:first-child)::before { content: attr(data-label); color: var(--quiet); text-align: left; }
-  .cards td:empty { display: none; }
-}
-)";
 
 constexpr char kColumns[] = R"(<dl>
 <dt>one solve, spread</dt><dd>The median time of one call for this impact, on one thread with warm caches, and half the
@@ -86,11 +33,6 @@ own model.</dd>
 <dt>steps</dt><dd>The steps of an integration in time or impulse. A closed form takes none.</dd>
 </dl>
 )";
-
-// Returns one element with a text. `attributes` starts with a space unless it is empty.
-std::string Element(const std::string& name, const std::string& text, const std::string& attributes = "") {
-  return absl::StrCat("<", name, attributes, ">", HtmlText(text), "</", name, ">");
-}
 
 constexpr const char* kHeads[] = {"method",     "one solve",       "spread",          "of a batch", "error claimed",
                                   "error made", "numerical error", "modelling error", "steps"};
@@ -114,15 +56,15 @@ std::string CellsText(const CostRow& row) {
   std::string text;
   for (size_t i = 0; i < cells.size(); ++i) {
     absl::StrAppend(
-        &text, Element("td", cells[i],
-                       absl::StrCat(i >= 1 && i <= 3 ? " class=\"time\"" : "", " data-label=\"", kHeads[i], "\"")));
+        &text, HtmlElement("td", cells[i],
+                           absl::StrCat(i >= 1 && i <= 3 ? " class=\"time\"" : "", " data-label=\"", kHeads[i], "\"")));
   }
   return text;
 }
 
 std::string MethodsTable(const CostChunk& study) {
   std::string text = "<table class=\"cards\">\n<thead><tr>";
-  for (const char* head : kHeads) absl::StrAppend(&text, Element("th", head));
+  for (const char* head : kHeads) absl::StrAppend(&text, HtmlElement("th", head));
   absl::StrAppend(&text, "</tr></thead>\n<tbody>\n");
   const std::vector<bool> front = OnFront(study);
   for (size_t i = 0; i < study.rows.size(); ++i) {
@@ -137,7 +79,8 @@ std::string MethodsTable(const CostChunk& study) {
 std::string PicksTable(const CostChunk& study) {
   std::string text = "<table class=\"words\">\n<thead><tr><th>tolerance</th><th>method</th></tr></thead>\n<tbody>\n";
   for (const CostPick& pick : study.summary->picks) {
-    absl::StrAppend(&text, "<tr>", Element("td", PickRangeText(pick)), Element("td", PickName(study, pick)), "</tr>\n");
+    absl::StrAppend(&text, "<tr>", HtmlElement("td", PickRangeText(pick)), HtmlElement("td", PickName(study, pick)),
+                    "</tr>\n");
   }
   return text + "</tbody>\n</table>\n";
 }
@@ -145,14 +88,14 @@ std::string PicksTable(const CostChunk& study) {
 std::string Notes(const CostChunk& study) {
   std::string text;
   for (const CostNote& note : NotesOf(study)) {
-    absl::StrAppend(&text, Element("dt", absl::StrJoin(note.methods, "; ")), Element("dd", note.text), "\n");
+    absl::StrAppend(&text, HtmlElement("dt", absl::StrJoin(note.methods, "; ")), HtmlElement("dd", note.text), "\n");
   }
   return text.empty() ? "" : absl::StrCat("<h2>Notes</h2>\n<dl>\n", text, "</dl>\n");
 }
 
 std::string Fact(const std::string& what, const std::string& value, const std::string& more) {
-  return absl::StrCat("<li>", Element("span", what, " class=\"quiet\""), Element("b", value), Element("span", more),
-                      "</li>\n");
+  return absl::StrCat("<li>", HtmlElement("span", what, " class=\"quiet\""), HtmlElement("b", value),
+                      HtmlElement("span", more), "</li>\n");
 }
 
 std::string Facts(const CostChunk& study) {
@@ -185,7 +128,7 @@ absl::StatusOr<std::string> Figure(const CostChunk& study, Plot (*plot)(const Co
     absl::StrAppend(&text, "<div class=\"", name, "\">", InlineSvg(*file, absl::StrCat(id, "-", name, "-"), title),
                     "</div>\n");
   }
-  return absl::StrCat(text, Element("figcaption", caption), "\n</figure>\n");
+  return absl::StrCat(text, HtmlElement("figcaption", caption), "\n</figure>\n");
 }
 
 std::string RunTable(const CostChunk& study, const std::string& date) {
@@ -201,7 +144,7 @@ std::string RunTable(const CostChunk& study, const std::string& date) {
        absl::StrCat(summary.reference_source, ". It is known to within ", ErrorText(summary.reference_error), ".")}};
   std::string text = "<table class=\"words\">\n<tbody>\n";
   for (const auto& [name, value] : rows) {
-    absl::StrAppend(&text, "<tr>", Element("td", name), Element("td", value), "</tr>\n");
+    absl::StrAppend(&text, "<tr>", HtmlElement("td", name), HtmlElement("td", value), "</tr>\n");
   }
   return text + "</tbody>\n</table>\n";
 }
@@ -241,22 +184,20 @@ absl::StatusOr<std::string> CostPage(const Scene& scene, const CostChunk& study,
   const absl::StatusOr<std::string> claim =
       Figure(study, CostClaimPlot, "claim", "Error made over error claimed", kClaimCaption);
   if (!claim.ok()) return claim.status();
-  return absl::StrCat(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n",
-      Element("title", title), "\n<style>", kStyle, "</style>\n</head>\n<body>\n<main>\n", Element("h1", title), "\n",
-      Element("p",
-              absl::StrCat("Measured on ", date, " by ricochet ", study.engine.version, " on ",
-                           MachineText(study.summary->machine), "."),
-              " class=\"quiet\""),
-      "\n", Facts(study), "<h2>Time and error</h2>\n", *time,
-      Element("h2", absl::StrCat("Errors claimed and made: ", study.summary->deceived, " of ", AnswerCount(study),
-                                 " claim too little")),
-      "\n", *claim, "<h2>Methods</h2>\n", MethodsTable(study),
-      "<p class=\"quiet\">● on the Pareto front: no other method is as fast and as exact.</p>\n",
-      "<h2>The method that the plan picks</h2>\n", PicksTable(study), Notes(study), "<h2>What the columns mean</h2>\n",
-      kColumns, "<h2>The scene</h2>\n", Element("pre", SceneText(scene)), "\n<h2>The run</h2>\n", RunTable(study, date),
-      "</main>\n</body>\n</html>\n");
+  return HtmlPage(
+      title, absl::StrCat(HtmlElement("h1", title), "\n",
+                          HtmlElement("p",
+                                      absl::StrCat("Measured on ", date, " by ricochet ", study.engine.version, " on ",
+                                                   MachineText(study.summary->machine), "."),
+                                      " class=\"quiet\""),
+                          "\n", Facts(study), "<h2>Time and error</h2>\n", *time,
+                          HtmlElement("h2", absl::StrCat("Errors claimed and made: ", study.summary->deceived, " of ",
+                                                         AnswerCount(study), " claim too little")),
+                          "\n", *claim, "<h2>Methods</h2>\n", MethodsTable(study),
+                          "<p class=\"quiet\">● on the Pareto front: no other method is as fast and as exact.</p>\n",
+                          "<h2>The method that the plan picks</h2>\n", PicksTable(study), Notes(study),
+                          "<h2>What the columns mean</h2>\n", kColumns, "<h2>The scene</h2>\n",
+                          HtmlElement("pre", SceneText(scene)), "\n<h2>The run</h2>\n", RunTable(study, date)));
 }
 
 }  // namespace ricochet::cli

@@ -29,6 +29,8 @@ PENDULUM = ["--a", "0.3", "--b", "1", "--energetic", "1"]
 GRID = ["--axis", "friction.kinetic_coefficient=lin:0:0.4:60", "--column", "coefficients.newton"]
 ROWS = "friction.kinetic_coefficient\n" + "0.1\n" * 60
 OBSERVED = "rates_after_rad_s[0]\n0.5\n0.6\n"
+ANSWERS = "case,law,velocity_after\npendulum-2-paper,newton,1\n" \
+    "rod-sticks-elastic,newton,-0.8631713554987213,0.6163682864450127,1.9181585677749362\n"
 REQUEST = json.dumps({"scene": json.loads(SCENE), "columns": ["coefficients.newton"], "axes": [
     {"path": "friction.kinetic_coefficient", "list": {"values": [0.1, 0.2, 0.3]}}]})
 SWEEP_CSV = "index,friction.kinetic_coefficient,coefficients.newton\n0,0.1,0.7\n1,0.2,0.6\n2,0.3,0.5\n"
@@ -43,6 +45,9 @@ COMMANDS = {
     "multicontact": [["--scene", str(INPUTS / "box.textproto")]],
     "audit": [[*PENDULUM, "--observed-rate", "0.5"], [*PENDULUM, "--data", str(INPUTS / "observed.csv")]],
     "cost": [[*PENDULUM, "--time-limit", "20ms", "--samples", "1"]],
+    "conformance list": [["--family", "stick"]],
+    "conformance show": [["rod-jams"]],
+    "conformance grade": [[str(INPUTS / "answers.csv"), "--case", "pendulum-2-paper", "--case", "rod-sticks-elastic"]],
     "info": [[]],
     "scene list": [[]],
     "scene template": [["pendulum"]],
@@ -55,7 +60,7 @@ COMMANDS = {
 NO_FILES = {"--axis", "--range", "--server", "merge file"}
 # What stands in the file of each option that reads one.
 CONTENT = {"--scene": SCENE, "--request": REQUEST, "plot file": SWEEP_CSV, "solve --data": ROWS, "audit --data": OBSERVED,
-           "--config": 'deadline = "5s"\n', "--token-file": "secret\n"}
+           "conformance grade ANSWERS": ANSWERS, "--config": 'deadline = "5s"\n', "--token-file": "secret\n"}
 ENDINGS = {"text": ["txt"], "textproto": ["textproto", "txtpb", "pbtxt", "txt"], "json": ["json"], "jsonl": ["jsonl"],
            "csv": ["csv"], "npy": ["npy"], "netcdf": ["nc"]}
 PICTURES = {"svg": (b"<?xml", b"</svg>"), "png": (b"\x89PNG", b"IEND\xaeB`\x82"), "pdf": (b"%PDF", b"%%EOF")}
@@ -165,6 +170,7 @@ class Outputs(unittest.TestCase):
         INPUTS.mkdir(parents=True)
         (INPUTS / "rows.csv").write_text(ROWS)
         (INPUTS / "observed.csv").write_text(OBSERVED)
+        (INPUTS / "answers.csv").write_text(ANSWERS)
         (INPUTS / "sweep.csv").write_text(SWEEP_CSV)
         code, box, error = run("scene", "template", "box_on_two_feet")
         assert code == 0, error

@@ -1,0 +1,217 @@
+#include <CLI/App.hpp>
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/conformance/answers.h"
+#include "client/cli/conformance/cases.h"
+#include "client/cli/conformance/grade.h"
+#include "client/cli/conformance/grade_report.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/io/output.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/text/json_text.h"
+#include "client/cli/text/number_input.h"
+#include "client/cli/text/table.h"
+#include "core/base/decimal.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] =
+    R"(Example: grade the answers of a simulator to all impacts in which slip reverses.
+  $ ricochet conformance grade answers.csv --family reversal --tolerance 1e-6
+docs/conformance.md says how to take the test; impacts.json has the cases, and grade.py grades without ricochet.
+Exit codes: 0 all cases are right, 2 wrong input, 42 some are not.)";
+
+struct ConformanceOptions {
+  CommonOptions common;
+  std::string name;  // Of the case to show, or of the file with the answers.
+  std::string tolerance = "1e-9";
+  std::string law;
+  std::vector<std::string> families, cases;
+  std::string html;
+};
+
+// Returns the cases of the families and names that were given; all if none were.
+absl::StatusOr<std::vector<const ConformanceCase*>> Asked(const ConformanceOptions& options) {
+  std::vector<const ConformanceCase*> named;
+  for (const std::string& name : options.cases) {
+    const absl::StatusOr<const ConformanceCase*> one = FindConformanceCase(name, "--case");
+    if (!one.ok()) return one.status();
+    named.push_back(*one);
+  }
+  std::vector<std::string> unknown = options.families;
+  std::vector<std::string> families;
+  std::vector<const ConformanceCase*> asked;
+  for (const ConformanceCase& one : AllConformanceCases().cases) {
+    if (families.empty() || families.back() != one.family) families.push_back(one.family);
+    std::erase(unknown, one.family);
+    const bool in_family =
+        std::find(options.families.begin(), options.families.end(), one.family) != options.families.end();
+    const bool is_named = std::find(named.begin(), named.end(), &one) != named.end();
+    if (in_family || is_named || (options.families.empty() && named.empty())) asked.push_back(&one);
+  }
+  if (unknown.empty()) return asked;
+  return InputError("--family", unknown.front(), absl::StrCat("be one of ", absl::StrJoin(families, ", ")));
+}
+
+absl::Status RunList(const ConformanceOptions& options) {
+  const absl::StatusOr<std::vector<const ConformanceCase*>> asked = Asked(options);
+  if (!asked.ok()) return asked.status();
+  Table table(Table::Align::kLeft);
+  std::string json = "[";
+  for (const ConformanceCase* one : *asked) {
+    table.Add({one->name, one->family, one->shows});
+    const std::pair<const char*, const std::string*> members[] = {{"\"name\":", &one->name},
+                                                                  {"\"family\":", &one->family},
+                                                                  {"\"shows\":", &one->shows},
+                                                                  {"\"source\":", &one->source}};
+    json += json.size() > 1 ? ",\n" : "\n";
+    for (const auto& [key, text] : members) {
+      absl::StrAppend(&json, text == &one->name ? "{" : ",", key);
+      AppendJson(*text, json);
+    }
+    json += "}";
+  }
+  return WriteOutput(options.common, options.common.format == Format::kJson ? json + "\n]\n" : table.Render(0));
+}
+
+std::string MatrixText(const Matrix& matrix) {
+  Table table;
+  for (const std::vector<double>& row : matrix) {
+    std::vector<std::string> cells;
+    for (const double entry : row) cells.push_back(ShortestDecimal(entry));
+    table.Add(std::move(cells));
+  }
+  return table.Render(4);
+}
+
+std::string CaseText(const ConformanceCase& one) {
+  std::string text = absl::StrCat(one.name, " (", one.family, ")\n", Wrapped(one.shows, 2),
+                                  Wrapped(absl::StrCat("Source: ", one.source), 2), "\n  M\n", MatrixText(one.mass),
+                                  "  J\n", MatrixText(one.jacobian), "  friction\n", MatrixText({one.friction}),
+                                  "  coefficient of restitution\n", MatrixText({one.coefficient}), "\n");
+  Table table;
+  std::vector<std::string> head = {"", "before"};
+  for (const RightAnswer& answer : one.answers) {
+    head.push_back(absl::StrCat(answer.law, answer.also.empty() ? "" : ", ", absl::StrJoin(answer.also, ", ")));
+  }
+  table.Add(head);
+  for (size_t i = 0; i < one.coordinates.size(); ++i) {
+    std::vector<std::string> row = {one.coordinates[i], ShortestDecimal(one.before[i])};
+    for (const RightAnswer& answer : one.answers) row.push_back(ShortestDecimal(answer.velocity_after[i]));
+    table.Add(std::move(row));
+  }
+  return text + table.Render(2);
+}
+
+absl::Status RunShow(const ConformanceOptions& options) {
+  if (options.name.empty()) return WriteOutput(options.common, ConformanceCasesJson());
+  const absl::StatusOr<const ConformanceCase*> one = FindConformanceCase(options.name, "CASE");
+  if (!one.ok()) return one.status();
+  return WriteOutput(options.common,
+                     options.common.format == Format::kJson ? ConformanceCaseJson(**one) : CaseText(**one));
+}
+
+absl::StatusOr<Grade> MakeGrade(const ConformanceOptions& options) {
+  GradeDemand demand = {.law = options.law};
+  const absl::StatusOr<double> tolerance = ParseNumber(options.tolerance, "--tolerance");
+  if (!tolerance.ok()) return tolerance.status();
+  if (!(*tolerance > 0.0)) return InputError("--tolerance", options.tolerance, "be above 0");
+  demand.tolerance = *tolerance;
+  if (absl::Status status = CheckConformanceLaw(options.law, "--law"); !status.ok()) return status;
+  absl::StatusOr<std::vector<const ConformanceCase*>> asked = Asked(options);
+  if (!asked.ok()) return asked.status();
+  demand.asked = *std::move(asked);
+  const absl::StatusOr<std::string> text = ReadText(options.name);
+  if (!text.ok()) return text.status();
+  absl::StatusOr<SimulatorAnswers> answers = ReadSimulatorAnswers(*text, options.name);
+  if (!answers.ok()) return answers.status();
+  if (answers->simulator.empty()) answers->simulator = options.name;
+  return GradeOf(*answers, demand);
+}
+
+absl::Status RunGrade(const ConformanceOptions& options) {
+  const absl::StatusOr<Grade> grade = MakeGrade(options);
+  if (!grade.ok()) return grade.status();
+  const Format format = options.common.format;
+  absl::Status written = WriteOutput(options.common, format == Format::kJson  ? GradeJson(*grade)
+                                                     : format == Format::kCsv ? GradeCsv(*grade)
+                                                                              : GradeText(*grade));
+  if (written.ok() && !options.html.empty()) written = WriteFile(options.html, GradePage(*grade));
+  if (!written.ok() || grade->AllRight()) return written;
+  return absl::FailedPreconditionError(absl::StrCat("only ", GradeVerdict(*grade)));
+}
+
+constexpr std::array kListFormats = {Format::kText, Format::kJson};
+
+using Run = absl::Status (*)(const ConformanceOptions&);
+
+// Adds `ricochet conformance NAME`, which sets the command to `run`.
+CLI::App* AddOne(CLI::App& conformance, const char* name, const char* help, Run run,
+                 const std::shared_ptr<ConformanceOptions>& options, Command& command) {
+  CLI::App* sub = conformance.add_subcommand(name, help);
+  sub->callback([options, run, &command] { command = [options, run] { return run(*options); }; });
+  return sub;
+}
+
+void AddFamilies(CLI::App& sub, ConformanceOptions& options) {
+  sub.add_option("--family", options.families, "The cases of this family alone; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+}
+
+void AddGradeOptions(CLI::App& sub, ConformanceOptions& options) {
+  MarkFile(FileUse::kRead,
+           sub.add_option("ANSWERS", options.name,
+                          "Velocities after, as JSON or CSV (docs/conformance.md); - for standard input"))
+      ->required();
+  sub.add_option("--tolerance", options.tolerance, "Largest error of a velocity, m/s or rad/s, that counts as right")
+      ->type_name("X")
+      ->capture_default_str();
+  sub.add_option("--law", options.law,
+                 "newton, poisson or energetic: the law to be obeyed [that of ANSWERS, else the one that most obey]")
+      ->type_name("NAME");
+  AddFamilies(sub, options);
+  sub.add_option("--case", options.cases, "This case alone; repeatable, and beside --family")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  MarkFile(FileUse::kWritten,
+           sub.add_option("--html", options.html,
+                          "Write the report as one page that needs nothing beside it; - for standard output"),
+           {"html", "htm"})
+      ->type_name("FILE.html");
+}
+
+}  // namespace
+
+void AddConformance(CLI::App& app, Command& command) {
+  CLI::App* conformance = app.add_subcommand("conformance", "A test that every simulator can take, and its grades");
+  conformance->require_subcommand(1);
+  conformance->footer(kExample);
+  const auto add = [&](const char* name, const char* help, Run run) {
+    const auto options = std::make_shared<ConformanceOptions>();
+    return std::pair(AddOne(*conformance, name, help, run, options, command), options.get());
+  };
+  const auto [list, list_options] = add("list", "List the cases: what each shows, and whence it is", RunList);
+  AddFamilies(*list, *list_options);
+  AddOutputOptions(*list, list_options->common, kListFormats);
+  const auto [show, show_options] =
+      add("show", "Print one case with its right answers, or all as impacts.json", RunShow);
+  show->add_option("CASE", show_options->name,
+                   "A name of `ricochet conformance list`; without one, impacts.json is printed as it is");
+  AddOutputOptions(*show, show_options->common, kListFormats);
+  const auto [grade, grade_options] =
+      add("grade", "Say which law the answers of a simulator obey, and which limits they break", RunGrade);
+  AddGradeOptions(*grade, *grade_options);
+  AddOutputOptions(*grade, grade_options->common, kMessageFormats);
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,144 @@
+#include "client/cli/conformance/answers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <utility>
+
+#include "absl/strings/ascii.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_join.h"
+#include "client/cli/io/csv_table.h"
+#include "client/cli/text/number_input.h"
+
+namespace ricochet::cli {
+namespace {
+
+using Json = nlohmann::json;
+
+// Adds an answer after checking it. `where` names its place in the file.
+absl::Status Add(const std::string& where, const std::string& name, const std::string& law,
+                 std::vector<double> velocity, SimulatorAnswers& all) {
+  const absl::StatusOr<const ConformanceCase*> asked = FindConformanceCase(name, absl::StrCat(where, ".case"));
+  if (!asked.ok()) return asked.status();
+  if (absl::Status status = CheckConformanceLaw(law, absl::StrCat(where, ".law")); !status.ok()) return status;
+  const auto answers_it = [&](const SimulatorAnswer& answer) { return answer.asked == *asked; };
+  if (std::any_of(all.answers.begin(), all.answers.end(), answers_it)) {
+    return absl::InvalidArgumentError(absl::StrCat(where, ".case = ", name, ": must not be answered twice"));
+  }
+  const std::vector<std::string>& coordinates = (*asked)->coordinates;
+  if (velocity.size() != coordinates.size()) {
+    return absl::InvalidArgumentError(absl::StrCat(where, ".velocity_after of ", name, " has ", velocity.size(),
+                                                   " numbers: must have ", coordinates.size(), ", ",
+                                                   absl::StrJoin(coordinates, ", ")));
+  }
+  if (!std::all_of(velocity.begin(), velocity.end(), [](double x) { return std::isfinite(x); })) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(where, ".velocity_after of ", name, ": must have finite numbers; leave out a case without any"));
+  }
+  all.answers.push_back({.asked = *asked, .law = law, .velocity_after = std::move(velocity)});
+  return absl::OkStatus();
+}
+
+// Returns an error for a key that is none of `known`.
+absl::Status CheckKeys(const Json& object, const std::string& where, const std::vector<std::string>& known) {
+  if (!object.is_object()) return absl::InvalidArgumentError(absl::StrCat(where, ": must be an object"));
+  for (const auto& [key, value] : object.items()) {
+    if (std::find(known.begin(), known.end(), key) == known.end()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat(where, ".", key, ": is unknown; must be ", absl::StrJoin(known, ", ")));
+    }
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::string> Text(const Json& object, const char* key, const std::string& where) {
+  if (!object.contains(key)) return std::string();
+  if (object[key].is_string()) return object[key].get<std::string>();
+  return absl::InvalidArgumentError(absl::StrCat(where, ".", key, ": must be a text"));
+}
+
+absl::Status AddJson(const Json& object, const std::string& where, const std::string& general_law,
+                     SimulatorAnswers& all) {
+  if (absl::Status status = CheckKeys(object, where, {"case", "law", "velocity_after"}); !status.ok()) return status;
+  const absl::StatusOr<std::string> name = Text(object, "case", where);
+  if (!name.ok()) return name.status();
+  const absl::StatusOr<std::string> law = Text(object, "law", where);
+  if (!law.ok()) return law.status();
+  const Json velocity = object.value("velocity_after", Json());
+  const auto is_number = [](const Json& x) { return x.is_number(); };
+  if (!velocity.is_array() || !std::all_of(velocity.begin(), velocity.end(), is_number)) {
+    return absl::InvalidArgumentError(absl::StrCat(where, ".velocity_after: must be a list of numbers"));
+  }
+  return Add(where, *name, law->empty() ? general_law : *law, velocity.get<std::vector<double>>(), all);
+}
+
+absl::StatusOr<SimulatorAnswers> ReadJson(const std::string& text, const std::string& name) {
+  SimulatorAnswers all;
+  Json json;
+  try {
+    json = Json::parse(text);
+  } catch (const Json::parse_error& error) {
+    return absl::InvalidArgumentError(
+        absl::StrCat(name, " is not JSON from byte ", error.byte, " of ", text.size(), " on; is it whole?"));
+  }
+  if (absl::Status status = CheckKeys(json, name, {"simulator", "law", "answers"}); !status.ok()) return status;
+  const absl::StatusOr<std::string> simulator = Text(json, "simulator", name);
+  if (!simulator.ok()) return simulator.status();
+  const absl::StatusOr<std::string> law = Text(json, "law", name);
+  if (!law.ok()) return law.status();
+  all.simulator = *simulator;
+  const Json answers = json.value("answers", Json());
+  if (!answers.is_array()) return absl::InvalidArgumentError(absl::StrCat(name, ".answers: must be a list"));
+  for (const Json& answer : answers) {
+    const std::string where = absl::StrCat("answers[", all.answers.size(), "]");
+    if (absl::Status status = AddJson(answer, where, *law, all); !status.ok()) return status;
+  }
+  return all;
+}
+
+absl::StatusOr<SimulatorAnswers> ReadCsv(const std::string& text, const std::string& name) {
+  SimulatorAnswers all;
+  std::istringstream stream(text);
+  absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, name);
+  if (!reader.ok()) return reader.status();
+  const std::vector<std::string> header = {"case", "law", "velocity_after"};
+  if (reader->header() != header) {
+    return absl::InvalidArgumentError(absl::StrCat(name, " has the header ", absl::StrJoin(reader->header(), ","),
+                                                   ": must have case,law,velocity_after"));
+  }
+  std::vector<std::string> cells;
+  while (reader->NextRow(cells)) {
+    const std::string where = absl::StrCat("line ", reader->line());
+    std::vector<double> velocity;
+    for (size_t i = 2; i < cells.size(); ++i) {
+      const absl::StatusOr<double> number = ParseNumber(cells[i], absl::StrCat(where, ", cell ", i + 1));
+      if (!number.ok()) return number.status();
+      velocity.push_back(*number);
+    }
+    absl::Status status = Add(where, cells[0], cells.size() > 1 ? cells[1] : "", std::move(velocity), all);
+    if (!status.ok()) return status;
+  }
+  return all;
+}
+
+}  // namespace
+
+absl::Status CheckConformanceLaw(const std::string& law, const std::string& what) {
+  const bool known = std::find(kConformanceLaws.begin(), kConformanceLaws.end(), law) != kConformanceLaws.end();
+  if (law.empty() || known) return absl::OkStatus();
+  return InputError(what, law, absl::StrCat("be ", absl::StrJoin(kConformanceLaws, ", ")));
+}
+
+absl::StatusOr<SimulatorAnswers> ReadSimulatorAnswers(const std::string& text, const std::string& name) {
+  const absl::string_view start = absl::StripLeadingAsciiWhitespace(text);
+  if (start.empty()) return absl::InvalidArgumentError(absl::StrCat(name, " is empty: must have answers"));
+  absl::StatusOr<SimulatorAnswers> all = start[0] == '{' ? ReadJson(text, name) : ReadCsv(text, name);
+  if (all.ok() && all->answers.empty()) {
+    return absl::InvalidArgumentError(absl::StrCat(name, " has no answer: must have one at least"));
+  }
+  return all;
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,78 @@
+#include "client/cli/conformance/cases.h"
+
+#include <nlohmann/json.hpp>
+
+#include "absl/strings/str_cat.h"
+#include "core/base/nearest.h"
+
+namespace ricochet::cli {
+
+// Made of conformance/impacts.json by the build.
+extern const char kConformanceCases[];
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const Json& Document() {
+  static const Json* const document = new Json(Json::parse(kConformanceCases));
+  return *document;
+}
+
+ConformanceCase FromJson(const Json& json) {
+  ConformanceCase one{.name = json["name"],
+                      .family = json["family"],
+                      .shows = json["shows"],
+                      .source = json["source"],
+                      .dimension = json["dimension"],
+                      .coordinates = json["coordinates"],
+                      .mass = json["mass_matrix"],
+                      .jacobian = json["jacobian"],
+                      .before = json["velocity_before"],
+                      .frame = json.value("frame_velocity", std::vector<double>(json["velocity_before"].size())),
+                      .symmetries = json.value("symmetries", std::vector<std::vector<int>>())};
+  for (const Json& contact : json["contacts"]) {
+    one.friction.push_back(contact["friction"]);
+    one.coefficient.push_back(contact["coefficient"]);
+  }
+  for (const Json& answer : json["answers"]) {
+    one.answers.push_back({.law = answer["law"],
+                           .also = answer.value("also", std::vector<std::string>()),
+                           .velocity_after = answer["velocity_after"]});
+  }
+  return one;
+}
+
+ConformanceCases ReadAll() {
+  ConformanceCases all{.version = Document()["version"], .fingerprint = Document()["fingerprint"]};
+  for (const Json& json : Document()["cases"]) all.cases.push_back(FromJson(json));
+  return all;
+}
+
+}  // namespace
+
+const ConformanceCases& AllConformanceCases() {
+  static const ConformanceCases* const all = new ConformanceCases(ReadAll());
+  return *all;
+}
+
+absl::StatusOr<const ConformanceCase*> FindConformanceCase(const std::string& name, const std::string& what) {
+  std::vector<std::string> names;
+  for (const ConformanceCase& one : AllConformanceCases().cases) {
+    if (one.name == name) return &one;
+    names.push_back(one.name);
+  }
+  return absl::InvalidArgumentError(
+      absl::StrCat(what, " = ", name, ": must be a name of `ricochet conformance list`", DidYouMean(name, names)));
+}
+
+std::string ConformanceCasesJson() { return kConformanceCases; }
+
+std::string ConformanceCaseJson(const ConformanceCase& one) {
+  for (const Json& json : Document()["cases"]) {
+    if (json["name"] == one.name) return json.dump(2) + "\n";
+  }
+  return "";
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,320 @@
+#!/usr/bin/env python3
+"""Grades the answers of a simulator to the conformance cases, as `ricochet conformance grade` does, without ricochet.
+
+usage: grade.py ANSWERS [--tolerance X] [--law newton|poisson|energetic] [--family NAME]... [--case NAME]... [--json]
+
+ANSWERS is JSON or CSV (docs/conformance.md, answers.schema.json). The cases are those of impacts.json beside this file. It
+needs Python 3 and NumPy. Exit codes: 0 all cases are right, 2 wrong input, 42 some are not.
+"""
+
+import argparse
+import csv
+import difflib
+import hashlib
+import itertools
+import json
+import math
+import os
+import re
+import sys
+
+import numpy as np
+
+LAWS = ('newton', 'poisson', 'energetic')
+LIMITS = ('energy', 'approach', 'cone', 'symmetry')
+ROUNDING = 2.0 ** -46
+DEPENDENT = 1e-13  # Below this share of a diagonal entry a pivot is rounding.
+
+
+def refuse(message):
+    print(f'grade.py: {message}', file=sys.stderr)
+    sys.exit(2)
+
+
+class Case:
+    def __init__(self, data):
+        self.name, self.family, self.coordinates = data['name'], data['family'], data['coordinates']
+        self.dimension = data['dimension']
+        self.friction = [contact['friction'] for contact in data['contacts']]
+        self.mass, self.jacobian = np.array(data['mass_matrix'], float), np.array(data['jacobian'], float)
+        self.before = np.array(data['velocity_before'], float)
+        self.frame = np.array(data.get('frame_velocity', np.zeros(len(self.before))), float)
+        self.symmetries = data.get('symmetries', [])
+        self.answers = [(a['law'], a.get('also', []), np.array(a['velocity_after'], float)) for a in data['answers']]
+
+
+def read_cases():
+    with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), 'impacts.json'), encoding='utf-8') as file:
+        text = file.read()
+    whole = json.loads(text)
+    empty = re.sub(r'"fingerprint": "[0-9a-f]*"', '"fingerprint": ""', text)
+    if hashlib.sha256(empty.encode()).hexdigest() != whole['fingerprint']:
+        refuse('impacts.json was changed: its fingerprint does not fit')
+    return whole, {data['name']: Case(data) for data in whole['cases']}
+
+
+# --- The answers ---
+
+
+def add_answer(where, name, law, velocity, cases, answers):
+    if name not in cases:
+        near = difflib.get_close_matches(name, cases, 1)
+        refuse(f'{where}.case = {name}: must be a case of impacts.json' + (f'; did you mean {near[0]}?' if near else ''))
+    if law and law not in LAWS:
+        refuse(f'{where}.law = {law}: must be {", ".join(LAWS)}')
+    if name in answers:
+        refuse(f'{where}.case = {name}: must not be answered twice')
+    names = cases[name].coordinates
+    if len(velocity) != len(names):
+        refuse(f'{where}.velocity_after of {name} has {len(velocity)} numbers: must have {len(names)}, {", ".join(names)}')
+    if not all(isinstance(x, (int, float)) and math.isfinite(x) for x in velocity):
+        refuse(f'{where}.velocity_after of {name}: must have finite numbers; leave out a case without any')
+    answers[name] = (law, np.array(velocity, float))
+
+
+def known_keys(entry, where, known):
+    for key in entry:
+        if key not in known:
+            refuse(f'{where}.{key}: is unknown; must be {", ".join(known)}')
+
+
+def read_json(text, path, cases):
+    try:
+        whole = json.loads(text)
+    except ValueError as error:
+        refuse(f'{path} is not JSON: {error}; is it whole?')
+    known_keys(whole, path, ('simulator', 'law', 'answers'))
+    if not isinstance(whole.get('answers'), list):
+        refuse(f'{path}.answers: must be a list')
+    answers = {}
+    for i, entry in enumerate(whole['answers']):
+        if not isinstance(entry, dict):
+            refuse(f'answers[{i}]: must be an object')
+        known_keys(entry, f'answers[{i}]', ('case', 'law', 'velocity_after'))
+        if not isinstance(entry.get('velocity_after'), list):
+            refuse(f'answers[{i}].velocity_after: must be a list of numbers')
+        add_answer(f'answers[{i}]', entry.get('case', ''), entry.get('law') or whole.get('law', ''),
+                   entry['velocity_after'], cases, answers)
+    return whole.get('simulator', ''), answers
+
+
+def read_csv(text, path, cases):
+    rows = csv.reader(line for line in text.splitlines() if line.strip() and not line.startswith('#'))
+    header = next(rows)
+    if header != ['case', 'law', 'velocity_after']:
+        refuse(f'{path} has the header {",".join(header)}: must have case,law,velocity_after')
+    answers = {}
+    for number, row in enumerate(rows, 1):
+        try:
+            velocity = [float(cell) for cell in row[2:]]
+        except ValueError as error:
+            refuse(f'row {number}: {error}')
+        add_answer(f'row {number}', row[0], row[1] if len(row) > 1 else '', velocity, cases, answers)
+    return '', answers
+
+
+def read_answers(path, cases):
+    try:
+        with (sys.stdin if path == '-' else open(path, encoding='utf-8-sig')) as file:
+            text = file.read()
+    except OSError as error:
+        refuse(f'cannot read {path}: {error.strerror}')
+    if not text.strip():
+        refuse(f'{path} is empty: must have answers')
+    simulator, answers = (read_json if text.lstrip()[0] == '{' else read_csv)(text, path, cases)
+    if not answers:
+        refuse(f'{path} has no answer: must have one at least')
+    return simulator or path, answers
+
+
+# --- The verdicts ---
+
+
+def check(value, excess, allowance):
+    return {'value': float(value), 'excess': float(excess), 'broken': bool(excess > allowance)}
+
+
+def shares_of(effects, change):
+    """By how much of each (momentum, velocity) the change is caused; none if they depend on each other."""
+    products = np.array([[p @ v for _, v in effects] for p, _ in effects])
+    rest, right = products.copy(), np.array([p @ change for p, _ in effects])
+    for i in range(len(effects)):
+        if not rest[i, i] > DEPENDENT * products[i, i]:
+            return None
+        for j in range(i + 1, len(effects)):
+            factor = rest[j, i] / rest[i, i]
+            rest[j] -= factor * rest[i]
+            right[j] -= factor * right[i]
+    return np.linalg.solve(np.triu(rest), right)
+
+
+def edge_effects(case, change):
+    """What unit impulses along the edges of (pyramids inside) the friction cones do."""
+    def effect(impulse):
+        momentum = case.jacobian.T @ impulse
+        return momentum, np.linalg.solve(case.mass, momentum)
+    edges = [[1.0], [-1.0]]
+    if case.dimension == 3:
+        impulse = shares_of([effect(row) for row in np.eye(3)], change)
+        length = 0.0 if impulse is None else math.hypot(impulse[0], impulse[1])
+        c, s = (impulse[0] / length, impulse[1] / length) if length > 0 else (1.0, 0.0)
+        edges = [[c, s], [-c, -s], [-s, c], [s, -c]]
+    effects, d = [], case.dimension
+    for contact, friction in enumerate(case.friction):
+        for edge in edges[:1] if friction == 0 else edges:
+            impulse = np.zeros(len(case.jacobian))
+            impulse[contact * d:contact * d + d] = [friction * x for x in edge] + [1.0]
+            effects.append(effect(impulse))
+    return effects
+
+
+def outside_cones(case, change):
+    """What is left of the change after the impulse within the friction cones that leaves the least kinetic energy."""
+    effects = edge_effects(case, change)
+    least, least_energy = change, change @ case.mass @ change
+    for size in range(1, len(effects) + 1):
+        for chosen in itertools.combinations(effects, size):
+            shares = shares_of(chosen, change)
+            if shares is None or min(shares) < 0:
+                continue
+            left = change - sum(share * velocity for share, (_, velocity) in zip(shares, chosen))
+            energy = left @ case.mass @ left
+            if energy < least_energy:
+                least, least_energy = left, energy
+    return least
+
+
+def limits_of(case, after, tolerance):
+    moving, change = after - case.frame, after - case.before
+    momentum = case.mass @ moving
+    gained = 0.5 * (moving + case.before - case.frame) @ (case.mass @ change)
+    limits = {'energy': check(gained, gained, ROUNDING * moving @ momentum + tolerance * np.abs(momentum).sum())}
+    normals = case.jacobian[case.dimension - 1::case.dimension]
+    speeds, allowances = normals @ moving, tolerance * np.abs(normals).sum(axis=1) + ROUNDING
+    worst = int(np.argmax(-speeds - allowances))
+    limits['approach'] = check(speeds[worst], -speeds[worst], allowances[worst])
+    left = outside_cones(case, change)
+    allowance = ROUNDING * math.sqrt(case.before @ case.mass @ case.before) + tolerance * np.sqrt(np.diag(case.mass)).sum()
+    limits['cone'] = check(np.abs(left).max(), math.sqrt(left @ case.mass @ left), allowance)
+    differences = [abs(after[i] - math.copysign(1, place) * after[abs(place) - 1])
+                   for symmetry in case.symmetries for i, place in enumerate(symmetry)]
+    largest = max(differences, default=0.0)
+    limits['symmetry'] = check(largest, largest, 2 * tolerance + ROUNDING)
+    return limits
+
+
+def grade_case(case, after, law, tolerance):
+    errors = {name: float(np.abs(after - right).max()) for name, _, right in case.answers}
+    judge = law if len(case.friction) == 1 else min(errors, key=errors.get)
+    obeyed = [name for law_, also, _ in case.answers if errors[law_] <= tolerance for name in (law_, *also)]
+    other = not obeyed and any(np.abs(np.sort(after) - np.sort(right)).max() <= tolerance for _, _, right in case.answers)
+    return {'law': judge, 'error': errors.get(judge, math.inf), 'right': errors.get(judge, math.inf) <= tolerance,
+            'errors': errors, 'obeyed': obeyed, 'other_order': other, **limits_of(case, after, tolerance)}
+
+
+def commonest_law(cases, answers, tolerance):
+    counts = dict.fromkeys(LAWS, 0)
+    for name, (_, after) in answers.items():
+        for law in grade_case(cases[name], after, '', tolerance)['obeyed']:
+            if law in counts:
+                counts[law] += 1
+    return max(reversed(LAWS), key=counts.get)
+
+
+# --- The report ---
+
+LAW_TEXT = {'newton': "Newton's law", 'poisson': "Poisson's law", 'energetic': 'the energetic law'}
+
+
+def rounded(value):
+    return '%.6g' % (value + 0.0)
+
+
+def complaint(case, grade):
+    if not grade:
+        return 'no answer'
+    parts = []
+    if not grade['right']:
+        parts.append('%.2g from %s' % (grade['error'], LAW_TEXT.get(grade['law'], grade['law'])))
+        if grade['obeyed']:
+            parts.append('obeys ' + ', '.join(grade['obeyed']))
+    if grade['other_order']:
+        parts.append('has the right numbers in another order than ' + ', '.join(case.coordinates))
+    if grade['energy']['broken']:
+        parts.append(f"the kinetic energy grows by {rounded(grade['energy']['excess'])} J")
+    if grade['approach']['broken']:
+        parts.append(f"the bodies still approach at {rounded(grade['approach']['excess'])} m/s")
+    if grade['cone']['broken']:
+        parts.append('no impulse within the friction cones explains it, the nearest is '
+                     f"{rounded(grade['cone']['value'])} away")
+    if grade['symmetry']['broken']:
+        parts.append(f"is no mirror image of itself, by {rounded(grade['symmetry']['value'])}")
+    return '; '.join(parts)
+
+
+def family_row(name, members):
+    answered = [grade for _, grade in members if grade]
+    cells = [name, len(members), len(answered), sum(grade['right'] for grade in answered),
+             '%.1e' % max(grade['error'] for grade in answered) if answered else '-']
+    for law in LAWS:
+        known = any(law == name for case, _ in members for name, _, _ in case.answers)
+        cells.append(sum(law in grade['obeyed'] for grade in answered) if known else '-')
+    return [str(cell) for cell in cells] + [str(sum(grade[limit]['broken'] for grade in answered)) for limit in LIMITS]
+
+
+def text_of(head, origin, graded):
+    rows = [['family', 'cases', 'answered', 'right', 'worst error', 'Newton', 'Poisson', 'energetic', *LIMITS]]
+    families = list(dict.fromkeys(case.family for case, _ in graded))
+    rows += [family_row(family, [one for one in graded if one[0].family == family]) for family in families]
+    if len(families) > 1:
+        rows.append(family_row('all', graded))
+    widths = [max(map(len, column)) for column in zip(*rows)]
+    lines = [head, '']
+    for row in rows:
+        lines.append('  ' + '   '.join([row[0].ljust(widths[0])] + [cell.rjust(w) for cell, w in zip(row[1:], widths[1:])]))
+    wrong = [f'  {case.name}: {complaint(case, grade)}' for case, grade in graded if complaint(case, grade)]
+    lines += ['', origin]
+    return '\n'.join(lines + (['', 'Not right, or beyond a limit:', *wrong] if wrong else []))
+
+
+def main():
+    parser = argparse.ArgumentParser(description='Grades a simulator by the conformance cases.')
+    parser.add_argument('answers')
+    parser.add_argument('--tolerance', type=float, default=1e-9)
+    parser.add_argument('--law', choices=LAWS)
+    parser.add_argument('--family', action='append', default=[])
+    parser.add_argument('--case', action='append', default=[])
+    parser.add_argument('--json', action='store_true')
+    options = parser.parse_args()
+    whole, cases = read_cases()
+    for given, known in ((options.family, {case.family for case in cases.values()}), (options.case, cases)):
+        for name in given:
+            if name not in known:
+                refuse(f'{name} is not known: must be one of {", ".join(sorted(known))}')
+    simulator, answers = read_answers(options.answers, cases)
+    asked = [case for case in cases.values() if case.family in options.family or case.name in options.case
+             or not options.family and not options.case]
+    stated = options.law or next((law for law, _ in answers.values() if law), '')
+    general = stated or commonest_law(cases, answers, options.tolerance)
+    graded = []
+    for case in asked:
+        law, after = answers.get(case.name, ('', None))
+        graded.append((case, None if after is None else
+                       grade_case(case, after, options.law or law or general, options.tolerance)))
+    right = sum(grade['right'] for _, grade in graded if grade)
+    if options.json:
+        print(json.dumps({'simulator': simulator, 'version': whole['version'], 'fingerprint': whole['fingerprint'],
+                          'tolerance': options.tolerance, 'law': general, 'right_cases': right,
+                          'cases': [{'case': case.name, 'family': case.family, 'answered': bool(grade), **(grade or {}),
+                                     'complaint': complaint(case, grade)} for case, grade in graded]}, indent=2))
+    else:
+        origin = (f"The cases are version {whole['version']}, {whole['fingerprint'][:16]}. Errors are in m/s or rad/s. At several "
+                  'contacts any order will do, or springs.\nThe last four columns count the cases that break a limit.')
+        print(text_of('%s: %d of %d cases are right to %.2g, by %s%s.' %
+                      (simulator, right, len(graded), options.tolerance, LAW_TEXT[general],
+                       '' if stated else ', which most answers obey'), origin, graded))
+    sys.exit(0 if right == len(graded) else 42)
+
+
+if __name__ == '__main__':
+    main()
