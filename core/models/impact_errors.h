@@ -29,6 +29,9 @@ struct ImpactErrors {
   double energy_change = kUnknown;
 };
 
+// Returns an estimate or bound of an error, and infinity for one that is no number: a product of an infinity and 0.
+inline double KnownError(double error) { return error >= 0.0 ? error : ImpactErrors::kUnknown; }
+
 namespace internal {
 
 // A bound on the error of the quotient x/y = `quotient`, y > 0; infinite where y may be 0.

@@ -75,6 +75,8 @@ bool IsRigidAndEnergetic(const Scene& scene) {
 }
 
 void CheckOwnAudit(const Scene& scene, const Outcome& outcome) {
+  // Where the budget of steps ran out, it does so again for each of the hundred impacts that an audit in space solves.
+  if (outcome.termination == Termination::kBudgetUsedUp) return;
   // Impulses follow from velocities only as well as these are stated: where W is tiny, one that is 0 because it fell
   // below the least double would break the cone of friction.
   const double error = std::max(outcome.errors.tangential_m_s.value_or(0.0), outcome.errors.normal_m_s.value_or(0.0));

@@ -196,7 +196,7 @@ Impact Solve(const Problem& problem) {
   WriteNormalWorks(scaled, units, path, impact);
   WriteTangentialWorks(units, contact, path, impact);
   impact.energy_change = EnergyChange(scaled, units, path.end);
-  impact.error_estimate = ErrorEstimate(scaled, units, path);
+  impact.error_estimate = KnownError(ErrorEstimate(scaled, units, path));
   impact.errors = NumberErrorsOf(scaled, units, contact, path, impact);
   ScaleSections(units, impact.sections);
   return impact;

@@ -86,7 +86,7 @@ bool MayNotPart(const ScaledContact& contact, const Path& path, double error) {
 // Returns how far the velocities at the end of a path may be from the truth, over max(|u0|, |v0|); infinite if unknown.
 double ErrorOf(const ScaledContact& contact, const Path& path) {
   const double error = contact.IsStraight() ? ErrorOfStraightPath(contact, path) : ErrorOfAnyPath(contact, path);
-  return MayNotPart(contact, path, error) ? std::numeric_limits<double>::infinity() : error;
+  return MayNotPart(contact, path, error) ? ImpactErrors::kUnknown : KnownError(error);
 }
 
 // The errors of all numbers, from the error of the velocities over max(|u0|, |v0|). Impulses follow from velocities by

@@ -134,9 +134,7 @@ Impact MakeImpact(const ScaledProblem<T>& problem, const Path<T>& path, const En
   impact.regime = path.regime;
   impact.w_rank = problem.w.rank;
   if (!path.ended) impact.termination = Termination::kRefused;
-  // Where a bound exceeds the doubles, a product with 0 is no number: nothing is known then.
-  const auto relative = static_cast<double>(errors.relative);
-  impact.error_estimate = path.ended && relative >= 0.0 ? relative : std::numeric_limits<double>::infinity();
+  impact.error_estimate = path.ended ? KnownError(static_cast<double>(errors.relative)) : ImpactErrors::kUnknown;
   impact.u1 = {problem.Velocity(end.u1), problem.Velocity(end.u2)};
   impact.v1 = problem.NormalVelocity(end.v);
   impact.tau_compression = problem.Impulse(compression.tau);
