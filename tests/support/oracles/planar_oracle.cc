@@ -33,15 +33,14 @@ class Simulation {
  public:
   Simulation(const Problem& problem, const ExactContact& contact)
       : problem_(problem),
-        bits_(PrecisionFor(problem)),
         wtt_(contact.wtt),
         wtn_(contact.wtn),
         wnn_(contact.wnn),
         u0_(contact.u0),
         v0_(contact.v0),
-        mu_(problem.mu, bits_),
-        mu_static_(problem.mu_static, bits_),
-        coefficient_(problem.coefficient, bits_) {
+        mu_(contact.mu),
+        mu_static_(contact.mu_static),
+        coefficient_(contact.coefficient) {
     const Ball square = wtt_ * wnn_;
     rank_one_ = Compare(Abs(square - wtn_ * wtn_), Ball(0x1p-50) * square) <= 0;
     if (rank_one_ && problem.w.tt != 0.0) {
@@ -239,7 +238,6 @@ class Simulation {
   }
 
   Problem problem_;
-  slong bits_;
   Ball wtt_, wtn_, wnn_, u0_, v0_, mu_, mu_static_, coefficient_;
   bool rank_one_ = false;
   bool in_range_ = false;  // At rank one with Wtt > 0, (u0, v0) lies in the range of W.
@@ -295,7 +293,10 @@ ExactImpact SolveExactly(const Problem& problem) {
                                 .wtn = ball(problem.w.tn),
                                 .wnn = ball(problem.w.nn),
                                 .u0 = ball(problem.u0),
-                                .v0 = ball(problem.v0)});
+                                .v0 = ball(problem.v0),
+                                .mu = ball(problem.mu),
+                                .mu_static = ball(problem.mu_static),
+                                .coefficient = ball(problem.coefficient)});
 }
 
 OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact) {

@@ -41,9 +41,9 @@ struct ExactImpact {
 // The problem must not be separating.
 ExactImpact SolveExactly(const Problem& problem);
 
-// A contact that is no double, in place of that of a problem.
+// A contact, friction and restitution that are no doubles, in place of those of a problem.
 struct ExactContact {
-  Ball wtt, wtn, wnn, u0, v0;
+  Ball wtt, wtn, wnn, u0, v0, mu, mu_static, coefficient;
 };
 ExactImpact SolveExactly(const Problem& problem, const ExactContact& contact);
 
