@@ -1,7 +1,7 @@
 // Dual: a number with its derivative, as a number type, so that a kernel written over N also gives derivatives.
 //
-// `rate` is the derivative of `value` by a parameter s at s = 0, for s that rises from there: Dual has the arithmetic of
-// value + rate s for an s that is positive and smaller than every number (the order of R[s]/(s^2)). A value of 0 has
+// `rate` is the derivative of `value` by a parameter s at s = 0, for s that rises from there: Dual has the arithmetic
+// of value + rate s for an s that is positive and smaller than every number (the order of R[s]/(s^2)). A value of 0 has
 // therefore the sign of its rate, and a kernel takes the branch that it would take for small s > 0: the derivatives are
 // one-sided where branches meet. A value counts as 0 if it is at most 2^-50 of its rate, so that a caller who lets s be
 // the relative change of a double treats a branch point within 4 ulp of it as reached.

@@ -151,8 +151,8 @@ class Client:
             certified: also give numbers with this many proved significant digits, at most 1000.
             both_ends: also give the impact in which no coordinate of a mechanism is held, as ``free_end``.
             derivatives: also give how fast numbers of the outcome change with numbers of the scene:
-                ``{"of": ["impulse.normal_total_n_s"], "by": ["friction.kinetic_coefficient"]}``; ``jacobian`` gives them
-                as an array.
+                ``{"of": ["impulse.normal_total_n_s"], "by": ["friction.kinetic_coefficient"]}``; ``jacobian`` gives
+                them as an array.
 
         Returns:
             The outcome as ricochet.v1.Outcome has it: ``outcome.coefficients.newton``,

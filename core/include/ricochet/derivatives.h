@@ -17,8 +17,7 @@ namespace ricochet {
 // The derivatives that a request asks for: of each number of `of` by each of `by`. Neither list may be empty.
 struct DerivativePaths {
   std::vector<std::string> of;  // Numbers of the outcome (ricochet/outcome_numbers.h): "impulse.normal_total_n_s".
-  std::vector<std::string>
-      by;  // Numbers of the scene, as the axes of a sweep name them: "friction.kinetic_coefficient".
+  std::vector<std::string> by;  // Numbers of the scene, named as the axes of a sweep: "friction.kinetic_coefficient".
   friend bool operator==(const DerivativePaths&, const DerivativePaths&) = default;
 };
 

@@ -1,5 +1,5 @@
-// Derivatives against difference quotients in arbitrary precision: the scene is reduced to its contact and its impact is
-// followed in balls of 1,600 bits, once as it is and once with one number moved by 2^-300 of its size.
+// Derivatives against difference quotients in arbitrary precision: the scene is reduced to its contact and its impact
+// is followed in balls of 1,600 bits, once as it is and once with one number moved by 2^-300 of its size.
 
 #include "core/answer/derivatives.h"
 
