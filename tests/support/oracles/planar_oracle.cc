@@ -38,9 +38,9 @@ class Simulation {
         wnn_(contact.wnn),
         u0_(contact.u0),
         v0_(contact.v0),
-        mu_(contact.mu),
-        mu_static_(contact.mu_static),
-        coefficient_(contact.coefficient) {
+        mu_(contact.mu.value_or(Ball(problem.mu, PrecisionFor(problem)))),
+        mu_static_(contact.mu_static.value_or(Ball(problem.mu_static, PrecisionFor(problem)))),
+        coefficient_(contact.coefficient.value_or(Ball(problem.coefficient, PrecisionFor(problem)))) {
     const Ball square = wtt_ * wnn_;
     rank_one_ = Compare(Abs(square - wtn_ * wtn_), Ball(0x1p-50) * square) <= 0;
     if (rank_one_ && problem.w.tt != 0.0) {
@@ -293,10 +293,7 @@ ExactImpact SolveExactly(const Problem& problem) {
                                 .wtn = ball(problem.w.tn),
                                 .wnn = ball(problem.w.nn),
                                 .u0 = ball(problem.u0),
-                                .v0 = ball(problem.v0),
-                                .mu = ball(problem.mu),
-                                .mu_static = ball(problem.mu_static),
-                                .coefficient = ball(problem.coefficient)});
+                                .v0 = ball(problem.v0)});
 }
 
 OutputErrors ErrorsOf(const Problem& problem, const Impact& impact, const ExactImpact& exact) {
