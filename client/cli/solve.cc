@@ -1,6 +1,8 @@
 #include <CLI/App.hpp>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/explore/impact_page.h"
@@ -9,14 +11,17 @@
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
+#include "client/cli/input/short_name.h"
 #include "client/cli/io/output.h"
 #include "client/cli/plot/picture_input.h"
+#include "client/cli/report/derivatives_report.h"
 #include "client/cli/report/plan_report.h"
 #include "client/cli/report/solve_plot.h"
 #include "client/cli/report/solve_report.h"
 #include "client/cli/solve_data.h"
 #include "client/cli/subcommands.h"
 #include "client/cli/text/number_input.h"
+#include "core/rows/column.h"
 #include "proto/wire/requests.h"
 
 namespace ricochet::cli {
@@ -37,7 +42,8 @@ numbers have a decimal point, and angles may be in degrees, 45deg. Text prints a
 json have all rows, and csv prints the summary on standard error. A row that lacks a number, or breaks a rule, is
 INVALID and the first have their reasons; the others are still solved.
 CSV has one row with every number of the outcome, named by its path. Instead it has one row for each state with
---history, for each sample with --force-history, for each effect with --explain, and for each number with --certified.
+--history, for each sample with --force-history, for each effect with --explain, for each number with --certified, and
+for each derivative with --derivatives.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct SolveOptions {
@@ -51,6 +57,7 @@ struct SolveOptions {
   std::string certified;
   bool strict = false;
   bool both_ends = false;
+  std::vector<std::string> derivatives_of, derivatives_by;
   PictureOptions picture;
   std::string html;
   DataOptions data;
@@ -62,25 +69,52 @@ bool Draws(const SolveOptions& options) { return !options.picture.file.empty() |
 std::string Text(const Outcome& outcome, const SolveOptions& options) {
   std::string text = SolveText(outcome);
   if (outcome.certificate.has_value()) text += CertificateText(*outcome.certificate);
+  if (!outcome.derivatives.empty()) text += DerivativesText(outcome.derivatives);
   if (options.explain) absl::StrAppend(&text, "\n", PlanText(outcome.plan));
   return text;
 }
 
 std::string Csv(const Outcome& outcome, const SolveOptions& options) {
   if (outcome.certificate.has_value()) return CertificateCsv(*outcome.certificate);
+  if (!outcome.derivatives.empty()) return DerivativesCsv(outcome.derivatives);
   if (options.explain) return PlanCsv(outcome.plan);
   if (!options.force_history.empty()) return ForceHistoryCsv(outcome);
   return options.history.empty() ? SolveCsv(outcome) : HistoryCsv(outcome);
+}
+
+// Returns the derivatives that the options ask for; nothing if they ask for none.
+absl::StatusOr<std::optional<DerivativePaths>> ReadDerivatives(const SolveOptions& options, const Scene& scene) {
+  if (options.derivatives_of.empty() && options.derivatives_by.empty()) return std::nullopt;
+  if (options.derivatives_of.empty() || options.derivatives_by.empty()) {
+    return absl::InvalidArgumentError("--derivatives OF,... and --by BY,... need each other");
+  }
+  DerivativePaths paths;
+  for (const std::string& name : options.derivatives_of) {
+    absl::StatusOr<std::string> of = FullName(name, Columns(scene), "--derivatives");
+    if (!of.ok()) return of.status();
+    paths.of.push_back(*std::move(of));
+  }
+  for (const std::string& name : options.derivatives_by) {
+    absl::StatusOr<std::string> by = FullField(scene, name, "--by");
+    if (!by.ok()) return by.status();
+    paths.by.push_back(*std::move(by));
+  }
+  return paths;
+}
+
+// True for the options that ask for derivatives.
+bool Differentiates(const SolveOptions& options) {
+  return !options.derivatives_of.empty() || !options.derivatives_by.empty();
 }
 
 // Prints only the plan.
 absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
   if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || options.strict ||
-      Draws(options) || options.both_ends) {
+      Draws(options) || options.both_ends || Differentiates(options)) {
     return absl::InvalidArgumentError(
-        "--plan-only cannot be combined with --history, --force-history, --certified, --strict, --both-ends, --plot or "
-        "--html");
+        "--plan-only cannot be combined with --history, --force-history, --certified, --strict, --both-ends, "
+        "--derivatives, --plot or --html");
   }
   const absl::StatusOr<PlanResponse> response = solver.Plan({.scene = scene, .demand = demand});
   if (!response.ok()) return response.status();
@@ -92,11 +126,10 @@ absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Sc
 absl::Status RunData(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
   if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || Draws(options) ||
-      options.explain || options.plan_only || options.both_ends) {
+      options.explain || options.plan_only || options.both_ends || Differentiates(options)) {
     return absl::InvalidArgumentError(
         "--data cannot be combined with --history, --force-history, --certified, --plot, --html, --explain, "
-        "--both-ends "
-        "or --plan-only");
+        "--both-ends, --derivatives or --plan-only");
   }
   DataOptions data = options.data;
   data.strict = options.strict;
@@ -121,6 +154,9 @@ absl::Status RunSolve(const SolveOptions& options) {
   const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
   if (!digits.ok()) return digits.status();
   request.certified_digits = *digits;
+  absl::StatusOr<std::optional<DerivativePaths>> derivatives = ReadDerivatives(options, *scene);
+  if (!derivatives.ok()) return derivatives.status();
+  request.derivatives = *std::move(derivatives);
   if (!options.force_history.empty()) {
     const absl::StatusOr<int64_t> intervals = ParseCount(options.force_history, "--force-history", kMostIntervals);
     if (!intervals.ok()) return intervals.status();
@@ -155,6 +191,15 @@ void AddSolve(CLI::App& app, Command& command) {
   AddMechanismOptions(*sub, options->scene);
   sub->add_flag("--both-ends", options->both_ends,
                 "Also print the impact with no coordinate of the mechanism held, and how far the two are apart");
+  sub->add_option("--derivatives", options->derivatives_of,
+                  "Also print the derivatives of these numbers of the outcome by those of --by")
+      ->type_name("OF,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  sub->add_option("--by", options->derivatives_by, "The numbers of the scene that --derivatives lets change")
+      ->type_name("BY,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
   sub->add_option("--history", options->history, "Also print the states at N + 1 evenly spaced normal impulses")
       ->type_name("N");
   sub->add_option("--force-history", options->force_history,

@@ -159,6 +159,11 @@ absl::Status CheckLimits(const SolveRequest& request, const Limits& limits) {
   CheckHistory(request, check);
   check.Number("force_intervals", request.force_intervals, &Limits::max_force_intervals);
   CheckDigits(request.scene.system, request.certified_digits, check);
+  if (request.derivatives.has_value() && !request.derivatives->by.empty()) {
+    check.Product("derivatives.of", static_cast<int64_t>(request.derivatives->of.size()),
+                  " numbers, times those of by, ", static_cast<int64_t>(request.derivatives->by.size()),
+                  &Limits::max_derivatives);
+  }
   return check.status();
 }
 

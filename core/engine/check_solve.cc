@@ -5,6 +5,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
+#include "core/answer/derivatives.h"
 #include "core/certified/certified.h"
 #include "core/plan/demand_fields.h"
 #include "core/plan/number_demand.h"
@@ -89,6 +90,9 @@ std::vector<Violation> CheckSolve(const SolveRequest& request, std::optional<Sce
   CheckForceIntervals(request, contact, violations);
   CheckHistory(request, violations);
   CheckBothEnds(request, violations);
+  if (violations.empty() && request.derivatives.has_value()) {
+    violations = CheckDerivatives(request.scene, request.demand, *request.derivatives);
+  }
   if (violations.empty()) CheckCertified(request, violations);
   return violations;
 }

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/answer/derivatives.h"
 #include "core/answer/scene_bounds.h"
 #include "core/answer/scene_enclosure.h"
 #include "core/answer/scene_outcome.h"
@@ -102,6 +103,7 @@ absl::Status Answer(const SolveRequest& request, CallControl& control, SolveResp
   }
   const absl::Status certified = Certify(request, CertifySolve, stopped, outcome.certificate);
   if (!certified.ok()) return control.OrWhyEnded(certified);
+  if (request.derivatives.has_value()) outcome.derivatives = DerivativesOf(request.scene, *request.derivatives);
   response.engine = ThisEngine();
   return absl::OkStatus();
 }

@@ -171,6 +171,17 @@ struct Map<FreeEnd> : Between<FreeEnd, v1::FreeEnd> {
 };
 
 template <>
+struct Map<Derivative> : Between<Derivative, v1::Derivative> {
+  using Fields =
+      Entries<Entry(&T::of, &P::of, &P::mutable_of), Entry(&T::by, &P::by, &P::mutable_by),
+              Entry(&T::kind, &P::kind, &P::set_kind), Entry(&T::value, &P::has_value, &P::value, &P::set_value),
+              Entry(&T::from_below, &P::has_from_below, &P::from_below, &P::set_from_below),
+              Entry(&T::from_above, &P::has_from_above, &P::from_above, &P::set_from_above),
+              Entry(&T::threshold, &P::threshold, &P::set_threshold),
+              Entry(&T::reason, &P::reason, &P::mutable_reason)>;
+};
+
+template <>
 struct Map<Outcome> : Between<Outcome, v1::Outcome> {
   using Fields = Entries<
       Entry(&T::regime, &P::regime, &P::set_regime), Entry(&T::termination, &P::termination, &P::set_termination),
@@ -193,7 +204,8 @@ struct Map<Outcome> : Between<Outcome, v1::Outcome> {
       Entry(&T::momentum_change, &P::momentum_change, &P::mutable_momentum_change),
       Entry(&T::free_end, &P::has_free_end, &P::free_end, &P::mutable_free_end),
       Entry(&T::contact, &P::has_contact, &P::contact, &P::mutable_contact),
-      Entry(&T::certificate, &P::has_certificate, &P::certificate, &P::mutable_certificate)>;
+      Entry(&T::certificate, &P::has_certificate, &P::certificate, &P::mutable_certificate),
+      Entry(&T::derivatives, &P::derivatives, &P::mutable_derivatives)>;
 };
 
 void ToProto(const Outcome& outcome, v1::Outcome& proto) { Map<Outcome>::Fields::Write(outcome, proto); }

@@ -46,6 +46,16 @@ template <>
 struct EnumPair<v1::BrokenLimit::Kind> : SameNumbers<LimitKind, v1::BrokenLimit::Kind_IsValid> {};
 
 template <>
+struct EnumPair<DerivativeKind> : SameNumbers<v1::Derivative::Kind, v1::Derivative::Kind_IsValid> {};
+template <>
+struct EnumPair<v1::Derivative::Kind> : SameNumbers<DerivativeKind, v1::Derivative::Kind_IsValid> {};
+
+template <>
+struct EnumPair<Threshold> : SameNumbers<v1::Derivative::Threshold, v1::Derivative::Threshold_IsValid> {};
+template <>
+struct EnumPair<v1::Derivative::Threshold> : SameNumbers<Threshold, v1::Derivative::Threshold_IsValid> {};
+
+template <>
 struct EnumPair<NoteKind> : SameNumbers<v1::Note::Kind, v1::Note::Kind_IsValid> {};
 template <>
 struct EnumPair<v1::Note::Kind> : SameNumbers<NoteKind, v1::Note::Kind_IsValid> {};

@@ -12,6 +12,11 @@
 namespace ricochet {
 
 template <>
+struct Map<DerivativePaths> : Between<DerivativePaths, v1::DerivativePaths> {
+  using Fields = Entries<Entry(&T::of, &P::of, &P::mutable_of), Entry(&T::by, &P::by, &P::mutable_by)>;
+};
+
+template <>
 struct Map<SolveRequest> : Between<SolveRequest, v1::SolveRequest> {
   using Fields = Entries<Entry(&T::scene, &P::scene, &P::mutable_scene),
                          Entry(&T::history_at_n_s, &P::history_at_n_s, &P::mutable_history_at_n_s),
@@ -19,7 +24,9 @@ struct Map<SolveRequest> : Between<SolveRequest, v1::SolveRequest> {
                          Entry(&T::history_intervals, &P::history_intervals, &P::set_history_intervals),
                          Entry(&T::force_intervals, &P::force_intervals, &P::set_force_intervals),
                          Entry(&T::certified_digits, &P::certified_digits, &P::set_certified_digits),
-                         Entry(&T::both_ends, &P::both_ends, &P::set_both_ends), Flat<&T::demand, DemandEntries<P>>{}>;
+                         Entry(&T::both_ends, &P::both_ends, &P::set_both_ends),
+                         Entry(&T::derivatives, &P::has_derivatives, &P::derivatives, &P::mutable_derivatives),
+                         Flat<&T::demand, DemandEntries<P>>{}>;
 };
 
 template <>

@@ -78,7 +78,7 @@ Callee OfServer(const py::dict& given) {
 
 py::object Solve(const Callee& solver, py::handle scene, py::handle tolerance, py::handle require, py::handle exclude,
                  py::handle strict, py::handle history, py::handle force_history, py::handle certified,
-                 py::handle both_ends) {
+                 py::handle both_ends, py::handle derivatives) {
   Filler filler;
   SolveRequest request;
   {
@@ -91,6 +91,7 @@ py::object Solve(const Callee& solver, py::handle scene, py::handle tolerance, p
     filler.FillArgument("force_history", force_history, arguments);
     filler.FillArgument("certified", certified, arguments);
     filler.FillArgument("both_ends", both_ends, arguments);
+    filler.FillArgument("derivatives", derivatives, arguments);
     request = FromProto(arguments);
   }
   request.scene = SceneOf(scene, filler);

@@ -65,6 +65,7 @@ __all__ = [
     "close",
     "cost",
     "info",
+    "jacobian",
     "multicontact",
     "plan",
     "read_scene",
@@ -78,6 +79,7 @@ _client = ModuleClient()
 
 solve = _client.solve
 solve_batch = _client.solve_batch
+jacobian = _client.jacobian
 sweep = _client.sweep
 bounds = _client.bounds
 audit = _client.audit

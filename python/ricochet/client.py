@@ -36,6 +36,7 @@ _REGIMES = _core.enum_names("Regime")
 _STATUSES = _core.enum_names("RowStatus")
 _VERDICTS = _core.enum_names("LimitCheck.Verdict")
 _WITHOUT_NUMBERS = [_STATUSES.index(name) for name in ("INVALID", "NOT_REPRESENTABLE")]
+_SIDES = {"both": "value", "below": "from_below", "above": "from_above"}
 _MOST_AUDIT_ROWS = 8192  # Of one call.
 _clients: "weakref.WeakSet[Client]" = weakref.WeakSet()
 
@@ -134,6 +135,7 @@ class Client:
     def solve(
         self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),
         strict: bool = False, history: int = 0, force_history: int = 0, certified: int = 0, both_ends: bool = False,
+        derivatives: Mapping[str, Names] | None = None,
     ) -> Record:
         """Computes one impact.
 
@@ -148,6 +150,9 @@ class Client:
             force_history: also give the forces at this number of equal time steps; needs a spring along n.
             certified: also give numbers with this many proved significant digits, at most 1000.
             both_ends: also give the impact in which no coordinate of a mechanism is held, as ``free_end``.
+            derivatives: also give how fast numbers of the outcome change with numbers of the scene:
+                ``{"of": ["impulse.normal_total_n_s"], "by": ["friction.kinetic_coefficient"]}``; ``jacobian`` gives
+                them as an array.
 
         Returns:
             The outcome as ricochet.v1.Outcome has it: ``outcome.coefficients.newton``,
@@ -158,7 +163,38 @@ class Client:
             RicochetError: the call failed otherwise.
         """
         return self._solver.solve(
-            scene, tolerance, require, exclude, strict, history, force_history, certified, both_ends)
+            scene, tolerance, require, exclude, strict, history, force_history, certified, both_ends, derivatives)
+
+    def jacobian(
+        self, scene: SceneLike, of: Names, by: Names, *, side: Literal["both", "below", "above"] = "both",
+    ) -> NDArray[np.float64]:
+        """Computes how fast numbers of an outcome change with numbers of its scene, exactly.
+
+        Args:
+            scene: as in ``solve``; a planar one without compliance and without an impact law.
+            of: velocities, impulses, works and coefficients of the outcome: ``"contact_velocity_after.normal_m_s"``.
+            by: numbers of the scene: ``"friction.kinetic_coefficient"`` or, in short, ``"mu"``.
+            side: ``"both"`` gives a derivative where both sides agree; the others give the limit of the difference
+                quotient from that side, which may differ, or exist alone, on a threshold such as the limit of friction.
+
+        Returns:
+            An array with a row for each number of ``of`` and a column for each of ``by``. It has NaN where there is no
+            such derivative; ``solve(scene, derivatives={"of": of, "by": by}).derivatives`` says why.
+
+        Raises:
+            InvalidRequest: the scene breaks a rule, a name means no number, or the scene has no derivatives.
+            RicochetError: the call failed otherwise.
+        """
+        if side not in _SIDES:
+            values.refuse("side", f"= {side!r}: must be one of {', '.join(_SIDES)}")
+        scene = Scene(scene)
+        paths = {
+            "of": names.full_names(values.names(of, "of"), scene._columns(), "of"),
+            "by": names.full_names(values.names(by, "by"), scene._fields(), "by"),
+        }
+        derivatives = self.solve(scene, derivatives=paths).derivatives
+        numbers = [each[_SIDES[side]] for each in derivatives]
+        return np.array(numbers, dtype=np.float64).reshape(len(paths["of"]), len(paths["by"]))
 
     def plan(
         self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),

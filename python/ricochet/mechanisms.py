@@ -90,6 +90,6 @@ class States:
         """Names the rule that a state of a batch breaks by its own field, and not by the contact it has no part of."""
         try:
             _core.in_process(None).solve(
-                {**self.scene(bad.row), "restitution": {"newton": 0.0}}, None, (), (), False, 0, 0, 0, False)
+                {**self.scene(bad.row), "restitution": {"newton": 0.0}}, None, (), (), False, 0, 0, 0, False, None)
         except InvalidRequest as error:
             bad.update(field=error.violations[0].field, description=error.violations[0].description)

@@ -16,6 +16,7 @@ namespace {
 constexpr int64_t kFewLinks = 32;
 constexpr int64_t kShortHistory = 2048;
 constexpr int64_t kFewRows = 64;
+constexpr size_t kFewSides = 16;       // Of derivatives: two for each number of the scene.
 constexpr double kFewContacts = 27;    // States times the cube of the contacts, in a plane.
 constexpr size_t kFewVelocities = 32;  // Several contacts have those of the system, and the outputs asked for.
 
@@ -67,6 +68,11 @@ RequestCost CostOf(const SolveRequest& request) {
   const int64_t states = std::max(request.history_intervals, static_cast<int64_t>(request.history_at_n_s.size()));
   if (states > kShortHistory) {
     return Expensive(CostCause::kHistory, static_cast<double>(states) * static_cast<double>(4 + Links(request.scene)));
+  }
+  // Each number of the scene takes two impacts in double-double arithmetic, and M is factored for each.
+  const size_t sides = request.derivatives.has_value() ? 2 * request.derivatives->by.size() : 0;
+  if (sides > kFewSides) {
+    return Expensive(CostCause::kDerivatives, static_cast<double>(sides) * Cube(Links(request.scene)));
   }
   return CostOf(request.scene);
 }

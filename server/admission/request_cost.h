@@ -23,6 +23,7 @@ enum class CostCause {
   kLinks,        // A linkage of many links or a mechanism of many coordinates.
   kRows,         // A batch of many rows.
   kContacts,     // Many contacts at once, or many states of them.
+  kDerivatives,  // Derivatives by many numbers of the scene.
 };
 
 struct RequestCost {

@@ -364,6 +364,29 @@ TEST_P(SolverContract, RefusesBothEndsOfAMechanismThatHoldsNothing) {
   EXPECT_THAT(ViolationsOf(status), ElementsAre(Field(&Violation::field, "both_ends")));
 }
 
+TEST_P(SolverContract, DerivativesHaveTheBitsOfTheEngine) {
+  Scene scene = With(Flat());
+  scene.friction.kinetic_coefficient = 0.3;
+  const DerivativePaths paths = {
+      .of = {"bodies_after[0].angular_rad_s[0]", "work.friction_dissipation_j"},
+      .by = {"friction.kinetic_coefficient", "friction.static_coefficient", "planar_body.offset_t_m"}};
+  const SolveRequest request = {.scene = scene, .derivatives = paths};
+  const auto response = solver().Solve(request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(*response, *LocalSolver().Solve(request));
+  ASSERT_EQ(response->outcome.derivatives.size(), 6U);
+  EXPECT_EQ(response->outcome.derivatives[0].kind, DerivativeKind::kTwoSided);
+  EXPECT_EQ(response->outcome.derivatives[1].threshold, Threshold::kDomain);  // Below it would be less than kinetic.
+}
+
+TEST_P(SolverContract, RefusesDerivativesThatDoNotExist) {
+  const DerivativePaths paths = {.of = {"w_rank"}, .by = {"pendulum.mass_kg"}};
+  const absl::Status status = solver().Solve({.scene = PaperScene(), .derivatives = paths}).status();
+  ASSERT_EQ(status.code(), absl::StatusCode::kInvalidArgument);
+  EXPECT_THAT(ViolationsOf(status), ElementsAre(Field(&Violation::field, "derivatives.of[0]"),
+                                                Field(&Violation::field, "derivatives.by[0]")));
+}
+
 // Two rods of 1 m and 1 kg, hinged, at 20 and 30 degrees: Kane and Levinson (1985).
 Scene KanesScene() {
   constexpr double kDegree = 0.017453292519943295;

@@ -24,7 +24,8 @@ using Enums =
     testing::Types<v1::Regime, v1::Event::Kind, v1::BrokenLimit::Kind, v1::Accuracy::Kind, v1::LimitCheck::Verdict,
                    v1::SweepRequest::Combination, v1::Termination, v1::Effect, v1::Model, v1::Arithmetic,
                    v1::PlannedEffect::Decision, v1::PlannedArithmetic::Reason, v1::CostRow::Status, v1::RowStatus,
-                   v1::MultiContactRequest::Method, v1::AttainedOutcome::End, v1::MultiContactAnswer::Verdict>;
+                   v1::MultiContactRequest::Method, v1::AttainedOutcome::End, v1::MultiContactAnswer::Verdict,
+                   v1::Derivative::Kind, v1::Derivative::Threshold>;
 TYPED_TEST_SUITE(EnumTest, Enums);
 
 TYPED_TEST(EnumTest, EveryValueOfTheProtoIsTheCoresOfTheSameNumber) {

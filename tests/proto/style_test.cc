@@ -40,6 +40,8 @@ const std::set<std::string>& WithoutUnit() {
                                               "factor",
                                               "friction",
                                               "friction_ratio",
+                                              "from_above",
+                                              "from_below",
                                               "high",
                                               "jacobian",
                                               "jam",

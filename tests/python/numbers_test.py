@@ -213,5 +213,36 @@ class BoundsAndAudits(unittest.TestCase):
         np.testing.assert_allclose(table["coefficients.newton"], rates, rtol=1e-14)
 
 
+class Jacobians(unittest.TestCase):
+    # Newton's coefficient of a pendulum is eta sqrt(r) with r = (1 - x)/(1 + x), x = mu b/a, and Poisson's eta/sqrt(r).
+    SCENE = {"pendulum": {"inertia_kg_m2": 1, "a_m": 0.5, "b_m": 1, "omega_minus_rad_s": -1},
+             "friction": {"kinetic_coefficient": 0.25}, "restitution": {"energetic": 0.8}}
+
+    def test_a_pendulum_has_the_derivatives_of_its_formula(self):
+        root, slope = math.sqrt(1 / 3), -2 / 0.75  # d ln sqrt(r)/dx is -1/(1 - x^2), and x grows by b/a = 2 of mu.
+        got = ricochet.jacobian(self.SCENE, ["newton", "poisson"], ["mu", "energetic", "pendulum.inertia_kg_m2"])
+        expected = [[0.8 * root * slope, root, 0], [-0.8 / root * slope, 1 / root, 0]]
+        np.testing.assert_allclose(got, expected, rtol=1e-14, atol=1e-15)
+
+    def test_sides_of_a_threshold_are_asked_for_by_name(self):
+        scene = {**self.SCENE, "pendulum": {**self.SCENE["pendulum"], "b_m": 0}}
+        sides = {side: ricochet.jacobian(scene, "newton", "b", side=side)[0, 0] for side in ("both", "below", "above")}
+        self.assertTrue(math.isnan(sides["both"]))
+        self.assertAlmostEqual(sides["below"], 0.4, 14)
+        self.assertAlmostEqual(sides["above"], -0.4, 14)
+        paths = {"of": "coefficients.newton", "by": "pendulum.b_m"}
+        self.assertEqual(ricochet.solve(scene, derivatives=paths).derivatives[0].threshold, "SLIP_START")
+
+    def test_what_has_no_derivatives_is_refused(self):
+        sprung = {**self.SCENE, "compliance": {"tangential_ratio_squared": 1.2}}
+        for scene, of, side, text in (
+                (sprung, "newton", "both", "tangential compliance, which has no derivatives yet"),
+                (self.SCENE, "effective.kinetic", "both", "derivatives.of[0]"),
+                (self.SCENE, "newton", "left", "must be one of both, below, above")):
+            with self.subTest(text), self.assertRaises(ricochet.InvalidRequest) as caught:
+                ricochet.jacobian(scene, of, "mu", side=side)
+            self.assertIn(text, str(caught.exception))
+
+
 if __name__ == "__main__":
     main()

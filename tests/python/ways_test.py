@@ -33,6 +33,10 @@ CALLS = {
     "solve, coarse": lambda client, scene: client.solve(scene, tolerance=1e-3, exclude="gravity"),
     "solve, a wrong tolerance": lambda client, scene: client.solve(scene, tolerance=0.5),
     "solve, all details": lambda client, scene: client.solve(scene, history=3, force_history=4, both_ends=True),
+    "solve, derivatives": lambda client, scene: client.solve(
+        scene, derivatives={"of": ["coefficients.newton"], "by": ["friction.kinetic_coefficient"]}),
+    "jacobian": lambda client, scene: client.jacobian(
+        scene, "newton", ["mu", "mu_static"], side="above").tolist(),
     "solve, certified": lambda client, scene: client.solve(scene, certified=20),
     "solve, strict": lambda client, scene: client.solve(scene, strict=True),
     "plan": lambda client, scene: client.plan(scene, require="tangential_compliance"),

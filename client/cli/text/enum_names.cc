@@ -53,6 +53,14 @@ std::string ArithmeticText(Arithmetic arithmetic) {
   return Words(v1::Arithmetic_Name(ToProto(arithmetic)), "ARITHMETIC_", " ");
 }
 
+std::string KindName(DerivativeKind kind) {
+  return std::string(absl::StripPrefix(v1::Derivative::Kind_Name(ToProto(kind)), "KIND_"));
+}
+
+std::string ThresholdName(Threshold threshold) {
+  return std::string(absl::StripPrefix(v1::Derivative::Threshold_Name(ToProto(threshold)), "THRESHOLD_"));
+}
+
 std::string ModelName(Model model) { return std::string(absl::StripPrefix(v1::Model_Name(ToProto(model)), "MODEL_")); }
 
 }  // namespace ricochet::cli

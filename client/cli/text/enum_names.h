@@ -15,6 +15,8 @@ namespace ricochet::cli {
 const std::string& RegimeName(Regime regime);
 const std::string& StatusName(RowStatus status);
 std::string ModelName(Model model);
+std::string KindName(DerivativeKind kind);
+std::string ThresholdName(Threshold threshold);
 
 // Return words: "stick in compression", "finite duration", "compensated".
 std::string RegimeText(Regime regime);

@@ -48,6 +48,8 @@ struct Limits {
   // States of a request about several contacts times the cube of the contacts. A range of stiffnesses counts as 16
   // times as many states.
   int64_t max_contact_states = 4096;
+  // Numbers of the outcome times numbers of the scene in a request for derivatives.
+  int64_t max_derivatives = 4096;
 
   // Limits that no request exceeds.
   static constexpr Limits None();
@@ -83,6 +85,7 @@ inline constexpr NamedLimit kLimits[] = {
     {"max_request_bytes", &Limits::max_request_bytes, int64_t{256} << 20, "Bytes of the message of a batch"},
     {"max_contact_states", &Limits::max_contact_states, 1'000'000'000,
      "States of several contacts times the cube of the contacts"},
+    {"max_derivatives", &Limits::max_derivatives, 1'000'000, "Derivatives of one impact"},
 };
 
 constexpr Limits Limits::None() {

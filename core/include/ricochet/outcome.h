@@ -15,6 +15,7 @@
 
 #include "absl/container/inlined_vector.h"
 #include "ricochet/certificate.h"
+#include "ricochet/derivatives.h"
 #include "ricochet/plan.h"
 #include "ricochet/regime.h"
 
@@ -263,6 +264,7 @@ struct Outcome {
   Components momentum_change;
   std::optional<FreeEnd> free_end;         // Present exactly if SolveRequest::both_ends asks for it.
   std::optional<Certificate> certificate;  // Present exactly if SolveRequest::certified_digits asks for it.
+  std::vector<Derivative> derivatives;     // One for each pair of SolveRequest::derivatives; `by` changes first.
   friend bool operator==(const Outcome&, const Outcome&) = default;
 };
 

@@ -23,6 +23,7 @@
 #include "ricochet/certificate.h"
 #include "ricochet/cost.h"
 #include "ricochet/demand.h"
+#include "ricochet/derivatives.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"
 #include "ricochet/helpers.h"
@@ -59,6 +60,9 @@ struct SolveRequest {
   int32_t certified_digits = 0;
   // If true, Outcome::free_end has the same impact with no coordinate held. It takes a mechanism that holds some.
   bool both_ends = false;
+  // If present, asks for Outcome::derivatives. It takes a planar scene without compliance, impact law and excluded
+  // effects.
+  std::optional<DerivativePaths> derivatives;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };
 

@@ -155,6 +155,12 @@ const std::vector<Case>& Cases() {
          return solver.Solve({.scene = ChainScene(2), .history_intervals = static_cast<int64_t>((n + 5) / 6) - 1})
              .status();
        }},
+      {"Derivatives", &Limits::max_derivatives, 6, "derivatives.of",
+       [](const Solver& solver, size_t n) {
+         const DerivativePaths paths = {.of = std::vector<std::string>((n + 1) / 2, "coefficients.newton"),
+                                        .by = {"friction.kinetic_coefficient", "linkage.links[0].mass_kg"}};
+         return solver.Solve({.scene = ChainScene(1), .derivatives = paths}).status();
+       }},
       {"RowsOfABatch", &Limits::max_audit_rows, 7, "columns.friction",
        [](const Solver& solver, size_t n) {
          AuditBatchRequest request = {.scene = ChainScene(1)};

@@ -49,6 +49,12 @@ TEST(RequestCost, EachCauseMakesACallDear) {
   EXPECT_EQ(CostOf(AuditBatchRequest{.scene = {}, .columns = {.rates_after_rad_s = {std::vector<double>(8192)}}}).cause,
             CostCause::kRows);                                                                // 130 ms
   EXPECT_EQ(CostOf(MultiContactRequest{.scene = SpatialBox()}).cause, CostCause::kContacts);  // 10 ms
+  const auto by = [](size_t numbers) {
+    const std::vector<std::string> paths(numbers, "friction.kinetic_coefficient");
+    return SolveRequest{.derivatives = DerivativePaths{.of = {"coefficients.newton"}, .by = paths}};
+  };
+  EXPECT_TRUE(CostOf(by(8)).is_cheap());
+  EXPECT_EQ(CostOf(by(9)).cause, CostCause::kDerivatives);
   MultiContactRequest block = {.scene = FallingBlock(0.5, 0.5)};
   EXPECT_TRUE(CostOf(block).is_cheap());
   block.states.resize(64);

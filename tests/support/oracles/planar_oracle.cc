@@ -33,15 +33,14 @@ class Simulation {
  public:
   Simulation(const Problem& problem, const ExactContact& contact)
       : problem_(problem),
-        bits_(PrecisionFor(problem)),
         wtt_(contact.wtt),
         wtn_(contact.wtn),
         wnn_(contact.wnn),
         u0_(contact.u0),
         v0_(contact.v0),
-        mu_(problem.mu, bits_),
-        mu_static_(problem.mu_static, bits_),
-        coefficient_(problem.coefficient, bits_) {
+        mu_(contact.mu.value_or(Ball(problem.mu, PrecisionFor(problem)))),
+        mu_static_(contact.mu_static.value_or(Ball(problem.mu_static, PrecisionFor(problem)))),
+        coefficient_(contact.coefficient.value_or(Ball(problem.coefficient, PrecisionFor(problem)))) {
     const Ball square = wtt_ * wnn_;
     rank_one_ = Compare(Abs(square - wtn_ * wtn_), Ball(0x1p-50) * square) <= 0;
     if (rank_one_ && problem.w.tt != 0.0) {
@@ -239,7 +238,6 @@ class Simulation {
   }
 
   Problem problem_;
-  slong bits_;
   Ball wtt_, wtn_, wnn_, u0_, v0_, mu_, mu_static_, coefficient_;
   bool rank_one_ = false;
   bool in_range_ = false;  // At rank one with Wtt > 0, (u0, v0) lies in the range of W.

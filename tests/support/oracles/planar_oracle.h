@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,9 +42,10 @@ struct ExactImpact {
 // The problem must not be separating.
 ExactImpact SolveExactly(const Problem& problem);
 
-// A contact that is no double, in place of that of a problem.
+// A contact that is no double, in place of that of a problem, and coefficients, in place of its own where they are set.
 struct ExactContact {
   Ball wtt, wtn, wnn, u0, v0;
+  std::optional<Ball> mu = {}, mu_static = {}, coefficient = {};
 };
 ExactImpact SolveExactly(const Problem& problem, const ExactContact& contact);
 

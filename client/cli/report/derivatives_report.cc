@@ -1,0 +1,77 @@
+#include "client/cli/report/derivatives_report.h"
+
+#include <optional>
+
+#include "absl/strings/str_cat.h"
+#include "client/cli/io/csv_row.h"
+#include "client/cli/text/enum_names.h"
+#include "client/cli/text/table.h"
+
+namespace ricochet::cli {
+namespace {
+
+// What lies at the number, in a sentence that follows "On a threshold: ".
+const char* ThresholdText(Threshold threshold) {
+  switch (threshold) {
+    case Threshold::kApproach:
+      return "the contact neither approaches nor separates";
+    case Threshold::kSlipStart:
+      return "there is no slip before the impact";
+    case Threshold::kFrictionLimit:
+      return "friction only just holds the contact where slip stops";
+    case Threshold::kJamming:
+      return "the contact only just locks or jams";
+    case Threshold::kCompressionEnd:
+      return "slip stops exactly where compression ends";
+    case Threshold::kImpactEnd:
+      return "slip stops exactly where the impact ends";
+    case Threshold::kRank:
+      return "W has a lower rank here than beside, or the velocity leaves its range";
+    case Threshold::kSpeedTable:
+      return "the approach speed is one that a table lists";
+    case Threshold::kDomain:
+      return "the number cannot be lower, or cannot be higher";
+    case Threshold::kUnspecified:
+      break;
+  }
+  return "both sides differ";
+}
+
+std::string IfSet(const std::optional<double>& value) { return value.has_value() ? Rounded(*value) : "none"; }
+
+}  // namespace
+
+std::string DerivativesText(const std::vector<Derivative>& derivatives) {
+  Table table;
+  table.Add({"of", "by", "derivative"});
+  std::string notes;
+  for (const Derivative& d : derivatives) {
+    if (d.kind == DerivativeKind::kTwoSided) {
+      table.Add({d.of, d.by, Rounded(*d.value)});
+      continue;
+    }
+    table.Add({d.of, d.by, absl::StrCat(IfSet(d.from_below), " below, ", IfSet(d.from_above), " above")});
+    const std::string note = absl::StrCat("  By ", d.by, " on a threshold: ", ThresholdText(d.threshold), ".",
+                                          d.reason.empty() ? "" : " ", d.reason, "\n");
+    if (notes.find(note) == std::string::npos) absl::StrAppend(&notes, note);
+  }
+  return absl::StrCat("\nDerivatives\n", table.Render(2), notes);
+}
+
+std::string DerivativesCsv(const std::vector<Derivative>& derivatives) {
+  std::vector<CsvRow> rows;
+  for (const Derivative& d : derivatives) {
+    CsvRow& row = rows.emplace_back();
+    row.Words("of", d.of);
+    row.Words("by", d.by);
+    row.Words("kind", KindName(d.kind));
+    row.Number("value", d.value);
+    row.Number("from_below", d.from_below);
+    row.Number("from_above", d.from_above);
+    row.Words("threshold", d.kind == DerivativeKind::kTwoSided ? "" : ThresholdName(d.threshold));
+    row.Quoted("reason", d.reason);
+  }
+  return CsvOf(rows);
+}
+
+}  // namespace ricochet::cli

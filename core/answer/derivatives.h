@@ -1,0 +1,36 @@
+// Derivatives of an outcome: numbers of the outcome of a planar rigid impact by numbers of its scene.
+//
+// For each number of the scene the contact is differentiated along it (core/contact/contact_tangent.h) and the impact
+// along that (core/models/planar/tangent.h), once for either side. Where the two sides agree, so do their bits but at a
+// threshold, and the derivative is two-sided. A number that is 0 is replaced by +-2^-300 for its sides, which changes
+// no digit of them and separates the cases that meet at 0.
+// A side does not exist where the scene would break a rule, where the outcome jumps, or where it changes infinitely
+// fast. docs/theory/derivatives.md says what each derivative is accurate to.
+
+#ifndef RICOCHET_CORE_ANSWER_DERIVATIVES_H_
+#define RICOCHET_CORE_ANSWER_DERIVATIVES_H_
+
+#include <string>
+#include <vector>
+
+#include "ricochet/demand.h"
+#include "ricochet/derivatives.h"
+#include "ricochet/error.h"
+#include "ricochet/outcome.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+// Every number of an outcome of the scene that has derivatives, and every number of the scene by which it has them. The
+// scene must be valid.
+DerivativePaths AllDerivativePaths(const Scene& scene);
+
+// Lists why derivatives cannot be given for a valid scene: effects that have none, or paths that name no such number.
+std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& demand, const DerivativePaths& paths);
+
+// Computes them for a request in which CheckDerivatives finds nothing.
+std::vector<Derivative> DerivativesOf(const Scene& scene, const DerivativePaths& paths);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_ANSWER_DERIVATIVES_H_

@@ -1,0 +1,221 @@
+#include "core/contact/contact_tangent.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
+#include <algorithm>
+#include <cstddef>
+#include <variant>
+
+#include "core/base/invariant.h"
+#include "core/contact/linkage_matrices.h"
+#include "core/contact/mechanism.h"
+#include "core/numerics/elementary.h"
+
+namespace ricochet {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// M, J^T and q' of a system, in all its coordinates, or their derivatives.
+struct Motion {
+  explicit Motion(Index n) : mass(MatrixXd::Zero(n, n)), jt(MatrixXd::Zero(n, 2)), rates(VectorXd::Zero(n)) {}
+
+  MatrixXd mass, jt;
+  VectorXd rates;
+};
+
+// `one` is 1 for a system and 0 for a direction, in which the entries of J that are always 1 do not change.
+void SetBody(const PlanarBody& body, double side, double one, Index at, Motion& motion) {
+  motion.mass.diagonal().segment<3>(at) << body.mass_kg, body.mass_kg, body.inertia_com_kg_m2;
+  motion.jt.block<3, 2>(at, 0) << one, 0.0, 0.0, one, -body.offset_n_m, body.offset_t_m;
+  motion.jt.block<3, 2>(at, 0) *= side;
+  motion.rates.segment<3>(at) << body.velocity_t_m_s, body.velocity_n_m_s, body.rate_rad_s;
+}
+
+Motion MotionOf(const Pendulum& pendulum, double /*one*/) {
+  Motion motion(1);
+  motion.mass(0, 0) = pendulum.inertia_kg_m2;
+  motion.jt << pendulum.b_m, pendulum.a_m;
+  motion.rates(0) = pendulum.omega_minus_rad_s;
+  return motion;
+}
+
+Motion MotionOf(const PlanarBody& body, double one) {
+  Motion motion(3);
+  SetBody(body, 1.0, one, 0, motion);
+  return motion;
+}
+
+Motion MotionOf(const BodyPair& pair, double one) {
+  Motion motion(6);
+  const auto& planar = std::get<PlanarPair>(pair.bodies);
+  SetBody(planar.body_1, 1.0, one, 0, motion);
+  SetBody(planar.body_2, -1.0, one, 3, motion);
+  return motion;
+}
+
+Motion MotionOf(const Mechanism& mechanism, double /*one*/) {
+  const auto n = static_cast<Index>(mechanism.rates.size());
+  Motion motion(n);
+  motion.mass = Eigen::Map<const MatrixXd>(mechanism.mass_matrix.data(), n, n);
+  motion.jt = Eigen::Map<const MatrixXd>(mechanism.jacobian.data(), n, 2);
+  motion.rates = Eigen::Map<const VectorXd>(mechanism.rates.data(), n);
+  return motion;
+}
+
+VectorXd RatesOf(const Linkage& linkage) {
+  VectorXd rates(static_cast<Index>(linkage.links.size()));
+  std::transform(linkage.links.begin(), linkage.links.end(), rates.begin(),
+                 [](const Link& link) { return link.rate_rad_s; });
+  return rates;
+}
+
+std::vector<Index> FreeCoordinatesOf(const System& system, Index n) {
+  if (const auto* const mechanism = std::get_if<Mechanism>(&system)) return FreeCoordinates(*mechanism);
+  std::vector<Index> all;
+  for (Index i = 0; i < n; ++i) all.push_back(i);
+  return all;
+}
+
+// Sets what follows from M, J^T and q' of the system and from their derivatives.
+void SetMotion(const System& system, const Motion& motion, const Motion& d, ContactTangent& tangent) {
+  const VectorXd d_velocity = d.jt.transpose() * motion.rates + motion.jt.transpose() * d.rates;
+  tangent.u0 = d_velocity(0);
+  tangent.v0 = d_velocity(1);
+  tangent.before.assign(d.rates.begin(), d.rates.end());
+  tangent.response.resize(static_cast<size_t>(2 * d.rates.size()));
+  const std::vector<Index> free = FreeCoordinatesOf(system, motion.rates.size());
+  tangent.keeps_rank_one = free.size() == 1;
+  if (free.empty()) return;  // No impulse moves anything.
+  const MatrixXd d_mass = d.mass(free, free);
+  const MatrixXd d_jt = d.jt(free, Eigen::all);
+  const Eigen::LLT<MatrixXd> cholesky(motion.mass(free, free));
+  const MatrixXd x = cholesky.solve(motion.jt(free, Eigen::all));
+  const MatrixXd d_x = cholesky.solve(d_jt - d_mass * x);
+  const MatrixXd d_w = d_jt.transpose() * x + x.transpose() * d_jt - x.transpose() * d_mass * x;
+  tangent.w = {d_w(0, 0), d_w(0, 1), d_w(1, 1)};
+  for (size_t i = 0; i < free.size(); ++i) {
+    for (Index j = 0; j < 2; ++j) {
+      tangent.response[static_cast<size_t>(2 * free[i] + j)] = d_x(static_cast<Index>(i), j);
+    }
+  }
+}
+
+// Sets the part of the system: all but the velocity of the surface, friction and restitution.
+struct SystemTangent {
+  const System& direction;
+  ContactTangent& tangent;
+
+  template <typename SomeSystem>
+  void operator()(const SomeSystem& system) const {
+    SetMotion(system, MotionOf(system, 1.0), MotionOf(std::get<SomeSystem>(direction), 0.0), tangent);
+  }
+  void operator()(const Linkage& linkage) const {
+    const auto& d = std::get<Linkage>(direction);
+    Motion motion(static_cast<Index>(linkage.links.size()));
+    Motion d_motion = motion;
+    motion.mass = MassMatrix(linkage);
+    motion.jt = TransposedJacobian(linkage);
+    motion.rates = RatesOf(linkage);
+    d_motion.mass = MassMatrixTangent(linkage, d);
+    d_motion.jt = TransposedJacobianTangent(linkage, d);
+    d_motion.rates = RatesOf(d);
+    SetMotion(linkage, motion, d_motion, tangent);
+  }
+  void operator()(const PlanarContact& /*contact*/) const {
+    const auto& d = std::get<PlanarContact>(direction);
+    tangent.w = {d.w_tt_per_kg, d.w_tn_per_kg, d.w_nn_per_kg};
+    tangent.u0 = d.tangential_m_s;
+    tangent.v0 = d.normal_m_s;
+  }
+  void operator()(std::monostate /*unset*/) const { Refuse(); }
+  void operator()(const SpatialBody& /*body*/) const { Refuse(); }
+  void operator()(const SpatialContact& /*contact*/) const { Refuse(); }
+  static void Refuse() { CheckInvariant(false, "the tangent of a contact is asked of a planar system"); }
+};
+
+// --- Coefficients by speed ---
+
+double FactorTangent(std::monostate /*unset*/, std::monostate /*unset*/, double /*speed*/, double /*d_speed*/) {
+  return 0.0;
+}
+
+double FactorTangent(const PowerLaw& law, const PowerLaw& d, double speed, double d_speed) {
+  const double power = Pow(speed, law.exponent);
+  double d_power = 0.0;
+  if (law.exponent != 0.0 && d_speed != 0.0) d_power += law.exponent * Pow(speed, law.exponent - 1.0) * d_speed;
+  if (d.exponent != 0.0 && speed > 0.0) d_power += power * Log(speed) * d.exponent;
+  return -(d.alpha * power + law.alpha * d_power);
+}
+
+double FactorTangent(const SpeedTable& table, const SpeedTable& d, double speed, double d_speed) {
+  const auto& speeds = table.speed_m_s;
+  auto above = static_cast<size_t>(std::upper_bound(speeds.begin(), speeds.end(), speed) - speeds.begin());
+  // A speed of the table leaves it for the side to which it moves.
+  if (above > 0 && speeds[above - 1] == speed && d_speed < d.speed_m_s[above - 1]) --above;
+  if (above == 0) return d.factor.front();
+  if (above == speeds.size()) return d.factor.back();
+  const double width = speeds[above] - speeds[above - 1];
+  const double share = (speed - speeds[above - 1]) / width;
+  const double d_width = d.speed_m_s[above] - d.speed_m_s[above - 1];
+  const double d_share = (d_speed - d.speed_m_s[above - 1] - share * d_width) / width;
+  return d.factor[above - 1] + share * (d.factor[above] - d.factor[above - 1]) +
+         d_share * (table.factor[above] - table.factor[above - 1]);
+}
+
+double FactorTangent(const std::optional<SpeedDependence>& dependence, const std::optional<SpeedDependence>& direction,
+                     double speed, double d_speed) {
+  if (!dependence.has_value()) return 0.0;
+  const auto tangent = [&]<typename Form>(const Form& form) {
+    return FactorTangent(form, std::get<Form>(*direction), speed, d_speed);
+  };
+  return std::visit(tangent, *dependence);
+}
+
+bool Lists(const std::optional<SpeedDependence>& dependence, double speed) {
+  const auto* const table = dependence.has_value() ? std::get_if<SpeedTable>(&*dependence) : nullptr;
+  return table != nullptr && std::count(table->speed_m_s.begin(), table->speed_m_s.end(), speed) > 0;
+}
+
+double CoefficientOf(const Restitution& restitution) {
+  const auto value = [](const auto& stated) {
+    if constexpr (requires { stated.value; }) return stated.value;
+    return 0.0;
+  };
+  return std::visit(value, restitution);
+}
+
+void SetCoefficients(const Scene& scene, const SceneContact& contact, const Scene& d, ContactTangent& tangent) {
+  const double speed = ApproachSpeed(contact.reduction);
+  const double d_speed = speed > 0.0 ? -tangent.v0 : std::max(0.0, -tangent.v0);
+  const double factor = FactorAt(scene.friction.by_speed, speed);
+  const double d_factor = FactorTangent(scene.friction.by_speed, d.friction.by_speed, speed, d_speed);
+  const Friction& friction = scene.friction;
+  tangent.kinetic_friction = d.friction.kinetic_coefficient * factor + friction.kinetic_coefficient * d_factor;
+  tangent.static_friction = tangent.kinetic_friction;
+  if (friction.static_coefficient.has_value()) {
+    tangent.static_friction = *d.friction.static_coefficient * factor + *friction.static_coefficient * d_factor;
+  }
+  tangent.restitution = CoefficientOf(d.restitution) * FactorAt(scene.restitution_by_speed, speed) +
+                        CoefficientOf(scene.restitution) *
+                            FactorTangent(scene.restitution_by_speed, d.restitution_by_speed, speed, d_speed);
+  tangent.is_at_speed_of_table = Lists(scene.friction.by_speed, speed) || Lists(scene.restitution_by_speed, speed);
+}
+
+}  // namespace
+
+ContactTangent TangentOf(const Scene& scene, const SceneContact& contact, const Scene& direction) {
+  ContactTangent tangent;
+  std::visit(SystemTangent{direction.system, tangent}, scene.system);
+  if (scene.surface_velocity.has_value()) {
+    const SurfaceVelocity& d = *direction.surface_velocity;
+    if (!d.tangential_m_s.empty()) tangent.u0 -= d.tangential_m_s[0];
+    tangent.v0 -= d.normal_m_s;
+  }
+  SetCoefficients(scene, contact, direction, tangent);
+  return tangent;
+}
+
+}  // namespace ricochet

@@ -1,0 +1,62 @@
+// Derivatives: how fast a number of an outcome changes with a number of its scene, and where that has no single answer.
+//
+// An outcome is a piecewise smooth function of its scene. Inside a piece both one-sided derivatives agree. On a
+// threshold between two pieces they may differ, or the outcome jumps, so that the derivative on that side does not
+// exist. A threshold counts as reached if it lies within 4 ulp of the number that changes.
+// The structs mirror ricochet.v1.Derivative. docs/theory/derivatives.md has the formulas and what they are accurate to.
+
+#ifndef RICOCHET_DERIVATIVES_H_
+#define RICOCHET_DERIVATIVES_H_
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace ricochet {
+
+// The derivatives that a request asks for: of each number of `of` by each of `by`. Neither list may be empty.
+struct DerivativePaths {
+  std::vector<std::string> of;  // Numbers of the outcome (ricochet/outcome_numbers.h): "impulse.normal_total_n_s".
+  std::vector<std::string> by;  // Numbers of the scene, named as the axes of a sweep: "friction.kinetic_coefficient".
+  friend bool operator==(const DerivativePaths&, const DerivativePaths&) = default;
+};
+
+// The numbers are those of ricochet.v1.Derivative.Kind.
+enum class DerivativeKind {
+  kUnspecified = 0,
+  kTwoSided = 1,  // Both sides agree.
+  kOneSided = 2,  // The sides differ, or one of them alone exists.
+  kNone = 3,      // No side exists.
+};
+inline constexpr int kDerivativeKindCount = 4;
+
+// What lies at the number itself, so that its two sides are not alike. The numbers are those of
+// ricochet.v1.Derivative.Threshold.
+enum class Threshold {
+  kUnspecified = 0,
+  kApproach = 1,        // The contact neither approaches nor separates before the impact.
+  kSlipStart = 2,       // Before the impact there is no slip: it would start in either direction.
+  kFrictionLimit = 3,   // Where slip stops, friction only just holds the contact: it sticks or slips on.
+  kJamming = 4,         // The contact only just locks or jams.
+  kCompressionEnd = 5,  // Slip stops exactly where compression ends.
+  kImpactEnd = 6,       // Slip stops exactly where the impact ends.
+  kRank = 7,            // W has a lower rank here than beside, or the velocity lies in its range here alone.
+  kSpeedTable = 8,      // The approach speed is one that a table by speed lists.
+  kDomain = 9,          // The number cannot be lower, or cannot be higher.
+};
+inline constexpr int kThresholdCount = 10;
+
+struct Derivative {
+  std::string of, by;
+  DerivativeKind kind = DerivativeKind::kUnspecified;
+  std::optional<double> value;  // Set exactly if both sides agree.
+  // The limits of the difference quotient from either side; set where they exist.
+  std::optional<double> from_below, from_above;
+  Threshold threshold = Threshold::kUnspecified;  // Unspecified if both sides agree.
+  std::string reason;                             // A sentence that says why a side does not exist; else empty.
+  friend bool operator==(const Derivative&, const Derivative&) = default;
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_DERIVATIVES_H_
