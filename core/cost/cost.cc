@@ -24,6 +24,8 @@ namespace {
 
 constexpr char kOutOfTimeNote[] = "The time limit was used up before this method.";
 constexpr char kSlowNote[] = "The method had no answer within its part of the time limit.";
+constexpr char kNoScaleNote[] =
+    "The velocity before the impact is below the least double, so that no error is a fraction of it.";
 constexpr char kNoReferenceNote[] = "No reference was found, so that the error is not known.";
 constexpr char kLongBatchNote[] = "A batch would take more than 2 % of the time limit.";
 constexpr char kOneSampleNote[] = "There was time for one solve only.";
@@ -174,6 +176,7 @@ class CostStudy::Impl {
         achieved.total = achieved.modelling;
       }
     }
+    if (!std::isfinite(achieved.total)) return AddNote(kNoScaleNote, row);
     row.achieved = achieved;
   }
 
