@@ -168,7 +168,8 @@ void AppendVelocities(const PlanarReduction& reduction, const ContactTangent& d,
   const double d_tau = side.rate[at(PlanarOutput::kNormalImpulse)];
   for (size_t i = 0; i < reduction.before.size(); ++i) {
     const double* const x = &reduction.response[2 * i];
-    const double* const d_x = d.response.empty() ? nullptr : &d.response[2 * i];
+    const bool responds = !d.response.empty();
+    const double d_x[] = {responds ? d.response[2 * i] : 0.0, responds ? d.response[2 * i + 1] : 0.0};
     side.value.push_back(reduction.before[i] + x[0] * f + x[1] * tau);
     side.rate.push_back(d.before[i] + d_x[0] * f + d_x[1] * tau + x[0] * d_f + x[1] * d_tau);
   }

@@ -79,7 +79,7 @@ MultiReduction ReduceBodies(const std::vector<FreeBody>& bodies, const std::vect
         const Eigen::Index row = space * static_cast<Eigen::Index>(c) + a;
         const Eigen::VectorXd direction = directions.back().row(a);
         share.arms.push_back(Arm(r, direction));
-        share.scaled.push_back(inertias[b].matrixL().solve(share.arms.back()));
+        share.scaled.emplace_back(inertias[b].matrixL().solve(share.arms.back()));
         reduction.jacobian.row(row).segment(at, space) = side * direction;
         reduction.jacobian.row(row).segment(at + space, turns) = side * share.arms.back();
         reduction.response.col(row).segment(at, space) = (side / bodies[b].mass_kg) * direction;

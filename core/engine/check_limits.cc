@@ -97,7 +97,7 @@ void SizeCheck::Scene(const ricochet::Scene& scene) {
   NumberPath last;
   const auto check_list = [&] {
     const std::string field = NumberPath{last.prefix, last.entry, last.name}.Text();
-    Entries(field, static_cast<size_t>(last.index + 1), &Limits::max_list_numbers);
+    Entries(field, static_cast<size_t>(last.index) + 1, &Limits::max_list_numbers);
   };
   VisitNumbers(scene, [&](const NumberPath& path, double /*number*/, NumberRule /*rule*/) {
     if (mechanism != nullptr && std::strcmp(path.prefix, "mechanism") == 0) return;

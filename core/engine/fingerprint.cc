@@ -79,18 +79,19 @@ std::vector<System> SystemProbes() {
   std::vector<System> systems;
   for (int i = 0; i < 4; ++i) {
     const double part = 0.1 * i;
-    systems.push_back(Pendulum{.inertia_kg_m2 = 1.3 + part, .a_m = 0.7, .b_m = 0.3 - part, .omega_minus_rad_s = -1.1});
-    systems.push_back(PlanarBodyProbe(i));
-    systems.push_back(SpatialBodyProbe(i));
-    systems.push_back(BodyPair{PlanarPair{.body_1 = PlanarBodyProbe(i), .body_2 = PlanarBodyProbe(3 - i)}});
-    systems.push_back(BodyPair{SpatialPair{.body_1 = SpatialBodyProbe(i), .body_2 = SpatialBodyProbe(3 - i)}});
-    systems.push_back(PlanarContact{
+    systems.emplace_back(
+        Pendulum{.inertia_kg_m2 = 1.3 + part, .a_m = 0.7, .b_m = 0.3 - part, .omega_minus_rad_s = -1.1});
+    systems.emplace_back(PlanarBodyProbe(i));
+    systems.emplace_back(SpatialBodyProbe(i));
+    systems.emplace_back(BodyPair{PlanarPair{.body_1 = PlanarBodyProbe(i), .body_2 = PlanarBodyProbe(3 - i)}});
+    systems.emplace_back(BodyPair{SpatialPair{.body_1 = SpatialBodyProbe(i), .body_2 = SpatialBodyProbe(3 - i)}});
+    systems.emplace_back(PlanarContact{
         .w_tt_per_kg = 2.5, .w_tn_per_kg = 2.5 - part, .w_nn_per_kg = 2.5, .tangential_m_s = 0.3, .normal_m_s = -0.9});
-    systems.push_back(SpatialContact{
+    systems.emplace_back(SpatialContact{
         .w_per_kg = {1.96, 0.24, 0.6, 2.96, -0.8, 1.85}, .tangential_m_s = {0.3, part}, .normal_m_s = -0.9});
   }
-  for (int i = 0; i < 16; ++i) systems.push_back(LinkageProbe(i));
-  for (int i = 0; i < 8; ++i) systems.push_back(MechanismProbe(i));
+  for (int i = 0; i < 16; ++i) systems.emplace_back(LinkageProbe(i));
+  for (int i = 0; i < 8; ++i) systems.emplace_back(MechanismProbe(i));
   return systems;
 }
 

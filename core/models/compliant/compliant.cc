@@ -180,7 +180,7 @@ void ScaleSections(const Units& units, std::vector<Section>& sections) {
 Impact Solve(const Problem& problem) {
   const auto& [stated, ratio_squared] = problem;
   if (stated.v0 >= 0.0) {
-    Impact separating = Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
+    auto separating = Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
     separating.errors = NoErrors();
     return separating;
   }

@@ -214,7 +214,7 @@ bool IsAvailable() { return true; }
 Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped) {
   const PlanarProblem& stated = problem.contact;
   if (stated.v0 >= 0.0) {
-    Impact separating = Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
+    auto separating = Separating<Impact>(stated.w.Rank(), stated.u0, stated.v0);
     separating.errors = NoErrors();
     return separating;
   }
