@@ -32,7 +32,7 @@ Exit codes: 0 all cases are right, 2 wrong input, 42 some are not.)";
 
 struct ConformanceOptions {
   CommonOptions common;
-  std::string name;  // Of the case to show, or of the file with the answers.
+  std::string name;  // The case to show, or the file with the answers.
   std::string tolerance = "1e-9";
   std::string law;
   std::vector<std::string> families, cases;

@@ -82,9 +82,20 @@ std::string Csv(const Outcome& outcome, const SolveOptions& options) {
   return options.history.empty() ? SolveCsv(outcome) : HistoryCsv(outcome);
 }
 
+// True for the options that ask for derivatives.
+bool Differentiates(const SolveOptions& options) {
+  return !options.derivatives_of.empty() || !options.derivatives_by.empty();
+}
+
+// True for the options that ask for more than the numbers of one outcome.
+bool AsksForMore(const SolveOptions& options) {
+  return !options.history.empty() || !options.force_history.empty() || !options.certified.empty() || Draws(options) ||
+         options.both_ends || Differentiates(options);
+}
+
 // Returns the derivatives that the options ask for; nothing if they ask for none.
 absl::StatusOr<std::optional<DerivativePaths>> ReadDerivatives(const SolveOptions& options, const Scene& scene) {
-  if (options.derivatives_of.empty() && options.derivatives_by.empty()) return std::nullopt;
+  if (!Differentiates(options)) return std::nullopt;
   if (options.derivatives_of.empty() || options.derivatives_by.empty()) {
     return absl::InvalidArgumentError("--derivatives OF,... and --by BY,... need each other");
   }
@@ -102,16 +113,10 @@ absl::StatusOr<std::optional<DerivativePaths>> ReadDerivatives(const SolveOption
   return paths;
 }
 
-// True for the options that ask for derivatives.
-bool Differentiates(const SolveOptions& options) {
-  return !options.derivatives_of.empty() || !options.derivatives_by.empty();
-}
-
 // Prints only the plan.
 absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
-  if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || options.strict ||
-      Draws(options) || options.both_ends || Differentiates(options)) {
+  if (AsksForMore(options) || options.strict) {
     return absl::InvalidArgumentError(
         "--plan-only cannot be combined with --history, --force-history, --certified, --strict, --both-ends, "
         "--derivatives, --plot or --html");
@@ -125,8 +130,7 @@ absl::Status RunPlan(const SolveOptions& options, const Solver& solver, const Sc
 // Solves the rows of a table.
 absl::Status RunData(const SolveOptions& options, const Solver& solver, const Scene& scene,
                      const DemandFields& demand) {
-  if (!options.history.empty() || !options.force_history.empty() || !options.certified.empty() || Draws(options) ||
-      options.explain || options.plan_only || options.both_ends || Differentiates(options)) {
+  if (AsksForMore(options) || options.explain || options.plan_only) {
     return absl::InvalidArgumentError(
         "--data cannot be combined with --history, --force-history, --certified, --plot, --html, --explain, "
         "--both-ends, --derivatives or --plan-only");

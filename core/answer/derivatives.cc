@@ -168,11 +168,17 @@ void AppendVelocities(const PlanarReduction& reduction, const ContactTangent& d,
   const double d_tau = side.rate[at(PlanarOutput::kNormalImpulse)];
   for (size_t i = 0; i < reduction.before.size(); ++i) {
     const double* const x = &reduction.response[2 * i];
-    const bool responds = !d.response.empty();
-    const double d_x[] = {responds ? d.response[2 * i] : 0.0, responds ? d.response[2 * i + 1] : 0.0};
+    const double* const d_x = &d.response[2 * i];
     side.value.push_back(reduction.before[i] + x[0] * f + x[1] * tau);
     side.rate.push_back(d.before[i] + d_x[0] * f + d_x[1] * tau + x[0] * d_f + x[1] * d_tau);
   }
+}
+
+// Sets all numbers of the outcome, with their rates along the direction.
+void SetNumbers(const planar::Tangent& tangent, const PlanarReduction& reduction, const ContactTangent& d, Side& side) {
+  side.value.assign(tangent.value.begin(), tangent.value.begin() + kOutputs);
+  side.rate.assign(tangent.rate.begin(), tangent.rate.begin() + kOutputs);
+  AppendVelocities(reduction, d, side);
 }
 
 Side SideAt(const std::optional<Beside>& beside) {
@@ -191,9 +197,7 @@ Side SideAt(const std::optional<Beside>& beside) {
   side.loses_rank = side.tangent.branch.approaches &&
                     (side.tangent.leaves_range || (side.tangent.w_rank == 1 && moves_w && !d.keeps_rank_one));
   side.is_at_speed_of_table = d.is_at_speed_of_table;
-  side.value.assign(side.tangent.value.begin(), side.tangent.value.begin() + kOutputs);
-  side.rate.assign(side.tangent.rate.begin(), side.tangent.rate.begin() + kOutputs);
-  AppendVelocities(std::get<PlanarReduction>(contact.reduction), d, side);
+  SetNumbers(side.tangent, std::get<PlanarReduction>(contact.reduction), d, side);
   for (double& rate : side.rate) rate /= beside->step;
   return side;
 }
@@ -209,14 +213,12 @@ Here HereOf(const Scene& scene) {
   const SceneContact contact(scene);
   const planar::Problem problem = ProblemOf(scene, contact);
   const planar::Tangent tangent = planar::TangentOf(problem, {});
-  Side here;
-  here.value.assign(tangent.value.begin(), tangent.value.begin() + kOutputs);
-  here.rate.assign(kOutputs, 0.0);
   const auto& reduction = std::get<PlanarReduction>(contact.reduction);
   ContactTangent none;
   none.before.assign(reduction.before.size(), 0.0);
   none.response.assign(reduction.response.size(), 0.0);
-  AppendVelocities(reduction, none, here);
+  Side here;
+  SetNumbers(tangent, reduction, none, here);
   const double speed = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
   const double impulse = tangent.value[static_cast<size_t>(PlanarOutput::kNormalImpulse)];
   std::vector<double> scale(here.value.size(), 0.0);

@@ -34,8 +34,8 @@ Eigen::MatrixXd InertiaOf(const FreeBody& body) {
   return inertia;
 }
 
-// What a contact has of one of its two bodies: the body's place, +1 if its impulses act on it and -1 if their opposites
-// do, and for each direction the arm and L^-1 times it, with the inertia L L^T.
+// The share of one of its two bodies in a contact: the body's place, +1 if its impulses act on it and -1 if their
+// opposites do, and for each direction the arm and L^-1 times it, with the inertia L L^T.
 struct Share {
   int body;
   double side;

@@ -16,7 +16,7 @@ namespace {
 constexpr int64_t kFewLinks = 32;
 constexpr int64_t kShortHistory = 2048;
 constexpr int64_t kFewRows = 64;
-constexpr size_t kFewSides = 16;       // Of derivatives: two for each number of the scene.
+constexpr size_t kFewSides = 16;       // Derivatives take two sides of each number of the scene.
 constexpr double kFewContacts = 27;    // States times the cube of the contacts, in a plane.
 constexpr size_t kFewVelocities = 32;  // Several contacts have those of the system, and the outputs asked for.
 

@@ -23,7 +23,7 @@ struct RightAnswer {
 struct ConformanceCase {
   std::string name, family, shows, source;
   int dimension = 0;                          // Numbers of each contact: 2 in a plane, 3 in space.
-  std::vector<double> friction, coefficient;  // Of each contact.
+  std::vector<double> friction, coefficient;  // One of both for each contact.
   std::vector<std::string> coordinates;
   Matrix mass, jacobian;
   std::vector<double> before, frame;

@@ -10,7 +10,7 @@
 namespace ricochet::cli {
 namespace {
 
-// What lies at the number, in a sentence that follows "On a threshold: ".
+// Returns what lies at the number, as it stands after "on a threshold: ".
 const char* ThresholdText(Threshold threshold) {
   switch (threshold) {
     case Threshold::kApproach:

@@ -30,7 +30,7 @@ enum class DerivativeKind {
 };
 inline constexpr int kDerivativeKindCount = 4;
 
-// What lies at the number itself, so that its two sides are not alike. The numbers are those of
+// A Threshold lies at the number itself, so that its two sides are not alike. The numbers are those of
 // ricochet.v1.Derivative.Threshold.
 enum class Threshold {
   kUnspecified = 0,

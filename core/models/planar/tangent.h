@@ -24,7 +24,7 @@ struct Direction {
   double u0 = 0.0, v0 = 0.0, mu = 0.0, mu_static = 0.0, coefficient = 0.0;
 };
 
-// What decides which course an impact takes.
+// A Branch decides which course an impact takes.
 struct Branch {
   Regime regime = Regime::kUnspecified;
   bool approaches = false;

@@ -121,7 +121,7 @@ class ExactScene {
   }
 
   const Ball& h() const { return h_; }
-  double conditioning = 0.0;  // Of the impact, as tests/support/oracles/planar_oracle.h defines it.
+  double conditioning = 0.0;  // That of the impact, as tests/support/oracles/planar_oracle.h defines it.
 
  private:
   Ball At(const std::string& path) const { return numbers_.at(path); }
@@ -314,7 +314,7 @@ TEST_P(EverySystem, DerivativesAreDifferenceQuotients) {
       ExactScene here(scene, paths.by[0], 0.0);
       (void)here.Outcome();
       const double conditioning = here.conditioning;
-      double typical = 1e-4;  // Of the numbers of an outcome, which are of the order of 1.
+      double typical = 1e-4;  // The numbers of an outcome are of the order of 1.
       for (const Derivative& d : derivatives) {
         if (d.value.has_value()) typical = std::max(typical, 1e-2 * std::fabs(above.at(d.of).Nearest()));
       }
@@ -499,7 +499,7 @@ TEST(DerivativesTest, PendulumThatJustLocksJumps) {
   EXPECT_EQ(impulse.threshold, Threshold::kJamming);
   EXPECT_FALSE(impulse.from_below.has_value());
   EXPECT_FALSE(impulse.value.has_value());
-  EXPECT_NEAR(*impulse.from_above, -1.0 / (0.5 + 0.5) / (0.5 + 0.5), 1e-14);  // Of tau_0 = J0/(a + mu b).
+  EXPECT_NEAR(*impulse.from_above, -1.0 / (0.5 + 0.5) / (0.5 + 0.5), 1e-14);  // tau_0 is J0/(a + mu b).
   EXPECT_EQ(Only(scene, "coefficients.newton", "friction.kinetic_coefficient").from_above, 0.0);
 }
 
