@@ -11,7 +11,7 @@ const google::protobuf::DescriptorPool& CommentedProtos() {
   static const auto* const pool = [] {
     auto* made = new google::protobuf::DescriptorPool();
     google::protobuf::FileDescriptorSet files;
-    files.ParseFromArray(kCommentedProtos, static_cast<int>(kCommentedProtosSize));
+    files.ParseFromArray(kCommentedProtos.data(), static_cast<int>(kCommentedProtos.size()));
     for (const google::protobuf::FileDescriptorProto& file : files.file()) made->BuildFile(file);
     return made;
   }();

@@ -5,14 +5,14 @@
 
 #include <google/protobuf/descriptor.h>
 
-#include <cstddef>
 #include <string>
+
+#include "absl/strings/string_view.h"
 
 namespace ricochet {
 
 // A serialized google.protobuf.FileDescriptorSet with source info, which the build collects.
-extern const unsigned char kCommentedProtos[];
-extern const size_t kCommentedProtosSize;
+extern const absl::string_view kCommentedProtos;
 
 // Returns the files of package ricochet.v1. It is built at the first call, and lives as long as the program.
 const google::protobuf::DescriptorPool& CommentedProtos();

@@ -17,7 +17,7 @@ namespace ricochet {
 // The files of package ricochet.v1 with their comments, as the build collects them.
 inline google::protobuf::FileDescriptorSet ProtosWithComments() {
   google::protobuf::FileDescriptorSet files;
-  EXPECT_TRUE(files.ParseFromArray(kCommentedProtos, static_cast<int>(kCommentedProtosSize)));
+  EXPECT_TRUE(files.ParseFromArray(kCommentedProtos.data(), static_cast<int>(kCommentedProtos.size())));
   return files;
 }
 

@@ -1,6 +1,7 @@
 #include "client/cli/conformance/cases.h"
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "absl/strings/str_cat.h"
 #include "core/base/nearest.h"
@@ -8,7 +9,7 @@
 namespace ricochet::cli {
 
 // Made of conformance/impacts.json by the build.
-extern const char kConformanceCases[];
+extern const absl::string_view kConformanceCases;
 
 namespace {
 
@@ -66,7 +67,7 @@ absl::StatusOr<const ConformanceCase*> FindConformanceCase(const std::string& na
       absl::StrCat(what, " = ", name, ": must be a name of `ricochet conformance list`", DidYouMean(name, names)));
 }
 
-std::string ConformanceCasesJson() { return kConformanceCases; }
+std::string ConformanceCasesJson() { return std::string(kConformanceCases); }
 
 std::string ConformanceCaseJson(const ConformanceCase& one) {
   for (const Json& json : Document()["cases"]) {

@@ -16,7 +16,7 @@
 
 namespace ricochet::cli {
 
-extern const char kImpactPage[];  // The text of impact_page.html.
+extern const absl::string_view kImpactPage;  // The text of impact_page.html.
 
 namespace {
 
