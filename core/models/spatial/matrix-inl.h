@@ -58,6 +58,7 @@ struct Frame {
   T a11, a12, a22;
   T w1, w2;
 
+  T Growth() const { return a11 + w1; }           // d(slip)/dxi over slip
   T Turn() const { return a12 + w2; }             // g = dphi/dxi of slip along e
   T TurnSlope() const { return a22 - a11 - w1; }  // dg/dphi
 };

@@ -206,10 +206,15 @@ HWY_INLINE Slopes<T> Contact<T>::SlopesAlong(const Direction<T>& e) const {
 template <typename T>
 std::optional<Direction<T>> ScaledProblem<T>::AttractingDirectionNear(const Frame<T>& frame) const {
   Frame<T> there = frame;
-  constexpr int kEnough = 8;
+  // A turn left over changes the growth of slip by its square. Where the entries of Wtt are so unequal that the growth
+  // is far smaller than Wtt itself, the smaller component of the direction needs all its digits.
+  const auto is_found = [&there](T turn) {
+    return std::fabs(turn) <= kEpsilon<T> && turn * turn <= kEpsilon<T> * std::fabs(there.Growth());
+  };
+  constexpr int kEnough = 50;
   for (int i = 0; i < kEnough; ++i) {
     const T turn = -there.Turn() / there.TurnSlope();
-    if (std::fabs(turn) <= kEpsilon<T>) break;
+    if (is_found(turn)) break;
     there = FrameAt(Normalized(there.c - turn * there.s, there.s + turn * there.c));
   }
   const T left = T{1} - (there.c * frame.c + there.s * frame.s);

@@ -181,8 +181,7 @@ bool Solver<T>::SwitchToStraight(const SlipFrame<T>& slip_frame) {
 // not its direction.
 template <typename T>
 bool Solver<T>::StandsAlong(const Direction<T>& e) const {
-  const Frame<T> frame = problem_.FrameAt(e);
-  return std::fabs(frame.a11 + frame.w1) <= T{1e-10};
+  return std::fabs(problem_.FrameAt(e).Growth()) <= T{1e-10};
 }
 
 // Turns slip to the direction e, along which it stands, by an impulse along the direction d of Wtt. The part of slip

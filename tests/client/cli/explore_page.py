@@ -65,6 +65,9 @@ class ExplorePageTest(unittest.TestCase):
         cls.engine.wait(20)
         cls.engine.stdout.close()
 
+    def setUp(self):
+        self.browser.console()  # Chromium notes every refused call there; those of the last test are not this one's.
+
     def open(self, scene, width=1280, scheme="light"):
         self.browser.look_like(width, scheme)
         self.browser.open("about:blank")
@@ -284,7 +287,6 @@ class ExplorePageTest(unittest.TestCase):
         self.settle()
         self.assertIn("pendulum.a_m = -1: must be > 0", self.text("#leaves"))
         self.assertEqual(self.browser.script("return $('verdict').className"), "bad")
-        self.browser.console()  # Chromium notes that the call failed.
 
     def test_cost_is_measured_on_demand(self):
         self.open("pendulum")
@@ -308,7 +310,6 @@ class ExplorePageTest(unittest.TestCase):
               fetch('{host}/ricochet.v1.ImpactService/Info?token={token}', {options}).then(
                 reply => done(`${{reply.type}} ${{reply.status}}`), error => done(error.message));"""})
             self.assertIn(answer, ("Failed to fetch", "opaque 0"))
-        self.browser.console()
 
     def test_a_finished_page_shows_the_same_without_a_server(self):
         for scene, name in ((["--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "0.9"], "pendulum"),

@@ -332,6 +332,28 @@ TEST(SpatialTest, IsThePlanarModelWhereOneDirectionDecouples) {
   }
 }
 
+// However light the contact is along one direction, friction stops it there at once, and the rest is planar.
+TEST(SpatialTest, IsThePlanarModelWhereOneDirectionHasNoInertia) {
+  SceneSource source(29);
+  for (int i = 0; i < 1000; ++i) {
+    Problem p = source.Typical();
+    Problem across = p;
+    across.w11 = p.w22;
+    across.w13 = p.w23;
+    across.w12 = across.w23 = 0.0;
+    across.u0 = {p.u0[1], 0.0};
+    const planar::Impact planar = planar::Solve(InPlane(across));
+    p.w11 *= std::pow(10.0, 30 + i % 70);
+    const Impact impact = Solve(p);
+    const double velocity = 1e-11 * Scale(across);
+    ASSERT_EQ(impact.regime, planar.regime) << i;
+    ASSERT_NEAR(impact.u1[0], 0.0, velocity) << i;
+    ASSERT_NEAR(impact.u1[1], planar.u1, velocity) << i;
+    ASSERT_NEAR(impact.v1, planar.v1, velocity) << i;
+    ASSERT_GE(impact.error_estimate * Scale(p), std::fabs(impact.v1 - planar.v1)) << i;
+  }
+}
+
 // Turns the tangent frame of a contact by the angle of (c, s).
 Problem Turned(const Problem& p, double c, double s) {
   Problem turned = p;
