@@ -90,6 +90,8 @@ Scene Heavy(Scene scene) {
 std::vector<Case> Cases() {
   const DemandFields exact = {.relative_tolerance = 1e-10};
   const DemandFields in_time = {.relative_tolerance = 1e-6, .required = {Effect::kFiniteDuration}};
+  // The closed form of a pendulum is the cheaper one: the form of first order serves who excludes the higher orders.
+  const DemandFields first_order = {.relative_tolerance = 1e-2, .excluded = {Effect::kHigherOrder}};
   const auto request = [](Scene scene, DemandFields demand) {
     SolveRequest r;
     r.scene = std::move(scene);
@@ -114,7 +116,7 @@ std::vector<Case> Cases() {
       {"finite_duration.on", request(Sprung(Plane(0.3, 0.5)), in_time)},
       {"finite_forces.off", request(Sprung(Plane(0.3, 0.5)), in_time)},
       {"finite_forces.on", request(Heavy(Sprung(Plane(0.3, 0.5))), in_time)},
-      {"higher_order.off", request(ThePendulum(), {.relative_tolerance = 1e-3})},
+      {"higher_order.off", request(ThePendulum(), first_order)},
       {"higher_order.on", request(ThePendulum(), exact)},
   };
 }
