@@ -21,6 +21,7 @@
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
 #include "proto/wire/engine.h"
+#include "proto/wire/fit.h"
 #include "proto/wire/info.h"
 #include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
@@ -153,6 +154,10 @@ absl::StatusOr<AuditResponse> Client::DoAudit(const AuditRequest& request, const
 absl::StatusOr<AuditBatchResponse> Client::DoAuditBatch(const AuditBatchRequest& request,
                                                         const CallOptions& options) const {
   return connection_->Ask(&Stub::AuditBatch, request, options);
+}
+
+absl::StatusOr<FitResponse> Client::DoFit(const FitRequest& request, const CallOptions& options) const {
+  return connection_->Ask(&Stub::Fit, request, options);
 }
 
 absl::StatusOr<MultiContactResponse> Client::DoMultiContact(const MultiContactRequest& request,

@@ -27,6 +27,7 @@ std::unique_ptr<CLI::App> MakeProgram(std::vector<std::string> arguments, Comman
   AddMerge(*app, command);
   AddPlot(*app, command);
   AddAudit(*app, command);
+  AddFit(*app, command);
   AddScene(*app, command);
   AddConformance(*app, command);
   AddCost(*app, command);

@@ -16,6 +16,7 @@ void AddBounds(CLI::App& app, Command& command);
 void AddConformance(CLI::App& app, Command& command);
 void AddCost(CLI::App& app, Command& command);
 void AddExplore(CLI::App& app, Command& command);
+void AddFit(CLI::App& app, Command& command);
 void AddHealth(CLI::App& app, Command& command);
 void AddInfo(CLI::App& app, Command& command);
 void AddMerge(CLI::App& app, Command& command);

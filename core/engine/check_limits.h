@@ -21,6 +21,7 @@ absl::Status CheckLimits(const PlanRequest& request, const Limits& limits);
 absl::Status CheckLimits(const BoundsRequest& request, const Limits& limits);
 absl::Status CheckLimits(const AuditRequest& request, const Limits& limits);
 absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits);
+absl::Status CheckLimits(const FitRequest& request, const Limits& limits);
 absl::Status CheckLimits(const MultiContactRequest& request, const Limits& limits);
 absl::Status CheckLimits(const BatchSetup& setup, const Limits& limits);
 absl::Status CheckLimits(const SweepRequest& request, const Limits& limits);

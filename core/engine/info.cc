@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "core/certified/certified.h"
+#include "core/fit/fit.h"
 #include "core/models/finite_duration/finite_duration.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/system.h"
@@ -23,7 +24,8 @@ InfoResponse InfoOf(const Limits& limits) {
                        .limits = limits,
                        .certified = certified::IsAvailable(),
                        .finite_duration = finite_duration::IsAvailable(),
-                       .systems = {std::begin(kSystems), std::end(kSystems)}};
+                       .systems = {std::begin(kSystems), std::end(kSystems)},
+                       .fit = fit::IsAvailable()};
   for (int number = 1; number < kModelCount; ++number) {
     const auto model = static_cast<Model>(number);
     if (model != Model::kFiniteDuration || info.finite_duration) info.models.push_back(model);

@@ -25,6 +25,7 @@
 #include "core/engine/info.h"
 #include "core/engine/parallel_batch.h"
 #include "core/engine/sweep_run.h"
+#include "core/fit/fit.h"
 #include "core/multi/solve_multi_contact.h"
 #include "core/plan/demand_fields.h"
 #include "core/scene/validate.h"
@@ -178,6 +179,16 @@ absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchReq
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
   absl::StatusOr<AuditBatchResponse> response =
       RunAudits(request, HelpersOf(options), [&control] { return control.IsStopped(); });
+  if (!response.ok()) return control.OrWhyEnded(response.status());
+  response->engine = ThisEngine();
+  return response;
+}
+
+absl::StatusOr<FitResponse> LocalSolver::DoFit(const FitRequest& request, const CallOptions& options) const {
+  CallControl control(options);
+  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
+  if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
+  absl::StatusOr<FitResponse> response = FitScene(request, [&control] { return control.IsStopped(); });
   if (!response.ok()) return control.OrWhyEnded(response.status());
   response->engine = ThisEngine();
   return response;

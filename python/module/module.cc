@@ -144,6 +144,7 @@ void AddSolver(py::module_& module) {
       .def("bounds", &Answer<v1::BoundsRequest, &Solver::Bounds>)
       .def("audit", &Answer<v1::AuditRequest, &Solver::Audit>)
       .def("audit_batch", &Answer<v1::AuditBatchRequest, &Solver::AuditBatch>)
+      .def("fit", &Answer<v1::FitRequest, &Solver::Fit>)
       .def("multicontact", &Answer<v1::MultiContactRequest, &Solver::MultiContact>)
       .def("info", &Info)
       .def("cost", &Cost)

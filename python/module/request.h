@@ -11,6 +11,7 @@
 #include "proto/wire/audit.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
+#include "proto/wire/fit.h"
 #include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"

@@ -64,6 +64,7 @@ __all__ = [
     "bounds",
     "close",
     "cost",
+    "fit",
     "info",
     "jacobian",
     "multicontact",
@@ -84,6 +85,7 @@ sweep = _client.sweep
 bounds = _client.bounds
 audit = _client.audit
 audit_batch = _client.audit_batch
+fit = _client.fit
 plan = _client.plan
 at_contact = _client.at_contact
 multicontact = _client.multicontact

@@ -297,6 +297,70 @@ class Client:
         flat = [_flat(report) for answer in answers for report in answer.reports]
         return _audit_table(flat, [answer.summary for answer in answers], index)
 
+    def fit(
+        self, scene: SceneLike, table: Mapping[str, ArrayLike], unknown: Names | Mapping[str, float | None], *,
+        sigma: Mapping[str, ArrayLike] | None = None,
+        bounds: Mapping[str, tuple[float | None, float | None]] | None = None, loss: str | None = None,
+        loss_scale: float | None = None, starts: int | None = None, max_iterations: int | None = None,
+        region: Names = (),
+    ) -> Record:
+        """Finds the numbers of a scene that measured impacts tell, and how well they tell them.
+
+        Args:
+            scene: gives every number that is neither unknown nor a column of the table.
+            table: an array for each column: numbers of the scene that differ by row, numbers of the outcome that were
+                measured (NaN where they were not), and ``"NAME.sigma"``, the standard deviations of the measured
+                ``NAME``. A pandas frame will do. Names may be short.
+            unknown: the numbers to find, each with the value where the search starts if it is a dictionary; None and
+                names alone start at the scene's own number.
+            sigma: standard deviations of measured columns that the table has none of: numbers or arrays.
+            bounds: ``(low, high)`` of unknowns, in their units; None is the bound that the number has by its rule.
+            loss: ``"squares"``, ``"huber"`` or ``"cauchy"``; by default squares.
+            loss_scale: where a robust loss bends, in sigmas; by default 1.345 for Huber's and 2.385 for Cauchy's.
+            starts: searches, in [1, 1000]; further ones spread over the bounds.
+            max_iterations: the most iterations of a search, in [1, 10000].
+            region: two unknowns whose 95 % region is wanted.
+
+        Returns:
+            The answer as ricochet.v1.FitResponse: ``unknowns`` with ``value``, ``sigma``, ``low`` and ``high``,
+            ``chi2``, ``p_value``, ``rows``, ``outliers``, ``notes``.
+
+        Raises:
+            InvalidRequest: the scene, a name, a column or an option breaks a rule.
+            RicochetError: the call failed otherwise.
+        """
+        scene = Scene(scene)
+        fields, numbers = list(scene._fields()), list(scene._columns())
+        inputs, measured, sigmas = [], {}, dict(sigma or {})
+        for name in table:
+            column = np.atleast_1d(values.column(table[name], name))
+            if name.endswith(".sigma"):
+                sigmas[name[: -len(".sigma")]] = column
+                continue
+            path = names.full_names([name], fields + numbers, "table")[0]
+            if path in fields:
+                inputs.append({"path": path, "values": column})
+            else:
+                measured[path] = {"path": path, "values": column}
+        for name, given in sigmas.items():
+            path = names.full_names([name], list(measured), "sigma")[0]
+            if path not in measured:
+                values.refuse("sigma", f"= {name!r}: must be a measured column" + values.suggestion(name, measured))
+            measured[path]["sigma"] = np.atleast_1d(values.column(given, f"{name}.sigma"))
+        given_starts = unknown if isinstance(unknown, Mapping) else dict.fromkeys(values.names(unknown, "unknown"))
+        paths = names.full_names(given_starts, fields, "unknown")
+        unknowns = [{"path": path, "start": start} for path, start in zip(paths, given_starts.values())]
+        for name, (low, high) in (bounds or {}).items():
+            path = names.full_names([name], paths, "bounds")[0]
+            if path not in paths:
+                values.refuse("bounds", f"= {name!r}: must be an unknown" + values.suggestion(name, paths))
+            unknowns[paths.index(path)].update(low=low, high=high)
+        return self._solver.fit(scene, {
+            "unknowns": unknowns, "inputs": inputs, "measured": list(measured.values()),
+            "loss": None if loss is None else loss.upper(), "loss_scale": loss_scale, "starts": starts,
+            "max_iterations": max_iterations, "region": names.full_names(values.names(region, "region"), paths, "region"),
+        })
+
     def solve_batch(
         self, scene: SceneLike, inputs: Mapping[str, ArrayLike], columns: Names, *,
         tolerance: float | None = None, require: Names = (), exclude: Names = (),

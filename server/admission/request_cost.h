@@ -24,6 +24,7 @@ enum class CostCause {
   kRows,         // A batch of many rows.
   kContacts,     // Many contacts at once, or many states of them.
   kDerivatives,  // Derivatives by many numbers of the scene.
+  kFit,          // A fit of measured impacts.
 };
 
 struct RequestCost {
@@ -39,6 +40,7 @@ RequestCost CostOf(const PlanRequest& request);
 RequestCost CostOf(const BoundsRequest& request);
 RequestCost CostOf(const AuditRequest& request);
 RequestCost CostOf(const AuditBatchRequest& request);
+RequestCost CostOf(const FitRequest& request);
 RequestCost CostOf(const MultiContactRequest& request);
 RequestCost CostOf(const BatchSetup& setup, size_t rows);
 RequestCost CostOf(const InfoRequest& request);

@@ -186,6 +186,7 @@ BoundedService::BoundedService(Methods& service, Batches batches, const Limits& 
   AddUnary("/ricochet.v1.ImpactService/SolveBatch", &Methods::SolveBatch);
   AddBatches("/ricochet.v1.ImpactService/SolveBatches");
   AddUnary("/ricochet.v1.ImpactService/MultiContact", &Methods::MultiContact);
+  AddUnary("/ricochet.v1.ImpactService/Fit", &Methods::Fit);
   AddUnary("/ricochet.v1.ImpactService/Info", &Methods::Info);
 }
 

@@ -7,6 +7,7 @@
 #include "proto/wire/audit.h"
 #include "proto/wire/chunk_seal.h"
 #include "proto/wire/cost.h"
+#include "proto/wire/fit.h"
 #include "proto/wire/info.h"
 #include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
@@ -121,6 +122,11 @@ grpc::Status ImpactService::AuditBatch(grpc::ServerContext* context, const v1::A
 grpc::Status ImpactService::MultiContact(grpc::ServerContext* context, const v1::MultiContactRequest* request,
                                          v1::MultiContactResponse* response) {
   return Answer("MultiContact", &Solver::MultiContact, *context, *request, *response);
+}
+
+grpc::Status ImpactService::Fit(grpc::ServerContext* context, const v1::FitRequest* request,
+                                v1::FitResponse* response) {
+  return Answer("Fit", &Solver::Fit, *context, *request, *response);
 }
 
 grpc::Status ImpactService::Sweep(grpc::ServerContext* context, const v1::SweepRequest* request,

@@ -32,6 +32,7 @@ class ImpactService final : public v1::ImpactService::Service {
                           v1::AuditBatchResponse* response) override;
   grpc::Status MultiContact(grpc::ServerContext* context, const v1::MultiContactRequest* request,
                             v1::MultiContactResponse* response) override;
+  grpc::Status Fit(grpc::ServerContext* context, const v1::FitRequest* request, v1::FitResponse* response) override;
   grpc::Status Sweep(grpc::ServerContext* context, const v1::SweepRequest* request,
                      grpc::ServerWriter<v1::SweepResponse>* writer) override;
   grpc::Status Cost(grpc::ServerContext* context, const v1::CostRequest* request,

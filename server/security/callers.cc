@@ -27,7 +27,7 @@ const std::map<std::string, std::string>& MethodScopes() {
   static const std::map<std::string, std::string> scopes = {
       {"Solve", "solve"}, {"SolveBatch", "solve"},   {"Plan", "solve"},         {"Bounds", "solve"},
       {"Audit", "audit"}, {"AuditBatch", "audit"},   {"Sweep", "sweep"},        {"Cost", "cost"},
-      {"Info", "info"},   {"SolveBatches", "solve"}, {"MultiContact", "solve"},
+      {"Info", "info"},   {"SolveBatches", "solve"}, {"MultiContact", "solve"}, {"Fit", "audit"},
   };
   return scopes;
 }

@@ -9,10 +9,12 @@
 
 #include "core/rows/column.h"
 #include "proto/wire/audit.h"
+#include "proto/wire/fit.h"
 #include "proto/wire/multi_contact.h"
 #include "proto/wire/requests.h"
 #include "proto/wire/sweep.h"
 #include "tests/contract/solvers.h"
+#include "tests/core/fit/fit_cases.h"
 #include "tests/support/scenes/multi_contact_scenes.h"
 #include "tests/support/scenes/pendulum_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
@@ -27,6 +29,7 @@ std::string Bytes(const SolveResponse& response) { return ToProto(response).Seri
 std::string Bytes(const BoundsResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(const AuditResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(const AuditBatchResponse& response) { return ToProto(response).SerializeAsString(); }
+std::string Bytes(const FitResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(const MultiContactResponse& response) { return ToProto(response).SerializeAsString(); }
 std::string Bytes(SweepChunk chunk) {
   // The time of a clock is not a result.
@@ -231,6 +234,22 @@ TEST(SameBits, OfAuditsOfEverySystemAndOfTheirErrors) {
   }
   ExpectSame(Local().Audit({}), Remote().Audit({}));
   ExpectSame(Local().AuditBatch({}), Remote().AuditBatch({}));
+}
+
+TEST(SameBits, OfFitsAndOfTheirErrors) {
+  using fit::Noiseless;
+  for (const fit::Case& given : {fit::ContactCase(), fit::SpaceCase(), fit::CompliantCase()}) {
+    FitRequest request = Noiseless(given);
+    request.measured[0].values[1] += 0.01;
+    request.measured[1].values[0] = std::nan("");
+    request.starts = 2;
+    request.region = {request.unknowns[0].path, request.unknowns[1].path};
+    ASSERT_TRUE(Local().Fit(request).ok()) << Local().Fit(request).status();
+    ExpectSame(Local().Fit(request), Remote().Fit(request));
+    request.measured[0].sigma = {-1.0};
+    ExpectSame(Local().Fit(request), Remote().Fit(request));
+  }
+  ExpectSame(Local().Fit({}), Remote().Fit({}));
 }
 
 TEST(SameBits, OfSeveralContactsAndOfTheirErrors) {

@@ -7,6 +7,7 @@
 #include "proto/wire/audit.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
+#include "proto/wire/fit.h"
 #include "proto/wire/multi_contact.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
@@ -25,7 +26,7 @@ using Enums =
                    v1::SweepRequest::Combination, v1::Termination, v1::Effect, v1::Model, v1::Arithmetic,
                    v1::PlannedEffect::Decision, v1::PlannedArithmetic::Reason, v1::CostRow::Status, v1::RowStatus,
                    v1::MultiContactRequest::Method, v1::AttainedOutcome::End, v1::MultiContactAnswer::Verdict,
-                   v1::Derivative::Kind, v1::Derivative::Threshold>;
+                   v1::Derivative::Kind, v1::Derivative::Threshold, v1::FitLoss, v1::FitEnd::Kind, v1::AuditLimit>;
 TYPED_TEST_SUITE(EnumTest, Enums);
 
 TYPED_TEST(EnumTest, EveryValueOfTheProtoIsTheCoresOfTheSameNumber) {

@@ -19,6 +19,7 @@
 #include "proto/wire/audit.h"
 #include "proto/wire/batch.h"
 #include "proto/wire/cost.h"
+#include "proto/wire/fit.h"
 #include "proto/wire/info.h"
 #include "proto/wire/multi_contact.h"
 #include "proto/wire/outcome.h"
@@ -52,11 +53,12 @@ v1::SweepResponse ThroughCore(const v1::SweepResponse& proto) {
 template <typename Message>
 class EveryFieldTest : public testing::Test {};
 
-using Messages = testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse,
-                                v1::SweepRequest, v1::SweepResponse, v1::AuditRequest, v1::AuditResponse,
-                                v1::AuditBatchRequest, v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse,
-                                v1::CostRequest, v1::CostResponse, v1::BatchSetup, v1::BatchSummary,
-                                v1::MultiContactRequest, v1::MultiContactResponse, v1::InfoRequest, v1::InfoResponse>;
+using Messages =
+    testing::Types<v1::SolveRequest, v1::SolveResponse, v1::BoundsRequest, v1::BoundsResponse, v1::SweepRequest,
+                   v1::SweepResponse, v1::AuditRequest, v1::AuditResponse, v1::AuditBatchRequest,
+                   v1::AuditBatchResponse, v1::PlanRequest, v1::PlanResponse, v1::CostRequest, v1::CostResponse,
+                   v1::BatchSetup, v1::BatchSummary, v1::MultiContactRequest, v1::MultiContactResponse, v1::FitRequest,
+                   v1::FitResponse, v1::InfoRequest, v1::InfoResponse>;
 TYPED_TEST_SUITE(EveryFieldTest, Messages);
 
 TYPED_TEST(EveryFieldTest, SurvivesTheCore) {
@@ -154,7 +156,7 @@ TEST(NamesTest, EachColumnOfAnAuditArrivesInTheMemberOfItsName) {
 // The messages above are all messages of the service, so that none is left untested.
 TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   const auto& service = *v1::SolveRequest::descriptor()->file()->FindServiceByName("ImpactService");
-  ASSERT_EQ(service.method_count(), 11);
+  ASSERT_EQ(service.method_count(), 12);
   EXPECT_EQ(service.method(0)->input_type(), v1::SolveRequest::descriptor());
   EXPECT_EQ(service.method(0)->output_type(), v1::SolveResponse::descriptor());
   EXPECT_EQ(service.method(1)->input_type(), v1::BoundsRequest::descriptor());
@@ -176,8 +178,10 @@ TEST(EveryFieldTest, CoversEveryMessageOfTheService) {
   }
   EXPECT_EQ(service.method(9)->input_type(), v1::MultiContactRequest::descriptor());
   EXPECT_EQ(service.method(9)->output_type(), v1::MultiContactResponse::descriptor());
-  EXPECT_EQ(service.method(10)->input_type(), v1::InfoRequest::descriptor());
-  EXPECT_EQ(service.method(10)->output_type(), v1::InfoResponse::descriptor());
+  EXPECT_EQ(service.method(10)->input_type(), v1::FitRequest::descriptor());
+  EXPECT_EQ(service.method(10)->output_type(), v1::FitResponse::descriptor());
+  EXPECT_EQ(service.method(11)->input_type(), v1::InfoRequest::descriptor());
+  EXPECT_EQ(service.method(11)->output_type(), v1::InfoResponse::descriptor());
 }
 
 TEST(FillTest, ReachesEveryMemberOfEveryOneof) {

@@ -59,6 +59,9 @@ class FakeSolver final : public Solver {
                                                   const CallOptions& /*options*/) const override {
     return InvalidRequest({{"scene", "is refused"}});
   }
+  absl::StatusOr<FitResponse> DoFit(const FitRequest& /*request*/, const CallOptions& options) const override {
+    return WorkUntilEnded(options);
+  }
   absl::StatusOr<MultiContactResponse> DoMultiContact(const MultiContactRequest& /*request*/,
                                                       const CallOptions& /*options*/) const override {
     return absl::UnimplementedError("fake");

@@ -7,6 +7,7 @@
 #include "absl/strings/str_replace.h"
 #include "absl/strings/string_view.h"
 #include "absl/strings/strip.h"
+#include "proto/wire/fit.h"
 #include "proto/wire/outcome.h"
 #include "proto/wire/plan.h"
 #include "proto/wire/sweep.h"
@@ -55,6 +56,10 @@ std::string ArithmeticText(Arithmetic arithmetic) {
 
 std::string KindName(DerivativeKind kind) {
   return std::string(absl::StripPrefix(v1::Derivative::Kind_Name(ToProto(kind)), "KIND_"));
+}
+
+std::string FitEndName(FitEndKind kind) {
+  return std::string(absl::StripPrefix(v1::FitEnd::Kind_Name(ToProto(kind)), "KIND_"));
 }
 
 std::string ThresholdName(Threshold threshold) {

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "ricochet/fit.h"
 #include "ricochet/outcome.h"
 #include "ricochet/plan.h"
 #include "ricochet/sweep.h"
@@ -17,6 +18,7 @@ const std::string& StatusName(RowStatus status);
 std::string ModelName(Model model);
 std::string KindName(DerivativeKind kind);
 std::string ThresholdName(Threshold threshold);
+std::string FitEndName(FitEndKind kind);
 
 // Return words: "stick in compression", "finite duration", "compensated".
 std::string RegimeText(Regime regime);

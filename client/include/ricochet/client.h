@@ -53,6 +53,7 @@ class Client final : public Solver {
   absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const override;
   absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                   const CallOptions& options) const override;
+  absl::StatusOr<FitResponse> DoFit(const FitRequest& request, const CallOptions& options) const override;
   absl::StatusOr<MultiContactResponse> DoMultiContact(const MultiContactRequest& request,
                                                       const CallOptions& options) const override;
   absl::StatusOr<BatchResponse> DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,

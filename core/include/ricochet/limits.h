@@ -51,6 +51,9 @@ struct Limits {
   // Numbers of the outcome times numbers of the scene in a request for derivatives.
   int64_t max_derivatives = 4096;
 
+  // Rows of a fit times its unknowns and one, its starts and its most iterations.
+  int64_t max_fit_work = 10'000'000;
+
   // Limits that no request exceeds.
   static constexpr Limits None();
 
@@ -86,6 +89,8 @@ inline constexpr NamedLimit kLimits[] = {
     {"max_contact_states", &Limits::max_contact_states, 1'000'000'000,
      "States of several contacts times the cube of the contacts"},
     {"max_derivatives", &Limits::max_derivatives, 1'000'000, "Derivatives of one impact"},
+    {"max_fit_work", &Limits::max_fit_work, 1'000'000'000'000,
+     "Rows of a fit times unknowns and one, starts and iterations"},
 };
 
 constexpr Limits Limits::None() {

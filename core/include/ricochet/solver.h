@@ -26,6 +26,7 @@
 #include "ricochet/derivatives.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/error.h"
+#include "ricochet/fit.h"
 #include "ricochet/helpers.h"
 #include "ricochet/info.h"
 #include "ricochet/limits.h"
@@ -171,6 +172,10 @@ class Solver {
     return DoAuditBatch(request, options);
   }
 
+  // Finds the numbers of a scene that measured impacts tell, with their intervals, and whether the physics can be true.
+  absl::StatusOr<FitResponse> Fit(const FitRequest& request, const CallOptions& options = {}) const {
+    return DoFit(request, options);
+  }
   // Finds what several contacts at once can do, and whether their order matters. It stops within 10 ms of a stop by its
   // options.
   absl::StatusOr<MultiContactResponse> MultiContact(const MultiContactRequest& request,
@@ -218,6 +223,7 @@ class Solver {
   virtual absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const = 0;
   virtual absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                           const CallOptions& options) const = 0;
+  virtual absl::StatusOr<FitResponse> DoFit(const FitRequest& request, const CallOptions& options) const = 0;
   virtual absl::StatusOr<MultiContactResponse> DoMultiContact(const MultiContactRequest& request,
                                                               const CallOptions& options) const = 0;
   virtual absl::StatusOr<BatchResponse> DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,
@@ -249,6 +255,7 @@ class LocalSolver final : public Solver {
   absl::StatusOr<AuditResponse> DoAudit(const AuditRequest& request, const CallOptions& options) const override;
   absl::StatusOr<AuditBatchResponse> DoAuditBatch(const AuditBatchRequest& request,
                                                   const CallOptions& options) const override;
+  absl::StatusOr<FitResponse> DoFit(const FitRequest& request, const CallOptions& options) const override;
   absl::StatusOr<MultiContactResponse> DoMultiContact(const MultiContactRequest& request,
                                                       const CallOptions& options) const override;
   absl::StatusOr<BatchResponse> DoSolveBatch(const BatchSetup& setup, const BatchRows& rows,

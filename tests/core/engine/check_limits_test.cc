@@ -168,6 +168,12 @@ const std::vector<Case>& Cases() {
          request.columns.rates_after_rad_s = {{0.0}};
          return solver.AuditBatch(request).status();
        }},
+      {"WorkOfAFit", &Limits::max_fit_work, 12, "measured",
+       [](const Solver& solver, size_t n) {
+         FitRequest request = {.scene = ChainScene(1), .starts = 1, .max_iterations = 1};
+         request.measured = {{.path = "rates_after_rad_s[0]", .values = std::vector<double>(n, 0.0), .sigma = {1.0}}};
+         return solver.Fit(request).status();
+       }},
       {"BodiesThatTouch", &Limits::max_links, 2, "free_bodies.bodies",
        [](const Solver& solver, size_t n) {
          return solver

@@ -70,5 +70,15 @@ TEST(RequestCost, CallsOfOneSizeShareAnOctaveAndLargerOnesAreApart) {
   EXPECT_EQ(certificate(8, 64).octave - certificate(4, 64).octave, 3) << "a certificate takes the cube of the links";
 }
 
+TEST(RequestCostTest, AFitIsNeverCheapAndGrowsWithRowsUnknownsStartsAndIterations) {
+  FitRequest request = {.unknowns = {{.path = "mu"}}, .measured = {{.path = "x", .values = {1.0, 2.0}}}};
+  request.max_iterations = 16;
+  EXPECT_EQ(CostOf(request), (RequestCost{CostCause::kFit, 6}));
+  request.starts = 4;
+  EXPECT_EQ(CostOf(request).octave, 8);
+  request.measured[0].values.resize(8);
+  EXPECT_EQ(CostOf(request).octave, 10);
+}
+
 }  // namespace
 }  // namespace ricochet::server

@@ -1,0 +1,144 @@
+#include "proto/wire/fit.h"
+
+#include <CLI/App.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "absl/strings/str_cat.h"
+#include "client/cli/input/file_option.h"
+#include "client/cli/input/fit_data.h"
+#include "client/cli/input/make_solver.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/plot/picture_input.h"
+#include "client/cli/report/fit_plot.h"
+#include "client/cli/report/fit_report.h"
+#include "client/cli/subcommands.h"
+#include "client/cli/terminal/interrupt.h"
+#include "client/cli/text/number_input.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kExample[] =
+    R"(Example: friction and restitution of a rod from its impacts.
+  $ ricochet fit --scene dropped_rod.textproto --data dropped_rod.csv --unknown mu --unknown newton=0.5
+  chi2 ... with ... degrees of freedom, probability ...
+  ...
+
+The header of the data names numbers of the scene that differ by row, numbers of the outcome that were measured, and
+NAME.sigma for the standard deviation of the measured NAME; --sigma gives one for all rows. An empty cell was not
+measured. Names may be short where they mean one number. The interval of an unknown holds 95 %, by profile likelihood;
+"not seen" means that the data do not tell the unknown by itself.
+CSV has one row for each unknown, with --rows one for each row of the data; json has all.
+Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again, 130 interrupted.)";
+
+struct FitOptions {
+  CommonOptions common;
+  SceneOptions scene;
+  FitDataOptions data;
+  std::optional<std::string> loss, starts, iterations;
+  bool rows = false;
+  bool strict = false;
+  PictureOptions picture;
+};
+
+absl::Status ReadLoss(const std::string& text, FitRequest& request) {
+  const size_t equals = text.find('=');
+  const std::string name = text.substr(0, equals);
+  if (name != "squares" && name != "huber" && name != "cauchy") {
+    return InputError("--loss", text, "be squares, huber, cauchy, huber=SCALE or cauchy=SCALE");
+  }
+  request.loss = name == "huber" ? FitLoss::kHuber : name == "cauchy" ? FitLoss::kCauchy : FitLoss::kSquares;
+  if (equals == std::string::npos) return absl::OkStatus();
+  const absl::StatusOr<double> scale = ParseNumber(text.substr(equals + 1), "--loss");
+  if (!scale.ok()) return scale.status();
+  request.loss_scale = *scale;
+  return absl::OkStatus();
+}
+
+absl::Status ReadSearch(const FitOptions& options, FitRequest& request) {
+  if (options.loss.has_value()) {
+    if (absl::Status status = ReadLoss(*options.loss, request); !status.ok()) return status;
+  }
+  if (options.starts.has_value()) {
+    const absl::StatusOr<int64_t> starts = ParseCount(*options.starts, "--starts", kMostFitStarts);
+    if (!starts.ok()) return starts.status();
+    request.starts = static_cast<int32_t>(*starts);
+  }
+  if (!options.iterations.has_value()) return absl::OkStatus();
+  const absl::StatusOr<int64_t> iterations = ParseCount(*options.iterations, "--iterations", kMostFitIterations);
+  if (!iterations.ok()) return iterations.status();
+  request.max_iterations = static_cast<int32_t>(*iterations);
+  return absl::OkStatus();
+}
+
+absl::Status RunFit(const FitOptions& options) {
+  if (absl::Status status = CheckPicture(options.picture); !status.ok()) return status;
+  const absl::StatusOr<std::unique_ptr<Solver>> solver = MakeSolver(options.common);
+  if (!solver.ok()) return solver.status();
+  const absl::StatusOr<Scene> scene = ReadScene(options.scene);
+  if (!scene.ok()) return scene.status();
+  absl::StatusOr<FitRequest> request = ReadFit(options.data, *scene);
+  if (!request.ok()) return request.status();
+  if (absl::Status status = ReadSearch(options, *request); !status.ok()) return status;
+  const Interrupt interrupt;
+  const absl::StatusOr<FitResponse> response = (*solver)->Fit(*request, {.stop = interrupt.token()});
+  if (!response.ok()) return response.status();
+  absl::Status written = WriteAnswer(
+      options.common, *response, [&] { return FitText(*request, *response); },
+      [&] { return options.rows ? FitRowsCsv(*request, *response) : FitCsv(*response); });
+  if (!written.ok()) return written;
+  if (!options.picture.file.empty()) {
+    if (absl::Status status = DrawPicture(FitPlot(*request, *response), options.picture); !status.ok()) return status;
+  }
+  if (!options.strict || !response->refused) return absl::OkStatus();
+  return absl::FailedPreconditionError("the data refuse the physics or the stated errors");
+}
+
+}  // namespace
+
+void AddFit(CLI::App& app, Command& command) {
+  CLI::App* sub = app.add_subcommand("fit", "What measured impacts tell about numbers of the scene, and how well");
+  const auto options = std::make_shared<FitOptions>();
+  AddSceneOptions(*sub, options->scene);
+  MarkFile(FileUse::kRead,
+           sub->add_option("--data", options->data.file,
+                           "Measured impacts, one on each line; the header names the columns; - for standard input"))
+      ->type_name("FILE.csv")
+      ->required();
+  sub->add_option("--unknown", options->data.unknowns,
+                  "A number of the scene to find, and where to start [the scene's own number]; repeatable")
+      ->type_name("NAME[=START]")
+      ->required()
+      ->allow_extra_args(false);
+  sub->add_option("--bound", options->data.bounds, "Bounds of an unknown; either may be left out; repeatable")
+      ->type_name("NAME=LOW:HIGH")
+      ->allow_extra_args(false);
+  sub->add_option("--sigma", options->data.sigmas,
+                  "The standard deviation of the error of a measured column; repeatable")
+      ->type_name("NAME=SIGMA")
+      ->allow_extra_args(false);
+  sub->add_option("--skip-column", options->data.skipped_columns, "A column of the data to leave out; repeatable")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
+  sub->add_option("--loss", options->loss,
+                  "What residuals cost: squares, or huber or cauchy beyond SCALE sigmas [squares]")
+      ->type_name("LOSS[=SCALE]");
+  sub->add_option("--starts", options->starts, "Searches; further ones spread over the bounds [1]")->type_name("N");
+  sub->add_option("--iterations", options->iterations, "The most iterations of a search [100]")->type_name("N");
+  sub->add_option("--region", options->data.region, "Two unknowns whose 95 % region is wanted")
+      ->type_name("NAME,NAME")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  sub->add_flag("--rows", options->rows, "As csv, print the rows of the data with their residuals");
+  sub->add_flag("--strict", options->strict, "Fail if the data refuse the physics, after writing the answer");
+  AddPictureOptions(*sub, "data over model, the residuals, the profile of each unknown and the region,",
+                    options->picture);
+  AddServerOptions(*sub, options->common);
+  AddOutputOptions(*sub, options->common, kMessageFormats);
+  sub->footer(kExample);
+  sub->callback([options, &command] { command = [options] { return RunFit(*options); }; });
+}
+
+}  // namespace ricochet::cli

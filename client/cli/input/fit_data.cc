@@ -1,0 +1,193 @@
+#include "client/cli/input/fit_data.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "absl/strings/escaping.h"
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "client/cli/input/scene_input.h"
+#include "client/cli/input/short_name.h"
+#include "client/cli/io/csv_table.h"
+#include "client/cli/text/number_input.h"
+#include "core/base/nearest.h"
+#include "core/rows/column.h"
+#include "core/scene/field.h"
+
+namespace ricochet::cli {
+namespace {
+
+constexpr char kSigmaEnding[] = ".sigma";
+
+// What a column of the table is, and its cells.
+struct Column {
+  enum class Use { kInput, kMeasured, kSigma } use = Use::kInput;
+  std::string path;
+  std::vector<double> values;
+};
+
+bool IsIn(const std::vector<std::string>& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+absl::StatusOr<Column> ColumnOf(const std::string& name, const Scene& scene) {
+  const std::vector<std::string> fields = FieldPaths(scene);
+  const std::vector<std::string> numbers = Columns(scene);
+  const bool is_sigma = absl::EndsWith(name, kSigmaEnding);
+  std::vector<std::string> known = numbers;
+  if (!is_sigma) known.insert(known.begin(), fields.begin(), fields.end());
+  const std::string bare(absl::StripSuffix(name, kSigmaEnding));
+  absl::StatusOr<std::string> path = FullName(bare, known, "--data, column");
+  if (!path.ok()) return path.status();
+  if (!IsIn(known, *path)) {
+    return absl::InvalidArgumentError(absl::StrCat(
+        "--data has the column \"", absl::CEscape(name), "\": must be a number of the scene, one of the outcome, or ",
+        "one with .sigma", DidYouMean(bare, known), "; --skip-column leaves a column out"));
+  }
+  const auto use = IsIn(numbers, *path) ? Column::Use::kMeasured : Column::Use::kInput;
+  return Column{.use = is_sigma ? Column::Use::kSigma : use, .path = *std::move(path), .values = {}};
+}
+
+// Reads the cells of a row into the columns.
+absl::Status ReadRow(const CsvReader& reader, const std::vector<std::string>& cells,
+                     std::vector<std::optional<Column>>& columns) {
+  const auto wrong = [&reader](const std::string& column, const std::string& what) {
+    return absl::InvalidArgumentError(absl::StrCat("--data, line ", reader.line(), ": ", column, " ", what));
+  };
+  if (cells.size() > columns.size()) {
+    return wrong("the row", absl::StrCat("has ", cells.size(), " cells: must have ", columns.size()));
+  }
+  for (size_t i = 0; i < columns.size(); ++i) {
+    if (!columns[i].has_value()) continue;
+    double value = std::numeric_limits<double>::quiet_NaN();
+    const std::string cell = i < cells.size() ? cells[i] : "";
+    const std::string rule = cell.empty() ? "" : ReadNumber(cell, SpellingOf(columns[i]->path), value);
+    if (!rule.empty()) return wrong(reader.header()[i], absl::StrCat("= \"", absl::CEscape(cell), "\": must ", rule));
+    if (cell.empty() && columns[i]->use == Column::Use::kInput) return wrong(reader.header()[i], "is missing");
+    columns[i]->values.push_back(value);
+  }
+  return absl::OkStatus();
+}
+
+absl::StatusOr<std::vector<Column>> ReadTable(const FitDataOptions& options, const Scene& scene) {
+  const absl::StatusOr<std::string> text = ReadText(options.file);
+  if (!text.ok()) return text.status();
+  std::istringstream stream(*text);
+  absl::StatusOr<CsvReader> reader = CsvReader::Open(stream, options.file == "-" ? "standard input" : options.file);
+  if (!reader.ok()) return reader.status();
+  if (absl::Status status = reader->Skip(options.skipped_columns); !status.ok()) return status;
+  std::vector<std::optional<Column>> columns(reader->header().size());
+  for (size_t i = 0; i < columns.size(); ++i) {
+    if (reader->IsSkipped(i)) continue;
+    absl::StatusOr<Column> column = ColumnOf(reader->header()[i], scene);
+    if (!column.ok()) return column.status();
+    columns[i] = *std::move(column);
+  }
+  std::vector<std::string> cells;
+  while (reader->NextRow(cells)) {
+    if (absl::Status status = ReadRow(*reader, cells, columns); !status.ok()) return status;
+  }
+  std::vector<Column> kept;
+  for (std::optional<Column>& column : columns) {
+    if (column.has_value()) kept.push_back(*std::move(column));
+  }
+  return kept;
+}
+
+// Splits NAME=TEXT and finds which of the names it means.
+absl::StatusOr<std::pair<std::string, std::string>> ReadPair(const std::string& option, const std::string& typed,
+                                                             const std::vector<std::string>& known) {
+  const size_t equals = typed.find('=');
+  const absl::StatusOr<std::string> name = FullName(typed.substr(0, equals), known, option);
+  if (!name.ok()) return name.status();
+  return std::pair(*name, equals == std::string::npos ? "" : typed.substr(equals + 1));
+}
+
+absl::Status ReadUnknowns(const FitDataOptions& options, const Scene& scene, FitRequest& request) {
+  std::vector<std::string> paths;
+  for (const std::string& typed : options.unknowns) {
+    const auto pair = ReadPair("--unknown", typed, FieldPaths(scene));
+    if (!pair.ok()) return pair.status();
+    FitUnknown& unknown = request.unknowns.emplace_back();
+    unknown.path = pair->first;
+    paths.push_back(unknown.path);
+    if (pair->second.empty()) continue;
+    const absl::StatusOr<double> start = ParseNumber(pair->second, "--unknown", SpellingOf(unknown.path));
+    if (!start.ok()) return start.status();
+    unknown.start = *start;
+  }
+  for (const std::string& typed : options.bounds) {
+    const auto pair = ReadPair("--bound", typed, paths);
+    if (!pair.ok()) return pair.status();
+    const size_t colon = pair->second.find(':');
+    const auto at = static_cast<size_t>(std::find(paths.begin(), paths.end(), pair->first) - paths.begin());
+    if (at == paths.size() || colon == std::string::npos) {
+      return InputError("--bound", typed, "be NAME=LOW:HIGH with the name of an unknown");
+    }
+    FitUnknown& unknown = request.unknowns[at];
+    for (const auto& [text, bound] : {std::pair(pair->second.substr(0, colon), &unknown.low),
+                                      std::pair(pair->second.substr(colon + 1), &unknown.high)}) {
+      if (text.empty()) continue;
+      const absl::StatusOr<double> number = ParseNumber(text, "--bound", SpellingOf(unknown.path));
+      if (!number.ok()) return number.status();
+      *bound = *number;
+    }
+  }
+  for (const std::string& typed : options.region) {
+    const absl::StatusOr<std::string> name = FullName(typed, paths, "--region");
+    if (!name.ok()) return name.status();
+    request.region.push_back(*name);
+  }
+  return absl::OkStatus();
+}
+
+absl::Status ReadSigmas(const FitDataOptions& options, FitRequest& request) {
+  std::vector<std::string> paths;
+  for (const FitMeasured& measured : request.measured) paths.push_back(measured.path);
+  for (const std::string& typed : options.sigmas) {
+    const auto pair = ReadPair("--sigma", typed, paths);
+    if (!pair.ok()) return pair.status();
+    const auto at = static_cast<size_t>(std::find(paths.begin(), paths.end(), pair->first) - paths.begin());
+    if (at == paths.size()) return InputError("--sigma", typed, "be NAME=SIGMA with the name of a measured column");
+    const absl::StatusOr<double> sigma = ParseNumber(pair->second, "--sigma");
+    if (!sigma.ok()) return sigma.status();
+    request.measured[at].sigma = {*sigma};
+  }
+  for (const FitMeasured& measured : request.measured) {
+    if (!measured.sigma.empty()) continue;
+    return absl::InvalidArgumentError(absl::StrCat("no sigma for ", measured.path, ": give --sigma ", measured.path,
+                                                   "=X or a column ", measured.path, kSigmaEnding));
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace
+
+absl::StatusOr<FitRequest> ReadFit(const FitDataOptions& options, const Scene& scene) {
+  absl::StatusOr<std::vector<Column>> columns = ReadTable(options, scene);
+  if (!columns.ok()) return columns.status();
+  FitRequest request = {.scene = scene};
+  for (Column& column : *columns) {
+    if (column.use == Column::Use::kInput) request.inputs.push_back({column.path, std::move(column.values)});
+    if (column.use == Column::Use::kMeasured) request.measured.push_back({column.path, std::move(column.values), {}});
+  }
+  for (Column& column : *columns) {
+    if (column.use != Column::Use::kSigma) continue;
+    const auto measured = std::find_if(request.measured.begin(), request.measured.end(),
+                                       [&column](const FitMeasured& m) { return m.path == column.path; });
+    if (measured == request.measured.end()) {
+      return absl::InvalidArgumentError(
+          absl::StrCat("--data has ", column.path, kSigmaEnding, " but not ", column.path));
+    }
+    measured->sigma = std::move(column.values);
+  }
+  if (absl::Status status = ReadUnknowns(options, scene, request); !status.ok()) return status;
+  if (absl::Status status = ReadSigmas(options, request); !status.ok()) return status;
+  return request;
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,23 @@
+// What a fit looks like as text and CSV.
+
+#ifndef RICOCHET_CLIENT_CLI_REPORT_FIT_REPORT_H_
+#define RICOCHET_CLIENT_CLI_REPORT_FIT_REPORT_H_
+
+#include <string>
+
+#include "ricochet/fit.h"
+
+namespace ricochet::cli {
+
+// Unknowns with their intervals, correlations, residuals of the first rows, and notes.
+std::string FitText(const FitRequest& request, const FitResponse& response);
+
+// A row for each unknown.
+std::string FitCsv(const FitResponse& response);
+
+// A row for each row of the data: its regime, and predicted number and residual of each measured column.
+std::string FitRowsCsv(const FitRequest& request, const FitResponse& response);
+
+}  // namespace ricochet::cli
+
+#endif  // RICOCHET_CLIENT_CLI_REPORT_FIT_REPORT_H_

@@ -1,0 +1,203 @@
+#include "core/fit/fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/strings/str_cat.h"
+#include "core/fit/information.h"
+#include "core/fit/judgement.h"
+#include "core/fit/model.h"
+#include "core/fit/problem.h"
+#include "core/fit/profile.h"
+#include "core/fit/search.h"
+#include "core/numerics/elementary.h"
+#include "ricochet/error.h"
+
+namespace ricochet {
+namespace fit {
+namespace {
+
+// A region has so many rays.
+constexpr int kRays = 48;
+// A fit that finds a better one while it follows a ray starts again from there, so many times.
+constexpr int kMostRestarts = 4;
+
+// Refuses a start at which a measured number has no prediction.
+absl::Status CheckStart(const FitRequest& request, Model& model) {
+  std::vector<double> predicted;
+  if (model.Predict(model.problem().start, predicted) || model.is_stopped()) return absl::OkStatus();
+  const BadRow bad = *model.Bad(predicted);
+  const auto row = static_cast<size_t>(bad.row);
+  for (size_t i = 0; i < request.inputs.size(); ++i) {
+    if (request.inputs[i].path != bad.field) continue;
+    return InvalidRequest({{absl::StrCat("inputs[", i, "].values[", row, "]"), bad.description}});
+  }
+  for (size_t k = 0; k < request.unknowns.size(); ++k) {
+    if (request.unknowns[k].path != bad.field) continue;
+    return InvalidRequest({{absl::StrCat("unknowns[", k, "].start"), absl::StrCat(bad.description, " in row ", row)}});
+  }
+  for (size_t j = 0; j < request.measured.size(); ++j) {
+    if (request.measured[j].path != bad.field || !bad.description.empty()) continue;
+    return InvalidRequest(
+        {MakeViolation(absl::StrCat("measured[", j, "].values[", row, "]"), request.measured[j].values[row],
+                       "be NaN: at the start the impact of this row has no such number")});
+  }
+  return InvalidRequest({{bad.field, absl::StrCat(bad.description, " in row ", row)}});
+}
+
+// The starts after the first, spread evenly by multiples of the generalized golden ratio: over the bounds, or from a
+// quarter to four times a start without two of them.
+std::vector<double> StartOf(const Problem& problem, int number) {
+  std::vector<double> start = problem.start;
+  double ratio = 2.0;
+  for (int i = 0; i < 40; ++i) ratio = Pow(1.0 + ratio, 1.0 / (static_cast<double>(start.size()) + 1.0));
+  double step = 1.0;
+  for (size_t k = 0; k < start.size() && number > 0; ++k) {
+    step /= ratio;
+    const double place = 0.5 + number * step;
+    const double part = place - std::floor(place);
+    const double width = problem.high[k] - problem.low[k];
+    const double spread = start[k] != 0.0 ? start[k] * Exp((4.0 * part - 2.0) * std::numbers::ln2) : 2.0 * part - 1.0;
+    start[k] =
+        std::isfinite(width) ? problem.low[k] + part * width : std::clamp(spread, problem.low[k], problem.high[k]);
+  }
+  return start;
+}
+
+// Fits one request.
+class Fitter {
+ public:
+  Fitter(const Problem& problem, Model& model)
+      : problem_(problem), model_(model), all_free_(problem.unknowns(), true) {}
+
+  FitResponse Fit() {
+    Search();
+    for (int restart = 0; restart < kMostRestarts && !model_.is_stopped(); ++restart) {
+      Look();
+      if (!FollowUnknowns() || restart + 1 == kMostRestarts) break;
+    }
+    FollowRegion();
+    Judge(problem_, best_.at, information_, model_, response_);
+    return std::move(response_);
+  }
+
+ private:
+  void Search() {
+    for (int number = 0; number < problem_.starts && !model_.is_stopped(); ++number) {
+      const std::vector<double> start = StartOf(problem_, number);
+      const Minimum found = Minimize(start, all_free_, model_);
+      const bool has_start = std::isfinite(found.objective);
+      response_.starts.push_back({start, found.at, found.objective, found.iterations, found.converged && has_start});
+      if (number == 0 || found.objective < best_.objective) best_ = found;
+    }
+  }
+
+  // Sees what the data tell at the best fit.
+  void Look() {
+    std::vector<double> predicted, derivatives, weights;
+    if (!model_.Predict(best_.at, predicted) || !model_.Differentiate(best_.at, all_free_, derivatives)) {
+      derivatives.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
+    }
+    for (size_t i = 0; i < predicted.size(); ++i) {
+      const double residual = (problem_.numbers[i].value - predicted[i]) / problem_.numbers[i].sigma;
+      weights.push_back(LossOf(problem_, residual * residual).weight);
+    }
+    weights.resize(problem_.numbers.size(), 1.0);
+    predicted.resize(problem_.numbers.size(), 0.0);
+    information_ = InformationOf(problem_, predicted, derivatives, weights);
+  }
+
+  // The distance at which an interval or a region should end.
+  double SizeOf(size_t k) const {
+    const size_t size = problem_.unknowns();
+    if (information_.is_seen[k]) return 2.0 * std::sqrt(information_.covariance[k * size + k]);
+    return 0.25 * std::max(std::fabs(best_.at[k]), 0.25 * problem_.scale[k]);
+  }
+
+  // Finds the interval of each unknown. Returns true if that found a better fit, from which to start again.
+  bool FollowUnknowns() {
+    response_.unknowns.clear();
+    for (size_t k = 0; k < problem_.unknowns() && !model_.is_stopped(); ++k) {
+      FitEstimate& estimate = response_.unknowns.emplace_back();
+      estimate = {.path = problem_.batch.fields[k], .value = best_.at[k], .seen = information_.is_seen[k]};
+      estimate.row_shares = information_.row_shares[k];
+      if (estimate.seen) estimate.sigma = std::sqrt(information_.covariance[k * problem_.unknowns() + k]);
+      estimate.profile.push_back({best_.at[k], 0.0});
+      for (const double side : {-1.0, 1.0}) {
+        std::vector<double> direction(problem_.unknowns(), 0.0);
+        direction[k] = side * SizeOf(k);
+        const RayEnd end = EndOfRay(best_, direction, kRiseOfInterval, model_);
+        if (end.better.has_value()) return Adopt(*end.better);
+        SetEnd(end, direction[k], side < 0.0 ? estimate.low : estimate.high, estimate);
+      }
+      std::sort(estimate.profile.begin(), estimate.profile.end(),
+                [](const FitProfilePoint& a, const FitProfilePoint& b) { return a.value < b.value; });
+    }
+    return false;
+  }
+
+  bool Adopt(const Minimum& better) {
+    const Minimum found = Minimize(better.at, all_free_, model_);
+    best_ = found.objective < better.objective ? found : better;
+    return true;
+  }
+
+  void SetEnd(const RayEnd& ray, double step, FitEnd& end, FitEstimate& estimate) const {
+    const double value = estimate.value + ray.distance * step;
+    end.kind = ray.kind;
+    if (ray.kind == FitEndKind::kFound || ray.kind == FitEndKind::kCutByBound) end.value = value;
+    // Bounds of a number that the data do not tell are no ends that the data gave.
+    if (!estimate.seen && ray.kind != FitEndKind::kFound) end = {.kind = FitEndKind::kNotSeen, .value = {}};
+    for (const RayPoint& point : ray.computed) {
+      if (std::isfinite(point.rise)) estimate.profile.push_back({estimate.value + point.distance * step, point.rise});
+    }
+  }
+
+  void FollowRegion() {
+    if (problem_.region.empty()) return;
+    const size_t x = problem_.region[0];
+    const size_t y = problem_.region[1];
+    for (int ray = 0; ray < kRays && !model_.is_stopped(); ++ray) {
+      const double angle = 2.0 * std::numbers::pi * ray / kRays;
+      std::vector<double> direction(problem_.unknowns(), 0.0);
+      direction[x] = Cos(angle) * SizeOf(x);
+      direction[y] = Sin(angle) * SizeOf(y);
+      const RayEnd end = EndOfRay(best_, direction, kRiseOfRegion, model_);
+      if (end.kind != FitEndKind::kFound && end.kind != FitEndKind::kCutByBound) continue;
+      response_.region.push_back(
+          {best_.at[x] + end.distance * direction[x], best_.at[y] + end.distance * direction[y], end.kind});
+    }
+  }
+
+  const Problem& problem_;
+  Model& model_;
+  const std::vector<bool> all_free_;
+  Minimum best_;
+  Information information_;
+  FitResponse response_;
+};
+
+}  // namespace
+
+bool IsAvailable() { return true; }
+
+}  // namespace fit
+
+absl::StatusOr<FitResponse> FitScene(const FitRequest& request, absl::FunctionRef<bool()> stopped) {
+  const absl::StatusOr<fit::Problem> problem = fit::CheckFit(request);
+  if (!problem.ok()) return problem.status();
+  fit::Model model(*problem, stopped);
+  if (absl::Status bad = fit::CheckStart(request, model); !bad.ok()) return bad;
+  FitResponse response = fit::Fitter(*problem, model).Fit();
+  if (model.is_stopped()) return absl::CancelledError("the fit was stopped by its caller");
+  return response;
+}
+
+}  // namespace ricochet

@@ -1,0 +1,33 @@
+// Information: what the residuals at a fit tell about each unknown, by their derivatives.
+//
+// With the weighted residuals r(x) and J = dr/dx, the covariance of the unknowns is (J^T J)^-1. J is divided by the
+// lengths of its columns and decomposed into singular values, so that no units matter: an unknown whose column is
+// nothing, or that a combination with singular value nothing has a part of, is not seen by itself and has no variance.
+
+#ifndef RICOCHET_CORE_FIT_INFORMATION_H_
+#define RICOCHET_CORE_FIT_INFORMATION_H_
+
+#include <cstddef>
+#include <vector>
+
+#include "core/fit/problem.h"
+
+namespace ricochet::fit {
+
+struct Information {
+  size_t rank = 0;                              // Combinations of unknowns that are seen.
+  std::vector<bool> is_seen;                    // By itself.
+  std::vector<double> covariance, correlation;  // As in FitResponse.
+  std::vector<std::vector<double>> row_shares;  // As in FitEstimate, for each unknown.
+};
+
+// `derivatives` are those of the predicted numbers (core/fit/model.h), `weights` those of the squared residuals.
+Information InformationOf(const Problem& problem, const std::vector<double>& predicted,
+                          const std::vector<double>& derivatives, const std::vector<double>& weights);
+
+// The probability that chi-squared with so many degrees of freedom, > 0, exceeds a value, exact to some 1e-12 of 1.
+double ChiSquaredBeyond(double value, double degrees_of_freedom);
+
+}  // namespace ricochet::fit
+
+#endif  // RICOCHET_CORE_FIT_INFORMATION_H_

@@ -1,0 +1,249 @@
+#include "core/fit/judgement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "core/audit/audit_scene.h"
+#include "core/base/decimal.h"
+#include "core/fit/search.h"
+#include "core/numerics/elementary.h"
+#include "ricochet/solver.h"
+
+namespace ricochet::fit {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+// A number is an outlier if normal errors would make any of all numbers one with less than this probability.
+constexpr double kOutlierBelow = 0.05;
+// An audit takes errors of so many sigmas for possible.
+constexpr double kAuditSigmas = 3.0;
+// Sides that differ by less than this part of the larger one differ by curvature and rounding.
+constexpr double kSidesAgree = 0.01;
+// Searches that end nearer to each other than this part of sigma, or of the unknown, end in the same place.
+constexpr double kSamePlace = 0.1;
+constexpr double kSamePart = 1e-3;
+
+void SetRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
+  std::vector<double> predicted;
+  model.Predict(best, predicted);
+  FitRow empty = {.predicted = std::vector<double>(problem.columns(), kNone),
+                  .residuals = std::vector<double>(problem.columns(), kNone)};
+  response.rows.assign(problem.rows, empty);
+  for (size_t row = 0; row < problem.rows && row < model.regimes().size(); ++row) {
+    response.rows[row].regime = model.regimes()[row];
+  }
+  for (size_t i = 0; i < predicted.size(); ++i) {
+    const Number& number = problem.numbers[i];
+    const double residual = (number.value - predicted[i]) / number.sigma;
+    response.rows[number.row].predicted[number.column] = predicted[i];
+    response.rows[number.row].residuals[number.column] = residual;
+    response.chi2 += residual * residual;
+    response.objective += LossOf(problem, residual * residual).loss;
+    const double probability = ChiSquaredBeyond(residual * residual, 1.0);
+    if (probability * static_cast<double>(predicted.size()) >= kOutlierBelow) continue;
+    response.outliers.push_back({static_cast<int64_t>(number.row), problem.batch.columns[number.column], residual});
+  }
+  std::stable_sort(response.outliers.begin(), response.outliers.end(), [](const FitOutlier& a, const FitOutlier& b) {
+    return std::fabs(a.residual) > std::fabs(b.residual);
+  });
+}
+
+// The velocity after the impact that a row measured, if it measured all of it, and the largest error of a component of
+// the contact's.
+struct MeasuredVelocity {
+  Observed observed;
+  double uncertainty = 0.0;
+};
+
+class RowOfNumbers {
+ public:
+  RowOfNumbers(const Problem& problem, size_t row) : problem_(problem), row_(row) {}
+
+  std::optional<double> Take(const std::string& path) {
+    for (const Number& number : problem_.numbers) {
+      if (number.row != row_ || problem_.batch.columns[number.column] != path) continue;
+      sigma_ = std::max(sigma_, number.sigma);
+      return number.value;
+    }
+    return std::nullopt;
+  }
+  double sigma() const { return sigma_; }
+
+ private:
+  const Problem& problem_;
+  size_t row_;
+  double sigma_ = 0.0;  // The largest of what was taken.
+};
+
+std::optional<MeasuredVelocity> VelocityOf(const Problem& problem, size_t row, const Scene& scene) {
+  RowOfNumbers numbers(problem, row);
+  ContactVelocity velocity;
+  for (size_t i = 0; i < TangentialDirections(scene.system); ++i) {
+    const auto u = numbers.Take(absl::StrCat("contact_velocity_after.tangential_m_s[", i, "]"));
+    if (u.has_value()) velocity.tangential_m_s.push_back(*u);
+  }
+  const auto v = numbers.Take("contact_velocity_after.normal_m_s");
+  if (v.has_value() && velocity.tangential_m_s.size() == TangentialDirections(scene.system)) {
+    velocity.normal_m_s = *v;
+    return MeasuredVelocity{velocity, kAuditSigmas * numbers.sigma()};
+  }
+  // The contact of a pendulum moves by its rate times its distance from the pin.
+  const auto* const pendulum = std::get_if<Pendulum>(&scene.system);
+  const auto rate = RowOfNumbers(problem, row).Take("rates_after_rad_s[0]");
+  if (pendulum == nullptr || !rate.has_value()) return std::nullopt;
+  RowOfNumbers of_rate(problem, row);
+  of_rate.Take("rates_after_rad_s[0]");
+  return MeasuredVelocity{ObservedRates{{*rate}}, kAuditSigmas * of_rate.sigma() * Hypot(pendulum->a_m, pendulum->b_m)};
+}
+
+void AuditRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
+  for (size_t row = 0; row < problem.rows; ++row) {
+    const Scene& scene = model.SceneOf(row, best);
+    const std::optional<MeasuredVelocity> velocity = VelocityOf(problem, row, scene);
+    if (!velocity.has_value()) continue;
+    const absl::StatusOr<AuditResponse> audit =
+        AuditScene({.scene = scene, .observed = velocity->observed, .velocity_uncertainty_m_s = velocity->uncertainty},
+                   [&model] { return model.is_stopped(); });
+    if (!audit.ok()) continue;
+    for (int limit = 1; limit < kAuditLimitCount; ++limit) {
+      if (audit->report[static_cast<AuditLimit>(limit)].verdict != Verdict::kBroken) continue;
+      response.rows[row].broken_limits.push_back(static_cast<AuditLimit>(limit));
+    }
+  }
+}
+
+void SetThresholds(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {
+  std::vector<double> below, above;
+  if (!model.Sides(best, std::vector<bool>(best.size(), true), below, above)) return;
+  for (size_t i = 0; i < problem.numbers.size(); ++i) {
+    const Number& number = problem.numbers[i];
+    for (size_t k = 0; k < best.size(); ++k) {
+      const size_t place = i * best.size() + k;
+      const double larger = std::max(std::fabs(below[place]), std::fabs(above[place]));
+      // A slope that moves the number by less than a part of its sigma is none.
+      const bool matters = larger * problem.scale[k] > kSidesAgree * number.sigma;
+      if (!matters || !(std::fabs(above[place] - below[place]) > kSidesAgree * larger)) continue;
+      response.thresholds.push_back({static_cast<int64_t>(number.row), problem.batch.columns[number.column],
+                                     problem.batch.fields[k], below[place], above[place]});
+    }
+  }
+}
+
+bool StartsDiffer(const Problem& problem, const FitResponse& response) {
+  const FitStart* first = nullptr;
+  for (const FitStart& start : response.starts) {
+    if (!start.converged) continue;
+    if (first == nullptr) first = &start;
+    for (size_t k = 0; k < problem.unknowns(); ++k) {
+      const FitEstimate& estimate = response.unknowns[k];
+      const double distance = std::fabs(start.to[k] - first->to[k]);
+      if (!estimate.seen) continue;
+      if (distance > kSamePlace * *estimate.sigma && distance > kSamePart * std::fabs(first->to[k])) return true;
+    }
+  }
+  return false;
+}
+
+// --- In sentences ---
+
+std::string WhyUnseen(const FitEstimate& estimate, const std::vector<FitRow>& rows) {
+  if (!estimate.row_shares.empty()) return "only a combination with other unknowns changes the measured numbers";
+  const auto all = [&rows](std::initializer_list<Regime> regimes) {
+    return std::all_of(rows.begin(), rows.end(), [&regimes](const FitRow& row) {
+      return std::find(regimes.begin(), regimes.end(), row.regime) != regimes.end();
+    });
+  };
+  if (all({Regime::kSeparating})) return "no row approaches";
+  if (all({Regime::kStickInCompression, Regime::kStickInRestitution, Regime::kLocked})) return "all rows stick";
+  return "no measured number changes with it";
+}
+
+void NoteEnd(const FitEstimate& estimate, const char* which, const FitEnd& end, std::vector<std::string>& notes) {
+  if (end.kind != FitEndKind::kCutByBound) return;
+  notes.push_back(absl::StrCat("The ", which, " end of the interval of ", estimate.path, " is cut by a bound at ",
+                               ShortestDecimal(*end.value), "."));
+}
+
+std::string Limits(const FitRow& row) {
+  constexpr std::array<const char*, kAuditLimitCount> kNames = {"",
+                                                                "energetic coefficient <= 1",
+                                                                "kinetic energy gained <= 0",
+                                                                "normal impulse >= 0",
+                                                                "normal velocity after >= 0",
+                                                                "the friction cone"};
+  std::string text;
+  for (const AuditLimit limit : row.broken_limits) {
+    absl::StrAppend(&text, text.empty() ? "" : ", ", kNames[static_cast<size_t>(limit)]);
+  }
+  return text;
+}
+
+void SetNotes(FitResponse& response) {
+  std::vector<std::string>& notes = response.notes;
+  if (!response.starts.front().converged) {
+    notes.emplace_back("The search from the first start did not converge; more iterations or another start may help.");
+  }
+  for (const FitEstimate& estimate : response.unknowns) {
+    if (!estimate.seen) {
+      notes.push_back(
+          absl::StrCat(estimate.path, " is not seen in these data: ", WhyUnseen(estimate, response.rows), "."));
+    }
+    NoteEnd(estimate, "lower", estimate.low, notes);
+    NoteEnd(estimate, "upper", estimate.high, notes);
+  }
+  if (response.p_value.has_value() && *response.p_value < kFitRefusedBelow) {
+    notes.push_back(absl::StrCat("The data refuse the physics or the stated errors: chi2 has the probability ",
+                                 ShortestDecimal(*response.p_value), "."));
+  }
+  for (size_t row = 0; row < response.rows.size(); ++row) {
+    if (response.rows[row].broken_limits.empty()) continue;
+    notes.push_back(absl::StrCat("Row ", row, " breaks what no impact can break: ", Limits(response.rows[row]), "."));
+  }
+  if (!response.thresholds.empty()) {
+    const FitThreshold& first = response.thresholds.front();
+    notes.push_back(absl::StrCat("The best fit lies on a threshold: the derivatives of ", first.of, " by ", first.by,
+                                 " in row ", first.row,
+                                 " differ below and above it. Sigma and covariance do not hold "
+                                 "there; the intervals do."));
+  }
+  if (response.starts_differ) {
+    notes.emplace_back("Searches from different starts ended in different places; the best of them is the answer.");
+  }
+  if (!response.exact_derivatives) {
+    notes.push_back(absl::StrCat("Derivatives are central differences: ", response.why_differences, "."));
+  }
+}
+
+}  // namespace
+
+void Judge(const Problem& problem, const std::vector<double>& best, const Information& information, Model& model,
+           FitResponse& response) {
+  if (model.is_stopped()) return;
+  response.covariance = information.covariance;
+  response.correlation = information.correlation;
+  response.why_differences = problem.why_differences;
+  response.exact_derivatives = problem.why_differences.empty();
+  SetRows(problem, best, model, response);
+  response.degrees_of_freedom = static_cast<int64_t>(problem.numbers.size()) - static_cast<int64_t>(information.rank);
+  if (response.degrees_of_freedom > 0) {
+    response.p_value = ChiSquaredBeyond(response.chi2, static_cast<double>(response.degrees_of_freedom));
+  }
+  AuditRows(problem, best, model, response);
+  response.refused = (response.p_value.has_value() && *response.p_value < kFitRefusedBelow) ||
+                     std::any_of(response.rows.begin(), response.rows.end(),
+                                 [](const FitRow& row) { return !row.broken_limits.empty(); });
+  SetThresholds(problem, best, model, response);
+  response.starts_differ = StartsDiffer(problem, response);
+  SetNotes(response);
+}
+
+}  // namespace ricochet::fit

@@ -1,0 +1,166 @@
+#include "core/fit/model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "core/answer/derivatives.h"
+#include "core/rows/row_source.h"
+
+namespace ricochet::fit {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+// The cube root of the rounding of a double: the step for which central differences are most exact.
+constexpr double kStep = 6e-6;
+
+// The slope that a search can use where the sides differ.
+double SlopeOf(const Derivative& derivative) {
+  if (derivative.value.has_value()) return *derivative.value;
+  if (derivative.from_below.has_value() && derivative.from_above.has_value()) {
+    return 0.5 * (*derivative.from_below + *derivative.from_above);
+  }
+  return derivative.from_below.value_or(derivative.from_above.value_or(0.0));
+}
+
+double MeanOfSides(double below, double above) {
+  if (std::isnan(below)) return std::isnan(above) ? 0.0 : above;
+  return std::isnan(above) ? below : 0.5 * (below + above);
+}
+
+}  // namespace
+
+Model::Model(const Problem& problem, absl::FunctionRef<bool()> stopped)
+    : problem_(problem),
+      stopped_(stopped),
+      solver_(problem.batch.scene, problem.batch.fields, problem.batch.columns, problem.batch.demand),
+      driven_(problem.batch.scene, problem.batch.fields) {}
+
+// Solves all rows at each point one after the other, so that they share the lanes.
+bool Model::SolveAt(const std::vector<std::vector<double>>& points) {
+  const size_t rows = problem_.rows;
+  const size_t count = rows * points.size();
+  std::vector<std::vector<double>> fields(problem_.batch.fields.size(), std::vector<double>(count));
+  for (size_t p = 0; p < points.size(); ++p) {
+    const auto place = static_cast<std::ptrdiff_t>(p * rows);
+    for (size_t k = 0; k < fields.size(); ++k) {
+      const bool is_unknown = k < problem_.unknowns();
+      if (is_unknown) std::fill_n(fields[k].begin() + place, rows, points[p][k]);
+      if (!is_unknown) std::copy_n(problem_.inputs[k - problem_.unknowns()].begin(), rows, fields[k].begin() + place);
+    }
+  }
+  const std::vector<absl::Span<const double>> arrays(fields.begin(), fields.end());
+  ArrayRows source(arrays);
+  outputs_.assign(problem_.columns(), std::vector<double>(count));
+  regimes_.resize(count);
+  bad_rows_.clear();
+  SweepSummary counts;
+  RowSink sink = {
+      .columns = {}, .regimes = absl::MakeSpan(regimes_), .statuses = {}, .counts = counts, .bad_rows = &bad_rows_};
+  for (std::vector<double>& column : outputs_) sink.columns.push_back(column.data());
+  const auto solved = is_stopped_
+                          ? std::nullopt
+                          : solver_.Solve(source, 0, static_cast<int64_t>(count), sink, stopped_, [] { return false; });
+  is_stopped_ = !solved.has_value();
+  return !is_stopped_;
+}
+
+bool Model::Predict(absl::Span<const double> unknowns, std::vector<double>& predicted) {
+  if (!SolveAt({{unknowns.begin(), unknowns.end()}})) return false;
+  predicted.clear();
+  for (const Number& number : problem_.numbers) predicted.push_back(outputs_[number.column][number.row]);
+  return std::all_of(predicted.begin(), predicted.end(), [](double value) { return std::isfinite(value); });
+}
+
+std::optional<BadRow> Model::Bad(const std::vector<double>& predicted) const {
+  for (size_t i = 0; i < predicted.size(); ++i) {
+    if (std::isfinite(predicted[i])) continue;
+    const auto row = static_cast<int64_t>(problem_.numbers[i].row);
+    for (const BadRow& bad : bad_rows_) {
+      if (bad.row == row) return bad;
+    }
+    return BadRow{.row = row, .field = problem_.batch.columns[problem_.numbers[i].column], .description = ""};
+  }
+  return std::nullopt;
+}
+
+bool Model::Differentiate(absl::Span<const double> unknowns, const std::vector<bool>& is_free,
+                          std::vector<double>& derivatives) {
+  if (problem_.why_differences.empty()) return Exact(unknowns, is_free, derivatives);
+  std::vector<double> above;
+  if (!Sides(unknowns, is_free, derivatives, above)) return false;
+  for (size_t i = 0; i < above.size(); ++i) derivatives[i] = MeanOfSides(derivatives[i], above[i]);
+  return true;
+}
+
+bool Model::Exact(absl::Span<const double> unknowns, const std::vector<bool>& is_free,
+                  std::vector<double>& derivatives) {
+  DerivativePaths paths = {.of = problem_.batch.columns, .by = {}};
+  std::vector<size_t> places;
+  for (size_t k = 0; k < unknowns.size(); ++k) {
+    if (!is_free[k]) continue;
+    places.push_back(k);
+    paths.by.push_back(problem_.batch.fields[k]);
+  }
+  derivatives.assign(problem_.numbers.size() * unknowns.size(), 0.0);
+  std::vector<Derivative> of_row;
+  std::optional<size_t> row;
+  for (size_t i = 0; i < problem_.numbers.size(); ++i) {
+    const Number& number = problem_.numbers[i];
+    if (row != number.row) {
+      is_stopped_ = is_stopped_ || stopped_();
+      std::optional<SceneContact> contact;
+      const Scene& scene = SceneOf(number.row, unknowns);
+      if (is_stopped_ || !driven_.IsValid(contact)) return false;
+      of_row = DerivativesOf(scene, paths);
+      row = number.row;
+    }
+    for (size_t j = 0; j < places.size(); ++j) {
+      derivatives[i * unknowns.size() + places[j]] = SlopeOf(of_row[number.column * places.size() + j]);
+    }
+  }
+  return true;
+}
+
+bool Model::Sides(absl::Span<const double> unknowns, const std::vector<bool>& is_free, std::vector<double>& below,
+                  std::vector<double>& above) {
+  // The first point is the place itself; each side of a free unknown is a point more.
+  std::vector<std::vector<double>> points = {{unknowns.begin(), unknowns.end()}};
+  for (size_t k = 0; k < unknowns.size(); ++k) {
+    if (!is_free[k]) continue;
+    const double step = kStep * std::max(std::fabs(unknowns[k]), 1e-3 * problem_.scale[k]);
+    for (const double side : {-step, step}) {
+      points.push_back(points.front());
+      const double value = unknowns[k] + side;
+      points.back()[k] = value < problem_.low[k] || value > problem_.high[k] ? kNone : value;
+    }
+  }
+  if (!SolveAt(points)) return false;
+  below.assign(problem_.numbers.size() * unknowns.size(), 0.0);
+  above = below;
+  for (size_t i = 0; i < problem_.numbers.size(); ++i) {
+    const Number& number = problem_.numbers[i];
+    const auto at = [&](size_t point) { return outputs_[number.column][point * problem_.rows + number.row]; };
+    size_t point = 1;
+    for (size_t k = 0; k < unknowns.size(); ++k) {
+      if (!is_free[k]) continue;
+      const size_t place = i * unknowns.size() + k;
+      below[place] = (at(point) - at(0)) / (points[point][k] - unknowns[k]);
+      above[place] = (at(point + 1) - at(0)) / (points[point + 1][k] - unknowns[k]);
+      point += 2;
+    }
+  }
+  return true;
+}
+
+const Scene& Model::SceneOf(size_t row, absl::Span<const double> unknowns) {
+  for (size_t k = 0; k < problem_.batch.fields.size(); ++k) {
+    const bool is_unknown = k < problem_.unknowns();
+    driven_.Set(k, is_unknown ? unknowns[k] : problem_.inputs[k - problem_.unknowns()][row]);
+  }
+  return driven_.scene();
+}
+
+}  // namespace ricochet::fit

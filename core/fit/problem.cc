@@ -1,0 +1,250 @@
+#include "core/fit/problem.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
+#include "core/answer/derivatives.h"
+#include "core/base/decimal.h"
+#include "core/base/nearest.h"
+#include "core/scene/field.h"
+#include "core/scene/numbers.h"
+#include "ricochet/error.h"
+
+namespace ricochet::fit {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// The range in which a number keeps its rule.
+std::pair<double, double> RangeOf(NumberRule rule) {
+  switch (rule) {
+    case NumberRule::kPositive:
+    case NumberRule::kNotNegative:
+      return {0.0, kInfinity};
+    case NumberRule::kUnitInterval:
+      return {0.0, 1.0};
+    case NumberRule::kPlusMinusOne:
+      return {-1.0, 1.0};
+    case NumberRule::kOneToFour:
+      return {1.0, 4.0};
+    case NumberRule::kHalfTurn:
+      return {0.0, std::numbers::pi};
+    case NumberRule::kRatioSquared:
+      return {kLeastTangentialRatioSquared, kMostTangentialRatioSquared};
+    case NumberRule::kFinite:
+    case NumberRule::kAngle:
+      break;
+  }
+  return {-kInfinity, kInfinity};
+}
+
+std::optional<double> NumberOf(const Scene& scene, const std::string& path) {
+  std::optional<double> number;
+  VisitNumbers(scene, [&](const NumberPath& at, double value, NumberRule /*rule*/) {
+    if (at.Text() == path) number = value;
+  });
+  return number;
+}
+
+class Door {
+ public:
+  explicit Door(const FitRequest& request) : request_(request) {}
+
+  absl::StatusOr<Problem> Pass() {
+    SetRows();
+    SetBatch();
+    const bool has_fields = violations_.empty();
+    for (size_t k = 0; k < request_.unknowns.size() && has_fields; ++k) SetUnknown(k);
+    for (size_t i = 0; i < request_.inputs.size(); ++i) SetInput(i);
+    SetNumbers();
+    SetSearch();
+    SetRegion();
+    if (!violations_.empty()) return InvalidRequest(violations_);
+    SetDerivatives();
+    return std::move(problem_);
+  }
+
+ private:
+  void Refuse(std::string field, const std::string& found, std::string rule) {
+    if (!IsFull(violations_)) violations_.push_back(MakeViolation(std::move(field), found, std::move(rule)));
+  }
+  void RefuseNumber(std::string field, double value, std::string rule) {
+    Refuse(std::move(field), absl::StrCat("= ", ShortestDecimal(value)), std::move(rule));
+  }
+
+  void SetRows() {
+    if (request_.unknowns.empty()) Refuse("unknowns", "is empty", "name at least one number of the scene");
+    if (request_.measured.empty()) Refuse("measured", "is empty", "name at least one number of the outcome");
+    for (const FitMeasured& measured : request_.measured)
+      problem_.rows = std::max(problem_.rows, measured.values.size());
+  }
+
+  // Checks scene and paths as for a batch, whose fields and columns have other names here.
+  void SetBatch() {
+    if (request_.unknowns.empty() || request_.measured.empty()) return;
+    BatchSetup setup = {.scene = request_.scene};
+    for (const FitUnknown& unknown : request_.unknowns) setup.fields.push_back(unknown.path);
+    for (const FitInput& input : request_.inputs) setup.fields.push_back(input.path);
+    for (const FitMeasured& measured : request_.measured) setup.columns.push_back(measured.path);
+    std::vector<std::pair<std::string, std::string>> names;
+    for (size_t i = 0; i < setup.fields.size(); ++i) {
+      const size_t unknowns = request_.unknowns.size();
+      names.emplace_back(absl::StrCat("fields[", i, "]"), i < unknowns
+                                                              ? absl::StrCat("unknowns[", i, "].path")
+                                                              : absl::StrCat("inputs[", i - unknowns, "].path"));
+    }
+    for (size_t j = 0; j < setup.columns.size(); ++j) {
+      names.emplace_back(absl::StrCat("columns[", j, "]"), absl::StrCat("measured[", j, "].path"));
+    }
+    absl::StatusOr<CheckedBatch> batch = CheckBatch(setup);
+    if (batch.ok()) {
+      problem_.batch = *std::move(batch);
+      return;
+    }
+    for (Violation violation : ViolationsOf(batch.status())) {
+      absl::StrReplaceAll(names, &violation.field);
+      absl::StrReplaceAll(names, &violation.description);
+      violations_.push_back(std::move(violation));
+    }
+  }
+
+  void SetUnknown(size_t k) {
+    const FitUnknown& unknown = request_.unknowns[k];
+    const std::string name = absl::StrCat("unknowns[", k, "]");
+    Scene scene = request_.scene;
+    const std::optional<double> own = NumberOf(scene, unknown.path);
+    const auto [least, most] = RangeOf(ResolveField(unknown.path, scene)->rule());
+    const std::string range = absl::StrCat("be in [", ShortestDecimal(least), ", ", ShortestDecimal(most), "]");
+    for (const auto& [bound, value] : {std::pair(".low", unknown.low), std::pair(".high", unknown.high)}) {
+      if (value.has_value() && !(*value >= least && *value <= most)) RefuseNumber(name + bound, *value, range);
+    }
+    const double low = unknown.low.value_or(least);
+    const double high = unknown.high.value_or(most);
+    if (!(low < high)) {
+      RefuseNumber(name + ".low", low, absl::StrCat("be below the upper bound ", ShortestDecimal(high)));
+    }
+    const std::optional<double> start = unknown.start.has_value() ? unknown.start : own;
+    if (!start.has_value()) {
+      Refuse(name + ".start", "is unset", absl::StrCat("be set: the scene states no ", unknown.path));
+    } else if (!(*start >= low && *start <= high) || !std::isfinite(*start)) {
+      RefuseNumber(name + ".start", *start,
+                   absl::StrCat("be in [", ShortestDecimal(low), ", ", ShortestDecimal(high), "], the bounds"));
+    }
+    const double at = start.value_or(0.0);
+    const double width = std::isfinite(high - low) ? high - low : 1.0;
+    problem_.start.push_back(at);
+    problem_.low.push_back(low);
+    problem_.high.push_back(high);
+    problem_.scale.push_back(at != 0.0 ? std::fabs(at) : width);
+  }
+
+  // True if a list has an entry for each row; `may_be_one` allows it one for all.
+  bool HasRows(const std::string& field, size_t size, bool may_be_one) {
+    if (size == problem_.rows || (may_be_one && size == 1)) return true;
+    Refuse(field, absl::StrCat("has ", size, size == 1 ? " number" : " numbers"),
+           absl::StrCat("have ", problem_.rows, ", one for each row", may_be_one ? ", or one for all" : ""));
+    return false;
+  }
+
+  void SetInput(size_t i) {
+    const std::vector<double>& values = request_.inputs[i].values;
+    const std::string field = absl::StrCat("inputs[", i, "].values");
+    if (!HasRows(field, values.size(), true)) return;
+    std::vector<double>& column = problem_.inputs.emplace_back(problem_.rows);
+    for (size_t row = 0; row < problem_.rows; ++row) {
+      column[row] = values.size() == 1 ? values[0] : values[row];
+      if (!std::isfinite(column[row])) RefuseNumber(absl::StrCat(field, "[", row, "]"), column[row], "be finite");
+    }
+  }
+
+  void SetNumbers() {
+    for (size_t row = 0; row < problem_.rows; ++row) {
+      for (size_t column = 0; column < request_.measured.size(); ++column) SetNumber(row, column);
+    }
+    if (problem_.numbers.size() >= request_.unknowns.size() || request_.measured.empty()) return;
+    Refuse("measured", absl::StrCat("has ", problem_.numbers.size(), " numbers in ", problem_.rows, " rows"),
+           absl::StrCat("have at least ", request_.unknowns.size(), ", one for each unknown"));
+  }
+
+  void SetNumber(size_t row, size_t column) {
+    const FitMeasured& measured = request_.measured[column];
+    const std::string name = absl::StrCat("measured[", column, "]");
+    const bool fits = row > 0 || (HasRows(name + ".values", measured.values.size(), false) &
+                                  HasRows(name + ".sigma", measured.sigma.size(), true));
+    const bool is_one = measured.sigma.size() == 1;
+    if (!fits || row >= measured.values.size() || (!is_one && row >= measured.sigma.size())) return;
+    const double value = measured.values[row];
+    const double sigma = measured.sigma[is_one ? 0 : row];
+    if (std::isnan(value)) return;
+    if (std::isinf(value)) {
+      RefuseNumber(absl::StrCat(name, ".values[", row, "]"), value, "be finite, or NaN where nothing was measured");
+    }
+    if (!(sigma > 0.0 && std::isfinite(sigma)) && (row == 0 || !is_one)) {
+      RefuseNumber(absl::StrCat(name, ".sigma[", row, "]"), sigma, "be > 0, the standard deviation of the error");
+    }
+    problem_.numbers.push_back({row, column, value, sigma});
+  }
+
+  template <typename Value>
+  void SetCount(const char* field, std::optional<Value> given, Value most, Value& to) {
+    to = given.value_or(to);
+    if (to < 1 || to > most) Refuse(field, absl::StrCat("= ", to), absl::StrCat("be in [1, ", most, "]"));
+  }
+
+  void SetSearch() {
+    SetCount("starts", request_.starts, kMostFitStarts, problem_.starts);
+    SetCount("max_iterations", request_.max_iterations, kMostFitIterations, problem_.max_iterations);
+    const bool is_robust = request_.loss == FitLoss::kHuber || request_.loss == FitLoss::kCauchy;
+    problem_.loss = is_robust ? request_.loss : FitLoss::kSquares;
+    problem_.loss_scale = request_.loss_scale.value_or(request_.loss == FitLoss::kHuber ? kHuberScale : kCauchyScale);
+    if (!is_robust && request_.loss_scale.has_value()) {
+      RefuseNumber("loss_scale", *request_.loss_scale, "be unset without a robust loss");
+    } else if (!(problem_.loss_scale > 0.0 && std::isfinite(problem_.loss_scale))) {
+      RefuseNumber("loss_scale", problem_.loss_scale, "be > 0, in sigmas");
+    }
+  }
+
+  void SetRegion() {
+    std::vector<std::string> known;
+    for (const FitUnknown& unknown : request_.unknowns) known.push_back(unknown.path);
+    for (size_t i = 0; i < request_.region.size(); ++i) {
+      const auto found = std::find(known.begin(), known.end(), request_.region[i]);
+      if (found == known.end()) {
+        Refuse(absl::StrCat("region[", i, "]"), Found(request_.region[i]),
+               absl::StrCat("be the path of an unknown", DidYouMean(request_.region[i], known)));
+      }
+      problem_.region.push_back(static_cast<size_t>(found - known.begin()));
+    }
+    const size_t size = problem_.region.size();
+    if (size != 0 && (size != 2 || problem_.region[0] == problem_.region[1])) {
+      Refuse("region", absl::StrCat("has ", size, " entries"), "have two different unknowns, or none");
+    }
+  }
+
+  // All rows have the same parts, so that one scene tells for all of them whether there are derivatives.
+  void SetDerivatives() {
+    Scene scene = problem_.batch.scene;
+    for (const std::string& path : problem_.batch.fields) static_cast<void>(ResolveField(path, scene));
+    const auto why = CheckDerivatives(scene, {}, {.of = problem_.batch.columns, .by = problem_.unknown_paths()});
+    if (why.empty()) return;
+    const Violation& first = why.front();
+    problem_.why_differences = first.field == "derivatives" ? absl::StrCat("derivatives must ", first.rule)
+                                                            : absl::StrCat(first.field, " ", first.description);
+  }
+
+  const FitRequest& request_;
+  Problem problem_;
+  std::vector<Violation> violations_;
+};
+
+}  // namespace
+
+absl::StatusOr<Problem> CheckFit(const FitRequest& request) { return Door(request).Pass(); }
+
+}  // namespace ricochet::fit

@@ -1,0 +1,50 @@
+// Problem: a request for a fit that has passed the door.
+
+#ifndef RICOCHET_CORE_FIT_PROBLEM_H_
+#define RICOCHET_CORE_FIT_PROBLEM_H_
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "absl/status/statusor.h"
+#include "core/rows/checked_rows.h"
+#include "ricochet/fit.h"
+
+namespace ricochet::fit {
+
+// A measured number.
+struct Number {
+  size_t row = 0;
+  size_t column = 0;
+  double value = 0.0;
+  double sigma = 0.0;
+};
+
+struct Problem {
+  CheckedBatch batch;  // Its fields are the unknowns and then the inputs, its columns the measured ones.
+  size_t rows = 0;
+  std::vector<std::vector<double>> inputs;  // A column for each input, with a value for each row.
+  std::vector<Number> numbers;              // Row by row.
+  // For each unknown; bounds may be infinite. A scale is > 0 and of the size of the unknown.
+  std::vector<double> start, low, high, scale;
+  FitLoss loss = FitLoss::kSquares;
+  double loss_scale = 1.0;
+  int32_t starts = kFitStarts;
+  int32_t max_iterations = kFitIterations;
+  std::vector<size_t> region;   // The unknowns whose region is wanted: none or two.
+  std::string why_differences;  // Why there are no exact derivatives; empty if there are.
+
+  size_t unknowns() const { return start.size(); }
+  size_t columns() const { return batch.columns.size(); }
+  std::vector<std::string> unknown_paths() const {
+    return {batch.fields.begin(), batch.fields.begin() + static_cast<std::ptrdiff_t>(unknowns())};
+  }
+};
+
+// Errors: INVALID_ARGUMENT with every violation.
+absl::StatusOr<Problem> CheckFit(const FitRequest& request);
+
+}  // namespace ricochet::fit
+
+#endif  // RICOCHET_CORE_FIT_PROBLEM_H_

@@ -1,0 +1,107 @@
+#include "core/fit/profile.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <utility>
+
+namespace ricochet::fit {
+namespace {
+
+// A search that has gone so many times the first distance has no end.
+constexpr double kFarthest = 0x1p20;
+// An end is exact to this part of its distance, or where the root of the rise is exact to it.
+constexpr double kEndTolerance = 1e-6;
+// A better fit by no more than this is the same fit.
+constexpr double kSameFit = 1e-6;
+
+class Ray {
+ public:
+  Ray(const Minimum& best, const std::vector<double>& direction, double rise, Model& model)
+      : best_(best), direction_(direction), rise_(rise), model_(model), last_(best.at) {
+    for (const double step : direction) is_free_.push_back(step == 0.0);
+    const Problem& problem = model.problem();
+    for (size_t k = 0; k < direction.size(); ++k) {
+      if (is_free_[k]) continue;
+      const double bound = direction[k] > 0.0 ? problem.high[k] : problem.low[k];
+      longest_ = std::min(longest_, (bound - best.at[k]) / direction[k]);
+    }
+    longest_ = std::max(longest_, 0.0);
+  }
+
+  RayEnd Find() {
+    RayPoint inside;
+    RayPoint outside = Next(std::min(1.0, longest_));
+    while (outside.rise < rise_ && !model_.is_stopped()) {
+      inside = outside;
+      if (inside.distance >= longest_) return End(FitEndKind::kCutByBound, inside.distance);
+      if (inside.distance >= kFarthest) return End(FitEndKind::kUnbounded, inside.distance);
+      outside = Next(std::min(2.0 * inside.distance, longest_));
+    }
+    return Narrow(inside, outside);
+  }
+
+ private:
+  RayEnd End(FitEndKind kind, double distance) {
+    end_.kind = kind;
+    end_.distance = distance;
+    return std::move(end_);
+  }
+
+  // The other unknowns start where they ended last, and at the best fit.
+  RayPoint Next(double distance) {
+    Minimum least;
+    least.objective = std::numeric_limits<double>::infinity();
+    for (const std::vector<double>& from : {last_, best_.at}) {
+      std::vector<double> start = from;
+      for (size_t k = 0; k < start.size(); ++k) {
+        if (is_free_[k]) continue;
+        start[k] =
+            std::clamp(best_.at[k] + distance * direction_[k], model_.problem().low[k], model_.problem().high[k]);
+      }
+      Minimum found = Minimize(start, is_free_, model_);
+      if (found.objective < least.objective) least = std::move(found);
+      if (least.objective - best_.objective < rise_) break;
+    }
+    if (std::isfinite(least.objective)) last_ = least.at;
+    if (least.objective < best_.objective - kSameFit && !end_.better.has_value()) end_.better = least;
+    end_.computed.push_back({distance, least.objective - best_.objective});
+    return end_.computed.back();
+  }
+
+  // Closes in on the end between a place inside and one outside. The root of the rise is nearly straight, so that the
+  // next place is where a line through both meets that of the end; every third is the middle.
+  RayEnd Narrow(RayPoint inside, RayPoint outside) {
+    const double target = std::sqrt(rise_);
+    const auto root = [](const RayPoint& point) { return std::sqrt(std::max(point.rise, 0.0)); };
+    for (int i = 0; i < 80 && !model_.is_stopped(); ++i) {
+      if (root(outside) - target < kEndTolerance * target) return End(FitEndKind::kFound, outside.distance);
+      if (target - root(inside) < kEndTolerance * target) return End(FitEndKind::kFound, inside.distance);
+      const double width = outside.distance - inside.distance;
+      if (width <= kEndTolerance * outside.distance) break;
+      const double part = (target - root(inside)) / (root(outside) - root(inside));
+      const bool is_line = i % 3 != 2 && part > 0.0;
+      const RayPoint next = Next(inside.distance + width * (is_line ? std::clamp(part, 1e-3, 0.999) : 0.5));
+      (next.rise < rise_ ? inside : outside) = next;
+    }
+    return End(std::isfinite(outside.rise) ? FitEndKind::kFound : FitEndKind::kCutByBound, inside.distance);
+  }
+
+  const Minimum& best_;
+  const std::vector<double>& direction_;
+  const double rise_;
+  Model& model_;
+  std::vector<bool> is_free_;
+  std::vector<double> last_;                                  // The unknowns of the last place.
+  double longest_ = std::numeric_limits<double>::infinity();  // The distance to the nearest bound.
+  RayEnd end_;
+};
+
+}  // namespace
+
+RayEnd EndOfRay(const Minimum& best, const std::vector<double>& direction, double rise, Model& model) {
+  return Ray(best, direction, rise, model).Find();
+}
+
+}  // namespace ricochet::fit

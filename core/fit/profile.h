@@ -1,0 +1,43 @@
+// Ray: how far unknowns can go from the best fit in a direction before the data refuse it, whatever the others are.
+//
+// The rise at a distance t is the least objective with the unknowns of the ray held at best + t direction, less that of
+// the best fit. Profile likelihood ends a 95 % interval where the rise is the quantile of chi-squared for one degree of
+// freedom, and a region of two unknowns where it is that for two (Cox and Snell; Meeker and Escobar, The American
+// Statistician 49 (1995) 48).
+
+#ifndef RICOCHET_CORE_FIT_PROFILE_H_
+#define RICOCHET_CORE_FIT_PROFILE_H_
+
+#include <optional>
+#include <vector>
+
+#include "core/fit/model.h"
+#include "core/fit/search.h"
+#include "ricochet/fit.h"
+
+namespace ricochet::fit {
+
+// The quantiles of chi-squared at kFitConfidence, for one and two degrees of freedom.
+inline constexpr double kRiseOfInterval = 3.841458820694124;
+inline constexpr double kRiseOfRegion = 5.991464547107979;
+
+// A place on a ray, and the least objective there.
+struct RayPoint {
+  double distance = 0.0;
+  double rise = 0.0;  // Infinite where the scene breaks a rule.
+};
+
+struct RayEnd {
+  FitEndKind kind = FitEndKind::kUnspecified;
+  double distance = 0.0;
+  std::vector<RayPoint> computed;  // In the order of the search.
+  // A place that fits better than the best fit, if the search met one: the best fit was not the best.
+  std::optional<Minimum> better;
+};
+
+// Finds the end of the ray. Unknowns whose direction is 0 are free; a distance of 1 should be of the size of the end.
+RayEnd EndOfRay(const Minimum& best, const std::vector<double>& direction, double rise, Model& model);
+
+}  // namespace ricochet::fit
+
+#endif  // RICOCHET_CORE_FIT_PROFILE_H_

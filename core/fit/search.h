@@ -1,0 +1,33 @@
+// Minimize: the unknowns within their bounds that minimize the sum of the losses of all residuals, by the
+// Levenberg-Marquardt search of Ceres on one thread. It finds a minimum near its start, not the least of several.
+
+#ifndef RICOCHET_CORE_FIT_SEARCH_H_
+#define RICOCHET_CORE_FIT_SEARCH_H_
+
+#include <cstdint>
+#include <vector>
+
+#include "core/fit/model.h"
+
+namespace ricochet::fit {
+
+struct Minimum {
+  std::vector<double> at;
+  double objective = 0.0;  // The sum of the losses; infinite if the start has no prediction.
+  int32_t iterations = 0;
+  bool converged = false;
+};
+
+// Searches from a start within the bounds, and holds the unknowns that are not free.
+Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, Model& model);
+
+// The loss of a squared residual, and its derivative by it: the weight of the residual.
+struct Loss {
+  double loss = 0.0;
+  double weight = 1.0;
+};
+Loss LossOf(const Problem& problem, double squared_residual);
+
+}  // namespace ricochet::fit
+
+#endif  // RICOCHET_CORE_FIT_SEARCH_H_

@@ -1,0 +1,33 @@
+// Converts fits, their requests and responses to their protos and back. An enum that this build does not know becomes
+// kUnspecified.
+
+#ifndef RICOCHET_PROTO_WIRE_FIT_H_
+#define RICOCHET_PROTO_WIRE_FIT_H_
+
+#include "proto/wire/enums.h"
+#include "ricochet/fit.h"
+#include "ricochet/v1/fit.pb.h"
+
+namespace ricochet {
+
+v1::FitRequest ToProto(const FitRequest& request);
+FitRequest FromProto(const v1::FitRequest& proto);
+v1::FitResponse ToProto(const FitResponse& response);
+FitResponse FromProto(const v1::FitResponse& proto);
+
+template <>
+struct EnumPair<FitLoss> : SameNumbers<v1::FitLoss, v1::FitLoss_IsValid> {};
+template <>
+struct EnumPair<v1::FitLoss> : SameNumbers<FitLoss, v1::FitLoss_IsValid> {};
+template <>
+struct EnumPair<FitEndKind> : SameNumbers<v1::FitEnd::Kind, v1::FitEnd::Kind_IsValid> {};
+template <>
+struct EnumPair<v1::FitEnd::Kind> : SameNumbers<FitEndKind, v1::FitEnd::Kind_IsValid> {};
+template <>
+struct EnumPair<AuditLimit> : SameNumbers<v1::AuditLimit, v1::AuditLimit_IsValid> {};
+template <>
+struct EnumPair<v1::AuditLimit> : SameNumbers<AuditLimit, v1::AuditLimit_IsValid> {};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_PROTO_WIRE_FIT_H_

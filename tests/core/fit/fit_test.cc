@@ -1,0 +1,217 @@
+// Fits of impacts whose truth is known, and what a fit says of data that tell nothing.
+
+#include "core/fit/fit.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "core/fit/information.h"
+#include "ricochet/solver.h"
+#include "tests/core/fit/fit_cases.h"
+
+namespace ricochet::fit {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+bool Never() { return false; }
+
+bool HasNote(const FitResponse& response, const std::string& text) {
+  for (const std::string& note : response.notes) {
+    if (note.find(text) != std::string::npos) return true;
+  }
+  return false;
+}
+
+class Recovery : public testing::TestWithParam<Case> {};
+
+TEST_P(Recovery, NoiselessDataGiveTheTruth) {
+  const absl::StatusOr<FitResponse> response = FitScene(Noiseless(GetParam()), Never);
+  ASSERT_TRUE(response.ok()) << response.status();
+  for (size_t k = 0; k < GetParam().true_values.size(); ++k) {
+    const FitEstimate& estimate = response->unknowns[k];
+    const double truth = GetParam().true_values[k];
+    EXPECT_NEAR(estimate.value, truth, 1e-8 * truth) << estimate.path;
+    EXPECT_TRUE(estimate.seen) << estimate.path;
+    EXPECT_EQ(estimate.low.kind, FitEndKind::kFound) << estimate.path;
+    EXPECT_LT(*estimate.low.value, truth);
+    EXPECT_GT(estimate.high.value.value_or(2.0 * truth), truth);
+  }
+  EXPECT_TRUE(response->starts.front().converged);
+  EXPECT_FALSE(response->refused);
+  EXPECT_THAT(response->outliers, IsEmpty());
+  EXPECT_LT(response->chi2, 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Systems, Recovery,
+                         testing::Values(PendulumCase(), ContactCase(), BodyCase(), SpaceCase(), CompliantCase()),
+                         [](const auto& given) { return given.param.name; });
+
+TEST(FitTest, SaysWhichDerivativesItUsed) {
+  EXPECT_TRUE(FitScene(Noiseless(ContactCase()), Never)->exact_derivatives);
+  const FitResponse space = *FitScene(Noiseless(SpaceCase()), Never);
+  EXPECT_FALSE(space.exact_derivatives);
+  EXPECT_THAT(space.why_differences, HasSubstr("impact in space"));
+  EXPECT_TRUE(HasNote(space, "central differences"));
+}
+
+// All rows stick, so that any larger friction gives the same numbers.
+TEST(FitTest, FrictionOfRowsThatStickHasNoFiniteInterval) {
+  Case sticking = ContactCase();
+  sticking.truth.friction.kinetic_coefficient = 2.0;
+  sticking.unknowns[0].start = 3.0;
+  sticking.inputs[0].values = {0.1, 0.15, 0.2, 0.1, 0.2, 0.1};
+  for (const bool bounded : {false, true}) {
+    if (bounded) sticking.unknowns[0].high = 5.0;
+    const FitResponse response = *FitScene(Noiseless(sticking), Never);
+    const FitEstimate& friction = response.unknowns[0];
+    EXPECT_FALSE(friction.seen);
+    EXPECT_FALSE(friction.sigma.has_value());
+    EXPECT_EQ(friction.high.kind, FitEndKind::kNotSeen);
+    EXPECT_FALSE(friction.high.value.has_value());
+    EXPECT_THAT(friction.row_shares, IsEmpty());
+    EXPECT_TRUE(std::isnan(response.covariance[0]));
+    EXPECT_TRUE(HasNote(response, "friction.kinetic_coefficient is not seen in these data: all rows stick"));
+    EXPECT_TRUE(response.unknowns[1].seen);
+    EXPECT_EQ(response.unknowns[1].low.kind, FitEndKind::kFound);
+  }
+}
+
+TEST(FitTest, AnUnknownThatNoNumberDependsOnHasNoEnds) {
+  Case given = ContactCase();
+  given.unknowns.push_back({.path = "friction.static_coefficient", .start = 0.5});
+  given.truth.friction.kinetic_coefficient = 0.05;
+  given.truth.friction.static_coefficient = 0.5;
+  given.unknowns[0].start = 0.06;
+  given.inputs[0].values = {3.0, 3.5, 4.0, 5.0, 6.0, 7.0};
+  const FitResponse response = *FitScene(Noiseless(given), Never);
+  EXPECT_FALSE(response.unknowns[2].seen);
+  EXPECT_EQ(response.unknowns[2].high.kind, FitEndKind::kNotSeen);
+  EXPECT_FALSE(response.unknowns[2].high.value.has_value());
+  EXPECT_FALSE(response.unknowns[2].low.value.has_value());
+}
+
+// Rows that slide tell the product mu (1 + e) alone where only the tangential velocity is measured and W is diagonal.
+TEST(FitTest, AProductIsNotSeenByItsFactors) {
+  Case given = ContactCase();
+  std::get<PlanarContact>(given.truth.system).w_tn_per_kg = 0.0;
+  given.inputs[0].values = {3.0, 4.0, 5.0, 6.0, 7.0, 8.0};
+  given.measured.pop_back();
+  const FitResponse response = *FitScene(Noiseless(given), Never);
+  EXPECT_FALSE(response.unknowns[0].seen);
+  EXPECT_FALSE(response.unknowns[1].seen);
+  EXPECT_EQ(response.degrees_of_freedom, 5);
+  EXPECT_TRUE(HasNote(response, "only a combination with other unknowns"));
+}
+
+TEST(FitTest, NamesAnOutlierAndRefusesTheData) {
+  FitRequest request = Noiseless(ContactCase());
+  request.measured[1].values[3] += 0.2;
+  const FitResponse squares = *FitScene(request, Never);
+  ASSERT_FALSE(squares.outliers.empty());
+  EXPECT_EQ(squares.outliers[0].row, 3);
+  EXPECT_TRUE(squares.refused);
+  EXPECT_TRUE(HasNote(squares, "refuse the physics"));
+  request.loss = FitLoss::kCauchy;
+  const FitResponse robust = *FitScene(request, Never);
+  ASSERT_EQ(robust.outliers.size(), 1);
+  EXPECT_NEAR(robust.unknowns[1].value, 0.6, 0.003);
+  EXPECT_GT(std::fabs(squares.unknowns[1].value - 0.6), 0.01);
+  request.loss = FitLoss::kHuber;
+  EXPECT_NEAR(FitScene(request, Never)->unknowns[1].value, 0.6, 0.01);
+}
+
+TEST(FitTest, ARowThatBreaksALimitRefusesThePhysics) {
+  FitRequest request = Noiseless(ContactCase());
+  request.measured[1].values[2] = 1.9;  // It rebounds faster than it came.
+  const FitResponse response = *FitScene(request, Never);
+  EXPECT_FALSE(response.rows[2].broken_limits.empty());
+  EXPECT_TRUE(response.refused);
+  EXPECT_TRUE(HasNote(response, "Row 2 breaks"));
+}
+
+TEST(FitTest, AnIntervalIsCutByItsBound) {
+  FitRequest request = Noiseless(ContactCase());
+  request.unknowns[1].low = 0.5999;
+  const FitResponse response = *FitScene(request, Never);
+  EXPECT_EQ(response.unknowns[1].low.kind, FitEndKind::kCutByBound);
+  EXPECT_EQ(response.unknowns[1].low.value, 0.5999);
+  EXPECT_TRUE(HasNote(response, "lower end of the interval of restitution.poisson is cut by a bound"));
+}
+
+TEST(FitTest, NumbersThatWereNotMeasuredAreLeftOut) {
+  FitRequest request = Noiseless(ContactCase());
+  request.measured[0].values[1] = std::nan("");
+  const FitResponse response = *FitScene(request, Never);
+  EXPECT_EQ(response.degrees_of_freedom, 9);
+  EXPECT_TRUE(std::isnan(response.rows[1].residuals[0]));
+  EXPECT_TRUE(std::isnan(response.rows[1].predicted[0]));
+  EXPECT_FALSE(std::isnan(response.rows[1].residuals[1]));
+}
+
+// Slip that only just stops: the velocity after has a corner at the true friction.
+TEST(FitTest, SaysThatTheBestFitLiesOnAThreshold) {
+  FitRequest request = {.scene = ContactCase().truth,
+                        .unknowns = {{.path = "friction.kinetic_coefficient", .start = 0.3, .low = 0.0, .high = 0.5}},
+                        .inputs = {{"planar_contact.tangential_m_s", {2.0}}},
+                        .measured = {{"contact_velocity_after.tangential_m_s[0]", {0.0}, {0.01}}}};
+  auto& contact = std::get<PlanarContact>(request.scene.system);
+  contact.w_tn_per_kg = 0.0;
+  const FitResponse response = *FitScene(request, Never);
+  // mu w_tt (1 + e) |v|/w_nn = u: slip stops as the impact ends.
+  EXPECT_NEAR(response.unknowns[0].value, 2.0 / (3.0 * 1.6), 1e-6);
+  EXPECT_TRUE(HasNote(response, "threshold") || !response.unknowns[0].seen);
+}
+
+TEST(FitTest, FurtherStartsSpreadOverTheBounds) {
+  FitRequest request = Noiseless(ContactCase());
+  request.unknowns[0].high = 1.0;
+  request.unknowns[1].high = 1.0;
+  request.starts = 8;
+  const FitResponse response = *FitScene(request, Never);
+  ASSERT_EQ(response.starts.size(), 8);
+  for (const FitStart& start : response.starts) {
+    for (size_t k = 0; k < 2; ++k) EXPECT_TRUE(start.from[k] >= 0.0 && start.from[k] <= 1.0);
+  }
+  EXPECT_NE(response.starts[1].from, response.starts[2].from);
+  EXPECT_NEAR(response.unknowns[0].value, 0.25, 1e-8);
+}
+
+TEST(FitTest, TheRegionOfTwoSurroundsTheBestFit) {
+  FitRequest request = Noiseless(ContactCase());
+  request.region = {"friction.kinetic_coefficient", "restitution.poisson"};
+  const FitResponse response = *FitScene(request, Never);
+  ASSERT_EQ(response.region.size(), 48);
+  for (const FitRegionPoint& point : response.region) EXPECT_EQ(point.kind, FitEndKind::kFound);
+  EXPECT_GT(response.region[0].x, *response.unknowns[0].high.value);  // Two degrees of freedom reach further than one.
+}
+
+TEST(FitTest, AStopEndsIt) {
+  int questions = 0;
+  const auto stop = [&questions] { return ++questions > 20; };
+  EXPECT_EQ(FitScene(Noiseless(CompliantCase()), stop).status().code(), absl::StatusCode::kCancelled);
+}
+
+TEST(FitTest, ADeadlineEndsIt) {
+  const CallOptions late = {.deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(2)};
+  FitRequest request = Noiseless(CompliantCase());
+  request.starts = 1000;
+  EXPECT_EQ(LocalSolver().Fit(request, late).status().code(), absl::StatusCode::kDeadlineExceeded);
+}
+
+// Abramowitz and Stegun, Table 26.8.
+TEST(FitTest, ChiSquaredHasItsTabulatedProbabilities) {
+  EXPECT_NEAR(ChiSquaredBeyond(3.841458820694124, 1.0), 0.05, 1e-13);
+  EXPECT_NEAR(ChiSquaredBeyond(5.991464547107979, 2.0), 0.05, 1e-13);
+  EXPECT_NEAR(ChiSquaredBeyond(18.307038053275146, 10.0), 0.05, 1e-13);
+  EXPECT_NEAR(ChiSquaredBeyond(0.01, 3.0), 0.99973, 1e-5);
+  EXPECT_EQ(ChiSquaredBeyond(0.0, 4.0), 1.0);
+}
+
+}  // namespace
+}  // namespace ricochet::fit

@@ -1,0 +1,79 @@
+"""Fits in Python: recovered numbers, names, errors, and the same bits from a server."""
+
+import math
+import unittest
+
+import numpy as np
+
+import ricochet
+from support import Ricochetd, main
+
+SCENE = {
+    "planar_contact": {"w_tt_per_kg": 3, "w_tn_per_kg": 0.5, "w_nn_per_kg": 1, "tangential_m_s": 1, "normal_m_s": -1},
+    "friction": {"kinetic_coefficient": 0.25},
+    "restitution": {"poisson": 0.6},
+}
+SLIP = np.array([0.2, 0.6, 1.0, 2.0, 3.0, 4.0])
+AFTER = ["contact_velocity_after.tangential_m_s[0]", "contact_velocity_after.normal_m_s"]
+
+
+def table():
+    solved = ricochet.solve_batch(SCENE, {"planar_contact.tangential_m_s": SLIP}, AFTER)
+    return {"planar_contact.tangential_m_s": SLIP, **{name: solved[name] for name in AFTER}}
+
+
+SIGMA = {AFTER[0]: 0.01, AFTER[1]: np.full(6, 0.01)}
+
+
+class Fit(unittest.TestCase):
+    def test_the_truth_comes_back(self):
+        answer = ricochet.fit(SCENE, table(), {"mu": 0.1, "restitution.poisson": 0.8}, sigma=SIGMA)
+        mu, poisson = answer.unknowns
+        self.assertEqual(mu.path, "friction.kinetic_coefficient")
+        self.assertAlmostEqual(mu.value, 0.25, delta=1e-9)
+        self.assertAlmostEqual(poisson.value, 0.6, delta=1e-9)
+        self.assertEqual((mu.low.kind, mu.high.kind), ("FOUND", "FOUND"))
+        self.assertLess(mu.low.value, 0.25)
+        self.assertTrue(answer.exact_derivatives)
+        self.assertEqual(answer.degrees_of_freedom, 10)
+
+    def test_columns_of_sigma_bounds_and_a_region(self):
+        data = table()
+        for name in AFTER:
+            data[f"{name}.sigma"] = np.full(6, 0.01)
+        data[AFTER[0]][2] = math.nan
+        answer = ricochet.fit(SCENE, data, ["mu", "poisson"], bounds={"mu": (0.24999, None)}, loss="cauchy",
+                              starts=2, region=["mu", "poisson"])
+        self.assertEqual(answer.unknowns[0].low.kind, "CUT_BY_BOUND")
+        self.assertEqual(answer.degrees_of_freedom, 9)
+        self.assertEqual(len(answer.starts), 2)
+        self.assertGreater(len(answer.region), 40)
+        self.assertTrue(math.isnan(answer.rows[2].residuals[0]))
+
+    def test_errors_name_what_is_wrong(self):
+        for change, text in (
+            ({"unknown": ["mu", "friction.kinetic"]}, "unknowns[1].path"),
+            ({"sigma": {AFTER[0]: 0.01}}, "measured[1].sigma"),
+            ({"sigma": {**SIGMA, "contact.duration_s": 1}}, "must be a measured column"),
+            ({"bounds": {"poisson": (0, 1)}}, "must be an unknown"),
+            ({"loss": "tukey"}, "loss"),
+            ({"starts": 0}, "starts"),
+        ):
+            arguments = {"unknown": ["mu"], "sigma": SIGMA, **change}
+            with self.subTest(change), self.assertRaisesRegex(ricochet.InvalidRequest, text.replace("[", r"\[")):
+                ricochet.fit(SCENE, table(), **arguments)
+
+    def test_a_server_gives_the_same_bits(self):
+        server = Ricochetd()
+        self.addCleanup(server.stop)
+        data = table()
+        data[AFTER[0]] = data[AFTER[0]] + 0.01 * np.cos(np.arange(6))
+        with ricochet.Client(server.address) as there:
+            for scene in (SCENE, {**SCENE, "restitution": {"energetic": 0.6},
+                                  "compliance": {"tangential_ratio_squared": 1.2}}):
+                here = ricochet.fit(scene, data, ["mu"], sigma=SIGMA, region=[])
+                self.assertEqual(repr(here), repr(there.fit(scene, data, ["mu"], sigma=SIGMA)))
+
+
+if __name__ == "__main__":
+    main()
