@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <limits>
+#include <unsupported/Eigen/SpecialFunctions>
 
 #include "core/numerics/elementary.h"
 
@@ -75,39 +76,8 @@ Information InformationOf(const Problem& problem, const std::vector<double>& pre
   return information;
 }
 
-// The logarithm of the gamma function at a multiple of 1/2.
-static double LogGamma(double a) {
-  constexpr double kLogRootPi = 0.5723649429247001;
-  double sum = std::floor(a) == a ? 0.0 : kLogRootPi;
-  for (double x = a - 1.0; x > 0.0; x -= 1.0) sum += Log(x);
-  return sum;
-}
-
-// The incomplete gamma function Q(a, x), by its series below a + 1 and by Lentz's continued fraction above.
 double ChiSquaredBeyond(double value, double degrees_of_freedom) {
-  const double a = 0.5 * degrees_of_freedom;
-  const double x = 0.5 * value;
-  if (!(x > 0.0)) return 1.0;
-  const double front = Exp(a * Log(x) - x - LogGamma(a));
-  if (x < a + 1.0) {
-    double term = 1.0 / a;
-    double sum = term;
-    for (double n = a + 1.0; term > sum * 1e-16; n += 1.0) sum += term *= x / n;
-    return 1.0 - front * sum;
-  }
-  double b = x + 1.0 - a;
-  double c = 1e300;
-  double d = 1.0 / b;
-  double fraction = d;
-  for (int i = 1; i < 10'000; ++i) {
-    const double an = -i * (i - a);
-    b += 2.0;
-    d = 1.0 / (an * d + b);
-    c = b + an / c;
-    fraction *= c * d;
-    if (std::fabs(c * d - 1.0) < 1e-15) break;
-  }
-  return front * fraction;
+  return Eigen::numext::igammac(0.5 * degrees_of_freedom, 0.5 * value);
 }
 
 }  // namespace ricochet::fit

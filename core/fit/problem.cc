@@ -164,6 +164,11 @@ class Door {
   }
 
   void SetNumbers() {
+    for (size_t column = 0; column < request_.measured.size(); ++column) {
+      const std::string name = absl::StrCat("measured[", column, "]");
+      HasRows(name + ".values", request_.measured[column].values.size(), false);
+      HasRows(name + ".sigma", request_.measured[column].sigma.size(), true);
+    }
     for (size_t row = 0; row < problem_.rows; ++row) {
       for (size_t column = 0; column < request_.measured.size(); ++column) SetNumber(row, column);
     }
@@ -175,10 +180,8 @@ class Door {
   void SetNumber(size_t row, size_t column) {
     const FitMeasured& measured = request_.measured[column];
     const std::string name = absl::StrCat("measured[", column, "]");
-    const bool fits = row > 0 || (HasRows(name + ".values", measured.values.size(), false) &
-                                  HasRows(name + ".sigma", measured.sigma.size(), true));
     const bool is_one = measured.sigma.size() == 1;
-    if (!fits || row >= measured.values.size() || (!is_one && row >= measured.sigma.size())) return;
+    if (row >= measured.values.size() || (!is_one && row >= measured.sigma.size())) return;
     const double value = measured.values[row];
     const double sigma = measured.sigma[is_one ? 0 : row];
     if (std::isnan(value)) return;
