@@ -26,6 +26,8 @@ namespace {
 
 // A region has so many rays.
 constexpr int kRays = 48;
+// A profile has so many places before each end.
+constexpr int kPlaces = 4;
 // A fit that finds a better one while it follows a ray starts again from there, so many times.
 constexpr int kMostRestarts = 4;
 
@@ -92,7 +94,7 @@ class Fitter {
   void Search() {
     for (int number = 0; number < problem_.starts && !model_.is_stopped(); ++number) {
       const std::vector<double> start = StartOf(problem_, number);
-      const Minimum found = Minimize(start, all_free_, model_);
+      const Minimum found = Minimize(start, all_free_, kFineSearch, model_);
       const bool has_start = std::isfinite(found.objective);
       response_.starts.push_back({start, found.at, found.objective, found.iterations, found.converged && has_start});
       if (number == 0 || found.objective < best_.objective) best_ = found;
@@ -121,6 +123,16 @@ class Fitter {
     return 0.25 * std::max(std::fabs(best_.at[k]), 0.25 * problem_.scale[k]);
   }
 
+  // The direction that holds some unknowns, which have these parts of the sizes of their intervals.
+  Direction Towards(const std::vector<std::pair<size_t, double>>& parts) const {
+    Direction direction = {.is_free = all_free_, .step = std::vector<double>(problem_.unknowns(), 0.0)};
+    for (const auto& [k, part] : parts) {
+      direction.is_free[k] = false;
+      direction.step[k] = part * SizeOf(k);
+    }
+    return direction;
+  }
+
   // Finds the interval of each unknown. Returns true if that found a better fit, from which to start again.
   bool FollowUnknowns() {
     response_.unknowns.clear();
@@ -131,11 +143,10 @@ class Fitter {
       if (estimate.seen) estimate.sigma = std::sqrt(information_.covariance[k * problem_.unknowns() + k]);
       estimate.profile.push_back({best_.at[k], 0.0});
       for (const double side : {-1.0, 1.0}) {
-        std::vector<double> direction(problem_.unknowns(), 0.0);
-        direction[k] = side * SizeOf(k);
-        const RayEnd end = EndOfRay(best_, direction, kRiseOfInterval, model_);
+        const Direction direction = Towards({{k, side}});
+        const RayEnd end = EndOfRay(best_, direction, kRiseOfInterval, kPlaces, model_);
         if (end.better.has_value()) return Adopt(*end.better);
-        SetEnd(end, direction[k], side < 0.0 ? estimate.low : estimate.high, estimate);
+        SetEnd(end, direction.step[k], side < 0.0 ? estimate.low : estimate.high, estimate);
       }
       std::sort(estimate.profile.begin(), estimate.profile.end(),
                 [](const FitProfilePoint& a, const FitProfilePoint& b) { return a.value < b.value; });
@@ -144,7 +155,7 @@ class Fitter {
   }
 
   bool Adopt(const Minimum& better) {
-    const Minimum found = Minimize(better.at, all_free_, model_);
+    const Minimum found = Minimize(better.at, all_free_, kFineSearch, model_);
     best_ = found.objective < better.objective ? found : better;
     return true;
   }
@@ -166,13 +177,11 @@ class Fitter {
     const size_t y = problem_.region[1];
     for (int ray = 0; ray < kRays && !model_.is_stopped(); ++ray) {
       const double angle = 2.0 * std::numbers::pi * ray / kRays;
-      std::vector<double> direction(problem_.unknowns(), 0.0);
-      direction[x] = Cos(angle) * SizeOf(x);
-      direction[y] = Sin(angle) * SizeOf(y);
-      const RayEnd end = EndOfRay(best_, direction, kRiseOfRegion, model_);
+      const Direction direction = Towards({{x, Cos(angle)}, {y, Sin(angle)}});
+      const RayEnd end = EndOfRay(best_, direction, kRiseOfRegion, 0, model_);
       if (end.kind != FitEndKind::kFound && end.kind != FitEndKind::kCutByBound) continue;
       response_.region.push_back(
-          {best_.at[x] + end.distance * direction[x], best_.at[y] + end.distance * direction[y], end.kind});
+          {best_.at[x] + end.distance * direction.step[x], best_.at[y] + end.distance * direction.step[y], end.kind});
     }
   }
 

@@ -202,7 +202,7 @@ void SetNotes(FitResponse& response) {
   }
   if (response.p_value.has_value() && *response.p_value < kFitRefusedBelow) {
     notes.push_back(absl::StrCat("The data refuse the physics or the stated errors: chi2 has the probability ",
-                                 ShortestDecimal(*response.p_value), "."));
+                                 *response.p_value, "."));
   }
   for (size_t row = 0; row < response.rows.size(); ++row) {
     if (response.rows[row].broken_limits.empty()) continue;
@@ -219,7 +219,7 @@ void SetNotes(FitResponse& response) {
     notes.emplace_back("Searches from different starts ended in different places; the best of them is the answer.");
   }
   if (!response.exact_derivatives) {
-    notes.push_back(absl::StrCat("Derivatives are central differences: ", response.why_differences, "."));
+    notes.push_back(absl::StrCat("Derivatives are central differences, because of ", response.why_differences, "."));
   }
 }
 

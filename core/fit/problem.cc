@@ -9,6 +9,7 @@
 
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
+#include "absl/strings/strip.h"
 #include "core/answer/derivatives.h"
 #include "core/base/decimal.h"
 #include "core/base/nearest.h"
@@ -236,9 +237,10 @@ class Door {
     for (const std::string& path : problem_.batch.fields) static_cast<void>(ResolveField(path, scene));
     const auto why = CheckDerivatives(scene, {}, {.of = problem_.batch.columns, .by = problem_.unknown_paths()});
     if (why.empty()) return;
-    const Violation& first = why.front();
-    problem_.why_differences = first.field == "derivatives" ? absl::StrCat("derivatives must ", first.rule)
-                                                            : absl::StrCat(first.field, " ", first.description);
+    const std::string& rule = why.front().rule;
+    const bool is_of_scene = why.front().field == "derivatives";
+    problem_.why_differences = is_of_scene ? std::string(absl::StripPrefix(rule, "not be for "))
+                                           : "a measured number or an unknown that has no derivatives";
   }
 
   const FitRequest& request_;

@@ -12,25 +12,34 @@ namespace {
 // A search that has gone so many times the first distance has no end.
 constexpr double kFarthest = 0x1p20;
 // An end is exact to this part of its distance, or where the root of the rise is exact to it.
-constexpr double kEndTolerance = 1e-6;
+constexpr double kEndTolerance = 1e-5;
 // A better fit by no more than this is the same fit.
 constexpr double kSameFit = 1e-6;
 
 class Ray {
  public:
-  Ray(const Minimum& best, const std::vector<double>& direction, double rise, Model& model)
-      : best_(best), direction_(direction), rise_(rise), model_(model), last_(best.at) {
-    for (const double step : direction) is_free_.push_back(step == 0.0);
+  Ray(const Minimum& best, const Direction& direction, double rise, Model& model)
+      : best_(best), is_free_(direction.is_free), step_(direction.step), rise_(rise), model_(model), last_(best.at) {
     const Problem& problem = model.problem();
-    for (size_t k = 0; k < direction.size(); ++k) {
-      if (is_free_[k]) continue;
-      const double bound = direction[k] > 0.0 ? problem.high[k] : problem.low[k];
-      longest_ = std::min(longest_, (bound - best.at[k]) / direction[k]);
+    for (size_t k = 0; k < step_.size(); ++k) {
+      if (is_free_[k] || step_[k] == 0.0) continue;
+      const double bound = step_[k] > 0.0 ? problem.high[k] : problem.low[k];
+      longest_ = std::min(longest_, (bound - best.at[k]) / step_[k]);
     }
     longest_ = std::max(longest_, 0.0);
   }
 
-  RayEnd Find() {
+  RayEnd Find(int places) {
+    RayEnd end = Search();
+    last_ = best_.at;
+    for (int i = 1; i <= places && !model_.is_stopped(); ++i) Next(end.distance * i / (places + 1.0));
+    end.computed = std::move(end_.computed);
+    end.better = std::move(end_.better);
+    return end;
+  }
+
+ private:
+  RayEnd Search() {
     RayPoint inside;
     RayPoint outside = Next(std::min(1.0, longest_));
     while (outside.rise < rise_ && !model_.is_stopped()) {
@@ -42,12 +51,7 @@ class Ray {
     return Narrow(inside, outside);
   }
 
- private:
-  RayEnd End(FitEndKind kind, double distance) {
-    end_.kind = kind;
-    end_.distance = distance;
-    return std::move(end_);
-  }
+  static RayEnd End(FitEndKind kind, double distance) { return {.kind = kind, .distance = distance}; }
 
   // The other unknowns start where they ended last, and at the best fit.
   RayPoint Next(double distance) {
@@ -57,10 +61,9 @@ class Ray {
       std::vector<double> start = from;
       for (size_t k = 0; k < start.size(); ++k) {
         if (is_free_[k]) continue;
-        start[k] =
-            std::clamp(best_.at[k] + distance * direction_[k], model_.problem().low[k], model_.problem().high[k]);
+        start[k] = std::clamp(best_.at[k] + distance * step_[k], model_.problem().low[k], model_.problem().high[k]);
       }
-      Minimum found = Minimize(start, is_free_, model_);
+      Minimum found = Minimize(start, is_free_, kCoarseSearch, model_);
       if (found.objective < least.objective) least = std::move(found);
       if (least.objective - best_.objective < rise_) break;
     }
@@ -89,19 +92,19 @@ class Ray {
   }
 
   const Minimum& best_;
-  const std::vector<double>& direction_;
+  const std::vector<bool>& is_free_;
+  const std::vector<double>& step_;
   const double rise_;
   Model& model_;
-  std::vector<bool> is_free_;
   std::vector<double> last_;                                  // The unknowns of the last place.
   double longest_ = std::numeric_limits<double>::infinity();  // The distance to the nearest bound.
-  RayEnd end_;
+  RayEnd end_;  // What the places so far have shown; its kind is not known yet.
 };
 
 }  // namespace
 
-RayEnd EndOfRay(const Minimum& best, const std::vector<double>& direction, double rise, Model& model) {
-  return Ray(best, direction, rise, model).Find();
+RayEnd EndOfRay(const Minimum& best, const Direction& direction, double rise, int places, Model& model) {
+  return Ray(best, direction, rise, model).Find(places);
 }
 
 }  // namespace ricochet::fit

@@ -35,8 +35,14 @@ struct RayEnd {
   std::optional<Minimum> better;
 };
 
-// Finds the end of the ray. Unknowns whose direction is 0 are free; a distance of 1 should be of the size of the end.
-RayEnd EndOfRay(const Minimum& best, const std::vector<double>& direction, double rise, Model& model);
+// A direction, of which the free unknowns have no part. A distance of 1 should be of the size of the end.
+struct Direction {
+  std::vector<bool> is_free;
+  std::vector<double> step;
+};
+
+// Finds the end of the ray, and then so many places evenly before it, which show how the rise grows.
+RayEnd EndOfRay(const Minimum& best, const Direction& direction, double rise, int places, Model& model);
 
 }  // namespace ricochet::fit
 

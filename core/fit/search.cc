@@ -94,15 +94,18 @@ class Residual final : public ceres::CostFunction {
   const Evaluation& evaluation_;
 };
 
-ceres::Solver::Options OptionsOf(const Problem& problem) {
+ceres::Solver::Options OptionsOf(int32_t iterations, double tolerance) {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   options.logging_type = ceres::SILENT;
-  options.max_num_iterations = problem.max_iterations;
+  options.max_num_iterations = iterations;
+  options.function_tolerance = tolerance;
   // Beyond these a step changes the unknowns by their rounding alone.
-  options.function_tolerance = 1e-15;
   options.gradient_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-13;
+  options.parameter_tolerance = 1e-12;
+  // Along a step that meets a bound, cubic interpolation would ask for derivatives at every place that it tries.
+  options.line_search_interpolation_type = ceres::BISECTION;
+  options.max_num_line_search_step_size_iterations = 5;
   // Steps that leave the rules of the scene are shortened until they keep them.
   options.max_num_consecutive_invalid_steps = 50;
   return options;
@@ -147,24 +150,69 @@ Loss LossOf(const Problem& problem, double squared_residual) {
   return {.loss = loss[0], .weight = loss[1]};
 }
 
-Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, Model& model) {
-  Minimum minimum = {.at = start, .objective = ObjectiveAt(start, model), .converged = true};
-  const bool has_free = std::find(is_free.begin(), is_free.end(), true) != is_free.end();
-  if (!has_free || !std::isfinite(minimum.objective)) return minimum;
-  Evaluation evaluation(start, is_free, model);
+namespace {
+
+// Ceres projects its steps onto the bounds and then creeps along them. After so many iterations the search goes on
+// without the unknowns that a bound holds.
+constexpr int32_t kBurst = 10;
+// An unknown is at a bound if it is nearer than this part of its scale.
+constexpr double kAtBound = 1e-12;
+
+// The free unknowns but for those that the objective pushes against a bound.
+std::vector<bool> Movable(const std::vector<double>& at, const std::vector<bool>& is_free, Model& model) {
+  const Problem& problem = model.problem();
+  const auto is_at = [&](size_t k, double bound) { return std::fabs(at[k] - bound) <= kAtBound * problem.scale[k]; };
+  std::vector<bool> bound = is_free;
+  for (size_t k = 0; k < at.size(); ++k)
+    bound[k] = is_free[k] && (is_at(k, problem.low[k]) || is_at(k, problem.high[k]));
+  std::vector<bool> movable = is_free;
+  std::vector<double> predicted, slopes;
+  const bool is_bound = std::find(bound.begin(), bound.end(), true) != bound.end();
+  if (!is_bound || !model.Predict(at, predicted) || !model.Differentiate(at, bound, slopes)) return movable;
+  for (size_t k = 0; k < at.size(); ++k) {
+    double push = 0.0;  // Towards higher values.
+    for (size_t i = 0; i < predicted.size(); ++i) {
+      const Number& number = problem.numbers[i];
+      const double residual = (number.value - predicted[i]) / number.sigma;
+      push += LossOf(problem, residual * residual).weight * residual * slopes[i * at.size() + k] / number.sigma;
+    }
+    if (bound[k]) movable[k] = is_at(k, push < 0.0 ? problem.high[k] : problem.low[k]);
+  }
+  return movable;
+}
+
+// Goes on from `minimum` for some iterations, and returns whether the search converged.
+bool Burst(const std::vector<bool>& is_free, int32_t iterations, double tolerance, Model& model, Minimum& minimum) {
+  Evaluation evaluation(minimum.at, is_free, model);
   ceres::Problem::Options options;
   options.evaluation_callback = &evaluation;
   ceres::Problem built(options);
   Build(evaluation, is_free, model, built);
   ceres::Solver::Summary summary;
-  ceres::Solve(OptionsOf(model.problem()), &built, &summary);
-  minimum.iterations = static_cast<int32_t>(summary.iterations.size());
-  minimum.converged = summary.termination_type == ceres::CONVERGENCE;
+  ceres::Solve(OptionsOf(iterations, tolerance), &built, &summary);
+  minimum.iterations += std::max(summary.num_successful_steps + summary.num_unsuccessful_steps, 1);
   const std::vector<double> end = evaluation.unknowns();
   const double objective = ObjectiveAt(end, model);
   if (objective <= minimum.objective) {
     minimum.at = end;
     minimum.objective = objective;
+  }
+  return summary.termination_type == ceres::CONVERGENCE;
+}
+
+}  // namespace
+
+Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, double tolerance, Model& model) {
+  Minimum minimum = {.at = start, .objective = ObjectiveAt(start, model)};
+  std::vector<bool> moves = is_free;
+  const int32_t most = model.problem().max_iterations;
+  while (std::isfinite(minimum.objective) && !minimum.converged && minimum.iterations < most && !model.is_stopped()) {
+    const bool has_free = std::find(moves.begin(), moves.end(), true) != moves.end();
+    const int32_t left = std::min(kBurst, most - minimum.iterations);
+    const bool ended = !has_free || Burst(moves, left, tolerance, model, minimum);
+    const std::vector<bool> movable = Movable(minimum.at, is_free, model);
+    minimum.converged = ended && movable == moves;
+    moves = movable;
   }
   return minimum;
 }

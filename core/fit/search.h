@@ -19,7 +19,10 @@ struct Minimum {
 };
 
 // Searches from a start within the bounds, and holds the unknowns that are not free.
-Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, Model& model);
+// It ends once an iteration lowers the objective by less than this part of it.
+inline constexpr double kFineSearch = 1e-13;
+inline constexpr double kCoarseSearch = 1e-9;
+Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, double tolerance, Model& model);
 
 // The loss of a squared residual, and its derivative by it: the weight of the residual.
 struct Loss {

@@ -84,7 +84,7 @@ class ExamplesTest(unittest.TestCase):
                     self.assertEqual(without_times(printed), without_times(output))
                 count += 1
         self.assertGreaterEqual(count, 8)
-        for name in ["figure4.svg", "dropped_rod.svg", "spheres.svg"]:
+        for name in ["figure4.svg", "dropped_rod.svg", "fit_rod.svg", "spheres.svg"]:
             self.assertEqual(picture(WORK / name), picture(SOURCE / "docs/images" / name), name)
 
     def test_cpp_is_compiled_by_the_consumer_project(self):

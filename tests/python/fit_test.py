@@ -55,7 +55,8 @@ class Fit(unittest.TestCase):
             ({"unknown": ["mu", "friction.kinetic"]}, "unknowns[1].path"),
             ({"sigma": {AFTER[0]: 0.01}}, "measured[1].sigma"),
             ({"sigma": {**SIGMA, "contact.duration_s": 1}}, "must be a measured column"),
-            ({"bounds": {"poisson": (0, 1)}}, "must be an unknown"),
+            ({"bounds": {"restitution.poisson": (0, 1)}}, "must be an unknown"),
+            ({"bounds": {"poisson": (0, 1)}}, "bounds"),
             ({"loss": "tukey"}, "loss"),
             ({"starts": 0}, "starts"),
         ):

@@ -186,6 +186,46 @@ TEST_F(Cli, HelpOfEachSubcommandHasAnExampleThatRuns) {
   }
 }
 
+// --- Fits of tables ---
+
+TEST_F(Cli, FitSaysWhatIsWrongWithItsTableAndItsOptions) {
+  Write("hit.textproto",
+        "planar_contact { w_tt_per_kg: 3 w_nn_per_kg: 1 normal_m_s: -1 } "
+        "friction { kinetic_coefficient: 0.2 } restitution { poisson: 0.5 }");
+  const std::string table = "planar_contact.tangential_m_s,contact_velocity_after.normal_m_s\n1,0.5\n2,0.51\n";
+  const auto error = [&](const std::string& data, const Arguments& more) {
+    Arguments words = {"fit", "--scene", "hit.textproto", "--data", "-"};
+    words.insert(words.end(), more.begin(), more.end());
+    const CliResult result = Run(words, data);
+    EXPECT_EQ(result.exit_code, 2) << result.out;
+    return result.err;
+  };
+  const std::string sigma = "contact_velocity_after.normal_m_s=0.01";
+  EXPECT_THAT(error(table, {"--unknown", "poisson"}), HasSubstr("no sigma for contact_velocity_after.normal_m_s"));
+  EXPECT_THAT(error(table, {"--unknown", "poison", "--sigma", sigma}), HasSubstr("did you mean restitution.poisson?"));
+  EXPECT_THAT(error(table, {"--unknown", "poisson", "--sigma", sigma, "--bound", "mu=0:1"}), HasSubstr("--bound"));
+  EXPECT_THAT(error(table, {"--unknown", "poisson", "--sigma", sigma, "--loss", "tukey"}), HasSubstr("be squares"));
+  EXPECT_THAT(error(table, {"--unknown", "poisson", "--sigma", "contact_velocity_after.normal_m_s=0"}),
+              HasSubstr("measured[0].sigma[0] = 0: must be > 0"));
+  EXPECT_THAT(error("mass\n1\n", {"--unknown", "poisson"}), HasSubstr("--data has the column \"mass\""));
+  EXPECT_THAT(error("planar_contact.tangential_m_s\n1\n", {"--unknown", "poisson"}), HasSubstr("measured is empty"));
+  EXPECT_THAT(error(table + "x,0.5\n", {"--unknown", "poisson", "--sigma", sigma}),
+              HasSubstr("line 4: planar_contact.tangential_m_s = \"x\": must"));
+  EXPECT_THAT(error(table + ",0.5\n", {"--unknown", "poisson", "--sigma", sigma}), HasSubstr("is missing"));
+}
+
+TEST_F(Cli, FitReadsSigmasOfRowsAndLeavesOutWhatWasNotMeasured) {
+  Write("hit.textproto",
+        "planar_contact { w_tt_per_kg: 3 w_nn_per_kg: 1 normal_m_s: -1 } "
+        "friction { kinetic_coefficient: 0.2 } restitution { poisson: 0.5 }");
+  const CliResult result =
+      Run({"fit", "--scene", "hit.textproto", "--data", "-", "--unknown", "poisson", "--format", "csv", "--rows"},
+          "contact_velocity_after.normal_m_s,contact_velocity_after.normal_m_s.sigma\n"
+          "0.5,0.01\n,\n0.6,1\n");
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("\n1,FRICTIONLESS,,\n"));
+}
+
 // --- Audits of tables ---
 
 constexpr char kKane[] =

@@ -26,6 +26,27 @@ void PrintTo(const Golden& golden, std::ostream* stream) { *stream << golden.nam
 
 std::string Scenes(const std::string& name) { return TestDataPath("scenes/" + name); }
 
+// A fit of the made table of docs/fit.md, with further words.
+Arguments FitOfRod(const Arguments& more) {
+  Arguments words = {"fit",
+                     "--scene",
+                     Scenes("falling_rod.textproto"),
+                     "--data",
+                     TestDataPath("falling_rod.csv"),
+                     "--unknown",
+                     "mu",
+                     "--unknown",
+                     "newton",
+                     "--sigma",
+                     "linear_m_s[0]=0.01",
+                     "--sigma",
+                     "linear_m_s[1]=0.01",
+                     "--sigma",
+                     "bodies_after[0].angular_rad_s[0]=0.1"};
+  words.insert(words.end(), more.begin(), more.end());
+  return words;
+}
+
 const Golden kGolden[] = {
     {"solve_paper.txt", {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--energetic", "1", "--history", "4"}},
     {"solve_inadmissible.txt", {"solve", "--a", "0.3", "--b", "1", "--mu", "0.1", "--newton", "1.1"}},
@@ -80,6 +101,10 @@ const Golden kGolden[] = {
     {"audit_data.json",
      {"audit", "--scene", Scenes("double_pendulum.textproto"), "--data", TestDataPath("observed.csv"), "--format",
       "json"}},
+    {"fit_rod.txt", FitOfRod({})},
+    {"fit_rod.json", FitOfRod({"--format", "json", "--region", "mu,newton", "--starts", "3"})},
+    {"fit_rod.csv", FitOfRod({"--format", "csv", "--loss", "huber"})},
+    {"fit_rod_rows.csv", FitOfRod({"--format", "csv", "--rows", "--bound", "mu=0.1:0.4"})},
     {"audit_data.jsonl",
      {"audit", "--scene", Scenes("double_pendulum.textproto"), "--data", TestDataPath("observed.csv"), "--format",
       "jsonl"}},

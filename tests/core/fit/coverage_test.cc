@@ -11,7 +11,7 @@ namespace ricochet::fit {
 namespace {
 
 TEST(CoverageTest, IntervalsCoverTheTruthInNinetyFivePercent) {
-  constexpr int kSets = 500;
+  constexpr int kSets = 1000;
   const Case given = ContactCase();
   const FitRequest exact = Noiseless(given);
   std::mt19937_64 random(20260517);
