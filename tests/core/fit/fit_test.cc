@@ -135,6 +135,30 @@ TEST(FitTest, ARowThatBreaksALimitRefusesThePhysics) {
   EXPECT_TRUE(HasNote(response, "Row 2 breaks"));
 }
 
+TEST(FitTest, ARateOfAPendulumIsAuditedToo) {
+  FitRequest request = Noiseless(PendulumCase());
+  request.measured[0].values[1] = 2.5;
+  EXPECT_TRUE(HasNote(*FitScene(request, Never), "Row 1 breaks"));
+}
+
+// The first search ends in the wrong valley, beyond the centre; its profile finds the other.
+TEST(FitTest, AProfileThatFindsABetterFitStartsAgainFromThere) {
+  FitRequest request = {
+      .scene = {.system =
+                    PlanarBody{.mass_kg = 0.5, .inertia_com_kg_m2 = 0.01, .offset_t_m = 0.1, .velocity_n_m_s = -2.0},
+                .restitution = NewtonCoefficient{0.5}},
+      .unknowns = {{.path = "planar_body.offset_t_m", .start = 0.05, .low = -0.3, .high = 0.3}},
+      .measured = {{"bodies_after[0].linear_m_s[1]", {0.0}, {1.0}},
+                   {"bodies_after[0].angular_rad_s[0]", {0.0}, {20.0}}}};
+  // The spin of the true side, with a large error, makes its valley a little deeper.
+  const Outcome truth = LocalSolver().Solve({.scene = request.scene})->outcome;
+  request.measured[0].values = {truth.bodies_after[0].linear_m_s[1]};
+  request.measured[1].values = {-truth.bodies_after[0].angular_rad_s[0]};
+  const FitResponse response = *FitScene(request, Never);
+  EXPECT_LT(response.unknowns[0].value, 0.0);
+  EXPECT_GT(response.starts[0].objective, response.objective);
+}
+
 TEST(FitTest, AnIntervalIsCutByItsBound) {
   FitRequest request = Noiseless(ContactCase());
   request.unknowns[1].low = 0.5999;
