@@ -195,20 +195,23 @@ absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits)
   return check.status();
 }
 
-// A search evaluates every row at most once an iteration for each unknown and for itself.
+// A search computes every measured number once an iteration, and its derivative by each unknown; these numbers are kept,
+// so that a few iterations count as some.
 absl::Status CheckLimits(const FitRequest& request, const Limits& limits) {
   SizeCheck check(limits);
   check.Scene(request.scene);
   check.Entries("unknowns", request.unknowns.size(), &Limits::max_columns);
   check.Entries("inputs", request.inputs.size(), &Limits::max_columns);
   check.Entries("measured", request.measured.size(), &Limits::max_columns);
-  size_t rows = 1;
-  for (const FitMeasured& measured : request.measured) rows = std::max(rows, measured.values.size());
+  constexpr int32_t kFewIterations = 16;
+  int64_t numbers = 0;
+  for (const FitMeasured& measured : request.measured) numbers += static_cast<int64_t>(measured.values.size());
   const int64_t starts = std::clamp(request.starts.value_or(kFitStarts), 1, kMostFitStarts);
-  const int64_t iterations = std::clamp(request.max_iterations.value_or(kFitIterations), 1, kMostFitIterations);
+  const int64_t iterations =
+      std::clamp(request.max_iterations.value_or(kFitIterations), kFewIterations, kMostFitIterations);
   const int64_t searches = (static_cast<int64_t>(request.unknowns.size()) + 1) * starts * iterations;
-  check.Product("measured", static_cast<int64_t>(rows), " rows, times unknowns and one, starts and max_iterations, ",
-                searches, &Limits::max_fit_work);
+  check.Product("measured", numbers, " numbers, times unknowns and one, starts and max_iterations, ", searches,
+                &Limits::max_fit_work);
   return check.status();
 }
 

@@ -81,10 +81,8 @@ class Fitter {
 
   FitResponse Fit() {
     Search();
-    for (int restart = 0; restart < kMostRestarts && !model_.is_stopped(); ++restart) {
-      Look();
-      if (!FollowUnknowns() || restart + 1 == kMostRestarts) break;
-    }
+    Look();
+    for (int restart = 0; FollowUnknowns(restart < kMostRestarts) && !model_.is_stopped(); ++restart) Look();
     FollowRegion();
     Judge(problem_, best_.at, information_, model_, response_);
     return std::move(response_);
@@ -133,8 +131,9 @@ class Fitter {
     return direction;
   }
 
-  // Finds the interval of each unknown. Returns true if that found a better fit, from which to start again.
-  bool FollowUnknowns() {
+  // Finds the interval of each unknown. Returns true, if it may, once that has found a better fit from which to start
+  // again.
+  bool FollowUnknowns(bool may_restart) {
     response_.unknowns.clear();
     for (size_t k = 0; k < problem_.unknowns() && !model_.is_stopped(); ++k) {
       FitEstimate& estimate = response_.unknowns.emplace_back();
@@ -145,7 +144,7 @@ class Fitter {
       for (const double side : {-1.0, 1.0}) {
         const Direction direction = Towards({{k, side}});
         const RayEnd end = EndOfRay(best_, direction, kRiseOfInterval, kPlaces, model_);
-        if (end.better.has_value()) return Adopt(*end.better);
+        if (end.better.has_value() && may_restart) return Adopt(*end.better);
         SetEnd(end, direction.step[k], side < 0.0 ? estimate.low : estimate.high, estimate);
       }
       std::sort(estimate.profile.begin(), estimate.profile.end(),

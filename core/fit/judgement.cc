@@ -64,45 +64,36 @@ struct MeasuredVelocity {
   double uncertainty = 0.0;
 };
 
-class RowOfNumbers {
- public:
-  RowOfNumbers(const Problem& problem, size_t row) : problem_(problem), row_(row) {}
-
-  std::optional<double> Take(const std::string& path) {
-    for (const Number& number : problem_.numbers) {
-      if (number.row != row_ || problem_.batch.columns[number.column] != path) continue;
-      sigma_ = std::max(sigma_, number.sigma);
-      return number.value;
-    }
-    return std::nullopt;
-  }
-  double sigma() const { return sigma_; }
-
- private:
-  const Problem& problem_;
-  size_t row_;
-  double sigma_ = 0.0;  // The largest of what was taken.
-};
+// The number that a row measured at a path. Its sigma widens `sigma`.
+std::optional<double> MeasuredAt(const Problem& problem, size_t row, const std::string& path, double& sigma) {
+  const auto& numbers = problem.numbers;
+  auto number =
+      std::lower_bound(numbers.begin(), numbers.end(), row, [](const Number& n, size_t r) { return n.row < r; });
+  while (number != numbers.end() && number->row == row && problem.batch.columns[number->column] != path) ++number;
+  if (number == numbers.end() || number->row != row) return std::nullopt;
+  sigma = std::max(sigma, number->sigma);
+  return number->value;
+}
 
 std::optional<MeasuredVelocity> VelocityOf(const Problem& problem, size_t row, const Scene& scene) {
-  RowOfNumbers numbers(problem, row);
+  double sigma = 0.0;
+  // The contact of a pendulum moves by its rate times its distance from the pin.
+  if (const auto* const pendulum = std::get_if<Pendulum>(&scene.system)) {
+    if (const auto rate = MeasuredAt(problem, row, "rates_after_rad_s[0]", sigma)) {
+      return MeasuredVelocity{ObservedRates{{*rate}}, kAuditSigmas * sigma * Hypot(pendulum->a_m, pendulum->b_m)};
+    }
+  }
   ContactVelocity velocity;
   for (size_t i = 0; i < TangentialDirections(scene.system); ++i) {
-    const auto u = numbers.Take(absl::StrCat("contact_velocity_after.tangential_m_s[", i, "]"));
-    if (u.has_value()) velocity.tangential_m_s.push_back(*u);
+    const std::string path = absl::StrCat("contact_velocity_after.tangential_m_s[", i, "]");
+    const auto u = MeasuredAt(problem, row, path, sigma);
+    if (!u.has_value()) return std::nullopt;
+    velocity.tangential_m_s.push_back(*u);
   }
-  const auto v = numbers.Take("contact_velocity_after.normal_m_s");
-  if (v.has_value() && velocity.tangential_m_s.size() == TangentialDirections(scene.system)) {
-    velocity.normal_m_s = *v;
-    return MeasuredVelocity{velocity, kAuditSigmas * numbers.sigma()};
-  }
-  // The contact of a pendulum moves by its rate times its distance from the pin.
-  const auto* const pendulum = std::get_if<Pendulum>(&scene.system);
-  const auto rate = RowOfNumbers(problem, row).Take("rates_after_rad_s[0]");
-  if (pendulum == nullptr || !rate.has_value()) return std::nullopt;
-  RowOfNumbers of_rate(problem, row);
-  of_rate.Take("rates_after_rad_s[0]");
-  return MeasuredVelocity{ObservedRates{{*rate}}, kAuditSigmas * of_rate.sigma() * Hypot(pendulum->a_m, pendulum->b_m)};
+  const auto v = MeasuredAt(problem, row, "contact_velocity_after.normal_m_s", sigma);
+  if (!v.has_value()) return std::nullopt;
+  velocity.normal_m_s = *v;
+  return MeasuredVelocity{velocity, kAuditSigmas * sigma};
 }
 
 void AuditRows(const Problem& problem, const std::vector<double>& best, Model& model, FitResponse& response) {

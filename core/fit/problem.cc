@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "absl/strings/str_cat.h"
@@ -165,11 +166,14 @@ class Door {
   }
 
   void SetNumbers() {
+    bool has_rows = true;
     for (size_t column = 0; column < request_.measured.size(); ++column) {
+      const FitMeasured& measured = request_.measured[column];
       const std::string name = absl::StrCat("measured[", column, "]");
-      HasRows(name + ".values", request_.measured[column].values.size(), false);
-      HasRows(name + ".sigma", request_.measured[column].sigma.size(), true);
+      has_rows = HasRows(name + ".values", measured.values.size(), false) && has_rows;
+      has_rows = HasRows(name + ".sigma", measured.sigma.size(), true) && has_rows;
     }
+    if (!has_rows) return;
     for (size_t row = 0; row < problem_.rows; ++row) {
       for (size_t column = 0; column < request_.measured.size(); ++column) SetNumber(row, column);
     }
@@ -180,17 +184,18 @@ class Door {
 
   void SetNumber(size_t row, size_t column) {
     const FitMeasured& measured = request_.measured[column];
-    const std::string name = absl::StrCat("measured[", column, "]");
     const bool is_one = measured.sigma.size() == 1;
-    if (row >= measured.values.size() || (!is_one && row >= measured.sigma.size())) return;
     const double value = measured.values[row];
     const double sigma = measured.sigma[is_one ? 0 : row];
     if (std::isnan(value)) return;
+    const std::string name = absl::StrCat("measured[", column, "]");
     if (std::isinf(value)) {
       RefuseNumber(absl::StrCat(name, ".values[", row, "]"), value, "be finite, or NaN where nothing was measured");
     }
-    if (!(sigma > 0.0 && std::isfinite(sigma)) && (row == 0 || !is_one)) {
-      RefuseNumber(absl::StrCat(name, ".sigma[", row, "]"), sigma, "be > 0, the standard deviation of the error");
+    // One sigma of all rows is refused once.
+    if (!(sigma > 0.0 && std::isfinite(sigma)) && (!is_one || refused_sigmas_.insert(column).second)) {
+      RefuseNumber(absl::StrCat(name, ".sigma[", is_one ? 0 : row, "]"), sigma,
+                   "be > 0, the standard deviation of the error");
     }
     problem_.numbers.push_back({row, column, value, sigma});
   }
@@ -246,6 +251,7 @@ class Door {
   const FitRequest& request_;
   Problem problem_;
   std::vector<Violation> violations_;
+  std::set<size_t> refused_sigmas_;  // Columns with one sigma for all rows.
 };
 
 }  // namespace

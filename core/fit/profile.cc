@@ -32,6 +32,7 @@ class Ray {
   RayEnd Find(int places) {
     RayEnd end = Search();
     last_ = best_.at;
+    if (end.kind == FitEndKind::kUnbounded || end.distance == 0.0) places = 0;
     for (int i = 1; i <= places && !model_.is_stopped(); ++i) Next(end.distance * i / (places + 1.0));
     end.computed = std::move(end_.computed);
     end.better = std::move(end_.better);

@@ -216,7 +216,7 @@ def tokens():
 SCOPES = {
     "solve": {"Solve", "SolveBatch", "SolveBatches", "Plan", "Bounds", "MultiContact"},
     "sweep": {"Sweep"},
-    "audit": {"Audit", "AuditBatch"},
+    "audit": {"Audit", "AuditBatch", "Fit"},
     "cost": {"Cost"},
     "info": {"Info", "ServerReflectionInfo"},
 }

@@ -25,7 +25,7 @@ PATHS = ["friction.kinetic_coefficient", "pendulum.b_m", "coefficients.newton", 
          "linkage.links[0].mass_kg", "☃", "pendulum.phi_rad", "\x00", "%n%s"]
 # How often each method is asked; Sweep and Cost work until the deadline.
 WEIGHTS = {"Solve": 50, "Bounds": 30, "Audit": 30, "AuditBatch": 30, "Plan": 30, "SolveBatch": 30, "SolveBatches": 20,
-           "Info": 5, "Sweep": 20, "Cost": 1}
+           "MultiContact": 20, "Fit": 10, "Info": 5, "Sweep": 20, "Cost": 1}
 IN_FLIGHT = 32
 DEADLINE_S = 0.5
 KEPT = 20000  # The most requests that are kept to be looked at.
@@ -44,7 +44,14 @@ def seeds(method):
           columns: "coefficients.newton" columns: "accuracy.relative_error" }}""")
         what.inputs.extend([struct.pack("<3d", 0.4, 1.0, 2.1), struct.pack("<3d", 0.0, 0.1, 0.5)])
         return [what]
+    if method == "MultiContact":
+        return [request(method, """scene {
+          free_bodies { bodies { mass_kg: 1 inertia_com_kg_m2: 0.4 position_m: [0, 1] linear_m_s: [0, -1] angular_rad_s: 0 } }
+          contacts { body: 1 point_m: [-0.5, 0] normal: [0, 1] friction: 1 energetic: 0.5 }
+          contacts { body: 1 point_m: [0.5, 0] normal: [0, 1] friction: 1 energetic: 0.5 } }""")]
     more = {
+        "Fit": """unknowns { path: "friction.kinetic_coefficient" start: 0.2 }
+          measured { path: "contact_velocity_after.normal_m_s" values: [0.2, 0.3, 0.1] sigma: 0.1 }""",
         "Solve": "history_intervals: 3 certified_digits: 20",
         "Bounds": "certified_digits: 20",
         "Audit": "contact_velocity { tangential_m_s: 0.1 normal_m_s: 0.2 } velocity_uncertainty_m_s: 0.01",

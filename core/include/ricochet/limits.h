@@ -51,7 +51,7 @@ struct Limits {
   // Numbers of the outcome times numbers of the scene in a request for derivatives.
   int64_t max_derivatives = 4096;
 
-  // Rows of a fit times its unknowns and one, its starts and its most iterations.
+  // Measured numbers of a fit times its unknowns and one, its starts, and its most iterations or 16.
   int64_t max_fit_work = 10'000'000;
 
   // Limits that no request exceeds.
@@ -90,7 +90,7 @@ inline constexpr NamedLimit kLimits[] = {
      "States of several contacts times the cube of the contacts"},
     {"max_derivatives", &Limits::max_derivatives, 1'000'000, "Derivatives of one impact"},
     {"max_fit_work", &Limits::max_fit_work, 1'000'000'000'000,
-     "Rows of a fit times unknowns and one, starts and iterations"},
+     "Measured numbers of a fit times unknowns and one, starts and iterations"},
 };
 
 constexpr Limits Limits::None() {

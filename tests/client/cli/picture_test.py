@@ -463,6 +463,25 @@ class BoundsAndAudits(PictureTest):
         self.assertAlmostEqual(impulse.x.value(left), float(rows["normal_total_n_s"]["energy_only.lower"]), delta=0.02)
         self.assertAlmostEqual(impulse.x.value(right), float(rows["normal_total_n_s"]["energy_only.upper"]), delta=0.02)
 
+    def test_a_fit_shows_data_over_model_residuals_profiles_and_the_region(self):
+        data = os.path.join(SCENES, "..", "falling_rod.csv")
+        names = ["linear_m_s[0]=0.01", "linear_m_s[1]=0.01", "bodies_after[0].angular_rad_s[0]=0.1"]
+        picture, table = self.draw("fit", *scene("falling_rod.textproto"), "--data", data, "--unknown", "mu",
+                                   "--unknown", "newton", *[word for name in names for word in ("--sigma", name)],
+                                   "--region", "mu,newton", "--rows")
+        self.assertEqual(len(picture.panels), 7)
+        with open(data, encoding="utf-8") as file:
+            measured = list(csv.DictReader(line for line in file if line[0] != "#"))
+        # Both marks of each row, at the first input that differs by row.
+        for panel, name in zip(picture.panels, ["bodies_after[0].linear_m_s[0]", "bodies_after[0].linear_m_s[1]"]):
+            self.assertEqual(len(panel.marks), 2 * len(measured))
+            for row, fitted in zip(measured, table):
+                for y in (float(row[name]), float(fitted[f"{name}.predicted"])):
+                    x = float(row["offset_t_m"])
+                    self.assertLess(min(math.hypot((panel.x.value(a) - x) * 10, panel.y.value(b) - y)
+                                        for _, a, b in panel.marks), 0.02)
+        self.assertEqual(len(picture.panels[3].marks), 3 * len(measured))
+
     def test_audited_rows_stand_at_their_impulses(self):
         data = os.path.join(SCENES, "..", "observed.csv")
         picture, table = self.draw("audit", *scene("double_pendulum.textproto"), "--data", data)

@@ -168,11 +168,11 @@ const std::vector<Case>& Cases() {
          request.columns.rates_after_rad_s = {{0.0}};
          return solver.AuditBatch(request).status();
        }},
-      {"WorkOfAFit", &Limits::max_fit_work, 12, "measured",
+      {"WorkOfAFit", &Limits::max_fit_work, 192, "measured",
        [](const Solver& solver, size_t n) {
          FitRequest request = {.scene = ChainScene(1), .starts = 1, .max_iterations = 1};
          request.unknowns = {{.path = "friction.kinetic_coefficient"}};
-         request.measured = {{"rates_after_rad_s[0]", std::vector<double>((n + 1) / 2, 0.0), {1.0}}};
+         request.measured = {{"rates_after_rad_s[0]", std::vector<double>((n + 31) / 32, 0.0), {1.0}}};
          return solver.Fit(request).status();
        }},
       {"BodiesThatTouch", &Limits::max_links, 2, "free_bodies.bodies",

@@ -135,6 +135,30 @@ TEST(FitTest, ARowThatBreaksALimitRefusesThePhysics) {
   EXPECT_TRUE(HasNote(response, "Row 2 breaks"));
 }
 
+TEST(FitTest, ARateOfAPendulumIsAuditedToo) {
+  FitRequest request = Noiseless(PendulumCase());
+  request.measured[0].values[1] = 2.5;
+  EXPECT_TRUE(HasNote(*FitScene(request, Never), "Row 1 breaks"));
+}
+
+// The first search ends in the wrong valley, beyond the centre; its profile finds the other.
+TEST(FitTest, AProfileThatFindsABetterFitStartsAgainFromThere) {
+  FitRequest request = {
+      .scene = {.system =
+                    PlanarBody{.mass_kg = 0.5, .inertia_com_kg_m2 = 0.01, .offset_t_m = 0.1, .velocity_n_m_s = -2.0},
+                .restitution = NewtonCoefficient{0.5}},
+      .unknowns = {{.path = "planar_body.offset_t_m", .start = 0.05, .low = -0.3, .high = 0.3}},
+      .measured = {{"bodies_after[0].linear_m_s[1]", {0.0}, {1.0}},
+                   {"bodies_after[0].angular_rad_s[0]", {0.0}, {20.0}}}};
+  // The spin of the true side, with a large error, makes its valley a little deeper.
+  const Outcome truth = LocalSolver().Solve({.scene = request.scene})->outcome;
+  request.measured[0].values = {truth.bodies_after[0].linear_m_s[1]};
+  request.measured[1].values = {-truth.bodies_after[0].angular_rad_s[0]};
+  const FitResponse response = *FitScene(request, Never);
+  EXPECT_LT(response.unknowns[0].value, 0.0);
+  EXPECT_GT(response.starts[0].objective, response.objective);
+}
+
 TEST(FitTest, AnIntervalIsCutByItsBound) {
   FitRequest request = Noiseless(ContactCase());
   request.unknowns[1].low = 0.5999;
@@ -165,7 +189,11 @@ TEST(FitTest, SaysThatTheBestFitLiesOnAThreshold) {
   const FitResponse response = *FitScene(request, Never);
   // mu w_tt (1 + e) |v|/w_nn = u: slip stops as the impact ends.
   EXPECT_NEAR(response.unknowns[0].value, 2.0 / (3.0 * 1.6), 1e-6);
-  EXPECT_TRUE(HasNote(response, "threshold") || !response.unknowns[0].seen);
+  ASSERT_EQ(response.thresholds.size(), 1);
+  EXPECT_EQ(response.thresholds[0].by, "friction.kinetic_coefficient");
+  EXPECT_NEAR(response.thresholds[0].from_below, -4.8, 1e-3);
+  EXPECT_NEAR(response.thresholds[0].from_above, 0.0, 1e-3);
+  EXPECT_TRUE(HasNote(response, "The best fit lies on a threshold"));
 }
 
 TEST(FitTest, FurtherStartsSpreadOverTheBounds) {
@@ -180,6 +208,22 @@ TEST(FitTest, FurtherStartsSpreadOverTheBounds) {
   }
   EXPECT_NE(response.starts[1].from, response.starts[2].from);
   EXPECT_NEAR(response.unknowns[0].value, 0.25, 1e-8);
+}
+
+// Without friction the rebound is the same for a centre of mass on either side.
+TEST(FitTest, SaysThatStartsEndedInDifferentPlaces) {
+  Case given = BodyCase();
+  given.truth.friction.kinetic_coefficient = 0.0;
+  given.unknowns = {{.path = "planar_body.offset_t_m", .start = 0.05, .low = -0.2, .high = 0.2}};
+  given.truth.system = PlanarBody{.mass_kg = 0.5, .inertia_com_kg_m2 = 0.01, .offset_t_m = 0.1, .velocity_n_m_s = -2.0};
+  given.inputs = {{"planar_body.velocity_n_m_s", {-1.0, -2.0}}};
+  given.measured = {{"bodies_after[0].linear_m_s[1]", 0.01}};
+  FitRequest request = Noiseless(given);
+  request.starts = 6;
+  const FitResponse response = *FitScene(request, Never);
+  EXPECT_NEAR(std::fabs(response.unknowns[0].value), 0.1, 1e-8);
+  EXPECT_TRUE(response.starts_differ);
+  EXPECT_TRUE(HasNote(response, "ended in different places"));
 }
 
 TEST(FitTest, TheRegionOfTwoSurroundsTheBestFit) {
