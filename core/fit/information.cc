@@ -79,7 +79,7 @@ Information InformationOf(const Problem& problem, const std::vector<double>& pre
 static double LogGamma(double a) {
   constexpr double kLogRootPi = 0.5723649429247001;
   double sum = std::floor(a) == a ? 0.0 : kLogRootPi;
-  for (double x = a - 1.0; x > 0.0; x -= 1.0) sum += Log(x);
+  for (int i = 1; a - i > 0.0; ++i) sum += Log(a - i);
   return sum;
 }
 
@@ -92,7 +92,7 @@ double ChiSquaredBeyond(double value, double degrees_of_freedom) {
   if (x < a + 1.0) {
     double term = 1.0 / a;
     double sum = term;
-    for (double n = a + 1.0; term > sum * 1e-16; n += 1.0) sum += term *= x / n;
+    for (int n = 1; term > sum * 1e-16; ++n) sum += term *= x / (a + n);
     return 1.0 - front * sum;
   }
   double b = x + 1.0 - a;
