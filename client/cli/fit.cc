@@ -21,8 +21,8 @@ namespace ricochet::cli {
 namespace {
 
 constexpr char kExample[] =
-    R"(Example: friction and restitution of a rod from its impacts.
-  $ ricochet fit --scene dropped_rod.textproto --data dropped_rod.csv --unknown mu --unknown newton=0.5
+    R"(Example: the friction of a rod from its measured impacts.
+  $ ricochet fit --scene rod.textproto --data rod.csv --unknown mu=0.2
   chi2 ... with ... degrees of freedom, probability ...
   ...
 

@@ -195,8 +195,8 @@ absl::Status CheckLimits(const AuditBatchRequest& request, const Limits& limits)
   return check.status();
 }
 
-// A search computes every measured number once an iteration, and its derivative by each unknown; these numbers are kept,
-// so that a few iterations count as some.
+// A search computes every measured number once an iteration, and its derivative by each unknown. They are kept, so that
+// few iterations count as some.
 absl::Status CheckLimits(const FitRequest& request, const Limits& limits) {
   SizeCheck check(limits);
   check.Scene(request.scene);

@@ -358,7 +358,8 @@ class Client:
         return self._solver.fit(scene, {
             "unknowns": unknowns, "inputs": inputs, "measured": list(measured.values()),
             "loss": None if loss is None else loss.upper(), "loss_scale": loss_scale, "starts": starts,
-            "max_iterations": max_iterations, "region": names.full_names(values.names(region, "region"), paths, "region"),
+            "max_iterations": max_iterations,
+            "region": names.full_names(values.names(region, "region"), paths, "region"),
         })
 
     def solve_batch(

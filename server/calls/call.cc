@@ -128,7 +128,7 @@ bool Call::IsCancelled() const {
 
 absl::StatusCode Call::SeenByCaller(absl::StatusCode code) const {
   if (context_.deadline() <= std::chrono::system_clock::now()) return absl::StatusCode::kDeadlineExceeded;
-  return IsCancelled() ? absl::StatusCode::kCancelled : code;
+  return context_.IsCancelled() ? absl::StatusCode::kCancelled : code;
 }
 
 absl::Status Call::Explained(const absl::Status& status) const {

@@ -92,8 +92,7 @@ class Call {
   const std::stop_token& drain() const;
   // True once the caller has cancelled the call or went away, but a millisecond late at most. One thread at a time.
   bool IsCancelled() const;
-  // Returns the status that the caller sees of a call that ends now with `code`. Whoever cancels a call that is over
-  // within a millisecond may see another one.
+  // Returns the status that the caller sees of a call that ends now with `code`.
   absl::StatusCode SeenByCaller(absl::StatusCode code) const;
   absl::Status Explained(const absl::Status& status) const;
 

@@ -172,8 +172,11 @@ absl::StatusOr<FitRequest> ReadFit(const FitDataOptions& options, const Scene& s
   if (!columns.ok()) return columns.status();
   FitRequest request = {.scene = scene};
   for (Column& column : *columns) {
-    if (column.use == Column::Use::kInput) request.inputs.push_back({column.path, std::move(column.values)});
-    if (column.use == Column::Use::kMeasured) request.measured.push_back({column.path, std::move(column.values), {}});
+    if (column.use == Column::Use::kInput) {
+      request.inputs.push_back({column.path, std::move(column.values)});
+    } else if (column.use == Column::Use::kMeasured) {
+      request.measured.push_back({column.path, std::move(column.values), {}});
+    }
   }
   for (Column& column : *columns) {
     if (column.use != Column::Use::kSigma) continue;

@@ -15,8 +15,8 @@
 
 namespace ricochet::fit {
 
-// A scene whose numbers are the truth, the unknowns with the place where the search starts, inputs, and the numbers that
-// are measured with their sigma.
+// A scene whose numbers are the truth, the unknowns with the place where the search starts, inputs, and the numbers
+// that are measured with their sigma.
 struct Case {
   std::string name;
   Scene truth;

@@ -1,5 +1,5 @@
-// The measured sphere of docs/experiments.md: an aluminium oxide sphere of 5 mm that strikes glass at 3.9 m/s under many
-// angles (Kharaz, Gorham and Salman 2001; tests/data/measured_sphere.csv), against predictions and fits.
+// The measured sphere of docs/experiments.md: an aluminium oxide sphere of 5 mm that strikes glass at 3.9 m/s under
+// many angles (Kharaz, Gorham and Salman 2001; tests/data/measured_sphere.csv), against predictions and fits.
 
 #include <gtest/gtest.h>
 
