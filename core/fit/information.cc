@@ -76,44 +76,8 @@ Information InformationOf(const Problem& problem, const std::vector<double>& pre
   return information;
 }
 
-<<<<<<< HEAD
 double ChiSquaredBeyond(double value, double degrees_of_freedom) {
   return Eigen::numext::igammac(0.5 * degrees_of_freedom, 0.5 * value);
-=======
-// The logarithm of the gamma function at a multiple of 1/2.
-static double LogGamma(double a) {
-  constexpr double kLogRootPi = 0.5723649429247001;
-  double sum = std::floor(a) == a ? 0.0 : kLogRootPi;
-  for (int i = 1; a - i > 0.0; ++i) sum += Log(a - i);
-  return sum;
-}
-
-// The incomplete gamma function Q(a, x), by its series below a + 1 and by Lentz's continued fraction above.
-double ChiSquaredBeyond(double value, double degrees_of_freedom) {
-  const double a = 0.5 * degrees_of_freedom;
-  const double x = 0.5 * value;
-  if (!(x > 0.0)) return 1.0;
-  const double front = Exp(a * Log(x) - x - LogGamma(a));
-  if (x < a + 1.0) {
-    double term = 1.0 / a;
-    double sum = term;
-    for (int n = 1; term > sum * 1e-16; ++n) sum += term *= x / (a + n);
-    return 1.0 - front * sum;
-  }
-  double b = x + 1.0 - a;
-  double c = 1e300;
-  double d = 1.0 / b;
-  double fraction = d;
-  for (int i = 1; i < 10'000; ++i) {
-    const double an = -i * (i - a);
-    b += 2.0;
-    d = 1.0 / (an * d + b);
-    c = b + an / c;
-    fraction *= c * d;
-    if (std::fabs(c * d - 1.0) < 1e-15) break;
-  }
-  return front * fraction;
->>>>>>> fit
 }
 
 }  // namespace ricochet::fit
