@@ -8,7 +8,7 @@ readonly core_packages=(ccache cmake g++ libabsl-dev libeigen3-dev libhwy-dev li
 readonly client_packages=(
   cmake g++ libabsl-dev libgrpc++-dev libisal-dev libprotobuf-dev libssl-dev ninja-build protobuf-compiler-grpc)
 readonly build_packages=(
-  "${core_packages[@]}" libceres-dev libflint-arb-dev libflint-dev libgmp-dev libsundials-dev
+  "${core_packages[@]}" libflint-arb-dev libflint-dev libgmp-dev libsundials-dev
   libcli11-dev libgrpc++-dev libisal-dev libnetcdf-dev libprotobuf-dev libpython3-dev libspdlog-dev libssl-dev
   libzip-dev nlohmann-json3-dev prometheus-cpp-dev libcivetweb-dev protobuf-compiler protobuf-compiler-grpc pybind11-dev
   python3)

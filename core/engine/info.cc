@@ -4,7 +4,6 @@
 #include <variant>
 
 #include "core/certified/certified.h"
-#include "core/fit/fit.h"
 #include "core/models/finite_duration/finite_duration.h"
 #include "ricochet/engine_info.h"
 #include "ricochet/system.h"
@@ -24,8 +23,7 @@ InfoResponse InfoOf(const Limits& limits) {
                        .limits = limits,
                        .certified = certified::IsAvailable(),
                        .finite_duration = finite_duration::IsAvailable(),
-                       .systems = {std::begin(kSystems), std::end(kSystems)},
-                       .fit = fit::IsAvailable()};
+                       .systems = {std::begin(kSystems), std::end(kSystems)}};
   for (int number = 1; number < kModelCount; ++number) {
     const auto model = static_cast<Model>(number);
     if (model != Model::kFiniteDuration || info.finite_duration) info.models.push_back(model);

@@ -194,8 +194,6 @@ class Fitter {
 
 }  // namespace
 
-bool IsAvailable() { return true; }
-
 }  // namespace fit
 
 absl::StatusOr<FitResponse> FitScene(const FitRequest& request, absl::FunctionRef<bool()> stopped) {

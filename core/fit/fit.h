@@ -1,4 +1,4 @@
-// FitScene: finds numbers of a scene from measured impacts (ricochet/fit.h), by the search of Ceres.
+// FitScene: finds numbers of a scene from measured impacts (ricochet/fit.h).
 
 #ifndef RICOCHET_CORE_FIT_FIT_H_
 #define RICOCHET_CORE_FIT_FIT_H_
@@ -8,13 +8,6 @@
 #include "ricochet/fit.h"
 
 namespace ricochet {
-namespace fit {
-
-// False in a build without the component `fit`; FitScene then refuses every request.
-bool IsAvailable();
-
-}  // namespace fit
-
 // `stopped` is asked before each row. The engine is left to the caller.
 // Errors: INVALID_ARGUMENT with every violation of the scene, the unknowns and the data, and for a row without numbers
 // at the start; CANCELLED once `stopped` returns true.

@@ -1,134 +1,111 @@
 #include "core/fit/search.h"
 
-#include <ceres/cost_function.h>
-#include <ceres/evaluation_callback.h>
-#include <ceres/loss_function.h>
-#include <ceres/problem.h>
-#include <ceres/solver.h>
-
+#include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <memory>
+#include <unsupported/Eigen/LevenbergMarquardt>
+
+#include "core/numerics/elementary.h"
 
 namespace ricochet::fit {
 namespace {
 
-std::unique_ptr<ceres::LossFunction> MakeLoss(const Problem& problem) {
-  switch (problem.loss) {
-    case FitLoss::kHuber:
-      return std::make_unique<ceres::HuberLoss>(problem.loss_scale);
-    case FitLoss::kCauchy:
-      return std::make_unique<ceres::CauchyLoss>(problem.loss_scale);
-    case FitLoss::kUnspecified:
-    case FitLoss::kSquares:
-      break;
-  }
-  return std::make_unique<ceres::TrivialLoss>();
+using Eigen::Index;
+
+// ln(1 + x), exact for small x too: what rounding takes from 1 + x it takes from the factor as well (Kahan).
+double LogOfOnePlus(double x) {
+  const double sum = 1.0 + x;
+  return sum == 1.0 ? x : Log(sum) * (x / (sum - 1.0));
 }
 
-// Evaluates all rows at once before Ceres asks for its residuals one by one. Ceres moves the unknowns over their
-// scales, so that its tolerances mean the same for each.
-class Evaluation final : public ceres::EvaluationCallback {
+// A residual whose square stands for what it costs, and its derivative by the residual itself.
+struct Costed {
+  double residual = 0.0;
+  double slope = 1.0;
+};
+
+Costed CostOf(const Problem& problem, double residual) {
+  const Loss loss = LossOf(problem, residual * residual);
+  const double root = std::sqrt(loss.loss);
+  if (!(root > 0.0)) return {.residual = residual, .slope = 1.0};
+  return {.residual = std::copysign(root, residual), .slope = loss.weight * std::fabs(residual) / root};
+}
+
+// The costed residuals over the free unknowns, which move over their scales so that tolerances mean the same for each.
+// Beyond a bound an unknown has the value of the bound, and nothing depends on it.
+class Residuals : public Eigen::DenseFunctor<double> {
  public:
-  Evaluation(const std::vector<double>& start, const std::vector<bool>& is_free, Model& model)
-      : model_(model), start_(start), is_free_(is_free), scaled_(start) {
-    for (size_t k = 0; k < start.size(); ++k) scaled_[k] /= model.problem().scale[k];
+  Residuals(const std::vector<double>& start, const std::vector<size_t>& free, Model& model)
+      : DenseFunctor(static_cast<int>(free.size()), static_cast<int>(model.problem().numbers.size())),
+        model_(model),
+        problem_(model.problem()),
+        start_(start),
+        free_(free),
+        is_free_(start.size(), false) {
+    for (const size_t k : free) is_free_[k] = true;
   }
 
-  double& scaled(size_t k) { return scaled_[k]; }
-
-  std::vector<double> unknowns() const {
-    const Problem& problem = model_.problem();
+  Eigen::VectorXd Scaled(const std::vector<double>& at) const {
+    Eigen::VectorXd x(inputs());
+    for (Index i = 0; i < x.size(); ++i) x[i] = at[Free(i)] / problem_.scale[Free(i)];
+    return x;
+  }
+  std::vector<double> Unknowns(const Eigen::VectorXd& x) const {
     std::vector<double> at = start_;
-    for (size_t k = 0; k < at.size(); ++k) {
+    for (Index i = 0; i < x.size(); ++i) {
+      const size_t k = Free(i);
       // The product may round beyond a bound. What has not moved keeps its bits.
-      if (scaled_[k] == start_[k] / problem.scale[k]) continue;
-      at[k] = std::clamp(scaled_[k] * problem.scale[k], problem.low[k], problem.high[k]);
+      if (x[i] == start_[k] / problem_.scale[k]) continue;
+      at[k] = std::clamp(x[i] * problem_.scale[k], problem_.low[k], problem_.high[k]);
     }
     return at;
   }
 
-  void PrepareForEvaluation(bool evaluate_jacobians, bool new_evaluation_point) override {
-    const std::vector<double> at = unknowns();
-    if (new_evaluation_point) is_good_ = model_.Predict(at, predicted_);
-    if (!is_good_ || !evaluate_jacobians || model_.Differentiate(at, is_free_, derivatives_)) return;
-    // The fit was stopped. Without slopes the search ends at once, and Ceres writes no complaint to standard error.
-    derivatives_.assign(predicted_.size() * at.size(), 0.0);
+  // Where an impact has no such number, residuals are so large that the search turns back.
+  int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const {
+    constexpr double kTurnsBack = 1e100;
+    std::vector<double> predicted;
+    if (!model_.Predict(Unknowns(x), predicted)) {
+      residuals.setConstant(kTurnsBack);
+      return 0;
+    }
+    for (Index i = 0; i < residuals.size(); ++i) residuals[i] = CostOf(problem_, Residual(i, predicted)).residual;
+    return 0;
   }
 
-  bool Get(size_t i, double& residual, double** slopes) const {
-    if (!is_good_) return false;
-    const Number& number = model_.problem().numbers[i];
-    residual = (number.value - predicted_[i]) / number.sigma;
-    for (size_t k = 0; slopes != nullptr && k < scaled_.size(); ++k) {
-      if (slopes[k] == nullptr) continue;
-      *slopes[k] = -derivatives_[i * scaled_.size() + k] * model_.problem().scale[k] / number.sigma;
+  int df(const Eigen::VectorXd& x, Eigen::MatrixXd& slopes) const {
+    const std::vector<double> at = Unknowns(x);
+    std::vector<double> predicted, derivatives;
+    slopes.setZero(values(), inputs());
+    // A fit that was stopped has no slopes, so that the search ends at once.
+    if (!model_.Predict(at, predicted) || !model_.Differentiate(at, is_free_, derivatives)) return 0;
+    for (Index j = 0; j < slopes.cols(); ++j) {
+      const size_t k = Free(j);
+      if (IsBeyond(x[j] * problem_.scale[k], k)) continue;
+      for (Index i = 0; i < slopes.rows(); ++i) {
+        const double slope = derivatives[static_cast<size_t>(i) * at.size() + k] * problem_.scale[k];
+        slopes(i, j) = -CostOf(problem_, Residual(i, predicted)).slope * slope / Number(i).sigma;
+      }
     }
-    return true;
+    return 0;
   }
 
  private:
+  size_t Free(Index i) const { return free_[static_cast<size_t>(i)]; }
+  const fit::Number& Number(Index i) const { return problem_.numbers[static_cast<size_t>(i)]; }
+  double Residual(Index i, const std::vector<double>& predicted) const {
+    return (Number(i).value - predicted[static_cast<size_t>(i)]) / Number(i).sigma;
+  }
+  bool IsBeyond(double value, size_t k) const { return value < problem_.low[k] || value > problem_.high[k]; }
+
   Model& model_;
+  const Problem& problem_;
   const std::vector<double>& start_;
-  const std::vector<bool>& is_free_;
-  std::vector<double> scaled_;
-  std::vector<double> predicted_, derivatives_;
-  bool is_good_ = false;
+  const std::vector<size_t>& free_;
+  std::vector<bool> is_free_;
 };
-
-class Residual final : public ceres::CostFunction {
- public:
-  Residual(size_t i, size_t unknowns, const Evaluation& evaluation) : i_(i), evaluation_(evaluation) {
-    set_num_residuals(1);
-    mutable_parameter_block_sizes()->assign(unknowns, 1);
-  }
-  bool Evaluate(double const* const* /*scaled*/, double* residual, double** slopes) const override {
-    return evaluation_.Get(i_, *residual, slopes);
-  }
-
- private:
-  size_t i_;
-  const Evaluation& evaluation_;
-};
-
-ceres::Solver::Options OptionsOf(int32_t iterations, double tolerance) {
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
-  options.logging_type = ceres::SILENT;
-  options.max_num_iterations = iterations;
-  options.function_tolerance = tolerance;
-  // Beyond these a step changes the unknowns by their rounding alone.
-  options.gradient_tolerance = 1e-14;
-  options.parameter_tolerance = 1e-12;
-  // Along a step that meets a bound, cubic interpolation would ask for derivatives at every place that it tries.
-  options.line_search_interpolation_type = ceres::BISECTION;
-  options.max_num_line_search_step_size_iterations = 5;
-  // Steps that leave the rules of the scene are shortened until they keep them.
-  options.max_num_consecutive_invalid_steps = 50;
-  return options;
-}
-
-void Build(Evaluation& evaluation, const std::vector<bool>& is_free, const Model& model, ceres::Problem& built) {
-  const Problem& problem = model.problem();
-  std::vector<double*> blocks;
-  for (size_t k = 0; k < problem.unknowns(); ++k) {
-    blocks.push_back(&evaluation.scaled(k));
-    built.AddParameterBlock(blocks[k], 1);
-    if (!is_free[k]) {
-      built.SetParameterBlockConstant(blocks[k]);
-      continue;
-    }
-    if (std::isfinite(problem.low[k])) built.SetParameterLowerBound(blocks[k], 0, problem.low[k] / problem.scale[k]);
-    if (std::isfinite(problem.high[k])) built.SetParameterUpperBound(blocks[k], 0, problem.high[k] / problem.scale[k]);
-  }
-  for (size_t i = 0; i < problem.numbers.size(); ++i) {
-    built.AddResidualBlock(std::make_unique<Residual>(i, blocks.size(), evaluation).release(),
-                           MakeLoss(problem).release(), blocks);
-  }
-}
 
 double ObjectiveAt(const std::vector<double>& at, Model& model) {
   std::vector<double> predicted;
@@ -142,77 +119,59 @@ double ObjectiveAt(const std::vector<double>& at, Model& model) {
   return sum;
 }
 
+// One search from the minimum so far, to which it sets what it finds if that is better. Returns true if it is better by
+// more than the tolerance.
+bool Search(const std::vector<size_t>& free, double tolerance, Model& model, Minimum& minimum) {
+  const std::vector<double> start = minimum.at;
+  const double before = minimum.objective;
+  Residuals residuals(start, free, model);
+  Eigen::LevenbergMarquardt<Residuals> search(residuals);
+  search.setFtol(tolerance);
+  // Beyond these a step changes the unknowns by their rounding alone.
+  search.setXtol(1e-12);
+  search.setGtol(1e-14);
+  search.setMaxfev(model.problem().max_iterations - minimum.iterations);
+  Eigen::VectorXd x = residuals.Scaled(start);
+  const Eigen::LevenbergMarquardtSpace::Status status = search.minimize(x);
+  minimum.iterations += static_cast<int32_t>(search.nfev());
+  minimum.converged = status != Eigen::LevenbergMarquardtSpace::TooManyFunctionEvaluation;
+  const std::vector<double> end = residuals.Unknowns(x);
+  const double objective = ObjectiveAt(end, model);
+  if (!(objective <= before)) return false;
+  minimum.at = end;
+  minimum.objective = objective;
+  return before - objective > tolerance * before;
+}
+
 }  // namespace
 
 Loss LossOf(const Problem& problem, double squared_residual) {
-  std::array<double, 3> loss = {};
-  MakeLoss(problem)->Evaluate(squared_residual, loss.data());
-  return {.loss = loss[0], .weight = loss[1]};
-}
-
-namespace {
-
-// Ceres projects its steps onto the bounds and then creeps along them. After so many iterations the search goes on
-// without the unknowns that a bound holds.
-constexpr int32_t kBurst = 10;
-// An unknown is at a bound if it is nearer than this part of its scale.
-constexpr double kAtBound = 1e-12;
-
-// The free unknowns but for those that the objective pushes against a bound.
-std::vector<bool> Movable(const std::vector<double>& at, const std::vector<bool>& is_free, Model& model) {
-  const Problem& problem = model.problem();
-  const auto is_at = [&](size_t k, double bound) { return std::fabs(at[k] - bound) <= kAtBound * problem.scale[k]; };
-  std::vector<bool> bound = is_free;
-  for (size_t k = 0; k < at.size(); ++k)
-    bound[k] = is_free[k] && (is_at(k, problem.low[k]) || is_at(k, problem.high[k]));
-  std::vector<bool> movable = is_free;
-  std::vector<double> predicted, slopes;
-  const bool is_bound = std::find(bound.begin(), bound.end(), true) != bound.end();
-  if (!is_bound || !model.Predict(at, predicted) || !model.Differentiate(at, bound, slopes)) return movable;
-  for (size_t k = 0; k < at.size(); ++k) {
-    double push = 0.0;  // Towards higher values.
-    for (size_t i = 0; i < predicted.size(); ++i) {
-      const Number& number = problem.numbers[i];
-      const double residual = (number.value - predicted[i]) / number.sigma;
-      push += LossOf(problem, residual * residual).weight * residual * slopes[i * at.size() + k] / number.sigma;
-    }
-    if (bound[k]) movable[k] = is_at(k, push < 0.0 ? problem.high[k] : problem.low[k]);
+  const double square = problem.loss_scale * problem.loss_scale;
+  const double part = squared_residual / square;
+  switch (problem.loss) {
+    case FitLoss::kHuber:
+      if (part <= 1.0) break;
+      return {.loss = square * (2.0 * std::sqrt(part) - 1.0), .weight = 1.0 / std::sqrt(part)};
+    case FitLoss::kCauchy:
+      return {.loss = square * LogOfOnePlus(part), .weight = 1.0 / (1.0 + part)};
+    case FitLoss::kUnspecified:
+    case FitLoss::kSquares:
+      break;
   }
-  return movable;
+  return {.loss = squared_residual, .weight = 1.0};
 }
 
-// Goes on from `minimum` for some iterations, and returns whether the search converged.
-bool Burst(const std::vector<bool>& is_free, int32_t iterations, double tolerance, Model& model, Minimum& minimum) {
-  Evaluation evaluation(minimum.at, is_free, model);
-  ceres::Problem::Options options;
-  options.evaluation_callback = &evaluation;
-  ceres::Problem built(options);
-  Build(evaluation, is_free, model, built);
-  ceres::Solver::Summary summary;
-  ceres::Solve(OptionsOf(iterations, tolerance), &built, &summary);
-  minimum.iterations += std::max(summary.num_successful_steps + summary.num_unsuccessful_steps, 1);
-  const std::vector<double> end = evaluation.unknowns();
-  const double objective = ObjectiveAt(end, model);
-  if (objective <= minimum.objective) {
-    minimum.at = end;
-    minimum.objective = objective;
-  }
-  return summary.termination_type == ceres::CONVERGENCE;
-}
-
-}  // namespace
-
+// Eigen's search knows no bounds: an unknown that it moves beyond one stays at the bound, and the others go on. A
+// further search from there sees whether the unknown should come back.
 Minimum Minimize(const std::vector<double>& start, const std::vector<bool>& is_free, double tolerance, Model& model) {
-  Minimum minimum = {.at = start, .objective = ObjectiveAt(start, model)};
-  std::vector<bool> moves = is_free;
-  const int32_t most = model.problem().max_iterations;
-  while (std::isfinite(minimum.objective) && !minimum.converged && minimum.iterations < most && !model.is_stopped()) {
-    const bool has_free = std::find(moves.begin(), moves.end(), true) != moves.end();
-    const int32_t left = std::min(kBurst, most - minimum.iterations);
-    const bool ended = !has_free || Burst(moves, left, tolerance, model, minimum);
-    const std::vector<bool> movable = Movable(minimum.at, is_free, model);
-    minimum.converged = ended && movable == moves;
-    moves = movable;
+  Minimum minimum = {.at = start, .objective = ObjectiveAt(start, model), .converged = true};
+  std::vector<size_t> free;
+  for (size_t k = 0; k < start.size(); ++k) {
+    if (is_free[k]) free.push_back(k);
+  }
+  if (free.empty() || !std::isfinite(minimum.objective)) return minimum;
+  while (Search(free, tolerance, model, minimum) && !model.is_stopped() &&
+         minimum.iterations < model.problem().max_iterations) {
   }
   return minimum;
 }

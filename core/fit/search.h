@@ -1,5 +1,5 @@
 // Minimize: the unknowns within their bounds that minimize the sum of the losses of all residuals, by the
-// Levenberg-Marquardt search of Ceres on one thread. It finds a minimum near its start, not the least of several.
+// Levenberg-Marquardt search of Eigen on one thread. It finds a minimum near its start, not the least of several.
 
 #ifndef RICOCHET_CORE_FIT_SEARCH_H_
 #define RICOCHET_CORE_FIT_SEARCH_H_

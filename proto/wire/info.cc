@@ -61,8 +61,7 @@ struct Map<InfoResponse> : Between<InfoResponse, v1::InfoResponse> {
               Entry(&T::server_limits, &P::has_server_limits, &P::server_limits, &P::mutable_server_limits),
               Entry(&T::certified, &P::certified, &P::set_certified),
               Entry(&T::finite_duration, &P::finite_duration, &P::set_finite_duration),
-              Entry(&T::systems, &P::systems, &P::mutable_systems), Entry(&T::models, &P::models, &P::mutable_models),
-              Entry(&T::fit, &P::fit, &P::set_fit)>;
+              Entry(&T::systems, &P::systems, &P::mutable_systems), Entry(&T::models, &P::models, &P::mutable_models)>;
 };
 
 v1::InfoRequest ToProto(const InfoRequest& /*request*/) { return {}; }

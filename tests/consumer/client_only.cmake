@@ -4,10 +4,10 @@
 
 # Builds the program, and puts its path into `program` in the caller.
 function(build_client_alone)
-  foreach(header arb.h flint/flint.h gmp.h cvode/cvode.h ceres/ceres.h hwy/highway.h sleef.h Eigen/Core)
+  foreach(header arb.h flint/flint.h gmp.h cvode/cvode.h hwy/highway.h sleef.h Eigen/Core)
     file(WRITE ${WORK_DIR}/poison/${header} "#error \"a client does not have this library\"\n")
   endforeach()
-  foreach(package Ceres Eigen3 FLINT SUNDIALS hwy sleef)
+  foreach(package Eigen3 FLINT SUNDIALS hwy sleef)
     list(APPEND nothing_else -DCMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
   endforeach()
   string(APPEND CXX_FLAGS " -I${WORK_DIR}/poison")
@@ -19,7 +19,7 @@ endfunction()
 # Stops if the program needs one of those libraries, or has functions of one or of the engine in itself.
 function(expect_no_engine program)
   run(ldd ${program})
-  if(output MATCHES "lib(ceres|flint|arb|gmp|sundials|hwy|sleef)[^\n]*")
+  if(output MATCHES "lib(flint|arb|gmp|sundials|hwy|sleef)[^\n]*")
     message(FATAL_ERROR "${program} needs ${CMAKE_MATCH_0}")
   endif()
   run(nm --demangle ${program})

@@ -269,7 +269,6 @@ TEST(RoomsTest, LibrariesAreIncludedOnlyBehindTheirDoors) {
       {"nvector/", {"core/models/finite_duration/integrator."}},
       {"sundials/", {"core/models/finite_duration/integrator."}},
       {"sunnonlinsol/", {"core/models/finite_duration/integrator."}},
-      {"ceres/", {"core/fit/search."}},
       {"flint/", {"core/certified/"}},
       {"arb", {"core/certified/"}},
       {"arf", {"core/certified/"}},

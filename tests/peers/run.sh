@@ -5,8 +5,8 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/../../tools/dev_lib.sh"
 
 readonly peers_packages=(
-  "${core_packages[@]}" libceres-dev gnuplot-nox libflint-arb-dev libflint-dev libgmock-dev libgmp-dev libgtest-dev
-  libsundials-dev nlohmann-json3-dev python3 python3-numpy)
+  "${core_packages[@]}" gnuplot-nox libflint-arb-dev libflint-dev libgmock-dev libgmp-dev libgtest-dev libsundials-dev
+  nlohmann-json3-dev python3 python3-numpy)
 # Physics engines; those that cannot be installed are left out.
 readonly engine_packages=(
   libbox2d-dev libbullet-dev libchipmunk-dev libdart-dev libmujoco-dev libode-dev libsiconos-kernel-dev libsimbody-dev)

@@ -73,7 +73,6 @@ struct InfoResponse {
   bool finite_duration = false;               // True if impacts that take time can be computed.
   std::vector<std::string> systems;           // The systems that a scene can have, by name: "pendulum", ...
   std::vector<Model> models;                  // The models that can compute an impact, in the order of their numbers.
-  bool fit = false;                           // True if fits can be asked for.
   friend bool operator==(const InfoResponse&, const InfoResponse&) = default;
 };
 

@@ -44,6 +44,7 @@ COMMANDS = {
     "plot": [[str(INPUTS / "sweep.csv")]],
     "multicontact": [["--scene", str(INPUTS / "box.textproto")]],
     "audit": [[*PENDULUM, "--observed-rate", "0.5"], [*PENDULUM, "--data", str(INPUTS / "observed.csv")]],
+    "fit": [[*PENDULUM, "--data", str(INPUTS / "observed.csv"), "--unknown", "energetic", "--sigma", "rates_after_rad_s[0]=0.1"]],
     "cost": [[*PENDULUM, "--time-limit", "20ms", "--samples", "1"]],
     "conformance list": [["--family", "stick"]],
     "conformance show": [["rod-jams"]],
@@ -59,7 +60,7 @@ COMMANDS = {
 # Options that speak of files or paths and are no names of files to read or to write.
 NO_FILES = {"--axis", "--range", "--server", "merge file"}
 # What stands in the file of each option that reads one.
-CONTENT = {"--scene": SCENE, "--request": REQUEST, "plot file": SWEEP_CSV, "solve --data": ROWS, "audit --data": OBSERVED,
+CONTENT = {"--scene": SCENE, "--request": REQUEST, "plot file": SWEEP_CSV, "solve --data": ROWS, "audit --data": OBSERVED, "fit --data": OBSERVED,
            "conformance grade ANSWERS": ANSWERS, "--config": 'deadline = "5s"\n', "--token-file": "secret\n"}
 ENDINGS = {"text": ["txt"], "textproto": ["textproto", "txtpb", "pbtxt", "txt"], "json": ["json"], "jsonl": ["jsonl"],
            "csv": ["csv"], "npy": ["npy"], "netcdf": ["nc"]}

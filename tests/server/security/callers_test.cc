@@ -79,7 +79,7 @@ TEST(Scopes, EveryMethodOfTheServiceHasTheOneThatTheReadmeStates) {
   const std::map<std::string, std::string> stated = {
       {"Solve", "solve"},      {"SolveBatch", "solve"},   {"SolveBatches", "solve"}, {"Plan", "solve"},
       {"Bounds", "solve"},     {"Sweep", "sweep"},        {"Cost", "cost"},          {"Audit", "audit"},
-      {"AuditBatch", "audit"}, {"MultiContact", "solve"}, {"Info", "info"}};
+      {"AuditBatch", "audit"}, {"MultiContact", "solve"}, {"Info", "info"},          {"Fit", "audit"}};
   const auto* const file = v1::SolveRequest::descriptor()->file();
   ASSERT_EQ(file->service_count(), 1);
   const auto& service = *file->service(0);
