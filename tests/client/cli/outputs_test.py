@@ -328,7 +328,7 @@ class Outputs(unittest.TestCase):
             arguments = base[len(PENDULUM):] if base[:len(PENDULUM)] == PENDULUM else base
             arguments = arguments[2:] if arguments[:1] == [flag] else arguments
         if flag == "--data":
-            arguments = arguments[:arguments.index(flag)] if flag in arguments else arguments
+            arguments = [one for i, one in enumerate(arguments) if flag not in (one, arguments[i - 1])]
             arguments = [one for i, one in enumerate(arguments) if "--observed-rate" not in (one, arguments[i - 1])]
         if flag in ("--tls-ca", "--tls-cert", "--tls-key", "--token-file", "--config"):
             arguments = [*arguments, "--server", "127.0.0.1:1"]
