@@ -47,7 +47,7 @@ using MaskOf = decltype(std::declval<T>() < std::declval<T>());
 // The type of a constant.
 template <typename T>
 struct ConstantOf {
-  using type = T;
+  using type = T;  // NOLINT(readability-identifier-naming): named as the traits of the standard library.
 };
 
 #if RICOCHET_SIMD

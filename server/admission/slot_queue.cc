@@ -30,7 +30,7 @@ absl::Status SlotQueue::Enter(Waiter& waiter, absl::FunctionRef<bool()> is_gone)
   queue_.Add(waiter);
   LetIn();
   absl::Status ended = WaitUntil(Time::max(), waiter, is_gone, lock);
-  if (waiter.state == Waiter::State::kWaiting) queue_.Remove(waiter);
+  if (waiter.state_ == Waiter::State::kWaiting) queue_.Remove(waiter);
   return ended;
 }
 
@@ -44,8 +44,8 @@ bool SlotQueue::TryEnter(Waiter& waiter) {
 
 double SlotQueue::Leave(Waiter& waiter) {
   const std::lock_guard lock(mutex_);
-  const double computed_s = Seconds(Clock::now() - waiter.started).count();
-  computing_.erase(waiter.place);
+  const double computed_s = Seconds(Clock::now() - waiter.started_).count();
+  computing_.erase(waiter.place_);
   queue_.Settle(waiter, computed_s);
   LetIn();
   return computed_s;
@@ -55,8 +55,8 @@ void SlotQueue::Close() {
   const std::lock_guard lock(mutex_);
   closed_ = true;
   const auto turn_away = [](Waiter& waiter) {
-    waiter.state = Waiter::State::kTurnedAway;
-    waiter.changed.notify_one();
+    waiter.state_ = Waiter::State::kTurnedAway;
+    waiter.changed_.notify_one();
   };
   while (FairQueue::Item* const item = queue_.Next()) turn_away(static_cast<Waiter&>(*item));
   for (Waiter* const waiter : refused_) turn_away(*waiter);
@@ -81,10 +81,10 @@ void SlotQueue::LetIn() {
 }
 
 void SlotQueue::Start(Waiter& waiter) {
-  waiter.state = Waiter::State::kComputing;
-  waiter.started = Clock::now();
-  waiter.place = computing_.insert(computing_.end(), &waiter);
-  waiter.changed.notify_one();
+  waiter.state_ = Waiter::State::kComputing;
+  waiter.started_ = Clock::now();
+  waiter.place_ = computing_.insert(computing_.end(), &waiter);
+  waiter.changed_.notify_one();
 }
 
 double SlotQueue::ExpectedWait(const Waiter& waiter) const {
@@ -92,7 +92,7 @@ double SlotQueue::ExpectedWait(const Waiter& waiter) const {
   double work_s = queue_.ExpectedAhead(waiter);
   const Time now = Clock::now();
   for (const Waiter* const computing : computing_) {
-    work_s += std::max(computing->expected_s - Seconds(now - computing->started).count(), 0.0);
+    work_s += std::max(computing->expected_s - Seconds(now - computing->started_).count(), 0.0);
   }
   return work_s / static_cast<double>(slots_);
 }
@@ -108,20 +108,20 @@ absl::Status SlotQueue::WhyRefused(const Waiter& waiter) const {
 
 absl::Status SlotQueue::WaitUntil(Time end, Waiter& waiter, absl::FunctionRef<bool()> is_gone,
                                   std::unique_lock<std::mutex>& lock) {
-  while (waiter.state == Waiter::State::kWaiting) {
+  while (waiter.state_ == Waiter::State::kWaiting) {
     const Time now = Clock::now();
     if (now >= waiter.deadline) return absl::DeadlineExceededError("the deadline passed before the call's turn came");
     if (now >= end) return absl::OkStatus();
-    waiter.changed.wait_until(lock, std::min({end, waiter.deadline, now + kBetweenLooks}));
-    if (waiter.state != Waiter::State::kWaiting) break;
+    waiter.changed_.wait_until(lock, std::min({end, waiter.deadline, now + kBetweenLooks}));
+    if (waiter.state_ != Waiter::State::kWaiting) break;
     lock.unlock();
     const bool gone = is_gone();
     lock.lock();
-    if (gone && waiter.state == Waiter::State::kWaiting) {
+    if (gone && waiter.state_ == Waiter::State::kWaiting) {
       return absl::CancelledError("the caller gave up before the call's turn came");
     }
   }
-  return waiter.state == Waiter::State::kTurnedAway ? Draining() : absl::OkStatus();
+  return waiter.state_ == Waiter::State::kTurnedAway ? Draining() : absl::OkStatus();
 }
 
 }  // namespace ricochet::server

@@ -30,10 +30,10 @@ class SlotQueue {
    private:
     friend class SlotQueue;
     enum class State { kWaiting, kComputing, kTurnedAway };
-    State state = State::kWaiting;
-    Time started;
-    std::list<const Waiter*>::iterator place;
-    std::condition_variable changed;
+    State state_ = State::kWaiting;
+    Time started_;
+    std::list<const Waiter*>::iterator place_;
+    std::condition_variable changed_;
   };
 
   // At most `slots` calls compute at once and `most_waiting` wait; both >= 1.

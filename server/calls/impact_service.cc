@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <optional>
+#include <utility>
 
 #include "absl/functional/function_ref.h"
 #include "proto/wire/audit.h"
@@ -39,7 +40,7 @@ absl::Status ForwardStream(Call& call, absl::FunctionRef<ResultStream<T>()> open
   for (;;) {
     absl::Status status;
     bool is_last = false;
-    const absl::Status computed = call.Compute(std::nullopt, [&] {
+    absl::Status computed = call.Compute(std::nullopt, [&] {
       if (stream.has_value()) {
         ++at;
       } else {
@@ -72,8 +73,8 @@ absl::Status Send(const Response& response, grpc::ServerWriter<Response>& writer
 
 }  // namespace
 
-ImpactService::ImpactService(const Solver& solver, const CallFrame& frame, const ServerLimits& limits)
-    : solver_(solver), frame_(frame), limits_(limits) {}
+ImpactService::ImpactService(const Solver& solver, const CallFrame& frame, ServerLimits limits)
+    : solver_(solver), frame_(frame), limits_(std::move(limits)) {}
 
 template <typename Request, typename Response, typename Method>
 grpc::Status ImpactService::Answer(const char* name, Method method, grpc::ServerContext& context,
@@ -178,8 +179,8 @@ absl::Status ImpactService::Answer(BoundedBatches& batches, Call& call) const {
     // A step of a simulation is short and answered at once; a long batch takes its turn among the parts of streams.
     const RequestCost cost = answer.CostOf(request);
     absl::Status status;
-    const absl::Status computed = call.Compute(cost.is_cheap() ? std::optional(cost) : std::nullopt,
-                                               [&] { status = answer.Fill(request, response, call.record()); });
+    absl::Status computed = call.Compute(cost.is_cheap() ? std::optional(cost) : std::nullopt,
+                                         [&] { status = answer.Fill(request, response, call.record()); });
     if (!computed.ok()) return computed;
     if (!status.ok()) return status;
     const auto bytes = static_cast<int64_t>(response.ByteSizeLong());

@@ -125,7 +125,7 @@ std::vector<std::string> Quoted(const std::string& cell) {
   return texts;
 }
 
-std::string WithoutSlash(std::string folder) { return folder.substr(0, folder.find_last_not_of('/') + 1); }
+std::string WithoutSlash(const std::string& folder) { return folder.substr(0, folder.find_last_not_of('/') + 1); }
 
 // The rooms by their folders, read off the tables of docs/architecture.md.
 std::map<std::string, Room> ReadRooms() {

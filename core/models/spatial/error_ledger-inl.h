@@ -38,7 +38,7 @@ struct EndErrors {
 };
 
 template <typename T>
-class ErrorLedger {
+class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one stands in an impact at a time.
  public:
   explicit ErrorLedger(const ScaledProblem<T>& problem) : problem_(problem) {}
 

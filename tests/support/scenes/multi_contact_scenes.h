@@ -18,7 +18,7 @@ inline MultiContactScene RowOfBalls(const std::vector<double>& masses, const std
   FreeBodies balls;
   MultiContactScene scene;
   for (size_t i = 0; i < masses.size(); ++i) {
-    const double x = static_cast<double>(i);
+    const auto x = static_cast<double>(i);
     balls.bodies.push_back({.mass_kg = masses[i],
                             .inertia_com_kg_m2 = {0.1 * masses[i]},
                             .position_m = {x, 0.0},
