@@ -609,11 +609,15 @@ class Client:
         return self._solver.info()
 
     def _limit(self, name: str) -> int:
-        """Returns a limit of a request; 2^31 if there is none."""
+        """Returns a limit of a request, >= 1; 2^31 if there is none."""
         if self._limits is None:
             self._limits = self.info().limits
         limit = self._limits[name]
-        return 1 << 31 if limit is None else int(limit)
+        if limit is None:
+            return 1 << 31
+        if limit < 1:  # Rows in parts of no row would be lost in silence.
+            raise RicochetError(f"the server states {name} = {limit}: must be >= 1", code="DATA_LOSS")
+        return int(limit)
 
 
 class ModuleClient(Client):

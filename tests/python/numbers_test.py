@@ -190,6 +190,13 @@ class BoundsAndAudits(unittest.TestCase):
         self.assertGreaterEqual(outer.upper, 1)
         self.assertLess(outer.upper, 1.006)
 
+    def test_a_limit_of_no_row_is_refused(self):
+        client = ricochet.Client()
+        for limit in (0, -1):
+            client._limits = {"max_audit_rows": limit}  # As a server that is wrong would state it.
+            with self.assertRaisesRegex(ricochet.RicochetError, f"max_audit_rows = {limit}: must be >= 1"):
+                client.audit_batch(PENDULUM, {"rates_after": [0.1, 0.2]})
+
     def test_an_observation_that_doubles_the_rate_breaks_the_limits(self):
         answer = ricochet.audit(PENDULUM, rates_rad_s=2.0)
         self.assertFalse(answer.report.admissible)
