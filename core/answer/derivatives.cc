@@ -103,14 +103,6 @@ struct Beside {
   double step = 0.0;  // The derivative by the number is that along the direction over this.
 };
 
-std::optional<double> NumberAt(const std::string& path, Scene& scene) {
-  std::optional<double> number;
-  VisitNumbers(scene, [&](const NumberPath& at, double& value, NumberRule /*rule*/) {
-    if (at.Text() == path) number = value;
-  });
-  return number;
-}
-
 // The direction in which the number at `path` alone changes, by `step`.
 Scene DirectionOf(const Scene& scene, const std::string& path, double step) {
   Scene direction = scene;
@@ -137,7 +129,7 @@ std::optional<Beside> StepBeside(const Scene& scene, const std::string& path, do
     return beside;
   }
   const Field field = *ResolveField(path, beside.scene);
-  const double number = *NumberAt(path, beside.scene);
+  const double number = *NumberAt(beside.scene, path);
   const double size = number == 0.0 ? kBeside : std::fabs(number);
   const bool keeps_rule = field.Set(number == 0.0 ? side * size : number + side * 0x1p-50 * size);
   if (!keeps_rule || !Validate(beside.scene).empty()) return std::nullopt;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -106,7 +105,7 @@ class Fitter {
       derivatives.assign(problem_.numbers.size() * problem_.unknowns(), 0.0);
     }
     for (size_t i = 0; i < predicted.size(); ++i) {
-      const double residual = (problem_.numbers[i].value - predicted[i]) / problem_.numbers[i].sigma;
+      const double residual = problem_.numbers[i].Residual(predicted[i]);
       weights.push_back(LossOf(problem_, residual * residual).weight);
     }
     weights.resize(problem_.numbers.size(), 1.0);
@@ -143,7 +142,7 @@ class Fitter {
       estimate.profile.push_back({best_.at[k], 0.0});
       for (const double side : {-1.0, 1.0}) {
         const Direction direction = Towards({{k, side}});
-        const RayEnd end = EndOfRay(best_, direction, kRiseOfInterval, kPlaces, model_);
+        const RayEnd end = EndOfRay(best_, direction, kFitRiseOfInterval, kPlaces, model_);
         if (end.better.has_value() && may_restart) return Adopt(*end.better);
         SetEnd(end, direction.step[k], side < 0.0 ? estimate.low : estimate.high, estimate);
       }

@@ -43,7 +43,7 @@ void SetRows(const Problem& problem, const std::vector<double>& best, Model& mod
   }
   for (size_t i = 0; i < predicted.size(); ++i) {
     const Number& number = problem.numbers[i];
-    const double residual = (number.value - predicted[i]) / number.sigma;
+    const double residual = number.Residual(predicted[i]);
     response.rows[number.row].predicted[number.column] = predicted[i];
     response.rows[number.row].residuals[number.column] = residual;
     response.chi2 += residual * residual;
@@ -144,6 +144,10 @@ bool StartsDiffer(const Problem& problem, const FitResponse& response) {
   return false;
 }
 
+bool Chi2IsTooLarge(const FitResponse& response) {
+  return response.p_value.has_value() && *response.p_value < kFitRefusedBelow;
+}
+
 // --- In sentences ---
 
 std::string WhyUnseen(const FitEstimate& estimate, const std::vector<FitRow>& rows) {
@@ -191,7 +195,7 @@ void SetNotes(FitResponse& response) {
     NoteEnd(estimate, "lower", estimate.low, notes);
     NoteEnd(estimate, "upper", estimate.high, notes);
   }
-  if (response.p_value.has_value() && *response.p_value < kFitRefusedBelow) {
+  if (Chi2IsTooLarge(response)) {
     notes.push_back(absl::StrCat("The data refuse the physics or the stated errors: chi2 has the probability ",
                                  *response.p_value, "."));
   }
@@ -229,9 +233,9 @@ void Judge(const Problem& problem, const std::vector<double>& best, const Inform
     response.p_value = ChiSquaredBeyond(response.chi2, static_cast<double>(response.degrees_of_freedom));
   }
   AuditRows(problem, best, model, response);
-  response.refused = (response.p_value.has_value() && *response.p_value < kFitRefusedBelow) ||
-                     std::any_of(response.rows.begin(), response.rows.end(),
-                                 [](const FitRow& row) { return !row.broken_limits.empty(); });
+  response.refused =
+      Chi2IsTooLarge(response) || std::any_of(response.rows.begin(), response.rows.end(),
+                                              [](const FitRow& row) { return !row.broken_limits.empty(); });
   SetThresholds(problem, best, model, response);
   response.starts_differ = StartsDiffer(problem, response);
   SetNotes(response);

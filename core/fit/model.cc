@@ -16,18 +16,15 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // The cube root of the rounding of a double: the step for which central differences are most exact.
 constexpr double kStep = 6e-6;
 
-// The slope that a search can use where the sides differ.
-double SlopeOf(const Derivative& derivative) {
-  if (derivative.value.has_value()) return *derivative.value;
-  if (derivative.from_below.has_value() && derivative.from_above.has_value()) {
-    return 0.5 * (*derivative.from_below + *derivative.from_above);
-  }
-  return derivative.from_below.value_or(derivative.from_above.value_or(0.0));
-}
-
 double MeanOfSides(double below, double above) {
   if (std::isnan(below)) return std::isnan(above) ? 0.0 : above;
   return std::isnan(above) ? below : 0.5 * (below + above);
+}
+
+// The slope that a search can use where the sides differ.
+double SlopeOf(const Derivative& derivative) {
+  if (derivative.value.has_value()) return *derivative.value;
+  return MeanOfSides(derivative.from_below.value_or(kNone), derivative.from_above.value_or(kNone));
 }
 
 }  // namespace

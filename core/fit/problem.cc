@@ -46,14 +46,6 @@ std::pair<double, double> RangeOf(NumberRule rule) {
   return {-kInfinity, kInfinity};
 }
 
-std::optional<double> NumberOf(const Scene& scene, const std::string& path) {
-  std::optional<double> number;
-  VisitNumbers(scene, [&](const NumberPath& at, double value, NumberRule /*rule*/) {
-    if (at.Text() == path) number = value;
-  });
-  return number;
-}
-
 class Door {
  public:
   explicit Door(const FitRequest& request) : request_(request) {}
@@ -120,7 +112,7 @@ class Door {
     const FitUnknown& unknown = request_.unknowns[k];
     const std::string name = absl::StrCat("unknowns[", k, "]");
     Scene scene = request_.scene;
-    const std::optional<double> own = NumberOf(scene, unknown.path);
+    const std::optional<double> own = NumberAt(scene, unknown.path);
     const auto [least, most] = RangeOf(ResolveField(unknown.path, scene)->rule());
     const std::string range = absl::StrCat("be in [", ShortestDecimal(least), ", ", ShortestDecimal(most), "]");
     for (const auto& [bound, value] : {std::pair(".low", unknown.low), std::pair(".high", unknown.high)}) {

@@ -19,6 +19,8 @@ struct Number {
   size_t column = 0;
   double value = 0.0;
   double sigma = 0.0;
+
+  double Residual(double predicted) const { return (value - predicted) / sigma; }
 };
 
 struct Problem {

@@ -17,8 +17,7 @@
 
 namespace ricochet::fit {
 
-// The quantiles of chi-squared at kFitConfidence, for one and two degrees of freedom.
-inline constexpr double kRiseOfInterval = 3.841458820694124;
+// The quantile of chi-squared at kFitConfidence for two degrees of freedom, as kFitRiseOfInterval is for one.
 inline constexpr double kRiseOfRegion = 5.991464547107979;
 
 // A place on a ray, and the least objective there.

@@ -66,27 +66,26 @@ class Residuals : public Eigen::DenseFunctor<double> {
   // Where an impact has no such number, residuals are so large that the search turns back.
   int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& residuals) const {
     constexpr double kTurnsBack = 1e100;
-    std::vector<double> predicted;
-    if (!model_.Predict(Unknowns(x), predicted)) {
+    if (!PredictAt(x)) {
       residuals.setConstant(kTurnsBack);
       return 0;
     }
-    for (Index i = 0; i < residuals.size(); ++i) residuals[i] = CostOf(problem_, Residual(i, predicted)).residual;
+    for (Index i = 0; i < residuals.size(); ++i) residuals[i] = CostedAt(i).residual;
     return 0;
   }
 
   int df(const Eigen::VectorXd& x, Eigen::MatrixXd& slopes) const {
     const std::vector<double> at = Unknowns(x);
-    std::vector<double> predicted, derivatives;
+    std::vector<double> derivatives;
     slopes.setZero(values(), inputs());
     // A fit that was stopped has no slopes, so that the search ends at once.
-    if (!model_.Predict(at, predicted) || !model_.Differentiate(at, is_free_, derivatives)) return 0;
+    if (!PredictAt(x) || !model_.Differentiate(at, is_free_, derivatives)) return 0;
     for (Index j = 0; j < slopes.cols(); ++j) {
       const size_t k = Free(j);
       if (IsBeyond(x[j] * problem_.scale[k], k)) continue;
       for (Index i = 0; i < slopes.rows(); ++i) {
         const double slope = derivatives[static_cast<size_t>(i) * at.size() + k] * problem_.scale[k];
-        slopes(i, j) = -CostOf(problem_, Residual(i, predicted)).slope * slope / Number(i).sigma;
+        slopes(i, j) = -CostedAt(i).slope * slope / Number(i).sigma;
       }
     }
     return 0;
@@ -95,9 +94,14 @@ class Residuals : public Eigen::DenseFunctor<double> {
  private:
   size_t Free(Index i) const { return free_[static_cast<size_t>(i)]; }
   const fit::Number& Number(Index i) const { return problem_.numbers[static_cast<size_t>(i)]; }
-  double Residual(Index i, const std::vector<double>& predicted) const {
-    return (Number(i).value - predicted[static_cast<size_t>(i)]) / Number(i).sigma;
+  // Predicts the numbers at x. The search asks for the slopes where it asked for the residuals last.
+  bool PredictAt(const Eigen::VectorXd& x) const {
+    if (predicted_at_.size() == x.size() && predicted_at_ == x) return is_predicted_;
+    predicted_at_ = x;
+    is_predicted_ = model_.Predict(Unknowns(x), predicted_);
+    return is_predicted_;
   }
+  Costed CostedAt(Index i) const { return CostOf(problem_, Number(i).Residual(predicted_[static_cast<size_t>(i)])); }
   bool IsBeyond(double value, size_t k) const { return value < problem_.low[k] || value > problem_.high[k]; }
 
   Model& model_;
@@ -105,6 +109,9 @@ class Residuals : public Eigen::DenseFunctor<double> {
   const std::vector<double>& start_;
   const std::vector<size_t>& free_;
   std::vector<bool> is_free_;
+  mutable Eigen::VectorXd predicted_at_;
+  mutable std::vector<double> predicted_;
+  mutable bool is_predicted_ = false;
 };
 
 double ObjectiveAt(const std::vector<double>& at, Model& model) {
@@ -112,8 +119,7 @@ double ObjectiveAt(const std::vector<double>& at, Model& model) {
   if (!model.Predict(at, predicted)) return std::numeric_limits<double>::infinity();
   double sum = 0.0;
   for (size_t i = 0; i < predicted.size(); ++i) {
-    const Number& number = model.problem().numbers[i];
-    const double residual = (number.value - predicted[i]) / number.sigma;
+    const double residual = model.problem().numbers[i].Residual(predicted[i]);
     sum += LossOf(model.problem(), residual * residual).loss;
   }
   return sum;

@@ -293,6 +293,15 @@ void VisitNumbers(SomeScene& scene, Visitor visit) {
   numbers::VisitAlternative(scene.finite_forces, visit);
 }
 
+// Returns the number of the scene at a path; nothing if the scene states none there.
+inline std::optional<double> NumberAt(const Scene& scene, const std::string& path) {
+  std::optional<double> number;
+  VisitNumbers(scene, [&](const NumberPath& at, double value, NumberRule /*rule*/) {
+    if (at.Text() == path) number = value;
+  });
+  return number;
+}
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_CORE_SCENE_NUMBERS_H_

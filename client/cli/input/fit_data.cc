@@ -6,6 +6,7 @@
 #include <sstream>
 #include <utility>
 
+#include "absl/algorithm/container.h"
 #include "absl/strings/escaping.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
@@ -23,16 +24,12 @@ namespace {
 
 constexpr char kSigmaEnding[] = ".sigma";
 
-// What a column of the table is, and its cells.
+// A column of the table: its use, its path and its cells.
 struct Column {
   enum class Use { kInput, kMeasured, kSigma } use = Use::kInput;
   std::string path;
   std::vector<double> values;
 };
-
-bool IsIn(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 absl::StatusOr<Column> ColumnOf(const std::string& name, const Scene& scene) {
   const std::vector<std::string> fields = FieldPaths(scene);
@@ -43,12 +40,12 @@ absl::StatusOr<Column> ColumnOf(const std::string& name, const Scene& scene) {
   const std::string bare(absl::StripSuffix(name, kSigmaEnding));
   absl::StatusOr<std::string> path = FullName(bare, known, "--data, column");
   if (!path.ok()) return path.status();
-  if (!IsIn(known, *path)) {
+  if (!absl::c_linear_search(known, *path)) {
     return absl::InvalidArgumentError(absl::StrCat(
         "--data has the column \"", absl::CEscape(name), "\": must be a number of the scene, one of the outcome, or ",
         "one with .sigma", DidYouMean(bare, known), "; --skip-column leaves a column out"));
   }
-  const auto use = IsIn(numbers, *path) ? Column::Use::kMeasured : Column::Use::kInput;
+  const auto use = absl::c_linear_search(numbers, *path) ? Column::Use::kMeasured : Column::Use::kInput;
   return Column{.use = is_sigma ? Column::Use::kSigma : use, .path = *std::move(path), .values = {}};
 }
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "absl/algorithm/container.h"
 #include "absl/strings/ascii.h"
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
@@ -34,10 +35,6 @@ bool EndsIn(const std::string& path, const std::string& name) {
   return path == name || (absl::EndsWith(path, absl::StrCat(".", name)) && !absl::StartsWith(path, "errors."));
 }
 
-bool Contains(const std::vector<std::string>& known, const std::string& name) {
-  return std::find(known.begin(), known.end(), name) != known.end();
-}
-
 // Returns the name itself, which the checks of a request will refuse, unless it is nearly the last part of a known
 // name.
 absl::StatusOr<std::string> NearShortName(const std::string& name, const std::vector<std::string>& known,
@@ -58,9 +55,9 @@ absl::StatusOr<std::string> NearShortName(const std::string& name, const std::ve
 
 absl::StatusOr<std::string> FullName(const std::string& name, const std::vector<std::string>& known,
                                      const std::string& what) {
-  if (name.empty() || Contains(known, name)) return name;
+  if (name.empty() || absl::c_linear_search(known, name)) return name;
   for (const auto& [letter, path] : kLetters) {
-    if (name == letter && Contains(known, path)) return path;
+    if (name == letter && absl::c_linear_search(known, path)) return path;
   }
   std::vector<std::string> meant;
   for (const std::string& path : known) {

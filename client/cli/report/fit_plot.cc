@@ -18,13 +18,12 @@ constexpr char kData[] = "with points pointtype 7 pointsize 0.9 linecolor rgb '#
 constexpr char kModel[] = "with points pointtype 6 pointsize 1.3 linewidth 1.5 linecolor rgb '#D55E00'";
 constexpr char kProfile[] = "with linespoints pointtype 7 pointsize 0.5 linewidth 1.5 linecolor rgb '#0072B2'";
 constexpr char kBest[] = "with points pointtype 1 pointsize 1.5 linewidth 2 linecolor rgb '#404040'";
-// Where an interval ends (core/fit/profile.h), and how high the panel of a profile reaches.
-constexpr double kRiseOfInterval = 3.84;
+// The panel of a profile reaches so high.
 constexpr double kMostRise = 12.0;
 // Residuals beyond these are rare.
 constexpr double kRare = 2.0;
 
-// What stands to the right: an input that differs by row, or the rows.
+// The horizontal axis: an input that differs by row, or the number of the row.
 struct Abscissa {
   std::string label = "row";
   const std::vector<double>* values = nullptr;
@@ -82,7 +81,7 @@ Panel ProfilePanel(const FitEstimate& unknown) {
   Panel panel{.title = absl::StrCat("Profile of ", label.name, unknown.seen ? "" : " (not seen)"),
               .x_label = WithUnit(label),
               .y_label = "rise of the objective",
-              .y_marks = {kRiseOfInterval}};
+              .y_marks = {kFitRiseOfInterval}};
   Curve curve{.title = "", .points = {}, .style = kProfile};
   for (const FitProfilePoint& point : unknown.profile) {
     if (point.rise <= kMostRise) curve.points.emplace_back(point.value, point.rise);

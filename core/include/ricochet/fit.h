@@ -23,6 +23,8 @@ namespace ricochet {
 
 // The coverage of the intervals and of the region.
 inline constexpr double kFitConfidence = 0.95;
+// An interval ends where the objective rises by this, the quantile of chi-squared for one degree of freedom.
+inline constexpr double kFitRiseOfInterval = 3.841458820694124;
 // The data refuse the physics if a true model would give so large a chi2 with less than this probability.
 inline constexpr double kFitRefusedBelow = 1e-3;
 
