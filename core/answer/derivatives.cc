@@ -10,6 +10,9 @@
 
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "core/answer/derivative_sides.h"
+#include "core/answer/differences.h"
 #include "core/base/nearest.h"
 #include "core/contact/contact_tangent.h"
 #include "core/contact/scene_contact.h"
@@ -30,14 +33,15 @@ constexpr size_t kOutputs = kPlanarOutputPaths.size();
 
 // --- Which numbers there are ---
 
-// The paths of the velocities of the system itself after the impact, in the order of PlanarReduction::before.
+// The paths of the velocities of the system itself after the impact; in a plane, in the order of PlanarReduction::before.
 struct VelocityPaths {
   std::vector<std::string>& paths;
+  size_t tangential;  // Directions.
 
   void operator()(std::monostate) const {}
   void operator()(const PlanarContact& /*contact*/) const {}
   void operator()(const SpatialContact& /*contact*/) const {}
-  void operator()(const SpatialBody& /*body*/) const {}
+  void operator()(const SpatialBody& /*body*/) const { Bodies(1); }
   void operator()(const Pendulum& /*pendulum*/) const { List("rates_after_rad_s", 1); }
   void operator()(const Linkage& linkage) const { List("rates_after_rad_s", linkage.links.size()); }
   void operator()(const Mechanism& mechanism) const { List("rates_after", mechanism.rates.size()); }
@@ -45,21 +49,34 @@ struct VelocityPaths {
   void operator()(const BodyPair& /*pair*/) const { Bodies(2); }
 
  private:
-  void List(const char* name, size_t count) const {
+  void List(const std::string& name, size_t count) const {
     for (size_t i = 0; i < count; ++i) paths.push_back(absl::StrCat(name, "[", i, "]"));
   }
   void Bodies(int count) const {
     for (int i = 0; i < count; ++i) {
-      for (const char* velocity : {"linear_m_s[0]", "linear_m_s[1]", "angular_rad_s[0]"}) {
-        paths.push_back(absl::StrCat("bodies_after[", i, "].", velocity));
-      }
+      List(absl::StrCat("bodies_after[", i, "].linear_m_s"), tangential + 1);
+      List(absl::StrCat("bodies_after[", i, "].angular_rad_s"), tangential == 1 ? 1 : 3);
     }
   }
 };
 
+bool TakesTime(const Scene& scene) {
+  return scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.compliance->normal);
+}
+
 std::vector<std::string> OutputPaths(const Scene& scene) {
-  std::vector<std::string> paths(kPlanarOutputPaths.begin(), kPlanarOutputPaths.end());
-  std::visit(VelocityPaths{paths}, scene.system);
+  const size_t tangential = TangentialDirections(scene.system);
+  std::vector<std::string> paths;
+  for (const std::string path : kPlanarOutputPaths) {
+    paths.push_back(path);
+    if (tangential == 2 && absl::EndsWith(path, "[0]")) paths.push_back(absl::StrCat(absl::StripSuffix(path, "0]"), "1]"));
+  }
+  std::visit(VelocityPaths{paths, tangential}, scene.system);
+  if (TakesTime(scene)) {
+    for (const char* number : {"duration_s", "peak_normal_n", "peak_tangential_n", "indentation_m"}) {
+      paths.push_back(absl::StrCat("contact.", number));
+    }
+  }
   return paths;
 }
 
@@ -73,16 +90,7 @@ bool IsOtherDefinition(const Scene& scene, const std::string& path) {
          path != StatedDefinition(scene);
 }
 
-// --- Why there are none ---
-
-const char* EffectWithout(const Scene& scene) {
-  if (TangentialDirections(scene.system) == 2) return "an impact in space";
-  if (!std::holds_alternative<std::monostate>(scene.impact_law)) return "an impact law";
-  if (!scene.compliance.has_value()) return nullptr;
-  return std::holds_alternative<std::monostate>(scene.compliance->normal)
-             ? "tangential compliance"
-             : "compliance, with which an impact takes time";
-}
+// --- Which are refused ---
 
 void CheckPaths(const char* list, const std::vector<std::string>& paths, const std::vector<std::string>& known,
                 const char* what, std::vector<Violation>& violations) {
@@ -215,12 +223,7 @@ Here HereOf(const Scene& scene) {
   const double impulse = tangent.value[static_cast<size_t>(PlanarOutput::kNormalImpulse)];
   std::vector<double> scale(here.value.size(), 0.0);
   for (size_t i = 0; i < kOutputs; ++i) {
-    const std::string_view path = kPlanarOutputPaths[i];
-    const bool is_coefficient = path.starts_with("coefficients.");
-    scale[i] = is_coefficient                 ? 1.0
-               : path.starts_with("impulse.") ? impulse
-               : path.starts_with("contact_") ? speed
-                                              : impulse * speed;
+    scale[i] = ScaleOf(kPlanarOutputPaths[i], speed, impulse);
   }
   for (size_t i = kOutputs; i < scale.size(); ++i) {
     const size_t row = 2 * (i - kOutputs);
@@ -244,13 +247,7 @@ Threshold ThresholdBetween(const Side& below, const Side& above) {
   return below.is_at_speed_of_table ? Threshold::kSpeedTable : Threshold::kUnspecified;
 }
 
-// The rate of a side at place i, and else a clause that says why it has none.
-struct Limit {
-  std::optional<double> rate;
-  const char* why_none = "";
-};
-
-Limit LimitOf(const Side& side, const Here& here, size_t i) {
+OneSided LimitOf(const Side& side, const Here& here, size_t i) {
   if (!side.exists) return {.why_none = "the scene would break a rule"};
   if (side.loses_rank) return {.why_none = "the rank of W, or whether the velocity lies in its range, changes at once"};
   if (!std::isfinite(side.value[i]) || !std::isfinite(side.rate[i])) {
@@ -262,25 +259,9 @@ Limit LimitOf(const Side& side, const Here& here, size_t i) {
 }
 
 // True if the rates differ by no more than their rounding.
-bool Agree(double x, double y) { return std::fabs(x - y) <= 0x1p-40 * (std::fabs(x) + std::fabs(y)); }
-
-Derivative Join(const Side& below, const Side& above, const Here& here, size_t i) {
-  const Limit under = LimitOf(below, here, i);
-  const Limit over = LimitOf(above, here, i);
-  Derivative derivative = {.from_below = under.rate, .from_above = over.rate};
-  if (under.rate.has_value() && over.rate.has_value() && Agree(*under.rate, *over.rate)) {
-    derivative.kind = DerivativeKind::kTwoSided;
-    derivative.value = derivative.from_below = derivative.from_above;
-    return derivative;
-  }
-  const bool has_side = under.rate.has_value() || over.rate.has_value();
-  derivative.kind = has_side ? DerivativeKind::kOneSided : DerivativeKind::kNone;
-  derivative.threshold = ThresholdBetween(below, above);
-  if (!under.rate.has_value()) absl::StrAppend(&derivative.reason, "Below, ", under.why_none, ".");
-  if (!over.rate.has_value()) {
-    absl::StrAppend(&derivative.reason, derivative.reason.empty() ? "" : " ", "Above, ", over.why_none, ".");
-  }
-  return derivative;
+bool Agree(const OneSided& x, const OneSided& y) {
+  return x.rate.has_value() && y.rate.has_value() &&
+         std::fabs(*x.rate - *y.rate) <= 0x1p-40 * (std::fabs(*x.rate) + std::fabs(*y.rate));
 }
 
 }  // namespace
@@ -295,11 +276,6 @@ DerivativePaths AllDerivativePaths(const Scene& scene) {
 
 std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& demand, const DerivativePaths& paths) {
   std::vector<Violation> violations;
-  if (const char* const effect = EffectWithout(scene)) {
-    violations.push_back(
-        MakeViolation("derivatives", "is set", absl::StrCat("not be for ", effect, ", which has no derivatives yet")));
-    return violations;
-  }
   if (!demand.excluded.empty()) {
     violations.push_back(MakeViolation("excluded", "is set", "not be, with derivatives: they leave nothing out"));
   }
@@ -310,7 +286,20 @@ std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& 
   return violations;
 }
 
-std::vector<Derivative> DerivativesOf(const Scene& scene, const DerivativePaths& paths) {
+const char* WhyNotExact(const Scene& scene) {
+  if (TangentialDirections(scene.system) == 2) return "an impact in space";
+  if (!std::holds_alternative<std::monostate>(scene.impact_law)) return "an impact law";
+  if (!scene.compliance.has_value()) return nullptr;
+  return TakesTime(scene) ? "compliance, with which an impact takes time" : "tangential compliance";
+}
+
+absl::StatusOr<std::vector<Derivative>> DerivativesOf(const Scene& scene, const Demand& demand,
+                                                      const DerivativePaths& paths, absl::FunctionRef<bool()> stopped) {
+  if (WhyNotExact(scene) != nullptr) return DifferencesOf(scene, demand, paths, stopped);
+  return ExactDerivatives(scene, paths);
+}
+
+std::vector<Derivative> ExactDerivatives(const Scene& scene, const DerivativePaths& paths) {
   const std::vector<std::string> known = OutputPaths(scene);
   std::vector<size_t> places;
   for (const std::string& of : paths.of) {
@@ -328,7 +317,9 @@ std::vector<Derivative> DerivativesOf(const Scene& scene, const DerivativePaths&
     const Side above = SideAt(StepBeside(stated, by, 1.0));
     for (size_t i = 0; i < places.size(); ++i) {
       Derivative& derivative = derivatives[i * paths.by.size() + k];
-      derivative = Join(below, above, here, places[i]);
+      const OneSided under = LimitOf(below, here, places[i]);
+      const OneSided over = LimitOf(above, here, places[i]);
+      derivative = Join(under, over, Agree(under, over), ThresholdBetween(below, above));
       derivative.of = paths.of[i];
       derivative.by = by;
     }

@@ -1,11 +1,12 @@
-// Derivatives of an outcome: numbers of the outcome of a planar rigid impact by numbers of its scene.
+// Derivatives of an outcome: its numbers by numbers of the scene.
 //
-// For each number of the scene the contact is differentiated along it (core/contact/contact_tangent.h) and the impact
+// Those of a planar rigid impact are exact. For each number of the scene the contact is differentiated along it (core/contact/contact_tangent.h) and the impact
 // along that (core/models/planar/tangent.h), once for either side. Where the two sides agree, so do their bits but at a
 // threshold, and the derivative is two-sided. A number that is 0 is replaced by +-2^-300 for its sides, which changes
 // no digit of them and separates the cases that meet at 0.
 // A side does not exist where the scene would break a rule, where the outcome jumps, or where it changes infinitely
-// fast. docs/theory/derivatives.md says what each derivative is accurate to.
+// fast. Other impacts have differences (core/answer/differences.h), with an estimated error.
+// docs/theory/derivatives.md says what each derivative is accurate to.
 
 #ifndef RICOCHET_CORE_ANSWER_DERIVATIVES_H_
 #define RICOCHET_CORE_ANSWER_DERIVATIVES_H_
@@ -13,6 +14,9 @@
 #include <string>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
+#include "absl/status/statusor.h"
+#include "core/plan/demand.h"
 #include "ricochet/demand.h"
 #include "ricochet/derivatives.h"
 #include "ricochet/error.h"
@@ -25,11 +29,19 @@ namespace ricochet {
 // scene must be valid.
 DerivativePaths AllDerivativePaths(const Scene& scene);
 
-// Lists why derivatives cannot be given for a valid scene: effects that have none, or paths that name no such number.
+// Lists why derivatives cannot be given for a valid scene: excluded effects, or paths that name no such number.
 std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& demand, const DerivativePaths& paths);
 
-// Computes them for a request in which CheckDerivatives finds nothing.
-std::vector<Derivative> DerivativesOf(const Scene& scene, const DerivativePaths& paths);
+// The part of the scene for which its derivatives are differences: "an impact in space"; null if they are exact.
+const char* WhyNotExact(const Scene& scene);
+
+// Computes them for a request in which CheckDerivatives finds nothing, with the effects that the demand requires.
+// Errors: those of DifferencesOf if the derivatives are not exact.
+absl::StatusOr<std::vector<Derivative>> DerivativesOf(const Scene& scene, const Demand& demand,
+                                                      const DerivativePaths& paths, absl::FunctionRef<bool()> stopped);
+
+// Those of a scene that has exact ones.
+std::vector<Derivative> ExactDerivatives(const Scene& scene, const DerivativePaths& paths);
 
 }  // namespace ricochet
 

@@ -66,9 +66,8 @@ ContactErrors<kTangential> ErrorsOf(const Scene& scene, const Reduction<kTangent
 }
 
 // True if W = y y^T and (u, v) = y z for any M and J: one coordinate is free, and nothing else moves the contact.
-bool HasExactRankOne(const Scene& scene, const Mechanism& mechanism, size_t free) {
-  const bool holds = mechanism.composite || !mechanism.kept_coordinates.empty();
-  return free == 1 && !holds && !scene.surface_velocity.has_value();
+bool HasExactRankOne(const Scene& scene, size_t free) {
+  return free == 1 && !HoldsCoordinates(scene.system) && !scene.surface_velocity.has_value();
 }
 
 // The errors of the impulses: those of the model, and what errors of its contact add.
@@ -94,7 +93,7 @@ void Set(const Scene& scene, const Reduction<kTangential>& reduction, Outcome& o
   const MechanismErrors errors(mechanism);
   const std::vector<Eigen::Index> free = FreeCoordinates(mechanism);
   const Impulses<kTangential> of_impulse = TotalErrors(
-      scene, reduction, errors, kTangential == 1 && HasExactRankOne(scene, mechanism, free.size()), outcome);
+      scene, reduction, errors, kTangential == 1 && HasExactRankOne(scene, free.size()), outcome);
   Impulses<kTangential> impulse;
   std::copy_n(outcome.impulse.tangential_n_s.begin(), kTangential, impulse.begin());
   impulse[kTangential] = outcome.impulse.normal_total_n_s;

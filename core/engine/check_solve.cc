@@ -71,9 +71,7 @@ void CheckCertified(const SolveRequest& request, std::vector<Violation>& violati
 }
 
 void CheckBothEnds(const SolveRequest& request, std::vector<Violation>& violations) {
-  const auto* const mechanism = std::get_if<Mechanism>(&request.scene.system);
-  const bool holds = mechanism != nullptr && (mechanism->composite || !mechanism->kept_coordinates.empty());
-  if (!request.both_ends || holds) return;
+  if (!request.both_ends || HoldsCoordinates(request.scene.system)) return;
   violations.push_back(
       MakeViolation("both_ends", "is set", "not be but for a mechanism with kept_coordinates or composite"));
 }

@@ -104,7 +104,11 @@ absl::Status Answer(const SolveRequest& request, CallControl& control, SolveResp
   }
   const absl::Status certified = Certify(request, CertifySolve, stopped, outcome.certificate);
   if (!certified.ok()) return control.OrWhyEnded(certified);
-  if (request.derivatives.has_value()) outcome.derivatives = DerivativesOf(request.scene, *request.derivatives);
+  if (request.derivatives.has_value()) {
+    auto derivatives = DerivativesOf(request.scene, DemandOf(request), *request.derivatives, stopped);
+    if (!derivatives.ok()) return control.OrWhyEnded(derivatives.status());
+    outcome.derivatives = *std::move(derivatives);
+  }
   response.engine = ThisEngine();
   return absl::OkStatus();
 }

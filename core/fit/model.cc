@@ -111,7 +111,7 @@ bool Model::Exact(absl::Span<const double> unknowns, const std::vector<bool>& is
       std::optional<SceneContact> contact;
       const Scene& scene = SceneOf(number.row, unknowns);
       if (is_stopped_ || !driven_.IsValid(contact)) return false;
-      of_row = DerivativesOf(scene, paths);
+      of_row = ExactDerivatives(scene, paths);
       row = number.row;
     }
     for (size_t j = 0; j < places.size(); ++j) {

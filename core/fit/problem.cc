@@ -232,12 +232,12 @@ class Door {
   void SetDerivatives() {
     Scene scene = problem_.batch.scene;
     for (const std::string& path : problem_.batch.fields) static_cast<void>(ResolveField(path, scene));
-    const auto why = CheckDerivatives(scene, {}, {.of = problem_.batch.columns, .by = problem_.unknown_paths()});
-    if (why.empty()) return;
-    const std::string& rule = why.front().rule;
-    const bool is_of_scene = why.front().field == "derivatives";
-    problem_.why_differences = is_of_scene ? std::string(absl::StripPrefix(rule, "not be for "))
-                                           : "a measured number or an unknown that has no derivatives";
+    const char* const part = WhyNotExact(scene);
+    if (part != nullptr) {
+      problem_.why_differences = part;
+    } else if (!CheckDerivatives(scene, {}, {.of = problem_.batch.columns, .by = problem_.unknown_paths()}).empty()) {
+      problem_.why_differences = "a measured number or an unknown that has no derivatives";
+    }
   }
 
   const FitRequest& request_;

@@ -14,8 +14,10 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "core/answer/outcome_parts.h"
+#include "core/base/derivative_name.h"
 #include "core/base/nearest.h"
 #include "core/plan/number_demand.h"
+#include "core/rows/derivative_columns.h"
 #include "core/scene/check.h"
 #include "core/scene/field.h"
 #include "ricochet/outcome_numbers.h"
@@ -63,6 +65,12 @@ Outcome WithEveryNumber(const Scene& scene) {
   });
   if (!std::holds_alternative<std::monostate>(scene.impact_law)) UnsetPhases(outcome);
   outcome.contact.emplace();
+  if (HoldsCoordinates(scene.system)) {
+    outcome.free_end = FreeEnd{.rates_after = outcome.rates_after,
+                               .contact_velocity_after = outcome.contact_velocity_after,
+                               .impulse = outcome.impulse,
+                               .errors = outcome.errors};
+  }
   return outcome;
 }
 
@@ -78,6 +86,7 @@ constexpr std::pair<const char*, const char*> kOwners[] = {
      "and one angular_rad_s in a plane, and three of each in space"},
     {"contact_velocity_after.tangential_m_s[", "only a system in space has two tangential directions"},
     {"impulse.tangential_n_s[", "only a system in space has two tangential directions"},
+    {"free_end.", "free_end has the numbers of a mechanism with kept_coordinates or composite, and none held"},
     {"effective.restitution", "the damping of compliance.hunt_crossley stands for the coefficient of restitution"},
 };
 
@@ -113,7 +122,8 @@ std::vector<std::string> ColumnPlaces(const Scene& scene) {
 }
 
 bool MayBeUnset(absl::string_view column) {
-  return absl::StartsWith(column, "errors.") || !EffectsBehind(column).IsEmpty();
+  return absl::StartsWith(column, "errors.") || ReadDerivativeName(column).has_value() ||
+         !EffectsBehind(column).IsEmpty();
 }
 
 std::vector<Violation> CheckColumns(const Scene& scene, const std::vector<std::string>& columns) {
@@ -121,13 +131,17 @@ std::vector<Violation> CheckColumns(const Scene& scene, const std::vector<std::s
   if (columns.empty()) violations.push_back({"columns", "is empty: must name at least one"});
   const std::vector<std::string> known = Columns(scene);
   const std::unordered_set<std::string_view> are_known(known.begin(), known.end());
+  const auto rule_for = [&](const std::string& column) {
+    if (const auto derivative = ReadDerivativeName(column)) return RuleForDerivative(scene, *derivative);
+    return are_known.contains(column) ? "" : RuleFor(scene, column, ColumnPlaces(scene));
+  };
   std::set<std::string> seen;
   for (size_t i = 0; i < columns.size() && !IsFull(violations); ++i) {
     const auto refuse = [&](const std::string& rule) {
       violations.push_back({absl::StrCat("columns[", i, "]"), absl::StrCat(Found(columns[i]), ": must ", rule)});
     };
-    if (!are_known.contains(columns[i])) {
-      refuse(RuleFor(scene, columns[i], ColumnPlaces(scene)));
+    if (const std::string rule = rule_for(columns[i]); !rule.empty()) {
+      refuse(rule);
     } else if (!seen.insert(columns[i]).second) {
       refuse("be named once");
     }
@@ -139,7 +153,13 @@ std::vector<Violation> CheckEffectsBehind(const Scene& scene, std::optional<Scen
                                           const Demand& demand, const std::vector<std::string>& columns) {
   std::vector<Violation> violations;
   for (size_t i = 0; i < columns.size() && !IsFull(violations); ++i) {
-    for (const std::string& reason : WhyNoNumber(scene, contact, demand, columns[i])) {
+    const auto derivative = ReadDerivativeName(columns[i]);
+    const std::string& number = derivative.has_value() ? derivative->of : columns[i];
+    std::vector<std::string> reasons = WhyNoNumber(scene, contact, demand, number);
+    if (derivative.has_value() && !demand.excluded.IsEmpty()) {
+      reasons.emplace_back("must not be asked with excluded effects: derivatives leave nothing out");
+    }
+    for (const std::string& reason : reasons) {
       violations.push_back({absl::StrCat("columns[", i, "]"), absl::StrCat(Found(columns[i]), ": ", reason)});
     }
   }

@@ -1,4 +1,5 @@
-// Columns: the numbers of an Outcome that a sweep or a batch can ask for, by path.
+// Columns: the numbers of an Outcome that a sweep or a batch can ask for, by path, and the derivatives of such numbers
+// (core/rows/derivative_columns.h).
 //
 // Whether an outcome may have a number depends on the parts of its scene and not on their numbers: on the system, its
 // links and bodies, an impact law, a normal spring. A number that no outcome of the scene can have is refused. One that
@@ -22,7 +23,7 @@
 
 namespace ricochet {
 
-// Lists every column of a sweep over the scene, as ricochet.v1.Outcome spells it: "coefficients.newton",
+// Lists every column of a sweep over the scene but derivatives, as ricochet.v1.Outcome spells it: "coefficients.newton",
 // "rates_after_rad_s[0]".
 std::vector<std::string> Columns(const Scene& scene);
 

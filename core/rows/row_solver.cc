@@ -32,6 +32,11 @@ void Count(int64_t first, size_t count, Tally& tally) {
   tally.count += static_cast<int64_t>(count);
 }
 
+bool AnyStartsWith(const std::vector<std::string>& columns, absl::string_view start) {
+  return std::any_of(columns.begin(), columns.end(),
+                     [start](const std::string& column) { return absl::StartsWith(column, start); });
+}
+
 }  // namespace
 
 RowSolver::RowSolver(const Scene& scene, std::vector<std::string> fields, std::vector<std::string> columns,
@@ -42,11 +47,12 @@ RowSolver::RowSolver(const Scene& scene, std::vector<std::string> fields, std::v
       driven_(scene, field_names_),
       in_space_(TangentialDirections(scene.system) == 2),
       reader_(driven_.scene(), column_names_),
+      derivatives_(column_names_),
       lanes_(SceneLanes::Make(driven_.scene(), column_names_, demand_)),
       places_(column_names_.size()),
-      asks_rates_errors_(std::any_of(column_names_.begin(), column_names_.end(), [](const std::string& column) {
-        return absl::StartsWith(column, "errors.rates_after") || absl::StartsWith(column, "errors.momentum_change");
-      })) {
+      asks_rates_errors_(AnyStartsWith(column_names_, "errors.rates_after") ||
+                         AnyStartsWith(column_names_, "errors.momentum_change")),
+      asks_free_end_(AnyStartsWith(column_names_, "free_end.")) {
   if (lanes_ != nullptr) lane_columns_ = std::make_unique<LaneColumns>(*lanes_, driven_);
 }
 
@@ -125,7 +131,8 @@ bool RowSolver::Begin(size_t i, absl::FunctionRef<bool()> stopped) {
     statuses_[i] = RowStatus::kInvalid;
     return true;
   }
-  if (asks_rates_errors_) return SolvePlannedRow(i, contact, PlanScene(scene, contact, demand_), stopped);
+  if (asks_rates_errors_ || asks_free_end_ || !derivatives_.empty())
+    return SolvePlannedRow(i, contact, PlanScene(scene, contact, demand_), stopped);
   std::optional<size_t> place = spatial_.Add(scene, demand_, contact);
   if (!place.has_value()) {
     const PlannedScene planned = PlanScene(scene, contact, demand_);
@@ -141,16 +148,16 @@ bool RowSolver::SolvePlannedRow(size_t i, std::optional<SceneContact>& contact, 
                                 absl::FunctionRef<bool()> stopped) {
   Outcome outcome;
   const OutcomeDetail detail = {.numbers_only = !asks_rates_errors_};
-  const absl::Status solved = SolvePlanned(driven_.scene(), contact, planned, detail, stopped, outcome);
+  absl::Status solved = SolvePlanned(driven_.scene(), contact, planned, detail, stopped, outcome);
+  if (solved.ok() && asks_free_end_) solved = SetFreeEnd(driven_.scene(), demand_, stopped, outcome);
   if (absl::IsCancelled(solved)) return false;
   if (solved.ok()) {
     SetRow(i, outcome);
-  } else {
-    // The demand was checked for the base scene. This row may need an effect that it excludes.
-    const bool is_solvable = CheckSolvableWithout(driven_.scene(), contact, demand_).empty();
-    statuses_[i] = is_solvable ? RowStatus::kNotRepresentable : RowStatus::kInvalid;
-    too_large_[i].reset();
+    return derivatives_.empty() || SetDerivatives(i, stopped);
   }
+  // The demand was checked for the base scene. This row may need an effect that it excludes.
+  const bool is_solvable = CheckSolvableWithout(driven_.scene(), contact, demand_).empty();
+  SetBad(i, is_solvable ? RowStatus::kNotRepresentable : RowStatus::kInvalid);
   return true;
 }
 
@@ -161,6 +168,24 @@ void RowSolver::SetRow(size_t i, const Outcome& outcome) {
   block_.models[i] = outcome.plan.model;
   statuses_[i] = status;
   too_large_[i] = too_large;
+}
+
+void RowSolver::SetBad(size_t i, RowStatus status) {
+  statuses_[i] = status;
+  too_large_[i].reset();
+}
+
+// Returns false if it was stopped.
+bool RowSolver::SetDerivatives(size_t i, absl::FunctionRef<bool()> stopped) {
+  bool is_complete = true;
+  const absl::Status set = derivatives_.Set(driven_.scene(), demand_, stopped, places_, i, is_complete);
+  if (absl::IsCancelled(set)) return false;
+  if (!set.ok()) {
+    SetBad(i, RowStatus::kNotRepresentable);
+  } else if (!is_complete && statuses_[i] == RowStatus::kOk) {
+    statuses_[i] = RowStatus::kIncomplete;
+  }
+  return true;
 }
 
 // Checks the numbers of a row that the lanes have solved.

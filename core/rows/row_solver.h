@@ -22,6 +22,7 @@
 #include "core/plan/demand.h"
 #include "core/plan/planned_scene.h"
 #include "core/rows/column.h"
+#include "core/rows/derivative_columns.h"
 #include "core/rows/driven_scene.h"
 #include "core/rows/lane_columns.h"
 #include "core/rows/row_source.h"
@@ -74,6 +75,8 @@ class RowSolver {
   bool SolvePlannedRow(size_t i, std::optional<SceneContact>& contact, const PlannedScene& planned,
                        absl::FunctionRef<bool()> stopped);
   void SetRow(size_t i, const Outcome& outcome);
+  void SetBad(size_t i, RowStatus status);
+  bool SetDerivatives(size_t i, absl::FunctionRef<bool()> stopped);
   void CheckNumbers(size_t i);
 
   void Finish(int64_t first, size_t at, size_t count, const RowSink& sink);
@@ -87,6 +90,7 @@ class RowSolver {
   DrivenScene driven_;
   const bool in_space_;
   const ColumnReader reader_;
+  const DerivativeColumns derivatives_;
   std::vector<double> numbers_;  // The columns of one row.
 
   // Null if the rows need a scene each.
@@ -101,6 +105,7 @@ class RowSolver {
   std::vector<double*> places_;  // The places of the first row's value in each column.
   // A column is an error of the velocities or the momentum of a mechanism, which take all of an outcome's detail.
   const bool asks_rates_errors_;
+  const bool asks_free_end_;  // A column is a number of the end with no coordinate held.
   SceneLanes::Block block_;
   std::array<RowStatus, kBlock> statuses_;
   std::array<std::optional<size_t>, kBlock> too_large_;  // The column that makes a row not representable, if one does.

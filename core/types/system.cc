@@ -6,6 +6,11 @@ size_t TangentialDirections(const Mechanism& mechanism) {
   return mechanism.jacobian.size() == 3 * mechanism.rates.size() ? 2 : 1;
 }
 
+bool HoldsCoordinates(const System& system) {
+  const auto* const mechanism = std::get_if<Mechanism>(&system);
+  return mechanism != nullptr && (mechanism->composite || !mechanism->kept_coordinates.empty());
+}
+
 size_t TangentialDirections(const System& system) {
   if (const auto* pair = std::get_if<BodyPair>(&system))
     return std::holds_alternative<SpatialPair>(pair->bodies) ? 2 : 1;

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <variant>
 #include <vector>
 
+#include "core/base/derivative_name.h"
 #include "ricochet/audit_columns.h"
 
 namespace ricochet::server {
@@ -17,6 +19,7 @@ constexpr int64_t kFewLinks = 32;
 constexpr int64_t kShortHistory = 2048;
 constexpr int64_t kFewRows = 64;
 constexpr size_t kFewSides = 16;       // Derivatives take two sides of each number of the scene.
+constexpr size_t kImpactsOfDifference = 64;
 constexpr double kFewContacts = 27;    // States times the cube of the contacts, in a plane.
 constexpr size_t kFewVelocities = 32;  // Several contacts have those of the system, and the outputs asked for.
 
@@ -49,6 +52,14 @@ bool TakesTime(const Scene& scene, const DemandFields& demand) {
          std::find(demand.required.begin(), demand.required.end(), Effect::kFiniteDuration) != demand.required.end();
 }
 
+// True if derivatives take dozens of impacts for each number of the scene.
+bool HasDifferences(const Scene& scene) {
+  return TangentialDirections(scene.system) == 2 || scene.compliance.has_value() ||
+         !std::holds_alternative<std::monostate>(scene.impact_law);
+}
+
+bool IsDerivative(const std::string& column) { return ReadDerivativeName(column).has_value(); }
+
 bool TakesTime(const SolveRequest& request) {
   return request.force_intervals > 0 || TakesTime(request.scene, request.demand);
 }
@@ -69,8 +80,9 @@ RequestCost CostOf(const SolveRequest& request) {
   if (states > kShortHistory) {
     return Expensive(CostCause::kHistory, static_cast<double>(states) * static_cast<double>(4 + Links(request.scene)));
   }
-  // Each number of the scene takes two impacts in double-double arithmetic, and M is factored for each.
-  const size_t sides = request.derivatives.has_value() ? 2 * request.derivatives->by.size() : 0;
+  // Each number of the scene takes two impacts in double-double arithmetic, and M is factored for each; or differences.
+  size_t sides = request.derivatives.has_value() ? 2 * request.derivatives->by.size() : 0;
+  if (HasDifferences(request.scene)) sides *= kImpactsOfDifference;
   if (sides > kFewSides) {
     return Expensive(CostCause::kDerivatives, static_cast<double>(sides) * Cube(Links(request.scene)));
   }
@@ -131,8 +143,12 @@ RequestCost CostOf(const MultiContactRequest& request) {
 }
 
 RequestCost CostOf(const BatchSetup& setup, size_t rows) {
-  const double size = static_cast<double>(rows) * static_cast<double>(Links(setup.scene));
+  const auto derivatives =
+      static_cast<double>(std::count_if(setup.columns.begin(), setup.columns.end(), IsDerivative));
+  const double size = static_cast<double>(rows) * static_cast<double>(Links(setup.scene)) *
+                      (1.0 + 2.0 * derivatives * (HasDifferences(setup.scene) ? kImpactsOfDifference : 1));
   if (TakesTime(setup.scene, setup.demand)) return Expensive(CostCause::kDuration, size);
+  if (derivatives > 0.0) return Expensive(CostCause::kDerivatives, size);
   return rows > kFewRows ? Expensive(CostCause::kRows, size) : CostOf(setup.scene);
 }
 

@@ -240,10 +240,25 @@ class Jacobians(unittest.TestCase):
         paths = {"of": "coefficients.newton", "by": "pendulum.b_m"}
         self.assertEqual(ricochet.solve(scene, derivatives=paths).derivatives[0].threshold, "SLIP_START")
 
+    def test_other_impacts_have_differences_with_an_error(self):
+        sphere = {"spatial_contact": {"w_per_kg": [3.5, 0, 0, 3.5, 0, 1], "tangential_m_s": [0, 4], "normal_m_s": -1},
+                  "friction": {"kinetic_coefficient": 0.2}, "restitution": {"energetic": 0.8}}
+        after = "contact_velocity_after.tangential_m_s[1]"
+        derivative = ricochet.solve(
+            sphere, derivatives={"of": after, "by": "friction.kinetic_coefficient"}).derivatives[0]
+        self.assertAlmostEqual(derivative.value, -3.5 * 1.8, 11)
+        self.assertLess(derivative.error, 1e-9)
+
+    def test_a_batch_has_derivatives_as_columns(self):
+        column = "d(coefficients.newton)/d(friction.kinetic_coefficient)"
+        mu = [0.05, 0.1, 0.15]
+        batch = ricochet.solve_batch(self.SCENE, {"friction.kinetic_coefficient": mu}, [column])
+        for row, friction in enumerate(mu):
+            scene = {**self.SCENE, "friction": {"kinetic_coefficient": friction}}
+            self.assertEqual(batch[column][row], ricochet.jacobian(scene, "newton", "mu").item())
+
     def test_what_has_no_derivatives_is_refused(self):
-        sprung = {**self.SCENE, "compliance": {"tangential_ratio_squared": 1.2}}
         for scene, of, side, text in (
-                (sprung, "newton", "both", "tangential compliance, which has no derivatives yet"),
                 (self.SCENE, "effective.kinetic", "both", "derivatives.of[0]"),
                 (self.SCENE, "newton", "left", "must be one of both, below, above")):
             with self.subTest(text), self.assertRaises(ricochet.InvalidRequest) as caught:

@@ -11,6 +11,7 @@
 #include "absl/strings/str_join.h"
 #include "absl/strings/strip.h"
 #include "client/cli/text/field_table.h"
+#include "core/base/derivative_name.h"
 #include "core/base/nearest.h"
 #include "core/rows/column.h"
 #include "core/scene/field.h"
@@ -79,7 +80,21 @@ Spelling SpellingOf(const std::string& path) {
 }
 
 absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names) {
-  return FullColumns(Columns(scene), ColumnPlaces(scene), names);
+  std::vector<std::string> columns;
+  for (const std::string& name : names) {
+    if (const auto derivative = ReadDerivativeName(absl::StripAsciiWhitespace(name))) {
+      absl::StatusOr<std::string> of = FullName(derivative->of, Columns(scene), "--column");
+      if (!of.ok()) return of.status();
+      absl::StatusOr<std::string> by = FullField(scene, derivative->by, "--column");
+      if (!by.ok()) return by.status();
+      columns.push_back(DerivativeName{*std::move(of), *std::move(by)}.Text());
+      continue;
+    }
+    auto full = FullColumns(Columns(scene), ColumnPlaces(scene), {name});
+    if (!full.ok()) return full.status();
+    std::move(full->begin(), full->end(), std::back_inserter(columns));
+  }
+  return columns;
 }
 
 absl::StatusOr<std::vector<std::string>> FullColumns(const std::vector<std::string>& known,

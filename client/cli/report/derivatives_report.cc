@@ -39,6 +39,10 @@ const char* ThresholdText(Threshold threshold) {
 
 std::string IfSet(const std::optional<double>& value) { return value.has_value() ? Rounded(*value) : "none"; }
 
+std::string ErrorText(const Derivative& d) {
+  return d.error.has_value() ? absl::StrCat(" +- ", absl::SixDigits(*d.error)) : "";
+}
+
 }  // namespace
 
 std::string DerivativesText(const std::vector<Derivative>& derivatives) {
@@ -47,10 +51,10 @@ std::string DerivativesText(const std::vector<Derivative>& derivatives) {
   std::string notes;
   for (const Derivative& d : derivatives) {
     if (d.kind == DerivativeKind::kTwoSided) {
-      table.Add({d.of, d.by, Rounded(*d.value)});
+      table.Add({d.of, d.by, absl::StrCat(Rounded(*d.value), ErrorText(d))});
       continue;
     }
-    table.Add({d.of, d.by, absl::StrCat(IfSet(d.from_below), " below, ", IfSet(d.from_above), " above")});
+    table.Add({d.of, d.by, absl::StrCat(IfSet(d.from_below), " below, ", IfSet(d.from_above), " above", ErrorText(d))});
     const std::string note = absl::StrCat("  By ", d.by, " on a threshold: ", ThresholdText(d.threshold), ".",
                                           d.reason.empty() ? "" : " ", d.reason, "\n");
     if (notes.find(note) == std::string::npos) absl::StrAppend(&notes, note);
@@ -68,6 +72,7 @@ std::string DerivativesCsv(const std::vector<Derivative>& derivatives) {
     row.Number("value", d.value);
     row.Number("from_below", d.from_below);
     row.Number("from_above", d.from_above);
+    row.Number("error", d.error);
     row.Words("threshold", d.kind == DerivativeKind::kTwoSided ? "" : ThresholdName(d.threshold));
     row.Quoted("reason", d.reason);
   }

@@ -141,8 +141,9 @@ class NetcdfFile::Impl {
     Take(Netcdf().put_att_text(id_, variable, name, text.size(), text.data()));
   }
 
-  int DefineVariable(const std::string& name, nc_type type, const std::vector<int>& dimensions) {
+  int DefineVariable(const std::string& column, nc_type type, const std::vector<int>& dimensions) {
     int variable = -1;
+    const std::string name = NetcdfNameOf(column);
     Take(Netcdf().def_var(id_, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
     // Every value is written, so that filling the file beforehand would write it twice.
     Take(Netcdf().def_var_fill(id_, variable, NC_NOFILL, nullptr));
@@ -152,7 +153,7 @@ class NetcdfFile::Impl {
   int DefineNumber(const std::string& path, const std::vector<int>& dimensions) {
     const int variable = DefineVariable(path, NC_DOUBLE, dimensions);
     const FieldInfo* const info = FindFieldInfo(path);
-    PutText(variable, "units", UnitText(info == nullptr ? "" : info->unit));
+    PutText(variable, "units", UnitText(UnitOfPath(path)));
     if (info != nullptr && !info->meaning.empty()) PutText(variable, "long_name", info->meaning);
     return variable;
   }

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_replace.h"
 
 namespace ricochet::cli {
 namespace {
@@ -72,5 +73,8 @@ const Loaded& TheLibrary() {
 absl::Status LoadNetcdf() { return TheLibrary().status; }
 
 const NetcdfLibrary& Netcdf() { return TheLibrary().netcdf; }
+
+std::string NetcdfNameOf(const std::string& column) { return absl::StrReplaceAll(column, {{"/", "|"}}); }
+std::string ColumnOfNetcdfName(const std::string& name) { return absl::StrReplaceAll(name, {{"|", "/"}}); }
 
 }  // namespace ricochet::cli

@@ -38,6 +38,10 @@ struct NetcdfLibrary {
 // Loads the library, once. Errors: FAILED_PRECONDITION, with the name of the library, if that cannot be done.
 absl::Status LoadNetcdf();
 
+// A name in a NetCDF file must not have the slash of a derivative's name, for which it has a bar.
+std::string NetcdfNameOf(const std::string& column);
+std::string ColumnOfNetcdfName(const std::string& name);
+
 // Returns the functions, which are null before LoadNetcdf has succeeded.
 const NetcdfLibrary& Netcdf();
 

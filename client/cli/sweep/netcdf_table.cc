@@ -66,7 +66,7 @@ class File {
       int dimensions[NC_MAX_VAR_DIMS] = {};
       int rank = 0;
       Take(Netcdf().inq_var(id_, i, name, &variable.type, &rank, dimensions, nullptr));
-      variable.name = name;
+      variable.name = ColumnOfNetcdfName(name);
       variable.dimensions.assign(dimensions, dimensions + rank);
     }
     return variables;
@@ -200,7 +200,7 @@ absl::Status ReadCodes(File& file, const std::vector<Variable>& variables, const
 
 // Adds the unit of a variable that the field table does not have.
 void AddUnit(File& file, size_t variable, const std::string& name, SweepTable& table) {
-  if (FindFieldInfo(name) != nullptr) return;
+  if (!UnitOfPath(name).empty() || FindFieldInfo(name) != nullptr) return;
   const std::string unit = file.Text(static_cast<int>(variable), "units");
   if (unit != "1") table.units[name] = unit;
 }

@@ -18,11 +18,6 @@ std::string Pair(const char* key, const std::string& text) {
   return pair;
 }
 
-std::string UnitOfPath(const std::string& path) {
-  const FieldInfo* info = FindFieldInfo(path);
-  return info == nullptr ? "" : info->unit;
-}
-
 std::string MeaningOfPath(const std::string& path) {
   if (path == "index") return "number of the point in the grid";
   if (path == "row") return "number of the row, from 0";

@@ -11,6 +11,7 @@
 #include "absl/strings/str_replace.h"
 #include "absl/strings/str_split.h"
 #include "absl/strings/strip.h"
+#include "core/base/derivative_name.h"
 #include "proto/comments/commented_protos.h"
 
 namespace ricochet::cli {
@@ -156,6 +157,15 @@ const FieldInfo* FindFieldInfo(absl::string_view path) {
   }();
   const auto found = by_path->find(WithoutIndices(path));
   return found == by_path->end() ? nullptr : found->second;
+}
+
+std::string UnitOfPath(const std::string& path) {
+  if (const auto derivative = ReadDerivativeName(path)) {
+    const std::string of = UnitOfPath(derivative->of), by = UnitOfPath(derivative->by);
+    return by.empty() ? of : absl::StrCat("(", of.empty() ? "1" : of, ")/(", by, ")");
+  }
+  const FieldInfo* const info = FindFieldInfo(path);
+  return info == nullptr ? "" : info->unit;
 }
 
 std::string WithoutUnit(const std::string& path) {

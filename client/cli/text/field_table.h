@@ -33,6 +33,10 @@ const std::vector<FieldInfo>& OutcomeFieldTable();
 // "linkage.links[1].theta_rad". Returns null if there is no such number.
 const FieldInfo* FindFieldInfo(absl::string_view path);
 
+// Returns the unit of a number of a scene or an outcome, or of a column that is a derivative: "(m/s)/(kg)". It is empty
+// for a pure number and for an unknown path.
+std::string UnitOfPath(const std::string& path);
+
 // Returns a path without the unit in its name: "pendulum.a" for "pendulum.a_m", "rates_after[0]" for
 // "rates_after_rad_s[0]".
 std::string WithoutUnit(const std::string& path);

@@ -135,6 +135,8 @@ using System = std::variant<std::monostate, Pendulum, PlanarBody, SpatialBody, B
 
 // The number of tangential directions: 1 in a plane, 2 in space. The system must be set.
 size_t TangentialDirections(const System& system);
+// True for a mechanism in which some coordinates or joints are held during the impact.
+bool HoldsCoordinates(const System& system);
 size_t TangentialDirections(const Mechanism& mechanism);  // 1 for a Jacobian of no valid size, too.
 
 }  // namespace ricochet

@@ -126,6 +126,7 @@ struct RandomSystem {
   bool has_surface = false;  // The surface may move, whatever the numbers of the system are.
   System (*make)(RandomScenes& random);
   FiniteForces (*forces)(RandomScenes& random);
+  bool has_coordinates = false;  // Some may be held.
 };
 
 inline std::vector<RandomSystem> RandomSystems() {
@@ -146,8 +147,8 @@ inline std::vector<RandomSystem> RandomSystems() {
        gravity},
       {"linkage", false, false, [](R& r) -> System { return r.Chain(); }, gravity},
       {"planar_contact", false, true, [](R& r) -> System { return r.Contact(); }, acceleration},
-      {"mechanism", false, false, [](R& r) -> System { return r.Arm(false); }, none},
-      {"mechanism_in_space", true, false, [](R& r) -> System { return r.Arm(true); }, none},
+      {"mechanism", false, false, [](R& r) -> System { return r.Arm(false); }, none, true},
+      {"mechanism_in_space", true, false, [](R& r) -> System { return r.Arm(true); }, none, true},
       {"spatial_body", true, true, [](R& r) -> System { return r.BodyInSpace(); }, none},
       {"spatial_pair", true, false,
        [](R& r) -> System {
@@ -186,6 +187,9 @@ inline std::vector<SceneKind> SceneKinds(const RandomSystem& system) {
     add("moving surface", false, [system](R& r, Scene& scene) {
       scene.surface_velocity = SurfaceVelocity{std::vector<double>(system.in_space ? 2 : 1, r.Uniform(-1.0, 1.0)), 0.0};
     });
+  }
+  if (system.has_coordinates) {
+    add("held coordinate", false, [](R&, Scene& scene) { std::get<Mechanism>(scene.system).kept_coordinates = {1}; });
   }
   if (system.in_space) return kinds;
   const auto spring = [](std::optional<double> ratio, const NormalSpring& normal) {

@@ -1,0 +1,29 @@
+// The two sides of a derivative, and how they make one.
+
+#ifndef RICOCHET_CORE_ANSWER_DERIVATIVE_SIDES_H_
+#define RICOCHET_CORE_ANSWER_DERIVATIVE_SIDES_H_
+
+#include <optional>
+#include <string_view>
+
+#include "ricochet/derivatives.h"
+
+namespace ricochet {
+
+// The limit of a difference quotient from one side.
+struct OneSided {
+  std::optional<double> rate;
+  const char* why_none = "";    // A clause that says why there is no rate; else empty.
+  std::optional<double> error;  // Of an estimated rate.
+};
+
+// `agree` says that both rates exist and differ by no more than their errors. The paths and the error are left unset.
+Derivative Join(const OneSided& below, const OneSided& above, bool agree, Threshold threshold);
+
+// What the rounding of the outcome's number at `path` is relative to, for a contact that moves at `speed` before the
+// impact and takes the normal impulse `impulse`; 0 for a number of another kind.
+double ScaleOf(std::string_view path, double speed, double impulse);
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_ANSWER_DERIVATIVE_SIDES_H_

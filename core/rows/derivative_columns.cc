@@ -1,0 +1,64 @@
+#include "core/rows/derivative_columns.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "absl/status/statusor.h"
+#include "absl/strings/match.h"
+#include "absl/strings/str_cat.h"
+#include "absl/strings/strip.h"
+#include "core/answer/derivatives.h"
+#include "ricochet/error.h"
+
+namespace ricochet {
+namespace {
+
+// The place of `path` among `paths`, to which it is added if it is new.
+size_t PlaceOf(const std::string& path, std::vector<std::string>& paths) {
+  const auto found = std::find(paths.begin(), paths.end(), path);
+  const auto place = static_cast<size_t>(found - paths.begin());
+  if (found == paths.end()) paths.push_back(path);
+  return place;
+}
+
+}  // namespace
+
+std::string RuleForDerivative(const Scene& scene, const DerivativeName& name) {
+  const auto violations = CheckDerivatives(scene, {}, {.of = {name.of}, .by = {name.by}});
+  if (violations.empty()) return "";
+  const Violation& first = violations.front();
+  const bool is_of = absl::StartsWith(first.field, "derivatives.of");
+  return absl::StrCat("have in its ", is_of ? "first" : "second", " d() ", absl::StripPrefix(first.rule, "be "));
+}
+
+DerivativeColumns::DerivativeColumns(absl::Span<const std::string> columns) {
+  std::vector<DerivativeName> names;
+  std::vector<size_t> places;
+  for (size_t c = 0; c < columns.size(); ++c) {
+    const std::optional<DerivativeName> name = ReadDerivativeName(columns[c]);
+    if (!name.has_value()) continue;
+    names.push_back(*name);
+    places.push_back(c);
+    PlaceOf(name->of, paths_.of);
+    PlaceOf(name->by, paths_.by);
+  }
+  for (size_t k = 0; k < names.size(); ++k) {
+    const size_t of = PlaceOf(names[k].of, paths_.of);
+    asked_.emplace_back(places[k], of * paths_.by.size() + PlaceOf(names[k].by, paths_.by));
+  }
+}
+
+absl::Status DerivativeColumns::Set(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped,
+                                    absl::Span<double* const> columns, size_t i, bool& is_complete) const {
+  const absl::StatusOr<std::vector<Derivative>> derivatives = DerivativesOf(scene, demand, paths_, stopped);
+  if (!derivatives.ok()) return derivatives.status();
+  is_complete = true;
+  for (const auto& [column, place] : asked_) {
+    const std::optional<double>& value = (*derivatives)[place].value;
+    is_complete &= value.has_value();
+    columns[column][i] = value.value_or(std::numeric_limits<double>::quiet_NaN());
+  }
+  return absl::OkStatus();
+}
+
+}  // namespace ricochet

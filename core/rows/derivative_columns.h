@@ -1,0 +1,48 @@
+// DerivativeColumns: the columns of a sweep or a batch that are derivatives, "d(OF)/d(BY)":
+// "d(contact_velocity_after.normal_m_s)/d(friction.kinetic_coefficient)".
+//
+// The value is that of Derivative::value, quiet NaN where the two sides differ or do not exist: the row then has
+// RowStatus::kIncomplete, and a Solve of its scene says why.
+
+#ifndef RICOCHET_CORE_ROWS_DERIVATIVE_COLUMNS_H_
+#define RICOCHET_CORE_ROWS_DERIVATIVE_COLUMNS_H_
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "absl/functional/function_ref.h"
+#include "absl/status/status.h"
+#include "absl/types/span.h"
+#include "core/base/derivative_name.h"
+#include "core/plan/demand.h"
+#include "ricochet/derivatives.h"
+#include "ricochet/scene.h"
+
+namespace ricochet {
+
+// The rule that the column breaks as a derivative of the valid scene; empty if it breaks none.
+std::string RuleForDerivative(const Scene& scene, const DerivativeName& name);
+
+class DerivativeColumns {
+ public:
+  // CheckColumns finds nothing in the columns.
+  explicit DerivativeColumns(absl::Span<const std::string> columns);
+
+  bool empty() const { return asked_.empty(); }
+
+  // Sets entry `i` of the columns that are derivatives for a valid scene that has an outcome, and `is_complete` to
+  // whether all of them have a value.
+  // Errors: those of DerivativesOf.
+  absl::Status Set(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped,
+                   absl::Span<double* const> columns, size_t i, bool& is_complete) const;
+
+ private:
+  DerivativePaths paths_;                          // Each number once.
+  std::vector<std::pair<size_t, size_t>> asked_;  // Columns, with the places of their derivatives.
+};
+
+}  // namespace ricochet
+
+#endif  // RICOCHET_CORE_ROWS_DERIVATIVE_COLUMNS_H_

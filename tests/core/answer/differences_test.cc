@@ -1,0 +1,340 @@
+// Differences against exact derivatives of planar impacts, against arbitrary precision in space and for compliance, and
+// against formulas for impacts that take time.
+
+#include "core/answer/differences.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/answer/derivatives.h"
+#include "core/contact/scene_contact.h"
+#include "core/models/spatial/spatial.h"
+#include "core/plan/scene_problem.h"
+#include "core/scene/numbers.h"
+#include "core/scene/validate.h"
+#include "ricochet/solver.h"
+#include "tests/support/oracles/compliant_oracle.h"
+#include "tests/support/oracles/spatial_oracle.h"
+#include "tests/support/scenes/random_scenes.h"
+
+namespace ricochet {
+namespace {
+
+constexpr char kMu[] = "friction.kinetic_coefficient";
+constexpr char kTau[] = "impulse.normal_total_n_s";
+
+bool Never() { return false; }
+
+std::vector<Derivative> Differences(const Scene& scene, const DerivativePaths& paths) {
+  absl::StatusOr<std::vector<Derivative>> derivatives = DifferencesOf(scene, {}, paths, Never);
+  EXPECT_TRUE(derivatives.ok()) << derivatives.status();
+  return derivatives.ok() ? *derivatives : std::vector<Derivative>();
+}
+
+Derivative Only(const Scene& scene, const std::string& of, const std::string& by) {
+  return Differences(scene, {.of = {of}, .by = {by}}).front();
+}
+
+// --- Impacts that have exact derivatives, too ---
+
+class PlanarSystem : public testing::TestWithParam<size_t> {};
+
+TEST_P(PlanarSystem, HasTheExactDerivatives) {
+  const RandomSystem system = RandomSystems()[GetParam()];
+  RandomScenes random(40 + GetParam());
+  int compared = 0, missed = 0;
+  for (const SceneKind& kind : SceneKinds(system)) {
+    for (int i = 0; i < 60; ++i) {
+      const Scene scene = kind.make(random);
+      if (!Validate(scene).empty() || WhyNotExact(scene) != nullptr) continue;
+      const DerivativePaths all = AllDerivativePaths(scene);
+      const std::string& by = all.by[static_cast<size_t>(i) % all.by.size()];
+      if (!NumberAt(scene, by).has_value()) continue;
+      const std::vector<Derivative> exact = ExactDerivatives(scene, {.of = all.of, .by = {by}});
+      const std::vector<Derivative> found = Differences(scene, {.of = all.of, .by = {by}});
+      for (size_t k = 0; k < exact.size(); ++k) {
+        if (!exact[k].value.has_value()) continue;
+        ++compared;
+        if (!found[k].value.has_value()) {
+          ++missed;
+          continue;
+        }
+        const double error = std::fabs(*found[k].value - *exact[k].value);
+        ASSERT_LE(error, 4.0 * *found[k].error + 1e-10 * std::fabs(*exact[k].value))
+            << kind.name << " " << exact[k].of << " by " << by << ": " << *found[k].value << ", exact "
+            << *exact[k].value;
+      }
+    }
+  }
+  EXPECT_GE(compared, 1'000);
+  EXPECT_LE(missed, compared / 100);
+}
+
+INSTANTIATE_TEST_SUITE_P(Systems, PlanarSystem, testing::Range<size_t>(0, 6));
+
+// --- In space ---
+
+using Exact = std::vector<Ball>;
+
+Exact NumbersOf(const spatial::ExactImpact& impact) {
+  return {impact.u1[0], impact.u1[1], impact.v1, impact.f1[0], impact.f1[1], impact.tau1, impact.energy_change};
+}
+
+const std::vector<std::string> kInSpace = {"contact_velocity_after.tangential_m_s[0]",
+                                           "contact_velocity_after.tangential_m_s[1]",
+                                           "contact_velocity_after.normal_m_s",
+                                           "impulse.tangential_n_s[0]",
+                                           "impulse.tangential_n_s[1]",
+                                           kTau,
+                                           "energy_change_j"};
+
+// The numbers with one of the nine numbers of the contact moved.
+std::optional<Exact> Moved(const spatial::Problem& p, size_t number, double step) {
+  spatial::ExactContact contact = {
+      .w = {Ball(p.w11), Ball(p.w12), Ball(p.w13), Ball(p.w22), Ball(p.w23), Ball(p.w33)},
+      .u0 = {Ball(p.u0[0]), Ball(p.u0[1])},
+      .v0 = Ball(p.v0)};
+  Ball& moved = number < 6 ? contact.w[number] : number < 8 ? contact.u0[number - 6] : contact.v0;
+  moved = moved + Ball(step);
+  const auto impact = spatial::SolveExactly(p, contact);
+  if (!impact.has_value()) return std::nullopt;
+  return NumbersOf(*impact);
+}
+
+// Central differences with steps h and 2 h, extrapolated.
+std::optional<Exact> SpatialQuotients(const spatial::Problem& p, size_t number, double h) {
+  std::vector<Exact> at;
+  for (const double steps : {-2.0, -1.0, 1.0, 2.0}) {
+    const std::optional<Exact> numbers = Moved(p, number, steps * h);
+    if (!numbers.has_value()) return std::nullopt;
+    at.push_back(*numbers);
+  }
+  Exact quotients;
+  for (size_t i = 0; i < kInSpace.size(); ++i) {
+    quotients.push_back((Ball(8.0) * (at[2][i] - at[1][i]) - (at[3][i] - at[0][i])) / Ball(12.0 * h));
+  }
+  return quotients;
+}
+
+TEST(DifferencesTest, ImpactInSpaceHasTheQuotientsOfArbitraryPrecision) {
+  RandomScenes random(61);
+  const RandomSystem system = RandomSystems()[9];
+  ASSERT_EQ(system.name, "spatial_contact");
+  int compared = 0, above_limit = 0;
+  for (int i = 0; i < 1500; ++i) {
+    const Scene scene = SceneKinds(system)[static_cast<size_t>(i) % 3].make(random);
+    if (!Validate(scene).empty()) continue;
+    const SceneContact contact(scene);
+    const spatial::Problem problem = spatial::MakeProblem(std::get<SpatialReduction>(contact.reduction),
+                                                          scene.restitution, contact.coefficients, 1e-14);
+    if (problem.v0 >= 0.0 || !(problem.mu > 0.0)) continue;
+    const size_t number = static_cast<size_t>(i) % 9;
+    // The oracle is right to about 1e-18. How far two steps differ tells what the quotients are right to.
+    const std::optional<Exact> exact = SpatialQuotients(problem, number, 0x1p-16);
+    const std::optional<Exact> other = SpatialQuotients(problem, number, 0x1p-14);
+    if (!exact.has_value() || !other.has_value()) continue;
+    const std::string by = number < 6   ? "spatial_contact.w_per_kg[" + std::to_string(number) + "]"
+                           : number < 8 ? "spatial_contact.tangential_m_s[" + std::to_string(number - 6) + "]"
+                                        : "spatial_contact.normal_m_s";
+    const std::vector<Derivative> found = Differences(scene, {.of = kInSpace, .by = {by}});
+    double typical = 1e-3;
+    for (const Ball& quotient : *exact) typical = std::max(typical, std::fabs(quotient.Nearest()));
+    for (size_t k = 0; k < found.size(); ++k) {
+      ASSERT_TRUE(found[k].value.has_value()) << by << " " << found[k].reason << "\n" << spatial::ToString(problem);
+      const double error = std::fabs((Ball(*found[k].value) - (*exact)[k]).Nearest());
+      const double known_to = std::fabs(((*exact)[k] - (*other)[k]).Nearest());
+      EXPECT_LE(error, *found[k].error + 2.0 * known_to)
+          << found[k].of << " by " << by << "\n" << spatial::ToString(problem);
+      above_limit += error > 1e-10 * typical ? 1 : 0;
+      ++compared;
+    }
+  }
+  EXPECT_GE(compared, 2'000);
+  EXPECT_LE(above_limit, compared / 1'000);
+}
+
+Scene BallOnCushion() {
+  return {.system = SpatialContact{{3.5, 0.0, 0.0, 3.5, 0.0, 1.0}, {0.0, 0.4}, -1.0},
+          .friction = {.kinetic_coefficient = 0.2},
+          .restitution = EnergeticCoefficient{0.8}};
+}
+
+TEST(DifferencesTest, SphereThatSlidesIsItsFormula) {
+  // Slip keeps its direction, u2' = u2 - mu W11 tau with tau = (1 + e) |v0| / W33.
+  const Scene scene = [] {
+    Scene sliding = BallOnCushion();
+    std::get<SpatialContact>(sliding.system).tangential_m_s = {0.0, 4.0};
+    return sliding;
+  }();
+  const Derivative by_mu = Only(scene, "contact_velocity_after.tangential_m_s[1]", kMu);
+  EXPECT_NEAR(*by_mu.value, -3.5 * 1.8, 1e-11);
+  const Derivative by_e = Only(scene, "contact_velocity_after.tangential_m_s[1]", "restitution.energetic");
+  EXPECT_NEAR(*by_e.value, -3.5 * 0.2, 1e-11);
+  // A number of the scene that is 0: slip turns with it.
+  const Derivative across = Only(scene, "impulse.tangential_n_s[0]", "spatial_contact.tangential_m_s[0]");
+  EXPECT_NEAR(*across.value, -0.2 * 1.8 / 4.0, 1e-11);
+}
+
+TEST(DifferencesTest, SphereThatSticksDoesNotFeelFriction) {
+  const Derivative by_mu = Only(BallOnCushion(), "contact_velocity_after.tangential_m_s[1]", kMu);
+  EXPECT_EQ(by_mu.kind, DerivativeKind::kTwoSided);
+  EXPECT_EQ(by_mu.value, 0.0);
+}
+
+TEST(DifferencesTest, SlipThatStopsJustAtTheEndHasTwoSides) {
+  Scene scene = BallOnCushion();
+  // mu W11 tau = 0.5 * 4 * 1.5 = 3 = u2.
+  scene.system = SpatialContact{{4.0, 0.0, 0.0, 4.0, 0.0, 1.0}, {0.0, 3.0}, -1.0};
+  scene.friction.kinetic_coefficient = 0.5;
+  scene.restitution = NewtonCoefficient{0.5};
+  const Derivative d = Only(scene, "contact_velocity_after.tangential_m_s[1]", kMu);
+  EXPECT_EQ(d.kind, DerivativeKind::kOneSided);
+  EXPECT_EQ(d.threshold, Threshold::kImpactEnd);
+  EXPECT_NEAR(*d.from_below, -6.0, 1e-9);
+  EXPECT_NEAR(*d.from_above, 0.0, 1e-9);
+}
+
+TEST(DifferencesTest, SlipThatWouldStartIsNamed) {
+  Scene scene = BallOnCushion();
+  scene.system = SpatialContact{{4.0, 0.0, 2.0, 4.0, 0.0, 4.0}, {0.0, 0.0}, -1.0};
+  scene.friction.kinetic_coefficient = 0.25;
+  const Derivative d = Only(scene, kTau, "spatial_contact.tangential_m_s[0]");
+  EXPECT_EQ(d.threshold, Threshold::kSlipStart);
+}
+
+TEST(DifferencesTest, FrictionOfZeroHasOneSide) {
+  Scene scene = BallOnCushion();
+  scene.friction.kinetic_coefficient = 0.0;
+  const Derivative d = Only(scene, "impulse.tangential_n_s[1]", kMu);
+  EXPECT_EQ(d.threshold, Threshold::kDomain);
+  EXPECT_FALSE(d.from_below.has_value());
+  EXPECT_NEAR(*d.from_above, -1.8, 1e-9);
+  EXPECT_THAT(d.reason, testing::HasSubstr("break a rule"));
+}
+
+TEST(DifferencesTest, ContactThatOnlyJustApproachesJumps) {
+  Scene scene = BallOnCushion();
+  std::get<SpatialContact>(scene.system).normal_m_s = 0.0;
+  const Derivative d = Only(scene, "coefficients.newton", "spatial_contact.normal_m_s");
+  EXPECT_EQ(d.threshold, Threshold::kApproach);
+  EXPECT_FALSE(d.from_below.has_value());
+  EXPECT_THAT(d.reason, testing::HasSubstr("Below, the number jumps"));
+}
+
+TEST(DifferencesTest, SpeedOfATableIsAThreshold) {
+  Scene scene = BallOnCushion();
+  scene.restitution_by_speed = SpeedTable{{0.5, 1.0, 2.0}, {1.0, 0.75, 0.7}};
+  const Derivative d = Only(scene, "contact_velocity_after.normal_m_s", "spatial_contact.normal_m_s");
+  EXPECT_EQ(d.kind, DerivativeKind::kOneSided);
+  EXPECT_EQ(d.threshold, Threshold::kSpeedTable);
+  // v' = e(s) s with s = -v, e(1) = 0.6 and slopes of e of -0.04 above s = 1 and -0.4 below.
+  EXPECT_NEAR(*d.from_below, -(0.6 - 0.04), 1e-9);
+  EXPECT_NEAR(*d.from_above, -(0.6 - 0.4), 1e-9);
+}
+
+// --- Compliance ---
+
+TEST(DifferencesTest, TangentialSpringHasTheQuotientsOfArbitraryPrecision) {
+  RandomScenes random(62);
+  const RandomSystem system = RandomSystems()[4];
+  ASSERT_EQ(system.name, "planar_contact");
+  int compared = 0, refused = 0;
+  for (int i = 0; i < 120; ++i) {
+    Scene scene = SceneKinds(system)[0].make(random);
+    scene.compliance = Compliance{.tangential_ratio_squared = random.Power(-0.3, 0.5), .normal = {}};
+    if (!Validate(scene).empty()) continue;
+    const double mu = scene.friction.kinetic_coefficient;
+    const auto at = [&scene](double friction) {
+      Scene moved = scene;
+      moved.friction.kinetic_coefficient = friction;
+      const SceneContact contact(moved);
+      const compliant::Problem problem = {
+          .contact = planar::MakeProblem(std::get<PlanarReduction>(contact.reduction), moved.restitution,
+                                         contact.coefficients),
+          .ratio_squared = *scene.compliance->tangential_ratio_squared};
+      return compliant::SolveExactly(problem);
+    };
+    const SceneContact contact(scene);
+    if (std::get<PlanarReduction>(contact.reduction).v0 >= 0.0) continue;
+    const double step = 0x1p-22 * mu;
+    const auto low = at(mu - step), high = at(mu + step), here = at(mu);
+    if (!low.ends || !high.ends || low.regime != high.regime || low.sections.size() != here.sections.size() ||
+        high.sections.size() != here.sections.size()) {
+      continue;
+    }
+    const Derivative d = Only(scene, kTau, kMu);
+    if (!d.value.has_value()) {
+      ++refused;
+      continue;
+    }
+    const double exact = ((high.tau1 - low.tau1) / Ball(2.0 * step)).Nearest();
+    EXPECT_NEAR(*d.value, exact, std::max(*d.error, 1e-10)) << d.error.value_or(-1.0);
+    ++compared;
+  }
+  EXPECT_GE(compared, 60);
+  EXPECT_LE(refused, 3);
+}
+
+// --- In time ---
+
+Scene Dropped(const NormalSpring& spring) {
+  return {.system = PlanarContact{2.0, 0.0, 4.0, 0.0, -3.0},
+          .friction = {.kinetic_coefficient = 0.2},
+          .restitution = EnergeticCoefficient{0.5},
+          .compliance = Compliance{.tangential_ratio_squared = {}, .normal = spring}};
+}
+
+TEST(DifferencesTest, LinearSpringIsItsFormula) {
+  constexpr double kPi = 3.14159265358979323846, kStiffness = 1e5;
+  const Scene scene = Dropped(LinearSpring{kStiffness});
+  // Loading takes a quarter of a period, unloading e times as long: T = (1 + e) pi/2 / sqrt(k W), F = |v| sqrt(k/W).
+  const double duration = 1.5 * kPi / 2.0 / std::sqrt(4.0 * kStiffness);
+  const double peak = 3.0 * std::sqrt(kStiffness / 4.0);
+  const auto by_stiffness = Differences(
+      scene, {.of = {"contact.duration_s", "contact.peak_normal_n"}, .by = {"compliance.linear.stiffness_n_m"}});
+  EXPECT_NEAR(*by_stiffness[0].value / (-duration / (2.0 * kStiffness)), 1.0, 1e-8);
+  EXPECT_NEAR(*by_stiffness[1].value / (peak / (2.0 * kStiffness)), 1.0, 1e-8);
+  EXPECT_NEAR(*Only(scene, "contact.duration_s", "restitution.energetic").value / (duration / 1.5), 1.0, 1e-8);
+  EXPECT_NEAR(*Only(scene, "contact.peak_normal_n", "planar_contact.normal_m_s").value / (-peak / 3.0), 1.0, 1e-8);
+}
+
+TEST(DifferencesTest, HertzSpringHasThePowersOfItsScaling) {
+  // The duration of a Hertz contact goes with k^(-2/5) |v|^(-1/5).
+  const Scene scene = Dropped(HertzSpring{1e7});
+  Scene timed = scene;
+  const LocalSolver solver;
+  const auto solved = solver.Solve({.scene = timed, .demand = {.required = {Effect::kFiniteDuration}}});
+  ASSERT_TRUE(solved.ok()) << solved.status();
+  const double duration = solved->outcome.contact->duration_s;
+  const Derivative by_k = Only(scene, "contact.duration_s", "compliance.hertz.stiffness_n_m1_5");
+  EXPECT_NEAR(*by_k.value * 1e7 / duration, -0.4, 1e-7);
+  const Derivative by_v = Only(scene, "contact.duration_s", "planar_contact.normal_m_s");
+  EXPECT_NEAR(*by_v.value * -3.0 / duration, -0.2, 1e-7);
+}
+
+TEST(DifferencesTest, ImpactLawIsItsFormula) {
+  Scene scene = Dropped(std::monostate());
+  scene.compliance.reset();
+  scene.restitution = std::monostate();
+  scene.impact_law = WhittakerLaw{0.5};
+  // Without coupling Whittaker's law is v' = -e v.
+  EXPECT_NEAR(*Only(scene, "contact_velocity_after.normal_m_s", "whittaker.restitution").value, 3.0, 1e-11);
+}
+
+TEST(DifferencesTest, StopsSoon) {
+  int asked = 0;
+  const auto stopped = [&asked] { return ++asked > 40; };
+  const auto derivatives = DifferencesOf(BallOnCushion(), {}, {.of = {kTau}, .by = {kMu}}, stopped);
+  EXPECT_TRUE(absl::IsCancelled(derivatives.status()));
+  EXPECT_LE(asked, 50);
+}
+
+}  // namespace
+}  // namespace ricochet
