@@ -419,8 +419,11 @@ Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& phys
     sizes[Effect::kStaticFriction] =
         disagree ? Locking(problem.mu_static * b / problem.a) : Size{.basis = Basis::kDecidesNothing};
   }
-  const double friction = FrictionSize(contact, physics, false).value;
-  sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, planar, physics, friction);
+  // Only a compliant contact needs the size of friction that holds in a plane, which costs more than all others.
+  if (physics.ratio_squared != 0.0) {
+    const double friction = FrictionSize(contact, physics, false).value;
+    sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, planar, physics, friction);
+  }
   sizes[Effect::kFiniteDuration] = DurationSize(physics);
   SetForces(contact, planar, physics, sizes);
   sizes[Effect::kHigherOrder] = PendulumHigherOrderSize(problem);
