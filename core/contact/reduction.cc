@@ -318,9 +318,11 @@ bool ReductionDependsOn(absl::string_view path) {
 bool IsFinite(const AnyReduction& reduction) {
   return std::visit(
       [](const auto& reduced) {
-        const auto finite = [](double value) { return std::isfinite(value); };
-        return std::all_of(reduced.w.begin(), reduced.w.end(), finite) &&
-               std::all_of(reduced.u0.begin(), reduced.u0.end(), finite) && finite(reduced.v0);
+        // Times 0 a finite number is 0, and any other is no number.
+        double zero = 0.0 * reduced.v0;
+        for (const double w : reduced.w) zero += 0.0 * w;
+        for (const double u : reduced.u0) zero += 0.0 * u;
+        return zero == 0.0;
       },
       reduction);
 }
