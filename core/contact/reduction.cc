@@ -231,7 +231,8 @@ void AddBody(const SpatialBody& body, double side, SpatialReduction& reduction) 
 }
 
 PlanarReduction ReduceOne(const PlanarBody& body) {
-  PlanarReduction reduction = {.coordinates = Coordinates::kBodies};
+  PlanarReduction reduction;
+  reduction.coordinates = Coordinates::kBodies;
   AddBody(body, 1.0, reduction);
   SettleRank(reduction);
   return reduction;
