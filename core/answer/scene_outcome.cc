@@ -160,8 +160,10 @@ absl::Status SolvePlanned(const Scene& scene, const std::optional<SceneContact>&
   if (!status.ok()) return status;
   outcome.effective = planned.effective;
   outcome.accuracy.relative_error += planned.choice.negligible;
-  const Approach approach = ApproachOf(planned);
-  AddNeglected(planned.choice.negligible, approach.speed, approach.v0, outcome);
+  if (planned.choice.negligible > 0.0) {
+    const Approach approach = ApproachOf(planned);
+    AddNeglected(planned.choice.negligible, approach.speed, approach.v0, outcome);
+  }
   CompareWithTolerance(planned.demand.relative_tolerance, outcome);
   if (!detail.numbers_only) {
     Explain(planned, outcome.plan);

@@ -231,7 +231,8 @@ void AddBody(const SpatialBody& body, double side, SpatialReduction& reduction) 
 }
 
 PlanarReduction ReduceOne(const PlanarBody& body) {
-  PlanarReduction reduction = {.coordinates = Coordinates::kBodies};
+  PlanarReduction reduction;
+  reduction.coordinates = Coordinates::kBodies;
   AddBody(body, 1.0, reduction);
   SettleRank(reduction);
   return reduction;
@@ -318,9 +319,11 @@ bool ReductionDependsOn(absl::string_view path) {
 bool IsFinite(const AnyReduction& reduction) {
   return std::visit(
       [](const auto& reduced) {
-        const auto finite = [](double value) { return std::isfinite(value); };
-        return std::all_of(reduced.w.begin(), reduced.w.end(), finite) &&
-               std::all_of(reduced.u0.begin(), reduced.u0.end(), finite) && finite(reduced.v0);
+        // Times 0 a finite number is 0, and any other is no number.
+        double zero = 0.0 * reduced.v0;
+        for (const double w : reduced.w) zero += 0.0 * w;
+        for (const double u : reduced.u0) zero += 0.0 * u;
+        return zero == 0.0;
       },
       reduction);
 }

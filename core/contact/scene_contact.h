@@ -16,7 +16,8 @@ namespace ricochet {
 
 struct SceneContact {
   // The rules of the scene's own fields hold already. W or the velocity may overflow: see FitsDoubles.
-  explicit SceneContact(const Scene& scene) : SceneContact(scene, Reduce(scene)) {}
+  explicit SceneContact(const Scene& scene)
+      : reduction(Reduce(scene)), coefficients(CoefficientsAtSpeed(scene, ApproachSpeed(reduction))) {}
 
   // For a scene whose Reduce is known.
   SceneContact(const Scene& scene, AnyReduction known)

@@ -96,15 +96,17 @@ void SizeCheck::Scene(const ricochet::Scene& scene) {
   // The last number of a list tells its size.
   NumberPath last;
   const auto check_list = [&] {
+    if (last.index < limits_.max_list_numbers) return;
     const std::string field = NumberPath{last.prefix, last.entry, last.name}.Text();
     Entries(field, static_cast<size_t>(last.index) + 1, &Limits::max_list_numbers);
   };
   VisitNumbers(scene, [&](const NumberPath& path, double /*number*/, NumberRule /*rule*/) {
-    if (mechanism != nullptr && std::strcmp(path.prefix, "mechanism") == 0) return;
-    if (path.index <= 0 && last.index >= limits_.max_list_numbers) check_list();
+    const bool in_list = path.index >= 0;
+    if (!in_list || (mechanism != nullptr && std::strcmp(path.prefix, "mechanism") == 0)) return;
+    if (path.index == 0) check_list();
     last = path;
   });
-  if (last.index >= limits_.max_list_numbers) check_list();
+  check_list();
 }
 
 void CheckDigits(const System& system, int32_t digits, SizeCheck& check) {

@@ -26,7 +26,7 @@ void CheckForceIntervals(const SolveRequest& request, std::optional<SceneContact
                          std::vector<Violation>& violations) {
   const int64_t intervals = request.force_intervals;
   CheckIntervals("force_intervals", intervals, violations);
-  if (intervals == 0 || !violations.empty()) return;
+  if (!violations.empty()) return;
   for (const std::string& reason : WhyNoNumber(request.scene, contact, ToDemand(request.demand), kForces)) {
     violations.push_back({"force_intervals", absl::StrCat("= ", intervals, ": ", reason)});
   }
@@ -47,7 +47,6 @@ void CheckHistory(const SolveRequest& request, std::vector<Violation>& violation
   const size_t count = request.history_at_n_s.size();
   const int64_t intervals = request.history_intervals;
   CheckIntervals("history_intervals", intervals, violations);
-  if (count == 0 && intervals == 0) return;
   const char* const why_none = WhyNoHistory(request.scene);
   const std::string entries = absl::StrCat("has ", count, count == 1 ? " entry" : " entries");
   if (count > 0 && why_none != nullptr) {
@@ -65,13 +64,13 @@ void CheckHistory(const SolveRequest& request, std::vector<Violation>& violation
 
 void CheckCertified(const SolveRequest& request, std::vector<Violation>& violations) {
   CheckDigits(request.scene, request.certified_digits, violations);
-  if (request.certified_digits == 0 || request.demand.excluded.empty()) return;
+  if (request.demand.excluded.empty()) return;
   violations.push_back(
       MakeViolation("excluded", "is set", "not be, with certified_digits: certificates leave nothing out"));
 }
 
 void CheckBothEnds(const SolveRequest& request, std::vector<Violation>& violations) {
-  if (!request.both_ends || HoldsCoordinates(request.scene.system)) return;
+  if (HoldsCoordinates(request.scene.system)) return;
   violations.push_back(
       MakeViolation("both_ends", "is set", "not be but for a mechanism with kept_coordinates or composite"));
 }
@@ -85,13 +84,14 @@ Demand DemandOf(const SolveRequest& request) {
 
 std::vector<Violation> CheckSolve(const SolveRequest& request, std::optional<SceneContact>& contact) {
   std::vector<Violation> violations = CheckDemand(request.scene, contact, request.demand);
-  CheckForceIntervals(request, contact, violations);
-  CheckHistory(request, violations);
-  CheckBothEnds(request, violations);
+  // Most requests ask for none of these.
+  if (request.force_intervals != 0) CheckForceIntervals(request, contact, violations);
+  if (!request.history_at_n_s.empty() || request.history_intervals != 0) CheckHistory(request, violations);
+  if (request.both_ends) CheckBothEnds(request, violations);
   if (violations.empty() && request.derivatives.has_value()) {
     violations = CheckDerivatives(request.scene, request.demand, *request.derivatives);
   }
-  if (violations.empty()) CheckCertified(request, violations);
+  if (violations.empty() && request.certified_digits != 0) CheckCertified(request, violations);
   return violations;
 }
 

@@ -84,9 +84,10 @@ absl::Status Certify(const Request& request, const CertifyScene& certify, absl::
 // Answers in place, because an outcome is large.
 absl::Status Answer(const SolveRequest& request, CallControl& control, SolveResponse& response) {
   std::optional<SceneContact> contact;
-  auto violations = Validate(request.scene, RestitutionIs::kRequired, contact);
-  if (violations.empty()) violations = CheckSolve(request, contact);
-  if (!violations.empty()) return InvalidRequest(violations);
+  const std::vector<Violation> of_scene = Validate(request.scene, RestitutionIs::kRequired, contact);
+  if (!of_scene.empty()) return InvalidRequest(of_scene);
+  const std::vector<Violation> of_request = CheckSolve(request, contact);
+  if (!of_request.empty()) return InvalidRequest(of_request);
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
   const auto stopped = [&control] { return control.IsStopped(); };
   Outcome& outcome = response.outcome;
@@ -122,9 +123,11 @@ LocalSolver::LocalSolver(const Limits& limits, int threads)
 
 absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
   CallControl control(options);
+  // The only return names the response, so that a large answer is made in the place of the caller's.
   absl::StatusOr<SolveResponse> response(absl::in_place);
-  if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
-  if (absl::Status status = Answer(request, control, *response); !status.ok()) response = std::move(status);
+  absl::Status status = CheckLimits(request, limits_);
+  if (status.ok()) status = Answer(request, control, *response);
+  if (!status.ok()) response = std::move(status);
   return response;
 }
 

@@ -48,7 +48,8 @@ struct Context {
     if (smooth) counted = counted | kOnFriction;
     double sum = 0.0;
     for (const Effect effect : kEffects) {
-      if (!counted.Has(effect)) sum += SizeOf(effect, smooth);
+      if (counted.Has(effect)) continue;
+      sum += SizeOf(effect, smooth);
       if (sum > demand.relative_tolerance) break;
     }
     return sum;
@@ -227,18 +228,9 @@ double PendulumFrictionlessError(const pendulum::Problem& problem) {
   return kReduction + sliding::FrictionlessErrorsOf(SlidingProblemOf(PlanarOf(problem))).Largest();
 }
 
-}  // namespace
-
-ContactPhysics Without(EffectSet effects, ContactPhysics physics) {
-  if (effects.Has(Effect::kTangentialCompliance)) physics.ratio_squared = 0.0;
-  if (effects.Has(Effect::kFiniteForces)) physics.tangential_acceleration = physics.normal_acceleration = 0.0;
-  return physics;
-}
-
-Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physics, const Demand& demand) {
-  const EffectSet excluded = WithImplied(demand.excluded, /*in_space=*/false);
-  const ContactPhysics kept_physics = Without(excluded, physics);
-  if (problem.v0 >= 0.0) return HasForces(kept_physics) ? ForcedContact() : Separating();
+// Chooses for a contact that approaches. It has one return, so that the choice is made in place.
+Choice ChooseApproaching(const planar::Problem& problem, const ContactPhysics& physics, const Demand& demand,
+                         EffectSet excluded) {
   const planar::Problem kept = Without(excluded, problem);
   const Sizes of_all = PlanarSizes(problem, physics);
   OnePieceErrors errors(kept, kept.u0 != 0.0);
@@ -251,10 +243,25 @@ Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physic
   const auto choose = [&](const Sizes& sizes) {
     return ChoosePlanarModel(sizes, of_all, demand, excluded, {kPlanarCandidates, error});
   };
-  Choice choice =
-      excluded.IsEmpty() ? choose(of_all) : choose(PlanarSizes(kept, kept_physics, excluded.Has(Effect::kSlipStop)));
+  Choice choice = excluded.IsEmpty()
+                      ? choose(of_all)
+                      : choose(PlanarSizes(kept, Without(excluded, physics), excluded.Has(Effect::kSlipStop)));
   errors.KeepThoseOf(choice);
   return choice;
+}
+
+}  // namespace
+
+ContactPhysics Without(EffectSet effects, ContactPhysics physics) {
+  if (effects.Has(Effect::kTangentialCompliance)) physics.ratio_squared = 0.0;
+  if (effects.Has(Effect::kFiniteForces)) physics.tangential_acceleration = physics.normal_acceleration = 0.0;
+  return physics;
+}
+
+Choice ChoosePlanar(const planar::Problem& problem, const ContactPhysics& physics, const Demand& demand) {
+  const EffectSet excluded = WithImplied(demand.excluded, /*in_space=*/false);
+  if (problem.v0 >= 0.0) return HasForces(Without(excluded, physics)) ? ForcedContact() : Separating();
+  return ChooseApproaching(problem, physics, demand, excluded);
 }
 
 Model ModelOfPendulum(const pendulum::Problem& problem, double tolerance) {

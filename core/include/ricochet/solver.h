@@ -68,6 +68,9 @@ struct SolveRequest {
 };
 
 struct SolveResponse {
+  // A defaulted constructor would clear the 2 KB of an answer that is made in place, before it initializes them.
+  SolveResponse() {}  // NOLINT(modernize-use-equals-default)
+
   Outcome outcome;
   EngineInfo engine;
   friend bool operator==(const SolveResponse&, const SolveResponse&) = default;
