@@ -61,8 +61,7 @@ struct SolveRequest {
   int32_t certified_digits = 0;
   // If true, Outcome::free_end has the same impact with no coordinate held. It takes a mechanism that holds some.
   bool both_ends = false;
-  // If present, asks for Outcome::derivatives. It takes a planar scene without compliance, impact law and excluded
-  // effects.
+  // If present, asks for Outcome::derivatives. No effect may be excluded.
   std::optional<DerivativePaths> derivatives;
   friend bool operator==(const SolveRequest&, const SolveRequest&) = default;
 };

@@ -33,6 +33,7 @@ struct SweepRequest {
   Grid grid;
   // Paths into the outcome, at least one, no two equal, as `ricochet scene columns` lists them. Asking for a number is
   // asking for the effects that make it: "contact.duration_s" requires Effect::kFiniteDuration at every point.
+  // "d(OF)/d(BY)" is Derivative::value of a number OF of the outcome by a number BY of the scene.
   std::vector<std::string> columns;
   bool with_regime = false;  // If true, every chunk has the regimes and the statuses of its points.
   // The request covers the points [first_index, end_index) of the grid; an absent end means all to the end. A point has
