@@ -162,7 +162,10 @@ const FieldInfo* FindFieldInfo(absl::string_view path) {
 std::string UnitOfPath(const std::string& path) {
   if (const auto derivative = ReadDerivativeName(path)) {
     const std::string of = UnitOfPath(derivative->of), by = UnitOfPath(derivative->by);
-    return by.empty() ? of : absl::StrCat("(", of.empty() ? "1" : of, ")/(", by, ")");
+    const auto grouped = [](const std::string& unit) {
+      return absl::StrContains(unit, '/') || absl::StrContains(unit, ' ') ? absl::StrCat("(", unit, ")") : unit;
+    };
+    return by.empty() ? of : absl::StrCat(of.empty() ? "1" : grouped(of), "/", grouped(by));
   }
   const FieldInfo* const info = FindFieldInfo(path);
   return info == nullptr ? "" : info->unit;

@@ -33,7 +33,7 @@ const std::vector<FieldInfo>& OutcomeFieldTable();
 // "linkage.links[1].theta_rad". Returns null if there is no such number.
 const FieldInfo* FindFieldInfo(absl::string_view path);
 
-// Returns the unit of a number of a scene or an outcome, or of a column that is a derivative: "(m/s)/(kg)". It is empty
+// Returns the unit of a number of a scene or an outcome, or of a column that is a derivative: "(m/s)/kg". It is empty
 // for a pure number and for an unknown path.
 std::string UnitOfPath(const std::string& path);
 
