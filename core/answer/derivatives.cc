@@ -69,7 +69,8 @@ std::vector<std::string> OutputPaths(const Scene& scene) {
   std::vector<std::string> paths;
   for (const std::string path : kPlanarOutputPaths) {
     paths.push_back(path);
-    if (tangential == 2 && absl::EndsWith(path, "[0]")) paths.push_back(absl::StrCat(absl::StripSuffix(path, "0]"), "1]"));
+    if (tangential == 2 && absl::EndsWith(path, "[0]"))
+      paths.push_back(absl::StrCat(absl::StripSuffix(path, "0]"), "1]"));
   }
   std::visit(VelocityPaths{paths, tangential}, scene.system);
   if (TakesTime(scene)) {

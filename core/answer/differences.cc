@@ -80,8 +80,8 @@ class Solver {
     const double speed = std::visit([](const auto& reduction) { return SpeedOf(reduction); }, reduced.reduction);
     for (size_t i = 0; i < of.size(); ++i) {
       const double size = std::isnan(here_.value[i]) ? 0.0 : std::fabs(here_.value[i]);
-      scales_.push_back(std::max({size, ScaleOf(of[i], speed, outcome.impulse.normal_total_n_s),
-                                  std::numeric_limits<double>::min()}));
+      scales_.push_back(std::max(
+          {size, ScaleOf(of[i], speed, outcome.impulse.normal_total_n_s), std::numeric_limits<double>::min()}));
     }
     return absl::OkStatus();
   }
@@ -246,7 +246,9 @@ bool Improve(Estimate& best, const Estimate& next) {
 class Sides {
  public:
   Sides(const Solver& solver, Line& line, size_t count)
-      : solver_(solver), line_(line), one_sided_{std::vector<Estimate>(count), std::vector<Estimate>(count)},
+      : solver_(solver),
+        line_(line),
+        one_sided_{std::vector<Estimate>(count), std::vector<Estimate>(count)},
         central_(count) {}
 
   // Returns false once the solver is stopped.
@@ -306,8 +308,8 @@ class Sides {
     static const Weights one_sided = WeightsBy(OneSidedWeights);
     static const Weights central = WeightsBy(CentralWeights);
     const Sample& here = solver_.here();
-    const bool is_smooth = is_one_course[0] && is_one_course[1] && beside_[0]->course == here.course &&
-                           beside_[1]->course == here.course;
+    const bool is_smooth =
+        is_one_course[0] && is_one_course[1] && beside_[0]->course == here.course && beside_[1]->course == here.course;
     bool has_improved = false;
     for (size_t i = 0; i < central_.size(); ++i) {
       std::array<double, kNeighbours> changes;
@@ -321,7 +323,8 @@ class Sides {
       for (size_t j = 0; j < kNeighbours; ++j) {
         changes[j] = 0.5 * (neighbours_[1][j]->value[i] - neighbours_[0][j]->value[i]);
       }
-      has_improved |= Improve(central_[i], EstimateOf(changes, central, std::max(Noise(0, i), Noise(1, i)), step, line_.unit()));
+      has_improved |=
+          Improve(central_[i], EstimateOf(changes, central, std::max(Noise(0, i), Noise(1, i)), step, line_.unit()));
     }
     const bool waits = (beside_[0].has_value() && !is_one_course[0]) || (beside_[1].has_value() && !is_one_course[1]);
     return has_improved || waits;

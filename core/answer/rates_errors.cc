@@ -92,8 +92,8 @@ void Set(const Scene& scene, const Reduction<kTangential>& reduction, Outcome& o
   constexpr size_t kDirections = kTangential + 1;
   const MechanismErrors errors(mechanism);
   const std::vector<Eigen::Index> free = FreeCoordinates(mechanism);
-  const Impulses<kTangential> of_impulse = TotalErrors(
-      scene, reduction, errors, kTangential == 1 && HasExactRankOne(scene, free.size()), outcome);
+  const Impulses<kTangential> of_impulse =
+      TotalErrors(scene, reduction, errors, kTangential == 1 && HasExactRankOne(scene, free.size()), outcome);
   Impulses<kTangential> impulse;
   std::copy_n(outcome.impulse.tangential_n_s.begin(), kTangential, impulse.begin());
   impulse[kTangential] = outcome.impulse.normal_total_n_s;

@@ -39,7 +39,7 @@ class DerivativeColumns {
                    absl::Span<double* const> columns, size_t i, bool& is_complete) const;
 
  private:
-  DerivativePaths paths_;                          // Each number once.
+  DerivativePaths paths_;                         // Each number once.
   std::vector<std::pair<size_t, size_t>> asked_;  // Columns, with the places of their derivatives.
 };
 

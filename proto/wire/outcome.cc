@@ -177,8 +177,7 @@ struct Map<Derivative> : Between<Derivative, v1::Derivative> {
               Entry(&T::kind, &P::kind, &P::set_kind), Entry(&T::value, &P::has_value, &P::value, &P::set_value),
               Entry(&T::from_below, &P::has_from_below, &P::from_below, &P::set_from_below),
               Entry(&T::from_above, &P::has_from_above, &P::from_above, &P::set_from_above),
-              Entry(&T::threshold, &P::threshold, &P::set_threshold),
-              Entry(&T::reason, &P::reason, &P::mutable_reason),
+              Entry(&T::threshold, &P::threshold, &P::set_threshold), Entry(&T::reason, &P::reason, &P::mutable_reason),
               Entry(&T::error, &P::has_error, &P::error, &P::set_error)>;
 };
 

@@ -18,7 +18,7 @@ namespace {
 constexpr int64_t kFewLinks = 32;
 constexpr int64_t kShortHistory = 2048;
 constexpr int64_t kFewRows = 64;
-constexpr size_t kFewSides = 16;       // Derivatives take two sides of each number of the scene.
+constexpr size_t kFewSides = 16;  // Derivatives take two sides of each number of the scene.
 constexpr size_t kImpactsOfDifference = 64;
 constexpr double kFewContacts = 27;    // States times the cube of the contacts, in a plane.
 constexpr size_t kFewVelocities = 32;  // Several contacts have those of the system, and the outputs asked for.
@@ -143,8 +143,7 @@ RequestCost CostOf(const MultiContactRequest& request) {
 }
 
 RequestCost CostOf(const BatchSetup& setup, size_t rows) {
-  const auto derivatives =
-      static_cast<double>(std::count_if(setup.columns.begin(), setup.columns.end(), IsDerivative));
+  const auto derivatives = static_cast<double>(std::count_if(setup.columns.begin(), setup.columns.end(), IsDerivative));
   const double size = static_cast<double>(rows) * static_cast<double>(Links(setup.scene)) *
                       (1.0 + 2.0 * derivatives * (HasDifferences(setup.scene) ? kImpactsOfDifference : 1));
   if (TakesTime(setup.scene, setup.demand)) return Expensive(CostCause::kDuration, size);

@@ -55,7 +55,7 @@ struct Derivative {
   Threshold threshold = Threshold::kUnspecified;  // Unspecified if both sides agree.
   // The estimated error of `value` or of both sides; unset if they are exact to rounding, or if no side exists.
   std::optional<double> error;
-  std::string reason;                             // A sentence that says why a side does not exist; else empty.
+  std::string reason;  // A sentence that says why a side does not exist; else empty.
   friend bool operator==(const Derivative&, const Derivative&) = default;
 };
 

@@ -97,10 +97,9 @@ const std::vector<std::string> kInSpace = {"contact_velocity_after.tangential_m_
 
 // The numbers with one of the nine numbers of the contact moved.
 std::optional<Exact> Moved(const spatial::Problem& p, size_t number, double step) {
-  spatial::ExactContact contact = {
-      .w = {Ball(p.w11), Ball(p.w12), Ball(p.w13), Ball(p.w22), Ball(p.w23), Ball(p.w33)},
-      .u0 = {Ball(p.u0[0]), Ball(p.u0[1])},
-      .v0 = Ball(p.v0)};
+  spatial::ExactContact contact = {.w = {Ball(p.w11), Ball(p.w12), Ball(p.w13), Ball(p.w22), Ball(p.w23), Ball(p.w33)},
+                                   .u0 = {Ball(p.u0[0]), Ball(p.u0[1])},
+                                   .v0 = Ball(p.v0)};
   Ball& moved = number < 6 ? contact.w[number] : number < 8 ? contact.u0[number - 6] : contact.v0;
   moved = moved + Ball(step);
   const auto impact = spatial::SolveExactly(p, contact);
@@ -150,8 +149,8 @@ TEST(DifferencesTest, ImpactInSpaceHasTheQuotientsOfArbitraryPrecision) {
       ASSERT_TRUE(found[k].value.has_value()) << by << " " << found[k].reason << "\n" << spatial::ToString(problem);
       const double error = std::fabs((Ball(*found[k].value) - (*exact)[k]).Nearest());
       const double known_to = std::fabs(((*exact)[k] - (*other)[k]).Nearest());
-      EXPECT_LE(error, *found[k].error + 2.0 * known_to)
-          << found[k].of << " by " << by << "\n" << spatial::ToString(problem);
+      EXPECT_LE(error, *found[k].error + 2.0 * known_to) << found[k].of << " by " << by << "\n"
+                                                         << spatial::ToString(problem);
       above_limit += error > 1e-10 * typical ? 1 : 0;
       ++compared;
     }
@@ -255,10 +254,9 @@ TEST(DifferencesTest, TangentialSpringHasTheQuotientsOfArbitraryPrecision) {
       Scene moved = scene;
       moved.friction.kinetic_coefficient = friction;
       const SceneContact contact(moved);
-      const compliant::Problem problem = {
-          .contact = planar::MakeProblem(std::get<PlanarReduction>(contact.reduction), moved.restitution,
-                                         contact.coefficients),
-          .ratio_squared = *scene.compliance->tangential_ratio_squared};
+      const compliant::Problem problem = {.contact = planar::MakeProblem(std::get<PlanarReduction>(contact.reduction),
+                                                                         moved.restitution, contact.coefficients),
+                                          .ratio_squared = *scene.compliance->tangential_ratio_squared};
       return compliant::SolveExactly(problem);
     };
     const SceneContact contact(scene);

@@ -46,7 +46,8 @@ struct Answer {
 
 Answer AnswerOf(const Scene& scene, DemandFields demand, bool takes_time) {
   if (takes_time) demand.required.push_back(Effect::kFiniteDuration);
-  const auto response = LocalSolver().Solve({.scene = scene, .demand = demand, .both_ends = HoldsCoordinates(scene.system)});
+  const auto response =
+      LocalSolver().Solve({.scene = scene, .demand = demand, .both_ends = HoldsCoordinates(scene.system)});
   if (!response.ok()) return {.code = response.status().code(), .numbers = {}};
   const Outcome& outcome = response->outcome;
   Answer answer = {.regime = outcome.regime, .admissible = outcome.admissible, .numbers = {}};
@@ -292,7 +293,8 @@ TEST(ColumnTest, AnErrorMayBeInfiniteAndNoOtherNumberMay) {
 // --- Notes ---
 
 std::vector<Note> NotesOf(const Scene& scene, const DemandFields& demand = {}) {
-  const auto response = LocalSolver().Solve({.scene = scene, .demand = demand, .both_ends = HoldsCoordinates(scene.system)});
+  const auto response =
+      LocalSolver().Solve({.scene = scene, .demand = demand, .both_ends = HoldsCoordinates(scene.system)});
   EXPECT_TRUE(response.ok()) << response.status();
   return response->outcome.notes;
 }

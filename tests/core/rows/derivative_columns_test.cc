@@ -53,9 +53,8 @@ TEST_P(EverySystem, ColumnIsTheDerivativeOfASolve) {
     for (size_t i = 0; i < mu.size(); ++i) {
       Scene row = scene;
       row.friction.kinetic_coefficient = mu[i];
-      const auto solved =
-          solver.Solve({.scene = row,
-                        .derivatives = DerivativePaths{.of = {normal, "impulse.normal_total_n_s"}, .by = {kMu}}});
+      const auto solved = solver.Solve(
+          {.scene = row, .derivatives = DerivativePaths{.of = {normal, "impulse.normal_total_n_s"}, .by = {kMu}}});
       ASSERT_TRUE(solved.ok()) << kind.name << " " << solved.status();
       bool is_complete = true;
       for (const size_t d : {0, 1}) {
@@ -103,9 +102,8 @@ TEST(DerivativeColumnsTest, WrongNamesAreRefused) {
 }
 
 TEST(DerivativeColumnsTest, SweepHasThem) {
-  const SweepRequest request = {
-      .grid = {.scene = ContactScene(), .axes = {{kMu, ListValues{{0.1, 0.2, 0.3}}}}},
-      .columns = {DerivativeName{"coefficients.newton", "restitution.energetic"}.Text()}};
+  const SweepRequest request = {.grid = {.scene = ContactScene(), .axes = {{kMu, ListValues{{0.1, 0.2, 0.3}}}}},
+                                .columns = {DerivativeName{"coefficients.newton", "restitution.energetic"}.Text()}};
   const LocalSolver solver;
   std::vector<double> found;
   for (absl::StatusOr<SweepChunk>& chunk : solver.Sweep(request)) {
