@@ -13,6 +13,7 @@
 #include "core/answer/derivative_sides.h"
 #include "core/answer/scene_outcome.h"
 #include "core/contact/scene_contact.h"
+#include "core/numerics/elementary.h"
 #include "core/plan/number_demand.h"
 #include "core/scene/field.h"
 #include "core/scene/numbers.h"
@@ -31,6 +32,10 @@ constexpr double kJump = 0x1p-24;
 // The steps over the size of the number, as negative powers of two.
 constexpr int kFirstStep = 4;
 constexpr int kLastStep = 30;
+
+// A path without its last index, and the name at its end.
+absl::string_view HeadOf(absl::string_view path) { return path.substr(0, path.rfind('[')); }
+absl::string_view NameOf(absl::string_view path) { return path.substr(path.rfind('.') + 1); }
 
 // --- An outcome ---
 
@@ -57,8 +62,9 @@ Course CourseOf(const Outcome& outcome) {
 
 struct Sample {
   Course course;
-  std::vector<double> value;  // One for each path of `of`; NaN if the outcome leaves it unset.
-  double error = kUnknown;    // Of a number over its scale.
+  // One for each path of `of`, then their errors; NaN if the outcome leaves it unset.
+  std::vector<double> value;
+  double error = kUnknown;  // Of a number without an error of its own, over its scale.
 };
 
 // Solves scenes of one form.
@@ -88,6 +94,10 @@ class Solver {
 
   const Sample& here() const { return here_; }
   double scale(size_t i) const { return scales_[i]; }
+  double ErrorOf(const Sample& sample, size_t i) const {
+    const double own = sample.value[count_ + i];
+    return std::isnan(own) ? sample.error * scales_[i] : std::max(own, 0x1p-52 * std::fabs(sample.value[i]));
+  }
 
   // Sets the sample to nothing if the scene breaks a rule or has no outcome. Returns false once it is stopped.
   bool At(const Scene& scene, std::optional<Sample>& sample) const {
@@ -117,15 +127,19 @@ class Solver {
   void FindPlaces(const Outcome& outcome, const std::vector<std::string>& of) {
     count_ = of.size();
     VisitOutcomeFields(outcome, [&](const NumberPath& path, const double* /*number*/) {
-      const auto found = std::find(of.begin(), of.end(), path.Text());
-      places_.push_back(found == of.end() ? of.size() : static_cast<size_t>(found - of.begin()));
+      const bool is_error = absl::string_view(path.prefix) == "errors";
+      const auto found = std::find_if(of.begin(), of.end(), [&](const std::string& asked) {
+        return is_error ? HeadOf(NameOf(asked)) == path.name : asked == path.Text();
+      });
+      const auto place = static_cast<size_t>(found - of.begin());
+      places_.push_back(found == of.end() ? 2 * count_ : is_error ? count_ + place : place);
     });
   }
 
   Sample SampleOf(const Outcome& outcome) const {
     Sample sample = {.course = CourseOf(outcome),
-                     .value = std::vector<double>(count_ + 1, kNone),
-                     .error = std::max(outcome.accuracy.relative_error, 0x1p-52)};
+                     .value = std::vector<double>(2 * count_ + 1, kNone),
+                     .error = std::max(outcome.accuracy.relative_error, 0x1p-51)};
     auto place = places_.begin();
     VisitOutcomeFields(outcome, [&](const NumberPath& /*path*/, const double* number) {
       const size_t at = *place++;
@@ -144,7 +158,16 @@ class Solver {
 
 // --- A number of the scene ---
 
-absl::string_view HeadOf(absl::string_view path) { return path.substr(0, path.rfind('[')); }
+// arctan(a/b) in (0, pi): the distance that is left becomes itself less its sine.
+double AngleOf(const Pendulum& pendulum) {
+  const double radius = Hypot(pendulum.a_m, pendulum.b_m);
+  double angle = 1.5;
+  constexpr int kEnough = 10;
+  for (int i = 0; i < kEnough; ++i) {
+    angle -= (pendulum.b_m * Sin(angle) - pendulum.a_m * Cos(angle)) / radius;
+  }
+  return angle;
+}
 
 // The scenes in which one number differs.
 class Line {
@@ -153,8 +176,7 @@ class Line {
     if (const std::optional<double> number = NumberAt(scene_, by)) {
       number_ = *number;
     } else {  // The angle of a pendulum.
-      const auto& pendulum = std::get<Pendulum>(scene_.system);
-      number_ = std::atan2(pendulum.a_m, pendulum.b_m);
+      number_ = AngleOf(std::get<Pendulum>(scene_.system));
     }
     double size = std::fabs(number_);
     // A number that is 0 has the size of its neighbours in a list.
@@ -163,7 +185,7 @@ class Line {
         if (HeadOf(path.Text()) == HeadOf(by)) size = std::max(size, std::fabs(value));
       });
     }
-    unit_ = size == 0.0 ? 1.0 : std::exp2(std::ilogb(size));
+    unit_ = size == 0.0 ? 1.0 : std::ldexp(1.0, std::ilogb(size));
   }
   Line(const Line&) = delete;
   Line& operator=(const Line&) = delete;
@@ -331,9 +353,9 @@ class Sides {
   }
 
   double Noise(size_t side, size_t i) const {
-    double error = solver_.here().error;
-    for (const std::optional<Sample>& sample : neighbours_[side]) error = std::max(error, sample->error);
-    return error * solver_.scale(i);
+    double error = solver_.ErrorOf(solver_.here(), i);
+    for (const std::optional<Sample>& sample : neighbours_[side]) error = std::max(error, solver_.ErrorOf(*sample, i));
+    return error;
   }
 
   OneSided LimitOf(size_t side, size_t i) const {

@@ -29,8 +29,8 @@ def meanings(name: str, known: Collection[str]) -> list[str]:
 
 
 def _ends_in(path: str, name: str) -> bool:
-    # An error has the name of its number, which is what the name alone means.
-    return path == name or (path.endswith(f".{name}") and not path.startswith("errors."))
+    # An error has the name of its number, and so has a number of the free end; the name alone means neither.
+    return path == name or (path.endswith(f".{name}") and not path.startswith(("errors.", "free_end.")))
 
 
 def full_names(given: Iterable[str], known: Collection[str], what: str) -> list[str]:

@@ -38,6 +38,7 @@ const std::set<std::string>& WithoutUnit() {
                                               "e",
                                               "e_t",
                                               "energetic",
+                                              "error",
                                               "excess",
                                               "exponent",
                                               "factor",

@@ -226,7 +226,7 @@ class ShortNames(Case):
         for full in listed:
             parts = without_unit(full).split(".")
             for short in {".".join(parts[i:]) for i in range(len(parts))} | {full}:
-                ends = [one for one in listed if short in (one, without_unit(one)) or not one.startswith("errors.")
+                ends = [one for one in listed if short in (one, without_unit(one)) or not one.startswith(("errors.", "free_end."))
                         and (one.endswith("." + short) or without_unit(one).endswith("." + short))]
                 ends = [short] if short in listed else ends
                 meant = names.meanings(short, known)

@@ -30,10 +30,11 @@ constexpr std::pair<const char*, const char*> kLetters[] = {
     {"mu", "friction"},
 };
 
-// True if `path` is `name`, or ends in it after a dot. An error has the name of its number, which is what the name
-// alone means.
+// True if `path` is `name`, or ends in it after a dot. An error has the name of its number, and so has a number of the
+// end with no coordinate held; the name alone means neither.
 bool EndsIn(const std::string& path, const std::string& name) {
-  return path == name || (absl::EndsWith(path, absl::StrCat(".", name)) && !absl::StartsWith(path, "errors."));
+  return path == name || (absl::EndsWith(path, absl::StrCat(".", name)) && !absl::StartsWith(path, "errors.") &&
+                          !absl::StartsWith(path, "free_end."));
 }
 
 // Returns the name itself, which the checks of a request will refuse, unless it is nearly the last part of a known

@@ -567,16 +567,6 @@ TEST(DerivativesTest, RequestNamesWhatHasNone) {
     EXPECT_EQ(violations.size(), 1);
     return violations.empty() ? std::string() : violations[0].field + " " + violations[0].description;
   };
-  EXPECT_EQ(only(Refused(With(ContactInSpace()), paths)),
-            "derivatives is set: must not be for an impact in space, which has no derivatives yet");
-  Scene soft = With(Contact());
-  soft.compliance = Compliance{.tangential_ratio_squared = 1.5, .normal = {}};
-  EXPECT_EQ(only(Refused(soft, paths)),
-            "derivatives is set: must not be for tangential compliance, which has no derivatives yet");
-  soft.compliance->normal = LinearSpring{1e6};
-  EXPECT_EQ(only(Refused(soft, paths)),
-            "derivatives is set: must not be for compliance, with which an impact takes time, which has no derivatives "
-            "yet");
   EXPECT_EQ(
       only(Refused(With(Contact()), {.of = {"coefficients.newtn"}, .by = paths.by})),
       "derivatives.of[0] = \"coefficients.newtn\": must be a velocity, an impulse, a work or a coefficient of the "

@@ -67,7 +67,7 @@ TEST_P(PlanarSystem, HasTheExactDerivatives) {
           continue;
         }
         const double error = std::fabs(*found[k].value - *exact[k].value);
-        ASSERT_LE(error, 4.0 * *found[k].error + 1e-10 * std::fabs(*exact[k].value))
+        ASSERT_LE(error, 4.0 * *found[k].error + 1e-10 * std::max(std::fabs(*exact[k].value), 1e-4))
             << kind.name << " " << exact[k].of << " by " << by << ": " << *found[k].value << ", exact "
             << *exact[k].value;
       }
@@ -127,7 +127,7 @@ TEST(DifferencesTest, ImpactInSpaceHasTheQuotientsOfArbitraryPrecision) {
   const RandomSystem system = RandomSystems()[9];
   ASSERT_EQ(system.name, "spatial_contact");
   int compared = 0, above_limit = 0;
-  for (int i = 0; i < 1500; ++i) {
+  for (int i = 0; i < 400; ++i) {
     const Scene scene = SceneKinds(system)[static_cast<size_t>(i) % 3].make(random);
     if (!Validate(scene).empty()) continue;
     const SceneContact contact(scene);
@@ -135,7 +135,7 @@ TEST(DifferencesTest, ImpactInSpaceHasTheQuotientsOfArbitraryPrecision) {
                                                           scene.restitution, contact.coefficients, 1e-14);
     if (problem.v0 >= 0.0 || !(problem.mu > 0.0)) continue;
     const size_t number = static_cast<size_t>(i) % 9;
-    // The oracle is right to about 1e-18. How far two steps differ tells what the quotients are right to.
+    // The oracle is right to about 1e-18, and how far two steps differ tells what the quotients are right to.
     const std::optional<Exact> exact = SpatialQuotients(problem, number, 0x1p-16);
     const std::optional<Exact> other = SpatialQuotients(problem, number, 0x1p-14);
     if (!exact.has_value() || !other.has_value()) continue;
@@ -143,19 +143,21 @@ TEST(DifferencesTest, ImpactInSpaceHasTheQuotientsOfArbitraryPrecision) {
                            : number < 8 ? "spatial_contact.tangential_m_s[" + std::to_string(number - 6) + "]"
                                         : "spatial_contact.normal_m_s";
     const std::vector<Derivative> found = Differences(scene, {.of = kInSpace, .by = {by}});
-    double typical = 1e-3;
-    for (const Ball& quotient : *exact) typical = std::max(typical, std::fabs(quotient.Nearest()));
+    double typical = 1e-3, known_to = 1e-18 / 0x1p-16;
+    for (size_t k = 0; k < exact->size(); ++k) {
+      typical = std::max(typical, std::fabs((*exact)[k].Nearest()));
+      known_to = std::max(known_to, std::fabs(((*exact)[k] - (*other)[k]).Nearest()));
+    }
     for (size_t k = 0; k < found.size(); ++k) {
       ASSERT_TRUE(found[k].value.has_value()) << by << " " << found[k].reason << "\n" << spatial::ToString(problem);
       const double error = std::fabs((Ball(*found[k].value) - (*exact)[k]).Nearest());
-      const double known_to = std::fabs(((*exact)[k] - (*other)[k]).Nearest());
       EXPECT_LE(error, *found[k].error + 2.0 * known_to) << found[k].of << " by " << by << "\n"
                                                          << spatial::ToString(problem);
       above_limit += error > 1e-10 * typical ? 1 : 0;
       ++compared;
     }
   }
-  EXPECT_GE(compared, 2'000);
+  EXPECT_GE(compared, 500);
   EXPECT_LE(above_limit, compared / 1'000);
 }
 
@@ -248,8 +250,8 @@ TEST(DifferencesTest, TangentialSpringHasTheQuotientsOfArbitraryPrecision) {
   for (int i = 0; i < 120; ++i) {
     Scene scene = SceneKinds(system)[0].make(random);
     scene.compliance = Compliance{.tangential_ratio_squared = random.Power(-0.3, 0.5), .normal = {}};
-    if (!Validate(scene).empty()) continue;
     const double mu = scene.friction.kinetic_coefficient;
+    if (!Validate(scene).empty() || mu == 0.0) continue;
     const auto at = [&scene](double friction) {
       Scene moved = scene;
       moved.friction.kinetic_coefficient = friction;
@@ -261,8 +263,8 @@ TEST(DifferencesTest, TangentialSpringHasTheQuotientsOfArbitraryPrecision) {
     };
     const SceneContact contact(scene);
     if (std::get<PlanarReduction>(contact.reduction).v0 >= 0.0) continue;
-    const double step = 0x1p-22 * mu;
-    const auto low = at(mu - step), high = at(mu + step), here = at(mu);
+    const double below = mu * (1.0 - 0x1p-24), above = mu * (1.0 + 0x1p-24);
+    const auto low = at(below), high = at(above), here = at(mu);
     if (!low.ends || !high.ends || low.regime != high.regime || low.sections.size() != here.sections.size() ||
         high.sections.size() != here.sections.size()) {
       continue;
@@ -272,7 +274,7 @@ TEST(DifferencesTest, TangentialSpringHasTheQuotientsOfArbitraryPrecision) {
       ++refused;
       continue;
     }
-    const double exact = ((high.tau1 - low.tau1) / Ball(2.0 * step)).Nearest();
+    const double exact = ((high.tau1 - low.tau1) / (Ball(above) - Ball(below))).Nearest();
     EXPECT_NEAR(*d.value, exact, std::max(*d.error, 1e-10)) << d.error.value_or(-1.0);
     ++compared;
   }
@@ -323,15 +325,15 @@ TEST(DifferencesTest, ImpactLawIsItsFormula) {
   scene.restitution = std::monostate();
   scene.impact_law = WhittakerLaw{0.5};
   // Without coupling Whittaker's law is v' = -e v.
-  EXPECT_NEAR(*Only(scene, "contact_velocity_after.normal_m_s", "whittaker.restitution").value, 3.0, 1e-11);
+  EXPECT_NEAR(*Only(scene, "contact_velocity_after.normal_m_s", "whittaker.e").value, 3.0, 1e-11);
 }
 
 TEST(DifferencesTest, StopsSoon) {
   int asked = 0;
-  const auto stopped = [&asked] { return ++asked > 40; };
+  const auto stopped = [&asked] { return ++asked > 10; };
   const auto derivatives = DifferencesOf(BallOnCushion(), {}, {.of = {kTau}, .by = {kMu}}, stopped);
   EXPECT_TRUE(absl::IsCancelled(derivatives.status()));
-  EXPECT_LE(asked, 50);
+  EXPECT_LE(asked, 11);
 }
 
 }  // namespace

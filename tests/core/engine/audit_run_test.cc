@@ -55,8 +55,9 @@ TEST(AuditRunTest, ReportsAndSummaryAreTheSameWhateverTheNumberOfThreads) {
 // On a busy machine the caller may have audited all rows before a helper comes back, so that the rows become more.
 TEST(AuditRunTest, HelpersMayGiveWayAfterEachPiece) {
   int started = 0;
-  for (int rows = 4000; started <= 2 && rows <= 4'096'000 && !HasFailure(); rows *= 4) {
-    const AuditBatchRequest request = Audits(Contact(), rows);
+  constexpr int kMostAttempts = 100;
+  for (int i = 0; started <= 2 && i < kMostAttempts && !HasFailure(); ++i) {
+    const AuditBatchRequest request = Audits(ContactInSpace(), 8000);
     const auto threads = std::make_shared<CountedThreads>(2, true);
     EXPECT_EQ(*RunAudits(request, threads, Never), *RunAudits(request, nullptr, Never));
     started = threads->started();

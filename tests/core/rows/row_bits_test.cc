@@ -110,7 +110,8 @@ void ExpectBitsOfSolve(const Rows& rows, const std::vector<std::string>& columns
   std::vector<double> numbers;
   size_t wrong = 0;
   for (size_t i = 0; i < rows.scenes.size(); ++i) {
-    const auto solved = LocalSolver().Solve({.scene = rows.scenes[i], .demand = demand});
+    const auto solved = LocalSolver().Solve(
+        {.scene = rows.scenes[i], .demand = demand, .both_ends = HoldsCoordinates(rows.scenes[i].system)});
     if (solved.status().code() == absl::StatusCode::kInvalidArgument) {
       wrong += bits.statuses[i] != RowStatus::kInvalid ? 1 : 0;
     }
