@@ -25,7 +25,8 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
-constexpr int kNeighbours = 6;  // On each side.
+constexpr int kNeighbours = 6;                    // On each side.
+constexpr std::array<size_t, 2> kSides = {0, 1};  // Below, above.
 // A scene next to this one, over the size of the number: it tells the course and whether the outcome jumps.
 constexpr double kBeside = 0x1p-44;
 constexpr double kJump = 0x1p-24;
@@ -78,7 +79,7 @@ class Solver {
   absl::Status Begin(const Scene& scene, const std::vector<std::string>& of) {
     std::optional<SceneContact> contact;
     Outcome outcome;
-    const absl::Status solved = SolveScene(scene, contact, demand_, {}, stopped_, outcome);
+    absl::Status solved = SolveScene(scene, contact, demand_, {}, stopped_, outcome);
     if (!solved.ok()) return solved;
     FindPlaces(outcome, of);
     here_ = SampleOf(outcome);
@@ -172,7 +173,7 @@ double AngleOf(const Pendulum& pendulum) {
 // The scenes in which one number differs.
 class Line {
  public:
-  Line(const Scene& scene, const std::string& by) : scene_(scene), field_(*ResolveField(by, scene_)) {
+  Line(Scene scene, const std::string& by) : scene_(std::move(scene)), field_(*ResolveField(by, scene_)) {
     if (const std::optional<double> number = NumberAt(scene_, by)) {
       number_ = *number;
     } else {  // The angle of a pendulum.
@@ -275,14 +276,14 @@ class Sides {
 
   // Returns false once the solver is stopped.
   bool Explore() {
-    for (const size_t side : {0, 1}) {
+    for (const size_t side : kSides) {
       if (!line_.At(solver_, Sign(side) * kBeside * line_.unit(), beside_[side])) return false;
     }
     bool goes_on = true;
     for (int k = kFirstStep; k <= kLastStep && goes_on; k += 2) {
       const double step = std::ldexp(line_.unit(), -k);
       std::array<bool, 2> is_one_course = {};
-      for (const size_t side : {0, 1}) {
+      for (const size_t side : kSides) {
         if (!SetNeighbours(side, step, is_one_course[side])) return false;
       }
       goes_on = Refine(step, is_one_course);
@@ -335,7 +336,7 @@ class Sides {
     bool has_improved = false;
     for (size_t i = 0; i < central_.size(); ++i) {
       std::array<double, kNeighbours> changes;
-      for (const size_t side : {0, 1}) {
+      for (const size_t side : kSides) {
         if (!is_one_course[side]) continue;
         for (size_t j = 0; j < kNeighbours; ++j) changes[j] = neighbours_[side][j]->value[i] - here.value[i];
         const Estimate next = EstimateOf(changes, one_sided, Noise(side, i), Sign(side) * step, line_.unit());

@@ -57,7 +57,7 @@ TEST_P(EverySystem, ColumnIsTheDerivativeOfASolve) {
           {.scene = row, .derivatives = DerivativePaths{.of = {normal, "impulse.normal_total_n_s"}, .by = {kMu}}});
       ASSERT_TRUE(solved.ok()) << kind.name << " " << solved.status();
       bool is_complete = true;
-      for (const size_t d : {0, 1}) {
+      for (size_t d = 0; d < 2; ++d) {
         const auto& value = solved->outcome.derivatives[d].value;
         const double number = outputs[2 * d][i];
         is_complete &= value.has_value();
