@@ -33,7 +33,8 @@ constexpr size_t kOutputs = kPlanarOutputPaths.size();
 
 // --- Which numbers there are ---
 
-// The paths of the velocities of the system itself after the impact; in a plane, in the order of PlanarReduction::before.
+// The paths of the velocities of the system itself after the impact; in a plane in the order of
+// PlanarReduction::before.
 struct VelocityPaths {
   std::vector<std::string>& paths;
   size_t tangential;  // Directions.

@@ -23,8 +23,8 @@
 
 namespace ricochet {
 
-// Lists every column of a sweep over the scene but derivatives, as ricochet.v1.Outcome spells it: "coefficients.newton",
-// "rates_after_rad_s[0]".
+// Lists every column of a sweep over the scene but derivatives, as ricochet.v1.Outcome spells it:
+// "coefficients.newton", "rates_after_rad_s[0]".
 std::vector<std::string> Columns(const Scene& scene);
 
 // Lists the columns and, in their places, the numbers that no outcome of the scene can have although others have them.
