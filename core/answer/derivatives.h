@@ -1,9 +1,9 @@
 // Derivatives of an outcome: its numbers by numbers of the scene.
 //
 // Those of a planar rigid impact are exact. For each number of the scene the contact is differentiated along it
-// (core/contact/contact_tangent.h) and the impact along that (core/models/planar/tangent.h), once for either side. Where
-// the two sides agree, so do their bits but at a threshold, and the derivative is two-sided. A number that is 0 is
-// replaced by +-2^-300 for its sides, which changes no digit of them and separates the cases that meet at 0.
+// (core/contact/contact_tangent.h) and the impact along that (core/models/planar/tangent.h), once for either side.
+// Where the two sides agree, so do their bits but at a threshold, and the derivative is two-sided. A number that is 0
+// is replaced by +-2^-300 for its sides, which changes no digit of them and separates the cases that meet at 0.
 // A side does not exist where the scene would break a rule, where the outcome jumps, or where it changes infinitely
 // fast. Other impacts have differences (core/answer/differences.h), with an estimated error.
 // docs/theory/derivatives.md says what each derivative is accurate to.
