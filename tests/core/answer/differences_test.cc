@@ -127,7 +127,7 @@ TEST(DifferencesTest, ImpactInSpaceHasTheQuotientsOfArbitraryPrecision) {
   const RandomSystem system = RandomSystems()[9];
   ASSERT_EQ(system.name, "spatial_contact");
   int compared = 0, above_limit = 0;
-  for (int i = 0; i < 400; ++i) {
+  for (int i = 0; i < 200; ++i) {
     const Scene scene = SceneKinds(system)[static_cast<size_t>(i) % 3].make(random);
     if (!Validate(scene).empty()) continue;
     const SceneContact contact(scene);
@@ -157,7 +157,7 @@ TEST(DifferencesTest, ImpactInSpaceHasTheQuotientsOfArbitraryPrecision) {
       ++compared;
     }
   }
-  EXPECT_GE(compared, 500);
+  EXPECT_GE(compared, 250);
   EXPECT_LE(above_limit, compared / 1'000);
 }
 
