@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
 #include "core/answer/derivative_sides.h"
 #include "core/answer/scene_outcome.h"
@@ -63,9 +64,8 @@ Course CourseOf(const Outcome& outcome) {
 
 struct Sample {
   Course course;
-  // One for each path of `of`, then their errors; NaN if the outcome leaves it unset.
-  std::vector<double> value;
-  double error = kUnknown;  // Of a number without an error of its own, over its scale.
+  std::vector<double> value, error;  // One for each path of `of`; NaN if the outcome leaves it unset.
+  double relative_error = kUnknown;  // Of a number without an error of its own, over its scale.
 };
 
 // Solves scenes of one form.
@@ -83,8 +83,8 @@ class Solver {
     if (!solved.ok()) return solved;
     FindPlaces(outcome, of);
     here_ = SampleOf(outcome);
-    const SceneContact reduced(scene);
-    const double speed = std::visit([](const auto& reduction) { return SpeedOf(reduction); }, reduced.reduction);
+    if (!contact.has_value()) contact.emplace(scene);
+    const double speed = std::visit([](const auto& reduction) { return SpeedOf(reduction); }, contact->reduction);
     for (size_t i = 0; i < of.size(); ++i) {
       const double size = std::isnan(here_.value[i]) ? 0.0 : std::fabs(here_.value[i]);
       scales_.push_back(std::max(
@@ -96,8 +96,8 @@ class Solver {
   const Sample& here() const { return here_; }
   double scale(size_t i) const { return scales_[i]; }
   double ErrorOf(const Sample& sample, size_t i) const {
-    const double own = sample.value[count_ + i];
-    return std::isnan(own) ? sample.error * scales_[i] : std::max(own, 0x1p-52 * std::fabs(sample.value[i]));
+    if (std::isnan(sample.error[i])) return sample.relative_error * scales_[i];
+    return std::max(sample.error[i], 0x1p-52 * std::fabs(sample.value[i]));
   }
 
   // Sets the sample to nothing if the scene breaks a rule or has no outcome. Returns false once it is stopped.
@@ -124,35 +124,38 @@ class Solver {
     return speed;
   }
 
-  // All outcomes of scenes of one form have the same places in the same order.
+  // All outcomes of scenes of one form have the same places in the same order. Components may share an error.
   void FindPlaces(const Outcome& outcome, const std::vector<std::string>& of) {
-    count_ = of.size();
-    VisitOutcomeFields(outcome, [&](const NumberPath& path, const double* /*number*/) {
-      const bool is_error = absl::string_view(path.prefix) == "errors";
-      const auto found = std::find_if(of.begin(), of.end(), [&](const std::string& asked) {
-        return is_error ? HeadOf(NameOf(asked)) == path.name : asked == path.Text();
-      });
-      const auto place = static_cast<size_t>(found - of.begin());
-      places_.push_back(found == of.end() ? 2 * count_ : is_error ? count_ + place : place);
-    });
+    std::vector<std::string> paths;
+    VisitOutcomeFields(outcome,
+                       [&](const NumberPath& path, const double* /*number*/) { paths.push_back(path.Text()); });
+    const auto place_of = [&paths](const std::string& path) {
+      return static_cast<size_t>(std::find(paths.begin(), paths.end(), path) - paths.begin());
+    };
+    for (const std::string& path : of) {
+      const absl::string_view name = NameOf(path);
+      const size_t own = place_of(absl::StrCat("errors.", name));
+      places_.push_back(place_of(path));
+      error_places_.push_back(own < paths.size() ? own : place_of(absl::StrCat("errors.", HeadOf(name))));
+    }
   }
 
   Sample SampleOf(const Outcome& outcome) const {
-    Sample sample = {.course = CourseOf(outcome),
-                     .value = std::vector<double>(2 * count_ + 1, kNone),
-                     .error = std::max(outcome.accuracy.relative_error, 0x1p-51)};
-    auto place = places_.begin();
+    Sample sample = {.course = CourseOf(outcome), .relative_error = std::max(outcome.accuracy.relative_error, 0x1p-51)};
+    std::vector<double> numbers;
     VisitOutcomeFields(outcome, [&](const NumberPath& /*path*/, const double* number) {
-      const size_t at = *place++;
-      if (number != nullptr) sample.value[at] = *number;
+      numbers.push_back(number == nullptr ? kNone : *number);
     });
+    const auto at = [&numbers](size_t place) { return place < numbers.size() ? numbers[place] : kNone; };
+    for (const size_t place : places_) sample.value.push_back(at(place));
+    for (const size_t place : error_places_) sample.error.push_back(at(place));
     return sample;
   }
 
   Demand demand_;
   absl::FunctionRef<bool()> stopped_;
-  size_t count_ = 0;
-  std::vector<size_t> places_;  // Of each number among `of`; behind the last one if it is not asked for.
+  // Among all numbers of an outcome, of each number asked for and of its error; behind the last one if there is none.
+  std::vector<size_t> places_, error_places_;
   std::vector<double> scales_;
   Sample here_;
 };

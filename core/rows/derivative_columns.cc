@@ -32,19 +32,10 @@ std::string RuleForDerivative(const Scene& scene, const DerivativeName& name) {
 }
 
 DerivativeColumns::DerivativeColumns(absl::Span<const std::string> columns) {
-  std::vector<DerivativeName> names;
-  std::vector<size_t> places;
   for (size_t c = 0; c < columns.size(); ++c) {
     const std::optional<DerivativeName> name = ReadDerivativeName(columns[c]);
     if (!name.has_value()) continue;
-    names.push_back(*name);
-    places.push_back(c);
-    PlaceOf(name->of, paths_.of);
-    PlaceOf(name->by, paths_.by);
-  }
-  for (size_t k = 0; k < names.size(); ++k) {
-    const size_t of = PlaceOf(names[k].of, paths_.of);
-    asked_.emplace_back(places[k], of * paths_.by.size() + PlaceOf(names[k].by, paths_.by));
+    asked_.push_back({.column = c, .of = PlaceOf(name->of, paths_.of), .by = PlaceOf(name->by, paths_.by)});
   }
 }
 
@@ -53,8 +44,8 @@ absl::Status DerivativeColumns::Set(const Scene& scene, const Demand& demand, ab
   const absl::StatusOr<std::vector<Derivative>> derivatives = DerivativesOf(scene, demand, paths_, stopped);
   if (!derivatives.ok()) return derivatives.status();
   is_complete = true;
-  for (const auto& [column, place] : asked_) {
-    const std::optional<double>& value = (*derivatives)[place].value;
+  for (const auto& [column, of, by] : asked_) {
+    const std::optional<double>& value = (*derivatives)[of * paths_.by.size() + by].value;
     is_complete &= value.has_value();
     columns[column][i] = value.value_or(std::numeric_limits<double>::quiet_NaN());
   }

@@ -9,7 +9,6 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "absl/functional/function_ref.h"
@@ -39,8 +38,13 @@ class DerivativeColumns {
                    absl::Span<double* const> columns, size_t i, bool& is_complete) const;
 
  private:
-  DerivativePaths paths_;                         // Each number once.
-  std::vector<std::pair<size_t, size_t>> asked_;  // Columns, with the places of their derivatives.
+  // A column, with the places of its numbers among the paths.
+  struct Asked {
+    size_t column, of, by;
+  };
+
+  DerivativePaths paths_;  // Each number once.
+  std::vector<Asked> asked_;
 };
 
 }  // namespace ricochet

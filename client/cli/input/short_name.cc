@@ -81,17 +81,19 @@ Spelling SpellingOf(const std::string& path) {
 }
 
 absl::StatusOr<std::vector<std::string>> FullColumns(const Scene& scene, const std::vector<std::string>& names) {
+  const std::vector<std::string> known = Columns(scene);
+  const std::vector<std::string> places = ColumnPlaces(scene);
   std::vector<std::string> columns;
   for (const std::string& name : names) {
     if (const auto derivative = ReadDerivativeName(absl::StripAsciiWhitespace(name))) {
-      absl::StatusOr<std::string> of = FullName(derivative->of, Columns(scene), "--column");
+      absl::StatusOr<std::string> of = FullName(derivative->of, known, "--column");
       if (!of.ok()) return of.status();
       absl::StatusOr<std::string> by = FullField(scene, derivative->by, "--column");
       if (!by.ok()) return by.status();
       columns.push_back(DerivativeName{*std::move(of), *std::move(by)}.Text());
       continue;
     }
-    auto full = FullColumns(Columns(scene), ColumnPlaces(scene), {name});
+    auto full = FullColumns(known, places, {name});
     if (!full.ok()) return full.status();
     std::move(full->begin(), full->end(), std::back_inserter(columns));
   }

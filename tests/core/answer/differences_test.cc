@@ -328,6 +328,21 @@ TEST(DifferencesTest, ImpactLawIsItsFormula) {
   EXPECT_NEAR(*Only(scene, "contact_velocity_after.normal_m_s", "whittaker.e").value, 3.0, 1e-11);
 }
 
+TEST(DifferencesTest, NumberThatIsAskedForTwiceIsAnsweredTwice) {
+  const auto found = Differences(BallOnCushion(), {.of = {kTau, kTau}, .by = {"restitution.energetic"}});
+  EXPECT_NEAR(*found[0].value, 1.0, 1e-11);  // tau = (1 + e) |v0| / W33
+  EXPECT_EQ(found[1].value, found[0].value);
+}
+
+TEST(DifferencesTest, ComponentsShareAnError) {
+  Scene scene = BallOnCushion();
+  std::get<SpatialContact>(scene.system).tangential_m_s = {4.0, 4.0};
+  const std::string slip = "contact_velocity_after.tangential_m_s";
+  const auto found = Differences(scene, {.of = {slip + "[0]", slip + "[1]"}, .by = {kMu}});
+  EXPECT_NEAR(*found[0].value, -3.5 * 1.8 * std::sqrt(0.5), 1e-11);
+  EXPECT_NEAR(*found[1].error / *found[0].error, 1.0, 0.5);
+}
+
 TEST(DifferencesTest, StopsSoon) {
   int asked = 0;
   const auto stopped = [&asked] { return ++asked > 10; };
