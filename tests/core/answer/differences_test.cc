@@ -308,9 +308,8 @@ TEST(DifferencesTest, LinearSpringIsItsFormula) {
 TEST(DifferencesTest, HertzSpringHasThePowersOfItsScaling) {
   // The duration of a Hertz contact goes with k^(-2/5) |v|^(-1/5).
   const Scene scene = Dropped(HertzSpring{1e7});
-  Scene timed = scene;
   const LocalSolver solver;
-  const auto solved = solver.Solve({.scene = timed, .demand = {.required = {Effect::kFiniteDuration}}});
+  const auto solved = solver.Solve({.scene = scene, .demand = {.required = {Effect::kFiniteDuration}}});
   ASSERT_TRUE(solved.ok()) << solved.status();
   const double duration = solved->outcome.contact->duration_s;
   const Derivative by_k = Only(scene, "contact.duration_s", "compliance.hertz.stiffness_n_m1_5");
