@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "absl/functional/function_ref.h"
 #include "absl/strings/str_format.h"
 #include "absl/synchronization/mutex.h"
 #include "core/models/planar/columns.h"
@@ -178,6 +179,53 @@ void RunAgainstLanes(const Solver& local, double tolerance) {
         absl::StrFormat("%.2f of the planar model in lanes alone", compared.ratio));
 }
 
+// The rate on two threads against that on one.
+void CompareThreads(const char* what, double goal, absl::FunctionRef<void(const Solver&)> solve) {
+  const LocalSolver one(Limits::None(), 1);
+  const LocalSolver two(Limits::None(), 2);
+  const Comparison compared = Compare(
+      11, [&] { solve(one); }, [&] { solve(two); });
+  Print(what, absl::StrFormat("%.2f x", compared.ratio), absl::StrFormat("goal %.1f", goal));
+}
+
+void SweepPendulums(const Solver& solver) {
+  constexpr int64_t kPoints = 10'000'000;
+  const SweepRequest request = {
+      .grid = {.scene = {.system = Pendulum{.inertia_kg_m2 = 1.0, .a_m = 0.3, .b_m = 1.0, .omega_minus_rad_s = -1.0},
+                         .restitution = EnergeticCoefficient{0.5}},
+               .axes = {{.path = "friction.kinetic_coefficient", .values = Linspace{0.0, 0.25, kPoints}}}},
+      .columns = {"coefficients.newton"},
+      .end_index = kPoints};
+  for (const absl::StatusOr<SweepChunk>& chunk : solver.Sweep(request)) {
+    if (!chunk.ok()) std::abort();
+  }
+}
+
+Batch ContactsOnSprings(size_t rows) {
+  Batch batch({.scene = {.system = PlanarContact{.w_tt_per_kg = 3.0, .w_tn_per_kg = 0.5, .w_nn_per_kg = 1.5},
+                         .restitution = EnergeticCoefficient{0.5},
+                         .compliance = Compliance{.normal = LinearSpring{1e5}}},
+               .fields = {"planar_contact.tangential_m_s", "planar_contact.normal_m_s", "friction.kinetic_coefficient"},
+               .columns = {"contact_velocity_after.normal_m_s", "contact.duration_s"}},
+              rows);
+  batch.AddColumn(rows, 0.0, 2.0);
+  batch.AddColumn(rows, -1.0, 0.5);
+  batch.AddColumn(rows, 0.4, 0.3);
+  return batch;
+}
+
+void CompareThreads() {
+  std::printf("Rate on two threads over that on one, medians of 11 rounds\n");
+  CompareThreads("sweep of 10^7 pendulums", 1.8, SweepPendulums);
+  const auto compare_batch = [](const char* what, double goal, Batch batch) {
+    CompareThreads(what, goal, [&batch](const Solver& solver) {
+      if (!solver.OpenBatches(batch.setup)->Solve(batch.Rows()).ok()) std::abort();
+    });
+  };
+  compare_batch("batch of 10^6 planar contacts", 1.7, Contacts(1'000'000, 1e-12));
+  compare_batch("batch of 20,000 planar contacts on a spring", 1.9, ContactsOnSprings(20'000));
+}
+
 struct Solvers {
   LocalSolver one_thread{Limits::None(), 1};
   LocalSolver all_cores;
@@ -211,6 +259,7 @@ int main() {
   if (!client.ok()) return 1;
   const Solvers solvers = {.remote = *client};
   RunAgainstLanes(solvers.one_thread, 1e-12);
+  CompareThreads();
   Run("Planar contacts", solvers, Contacts, 1e-12);
   Run("Planar contacts", solvers, Contacts, 1e-6);
   Run("Bodies in a plane", solvers, Bodies, 1e-12);

@@ -85,7 +85,7 @@ def main():
     print(f"8 columns of a pendulum, {POINTS / 1e6:.0f} M points, medians of {ROUNDS} rounds")
     for name, took, index in (("NumPy in this process", local, 0), ("sweep by gRPC into NumPy", python, 1),
                               ("equal bytes by gRPC, nothing computed or decoded", raw, 2),
-                              ("sweep by the C++ client", cpp, 3)):
+                              ("sweep by the C++ client; goal 1.1", cpp, 3)):
         print(f"  {name:<50} {POINTS / took / 1e6:7.1f} M points/s   {processes.ratio(times, 0, index):5.2f} x NumPy's rate")
     print(f"  {'rate of the sweep into NumPy':<50} {processes.ratio(times, 2, 1):7.2f} x that of equal bytes; goal 0.8")
 

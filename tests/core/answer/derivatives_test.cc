@@ -338,7 +338,7 @@ class ThresholdScenes {
  public:
   Scene FrictionLimit() {
     Scene scene = Any();
-    PlanarContact& contact = std::get<PlanarContact>(scene.system);
+    auto& contact = std::get<PlanarContact>(scene.system);
     const double limit = scene.friction.static_coefficient.value_or(scene.friction.kinetic_coefficient);
     contact.w_tn_per_kg = Sign() * limit * contact.w_tt_per_kg;
     contact.w_nn_per_kg = 2.0 * limit * limit * contact.w_tt_per_kg;
@@ -354,7 +354,7 @@ class ThresholdScenes {
   Scene StopAt(double share) {
     for (;;) {
       Scene scene = Any();
-      PlanarContact& contact = std::get<PlanarContact>(scene.system);
+      auto& contact = std::get<PlanarContact>(scene.system);
       const double mu = scene.friction.kinetic_coefficient;
       const double u_rise = contact.w_tn_per_kg - mu * contact.w_tt_per_kg;
       const double v_rise = contact.w_nn_per_kg - mu * contact.w_tn_per_kg;

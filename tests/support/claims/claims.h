@@ -69,21 +69,27 @@ class ClaimTally {
   std::vector<double> ratios_;
 };
 
-// One row of the table of claims: a method, its scenes, and its tally.
+// One row of the table of claims: a method, its scenes, its tally, and a goal for the median, or 0.
 inline void PrintClaimsHeader() {
-  std::printf("%-22s %-8s %9s %6s %8s %9s %6s %7s %8s %11s %11s\n", "method", "scenes", "tolerance", "count", "unknown",
-              "broken", "least", "median", "worst", "claim > tol", "error > tol");
+  std::printf("%-22s %-8s %9s %6s %8s %9s %6s %7s %5s %8s %11s %11s\n", "method", "scenes", "tolerance", "count", "unknown",
+              "broken", "least", "median", "goal", "worst", "claim > tol", "error > tol");
 }
 
-inline void PrintClaims(const std::string& method, const std::string& scenes, const ClaimTally& tally) {
+inline void PrintClaims(const std::string& method, const std::string& scenes, const ClaimTally& tally, double goal = 0.0) {
   std::printf("%-22s %-8s ", method.c_str(), scenes.c_str());
   if (tally.tolerance() > 0.0) {
     std::printf("%9.0e ", tally.tolerance());
   } else {
     std::printf("%9s ", "-");
   }
-  std::printf("%6d %8d %9d %6.2f %7.1f %8.1e ", tally.count(), tally.unknown(), tally.broken(), tally.LeastRatio(),
-              tally.MedianRatio(), tally.WorstError());
+  std::printf("%6d %8d %9d %6.2f %7.1f ", tally.count(), tally.unknown(), tally.broken(), tally.LeastRatio(),
+              tally.MedianRatio());
+  if (goal > 0.0) {
+    std::printf("%5.0f ", goal);
+  } else {
+    std::printf("%5s ", "-");
+  }
+  std::printf("%8.1e ", tally.WorstError());
   if (tally.tolerance() > 0.0) {
     std::printf("%11d %11d\n", tally.claimed_above_tolerance(), tally.achieved_above_tolerance());
   } else {
