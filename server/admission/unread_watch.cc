@@ -48,23 +48,26 @@ void UnreadWatch::Cut() {
   }
 }
 
-void UnreadWatch::Sends(const grpc::ServerContext& context, std::shared_ptr<void> place) {
-  const milliseconds limit = place == nullptr ? std::min(limit_, kTimeOfRefusal) : limit_;
+void UnreadWatch::Sends(const grpc::ServerContext& context, bool is_refused, std::shared_ptr<void> ending) {
+  const milliseconds limit = is_refused ? std::min(limit_, kTimeOfRefusal) : limit_;
   const std::lock_guard lock(mutex_);
   const auto found = answers_.find(&context);
   if (found == answers_.end()) return;
   found->second.end = Clock::now() + limit;
-  found->second.place = std::move(place);
+  found->second.ending = std::move(ending);
 }
 
 UnreadWatch::Answer::Answer(UnreadWatch& watch, grpc::ServerContext& context) : watch_(watch), context_(context) {
   const std::lock_guard lock(watch_.mutex_);
-  watch_.answers_.emplace(&context, Waiting{.context = &context, .end = {}, .place = nullptr});
+  watch_.answers_.emplace(&context, Waiting{.context = &context, .end = {}, .ending = nullptr});
 }
 
 UnreadWatch::Answer::~Answer() {
-  const std::lock_guard lock(watch_.mutex_);
-  watch_.answers_.erase(&context_);
+  // What is let go of here may take its time, with the mutex unlocked.
+  const auto let_go = [this] {
+    const std::lock_guard lock(watch_.mutex_);
+    return watch_.answers_.extract(&context_);
+  }();
 }
 
 UnreadWatch::Write::Write(UnreadWatch& watch, grpc::ServerContext& context) : watch_(watch) {

@@ -67,19 +67,18 @@ class UnreadWatch {
     grpc::ServerContext& context_;
   };
 
-  // Says that the handler of a call returns: from now on its caller must read the answer, within the limit or, if
-  // `place` is null because the call was refused, within a second. The watch keeps `place` until the answer is sent,
-  // and gives it back at once if the call has no Answer.
-  void Sends(const grpc::ServerContext& context, std::shared_ptr<void> place);
+  // Says that the handler of a call returns: from now on its caller must read the answer, within the limit or, if the
+  // call was refused, within a second. The watch keeps `ending` until the answer is sent, and lets go of it at once if
+  // the call has no Answer.
+  void Sends(const grpc::ServerContext& context, bool is_refused, std::shared_ptr<void> ending);
 
   std::chrono::milliseconds limit() const { return limit_; }
 
  private:
-  // An answer with a place, which is given back at the end.
   struct Waiting {
     grpc::ServerContext* context;
     std::optional<std::chrono::steady_clock::time_point> end;  // Absent while the handler runs.
-    std::shared_ptr<void> place;
+    std::shared_ptr<void> ending;
   };
 
   void Watch();

@@ -23,6 +23,34 @@ constexpr std::chrono::milliseconds kBetweenLooks(1);
 // A write that takes longer than this is counted as a stall.
 constexpr std::chrono::seconds kStall(1);
 
+bool HasExpired(const grpc::ServerContext& context) {
+  return context.deadline() <= std::chrono::system_clock::now();
+}
+
+// The end of a call, which comes when gRPC has sent the answer: then gRPC knows without polling whether the caller gave
+// up, and nobody waits for the record.
+class Ending {
+ public:
+  Ending(std::optional<LiveCalls::Permit> place, CallRecord record, grpc::ServerContext& context,
+         const Observer& observer)
+      : place_(std::move(place)), record_(std::move(record)), context_(context), observer_(observer) {}
+  ~Ending() {
+    if (record_.status != absl::StatusCode::kDeadlineExceeded && context_.IsCancelled()) {
+      record_.status = HasExpired(context_) ? absl::StatusCode::kDeadlineExceeded : absl::StatusCode::kCancelled;
+    }
+    place_.reset();
+    observer_.Ended(record_);
+  }
+  Ending(const Ending&) = delete;
+  Ending& operator=(const Ending&) = delete;
+
+ private:
+  std::optional<LiveCalls::Permit> place_;
+  CallRecord record_;
+  grpc::ServerContext& context_;
+  const Observer& observer_;
+};
+
 }  // namespace
 
 Call::Call(const char* method, Kind kind, grpc::ServerContext& context, const CallFrame& frame)
@@ -38,9 +66,12 @@ Call::Call(const char* method, Kind kind, grpc::ServerContext& context, const Ca
 }
 
 Call::~Call() {
-  frame_.unread.Sends(context_, place_.ok() ? std::make_shared<LiveCalls::Permit>(*std::move(place_)) : nullptr);
   record_.duration_s = elapsed_s();
-  frame_.observer.Ended(record_);
+  std::optional<LiveCalls::Permit> place;
+  if (place_.ok()) place = *std::move(place_);
+  const bool is_refused = !place.has_value();
+  frame_.unread.Sends(context_, is_refused,
+                      std::make_shared<Ending>(std::move(place), std::move(record_), context_, frame_.observer));
 }
 
 absl::Status Call::admitted() const {
@@ -106,7 +137,7 @@ absl::Status Call::Send(absl::FunctionRef<bool()> write) {
 
 grpc::Status Call::Finish(const absl::Status& status) {
   const absl::Status explained = Explained(status);
-  record_.status = SeenByCaller(explained.code());
+  record_.status = HasExpired(context_) ? absl::StatusCode::kDeadlineExceeded : explained.code();
   record_.reason = ReasonName(ReasonOf(explained));
   record_.message = std::string(explained.message());
   return ToGrpcStatus(explained);
@@ -126,14 +157,9 @@ bool Call::IsCancelled() const {
   return is_cancelled_;
 }
 
-absl::StatusCode Call::SeenByCaller(absl::StatusCode code) const {
-  if (context_.deadline() <= std::chrono::system_clock::now()) return absl::StatusCode::kDeadlineExceeded;
-  return context_.IsCancelled() ? absl::StatusCode::kCancelled : code;
-}
-
 absl::Status Call::Explained(const absl::Status& status) const {
   if (absl::IsCancelled(status) && drain().stop_requested() && !context_.IsCancelled()) return Draining();
-  const bool is_by_client = context_.deadline() <= std::chrono::system_clock::now();
+  const bool is_by_client = HasExpired(context_);
   const bool is_by_server = elapsed_s() >= std::chrono::duration<double>(time_limit()).count();
   if (!absl::IsDeadlineExceeded(status) || is_by_client || !is_by_server) return status;
   return kind_ == Kind::kUnary ? TimeLimitReached(time_limit()) : AgeLimitReached(time_limit());

@@ -53,7 +53,7 @@ class Call {
   // Starts the clock, takes a place and adds the request id to the metadata of the answer. `method` is the method's
   // name without that of the service. All arguments by reference must outlive the call.
   Call(const char* method, Kind kind, grpc::ServerContext& context, const CallFrame& frame);
-  // Gives the place back, as soon as the answer is sent, and hands the record to the observer.
+  // Gives the place back and hands the record to the observer, as soon as the answer is sent.
   ~Call();
   Call(const Call&) = delete;
   Call& operator=(const Call&) = delete;
@@ -83,8 +83,8 @@ class Call {
   // Handlers add to it what they learn of the call: points, chunks, models.
   CallRecord& record() { return record_; }
 
-  // Records the status as the caller sees it and returns what the handler must return. Replaces the error of a call
-  // that the drain or a limit of time has ended by one that says so.
+  // Records the status and returns what the handler must return. Replaces the error of a call that the drain or a limit
+  // of time has ended by one that says so.
   grpc::Status Finish(const absl::Status& status);
 
  private:
@@ -92,8 +92,6 @@ class Call {
   const std::stop_token& drain() const;
   // True once the caller has cancelled the call or went away, but a millisecond late at most. One thread at a time.
   bool IsCancelled() const;
-  // Returns the status that the caller sees of a call that ends now with `code`.
-  absl::StatusCode SeenByCaller(absl::StatusCode code) const;
   absl::Status Explained(const absl::Status& status) const;
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();

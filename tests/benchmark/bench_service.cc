@@ -18,6 +18,7 @@
 #include "ricochet/engine_info.h"
 #include "ricochet/solver.h"
 #include "server/base/log.h"
+#include "server/calls/bounded_service.h"
 #include "server/calls/call.h"
 #include "server/calls/impact_service.h"
 #include "server/telemetry/observer.h"
@@ -224,7 +225,11 @@ void RunAll() {
   server::MadeFrame made(observer);
   server::ImpactService service(solver, made.frame, ServerLimits());
   EchoService nothing(ToProto(*solver.Solve({.scene = PaperScene()})));
-  Loopback ricochet(&service);
+  const auto answer_batches = [&service](grpc::ServerContext& context, server::BoundedBatches& batches) {
+    return service.AnswerBatches(context, batches);
+  };
+  server::BoundedService bounded(service, answer_batches, Limits(), made.unread);
+  Loopback ricochet(&bounded);
   Loopback echo(&nothing);
   std::printf("ricochet service on loopback, engine %s\n", ThisEngine().fingerprint.c_str());
   StreamedSweep(ricochet, echo);

@@ -25,6 +25,9 @@ END = '<!-- measured: end -->\n'
 # Kinetic energy may rise by this much, in J, through rounding, single precision included.
 ENERGY_ROUNDING = 1e-5
 
+# A Solve shall take at most this part of the fastest impact of another engine.
+MOST_OF_A_PEER = 0.6
+
 # Okabe and Ito's colours, which the colour-blind can tell apart, with a mark for each engine.
 STYLES = {
     'Ricochet': ('#000000', 13),
@@ -243,10 +246,20 @@ def gnuplot_script(rows):
     return '\n'.join(script + [left, plot, right, plot, 'unset multiplot']) + '\n'
 
 
+def print_goal(rows):
+    """A Solve, with all that its answer holds, against the engine that takes the least time for one impact."""
+    times = {row.engine: min(other.times_ours for other in rows if other.engine == row.engine)
+             for row in rows if row.engine != 'Ricochet'}
+    if times:
+        fastest = min(times, key=times.get)
+        print('A Solve takes %.2f of the fastest impact in %s; goal %.1f' % (1 / times[fastest], fastest, MOST_OF_A_PEER))
+
+
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
     rows = read(sys.argv[1])
+    print_goal(rows)
     write_page(rows, sys.argv[2:])
     subprocess.run(['gnuplot'], input=gnuplot_script(rows), text=True, check=True)
 
