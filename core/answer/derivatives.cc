@@ -61,10 +61,6 @@ struct VelocityPaths {
   }
 };
 
-bool TakesTime(const Scene& scene) {
-  return scene.compliance.has_value() && !std::holds_alternative<std::monostate>(scene.compliance->normal);
-}
-
 std::vector<std::string> OutputPaths(const Scene& scene) {
   const size_t tangential = TangentialDirections(scene.system);
   std::vector<std::string> paths;
@@ -286,13 +282,6 @@ std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& 
   CheckPaths("by", paths.by, known.by, "a number of the scene, with the definition of restitution that it states",
              violations);
   return violations;
-}
-
-const char* WhyNotExact(const Scene& scene) {
-  if (TangentialDirections(scene.system) == 2) return "an impact in space";
-  if (!std::holds_alternative<std::monostate>(scene.impact_law)) return "an impact law";
-  if (!scene.compliance.has_value()) return nullptr;
-  return TakesTime(scene) ? "compliance, with which an impact takes time" : "tangential compliance";
 }
 
 absl::StatusOr<std::vector<Derivative>> DerivativesOf(const Scene& scene, const Demand& demand,

@@ -32,9 +32,6 @@ DerivativePaths AllDerivativePaths(const Scene& scene);
 // Lists why derivatives cannot be given for a valid scene: excluded effects, or paths that name no such number.
 std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& demand, const DerivativePaths& paths);
 
-// The part of the scene for which its derivatives are differences: "an impact in space"; null if they are exact.
-const char* WhyNotExact(const Scene& scene);
-
 // Computes them for a request in which CheckDerivatives finds nothing, with the effects that the demand requires.
 // Errors: those of DifferencesOf if the derivatives are not exact.
 absl::StatusOr<std::vector<Derivative>> DerivativesOf(const Scene& scene, const Demand& demand,

@@ -47,15 +47,8 @@ RequestCost CertificateCost(const Scene& scene, int32_t digits) {
 }
 
 bool TakesTime(const Scene& scene, const DemandFields& demand) {
-  const auto& compliance = scene.compliance;
-  return (compliance.has_value() && !std::holds_alternative<std::monostate>(compliance->normal)) ||
+  return TakesTime(scene) ||
          std::find(demand.required.begin(), demand.required.end(), Effect::kFiniteDuration) != demand.required.end();
-}
-
-// True if derivatives take dozens of impacts for each number of the scene.
-bool HasDifferences(const Scene& scene) {
-  return TangentialDirections(scene.system) == 2 || scene.compliance.has_value() ||
-         !std::holds_alternative<std::monostate>(scene.impact_law);
 }
 
 bool IsDerivative(const std::string& column) { return ReadDerivativeName(column).has_value(); }
@@ -82,7 +75,7 @@ RequestCost CostOf(const SolveRequest& request) {
   }
   // Each number of the scene takes two impacts in double-double arithmetic, and M is factored for each; or differences.
   size_t sides = request.derivatives.has_value() ? 2 * request.derivatives->by.size() : 0;
-  if (HasDifferences(request.scene)) sides *= kImpactsOfDifference;
+  if (WhyNotExact(request.scene) != nullptr) sides *= kImpactsOfDifference;
   if (sides > kFewSides) {
     return Expensive(CostCause::kDerivatives, static_cast<double>(sides) * Cube(Links(request.scene)));
   }
@@ -145,7 +138,7 @@ RequestCost CostOf(const MultiContactRequest& request) {
 RequestCost CostOf(const BatchSetup& setup, size_t rows) {
   const auto derivatives = static_cast<double>(std::count_if(setup.columns.begin(), setup.columns.end(), IsDerivative));
   const double size = static_cast<double>(rows) * static_cast<double>(Links(setup.scene)) *
-                      (1.0 + 2.0 * derivatives * (HasDifferences(setup.scene) ? kImpactsOfDifference : 1));
+                      (1.0 + 2.0 * derivatives * (WhyNotExact(setup.scene) != nullptr ? kImpactsOfDifference : 1));
   if (TakesTime(setup.scene, setup.demand)) return Expensive(CostCause::kDuration, size);
   if (derivatives > 0.0) return Expensive(CostCause::kDerivatives, size);
   return rows > kFewRows ? Expensive(CostCause::kRows, size) : CostOf(setup.scene);

@@ -194,19 +194,22 @@ void AddPendulum(int count, Jobs& jobs) {
 }
 
 void AddPlanar(int count, Jobs& jobs) {
-  ForBothKinds([&](const char* scenes, bool hard) {
-    const auto add = [&](const std::string& method,
-                         planar::PlainImpact (*solve)(const planar::Problem&, ImpactErrors*)) {
-      jobs.all.push_back([=] {
-        const planar::Claims claims = planar::ClaimsOf(solve, hard, count, kSeed);
-        return std::vector<Row>{{method + ", velocity", scenes, claims.velocity},
-                                {method + ", impulse", scenes, claims.impulse},
-                                {method + ", work", scenes, claims.work}};
-      });
-    };
-    add("planar plain", planar::SolvePlain);
-    add("planar comp.", planar::InDoubleDouble);
-  });
+  using Next = planar::Problem (*)(planar::SceneSource&, int);
+  const auto add = [&](const std::string& method, auto solve, const char* scenes, Next next) {
+    jobs.all.push_back([=] {
+      const planar::Claims claims = planar::ClaimsOf(solve, next, count, kSeed);
+      return std::vector<Row>{{method + ", velocity", scenes, claims.velocity},
+                              {method + ", impulse", scenes, claims.impulse},
+                              {method + ", work", scenes, claims.work},
+                              {method + ", largest", scenes, claims.largest}};
+    });
+  };
+  constexpr std::pair<const char*, Next> kScenes[] = {{"typical", planar::EverydayScene}, {"hard", planar::HardScene}};
+  for (const auto& [scenes, next] : kScenes) {
+    add("planar plain", planar::SolvePlain, scenes, next);
+    add("planar comp.", planar::InDoubleDouble, scenes, next);
+  }
+  add("planar comp.", planar::InDoubleDouble, "singular", planar::NearlySingularScene);
 }
 
 template <size_t kTangential>

@@ -7,7 +7,7 @@ if [[ ${1-} == --short ]]; then shift && short=yes; fi
 
 readonly fuzz_packages=(
   "${build_packages[@]}" clang libclang-rt-14-dev llvm python3-grpcio python3-numpy python3-protobuf)
-readonly fuzz_targets=(batches chunks contacts cost duration models partial ranges scene_input sweep_files tables wire)
+readonly fuzz_targets=(batches chunks contacts cost duration fit models partial ranges scene_input sweep_files tables wire)
 
 # The code that a fuzz target names, which its corpus must cover.
 fuzzed_code() {
@@ -20,6 +20,7 @@ fuzzed_code() {
         -o -name 'certified_velocity.cc' -o -name 'stopwatch.cc'
       ;;
     duration) find core/models/finite_duration core/contact/finite_forces.cc -name '*.cc' ! -name unavailable.cc ;;
+    fit) find core/fit -name '*.cc' ;;
     models)
       find core/engine/local_solver.cc core/answer core/contact core/models core/plan/scene_problem.cc core/scene \
         core/audit/audit.cc core/audit/audit_parts.cc core/audit/audit_scene.cc core/audit/coulomb_path.cc \
@@ -75,7 +76,7 @@ short_inputs() {
     chunks | scene_input | wire) echo 30000 ;;
     duration | ranges | tables) echo 5000 ;;
     batches | cost | sweep_files) echo 1000 ;;
-    contacts | models | partial) echo 200 ;;
+    contacts | fit | models | partial) echo 200 ;;
   esac
 }
 

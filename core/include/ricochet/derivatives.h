@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "ricochet/scene.h"
+
 namespace ricochet {
 
 // The derivatives that a request asks for: of each number of `of` by each of `by`. Neither list may be empty.
@@ -58,6 +60,10 @@ struct Derivative {
   std::string reason;  // A sentence that says why a side does not exist; else empty.
   friend bool operator==(const Derivative&, const Derivative&) = default;
 };
+
+// Returns the part of the scene for which its derivatives are differences with an estimated error, "an impact in space";
+// null if they are exact to rounding. Differences take dozens of impacts for each number of the scene.
+const char* WhyNotExact(const Scene& scene);
 
 }  // namespace ricochet
 

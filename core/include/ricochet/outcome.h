@@ -145,10 +145,12 @@ enum class AccuracyKind {
   kEstimate = 2,  // No test has found a true error that is larger, but there is no proof.
 };
 
-// Accuracy of the contact velocity after the impact, with W and the velocity before it taken as exact, and the effort
-// of the computation.
+// Accuracy of the outcome, with W and the velocity before it taken as exact, and the effort of the computation.
 struct Accuracy {
-  double relative_error = 0.0;  // Error of each component divided by max(|u0|, |v0|).
+  // Error of each component of the contact velocity after the impact, over V = max(|u0|, |v0|). Of a rigid impact in a
+  // plane it covers each impulse times its mobility over V, or over itself where that is larger, and each work over the
+  // sum of the magnitudes of the works, too.
+  double relative_error = 0.0;
   AccuracyKind kind = AccuracyKind::kUnspecified;
   int64_t steps = 0;             // 0 for a closed form.
   int64_t right_hand_sides = 0;  // 0 for a closed form.

@@ -155,6 +155,9 @@ struct Scene {
   friend bool operator==(const Scene&, const Scene&) = default;
 };
 
+// True for a scene with a normal spring, whose impacts take time.
+bool TakesTime(const Scene& scene);
+
 }  // namespace ricochet
 
 #endif  // RICOCHET_SCENE_H_

@@ -21,7 +21,8 @@ namespace ricochet::planar::HWY_NAMESPACE {
 
 // Nothing is known of an impact that has no end.
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
-inline constexpr RoundingErrors kNoErrors = {.velocity = kInfinity, .impulse = kInfinity, .work = kInfinity};
+inline constexpr RoundingErrors kNoErrors = {
+    .velocity = kInfinity, .impulse = kInfinity, .work = kInfinity, .counted_impulse = kInfinity};
 
 template <typename N>
 HWY_INLINE Impact SolveOne(const Problem& problem) {

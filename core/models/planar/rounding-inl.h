@@ -338,25 +338,30 @@ HWY_INLINE M SpeedBefore(const Inputs<N>& in) {
 // The members of RoundingErrors.
 template <typename V>
 struct Bounds {
-  V velocity, impulse, work;
+  V velocity, impulse, work, counted_impulse;
 
   HWY_INLINE V Largest() const {
     using ricochet::HWY_NAMESPACE::Larger;
-    return Larger(Larger(velocity, impulse), work);
+    return Larger(Larger(velocity, counted_impulse), work);
   }
 };
 
 HWY_INLINE RoundingErrors ToErrors(const Bounds<double>& bounds) {
-  return {.velocity = bounds.velocity, .impulse = bounds.impulse, .work = bounds.work};
+  return {.velocity = bounds.velocity,
+          .impulse = bounds.impulse,
+          .work = bounds.work,
+          .counted_impulse = bounds.counted_impulse};
 }
 
 template <typename V>
 HWY_INLINE Bounds<V> PlainBounds(const Course<Plain<V>>& course, const EndErrors<Plain<V>>& errors) {
   const V rounding = Fill<Plain<V>>(0x1p-53 * kHigherOrders);
   const V unit = rounding / SpeedBefore(course.in).value;
+  const V impulse = unit * Larger(course.in.wnn * errors.tau, course.in.wtt * errors.f).value;
   return {.velocity = unit * Larger(errors.u, errors.v).value,
-          .impulse = unit * Larger(course.in.wnn * errors.tau, course.in.wtt * errors.f).value,
-          .work = rounding * (errors.works * Inverse(TwiceTotalWork(course.x))).value};
+          .impulse = impulse,
+          .work = rounding * (errors.works * Inverse(TwiceTotalWork(course.x))).value,
+          .counted_impulse = impulse};
 }
 
 // The error of rounding `x` to a double, enlarged by 2^-10 for the rounding of the bound. It is at most half of the
@@ -392,10 +397,12 @@ HWY_INLINE Bounds<RoundedOf<M>> CompensatedBounds(const Course<N>& course, const
                     Larger(wnn * FinalRounding(tau), wtt * FinalRounding(largest_f));
   const M moved = TwiceTotalWork(x);
   const M work = rounding * errors.works + FinalRounding(moved) + Times(0x1p-95, terms);
-  const M per_speed = Inverse(SpeedBefore(in));
+  const M speed = SpeedBefore(in);
+  const M per_speed = Inverse(speed);
   return {.velocity = OutBound(velocity * per_speed),
           .impulse = OutBound(impulse * per_speed),
-          .work = OutBound(work / moved)};
+          .work = OutBound(work / moved),
+          .counted_impulse = OutBound(impulse / Larger(speed, Larger(wnn * tau, wtt * largest_f)))};
 }
 
 // Twice the errors of the works of one phase, piece by piece.
