@@ -9,12 +9,14 @@
 #include "absl/strings/str_cat.h"
 #include "client/cli/input/axis_input.h"
 #include "client/cli/input/certificate_report.h"
+#include "client/cli/input/derivative_input.h"
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/name_list.h"
 #include "client/cli/input/scene_input.h"
 #include "client/cli/io/csv_row.h"
 #include "client/cli/plot/picture_input.h"
 #include "client/cli/report/bounds_plot.h"
+#include "client/cli/report/derivatives_report.h"
 #include "client/cli/subcommands.h"
 #include "client/cli/text/enum_names.h"
 #include "client/cli/text/table.h"
@@ -34,7 +36,8 @@ constexpr char kExample[] = R"(Example: the coefficients that friction allows a 
   ...
 "sharp": the contact returns no more energy than it stored. "energy only": the kinetic energy does not grow.
 --range, which may be repeated, also gives guaranteed ranges over all scenes whose fields lie in the given ranges.
-CSV has one row for each quantity, at full precision; with --certified, one row for each proved number.
+CSV has one row for each quantity, at full precision; with --certified, one row for each proved number, and with
+--derivatives one for each derivative.
 Exit codes: 0 done, 2 wrong input, 42 failed, 75 try again.)";
 
 struct BoundsOptions {
@@ -42,6 +45,7 @@ struct BoundsOptions {
   SceneOptions scene;
   std::vector<std::string> ranges;
   std::string certified;
+  DerivativeOptions derivatives;
   PictureOptions picture;
 };
 
@@ -156,6 +160,7 @@ std::string BoundsText(const BoundsRequest& request, const BoundsResponse& respo
   }
   if (response.enclosure.has_value()) absl::StrAppend(&text, EnclosureText(*response.enclosure, request.ranges));
   if (response.certificate.has_value()) text += CertificateText(*response.certificate);
+  if (!response.derivatives.empty()) text += DerivativesText(response.derivatives);
   return text;
 }
 
@@ -168,6 +173,8 @@ void AddRange(const std::string& name, const Quantity& quantity, const std::opti
 }
 
 std::string BoundsCsv(const BoundsResponse& response) {
+  if (response.certificate.has_value()) return CertificateCsv(*response.certificate);
+  if (!response.derivatives.empty()) return DerivativesCsv(response.derivatives);
   const Bounds& bounds = response.bounds;
   std::optional<CoefficientBounds> vertical, outer, attained;
   if (bounds.nearly_vertical.has_value()) vertical = bounds.nearly_vertical->bounds;
@@ -203,6 +210,9 @@ absl::StatusOr<BoundsRequest> ReadRequest(const BoundsOptions& options) {
     if (!range.ok()) return range.status();
     request.ranges.push_back(*std::move(range));
   }
+  auto derivatives = ReadDerivatives(options.derivatives, *scene, BoundsNumbers(scene->system));
+  if (!derivatives.ok()) return derivatives.status();
+  request.derivatives = *std::move(derivatives);
   return request;
 }
 
@@ -217,10 +227,7 @@ absl::Status RunBounds(const BoundsOptions& options) {
   if (!response.ok()) return response.status();
   if (absl::Status still = RequireVelocity(request->scene); !still.ok()) return still;
   absl::Status written = WriteAnswer(
-      options.common, *response, [&] { return BoundsText(*request, *response); },
-      [&] {
-        return response->certificate.has_value() ? CertificateCsv(*response->certificate) : BoundsCsv(*response);
-      });
+      options.common, *response, [&] { return BoundsText(*request, *response); }, [&] { return BoundsCsv(*response); });
   if (!written.ok() || options.picture.file.empty()) return written;
   return DrawPicture(BoundsPlot(*response), options.picture);
 }
@@ -236,6 +243,7 @@ void AddBounds(CLI::App& app, Command& command) {
       ->type_name("PATH=LOW:HIGH")
       ->allow_extra_args(false);
   AddCertifiedOption(*sub, options->certified);
+  AddDerivativeOptions(*sub, "ends of ranges and critical coefficients of friction", options->derivatives);
   AddPictureOptions(*sub, "the ranges as bars", options->picture);
   AddServerOptions(*sub, options->common);
   AddOutputOptions(*sub, options->common, kMessageFormats);

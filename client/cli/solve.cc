@@ -8,6 +8,7 @@
 #include "client/cli/explore/impact_page.h"
 #include "client/cli/input/certificate_report.h"
 #include "client/cli/input/demand_input.h"
+#include "client/cli/input/derivative_input.h"
 #include "client/cli/input/file_option.h"
 #include "client/cli/input/make_solver.h"
 #include "client/cli/input/scene_input.h"
@@ -57,7 +58,7 @@ struct SolveOptions {
   std::string certified;
   bool strict = false;
   bool both_ends = false;
-  std::vector<std::string> derivatives_of, derivatives_by;
+  DerivativeOptions derivatives;
   PictureOptions picture;
   std::string html;
   DataOptions data;
@@ -82,35 +83,10 @@ std::string Csv(const Outcome& outcome, const SolveOptions& options) {
   return options.history.empty() ? SolveCsv(outcome) : HistoryCsv(outcome);
 }
 
-// True for the options that ask for derivatives.
-bool Differentiates(const SolveOptions& options) {
-  return !options.derivatives_of.empty() || !options.derivatives_by.empty();
-}
-
 // True for the options that ask for more than the numbers of one outcome.
 bool AsksForMore(const SolveOptions& options) {
   return !options.history.empty() || !options.force_history.empty() || !options.certified.empty() || Draws(options) ||
-         options.both_ends || Differentiates(options);
-}
-
-// Returns the derivatives that the options ask for; nothing if they ask for none.
-absl::StatusOr<std::optional<DerivativePaths>> ReadDerivatives(const SolveOptions& options, const Scene& scene) {
-  if (!Differentiates(options)) return std::nullopt;
-  if (options.derivatives_of.empty() || options.derivatives_by.empty()) {
-    return absl::InvalidArgumentError("--derivatives OF,... and --by BY,... need each other");
-  }
-  DerivativePaths paths;
-  for (const std::string& name : options.derivatives_of) {
-    absl::StatusOr<std::string> of = FullName(name, Columns(scene), "--derivatives");
-    if (!of.ok()) return of.status();
-    paths.of.push_back(*std::move(of));
-  }
-  for (const std::string& name : options.derivatives_by) {
-    absl::StatusOr<std::string> by = FullField(scene, name, "--by");
-    if (!by.ok()) return by.status();
-    paths.by.push_back(*std::move(by));
-  }
-  return paths;
+         options.both_ends || options.derivatives.any();
 }
 
 // Prints only the plan.
@@ -158,7 +134,8 @@ absl::Status RunSolve(const SolveOptions& options) {
   const absl::StatusOr<int32_t> digits = ReadCertifiedDigits(options.certified);
   if (!digits.ok()) return digits.status();
   request.certified_digits = *digits;
-  absl::StatusOr<std::optional<DerivativePaths>> derivatives = ReadDerivatives(options, *scene);
+  absl::StatusOr<std::optional<DerivativePaths>> derivatives =
+      ReadDerivatives(options.derivatives, *scene, Columns(*scene));
   if (!derivatives.ok()) return derivatives.status();
   request.derivatives = *std::move(derivatives);
   if (!options.force_history.empty()) {
@@ -195,15 +172,7 @@ void AddSolve(CLI::App& app, Command& command) {
   AddMechanismOptions(*sub, options->scene);
   sub->add_flag("--both-ends", options->both_ends,
                 "Also print the impact with no coordinate of the mechanism held, and how far the two are apart");
-  sub->add_option("--derivatives", options->derivatives_of,
-                  "Also print the derivatives of these numbers of the outcome by those of --by")
-      ->type_name("OF,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
-  sub->add_option("--by", options->derivatives_by, "The numbers of the scene that --derivatives lets change")
-      ->type_name("BY,...")
-      ->delimiter(',')
-      ->allow_extra_args(false);
+  AddDerivativeOptions(*sub, "numbers of the outcome", options->derivatives);
   sub->add_option("--history", options->history, "Also print the states at N + 1 evenly spaced normal impulses")
       ->type_name("N");
   sub->add_option("--force-history", options->force_history,

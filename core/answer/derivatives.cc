@@ -88,19 +88,6 @@ bool IsOtherDefinition(const Scene& scene, const std::string& path) {
          path != StatedDefinition(scene);
 }
 
-// --- Which are refused ---
-
-void CheckPaths(const char* list, const std::vector<std::string>& paths, const std::vector<std::string>& known,
-                const char* what, std::vector<Violation>& violations) {
-  if (paths.empty())
-    violations.push_back(MakeViolation(absl::StrCat("derivatives.", list), "is empty", "name a number"));
-  for (size_t i = 0; i < paths.size(); ++i) {
-    if (std::find(known.begin(), known.end(), paths[i]) != known.end()) continue;
-    violations.push_back(MakeViolation(absl::StrCat("derivatives.", list, "[", i, "]"), Found(paths[i]),
-                                       absl::StrCat("be ", what, DidYouMean(paths[i], known))));
-  }
-}
-
 // --- One side of one number ---
 
 // The scene and its direction, for one side of a number of the scene.
@@ -263,6 +250,17 @@ bool Agree(const OneSided& x, const OneSided& y) {
 }
 
 }  // namespace
+
+void CheckPaths(const char* list, const std::vector<std::string>& paths, const std::vector<std::string>& known,
+                const char* what, std::vector<Violation>& violations) {
+  if (paths.empty())
+    violations.push_back(MakeViolation(absl::StrCat("derivatives.", list), "is empty", "name a number"));
+  for (size_t i = 0; i < paths.size(); ++i) {
+    if (std::find(known.begin(), known.end(), paths[i]) != known.end()) continue;
+    violations.push_back(MakeViolation(absl::StrCat("derivatives.", list, "[", i, "]"), Found(paths[i]),
+                                       absl::StrCat("be ", what, DidYouMean(paths[i], known))));
+  }
+}
 
 DerivativePaths AllDerivativePaths(const Scene& scene) {
   DerivativePaths paths = {.of = OutputPaths(scene), .by = FieldPaths(scene)};

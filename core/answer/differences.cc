@@ -9,22 +9,15 @@
 #include <string>
 #include <utility>
 
-#include "absl/strings/str_cat.h"
 #include "absl/strings/string_view.h"
 #include "core/answer/derivative_sides.h"
-#include "core/answer/scene_outcome.h"
-#include "core/contact/scene_contact.h"
 #include "core/numerics/elementary.h"
-#include "core/plan/number_demand.h"
 #include "core/scene/field.h"
 #include "core/scene/numbers.h"
-#include "core/scene/validate.h"
-#include "ricochet/outcome_numbers.h"
 
 namespace ricochet {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kUnknown = std::numeric_limits<double>::infinity();
 constexpr int kNeighbours = 6;                    // On each side.
 constexpr std::array<size_t, 2> kSides = {0, 1};  // Below, above.
@@ -35,130 +28,8 @@ constexpr double kJump = 0x1p-24;
 constexpr int kFirstStep = 4;
 constexpr int kLastStep = 30;
 
-// A path without its last index, and the name at its end.
+// A path without its last index.
 absl::string_view HeadOf(absl::string_view path) { return path.substr(0, path.rfind('[')); }
-absl::string_view NameOf(absl::string_view path) { return path.substr(path.rfind('.') + 1); }
-
-// --- An outcome ---
-
-// What tells the pieces of an outcome from each other.
-struct Course {
-  Regime regime = Regime::kUnspecified;
-  bool slips_before = false;
-  std::vector<EventKind> events;
-  size_t alternatives = 0;
-  friend bool operator==(const Course&, const Course&) = default;
-
-  bool Has(EventKind kind) const { return std::find(events.begin(), events.end(), kind) != events.end(); }
-};
-
-Course CourseOf(const Outcome& outcome) {
-  Course course = {.regime = outcome.regime, .alternatives = outcome.alternatives.size()};
-  for (const Event& event : outcome.timeline) course.events.push_back(event.kind);
-  if (!outcome.timeline.empty()) {
-    const Components& slip = outcome.timeline.front().state.contact_velocity.tangential_m_s;
-    course.slips_before = std::any_of(slip.begin(), slip.end(), [](double u) { return u != 0.0; });
-  }
-  return course;
-}
-
-struct Sample {
-  Course course;
-  std::vector<double> value, error;  // One for each path of `of`; NaN if the outcome leaves it unset.
-  double relative_error = kUnknown;  // Of a number without an error of its own, over its scale.
-};
-
-// Solves scenes of one form.
-class Solver {
- public:
-  Solver(const Demand& demand, absl::FunctionRef<bool()> stopped) : demand_(demand), stopped_(stopped) {
-    demand_.relative_tolerance = 0.0;
-  }
-
-  // Solves the scene itself, which tells the places of the numbers and their scales.
-  absl::Status Begin(const Scene& scene, const std::vector<std::string>& of) {
-    std::optional<SceneContact> contact;
-    Outcome outcome;
-    absl::Status solved = SolveScene(scene, contact, demand_, {}, stopped_, outcome);
-    if (!solved.ok()) return solved;
-    FindPlaces(outcome, of);
-    here_ = SampleOf(outcome);
-    if (!contact.has_value()) contact.emplace(scene);
-    const double speed = std::visit([](const auto& reduction) { return SpeedOf(reduction); }, contact->reduction);
-    for (size_t i = 0; i < of.size(); ++i) {
-      const double size = std::isnan(here_.value[i]) ? 0.0 : std::fabs(here_.value[i]);
-      scales_.push_back(std::max(
-          {size, ScaleOf(of[i], speed, outcome.impulse.normal_total_n_s), std::numeric_limits<double>::min()}));
-    }
-    return absl::OkStatus();
-  }
-
-  const Sample& here() const { return here_; }
-  double scale(size_t i) const { return scales_[i]; }
-  double ErrorOf(const Sample& sample, size_t i) const {
-    if (std::isnan(sample.error[i])) return sample.relative_error * scales_[i];
-    return std::max(sample.error[i], 0x1p-52 * std::fabs(sample.value[i]));
-  }
-
-  // Sets the sample to nothing if the scene breaks a rule or has no outcome. Returns false once it is stopped.
-  bool At(const Scene& scene, std::optional<Sample>& sample) const {
-    sample.reset();
-    if (stopped_()) return false;
-    std::optional<SceneContact> contact;
-    if (!Validate(scene, RestitutionIs::kRequired, contact).empty()) return true;
-    Outcome outcome;
-    const absl::Status solved = SolveScene(scene, contact, demand_, {}, stopped_, outcome);
-    if (solved.ok()) sample = SampleOf(outcome);
-    return !absl::IsCancelled(solved);
-  }
-
- private:
-  template <typename Reduction>
-  static double SpeedOf(const Reduction& reduction) {
-    double speed = std::fabs(reduction.v0);
-    if constexpr (requires { reduction.u0.size(); }) {
-      for (const double u : reduction.u0) speed = std::max(speed, std::fabs(u));
-    } else {
-      speed = std::max(speed, std::fabs(reduction.u0));
-    }
-    return speed;
-  }
-
-  // All outcomes of scenes of one form have the same places in the same order. Components may share an error.
-  void FindPlaces(const Outcome& outcome, const std::vector<std::string>& of) {
-    std::vector<std::string> paths;
-    VisitOutcomeFields(outcome,
-                       [&](const NumberPath& path, const double* /*number*/) { paths.push_back(path.Text()); });
-    const auto place_of = [&paths](const std::string& path) {
-      return static_cast<size_t>(std::find(paths.begin(), paths.end(), path) - paths.begin());
-    };
-    for (const std::string& path : of) {
-      const absl::string_view name = NameOf(path);
-      const size_t own = place_of(absl::StrCat("errors.", name));
-      places_.push_back(place_of(path));
-      error_places_.push_back(own < paths.size() ? own : place_of(absl::StrCat("errors.", HeadOf(name))));
-    }
-  }
-
-  Sample SampleOf(const Outcome& outcome) const {
-    Sample sample = {.course = CourseOf(outcome), .relative_error = std::max(outcome.accuracy.relative_error, 0x1p-51)};
-    std::vector<double> numbers;
-    VisitOutcomeFields(outcome, [&](const NumberPath& /*path*/, const double* number) {
-      numbers.push_back(number == nullptr ? kNone : *number);
-    });
-    const auto at = [&numbers](size_t place) { return place < numbers.size() ? numbers[place] : kNone; };
-    for (const size_t place : places_) sample.value.push_back(at(place));
-    for (const size_t place : error_places_) sample.error.push_back(at(place));
-    return sample;
-  }
-
-  Demand demand_;
-  absl::FunctionRef<bool()> stopped_;
-  // Among all numbers of an outcome, of each number asked for and of its error; behind the last one if there is none.
-  std::vector<size_t> places_, error_places_;
-  std::vector<double> scales_;
-  Sample here_;
-};
 
 // --- A number of the scene ---
 
@@ -195,11 +66,11 @@ class Line {
   Line& operator=(const Line&) = delete;
 
   double unit() const { return unit_; }
-  // Returns false once the solver is stopped.
-  bool At(const Solver& solver, double step, std::optional<Sample>& sample) {
+  // Returns false once the source is stopped.
+  bool At(const SampleSource& source, double step, std::optional<Sample>& sample) {
     sample.reset();
     if (!field_.Set(number_ + step)) return true;
-    return solver.At(scene_, sample);
+    return source.At(scene_, sample);
   }
 
  private:
@@ -271,16 +142,16 @@ bool Improve(Estimate& best, const Estimate& next) {
 
 class Sides {
  public:
-  Sides(const Solver& solver, Line& line, size_t count)
-      : solver_(solver),
+  Sides(const SampleSource& source, Line& line, size_t count)
+      : source_(source),
         line_(line),
         one_sided_{std::vector<Estimate>(count), std::vector<Estimate>(count)},
         central_(count) {}
 
-  // Returns false once the solver is stopped.
+  // Returns false once the source is stopped.
   bool Explore() {
     for (const size_t side : kSides) {
-      if (!line_.At(solver_, Sign(side) * kBeside * line_.unit(), beside_[side])) return false;
+      if (!line_.At(source_, Sign(side) * kBeside * line_.unit(), beside_[side])) return false;
     }
     bool goes_on = true;
     for (int k = kFirstStep; k <= kLastStep && goes_on; k += 2) {
@@ -323,7 +194,7 @@ class Sides {
     is_one_course = beside_[side].has_value();
     for (size_t j = 0; j < kNeighbours && is_one_course; ++j) {
       std::optional<Sample>& sample = neighbours_[side][j];
-      if (!line_.At(solver_, Sign(side) * static_cast<double>(j + 1) * step, sample)) return false;
+      if (!line_.At(source_, Sign(side) * static_cast<double>(j + 1) * step, sample)) return false;
       is_one_course = sample.has_value() && sample->course == beside_[side]->course;
     }
     return true;
@@ -333,7 +204,7 @@ class Sides {
   bool Refine(double step, const std::array<bool, 2>& is_one_course) {
     static const Weights one_sided = WeightsBy(OneSidedWeights);
     static const Weights central = WeightsBy(CentralWeights);
-    const Sample& here = solver_.here();
+    const Sample& here = source_.here();
     const bool is_smooth =
         is_one_course[0] && is_one_course[1] && beside_[0]->course == here.course && beside_[1]->course == here.course;
     bool has_improved = false;
@@ -357,22 +228,22 @@ class Sides {
   }
 
   double Noise(size_t side, size_t i) const {
-    double error = solver_.ErrorOf(solver_.here(), i);
-    for (const std::optional<Sample>& sample : neighbours_[side]) error = std::max(error, solver_.ErrorOf(*sample, i));
+    double error = source_.here().error[i];
+    for (const std::optional<Sample>& sample : neighbours_[side]) error = std::max(error, sample->error[i]);
     return error;
   }
 
   OneSided LimitOf(size_t side, size_t i) const {
     if (!beside_[side].has_value()) return {.why_none = "the scene would break a rule"};
-    const double here = solver_.here().value[i], beside = beside_[side]->value[i];
-    if (std::isnan(here) || std::isnan(beside)) return {.why_none = "the outcome has no such number"};
-    if (std::fabs(beside - here) > kJump * std::max(std::fabs(beside), solver_.scale(i))) {
+    const double here = source_.here().value[i], beside = beside_[side]->value[i];
+    if (std::isnan(here) || std::isnan(beside)) return {.why_none = "there is no such number"};
+    if (std::fabs(beside - here) > kJump * std::max(std::fabs(beside), source_.scale(i))) {
       return {.why_none = "the number jumps"};
     }
     const auto& [rate, error] = one_sided_[side][i];
     constexpr double kVague = 0.1;
     constexpr double kNegligible = 1e-6;
-    const double negligible = kNegligible * solver_.scale(i) / line_.unit();
+    const double negligible = kNegligible * source_.scale(i) / line_.unit();
     if (!(error <= std::max(kVague * std::fabs(rate), negligible))) {
       return {.why_none = "the number changes infinitely fast, or too fast to tell how fast"};
     }
@@ -383,7 +254,7 @@ class Sides {
     if (!beside_[0].has_value() || !beside_[1].has_value()) return Threshold::kDomain;
     const Course& x = beside_[0]->course;
     const Course& y = beside_[1]->course;
-    const Course& here = solver_.here().course;
+    const Course& here = source_.here().course;
     const auto differ = [&x, &y, &here](const auto& of) { return of(x) != of(y) || of(here) != of(x); };
     const auto is = [](Regime a, Regime b) {
       return [a, b](const Course& course) { return course.regime == a || course.regime == b; };
@@ -398,7 +269,7 @@ class Sides {
     return x == y ? Threshold::kSpeedTable : Threshold::kUnspecified;
   }
 
-  const Solver& solver_;
+  const SampleSource& source_;
   Line& line_;
   std::array<std::optional<Sample>, 2> beside_;  // Below, above.
   std::array<std::array<std::optional<Sample>, kNeighbours>, 2> neighbours_;
@@ -408,14 +279,12 @@ class Sides {
 
 }  // namespace
 
-absl::StatusOr<std::vector<Derivative>> DifferencesOf(const Scene& scene, const Demand& demand,
-                                                      const DerivativePaths& paths, absl::FunctionRef<bool()> stopped) {
-  Solver solver(WithNumbers(demand, paths.of), stopped);
-  if (const absl::Status begun = solver.Begin(scene, paths.of); !begun.ok()) return begun;
+absl::StatusOr<std::vector<Derivative>> DifferencesOf(const SampleSource& source, const Scene& scene,
+                                                      const DerivativePaths& paths) {
   std::vector<Derivative> derivatives(paths.of.size() * paths.by.size());
   for (size_t k = 0; k < paths.by.size(); ++k) {
     Line line(scene, paths.by[k]);
-    Sides sides(solver, line, paths.of.size());
+    Sides sides(source, line, paths.of.size());
     if (!sides.Explore()) return absl::CancelledError("the call was stopped");
     for (size_t i = 0; i < paths.of.size(); ++i) {
       Derivative& derivative = derivatives[i * paths.by.size() + k];

@@ -153,6 +153,12 @@ void CheckAxes(const std::vector<Axis>& axes, SizeCheck& check) {
   }
 }
 
+void CheckDerivatives(const std::optional<DerivativePaths>& paths, SizeCheck& check) {
+  if (!paths.has_value() || paths->by.empty()) return;
+  check.Product("derivatives.of", static_cast<int64_t>(paths->of.size()), " numbers, times those of by, ",
+                static_cast<int64_t>(paths->by.size()), &Limits::max_derivatives);
+}
+
 }  // namespace
 
 absl::Status CheckLimits(const SolveRequest& request, const Limits& limits) {
@@ -161,11 +167,7 @@ absl::Status CheckLimits(const SolveRequest& request, const Limits& limits) {
   CheckHistory(request, check);
   check.Number("force_intervals", request.force_intervals, &Limits::max_force_intervals);
   CheckDigits(request.scene.system, request.certified_digits, check);
-  if (request.derivatives.has_value() && !request.derivatives->by.empty()) {
-    check.Product("derivatives.of", static_cast<int64_t>(request.derivatives->of.size()),
-                  " numbers, times those of by, ", static_cast<int64_t>(request.derivatives->by.size()),
-                  &Limits::max_derivatives);
-  }
+  CheckDerivatives(request.derivatives, check);
   return check.status();
 }
 
@@ -180,6 +182,7 @@ absl::Status CheckLimits(const BoundsRequest& request, const Limits& limits) {
   check.Scene(request.scene);
   check.Entries("ranges", request.ranges.size(), &Limits::max_ranges);
   CheckDigits(request.scene.system, request.certified_digits, check);
+  CheckDerivatives(request.derivatives, check);
   return check.status();
 }
 

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/answer/bounds_derivatives.h"
 #include "core/answer/derivatives.h"
 #include "core/answer/scene_bounds.h"
 #include "core/answer/scene_enclosure.h"
@@ -155,6 +156,9 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
   }
   for (Violation& violation : CheckRanges(request.scene, request.ranges)) violations.push_back(std::move(violation));
   CheckDigits(request.scene, request.certified_digits, violations);
+  if (violations.empty() && request.derivatives.has_value()) {
+    violations = CheckBoundsDerivatives(request.scene, *request.derivatives);
+  }
   if (!violations.empty()) return InvalidRequest(violations);
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
   const absl::StatusOr<ricochet::Bounds> bounds = SolveSceneBounds(request.scene, std::move(contact), stopped);
@@ -162,6 +166,11 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
   BoundsResponse response{.bounds = *bounds, .engine = ThisEngine()};
   const absl::Status certified = Certify(request, CertifyBounds, stopped, response.certificate);
   if (!certified.ok()) return control.OrWhyEnded(certified);
+  if (request.derivatives.has_value()) {
+    auto derivatives = BoundsDerivativesOf(request.scene, *bounds, *request.derivatives, stopped);
+    if (!derivatives.ok()) return control.OrWhyEnded(derivatives.status());
+    response.derivatives = *std::move(derivatives);
+  }
   if (request.ranges.empty()) return response;
   const absl::StatusOr<Enclosure> enclosure = EncloseScene(request.scene, request.ranges, limits_.max_boxes, stopped);
   if (!enclosure.ok()) return control.OrWhyEnded(enclosure.status());

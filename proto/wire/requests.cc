@@ -56,7 +56,8 @@ template <>
 struct Map<BoundsRequest> : Between<BoundsRequest, v1::BoundsRequest> {
   using Fields =
       Entries<Entry(&T::scene, &P::scene, &P::mutable_scene), Entry(&T::ranges, &P::ranges, &P::mutable_ranges),
-              Entry(&T::certified_digits, &P::certified_digits, &P::set_certified_digits)>;
+              Entry(&T::certified_digits, &P::certified_digits, &P::set_certified_digits),
+              Entry(&T::derivatives, &P::has_derivatives, &P::derivatives, &P::mutable_derivatives)>;
 };
 
 template <>
@@ -64,7 +65,8 @@ struct Map<BoundsResponse> : Between<BoundsResponse, v1::BoundsResponse> {
   using Fields =
       Entries<Entry(&T::bounds, &P::bounds, &P::mutable_bounds), Entry(&T::engine, &P::engine, &P::mutable_engine),
               Entry(&T::enclosure, &P::has_enclosure, &P::enclosure, &P::mutable_enclosure),
-              Entry(&T::certificate, &P::has_certificate, &P::certificate, &P::mutable_certificate)>;
+              Entry(&T::certificate, &P::has_certificate, &P::certificate, &P::mutable_certificate),
+              Entry(&T::derivatives, &P::derivatives, &P::mutable_derivatives)>;
 };
 
 v1::SolveRequest ToProto(const SolveRequest& request) { return Sent(request); }

@@ -168,10 +168,13 @@ class Client:
     def jacobian(
         self, scene: SceneLike, of: Names, by: Names, *, side: Literal["both", "below", "above"] = "both",
     ) -> NDArray[np.float64]:
-        """Computes how fast numbers of an outcome change with numbers of its scene, exactly.
+        """Computes how fast numbers of an outcome change with numbers of its scene.
+
+        Derivatives of rigid impacts in a plane are exact to rounding; others have an estimated error, which
+        ``solve(scene, derivatives={"of": of, "by": by})`` gives.
 
         Args:
-            scene: as in ``solve``; a planar one without compliance and without an impact law.
+            scene: as in ``solve``.
             of: velocities, impulses, works and coefficients of the outcome: ``"contact_velocity_after.normal_m_s"``.
             by: numbers of the scene: ``"friction.kinetic_coefficient"`` or, in short, ``"mu"``.
             side: ``"both"`` gives a derivative where both sides agree; the others give the limit of the difference
@@ -215,7 +218,8 @@ class Client:
         return self._solver.plan(scene, arguments)
 
     def bounds(
-        self, scene: SceneLike, *, ranges: Mapping[str, tuple[float, float]] | None = None, certified: int = 0
+        self, scene: SceneLike, *, ranges: Mapping[str, tuple[float, float]] | None = None, certified: int = 0,
+        derivatives: Mapping[str, Names] | None = None,
     ) -> Record:
         """Computes the values that the coefficients of an impact can take.
 
@@ -224,9 +228,12 @@ class Client:
             ranges: fields that are uncertain, and the least and the largest value of each, in the field's unit:
                 ``{"friction.kinetic_coefficient": (0.1, 0.3)}`` or, in short, ``{"mu": (0.1, 0.3)}``.
             certified: also give numbers with this many proved significant digits, at most 1000.
+            derivatives: also give how fast ends of ranges and critical coefficients of friction change with numbers of
+                the scene: ``{"of": ["sharp.newton.upper", "critical.stick"], "by": ["friction.kinetic_coefficient"]}``.
 
         Returns:
-            ``bounds`` as ricochet.v1.Bounds, ``enclosure`` if ranges were given, and ``certificate`` if asked for.
+            ``bounds`` as ricochet.v1.Bounds, ``enclosure`` if ranges were given, ``certificate`` and ``derivatives`` if
+            asked for.
 
         Raises:
             InvalidRequest: the scene or a range breaks a rule.
@@ -235,7 +242,8 @@ class Client:
         scene = Scene(scene)
         named = names.by_full_name(ranges or {}, scene._fields(), "ranges")
         listed = tuple(_range(path, ends) for path, ends in named.items())
-        return self._solver.bounds(scene, {"ranges": listed, "certified": certified})
+        arguments = {"ranges": listed, "certified": certified, "derivatives": derivatives}
+        return self._solver.bounds(scene, arguments)
 
     def audit(
         self, scene: SceneLike, *, contact_velocity: Mapping[str, Any] | None = None,

@@ -87,6 +87,10 @@ RequestCost CostOf(const PlanRequest& request) { return CostOf(request.scene); }
 RequestCost CostOf(const BoundsRequest& request) {
   if (!request.ranges.empty()) return Expensive(CostCause::kEnclosure, std::exp2(request.ranges.size()));
   if (request.certified_digits > 0) return CertificateCost(request.scene, request.certified_digits);
+  if (request.derivatives.has_value()) {
+    const auto sides = static_cast<double>(2 * request.derivatives->by.size() * kImpactsOfDifference);
+    return Expensive(CostCause::kDerivatives, sides * Cube(Links(request.scene)));
+  }
   return CostOf(request.scene);
 }
 

@@ -15,8 +15,11 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "ricochet/outcome.h"
+#include "ricochet/system.h"
 
 namespace ricochet {
 
@@ -75,6 +78,13 @@ struct Bounds {
   bool sampled = false;  // In space `sharp` is what a sample of impacts reaches (docs/theory/bounds.md).
   friend bool operator==(const Bounds&, const Bounds&) = default;
 };
+
+// Returns the paths of the numbers that have derivatives: the ends of `sharp`, and for systems in a plane those of
+// `energy_only` and `critical`; "sharp.newton.upper".
+std::vector<std::string> BoundsNumbers(const System& system);
+
+// Returns the number at a path; nothing if it is unset or there is no such path.
+std::optional<double> BoundsNumber(const Bounds& bounds, const std::string& path);
 
 // An Enclosure contains the coefficients of every scene whose uncertain fields lie in their ranges.
 // docs/theory/bounds.md has the proof.

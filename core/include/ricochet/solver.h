@@ -101,6 +101,8 @@ struct BoundsRequest {
   // and the velocity of the surface may have one.
   std::vector<FieldRange> ranges;
   int32_t certified_digits = 0;  // Digits of BoundsResponse::certificate; the rules of SolveRequest hold.
+  // If present, asks for BoundsResponse::derivatives: of BoundsNumbers by numbers of the scene other than restitution.
+  std::optional<DerivativePaths> derivatives;
   friend bool operator==(const BoundsRequest&, const BoundsRequest&) = default;
 };
 
@@ -109,6 +111,7 @@ struct BoundsResponse {
   EngineInfo engine;
   std::optional<Enclosure> enclosure;      // Present if there are ranges; holds for all scenes within them.
   std::optional<Certificate> certificate;  // Certifies `bounds`; present exactly if certified_digits asks for it.
+  std::vector<Derivative> derivatives;     // One for each pair of BoundsRequest::derivatives; `by` changes first.
   friend bool operator==(const BoundsResponse&, const BoundsResponse&) = default;
 };
 

@@ -1,0 +1,42 @@
+#include "client/cli/input/derivative_input.h"
+
+#include <utility>
+
+#include "absl/strings/str_cat.h"
+#include "client/cli/input/short_name.h"
+
+namespace ricochet::cli {
+
+void AddDerivativeOptions(CLI::App& sub, const std::string& numbers, DerivativeOptions& options) {
+  sub.add_option("--derivatives", options.of,
+                 absl::StrCat("Also print the derivatives of these ", numbers, " by those of --by"))
+      ->type_name("OF,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  sub.add_option("--by", options.by, "The numbers of the scene that --derivatives lets change")
+      ->type_name("BY,...")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+}
+
+absl::StatusOr<std::optional<DerivativePaths>> ReadDerivatives(const DerivativeOptions& options, const Scene& scene,
+                                                               const std::vector<std::string>& known) {
+  if (!options.any()) return std::nullopt;
+  if (options.of.empty() || options.by.empty()) {
+    return absl::InvalidArgumentError("--derivatives OF,... and --by BY,... need each other");
+  }
+  DerivativePaths paths;
+  for (const std::string& name : options.of) {
+    absl::StatusOr<std::string> of = FullName(name, known, "--derivatives");
+    if (!of.ok()) return of.status();
+    paths.of.push_back(*std::move(of));
+  }
+  for (const std::string& name : options.by) {
+    absl::StatusOr<std::string> by = FullField(scene, name, "--by");
+    if (!by.ok()) return by.status();
+    paths.by.push_back(*std::move(by));
+  }
+  return paths;
+}
+
+}  // namespace ricochet::cli

@@ -1,0 +1,146 @@
+// The differences of outcomes: what a model gives at scenes of one form.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "absl/strings/str_cat.h"
+#include "absl/strings/string_view.h"
+#include "core/answer/derivative_sides.h"
+#include "core/answer/differences.h"
+#include "core/answer/scene_outcome.h"
+#include "core/contact/scene_contact.h"
+#include "core/plan/number_demand.h"
+#include "core/scene/validate.h"
+#include "ricochet/outcome_numbers.h"
+
+namespace ricochet {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+// A path without its last index, and the name at its end.
+absl::string_view HeadOf(absl::string_view path) { return path.substr(0, path.rfind('[')); }
+absl::string_view NameOf(absl::string_view path) { return path.substr(path.rfind('.') + 1); }
+
+Course CourseOf(const Outcome& outcome) {
+  Course course = {.regime = outcome.regime, .alternatives = outcome.alternatives.size()};
+  for (const Event& event : outcome.timeline) course.events.push_back(event.kind);
+  if (!outcome.timeline.empty()) {
+    const Components& slip = outcome.timeline.front().state.contact_velocity.tangential_m_s;
+    course.slips_before = std::any_of(slip.begin(), slip.end(), [](double u) { return u != 0.0; });
+  }
+  return course;
+}
+
+class OutcomeSource final : public SampleSource {
+ public:
+  OutcomeSource(const Demand& demand, absl::FunctionRef<bool()> stopped) : demand_(demand), stopped_(stopped) {
+    demand_.relative_tolerance = 0.0;
+  }
+
+  // Solves the scene itself, which tells the places of the numbers and their scales.
+  absl::Status Begin(const Scene& scene, const std::vector<std::string>& of) {
+    std::optional<SceneContact> contact;
+    Outcome outcome;
+    absl::Status solved = SolveScene(scene, contact, demand_, {}, stopped_, outcome);
+    if (!solved.ok()) return solved;
+    FindPlaces(outcome, of);
+    if (!contact.has_value()) contact.emplace(scene);
+    const double speed = std::visit([](const auto& reduction) { return SpeedOf(reduction); }, contact->reduction);
+    const std::vector<double> numbers = NumbersOf(outcome);
+    for (size_t i = 0; i < of.size(); ++i) {
+      const double value = At(places_[i], numbers);
+      scales_.push_back(
+          std::max({std::isnan(value) ? 0.0 : std::fabs(value), ScaleOf(of[i], speed, outcome.impulse.normal_total_n_s),
+                    std::numeric_limits<double>::min()}));
+    }
+    here_ = SampleOf(outcome);
+    return absl::OkStatus();
+  }
+
+  bool At(const Scene& scene, std::optional<Sample>& sample) const override {
+    sample.reset();
+    if (stopped_()) return false;
+    std::optional<SceneContact> contact;
+    if (!Validate(scene, RestitutionIs::kRequired, contact).empty()) return true;
+    Outcome outcome;
+    const absl::Status solved = SolveScene(scene, contact, demand_, {}, stopped_, outcome);
+    if (solved.ok()) sample = SampleOf(outcome);
+    return !absl::IsCancelled(solved);
+  }
+
+ private:
+  template <typename Reduction>
+  static double SpeedOf(const Reduction& reduction) {
+    double speed = std::fabs(reduction.v0);
+    if constexpr (requires { reduction.u0.size(); }) {
+      for (const double u : reduction.u0) speed = std::max(speed, std::fabs(u));
+    } else {
+      speed = std::max(speed, std::fabs(reduction.u0));
+    }
+    return speed;
+  }
+
+  static double At(size_t place, const std::vector<double>& numbers) {
+    return place < numbers.size() ? numbers[place] : kNone;
+  }
+
+  // All outcomes of scenes of one form have the same places in the same order. Components may share an error.
+  void FindPlaces(const Outcome& outcome, const std::vector<std::string>& of) {
+    std::vector<std::string> paths;
+    VisitOutcomeFields(outcome,
+                       [&](const NumberPath& path, const double* /*number*/) { paths.push_back(path.Text()); });
+    const auto place_of = [&paths](const std::string& path) {
+      return static_cast<size_t>(std::find(paths.begin(), paths.end(), path) - paths.begin());
+    };
+    for (const std::string& path : of) {
+      const absl::string_view name = NameOf(path);
+      const size_t own = place_of(absl::StrCat("errors.", name));
+      places_.push_back(place_of(path));
+      error_places_.push_back(own < paths.size() ? own : place_of(absl::StrCat("errors.", HeadOf(name))));
+    }
+  }
+
+  static std::vector<double> NumbersOf(const Outcome& outcome) {
+    std::vector<double> numbers;
+    VisitOutcomeFields(outcome, [&](const NumberPath& /*path*/, const double* number) {
+      numbers.push_back(number == nullptr ? kNone : *number);
+    });
+    return numbers;
+  }
+
+  // A number without an error of its own has that of the outcome, on its scale.
+  Sample SampleOf(const Outcome& outcome) const {
+    const std::vector<double> numbers = NumbersOf(outcome);
+    const double relative = std::max(outcome.accuracy.relative_error, 0x1p-51);
+    Sample sample = {.course = CourseOf(outcome)};
+    for (size_t i = 0; i < places_.size(); ++i) {
+      const double value = At(places_[i], numbers), error = At(error_places_[i], numbers);
+      sample.value.push_back(value);
+      sample.error.push_back(std::isnan(error) ? relative * scales_[i] : std::max(error, 0x1p-52 * std::fabs(value)));
+    }
+    return sample;
+  }
+
+  Demand demand_;
+  absl::FunctionRef<bool()> stopped_;
+  // Among all numbers of an outcome, of each number asked for and of its error; behind the last one if there is none.
+  std::vector<size_t> places_, error_places_;
+};
+
+}  // namespace
+
+absl::StatusOr<std::vector<Derivative>> DifferencesOf(const Scene& scene, const Demand& demand,
+                                                      const DerivativePaths& paths, absl::FunctionRef<bool()> stopped) {
+  OutcomeSource source(WithNumbers(demand, paths.of), stopped);
+  if (const absl::Status begun = source.Begin(scene, paths.of); !begun.ok()) return begun;
+  return DifferencesOf(source, scene, paths);
+}
+
+}  // namespace ricochet
