@@ -29,8 +29,8 @@ namespace ricochet {
 // scene must be valid.
 DerivativePaths AllDerivativePaths(const Scene& scene);
 
-// Adds a violation for an empty list of paths, "of" or "by", and one for each path that is not `known`; `what` says what
-// a path must name.
+// Adds a violation for an empty list of paths, "of" or "by", and one for each path that is not `known`; `what` says
+// what a path must name.
 void CheckPaths(const char* list, const std::vector<std::string>& paths, const std::vector<std::string>& known,
                 const char* what, std::vector<Violation>& violations);
 

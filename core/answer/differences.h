@@ -67,8 +67,8 @@ class SampleSource {
 absl::StatusOr<std::vector<Derivative>> DifferencesOf(const SampleSource& source, const Scene& scene,
                                                       const DerivativePaths& paths);
 
-// Those of an outcome, for a scene and paths as for DerivativesOf (core/answer/derivatives.h). The outcomes are computed
-// as exactly as the models can, with the effects that the demand requires.
+// Those of an outcome, for a scene and paths as for DerivativesOf (core/answer/derivatives.h). The outcomes are
+// computed as exactly as the models can, with the effects that the demand requires.
 // Errors: those of SolveScene for the scene itself, and CANCELLED once `stopped` says true.
 absl::StatusOr<std::vector<Derivative>> DifferencesOf(const Scene& scene, const Demand& demand,
                                                       const DerivativePaths& paths, absl::FunctionRef<bool()> stopped);

@@ -20,6 +20,9 @@ void FromProto(const v1::Coefficients& proto, Coefficients& coefficients);
 void ToProto(const ContactVelocity& velocity, v1::ContactVelocity& proto);
 void FromProto(const v1::ContactVelocity& proto, ContactVelocity& velocity);
 
+void ToProto(const Derivative& derivative, v1::Derivative& proto);
+void FromProto(const v1::Derivative& proto, Derivative& derivative);
+
 template <>
 struct EnumPair<Regime> : SameNumbers<v1::Regime, v1::Regime_IsValid> {};
 template <>

@@ -379,6 +379,18 @@ TEST_P(SolverContract, DerivativesHaveTheBitsOfTheEngine) {
   EXPECT_EQ(response->outcome.derivatives[1].threshold, Threshold::kDomain);  // Below it would be less than kinetic.
 }
 
+TEST_P(SolverContract, DerivativesOfBoundsHaveTheBitsOfTheEngine) {
+  const BoundsRequest request = {
+      .scene = PaperScene(),
+      .derivatives = DerivativePaths{.of = {"sharp.newton.upper", "critical.stick"},
+                                     .by = {"friction.kinetic_coefficient", "pendulum.b_m"}}};
+  const auto response = solver().Bounds(request);
+  ASSERT_TRUE(response.ok()) << response.status();
+  EXPECT_EQ(*response, *LocalSolver().Bounds(request));
+  ASSERT_EQ(response->derivatives.size(), 4U);
+  EXPECT_EQ(response->derivatives[2].value, 0.0);  // What friction would hold the contact does not depend on friction.
+}
+
 TEST_P(SolverContract, RefusesDerivativesThatDoNotExist) {
   const DerivativePaths paths = {.of = {"w_rank"}, .by = {"pendulum.mass_kg"}};
   const absl::Status status = solver().Solve({.scene = PaperScene(), .derivatives = paths}).status();

@@ -182,6 +182,12 @@ class Batches(unittest.TestCase):
 
 
 class BoundsAndAudits(unittest.TestCase):
+    def test_the_friction_that_locks_falls_with_the_height_of_the_pin(self):
+        answer = ricochet.bounds(PENDULUM, derivatives={"of": ["critical.stick"], "by": ["pendulum.b_m"]})
+        [derivative] = answer.derivatives
+        a, b = PENDULUM["pendulum"]["a_m"], PENDULUM["pendulum"]["b_m"]
+        self.assertAlmostEqual(derivative.value, -a / b**2, 9)
+
     def test_newtons_sharp_bound_is_that_of_the_elastic_impact(self):
         answer = ricochet.bounds(PENDULUM, ranges={"friction.kinetic_coefficient": (0.0, 0.1)})
         self.assertAlmostEqual(answer.bounds.sharp.newton.upper, math.sqrt(0.5), 15)

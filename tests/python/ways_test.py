@@ -41,6 +41,8 @@ CALLS = {
     "solve, strict": lambda client, scene: client.solve(scene, strict=True),
     "plan": lambda client, scene: client.plan(scene, require="tangential_compliance"),
     "bounds": lambda client, scene: client.bounds(scene, ranges={"mu": (0.1, 0.2)}),
+    "bounds, derivatives": lambda client, scene: client.bounds(
+        scene, derivatives={"of": ["sharp.newton.upper"], "by": ["friction.kinetic_coefficient"]}),
     "bounds, wrong ranges": lambda client, scene: client.bounds(scene, ranges={"mu": (0.2, 0.1), "omega": (0, 1)}),
     "audit": lambda client, scene: client.audit(scene, contact_velocity={"tangential_m_s": 0.1, "normal_m_s": 0.2}),
     "audit, rates": lambda client, scene: client.audit(scene, rates_rad_s=[0.1, 0.2]),

@@ -161,6 +161,12 @@ const std::vector<Case>& Cases() {
                                         .by = {"friction.kinetic_coefficient", "linkage.links[0].mass_kg"}};
          return solver.Solve({.scene = ChainScene(1), .derivatives = paths}).status();
        }},
+      {"DerivativesOfBounds", &Limits::max_derivatives, 6, "derivatives.of",
+       [](const Solver& solver, size_t n) {
+         const DerivativePaths paths = {.of = std::vector<std::string>((n + 1) / 2, "sharp.newton.upper"),
+                                        .by = {"friction.kinetic_coefficient", "linkage.links[0].mass_kg"}};
+         return solver.Bounds({.scene = ChainScene(1), .derivatives = paths}).status();
+       }},
       {"RowsOfABatch", &Limits::max_audit_rows, 7, "columns.friction",
        [](const Solver& solver, size_t n) {
          AuditBatchRequest request = {.scene = ChainScene(1)};
