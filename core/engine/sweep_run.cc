@@ -24,15 +24,16 @@ using Block = SweepBuffer::Block;
 
 constexpr int64_t kFirstChunkPoints = 1024;
 
-// Blocks grow until they take this long, in which a lock is nothing, and shrink beyond twice of that, so that no thread
-// waits long for the last block of a chunk.
+// Blocks of threads that share a sweep grow until they take this long, in which a lock is nothing, and shrink beyond
+// twice of that, so that no thread waits long for the last block of a chunk.
 constexpr std::chrono::microseconds kBlockTime(500);
 
-// Threads that share a sweep in SIMD lanes take so many points at once, which is some 10 us, so that they seldom meet
-// at the lock.
-constexpr int64_t kSharedLanePoints = 2 * RowSolver::kRowsBetweenStops;
+// The points that threads which share a sweep in SIMD lanes take at once: at first, and at most, which is some 20 us of
+// the cheapest.
+constexpr int64_t kFirstLanePoints = 2 * RowSolver::kRowsBetweenStops;
+constexpr int64_t kMostLanePoints = 8 * RowSolver::kRowsBetweenStops;
 
-// The most points that a thread takes at once, where it is alone or points take long.
+// The most points that a thread takes at once, where it is alone or points have no lanes.
 constexpr int64_t kMostPoints = 1024;
 
 // A helper gives back the rest of a block that takes longer than this, because its points have become expensive.
@@ -80,12 +81,13 @@ class SweepRun::Impl {
   // Helps until nothing is to be done, or another needs the thread.
   void Help(absl::FunctionRef<bool()> gives_way);
 
-  // Lanes are fast enough for large blocks, and a caller who is alone leaves none for others to wait for.
-  bool adapts_blocks() const { return !sweep_.in_lanes && helped_.most_helpers() > 0; }
+  // A caller who is alone leaves no block for others to wait for.
+  bool adapts_blocks() const { return helped_.most_helpers() > 0; }
   int64_t FirstBlock() const {
-    if (adapts_blocks()) return 1;
-    return helped_.most_helpers() > 0 ? kSharedLanePoints : kMostPoints;
+    if (!adapts_blocks()) return kMostPoints;
+    return sweep_.in_lanes ? kFirstLanePoints : 1;
   }
+  int64_t MostBlock() const { return sweep_.in_lanes ? kMostLanePoints : kMostPoints; }
 
   // The functions below are called with the mutex locked.
   // Takes a block, in a new buffer if need be. Nothing if all points are taken or the buffers that may be open are.
@@ -233,7 +235,7 @@ int64_t SweepRun::Impl::RoomOfNextBuffer() const {
 }
 
 void SweepRun::Impl::LearnBlockTime(int64_t count, Clock::duration time) {
-  if (count == block_ && time < kBlockTime) block_ = std::min(2 * block_, kMostPoints);
+  if (count == block_ && time < kBlockTime) block_ = std::min(2 * block_, MostBlock());
   if (time > 2 * kBlockTime) block_ = std::max(block_ / 2, int64_t{1});
 }
 
