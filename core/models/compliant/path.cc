@@ -31,8 +31,9 @@ class PathFollower {
     constexpr double kUnknown = std::numeric_limits<double>::infinity();
     result.u_error = result.Ends() ? error_.OfU() : kUnknown;
     result.v_error = result.Ends() ? error_.OfV() : kUnknown;
-    result.compression_force_error = compressions_ > 0 ? compression_force_error_ : kUnknown;
-    result.compression_u_error = compressions_ > 0 ? compression_u_error_ : kUnknown;
+    const bool is_known = compressions_ > 0 && !has_tie_;
+    result.compression_force_error = is_known ? compression_force_error_ : kUnknown;
+    result.compression_u_error = is_known ? compression_u_error_ : kUnknown;
     result.sections = error_.sections();
     result.compression_end = mode_.IsFirstLoading() ? state_ : compression_end_;
     result.largest_normal_force = mode_.IsFirstLoading() ? state_.normal_force : mode_.largest_normal_force;
@@ -102,7 +103,10 @@ class PathFollower {
   bool ReverseNormalVelocity() {
     state_.v = 0.0;
     if (contact_.u_follows_v) state_.u = 0.0;
+    const bool may_tie = compressions_ > 0 && mode_.indenting &&
+                         std::fabs(state_.normal_force - mode_.largest_normal_force) <= 4.0 * error_.OfNormalForce();
     mode_.indenting = !mode_.indenting;
+    has_tie_ = has_tie_ || may_tie;
     if (!mode_.IsFirstLoading()) return true;
     mode_.largest_normal_force = state_.normal_force;
     mode_.branch = LoadingBranch::kUnloading;
@@ -144,6 +148,8 @@ class PathFollower {
   double compression_force_error_ = 0.0, compression_u_error_ = 0.0;
   SectionMode mode_;
   int compressions_ = 0;  // How often v has changed its sign on first loading.
+  // Two largest forces are as good as equal, so that either may be the end of compression.
+  bool has_tie_ = false;
   std::optional<int> compressions_before_stick_;
 };
 

@@ -47,14 +47,15 @@ ImpactErrors ErrorsBy(const Counts& counts, double unit, double unseen, double e
   errors.v = of(counts.velocity, Output::kNormalVelocityAfter, std::fabs(problem.a * problem.omega_minus));
   errors.tau_compression = of(counts.tau_compression, Output::kNormalImpulseCompression, 0.0);
   errors.tau = of(counts.tau, Output::kNormalImpulse, 0.0);
-  errors.f = of_friction * friction + kSmallest * (1.0 + impact[Output::kNormalImpulse]);
+  // What is lost where an impulse or a work of compression is below the range of doubles grows with kappa.
+  errors.f = of_friction * friction + kSmallest * (1.0 + impact[Output::kNormalImpulse] + kappa);
   errors.work_normal_compression = of(counts.work_compression, Output::kWorkNormalCompression, 0.0);
   errors.work_normal_restitution = of(counts.work_restitution, Output::kWorkNormalRestitution, work_n);
   errors.work_tangential_compression = of(counts.work_compression, Output::kWorkTangentialCompression, work_n);
   errors.work_tangential_restitution =
       of(counts.work_restitution, Output::kWorkTangentialRestitution, returned * (work_n + work_t));
   errors.energy_change =
-      energy * returned * (work_n + work_t) + unit * 4.0 * std::fabs(impact[Output::kEnergyChange]) + kSmallest;
+      energy * returned * (work_n + work_t) + unit * 4.0 * std::fabs(impact[Output::kEnergyChange]) + 4.0 * kSmallest;
   if (impact.regime == Regime::kLocked || problem.coefficient == 0.0) {
     errors.newton = errors.poisson = errors.energetic = 0.0;
     return errors;

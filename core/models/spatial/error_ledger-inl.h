@@ -90,8 +90,10 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   EndErrors<T> AtEnd(const Path<T>& path, const Slopes<T>& slopes) const;
 
  private:
-  // The known error is a linear estimate of an error that is not: it counts so often.
+  // The known error is a linear estimate of an error that is not: it counts so often. In impulses and works, which have
+  // no other number whose error is larger, it counts more often.
   static constexpr T kSafety{2};
+  static constexpr T kSafetyOfImpulses{3};
   // The part of the known errors that counts for a velocity by itself, in addition.
   static constexpr T kOfParts{0.5};
   // A contact is nearly at rest below this part of its velocity before.
@@ -140,7 +142,7 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   T ErrorOfF(const State<T>& at) const {
     if (problem_.HasNoFriction()) return T{0};
     const T strayed = std::min(problem_.mu * sum_.strayed, T{2} * sum_.slip_rounding / problem_.smallest_root);
-    return kSafety * Size(sum_.known.f1, sum_.known.f2) + Size(sum_.doubtful.f1, sum_.doubtful.f2) +
+    return kSafetyOfImpulses * Size(sum_.known.f1, sum_.known.f2) + Size(sum_.doubtful.f1, sum_.doubtful.f2) +
            sum_.friction / problem_.smallest_root + strayed + f_rounding_ +
            T{4} * kEpsilon<T> * problem_.mu_static * (compression_end_tau_ + at.tau);
   }
@@ -234,10 +236,11 @@ void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes
   const T v_error =
       VelocityError() + kSafety * std::fabs(sum_.known.NormalVelocity(problem_.w)) + doubtful + std::fabs(path.state.v);
   EndErrors<T>& at = at_compression_end_;
-  at.tau_compression = compression_.impulse + kSafety * std::fabs(known_compression_.impulse);
+  at.tau_compression = compression_.impulse + kSafetyOfImpulses * std::fabs(known_compression_.impulse);
   at.f = ErrorOfF(path.state) + problem_.mu_static * at.tau_compression;
-  at.normal_compression =
-      compression_.work + kSafety * std::fabs(known_compression_.work) + v_error * at.tau_compression;
+  // The work is the sum of v, whose errors may be larger on the way than they are at the end.
+  at.normal_compression = compression_.work + kSafetyOfImpulses * std::fabs(known_compression_.work) +
+                          v_error * (at.tau_compression + kOfParts * path.state.tau);
   at.energy = ErrorOfEnergy(path.state, at.f, at.tau_compression,
                             ErrorOfU() + problem_.graze * Size(slopes.u1, slopes.u2) * at.tau_compression, v_error);
   at.tangential_compression =
@@ -334,6 +337,10 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
   // A v that ends the impact has its error from root finding alone.
   const bool v_is_goal = problem_.coefficient == T{0} || (path.goal.quantity == Quantity::kVelocity && !v_is_turned);
   errors.v = v_is_goal ? event_distance_ * v_slope : kSafety * known_v + v_error_of_state + impulse * v_slope;
+  // Compression may have ended beyond a small velocity that Newton's law asks for.
+  if (v_is_goal && problem_.coefficient > T{0}) {
+    errors.v = std::max(errors.v, T{1.5} * std::fabs(path.state.v - path.goal.target));
+  }
   errors.relative = std::max(errors.u, problem_.graze * errors.v) / problem_.velocity + kOutput;
   // Each velocity by itself has no other one whose error is larger: what cancels in the known errors counts in part.
   errors.u += kOfParts * (Size(sum_.known.Velocity1(w), sum_.known.Velocity2(w)) +
@@ -352,8 +359,13 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
     errors.normal_restitution = errors.tangential_restitution = T{0};
     return errors;
   }
-  errors.tau = all;
-  errors.f = ErrorOfF(path.state) + problem_.mu_static * all;
+  errors.tau = impulse + kSafetyOfImpulses * std::fabs(known_impulse);
+  // Restitution does not end before compression does, which counts where it is shorter than that end is uncertain.
+  constexpr T kShort{8};
+  if (path.state.tau <= kShort * errors.tau_compression) {
+    errors.tau = std::max(errors.tau, errors.tau_compression + path.state.tau);
+  }
+  errors.f = ErrorOfF(path.state) + problem_.mu_static * errors.tau;
   // Restitution that ends with a certain work errs by what that work does, and by root finding.
   const T stated = problem_.coefficient * problem_.coefficient * errors.normal_compression +
                    std::fabs(path.state.v) * event_distance_ + WorkRounding(path.state);
