@@ -15,7 +15,8 @@ void FillBetween(const Linspace& linspace, int64_t first, absl::Span<double> val
   const auto steps = static_cast<double>(linspace.count - 1);
   const double step = way / steps;
   const auto fill = [&](auto value_at) {
-    for (size_t i = 0; i < values.size(); ++i) values[i] = value_at(static_cast<double>(first + static_cast<int64_t>(i)));
+    for (size_t i = 0; i < values.size(); ++i)
+      values[i] = value_at(static_cast<double>(first + static_cast<int64_t>(i)));
   };
   if (!std::isfinite(way)) return fill([&](double place) { return std::lerp(start, linspace.stop, place / steps); });
   if (step == 0.0) return fill([&](double place) { return place / steps * way + start; });

@@ -209,7 +209,9 @@ struct Map<Outcome> : Between<Outcome, v1::Outcome> {
 };
 
 void ToProto(const Derivative& derivative, v1::Derivative& proto) { Map<Derivative>::Fields::Write(derivative, proto); }
-void FromProto(const v1::Derivative& proto, Derivative& derivative) { Map<Derivative>::Fields::Read(proto, derivative); }
+void FromProto(const v1::Derivative& proto, Derivative& derivative) {
+  Map<Derivative>::Fields::Read(proto, derivative);
+}
 
 void ToProto(const Outcome& outcome, v1::Outcome& proto) { Map<Outcome>::Fields::Write(outcome, proto); }
 void FromProto(const v1::Outcome& proto, Outcome& outcome) { Map<Outcome>::Fields::Read(proto, outcome); }

@@ -23,9 +23,7 @@ constexpr std::chrono::milliseconds kBetweenLooks(1);
 // A write that takes longer than this is counted as a stall.
 constexpr std::chrono::seconds kStall(1);
 
-bool HasExpired(const grpc::ServerContext& context) {
-  return context.deadline() <= std::chrono::system_clock::now();
-}
+bool HasExpired(const grpc::ServerContext& context) { return context.deadline() <= std::chrono::system_clock::now(); }
 
 // The end of a call, which comes when gRPC has sent the answer: then gRPC knows without polling whether the caller gave
 // up, and nobody waits for the record.

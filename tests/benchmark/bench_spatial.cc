@@ -123,8 +123,9 @@ void CompareTolerances(const std::vector<Problem>& problems) {
     std::string note = "the tightest";
     if (!tighter.empty()) {
       const double tight_mean = std::accumulate(tighter.begin(), tighter.end(), 0.0) / kCount;
-      note = absl::StrFormat("%.2f x the mean of the tolerance above, goal 1; %.1f %% of scenes longer by a fifth, goal 1 %%",
-                             mean / tight_mean, 100.0 * static_cast<double>(slower) / kCount);
+      note = absl::StrFormat(
+          "%.2f x the mean of the tolerance above, goal 1; %.1f %% of scenes longer by a fifth, goal 1 %%",
+          mean / tight_mean, 100.0 * static_cast<double>(slower) / kCount);
     }
     Print(absl::StrFormat("tolerance %.0e", tolerance), absl::StrFormat("%.0f ns", mean * 1e9), note);
     tighter = std::move(seconds);

@@ -71,11 +71,12 @@ class ClaimTally {
 
 // One row of the table of claims: a method, its scenes, its tally, and a goal for the median, or 0.
 inline void PrintClaimsHeader() {
-  std::printf("%-22s %-8s %9s %6s %8s %9s %6s %7s %5s %8s %11s %11s\n", "method", "scenes", "tolerance", "count", "unknown",
-              "broken", "least", "median", "goal", "worst", "claim > tol", "error > tol");
+  std::printf("%-22s %-8s %9s %6s %8s %9s %6s %7s %5s %8s %11s %11s\n", "method", "scenes", "tolerance", "count",
+              "unknown", "broken", "least", "median", "goal", "worst", "claim > tol", "error > tol");
 }
 
-inline void PrintClaims(const std::string& method, const std::string& scenes, const ClaimTally& tally, double goal = 0.0) {
+inline void PrintClaims(const std::string& method, const std::string& scenes, const ClaimTally& tally,
+                        double goal = 0.0) {
   std::printf("%-22s %-8s ", method.c_str(), scenes.c_str());
   if (tally.tolerance() > 0.0) {
     std::printf("%9.0e ", tally.tolerance());
