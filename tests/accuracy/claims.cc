@@ -3,8 +3,8 @@
 //
 // Rows of coefficients, impulses and works hold each number of an outcome against its own error, on its own scale.
 // docs/accuracy.md explains the columns. "unknown" counts infinite claims, "least" and "median" are of claimed over
-// achieved, "goal" is what their median shall be at most, "worst" is the largest error achieved, and the last two columns count claims and errors above the
-// tolerance.
+// achieved, "goal" is what their median shall be at most, "worst" is the largest error achieved, and the last two
+// columns count claims and errors above the tolerance.
 
 #include "tests/support/claims/claims.h"
 

@@ -1,8 +1,8 @@
 // Fuzzes fits: bytes are a v1::FitRequest.
 //
-// A valid request is answered, one that breaks a rule is refused with the field. The best fit lies within its bounds and
-// its intervals, no search is better than it, chi2 is the sum of its squared residuals, shares add up to 1, and data
-// that say nothing about an unknown give it no end.
+// A valid request is answered, one that breaks a rule is refused with the field. The best fit lies within its bounds
+// and its intervals, no search is better than it, chi2 is the sum of its squared residuals, shares add up to 1, and
+// data that say nothing about an unknown give it no end.
 //
 // tests/fuzz/run.sh lists the code that it covers.
 

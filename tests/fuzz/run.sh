@@ -7,7 +7,8 @@ if [[ ${1-} == --short ]]; then shift && short=yes; fi
 
 readonly fuzz_packages=(
   "${build_packages[@]}" clang libclang-rt-14-dev llvm python3-grpcio python3-numpy python3-protobuf)
-readonly fuzz_targets=(batches chunks contacts cost duration fit models partial ranges scene_input sweep_files tables wire)
+readonly fuzz_targets=(
+  batches chunks contacts cost duration fit models partial ranges scene_input sweep_files tables wire)
 
 # The code that a fuzz target names, which its corpus must cover.
 fuzzed_code() {
