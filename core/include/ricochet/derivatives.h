@@ -61,8 +61,8 @@ struct Derivative {
   friend bool operator==(const Derivative&, const Derivative&) = default;
 };
 
-// Returns the part of the scene for which derivatives are differences with an estimated error, "an impact in space"; null
-// if they are exact to rounding. Differences take dozens of impacts for each number of the scene.
+// Returns the part of the scene that leaves only differences with an estimated error, "an impact in space"; null if its
+// derivatives are exact to rounding. Differences take dozens of impacts for each number of the scene.
 const char* WhyNotExact(const Scene& scene);
 
 }  // namespace ricochet
