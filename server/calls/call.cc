@@ -101,7 +101,7 @@ absl::Status Call::Compute(std::optional<RequestCost> cost, absl::FunctionRef<vo
   const ComputeRequest request = {
       .peer = peer_key_, .deadline = limits.deadline, .is_gone = limits.is_stopped, .cost = cost};
   bool is_done = false;
-  const absl::Status computed = frame_.scheduler.Compute(request, [&] {
+  absl::Status computed = frame_.scheduler.Compute(request, [&] {
     record_.queued_s += elapsed_s() - asked_s;
     is_done = true;
     work();

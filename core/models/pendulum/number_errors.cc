@@ -52,10 +52,11 @@ ImpactErrors ErrorsBy(const Counts& counts, double unit, double unseen, double e
   errors.work_normal_compression = of(counts.work_compression, Output::kWorkNormalCompression, 0.0);
   errors.work_normal_restitution = of(counts.work_restitution, Output::kWorkNormalRestitution, work_n);
   errors.work_tangential_compression = of(counts.work_compression, Output::kWorkTangentialCompression, work_n);
+  // A product of a large coefficient with a work below the range of doubles is unknown.
   errors.work_tangential_restitution =
-      of(counts.work_restitution, Output::kWorkTangentialRestitution, returned * (work_n + work_t));
-  errors.energy_change =
-      energy * returned * (work_n + work_t) + unit * 4.0 * std::fabs(impact[Output::kEnergyChange]) + 4.0 * kSmallest;
+      KnownError(of(counts.work_restitution, Output::kWorkTangentialRestitution, returned * (work_n + work_t)));
+  errors.energy_change = KnownError(energy * returned * (work_n + work_t) +
+                                    unit * 4.0 * std::fabs(impact[Output::kEnergyChange]) + kSmallest);
   if (impact.regime == Regime::kLocked || problem.coefficient == 0.0) {
     errors.newton = errors.poisson = errors.energetic = 0.0;
     return errors;

@@ -93,7 +93,7 @@ class ErrorLedger {  // NOLINT(clang-analyzer-optin.performance.Padding): one st
   // The known error is a linear estimate of an error that is not: it counts so often. In impulses and works, which have
   // no other number whose error is larger, it counts more often.
   static constexpr T kSafety{2};
-  static constexpr T kSafetyOfImpulses{3};
+  static constexpr T kSafetyOfImpulses{4};
   // The part of the known errors that counts for a velocity by itself, in addition.
   static constexpr T kOfParts{0.5};
   // A contact is nearly at rest below this part of its velocity before.
