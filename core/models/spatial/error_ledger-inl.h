@@ -236,7 +236,8 @@ void ErrorLedger<T>::EndCompression(const Path<T>& path, const Slopes<T>& slopes
   const T v_error =
       VelocityError() + kSafety * std::fabs(sum_.known.NormalVelocity(problem_.w)) + doubtful + std::fabs(path.state.v);
   EndErrors<T>& at = at_compression_end_;
-  at.tau_compression = compression_.impulse + kSafetyOfImpulses * std::fabs(known_compression_.impulse);
+  at.tau_compression = compression_.impulse + kSafetyOfImpulses * std::fabs(known_compression_.impulse) +
+                       T{2} * kEpsilon<T> * path.state.tau;
   at.f = ErrorOfF(path.state) + problem_.mu_static * at.tau_compression;
   // The work is the sum of v, whose errors may be larger on the way than they are at the end.
   at.normal_compression = compression_.work + kSafetyOfImpulses * std::fabs(known_compression_.work) +
@@ -359,7 +360,8 @@ EndErrors<T> ErrorLedger<T>::AtEnd(const Path<T>& path, const Slopes<T>& slopes)
     errors.normal_restitution = errors.tangential_restitution = T{0};
     return errors;
   }
-  errors.tau = impulse + kSafetyOfImpulses * std::fabs(known_impulse);
+  errors.tau = impulse + kSafetyOfImpulses * std::fabs(known_impulse) +
+               T{2} * kEpsilon<T> * (compression_end_tau_ + path.state.tau);
   // Restitution does not end before compression does, which counts where it is shorter than that end is uncertain.
   constexpr T kShort{8};
   if (path.state.tau <= kShort * errors.tau_compression) {
