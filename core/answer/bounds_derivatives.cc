@@ -13,6 +13,7 @@
 #include "core/answer/scene_bounds.h"
 #include "core/contact/scene_contact.h"
 #include "core/models/spatial/spatial.h"
+#include "core/scene/field.h"
 #include "core/scene/validate.h"
 
 namespace ricochet {
@@ -69,7 +70,7 @@ std::vector<Violation> CheckBoundsDerivatives(const Scene& scene, const Derivati
   std::vector<Violation> violations;
   CheckPaths("of", paths.of, BoundsNumbers(scene.system), "an end of a range or a critical friction of the bounds",
              violations);
-  std::vector<std::string> by = AllDerivativePaths(scene).by;
+  std::vector<std::string> by = FieldPaths(scene);
   by.erase(std::remove_if(by.begin(), by.end(),
                           [](const std::string& path) { return absl::StartsWith(path, "restitution."); }),
            by.end());

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string_view>
 
+#include "absl/strings/string_view.h"
 #include "ricochet/derivatives.h"
 
 namespace ricochet {
@@ -19,6 +20,9 @@ struct OneSided {
 
 // `agree` says that both rates exist and differ by no more than their errors. The paths and the error are left unset.
 Derivative Join(const OneSided& below, const OneSided& above, bool agree, Threshold threshold);
+
+// A path without its last index.
+inline absl::string_view HeadOf(absl::string_view path) { return path.substr(0, path.rfind('[')); }
 
 // What the rounding of the outcome's number at `path` is relative to, for a contact that moves at `speed` before the
 // impact and takes the normal impulse `impulse`; 0 for a number of another kind.

@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "absl/strings/string_view.h"
 #include "core/answer/derivative_sides.h"
 #include "core/numerics/elementary.h"
 #include "core/scene/field.h"
@@ -27,9 +26,6 @@ constexpr double kJump = 0x1p-24;
 // The steps over the size of the number, as negative powers of two.
 constexpr int kFirstStep = 4;
 constexpr int kLastStep = 30;
-
-// A path without its last index.
-absl::string_view HeadOf(absl::string_view path) { return path.substr(0, path.rfind('[')); }
 
 // --- A number of the scene ---
 

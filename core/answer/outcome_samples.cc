@@ -24,8 +24,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// A path without its last index, and the name at its end.
-absl::string_view HeadOf(absl::string_view path) { return path.substr(0, path.rfind('[')); }
+// The name at the end of a path.
 absl::string_view NameOf(absl::string_view path) { return path.substr(path.rfind('.') + 1); }
 
 Course CourseOf(const Outcome& outcome) {

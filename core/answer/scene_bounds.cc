@@ -15,6 +15,7 @@
 #include "core/contact/coefficients_at_speed.h"
 #include "core/contact/reduction.h"
 #include "core/plan/scene_problem.h"
+#include "core/types/named_ranges.h"
 
 namespace ricochet {
 namespace {
@@ -72,14 +73,9 @@ absl::StatusOr<Bounds> ReducedBounds(const SceneContact& contact, absl::Function
 }
 
 absl::Status CheckFinite(const CoefficientBounds& bounds, const std::string& path) {
-  const std::pair<const char*, Range> ranges[] = {{"newton", bounds.newton},
-                                                  {"poisson", bounds.poisson},
-                                                  {"energetic", bounds.energetic},
-                                                  {"tangential", bounds.tangential},
-                                                  {"normal_total_n_s", bounds.normal_total_n_s}};
-  for (const auto& [name, range] : ranges) {
-    if (!std::isfinite(range.upper)) return OutputOverflow(absl::StrCat(path, name, ".upper"));
-    if (!std::isfinite(range.lower)) return OutputOverflow(absl::StrCat(path, name, ".lower"));
+  for (const auto& [name, range] : kNamedRanges) {
+    if (!std::isfinite((bounds.*range).upper)) return OutputOverflow(absl::StrCat(path, name, ".upper"));
+    if (!std::isfinite((bounds.*range).lower)) return OutputOverflow(absl::StrCat(path, name, ".lower"));
   }
   return absl::OkStatus();
 }

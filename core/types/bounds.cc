@@ -3,18 +3,12 @@
 #include <array>
 
 #include "absl/strings/str_cat.h"
+#include "absl/strings/str_split.h"
+#include "absl/strings/string_view.h"
+#include "core/types/named_ranges.h"
 
 namespace ricochet {
 namespace {
-
-struct NamedRange {
-  const char* name;
-  Range CoefficientBounds::*range;
-};
-constexpr std::array kRanges = {
-    NamedRange{"newton", &CoefficientBounds::newton}, NamedRange{"poisson", &CoefficientBounds::poisson},
-    NamedRange{"energetic", &CoefficientBounds::energetic}, NamedRange{"tangential", &CoefficientBounds::tangential},
-    NamedRange{"normal_total_n_s", &CoefficientBounds::normal_total_n_s}};
 
 struct NamedFriction {
   const char* name;
@@ -26,15 +20,10 @@ constexpr std::array kFrictions = {NamedFriction{"stick", &CriticalFriction::sti
                                    NamedFriction{"reversal", &CriticalFriction::reversal},
                                    NamedFriction{"jam", &CriticalFriction::jam}};
 
-// Calls `visit` with the path of each number and its value.
-template <typename Visit>
-void VisitRanges(const char* which, const std::optional<CoefficientBounds>& bounds, const Visit& visit) {
-  for (const auto& [name, range] : kRanges) {
-    std::optional<double> lower, upper;
-    if (bounds.has_value()) lower = ((*bounds).*range).lower;
-    if (bounds.has_value()) upper = ((*bounds).*range).upper;
-    visit(absl::StrCat(which, ".", name, ".lower"), lower);
-    visit(absl::StrCat(which, ".", name, ".upper"), upper);
+void AddRanges(const char* which, std::vector<std::string>& paths) {
+  for (const auto& [name, range] : kNamedRanges) {
+    paths.push_back(absl::StrCat(which, ".", name, ".lower"));
+    paths.push_back(absl::StrCat(which, ".", name, ".upper"));
   }
 }
 
@@ -42,23 +31,29 @@ void VisitRanges(const char* which, const std::optional<CoefficientBounds>& boun
 
 std::vector<std::string> BoundsNumbers(const System& system) {
   std::vector<std::string> paths;
-  const auto add = [&paths](std::string path, std::optional<double> /*value*/) { paths.push_back(std::move(path)); };
-  VisitRanges("sharp", {}, add);
+  AddRanges("sharp", paths);
   if (TangentialDirections(system) == 2) return paths;
-  VisitRanges("energy_only", {}, add);
+  AddRanges("energy_only", paths);
   for (const auto& [name, friction] : kFrictions) paths.push_back(absl::StrCat("critical.", name));
   return paths;
 }
 
 std::optional<double> BoundsNumber(const Bounds& bounds, const std::string& path) {
-  std::optional<double> found;
-  const auto match = [&](const std::string& at, std::optional<double> value) {
-    if (at == path) found = value;
-  };
-  VisitRanges("sharp", bounds.sharp, match);
-  VisitRanges("energy_only", bounds.energy_only, match);
-  for (const auto& [name, friction] : kFrictions) match(absl::StrCat("critical.", name), bounds.critical.*friction);
-  return found;
+  const std::vector<absl::string_view> parts = absl::StrSplit(path, '.');
+  if (parts.size() == 2 && parts[0] == "critical") {
+    for (const auto& [name, friction] : kFrictions) {
+      if (parts[1] == name) return bounds.critical.*friction;
+    }
+  }
+  if (parts.size() != 3 || (parts[2] != "lower" && parts[2] != "upper")) return std::nullopt;
+  std::optional<CoefficientBounds> ranges;
+  if (parts[0] == "sharp") ranges = bounds.sharp;
+  if (parts[0] == "energy_only") ranges = bounds.energy_only;
+  if (!ranges.has_value()) return std::nullopt;
+  for (const auto& [name, range] : kNamedRanges) {
+    if (parts[1] == name) return parts[2] == "lower" ? ((*ranges).*range).lower : ((*ranges).*range).upper;
+  }
+  return std::nullopt;
 }
 
 }  // namespace ricochet
