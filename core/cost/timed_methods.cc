@@ -132,7 +132,8 @@ ReferencePointer AddFiniteDuration(const planar::Problem& contact, const Contact
       if (finite_duration::IsAvailable()) {
         method.kernel = TimedKernel(problem);
       } else {
-        method.unavailable = "This build has no model of finite duration (component finite_duration).";
+        method.unavailable = absl::StrCat(
+            "No model of finite duration (component finite_duration): ", finite_duration::WhyUnavailable(), ".");
       }
       methods.push_back(std::move(method));
     }

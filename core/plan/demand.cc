@@ -77,11 +77,12 @@ Effect CauseOf(Effect effect, EffectSet excluded, bool in_space) {
   return effect;
 }
 
-// Refuses a normal spring, whatever the tolerance leaves of it, if the build cannot follow an impact in time.
+// Refuses a normal spring, whatever the tolerance leaves of it, if the program cannot follow an impact in time.
 void CheckComponents(const Scene& scene, std::vector<Violation>& violations) {
   if (finite_duration::IsAvailable() || !MissingPart(scene, Effect::kFiniteDuration).empty()) return;
-  violations.push_back(MakeViolation("compliance.normal", "is set",
-                                     "not be, this build has no impacts that take time (component finite_duration)"));
+  violations.push_back(
+      MakeViolation("compliance.normal", "is set",
+                    absl::StrCat("not be, ", finite_duration::WhyUnavailable(), " (component finite_duration)")));
 }
 
 void CheckRequired(const Scene& scene, const Demand& demand, std::vector<Violation>& violations) {

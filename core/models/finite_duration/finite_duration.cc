@@ -209,7 +209,11 @@ Impact Stopped() {
 
 }  // namespace
 
-bool IsAvailable() { return true; }
+const char* WhyUnavailable() {
+  static const bool is_whole = Integrator::LibraryIsWhole();
+  return is_whole ? nullptr
+                  : "another library of this program stands in for functions of SUNDIALS, which must be linked first";
+}
 
 Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped) {
   const PlanarProblem& stated = problem.contact;

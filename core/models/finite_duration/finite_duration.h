@@ -59,8 +59,9 @@ struct Impact : ImpactEnd<double> {
   std::vector<TimedInstant> events;
 };
 
-// Says whether this build has the model. Without it, Solve must not be called.
-bool IsAvailable();
+// Says in a clause why this process lacks the model; null if it has it. Without the model, Solve must not be called.
+const char* WhyUnavailable();
+inline bool IsAvailable() { return WhyUnavailable() == nullptr; }
 
 // Asks `stopped` every few dozen steps, in less than a millisecond, and ends soon after it says true.
 Impact Solve(const Problem& problem, absl::FunctionRef<bool()> stopped);

@@ -1,6 +1,7 @@
 #include "core/models/finite_duration/integrator.h"
 
 #include <cvode/cvode.h>
+#include <dlfcn.h>
 #include <sundials/sundials_math.h>
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
@@ -27,9 +28,21 @@ double InRangeOfSearch(double guard) {
   return guard == 0.0 ? guard : std::copysign(std::clamp(std::fabs(guard), kSmallest, kLargest), guard);
 }
 
+// Where the file that a function was loaded from lies.
+template <typename Function>
+const void* HomeOf(Function* function) {
+  Dl_info info = {};
+  return dladdr(reinterpret_cast<const void*>(function), &info) != 0 ? info.dli_fbase : nullptr;
+}
+
 void IgnoreMessage(int /*code*/, const char* /*module*/, const char* /*function*/, char* /*message*/, void* /*data*/) {}
 
 }  // namespace
+
+bool Integrator::LibraryIsWhole() {
+  // Old releases of SUNDIALS have the first of each pair alone.
+  return HomeOf(&N_VClone) == HomeOf(&N_VScaleAddMulti) && HomeOf(&N_VNew_Serial) == HomeOf(&N_VScaleAddMulti_Serial);
+}
 
 Integrator::Integrator(const ScaledContact& contact)
     : contact_(contact),

@@ -19,6 +19,10 @@ namespace ricochet::finite_duration {
 
 class Integrator {
  public:
+  // False if another library that was loaded before SUNDIALS has functions of the same names, as that of Simbody has:
+  // then those are called with data that they do not know, and no integrator may be made.
+  static bool LibraryIsWhole();
+
   explicit Integrator(const ScaledContact& contact);
   ~Integrator();
   Integrator(const Integrator&) = delete;

@@ -5,7 +5,7 @@
 
 namespace ricochet::finite_duration {
 
-bool IsAvailable() { return false; }
+const char* WhyUnavailable() { return "this build has no impacts that take time"; }
 
 Impact Solve(const Problem& /*problem*/, absl::FunctionRef<bool()> /*stopped*/) {
   StopOnBrokenInvariant("this build has no model of finite duration", __FILE__, __LINE__);
