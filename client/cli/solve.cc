@@ -173,6 +173,8 @@ void AddSolve(CLI::App& app, Command& command) {
   sub->add_flag("--both-ends", options->both_ends,
                 "Also print the impact with no coordinate of the mechanism held, and how far the two are apart");
   AddDerivativeOptions(*sub, "numbers of the outcome", options->derivatives);
+  sub->add_flag("--thresholds", options->derivatives.thresholds,
+                "Also print how far each number of --by can move before the impact takes another course");
   sub->add_option("--history", options->history, "Also print the states at N + 1 evenly spaced normal impulses")
       ->type_name("N");
   sub->add_option("--force-history", options->force_history,

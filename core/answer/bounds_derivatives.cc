@@ -70,6 +70,9 @@ std::vector<Violation> CheckBoundsDerivatives(const Scene& scene, const Derivati
   std::vector<Violation> violations;
   CheckPaths("of", paths.of, BoundsNumbers(scene.system), "an end of a range or a critical friction of the bounds",
              violations);
+  if (paths.find_thresholds) {
+    violations.push_back(MakeViolation("derivatives.find_thresholds", "is set", "not be, for bounds"));
+  }
   std::vector<std::string> by = FieldPaths(scene);
   by.erase(std::remove_if(by.begin(), by.end(),
                           [](const std::string& path) { return absl::StartsWith(path, "restitution."); }),

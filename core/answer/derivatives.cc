@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -13,6 +14,7 @@
 #include "absl/strings/strip.h"
 #include "core/answer/derivative_sides.h"
 #include "core/answer/differences.h"
+#include "core/answer/near_thresholds.h"
 #include "core/base/nearest.h"
 #include "core/contact/contact_tangent.h"
 #include "core/contact/scene_contact.h"
@@ -284,8 +286,16 @@ std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& 
 
 absl::StatusOr<std::vector<Derivative>> DerivativesOf(const Scene& scene, const Demand& demand,
                                                       const DerivativePaths& paths, absl::FunctionRef<bool()> stopped) {
-  if (WhyNotExact(scene) != nullptr) return DifferencesOf(scene, demand, paths, stopped);
-  return ExactDerivatives(scene, paths);
+  const bool is_exact = WhyNotExact(scene) == nullptr;
+  if (is_exact && !paths.find_thresholds) return ExactDerivatives(scene, paths);
+  const absl::StatusOr<std::unique_ptr<SampleSource>> source = OutcomeSamples(scene, demand, paths.of, stopped);
+  if (!source.ok()) return source.status();
+  absl::StatusOr<std::vector<Derivative>> derivatives =
+      is_exact ? ExactDerivatives(scene, paths) : DifferencesOf(**source, scene, paths);
+  if (!derivatives.ok() || !paths.find_thresholds) return derivatives;
+  const absl::Status found = FindThresholds(**source, scene, paths.by, *derivatives);
+  if (!found.ok()) return found;
+  return derivatives;
 }
 
 std::vector<Derivative> ExactDerivatives(const Scene& scene, const DerivativePaths& paths) {

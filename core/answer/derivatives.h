@@ -38,7 +38,7 @@ void CheckPaths(const char* list, const std::vector<std::string>& paths, const s
 std::vector<Violation> CheckDerivatives(const Scene& scene, const DemandFields& demand, const DerivativePaths& paths);
 
 // Computes them for a request in which CheckDerivatives finds nothing, with the effects that the demand requires.
-// Errors: those of DifferencesOf if the derivatives are not exact.
+// Errors: those of OutcomeSamples and DifferencesOf, if the derivatives are not exact or thresholds are asked for.
 absl::StatusOr<std::vector<Derivative>> DerivativesOf(const Scene& scene, const Demand& demand,
                                                       const DerivativePaths& paths, absl::FunctionRef<bool()> stopped);
 

@@ -10,9 +10,7 @@
 #include <utility>
 
 #include "core/answer/derivative_sides.h"
-#include "core/numerics/elementary.h"
-#include "core/scene/field.h"
-#include "core/scene/numbers.h"
+#include "core/answer/scene_line.h"
 
 namespace ricochet {
 namespace {
@@ -26,55 +24,6 @@ constexpr double kJump = 0x1p-24;
 // The steps over the size of the number, as negative powers of two.
 constexpr int kFirstStep = 4;
 constexpr int kLastStep = 30;
-
-// --- A number of the scene ---
-
-// arctan(a/b) in (0, pi): the distance that is left becomes itself less its sine.
-double AngleOf(const Pendulum& pendulum) {
-  const double radius = Hypot(pendulum.a_m, pendulum.b_m);
-  double angle = 1.5;
-  constexpr int kEnough = 10;
-  for (int i = 0; i < kEnough; ++i) {
-    angle -= (pendulum.b_m * Sin(angle) - pendulum.a_m * Cos(angle)) / radius;
-  }
-  return angle;
-}
-
-// The scenes in which one number differs.
-class Line {
- public:
-  Line(Scene scene, const std::string& by) : scene_(std::move(scene)), field_(*ResolveField(by, scene_)) {
-    if (const std::optional<double> number = NumberAt(scene_, by)) {
-      number_ = *number;
-    } else {  // The angle of a pendulum.
-      number_ = AngleOf(std::get<Pendulum>(scene_.system));
-    }
-    double size = std::fabs(number_);
-    // A number that is 0 has the size of its neighbours in a list.
-    if (size == 0.0) {
-      VisitNumbers(scene_, [&](const NumberPath& path, double value, NumberRule /*rule*/) {
-        if (HeadOf(path.Text()) == HeadOf(by)) size = std::max(size, std::fabs(value));
-      });
-    }
-    unit_ = size == 0.0 ? 1.0 : std::ldexp(1.0, std::ilogb(size));
-  }
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-
-  double unit() const { return unit_; }
-  // Returns false once the source is stopped.
-  bool At(const SampleSource& source, double step, std::optional<Sample>& sample) {
-    sample.reset();
-    if (!field_.Set(number_ + step)) return true;
-    return source.At(scene_, sample);
-  }
-
- private:
-  Scene scene_;
-  Field field_;
-  double number_ = 0.0;
-  double unit_ = 1.0;
-};
 
 // --- Formulas ---
 
@@ -138,7 +87,7 @@ bool Improve(Estimate& best, const Estimate& next) {
 
 class Sides {
  public:
-  Sides(const SampleSource& source, Line& line, size_t count)
+  Sides(const SampleSource& source, SceneLine& line, size_t count)
       : source_(source),
         line_(line),
         one_sided_{std::vector<Estimate>(count), std::vector<Estimate>(count)},
@@ -168,7 +117,7 @@ class Sides {
       const double rounding = 0x1p-40 * (std::fabs(*below.rate) + std::fabs(*above.rate));
       agree = std::fabs(*below.rate - *above.rate) <= 4.0 * (*below.error + *above.error) + rounding;
     }
-    Derivative derivative = Join(below, above, agree, ThresholdBetween());
+    Derivative derivative = Join(below, above, agree, ThresholdHere());
     if (!agree) {
       if (derivative.kind == DerivativeKind::kOneSided) {
         derivative.error = std::max(below.error.value_or(0.0), above.error.value_or(0.0));
@@ -246,27 +195,13 @@ class Sides {
     return {.rate = rate + 0.0, .error = error};
   }
 
-  Threshold ThresholdBetween() const {
+  Threshold ThresholdHere() const {
     if (!beside_[0].has_value() || !beside_[1].has_value()) return Threshold::kDomain;
-    const Course& x = beside_[0]->course;
-    const Course& y = beside_[1]->course;
-    const Course& here = source_.here().course;
-    const auto differ = [&x, &y, &here](const auto& of) { return of(x) != of(y) || of(here) != of(x); };
-    const auto is = [](Regime a, Regime b) {
-      return [a, b](const Course& course) { return course.regime == a || course.regime == b; };
-    };
-    if (differ(is(Regime::kSeparating, Regime::kSeparating))) return Threshold::kApproach;
-    if (differ(is(Regime::kLocked, Regime::kWedged))) return Threshold::kJamming;
-    if (differ([](const Course& course) { return course.slips_before; })) return Threshold::kSlipStart;
-    if (differ([](const Course& course) { return course.Has(EventKind::kSlipStops); })) return Threshold::kImpactEnd;
-    if (differ(is(Regime::kStickInCompression, Regime::kStickInRestitution))) return Threshold::kFrictionLimit;
-    if (differ(is(Regime::kStickInCompression, Regime::kReversalInCompression))) return Threshold::kCompressionEnd;
-    // Courses that are alike on both sides differ in what the approach speed makes of the coefficients.
-    return x == y ? Threshold::kSpeedTable : Threshold::kUnspecified;
+    return ThresholdBetween(beside_[0]->course, beside_[1]->course, source_.here().course);
   }
 
   const SampleSource& source_;
-  Line& line_;
+  SceneLine& line_;
   std::array<std::optional<Sample>, 2> beside_;  // Below, above.
   std::array<std::array<std::optional<Sample>, kNeighbours>, 2> neighbours_;
   std::array<std::vector<Estimate>, 2> one_sided_;
@@ -275,11 +210,26 @@ class Sides {
 
 }  // namespace
 
+Threshold ThresholdBetween(const Course& x, const Course& y, const Course& here) {
+  const auto differ = [&x, &y, &here](const auto& of) { return of(x) != of(y) || of(here) != of(x); };
+  const auto is = [](Regime a, Regime b) {
+    return [a, b](const Course& course) { return course.regime == a || course.regime == b; };
+  };
+  if (differ(is(Regime::kSeparating, Regime::kSeparating))) return Threshold::kApproach;
+  if (differ(is(Regime::kLocked, Regime::kWedged))) return Threshold::kJamming;
+  if (differ([](const Course& course) { return course.slip_before; })) return Threshold::kSlipStart;
+  if (differ([](const Course& course) { return course.Has(EventKind::kSlipStops); })) return Threshold::kImpactEnd;
+  if (differ(is(Regime::kStickInCompression, Regime::kStickInRestitution))) return Threshold::kFrictionLimit;
+  if (differ(is(Regime::kStickInCompression, Regime::kReversalInCompression))) return Threshold::kCompressionEnd;
+  if (differ([](const Course& course) { return course.speeds_passed; })) return Threshold::kSpeedTable;
+  return Threshold::kUnspecified;
+}
+
 absl::StatusOr<std::vector<Derivative>> DifferencesOf(const SampleSource& source, const Scene& scene,
                                                       const DerivativePaths& paths) {
   std::vector<Derivative> derivatives(paths.of.size() * paths.by.size());
   for (size_t k = 0; k < paths.by.size(); ++k) {
-    Line line(scene, paths.by[k]);
+    SceneLine line(scene, paths.by[k]);
     Sides sides(source, line, paths.of.size());
     if (!sides.Explore()) return absl::CancelledError("the call was stopped");
     for (size_t i = 0; i < paths.of.size(); ++i) {

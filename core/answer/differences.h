@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "absl/functional/function_ref.h"
@@ -28,9 +30,10 @@ namespace ricochet {
 // What tells the pieces of a piecewise smooth function of scenes from each other.
 struct Course {
   Regime regime = Regime::kUnspecified;
-  bool slips_before = false;
+  int slip_before = 0;  // The sign of the slip before the impact; in space 1 if there is any.
   std::vector<EventKind> events;
   size_t alternatives = 0;
+  ptrdiff_t speeds_passed = 0;  // Of those that tables by speed list, the number that the approach is faster than.
   friend bool operator==(const Course&, const Course&) = default;
 
   bool Has(EventKind kind) const { return std::find(events.begin(), events.end(), kind) != events.end(); }
@@ -63,15 +66,20 @@ class SampleSource {
   std::vector<double> scales_;
 };
 
+// What lies between two scenes on the courses x and y, and at a scene on the course `here`; unspecified if it has no
+// name.
+Threshold ThresholdBetween(const Course& x, const Course& y, const Course& here);
+
 // Errors: CANCELLED once the source is stopped.
 absl::StatusOr<std::vector<Derivative>> DifferencesOf(const SampleSource& source, const Scene& scene,
                                                       const DerivativePaths& paths);
 
-// Those of an outcome, for a scene and paths as for DerivativesOf (core/answer/derivatives.h). The outcomes are
-// computed as exactly as the models can, with the effects that the demand requires.
-// Errors: those of SolveScene for the scene itself, and CANCELLED once `stopped` says true.
-absl::StatusOr<std::vector<Derivative>> DifferencesOf(const Scene& scene, const Demand& demand,
-                                                      const DerivativePaths& paths, absl::FunctionRef<bool()> stopped);
+// Gives the numbers `of` of outcomes for a scene as for DerivativesOf (core/answer/derivatives.h). The outcomes are
+// computed as exactly as the models can, with the effects that the demand requires. `stopped` must outlive the source.
+// Errors: those of SolveScene for the scene itself.
+absl::StatusOr<std::unique_ptr<SampleSource>> OutcomeSamples(const Scene& scene, const Demand& demand,
+                                                             const std::vector<std::string>& of,
+                                                             absl::FunctionRef<bool()> stopped);
 
 }  // namespace ricochet
 

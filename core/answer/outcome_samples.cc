@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -27,12 +28,24 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // The name at the end of a path.
 absl::string_view NameOf(absl::string_view path) { return path.substr(path.rfind('.') + 1); }
 
-Course CourseOf(const Outcome& outcome) {
+ptrdiff_t SpeedsBelow(double speed, const std::optional<SpeedDependence>& dependence) {
+  const auto* const table = dependence.has_value() ? std::get_if<SpeedTable>(&*dependence) : nullptr;
+  if (table == nullptr) return 0;
+  return std::count_if(table->speed_m_s.begin(), table->speed_m_s.end(), [speed](double one) { return one < speed; });
+}
+
+Course CourseOf(const Scene& scene, const Outcome& outcome) {
   Course course = {.regime = outcome.regime, .alternatives = outcome.alternatives.size()};
   for (const Event& event : outcome.timeline) course.events.push_back(event.kind);
   if (!outcome.timeline.empty()) {
     const Components& slip = outcome.timeline.front().state.contact_velocity.tangential_m_s;
-    course.slips_before = std::any_of(slip.begin(), slip.end(), [](double u) { return u != 0.0; });
+    if (slip.size() == 1) {
+      course.slip_before = (slip[0] > 0.0 ? 1 : 0) - (slip[0] < 0.0 ? 1 : 0);
+    } else {
+      course.slip_before = std::any_of(slip.begin(), slip.end(), [](double u) { return u != 0.0; }) ? 1 : 0;
+    }
+    const double speed = -outcome.timeline.front().state.contact_velocity.normal_m_s;
+    course.speeds_passed = SpeedsBelow(speed, scene.friction.by_speed) + SpeedsBelow(speed, scene.restitution_by_speed);
   }
   return course;
 }
@@ -59,7 +72,7 @@ class OutcomeSource final : public SampleSource {
           std::max({std::isnan(value) ? 0.0 : std::fabs(value), ScaleOf(of[i], speed, outcome.impulse.normal_total_n_s),
                     std::numeric_limits<double>::min()}));
     }
-    here_ = SampleOf(outcome);
+    here_ = SampleOf(scene, outcome);
     return absl::OkStatus();
   }
 
@@ -70,7 +83,7 @@ class OutcomeSource final : public SampleSource {
     if (!Validate(scene, RestitutionIs::kRequired, contact).empty()) return true;
     Outcome outcome;
     const absl::Status solved = SolveScene(scene, contact, demand_, {}, stopped_, outcome);
-    if (solved.ok()) sample = SampleOf(outcome);
+    if (solved.ok()) sample = SampleOf(scene, outcome);
     return !absl::IsCancelled(solved);
   }
 
@@ -115,10 +128,10 @@ class OutcomeSource final : public SampleSource {
   }
 
   // A number without an error of its own has that of the outcome, on its scale.
-  Sample SampleOf(const Outcome& outcome) const {
+  Sample SampleOf(const Scene& scene, const Outcome& outcome) const {
     const std::vector<double> numbers = NumbersOf(outcome);
     const double relative = std::max(outcome.accuracy.relative_error, 0x1p-51);
-    Sample sample = {.course = CourseOf(outcome)};
+    Sample sample = {.course = CourseOf(scene, outcome)};
     for (size_t i = 0; i < places_.size(); ++i) {
       const double value = At(places_[i], numbers), error = At(error_places_[i], numbers);
       sample.value.push_back(value);
@@ -135,11 +148,12 @@ class OutcomeSource final : public SampleSource {
 
 }  // namespace
 
-absl::StatusOr<std::vector<Derivative>> DifferencesOf(const Scene& scene, const Demand& demand,
-                                                      const DerivativePaths& paths, absl::FunctionRef<bool()> stopped) {
-  OutcomeSource source(WithNumbers(demand, paths.of), stopped);
-  if (const absl::Status begun = source.Begin(scene, paths.of); !begun.ok()) return begun;
-  return DifferencesOf(source, scene, paths);
+absl::StatusOr<std::unique_ptr<SampleSource>> OutcomeSamples(const Scene& scene, const Demand& demand,
+                                                             const std::vector<std::string>& of,
+                                                             absl::FunctionRef<bool()> stopped) {
+  auto source = std::make_unique<OutcomeSource>(WithNumbers(demand, of), stopped);
+  if (absl::Status begun = source->Begin(scene, of); !begun.ok()) return begun;
+  return source;
 }
 
 }  // namespace ricochet

@@ -171,6 +171,12 @@ struct Map<FreeEnd> : Between<FreeEnd, v1::FreeEnd> {
 };
 
 template <>
+struct Map<NearThreshold> : Between<NearThreshold, v1::Derivative::Near> {
+  using Fields = Entries<Entry(&T::threshold, &P::threshold, &P::set_threshold),
+                         Entry(&T::distance, &P::distance, &P::set_distance)>;
+};
+
+template <>
 struct Map<Derivative> : Between<Derivative, v1::Derivative> {
   using Fields =
       Entries<Entry(&T::of, &P::of, &P::mutable_of), Entry(&T::by, &P::by, &P::mutable_by),
@@ -178,7 +184,9 @@ struct Map<Derivative> : Between<Derivative, v1::Derivative> {
               Entry(&T::from_below, &P::has_from_below, &P::from_below, &P::set_from_below),
               Entry(&T::from_above, &P::has_from_above, &P::from_above, &P::set_from_above),
               Entry(&T::threshold, &P::threshold, &P::set_threshold), Entry(&T::reason, &P::reason, &P::mutable_reason),
-              Entry(&T::error, &P::has_error, &P::error, &P::set_error)>;
+              Entry(&T::error, &P::has_error, &P::error, &P::set_error),
+              Entry(&T::below, &P::has_below, &P::below, &P::mutable_below),
+              Entry(&T::above, &P::has_above, &P::above, &P::mutable_above)>;
 };
 
 template <>

@@ -13,7 +13,8 @@ namespace ricochet {
 
 template <>
 struct Map<DerivativePaths> : Between<DerivativePaths, v1::DerivativePaths> {
-  using Fields = Entries<Entry(&T::of, &P::of, &P::mutable_of), Entry(&T::by, &P::by, &P::mutable_by)>;
+  using Fields = Entries<Entry(&T::of, &P::of, &P::mutable_of), Entry(&T::by, &P::by, &P::mutable_by),
+                         Entry(&T::find_thresholds, &P::find_thresholds, &P::set_find_thresholds)>;
 };
 
 template <>

@@ -135,7 +135,7 @@ class Client:
     def solve(
         self, scene: SceneLike, *, tolerance: float | None = None, require: Names = (), exclude: Names = (),
         strict: bool = False, history: int = 0, force_history: int = 0, certified: int = 0, both_ends: bool = False,
-        derivatives: Mapping[str, Names] | None = None,
+        derivatives: Mapping[str, Names | bool] | None = None,
     ) -> Record:
         """Computes one impact.
 
@@ -152,7 +152,8 @@ class Client:
             both_ends: also give the impact in which no coordinate of a mechanism is held, as ``free_end``.
             derivatives: also give how fast numbers of the outcome change with numbers of the scene:
                 ``{"of": ["impulse.normal_total_n_s"], "by": ["friction.kinetic_coefficient"]}``; ``jacobian`` gives
-                them as an array.
+                them as an array. ``"find_thresholds": True`` also gives how far each number of ``by`` may move before
+                the impact takes another course, as ``below`` and ``above`` of each derivative.
 
         Returns:
             The outcome as ricochet.v1.Outcome has it: ``outcome.coefficients.newton``,

@@ -18,7 +18,8 @@ namespace {
 constexpr int64_t kFewLinks = 32;
 constexpr int64_t kShortHistory = 2048;
 constexpr int64_t kFewRows = 64;
-constexpr size_t kFewSides = 16;  // Derivatives take two sides of each number of the scene.
+constexpr size_t kImpactsOfSearch = 200;  // A search for a threshold takes so many on a side of a number.
+constexpr size_t kFewSides = 16;          // Derivatives take two sides of each number of the scene.
 constexpr size_t kImpactsOfDifference = 64;
 constexpr double kFewContacts = 27;    // States times the cube of the contacts, in a plane.
 constexpr size_t kFewVelocities = 32;  // Several contacts have those of the system, and the outputs asked for.
@@ -75,6 +76,7 @@ RequestCost CostOf(const SolveRequest& request) {
   }
   // Each number of the scene takes two impacts in double-double arithmetic, and M is factored for each; or differences.
   size_t sides = request.derivatives.has_value() ? 2 * request.derivatives->by.size() : 0;
+  if (sides > 0 && request.derivatives->find_thresholds) sides *= kImpactsOfSearch;
   if (WhyNotExact(request.scene) != nullptr) sides *= kImpactsOfDifference;
   if (sides > kFewSides) {
     return Expensive(CostCause::kDerivatives, static_cast<double>(sides) * Cube(Links(request.scene)));

@@ -369,7 +369,8 @@ TEST_P(SolverContract, DerivativesHaveTheBitsOfTheEngine) {
   scene.friction.kinetic_coefficient = 0.3;
   const DerivativePaths paths = {
       .of = {"bodies_after[0].angular_rad_s[0]", "work.friction_dissipation_j"},
-      .by = {"friction.kinetic_coefficient", "friction.static_coefficient", "planar_body.offset_t_m"}};
+      .by = {"friction.kinetic_coefficient", "friction.static_coefficient", "planar_body.offset_t_m"},
+      .find_thresholds = true};
   const SolveRequest request = {.scene = scene, .derivatives = paths};
   const auto response = solver().Solve(request);
   ASSERT_TRUE(response.ok()) << response.status();
@@ -377,6 +378,7 @@ TEST_P(SolverContract, DerivativesHaveTheBitsOfTheEngine) {
   ASSERT_EQ(response->outcome.derivatives.size(), 6U);
   EXPECT_EQ(response->outcome.derivatives[0].kind, DerivativeKind::kTwoSided);
   EXPECT_EQ(response->outcome.derivatives[1].threshold, Threshold::kDomain);  // Below it would be less than kinetic.
+  EXPECT_EQ(response->outcome.derivatives[1].below, (NearThreshold{Threshold::kDomain, 0.0}));
 }
 
 TEST_P(SolverContract, DerivativesOfBoundsHaveTheBitsOfTheEngine) {

@@ -35,6 +35,7 @@ const std::set<std::string>& WithoutUnit() {
                                               "cosine",
                                               "covariance",
                                               "difference",
+                                              "distance",
                                               "e",
                                               "e_t",
                                               "energetic",

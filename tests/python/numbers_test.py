@@ -255,6 +255,14 @@ class Jacobians(unittest.TestCase):
         self.assertAlmostEqual(derivative.value, -3.5 * 1.8, 11)
         self.assertLess(derivative.error, 1e-9)
 
+    def test_a_derivative_says_how_far_it_holds(self):
+        sphere = {"spatial_contact": {"w_per_kg": [3.5, 0, 0, 3.5, 0, 1], "tangential_m_s": [0, 4], "normal_m_s": -1},
+                  "friction": {"kinetic_coefficient": 0.2}, "restitution": {"energetic": 0.8}}
+        paths = {"of": "impulse.normal_total_n_s", "by": "friction.kinetic_coefficient", "find_thresholds": True}
+        [derivative] = ricochet.solve(sphere, derivatives=paths).derivatives
+        self.assertEqual((derivative.below.threshold, derivative.above.threshold), ("DOMAIN", "IMPACT_END"))
+        self.assertAlmostEqual(derivative.above.distance, 4 / (3.5 * 1.8) - 0.2, 9)
+
     def test_a_batch_has_derivatives_as_columns(self):
         column = "d(coefficients.newton)/d(friction.kinetic_coefficient)"
         mu = [0.05, 0.1, 0.15]

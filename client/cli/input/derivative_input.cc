@@ -23,9 +23,10 @@ absl::StatusOr<std::optional<DerivativePaths>> ReadDerivatives(const DerivativeO
                                                                const std::vector<std::string>& known) {
   if (!options.any()) return std::nullopt;
   if (options.of.empty() || options.by.empty()) {
-    return absl::InvalidArgumentError("--derivatives OF,... and --by BY,... need each other");
+    return absl::InvalidArgumentError(options.thresholds ? "--thresholds needs --derivatives OF,... and --by BY,..."
+                                                         : "--derivatives OF,... and --by BY,... need each other");
   }
-  DerivativePaths paths;
+  DerivativePaths paths = {.of = {}, .by = {}, .find_thresholds = options.thresholds};
   for (const std::string& name : options.of) {
     absl::StatusOr<std::string> of = FullName(name, known, "--derivatives");
     if (!of.ok()) return of.status();

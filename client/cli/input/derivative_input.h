@@ -1,4 +1,4 @@
-// The options --derivatives and --by.
+// The options --derivatives and --by, and --thresholds where outcomes have derivatives.
 
 #ifndef RICOCHET_CLIENT_CLI_INPUT_DERIVATIVE_INPUT_H_
 #define RICOCHET_CLIENT_CLI_INPUT_DERIVATIVE_INPUT_H_
@@ -16,8 +16,9 @@ namespace ricochet::cli {
 
 struct DerivativeOptions {
   std::vector<std::string> of, by;
+  bool thresholds = false;
 
-  bool any() const { return !of.empty() || !by.empty(); }
+  bool any() const { return !of.empty() || !by.empty() || thresholds; }
 };
 
 // `numbers` says what --derivatives names: "numbers of the outcome".

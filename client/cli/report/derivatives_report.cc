@@ -1,6 +1,7 @@
 #include "client/cli/report/derivatives_report.h"
 
 #include <optional>
+#include <utility>
 
 #include "absl/strings/str_cat.h"
 #include "client/cli/io/csv_row.h"
@@ -31,6 +32,8 @@ const char* ThresholdText(Threshold threshold) {
       return "the approach speed is one that a table lists";
     case Threshold::kDomain:
       return "the number cannot be lower, or cannot be higher";
+    case Threshold::kOther:
+      return "the impact takes another course";
     case Threshold::kUnspecified:
       break;
   }
@@ -43,6 +46,18 @@ std::string ErrorText(const Derivative& d) {
   return d.error.has_value() ? absl::StrCat(" +- ", absl::SixDigits(*d.error)) : "";
 }
 
+// Returns a line that says where the course of the impact changes; nothing if no threshold was found.
+std::string ReachText(const std::string& by, const char* moves, const std::optional<NearThreshold>& near) {
+  if (!near.has_value()) return "";
+  const bool is_end = near->threshold == Threshold::kDomain;
+  return absl::StrCat("  If ", by, " ", moves, " by ", Rounded(near->distance), ": ",
+                      is_end ? "it cannot go on" : ThresholdText(near->threshold), ".\n");
+}
+
+void AppendOnce(const std::string& note, std::string& notes) {
+  if (notes.find(note) == std::string::npos) absl::StrAppend(&notes, note);
+}
+
 }  // namespace
 
 std::string DerivativesText(const std::vector<Derivative>& derivatives) {
@@ -50,6 +65,7 @@ std::string DerivativesText(const std::vector<Derivative>& derivatives) {
   table.Add({"of", "by", "derivative"});
   std::string notes;
   for (const Derivative& d : derivatives) {
+    AppendOnce(absl::StrCat(ReachText(d.by, "falls", d.below), ReachText(d.by, "rises", d.above)), notes);
     if (d.kind == DerivativeKind::kTwoSided) {
       table.Add({d.of, d.by, absl::StrCat(Rounded(*d.value), ErrorText(d))});
       continue;
@@ -57,7 +73,7 @@ std::string DerivativesText(const std::vector<Derivative>& derivatives) {
     table.Add({d.of, d.by, absl::StrCat(IfSet(d.from_below), " below, ", IfSet(d.from_above), " above", ErrorText(d))});
     const std::string note = absl::StrCat("  By ", d.by, " on a threshold: ", ThresholdText(d.threshold), ".",
                                           d.reason.empty() ? "" : " ", d.reason, "\n");
-    if (notes.find(note) == std::string::npos) absl::StrAppend(&notes, note);
+    AppendOnce(note, notes);
   }
   return absl::StrCat("\nDerivatives\n", table.Render(2), notes);
 }
@@ -75,6 +91,10 @@ std::string DerivativesCsv(const std::vector<Derivative>& derivatives) {
     row.Number("error", d.error);
     row.Words("threshold", d.kind == DerivativeKind::kTwoSided ? "" : ThresholdName(d.threshold));
     row.Quoted("reason", d.reason);
+    for (const auto& [name, near] : {std::pair("below", d.below), std::pair("above", d.above)}) {
+      row.Number(absl::StrCat("distance_", name), near.has_value() ? std::optional(near->distance) : std::nullopt);
+      row.Words(absl::StrCat("threshold_", name), near.has_value() ? ThresholdName(near->threshold) : "");
+    }
   }
   return CsvOf(rows);
 }

@@ -33,7 +33,10 @@ constexpr char kTau[] = "impulse.normal_total_n_s";
 bool Never() { return false; }
 
 std::vector<Derivative> Differences(const Scene& scene, const DerivativePaths& paths) {
-  absl::StatusOr<std::vector<Derivative>> derivatives = DifferencesOf(scene, {}, paths, Never);
+  const auto source = OutcomeSamples(scene, {}, paths.of, Never);
+  EXPECT_TRUE(source.ok()) << source.status();
+  if (!source.ok()) return {};
+  absl::StatusOr<std::vector<Derivative>> derivatives = DifferencesOf(**source, scene, paths);
   EXPECT_TRUE(derivatives.ok()) << derivatives.status();
   return derivatives.ok() ? *derivatives : std::vector<Derivative>();
 }
@@ -345,7 +348,7 @@ TEST(DifferencesTest, ComponentsShareAnError) {
 TEST(DifferencesTest, StopsSoon) {
   int asked = 0;
   const auto stopped = [&asked] { return ++asked > 10; };
-  const auto derivatives = DifferencesOf(BallOnCushion(), {}, {.of = {kTau}, .by = {kMu}}, stopped);
+  const auto derivatives = DerivativesOf(BallOnCushion(), {}, {.of = {kTau}, .by = {kMu}}, stopped);
   EXPECT_TRUE(absl::IsCancelled(derivatives.status()));
   EXPECT_LE(asked, 11);
 }
