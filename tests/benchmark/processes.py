@@ -30,12 +30,12 @@ def stubs():
 
 
 @contextlib.contextmanager
-def server(*options):
+def server(*options, program=RICOCHETD):
     """Starts a ricochetd with these options on a free port of 127.0.0.1; gives its address."""
     with tempfile.TemporaryDirectory() as directory:
         port_file = os.path.join(directory, "port")
         with open(os.path.join(directory, "log"), "wb") as log:
-            command = [RICOCHETD, "--listen", "127.0.0.1:0", "--port-file", port_file, *options]
+            command = [program, "--listen", "127.0.0.1:0", "--port-file", port_file, *options]
             child = subprocess.Popen(command, stdout=log, stderr=log)
         try:
             until = time.monotonic() + 20

@@ -14,3 +14,4 @@ show /usr/bin/python3 tests/benchmark/python_calls.py
 show /usr/bin/python3 tests/benchmark/growth.py
 echo "-> docs/growth.md, docs/images/growth.svg"
 show /usr/bin/python3 tests/benchmark/fan_out.py
+show /usr/bin/python3 tests/benchmark/baseline.py
