@@ -15,6 +15,7 @@
 #include "core/answer/derivative_sides.h"
 #include "core/answer/differences.h"
 #include "core/answer/near_thresholds.h"
+#include "core/answer/scene_line.h"
 #include "core/base/nearest.h"
 #include "core/contact/contact_tangent.h"
 #include "core/contact/scene_contact.h"
@@ -28,7 +29,6 @@ namespace ricochet {
 namespace {
 
 constexpr char kPhi[] = "pendulum.phi_rad";
-constexpr char kStatic[] = "friction.static_coefficient";
 // A number that is 0 has its sides here. The square of it is still a normal double.
 constexpr double kBeside = 0x1p-300;
 constexpr size_t kOutputs = kPlanarOutputPaths.size();
@@ -308,10 +308,7 @@ std::vector<Derivative> ExactDerivatives(const Scene& scene, const DerivativePat
   std::vector<Derivative> derivatives(paths.of.size() * paths.by.size());
   for (size_t k = 0; k < paths.by.size(); ++k) {
     const std::string& by = paths.by[k];
-    Scene stated = scene;
-    // Friction that is not stated for sticking is that for sliding.
-    auto& static_coefficient = stated.friction.static_coefficient;
-    if (by == kStatic && !static_coefficient.has_value()) static_coefficient = scene.friction.kinetic_coefficient;
+    const Scene stated = Stating(by, scene);
     const Side below = SideAt(StepBeside(stated, by, -1.0));
     const Side above = SideAt(StepBeside(stated, by, 1.0));
     for (size_t i = 0; i < places.size(); ++i) {

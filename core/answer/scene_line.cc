@@ -25,7 +25,16 @@ double AngleOf(const Pendulum& pendulum) {
 
 }  // namespace
 
-SceneLine::SceneLine(Scene scene, const std::string& by) : scene_(std::move(scene)), field_(*ResolveField(by, scene_)) {
+Scene Stating(const std::string& by, Scene scene) {
+  auto& friction = scene.friction;
+  if (by == "friction.static_coefficient" && !friction.static_coefficient.has_value()) {
+    friction.static_coefficient = friction.kinetic_coefficient;
+  }
+  return scene;
+}
+
+SceneLine::SceneLine(Scene scene, const std::string& by)
+    : scene_(Stating(by, std::move(scene))), field_(*ResolveField(by, scene_)) {
   if (const std::optional<double> number = NumberAt(scene_, by)) {
     number_ = *number;
   } else {  // The angle of a pendulum.

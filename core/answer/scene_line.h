@@ -12,6 +12,9 @@
 
 namespace ricochet {
 
+// The scene with the number at `by` stated: friction that is not stated for sticking is that for sliding.
+Scene Stating(const std::string& by, Scene scene);
+
 class SceneLine {
  public:
   // `by` is the path of the number.

@@ -345,6 +345,14 @@ TEST(DifferencesTest, ComponentsShareAnError) {
   EXPECT_NEAR(*found[1].error / *found[0].error, 1.0, 0.5);
 }
 
+// Friction that holds is that of sliding where none is stated: it can be more, which this sliding ball does not feel.
+TEST(DifferencesTest, StaticFrictionThatIsNotStatedHasItsUpperSide) {
+  const Derivative found = Only(BallOnCushion(), kTau, "friction.static_coefficient");
+  EXPECT_EQ(found.kind, DerivativeKind::kOneSided);
+  EXPECT_FALSE(found.from_below.has_value());
+  EXPECT_EQ(found.from_above, 0.0);
+}
+
 TEST(DifferencesTest, StopsSoon) {
   int asked = 0;
   const auto stopped = [&asked] { return ++asked > 10; };

@@ -130,6 +130,16 @@ TEST(NearThresholds, HaveTheirNames) {
   EXPECT_NEAR(found[2].below->distance, 1.0 / slip.SlipThatStops(1.5) - 1.0, 1e-13);
 }
 
+// The friction that holds is that of sliding where the scene states none of its own, and cannot be less.
+TEST(NearThresholds, OfTheStaticFrictionThatIsNotStated) {
+  const Slip slip = {.w_tt = 3.0, .w_tn = -1.2, .w_nn = 1.5, .u = 0.1, .mu = 0.3, .e = 0.5};
+  const std::vector<Derivative> found = DerivativesOf(slip.Stated(), {"friction.static_coefficient"});
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].below, (NearThreshold{Threshold::kDomain, 0.0}));
+  EXPECT_EQ(found[0].above->threshold, Threshold::kFrictionLimit);
+  EXPECT_NEAR(found[0].above->distance, 1.2 / 3.0 - 0.3, 1e-15);
+}
+
 TEST(NearThresholds, OfATableBySpeedAreItsSpeeds) {
   Scene scene = Slip{.w_tt = 3.0, .w_tn = 0.0, .w_nn = 1.5, .u = 100.0, .mu = 0.25, .e = 0.5}.Stated();
   scene.restitution_by_speed = SpeedTable{.speed_m_s = {0.5, 0.75, 4.0}, .factor = {1.0, 0.9, 0.8}};
