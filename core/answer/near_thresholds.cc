@@ -29,8 +29,8 @@ class Search {
       return true;
     }
     std::optional<Sample> beyond;
-    const double last = std::ldexp(line_.unit(), kLast);
-    for (double next = reached * kHalfOctave; next <= last; next *= kHalfOctave) {
+    for (int half = 1; half <= 2 * (kLast - kFirst); ++half) {
+      double next = std::ldexp(half % 2 == 0 ? line_.unit() : kHalfOctave * line_.unit(), kFirst + half / 2);
       if (!At(next, beyond)) return false;
       if (!IsOther(*beside, beyond)) {
         reached = next;
@@ -55,6 +55,7 @@ class Search {
     if (there.has_value()) name = change == Threshold::kUnspecified ? Threshold::kOther : change;
     return true;
   }
+
   static bool IsOther(const Sample& beside, const std::optional<Sample>& sample) {
     return !sample.has_value() || !(sample->course == beside.course);
   }

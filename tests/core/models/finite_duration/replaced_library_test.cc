@@ -10,7 +10,7 @@
 #include "ricochet/solver.h"
 
 // Found before that of SUNDIALS, and known to nobody here.
-extern "C" void* N_VClone(void* /*vector*/) { std::abort(); }
+extern "C" void* N_VClone(void* /*vector*/) { std::abort(); }  // NOLINT(readability-identifier-naming)
 
 namespace ricochet {
 namespace {
