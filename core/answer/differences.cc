@@ -72,7 +72,7 @@ Estimate EstimateOf(const std::array<double, kNeighbours>& changes, const Weight
   }
   // The place of a neighbour is rounded, too.
   rounding += 0x1p-51 * unit * std::fabs(sum[0] / step);
-  const double cut_off = std::fabs(sum[0] - sum[1]) + 0.125 * std::fabs(sum[1] - sum[2]);
+  const double cut_off = std::fabs(sum[0] - sum[1]) + std::fabs(sum[1] - sum[2]);
   return {.rate = sum[0] / step, .error = (cut_off + rounding) / std::fabs(step)};
 }
 
