@@ -54,7 +54,7 @@ std::array<double, kNeighbours> CentralWeights(int count) {
   return weights;
 }
 
-// Of all neighbours, of all but the farthest, and of all but the two farthest.
+// The weights for all neighbours, for all but the farthest, and for all but the two farthest.
 using Weights = std::array<std::array<double, kNeighbours>, 3>;
 
 Weights WeightsBy(std::array<double, kNeighbours> (*weights)(int count)) {

@@ -33,7 +33,7 @@ struct Course {
   int slip_before = 0;  // The sign of the slip before the impact; in space 1 if there is any.
   std::vector<EventKind> events;
   size_t alternatives = 0;
-  ptrdiff_t speeds_passed = 0;  // Of those that tables by speed list, the number that the approach is faster than.
+  ptrdiff_t speeds_passed = 0;  // The number of speeds listed in tables that the approach exceeds.
   friend bool operator==(const Course&, const Course&) = default;
 
   bool Has(EventKind kind) const { return std::find(events.begin(), events.end(), kind) != events.end(); }
@@ -66,8 +66,8 @@ class SampleSource {
   std::vector<double> scales_;
 };
 
-// What lies between two scenes on the courses x and y, and at a scene on the course `here`; unspecified if it has no
-// name.
+// Names the threshold between two scenes on the courses x and y, at which the course is `here`; unspecified if it has
+// no name.
 Threshold ThresholdBetween(const Course& x, const Course& y, const Course& here);
 
 // Errors: CANCELLED once the source is stopped.

@@ -9,7 +9,7 @@
 namespace ricochet {
 namespace {
 
-// The distances that are tried, over the size of the number, as powers of two; and how many there are between two.
+// The search tries distances from 2^kFirst to 2^kLast times the size of the number, each sqrt(2) times the one before.
 constexpr int kFirst = -48;
 constexpr int kLast = 10;
 constexpr double kHalfOctave = 0x1.6a09e667f3bcdp+0;

@@ -63,7 +63,7 @@ UnreadWatch::Answer::Answer(UnreadWatch& watch, grpc::ServerContext& context) : 
 }
 
 UnreadWatch::Answer::~Answer() {
-  // What is let go of here may take its time, with the mutex unlocked.
+  // The destructors of what is let go of may take long, so that the mutex is unlocked for them.
   const auto let_go = [this] {
     const std::lock_guard lock(watch_.mutex_);
     return watch_.answers_.extract(&context_);

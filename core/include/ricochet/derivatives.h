@@ -20,7 +20,7 @@ namespace ricochet {
 struct DerivativePaths {
   std::vector<std::string> of;  // Numbers of the outcome (ricochet/outcome_numbers.h): "impulse.normal_total_n_s".
   std::vector<std::string> by;  // Numbers of the scene, named as the axes of a sweep: "friction.kinetic_coefficient".
-  // Also sets Derivative::below and Derivative::above, which takes some 400 impacts for each number of `by`. Outcomes
+  // Also sets Derivative::below and Derivative::above, which takes up to 350 impacts for each number of `by`. Outcomes
   // alone have them.
   bool find_thresholds = false;
   friend bool operator==(const DerivativePaths&, const DerivativePaths&) = default;

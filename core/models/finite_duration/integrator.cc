@@ -28,7 +28,7 @@ double InRangeOfSearch(double guard) {
   return guard == 0.0 ? guard : std::copysign(std::clamp(std::fabs(guard), kSmallest, kLargest), guard);
 }
 
-// Where the file that a function was loaded from lies.
+// Returns the address at which the file of a function was loaded.
 template <typename Function>
 const void* HomeOf(Function* function) {
   Dl_info info = {};

@@ -48,8 +48,8 @@ struct RoundingErrors {
   double velocity = 0.0;  // Each component of the velocity after, over V = max(|u0|, |v0|).
   double impulse = 0.0;   // Each impulse times its mobility, Wnn |d tau| and Wtt |d f|, over V.
   double work = 0.0;      // Each work and the change of energy, over the sum of the magnitudes of the four works.
-  // What of `impulse` counts beside the others. In double-double arithmetic this is the same over the larger of V and
-  // Wnn tau, Wtt |f|: where W is nearly singular the impulses are large, and their last digit alone is more than V.
+  // The part of `impulse` that counts beside the others: in double-double arithmetic the same over the larger of V and
+  // Wnn tau, Wtt |f|, for where W is nearly singular the impulses are large, and their last digit alone exceeds V.
   double counted_impulse = 0.0;
 
   double Largest() const { return std::max({velocity, counted_impulse, work}); }

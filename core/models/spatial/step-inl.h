@@ -19,8 +19,8 @@
 HWY_BEFORE_NAMESPACE();
 namespace ricochet::spatial::HWY_NAMESPACE {
 
-// Where `is_sought`, the root of an increasing function with f(0) < 0 <= f(end), from a first guess. A step that would
-// leave the bracket is replaced by a bisection, and the first step of at most `last` times the root is the last one.
+// Finds the root of an increasing function with f(0) < 0 <= f(end) in the lanes `is_sought`. A step that would leave
+// the bracket is replaced by a bisection, and the first step of at most `last` times the root is the last one.
 template <typename T, typename Function>
 HWY_INLINE T FindRoot(const Function& function, MaskOf<T> is_sought, T guess, T end, T last) {
   const T zero{0};
@@ -87,8 +87,8 @@ class Step {
     end = EndAtSignChange(normal, goal_.may_turn, end);
     return EndAtSignChange(velocity, Both(Both(goal_.may_turn, goal_.in_restitution), Not(goal_.from.v == T{0})), end);
   }
-  // Where `is_reached`, the xi at which the phase reaches its goal, which is at most `end`; found to `relative` of
-  // itself.
+  // Finds the xi at which the phase reaches its goal, in the lanes `is_reached`, to `relative` of itself. It is at most
+  // `end`.
   HWY_INLINE T GoalWithin(MaskOf<T> is_reached, T end, T relative) const {
     const T guess = goal_.ImpulseToGoal(contact_.SlopesAlong({frame_.c, frame_.s})) * contact_.rate / slip_;
     const auto rates = [this](T xi) HWY_ATTR { return goal_.GoalRates(contact_, At(xi)); };

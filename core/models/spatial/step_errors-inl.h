@@ -72,7 +72,7 @@ struct StepErrors {
     doubtful.Add(doubt, CopySign(part, product));
   }
 
-  // Where `counts`, known errors and their doubts count by their norm from here on, and are carried no further.
+  // In the lanes `counts`, known errors and their doubts count by their norm from here on and are carried no further.
   HWY_INLINE void CountByNorm(const Matrix<T>& w, MaskOf<T> counts) {
     if (InNoLane(counts)) return;
     const T zero{0};

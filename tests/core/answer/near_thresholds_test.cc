@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -17,8 +16,6 @@
 
 namespace ricochet {
 namespace {
-
-using ::testing::ElementsAre;
 
 constexpr char kFriction[] = "friction.kinetic_coefficient";
 constexpr char kTangential[] = "planar_contact.tangential_m_s";
@@ -150,7 +147,7 @@ TEST(NearThresholds, OfATableBySpeedAreItsSpeeds) {
   EXPECT_NEAR(found[0].above->distance, 0.25, 1e-15);
 }
 
-// What tells courses apart, as an answer shows it.
+// Returns the regime and the events of the answer, by which courses differ.
 std::vector<int> CourseAt(const Scene& scene) {
   const absl::StatusOr<SolveResponse> answer = LocalSolver().Solve({.scene = scene});
   if (!answer.ok()) return {};

@@ -9,7 +9,7 @@
 #include "ricochet/error.h"
 #include "ricochet/solver.h"
 
-// Found before that of SUNDIALS, and known to nobody here.
+// The program finds this function before that of SUNDIALS. It must never be called.
 extern "C" void* N_VClone(void* /*vector*/) { std::abort(); }  // NOLINT(readability-identifier-naming)
 
 namespace ricochet {
