@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "absl/strings/match.h"
-#include "core/answer/derivatives.h"
+#include "core/answer/derivative_paths.h"
 #include "core/answer/differences.h"
 #include "core/answer/scene_bounds.h"
 #include "core/contact/scene_contact.h"

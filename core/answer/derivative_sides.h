@@ -15,17 +15,17 @@ namespace ricochet {
 struct OneSided {
   std::optional<double> rate;
   const char* why_none = "";    // A clause that says why there is no rate; else empty.
-  std::optional<double> error;  // Of an estimated rate.
+  std::optional<double> error;  // An estimated rate has one.
 };
 
 // `agree` says that both rates exist and differ by no more than their errors. The paths and the error are left unset.
 Derivative Join(const OneSided& below, const OneSided& above, bool agree, Threshold threshold);
 
-// A path without its last index.
+// Returns a path without its last index.
 inline absl::string_view HeadOf(absl::string_view path) { return path.substr(0, path.rfind('[')); }
 
-// What the rounding of the outcome's number at `path` is relative to, for a contact that moves at `speed` before the
-// impact and takes the normal impulse `impulse`; 0 for a number of another kind.
+// Returns the size to which the rounding of the outcome's number at `path` is relative, for a contact that moves at
+// `speed` before the impact and takes the normal impulse `impulse`; 0 for a number of another kind.
 double ScaleOf(std::string_view path, double speed, double impulse);
 
 }  // namespace ricochet

@@ -27,7 +27,7 @@
 
 namespace ricochet {
 
-// What tells the pieces of a piecewise smooth function of scenes from each other.
+// A Course tells the pieces of a piecewise smooth function of scenes from each other.
 struct Course {
   Regime regime = Regime::kUnspecified;
   int slip_before = 0;  // The sign of the slip before the impact; in space 1 if there is any.

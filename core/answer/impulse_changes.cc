@@ -48,7 +48,7 @@ class Neighbours {
 
   double slip_pace() const { return slip_pace_; }          // |u_A'| is at most that.
   double steepest() const { return steepest_; }            // |v_A'| is at most that.
-  double most_friction() const { return most_friction_; }  // Of A and of B.
+  double most_friction() const { return most_friction_; }  // A and B share it.
   double root_trace() const { return root_trace_; }        // The length of u is at most this times |u|.
   bool has_friction() const { return most_friction_ > 0.0; }
 

@@ -23,8 +23,6 @@
 namespace ricochet {
 namespace {
 
-constexpr char kPhi[] = "pendulum.phi_rad";
-
 // ---- The paths of ranges ----
 
 constexpr char kNotImpulsive[] = "bounds are those of the impulsive impact, which does not know it";

@@ -25,7 +25,7 @@ struct ContactTangent {
   PlanarDelassus w;
   double u0 = 0.0, v0 = 0.0;
   double kinetic_friction = 0.0, static_friction = 0.0, restitution = 0.0;
-  std::vector<double> before, response;  // As in PlanarReduction.
+  std::vector<double> before, response;  // PlanarReduction explains both.
   // One coordinate alone is free, so that W has rank one whatever the numbers are.
   bool keeps_rank_one = false;
   bool is_at_speed_of_table = false;  // The approach speed is one that a table lists.

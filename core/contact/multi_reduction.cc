@@ -204,7 +204,7 @@ double DistanceFromRange(const Eigen::MatrixXd& w, const Eigen::VectorXd& v, con
   }
   const Eigen::MatrixXd scaled = scales.asDiagonal() * w * scales.asDiagonal();
   const Eigen::VectorXd x = scales.asDiagonal() * v;
-  const double norm = (scales.asDiagonal() * sizes).norm();
+  const double norm = (scales.asDiagonal() * sizes).stableNorm();
   if (norm == 0.0) return 0.0;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(scaled);
   Eigen::VectorXd outside = Eigen::VectorXd::Zero(v.size());

@@ -14,7 +14,6 @@
 #include "core/contact/linkage_matrices.h"
 #include "core/contact/mechanism.h"
 #include "core/contact/planar_body_share.h"
-#include "core/numerics/products.h"
 
 namespace ricochet {
 namespace {
@@ -80,14 +79,14 @@ void SettleRank(PlanarReduction& reduction) {
 void SettleVelocity(const Eigen::Vector2d& sizes, PlanarReduction& reduction) {
   const auto& [tt, tn, nn] = reduction.w;
   if (tt == 0.0 || nn == 0.0 || PlanarDelassus{tt, tn, nn}.Rank() == 2) return;
-  const double noise = std::sqrt(RankNoise(reduction));
-  const double outside = DifferenceOfProducts(reduction.u0[0], nn, reduction.v0, tn);
-  if (!(std::abs(outside) <= noise * (sizes[0] * nn + sizes[1] * std::abs(tn)))) return;
-  if (nn >= tt) {
-    reduction.u0[0] = reduction.v0 * (tn / nn);
-  } else {
-    reduction.v0 = reduction.u0[0] * (tn / tt);
-  }
+  // Divides by the larger entry, because a product of a velocity and an entry of W may underflow.
+  const bool normal_leads = nn >= tt;
+  const double leading = normal_leads ? reduction.v0 : reduction.u0[0];
+  double& following = normal_leads ? reduction.u0[0] : reduction.v0;
+  const double slope = tn / std::max(nn, tt);
+  const double size = sizes[normal_leads ? 0 : 1] + std::abs(slope) * sizes[normal_leads ? 1 : 0];
+  const double outside = std::fma(-slope, leading, following);
+  if (std::abs(outside) <= std::sqrt(RankNoise(reduction)) * size) following = slope * leading;
 }
 
 PlanarReduction ReduceOne(const Pendulum& pendulum) {
@@ -133,7 +132,7 @@ void SettleRankAndVelocity(const Eigen::Vector3d& sizes, SpatialReduction& reduc
     if (solver.eigenvalues()(i) > noise || along.isZero(0.0)) continue;  // A row of J that is 0 is exact.
     settled -= solver.eigenvalues()(i) * along * along.transpose();
     const double outside = axis.dot(scales.asDiagonal() * velocity);
-    if (std::abs(outside) <= std::sqrt(noise) * (scales.asDiagonal() * sizes).norm()) velocity -= outside * along;
+    if (std::abs(outside) <= std::sqrt(noise) * (scales.asDiagonal() * sizes).stableNorm()) velocity -= outside * along;
   }
   reduction.w = {settled(0, 0), settled(0, 1), settled(0, 2), settled(1, 1), settled(1, 2), settled(2, 2)};
   reduction.u0 = {velocity(0), velocity(1)};
@@ -399,7 +398,7 @@ double ShareOutsideRange(const SpatialReduction& reduction) {
   for (int i = 0; i < 3; ++i) {
     if (solver.eigenvalues()(i) > 16.0 * kEpsilon) continue;
     const Eigen::Vector3d outside = solver.eigenvectors().col(i);
-    const double norm = scaled_velocity.norm();
+    const double norm = scaled_velocity.stableNorm();
     if (norm > 0.0) share = std::max(share, std::abs(outside.dot(scaled_velocity)) / norm);
   }
   return share;
@@ -411,7 +410,7 @@ bool VelocityIsInRange(const PlanarReduction& reduction) {
   const double u = reduction.u0[0];
   const double v = reduction.v0;
   if (nn == 0.0 && v != 0.0) return false;
-  return std::abs(DifferenceOfProducts(u, nn, v, tn)) <= 8.0 * kEpsilon * (std::abs(u) * nn + std::abs(v * tn));
+  return ProductsAgree(u, nn, v, tn, kRangeTolerance);
 }
 
 bool VelocityIsInRange(const SpatialReduction& reduction) { return ShareOutsideRange(reduction) <= 64.0 * kEpsilon; }

@@ -37,7 +37,7 @@ class CallControl {
   using Clock = std::chrono::steady_clock;
 
   CallOptions options_;
-  Clock::time_point now_ = Clock::time_point::min();  // As of the last question.
+  Clock::time_point now_ = Clock::time_point::min();  // The time of the last question.
   Clock::time_point next_look_ = Clock::time_point::min();
   Clock::time_point piece_end_ = Clock::time_point::max();
   bool is_stopped_ = false;

@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "absl/strings/str_cat.h"
-#include "core/answer/derivatives.h"
+#include "core/answer/derivative_paths.h"
 #include "core/certified/certified.h"
 #include "core/plan/demand_fields.h"
 #include "core/plan/number_demand.h"

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "core/base/floating_point_mode.h"
+
 namespace ricochet {
 namespace {
 
@@ -43,6 +45,7 @@ void HelpedRun::AskForHelp(std::unique_lock<std::mutex>& lock) {
 }
 
 void HelpedRun::RunHelper(absl::FunctionRef<bool()> gives_way) {
+  const DefaultFloatingPoint mode;
   std::exception_ptr failure;
   try {
     help_(gives_way);

@@ -14,6 +14,7 @@
 #include "core/answer/scene_outcome.h"
 #include "core/audit/audit_scene.h"
 #include "core/base/decimal.h"
+#include "core/base/floating_point_mode.h"
 #include "core/base/invariant.h"
 #include "core/certified/certified.h"
 #include "core/cost/cost.h"
@@ -123,6 +124,7 @@ LocalSolver::LocalSolver(const Limits& limits, int threads)
 }
 
 absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   CallControl control(options);
   // The only return names the response, so that a large answer is made in the place of the caller's.
   absl::StatusOr<SolveResponse> response(absl::in_place);
@@ -133,6 +135,7 @@ absl::StatusOr<SolveResponse> LocalSolver::DoSolve(const SolveRequest& request, 
 }
 
 absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   std::optional<SceneContact> contact;
@@ -146,6 +149,7 @@ absl::StatusOr<PlanResponse> LocalSolver::DoPlan(const PlanRequest& request, con
 }
 
 absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& request, const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   const auto stopped = [&control] { return control.IsStopped(); };
@@ -179,6 +183,7 @@ absl::StatusOr<BoundsResponse> LocalSolver::DoBounds(const BoundsRequest& reques
 }
 
 absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
@@ -190,6 +195,7 @@ absl::StatusOr<AuditResponse> LocalSolver::DoAudit(const AuditRequest& request, 
 
 absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchRequest& request,
                                                              const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
@@ -201,6 +207,7 @@ absl::StatusOr<AuditBatchResponse> LocalSolver::DoAuditBatch(const AuditBatchReq
 }
 
 absl::StatusOr<FitResponse> LocalSolver::DoFit(const FitRequest& request, const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   CallControl control(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   if (absl::Status ended = control.WhyEnded(); !ended.ok()) return ended;
@@ -212,6 +219,7 @@ absl::StatusOr<FitResponse> LocalSolver::DoFit(const FitRequest& request, const 
 
 absl::StatusOr<MultiContactResponse> LocalSolver::DoMultiContact(const MultiContactRequest& request,
                                                                  const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   CallControl watch(options);
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return too_large;
   std::optional<MultiReduction> reduction;
@@ -234,6 +242,7 @@ class LocalBatches final : public BatchSession::Worker {
   absl::Status CheckSize(size_t rows) const override { return CheckBatchSize(rows, run_->columns(), limits_); }
 
   absl::StatusOr<BatchSummary> Solve(const BatchRows& rows) override {
+    const DefaultFloatingPoint mode;
     if (absl::Status too_large = CheckSize(RowCount(rows)); !too_large.ok()) return too_large;
     if (absl::Status ended = control_.WhyEnded(); !ended.ok()) return ended;
     absl::StatusOr<BatchSummary> summary = run_->Solve(rows, [this] { return control_.IsStopped(); });
@@ -251,6 +260,7 @@ class LocalBatches final : public BatchSession::Worker {
 }  // namespace
 
 absl::StatusOr<BatchSession> LocalSolver::DoOpenBatches(const BatchSetup& setup, const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   if (absl::Status too_large = CheckLimits(setup, limits_); !too_large.ok()) return too_large;
   absl::StatusOr<std::unique_ptr<ParallelBatch>> run = ParallelBatch::Make(setup, HelpersOf(options));
   if (!run.ok()) return run.status();
@@ -267,6 +277,7 @@ absl::StatusOr<BatchResponse> LocalSolver::DoSolveBatch(const BatchSetup& setup,
 }
 
 SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return SweepStream(too_large);
   absl::StatusOr<SweepRun> made = SweepRun::Make(request, HelpersOf(options));
   if (!made.ok()) return SweepStream(made.status());
@@ -276,6 +287,7 @@ SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions&
   auto next = [run = *std::move(made), control = CallControl(options), size = ChunkSize(),
                is_first = true]() mutable -> std::optional<absl::StatusOr<SweepChunk>> {
     if (run.ended()) return std::nullopt;
+    const DefaultFloatingPoint mode_of_part;
     control.StartPiece(std::exchange(is_first, false) ? kFirstChunkTime : kChunkTime);
     const int64_t most_bytes = size.Next(std::chrono::steady_clock::now());
     absl::StatusOr<SweepChunk> chunk = run.NextChunk([&control] { return control.IsStopped(); },
@@ -289,12 +301,14 @@ SweepStream LocalSolver::DoSweep(const SweepRequest& request, const CallOptions&
 }
 
 CostStream LocalSolver::DoCost(const CostRequest& request, const CallOptions& options) const {
+  const DefaultFloatingPoint mode;
   if (absl::Status too_large = CheckLimits(request, limits_); !too_large.ok()) return CostStream(too_large);
   absl::StatusOr<CostStudy> made = CostStudy::Make(request);
   if (!made.ok()) return CostStream(made.status());
   auto next = [study = *std::move(made),
                control = CallControl(options)]() mutable -> std::optional<absl::StatusOr<CostChunk>> {
     if (study.ended()) return std::nullopt;
+    const DefaultFloatingPoint mode_of_part;
     absl::StatusOr<CostChunk> chunk = study.NextChunk([&control] { return control.IsStopped(); });
     if (!chunk.ok()) return control.OrWhyEnded(chunk.status());
     chunk->engine = ThisEngine();

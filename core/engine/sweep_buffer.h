@@ -68,7 +68,7 @@ class SweepBuffer {
   std::map<int64_t, Part> computed_;      // Blocks behind one that is not computed yet.
   int64_t ready_ = 0;                     // Every point before this one is computed.
   int64_t emitted_ = 0;                   // Every point before this one has left.
-  SweepSummary ready_tallies_;            // Those of the points that can leave.
+  SweepSummary ready_tallies_;            // They count the points that can leave.
 };
 
 }  // namespace ricochet

@@ -80,6 +80,7 @@ class Fitter {
 
   FitResponse Fit() {
     Search();
+    if (model_.is_stopped()) return {};  // There may be no fit yet to look at.
     Look();
     for (int restart = 0; FollowUnknowns(restart < kMostRestarts) && !model_.is_stopped(); ++restart) Look();
     FollowRegion();

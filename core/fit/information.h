@@ -17,8 +17,8 @@ namespace ricochet::fit {
 struct Information {
   size_t rank = 0;                              // Combinations of unknowns that are seen.
   std::vector<bool> is_seen;                    // By itself.
-  std::vector<double> covariance, correlation;  // As in FitResponse.
-  std::vector<std::vector<double>> row_shares;  // As in FitEstimate, for each unknown.
+  std::vector<double> covariance, correlation;  // FitResponse explains both.
+  std::vector<std::vector<double>> row_shares;  // FitEstimate explains them; one list for each unknown.
 };
 
 // `derivatives` are those of the predicted numbers (core/fit/model.h), `weights` those of the squared residuals.

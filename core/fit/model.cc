@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "core/answer/derivatives.h"
+#include "core/answer/exact_derivatives.h"
 #include "core/rows/row_source.h"
 
 namespace ricochet::fit {
@@ -102,7 +102,7 @@ bool Model::Exact(absl::Span<const double> unknowns, const std::vector<bool>& is
     paths.by.push_back(problem_.batch.fields[k]);
   }
   derivatives.assign(problem_.numbers.size() * unknowns.size(), 0.0);
-  std::vector<Derivative> of_row;
+  std::optional<ExactDerivatives> exact;
   std::optional<size_t> row;
   for (size_t i = 0; i < problem_.numbers.size(); ++i) {
     const Number& number = problem_.numbers[i];
@@ -111,11 +111,12 @@ bool Model::Exact(absl::Span<const double> unknowns, const std::vector<bool>& is
       std::optional<SceneContact> contact;
       const Scene& scene = SceneOf(number.row, unknowns);
       if (is_stopped_ || !driven_.IsValid(contact)) return false;
-      of_row = ExactDerivatives(scene, paths);
+      if (!exact.has_value()) exact.emplace(scene, paths);
+      exact->Compute(scene);
       row = number.row;
     }
     for (size_t j = 0; j < places.size(); ++j) {
-      derivatives[i * unknowns.size() + places[j]] = SlopeOf(of_row[number.column * places.size() + j]);
+      derivatives[i * unknowns.size() + places[j]] = SlopeOf(exact->At(number.column, j));
     }
   }
   return true;

@@ -11,7 +11,7 @@
 #include "absl/strings/str_cat.h"
 #include "absl/strings/str_replace.h"
 #include "absl/strings/strip.h"
-#include "core/answer/derivatives.h"
+#include "core/answer/derivative_paths.h"
 #include "core/base/decimal.h"
 #include "core/base/nearest.h"
 #include "core/scene/field.h"

@@ -99,7 +99,7 @@ class Ray {
   Model& model_;
   std::vector<double> last_;                                  // The unknowns of the last place.
   double longest_ = std::numeric_limits<double>::infinity();  // The distance to the nearest bound.
-  RayEnd end_;  // What the places so far have shown; its kind is not known yet.
+  RayEnd end_;  // It holds what the places so far have shown, but for the kind.
 };
 
 }  // namespace

@@ -25,7 +25,7 @@ inline constexpr int64_t kOrdersBudget = 4096;
 struct DistinctOutcome {
   Attained attained;                     // By the first order found.
   std::vector<std::vector<int>> orders;  // The first kMostOrdersListed orders.
-  std::vector<int> repeats_from;         // As in Attained, one for each order.
+  std::vector<int> repeats_from;         // One for each order; Attained explains it.
   int64_t order_count = 0;
 };
 

@@ -40,7 +40,7 @@ struct Problem {
 
   int N(int contact) const { return d * contact + d - 1; }  // The place of the normal direction of a contact.
   int T(int contact) const { return d * contact; }          // The place of its first tangential direction.
-  bool AreCoupled(int i, int j) const { return !w.block(d * i, d * j, d, d).isZero(0.0); }
+  bool AreCoupled(int i, int j) const { return !w.block(T(i), T(j), d, d).isZero(0.0); }
 };
 
 struct ContactWorks {
@@ -74,7 +74,7 @@ struct Attained {
     if (error_terms > 0.0) sum += std::sqrt(error_terms * std::max(row.dot(error_squares * row), 0.0));
     return sum * (1.0 + 4.0 * kEpsilon);
   }
-  // That of component j of the velocity.
+  // A bound on the error of component j of the velocity.
   double ErrorOf(const Problem& problem, int j) const {
     return ErrorOfRow(problem.w.col(j), problem.w(j, j)) + slack(j);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -28,6 +29,7 @@ constexpr char kSpringsName[] = "springs";
 // The width of a range that is rounding alone, over its scale.
 constexpr double kNoWidth = 1e-11;
 constexpr double kPi = 3.141592653589793;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // A sum of products with the rounding of one. Terms that cancel leave nothing, in whichever order they are added.
 class Sum {
@@ -142,9 +144,9 @@ class Answerer {
     if (!(pair.cosine >= 0.0 && pair.cosine < 1.0)) return;
     // cos(theta) = 1 - theta^2/2 + ..., so that this is m or next to it.
     const double near = std::min(kPi / std::sqrt(2.0 * (1.0 - pair.cosine)), 1e6);
-    for (double m = std::max(std::floor(near), 2.0); m <= near + 2.0; ++m) {
-      const double exact = m == 2.0 ? 0.0 : m == 3.0 ? 0.5 : Cos(kPi / m);
-      if (std::abs(pair.cosine - exact) <= kEpsilon * std::max(exact, 0.5)) pair.divisor = static_cast<int32_t>(m);
+    for (auto m = static_cast<int32_t>(std::max(near, 2.0)); m <= near + 2.0; ++m) {
+      const double exact = m == 2 ? 0.0 : m == 3 ? 0.5 : Cos(kPi / m);
+      if (std::abs(pair.cosine - exact) <= kEpsilon * std::max(exact, 0.5)) pair.divisor = m;
     }
   }
 
@@ -254,10 +256,16 @@ class Answerer {
         const double value = output.before + v_scale_ * (bound - before + sign * slack);
         return value + sign * 4.0 * kEpsilon * (std::abs(output.before) + std::abs(value));
       };
+      // Scaling is exact but for subnormal results, which are moved outwards by the step that they may have lost.
+      const auto scaled = [this](double bound, double outwards) {
+        const double value = v_scale_ * bound;
+        const bool is_exact = bound == 0.0 || std::abs(value) >= std::numeric_limits<double>::min();
+        return is_exact ? value : std::nextafter(value, outwards);
+      };
       const bool is_contact = i < static_cast<size_t>(sorted_.problem.v.size());
       PossibleRange& range = answer_.possible.emplace_back(PossibleRange{.output = output.name});
-      range.lower = is_contact ? ranges[i].lower * v_scale_ : end(ranges[i].lower, -1.0);
-      range.upper = is_contact ? ranges[i].upper * v_scale_ : end(ranges[i].upper, 1.0);
+      range.lower = is_contact ? scaled(ranges[i].lower, -kInfinity) : end(ranges[i].lower, -1.0);
+      range.upper = is_contact ? scaled(ranges[i].upper, kInfinity) : end(ranges[i].upper, 1.0);
     }
   }
 

@@ -101,19 +101,19 @@ HWY_INLINE Dual<N> Select(Mask condition, const Dual<N>& yes, const Dual<N>& no)
   return {Select(condition, yes.value, no.value), Select(condition, yes.rate, no.rate)};
 }
 
-// Both numbers in double.
-using RoundedDual = Dual<Plain<double>>;
+// Both numbers in double, or in a vector of doubles.
 template <typename N>
-HWY_INLINE RoundedDual Rounded(const Dual<N>& x) {
-  return {Plain<double>(Rounded(x.value)), Plain<double>(Rounded(x.rate))};
+HWY_INLINE auto Rounded(const Dual<N>& x) {
+  using Number = Plain<decltype(Rounded(x.value))>;
+  return Dual<Number>(Number(Rounded(x.value)), Number(Rounded(x.rate)));
 }
 
-template <>
-struct Lanes<RoundedDual> {
-  HWY_INLINE static RoundedDual Fill(double value) { return RoundedDual::Constant(value); }
+template <typename V>
+struct Lanes<Dual<Plain<V>>> {
+  HWY_INLINE static Dual<Plain<V>> Fill(double value) { return Dual<Plain<V>>::Constant(value); }
 };
-template <>
-struct Codes<RoundedDual> : Codes<double> {};
+template <typename V>
+struct Codes<Dual<Plain<V>>> : Codes<V> {};
 
 }  // namespace ricochet::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

@@ -23,7 +23,7 @@ struct PlannedScene {
   // choice leaves out are left out of it. std::monostate if there is no model.
   std::variant<std::monostate, pendulum::Problem, planar::Problem, spatial::Problem> problem;
   ContactPhysics physics;           // Set for a contact in a plane; it lacks these effects, too.
-  EffectiveCoefficients effective;  // Those of the scene, with all effects.
+  EffectiveCoefficients effective;  // The coefficients of the scene with all effects.
   Choice choice;
   Demand demand;  // That it was planned for.
 

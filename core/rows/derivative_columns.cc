@@ -7,6 +7,7 @@
 #include "absl/strings/match.h"
 #include "absl/strings/str_cat.h"
 #include "absl/strings/strip.h"
+#include "core/answer/derivative_paths.h"
 #include "core/answer/derivatives.h"
 #include "ricochet/error.h"
 
@@ -39,13 +40,31 @@ DerivativeColumns::DerivativeColumns(absl::Span<const std::string> columns) {
   }
 }
 
+std::vector<size_t> DerivativeColumns::Others(size_t count) const {
+  std::vector<size_t> others;
+  for (size_t column = 0, next = 0; column < count; ++column) {
+    const bool is_derivative = next < asked_.size() && asked_[next].column == column;
+    if (is_derivative) ++next;
+    if (!is_derivative) others.push_back(column);
+  }
+  return others;
+}
+
 absl::Status DerivativeColumns::Set(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped,
-                                    absl::Span<double* const> columns, size_t i, bool& is_complete) const {
-  const absl::StatusOr<std::vector<Derivative>> derivatives = DerivativesOf(scene, demand, paths_, stopped);
-  if (!derivatives.ok()) return derivatives.status();
+                                    absl::Span<double* const> columns, size_t i, bool& is_complete) {
+  const bool is_exact = WhyNotExact(scene) == nullptr;
+  absl::StatusOr<std::vector<Derivative>> derivatives;
+  if (is_exact) {
+    if (!exact_.has_value()) exact_.emplace(scene, paths_);
+    exact_->Compute(scene);
+  } else {
+    derivatives = DerivativesOf(scene, demand, paths_, stopped);
+    if (!derivatives.ok()) return derivatives.status();
+  }
   is_complete = true;
   for (const auto& [column, of, by] : asked_) {
-    const std::optional<double>& value = (*derivatives)[of * paths_.by.size() + by].value;
+    const std::optional<double> value =
+        is_exact ? exact_->At(of, by).value : (*derivatives)[of * paths_.by.size() + by].value;
     is_complete &= value.has_value();
     columns[column][i] = value.value_or(std::numeric_limits<double>::quiet_NaN());
   }

@@ -8,12 +8,14 @@
 #define RICOCHET_CORE_ROWS_DERIVATIVE_COLUMNS_H_
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "absl/functional/function_ref.h"
 #include "absl/status/status.h"
 #include "absl/types/span.h"
+#include "core/answer/exact_derivatives.h"
 #include "core/base/derivative_name.h"
 #include "core/plan/demand.h"
 #include "ricochet/derivatives.h"
@@ -31,11 +33,14 @@ class DerivativeColumns {
 
   bool empty() const { return asked_.empty(); }
 
+  // Returns the numbers of those of `count` columns that are no derivatives.
+  std::vector<size_t> Others(size_t count) const;
+
   // Sets entry `i` of the columns that are derivatives for a valid scene that has an outcome, and `is_complete` to
-  // whether all of them have a value.
+  // whether all of them have a value. All scenes have one form.
   // Errors: those of DerivativesOf.
   absl::Status Set(const Scene& scene, const Demand& demand, absl::FunctionRef<bool()> stopped,
-                   absl::Span<double* const> columns, size_t i, bool& is_complete) const;
+                   absl::Span<double* const> columns, size_t i, bool& is_complete);
 
  private:
   // A column, with the places of its numbers among the paths.
@@ -45,6 +50,7 @@ class DerivativeColumns {
 
   DerivativePaths paths_;  // Each number once.
   std::vector<Asked> asked_;
+  std::optional<ExactDerivatives> exact_;  // For the form of the first scene that has exact ones.
 };
 
 }  // namespace ricochet

@@ -65,7 +65,7 @@ class DrivenScene {
   DrivenFields fields_;                    // One a path.
   bool has_relations_ = false;             // True if the scene has rules beyond those of single numbers.
   bool reduces_once_ = false;              // True if no field changes the reduction.
-  std::optional<AnyReduction> reduction_;  // That of all rows if they share one, once a row has asked for it.
+  std::optional<AnyReduction> reduction_;  // All rows may share one; it is set once a row has asked for it.
   std::vector<Last> last_;                 // One a field.
   int64_t bad_fields_ = 0;
 };

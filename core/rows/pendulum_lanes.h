@@ -47,7 +47,7 @@ class PendulumLanes : public SceneLanes {
   pendulum::ProblemColumns problems_;
   std::array<std::optional<double>, kNumberCount> held_;  // The number that all problems have, where that is known.
 
-  std::vector<pendulum::Output> outputs_;         // Those of the kernel, each once.
+  std::vector<pendulum::Output> outputs_;         // The kernel computes these, each once.
   std::vector<std::optional<size_t>> column_of_;  // For each of them the column that it is, if it is one.
   std::vector<double*> places_;                   // The places of the outputs in the current block.
   std::optional<size_t> dissipation_;             // The column of minus the work of friction.

@@ -37,6 +37,12 @@ bool AnyStartsWith(const std::vector<std::string>& columns, absl::string_view st
                      [start](const std::string& column) { return absl::StartsWith(column, start); });
 }
 
+std::vector<std::string> Some(const std::vector<std::string>& names, const std::vector<size_t>& places) {
+  std::vector<std::string> some;
+  for (const size_t place : places) some.push_back(names[place]);
+  return some;
+}
+
 }  // namespace
 
 RowSolver::RowSolver(const Scene& scene, std::vector<std::string> fields, std::vector<std::string> columns,
@@ -48,8 +54,10 @@ RowSolver::RowSolver(const Scene& scene, std::vector<std::string> fields, std::v
       in_space_(TangentialDirections(scene.system) == 2),
       reader_(driven_.scene(), column_names_),
       derivatives_(column_names_),
-      lanes_(SceneLanes::Make(driven_.scene(), column_names_, demand_)),
+      others_(derivatives_.Others(column_names_.size())),
+      lanes_(SceneLanes::Make(driven_.scene(), Some(column_names_, others_), demand_)),
       places_(column_names_.size()),
+      other_places_(others_.size()),
       asks_rates_errors_(AnyStartsWith(column_names_, "errors.rates_after") ||
                          AnyStartsWith(column_names_, "errors.momentum_change")),
       asks_free_end_(AnyStartsWith(column_names_, "free_end.")) {
@@ -66,6 +74,7 @@ std::optional<int64_t> RowSolver::Solve(RowSource& source, int64_t first, int64_
     const size_t size = std::min(kBlock, static_cast<size_t>(count - done));
     fields_ = source.At(first + done, size);
     for (size_t c = 0; c < places_.size(); ++c) places_[c] = sink.columns[c] + done;
+    for (size_t k = 0; k < others_.size(); ++k) other_places_[k] = places_[others_[k]];
     const std::optional<size_t> solved = SolveBlock(size, stopped, is_enough);
     if (!solved.has_value()) return std::nullopt;
     Finish(first, static_cast<size_t>(done), *solved, sink);
@@ -85,18 +94,18 @@ std::optional<size_t> RowSolver::SolveBlock(size_t count, absl::FunctionRef<bool
 
 // Rows that the lanes leave go by their scenes. Returns false if it was stopped.
 bool RowSolver::SolveInLanes(size_t count, absl::FunctionRef<bool()> stopped) {
-  lanes_->Solve(lane_columns_->Of(fields_, count), count, places_, block_);
+  lanes_->Solve(lane_columns_->Of(fields_, count), count, other_places_, block_);
   std::transform(block_.inadmissible.begin(), block_.inadmissible.begin() + count, statuses_.begin(),
                  [](bool inadmissible) { return inadmissible ? RowStatus::kInadmissible : RowStatus::kOk; });
-  if (block_.is_complete) return true;
+  if (block_.is_complete && derivatives_.empty()) return true;
+  block_.is_complete = block_.is_uniform = false;
   for (size_t i = 0; i < count; ++i) {
-    if (block_.models[i] != Model::kUnspecified) {
-      CheckNumbers(i);
-      continue;
-    }
-    if (stopped()) return false;
+    const bool is_solved = block_.models[i] != Model::kUnspecified;
+    if (is_solved) CheckNumbers(i);
+    if (is_solved && derivatives_.empty()) continue;
+    if (!is_solved && stopped()) return false;
     driven_.SetRow(fields_, i);
-    if (!Begin(i, stopped)) return false;
+    if (!(is_solved ? SetDerivatives(i, stopped) : Begin(i, stopped))) return false;
   }
   return true;
 }
@@ -177,6 +186,7 @@ void RowSolver::SetBad(size_t i, RowStatus status) {
 
 // Returns false if it was stopped.
 bool RowSolver::SetDerivatives(size_t i, absl::FunctionRef<bool()> stopped) {
+  if (!HasNumbers(statuses_[i])) return true;
   bool is_complete = true;
   const absl::Status set = derivatives_.Set(driven_.scene(), demand_, stopped, places_, i, is_complete);
   if (absl::IsCancelled(set)) return false;
@@ -190,11 +200,11 @@ bool RowSolver::SetDerivatives(size_t i, absl::FunctionRef<bool()> stopped) {
 
 // Checks the numbers of a row that the lanes have solved.
 void RowSolver::CheckNumbers(size_t i) {
-  const auto bad =
-      std::find_if(places_.begin(), places_.end(), [i](const double* column) { return !std::isfinite(column[i]); });
-  if (bad == places_.end()) return;
+  const auto bad = std::find_if(other_places_.begin(), other_places_.end(),
+                                [i](const double* column) { return !std::isfinite(column[i]); });
+  if (bad == other_places_.end()) return;
   statuses_[i] = RowStatus::kNotRepresentable;
-  too_large_[i] = static_cast<size_t>(bad - places_.begin());
+  too_large_[i] = others_[static_cast<size_t>(bad - other_places_.begin())];
 }
 
 // Overwrites the rows that have no numbers, hands the block over and counts it. The block begins `at` rows behind the

@@ -90,8 +90,9 @@ class RowSolver {
   DrivenScene driven_;
   const bool in_space_;
   const ColumnReader reader_;
-  const DerivativeColumns derivatives_;
-  std::vector<double> numbers_;  // The columns of one row.
+  DerivativeColumns derivatives_;
+  const std::vector<size_t> others_;  // The columns that are no derivatives.
+  std::vector<double> numbers_;       // The columns of one row.
 
   // Null if the rows need a scene each.
   std::unique_ptr<SceneLanes> lanes_;
@@ -102,7 +103,8 @@ class RowSolver {
 
   // The current block.
   absl::Span<const FieldColumn> fields_;
-  std::vector<double*> places_;  // The places of the first row's value in each column.
+  std::vector<double*> places_;        // The places of the first row's value in each column,
+  std::vector<double*> other_places_;  // and in those that are no derivatives.
   // A column is an error of the velocities or the momentum of a mechanism, which take all of an outcome's detail.
   const bool asks_rates_errors_;
   const bool asks_free_end_;  // A column is a number of the end with no coordinate held.

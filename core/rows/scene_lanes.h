@@ -46,7 +46,7 @@ class SceneLanes {
   struct Block {
     std::array<Model, kBlock> models;
     std::array<Regime, kBlock> regimes;
-    // That of a scene that is left is the value of an earlier block, or false.
+    // A scene that is left has the value of an earlier block, or false.
     std::array<bool, kBlock> inadmissible = {};
     bool is_complete = false;  // No scene is left, and every number is finite.
     // It is complete, and the model, the regime and the admissibility of all are those of the first. False if that is

@@ -16,8 +16,6 @@
 namespace ricochet {
 namespace {
 
-constexpr char kPhi[] = "pendulum.phi_rad";
-
 // Switches the restitution to the definition `T`.
 template <typename T>
 void Switch(Scene& scene) {

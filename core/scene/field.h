@@ -22,12 +22,18 @@
 
 namespace ricochet {
 
+// The path that may state a pendulum's angle, in place of a and b.
+inline constexpr char kPhi[] = "pendulum.phi_rad";
+
 // A Field sets one number of the scene for which it was resolved. That scene must outlive the field and keep its
 // system, law and lists.
 class Field {
  public:
   // Sets the field and returns whether each number that it has set keeps its own rule.
   bool Set(double value) const;
+
+  // The number that the field sets; phi_rad has none.
+  double value() const { return *std::get<Scalar>(driver_).number; }
 
   // The rule of the number that the field sets. phi_rad, which sets two, must lie in (0, pi): elsewhere the
   // contact is behind the pin.

@@ -165,6 +165,23 @@ void CheckMatrix(const ContactMatrix& matrix, const MultiReduction& reduction, C
   });
 }
 
+// W is scaled as a whole, and its entries are multiplied by each other: a contact whose entries would be lost in this
+// is refused.
+void CheckSpread(const MultiReduction& reduction, Check& check) {
+  constexpr double kLeastShare = 0x1p-460;
+  const Eigen::VectorXd diagonal = reduction.w.diagonal();
+  const double largest = diagonal.maxCoeff();
+  for (Eigen::Index row = 0; row < diagonal.size(); ++row) {
+    const double own = diagonal(row);
+    check.Require(!(own > 0.0 && own / largest < kLeastShare), [&] {
+      return MakeViolation(Entry("contacts", static_cast<size_t>(row / reduction.directions), ""),
+                           absl::StrCat("has ", ShortestDecimal(own), " 1/kg on the diagonal of W"),
+                           absl::StrCat("have 0 or at least ", ShortestDecimal(kLeastShare), " times the largest, ",
+                                        ShortestDecimal(largest)));
+    });
+  }
+}
+
 // The velocities of bodies lie in the range of their W, unless it has lost the larger masses to rounding.
 void CheckRange(const std::string& field, const MultiReduction& reduction, const Eigen::VectorXd& velocity,
                 Check& check) {
@@ -270,6 +287,7 @@ std::vector<Violation> Validate(const MultiContactRequest& request, std::optiona
   if (reduction->w.allFinite() && reduction->response.allFinite()) {
     const auto* const matrix = std::get_if<ContactMatrix>(&scene.system);
     if (matrix != nullptr) CheckMatrix(*matrix, *reduction, check);
+    CheckSpread(*reduction, check);
     if (!check.failed()) CheckRange(std::visit(VelocityField(), scene.system), *reduction, reduction->velocity, check);
   }
   if (reduction->w.allFinite()) CheckLists(request, *reduction, check);

@@ -51,7 +51,7 @@ struct Violation {
   // The core alone uses these members: a status does not carry them, and comparisons ignore them.
   ViolationKind kind = ViolationKind::kShape;
   std::vector<std::string> tied_to = {};  // kValue: the paths of the other numbers that the rule involves.
-  std::string rule = {};                  // What follows "must " in the description: "be >= 0". MakeViolation sets it.
+  std::string rule = {};                  // It follows "must " in the description: "be >= 0". MakeViolation sets it.
 
   friend bool operator==(const Violation& a, const Violation& b) {
     return a.field == b.field && a.description == b.description;

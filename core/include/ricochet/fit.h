@@ -52,9 +52,9 @@ struct FitMeasured {
   friend bool operator==(const FitMeasured&, const FitMeasured&) = default;
 };
 
-// What a residual r costs, with the scale c in sigmas. The numbers are those of ricochet.v1.FitLoss.
+// A FitLoss says what a residual r costs, with the scale c in sigmas. The numbers are those of ricochet.v1.FitLoss.
 enum class FitLoss {
-  kUnspecified = 0,  // As kSquares.
+  kUnspecified = 0,  // It means kSquares.
   kSquares = 1,      // r^2
   kHuber = 2,        // r^2 up to c, 2 c |r| - c^2 beyond.
   kCauchy = 3,       // c^2 ln(1 + r^2/c^2)
@@ -75,7 +75,7 @@ struct FitRequest {
   FitLoss loss = FitLoss::kUnspecified;
   std::optional<double> loss_scale;       // c > 0, of a robust loss only; absent: kHuberScale or kCauchyScale.
   std::optional<int32_t> starts;          // In [1, kMostFitStarts]; further ones spread over the bounds.
-  std::optional<int32_t> max_iterations;  // Of each search, in [1, kMostFitIterations].
+  std::optional<int32_t> max_iterations;  // Each search has so many, in [1, kMostFitIterations].
   std::vector<std::string> region;        // Empty, or the paths of the two unknowns whose 95 % region is wanted.
   friend bool operator==(const FitRequest&, const FitRequest&) = default;
 };
@@ -105,10 +105,10 @@ struct FitProfilePoint {
 
 struct FitEstimate {
   std::string path;
-  double value = 0.0;           // That of the best fit; where the unknown is not seen, one of many that fit as well.
-  bool seen = false;            // The data tell it by itself, and not only together with other unknowns.
-  std::optional<double> sigma;  // Standard deviation by the derivatives at the best fit; set if it is seen.
-  FitEnd low, high;             // The 95 % interval by profile likelihood.
+  double value = 0.0;                    // The best fit has it; where the unknown is not seen, many others fit as well.
+  bool seen = false;                     // The data tell it by itself, and not only together with other unknowns.
+  std::optional<double> sigma;           // Standard deviation by the derivatives at the best fit; set if it is seen.
+  FitEnd low, high;                      // The 95 % interval by profile likelihood.
   std::vector<FitProfilePoint> profile;  // The profile as far as the search computed it, by rising value.
   std::vector<double> row_shares;  // The share of each row in what the data tell about it; empty if they tell nothing.
   friend bool operator==(const FitEstimate&, const FitEstimate&) = default;
@@ -118,7 +118,7 @@ struct FitRow {
   Regime regime = Regime::kUnspecified;   // At the best fit.
   std::vector<double> predicted;          // One for each measured column.
   std::vector<double> residuals;          // (measured - predicted)/sigma; NaN where nothing was measured.
-  std::vector<AuditLimit> broken_limits;  // Those that the measured velocity after the impact breaks beyond 3 sigma.
+  std::vector<AuditLimit> broken_limits;  // The measured velocity after the impact breaks these by over 3 sigma.
   friend bool operator==(const FitRow&, const FitRow&) = default;
 };
 
@@ -160,19 +160,19 @@ struct FitResponse {
   std::vector<double> covariance, correlation;
   std::vector<FitRow> rows;
   std::vector<FitOutlier> outliers;      // The largest residual first.
-  double objective = 0.0;                // As in FitStart, of the best fit.
+  double objective = 0.0;                // The best fit has it; FitStart explains it.
   double chi2 = 0.0;                     // Sum of the squared residuals, whatever the loss.
   int64_t degrees_of_freedom = 0;        // Measured numbers less combinations of unknowns that are seen.
   std::optional<double> p_value;         // The probability of so large a chi2; set if there is a degree of freedom.
   bool refused = false;                  // p_value < kFitRefusedBelow, or a row breaks a limit.
   std::vector<FitStart> starts;          // The first is that of the request.
   bool starts_differ = false;            // Two of them ended in different places.
-  std::vector<FitThreshold> thresholds;  // Those on which the best fit lies.
+  std::vector<FitThreshold> thresholds;  // The best fit lies on these.
   std::vector<FitRegionPoint> region;    // Around the best fit; empty unless it was asked for.
   // True if the search used exact derivatives; else it used central differences, for this reason.
   bool exact_derivatives = false;
   std::string why_differences;
-  std::vector<std::string> notes;  // What a reader must know, in sentences.
+  std::vector<std::string> notes;  // Sentences that a reader must know.
   EngineInfo engine;
   friend bool operator==(const FitResponse&, const FitResponse&) = default;
 };

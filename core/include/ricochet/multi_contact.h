@@ -55,7 +55,7 @@ struct FreeBodies {
 };
 
 // The Jacobian of a Mechanism has the d rows of each contact, one contact after the other. std::monostate means that
-// the request stated none, which is a violation.
+// the request stated none, which is a violation. A diagonal entry of W is 0 or at least 2^-460 of the largest.
 using MultiContactSystem = std::variant<std::monostate, ContactMatrix, FreeBodies, Mechanism>;
 
 struct MultiContactPoint {

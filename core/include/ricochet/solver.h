@@ -244,7 +244,8 @@ class Solver {
 // A call computes on the thread that makes it. A sweep or a batch that lasts longer than a millisecond is helped by
 // others, which the solver starts when it first needs them, shares with its copies, and ends with the last of them and
 // of their streams. Between two chunks helpers compute one chunk ahead, so that a stream holds a few chunks of 512 KiB
-// at most, and one more for every four helpers. The number of threads changes no bit of an answer.
+// at most, and one more for every four helpers. The number of threads changes no bit of an answer, and neither does the
+// floating-point mode of the thread that calls (rounding, subnormal numbers, traps), which it has again afterwards.
 class LocalSolver final : public Solver {
  public:
   // Without limits it takes a request of any size, because the process that asks is the one that pays.

@@ -47,7 +47,7 @@ ImpactErrors ErrorsBy(const Counts& counts, double unit, double unseen, double e
   errors.v = of(counts.velocity, Output::kNormalVelocityAfter, std::fabs(problem.a * problem.omega_minus));
   errors.tau_compression = of(counts.tau_compression, Output::kNormalImpulseCompression, 0.0);
   errors.tau = of(counts.tau, Output::kNormalImpulse, 0.0);
-  // What is lost where an impulse or a work of compression is below the range of doubles grows with kappa.
+  // The loss where an impulse or a work of compression is below the range of doubles grows with kappa.
   errors.f = of_friction * friction + kSmallest * (1.0 + impact[Output::kNormalImpulse] + kappa);
   errors.work_normal_compression = of(counts.work_compression, Output::kWorkNormalCompression, 0.0);
   errors.work_normal_restitution = of(counts.work_restitution, Output::kWorkNormalRestitution, work_n);

@@ -36,7 +36,7 @@ struct Job {
   RestitutionLaw law = RestitutionLaw::kEnergetic;
   std::array<const double*, kNumbers> numbers = {};
   std::array<double*, kOutputCount> places = {};  // Null for an output that is not wanted.
-  unsigned parts = 0;                             // Those of the outputs wanted.
+  unsigned parts = 0;                             // The outputs wanted need these.
   Regime* regimes = nullptr;                      // Null if they are not wanted.
   bool* inadmissible = nullptr;                   // Null if it is not wanted.
 

@@ -11,6 +11,7 @@
 
 #include <array>
 
+#include "absl/types/span.h"
 #include "core/contact/delassus.h"
 #include "core/models/planar/planar.h"
 #include "core/models/planar_outputs.h"
@@ -40,7 +41,15 @@ struct Tangent {
   bool leaves_range = false;  // W has rank one and the velocity moves out of its range.
 };
 
-Tangent TangentOf(const Problem& problem, const Direction& direction);
+// A problem, a direction of it, and its tangent along that.
+struct Along {
+  Problem problem;
+  Direction direction;
+  Tangent tangent;
+};
+
+// Sets the tangent of each, several at once. All problems have the same law.
+void SetTangents(absl::Span<Along> all);
 
 }  // namespace ricochet::planar
 

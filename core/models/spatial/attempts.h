@@ -22,7 +22,7 @@ class Attempts {
   // The impact that counts is written to `best`.
   Attempts(double tolerance, Impact& best) : asked_(tolerance), tolerance_(tolerance), best_(&best) {}
 
-  // That of the next attempt.
+  // The next attempt uses it.
   double tolerance() const { return tolerance_; }
 
   bool NeedsAnotherAfter(const Impact& impact) {

@@ -50,6 +50,13 @@ Direction<T> Normalized(T x, T y) {
   return {x * inverse, y * inverse};
 }
 
+// Returns the power of two that brings numbers of about `size` near 1; 1 where their squares are normal doubles.
+template <typename T>
+T ScaleForSquares(T size) {
+  const bool is_moderate = size == T{0} || (size >= T{0x1p-400} && size <= T{0x1p400});
+  return is_moderate ? T{1} : std::ldexp(T{1}, std::clamp(-std::ilogb(size), -1022, 1023));
+}
+
 // The matrix A = -mu Wtt and the vector wtn by their components along (1) and across (2) a direction e = (c, s), both
 // divided by the rate mu |Wtt| + |wtn|, so that no component exceeds 1.
 template <typename T>
@@ -122,12 +129,15 @@ Sticking<T> Matrix<T>::Stick(T mu_static) const {
   const N top1 = singular ? a * p + b * q : c * p - b * q;
   const N top2 = singular ? b * p + c * q : a * q - b * p;
   if (bottom.hi <= 0.0) return {T{0}, T{0}, w33, true};
-  const N cone = limit * bottom;
-  const N square = top1 * top1 + top2 * top2;
   constexpr double kRounding = 0x1p-96;
-  // Above this bound the cone exceeds every possible top, and its square would leave the range of doubles.
-  constexpr double kBeyondAll = 0x1p400;
-  const bool holds = cone.hi > kBeyondAll || rounded(square - cone * cone) <= kRounding * square.hi;
+  const N cone = limit * bottom;
+  const double scale = ScaleForSquares(std::max({std::fabs(top1.hi), std::fabs(top2.hi), cone.hi}));
+  const auto scaled_square = [scale](const N& x) {
+    const N scaled = {x.hi * scale, x.lo * scale};
+    return scaled * scaled;
+  };
+  const N square = scaled_square(top1) + scaled_square(top2);
+  const bool holds = rounded(square - scaled_square(cone)) <= kRounding * square.hi;
   const bool locked = rank < (singular ? 2 : 3);
   const T v_slope = locked ? T{0} : std::max(rounded(n - (p * top1 + q * top2) / bottom), T{0});
   return {rounded(-(top1 / bottom)), rounded(-(top2 / bottom)), v_slope, holds};
@@ -142,18 +152,24 @@ Direction<T> Matrix<T>::Restart(T mu) const {
   const Direction<T> axis = largest > smallest
                                 ? (w11 >= w22 ? Normalized(largest - w22, w12) : Normalized(w12, largest - w11))
                                 : Direction<T>{T{1}, T{0}};
-  const T w1 = axis.c * w13 + axis.s * w23;
-  const T w2 = tangent_is_singular ? T{0} : axis.c * w23 - axis.s * w13;
-  T h = std::max(std::sqrt(w1 * w1 + w2 * w2) - mu * largest, T{0});
+  T w1 = axis.c * w13 + axis.s * w23;
+  T w2 = tangent_is_singular ? T{0} : axis.c * w23 - axis.s * w13;
+  // e does not change with a factor of all numbers.
+  const T scale = ScaleForSquares(std::max(std::fabs(w1), std::fabs(w2)));
+  w1 *= scale;
+  w2 *= scale;
+  const T most = mu * largest * scale;
+  const T least = mu * smallest * scale;
+  T h = std::max(std::sqrt(w1 * w1 + w2 * w2) - most, T{0});
   T e1{1};
   T e2{0};
   constexpr int kEnough = 100;
   for (int i = 0; i < kEnough; ++i) {
-    e1 = w1 / (h + mu * largest);
-    e2 = w2 == T{0} ? T{0} : w2 / (h + mu * smallest);
+    e1 = w1 / (h + most);
+    e2 = w2 == T{0} ? T{0} : w2 / (h + least);
     const T square = e1 * e1 + e2 * e2;
     const T size = std::sqrt(square);
-    const T descent = e1 * e1 / (h + mu * largest) + (e2 == T{0} ? T{0} : e2 * e2 / (h + mu * smallest));
+    const T descent = e1 * e1 / (h + most) + (e2 == T{0} ? T{0} : e2 * e2 / (h + least));
     const T step = (size - T{1}) * square / descent;
     if (!(step > std::numeric_limits<T>::epsilon() * h)) break;
     h += step;

@@ -10,7 +10,9 @@
 #include <string>
 #include <vector>
 
+#include "core/answer/derivative_paths.h"
 #include "core/answer/derivatives.h"
+#include "core/answer/exact_derivatives.h"
 #include "core/scene/validate.h"
 #include "ricochet/solver.h"
 #include "tests/support/scenes/random_scenes.h"
@@ -83,7 +85,7 @@ TEST(BoundsDerivativesTest, EndsInAPlaneMoveAsTheImpactsThatReachThem) {
         Asked(scene, {.of = {"sharp.newton.upper", "sharp.normal_total_n_s.upper"}, .by = by});
     scene.restitution = EnergeticCoefficient{1.0};
     const std::vector<Derivative> elastic =
-        ExactDerivatives(scene, {.of = {"coefficients.newton", "impulse.normal_total_n_s"}, .by = by});
+        ExactDerivativesOf(scene, {.of = {"coefficients.newton", "impulse.normal_total_n_s"}, .by = by});
     ASSERT_EQ(bounds.derivatives.size(), elastic.size());
     for (size_t k = 0; k < elastic.size(); ++k) {
       const Derivative& found = bounds.derivatives[k];

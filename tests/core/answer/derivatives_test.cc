@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "core/answer/derivative_paths.h"
+#include "core/answer/exact_derivatives.h"
 #include "core/contact/mechanism.h"
 #include "core/contact/scene_contact.h"
 #include "core/plan/scene_problem.h"
@@ -121,7 +123,7 @@ class ExactScene {
   }
 
   const Ball& h() const { return h_; }
-  double conditioning = 0.0;  // That of the impact, as tests/support/oracles/planar_oracle.h defines it.
+  double conditioning = 0.0;  // The impact has it, as tests/support/oracles/planar_oracle.h defines it.
 
  private:
   Ball At(const std::string& path) const { return numbers_.at(path); }
@@ -304,7 +306,7 @@ TEST_P(EverySystem, DerivativesAreDifferenceQuotients) {
       DerivativePaths paths = {.of = all.of, .by = {all.by[static_cast<size_t>(i) % all.by.size()]}};
       if (paths.by[0] == "friction.static_coefficient" && !scene.friction.static_coefficient.has_value()) continue;
       if (paths.by[0].rfind("surface_velocity", 0) == 0 && !scene.surface_velocity.has_value()) continue;
-      const std::vector<Derivative> derivatives = ExactDerivatives(scene, paths);
+      const std::vector<Derivative> derivatives = ExactDerivativesOf(scene, paths);
       const std::map<std::string, Ball> above = Quotients(scene, paths.by[0], 1.0);
       ExactScene here(scene, paths.by[0], 0.0);
       (void)here.Outcome();
@@ -436,7 +438,7 @@ TEST_P(EveryThreshold, HasBothOneSidedDerivativesOrNamesTheJump) {
     const DerivativePaths all = AllDerivativePaths(scene);
     for (const std::string& by : all.by) {
       if (by.rfind("planar_contact.", 0) != 0) continue;  // Both sides of those are in the domain.
-      const std::vector<Derivative> derivatives = ExactDerivatives(scene, {.of = all.of, .by = {by}});
+      const std::vector<Derivative> derivatives = ExactDerivativesOf(scene, {.of = all.of, .by = {by}});
       ExpectSide(scene, derivatives, -1.0, &Derivative::from_below, jumps);
       ExpectSide(scene, derivatives, 1.0, &Derivative::from_above, jumps);
       if (HasFatalFailure())
@@ -463,7 +465,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& one) { return one.param.name; });
 
 Derivative Only(const Scene& scene, const std::string& of, const std::string& by) {
-  return ExactDerivatives(scene, {.of = {of}, .by = {by}}).front();
+  return ExactDerivativesOf(scene, {.of = {of}, .by = {by}}).front();
 }
 
 Scene PendulumScene(double b, double mu, double eta) {

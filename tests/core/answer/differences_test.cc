@@ -13,7 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "core/answer/derivative_paths.h"
 #include "core/answer/derivatives.h"
+#include "core/answer/exact_derivatives.h"
 #include "core/contact/scene_contact.h"
 #include "core/models/spatial/spatial.h"
 #include "core/plan/scene_problem.h"
@@ -60,7 +62,7 @@ TEST_P(PlanarSystem, HasTheExactDerivatives) {
       const DerivativePaths all = AllDerivativePaths(scene);
       const std::string& by = all.by[static_cast<size_t>(i) % all.by.size()];
       if (!NumberAt(scene, by).has_value()) continue;
-      const std::vector<Derivative> exact = ExactDerivatives(scene, {.of = all.of, .by = {by}});
+      const std::vector<Derivative> exact = ExactDerivativesOf(scene, {.of = all.of, .by = {by}});
       const std::vector<Derivative> found = Differences(scene, {.of = all.of, .by = {by}});
       for (size_t k = 0; k < exact.size(); ++k) {
         if (!exact[k].value.has_value()) continue;

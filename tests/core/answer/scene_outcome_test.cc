@@ -338,7 +338,7 @@ TEST(NumberErrorsTest, FrictionThatChangesNothingIsLeftOutHoweverSmallTheApproac
   for (const double v0 : {-1e-20, -1e-30, -1e-100, -1e-300}) {
     const Outcome outcome = SolvedTo(GrazingInSpace(v0), {});
     EXPECT_EQ(outcome.plan.model, Model::kFrictionless) << v0;
-    // What was left out may be all of v, and of impulses and works nothing is known.
+    // The effects left out may be all of v, and of impulses and works nothing is known.
     ASSERT_TRUE(outcome.errors.normal_m_s.has_value());
     EXPECT_GE(*outcome.errors.normal_m_s, -v0);
     EXPECT_EQ(outcome.errors.normal_total_n_s, std::nullopt);

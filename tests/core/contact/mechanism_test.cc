@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <variant>
 #include <vector>
 
 #include "core/contact/linkage_matrices.h"
@@ -157,7 +159,7 @@ TEST(MechanismTest, MomentumTakenIsTheMassMatrixTimesTheChangeOfTheRates) {
 TEST(MechanismTest, CompositeMovesAsOneRigidBody) {
   // Two bars on a line, the second pinned to the first at (l, 0) from its centre; theta_2 is relative.
   const double m = 1.0, inertia = 0.1, l = 0.5, c = 0.4;
-  const double r = l + c;  // Of the second centre from the first.
+  const double r = l + c;  // The second centre is so far from the first.
   const Eigen::MatrixXd mass{{2 * m, 0, 0, 0},
                              {0, 2 * m, m * r, m * c},
                              {0, m * r, 2 * inertia + m * r * r, inertia + m * c * r},
@@ -225,13 +227,30 @@ TEST(MechanismTest, UnitsOfACoordinateDoNotMatter) {
     scaled.mass_matrix[3 * i] *= kUnit;
     scaled.mass_matrix[i] *= kUnit;
   }
-  for (const size_t i : {0, 3}) scaled.jacobian[i] *= kUnit;
+  for (const size_t i : {0u, 3u}) scaled.jacobian[i] *= kUnit;
   scaled.rates[0] /= kUnit;
   const Outcome outcome = Solve(scaled);
   const Outcome expected = Solve(arm);
   EXPECT_EQ(outcome.impulse, expected.impulse);
   EXPECT_EQ(outcome.rates_after[0] * kUnit, expected.rates_after[0]);
   EXPECT_EQ(outcome.rates_after[1], expected.rates_after[1]);
+}
+
+// The second coordinate is too heavy for the impulse to move. W has rank one, and the velocity lies outside its range.
+// In the units of the second case the product of W and a velocity underflows.
+TEST(MechanismTest, VelocityOutsideTheRangeOfWStaysInAnyUnits) {
+  for (const int exponent : {0, -500}) {
+    SCOPED_TRACE(exponent);
+    const double mass = std::ldexp(1.0, -7 * exponent / 5);
+    const double rate = std::ldexp(1.0, exponent);
+    const Mechanism heavy = {.mass_matrix = {mass, 0.0, 0.0, 0x1p130 * mass},
+                             .jacobian = {1.0, 1.0, 0.75, -0.75},
+                             .rates = {-rate, 0.25 * rate}};
+    const auto reduction = std::get<PlanarReduction>(Reduce(With(heavy)));
+    EXPECT_EQ(reduction.w, (std::array<double, 3>{1.0 / mass, 0.75 / mass, 0.5625 / mass}));
+    EXPECT_EQ(reduction.u0[0], -0.75 * rate);
+    EXPECT_EQ(reduction.v0, -0.9375 * rate);
+  }
 }
 
 }  // namespace

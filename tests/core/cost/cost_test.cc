@@ -68,7 +68,7 @@ Study StudyOf(const CostRequest& request) {
 }
 
 // One sample makes a test short; the limit leaves time for it on a slow machine.
-Study StudyOf(const Scene& scene) { return StudyOf({.scene = scene, .time_limit_s = 5.0, .samples = 1}); }
+Study StudyOf(const Scene& scene) { return StudyOf({.scene = scene, .time_limit_s = 30.0, .samples = 1}); }
 
 // Lubarda (2009), sec. 4: x = mu |b|/a = 1/3, so that kappa_hat = sqrt((1 - x)/(1 + x)) = sqrt(1/2). V = |b omega-| =
 // 1.

@@ -5,12 +5,20 @@
 #include <chrono>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <ostream>
 #include <stop_token>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "core/answer/derivatives.h"
+#include "core/answer/scene_bounds.h"
+#include "core/answer/scene_enclosure.h"
+#include "core/answer/scene_outcome.h"
+#include "core/certified/certified.h"
+#include "core/fit/fit.h"
+#include "core/multi/solve_multi_contact.h"
 #include "ricochet/solver.h"
 #include "tests/support/scenes/multi_contact_scenes.h"
 #include "tests/support/scenes/system_scenes.h"
@@ -141,6 +149,109 @@ TEST_P(StopTest, EndsADearCallAtItsDeadline) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Expensive, StopTest, testing::ValuesIn(ExpensiveCalls()),
+                         [](const auto& tested) { return tested.param.name; });
+
+// --- A stop at any question ---
+
+// Work that asks whether to stop.
+struct AskingWork {
+  std::string name;
+  std::function<absl::Status(absl::FunctionRef<bool()>)> run;
+};
+
+void PrintTo(const AskingWork& work, std::ostream* out) { *out << work.name; }
+
+Scene SpaceScene() {
+  return {
+      .system = ContactInSpace(), .friction = {.kinetic_coefficient = 0.5}, .restitution = EnergeticCoefficient{0.5}};
+}
+
+// A contact on springs, so that an impact takes time.
+Scene SprungContact() {
+  Scene scene = {
+      .system = Contact(), .friction = {.kinetic_coefficient = 0.4}, .restitution = EnergeticCoefficient{0.5}};
+  scene.compliance = Compliance{.tangential_ratio_squared = 0.7, .normal = LinearSpring{1e4}};
+  scene.finite_forces = ContactAcceleration{.tangential_m_s2 = 0.0, .normal_m_s2 = -9.81};
+  return scene;
+}
+
+const DerivativePaths kDerivatives = {
+    .of = {"contact_velocity_after.normal_m_s"}, .by = {"friction.kinetic_coefficient"}, .find_thresholds = true};
+
+std::vector<AskingWork> AskingWorks() {
+  return {
+      {"ImpactInTime",
+       [](absl::FunctionRef<bool()> stopped) {
+         std::optional<SceneContact> contact;
+         Outcome outcome;
+         return SolveScene(SprungContact(), contact, {.required = {Effect::kFiniteDuration}}, {}, stopped, outcome);
+       }},
+      {"Certificate",
+       [](absl::FunctionRef<bool()> stopped) {
+         return CertifySolve(ChainScene(3), {.digits = 100}, stopped).status();
+       }},
+      {"CertificateOfBounds",
+       [](absl::FunctionRef<bool()> stopped) {
+         return CertifyBounds(ChainScene(3), {.digits = 100}, stopped).status();
+       }},
+      {"BoundsInSpace",
+       [](absl::FunctionRef<bool()> stopped) { return SolveSceneBounds(SpaceScene(), {}, stopped).status(); }},
+      {"Enclosure",
+       [](absl::FunctionRef<bool()> stopped) {
+         const std::vector<FieldRange> ranges = {{"linkage.links[0].mass_kg", 0.8, 1.2}};
+         return EncloseScene(ChainScene(2), ranges, 300, stopped).status();
+       }},
+      {"DerivativesInSpace",
+       [](absl::FunctionRef<bool()> stopped) {
+         return DerivativesOf(SpaceScene(), {}, kDerivatives, stopped).status();
+       }},
+      {"DerivativesInTime",
+       [](absl::FunctionRef<bool()> stopped) {
+         return DerivativesOf(SprungContact(), {}, kDerivatives, stopped).status();
+       }},
+      {"SeveralContacts",
+       [](absl::FunctionRef<bool()> stopped) {
+         const MultiContactRequest request = {
+             .scene = FallingBlock(1.0, 0.5),
+             .stiffness_range = StiffnessRange{.contact = 2, .low = 0.1, .high = 10.0}};
+         return SolveMultiContact(request, Reduce(request.scene), stopped).status();
+       }},
+      {"SeveralContactsInSpace",
+       [](absl::FunctionRef<bool()> stopped) {
+         const MultiContactRequest request = {.scene = SpatialBox()};
+         return SolveMultiContact(request, Reduce(request.scene), stopped).status();
+       }},
+      {"Fit",
+       [](absl::FunctionRef<bool()> stopped) {
+         const FitRequest request = {
+             .scene = {.system = Contact(),
+                       .friction = {.kinetic_coefficient = 0.2},
+                       .restitution = NewtonCoefficient{}},
+             .unknowns = {{.path = "restitution.newton", .start = 0.4}},
+             .inputs = {{.path = "planar_contact.normal_m_s", .values = {-1.0, -2.0, -3.0}}},
+             .measured = {{.path = "contact_velocity_after.normal_m_s", .values = {0.5, 1.1, 1.4}, .sigma = {0.1}}},
+             .starts = 3};
+         return FitScene(request, stopped).status();
+       }},
+  };
+}
+
+class QuestionTest : public testing::TestWithParam<AskingWork> {};
+
+TEST_P(QuestionTest, MayBeAnsweredWithAStop) {
+  int asked = 0;
+  const absl::Status whole = GetParam().run([&asked] { return ++asked < 0; });
+  ASSERT_TRUE(whole.ok()) << whole;
+  ASSERT_GT(asked, 0);
+  const int all = asked;
+  for (int stop = 1; stop <= all; stop += 1 + stop / 10) {
+    asked = 0;
+    const absl::Status stopped = GetParam().run([&] { return ++asked >= stop; });
+    EXPECT_EQ(stopped.code(), absl::StatusCode::kCancelled) << "at question " << stop << " of " << all;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, QuestionTest, testing::ValuesIn(AskingWorks()),
                          [](const auto& tested) { return tested.param.name; });
 
 TEST(Chunks, OfDearPointsAreCutByTime) {

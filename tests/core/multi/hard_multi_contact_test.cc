@@ -152,6 +152,24 @@ TEST(HardMultiContactTest, ASecondContactThatGrazes) {
   for (int i = 0; i < 2; ++i) EXPECT_GE(springs.v(2 * i + 1), -springs.ErrorOf(problem, 2 * i + 1));
 }
 
+// Both slide all the way: with f = -0.3 tau each impulse changes (u, v) by W (0.2, 0.85) tau, and v ends at 0.5.
+TEST(HardMultiContactTest, ContactsWhoseMassesDifferBy138PowersOfTen) {
+  MultiContactScene scene;
+  scene.system = ContactMatrix{.w_per_kg = {1e-138, 5e-139, 0, 0, 5e-139, 1e-138, 0, 0, 0, 0, 1, 0.5, 0, 0, 0.5, 1},
+                               .velocity_m_s = {1, -1, 1, -1}};
+  scene.contacts.assign(2, {.friction = 0.3, .energetic = 0.5});
+  const MultiContactAnswer answer = LocalSolver().MultiContact({.scene = scene}).value().answers.front();
+  EXPECT_EQ(answer.verdict, MultiContactVerdict::kSingle);
+  ASSERT_EQ(answer.orders.size(), 1U);
+  for (const AttainedOutcome* const outcome : {&answer.orders.front(), &*answer.springs}) {
+    for (size_t i = 0; i < 4; i += 2) {
+      EXPECT_NEAR(outcome->contact_velocity_m_s[i], 1.0 + 0.3 / 0.85, 1e-14);
+      EXPECT_NEAR(outcome->contact_velocity_m_s[i + 1], 0.5, 1e-14);
+    }
+  }
+  for (const PossibleRange& range : answer.possible) EXPECT_LE(range.lower, range.upper) << range.output;
+}
+
 // A pendulum whose tip locks: k = 1 is the planar model, which says that it stays.
 TEST(HardMultiContactTest, ALockedPendulumStays) {
   Problem locked = {.d = 2, .k = 1, .w = Eigen::MatrixXd(2, 2), .v = Vector(2), .laws = {{.mu = 1.0, .e = 1.0}}};

@@ -1,5 +1,5 @@
-// What is symmetric stays so, and the order in which contacts are listed changes nothing but the order of the answer:
-// bit for bit.
+// A symmetric scene has a symmetric answer, and the order in which contacts are listed changes nothing but the order of
+// the answer: bit for bit.
 
 #include <gtest/gtest.h>
 

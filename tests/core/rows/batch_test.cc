@@ -158,7 +158,7 @@ TEST(BatchTest, ARowHasTheSameBitsWhateverItsPlace) {
   std::mt19937_64 random(6);
   for (int i = 0; i < 700; ++i) whole.Add(RandomRow(random));
   ASSERT_TRUE(whole.Solve().ok());
-  for (const size_t i : {0, 1, 255, 256, 257, 511, 699}) {
+  for (const size_t i : {0u, 1u, 255u, 256u, 257u, 511u, 699u}) {
     BatchTable alone = Contacts("energetic");
     alone.setup.columns = PlainColumns();
     std::vector<double> row;

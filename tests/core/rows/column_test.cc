@@ -41,7 +41,7 @@ struct Answer {
   absl::StatusCode code = absl::StatusCode::kOk;
   Regime regime = Regime::kInvalid;
   bool admissible = true;
-  std::map<std::string, double> numbers;  // Those that are set.
+  std::map<std::string, double> numbers;  // The numbers that are set.
 };
 
 Answer AnswerOf(const Scene& scene, DemandFields demand, bool takes_time) {
@@ -81,7 +81,7 @@ RowStatus StatusOf(const Answer& answer, const std::vector<std::string>& columns
   return is_complete ? RowStatus::kOk : RowStatus::kIncomplete;
 }
 
-// What has been compared, so that no test passes for want of numbers.
+// Counts what has been compared, so that no test passes for want of numbers.
 struct Compared {
   int64_t set = 0, unset = 0, invalid = 0;
 };
@@ -168,7 +168,7 @@ TEST_P(ColumnsOfEverySystem, AreThoseOfSolveInEverySweepAndBatchAndUnsetWhereThe
 
 struct Rows {
   absl::Status status;
-  std::vector<double> values;  // Of the first column.
+  std::vector<double> values;  // The first column has them.
   std::vector<RowStatus> statuses;
 };
 

@@ -9,7 +9,9 @@
 #include <string>
 #include <vector>
 
+#include "core/answer/derivative_paths.h"
 #include "core/answer/derivatives.h"
+#include "core/answer/exact_derivatives.h"
 #include "core/base/derivative_name.h"
 #include "core/rows/column.h"
 #include "core/scene/numbers.h"
@@ -115,7 +117,7 @@ TEST(DerivativeColumnsTest, SweepHasThem) {
     Scene row = ContactScene();
     row.friction.kinetic_coefficient = std::vector{0.1, 0.2, 0.3}[i];
     const DerivativePaths paths = {.of = {"coefficients.newton"}, .by = {"restitution.energetic"}};
-    EXPECT_EQ(found[i], *ExactDerivatives(row, paths)[0].value);
+    EXPECT_EQ(found[i], *ExactDerivativesOf(row, paths)[0].value);
   }
 }
 

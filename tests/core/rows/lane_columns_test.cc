@@ -54,7 +54,7 @@ void ExpectColumnsOfScenes(const Grid& grid, int64_t first, size_t count) {
 }
 
 void ExpectColumnsInAnyBlocks(const Grid& grid) {
-  for (const size_t count : {1, 3, 64, 255, 256}) {
+  for (const size_t count : {1u, 3u, 64u, 255u, 256u}) {
     for (const int64_t first : {0, 1, 7, 100}) ExpectColumnsOfScenes(grid, first, count);
   }
 }

@@ -89,7 +89,7 @@ void KeepFields(Rows& rows) {
 }
 
 struct Bits {
-  std::vector<std::vector<uint64_t>> numbers;  // Those of each row.
+  std::vector<std::vector<uint64_t>> numbers;  // Each row has a list.
   std::vector<Regime> regimes;
   std::vector<RowStatus> statuses;
   friend bool operator==(const Bits&, const Bits&) = default;
@@ -113,7 +113,7 @@ void ExpectBitsOfSolve(const Rows& rows, const std::vector<std::string>& columns
     const auto solved = LocalSolver().Solve(
         {.scene = rows.scenes[i], .demand = demand, .both_ends = HoldsCoordinates(rows.scenes[i].system)});
     if (solved.status().code() == absl::StatusCode::kInvalidArgument) {
-      wrong += bits.statuses[i] != RowStatus::kInvalid ? 1 : 0;
+      wrong += bits.statuses[i] != RowStatus::kInvalid ? 1u : 0u;
     }
     // A number that is not among the columns may exceed the largest double.
     if (!solved.ok()) continue;

@@ -1,4 +1,4 @@
-// What the door says of bad mechanisms.
+// Bad mechanisms are refused with the rule that they break.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// What the door says about requests that break a rule of ricochet/multi_contact.h.
+// Requests are refused that break a rule of ricochet/multi_contact.h.
 
 #include "core/scene/validate_multi.h"
 
@@ -63,10 +63,32 @@ TEST(ValidateMultiTest, AMatrixIsSymmetricSemidefiniteAndHoldsTheVelocityInItsRa
   request.scene = MatrixScene();
   std::get<ContactMatrix>(request.scene.system) = {.w_per_kg = {0, 0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, 0, -1, 0, 1},
                                                    .velocity_m_s = {0, -1, 0, 0.5}};
-  ASSERT_EQ(TextsOf(request).size(), 1U);
-  EXPECT_THAT(TextsOf(request).front(), testing::HasSubstr("beside the range of W"));
+  // How fast the ball is does not matter, down to speeds whose squares are 0.
+  for (const double speed : {1.0, 1e-200}) {
+    std::get<ContactMatrix>(request.scene.system).velocity_m_s = {0, -speed, 0, 0.5 * speed};
+    ASSERT_EQ(TextsOf(request).size(), 1U) << speed;
+    EXPECT_THAT(TextsOf(request).front(), testing::HasSubstr("beside the range of W"));
+  }
   std::get<ContactMatrix>(request.scene.system).velocity_m_s = {0, -1, 0, 1};
   EXPECT_THAT(TextsOf(request), IsEmpty());
+}
+
+// Two contacts that do not affect each other; `share` is what the first has of the W of the second.
+MultiContactRequest Spread(double share) {
+  MultiContactRequest request = {.scene = MatrixScene()};
+  const double half = 0.5 * share;
+  std::get<ContactMatrix>(request.scene.system) = {
+      .w_per_kg = {share, half, 0, 0, half, share, 0, 0, 0, 0, 1, 0.5, 0, 0, 0.5, 1}, .velocity_m_s = {1, -1, 1, -1}};
+  return request;
+}
+
+TEST(ValidateMultiTest, AContactIsNotLostBesideOneOfMuchLessMass) {
+  EXPECT_THAT(TextsOf(Spread(1e-200)),
+              testing::Each(testing::MatchesRegex(
+                  "contacts\\[0\\] has 1e-200 1/kg on the diagonal of W: must have 0 or at least 3.*e-139 times the "
+                  "largest, 1")));
+  EXPECT_EQ(TextsOf(Spread(1e-200)).size(), 2U);
+  EXPECT_THAT(TextsOf(Spread(1e-138)), IsEmpty());
 }
 
 TEST(ValidateMultiTest, ListsHaveTheLengthsOfTheSystem) {

@@ -130,7 +130,7 @@ struct DoublePendulum {
     const std::array<double, 2> from_f = Response(along);
     const std::array<double, 2> from_tau = Response(normal);
     std::array<double, 2> after = rates;
-    for (int i = 0; i < 2; ++i) after[i] += from_f[i] * solution.f + from_tau[i] * solution.tau1;
+    for (size_t i = 0; i < 2; ++i) after[i] += from_f[i] * solution.f + from_tau[i] * solution.tau1;
     return Energy(after) / Energy(rates) - 1.0;
   }
 };

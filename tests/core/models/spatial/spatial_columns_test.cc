@@ -136,7 +136,7 @@ TEST(SpatialColumnsTest, ColumnsHaveTheBitsOfSingleImpactsOnEveryTarget) {
   }
 }
 
-// What the test above relies on.
+// The test above relies on this.
 TEST(SpatialColumnsTest, TheProblemsTakeEveryCourse) {
   std::set<Regime> regimes;
   int64_t attempts_with_steps = 0;

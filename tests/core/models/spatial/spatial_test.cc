@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -329,6 +330,34 @@ TEST(SpatialTest, IsThePlanarModelWhereOneDirectionDecouples) {
     ASSERT_NEAR(impact.tau1, planar.tau1, 1e-11 * planar.tau1) << i;
     ASSERT_NEAR(impact.energetic, planar.energetic, 1e-9) << i;
     ASSERT_EQ(impact.event_count, planar.event_count) << i;
+  }
+}
+
+// However heavy the contact is along one direction, it sticks where a contact in that plane would, and a smooth surface
+// holds nothing.
+TEST(SpatialTest, IsThePlanarModelWhereOneDirectionIsHeavy) {
+  SceneSource source(31);
+  for (int i = 0; i < 2000; ++i) {
+    Problem p = source.Typical();
+    const int heavy = i % 200;
+    const double scale = std::pow(10.0, -std::max((heavy + 1) / 2, 7 * i % 200));
+    p.w11 *= std::pow(10.0, -heavy);
+    p.w13 *= scale;
+    p.w12 = p.w23 = 0.0;
+    p.u0 = {0.0, 0.0};
+    const double critical = std::fabs(p.w13) / p.w11;
+    p.mu = std::array{0.0, p.mu, 0.99 * critical, 1.01 * critical}[static_cast<size_t>(i % 4)];
+    p.mu_static = p.mu;
+    const Impact impact = Solve(p);
+    const planar::Impact planar = planar::Solve(InPlane(p));
+    ASSERT_EQ(impact.regime, planar.regime) << i << " W11 " << p.w11 << " W13 " << p.w13 << " mu " << p.mu;
+    ASSERT_NEAR(impact.u1[0], planar.u1, 1e-11 * Scale(p)) << i;
+    ASSERT_EQ(impact.u1[1], 0.0) << i;
+    ASSERT_NEAR(impact.v1, planar.v1, 1e-11 * Scale(p)) << i;
+    ASSERT_NEAR(impact.f1[0], planar.f1, 1e-11 * std::max(std::fabs(planar.f1), planar.tau1)) << i;
+    if (p.mu == 0.0) {
+      ASSERT_EQ(impact.f1[0], 0.0) << i;
+    }
   }
 }
 

@@ -1,0 +1,212 @@
+#include "core/answer/exact_derivatives.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <variant>
+
+#include "core/answer/derivative_paths.h"
+#include "core/answer/scene_line.h"
+#include "core/models/planar/columns.h"
+#include "core/models/planar_outputs.h"
+#include "core/plan/scene_problem.h"
+#include "core/scene/numbers.h"
+#include "core/scene/validate.h"
+
+namespace ricochet {
+namespace {
+
+// A number that is 0 has its sides here. The square of it is still a normal double.
+constexpr double kBeside = 0x1p-300;
+constexpr size_t kOutputs = kPlanarOutputPaths.size();
+
+constexpr size_t PlaceOf(PlanarOutput output) { return static_cast<size_t>(output); }
+
+planar::Problem ProblemOf(const Scene& scene, const SceneContact& contact) {
+  return planar::MakeProblem(std::get<PlanarReduction>(contact.reduction), scene.restitution, contact.coefficients);
+}
+
+// A number of the impact, or a velocity of the system, q' + X (f, tau).
+double ValueAt(size_t place, const PlanarReduction& reduction,
+               const std::array<double, kPlanarOutputCount>& of_impact) {
+  if (place < kOutputs) return of_impact[place];
+  const double* const x = &reduction.response[2 * (place - kOutputs)];
+  return reduction.before[place - kOutputs] + x[0] * of_impact[PlaceOf(PlanarOutput::kTangentialImpulse)] +
+         x[1] * of_impact[PlaceOf(PlanarOutput::kNormalImpulse)];
+}
+
+Field FieldIn(Scene& scene, const std::string& path) { return *ResolveField(path, scene); }
+
+}  // namespace
+
+ExactDerivatives::Number::Number(const Scene& form, std::string its_path)
+    : path(std::move(its_path)),
+      is_stated(path == kPhi || NumberAt(form, path).has_value()),
+      scene(Stating(path, form)),
+      field(FieldIn(scene, path)),
+      direction(scene),
+      along(FieldIn(direction, path)) {
+  VisitNumbers(direction, [](const NumberPath& /*at*/, double& value, NumberRule /*rule*/) { value = 0.0; });
+}
+
+ExactDerivatives::ExactDerivatives(const Scene& form, const DerivativePaths& paths) {
+  const std::vector<std::string> known = AllDerivativePaths(form).of;
+  for (const std::string& of : paths.of) {
+    places_.push_back(static_cast<size_t>(std::find(known.begin(), known.end(), of) - known.begin()));
+  }
+  for (const std::string& by : paths.by) numbers_.emplace_back(form, by);
+}
+
+const SceneContact& ExactDerivatives::ContactOf(const Side& side) const {
+  return side.own_contact.has_value() ? *side.own_contact : *here_;
+}
+
+const PlanarReduction& ExactDerivatives::ReductionOf(const Side& side) const {
+  return std::get<PlanarReduction>(ContactOf(side).reduction);
+}
+
+void ExactDerivatives::AddImpact(const Number& number, Side& side) {
+  side.contact_tangent = TangentOf(number.scene, ContactOf(side), number.direction);
+  const ContactTangent& d = side.contact_tangent;
+  side.impact = impacts_.size();
+  impacts_.push_back({.problem = ProblemOf(number.scene, ContactOf(side)),
+                      .direction = {.w = d.w,
+                                    .u0 = d.u0,
+                                    .v0 = d.v0,
+                                    .mu = d.kinetic_friction,
+                                    .mu_static = d.static_friction,
+                                    .coefficient = d.restitution}});
+}
+
+void ExactDerivatives::Compute(const Scene& scene) {
+  impacts_.clear();
+  here_.emplace(scene);
+  const planar::Problem problem = ProblemOf(scene, *here_);
+  speed_here_ = std::max(std::fabs(problem.u0), std::fabs(problem.v0));
+  values_here_ = planar::NumbersOf(planar::Solve(problem), 0.0);
+  for (Number& number : numbers_) {
+    if (number.is_stated) {
+      number.scene = scene;  // Its numbers stay in their places, to which `field` points.
+    } else {
+      number.scene = Stating(number.path, scene);
+      number.field = FieldIn(number.scene, number.path);
+    }
+    SetSide(number, -1.0, number.below);
+    SetSide(number, 1.0, number.above);
+  }
+  planar::SetTangents(absl::MakeSpan(impacts_));
+}
+
+void ExactDerivatives::SetSide(Number& number, double sign, Side& side) {
+  side.exists = true;
+  side.step = sign;
+  side.own_contact.reset();
+  if (number.path == kPhi) {
+    // a = R sin phi and b = R cos phi.
+    const auto& pendulum = std::get<Pendulum>(number.scene.system);
+    auto& change = std::get<Pendulum>(number.direction.system);
+    change.a_m = sign * pendulum.b_m;
+    change.b_m = -sign * pendulum.a_m;
+    return AddImpact(number, side);
+  }
+  const double value = number.field.value();
+  const double size = value == 0.0 ? kBeside : std::fabs(value);
+  side.step *= size;
+  side.exists =
+      number.field.Set(value == 0.0 ? side.step : value + sign * 0x1p-50 * size) && Validate(number.scene).empty();
+  if (value != 0.0) number.field.Set(value);
+  if (side.exists) {
+    if (value == 0.0 || !number.is_stated) side.own_contact.emplace(number.scene);
+    number.along.Set(side.step);
+    AddImpact(number, side);
+  }
+  number.field.Set(value);
+}
+
+bool ExactDerivatives::LosesRank(const Side& side) const {
+  if (!side.exists) return false;
+  const planar::Tangent& tangent = impacts_[side.impact].tangent;
+  const ContactTangent& d = side.contact_tangent;
+  const bool moves_w = d.w.tt != 0.0 || d.w.tn != 0.0 || d.w.nn != 0.0;
+  return tangent.branch.approaches && (tangent.leaves_range || (tangent.w_rank == 1 && moves_w && !d.keeps_rank_one));
+}
+
+// The derivative of ValueAt by the number.
+double ExactDerivatives::RateOf(const Side& side, size_t place) const {
+  const planar::Tangent& tangent = impacts_[side.impact].tangent;
+  if (place < kOutputs) return tangent.rate[place] / side.step;
+  const double* const x = &ReductionOf(side).response[2 * (place - kOutputs)];
+  const double* const d_x = &side.contact_tangent.response[2 * (place - kOutputs)];
+  const size_t f = PlaceOf(PlanarOutput::kTangentialImpulse);
+  const size_t tau = PlaceOf(PlanarOutput::kNormalImpulse);
+  const double rate = side.contact_tangent.before[place - kOutputs] + d_x[0] * tangent.value[f] +
+                      d_x[1] * tangent.value[tau] + x[0] * tangent.rate[f] + x[1] * tangent.rate[tau];
+  return rate / side.step;
+}
+
+double ExactDerivatives::SizeOf(size_t place) const {
+  const double impulse = values_here_[PlaceOf(PlanarOutput::kNormalImpulse)];
+  if (place < kOutputs) return ScaleOf(kPlanarOutputPaths[place], speed_here_, impulse);
+  const auto& reduction = std::get<PlanarReduction>(here_->reduction);
+  const double* const x = &reduction.response[2 * (place - kOutputs)];
+  return std::fabs(reduction.before[place - kOutputs]) + impulse * (std::fabs(x[0]) + std::fabs(x[1]));
+}
+
+OneSided ExactDerivatives::LimitOf(const Side& side, size_t place) const {
+  if (!side.exists) return {.why_none = "the scene would break a rule"};
+  if (LosesRank(side)) {
+    return {.why_none = "the rank of W, or whether the velocity lies in its range, changes at once"};
+  }
+  const double value = ValueAt(place, ReductionOf(side), impacts_[side.impact].tangent.value);
+  const double rate = RateOf(side, place);
+  if (!std::isfinite(value) || !std::isfinite(rate)) {
+    return {.why_none = "the number jumps or changes infinitely fast"};
+  }
+  const double here = ValueAt(place, std::get<PlanarReduction>(here_->reduction), values_here_);
+  const double size = std::max({std::fabs(here), std::fabs(value), SizeOf(place)});
+  if (std::fabs(value - here) > 0x1p-30 * size) return {.why_none = "the number jumps"};
+  return {.rate = rate + 0.0};
+}
+
+Threshold ExactDerivatives::ThresholdOf(const Number& number) const {
+  const Side& below = number.below;
+  const Side& above = number.above;
+  if (LosesRank(below) || LosesRank(above)) return Threshold::kRank;
+  if (!below.exists || !above.exists) return Threshold::kDomain;
+  const planar::Branch& x = impacts_[below.impact].tangent.branch;
+  const planar::Branch& y = impacts_[above.impact].tangent.branch;
+  if (x.approaches != y.approaches) return Threshold::kApproach;
+  if (x.slip_before != y.slip_before) return Threshold::kSlipStart;
+  if (x.held != y.held) return Threshold::kJamming;
+  if (x.stops && y.stops && x.sticks != y.sticks) return Threshold::kFrictionLimit;
+  if (x.stops_in_compression != y.stops_in_compression) return Threshold::kCompressionEnd;
+  if (x.stops_in_restitution != y.stops_in_restitution) return Threshold::kImpactEnd;
+  return below.contact_tangent.is_at_speed_of_table ? Threshold::kSpeedTable : Threshold::kUnspecified;
+}
+
+Derivative ExactDerivatives::At(size_t of, size_t by) const {
+  const Number& number = numbers_[by];
+  const OneSided below = LimitOf(number.below, places_[of]);
+  const OneSided above = LimitOf(number.above, places_[of]);
+  // True if the rates differ by no more than their rounding.
+  const bool agree =
+      below.rate.has_value() && above.rate.has_value() &&
+      std::fabs(*below.rate - *above.rate) <= 0x1p-40 * (std::fabs(*below.rate) + std::fabs(*above.rate));
+  return Join(below, above, agree, agree ? Threshold::kUnspecified : ThresholdOf(number));
+}
+
+std::vector<Derivative> ExactDerivativesOf(const Scene& scene, const DerivativePaths& paths) {
+  ExactDerivatives exact(scene, paths);
+  exact.Compute(scene);
+  std::vector<Derivative> derivatives;
+  for (size_t of = 0; of < paths.of.size(); ++of) {
+    for (size_t by = 0; by < paths.by.size(); ++by) {
+      derivatives.push_back(exact.At(of, by));
+      derivatives.back().of = paths.of[of];
+      derivatives.back().by = paths.by[by];
+    }
+  }
+  return derivatives;
+}
+
+}  // namespace ricochet
